@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "core/camera.h"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace marey {
+
+std::array<double, Intrinsics::kParameterCount> Intrinsics::parameters() const {
+  return {focal_px.x,
+          focal_px.y,
+          centre_px.x,
+          centre_px.y,
+          distortion[0],
+          distortion[1],
+          distortion[2],
+          distortion[3],
+          distortion[4]};
+}
+
+void Intrinsics::set_parameters(std::span<const double, kParameterCount> values) {
+  focal_px = {values[0], values[1]};
+  centre_px = {values[2], values[3]};
+  for (std::size_t i = 0; i < distortion.size(); ++i) distortion[i] = values[i + 4];
+}
+
+std::optional<glm::dvec2> project(const Camera& camera, const glm::dvec3& p_in_world) {
+  const glm::dvec3 p_in_camera = camera.camera_from_world * p_in_world;
+  glm::dvec2 pixel_px{0.0};
+  if (!project(
+          camera.intrinsics, glm::value_ptr(p_in_camera), glm::value_ptr(pixel_px))) {
+    return std::nullopt;
+  }
+  return pixel_px;
+}
+
+std::optional<glm::dvec2> unproject(const Intrinsics& intrinsics,
+                                    const glm::dvec2& pixel_px) {
+  const glm::dvec2 start = (pixel_px - intrinsics.centre_px) / intrinsics.focal_px;
+  glm::dvec2 ray = start;
+  const auto image_of = [&](const glm::dvec2& r) {
+    const glm::dvec3 p(r, 1.0);
+    glm::dvec2 q{0.0};
+    (void)project(intrinsics, glm::value_ptr(p), glm::value_ptr(q));
+    return q;
+  };
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const glm::dvec2 miss = image_of(ray) - pixel_px;
+    if (glm::length(miss) < 1e-9) return ray;
+    // Central differences: the model is smooth and the step far above rounding error.
+    constexpr double kStep = 1e-6;
+    const glm::dvec2 dx =
+        (image_of(ray + glm::dvec2(kStep, 0)) - image_of(ray - glm::dvec2(kStep, 0))) /
+        (2 * kStep);
+    const glm::dvec2 dy =
+        (image_of(ray + glm::dvec2(0, kStep)) - image_of(ray - glm::dvec2(0, kStep))) /
+        (2 * kStep);
+    const double determinant = dx.x * dy.y - dx.y * dy.x;
+    if (std::abs(determinant) < 1e-12) return std::nullopt;
+    ray -= glm::dvec2(dy.y * miss.x - dy.x * miss.y, dx.x * miss.y - dx.y * miss.x) /
+           determinant;
+    if (glm::length(ray - start) > 10.0) return std::nullopt;
+  }
+  if (glm::length(image_of(ray) - pixel_px) < 1e-6) return ray;
+  return std::nullopt;
+}
+
+}  // namespace marey

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/pose.h"
+#include "core/provenance.h"
+#include "core/skeleton.h"
+#include "core/time.h"
+
+namespace marey {
+
+/// Poses of one skeleton at a steady rate. Frame i is at time (first_frame + i) / rate.
+struct Motion {
+  Skeleton skeleton;
+  FrameRate rate;
+  int first_frame = 0;
+  std::vector<Pose> poses;
+};
+
+/// How well one joint of one frame is known.
+struct JointDoubt {
+  double sigma_m = 0.0;  ///< Standard deviation of the joint centre, root mean square of
+                         ///< its three coordinates'.
+  Source source = Source::kInferred;
+};
+
+/// A motion that was estimated from sightings. doubt[frame][joint].
+struct EstimatedMotion {
+  Motion motion;
+  std::vector<std::vector<JointDoubt>> doubt;
+};
+
+}  // namespace marey

@@ -1,0 +1,13 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+namespace marey {
+
+/// How a long verb tells its caller where it is: called with `done` <= `total`, `done`
+/// never falling, from one thread at a time. May be empty.
+using Progress = std::function<void(int done, int total)>;
+
+}  // namespace marey

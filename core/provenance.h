@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace marey {
+
+/// Where a value comes from.
+enum class Source {
+  kMeasured,  ///< Seen by at least one camera at this very instant.
+  kRepaired,  ///< Seen shortly before and after; bridged between.
+  kInferred,  ///< Never or long not seen: follows from its neighbours and priors.
+};
+
+/// "measured", "repaired", "inferred": the words of segments.csv.
+[[nodiscard]] constexpr std::string_view name(Source source) {
+  switch (source) {
+    case Source::kMeasured:
+      return "measured";
+    case Source::kRepaired:
+      return "repaired";
+    case Source::kInferred:
+      return "inferred";
+  }
+  return "inferred";
+}
+
+}  // namespace marey

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/humanoid.h"
+#include "core/ids.h"
+#include "core/transform.h"
+
+namespace marey {
+
+struct Joint {
+  std::string name;
+  std::optional<JointIndex> parent;  ///< nullopt for a root. Parents come first.
+  /// Rest pose of this joint in its parent's frame (a root's: in the world).
+  RigidTransform parent_from_joint;
+  std::optional<HumanBone> bone;  ///< What the joint is on a human, if anything.
+  /// End of the last bone of a chain, in this joint's frame: fingertip, top of the head.
+  std::optional<glm::dvec3> tip_in_joint;
+};
+
+/// Joints, parents before children. marey's own skeletons rest in a T-pose facing +Z with
+/// the left hand towards +X and every joint's axes parallel to the world's; a loaded
+/// avatar may rest otherwise.
+struct Skeleton {
+  std::vector<Joint> joints;
+
+  /// The joint that is this bone, if any. Linear in joints.
+  [[nodiscard]] std::optional<JointIndex> find(HumanBone bone) const;
+  /// The joint of this name, if any. Linear in joints.
+  [[nodiscard]] std::optional<JointIndex> find(std::string_view joint_name) const;
+
+  [[nodiscard]] const Joint& operator[](JointIndex joint) const {
+    return joints[index(joint)];
+  }
+};
+
+/// The lengths of a human body, as rest-pose (T-pose, facing +Z) vectors. [m]
+struct Proportions {
+  /// From each bone's parent joint to its own, axes parallel to the world's. The hips'
+  /// entry is the height of the hips above the floor, (0, h, 0).
+  std::array<glm::dvec3, kHumanBoneCount> offset_in_parent{};
+  glm::dvec3 head_top_in_head{0.0};
+  glm::dvec3 left_hand_tip_in_hand{0.0};
+  glm::dvec3 right_hand_tip_in_hand{0.0};
+  glm::dvec3 left_toe_tip_in_toes{0.0};
+  glm::dvec3 right_toe_tip_in_toes{0.0};
+
+  [[nodiscard]] glm::dvec3& operator[](HumanBone bone) {
+    return offset_in_parent[index(bone)];
+  }
+  [[nodiscard]] const glm::dvec3& operator[](HumanBone bone) const {
+    return offset_in_parent[index(bone)];
+  }
+};
+
+/// An average adult of the given stature, by the segment ratios of Drillis and Contini
+/// (1966, as in Winter, "Biomechanics and Motor Control of Human Movement", fig. 4.1).
+/// Precondition: stature_m > 0.
+[[nodiscard]] Proportions average_proportions(double stature_m);
+
+/// The T-pose skeleton of these proportions: the 22 bones in the order of human_bones(),
+/// so that JointIndex and HumanBone agree, with tips on head, hands and toes.
+[[nodiscard]] Skeleton make_humanoid(const Proportions& proportions);
+
+/// The proportions of a skeleton that make_humanoid() could have made.
+/// Precondition: it has all 22 bones and identity rest rotations.
+[[nodiscard]] Proportions proportions_of(const Skeleton& skeleton);
+
+/// Length of hip to knee to ankle, the mean of both sides. [m]
+[[nodiscard]] double leg_length_m(const Proportions& proportions);
+
+}  // namespace marey

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cmath>
+
+namespace marey {
+
+/// Time since the start of the trial, on the clock of its first camera.
+using Timestamp = std::chrono::nanoseconds;
+
+/// Frames per second of a steady stream.
+struct FrameRate {
+  double hz = 30.0;
+};
+
+/// Middle of the exposure of frame `frame`: frame / rate + offset. The frame index is the
+/// only clock that video containers keep faithfully. Rounded to the nanosecond.
+[[nodiscard]] inline Timestamp frame_time(int frame,
+                                          FrameRate rate,
+                                          Timestamp offset = Timestamp{0}) {
+  return Timestamp{std::llround(1e9 * frame / rate.hz)} + offset;
+}
+
+[[nodiscard]] inline double seconds(Timestamp time) {
+  return 1e-9 * static_cast<double>(time.count());
+}
+
+[[nodiscard]] inline Timestamp from_seconds(double time_s) {
+  return Timestamp{std::llround(1e9 * time_s)};
+}
+
+}  // namespace marey
