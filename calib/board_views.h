@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/board.h"
+#include "core/detection.h"
+#include "core/ids.h"
+
+namespace marey::calib {
+
+struct BoardCorner {
+  glm::dvec3 p_in_board{0.0};  ///< [m]
+  glm::dvec2 pixel_px{0.0};
+  double sigma_px = 0.3;
+};
+
+/// The board as one camera sees it at one instant.
+struct BoardView {
+  CameraId camera{};
+  int instant = 0;  ///< Views with one instant show the board in one place.
+  std::vector<BoardCorner> corners;  ///< Four per tag, tags in ascending id order.
+};
+
+/// The instant of every view of the board lying on the floor: it does not move there.
+inline constexpr int kFloorInstant = -1;
+
+/// Views of the board, ordered by camera and instant. A view with fewer than
+/// `minimum_tags` tags is left out: too little to place the board by.
+///
+/// `floor` may be frames of the same recording as `waved`: a frame that is in both counts
+/// as floor. Several floor frames of one camera become one view of averaged corners,
+/// since neither board nor camera moves; a frame whose corners stray from the median by
+/// more than 3 px (somebody's foot on the board) is left out of that average.
+[[nodiscard]] std::vector<BoardView> board_views(std::span<const CameraDetections> waved,
+                                                 std::span<const CameraDetections> floor,
+                                                 const AprilGrid& board,
+                                                 int minimum_tags = 3);
+
+}  // namespace marey::calib

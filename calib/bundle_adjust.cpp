@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/bundle_adjust.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+#include <Eigen/Geometry>
+#include <ceres/ceres.h>
+
+namespace marey::calib {
+namespace {
+
+constexpr int kIntrinsics = Intrinsics::kParameterCount;
+
+/// One tag of the board in one view.
+struct TagResidual {
+  std::array<BoardCorner, 4> corners;
+
+  template <class T>
+  bool operator()(const T* intrinsics,
+                  const T* world_from_camera_xyzw,
+                  const T* camera_in_world,
+                  const T* world_from_board_xyzw,
+                  const T* board_in_world,
+                  T* residual) const {
+    using Vector = Eigen::Matrix<T, 3, 1>;
+    const Eigen::Map<const Eigen::Quaternion<T>> world_from_camera(
+        world_from_camera_xyzw);
+    const Eigen::Map<const Eigen::Quaternion<T>> world_from_board(world_from_board_xyzw);
+    const Eigen::Map<const Vector> centre(camera_in_world);
+    const Eigen::Map<const Vector> origin(board_in_world);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const BoardCorner& corner = corners[i];
+      const Vector p_in_board{
+          T(corner.p_in_board.x), T(corner.p_in_board.y), T(corner.p_in_board.z)};
+      const Vector p_in_world = world_from_board * p_in_board + origin;
+      const Vector p_in_camera = world_from_camera.conjugate() * (p_in_world - centre);
+      std::array<T, 2> pixel;
+      if (!project(intrinsics, p_in_camera.data(), pixel.data())) return false;
+      residual[2 * i] = (pixel[0] - T(corner.pixel_px.x)) / T(corner.sigma_px);
+      residual[2 * i + 1] = (pixel[1] - T(corner.pixel_px.y)) / T(corner.sigma_px);
+    }
+    return true;
+  }
+};
+
+/// What any camera is like before it is measured: square pixels, a centre near the
+/// middle, modest distortion.
+struct IntrinsicsPrior {
+  double width_px;
+  double height_px;
+
+  template <class T>
+  bool operator()(const T* k, T* residual) const {
+    residual[0] = (k[0] - k[1]) / (T(0.002) * (k[0] + k[1]));
+    residual[1] = (k[2] - T(0.5 * (width_px - 1))) / T(0.04 * width_px);
+    residual[2] = (k[3] - T(0.5 * (height_px - 1))) / T(0.04 * width_px);
+    residual[3] = k[4] / T(0.5);
+    residual[4] = k[5] / T(0.3);
+    residual[5] = k[6] / T(0.005);
+    residual[6] = k[7] / T(0.005);
+    residual[7] = k[8] / T(0.05);
+    return true;
+  }
+};
+
+struct Blocks {
+  std::vector<std::array<double, kIntrinsics>> intrinsics;
+};
+
+void add_views(std::span<const BoardView> views,
+               Bundle& bundle,
+               Blocks& blocks,
+               ceres::Problem& problem) {
+  for (const BoardView& view : views) {
+    const auto board = bundle.world_from_board.find(view.instant);
+    if (board == bundle.world_from_board.end()) continue;
+    BundleCamera& camera = bundle.cameras[index(view.camera)];
+    for (std::size_t first = 0; first + 3 < view.corners.size(); first += 4) {
+      auto residual = std::make_unique<TagResidual>();
+      std::copy_n(view.corners.begin() + static_cast<std::ptrdiff_t>(first),
+                  4,
+                  residual->corners.begin());
+      problem.AddResidualBlock(
+          new ceres::AutoDiffCostFunction<TagResidual, 8, kIntrinsics, 4, 3, 4, 3>(
+              residual.release()),
+          // A tag block has eight residuals of unit variance: its norm is near 2.8.
+          new ceres::CauchyLoss(5.0),
+          blocks.intrinsics[index(view.camera)].data(),
+          &camera.world_from_camera.rotation.x,
+          &camera.world_from_camera.translation.x,
+          &board->second.rotation.x,
+          &board->second.translation.x);
+    }
+  }
+}
+
+void set_manifolds(Bundle& bundle, ceres::Problem& problem) {
+  const auto is_used = [&](double* block) { return problem.HasParameterBlock(block); };
+  for (BundleCamera& camera : bundle.cameras) {
+    if (is_used(&camera.world_from_camera.rotation.x)) {
+      problem.SetManifold(&camera.world_from_camera.rotation.x,
+                          new ceres::EigenQuaternionManifold);
+    }
+  }
+  for (auto& [instant, board] : bundle.world_from_board) {
+    if (!is_used(&board.rotation.x)) continue;
+    problem.SetManifold(&board.rotation.x, new ceres::EigenQuaternionManifold);
+    if (instant == kFloorInstant) {
+      problem.SetParameterBlockConstant(&board.rotation.x);
+      problem.SetParameterBlockConstant(&board.translation.x);
+    }
+  }
+}
+
+void fill_sigmas(Bundle& bundle, Blocks& blocks, ceres::Problem& problem) {
+  std::vector<std::pair<const double*, const double*>> wanted;
+  for (std::size_t c = 0; c < bundle.cameras.size(); ++c) {
+    const double* centre = &bundle.cameras[c].world_from_camera.translation.x;
+    wanted.emplace_back(centre, centre);
+    wanted.emplace_back(blocks.intrinsics[c].data(), blocks.intrinsics[c].data());
+  }
+  ceres::Covariance::Options options;
+  options.algorithm_type = ceres::SPARSE_QR;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  if (!covariance.Compute(wanted, &problem)) return;
+  for (std::size_t c = 0; c < bundle.cameras.size(); ++c) {
+    BundleCamera& camera = bundle.cameras[c];
+    const double* centre = &camera.world_from_camera.translation.x;
+    Eigen::Matrix3d centre_covariance;
+    covariance.GetCovarianceBlock(centre, centre, centre_covariance.data());
+    camera.centre_sigma_m = std::sqrt(centre_covariance.trace() / 3.0);
+    Eigen::Matrix<double, kIntrinsics, kIntrinsics, Eigen::RowMajor> k;
+    covariance.GetCovarianceBlock(
+        blocks.intrinsics[c].data(), blocks.intrinsics[c].data(), k.data());
+    camera.focal_sigma_px = std::sqrt(0.5 * (k(0, 0) + k(1, 1)));
+  }
+}
+
+}  // namespace
+
+bool bundle_adjust(std::span<const BoardView> views, Bundle& bundle) {
+  ceres::Problem problem;
+  Blocks blocks;
+  for (const BundleCamera& camera : bundle.cameras) {
+    blocks.intrinsics.push_back(camera.intrinsics.parameters());
+  }
+  add_views(views, bundle, blocks, problem);
+  for (std::size_t c = 0; c < bundle.cameras.size(); ++c) {
+    const Intrinsics& k = bundle.cameras[c].intrinsics;
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<IntrinsicsPrior, 8, kIntrinsics>(
+            new IntrinsicsPrior{static_cast<double>(k.width_px),
+                                static_cast<double>(k.height_px)}),
+        nullptr,
+        blocks.intrinsics[c].data());
+  }
+  set_manifolds(bundle, problem);
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.max_num_iterations = 100;
+  options.function_tolerance = 1e-9;
+  options.num_threads = 1;  // One order of summation: the same bytes every time.
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return false;
+  for (std::size_t c = 0; c < bundle.cameras.size(); ++c) {
+    bundle.cameras[c].intrinsics.set_parameters(blocks.intrinsics[c]);
+  }
+  fill_sigmas(bundle, blocks, problem);
+  return true;
+}
+
+}  // namespace marey::calib

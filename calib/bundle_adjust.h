@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to calib: the joint refinement behind calibrate_cameras().
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "calib/board_views.h"
+#include "core/camera.h"
+
+namespace marey::calib {
+
+struct BundleCamera {
+  Intrinsics intrinsics;
+  RigidTransform world_from_camera;
+  double centre_sigma_m = 0.0;  ///< Root mean square over the three coordinates.
+  double focal_sigma_px = 0.0;
+};
+
+struct Bundle {
+  std::vector<BundleCamera> cameras;
+  std::map<int, RigidTransform> world_from_board;  ///< Per instant.
+};
+
+/// Minimises the reprojection of all board corners over intrinsics, camera poses and
+/// board poses, the board on the floor held fixed: it is the world. Robust (Cauchy at 2
+/// sigma). Weak priors keep what a recording does not show (distortion of unseen image
+/// corners) at its usual value. Fills the sigmas. False when the solver finds no minimum.
+[[nodiscard]] bool bundle_adjust(std::span<const BoardView> views, Bundle& bundle);
+
+}  // namespace marey::calib

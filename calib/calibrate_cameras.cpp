@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/calibrate_cameras.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include <glm/geometric.hpp>
+
+#include "calib/board_views.h"
+#include "calib/bundle_adjust.h"
+#include "calib/estimate_intrinsics.h"
+#include "calib/place_cameras.h"
+#include "core/assert.h"
+
+namespace marey::calib {
+namespace {
+
+constexpr double kHopelessRmsPx = 3.0;
+
+Error too_few_views(const CameraDetections& camera, const AprilGrid& board) {
+  int tags_seen = 0;
+  int frames_seen = 0;
+  for (const FrameDetections& frame : camera.frames) {
+    int here = 0;
+    for (const TagDetection& tag : frame.tags) here += board.contains(tag.id);
+    tags_seen += here;
+    frames_seen += here >= 6;
+  }
+  if (tags_seen == 0) {
+    return bad_input(camera.source,
+                     "no tag of the calibration board (ids " +
+                         std::to_string(board.first_id) + " to " +
+                         std::to_string(board.first_id + board.tag_count() - 1) +
+                         ") is seen in any frame",
+                     "check that this is the calibration video, that [board] in "
+                     "session.toml names the printed ids and [tags] the family, and that "
+                     "the picture is sharp");
+  }
+  return bad_input(camera.source,
+                   "the board is seen too little to calibrate this camera: " +
+                       std::to_string(frames_seen) +
+                       " frames show six tags or more, or the board never tilts",
+                   "record the calibration again: tilt the board, bring it close to this "
+                   "camera and into the corners of its picture");
+}
+
+Result<std::vector<Intrinsics>> first_intrinsics(std::span<const CameraDetections> waved,
+                                                 std::span<const BoardView> views,
+                                                 const AprilGrid& board) {
+  std::vector<Intrinsics> intrinsics;
+  for (std::size_t c = 0; c < waved.size(); ++c) {
+    std::vector<const BoardView*> of_camera;
+    for (const BoardView& view : views) {
+      if (index(view.camera) == c) of_camera.push_back(&view);
+    }
+    const auto k = estimate_intrinsics(of_camera, waved[c].width_px, waved[c].height_px);
+    if (!k) return too_few_views(waved[c], board);
+    intrinsics.push_back(*k);
+  }
+  return intrinsics;
+}
+
+CameraQuality judge(const Camera& camera,
+                    const BundleCamera& solved,
+                    std::span<const BoardView> views,
+                    std::size_t camera_index,
+                    const Bundle& bundle,
+                    std::vector<double>& errors_px) {
+  CameraQuality quality;
+  std::set<int> cells;
+  std::vector<double> own;
+  for (const BoardView& view : views) {
+    const auto board = bundle.world_from_board.find(view.instant);
+    if (index(view.camera) != camera_index || board == bundle.world_from_board.end()) {
+      continue;
+    }
+    ++quality.views;
+    quality.sees_floor |= view.instant == kFloorInstant;
+    for (const BoardCorner& corner : view.corners) {
+      const auto pixel = project(camera, board->second * corner.p_in_board);
+      // Behind the camera: as wrong as the picture is large.
+      own.push_back(pixel ? glm::distance(*pixel, corner.pixel_px)
+                          : camera.intrinsics.width_px);
+      const int column =
+          static_cast<int>(8.0 * corner.pixel_px.x / camera.intrinsics.width_px);
+      const int row =
+          static_cast<int>(6.0 * corner.pixel_px.y / camera.intrinsics.height_px);
+      cells.insert(8 * std::clamp(row, 0, 5) + std::clamp(column, 0, 7));
+    }
+  }
+  double sum = 0.0;
+  for (const double e : own) sum += e * e;
+  quality.corners = static_cast<int>(own.size());
+  if (!own.empty()) {
+    quality.rms_px = std::sqrt(sum / static_cast<double>(own.size()));
+    errors_px.insert(errors_px.end(), own.begin(), own.end());
+    std::sort(own.begin(), own.end());
+    quality.p95_px = own[own.size() * 95 / 100];
+  }
+  quality.centre_sigma_m = solved.centre_sigma_m;
+  quality.focal_sigma_px = solved.focal_sigma_px;
+  quality.coverage = static_cast<double>(cells.size()) / 48.0;
+  return quality;
+}
+
+CalibratedRig to_rig(std::span<const std::string> names,
+                     std::span<const BoardView> views,
+                     const Bundle& bundle) {
+  CalibratedRig rig;
+  std::vector<double> errors_px;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const BundleCamera& solved = bundle.cameras[c];
+    rig.cameras.push_back(
+        {names[c], solved.intrinsics, inverse(solved.world_from_camera)});
+    rig.quality.push_back(judge(rig.cameras.back(), solved, views, c, bundle, errors_px));
+  }
+  double sum = 0.0;
+  for (const double e : errors_px) sum += e * e;
+  rig.rms_px = std::sqrt(sum / static_cast<double>(errors_px.size()));
+  return rig;
+}
+
+Status check(const CalibratedRig& rig, std::span<const CameraDetections> floor) {
+  if (rig.rms_px > kHopelessRmsPx) {
+    std::array<char, 200> text{};
+    std::snprintf(
+        text.data(),
+        text.size(),
+        "calibration ends %.1f px away from what the cameras saw (good: under 0.5)",
+        rig.rms_px);
+    return bad_input("",
+                     text.data(),
+                     "check [board] in session.toml (rows, columns, sizes, first_id) "
+                     "against the print, and that all calibration videos start together");
+  }
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    if (centre_in_world(rig.cameras[c]).y > 0.0 || !rig.quality[c].sees_floor) continue;
+    return bad_input(floor[c].source,
+                     "the camera would stand below the floor: the board lies face down "
+                     "or its ids run the other way",
+                     "lay the board on the floor with its printed face up");
+  }
+  return Done{};
+}
+
+}  // namespace
+
+Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
+                                        std::span<const CameraDetections> waved,
+                                        std::span<const CameraDetections> floor,
+                                        const AprilGrid& board) {
+  MAREY_ASSERT(names.size() == waved.size());
+  const std::vector<BoardView> views = board_views(waved, floor, board);
+  const auto intrinsics = first_intrinsics(waved, views, board);
+  if (!intrinsics) return intrinsics.error();
+  const auto guess = place_cameras(views, *intrinsics, names, board);
+  if (!guess) return guess.error();
+
+  Bundle bundle;
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    bundle.cameras.push_back(
+        {(*intrinsics)[c], inverse(guess->camera_from_world[c]), 0.0, 0.0});
+  }
+  bundle.world_from_board = guess->world_from_board;
+  if (!bundle_adjust(views, bundle)) {
+    return bad_input("",
+                     "the bundle adjustment of the cameras does not converge",
+                     "record the calibration again with the board tilted in front of "
+                     "every camera");
+  }
+  CalibratedRig rig = to_rig(names, views, bundle);
+  if (const Status ok = check(rig, floor); !ok) return ok.error();
+  return rig;
+}
+
+}  // namespace marey::calib

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/board.h"
+#include "core/camera.h"
+#include "core/detection.h"
+#include "core/result.h"
+
+namespace marey::calib {
+
+/// How well one camera is known.
+struct CameraQuality {
+  double rms_px = 0.0;          ///< Root mean square distance of corners to their model.
+  double p95_px = 0.0;          ///< 95th percentile of that distance.
+  double centre_sigma_m = 0.0;  ///< Standard deviation of its place, per coordinate.
+  double focal_sigma_px = 0.0;
+  int views = 0;    ///< Instants at which it saw the board.
+  int corners = 0;  ///< Corners over all of them.
+  /// Share of the image's 8 x 6 cells in which it saw a corner of the board, 0..1.
+  double coverage = 0.0;
+  bool sees_floor = false;
+};
+
+struct CalibratedRig {
+  std::vector<Camera> cameras;
+  std::vector<CameraQuality> quality;  ///< Per camera.
+  double rms_px = 0.0;                 ///< Over all corners of all cameras.
+};
+
+/// Calibrates all cameras together from a board waved through the volume and then lying
+/// on the floor: intrinsics (5-term Brown-Conrady) and poses by one bundle adjustment.
+///
+/// World: right-handed, Y up, metres, origin at the board's origin on the floor, X along
+/// its x, Z = -(board y).
+///
+/// `names` per camera, for messages; `waved` and `floor` have one entry per camera, in
+/// the same order, and all frames of one index were taken at the same time (floor frames
+/// may come from anywhere: nothing moves). Errors (kBadInput): a camera that never sees
+/// the board, or too little of it; groups of cameras that never see the board together;
+/// no floor; a board that lies face down; a bundle that does not converge or ends above 3
+/// px RMS (wrong board geometry). Cost: a few seconds for four cameras and a hundred
+/// frames.
+[[nodiscard]] Result<CalibratedRig> calibrate_cameras(
+    std::span<const std::string> names,
+    std::span<const CameraDetections> waved,
+    std::span<const CameraDetections> floor,
+    const AprilGrid& board);
+
+}  // namespace marey::calib

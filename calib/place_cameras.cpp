@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/place_cameras.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include <glm/geometric.hpp>
+
+#include "calib/estimate_intrinsics.h"
+
+namespace marey::calib {
+namespace {
+
+/// camera_from_board of every view that has one, by camera and instant.
+using Sightings = std::vector<std::map<int, RigidTransform>>;
+
+Sightings see_boards(std::span<const BoardView> views,
+                     std::span<const Intrinsics> intrinsics) {
+  Sightings sightings(intrinsics.size());
+  for (const BoardView& view : views) {
+    const std::size_t c = index(view.camera);
+    if (const auto pose = camera_from_board(intrinsics[c], view)) {
+      sightings[c][view.instant] = *pose;
+    }
+  }
+  return sightings;
+}
+
+struct Edge {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  RigidTransform a_from_b;
+  int support = 0;  ///< Instants that agree with it.
+};
+
+double disagreement(const RigidTransform& x, const RigidTransform& y) {
+  // A radian counts like a metre: cameras look at a volume a few metres away.
+  return glm::length(x.translation - y.translation) +
+         glm::length(rotation_vector(glm::conjugate(x.rotation) * y.rotation));
+}
+
+std::optional<Edge> connect(const Sightings& sightings, std::size_t a, std::size_t b) {
+  std::vector<RigidTransform> candidates;
+  for (const auto& [instant, a_from_board] : sightings[a]) {
+    const auto other = sightings[b].find(instant);
+    if (other == sightings[b].end()) continue;
+    candidates.push_back(a_from_board * inverse(other->second));
+  }
+  if (candidates.empty()) return std::nullopt;
+  // The medoid under a bounded distance: the candidate most others are near.
+  constexpr double kFar = 0.3;
+  double best_cost = std::numeric_limits<double>::infinity();
+  Edge edge{a, b, {}, 0};
+  for (const RigidTransform& candidate : candidates) {
+    double cost = 0.0;
+    int support = 0;
+    for (const RigidTransform& other : candidates) {
+      const double d = disagreement(candidate, other);
+      cost += std::min(d, kFar);
+      support += d < kFar;
+    }
+    if (cost < best_cost) {
+      best_cost = cost;
+      edge.a_from_b = candidate;
+      edge.support = support;
+    }
+  }
+  return edge;
+}
+
+/// Prim's algorithm: camera_from_first for all that can be reached from camera 0.
+std::vector<std::optional<RigidTransform>> span_cameras(std::span<const Edge> edges,
+                                                        std::size_t cameras) {
+  std::vector<std::optional<RigidTransform>> camera_from_first(cameras);
+  camera_from_first[0] = RigidTransform{};
+  while (true) {
+    const Edge* best = nullptr;
+    for (const Edge& e : edges) {
+      const bool new_link =
+          camera_from_first[e.a].has_value() != camera_from_first[e.b].has_value();
+      if (new_link && (!best || e.support > best->support)) best = &e;
+    }
+    if (!best) return camera_from_first;
+    if (camera_from_first[best->a]) {
+      camera_from_first[best->b] = inverse(best->a_from_b) * *camera_from_first[best->a];
+    } else {
+      camera_from_first[best->a] = best->a_from_b * *camera_from_first[best->b];
+    }
+  }
+}
+
+/// Sum over the views of one instant of the median corner error, [px].
+double misfit_px(std::span<const BoardView* const> views,
+                 std::span<const Intrinsics> intrinsics,
+                 const RigGuess& guess,
+                 const RigidTransform& world_from_board) {
+  double sum = 0.0;
+  for (const BoardView* view : views) {
+    const std::size_t c = index(view->camera);
+    const Camera camera{{}, intrinsics[c], guess.camera_from_world[c]};
+    std::vector<double> errors;
+    for (const BoardCorner& corner : view->corners) {
+      const auto pixel = project(camera, world_from_board * corner.p_in_board);
+      errors.push_back(pixel ? glm::distance(*pixel, corner.pixel_px) : 1e4);
+    }
+    std::nth_element(errors.begin(),
+                     errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
+                     errors.end());
+    sum += errors[errors.size() / 2];
+  }
+  return sum;
+}
+
+/// Per instant, of the poses that its views propose, the one that suits them all best: a
+/// single view of a plane can be fooled, several cannot be fooled alike.
+std::map<int, RigidTransform> place_boards(std::span<const BoardView> views,
+                                           std::span<const Intrinsics> intrinsics,
+                                           const Sightings& sightings,
+                                           const RigGuess& guess) {
+  std::map<int, std::vector<const BoardView*>> by_instant;
+  for (const BoardView& view : views) by_instant[view.instant].push_back(&view);
+  std::map<int, RigidTransform> world_from_board;
+  for (const auto& [instant, instant_views] : by_instant) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const BoardView* view : instant_views) {
+      const std::size_t c = index(view->camera);
+      const auto seen = sightings[c].find(instant);
+      if (seen == sightings[c].end()) continue;
+      const RigidTransform candidate = inverse(guess.camera_from_world[c]) * seen->second;
+      const double misfit = misfit_px(instant_views, intrinsics, guess, candidate);
+      if (misfit < best) {
+        best = misfit;
+        world_from_board[instant] = candidate;
+      }
+    }
+  }
+  return world_from_board;
+}
+
+std::string list(std::span<const std::string> names, std::span<const bool> chosen) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (chosen[i]) text += (text.empty() ? "" : ", ") + names[i];
+  }
+  return text;
+}
+
+Error not_connected(std::span<const std::string> names,
+                    const std::vector<std::optional<RigidTransform>>& placed) {
+  const auto reached = std::make_unique<bool[]>(names.size());
+  const auto missed = std::make_unique<bool[]>(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    reached[i] = placed[i].has_value();
+    missed[i] = !reached[i];
+  }
+  return bad_input(
+      "",
+      "no instant shows the board to a camera of {" +
+          list(names, {reached.get(), names.size()}) + "} and one of {" +
+          list(names, {missed.get(), names.size()}) + "} at once",
+      "record the calibration again and hold the board where both groups see it");
+}
+
+}  // namespace
+
+RigidTransform world_from_floor_board(const AprilGrid& board) {
+  // Turn -90 degrees about X: board y goes to -Z, board z (out of the face) to +Y.
+  return {rotation_from_vector({-glm::radians(90.0), 0.0, 0.0}),
+          {0.0, board.thickness_m, 0.0}};
+}
+
+Result<RigGuess> place_cameras(std::span<const BoardView> views,
+                               std::span<const Intrinsics> intrinsics,
+                               std::span<const std::string> names,
+                               const AprilGrid& board) {
+  const Sightings sightings = see_boards(views, intrinsics);
+  std::vector<Edge> edges;
+  for (std::size_t a = 0; a < sightings.size(); ++a) {
+    for (std::size_t b = a + 1; b < sightings.size(); ++b) {
+      if (const auto edge = connect(sightings, a, b)) edges.push_back(*edge);
+    }
+  }
+  const auto camera_from_first = span_cameras(edges, sightings.size());
+  for (const auto& placed : camera_from_first) {
+    if (!placed) return not_connected(names, camera_from_first);
+  }
+
+  // The floor, from the camera that sees most of it.
+  const BoardView* floor = nullptr;
+  for (const BoardView& view : views) {
+    const bool larger = !floor || view.corners.size() > floor->corners.size();
+    if (view.instant == kFloorInstant && larger &&
+        sightings[index(view.camera)].contains(kFloorInstant)) {
+      floor = &view;
+    }
+  }
+  if (!floor) {
+    return bad_input("",
+                     "no camera sees the board lying on the floor",
+                     "record a floor trial in which at least three tags of the board are "
+                     "in view");
+  }
+  const std::size_t f = index(floor->camera);
+  const RigidTransform first_from_world = inverse(*camera_from_first[f]) *
+                                          sightings[f].at(kFloorInstant) *
+                                          inverse(world_from_floor_board(board));
+  RigGuess guess;
+  for (const auto& placed : camera_from_first) {
+    guess.camera_from_world.push_back(*placed * first_from_world);
+  }
+  guess.world_from_board = place_boards(views, intrinsics, sightings, guess);
+  guess.world_from_board[kFloorInstant] = world_from_floor_board(board);
+  return guess;
+}
+
+}  // namespace marey::calib
