@@ -25,6 +25,7 @@ struct TagResidual {
                   const T* camera_in_world,
                   const T* world_from_board_xyzw,
                   const T* board_in_world,
+                  const T* shrinkage,
                   T* residual) const {
     using Vector = Eigen::Matrix<T, 3, 1>;
     const Eigen::Map<const Eigen::Quaternion<T>> world_from_camera(
@@ -32,16 +33,21 @@ struct TagResidual {
     const Eigen::Map<const Eigen::Quaternion<T>> world_from_board(world_from_board_xyzw);
     const Eigen::Map<const Vector> centre(camera_in_world);
     const Eigen::Map<const Vector> origin(board_in_world);
+    std::array<std::array<T, 2>, 4> pixels;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const BoardCorner& corner = corners[i];
       const Vector p_in_board{
           T(corner.p_in_board.x), T(corner.p_in_board.y), T(corner.p_in_board.z)};
       const Vector p_in_world = world_from_board * p_in_board + origin;
       const Vector p_in_camera = world_from_camera.conjugate() * (p_in_world - centre);
-      std::array<T, 2> pixel;
-      if (!project(intrinsics, p_in_camera.data(), pixel.data())) return false;
-      residual[2 * i] = (pixel[0] - T(corner.pixel_px.x)) / T(corner.sigma_px);
-      residual[2 * i + 1] = (pixel[1] - T(corner.pixel_px.y)) / T(corner.sigma_px);
+      if (!project(intrinsics, p_in_camera.data(), pixels[i].data())) return false;
+    }
+    move_edges(pixels, [&](const T& apart_px) {
+      return T(apart_px - shrinkage[0] - shrinkage[1] * apart_px);
+    });
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      residual[2 * i] = (pixels[i][0] - corners[i].pixel_px.x) / corners[i].sigma_px;
+      residual[2 * i + 1] = (pixels[i][1] - corners[i].pixel_px.y) / corners[i].sigma_px;
     }
     return true;
   }
@@ -67,8 +73,19 @@ struct IntrinsicsPrior {
   }
 };
 
+/// A tag shrinks by less than a pixel and by a few percent.
+struct ShrinkagePrior {
+  template <class T>
+  bool operator()(const T* shrinkage, T* residual) const {
+    residual[0] = shrinkage[0] / 0.5;
+    residual[1] = shrinkage[1] / 0.02;
+    return true;
+  }
+};
+
 struct Blocks {
   std::vector<std::array<double, kIntrinsics>> intrinsics;
+  std::vector<std::array<double, 2>> shrinkage;  ///< offset_px, slope
 };
 
 void add_views(std::span<const BoardView> views,
@@ -85,7 +102,7 @@ void add_views(std::span<const BoardView> views,
                   4,
                   residual->corners.begin());
       problem.AddResidualBlock(
-          new ceres::AutoDiffCostFunction<TagResidual, 8, kIntrinsics, 4, 3, 4, 3>(
+          new ceres::AutoDiffCostFunction<TagResidual, 8, kIntrinsics, 4, 3, 4, 3, 2>(
               residual.release()),
           // A tag block has eight residuals of unit variance: its norm is near 2.8.
           new ceres::CauchyLoss(5.0),
@@ -93,7 +110,8 @@ void add_views(std::span<const BoardView> views,
           &camera.world_from_camera.rotation.x,
           &camera.world_from_camera.translation.x,
           &board->second.rotation.x,
-          &board->second.translation.x);
+          &board->second.translation.x,
+          blocks.shrinkage[index(view.camera)].data());
     }
   }
 }
@@ -148,6 +166,7 @@ bool bundle_adjust(std::span<const BoardView> views, Bundle& bundle) {
   Blocks blocks;
   for (const BundleCamera& camera : bundle.cameras) {
     blocks.intrinsics.push_back(camera.intrinsics.parameters());
+    blocks.shrinkage.push_back({camera.shrinkage.offset_px, camera.shrinkage.slope});
   }
   add_views(views, bundle, blocks, problem);
   for (std::size_t c = 0; c < bundle.cameras.size(); ++c) {
@@ -158,6 +177,10 @@ bool bundle_adjust(std::span<const BoardView> views, Bundle& bundle) {
                                 static_cast<double>(k.height_px)}),
         nullptr,
         blocks.intrinsics[c].data());
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<ShrinkagePrior, 2, 2>(new ShrinkagePrior),
+        nullptr,
+        blocks.shrinkage[c].data());
   }
   set_manifolds(bundle, problem);
 
@@ -172,6 +195,7 @@ bool bundle_adjust(std::span<const BoardView> views, Bundle& bundle) {
   if (!summary.IsSolutionUsable()) return false;
   for (std::size_t c = 0; c < bundle.cameras.size(); ++c) {
     bundle.cameras[c].intrinsics.set_parameters(blocks.intrinsics[c]);
+    bundle.cameras[c].shrinkage = {blocks.shrinkage[c][0], blocks.shrinkage[c][1]};
   }
   fill_sigmas(bundle, blocks, problem);
   return true;

@@ -16,6 +16,7 @@ namespace marey::calib {
 struct BundleCamera {
   Intrinsics intrinsics;
   RigidTransform world_from_camera;
+  TagShrinkage shrinkage;
   double centre_sigma_m = 0.0;  ///< Root mean square over the three coordinates.
   double focal_sigma_px = 0.0;
 };

@@ -3,6 +3,7 @@
 #include "calib/calibrate_cameras.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -63,6 +64,16 @@ Result<std::vector<Intrinsics>> first_intrinsics(std::span<const CameraDetection
   return intrinsics;
 }
 
+/// Corner `i` of the view with its tag's shrinkage taken off.
+glm::dvec2 true_pixel(const BoardView& view,
+                      std::size_t i,
+                      const TagShrinkage& shrinkage) {
+  const std::size_t first = i - i % 4;
+  std::array<glm::dvec2, 4> corners{};
+  for (std::size_t c = 0; c < 4; ++c) corners[c] = view.corners[first + c].pixel_px;
+  return unshrunk(corners, shrinkage)[i % 4];
+}
+
 CameraQuality judge(const Camera& camera,
                     const BundleCamera& solved,
                     std::span<const BoardView> views,
@@ -79,15 +90,13 @@ CameraQuality judge(const Camera& camera,
     }
     ++quality.views;
     quality.sees_floor |= view.instant == kFloorInstant;
-    for (const BoardCorner& corner : view.corners) {
-      const auto pixel = project(camera, board->second * corner.p_in_board);
+    for (std::size_t i = 0; i < view.corners.size(); ++i) {
+      const auto pixel = project(camera, board->second * view.corners[i].p_in_board);
+      const glm::dvec2 seen_px = true_pixel(view, i, camera.tag_shrinkage);
       // Behind the camera: as wrong as the picture is large.
-      own.push_back(pixel ? glm::distance(*pixel, corner.pixel_px)
-                          : camera.intrinsics.width_px);
-      const int column =
-          static_cast<int>(8.0 * corner.pixel_px.x / camera.intrinsics.width_px);
-      const int row =
-          static_cast<int>(6.0 * corner.pixel_px.y / camera.intrinsics.height_px);
+      own.push_back(pixel ? glm::distance(*pixel, seen_px) : camera.intrinsics.width_px);
+      const int column = static_cast<int>(8.0 * seen_px.x / camera.intrinsics.width_px);
+      const int row = static_cast<int>(6.0 * seen_px.y / camera.intrinsics.height_px);
       cells.insert(8 * std::clamp(row, 0, 5) + std::clamp(column, 0, 7));
     }
   }
@@ -113,8 +122,10 @@ CalibratedRig to_rig(std::span<const std::string> names,
   std::vector<double> errors_px;
   for (std::size_t c = 0; c < names.size(); ++c) {
     const BundleCamera& solved = bundle.cameras[c];
-    rig.cameras.push_back(
-        {names[c], solved.intrinsics, inverse(solved.world_from_camera)});
+    rig.cameras.push_back({names[c],
+                           solved.intrinsics,
+                           inverse(solved.world_from_camera),
+                           solved.shrinkage});
     rig.quality.push_back(judge(rig.cameras.back(), solved, views, c, bundle, errors_px));
   }
   double sum = 0.0;
@@ -162,7 +173,7 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
   Bundle bundle;
   for (std::size_t c = 0; c < names.size(); ++c) {
     bundle.cameras.push_back(
-        {(*intrinsics)[c], inverse(guess->camera_from_world[c]), 0.0, 0.0});
+        {(*intrinsics)[c], inverse(guess->camera_from_world[c]), {}, 0.0, 0.0});
   }
   bundle.world_from_board = guess->world_from_board;
   if (!bundle_adjust(views, bundle)) {

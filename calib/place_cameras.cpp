@@ -99,7 +99,7 @@ double misfit_px(std::span<const BoardView* const> views,
   double sum = 0.0;
   for (const BoardView* view : views) {
     const std::size_t c = index(view->camera);
-    const Camera camera{{}, intrinsics[c], guess.camera_from_world[c]};
+    const Camera camera{{}, intrinsics[c], guess.camera_from_world[c], {}};
     std::vector<double> errors;
     for (const BoardCorner& corner : view->corners) {
       const auto pixel = project(camera, world_from_board * corner.p_in_board);

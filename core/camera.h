@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/detection.h"
 #include "core/transform.h"
 
 namespace marey {
@@ -35,27 +36,29 @@ struct Camera {
   std::string name;
   Intrinsics intrinsics;
   RigidTransform camera_from_world;
+  TagShrinkage tag_shrinkage;  ///< Of the tags it sees.
 };
 
 /// Pixel of a point in the camera's frame [m]. `parameters` as in Intrinsics,
-/// `p_in_camera` 3 numbers, `pixel_px` 2. T is double, or ceres::Jet inside a residual:
-/// there is no second copy of this formula. False, with `pixel_px` untouched, when the
-/// point is not in front of the camera. Source: D. C. Brown, "Close-range camera
-/// calibration", 1971, as OpenCV writes it.
-template <class T>
-[[nodiscard]] bool project(const T* parameters, const T* p_in_camera, T* pixel_px) {
+/// `p_in_camera` 3 numbers, `pixel_px` 2. P and T are double, or ceres::Jet inside a
+/// residual (P stays double when the intrinsics are not being solved for): there is no
+/// second copy of this formula. False, with `pixel_px` untouched, when the point is not
+/// in front of the camera. Source: D. C. Brown, "Close-range camera calibration", 1971,
+/// as OpenCV writes it.
+template <class P, class T>
+[[nodiscard]] bool project(const P* parameters, const T* p_in_camera, T* pixel_px) {
   if (p_in_camera[2] <= T(1e-6)) return false;
   const T x = p_in_camera[0] / p_in_camera[2];
   const T y = p_in_camera[1] / p_in_camera[2];
   const T r2 = x * x + y * y;
-  const T radial =
-      T(1) + r2 * (parameters[4] + r2 * (parameters[5] + r2 * parameters[8]));
-  const T p1 = parameters[6];
-  const T p2 = parameters[7];
-  const T xd = x * radial + T(2) * p1 * x * y + p2 * (r2 + T(2) * x * x);
-  const T yd = y * radial + p1 * (r2 + T(2) * y * y) + T(2) * p2 * x * y;
-  pixel_px[0] = parameters[0] * xd + parameters[2];
-  pixel_px[1] = parameters[1] * yd + parameters[3];
+  const T radial = 1.0 + r2 * (parameters[4] + r2 * (parameters[5] + r2 * parameters[8]));
+  const P& p1 = parameters[6];
+  const P& p2 = parameters[7];
+  const T xy = 2.0 * x * y;
+  const T xd = x * radial + xy * p1 + (r2 + 2.0 * x * x) * p2;
+  const T yd = y * radial + (r2 + 2.0 * y * y) * p1 + xy * p2;
+  pixel_px[0] = xd * parameters[0] + parameters[2];
+  pixel_px[1] = yd * parameters[1] + parameters[3];
   return true;
 }
 
@@ -64,10 +67,7 @@ template <class T>
 [[nodiscard]] bool project(const Intrinsics& intrinsics,
                            const T* p_in_camera,
                            T* pixel_px) {
-  const std::array<double, Intrinsics::kParameterCount> values = intrinsics.parameters();
-  std::array<T, Intrinsics::kParameterCount> lifted;
-  for (std::size_t i = 0; i < lifted.size(); ++i) lifted[i] = T(values[i]);
-  return project(lifted.data(), p_in_camera, pixel_px);
+  return project(intrinsics.parameters().data(), p_in_camera, pixel_px);
 }
 
 /// Pixel of a world point; nullopt when it is not in front of the camera. The pixel may

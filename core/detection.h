@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,60 @@ struct TagDetection {
       {{-1, +1}, {+1, +1}, {+1, -1}, {-1, -1}}};
   const auto& sign = kSigns[static_cast<std::size_t>(corner)];
   return {sign[0] * h, sign[1] * h, 0.0};
+}
+
+/// How much smaller than life a camera shows black squares. Light spreads into them (lens
+/// blur is linear in light, pixels are not) and the detector's edge search adds its own:
+/// two opposite edges that are s [px] apart are found s - (offset_px + slope * s) apart.
+/// A percent of the size is a percent of the distance when only one camera sees a tag, so
+/// it is measured (calib/calibrate_cameras.h) and taken off.
+struct TagShrinkage {
+  double offset_px = 0.0;
+  double slope = 0.0;
+};
+
+/// Moves opposite edges of a quadrilateral apart: `grow` gives the new distance between
+/// two edges for the old one. Corners as in TagDetection, x and y in turn; T is double or
+/// ceres::Jet. First order in perspective: the sides of a tag are taken as parallel.
+template <class T, class Grow>
+void move_edges(std::array<std::array<T, 2>, 4>& corners, const Grow& grow) {
+  using std::abs;
+  using std::sqrt;
+  std::array<T, 2> middle;
+  std::array<T, 2> u;  // Half of a side, bottom left to bottom right.
+  std::array<T, 2> v;  // Half of a side, bottom left to top left.
+  for (std::size_t i = 0; i < 2; ++i) {
+    middle[i] = 0.25 * (corners[0][i] + corners[1][i] + corners[2][i] + corners[3][i]);
+    u[i] = 0.25 * (corners[1][i] - corners[0][i] + corners[2][i] - corners[3][i]);
+    v[i] = 0.25 * (corners[3][i] - corners[0][i] + corners[2][i] - corners[1][i]);
+  }
+  const T area = u[0] * v[1] - u[1] * v[0];
+  const T apart_u = 2.0 * abs(area) / sqrt(v[0] * v[0] + v[1] * v[1]);
+  const T apart_v = 2.0 * abs(area) / sqrt(u[0] * u[0] + u[1] * u[1]);
+  const T factor_u = grow(apart_u) / apart_u;
+  const T factor_v = grow(apart_v) / apart_v;
+  for (auto& corner : corners) {
+    const std::array<T, 2> d{corner[0] - middle[0], corner[1] - middle[1]};
+    const T along_u = (d[0] * v[1] - d[1] * v[0]) / area;
+    const T along_v = (u[0] * d[1] - u[1] * d[0]) / area;
+    for (std::size_t i = 0; i < 2; ++i) {
+      corner[i] = middle[i] + along_u * factor_u * u[i] + along_v * factor_v * v[i];
+    }
+  }
+}
+
+/// The corners as they would be found without shrinkage.
+/// Precondition: a quadrilateral with an area.
+[[nodiscard]] inline std::array<glm::dvec2, 4> unshrunk(
+    const std::array<glm::dvec2, 4>& corners_px, const TagShrinkage& shrinkage) {
+  std::array<std::array<double, 2>, 4> corners{};
+  for (std::size_t i = 0; i < 4; ++i) corners[i] = {corners_px[i].x, corners_px[i].y};
+  move_edges(corners, [&](double apart_px) {
+    return (apart_px + shrinkage.offset_px) / (1.0 - shrinkage.slope);
+  });
+  std::array<glm::dvec2, 4> out{};
+  for (std::size_t i = 0; i < 4; ++i) out[i] = {corners[i][0], corners[i][1]};
+  return out;
 }
 
 /// All tags of one frame of one camera, in ascending id order, each id at most once.

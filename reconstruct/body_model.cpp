@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/body_model.h"
+
+#include <glm/geometric.hpp>
+
+#include "reconstruct/locate_rigid.h"
+#include "reconstruct/posture_terms.h"
+
+namespace marey::reconstruct {
+namespace {
+
+struct Leaf {
+  HumanBone bone;
+  Slot slot;
+};
+constexpr std::array<Leaf, 5> kLeaves{{{HumanBone::kHead, Slot::kHead},
+                                       {HumanBone::kLeftHand, Slot::kLeftHand},
+                                       {HumanBone::kRightHand, Slot::kRightHand},
+                                       {HumanBone::kLeftFoot, Slot::kLeftFoot},
+                                       {HumanBone::kRightFoot, Slot::kRightFoot}}};
+
+// How far a hand turns in a thirtieth of a second, at most: what tells two readings of
+// one tag apart when both fit the picture.
+constexpr double kTurnPerFrameRad = 0.3;
+
+/// Least cost of one leaf's sightings over its rotation alone.
+double refine_leaf(const BodyModel& model,
+                   std::span<const TagSighting> sightings,
+                   std::span<const Camera> cameras,
+                   const Leaf& leaf,
+                   const Posture* before,
+                   Posture& posture) {
+  ceres::Problem problem;
+  for (const TagSighting& sighting : sightings) {
+    if (model.bone(sighting.tag) == leaf.bone) {
+      add_sighting(model, sighting, cameras, posture, problem);
+    }
+  }
+  add_habits(posture, model.lengths, problem);
+  Posture held = before ? *before : posture;
+  if (before) {
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<RelativeRotationPrior, 3, 4, 4>(
+            new RelativeRotationPrior{{1, 0, 0, 0}, glm::dvec3(kTurnPerFrameRad)}),
+        nullptr,
+        held.block(leaf.slot),
+        posture.block(leaf.slot));
+    problem.SetParameterBlockConstant(held.block(leaf.slot));
+  }
+  set_manifolds(posture, problem);
+  hold(posture, problem);
+  problem.SetParameterBlockVariable(posture.block(leaf.slot));
+  ceres::Solver::Options options = solver_options(10);
+  options.linear_solver_type = ceres::DENSE_QR;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  return summary.final_cost;
+}
+
+/// The rotations of the leaf that its tags propose, two each.
+std::vector<glm::dquat> readings_of(const BodyModel& model,
+                                    std::span<const TagSighting> sightings,
+                                    std::span<const Camera> cameras,
+                                    const Leaf& leaf) {
+  std::vector<glm::dquat> readings;
+  for (const TagSighting& s : sightings) {
+    const RigidTransform* segment_from_tag = model.place(s.tag);
+    if (model.bone(s.tag) != leaf.bone || !segment_from_tag) continue;
+    for (const RigidTransform& world_from_tag : planar_candidates(
+             cameras[index(s.camera)], *s.detection, model.tags[s.tag].size_m)) {
+      readings.push_back(world_from_tag.rotation *
+                         glm::conjugate(segment_from_tag->rotation));
+    }
+  }
+  return readings;
+}
+
+}  // namespace
+
+const RigidTransform* BodyModel::place(std::size_t tag) const {
+  const auto found = segment_from_tag.find(tag);
+  return found == segment_from_tag.end() ? nullptr : &found->second;
+}
+
+BodyModel to_model(const Body& body) {
+  BodyModel model;
+  model.lengths = lengths_of(body.proportions);
+  model.body = frame_of(body.proportions);
+  for (const PlacedTag& placed : body.tags) {
+    model.segment_from_tag[model.tags.size()] = placed.segment_from_tag;
+    model.tags.push_back(placed.tag);
+  }
+  return model;
+}
+
+ceres::LossFunction* tag_loss() {
+  return new ceres::CauchyLoss(5.0);
+}
+
+void add_sighting(const BodyModel& model,
+                  const TagSighting& sighting,
+                  std::span<const Camera> cameras,
+                  Posture& posture,
+                  ceres::Problem& problem) {
+  const RigidTransform* segment_from_tag = model.place(sighting.tag);
+  if (!segment_from_tag) return;
+  const HumanBone bone = model.bone(sighting.tag);
+  auto residual = std::make_unique<KnownTagResidual>(
+      KnownTagResidual{bone,
+                       slots_of(bone),
+                       model.lengths,
+                       model.body,
+                       tag_image(cameras[index(sighting.camera)], *sighting.detection),
+                       {}});
+  for (int c = 0; c < 4; ++c) {
+    residual->corners_in_segment[static_cast<std::size_t>(c)] =
+        *segment_from_tag * corner_in_tag(c, model.tags[sighting.tag].size_m);
+  }
+  problem.AddResidualBlock(
+      tag_cost<>(std::move(residual)), tag_loss(), blocks_of(posture, bone));
+}
+
+std::array<double, 4> corner_errors_px(const BodyModel& model,
+                                       const TagSighting& sighting,
+                                       std::span<const Camera> cameras,
+                                       const Posture& posture) {
+  constexpr double kBehind = 1e3;
+  std::array<double, 4> errors{kBehind, kBehind, kBehind, kBehind};
+  const RigidTransform* segment_from_tag = model.place(sighting.tag);
+  if (!segment_from_tag) return errors;
+  const RigidTransform world_from_tag =
+      world_from_bone(model.bone(sighting.tag), posture, model.lengths, model.body) *
+      *segment_from_tag;
+  for (int c = 0; c < 4; ++c) {
+    const auto pixel =
+        project(cameras[index(sighting.camera)],
+                world_from_tag * corner_in_tag(c, model.tags[sighting.tag].size_m));
+    if (!pixel) continue;
+    const auto i = static_cast<std::size_t>(c);
+    errors[i] = glm::distance(*pixel, sighting.detection->corners_px[i]);
+  }
+  return errors;
+}
+
+int reconsider_extremities(const BodyModel& model,
+                           std::span<const TagSighting> sightings,
+                           std::span<const Camera> cameras,
+                           const Posture* before,
+                           Posture& posture) {
+  int changed = 0;
+  for (const Leaf& leaf : kLeaves) {
+    const std::vector<glm::dquat> readings = readings_of(model, sightings, cameras, leaf);
+    if (readings.empty()) continue;
+    const glm::dquat was = posture.rotation(leaf.slot);
+    double best = refine_leaf(model, sightings, cameras, leaf, before, posture);
+    glm::dquat best_rotation = posture.rotation(leaf.slot);
+    for (const glm::dquat& reading : readings) {
+      posture.set_rotation(leaf.slot, reading);
+      const double cost = refine_leaf(model, sightings, cameras, leaf, before, posture);
+      if (cost < best) {
+        best = cost;
+        best_rotation = posture.rotation(leaf.slot);
+      }
+    }
+    posture.set_rotation(leaf.slot, best_rotation);
+    changed += glm::length(rotation_vector(glm::conjugate(was) * best_rotation)) > 0.1;
+  }
+  return changed;
+}
+
+}  // namespace marey::reconstruct

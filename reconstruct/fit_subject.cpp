@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/fit_subject.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include <glm/geometric.hpp>
+
+#include "reconstruct/initial_posture.h"
+#include "reconstruct/segment_frames.h"
+#include "reconstruct/sightings.h"
+#include "reconstruct/subject_bundle.h"
+#include "reconstruct/tag_clusters.h"
+
+namespace marey::reconstruct {
+namespace {
+
+// The bundle's cost grows with its frames, its gain with their variety.
+constexpr std::size_t kStandingFrames = 5;
+constexpr std::size_t kMovingFrames = 90;
+constexpr std::size_t kLocatedFrames = 300;
+
+std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
+  std::vector<std::size_t> chosen;
+  const std::size_t n = std::min(count, wanted);
+  for (std::size_t i = 0; i < n; ++i) chosen.push_back((2 * i + 1) * count / (2 * n));
+  return chosen;
+}
+
+ClusterPoses locate(std::span<const TagCluster> clusters,
+                    std::span<const Camera> cameras,
+                    std::span<const TagOnSegment> tags,
+                    std::span<const TagSighting> frame) {
+  ClusterPoses poses;
+  for (const TagCluster& cluster : clusters) {
+    if (const auto pose = locate_cluster(cluster, cameras, tags, frame)) {
+      poses[cluster.segment] = *pose;
+    }
+  }
+  return poses;
+}
+
+std::map<HumanBone, RigidTransform> to_segments(const ClusterPoses& clusters,
+                                                const SegmentFrames& frames) {
+  std::map<HumanBone, RigidTransform> segments;
+  for (const auto& [bone, world_from_cluster] : clusters) {
+    const auto known = frames.segment_from_cluster.find(bone);
+    if (known == frames.segment_from_cluster.end()) continue;
+    segments[bone] = world_from_cluster * inverse(known->second);
+  }
+  return segments;
+}
+
+/// Frames of one trial with their clusters located.
+struct LocatedTrial {
+  std::vector<std::size_t> frames;
+  std::vector<ClusterPoses> poses;
+};
+
+LocatedTrial locate_trial(const Sightings& trial,
+                          std::span<const TagCluster> clusters,
+                          std::span<const Camera> cameras,
+                          std::span<const TagOnSegment> tags) {
+  LocatedTrial located;
+  for (const std::size_t frame : evenly(trial.frames.size(), kLocatedFrames)) {
+    located.frames.push_back(frame);
+    located.poses.push_back(locate(clusters, cameras, tags, trial.frames[frame]));
+  }
+  return located;
+}
+
+void add_frames(const Sightings& trial,
+                const LocatedTrial& located,
+                std::size_t wanted,
+                bool standing,
+                const SegmentFrames& frames,
+                SubjectBundle& bundle) {
+  Posture fallback;
+  for (const std::size_t i : evenly(located.frames.size(), wanted)) {
+    const auto segments = to_segments(located.poses[i], frames);
+    if (!segments.contains(HumanBone::kHips)) continue;
+    BundleFrame frame;
+    frame.sightings = trial.frames[located.frames[i]];
+    frame.standing = standing;
+    frame.posture =
+        posture_from_segments(segments, frames.lengths, frames.body, fallback);
+    fallback = frame.posture;
+    bundle.frames.push_back(std::move(frame));
+  }
+}
+
+std::string text(const char* format, double a, double b) {
+  std::array<char, 240> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, a, b);
+  return buffer.data();
+}
+
+double limb_ratio(const Lengths& measured, const Lengths& usual) {
+  std::vector<double> ratios;
+  for (int i = static_cast<int>(Length::kLeftUpperArm); i < kLengthCount; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    ratios.push_back(measured[place] / usual[place]);
+  }
+  std::nth_element(ratios.begin(), ratios.begin() + 4, ratios.end());
+  return ratios[4];
+}
+
+Status check_size(double ratio, double stature_m) {
+  if (ratio > 0.75 && ratio < 1.35) return Done{};
+  return bad_input(
+      "",
+      text("the limbs measure %.2f times those of a person of %.2f m", ratio, stature_m),
+      "check size_m of the tags and tag_size_m of [board] against the print (edge of the "
+      "black square, in metres), and stature_m of [subject]");
+}
+
+/// Toes and tips, which no tag shows: average, with the soles on the floor while
+/// standing.
+Proportions finish(const SubjectBundle& bundle, const Proportions& average) {
+  Proportions p = to_proportions(bundle.model.lengths, bundle.model.body, average);
+  const auto ankle_height = [&](HumanBone foot) {
+    double sum = 0.0;
+    int count = 0;
+    for (const BundleFrame& frame : bundle.frames) {
+      if (!frame.standing) continue;
+      sum += world_from_bone(foot, frame.posture, bundle.model.lengths, bundle.model.body)
+                 .translation.y;
+      ++count;
+    }
+    return count > 0 ? sum / count : -average[HumanBone::kLeftToes].y;
+  };
+  const double toe_height_m =
+      average[HumanBone::kHips].y + average[HumanBone::kLeftUpperLeg].y +
+      average[HumanBone::kLeftLowerLeg].y + average[HumanBone::kLeftFoot].y +
+      average[HumanBone::kLeftToes].y;
+  const auto set_toes = [&](HumanBone foot, HumanBone toes) {
+    p[toes].y = -std::clamp(ankle_height(foot) - toe_height_m, 0.01, 0.15);
+  };
+  set_toes(HumanBone::kLeftFoot, HumanBone::kLeftToes);
+  set_toes(HumanBone::kRightFoot, HumanBone::kRightToes);
+  const double leg_m = leg_length_m(p);
+  p[HumanBone::kHips].y =
+      -p[HumanBone::kLeftUpperLeg].y + leg_m - p[HumanBone::kLeftToes].y + toe_height_m;
+  return p;
+}
+
+std::array<double, kHumanBoneCount> centre_sigmas(const SubjectBundle& bundle) {
+  // A joint centre is known as well as the tags of its own bone are placed about it;
+  // where a bone has none, as well as its length.
+  const double unknown_m =
+      *std::max_element(bundle.length_sigma_m.begin(), bundle.length_sigma_m.end());
+  std::array<double, kHumanBoneCount> sigmas{};
+  sigmas.fill(unknown_m);
+  std::array<double, kHumanBoneCount> sums{};
+  std::array<int, kHumanBoneCount> counts{};
+  for (const auto& [tag, sigma] : bundle.tag_sigma) {
+    const std::size_t bone = index(bundle.model.bone(tag));
+    sums[bone] += sigma[0] * sigma[0];
+    ++counts[bone];
+  }
+  for (std::size_t b = 0; b < sigmas.size(); ++b) {
+    if (counts[b] > 0) sigmas[b] = std::sqrt(sums[b] / counts[b]);
+  }
+  return sigmas;
+}
+
+bool refine(SubjectBundle& bundle, std::span<const Camera> cameras) {
+  if (!adjust(bundle, cameras, 30, false)) return false;
+  constexpr int kRounds = 3;
+  for (int round = 0; round < kRounds; ++round) {
+    int changed = 0;
+    for (BundleFrame& frame : bundle.frames) {
+      changed += reconsider_extremities(
+          bundle.model, frame.sightings, cameras, nullptr, frame.posture);
+    }
+    const bool last = changed == 0 || round + 1 == kRounds;
+    if (!adjust(bundle, cameras, 30, last)) return false;
+    if (last) break;
+  }
+  return true;
+}
+
+SubjectFit to_fit(const SubjectPrior& prior,
+                  const SubjectBundle& bundle,
+                  const Proportions& average) {
+  SubjectFit fit;
+  fit.body.name = prior.name;
+  fit.body.stature_m = prior.stature_m;
+  fit.body.mass_kg = prior.mass_kg;
+  fit.body.proportions = finish(bundle, average);
+  fit.body.joint_centre_sigma_m = centre_sigmas(bundle);
+  for (std::size_t i = 0; i < bundle.model.tags.size(); ++i) {
+    const auto pose = bundle.model.segment_from_tag.find(i);
+    if (pose == bundle.model.segment_from_tag.end()) {
+      fit.unplaced.push_back(bundle.model.tags[i].id);
+      continue;
+    }
+    PlacedTag placed{bundle.model.tags[i], pose->second, 0.0, 0.0, 0};
+    const auto& sigma = bundle.tag_sigma.at(i);
+    placed.sigma_m = sigma[0];
+    placed.sigma_rad = sigma[1];
+    for (const BundleFrame& frame : bundle.frames) {
+      placed.sightings += static_cast<int>(std::count_if(
+          frame.sightings.begin(), frame.sightings.end(), [&](const TagSighting& s) {
+            return s.tag == i;
+          }));
+    }
+    fit.body.tags.push_back(placed);
+  }
+  fit.rms_px = bundle.rms_px;
+  fit.median_px = bundle.median_px;
+  fit.frames_used = static_cast<int>(bundle.frames.size());
+  fit.limb_ratio = limb_ratio(bundle.model.lengths, bundle.usual);
+  return fit;
+}
+
+}  // namespace
+
+Result<SubjectFit> fit_subject(const SubjectPrior& prior,
+                               std::span<const Camera> cameras,
+                               std::span<const CameraDetections> standing,
+                               std::span<const CameraDetections> moving,
+                               const Progress& progress) {
+  constexpr int kSteps = 4;
+  const auto tell = [&](int step) {
+    if (progress) progress(step, kSteps);
+  };
+  tell(0);
+  const Proportions average = average_proportions(prior.stature_m);
+  const std::array<Sightings, 2> trials{group_sightings(standing, prior.tags),
+                                        group_sightings(moving, prior.tags)};
+  const auto clusters = cluster_tags(cameras, prior.tags, trials);
+  const LocatedTrial stood = locate_trial(trials[0], clusters, cameras, prior.tags);
+  const LocatedTrial moved = locate_trial(trials[1], clusters, cameras, prior.tags);
+  tell(1);
+  const auto frames = find_segment_frames(clusters, stood.poses, moved.poses, average);
+  if (!frames) return frames.error();
+
+  SubjectBundle bundle;
+  bundle.model.lengths = frames->lengths;
+  bundle.usual = lengths_of(average);
+  bundle.model.body = frames->body;
+  bundle.model.tags = prior.tags;
+  if (const Status ok =
+          check_size(limb_ratio(bundle.model.lengths, bundle.usual), prior.stature_m);
+      !ok) {
+    return ok.error();
+  }
+  for (const TagCluster& cluster : clusters) {
+    const auto known = frames->segment_from_cluster.find(cluster.segment);
+    if (known == frames->segment_from_cluster.end()) continue;
+    for (const auto& [tag, cluster_from_tag] : cluster.cluster_from_tag) {
+      bundle.model.segment_from_tag[tag] = known->second * cluster_from_tag;
+    }
+  }
+  add_frames(trials[0], stood, kStandingFrames, true, *frames, bundle);
+  add_frames(trials[1], moved, kMovingFrames, false, *frames, bundle);
+  tell(2);
+  if (bundle.frames.size() < 10 || !refine(bundle, cameras)) {
+    return bad_input(
+        "",
+        "the body cannot be fitted: too few frames show enough tags",
+        "record the range-of-motion trial longer, moving every joint in view "
+        "of at least two cameras");
+  }
+  tell(kSteps);
+  SubjectFit fit = to_fit(prior, bundle, average);
+  if (const Status ok = check_size(fit.limb_ratio, prior.stature_m); !ok) {
+    return ok.error();
+  }
+  return fit;
+}
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/body.h"
+#include "core/camera.h"
+#include "core/detection.h"
+#include "core/progress.h"
+#include "core/result.h"
+
+namespace marey::reconstruct {
+
+/// What is known of a subject before anything is measured.
+struct SubjectPrior {
+  std::string name;
+  double stature_m = 0.0;
+  std::optional<double> mass_kg;
+  std::vector<TagOnSegment> tags;
+};
+
+struct SubjectFit {
+  Body body;
+  double rms_px = 0.0;     ///< Reprojection of all tag corners used, inliers and not.
+  double median_px = 0.0;  ///< Median distance of a corner to its model.
+  /// Measured limb lengths over an average person's of the declared stature.
+  double limb_ratio = 0.0;
+  int frames_used = 0;
+  /// Tags that were never seen well enough to be placed; the body does without them.
+  std::vector<TagId> unplaced;
+};
+
+/// Measures a person from a trial of standing still and one of moving every joint: joint
+/// centres, segment lengths, and where each tag sits on its segment, all at once by one
+/// bundle over chosen frames (reprojection of all tag corners in all cameras;
+/// anthropometric and left/right priors as soft terms).
+///
+/// `standing` and `moving` hold one CameraDetections per camera of `cameras`, in order.
+/// Sigmas come from the bundle's covariance, scaled by its residuals.
+/// Errors (kBadInput, `where` empty): segments without a usable tag; limbs whose lengths
+/// are absurd for the declared stature (a wrong tag or board size).
+/// Cost: some seconds; memory independent of the trials' lengths beyond the detections.
+[[nodiscard]] Result<SubjectFit> fit_subject(const SubjectPrior& prior,
+                                             std::span<const Camera> cameras,
+                                             std::span<const CameraDetections> standing,
+                                             std::span<const CameraDetections> moving,
+                                             const Progress& progress = {});
+
+}  // namespace marey::reconstruct

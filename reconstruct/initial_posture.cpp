@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/initial_posture.h"
+
+#include <cmath>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+namespace marey::reconstruct {
+namespace {
+
+using Found = std::map<HumanBone, RigidTransform>;
+using B = HumanBone;
+
+std::optional<RigidTransform> find(const Found& found, HumanBone bone) {
+  const auto it = found.find(bone);
+  if (it == found.end()) return std::nullopt;
+  return it->second;
+}
+
+/// The child's rotation if its parent turned from `old_parent` to `new_parent` rigidly.
+glm::dquat carried(const glm::dquat& old_parent,
+                   const glm::dquat& old_child,
+                   const glm::dquat& new_parent) {
+  return glm::normalize(new_parent * glm::conjugate(old_parent) * old_child);
+}
+
+double signed_angle(const glm::dquat& rotation, const glm::dvec3& axis) {
+  return glm::dot(rotation_vector(twist_about(rotation, axis)), axis);
+}
+
+struct LimbInput {
+  std::size_t limb;
+  Slot parent;
+};
+
+void set_limb(const LimbInput& input,
+              const Found& found,
+              const Lengths& lengths,
+              const Posture& fallback,
+              Posture& posture) {
+  const LimbSlots& s = kLimbSlots[input.limb];
+  const HumanLimb& bones = human_limbs()[input.limb];
+  const glm::dvec3 along = limb_axis(input.limb);
+  const glm::dvec3 hinge = bones.hinge_axis;
+  const auto upper = find(found, bones.upper);
+  const auto lower = find(found, bones.lower);
+  double& flexion = *posture.block(s.flexion);
+  double& twist = *posture.block(s.twist);
+  flexion = *fallback.block(s.flexion);
+  twist = *fallback.block(s.twist);
+  const double l1 = lengths[index(s.upper)];
+  const double l2 = lengths[index(s.lower)];
+  const auto lean = [&] {
+    return std::atan2(l2 * std::sin(flexion), l1 + l2 * std::cos(flexion));
+  };
+  glm::dquat frame;
+  if (upper && lower) {
+    const glm::dquat bend = glm::conjugate(upper->rotation) * lower->rotation;
+    flexion = signed_angle(bend, hinge);
+    twist = signed_angle(rotation_from_vector(-flexion * hinge) * bend, along);
+    frame = upper->rotation * rotation_from_vector(lean() * hinge);
+  } else if (upper) {
+    frame = upper->rotation * rotation_from_vector(lean() * hinge);
+  } else if (lower) {
+    frame = lower->rotation * rotation_from_vector(-twist * along) *
+            rotation_from_vector(-(flexion - lean()) * hinge);
+  } else {
+    frame = carried(fallback.rotation(input.parent),
+                    fallback.rotation(s.frame),
+                    posture.rotation(input.parent));
+  }
+  posture.set_rotation(s.frame, glm::normalize(frame));
+  const auto end = find(found, bones.end);
+  posture.set_rotation(s.extremity,
+                       end ? end->rotation
+                           : carried(fallback.rotation(s.frame),
+                                     fallback.rotation(s.extremity),
+                                     posture.rotation(s.frame)));
+}
+
+void set_trunk(const Found& found, const Posture& fallback, Posture& posture) {
+  const auto rotation_or = [&](B bone, Slot slot, Slot parent) {
+    const auto seen = find(found, bone);
+    return seen ? seen->rotation
+                : carried(fallback.rotation(parent),
+                          fallback.rotation(slot),
+                          posture.rotation(parent));
+  };
+  posture.set_rotation(Slot::kThorax,
+                       rotation_or(B::kUpperChest, Slot::kThorax, Slot::kHips));
+  const auto half = [](const glm::dquat& a, const glm::dquat& b) {
+    return glm::normalize(glm::slerp(a, b, 0.5));
+  };
+  const auto chest = find(found, B::kChest);
+  posture.set_rotation(
+      Slot::kAbdomenEnd,
+      chest ? chest->rotation
+            : half(posture.rotation(Slot::kHips), posture.rotation(Slot::kThorax)));
+  posture.set_rotation(Slot::kHead, rotation_or(B::kHead, Slot::kHead, Slot::kThorax));
+  const auto neck = find(found, B::kNeck);
+  posture.set_rotation(
+      Slot::kNeck,
+      neck ? neck->rotation
+           : half(posture.rotation(Slot::kThorax), posture.rotation(Slot::kHead)));
+}
+
+void set_shoulder(bool left,
+                  const Found& found,
+                  const Lengths& lengths,
+                  const BodyFrame& body,
+                  const Posture& fallback,
+                  Posture& posture) {
+  const Slot slot = left ? Slot::kLeftShoulder : Slot::kRightShoulder;
+  const B bone = left ? B::kLeftShoulder : B::kRightShoulder;
+  const auto arm = find(found, left ? B::kLeftUpperArm : B::kRightUpperArm);
+  posture.set_rotation(slot,
+                       carried(fallback.rotation(Slot::kThorax),
+                               fallback.rotation(slot),
+                               posture.rotation(Slot::kThorax)));
+  if (!arm || !find(found, B::kUpperChest)) return;
+  const glm::dvec3 base = world_from_bone(bone, posture, lengths, body).translation;
+  const glm::dvec3 wanted = arm->translation - base;
+  const glm::dvec3 straight =
+      posture.rotation(Slot::kThorax) * glm::dvec3(left ? 1.0 : -1.0, 0.0, 0.0);
+  if (glm::length(wanted) < 0.03 || glm::dot(wanted, straight) <= 0.0) return;
+  posture.set_rotation(
+      slot, rotation_between(straight, wanted) * posture.rotation(Slot::kThorax));
+}
+
+}  // namespace
+
+Posture posture_from_segments(const Found& found,
+                              const Lengths& lengths,
+                              const BodyFrame& body,
+                              const Posture& fallback) {
+  Posture posture = fallback;
+  const auto hips = find(found, B::kHips);
+  if (hips) {
+    posture.set_rotation(Slot::kHips, hips->rotation);
+    double* p = posture.block(Slot::kHipsPosition);
+    for (int i = 0; i < 3; ++i) p[i] = hips->translation[i];
+  }
+  set_trunk(found, fallback, posture);
+  set_shoulder(true, found, lengths, body, fallback, posture);
+  set_shoulder(false, found, lengths, body, fallback, posture);
+  set_limb({0, Slot::kThorax}, found, lengths, fallback, posture);
+  set_limb({1, Slot::kThorax}, found, lengths, fallback, posture);
+  set_limb({2, Slot::kHips}, found, lengths, fallback, posture);
+  set_limb({3, Slot::kHips}, found, lengths, fallback, posture);
+  return posture;
+}
+
+Posture extrapolate(const Posture& before, const Posture& now) {
+  Posture next = now;
+  for (const Slot slot : kAllSlots) {
+    if (is_rotation(slot)) {
+      const glm::dquat step = now.rotation(slot) * glm::conjugate(before.rotation(slot));
+      next.set_rotation(slot, glm::normalize(step * now.rotation(slot)));
+    } else {
+      for (int i = 0; i < block_size(slot); ++i) {
+        next.block(slot)[i] = 2.0 * now.block(slot)[i] - before.block(slot)[i];
+      }
+    }
+  }
+  return next;
+}
+
+}  // namespace marey::reconstruct

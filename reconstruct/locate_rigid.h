@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/camera.h"
+#include "core/detection.h"
+#include "core/transform.h"
+
+namespace marey::reconstruct {
+
+/// One camera's sight of one known point of a rigid thing.
+struct RigidPointView {
+  const Camera* camera = nullptr;  ///< Borrowed; must outlive the call.
+  glm::dvec3 p_in_body{0.0};       ///< [m]
+  glm::dvec2 pixel_px{0.0};
+  double sigma_px = 0.3;
+};
+
+struct RigidPose {
+  RigidTransform world_from_body;
+  double rms_px = 0.0;  ///< Root mean square distance of the views to their model.
+  /// Robust cost of the best pose found from another start that ended elsewhere, divided
+  /// by this one's; large is unambiguous, near 1 means that a flat thing could just as
+  /// well be tilted the other way. Infinite when all starts ended here.
+  double ambiguity_ratio = 0.0;
+};
+
+/// The four corner views of one sighting of a tag.
+void append_corner_views(const Camera& camera,
+                         const TagDetection& tag,
+                         double size_m,
+                         const RigidTransform& body_from_tag,
+                         std::vector<RigidPointView>& views);
+
+/// The two poses in the world from which a flat square looks alike to a single camera
+/// (Collins & Bartoli 2014 explain why there are two), the likelier first by no order.
+/// Empty when a corner cannot be undistorted or the square is degenerate.
+[[nodiscard]] std::vector<RigidTransform> planar_candidates(const Camera& camera,
+                                                            const TagDetection& tag,
+                                                            double size_m);
+
+/// The pose of a rigid thing that best explains all views, by Levenberg-Marquardt on the
+/// reprojection (Huber at 3 sigma) from each of `starts`; the best end wins.
+///
+/// nullopt when no start converges in front of the cameras or there are fewer than four
+/// views. Pure; linear in views and starts.
+[[nodiscard]] std::optional<RigidPose> locate_rigid(
+    std::span<const RigidPointView> views, std::span<const RigidTransform> starts);
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,349 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: the normalized skeleton as a solver moves it.
+//
+// A posture is not a list of joint angles but Kulpa's normalized skeleton (2005, 1.1.2):
+// limbs are a frame (Z along root to end, P towards the elbow or knee: here one rotation)
+// and a length, given by the flexion of the triangle; the trunk is two splines, abdomen
+// and torso, driven by the rotations at their ends; all other bones are rotations. All
+// rotations are of the bone in the world, identity in the T-pose, which keeps the
+// derivative of every point a sum of rotated vectors.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/humanoid.h"
+#include "core/pose.h"
+#include "core/skeleton.h"
+
+namespace marey::reconstruct {
+
+/// The unknowns of a posture, one solver block each. Order is that of Posture's storage.
+enum class Slot : int {
+  kHipsPosition,  ///< 3 numbers, [m]
+  // Rotations, 4 numbers (x, y, z, w).
+  kHips,
+  kAbdomenEnd,  ///< Where the abdomen's spline meets the torso's.
+  kThorax,      ///< Upper end of the torso's spline: the rib cage.
+  kNeck,
+  kHead,
+  kLeftShoulder,
+  kRightShoulder,
+  kLeftArm,  ///< The limb's frame.
+  kRightArm,
+  kLeftLeg,
+  kRightLeg,
+  kLeftHand,
+  kRightHand,
+  kLeftFoot,
+  kRightFoot,
+  // Scalars, [rad].
+  kLeftElbow,  ///< Flexion: 0 is straight.
+  kRightElbow,
+  kLeftKnee,
+  kRightKnee,
+  kLeftForearmTwist,  ///< Of the lower bone about its own axis, off the hinge.
+  kRightForearmTwist,
+  kLeftShankTwist,
+  kRightShankTwist,
+};
+inline constexpr int kSlotCount = 24;
+
+[[nodiscard]] constexpr std::size_t index(Slot slot) {
+  return static_cast<std::size_t>(slot);
+}
+[[nodiscard]] constexpr bool is_rotation(Slot slot) {
+  return slot >= Slot::kHips && slot <= Slot::kRightFoot;
+}
+[[nodiscard]] constexpr int block_size(Slot slot) {
+  return slot == Slot::kHipsPosition ? 3 : (is_rotation(slot) ? 4 : 1);
+}
+/// Degrees of freedom of a block.
+[[nodiscard]] constexpr int tangent_size(Slot slot) {
+  return slot == Slot::kHipsPosition || is_rotation(slot) ? 3 : 1;
+}
+[[nodiscard]] constexpr int storage_offset(Slot slot) {
+  int offset = 0;
+  for (int i = 0; i < static_cast<int>(slot); ++i) offset += block_size(Slot{i});
+  return offset;
+}
+inline constexpr int kPostureStorage = 3 + 15 * 4 + 8;
+inline constexpr int kPostureFreedom = 3 + 15 * 3 + 8;
+
+/// One posture: plain numbers that a solver can point into.
+struct Posture {
+  std::array<double, kPostureStorage> values{};
+
+  Posture();
+  [[nodiscard]] double* block(Slot slot) { return &values[offset(slot)]; }
+  [[nodiscard]] const double* block(Slot slot) const { return &values[offset(slot)]; }
+
+  [[nodiscard]] glm::dquat rotation(Slot slot) const;
+  void set_rotation(Slot slot, const glm::dquat& world_from_bone);
+
+ private:
+  static constexpr std::size_t offset(Slot slot) {
+    return static_cast<std::size_t>(storage_offset(slot));
+  }
+};
+
+inline constexpr std::array<Slot, kSlotCount> kAllSlots = [] {
+  std::array<Slot, kSlotCount> slots{};
+  for (int i = 0; i < kSlotCount; ++i) slots[static_cast<std::size_t>(i)] = Slot{i};
+  return slots;
+}();
+
+/// The lengths that a subject's fit moves. [m]
+enum class Length : int {
+  kSpine,  ///< hips to spine joint; likewise the next four.
+  kChest,
+  kUpperChest,
+  kNeck,
+  kHead,
+  kHalfHipWidth,  ///< The hips' X axis runs through both hip centres by definition.
+  kLeftShoulder,  ///< Inner to outer end of the clavicle.
+  kRightShoulder,
+  kLeftUpperArm,
+  kRightUpperArm,
+  kLeftLowerArm,
+  kRightLowerArm,
+  kLeftUpperLeg,
+  kRightUpperLeg,
+  kLeftLowerLeg,
+  kRightLowerLeg,
+};
+inline constexpr int kLengthCount = 16;
+using Lengths = std::array<double, kLengthCount>;
+
+[[nodiscard]] constexpr std::size_t index(Length length) {
+  return static_cast<std::size_t>(length);
+}
+
+/// How the posture's numbers make bones: one row per limb.
+struct LimbSlots {
+  Slot frame;
+  Slot flexion;
+  Slot twist;
+  Slot extremity;
+  Length upper;
+  Length lower;
+};
+/// In the order of human_limbs().
+inline constexpr std::array<LimbSlots, 4> kLimbSlots{{
+    {Slot::kLeftArm,
+     Slot::kLeftElbow,
+     Slot::kLeftForearmTwist,
+     Slot::kLeftHand,
+     Length::kLeftUpperArm,
+     Length::kLeftLowerArm},
+    {Slot::kRightArm,
+     Slot::kRightElbow,
+     Slot::kRightForearmTwist,
+     Slot::kRightHand,
+     Length::kRightUpperArm,
+     Length::kRightLowerArm},
+    {Slot::kLeftLeg,
+     Slot::kLeftKnee,
+     Slot::kLeftShankTwist,
+     Slot::kLeftFoot,
+     Length::kLeftUpperLeg,
+     Length::kLeftLowerLeg},
+    {Slot::kRightLeg,
+     Slot::kRightKnee,
+     Slot::kRightShankTwist,
+     Slot::kRightFoot,
+     Length::kRightUpperLeg,
+     Length::kRightLowerLeg},
+}};
+
+/// The limb's direction in the T-pose, root to end.
+[[nodiscard]] inline glm::dvec3 limb_axis(std::size_t limb) {
+  if (limb == 0) return {1, 0, 0};
+  return limb == 1 ? glm::dvec3(-1, 0, 0) : glm::dvec3(0, -1, 0);
+}
+
+/// The slots that a bone's frame in the world depends on, in slot order.
+[[nodiscard]] std::vector<Slot> slots_of(HumanBone bone);
+
+/// What stays fixed while lengths and postures move: where the clavicles start, how high
+/// the hips' own joint lies above the hip centres.
+struct BodyFrame {
+  glm::dvec3 left_shoulder_in_thorax{0.0};  ///< The other side mirrors it. [m]
+  double hips_above_hip_centres_m = 0.0;
+};
+
+/// Rest offsets from lengths and back. `like` gives what lengths do not say: toes, tips.
+[[nodiscard]] Proportions to_proportions(const Lengths& lengths,
+                                         const BodyFrame& frame,
+                                         const Proportions& like);
+[[nodiscard]] Lengths lengths_of(const Proportions& proportions);
+[[nodiscard]] BodyFrame frame_of(const Proportions& proportions);
+
+/// A bone's frame in the world, on whatever scalar the solver uses.
+template <class T>
+struct BoneFrame {
+  Eigen::Quaternion<T> rotation;
+  Eigen::Matrix<T, 3, 1> origin;
+};
+
+namespace detail {
+
+template <class T>
+using Vec3 = Eigen::Matrix<T, 3, 1>;
+
+template <class T>
+Eigen::Quaternion<T> about_axis(const glm::dvec3& axis, const T& angle_rad) {
+  using std::cos;
+  using std::sin;
+  const T half = T(0.5) * angle_rad;
+  const T s = sin(half);
+  return Eigen::Quaternion<T>(cos(half), s * T(axis.x), s * T(axis.y), s * T(axis.z));
+}
+
+/// The rotation half way between two, by the shorter way. Differentiable as long as they
+/// are less than a full turn apart, which vertebrae are.
+template <class T>
+Eigen::Quaternion<T> halfway(const Eigen::Quaternion<T>& a,
+                             const Eigen::Quaternion<T>& b) {
+  Eigen::Matrix<T, 4, 1> sum;
+  if (a.coeffs().dot(b.coeffs()) < T(0)) {
+    sum = a.coeffs() - b.coeffs();
+  } else {
+    sum = a.coeffs() + b.coeffs();
+  }
+  return Eigen::Quaternion<T>(sum / sum.norm());
+}
+
+template <class T>
+Vec3<T> vec(const glm::dvec3& v) {
+  return {T(v.x), T(v.y), T(v.z)};
+}
+
+}  // namespace detail
+
+/// Forward kinematics of one bone.
+///
+/// `blocks[slot]` points at the posture's numbers; only those of slots_of(bone) are read.
+/// `lengths` points at kLengthCount numbers. T is double or ceres::Jet, L likewise.
+template <class T, class L>
+BoneFrame<T> bone_frame(HumanBone bone,
+                        std::span<const T* const, kSlotCount> blocks,
+                        const L* lengths,
+                        const BodyFrame& body) {
+  using B = HumanBone;
+  using Quaternion = Eigen::Quaternion<T>;
+  using detail::Vec3;
+  const auto rotation = [&](Slot slot) {
+    return Quaternion(Eigen::Map<const Quaternion>(blocks[index(slot)]));
+  };
+  const auto scalar = [&](Slot slot) { return *blocks[index(slot)]; };
+  const auto length = [&](Length which) { return T(lengths[index(which)]); };
+  const auto up = [&](Length which) { return Vec3<T>(T(0), length(which), T(0)); };
+
+  const Quaternion hips = rotation(Slot::kHips);
+  const Vec3<T> p_hips = Eigen::Map<const Vec3<T>>(blocks[index(Slot::kHipsPosition)]);
+  if (bone == B::kHips) return {hips, p_hips};
+
+  // Limb: root, triangle, extremity.
+  const auto limb_bone =
+      [&](std::size_t limb, const Vec3<T>& root, int place) -> BoneFrame<T> {
+    using std::atan2;
+    using std::cos;
+    using std::sin;
+    const LimbSlots& s = kLimbSlots[limb];
+    const glm::dvec3 hinge = human_limbs()[limb].hinge_axis;
+    const glm::dvec3 along = limb_axis(limb);
+    const T flexion = scalar(s.flexion);
+    const T l1 = length(s.upper);
+    const T l2 = length(s.lower);
+    // The upper bone leans back by alpha and the lower forward by the rest of the
+    // flexion, so that the end stays on the frame's axis.
+    const T alpha = atan2(l2 * sin(flexion), l1 + l2 * cos(flexion));
+    const Quaternion frame = rotation(s.frame);
+    const Quaternion upper = frame * detail::about_axis(hinge, T(-alpha));
+    if (place == 0) return {upper, root};
+    const Vec3<T> p_mid = root + upper * (detail::vec<T>(along) * l1);
+    const Quaternion lower = frame * detail::about_axis(hinge, T(flexion - alpha));
+    if (place == 1) {
+      return {lower * detail::about_axis(along, scalar(s.twist)), p_mid};
+    }
+    const Vec3<T> p_end = p_mid + lower * (detail::vec<T>(along) * l2);
+    return {rotation(s.extremity), p_end};
+  };
+  const auto leg = [&](std::size_t limb, double side, int place) {
+    const Vec3<T> hip(
+        T(side) * length(Length::kHalfHipWidth), T(-body.hips_above_hip_centres_m), T(0));
+    return limb_bone(limb, p_hips + hips * hip, place);
+  };
+  switch (bone) {
+    case B::kLeftUpperLeg:
+      return leg(2, 1.0, 0);
+    case B::kLeftLowerLeg:
+      return leg(2, 1.0, 1);
+    case B::kLeftFoot:
+      return leg(2, 1.0, 2);
+    case B::kRightUpperLeg:
+      return leg(3, -1.0, 0);
+    case B::kRightLowerLeg:
+      return leg(3, -1.0, 1);
+    case B::kRightFoot:
+      return leg(3, -1.0, 2);
+    default:
+      break;
+  }
+
+  // Trunk: the abdomen's spline carries two bones, the torso's one.
+  const Vec3<T> p_spine = p_hips + hips * up(Length::kSpine);
+  const Quaternion chest = rotation(Slot::kAbdomenEnd);
+  const Quaternion spine = detail::halfway(hips, chest);
+  if (bone == B::kSpine) return {spine, p_spine};
+  const Vec3<T> p_chest = p_spine + spine * up(Length::kChest);
+  if (bone == B::kChest) return {chest, p_chest};
+  const Vec3<T> p_thorax = p_chest + chest * up(Length::kUpperChest);
+  const Quaternion thorax = rotation(Slot::kThorax);
+  if (bone == B::kUpperChest) return {thorax, p_thorax};
+  if (bone == B::kNeck || bone == B::kHead) {
+    const Vec3<T> p_neck = p_thorax + thorax * up(Length::kNeck);
+    const Quaternion neck = rotation(Slot::kNeck);
+    if (bone == B::kNeck) return {neck, p_neck};
+    return {rotation(Slot::kHead), p_neck + neck * up(Length::kHead)};
+  }
+
+  const bool left = bone == B::kLeftShoulder || bone == B::kLeftUpperArm ||
+                    bone == B::kLeftLowerArm || bone == B::kLeftHand;
+  const double side = left ? 1.0 : -1.0;
+  const glm::dvec3 base = body.left_shoulder_in_thorax * glm::dvec3(side, 1.0, 1.0);
+  const Vec3<T> p_shoulder = p_thorax + thorax * detail::vec<T>(base);
+  const Quaternion shoulder = rotation(left ? Slot::kLeftShoulder : Slot::kRightShoulder);
+  if (bone == B::kLeftShoulder || bone == B::kRightShoulder) {
+    return {shoulder, p_shoulder};
+  }
+  const Length clavicle = left ? Length::kLeftShoulder : Length::kRightShoulder;
+  const Vec3<T> root =
+      p_shoulder + shoulder * Vec3<T>(T(side) * length(clavicle), T(0), T(0));
+  const int place = (bone == B::kLeftUpperArm || bone == B::kRightUpperArm)   ? 0
+                    : (bone == B::kLeftLowerArm || bone == B::kRightLowerArm) ? 1
+                                                                              : 2;
+  return limb_bone(left ? 0 : 1, root, place);
+}
+
+/// bone_frame() of a whole posture, in double. Toes move with their foot.
+[[nodiscard]] RigidTransform world_from_bone(HumanBone bone,
+                                             const Posture& posture,
+                                             const Lengths& lengths,
+                                             const BodyFrame& body);
+
+/// The posture as a Pose of make_humanoid(proportions).
+[[nodiscard]] Pose to_pose(const Posture& posture,
+                           const Skeleton& skeleton,
+                           const Lengths& lengths,
+                           const BodyFrame& body);
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: the terms that a posture is solved from.
+
+#include <array>
+#include <memory>
+#include <tuple>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+
+#include "core/camera.h"
+#include "core/detection.h"
+#include "reconstruct/posture.h"
+
+namespace marey::reconstruct {
+
+/// Rotation vector of a unit quaternion, differentiable at the identity. [rad]
+template <class T>
+Eigen::Matrix<T, 3, 1> log_rotation(const Eigen::Quaternion<T>& q) {
+  const std::array<T, 4> wxyz{q.w(), q.x(), q.y(), q.z()};
+  Eigen::Matrix<T, 3, 1> vector;
+  ceres::QuaternionToAngleAxis(wxyz.data(), vector.data());
+  return vector;
+}
+
+/// What one camera saw of one tag: the constant part of a reprojection residual.
+struct TagImage {
+  Intrinsics intrinsics;
+  RigidTransform camera_from_world;
+  std::array<glm::dvec2, 4> corners_px{};
+  double sigma_px = 0.3;
+
+  /// Eight residuals in sigmas: predicted minus seen. A corner behind the camera costs a
+  /// constant: such a posture is wrong, but not impossible to leave.
+  template <class T>
+  void residual(const BoneFrame<T>& world_from_segment,
+                const std::array<Eigen::Matrix<T, 3, 1>, 4>& corners_in_segment,
+                T* out) const {
+    const Eigen::Quaterniond q(camera_from_world.rotation.w,
+                               camera_from_world.rotation.x,
+                               camera_from_world.rotation.y,
+                               camera_from_world.rotation.z);
+    const Eigen::Matrix<T, 3, 3> rotation = q.toRotationMatrix().cast<T>();
+    const Eigen::Matrix<T, 3, 1> shift = detail::vec<T>(camera_from_world.translation);
+    // One matrix for the four corners.
+    const Eigen::Matrix<T, 3, 3> camera_from_segment =
+        rotation * world_from_segment.rotation.toRotationMatrix();
+    const Eigen::Matrix<T, 3, 1> origin = rotation * world_from_segment.origin + shift;
+    const auto k = intrinsics.parameters();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Matrix<T, 3, 1> p =
+          camera_from_segment * corners_in_segment[i] + origin;
+      std::array<T, 2> pixel;
+      if (!project(k.data(), p.data(), pixel.data())) {
+        out[2 * i] = out[2 * i + 1] = T(1e3);
+        continue;
+      }
+      out[2 * i] = (pixel[0] - corners_px[i].x) / sigma_px;
+      out[2 * i + 1] = (pixel[1] - corners_px[i].y) / sigma_px;
+    }
+  }
+};
+
+/// Splits Ceres' argument list (blocks..., residual) into the posture's blocks, `extra`
+/// further blocks and the residual.
+template <class T>
+struct Arguments {
+  std::array<const T*, kSlotCount> blocks{};
+  std::array<const T*, 3> extra{};
+  T* residual = nullptr;
+};
+
+template <class... A>
+auto unpack(const std::vector<Slot>& slots, A... arguments) {
+  using T =
+      std::remove_pointer_t<std::tuple_element_t<sizeof...(A) - 1, std::tuple<A...>>>;
+  const std::array<const T*, sizeof...(A)> list{arguments...};
+  Arguments<T> out;
+  for (std::size_t i = 0; i < slots.size(); ++i) out.blocks[index(slots[i])] = list[i];
+  for (std::size_t i = slots.size(); i + 1 < list.size(); ++i) {
+    out.extra[i - slots.size()] = list[i];
+  }
+  out.residual = std::get<sizeof...(A) - 1>(std::tuple<A...>(arguments...));
+  return out;
+}
+
+/// Reprojection of one tag of a known body.
+struct KnownTagResidual {
+  HumanBone bone;
+  std::vector<Slot> slots;  ///< slots_of(bone)
+  Lengths lengths;
+  BodyFrame body;
+  TagImage image;
+  std::array<glm::dvec3, 4> corners_in_segment{};
+
+  template <class... A>
+  bool operator()(A... arguments) const {
+    auto in = unpack(slots, arguments...);
+    using T = std::remove_pointer_t<decltype(in.residual)>;
+    const BoneFrame<T> frame = bone_frame<T, double>(
+        bone, std::span<const T* const, kSlotCount>(in.blocks), lengths.data(), body);
+    std::array<Eigen::Matrix<T, 3, 1>, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i)
+      corners[i] = detail::vec<T>(corners_in_segment[i]);
+    image.residual(frame, corners, in.residual);
+    return true;
+  }
+};
+
+/// Reprojection of one tag of a body that is being measured: further blocks are the
+/// lengths, the tag's rotation (x, y, z, w) and place on its segment.
+struct UnknownTagResidual {
+  HumanBone bone;
+  std::vector<Slot> slots;
+  BodyFrame body;
+  TagImage image;
+  double size_m = 0.0;
+
+  template <class... A>
+  bool operator()(A... arguments) const {
+    auto in = unpack(slots, arguments...);
+    using T = std::remove_pointer_t<decltype(in.residual)>;
+    const BoneFrame<T> frame = bone_frame<T, T>(
+        bone, std::span<const T* const, kSlotCount>(in.blocks), in.extra[0], body);
+    const Eigen::Map<const Eigen::Quaternion<T>> rotation(in.extra[1]);
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> origin(in.extra[2]);
+    std::array<Eigen::Matrix<T, 3, 1>, 4> corners;
+    for (int i = 0; i < 4; ++i) {
+      corners[static_cast<std::size_t>(i)] =
+          rotation * detail::vec<T>(corner_in_tag(i, size_m)) + origin;
+    }
+    image.residual(frame, corners, in.residual);
+    return true;
+  }
+};
+
+/// Blocks of `residual` are slots_of(bone), then `Extra...`. Each kind of bone has its
+/// own list of block sizes, which Ceres wants at compile time.
+template <int... Extra, class Functor>
+ceres::CostFunction* tag_cost(std::unique_ptr<Functor> functor) {
+  using B = HumanBone;
+  Functor* f = functor.release();
+  switch (f->bone) {
+    case B::kHips:
+      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, Extra...>(f);
+    case B::kSpine:
+    case B::kChest:
+      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, Extra...>(f);
+    case B::kUpperChest:
+      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, Extra...>(f);
+    case B::kNeck:
+    case B::kLeftShoulder:
+    case B::kRightShoulder:
+      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, Extra...>(f);
+    case B::kHead:
+      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, Extra...>(f);
+    case B::kLeftUpperArm:
+    case B::kRightUpperArm:
+      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, 1, Extra...>(
+          f);
+    case B::kLeftLowerArm:
+    case B::kRightLowerArm:
+      return new ceres::
+          AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, 1, 1, Extra...>(f);
+    case B::kLeftHand:
+    case B::kRightHand:
+      return new ceres::
+          AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, 4, 1, Extra...>(f);
+    case B::kLeftUpperLeg:
+    case B::kRightUpperLeg:
+      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 1, Extra...>(f);
+    case B::kLeftLowerLeg:
+    case B::kRightLowerLeg:
+      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 1, 1, Extra...>(f);
+    case B::kLeftFoot:
+    case B::kRightFoot:
+    case B::kLeftToes:
+    case B::kRightToes:
+      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 1, Extra...>(f);
+  }
+  return nullptr;
+}
+
+/// Second difference of a rotation over three frames, in sigmas.
+struct RotationAcceleration {
+  double sigma_rad;
+
+  template <class T>
+  bool operator()(const T* before, const T* now, const T* after, T* residual) const {
+    using Q = Eigen::Quaternion<T>;
+    const Q a = Eigen::Map<const Q>(before);
+    const Q b = Eigen::Map<const Q>(now);
+    const Q c = Eigen::Map<const Q>(after);
+    Eigen::Map<Eigen::Matrix<T, 3, 1>> out(residual);
+    out = (log_rotation<T>(c * b.conjugate()) - log_rotation<T>(b * a.conjugate())) /
+          T(sigma_rad);
+    return true;
+  }
+};
+
+/// Second difference of N plain numbers, in sigmas.
+template <int N>
+struct Acceleration {
+  double sigma;
+
+  template <class T>
+  bool operator()(const T* before, const T* now, const T* after, T* residual) const {
+    for (int i = 0; i < N; ++i) {
+      residual[i] = (after[i] - 2.0 * now[i] + before[i]) / sigma;
+    }
+    return true;
+  }
+};
+
+/// `child` should be turned against `parent` by `parent_from_child`, give or take.
+struct RelativeRotationPrior {
+  glm::dquat parent_from_child;
+  glm::dvec3 sigma_rad;  ///< About the child's own axes.
+
+  template <class T>
+  bool operator()(const T* parent, const T* child, T* residual) const {
+    using Q = Eigen::Quaternion<T>;
+    const Q p = Eigen::Map<const Q>(parent);
+    const Q c = Eigen::Map<const Q>(child);
+    const Q expected(T(parent_from_child.w),
+                     T(parent_from_child.x),
+                     T(parent_from_child.y),
+                     T(parent_from_child.z));
+    const auto off = log_rotation<T>((p * expected).conjugate() * c);
+    for (int i = 0; i < 3; ++i) residual[i] = off[i] / sigma_rad[i];
+    return true;
+  }
+};
+
+/// `middle` should be half way between `lower` and `upper`: a spine bends evenly.
+struct HalfwayPrior {
+  double sigma_rad;
+
+  template <class T>
+  bool operator()(const T* lower, const T* middle, const T* upper, T* residual) const {
+    using Q = Eigen::Quaternion<T>;
+    const Q half =
+        detail::halfway<T>(Q(Eigen::Map<const Q>(lower)), Q(Eigen::Map<const Q>(upper)));
+    const auto off = log_rotation<T>(half.conjugate() * Q(Eigen::Map<const Q>(middle)));
+    for (int i = 0; i < 3; ++i) residual[i] = off[i] / T(sigma_rad);
+    return true;
+  }
+};
+
+/// A number should be near `expected`, give or take.
+struct ScalarPrior {
+  double expected;
+  double sigma;
+
+  template <class T>
+  bool operator()(const T* value, T* residual) const {
+    residual[0] = (value[0] - expected) / sigma;
+    return true;
+  }
+};
+
+/// A joint angle should not fall under `minimum_rad`: free above, a spring below.
+struct FlexionLimit {
+  double minimum_rad;
+  double sigma_rad;
+
+  template <class T>
+  bool operator()(const T* flexion, T* residual) const {
+    residual[0] =
+        flexion[0] < minimum_rad ? (flexion[0] - minimum_rad) / sigma_rad : T(0);
+    return true;
+  }
+};
+
+/// The bone stands upright: its Y axis up; its Z axis level (always), its X axis level
+/// (if `roll`).
+struct UprightPrior {
+  double sigma_rad;
+  bool roll;
+
+  template <class T>
+  bool operator()(const T* world_from_bone, T* residual) const {
+    using Q = Eigen::Quaternion<T>;
+    const Q q = Eigen::Map<const Q>(world_from_bone);
+    const Eigen::Matrix<T, 3, 1> up =
+        q.conjugate() * Eigen::Matrix<T, 3, 1>(T(0), T(1), T(0));
+    residual[0] = up.z() / T(sigma_rad);
+    residual[1] = roll ? up.x() / T(sigma_rad) : T(0);
+    return true;
+  }
+};
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: what is known of postures before anybody looks, and how the
+// terms of posture_residuals.h are put into a Ceres problem.
+
+#include <ceres/ceres.h>
+
+#include "core/time.h"
+#include "reconstruct/posture_residuals.h"
+#include "reconstruct/sightings.h"
+
+namespace marey::reconstruct {
+
+/// One tag in one image as a residual's constant part.
+[[nodiscard]] TagImage tag_image(const Camera& camera, const TagDetection& tag);
+
+/// The bone's blocks in `posture`, in slots_of() order.
+[[nodiscard]] std::vector<double*> blocks_of(Posture& posture, HumanBone bone);
+
+/// Human limits and habits: a spine bends evenly, collar bones, hands and feet do not
+/// turn far, elbows and knees do not bend backward. Wide next to any measurement; they
+/// decide only what no camera sees.
+void add_habits(Posture& posture, const Lengths& lengths, ceres::Problem& problem);
+
+/// A person standing still and upright, feet flat, hands in line with the forearms: what
+/// gives a static trial's bones their directions.
+void add_standing(Posture& posture, const Lengths& lengths, ceres::Problem& problem);
+
+/// Bodies do not jerk: white-noise acceleration over three neighbouring frames. The
+/// sigmas follow the frame rate (variance of a second difference of integrated white
+/// noise is proportional to the cube of the time step).
+void add_smoothness(Posture& before,
+                    Posture& now,
+                    Posture& after,
+                    FrameRate rate,
+                    ceres::Problem& problem);
+
+/// Tells Ceres which blocks of the posture are rotations. Call once its blocks are in
+/// use.
+void set_manifolds(Posture& posture, ceres::Problem& problem);
+
+/// Keeps the posture as it is.
+void hold(Posture& posture, ceres::Problem& problem);
+
+/// Options that give the same bytes on every run: one thread, no clock.
+[[nodiscard]] ceres::Solver::Options solver_options(int max_iterations);
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/segment_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "reconstruct/find_joint_centres.h"
+
+namespace marey::reconstruct {
+namespace {
+
+using B = HumanBone;
+
+/// Rotation that takes the directions a1, a2 (to be made perpendicular, a1 kept) of one
+/// frame onto b1, b2 of another.
+glm::dquat align(glm::dvec3 a1, glm::dvec3 a2, glm::dvec3 b1, glm::dvec3 b2) {
+  const auto basis = [](const glm::dvec3& first, const glm::dvec3& second) {
+    const glm::dvec3 x = glm::normalize(first);
+    const glm::dvec3 y = glm::normalize(second - glm::dot(second, x) * x);
+    return glm::dmat3(x, y, glm::cross(x, y));
+  };
+  return glm::normalize(glm::quat_cast(basis(b1, b2) * glm::transpose(basis(a1, a2))));
+}
+
+/// A place inside the body under the cluster's tags.
+glm::dvec3 inside(const TagCluster& cluster) {
+  glm::dvec3 sum(0.0);
+  for (const auto& [tag, cluster_from_tag] : cluster.cluster_from_tag) {
+    sum += cluster_from_tag * glm::dvec3(0, 0, 0.05);
+  }
+  return sum / static_cast<double>(cluster.cluster_from_tag.size());
+}
+
+/// The pose that all others are nearest to: a person standing still has one.
+std::map<B, RigidTransform> typical(std::span<const ClusterPoses> frames) {
+  std::map<B, std::vector<RigidTransform>> by_bone;
+  for (const ClusterPoses& frame : frames) {
+    for (const auto& [bone, pose] : frame) by_bone[bone].push_back(pose);
+  }
+  std::map<B, RigidTransform> out;
+  for (const auto& [bone, poses] : by_bone) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const RigidTransform& candidate : poses) {
+      double sum = 0.0;
+      for (const RigidTransform& other : poses) {
+        sum += glm::length(candidate.translation - other.translation) +
+               glm::length(
+                   rotation_vector(glm::conjugate(candidate.rotation) * other.rotation));
+      }
+      if (sum < least) {
+        least = sum;
+        out[bone] = candidate;
+      }
+    }
+  }
+  return out;
+}
+
+class FrameFinder {
+ public:
+  FrameFinder(std::span<const TagCluster> clusters,
+              std::span<const ClusterPoses> standing,
+              std::span<const ClusterPoses> moving,
+              const Proportions& average)
+      : average_(average), standing_(typical(standing)) {
+    for (const TagCluster& cluster : clusters) inside_[cluster.segment] = inside(cluster);
+    frames_.assign(standing.begin(), standing.end());
+    frames_.insert(frames_.end(), moving.begin(), moving.end());
+    out_.lengths = lengths_of(average);
+    out_.body = frame_of(average);
+  }
+
+  Result<SegmentFrames> run() {
+    for (const B bone : {B::kHips, B::kUpperChest}) {
+      if (!standing_.contains(bone)) return unseen(bone);
+    }
+    for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
+      if (const Status ok = find_limb_centres(limb); !ok) return ok.error();
+    }
+    set_hips();
+    set_thorax();
+    set_trunk_lengths();
+    for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) set_limb(limb);
+    set_head();
+    for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) set_extremity(limb);
+    return out_;
+  }
+
+ private:
+  struct LimbCentres {
+    glm::dvec3 root_in_trunk{0.0};
+    glm::dvec3 root_in_upper{0.0};
+    glm::dvec3 mid_in_upper{0.0};
+    glm::dvec3 mid_in_lower{0.0};
+    glm::dvec3 end_in_lower{0.0};
+    std::optional<glm::dvec3> end_in_extremity;
+  };
+
+  static Error unseen(B bone) {
+    return bad_input("",
+                     "no tag of segment \"" + std::string(name(bone)) +
+                         "\" is seen well enough in the static and range-of-motion "
+                         "trials",
+                     "glue a tag to that segment, list it under [[tags.tag]], and let "
+                     "two cameras see it while standing and moving");
+  }
+
+  std::vector<SegmentPair> pairs(B a, B b) const {
+    std::vector<SegmentPair> out;
+    for (const ClusterPoses& frame : frames_) {
+      const auto in_a = frame.find(a);
+      const auto in_b = frame.find(b);
+      if (in_a != frame.end() && in_b != frame.end()) {
+        out.push_back({in_a->second, in_b->second});
+      }
+    }
+    return out;
+  }
+
+  std::optional<JointCentre> centre(B a, B b) const {
+    if (!inside_.contains(a) || !inside_.contains(b)) return std::nullopt;
+    return find_joint_centre(pairs(a, b), inside_.at(a), inside_.at(b));
+  }
+
+  Status find_limb_centres(std::size_t limb) {
+    const HumanLimb& bones = human_limbs()[limb];
+    const B trunk = limb < 2 ? B::kUpperChest : B::kHips;
+    LimbCentres& c = centres_[limb];
+    const auto root = centre(trunk, bones.upper);
+    if (!root) return unseen(bones.upper);
+    const auto mid = centre(bones.upper, bones.lower);
+    if (!mid) return unseen(bones.lower);
+    c.root_in_trunk = root->p_in_a;
+    c.root_in_upper = root->p_in_b;
+    c.mid_in_upper = mid->p_in_a;
+    c.mid_in_lower = mid->p_in_b;
+    if (const auto end = centre(bones.lower, bones.end)) {
+      c.end_in_lower = end->p_in_a;
+      c.end_in_extremity = end->p_in_b;
+      return Done{};
+    }
+    // No hand or foot to see: the limb goes on straight while standing.
+    if (!standing_.contains(bones.upper) || !standing_.contains(bones.lower)) {
+      return unseen(bones.end);
+    }
+    const glm::dvec3 along = glm::normalize(standing_.at(bones.upper).rotation *
+                                            (c.mid_in_upper - c.root_in_upper));
+    const double length_m = glm::length(average_[bones.end]);
+    c.end_in_lower = c.mid_in_lower + glm::conjugate(standing_.at(bones.lower).rotation) *
+                                          (along * length_m);
+    return Done{};
+  }
+
+  void set_hips() {
+    const RigidTransform& world = standing_.at(B::kHips);
+    const glm::dvec3 left = centres_[2].root_in_trunk;
+    const glm::dvec3 right = centres_[3].root_in_trunk;
+    const glm::dvec3 up = glm::conjugate(world.rotation) * glm::dvec3(0, 1, 0);
+    const glm::dquat turn = align(left - right, up, {1, 0, 0}, {0, 1, 0});
+    const glm::dvec3 origin = turn * (0.5 * (left + right)) +
+                              glm::dvec3(0, out_.body.hips_above_hip_centres_m, 0);
+    out_.segment_from_cluster[B::kHips] = {turn, -origin};
+    out_.lengths[index(Length::kHalfHipWidth)] = 0.5 * glm::length(left - right);
+  }
+
+  void set_thorax() {
+    const RigidTransform& world = standing_.at(B::kUpperChest);
+    const glm::dvec3 left = centres_[0].root_in_trunk;
+    const glm::dvec3 right = centres_[1].root_in_trunk;
+    const glm::dvec3 up = glm::conjugate(world.rotation) * glm::dvec3(0, 1, 0);
+    const glm::dquat turn = align(left - right, up, {1, 0, 0}, {0, 1, 0});
+    const glm::dvec3 base = out_.body.left_shoulder_in_thorax;
+    const glm::dvec3 origin =
+        turn * (0.5 * (left + right)) - glm::dvec3(0, base.y, base.z);
+    out_.segment_from_cluster[B::kUpperChest] = {turn, -origin};
+    const double clavicle_m = std::max(0.05, 0.5 * glm::length(left - right) - base.x);
+    out_.lengths[index(Length::kLeftShoulder)] = clavicle_m;
+    out_.lengths[index(Length::kRightShoulder)] = clavicle_m;
+  }
+
+  void set_trunk_lengths() {
+    const auto origin = [&](B bone) {
+      return (standing_.at(bone) * inverse(out_.segment_from_cluster.at(bone)))
+          .translation;
+    };
+    const double height_m = glm::distance(origin(B::kHips), origin(B::kUpperChest));
+    constexpr std::array<Length, 3> kTrunk{
+        Length::kSpine, Length::kChest, Length::kUpperChest};
+    double usual_m = 0.0;
+    for (const Length l : kTrunk) usual_m += out_.lengths[index(l)];
+    for (const Length l : kTrunk) out_.lengths[index(l)] *= height_m / usual_m;
+  }
+
+  /// Mean of upper x lower over all frames, in the frame of bone `reference`: the hinge,
+  /// with its sign, as long as the limb bends at all.
+  glm::dvec3 hinge_in(B reference, std::size_t limb) const {
+    const HumanLimb& bones = human_limbs()[limb];
+    const LimbCentres& c = centres_[limb];
+    const glm::dvec3 u = glm::normalize(c.mid_in_upper - c.root_in_upper);
+    const glm::dvec3 l = glm::normalize(c.end_in_lower - c.mid_in_lower);
+    const std::vector<SegmentPair> seen = pairs(bones.upper, bones.lower);
+    glm::dvec3 sum(0.0);
+    for (const SegmentPair& pair : seen) {
+      const glm::dvec3 hinge =
+          glm::cross(pair.world_from_a.rotation * u, pair.world_from_b.rotation * l);
+      const glm::dquat& frame = reference == bones.upper ? pair.world_from_a.rotation
+                                                         : pair.world_from_b.rotation;
+      sum += glm::conjugate(frame) * hinge;
+    }
+    return sum / std::max(1.0, static_cast<double>(seen.size()));
+  }
+
+  void set_limb(std::size_t limb) {
+    const HumanLimb& bones = human_limbs()[limb];
+    const LimbCentres& c = centres_[limb];
+    const glm::dvec3 along = limb_axis(limb);
+    const auto place = [&](B bone, const glm::dvec3& from, const glm::dvec3& to) {
+      glm::dvec3 hinge = hinge_in(bone, limb);
+      constexpr double kBendsAtAll = 0.05;  // mean sine of the flexion
+      if (glm::length(hinge) < kBendsAtAll) hinge = standing_hinge(bone, limb);
+      const glm::dquat turn = align(to - from, hinge, along, bones.hinge_axis);
+      out_.segment_from_cluster[bone] = {turn, -(turn * from)};
+    };
+    place(bones.upper, c.root_in_upper, c.mid_in_upper);
+    place(bones.lower, c.mid_in_lower, c.end_in_lower);
+    out_.lengths[index(kLimbSlots[limb].upper)] =
+        glm::distance(c.root_in_upper, c.mid_in_upper);
+    out_.lengths[index(kLimbSlots[limb].lower)] =
+        glm::distance(c.mid_in_lower, c.end_in_lower);
+  }
+
+  /// A limb that never bent: as if its hinge stood as in a T-pose turned to hang.
+  glm::dvec3 standing_hinge(B bone, std::size_t limb) const {
+    const B trunk = limb < 2 ? B::kUpperChest : B::kHips;
+    const glm::dquat world_from_trunk =
+        standing_.at(trunk).rotation *
+        glm::conjugate(out_.segment_from_cluster.at(trunk).rotation);
+    const auto here = standing_.find(bone);
+    const glm::dquat world =
+        here != standing_.end() ? here->second.rotation : world_from_trunk;
+    const glm::dvec3 axis =
+        limb < 2 ? glm::dvec3(limb == 0 ? -1.0 : 1.0, 0.0, 0.0) : glm::dvec3(1, 0, 0);
+    return glm::conjugate(world) * (world_from_trunk * axis);
+  }
+
+  glm::dquat standing_rotation(B bone) const {
+    return standing_.at(bone).rotation *
+           glm::conjugate(out_.segment_from_cluster.at(bone).rotation);
+  }
+
+  void set_head() {
+    if (!standing_.contains(B::kHead)) return;
+    const RigidTransform thorax = standing_.at(B::kUpperChest) *
+                                  inverse(out_.segment_from_cluster.at(B::kUpperChest));
+    const double neck_m =
+        out_.lengths[index(Length::kNeck)] + out_.lengths[index(Length::kHead)];
+    place_standing(
+        B::kHead,
+        align({0, 1, 0}, {1, 0, 0}, {0, 1, 0}, thorax.rotation * glm::dvec3(1, 0, 0)),
+        thorax * glm::dvec3(0, neck_m, 0));
+  }
+
+  void set_extremity(std::size_t limb) {
+    const HumanLimb& bones = human_limbs()[limb];
+    const LimbCentres& c = centres_[limb];
+    if (!c.end_in_extremity) return;
+    if (!standing_.contains(bones.end) || !standing_.contains(bones.lower)) {
+      set_extremity_moving(limb);
+      return;
+    }
+    const glm::dquat lower = standing_rotation(bones.lower);
+    const glm::dquat flat =
+        align({0, 1, 0}, {1, 0, 0}, {0, 1, 0}, lower * glm::dvec3(1, 0, 0));
+    const glm::dquat world = limb < 2 ? lower : flat;
+    const glm::dquat turn = glm::conjugate(world) * standing_.at(bones.end).rotation;
+    out_.segment_from_cluster[bones.end] = {turn, -(turn * *c.end_in_extremity)};
+  }
+
+  /// A hand or foot not seen while standing: in line with the limb on average.
+  void set_extremity_moving(std::size_t limb) {
+    const HumanLimb& bones = human_limbs()[limb];
+    glm::dquat sum(0, 0, 0, 0);
+    for (const SegmentPair& pair : pairs(bones.lower, bones.end)) {
+      const glm::dquat lower =
+          pair.world_from_a.rotation *
+          glm::conjugate(out_.segment_from_cluster.at(bones.lower).rotation);
+      const glm::dquat turn = glm::conjugate(lower) * pair.world_from_b.rotation;
+      sum = glm::dot(sum, turn) < 0.0 ? sum - turn : sum + turn;
+    }
+    const glm::dquat turn = glm::normalize(sum);
+    out_.segment_from_cluster[bones.end] = {turn,
+                                            -(turn * *centres_[limb].end_in_extremity)};
+  }
+
+  void place_standing(B bone, const glm::dquat& world, const glm::dvec3& origin) {
+    const RigidTransform world_from_segment{world, origin};
+    out_.segment_from_cluster[bone] = inverse(world_from_segment) * standing_.at(bone);
+  }
+
+  const Proportions& average_;
+  std::map<B, RigidTransform> standing_;
+  std::map<B, glm::dvec3> inside_;
+  std::vector<ClusterPoses> frames_;
+  std::array<LimbCentres, 4> centres_;
+  SegmentFrames out_;
+};
+
+}  // namespace
+
+Result<SegmentFrames> find_segment_frames(std::span<const TagCluster> clusters,
+                                          std::span<const ClusterPoses> standing,
+                                          std::span<const ClusterPoses> moving,
+                                          const Proportions& average) {
+  return FrameFinder(clusters, standing, moving, average).run();
+}
+
+}  // namespace marey::reconstruct

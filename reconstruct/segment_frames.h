@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: from rigid clusters that move to bones with names, lengths and
+// directions. The first guess of a subject's fit.
+
+#include <map>
+#include <span>
+#include <vector>
+
+#include "core/result.h"
+#include "reconstruct/posture.h"
+#include "reconstruct/tag_clusters.h"
+
+namespace marey::reconstruct {
+
+/// world_from_cluster of every cluster located in one frame, by segment.
+using ClusterPoses = std::map<HumanBone, RigidTransform>;
+
+struct SegmentFrames {
+  Lengths lengths{};
+  BodyFrame body;
+  std::map<HumanBone, RigidTransform> segment_from_cluster;
+};
+
+/// Finds joint centres between neighbouring clusters, hinge axes of elbows and knees (the
+/// direction about which the limb bends: the sum of upper x lower over all frames), and
+/// from the standing frames which way is up for hips, chest, head, feet and hands.
+///
+/// `standing` and `moving` are frames of a person standing still and upright, and moving
+/// every joint. What movement does not show is taken from `average`.
+/// Errors (kBadInput, `where` empty): a segment that must carry a tag has none, or is
+/// never seen together with its neighbour.
+[[nodiscard]] Result<SegmentFrames> find_segment_frames(
+    std::span<const TagCluster> clusters,
+    std::span<const ClusterPoses> standing,
+    std::span<const ClusterPoses> moving,
+    const Proportions& average);
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/subject_bundle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+#include <glm/geometric.hpp>
+
+#include "reconstruct/posture_terms.h"
+
+namespace marey::reconstruct {
+namespace {
+
+struct LengthDifference {
+  Length a;
+  Length b;
+  double sigma_m;
+
+  template <class T>
+  bool operator()(const T* lengths, T* residual) const {
+    residual[0] = (lengths[index(a)] - lengths[index(b)]) / sigma_m;
+    return true;
+  }
+};
+
+struct UsualLengths {
+  Lengths usual;
+
+  template <class T>
+  bool operator()(const T* lengths, T* residual) const {
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+      // People differ by a tenth; small parts are known no better than to a centimetre.
+      residual[i] = (lengths[i] - usual[i]) / std::max(0.012, 0.10 * usual[i]);
+    }
+    return true;
+  }
+};
+
+void add_length_priors(SubjectBundle& bundle, ceres::Problem& problem) {
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<UsualLengths, kLengthCount, kLengthCount>(
+          new UsualLengths{bundle.usual}),
+      nullptr,
+      bundle.model.lengths.data());
+  for (int left = static_cast<int>(Length::kLeftShoulder); left < kLengthCount;
+       left += 2) {
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<LengthDifference, 1, kLengthCount>(
+            new LengthDifference{Length{left}, Length{left + 1}, 0.008}),
+        nullptr,
+        bundle.model.lengths.data());
+  }
+}
+
+void add_sightings(SubjectBundle& bundle,
+                   BundleFrame& frame,
+                   std::span<const Camera> cameras,
+                   ceres::Problem& problem) {
+  for (const TagSighting& sighting : frame.sightings) {
+    const auto placed = bundle.model.segment_from_tag.find(sighting.tag);
+    if (placed == bundle.model.segment_from_tag.end()) continue;
+    const TagOnSegment& tag = bundle.model.tags[sighting.tag];
+    const HumanBone bone = bundle.model.bone(sighting.tag);
+    auto residual = std::make_unique<UnknownTagResidual>(UnknownTagResidual{
+        bone,
+        slots_of(bone),
+        bundle.model.body,
+        tag_image(cameras[index(sighting.camera)], *sighting.detection),
+        tag.size_m});
+    std::vector<double*> blocks = blocks_of(frame.posture, bone);
+    blocks.push_back(bundle.model.lengths.data());
+    blocks.push_back(&placed->second.rotation.x);
+    blocks.push_back(&placed->second.translation.x);
+    problem.AddResidualBlock(
+        tag_cost<kLengthCount, 4, 3>(std::move(residual)), tag_loss(), blocks);
+  }
+}
+
+void measure(SubjectBundle& bundle, std::span<const Camera> cameras) {
+  std::vector<double> errors;
+  double sum = 0.0;
+  for (const BundleFrame& frame : bundle.frames) {
+    for (const TagSighting& s : frame.sightings) {
+      if (!bundle.model.place(s.tag)) continue;
+      for (const double error :
+           corner_errors_px(bundle.model, s, cameras, frame.posture)) {
+        errors.push_back(error);
+        sum += error * error;
+      }
+    }
+  }
+  if (errors.empty()) return;
+  bundle.rms_px = std::sqrt(sum / static_cast<double>(errors.size()));
+  std::nth_element(errors.begin(),
+                   errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
+                   errors.end());
+  bundle.median_px = errors[errors.size() / 2];
+}
+
+/// Covariance of the subject's own blocks: frames share nothing but the subject, so they
+/// are eliminated one by one (Schur complement).
+void fill_sigmas(SubjectBundle& bundle, ceres::Problem& problem) {
+  ceres::Problem::EvaluateOptions options;
+  std::vector<int> frame_sizes;
+  for (BundleFrame& frame : bundle.frames) {
+    int size = 0;
+    for (const Slot slot : kAllSlots) {
+      double* block = frame.posture.block(slot);
+      if (!problem.HasParameterBlock(block)) continue;
+      options.parameter_blocks.push_back(block);
+      size += tangent_size(slot);
+    }
+    frame_sizes.push_back(size);
+  }
+  options.parameter_blocks.push_back(bundle.model.lengths.data());
+  int subject_size = kLengthCount;
+  for (auto& [tag, pose] : bundle.model.segment_from_tag) {
+    options.parameter_blocks.push_back(&pose.rotation.x);
+    options.parameter_blocks.push_back(&pose.translation.x);
+    subject_size += 6;
+  }
+  ceres::CRSMatrix crs;
+  std::vector<double> residuals;
+  if (!problem.Evaluate(options, nullptr, &residuals, nullptr, &crs)) return;
+  using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+  const Eigen::Map<const Sparse> jacobian(crs.num_rows,
+                                          crs.num_cols,
+                                          static_cast<Eigen::Index>(crs.values.size()),
+                                          crs.rows.data(),
+                                          crs.cols.data(),
+                                          crs.values.data());
+  const Sparse hessian = Sparse(jacobian.transpose()) * jacobian;
+  const int first_subject = crs.num_cols - subject_size;
+  Eigen::MatrixXd subject =
+      hessian.block(first_subject, first_subject, subject_size, subject_size);
+  int start = 0;
+  for (const int size : frame_sizes) {
+    Eigen::MatrixXd own = hessian.block(start, start, size, size);
+    own.diagonal().array() += 1e-9;
+    const Eigen::MatrixXd cross = hessian.block(start, first_subject, size, subject_size);
+    subject -= cross.transpose() * own.ldlt().solve(cross);
+    start += size;
+  }
+  subject.diagonal().array() += 1e-9;
+  const Eigen::MatrixXd covariance =
+      subject.ldlt().solve(Eigen::MatrixXd::Identity(subject_size, subject_size));
+
+  // Residuals larger than their sigmas say that the sigmas are too small. Corner errors
+  // have two coordinates; the median distance of unit noise is 1.177.
+  double sigma_px = 0.0;
+  int count = 0;
+  for (const BundleFrame& frame : bundle.frames) {
+    for (const TagSighting& s : frame.sightings) {
+      sigma_px += s.detection->sigma_px;
+      ++count;
+    }
+  }
+  sigma_px /= std::max(1, count);
+  const double scale = std::max(1.0, bundle.median_px / (1.177 * sigma_px));
+  const auto variance = [&](int i) { return std::max(0.0, covariance(i, i)); };
+  for (int i = 0; i < kLengthCount; ++i) {
+    bundle.length_sigma_m[static_cast<std::size_t>(i)] = scale * std::sqrt(variance(i));
+  }
+  int column = kLengthCount;
+  for (const auto& [tag, pose] : bundle.model.segment_from_tag) {
+    const auto rms = [&](int from) {
+      return scale *
+             std::sqrt((variance(from) + variance(from + 1) + variance(from + 2)) / 3.0);
+    };
+    // Ceres' quaternion tangent is half the rotation vector.
+    bundle.tag_sigma[tag] = {rms(column + 3), 2.0 * rms(column)};
+    column += 6;
+  }
+}
+
+}  // namespace
+
+bool adjust(SubjectBundle& bundle,
+            std::span<const Camera> cameras,
+            int max_iterations,
+            bool sigmas) {
+  ceres::Problem problem;
+  for (BundleFrame& frame : bundle.frames) {
+    add_sightings(bundle, frame, cameras, problem);
+    add_habits(frame.posture, bundle.model.lengths, problem);
+    if (frame.standing) add_standing(frame.posture, bundle.model.lengths, problem);
+    set_manifolds(frame.posture, problem);
+  }
+  for (auto& [tag, pose] : bundle.model.segment_from_tag) {
+    if (!problem.HasParameterBlock(&pose.rotation.x)) {
+      // Placed, but not in a chosen frame: it keeps its place.
+      problem.AddParameterBlock(&pose.rotation.x, 4);
+      problem.AddParameterBlock(&pose.translation.x, 3);
+    }
+    problem.SetManifold(&pose.rotation.x, new ceres::EigenQuaternionManifold);
+  }
+  add_length_priors(bundle, problem);
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options(max_iterations), &problem, &summary);
+  if (!summary.IsSolutionUsable()) return false;
+  measure(bundle, cameras);
+  if (sigmas) fill_sigmas(bundle, problem);
+  return true;
+}
+
+}  // namespace marey::reconstruct

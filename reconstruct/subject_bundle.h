@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: the joint refinement behind fit_subject().
+
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "core/body.h"
+#include "core/camera.h"
+#include "reconstruct/body_model.h"
+
+namespace marey::reconstruct {
+
+/// One instant that the bundle looks at.
+struct BundleFrame {
+  std::span<const TagSighting> sightings;
+  bool standing = false;
+  Posture posture;
+};
+
+struct SubjectBundle {
+  BodyModel model;
+  Lengths usual{};  ///< Of an average person: the prior.
+  std::vector<BundleFrame> frames;
+
+  // Filled by adjust().
+  Lengths length_sigma_m{};
+  std::map<std::size_t, std::array<double, 2>> tag_sigma;  ///< [m], [rad]
+  double rms_px = 0.0;
+  double median_px = 0.0;
+};
+
+/// Moves lengths, tag poses and postures to the least reprojection. With `sigmas`, also
+/// fills the sigmas. False when the solver finds no usable minimum.
+[[nodiscard]] bool adjust(SubjectBundle& bundle,
+                          std::span<const Camera> cameras,
+                          int max_iterations,
+                          bool sigmas);
+
+}  // namespace marey::reconstruct
