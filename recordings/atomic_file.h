@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "core/result.h"
+
+namespace marey::recordings {
+
+/// A file being written beside its final place (PATH.partial). It appears at PATH, whole
+/// and at once, with commit(); without one, or after any failure, nothing is left behind.
+///
+///   Result<AtomicFile> file = AtomicFile::create(path);
+///   if (!file) return file.error();
+///   file->append(bytes);  // As often as needed; a failure shows in commit().
+///   return file->commit();
+class AtomicFile {
+ public:
+  /// Opens PATH.partial, creating parent folders. Errors (kBadInput): `path` is a folder,
+  /// or its folder cannot be created or written to.
+  [[nodiscard]] static Result<AtomicFile> create(const std::filesystem::path& path);
+
+  AtomicFile(AtomicFile&& other) noexcept;
+  AtomicFile& operator=(AtomicFile&&) = delete;
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+  ~AtomicFile();
+
+  /// Writes at the end. What goes wrong here is kept for commit().
+  /// Precondition: not committed.
+  void append(std::string_view bytes);
+
+  /// Puts the file in its place. Errors (kDevice): the disk is full or failed.
+  /// Precondition: not committed.
+  [[nodiscard]] Status commit();
+
+ private:
+  explicit AtomicFile(std::filesystem::path path);
+  void discard();
+
+  std::filesystem::path path_;
+  std::filesystem::path partial_;
+  std::ofstream stream_;
+  bool open_ = false;  ///< The partial file is ours to commit or to remove.
+};
+
+/// Writes `bytes` to `path`, replacing the file at once or not at all; creates parent
+/// folders. Errors as AtomicFile's.
+[[nodiscard]] Status write_file(const std::filesystem::path& path,
+                                std::string_view bytes);
+
+/// The bytes of the file at `path`. Errors: it does not exist, is a folder or may not be
+/// read (kBadInput); the disk failed (kDevice).
+[[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
+
+}  // namespace marey::recordings
