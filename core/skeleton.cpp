@@ -40,7 +40,7 @@ Proportions average_proportions(double stature_m) {
   p[B::kLeftUpperArm] = {0.090, 0, 0};
   p[B::kLeftLowerArm] = {0.186, 0, 0};
   p[B::kLeftHand] = {0.146, 0, 0};
-  p[B::kLeftUpperLeg] = {0.052, -0.030, 0};
+  p[B::kLeftUpperLeg] = {0.052, -0.010, 0};
   p[B::kLeftLowerLeg] = {0, -0.245, 0};
   p[B::kLeftFoot] = {0, -0.246, 0};
   p[B::kLeftToes] = {0, -0.027, 0.080};
