@@ -1,0 +1,343 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/assert.h"
+#include "core/humanoid.h"
+#include "core/pose.h"
+#include "recordings/atomic_file.h"
+#include "recordings/bvh.h"
+#include "recordings/text_reader.h"
+#include "recordings/travelling_joint.h"
+
+namespace marey::recordings {
+namespace {
+
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+
+std::string lower(std::string_view word) {
+  std::string text(word);
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+std::string in_quotes(std::string_view word) {
+  std::string text(1, '\'');
+  text.append(word.substr(0, 40));  // A broken file may hold very long words.
+  return text + '\'';
+}
+
+struct Channel {
+  bool is_rotation = false;
+  int axis = 0;  ///< 0 X, 1 Y, 2 Z.
+};
+
+/// Skeleton, channels of each joint, and frames, in the file's units.
+struct BvhFile {
+  Skeleton skeleton;
+  std::vector<std::vector<Channel>> channels;
+  std::size_t values_per_frame = 0;
+  double frame_time_s = 0.0;
+  std::vector<double> values;  ///< Frame after frame.
+};
+
+class Parser {
+ public:
+  Parser(std::string_view text, const std::string& file) : reader_(text, file) {}
+
+  Result<BvhFile> parse() {
+    for (const auto step : {&Parser::hierarchy, &Parser::motion_head, &Parser::frames}) {
+      if (const Status done = (this->*step)(); !done) return done.error();
+    }
+    return std::move(file_);
+  }
+
+ private:
+  [[nodiscard]] Error fail(std::string cause) const {
+    return bad_input(reader_.where(),
+                     std::move(cause),
+                     "export the file again, or mend that line in a text editor");
+  }
+
+  Status expect(std::string_view keyword) {
+    const std::string_view found = reader_.word();
+    if (lower(found) == lower(keyword)) return Done{};
+    if (found.empty()) {
+      return fail("the file ends where " + in_quotes(keyword) + " should be");
+    }
+    return fail("expected " + in_quotes(keyword) + ", found " + in_quotes(found));
+  }
+
+  Result<double> number(std::string_view what) {
+    const std::string_view found = reader_.word_on_line();
+    const auto value = to_number(found);
+    if (value) return *value;
+    return fail("expected a number for " + std::string(what) + ", found " +
+                in_quotes(found));
+  }
+
+  Result<glm::dvec3> offset() {
+    if (const Status s = expect("OFFSET"); !s) return s.error();
+    glm::dvec3 value(0.0);
+    for (int i = 0; i < 3; ++i) {
+      const auto coordinate = number("OFFSET");
+      if (!coordinate) return coordinate.error();
+      value[i] = *coordinate;
+    }
+    return value;
+  }
+
+  Status channels() {
+    const auto count = to_integer(reader_.word_on_line());
+    if (!count || *count < 0 || *count > 6) {
+      return fail("expected 0 to 6 channels");
+    }
+    std::vector<Channel> found;
+    for (int i = 0; i < *count; ++i) {
+      const std::string word = lower(reader_.word_on_line());
+      const bool is_rotation = word.size() == 9 && word.ends_with("rotation");
+      const bool is_position = word.size() == 9 && word.ends_with("position");
+      if ((!is_rotation && !is_position) || word[0] < 'x' || word[0] > 'z') {
+        return fail("unknown channel " + in_quotes(word));
+      }
+      found.push_back({is_rotation, word[0] - 'x'});
+    }
+    if (!reader_.rest_of_line().empty()) {
+      return fail("there are more than the " + std::to_string(*count) +
+                  " channels announced");
+    }
+    file_.values_per_frame += found.size();
+    file_.channels.back() = std::move(found);
+    return Done{};
+  }
+
+  /// A name may hold blanks; a brace may stand behind it.
+  Result<std::string> name() {
+    std::string text(reader_.rest_of_line());
+    if (text.ends_with('{')) {
+      text.pop_back();
+      brace_read_ = true;
+      while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) {
+        text.pop_back();
+      }
+    }
+    return text;
+  }
+
+  Status open_brace() {
+    if (std::exchange(brace_read_, false)) return Done{};
+    return expect("{");
+  }
+
+  Status begin_joint(std::optional<JointIndex> parent) {
+    Joint joint;
+    joint.parent = parent;
+    const auto text = name();
+    if (!text) return text.error();
+    if (text->empty()) return fail("a joint has no name");
+    joint.name = *text;
+    joint.bone = human_bone(joint.name);
+    if (joint.bone && file_.skeleton.find(*joint.bone)) {
+      return fail("the joint " + in_quotes(joint.name) + " is there twice");
+    }
+    if (const Status s = open_brace(); !s) return s;
+    const auto from_parent = offset();
+    if (!from_parent) return from_parent.error();
+    joint.parent_from_joint.translation = *from_parent;
+    file_.skeleton.joints.push_back(std::move(joint));
+    file_.channels.emplace_back();
+    return Done{};
+  }
+
+  Status end_site(JointIndex joint) {
+    (void)name();  // "Site", sometimes with a brace or a name behind it.
+    if (const Status s = open_brace(); !s) return s;
+    const auto tip = offset();
+    if (!tip) return tip.error();
+    file_.skeleton.joints[index(joint)].tip_in_joint = *tip;
+    return expect("}");
+  }
+
+  Status hierarchy() {
+    if (const Status s = expect("HIERARCHY"); !s) return s;
+    if (const Status s = expect("ROOT"); !s) return s;
+    if (const Status s = begin_joint(std::nullopt); !s) return s;
+    std::vector<JointIndex> open{JointIndex{0}};
+    while (!open.empty()) {
+      const std::string_view word = reader_.word();
+      const std::string keyword = lower(word);
+      Status done = Done{};
+      if (keyword == "joint") {
+        done = begin_joint(open.back());
+        open.push_back(JointIndex{static_cast<int>(file_.skeleton.joints.size()) - 1});
+      } else if (keyword == "channels") {
+        done = channels();
+      } else if (keyword == "end") {
+        done = end_site(open.back());
+      } else if (keyword == "}") {
+        open.pop_back();
+      } else if (keyword.empty()) {
+        done = fail("the file ends inside the HIERARCHY");
+      } else {
+        done =
+            fail("expected JOINT, CHANNELS, End Site or '}', found " + in_quotes(word));
+      }
+      if (!done) return done;
+    }
+    return Done{};
+  }
+
+  Status motion_head() {
+    if (lower(reader_.peek()) == "root") {
+      (void)reader_.word();
+      return fail("the file holds a second ROOT; marey reads one body per file");
+    }
+    if (const Status s = expect("MOTION"); !s) return s;
+    if (const Status s = expect("Frames:"); !s) return s;
+    const auto count = to_integer(reader_.word_on_line());
+    if (!count || *count < 0) return fail("expected the number of frames");
+    frame_count_ = *count;
+    if (const Status s = expect("Frame"); !s) return s;
+    if (const Status s = expect("Time:"); !s) return s;
+    const auto time = number("Frame Time");
+    if (!time) return time.error();
+    if (*time <= 0.0) return fail("Frame Time must be above zero");
+    file_.frame_time_s = *time;
+    return Done{};
+  }
+
+  Status frames() {
+    for (int frame = 0; frame < frame_count_; ++frame) {
+      reader_.skip_blank();
+      if (reader_.at_end()) {
+        return fail("expected " + std::to_string(frame_count_) + " frames, found " +
+                    std::to_string(frame));
+      }
+      if (const Status s = frame_values(); !s) return s;
+    }
+    reader_.skip_blank();
+    if (reader_.at_end()) return Done{};
+    return fail("there is more than the " + std::to_string(frame_count_) +
+                " frames announced");
+  }
+
+  Status frame_values() {
+    std::size_t found = 0;
+    for (auto word = reader_.word_on_line(); !word.empty();
+         word = reader_.word_on_line(), ++found) {
+      const auto value = to_number(word);
+      if (!value) {
+        return fail(in_quotes(word) + " is not a number");
+      }
+      file_.values.push_back(*value);
+    }
+    if (found == file_.values_per_frame) return Done{};
+    return fail("expected " + std::to_string(file_.values_per_frame) + " values, found " +
+                std::to_string(found));
+  }
+
+  TextReader reader_;
+  BvhFile file_;
+  int frame_count_ = 0;
+  bool brace_read_ = false;
+};
+
+/// One joint's channels: its place against its parent and its rotation.
+RigidTransform local_transform(const Joint& joint,
+                               const std::vector<Channel>& channels,
+                               const double* values,
+                               double unit_m) {
+  RigidTransform local = joint.parent_from_joint;
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const auto [is_rotation, axis] = channels[i];
+    if (is_rotation) {
+      glm::dvec3 direction(0.0);
+      direction[axis] = 1.0;
+      local.rotation =
+          local.rotation * glm::angleAxis(values[i] * kRadiansPerDegree, direction);
+    } else {
+      local.translation[axis] = values[i] * unit_m;
+    }
+  }
+  local.rotation = glm::normalize(local.rotation);
+  return local;
+}
+
+/// How high the first joint stands when the rest pose stands on the floor. [m]
+double standing_height(const Skeleton& skeleton) {
+  const auto world_from_joint = world_from_joints(skeleton, rest_pose(skeleton));
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < world_from_joint.size(); ++i) {
+    const auto tip = skeleton.joints[i].tip_in_joint;
+    lowest = std::min(lowest, world_from_joint[i].translation.y);
+    if (tip) lowest = std::min(lowest, (world_from_joint[i] * *tip).y);
+  }
+  return world_from_joint[0].translation.y - lowest;
+}
+
+void to_metres(Skeleton& skeleton, double unit_m) {
+  for (Joint& joint : skeleton.joints) {
+    joint.parent_from_joint.translation *= unit_m;
+    if (joint.tip_in_joint) *joint.tip_in_joint *= unit_m;
+  }
+  glm::dvec3& root = skeleton.joints[0].parent_from_joint.translation;
+  if (root == glm::dvec3(0.0)) root.y = standing_height(skeleton);
+}
+
+FrameRate rate_of(double frame_time_s) {
+  const double hz = 1.0 / frame_time_s;
+  const double whole = std::round(hz);
+  return {whole > 0.0 && std::abs(hz - whole) < 1e-4 * hz ? whole : hz};
+}
+
+BvhMotion motion_of(BvhFile file, double unit_m) {
+  BvhMotion result;
+  to_metres(file.skeleton, unit_m);
+  result.motion.skeleton = std::move(file.skeleton);
+  result.motion.rate = rate_of(file.frame_time_s);
+  const auto& joints = result.motion.skeleton.joints;
+  std::vector<RigidTransform> local(joints.size());
+  const std::size_t count =
+      file.values_per_frame == 0 ? 0 : file.values.size() / file.values_per_frame;
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    const double* values = file.values.data() + frame * file.values_per_frame;
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+      local[i] = local_transform(joints[i], file.channels[i], values, unit_m);
+      values += file.channels[i].size();
+    }
+    PosedBones posed = hand_travel_to_root(result.motion.skeleton, local);
+    result.motion.poses.push_back(std::move(posed.pose));
+    result.ignored_translation_m =
+        std::max(result.ignored_translation_m, posed.ignored_translation_m);
+  }
+  return result;
+}
+
+}  // namespace
+
+Result<BvhMotion> parse_bvh(std::string_view text,
+                            const std::string& file,
+                            const BvhReadOptions& options) {
+  MAREY_ASSERT(options.unit_m > 0.0);
+  Result<BvhFile> parsed = Parser(text, file).parse();
+  if (!parsed) return parsed.error();
+  return motion_of(*std::move(parsed), options.unit_m);
+}
+
+Result<BvhMotion> read_bvh(const std::filesystem::path& path,
+                           const BvhReadOptions& options) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return text.error();
+  return parse_bvh(*text, path.string(), options);
+}
+
+}  // namespace marey::recordings

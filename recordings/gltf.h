@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "core/motion.h"
+#include "core/result.h"
+#include "core/skeleton.h"
+#include "recordings/mesh.h"
+
+namespace marey::recordings {
+
+/// A rigged body from a glTF file.
+struct Character {
+  /// The smallest tree of nodes that holds the skins' joints and the humanoid's bones; of
+  /// all nodes when there are neither. Rests as the file's nodes do, turned to face +Z
+  /// when the file is a VRM 0.x, in which bodies face -Z.
+  Skeleton skeleton;
+  /// All skinned triangles, brought to the skeleton's rest pose; nullopt without a skin.
+  std::optional<SkinnedMesh> mesh;
+  /// The first animation, if any; its skeleton is `skeleton`.
+  std::optional<Motion> motion;
+  /// The largest movement of a joint against its parent that `motion` left out, because a
+  /// Pose moves only the root. Movement of the first joint that branches (the hips) is
+  /// handed to the root and not lost. [m]
+  double ignored_translation_m = 0.0;
+};
+
+/// Reads a .glb, .vrm, .vrma or .gltf (2.0) file.
+///
+/// Bones come from the humanoid of VRMC_vrm, VRMC_vrm_animation or VRM (0.x); without
+/// these extensions, joints named like VRM bones are those bones. The animation is
+/// sampled at the rate of its keys when they are evenly spaced at 10 Hz or more, else at
+/// 30 Hz. Vertices keep their first four joints. Scaled nodes give scaled bone lengths;
+/// morph targets, textures and materials beyond the base colour are not read.
+[[nodiscard]] Result<Character> read_character(const std::filesystem::path& path);
+
+/// Writes a GLB of the skeleton in its rest pose with its skinned mesh and, unless it is
+/// null, one animation of `motion`: linear keys at the motion's rate, the first at time
+/// 0. Nodes are named like the joints. glTF's own validator finds neither errors nor
+/// warnings. Replaces the file at once or not at all. Same input, same bytes.
+/// Precondition: the mesh is bound to `skeleton`, which has one root, its first joint;
+/// the motion's poses have as many joints.
+[[nodiscard]] Status write_character(const std::filesystem::path& path,
+                                     const Skeleton& skeleton,
+                                     const SkinnedMesh& mesh,
+                                     const Motion* motion = nullptr);
+
+/// Writes the asset at `source` again as a GLB with `motion` as its only animation. All
+/// else is kept as it is: meshes, materials, textures, extensions. Data of removed
+/// animations stay in the file unused. Buffers and images beside a .gltf are taken in.
+/// Fails as read_character() does, and when the motion is not of the skeleton that
+/// read_character(source) gives.
+[[nodiscard]] Status write_retargeted(const std::filesystem::path& source,
+                                      const std::filesystem::path& path,
+                                      const Motion& motion);
+
+}  // namespace marey::recordings

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/motion.h"
+
+namespace marey::recordings {
+
+using Json = nlohmann::ordered_json;
+
+/// Appends arrays to a glTF document's one buffer, and packs both as GLB.
+class GltfBuilder {
+ public:
+  /// Both are borrowed and must outlive the builder.
+  GltfBuilder(Json& document, std::string& buffer)
+      : document_(document), buffer_(buffer) {}
+
+  /// A buffer view of `bytes`, aligned to four. `target` as in glTF, 0 for none.
+  int add_view(std::string_view bytes, int target = 0);
+
+  /// An accessor of `type` ("VEC3") over floats, `components` per row; returns its
+  /// number. `bounds` writes min and max, which positions and times must have.
+  int add_floats(std::span<const float> values,
+                 std::size_t components,
+                 const char* type,
+                 bool bounds,
+                 int target = 0);
+
+  /// An accessor over whole numbers up to `largest`, stored as small as they allow.
+  int add_integers(std::span<const std::uint32_t> values,
+                   std::size_t components,
+                   const char* type,
+                   std::uint32_t largest,
+                   int target);
+
+  /// The GLB file: header, document, buffer.
+  [[nodiscard]] std::string glb() const;
+
+ private:
+  int add_accessor(Json accessor);
+
+  Json& document_;
+  std::string& buffer_;
+};
+
+inline constexpr int kVertexTarget = 34962;
+inline constexpr int kIndexTarget = 34963;
+
+/// Which node of a document a channel moves, and from what: rotations of one joint, or
+/// places of the root.
+struct NodeTrack {
+  int node = 0;
+  std::vector<glm::dquat> rotations;
+  std::vector<glm::dvec3> translations;
+};
+
+/// The animation with these tracks, one key per frame at `rate`, the first at time 0.
+/// Neighbouring quaternions are on the same side, so that linear blending takes the short
+/// way. A track without keys adds no channel.
+[[nodiscard]] Json make_animation(GltfBuilder& builder,
+                                  std::span<const NodeTrack> tracks,
+                                  std::size_t frames,
+                                  FrameRate rate);
+
+}  // namespace marey::recordings

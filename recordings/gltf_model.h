@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/motion.h"
+#include "core/result.h"
+#include "core/skeleton.h"
+#include "recordings/mesh.h"
+
+namespace tinygltf {
+class Model;
+}
+
+namespace marey::recordings {
+
+/// A node's transform in its parent, in glTF's three parts.
+struct NodePose {
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+  glm::dvec3 translation{0.0};
+  glm::dvec3 scale{1.0};
+};
+
+/// The nodes of a file, checked: every index is in range and nothing is its own ancestor.
+struct NodeTree {
+  std::vector<NodePose> rest;
+  std::vector<std::optional<std::size_t>> parent;
+  std::vector<std::size_t> parents_first;
+  /// marey's world from the file's: the half turn of a VRM 0.x.
+  glm::dquat world_from_file{1.0, 0.0, 0.0, 0.0};
+};
+
+/// Every node in marey's world: its place and scale, and its rotation alone.
+struct PlacedNodes {
+  std::vector<glm::dmat4> world_from_node;
+  std::vector<glm::dquat> rotation;
+};
+[[nodiscard]] PlacedNodes place_nodes(const NodeTree& tree,
+                                      std::span<const NodePose> poses);
+
+/// Skeleton and the nodes its joints are.
+struct NodeSkeleton {
+  Skeleton skeleton;
+  std::vector<std::size_t> node_of_joint;
+  std::vector<std::optional<JointIndex>> joint_of_node;  ///< One per node.
+};
+
+/// The model under this name in error messages.
+struct NamedModel {
+  const tinygltf::Model& model;
+  std::string file;
+
+  [[nodiscard]] Error fail(std::string cause) const;
+};
+
+/// The numbers of an accessor, row after row, `components` each; normalized integers as
+/// fractions. Checks that they lie within their buffer.
+[[nodiscard]] Result<std::vector<double>> accessor_values(const NamedModel& file,
+                                                          int accessor,
+                                                          std::size_t components);
+
+/// All skinned triangles in the rest pose; nullopt when there are none.
+[[nodiscard]] Result<std::optional<SkinnedMesh>> read_skinned_mesh(
+    const NamedModel& file, const NodeTree& tree, const NodeSkeleton& body);
+
+/// The first animation, as Character explains it; no poses when there is none.
+struct ReadAnimation {
+  std::optional<Motion> motion;
+  double ignored_translation_m = 0.0;
+};
+[[nodiscard]] Result<ReadAnimation> read_animation(const NamedModel& file,
+                                                   const NodeTree& tree,
+                                                   const NodeSkeleton& body);
+
+}  // namespace marey::recordings

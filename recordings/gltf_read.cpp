@@ -1,0 +1,364 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <map>
+#include <string_view>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <tiny_gltf.h>
+
+#include "recordings/atomic_file.h"
+#include "recordings/gltf_model.h"
+#include "recordings/gltf_source.h"
+
+namespace marey::recordings {
+namespace {
+
+constexpr std::string_view kGlbMagic = "glTF";
+constexpr std::size_t kGlbHeaderBytes = 20;  // The file's and the first chunk's.
+
+std::size_t word_at(std::string_view bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + at, sizeof word);
+  return word;
+}
+
+/// The JSON text of a file's bytes. What is wrong with a GLB shows here, in plain words.
+Result<std::string> json_of(const NamedModel& file, std::string_view bytes) {
+  if (!bytes.starts_with(kGlbMagic)) {
+    const std::size_t start =
+        std::min(bytes.find_first_not_of(" \t\r\n\xEF\xBB\xBF"), bytes.size());
+    if (bytes.substr(start).starts_with('{')) return std::string(bytes);
+    return file.fail("this is neither a GLB file nor glTF text");
+  }
+  if (bytes.size() < kGlbHeaderBytes) return file.fail("the file ends in its header");
+  if (word_at(bytes, 4) != 2) {
+    return file.fail("this is glTF " + std::to_string(word_at(bytes, 4)) +
+                     ", marey reads glTF 2");
+  }
+  const std::size_t announced = word_at(bytes, 8);
+  if (announced > bytes.size()) {
+    return file.fail("the file is cut short: it holds " + std::to_string(bytes.size()) +
+                     " of " + std::to_string(announced) + " bytes");
+  }
+  const std::size_t json_bytes = word_at(bytes, 12);
+  if (json_bytes > bytes.size() - kGlbHeaderBytes || bytes.substr(16, 4) != "JSON") {
+    return file.fail("the first chunk of the GLB is not the JSON it should be");
+  }
+  return std::string(bytes.substr(kGlbHeaderBytes, json_bytes));
+}
+
+/// Keeps an image's bytes as they are: marey has no use for its pixels.
+bool keep_image(tinygltf::Image* /*image*/,
+                const int place,
+                std::string* /*error*/,
+                std::string* /*warning*/,
+                int /*width*/,
+                int /*height*/,
+                const unsigned char* bytes,
+                int size,
+                void* images) {
+  auto& kept = *static_cast<std::map<int, std::string>*>(images);
+  kept[place].assign(reinterpret_cast<const char*>(bytes),
+                     static_cast<std::size_t>(size));
+  return true;
+}
+
+std::string one_line(std::string text) {
+  while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+  std::ranges::replace(text, '\n', ' ');
+  return text.empty() ? "the file is not valid glTF" : text;
+}
+
+Status load_model(const NamedModel& file,
+                  const std::filesystem::path& path,
+                  const std::string& bytes,
+                  tinygltf::Model& model,
+                  GltfSource& source) {
+  tinygltf::TinyGLTF loader;
+  std::map<int, std::string> images;
+  loader.SetImageLoader(keep_image, &images);
+  std::string error;
+  std::string warning;
+  const std::string folder = path.parent_path().string();
+  const auto size = static_cast<unsigned int>(bytes.size());
+  bool loaded = false;
+  try {
+    loaded = bytes.starts_with(kGlbMagic)
+                 ? loader.LoadBinaryFromMemory(
+                       &model,
+                       &error,
+                       &warning,
+                       reinterpret_cast<const unsigned char*>(bytes.data()),
+                       size,
+                       folder)
+                 : loader.LoadASCIIFromString(
+                       &model, &error, &warning, bytes.data(), size, folder);
+  } catch (const std::exception& problem) {
+    error = problem.what();
+  }
+  if (!loaded) return file.fail(one_line(error));
+  for (const std::string& extension : model.extensionsRequired) {
+    if (extension == "KHR_draco_mesh_compression" ||
+        extension == "EXT_meshopt_compression") {
+      return file.fail("the file is compressed with " + extension +
+                       ", which marey cannot read");
+    }
+  }
+  for (const auto& buffer : model.buffers) {
+    source.buffers.emplace_back(buffer.data.begin(), buffer.data.end());
+  }
+  source.images.resize(model.images.size());
+  for (auto& [place, data] : images) {
+    const auto i = static_cast<std::size_t>(place);
+    if (i < source.images.size()) source.images[i] = std::move(data);
+  }
+  return Done{};
+}
+
+NodePose pose_of(const tinygltf::Node& node) {
+  NodePose pose;
+  if (node.matrix.size() == 16) {
+    const auto& m = node.matrix;
+    glm::dmat3 axes(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+    for (int i = 0; i < 3; ++i) {
+      pose.scale[i] = glm::length(axes[i]);
+      if (pose.scale[i] > 0.0) axes[i] /= pose.scale[i];
+    }
+    pose.rotation = glm::normalize(glm::quat_cast(axes));
+    pose.translation = {m[12], m[13], m[14]};
+    return pose;
+  }
+  const auto& r = node.rotation;
+  const auto& t = node.translation;
+  const auto& s = node.scale;
+  if (r.size() == 4) {
+    const glm::dquat rotation(r[3], r[0], r[1], r[2]);
+    if (glm::length(rotation) > 1e-6) pose.rotation = glm::normalize(rotation);
+  }
+  if (t.size() == 3) pose.translation = {t[0], t[1], t[2]};
+  if (s.size() == 3) pose.scale = {s[0], s[1], s[2]};
+  return pose;
+}
+
+Result<NodeTree> tree_of(const NamedModel& file) {
+  const auto& nodes = file.model.nodes;
+  NodeTree tree;
+  tree.parent.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    tree.rest.push_back(pose_of(nodes[i]));
+    for (const int child : nodes[i].children) {
+      if (child < 0 || static_cast<std::size_t>(child) >= nodes.size()) {
+        return file.fail("node " + std::to_string(i) +
+                         " has a child that does not exist");
+      }
+      auto& parent = tree.parent[static_cast<std::size_t>(child)];
+      if (parent) {
+        return file.fail("node " + std::to_string(child) + " has two parents");
+      }
+      parent = i;
+    }
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!tree.parent[i]) tree.parents_first.push_back(i);
+  }
+  for (std::size_t i = 0; i < tree.parents_first.size(); ++i) {
+    for (const int child : nodes[tree.parents_first[i]].children) {
+      tree.parents_first.push_back(static_cast<std::size_t>(child));
+    }
+  }
+  if (tree.parents_first.size() != nodes.size()) {
+    return file.fail("some nodes are their own ancestors");
+  }
+  return tree;
+}
+
+/// Which bone each node is, by the first humanoid extension there is, else by name.
+std::map<std::size_t, HumanBone> bones_of(const tinygltf::Model& model,
+                                          bool& faces_back) {
+  std::map<std::size_t, HumanBone> bones;
+  const auto add = [&](std::string_view name, const tinygltf::Value& node) {
+    const auto bone = human_bone(name);
+    const int place = node.IsNumber() ? node.GetNumberAsInt() : -1;
+    if (bone && place >= 0 && static_cast<std::size_t>(place) < model.nodes.size()) {
+      bones.emplace(static_cast<std::size_t>(place), *bone);
+    }
+  };
+  for (const char* key : {"VRMC_vrm", "VRMC_vrm_animation"}) {
+    const auto extension = model.extensions.find(key);
+    if (extension == model.extensions.end()) continue;
+    const auto& humanoid = extension->second.Get("humanoid").Get("humanBones");
+    if (!humanoid.IsObject()) continue;
+    for (const std::string& name : humanoid.Keys()) {
+      add(name, humanoid.Get(name).Get("node"));
+    }
+    return bones;
+  }
+  if (const auto vrm0 = model.extensions.find("VRM"); vrm0 != model.extensions.end()) {
+    faces_back = true;
+    const auto& humanoid = vrm0->second.Get("humanoid").Get("humanBones");
+    for (std::size_t i = 0; humanoid.IsArray() && i < humanoid.ArrayLen(); ++i) {
+      const auto& entry = humanoid.Get(static_cast<int>(i));
+      const auto& name = entry.Get("bone");
+      if (name.IsString()) add(name.Get<std::string>(), entry.Get("node"));
+    }
+    return bones;
+  }
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (const auto bone = human_bone(model.nodes[i].name)) bones.emplace(i, *bone);
+  }
+  return bones;
+}
+
+/// Nodes that must be joints, or all when no skin or humanoid asks for any.
+Result<std::vector<bool>> wanted_nodes(const NamedModel& file,
+                                       const std::map<std::size_t, HumanBone>& bones) {
+  const tinygltf::Model& model = file.model;
+  std::vector<bool> wanted(model.nodes.size(), false);
+  for (const tinygltf::Skin& skin : model.skins) {
+    for (const int joint : skin.joints) {
+      if (joint < 0 || static_cast<std::size_t>(joint) >= wanted.size()) {
+        return file.fail("a skin has a joint that does not exist");
+      }
+      wanted[static_cast<std::size_t>(joint)] = true;
+    }
+  }
+  for (const auto& [node, bone] : bones) wanted[node] = true;
+  if (std::ranges::find(wanted, true) == wanted.end()) wanted.assign(wanted.size(), true);
+  return wanted;
+}
+
+/// The deepest node above or at all wanted ones, and the count of wanted at or below
+/// each.
+std::optional<std::size_t> common_root(const NodeTree& tree,
+                                       const std::vector<bool>& wanted,
+                                       std::vector<std::size_t>& below) {
+  below.assign(wanted.size(), 0);
+  std::size_t total = 0;
+  std::optional<std::size_t> root;
+  for (auto it = tree.parents_first.rbegin(); it != tree.parents_first.rend(); ++it) {
+    if (wanted[*it]) ++below[*it], ++total;
+    if (tree.parent[*it]) below[*tree.parent[*it]] += below[*it];
+  }
+  for (const std::size_t node : tree.parents_first) {
+    if (total > 0 && below[node] == total) root = node;
+  }
+  return root;
+}
+
+Result<NodeSkeleton> skeleton_of(const NamedModel& file,
+                                 const NodeTree& tree,
+                                 const std::map<std::size_t, HumanBone>& bones) {
+  const auto wanted = wanted_nodes(file, bones);
+  if (!wanted) return wanted.error();
+  std::vector<std::size_t> below;
+  const auto root = common_root(tree, *wanted, below);
+  if (!root) return file.fail("the joints do not hang together under one root");
+  const PlacedNodes placed = place_nodes(tree, tree.rest);
+  NodeSkeleton body;
+  body.joint_of_node.resize(tree.rest.size());
+  std::vector<bool> bone_seen(kHumanBoneCount, false);
+  for (const std::size_t node : tree.parents_first) {
+    const bool under_root = tree.parent[node] && body.joint_of_node[*tree.parent[node]];
+    if (node != *root && (!under_root || below[node] == 0)) continue;
+    Joint joint;
+    joint.name = file.model.nodes[node].name;
+    const glm::dvec3 place(placed.world_from_node[node][3]);
+    joint.parent_from_joint = {placed.rotation[node], place};
+    if (under_root) {
+      const std::size_t above = *tree.parent[node];
+      joint.parent = body.joint_of_node[above];
+      joint.parent_from_joint = inverse({placed.rotation[above],
+                                         glm::dvec3(placed.world_from_node[above][3])}) *
+                                joint.parent_from_joint;
+    }
+    if (const auto bone = bones.find(node); bone != bones.end()) {
+      if (!bone_seen[index(bone->second)]) joint.bone = bone->second;
+      bone_seen[index(bone->second)] = true;
+    }
+    body.joint_of_node[node] = JointIndex{static_cast<int>(body.node_of_joint.size())};
+    body.node_of_joint.push_back(node);
+    body.skeleton.joints.push_back(std::move(joint));
+  }
+  return body;
+}
+
+Status fill_source(const NamedModel& file, GltfSource& source) {
+  bool faces_back = false;
+  const auto bones = bones_of(file.model, faces_back);
+  auto tree = tree_of(file);
+  if (!tree) return tree.error();
+  if (faces_back) tree->world_from_file = glm::dquat(0.0, 0.0, 1.0, 0.0);
+  auto body = skeleton_of(file, *tree, bones);
+  if (!body) return body.error();
+  auto mesh = read_skinned_mesh(file, *tree, *body);
+  if (!mesh) return mesh.error();
+  auto animation = read_animation(file, *tree, *body);
+  if (!animation) return animation.error();
+
+  const auto above = tree->parent[body->node_of_joint[0]];
+  const PlacedNodes placed = place_nodes(*tree, tree->rest);
+  source.world_from_root_parent =
+      above ? placed.world_from_node[*above] : glm::mat4_cast(tree->world_from_file);
+  source.world_from_root_parent_rotation =
+      above ? placed.rotation[*above] : tree->world_from_file;
+  for (const std::size_t node : body->node_of_joint) {
+    source.node_of_joint.push_back(static_cast<int>(node));
+  }
+  source.character = {std::move(body->skeleton),
+                      *std::move(mesh),
+                      std::move(animation->motion),
+                      animation->ignored_translation_m};
+  return Done{};
+}
+
+}  // namespace
+
+PlacedNodes place_nodes(const NodeTree& tree, std::span<const NodePose> poses) {
+  PlacedNodes placed;
+  placed.world_from_node.resize(poses.size());
+  placed.rotation.resize(poses.size());
+  for (const std::size_t node : tree.parents_first) {
+    const NodePose& pose = poses[node];
+    glm::dmat4 local = glm::mat4_cast(pose.rotation);
+    for (int i = 0; i < 3; ++i) local[i] *= pose.scale[i];
+    local[3] = glm::dvec4(pose.translation, 1.0);
+    const auto parent = tree.parent[node];
+    placed.world_from_node[node] = (parent ? placed.world_from_node[*parent]
+                                           : glm::mat4_cast(tree.world_from_file)) *
+                                   local;
+    placed.rotation[node] = glm::normalize(
+        (parent ? placed.rotation[*parent] : tree.world_from_file) * pose.rotation);
+  }
+  return placed;
+}
+
+Result<GltfSource> read_gltf_source(const std::filesystem::path& path) {
+  tinygltf::Model model;
+  const NamedModel file{model, path.string()};
+  const Result<std::string> bytes = read_file(path);
+  if (!bytes) return bytes.error();
+  GltfSource source;
+  auto json = json_of(file, *bytes);
+  if (!json) return json.error();
+  source.json = *std::move(json);
+  if (const Status s = load_model(file, path, *bytes, model, source); !s) {
+    return s.error();
+  }
+  if (const Status s = fill_source(file, source); !s) return s.error();
+  return source;
+}
+
+Result<Character> read_character(const std::filesystem::path& path) {
+  auto source = read_gltf_source(path);
+  if (!source) return source.error();
+  return std::move(source->character);
+}
+
+}  // namespace marey::recordings

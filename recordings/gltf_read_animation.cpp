@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/quaternion.hpp>
+#include <tiny_gltf.h>
+
+#include "recordings/gltf_model.h"
+#include "recordings/travelling_joint.h"
+
+namespace marey::recordings {
+namespace {
+
+constexpr double kUsualRateHz = 30.0;
+constexpr double kSlowestRateHz = 10.0;  // Slower keys are meant to be blended.
+constexpr double kFastestRateHz = 1000.0;
+constexpr double kMostFrames = 1e6;
+
+enum class Blend { kStep, kLinear, kCubic };
+
+/// One animated property of one node.
+struct Track {
+  std::size_t node = 0;
+  std::string path;  ///< "translation", "rotation" or "scale".
+  Blend blend = Blend::kLinear;
+  std::size_t components = 3;
+  std::vector<double> times_s;
+  std::vector<double> values;
+
+  /// Value `part` of key `key`: 0, or for cubic tracks 0 in-tangent, 1 value, 2 out.
+  [[nodiscard]] glm::dvec4 value(std::size_t key, std::size_t part) const {
+    const std::size_t row = blend == Blend::kCubic ? 3 * key + part : key;
+    glm::dvec4 v(0.0);
+    for (std::size_t i = 0; i < components; ++i) {
+      v[static_cast<int>(i)] = values[row * components + i];
+    }
+    return v;
+  }
+};
+
+glm::dquat quaternion(const glm::dvec4& xyzw) {
+  const glm::dquat q(xyzw.w, xyzw.x, xyzw.y, xyzw.z);
+  return glm::length(q) > 1e-9 ? glm::normalize(q) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+}
+
+glm::dvec4 sample(const Track& track, double time_s) {
+  const auto& times = track.times_s;
+  // Keys are floats: one just behind this time is meant to be at it.
+  const auto after = std::ranges::upper_bound(times, time_s + 1e-5);
+  const auto next = static_cast<std::size_t>(after - times.begin());
+  if (next == 0) return track.value(0, 1);
+  if (next == times.size() || track.blend == Blend::kStep)
+    return track.value(next - 1, 1);
+  const double span = times[next] - times[next - 1];
+  const double t = std::max(0.0, (time_s - times[next - 1]) / span);
+  const glm::dvec4 a = track.value(next - 1, 1);
+  const glm::dvec4 b = track.value(next, 1);
+  if (track.blend == Blend::kCubic) {
+    // glTF 2.0 specification, appendix C.4.
+    return (1 + 2 * t) * (1 - t) * (1 - t) * a +
+           span * t * (1 - t) * (1 - t) * track.value(next - 1, 2) +
+           t * t * (3 - 2 * t) * b + span * t * t * (t - 1) * track.value(next, 0);
+  }
+  if (track.path == "rotation") {
+    const glm::dquat q = glm::slerp(quaternion(a), quaternion(b), t);
+    return {q.x, q.y, q.z, q.w};
+  }
+  return glm::mix(a, b, t);
+}
+
+Result<Track> read_track(const NamedModel& file,
+                         const tinygltf::Animation& animation,
+                         const tinygltf::AnimationChannel& channel) {
+  Track track;
+  track.node = static_cast<std::size_t>(channel.target_node);
+  track.path = channel.target_path;
+  track.components = track.path == "rotation" ? 4 : 3;
+  if (channel.sampler < 0 ||
+      static_cast<std::size_t>(channel.sampler) >= animation.samplers.size() ||
+      track.node >= file.model.nodes.size()) {
+    return file.fail("an animation channel names a sampler or node that does not exist");
+  }
+  const auto& sampler = animation.samplers[static_cast<std::size_t>(channel.sampler)];
+  if (sampler.interpolation == "STEP") track.blend = Blend::kStep;
+  if (sampler.interpolation == "CUBICSPLINE") track.blend = Blend::kCubic;
+  auto times = accessor_values(file, sampler.input, 1);
+  if (!times) return times.error();
+  auto values = accessor_values(file, sampler.output, track.components);
+  if (!values) return values.error();
+  track.times_s = *std::move(times);
+  track.values = *std::move(values);
+  const std::size_t rows = track.times_s.size() * (track.blend == Blend::kCubic ? 3 : 1);
+  if (track.times_s.empty() || track.values.size() != rows * track.components) {
+    return file.fail("an animation channel does not have one value per key");
+  }
+  if (std::ranges::adjacent_find(track.times_s, std::greater_equal<>{}) !=
+      track.times_s.end()) {
+    return file.fail("the times of an animation do not ascend");
+  }
+  return track;
+}
+
+Result<std::vector<Track>> read_tracks(const NamedModel& file,
+                                       const tinygltf::Animation& animation) {
+  std::vector<Track> tracks;
+  for (const tinygltf::AnimationChannel& channel : animation.channels) {
+    const std::string& path = channel.target_path;
+    const bool moves = path == "translation" || path == "rotation" || path == "scale";
+    if (!moves || channel.target_node < 0) continue;
+    auto track = read_track(file, animation, channel);
+    if (!track) return track.error();
+    tracks.push_back(*std::move(track));
+  }
+  return tracks;
+}
+
+/// The rate of the track with most keys, if they are even and dense enough to be frames.
+double rate_of(const std::vector<Track>& tracks) {
+  const auto& times = std::ranges::max_element(tracks, {}, [](const Track& track) {
+                        return track.times_s.size();
+                      })->times_s;
+  if (times.size() < 2) return kUsualRateHz;
+  const double step =
+      (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double even = times.front() + step * static_cast<double>(i);
+    if (std::abs(times[i] - even) > 0.01 * step) return kUsualRateHz;
+  }
+  const double hz = 1.0 / step;
+  if (hz < kSlowestRateHz || hz > kFastestRateHz) return kUsualRateHz;
+  // Times are floats, so the step is not quite what was meant.
+  const double whole = std::round(hz);
+  return std::abs(hz - whole) < 1e-4 * hz ? whole : hz;
+}
+
+void apply(const Track& track, double time_s, NodePose& pose) {
+  const glm::dvec4 value = sample(track, time_s);
+  if (track.path == "rotation") {
+    pose.rotation = quaternion(value);
+  } else if (track.path == "translation") {
+    pose.translation = glm::dvec3(value);
+  } else {
+    pose.scale = glm::dvec3(value);
+  }
+}
+
+/// Every joint's frame in its parent's, without scale.
+std::vector<RigidTransform> parent_from_joints(const PlacedNodes& placed,
+                                               const NodeSkeleton& body) {
+  std::vector<RigidTransform> world_from_joint;
+  std::vector<RigidTransform> local;
+  for (std::size_t i = 0; i < body.node_of_joint.size(); ++i) {
+    const std::size_t node = body.node_of_joint[i];
+    world_from_joint.push_back(
+        {placed.rotation[node], glm::dvec3(placed.world_from_node[node][3])});
+    const auto& parent = body.skeleton.joints[i].parent;
+    local.push_back(parent
+                        ? inverse(world_from_joint[index(*parent)]) * world_from_joint[i]
+                        : world_from_joint[i]);
+  }
+  return local;
+}
+
+}  // namespace
+
+Result<ReadAnimation> read_animation(const NamedModel& file,
+                                     const NodeTree& tree,
+                                     const NodeSkeleton& body) {
+  ReadAnimation result;
+  if (file.model.animations.empty()) return result;
+  const auto tracks = read_tracks(file, file.model.animations.front());
+  if (!tracks) return tracks.error();
+  if (tracks->empty()) return result;
+
+  double start_s = tracks->front().times_s.front();
+  double end_s = tracks->front().times_s.back();
+  for (const Track& track : *tracks) {
+    start_s = std::min(start_s, track.times_s.front());
+    end_s = std::max(end_s, track.times_s.back());
+  }
+  Motion motion;
+  motion.skeleton = body.skeleton;
+  motion.rate.hz = rate_of(*tracks);
+  const double first = std::round(start_s * motion.rate.hz);
+  const double last = std::round(end_s * motion.rate.hz);
+  if (std::abs(first) > kMostFrames || last - first > kMostFrames) {
+    return file.fail("the animation is longer than a million frames");
+  }
+  motion.first_frame = static_cast<int>(first);
+  std::vector<NodePose> poses = tree.rest;
+  for (double frame = first; frame <= last; frame += 1.0) {
+    const double time_s = frame / motion.rate.hz;
+    for (const Track& track : *tracks) apply(track, time_s, poses[track.node]);
+    PosedBones posed = hand_travel_to_root(
+        body.skeleton, parent_from_joints(place_nodes(tree, poses), body));
+    motion.poses.push_back(std::move(posed.pose));
+    result.ignored_translation_m =
+        std::max(result.ignored_translation_m, posed.ignored_translation_m);
+  }
+  result.motion = std::move(motion);
+  return result;
+}
+
+}  // namespace marey::recordings

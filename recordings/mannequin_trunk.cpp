@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "recordings/mannequin_figure.h"
+
+namespace marey::recordings {
+namespace {
+
+using B = HumanBone;
+
+constexpr std::size_t kTrunkSegments = 32;
+constexpr std::size_t kHeadSegments = 24;
+constexpr std::size_t kNeckSegments = 20;
+
+constexpr std::array<B, 5> kTrunk{
+    B::kHips, B::kSpine, B::kChest, B::kUpperChest, B::kNeck};
+
+/// Weights at `at` along the trunk (0 hips, 1 spine, ... 4 neck): the bone that `at` is
+/// in the middle of, and its neighbour.
+std::array<double, 5> trunk_weights(double at) {
+  std::array<double, 5> weights{};
+  const double place = std::clamp(at - 0.5, 0.0, 3.0);
+  const double below = std::min(std::floor(place), 2.0);
+  const double share = smooth_step(0.0, 1.0, place - below);
+  weights[static_cast<std::size_t>(below)] = 1.0 - share;
+  weights[static_cast<std::size_t>(below) + 1] = share;
+  return weights;
+}
+
+/// Gives the skin beside the shoulders and above the thighs a share of those bones.
+SkinWeights trunk_skin(double at, double across, double half_m) {
+  const std::array<double, 5> w = trunk_weights(at);
+  const B shoulder = across > 0.0 ? B::kLeftShoulder : B::kRightShoulder;
+  const B thigh = across > 0.0 ? B::kLeftUpperLeg : B::kRightUpperLeg;
+  const double aside = std::abs(across) / half_m;
+  if (at < 0.0) {
+    const double share = 0.4 * smooth_step(-0.1, -0.9, at) * smooth_step(0.1, 0.7, aside);
+    return carried_by({{B::kHips, 1.0 - share}, {thigh, share}});
+  }
+  const double share = 0.75 * smooth_step(2.6, 3.4, at) * smooth_step(0.25, 0.9, aside);
+  const double rest = 1.0 - share;
+  return carried_by({{B::kHips, w[0] * rest},
+                     {B::kSpine, w[1] * rest},
+                     {B::kChest, w[2] * rest},
+                     {B::kUpperChest, w[3] * rest},
+                     {shoulder, share}});
+}
+
+/// Half the distance between two joints, in parts of the size. Never nothing.
+double half_breadth(const Figure& figure, B left, B right) {
+  const double breadth_m = glm::distance(figure.at(left), figure.at(right));
+  return std::max(0.5 * breadth_m / figure.size_m, 0.02);
+}
+
+std::vector<Section> trunk_sections(double hips, double shoulders) {
+  const double waist = 0.36 * (hips + shoulders);
+  return {{-1.05, 0.30 * hips, 0.020, 0.000},
+          {-0.9, 0.52 * hips, 0.036, 0.000},
+          {-0.55, 0.80 * hips, 0.052, -0.002},
+          {-0.15, 0.97 * hips, 0.061, -0.004},
+          {0.25, 0.98 * hips, 0.061, -0.004},
+          {0.7, 0.90 * hips, 0.055, -0.001},
+          {1.2, 1.00 * waist, 0.049, 0.002},
+          {1.7, 1.06 * waist, 0.050, 0.004},
+          {2.2, 0.80 * shoulders, 0.057, 0.005},
+          {2.8, 0.90 * shoulders, 0.063, 0.006},
+          {3.2, 0.93 * shoulders, 0.061, 0.003},
+          {3.55, 0.84 * shoulders, 0.051, -0.001},
+          {3.8, 0.60 * shoulders, 0.040, -0.003},
+          {4.0, 0.36 * shoulders, 0.032, -0.002},
+          {4.1, 0.15 * shoulders, 0.018, 0.000}};
+}
+
+}  // namespace
+
+void add_trunk(Figure& figure) {
+  const double hips = half_breadth(figure, B::kLeftUpperLeg, B::kRightUpperLeg) + 0.040;
+  const double shoulders = half_breadth(figure, B::kLeftUpperArm, B::kRightUpperArm);
+  const std::vector<Section> sections = trunk_sections(hips, shoulders);
+  const glm::dvec3 crotch =
+      0.5 * (figure.at(B::kLeftUpperLeg) + figure.at(B::kRightUpperLeg)) -
+      glm::dvec3(0, 0.052 * figure.size_m, 0);
+  const auto place = [&](double at) {
+    if (at < 0.0) return glm::mix(figure.at(B::kHips), crotch, -at);
+    const auto i = std::min<std::size_t>(static_cast<std::size_t>(at), 3);
+    return glm::mix(
+        figure.at(kTrunk[i]), figure.at(kTrunk[i + 1]), at - static_cast<double>(i));
+  };
+  const glm::dvec3 left =
+      direction(figure.at(B::kLeftUpperArm) - figure.at(B::kRightUpperArm), {1, 0, 0});
+  const glm::dvec3 front = perpendicular({0, 0, 1}, left);
+  std::vector<Ring> rings;
+  std::vector<double> places = places_along(sections, 44);
+  for (const double at : places) {
+    const Section section = section_at(sections, at);
+    Ring ring;
+    ring.front = front;
+    ring.along = glm::cross(left, -front);
+    ring.centre = place(at) + section.shift * figure.size_m * front;
+    ring.half_width =
+        section.half_width * figure.size_m * (figure.thickness_m / figure.size_m);
+    ring.half_depth = section.half_depth * figure.thickness_m;
+    ring.exponent = 2.5;
+    ring.skin = trunk_skin(std::max(at, 0.0), 0.0, 1.0);
+    ring.part = at > 0.85 && at < 1.62 ? kJoint : kSkin;
+    rings.push_back(ring);
+  }
+  const auto [first, last] = figure.builder.add_turned(rings, kTrunkSegments);
+  SkinnedMesh& mesh = figure.builder.mesh();
+  for (std::size_t v = first; v < last; ++v) {
+    // One pole, then rings of kTrunkSegments, then the other pole.
+    const std::size_t ring =
+        v == first ? 0
+                   : std::min((v - first - 1) / kTrunkSegments + 1, places.size() - 1);
+    const double across = glm::dot(mesh.p_in_world[v] - rings[ring].centre, left);
+    const double half_m = (places[ring] < 0.0 ? hips : shoulders) * figure.thickness_m;
+    mesh.skin[v] = trunk_skin(places[ring], across, half_m);
+  }
+}
+
+void add_neck(Figure& figure) {
+  static constexpr std::array<Section, 5> kSections{{{-0.35, 0.020, 0.020, 0},
+                                                     {0.0, 0.0315, 0.0330, 0},
+                                                     {0.5, 0.0275, 0.0300, 0},
+                                                     {1.0, 0.0270, 0.0300, 0},
+                                                     {1.5, 0.018, 0.020, 0}}};
+  const glm::dvec3 neck = figure.at(B::kHead) - figure.at(B::kNeck);
+  Ring ring;
+  ring.along = direction(neck, {0, 1, 0});
+  ring.front = perpendicular({0, 0, 1}, ring.along);
+  ring.part = kJoint;
+  std::vector<Ring> rings;
+  for (const double at : places_along(kSections, 12)) {
+    const Section section = section_at(kSections, at);
+    ring.centre = figure.at(B::kNeck) + at * neck;
+    ring.half_width = section.half_width * figure.thickness_m;
+    ring.half_depth = section.half_depth * figure.thickness_m;
+    const double head = smooth_step(0.3, 1.2, at);
+    const double chest = smooth_step(0.5, -0.3, at);
+    ring.skin = carried_by({{B::kUpperChest, chest},
+                            {B::kNeck, std::max(0.0, 1.0 - chest - head)},
+                            {B::kHead, head}});
+    rings.push_back(ring);
+  }
+  (void)figure.builder.add_turned(rings, kNeckSegments);
+}
+
+namespace {
+
+/// Nose and eyes, in parts of the height of the head joint under the top.
+void add_face(Figure& figure, const Ring& frame, double height_m) {
+  const glm::dvec3 side = glm::cross(frame.along, frame.front);
+  const auto add = [&](glm::dvec3 place, glm::dvec3 half, FigurePart part) {
+    Ring ring = frame;
+    ring.centre =
+        figure.at(B::kHead) +
+        height_m * (place.x * side + place.y * frame.along + place.z * frame.front);
+    ring.half_width = half.x * height_m;
+    ring.half_depth = half.z * height_m;
+    ring.exponent = 2.0;
+    ring.part = part;
+    figure.builder.add_ellipsoid(ring, half.y * height_m, 12);
+  };
+  add({0.0, 0.28, 0.52}, {0.075, 0.15, 0.13}, kMark);
+  add({0.17, 0.43, 0.455}, {0.065, 0.05, 0.04}, kJoint);
+  add({-0.17, 0.43, 0.455}, {0.065, 0.05, 0.04}, kJoint);
+}
+
+}  // namespace
+
+void add_head(Figure& figure) {
+  // Of the height from head joint to top; at: 0 head joint, 1 top.
+  static constexpr std::array<Section, 9> kSections{{{-0.16, 0.06, 0.06, 0.20},
+                                                     {-0.12, 0.17, 0.18, 0.18},
+                                                     {0.0, 0.265, 0.31, 0.12},
+                                                     {0.2, 0.330, 0.42, 0.06},
+                                                     {0.45, 0.375, 0.47, 0.02},
+                                                     {0.66, 0.385, 0.48, -0.01},
+                                                     {0.85, 0.310, 0.39, -0.02},
+                                                     {0.97, 0.155, 0.20, -0.02},
+                                                     {1.0, 0.03, 0.04, -0.02}}};
+  const glm::dvec3 top = figure.proportions.head_top_in_head;
+  const double height_m = glm::length(top);
+  Ring ring;
+  ring.along = direction(top, {0, 1, 0});
+  ring.front = perpendicular({0, 0, 1}, ring.along);
+  ring.skin = carried_by({{B::kHead, 1.0}});
+  std::vector<Ring> rings;
+  for (const double at : places_along(kSections, 22)) {
+    const Section section = section_at(kSections, at);
+    ring.centre = figure.at(B::kHead) + at * top + section.shift * height_m * ring.front;
+    ring.half_width = section.half_width * height_m;
+    ring.half_depth = section.half_depth * height_m;
+    ring.exponent = 2.15;
+    rings.push_back(ring);
+  }
+  (void)figure.builder.add_turned(rings, kHeadSegments);
+  add_face(figure, ring, height_m);
+}
+
+}  // namespace marey::recordings

@@ -1,0 +1,19 @@
+# SPDX-FileCopyrightText: The marey authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# cmake -D SCRIPT=... -D MOTION=... -D JOINTS=... -P run_blender.cmake
+# Compares a motion in Blender with our own joint places. Says `skipped:` without Blender.
+cmake_minimum_required(VERSION 3.25)
+find_program(BLENDER blender)
+if(NOT BLENDER)
+  message("skipped: Blender is missing; apt-get install blender python3-numpy")
+  return()
+endif()
+execute_process(
+  COMMAND ${BLENDER} -b --factory-startup --python-exit-code 1 --python ${SCRIPT}
+          -- ${MOTION} --compare ${JOINTS}
+  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+message("${output}")
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "${MOTION}: Blender disagrees, exit ${result}")
+endif()
