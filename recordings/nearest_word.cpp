@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recordings/nearest_word.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "core/assert.h"
+
+namespace marey::recordings {
+namespace {
+
+char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+// All costs are doubled, so that a change of case can cost half a letter.
+constexpr std::size_t kLetter = 2;
+
+std::size_t cost_of_change(char a, char b) {
+  if (a == b) return 0;
+  return lower(a) == lower(b) ? kLetter / 2 : kLetter;
+}
+
+std::size_t distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);  // From a's first i letters to b's first j.
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j * kLetter;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i * kLetter;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t changed = diagonal + cost_of_change(a[i - 1], b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({changed, row[j] + kLetter, row[j - 1] + kLetter});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string suggestion(std::string_view wrong, std::span<const std::string_view> words) {
+  MAREY_ASSERT(!words.empty());
+  constexpr std::size_t kLongestWord = 64;  // No key is longer; keeps the search cheap.
+  wrong = wrong.substr(0, kLongestWord);
+  const std::string_view* nearest =
+      &*std::min_element(words.begin(), words.end(), [&](auto a, auto b) {
+        return distance(wrong, a) < distance(wrong, b);
+      });
+  const std::size_t letters = std::max(wrong.size(), nearest->size());
+  if (5 * distance(wrong, *nearest) <= 2 * kLetter * letters) {
+    return std::string("perhaps you mean \"").append(*nearest).append("\"");
+  }
+  std::string text = "choose one of ";
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    text.append(i == 0 ? "\"" : ", \"").append(words[i]).append("\"");
+  }
+  return text;
+}
+
+}  // namespace marey::recordings

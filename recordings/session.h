@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/board.h"
+#include "core/body.h"
+#include "core/ids.h"
+#include "core/result.h"
+#include "core/time.h"
+
+namespace marey::recordings {
+
+/// What a trial is for.
+enum class TrialKind {
+  kCalibration,    ///< The board is waved through the volume.
+  kFloor,          ///< The board lies still on the floor.
+  kStatic,         ///< The subject stands still.
+  kRangeOfMotion,  ///< The subject moves every joint.
+  kMotion,         ///< What it is all for.
+};
+
+/// The word of session.toml: "range-of-motion".
+[[nodiscard]] std::string_view name(TrialKind kind);
+
+/// Frames first to last, both included, counted from 0.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+};
+
+/// What one camera recorded of a trial.
+struct TrialVideo {
+  CameraId camera{};
+  /// A video file or a folder of images; absolute, or relative to the working folder.
+  std::filesystem::path path;
+  /// When the session says so: frame k was exposed at k / rate + offset.
+  std::optional<Timestamp> offset;
+  int line = 0;  ///< In session.toml, for messages.
+};
+
+struct Trial {
+  std::string name;  ///< Safe as the name of a folder.
+  TrialKind kind = TrialKind::kMotion;
+  std::optional<FrameRate> rate;     ///< nullopt: as the video says.
+  std::optional<FrameRange> frames;  ///< nullopt: all.
+  std::vector<TrialVideo> videos;    ///< At least one; ascending cameras, each once.
+  int line = 0;                      ///< In session.toml, for messages.
+};
+
+struct Subject {
+  std::string name;
+  double stature_m = 0.0;
+  std::optional<double> mass_kg;
+};
+
+/// What session.toml says (docs/formats.md).
+struct Session {
+  std::filesystem::path file;  ///< session.toml itself.
+  std::string name;
+  Subject subject;
+  std::string tag_family;
+  std::vector<TagOnSegment> tags;  ///< In the order of the file.
+  AprilGrid board;
+  std::vector<std::string> cameras;  ///< Names, by CameraId; safe as names of folders.
+  std::vector<Trial> trials;         ///< In the order of the file.
+
+  /// The first trial of this kind, if any.
+  [[nodiscard]] const Trial* find(TrialKind kind) const;
+  /// The trial of this name, if any.
+  [[nodiscard]] const Trial* find(std::string_view trial_name) const;
+};
+
+struct ReadSessionOptions {
+  /// The folder that video paths are relative to, instead of the session's `media`;
+  /// itself relative to the working folder.
+  std::optional<std::filesystem::path> media;
+};
+
+/// Reads a session. `path` is its session.toml or the folder that holds it. Touches no
+/// video: see check_files().
+///
+/// Errors (kBadInput), each with its line: not TOML; a key that is unknown, missing, of
+/// the wrong type or out of range; a tag, camera or trial named twice; a body tag that is
+/// also on the board; an unknown segment or camera; a name that cannot be a folder's; a
+/// trial without videos; frames the wrong way round; fewer than two cameras; no
+/// calibration trial; no floor trial.
+[[nodiscard]] Result<Session> read_session(const std::filesystem::path& path,
+                                           const ReadSessionOptions& options = {});
+
+/// Whether every video is there. Errors (kBadInput): the first that is not, with the line
+/// that names it.
+[[nodiscard]] Status check_files(const Session& session);
+
+}  // namespace marey::recordings

@@ -1,0 +1,380 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "core/humanoid.h"
+#include "recordings/atomic_file.h"
+#include "recordings/nearest_word.h"
+#include "recordings/number_text.h"
+#include "recordings/session.h"
+#include "recordings/toml_reader.h"
+
+namespace marey::recordings {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array kKinds{TrialKind::kCalibration,
+                            TrialKind::kFloor,
+                            TrialKind::kStatic,
+                            TrialKind::kRangeOfMotion,
+                            TrialKind::kMotion};
+
+/// Families whose size is the edge of the black square, and how many tags each has
+/// (apriltag 3.3, ncodes).
+constexpr std::array<std::pair<std::string_view, int>, 3> kFamilies{{
+    {"tag36h11", 587},
+    {"tag25h9", 35},
+    {"tag16h5", 30},
+}};
+
+// Wide enough for everybody and everything; they catch millimetres given as metres.
+constexpr Limits kTagSize{0.005, 1.0, "m"};
+constexpr Limits kGap{0.001, 1.0, "m"};
+constexpr Limits kThickness{0.0, 0.2, "m"};
+constexpr Limits kGridCount{1, 50};
+constexpr Limits kStature{0.3, 2.8, "m"};
+constexpr Limits kMass{2.0, 500.0, "kg"};
+constexpr Limits kRate{0.1, 2000.0, "frames per second"};
+constexpr Limits kOffset{-60.0, 60.0, "s"};
+
+std::string with_number(std::string text, int number) {
+  append_exact(text, number);
+  return text;
+}
+
+/// Folder names, keys of calibration.toml and words on a command line alike.
+bool is_safe_name(std::string_view word) {
+  constexpr std::string_view kSafe =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+  constexpr std::size_t kLongest = 64;
+  return !word.empty() && word.size() <= kLongest && word[0] != '.' && word[0] != '-' &&
+         word.find_first_not_of(kSafe) == std::string_view::npos;
+}
+
+/// Reads session.toml from top to bottom; a mistake stays in the document.
+class SessionReader {
+ public:
+  SessionReader(TomlDocument& document,
+                const ReadSessionOptions& options,
+                Session& session)
+      : root_(document), options_(options), session_(session) {}
+
+  void read() {
+    root_.allow(
+        {"format", "name", "media", "subject", "tags", "board", "camera", "trial"});
+    (void)root_.integer("format", {1, 1});
+    session_.name = root_.text("name");
+    read_media();
+    read_subject();
+    read_family();
+    read_board();
+    read_tags();
+    read_cameras();
+    read_trials();
+  }
+
+ private:
+  void read_media();
+  void read_subject();
+  void read_family();
+  void read_board();
+  void read_tags();
+  void read_tag(TomlReader& reader);
+  void read_cameras();
+  void read_trials();
+  Trial read_trial(TomlReader& reader);
+  FrameRange read_frames(TomlReader& reader);
+  TrialKind read_kind(TomlReader& reader);
+  void read_videos(TomlReader& trial, Trial& out);
+  void read_offsets(TomlReader& trial, Trial& out);
+  std::string read_name(TomlReader& reader,
+                        std::string_view what,
+                        const std::vector<std::string>& taken,
+                        std::span<const std::string_view> reserved);
+  std::optional<CameraId> camera_of(TomlReader& videos, const std::string& name);
+
+  TomlReader root_;
+  const ReadSessionOptions& options_;
+  Session& session_;
+  fs::path media_;
+  int tags_in_family_ = 0;
+};
+
+void SessionReader::read_media() {
+  media_ = session_.file.parent_path();
+  if (root_.has("media")) media_ /= root_.text("media");
+  if (options_.media) media_ = *options_.media;
+}
+
+void SessionReader::read_subject() {
+  TomlReader subject = root_.table("subject");
+  subject.allow({"name", "stature_m", "mass_kg"});
+  session_.subject.name = subject.text("name");
+  session_.subject.stature_m = subject.number("stature_m", kStature);
+  if (subject.has("mass_kg")) session_.subject.mass_kg = subject.number("mass_kg", kMass);
+}
+
+void SessionReader::read_family() {
+  TomlReader tags = root_.table("tags");
+  tags.allow({"family", "tag"});
+  session_.tag_family = tags.has("family") ? tags.text("family") : kFamilies[0].first;
+  std::vector<std::string_view> families;
+  for (const auto& [family, count] : kFamilies) {
+    families.push_back(family);
+    if (session_.tag_family == family) tags_in_family_ = count;
+  }
+  if (tags_in_family_ == 0) {
+    tags.fail("family",
+              "unknown tag family " + in_quotes(session_.tag_family),
+              suggestion(session_.tag_family, families));
+  }
+}
+
+void SessionReader::read_board() {
+  TomlReader reader = root_.table("board");
+  reader.allow(
+      {"type", "rows", "columns", "tag_size_m", "gap_m", "first_id", "thickness_m"});
+  if (const std::string type = reader.text("type"); type != "aprilgrid") {
+    reader.fail(
+        "type", "unknown board type " + in_quotes(type), "write type = \"aprilgrid\"");
+  }
+  AprilGrid& board = session_.board;
+  board.rows = reader.integer("rows", kGridCount);
+  board.columns = reader.integer("columns", kGridCount);
+  board.tag_size_m = reader.number("tag_size_m", kTagSize);
+  board.gap_m = reader.number("gap_m", kGap);
+  const int last_id = std::max(tags_in_family_ - 1, 0);
+  board.first_id = reader.integer("first_id", {0, static_cast<double>(last_id)});
+  if (reader.has("thickness_m")) {
+    board.thickness_m = reader.number("thickness_m", kThickness);
+  }
+  const int last_on_board = board.first_id + board.tag_count() - 1;
+  if (last_on_board > last_id) {
+    reader.fail("first_id",
+                with_number("the board would need tags up to id ", last_on_board) +
+                    with_number(", but " + session_.tag_family + " ends at ", last_id),
+                "correct rows, columns or first_id");
+  }
+}
+
+void SessionReader::read_tags() {
+  TomlReader tags = root_.table("tags");
+  if (!tags.has("tag")) {
+    tags.fail("",
+              "no tag is on the body",
+              "add a [[tags.tag]] with id, segment and size_m for each");
+  }
+  for (TomlReader& reader : tags.tables("tag")) read_tag(reader);
+}
+
+void SessionReader::read_tag(TomlReader& reader) {
+  reader.allow({"id", "segment", "size_m"});
+  const Limits ids{0, static_cast<double>(std::max(tags_in_family_ - 1, 0))};
+  const auto id = TagId{reader.integer("id", ids)};
+  const std::string segment = reader.text("segment");
+  const double size_m = reader.number("size_m", kTagSize);
+  if (!reader.ok()) return;
+
+  const auto same_id = [&](const TagOnSegment& tag) { return tag.id == id; };
+  if (std::any_of(session_.tags.begin(), session_.tags.end(), same_id)) {
+    reader.fail("id",
+                with_number("tag ", number(id)) + " is listed twice",
+                "remove one, or correct its id");
+  }
+  if (session_.board.contains(id)) {
+    reader.fail(
+        "id",
+        with_number("tag ", number(id)) + " is on the body and on the board",
+        "glue a tag with another id to the body, or correct the board's first_id");
+  }
+  const std::optional<HumanBone> bone = human_bone(segment);
+  if (!bone) {
+    std::vector<std::string_view> segments;
+    for (const HumanBone known : human_bones()) segments.push_back(marey::name(known));
+    reader.fail("segment",
+                "unknown segment " + in_quotes(segment),
+                suggestion(segment, segments));
+    return;
+  }
+  session_.tags.push_back({id, *bone, size_m});
+}
+
+std::string SessionReader::read_name(TomlReader& reader,
+                                     std::string_view what,
+                                     const std::vector<std::string>& taken,
+                                     std::span<const std::string_view> reserved) {
+  std::string word = reader.text("name");
+  if (!reader.ok()) return word;
+  const std::string title = std::string(what).append(" name ").append(in_quotes(word));
+  if (!is_safe_name(word)) {
+    reader.fail("name",
+                title + " cannot be the name of a folder",
+                "use up to 64 of A-Z a-z 0-9 . _ - and begin with a letter or digit");
+  }
+  if (std::find(reserved.begin(), reserved.end(), word) != reserved.end()) {
+    reader.fail("name", title + " is one of marey's own files' names", "choose another");
+  }
+  if (std::find(taken.begin(), taken.end(), word) != taken.end()) {
+    reader.fail("name", title + " is used twice", "give each its own name");
+  }
+  return word;
+}
+
+void SessionReader::read_cameras() {
+  // Tables of calibration.toml that Pose2Sim does not take for cameras.
+  constexpr std::array<std::string_view, 4> kReserved{
+      "metadata", "capture_volume", "charuco", "checkerboard"};
+  for (TomlReader& reader : root_.tables("camera")) {
+    reader.allow({"name"});
+    session_.cameras.push_back(read_name(reader, "camera", session_.cameras, kReserved));
+  }
+  if (session_.cameras.size() < 2) {
+    root_.fail("camera",
+               with_number("two cameras are needed, found ",
+                           static_cast<int>(session_.cameras.size())),
+               "add a [[camera]] with its name for each");
+  }
+}
+
+void SessionReader::read_trials() {
+  for (TomlReader& reader : root_.tables("trial")) {
+    session_.trials.push_back(read_trial(reader));
+  }
+  for (const TrialKind kind : {TrialKind::kCalibration, TrialKind::kFloor}) {
+    if (session_.find(kind) != nullptr) continue;
+    const std::string word(name(kind));
+    root_.fail("trial",
+               "no trial has the kind " + in_quotes(word),
+               "add a [[trial]] with kind = " + in_quotes(word) +
+                   (kind == TrialKind::kFloor ? ": the board lying still on the floor"
+                                              : ": the board waved through the volume"));
+  }
+}
+
+TrialKind SessionReader::read_kind(TomlReader& reader) {
+  const std::string word = reader.text("kind");
+  std::vector<std::string_view> words;
+  for (const TrialKind kind : kKinds) {
+    words.push_back(name(kind));
+    if (word == words.back()) return kind;
+  }
+  reader.fail("kind", "unknown kind " + in_quotes(word), suggestion(word, words));
+  return TrialKind::kMotion;
+}
+
+Trial SessionReader::read_trial(TomlReader& reader) {
+  // What the program writes beside the trials' folders.
+  constexpr std::array<std::string_view, 5> kReserved{
+      "detections", "calibration.toml", "subject.toml", "report.json", "report.html"};
+  reader.allow({"name", "kind", "fps", "frames", "videos", "time_offset_s"});
+  std::vector<std::string> taken;
+  for (const Trial& earlier : session_.trials) taken.push_back(earlier.name);
+  Trial trial;
+  trial.line = reader.line();
+  trial.name = read_name(reader, "trial", taken, kReserved);
+  trial.kind = read_kind(reader);
+  if (reader.has("fps")) trial.rate = FrameRate{reader.number("fps", kRate)};
+  if (reader.has("frames")) trial.frames = read_frames(reader);
+  read_videos(reader, trial);
+  if (reader.has("time_offset_s")) read_offsets(reader, trial);
+  return trial;
+}
+
+FrameRange SessionReader::read_frames(TomlReader& reader) {
+  constexpr double kHighest = 1e8;
+  const char* next = "write the first and the last frame to use: frames = [0, 126]";
+  const std::vector<double> frames = reader.numbers("frames", 2);
+  for (const double frame : frames) {
+    if (frame >= 0 && frame <= kHighest && frame == std::floor(frame)) continue;
+    reader.fail("frames", "\"frames\" must be two whole numbers from 0", next);
+    return {};
+  }
+  if (frames[0] > frames[1]) {
+    reader.fail("frames", "the first frame comes after the last", next);
+  }
+  return {static_cast<int>(frames[0]), static_cast<int>(frames[1])};
+}
+
+std::optional<CameraId> SessionReader::camera_of(TomlReader& videos,
+                                                 const std::string& name) {
+  const auto& names = session_.cameras;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return CameraId{static_cast<int>(found - names.begin())};
+  if (!videos.ok()) return std::nullopt;  // There may be no camera at all.
+  const std::vector<std::string_view> words(names.begin(), names.end());
+  videos.fail(name, "unknown camera " + in_quotes(name), suggestion(name, words));
+  return std::nullopt;
+}
+
+void SessionReader::read_videos(TomlReader& trial, Trial& out) {
+  if (!trial.has("videos") || trial.table("videos").keys().empty()) {
+    trial.fail("videos",
+               "trial " + in_quotes(out.name) + " has no video",
+               "write videos = { CAMERA = \"FILE\" } for its cameras");
+    return;
+  }
+  TomlReader videos = trial.table("videos");
+  for (const std::string& name : videos.keys()) {
+    const std::optional<CameraId> camera = camera_of(videos, name);
+    const std::string path = videos.text(name);
+    if (!videos.ok()) return;
+    if (path.empty()) {
+      videos.fail(
+          name, "the video of " + in_quotes(name) + " has no name", "name its file");
+    }
+    const fs::path full = (media_ / path).lexically_normal();
+    for (const TrialVideo& other : out.videos) {
+      if (other.path != full) continue;
+      videos.fail(name,
+                  "two cameras have the same video " + in_quotes(path),
+                  "name each camera's own");
+    }
+    out.videos.push_back({*camera, full, std::nullopt, videos.line(name)});
+  }
+  std::sort(out.videos.begin(), out.videos.end(), [](const auto& a, const auto& b) {
+    return a.camera < b.camera;
+  });
+}
+
+void SessionReader::read_offsets(TomlReader& trial, Trial& out) {
+  TomlReader offsets = trial.table("time_offset_s");
+  for (const std::string& name : offsets.keys()) {
+    const std::optional<CameraId> camera = camera_of(offsets, name);
+    const double offset_s = offsets.number(name, kOffset);
+    if (!offsets.ok()) return;
+    const auto video =
+        std::find_if(out.videos.begin(), out.videos.end(), [&](const auto& candidate) {
+          return candidate.camera == *camera;
+        });
+    if (video == out.videos.end()) {
+      offsets.fail(name,
+                   "camera " + in_quotes(name) + " has an offset but no video",
+                   "remove the offset, or add the video");
+      return;
+    }
+    video->offset = from_seconds(offset_s);
+  }
+}
+
+}  // namespace
+
+Result<Session> read_session(const fs::path& path, const ReadSessionOptions& options) {
+  std::error_code ignored;
+  Session session;
+  session.file = fs::is_directory(path, ignored) ? path / "session.toml" : path;
+  const Result<std::string> text = read_file(session.file);
+  if (!text) return text.error();
+  Result<TomlDocument> document = parse_toml(*text, session.file.string());
+  if (!document) return document.error();
+  SessionReader(*document, options, session).read();
+  if (document->mistake) return *document->mistake;
+  return session;
+}
+
+}  // namespace marey::recordings
