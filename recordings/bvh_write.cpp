@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "core/pose.h"
 #include "recordings/atomic_file.h"
 #include "recordings/bvh.h"
+#include "recordings/number_text.h"
 
 namespace marey::recordings {
 namespace {
@@ -65,23 +65,10 @@ glm::dvec3 euler_angles(const glm::dquat& rotation,
   return glm::distance(one, last) <= glm::distance(other, last) ? one : other;
 }
 
-void append_number(std::string& text, double value, int decimals = 6) {
-  std::array<char, 400> buffer{};  // The longest double has 309 digits before the point.
-  const auto [end, problem] = std::to_chars(buffer.data(),
-                                            buffer.data() + buffer.size(),
-                                            value,
-                                            std::chars_format::fixed,
-                                            decimals);
-  MAREY_ASSERT(problem == std::errc{});
-  const std::string_view digits(buffer.data(),
-                                static_cast<std::size_t>(end - buffer.data()));
-  text += digits == "-0.000000" ? digits.substr(1) : digits;
-}
-
 void append_vector(std::string& text, const glm::dvec3& v) {
   for (int i = 0; i < 3; ++i) {
     text += ' ';
-    append_number(text, v[i]);
+    append_fixed(text, v[i]);
   }
 }
 
@@ -175,7 +162,7 @@ std::string bvh_text(const Motion& motion, const BvhWriteOptions& options) {
   append_joint(text, body, options, 0, 0, order);
 
   text += "MOTION\nFrames: " + std::to_string(motion.poses.size()) + "\nFrame Time: ";
-  append_number(text, 1.0 / motion.rate.hz, 8);
+  append_fixed(text, 1.0 / motion.rate.hz, 8);
   text += "\n";
   const Axes axes = axes_of(options.order);
   std::vector<glm::dvec3> last(order.size(), glm::dvec3(0.0));

@@ -99,7 +99,7 @@ void add_leg(Figure& figure, const HumanLimb& leg) {
                                                       {1.92, 0.0180, 0.0205, -0.001},
                                                       {2.0, 0.0160, 0.0180, 0}}};
   add_limb(figure, {{leg.upper, leg.lower, leg.end}, kSections, 0.032});
-  figure.add_ball(leg.upper, 0.0450);
+  figure.add_ball(leg.upper, 0.0390);
   figure.add_ball(leg.lower, 0.0320);
   figure.add_ball(leg.end, 0.0220);
 }

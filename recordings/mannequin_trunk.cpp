@@ -64,66 +64,93 @@ std::vector<Section> trunk_sections(double hips, double shoulders) {
   const double waist = 0.36 * (hips + shoulders);
   return {{-1.05, 0.30 * hips, 0.020, 0.000},
           {-0.9, 0.52 * hips, 0.036, 0.000},
-          {-0.55, 0.80 * hips, 0.052, -0.002},
-          {-0.15, 0.97 * hips, 0.061, -0.004},
-          {0.25, 0.98 * hips, 0.061, -0.004},
+          {-0.55, 0.82 * hips, 0.053, -0.002},
+          {-0.15, 0.99 * hips, 0.062, -0.004},
+          {0.25, 0.99 * hips, 0.061, -0.004},
           {0.7, 0.90 * hips, 0.055, -0.001},
           {1.2, 1.00 * waist, 0.049, 0.002},
-          {1.7, 1.06 * waist, 0.050, 0.004},
-          {2.2, 0.80 * shoulders, 0.057, 0.005},
-          {2.8, 0.90 * shoulders, 0.063, 0.006},
-          {3.2, 0.93 * shoulders, 0.061, 0.003},
-          {3.55, 0.84 * shoulders, 0.051, -0.001},
-          {3.8, 0.60 * shoulders, 0.040, -0.003},
-          {4.0, 0.36 * shoulders, 0.032, -0.002},
-          {4.1, 0.15 * shoulders, 0.018, 0.000}};
+          {1.65, 1.05 * waist, 0.050, 0.004},
+          {2.2, 0.80 * shoulders, 0.057, 0.006},
+          {2.8, 0.92 * shoulders, 0.064, 0.007},
+          {3.2, 0.98 * shoulders, 0.062, 0.003},
+          {3.5, 0.94 * shoulders, 0.053, -0.001},
+          {3.75, 0.70 * shoulders, 0.042, -0.003},
+          {3.95, 0.43 * shoulders, 0.034, -0.002},
+          {4.1, 0.18 * shoulders, 0.020, 0.000}};
+}
+
+/// The trunk's middle at `at`: along the spine, below the hips towards the crotch.
+glm::dvec3 trunk_middle(const Figure& figure, double at) {
+  if (at < 0.0) {
+    const glm::dvec3 crotch =
+        0.5 * (figure.at(B::kLeftUpperLeg) + figure.at(B::kRightUpperLeg)) -
+        glm::dvec3(0, 0.052 * figure.size_m, 0);
+    return glm::mix(figure.at(B::kHips), crotch, -at);
+  }
+  const auto i = std::min<std::size_t>(static_cast<std::size_t>(at), 3);
+  return glm::mix(
+      figure.at(kTrunk[i]), figure.at(kTrunk[i + 1]), at - static_cast<double>(i));
+}
+
+/// Unit, from right to left: the line of the hips below, of the shoulders above.
+glm::dvec3 trunk_left(const Figure& figure, double at) {
+  const glm::dvec3 hips =
+      direction(figure.at(B::kLeftUpperLeg) - figure.at(B::kRightUpperLeg), {1, 0, 0});
+  const glm::dvec3 shoulders =
+      direction(figure.at(B::kLeftUpperArm) - figure.at(B::kRightUpperArm), {1, 0, 0});
+  return direction(glm::mix(hips, shoulders, smooth_step(0.5, 3.0, at)), {1, 0, 0});
+}
+
+Ring trunk_ring(const Figure& figure, const Section& section) {
+  const glm::dvec3 left = trunk_left(figure, section.at);
+  Ring ring;
+  ring.front = perpendicular({0, 0, 1}, left);
+  ring.along = glm::cross(ring.front, left);
+  ring.centre =
+      trunk_middle(figure, section.at) + section.shift * figure.thickness_m * ring.front;
+  ring.half_width = section.half_width * figure.thickness_m;
+  ring.half_depth = section.half_depth * figure.thickness_m;
+  ring.exponent = 2.5;
+  ring.part = section.at > 0.9 && section.at < 1.5 ? kJoint : kSkin;
+  return ring;
+}
+
+/// A button on the breastbone.
+void add_breast_mark(Figure& figure, std::span<const Section> sections) {
+  Ring ring = trunk_ring(figure, section_at(sections, 2.55));
+  ring.centre += ring.half_depth * ring.front;
+  ring.half_width = 0.013 * figure.thickness_m;
+  ring.half_depth = 0.005 * figure.thickness_m;
+  ring.exponent = 2.0;
+  ring.part = kMark;
+  ring.skin = trunk_skin(2.55, 0.0, 1.0);
+  figure.builder.add_ellipsoid(ring, ring.half_width, 12);
 }
 
 }  // namespace
 
 void add_trunk(Figure& figure) {
-  const double hips = half_breadth(figure, B::kLeftUpperLeg, B::kRightUpperLeg) + 0.040;
+  // The flesh beside the hip joints.
+  constexpr double kBeside = 0.040;
+  const double hips = half_breadth(figure, B::kLeftUpperLeg, B::kRightUpperLeg) + kBeside;
   const double shoulders = half_breadth(figure, B::kLeftUpperArm, B::kRightUpperArm);
   const std::vector<Section> sections = trunk_sections(hips, shoulders);
-  const glm::dvec3 crotch =
-      0.5 * (figure.at(B::kLeftUpperLeg) + figure.at(B::kRightUpperLeg)) -
-      glm::dvec3(0, 0.052 * figure.size_m, 0);
-  const auto place = [&](double at) {
-    if (at < 0.0) return glm::mix(figure.at(B::kHips), crotch, -at);
-    const auto i = std::min<std::size_t>(static_cast<std::size_t>(at), 3);
-    return glm::mix(
-        figure.at(kTrunk[i]), figure.at(kTrunk[i + 1]), at - static_cast<double>(i));
-  };
-  const glm::dvec3 left =
-      direction(figure.at(B::kLeftUpperArm) - figure.at(B::kRightUpperArm), {1, 0, 0});
-  const glm::dvec3 front = perpendicular({0, 0, 1}, left);
+  const std::vector<double> places = places_along(sections, 44);
   std::vector<Ring> rings;
-  std::vector<double> places = places_along(sections, 44);
   for (const double at : places) {
-    const Section section = section_at(sections, at);
-    Ring ring;
-    ring.front = front;
-    ring.along = glm::cross(left, -front);
-    ring.centre = place(at) + section.shift * figure.size_m * front;
-    ring.half_width =
-        section.half_width * figure.size_m * (figure.thickness_m / figure.size_m);
-    ring.half_depth = section.half_depth * figure.thickness_m;
-    ring.exponent = 2.5;
-    ring.skin = trunk_skin(std::max(at, 0.0), 0.0, 1.0);
-    ring.part = at > 0.85 && at < 1.62 ? kJoint : kSkin;
-    rings.push_back(ring);
+    rings.push_back(trunk_ring(figure, section_at(sections, at)));
   }
   const auto [first, last] = figure.builder.add_turned(rings, kTrunkSegments);
   SkinnedMesh& mesh = figure.builder.mesh();
   for (std::size_t v = first; v < last; ++v) {
     // One pole, then rings of kTrunkSegments, then the other pole.
-    const std::size_t ring =
-        v == first ? 0
-                   : std::min((v - first - 1) / kTrunkSegments + 1, places.size() - 1);
-    const double across = glm::dot(mesh.p_in_world[v] - rings[ring].centre, left);
+    const std::size_t ring = (v - first + kTrunkSegments - 1) / kTrunkSegments;
+    const double across = glm::dot(mesh.p_in_world[v] - rings[ring].centre,
+                                   trunk_left(figure, places[ring]));
     const double half_m = (places[ring] < 0.0 ? hips : shoulders) * figure.thickness_m;
     mesh.skin[v] = trunk_skin(places[ring], across, half_m);
   }
+  add_breast_mark(figure, sections);
 }
 
 void add_neck(Figure& figure) {
@@ -169,24 +196,24 @@ void add_face(Figure& figure, const Ring& frame, double height_m) {
     ring.part = part;
     figure.builder.add_ellipsoid(ring, half.y * height_m, 12);
   };
-  add({0.0, 0.28, 0.52}, {0.075, 0.15, 0.13}, kMark);
-  add({0.17, 0.43, 0.455}, {0.065, 0.05, 0.04}, kJoint);
-  add({-0.17, 0.43, 0.455}, {0.065, 0.05, 0.04}, kJoint);
+  add({0.0, 0.24, 0.475}, {0.052, 0.12, 0.10}, kMark);
+  add({0.165, 0.42, 0.445}, {0.062, 0.045, 0.035}, kJoint);
+  add({-0.165, 0.42, 0.445}, {0.062, 0.045, 0.035}, kJoint);
 }
 
 }  // namespace
 
 void add_head(Figure& figure) {
   // Of the height from head joint to top; at: 0 head joint, 1 top.
-  static constexpr std::array<Section, 9> kSections{{{-0.16, 0.06, 0.06, 0.20},
-                                                     {-0.12, 0.17, 0.18, 0.18},
-                                                     {0.0, 0.265, 0.31, 0.12},
-                                                     {0.2, 0.330, 0.42, 0.06},
-                                                     {0.45, 0.375, 0.47, 0.02},
-                                                     {0.66, 0.385, 0.48, -0.01},
-                                                     {0.85, 0.310, 0.39, -0.02},
-                                                     {0.97, 0.155, 0.20, -0.02},
-                                                     {1.0, 0.03, 0.04, -0.02}}};
+  static constexpr std::array<Section, 9> kSections{{{-0.16, 0.08, 0.07, 0.20},
+                                                     {-0.11, 0.21, 0.20, 0.18},
+                                                     {0.0, 0.305, 0.32, 0.125},
+                                                     {0.2, 0.365, 0.425, 0.06},
+                                                     {0.45, 0.400, 0.47, 0.02},
+                                                     {0.66, 0.405, 0.48, -0.01},
+                                                     {0.85, 0.340, 0.40, -0.02},
+                                                     {0.965, 0.190, 0.22, -0.02},
+                                                     {1.0, 0.05, 0.06, -0.02}}};
   const glm::dvec3 top = figure.proportions.head_top_in_head;
   const double height_m = glm::length(top);
   Ring ring;
@@ -199,7 +226,7 @@ void add_head(Figure& figure) {
     ring.centre = figure.at(B::kHead) + at * top + section.shift * height_m * ring.front;
     ring.half_width = section.half_width * height_m;
     ring.half_depth = section.half_depth * height_m;
-    ring.exponent = 2.15;
+    ring.exponent = 2.25;
     rings.push_back(ring);
   }
   (void)figure.builder.add_turned(rings, kHeadSegments);
