@@ -102,23 +102,53 @@ void add_sighting(const BodyModel& model,
                   const TagSighting& sighting,
                   std::span<const Camera> cameras,
                   Posture& posture,
-                  ceres::Problem& problem) {
+                  ceres::Problem& problem,
+                  double* offset_s,
+                  const std::array<glm::dvec2, 4>& velocity_px_s) {
   const RigidTransform* segment_from_tag = model.place(sighting.tag);
   if (!segment_from_tag) return;
   const HumanBone bone = model.bone(sighting.tag);
-  auto residual = std::make_unique<KnownTagResidual>(
-      KnownTagResidual{bone,
-                       slots_of(bone),
-                       model.lengths,
-                       model.body,
-                       tag_image(cameras[index(sighting.camera)], *sighting.detection),
-                       {}});
+  KnownTagResidual known{bone,
+                         slots_of(bone),
+                         model.lengths,
+                         model.body,
+                         tag_image(cameras[index(sighting.camera)], *sighting.detection),
+                         {}};
+  known.image.velocity_px_s = velocity_px_s;
   for (int c = 0; c < 4; ++c) {
-    residual->corners_in_segment[static_cast<std::size_t>(c)] =
+    known.corners_in_segment[static_cast<std::size_t>(c)] =
         *segment_from_tag * corner_in_tag(c, model.tags[sighting.tag].size_m);
   }
-  problem.AddResidualBlock(
-      tag_cost<>(std::move(residual)), tag_loss(), blocks_of(posture, bone));
+  std::vector<double*> blocks = blocks_of(posture, bone);
+  ceres::CostFunction* cost = nullptr;
+  if (offset_s) {
+    blocks.push_back(offset_s);
+    cost = tag_cost<1>(std::make_unique<LateTagResidual>(LateTagResidual{known}));
+  } else {
+    cost = tag_cost<>(std::make_unique<KnownTagResidual>(std::move(known)));
+  }
+  problem.AddResidualBlock(cost, tag_loss(), blocks);
+}
+
+std::optional<std::array<glm::dvec2, 4>> predicted_corners_px(
+    const BodyModel& model,
+    const TagSighting& sighting,
+    std::span<const Camera> cameras,
+    const Posture& posture) {
+  const RigidTransform* segment_from_tag = model.place(sighting.tag);
+  if (!segment_from_tag) return std::nullopt;
+  const RigidTransform world_from_tag =
+      world_from_bone(model.bone(sighting.tag), posture, model.lengths, model.body) *
+      *segment_from_tag;
+  std::array<glm::dvec2, 4> corners{};
+  for (int c = 0; c < 4; ++c) {
+    const auto pixel =
+        project(cameras[index(sighting.camera)],
+                world_from_tag * corner_in_tag(c, model.tags[sighting.tag].size_m));
+    if (!pixel) return std::nullopt;
+    corners[static_cast<std::size_t>(c)] = *pixel;
+  }
+  return corners;
 }
 
 std::array<double, 4> corner_errors_px(const BodyModel& model,
@@ -127,18 +157,10 @@ std::array<double, 4> corner_errors_px(const BodyModel& model,
                                        const Posture& posture) {
   constexpr double kBehind = 1e3;
   std::array<double, 4> errors{kBehind, kBehind, kBehind, kBehind};
-  const RigidTransform* segment_from_tag = model.place(sighting.tag);
-  if (!segment_from_tag) return errors;
-  const RigidTransform world_from_tag =
-      world_from_bone(model.bone(sighting.tag), posture, model.lengths, model.body) *
-      *segment_from_tag;
-  for (int c = 0; c < 4; ++c) {
-    const auto pixel =
-        project(cameras[index(sighting.camera)],
-                world_from_tag * corner_in_tag(c, model.tags[sighting.tag].size_m));
-    if (!pixel) continue;
-    const auto i = static_cast<std::size_t>(c);
-    errors[i] = glm::distance(*pixel, sighting.detection->corners_px[i]);
+  const auto predicted = predicted_corners_px(model, sighting, cameras, posture);
+  if (!predicted) return errors;
+  for (std::size_t i = 0; i < 4; ++i) {
+    errors[i] = glm::distance((*predicted)[i], sighting.detection->corners_px[i]);
   }
   return errors;
 }

@@ -4,7 +4,9 @@
 
 // Private to reconstruct: a body and its tags as the solvers see them.
 
+#include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,12 +39,24 @@ struct BodyModel {
 /// Robust loss of a tag's eight residuals, whose norm is near 2.8 when all is well.
 [[nodiscard]] ceres::LossFunction* tag_loss();
 
-/// Adds the reprojection of one sighting to a problem in which the body is known.
+/// Adds the reprojection of one sighting to a problem in which the body is known. With
+/// `offset_s`, that block is the time by which the camera is late, and the corners move
+/// at `velocity_px_s` meanwhile.
 void add_sighting(const BodyModel& model,
                   const TagSighting& sighting,
                   std::span<const Camera> cameras,
                   Posture& posture,
-                  ceres::Problem& problem);
+                  ceres::Problem& problem,
+                  double* offset_s = nullptr,
+                  const std::array<glm::dvec2, 4>& velocity_px_s = {});
+
+/// Where the sighting's corners should be in its image; nullopt behind the camera or for
+/// a tag without a place. [px]
+[[nodiscard]] std::optional<std::array<glm::dvec2, 4>> predicted_corners_px(
+    const BodyModel& model,
+    const TagSighting& sighting,
+    std::span<const Camera> cameras,
+    const Posture& posture);
 
 /// Distances of a sighting's four corners to their model. [px]; 1000 behind the camera.
 [[nodiscard]] std::array<double, 4> corner_errors_px(const BodyModel& model,

@@ -30,6 +30,34 @@ double signed_angle(const glm::dquat& rotation, const glm::dvec3& axis) {
   return glm::dot(rotation_vector(twist_about(rotation, axis)), axis);
 }
 
+/// Flexion and twist of the upper bone from the lower bone's rotation in the upper's. The
+/// limb's plane is where its bones are; a limb too straight to span one keeps its twist.
+void set_bend(const glm::dquat& upper_from_lower,
+              const glm::dvec3& along,
+              const glm::dvec3& hinge,
+              double& flexion,
+              double& upper_twist) {
+  constexpr double kSpansAPlane = 0.15;  // [rad]
+  const glm::dvec3 lower = upper_from_lower * along;
+  const glm::dvec3 normal = glm::cross(along, lower);
+  const double sine = glm::length(normal);
+  const double angle = std::atan2(sine, glm::dot(along, lower));
+  if (angle < kSpansAPlane) {
+    const glm::dvec3 turned = rotation_from_vector(-upper_twist * along) * hinge;
+    flexion = signed_angle(upper_from_lower, glm::normalize(turned));
+    return;
+  }
+  const glm::dvec3 plane_hinge = normal / sine;
+  upper_twist = -std::atan2(glm::dot(glm::cross(hinge, plane_hinge), along),
+                            glm::dot(hinge, plane_hinge));
+  flexion = angle;
+  if (std::abs(upper_twist) > glm::radians(100.0)) {
+    // Bent a little the wrong way rather than with the bone turned about.
+    upper_twist += upper_twist > 0.0 ? -glm::radians(180.0) : glm::radians(180.0);
+    flexion = -angle;
+  }
+}
+
 struct LimbInput {
   std::size_t limb;
   Slot parent;
@@ -47,9 +75,8 @@ void set_limb(const LimbInput& input,
   const auto upper = find(found, bones.upper);
   const auto lower = find(found, bones.lower);
   double& flexion = *posture.block(s.flexion);
-  double& twist = *posture.block(s.twist);
-  flexion = *fallback.block(s.flexion);
-  twist = *fallback.block(s.twist);
+  double& upper_twist = *posture.block(s.upper_twist);
+  double& lower_twist = *posture.block(s.lower_twist);
   const double l1 = lengths[index(s.upper)];
   const double l2 = lengths[index(s.lower)];
   const auto lean = [&] {
@@ -58,13 +85,16 @@ void set_limb(const LimbInput& input,
   glm::dquat frame;
   if (upper && lower) {
     const glm::dquat bend = glm::conjugate(upper->rotation) * lower->rotation;
-    flexion = signed_angle(bend, hinge);
-    twist = signed_angle(rotation_from_vector(-flexion * hinge) * bend, along);
-    frame = upper->rotation * rotation_from_vector(lean() * hinge);
+    set_bend(bend, along, hinge, flexion, upper_twist);
+    const glm::dquat plane = upper->rotation * rotation_from_vector(-upper_twist * along);
+    frame = plane * rotation_from_vector(lean() * hinge);
+    const glm::dquat untwisted = plane * rotation_from_vector(flexion * hinge);
+    lower_twist = signed_angle(glm::conjugate(untwisted) * lower->rotation, along);
   } else if (upper) {
-    frame = upper->rotation * rotation_from_vector(lean() * hinge);
+    frame = upper->rotation * rotation_from_vector(-upper_twist * along) *
+            rotation_from_vector(lean() * hinge);
   } else if (lower) {
-    frame = lower->rotation * rotation_from_vector(-twist * along) *
+    frame = lower->rotation * rotation_from_vector(-lower_twist * along) *
             rotation_from_vector(-(flexion - lean()) * hinge);
   } else {
     frame = carried(fallback.rotation(input.parent),
@@ -152,15 +182,17 @@ Posture posture_from_segments(const Found& found,
   return posture;
 }
 
-Posture extrapolate(const Posture& before, const Posture& now) {
+Posture extrapolate(const Posture& before, const Posture& now, double share) {
   Posture next = now;
   for (const Slot slot : kAllSlots) {
     if (is_rotation(slot)) {
-      const glm::dquat step = now.rotation(slot) * glm::conjugate(before.rotation(slot));
-      next.set_rotation(slot, glm::normalize(step * now.rotation(slot)));
+      const glm::dvec3 step =
+          rotation_vector(now.rotation(slot) * glm::conjugate(before.rotation(slot)));
+      next.set_rotation(
+          slot, glm::normalize(rotation_from_vector(share * step) * now.rotation(slot)));
     } else {
       for (int i = 0; i < block_size(slot); ++i) {
-        next.block(slot)[i] = 2.0 * now.block(slot)[i] - before.block(slot)[i];
+        next.block(slot)[i] += share * (now.block(slot)[i] - before.block(slot)[i]);
       }
     }
   }

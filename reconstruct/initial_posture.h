@@ -21,7 +21,9 @@ namespace marey::reconstruct {
     const BodyFrame& body,
     const Posture& fallback);
 
-/// The posture one frame on, every block moving on at the speed it had.
-[[nodiscard]] Posture extrapolate(const Posture& before, const Posture& now);
+/// The posture one frame on, every block moving on at `share` of the speed it had.
+[[nodiscard]] Posture extrapolate(const Posture& before,
+                                  const Posture& now,
+                                  double share);
 
 }  // namespace marey::reconstruct

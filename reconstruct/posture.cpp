@@ -83,27 +83,30 @@ std::vector<Slot> slots_of(HumanBone bone) {
     case B::kRightShoulder:
       return trunk({S::kRightShoulder});
     case B::kLeftUpperArm:
-      return trunk({S::kLeftShoulder, S::kLeftArm, S::kLeftElbow});
+      return trunk(
+          {S::kLeftShoulder, S::kLeftArm, S::kLeftElbow, S::kLeftUpperArmTwist});
     case B::kLeftLowerArm:
       return trunk({S::kLeftShoulder, S::kLeftArm, S::kLeftElbow, S::kLeftForearmTwist});
     case B::kLeftHand:
       return trunk({S::kLeftShoulder, S::kLeftArm, S::kLeftHand, S::kLeftElbow});
     case B::kRightUpperArm:
-      return trunk({S::kRightShoulder, S::kRightArm, S::kRightElbow});
+      return trunk(
+          {S::kRightShoulder, S::kRightArm, S::kRightElbow, S::kRightUpperArmTwist});
     case B::kRightLowerArm:
       return trunk(
           {S::kRightShoulder, S::kRightArm, S::kRightElbow, S::kRightForearmTwist});
     case B::kRightHand:
       return trunk({S::kRightShoulder, S::kRightArm, S::kRightHand, S::kRightElbow});
     case B::kLeftUpperLeg:
-      return {S::kHipsPosition, S::kHips, S::kLeftLeg, S::kLeftKnee};
+      return {S::kHipsPosition, S::kHips, S::kLeftLeg, S::kLeftKnee, S::kLeftThighTwist};
     case B::kLeftLowerLeg:
       return {S::kHipsPosition, S::kHips, S::kLeftLeg, S::kLeftKnee, S::kLeftShankTwist};
     case B::kLeftFoot:
     case B::kLeftToes:
       return {S::kHipsPosition, S::kHips, S::kLeftLeg, S::kLeftFoot, S::kLeftKnee};
     case B::kRightUpperLeg:
-      return {S::kHipsPosition, S::kHips, S::kRightLeg, S::kRightKnee};
+      return {
+          S::kHipsPosition, S::kHips, S::kRightLeg, S::kRightKnee, S::kRightThighTwist};
     case B::kRightLowerLeg:
       return {
           S::kHipsPosition, S::kHips, S::kRightLeg, S::kRightKnee, S::kRightShankTwist};

@@ -49,12 +49,16 @@ enum class Slot : int {
   kRightElbow,
   kLeftKnee,
   kRightKnee,
-  kLeftForearmTwist,  ///< Of the lower bone about its own axis, off the hinge.
+  kLeftForearmTwist,  ///< Of the lower bone about its own axis, off the limb's plane.
   kRightForearmTwist,
   kLeftShankTwist,
   kRightShankTwist,
+  kLeftUpperArmTwist,  ///< Likewise of the upper bone: its skin follows it only half way.
+  kRightUpperArmTwist,
+  kLeftThighTwist,
+  kRightThighTwist,
 };
-inline constexpr int kSlotCount = 24;
+inline constexpr int kSlotCount = 28;
 
 [[nodiscard]] constexpr std::size_t index(Slot slot) {
   return static_cast<std::size_t>(slot);
@@ -74,8 +78,8 @@ inline constexpr int kSlotCount = 24;
   for (int i = 0; i < static_cast<int>(slot); ++i) offset += block_size(Slot{i});
   return offset;
 }
-inline constexpr int kPostureStorage = 3 + 15 * 4 + 8;
-inline constexpr int kPostureFreedom = 3 + 15 * 3 + 8;
+inline constexpr int kPostureStorage = 3 + 15 * 4 + 12;
+inline constexpr int kPostureFreedom = 3 + 15 * 3 + 12;
 
 /// One posture: plain numbers that a solver can point into.
 struct Posture {
@@ -130,7 +134,8 @@ using Lengths = std::array<double, kLengthCount>;
 struct LimbSlots {
   Slot frame;
   Slot flexion;
-  Slot twist;
+  Slot upper_twist;
+  Slot lower_twist;
   Slot extremity;
   Length upper;
   Length lower;
@@ -139,24 +144,28 @@ struct LimbSlots {
 inline constexpr std::array<LimbSlots, 4> kLimbSlots{{
     {Slot::kLeftArm,
      Slot::kLeftElbow,
+     Slot::kLeftUpperArmTwist,
      Slot::kLeftForearmTwist,
      Slot::kLeftHand,
      Length::kLeftUpperArm,
      Length::kLeftLowerArm},
     {Slot::kRightArm,
      Slot::kRightElbow,
+     Slot::kRightUpperArmTwist,
      Slot::kRightForearmTwist,
      Slot::kRightHand,
      Length::kRightUpperArm,
      Length::kRightLowerArm},
     {Slot::kLeftLeg,
      Slot::kLeftKnee,
+     Slot::kLeftThighTwist,
      Slot::kLeftShankTwist,
      Slot::kLeftFoot,
      Length::kLeftUpperLeg,
      Length::kLeftLowerLeg},
     {Slot::kRightLeg,
      Slot::kRightKnee,
+     Slot::kRightThighTwist,
      Slot::kRightShankTwist,
      Slot::kRightFoot,
      Length::kRightUpperLeg,
@@ -268,11 +277,13 @@ BoneFrame<T> bone_frame(HumanBone bone,
     const T alpha = atan2(l2 * sin(flexion), l1 + l2 * cos(flexion));
     const Quaternion frame = rotation(s.frame);
     const Quaternion upper = frame * detail::about_axis(hinge, T(-alpha));
-    if (place == 0) return {upper, root};
+    if (place == 0) {
+      return {upper * detail::about_axis(along, scalar(s.upper_twist)), root};
+    }
     const Vec3<T> p_mid = root + upper * (detail::vec<T>(along) * l1);
     const Quaternion lower = frame * detail::about_axis(hinge, T(flexion - alpha));
     if (place == 1) {
-      return {lower * detail::about_axis(along, scalar(s.twist)), p_mid};
+      return {lower * detail::about_axis(along, scalar(s.lower_twist)), p_mid};
     }
     const Vec3<T> p_end = p_mid + lower * (detail::vec<T>(along) * l2);
     return {rotation(s.extremity), p_end};

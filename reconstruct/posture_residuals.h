@@ -34,6 +34,8 @@ struct TagImage {
   RigidTransform camera_from_world;
   std::array<glm::dvec2, 4> corners_px{};
   double sigma_px = 0.3;
+  /// How fast each corner crosses the image. [px/s] Used with a time offset only.
+  std::array<glm::dvec2, 4> velocity_px_s{};
 
   /// Eight residuals in sigmas: predicted minus seen. A corner behind the camera costs a
   /// constant: such a posture is wrong, but not impossible to leave.
@@ -112,6 +114,22 @@ struct KnownTagResidual {
   }
 };
 
+/// KnownTagResidual for a camera whose clock is off by an unknown time: a further block
+/// holds the offset [s], and what the camera saw is where the corner was that much later.
+struct LateTagResidual : KnownTagResidual {
+  template <class... A>
+  bool operator()(A... arguments) const {
+    auto in = unpack(slots, arguments...);
+    if (!KnownTagResidual::operator()(arguments...)) return false;
+    for (std::size_t i = 0; i < 4; ++i) {
+      in.residual[2 * i] += in.extra[0][0] * (image.velocity_px_s[i].x / image.sigma_px);
+      in.residual[2 * i + 1] +=
+          in.extra[0][0] * (image.velocity_px_s[i].y / image.sigma_px);
+    }
+    return true;
+  }
+};
+
 /// Reprojection of one tag of a body that is being measured: further blocks are the
 /// lengths, the tag's rotation (x, y, z, w) and place on its segment.
 struct UnknownTagResidual {
@@ -161,8 +179,6 @@ ceres::CostFunction* tag_cost(std::unique_ptr<Functor> functor) {
       return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, Extra...>(f);
     case B::kLeftUpperArm:
     case B::kRightUpperArm:
-      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, 1, Extra...>(
-          f);
     case B::kLeftLowerArm:
     case B::kRightLowerArm:
       return new ceres::
@@ -173,7 +189,6 @@ ceres::CostFunction* tag_cost(std::unique_ptr<Functor> functor) {
           AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, 4, 1, Extra...>(f);
     case B::kLeftUpperLeg:
     case B::kRightUpperLeg:
-      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 1, Extra...>(f);
     case B::kLeftLowerLeg:
     case B::kRightLowerLeg:
       return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 1, 1, Extra...>(f);
@@ -233,6 +248,37 @@ struct RelativeRotationPrior {
                      T(parent_from_child.z));
     const auto off = log_rotation<T>((p * expected).conjugate() * c);
     for (int i = 0; i < 3; ++i) residual[i] = off[i] / sigma_rad[i];
+    return true;
+  }
+};
+
+/// The bone should be turned as `world_from_bone`, give or take.
+struct RotationPrior {
+  glm::dquat world_from_bone;
+  double sigma_rad;
+
+  template <class T>
+  bool operator()(const T* rotation, T* residual) const {
+    using Q = Eigen::Quaternion<T>;
+    const Q expected(T(world_from_bone.w),
+                     T(world_from_bone.x),
+                     T(world_from_bone.y),
+                     T(world_from_bone.z));
+    const auto off =
+        log_rotation<T>(expected.conjugate() * Q(Eigen::Map<const Q>(rotation)));
+    for (int i = 0; i < 3; ++i) residual[i] = off[i] / T(sigma_rad);
+    return true;
+  }
+};
+
+/// A point should be at `expected`, give or take.
+struct PlacePrior {
+  glm::dvec3 expected;
+  double sigma_m;
+
+  template <class T>
+  bool operator()(const T* place, T* residual) const {
+    for (int i = 0; i < 3; ++i) residual[i] = (place[i] - expected[i]) / sigma_m;
     return true;
   }
 };

@@ -68,6 +68,10 @@ constexpr std::array<SlotAcceleration, kSlotCount> kAccelerations{{
     {Slot::kRightForearmTwist, 60.0},
     {Slot::kLeftShankTwist, 30.0},
     {Slot::kRightShankTwist, 30.0},
+    {Slot::kLeftUpperArmTwist, 40.0},
+    {Slot::kRightUpperArmTwist, 40.0},
+    {Slot::kLeftThighTwist, 30.0},
+    {Slot::kRightThighTwist, 30.0},
 }};
 
 void add_relative(Posture& posture,
@@ -117,7 +121,7 @@ void add_extremity(Posture& posture,
       nullptr,
       posture.block(s.frame),
       posture.block(s.flexion),
-      posture.block(s.twist),
+      posture.block(s.lower_twist),
       posture.block(s.extremity));
 }
 
@@ -163,7 +167,8 @@ void add_habits(Posture& posture, const Lengths& lengths, ceres::Problem& proble
     const LimbSlots& s = kLimbSlots[limb];
     const bool arm = limb < 2;
     add_extremity(posture, limb, lengths, arm ? 0.5 : 0.35, problem);
-    add_scalar(posture.block(s.twist), 0.0, arm ? 0.4 : 0.08, problem);
+    add_scalar(posture.block(s.upper_twist), 0.0, arm ? 0.4 : 0.08, problem);
+    add_scalar(posture.block(s.lower_twist), 0.0, arm ? 0.4 : 0.08, problem);
     add_scalar(posture.block(s.flexion), 0.3, 1.0, problem);
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<FlexionLimit, 1, 1>(
                                  new FlexionLimit{-0.05, 0.05}),
@@ -187,7 +192,8 @@ void add_standing(Posture& posture, const Lengths& lengths, ceres::Problem& prob
   }
   for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
     add_extremity(posture, limb, lengths, limb < 2 ? 0.1 : 0.15, problem);
-    add_scalar(posture.block(kLimbSlots[limb].twist), 0.0, 0.02, problem);
+    add_scalar(posture.block(kLimbSlots[limb].upper_twist), 0.0, 0.02, problem);
+    add_scalar(posture.block(kLimbSlots[limb].lower_twist), 0.0, 0.02, problem);
   }
 }
 
@@ -216,6 +222,28 @@ void add_smoothness(Posture& before,
                              before.block(row.slot),
                              now.block(row.slot),
                              after.block(row.slot));
+  }
+}
+
+void add_leash(const Posture& expected,
+               double rad,
+               double metres,
+               Posture& posture,
+               ceres::Problem& problem) {
+  for (const Slot slot : kAllSlots) {
+    ceres::CostFunction* cost = nullptr;
+    if (is_rotation(slot)) {
+      cost = new ceres::AutoDiffCostFunction<RotationPrior, 3, 4>(
+          new RotationPrior{expected.rotation(slot), rad});
+    } else if (slot == Slot::kHipsPosition) {
+      const double* p = expected.block(slot);
+      cost = new ceres::AutoDiffCostFunction<PlacePrior, 3, 3>(
+          new PlacePrior{{p[0], p[1], p[2]}, metres});
+    } else {
+      cost = new ceres::AutoDiffCostFunction<ScalarPrior, 1, 1>(
+          new ScalarPrior{*expected.block(slot), rad});
+    }
+    problem.AddResidualBlock(cost, nullptr, posture.block(slot));
   }
 }
 

@@ -37,6 +37,14 @@ void add_smoothness(Posture& before,
                     FrameRate rate,
                     ceres::Problem& problem);
 
+/// Keeps every block of the posture near that of `expected`: within `rad` for rotations
+/// and angles, `metres` for the hips.
+void add_leash(const Posture& expected,
+               double rad,
+               double metres,
+               Posture& posture,
+               ceres::Problem& problem);
+
 /// Tells Ceres which blocks of the posture are rotations. Call once its blocks are in
 /// use.
 void set_manifolds(Posture& posture, ceres::Problem& problem);

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/posture_doubt.h"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+
+namespace marey::reconstruct {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+using Dense = Eigen::MatrixXd;
+constexpr int kN = kPostureFreedom;
+
+/// Normal matrix of the moving postures, in time order.
+bool normal_matrix(std::span<Posture> postures, ceres::Problem& problem, Sparse& out) {
+  ceres::Problem::EvaluateOptions options;
+  for (Posture& posture : postures) {
+    for (const Slot slot : kAllSlots) {
+      options.parameter_blocks.push_back(posture.block(slot));
+    }
+  }
+  ceres::CRSMatrix crs;
+  std::vector<double> residuals;
+  if (!problem.Evaluate(options, nullptr, &residuals, nullptr, &crs)) return false;
+  const Eigen::Map<const Sparse> jacobian(crs.num_rows,
+                                          crs.num_cols,
+                                          static_cast<Eigen::Index>(crs.values.size()),
+                                          crs.rows.data(),
+                                          crs.cols.data(),
+                                          crs.values.data());
+  out = Sparse(jacobian.transpose()) * jacobian;
+  return true;
+}
+
+/// Diagonal blocks of the inverse of a symmetric block-tridiagonal matrix.
+std::vector<Dense> inverse_diagonal(const Sparse& matrix, int block) {
+  const int size = static_cast<int>(matrix.rows());
+  const int count = (size + block - 1) / block;
+  const auto start = [&](int i) { return i * block; };
+  const auto width = [&](int i) { return std::min(block, size - i * block); };
+  std::vector<Dense> pivot_inverse;
+  std::vector<Dense> factor;  // L_i = B_i * pivot_inverse_{i-1}
+  for (int i = 0; i < count; ++i) {
+    Dense pivot = matrix.block(start(i), start(i), width(i), width(i));
+    pivot.diagonal().array() += 1e-9;
+    if (i > 0) {
+      const Dense below = matrix.block(start(i), start(i - 1), width(i), width(i - 1));
+      factor.push_back(below * pivot_inverse.back());
+      pivot -= factor.back() * below.transpose();
+    } else {
+      factor.emplace_back();
+    }
+    pivot_inverse.push_back(pivot.ldlt().solve(Dense::Identity(width(i), width(i))));
+  }
+  std::vector<Dense> diagonal(static_cast<std::size_t>(count));
+  for (int i = count - 1; i >= 0; --i) {
+    const auto at = static_cast<std::size_t>(i);
+    diagonal[at] = pivot_inverse[at];
+    if (i + 1 < count) {
+      diagonal[at] += factor[at + 1].transpose() * diagonal[at + 1] * factor[at + 1];
+    }
+  }
+  return diagonal;
+}
+
+/// Origin of every bone over the posture's tangent, Ceres' own: 3 rows per bone.
+Eigen::Matrix<double, 3 * kHumanBoneCount, kN> origin_jacobian(const BodyModel& model,
+                                                               const Posture& posture) {
+  using Jet = ceres::Jet<double, kN>;
+  std::array<Jet, kPostureStorage> values;
+  std::array<const Jet*, kSlotCount> blocks{};
+  const ceres::EigenQuaternionManifold manifold;
+  int column = 0;
+  for (const Slot slot : kAllSlots) {
+    const int offset = storage_offset(slot);
+    blocks[index(slot)] = &values[static_cast<std::size_t>(offset)];
+    Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
+    if (is_rotation(slot)) manifold.PlusJacobian(posture.block(slot), plus.data());
+    for (int i = 0; i < block_size(slot); ++i) {
+      Jet& value = values[static_cast<std::size_t>(offset + i)];
+      value = Jet(posture.block(slot)[i]);
+      if (is_rotation(slot)) {
+        value.v.segment<3>(column) = plus.row(i);
+      } else {
+        value.v[column + i] = 1.0;
+      }
+    }
+    column += tangent_size(slot);
+  }
+  Eigen::Matrix<double, 3 * kHumanBoneCount, kN> jacobian;
+  for (const HumanBone bone : human_bones()) {
+    const BoneFrame<Jet> frame =
+        bone_frame<Jet, double>(solved_segment(bone),
+                                std::span<const Jet* const, kSlotCount>(blocks),
+                                model.lengths.data(),
+                                model.body);
+    for (int axis = 0; axis < 3; ++axis) {
+      jacobian.row(3 * static_cast<int>(bone) + axis) = frame.origin[axis].v;
+    }
+  }
+  return jacobian;
+}
+
+}  // namespace
+
+std::vector<BoneSigmas> bone_sigmas(const BodyModel& model,
+                                    std::span<Posture> postures,
+                                    ceres::Problem& problem) {
+  Sparse normal;
+  if (!normal_matrix(postures, problem, normal)) return {};
+  const std::vector<Dense> pairs = inverse_diagonal(normal, 2 * kN);
+  std::vector<BoneSigmas> sigmas(postures.size());
+  for (std::size_t f = 0; f < postures.size(); ++f) {
+    const int within = static_cast<int>(f % 2) * kN;
+    const Dense covariance = pairs[f / 2].block(within, within, kN, kN);
+    const auto jacobian = origin_jacobian(model, postures[f]);
+    for (const HumanBone bone : human_bones()) {
+      const auto rows = jacobian.middleRows<3>(3 * static_cast<int>(bone));
+      const double trace = (rows * covariance * rows.transpose()).trace();
+      sigmas[f][index(bone)] = std::sqrt(std::max(0.0, trace) / 3.0);
+    }
+  }
+  return sigmas;
+}
+
+}  // namespace marey::reconstruct

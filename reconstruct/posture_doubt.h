@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: how well a window's postures are known.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include <ceres/ceres.h>
+
+#include "reconstruct/body_model.h"
+
+namespace marey::reconstruct {
+
+/// Standard deviation of every bone's origin (root mean square over coordinates). [m]
+using BoneSigmas = std::array<double, kHumanBoneCount>;
+
+/// For each posture that the problem moves, from the diagonal blocks of the inverse of
+/// the problem's normal matrix. That matrix is block pentadiagonal in time, so it is
+/// inverted by blocks of two frames in one forward and one backward pass (Takahashi's
+/// equations). `postures` are the moving ones, in time order. Empty when Ceres cannot
+/// evaluate.
+[[nodiscard]] std::vector<BoneSigmas> bone_sigmas(const BodyModel& model,
+                                                  std::span<Posture> postures,
+                                                  ceres::Problem& problem);
+
+}  // namespace marey::reconstruct

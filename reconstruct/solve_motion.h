@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/body.h"
+#include "core/camera.h"
+#include "core/detection.h"
+#include "core/motion.h"
+#include "core/progress.h"
+#include "core/result.h"
+
+namespace marey::reconstruct {
+
+struct SolveMotionOptions {
+  /// Frames solved at once, and how many of them the next window solves again. Memory and
+  /// the cost per frame follow the window, not the trial.
+  int window_frames = 90;
+  int overlap_frames = 30;
+  /// A segment unseen for longer than this is inferred, not repaired. [s]
+  double longest_repair_s = 1.0;
+  /// Solve for the time offsets of cameras that have none given. The first camera's clock
+  /// is the trial's.
+  bool estimate_offsets = true;
+};
+
+/// A run of frames in which no tag of a segment was seen.
+struct Gap {
+  HumanBone segment{};
+  int first_frame = 0;
+  int last_frame = 0;  ///< Inclusive.
+  Source bridged_as = Source::kRepaired;
+};
+
+/// Reprojection of the solved motion in one camera.
+struct CameraFit {
+  double rms_px = 0.0;
+  double median_px = 0.0;
+  int corners = 0;
+  double offset_s = 0.0;  ///< Frame k was exposed at k / rate + offset_s.
+  bool offset_is_given = false;
+};
+
+struct SolvedTrial {
+  EstimatedMotion estimate;
+  std::vector<CameraFit> cameras;
+  std::vector<double> frame_rms_px;  ///< Per frame; 0 where no tag was seen.
+  std::vector<int> tags_seen;        ///< Per frame: sightings over all cameras.
+  std::vector<Gap> gaps;             ///< By segment, then frame. Tagged segments only.
+  double rms_px = 0.0;
+  double median_px = 0.0;
+  /// Frames whose hips or chest were seen, or bridged within `longest_repair_s`.
+  int frames_solved = 0;
+};
+
+/// Fits the normalized skeleton to every frame of a trial: all seen corners in all
+/// cameras at once, with a temporal term that bridges what nobody sees.
+///
+/// First each frame on its own, starting from the one before and from the tags' own
+/// poses; then overlapping windows in which all frames move together (Ceres, sparse).
+/// Sigmas are the windows' covariance, scaled by the residuals, with the body's own doubt
+/// added.
+///
+/// `detections` holds one entry per camera of `cameras`, in order; an entry with a
+/// non-zero offset keeps it. Deterministic. Errors (kBadInput, `where` the first video):
+/// no body tag seen in any frame; the body never found in the trial. Cost: about 10 ms a
+/// frame; memory grows only by the poses.
+[[nodiscard]] Result<SolvedTrial> solve_motion(
+    const Body& body,
+    std::span<const Camera> cameras,
+    std::span<const CameraDetections> detections,
+    const SolveMotionOptions& options = {},
+    const Progress& progress = {});
+
+}  // namespace marey::reconstruct
