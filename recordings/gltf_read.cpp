@@ -165,12 +165,18 @@ Result<NodeTree> tree_of(const NamedModel& file) {
       parent = i;
     }
   }
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (!tree.parent[i]) tree.parents_first.push_back(i);
+  // Depth first, so that a humanoid keeps the order of human_bones().
+  std::vector<std::size_t> open;
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    if (!tree.parent[i]) open.push_back(i);
   }
-  for (std::size_t i = 0; i < tree.parents_first.size(); ++i) {
-    for (const int child : nodes[tree.parents_first[i]].children) {
-      tree.parents_first.push_back(static_cast<std::size_t>(child));
+  while (!open.empty()) {
+    const std::size_t node = open.back();
+    open.pop_back();
+    tree.parents_first.push_back(node);
+    const auto& children = nodes[node].children;
+    for (auto child = children.rbegin(); child != children.rend(); ++child) {
+      open.push_back(static_cast<std::size_t>(*child));
     }
   }
   if (tree.parents_first.size() != nodes.size()) {

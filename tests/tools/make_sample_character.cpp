@@ -9,17 +9,15 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
-#include <random>
 #include <string>
 
 #include "core/pose.h"
 #include "recordings/bvh.h"
 #include "recordings/gltf.h"
 #include "recordings/mannequin.h"
+#include "tests/recordings/wild_motion.h"
 
 namespace {
-
-using marey::HumanBone;
 
 marey::Proportions body(const std::string& kind) {
   using marey::recordings::mannequin_proportions;
@@ -31,40 +29,8 @@ marey::Proportions body(const std::string& kind) {
     return mannequin_proportions(
         {.stature_m = 2.60, .leg = 1.1, .head = 0.85, .shoulder_width = 1.25});
   }
-  marey::Proportions p = mannequin_proportions({});
-  if (kind == "uneven") {
-    // Nothing along an axis, nothing mirrored.
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> shift_m(-0.02, 0.02);
-    for (const HumanBone bone : marey::human_bones()) {
-      if (bone == HumanBone::kHips) continue;
-      p[bone] += glm::dvec3(shift_m(random), shift_m(random), shift_m(random));
-    }
-  }
-  return p;
-}
-
-marey::Motion wild_motion(const marey::Skeleton& skeleton) {
-  std::mt19937 random(42);
-  std::uniform_real_distribution<double> angle_rad(-1.5, 1.5);
-  std::uniform_real_distribution<double> place_m(-2.0, 2.0);
-  marey::Motion motion;
-  motion.skeleton = skeleton;
-  motion.rate = {30.0};
-  for (int frame = 0; frame < 40; ++frame) {
-    marey::Pose pose = marey::rest_pose(skeleton);
-    if (frame > 0) {
-      pose.root_in_world = {place_m(random), place_m(random), place_m(random)};
-      for (glm::dquat& rotation : pose.parent_from_joint) {
-        const double x = angle_rad(random);
-        const double y = angle_rad(random);
-        const double z = angle_rad(random);
-        rotation = marey::rotation_from_vector({x, y, z});
-      }
-    }
-    motion.poses.push_back(std::move(pose));
-  }
-  return motion;
+  const marey::Proportions average = mannequin_proportions({});
+  return kind == "uneven" ? marey::recordings::uneven(average) : average;
 }
 
 bool write_joints(const std::filesystem::path& path, const marey::Motion& motion) {
@@ -91,7 +57,8 @@ int main(int argc, char** argv) {
   }
   const std::filesystem::path stem = std::filesystem::path(argv[1]) / argv[2];
   const marey::Proportions proportions = body(argv[3]);
-  const marey::Motion motion = wild_motion(marey::make_humanoid(proportions));
+  const marey::Motion motion =
+      marey::recordings::wild_motion(marey::make_humanoid(proportions), 40);
   const auto mesh = marey::recordings::make_mannequin_mesh(proportions);
   std::size_t corners = 0;
   for (const auto& part : mesh.parts) corners += part.triangles.size();

@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recordings/bvh.h"
+
+#include <sstream>
+
+#include "scratch_folder.h"
+#include "wild_motion.h"
+#include <gtest/gtest.h>
+
+#include "recordings/mannequin.h"
+
+namespace marey::recordings {
+namespace {
+
+// Six decimals of a degree turn the far end of a 2 m chain by 0.00002 mm each.
+constexpr double kRounding_m = 1e-6;
+
+Skeleton uneven_body() {
+  return make_humanoid(uneven(average_proportions(1.75)));
+}
+
+Motion through_text(const Motion& motion, const BvhWriteOptions& options = {}) {
+  const auto read =
+      parse_bvh(bvh_text(motion, options), "text.bvh", {.unit_m = options.unit_m});
+  EXPECT_TRUE(read) << read.error().message();
+  return read ? read->motion : Motion{};
+}
+
+/// What reading `text` is refused with.
+std::string refusal(const std::string& text) {
+  const auto read = parse_bvh(text, "walk.bvh");
+  return read ? "no refusal" : read.error().message();
+}
+
+std::filesystem::path real_file(const std::string& name) {
+  return std::filesystem::path(MAREY_SHARED_DATA) / "mocap" / name;
+}
+
+const std::string kTwoJoints =
+    "HIERARCHY\n"
+    "ROOT hips\n"
+    "{\n"
+    "  OFFSET 0 0 0\n"
+    "  CHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"
+    "  JOINT spine\n"
+    "  {\n"
+    "    OFFSET 0 10 0\n"
+    "    CHANNELS 3 Zrotation Xrotation Yrotation\n"
+    "    End Site\n"
+    "    {\n"
+    "      OFFSET 0 5 0\n"
+    "    }\n"
+    "  }\n"
+    "}\n"
+    "MOTION\n"
+    "Frames: 2\n"
+    "Frame Time: 0.0333333\n";
+
+TEST(Bvh, KeepsEveryJointInItsPlaceThroughAFile) {
+  const ScratchFolder folder;
+  const Motion motion = wild_motion(uneven_body(), 40);
+  ASSERT_TRUE(write_bvh(folder / "wild.bvh", motion));
+  const auto read = read_bvh(folder / "wild.bvh");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_LT(largest_distance_m(motion, read->motion), kRounding_m);
+}
+
+TEST(Bvh, KeepsEveryJointInItsPlaceInTheOtherRotationOrder) {
+  const Motion motion = wild_motion(uneven_body(), 40);
+  const Motion read = through_text(motion, {.order = BvhOrder::kZyx});
+  EXPECT_LT(largest_distance_m(motion, read), kRounding_m);
+}
+
+TEST(Bvh, KeepsEveryJointInItsPlaceInMetres) {
+  const Motion motion = wild_motion(uneven_body(), 40);
+  // A metre with six decimals is a hundred times coarser than a centimetre with six.
+  EXPECT_LT(largest_distance_m(motion, through_text(motion, {.unit_m = 1.0})), 1e-5);
+}
+
+TEST(Bvh, KeepsEveryJointOfASkeletonThatRestsTurned) {
+  const Motion motion = wild_motion(with_turned_axes(uneven_body()), 40);
+  EXPECT_LT(largest_distance_m(motion, through_text(motion)), kRounding_m);
+}
+
+TEST(Bvh, KeepsJointsWhereTheMiddleAngleIsRight) {
+  Motion motion = wild_motion(uneven_body(), 9);
+  const double right = std::acos(0.0);
+  for (std::size_t frame = 1; frame < motion.poses.size(); ++frame) {
+    const double turn = 0.3 * static_cast<double>(frame);
+    for (glm::dquat& q : motion.poses[frame].parent_from_joint) {
+      q = rotation_from_vector({0, 0, turn}) *
+          rotation_from_vector({frame % 2 == 0 ? right : -right, 0, 0});
+    }
+  }
+  EXPECT_LT(largest_distance_m(motion, through_text(motion)), kRounding_m);
+}
+
+TEST(Bvh, KeepsTheProportions) {
+  const Skeleton body = uneven_body();
+  const Skeleton read = through_text(wild_motion(body, 1)).skeleton;
+  const Proportions before = proportions_of(body);
+  const Proportions after = proportions_of(read);
+  for (const HumanBone bone : human_bones()) {
+    if (bone == HumanBone::kHips) continue;  // Its height is not in the file.
+    EXPECT_LT(glm::distance(before[bone], after[bone]), 1e-8) << name(bone);
+  }
+  EXPECT_LT(glm::distance(before.left_hand_tip_in_hand, after.left_hand_tip_in_hand),
+            1e-8);
+}
+
+TEST(Bvh, WritesTheRootWithoutAnOffset) {
+  const std::string text = bvh_text(wild_motion(uneven_body(), 2));
+  EXPECT_TRUE(text.starts_with(
+      "HIERARCHY\nROOT hips\n{\n\tOFFSET 0.000000 0.000000 0.000000\n\tCHANNELS 6 "
+      "Xposition Yposition Zposition Zrotation Xrotation Yrotation\n"));
+}
+
+TEST(Bvh, WritesASpinWithoutJumpsOfTheAngles) {
+  Motion motion = wild_motion(uneven_body(), 1);
+  for (int frame = 1; frame < 60; ++frame) {
+    motion.poses.push_back(motion.poses.front());
+    motion.poses.back().parent_from_joint[0] =
+        rotation_from_vector({0.4, 0, 0}) * rotation_from_vector({0, 0.2 * frame, 0});
+  }
+  std::istringstream text(bvh_text(motion));
+  std::string line;
+  while (std::getline(text, line) && !line.starts_with("Frame Time")) continue;
+  std::getline(text, line);  // The rest pose may be far from the first turned one.
+  double last_deg = 0.0;
+  double largest_step_deg = 0.0;
+  for (int frame = 1; std::getline(text, line); ++frame) {
+    std::istringstream values(line);
+    double value = 0.0;
+    for (int i = 0; i < 6; ++i) values >> value;
+    if (frame > 1)
+      largest_step_deg = std::max(largest_step_deg, std::abs(value - last_deg));
+    last_deg = value;
+  }
+  EXPECT_LT(largest_step_deg, 30.0);
+  EXPECT_GT(std::abs(last_deg), 360.0);
+}
+
+TEST(Bvh, WritesTheSameBytesAgain) {
+  const Motion motion = wild_motion(uneven_body(), 5);
+  EXPECT_EQ(bvh_text(motion), bvh_text(motion));
+}
+
+TEST(Bvh, KeepsTheRate) {
+  for (const double hz : {24.0, 29.97, 30.0, 60.0, 120.0, 240.0}) {
+    Motion motion = wild_motion(uneven_body(), 2);
+    motion.rate.hz = hz;
+    EXPECT_NEAR(through_text(motion).rate.hz, hz, 1e-4 * hz);
+  }
+}
+
+TEST(ReadBvh, MultipliesRotationsInTheOrderOfTheChannels) {
+  std::string text = kTwoJoints;
+  text.replace(
+      text.find("Zrotation Xrotation Yrotation"), 29, "Yrotation Zrotation Xrotation");
+  const auto read = parse_bvh(text + "0 0 0 90 0 90 0 0 0\n1 2 3 0 0 0 0 0 0\n", "a.bvh");
+  ASSERT_TRUE(read) << read.error().message();
+  // Ry(90) Rx(90) takes the spine, along y, to z and then to x.
+  const auto joints = world_from_joints(read->motion.skeleton, read->motion.poses[0]);
+  EXPECT_LT(glm::distance(joints[1].translation, glm::dvec3(0.1, 0, 0)), 1e-12);
+}
+
+TEST(ReadBvh, TakesAnyDialect) {
+  const std::string text =
+      "\xEF\xBB\xBFhierarchy\r\nRoot my hips {\r\n\toffset\t0 1 0\r\n"
+      "\tChannels 2 XROTATION yposition\r\n\tend site {\r\n\toffset 0 1 0\r\n\t}\r\n}\r\n"
+      "Motion\r\nframes: 1\r\nframe time: 1e-2\r\n\t+90 7e1  \r\n\r\n";
+  const auto read = parse_bvh(text, "a.bvh");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_EQ(read->motion.skeleton.joints[0].name, "my hips");
+  EXPECT_EQ(read->motion.rate.hz, 100.0);
+  EXPECT_NEAR(read->motion.poses[0].root_in_world.y, 0.7, 1e-12);
+}
+
+TEST(ReadBvh, StandsABodyWithoutRootOffsetOnTheFloor) {
+  std::string text = kTwoJoints;
+  text.replace(text.find("OFFSET 0 10 0"), 13, "OFFSET 0 -90 0");
+  const auto read = parse_bvh(text + "0 0 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 0 0\n", "a.bvh");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_NEAR(
+      read->motion.skeleton.joints[0].parent_from_joint.translation.y, 0.9, 1e-12);
+}
+
+TEST(ReadBvh, HandsTheTravelOfHipsBelowAHelperRootToTheRoot) {
+  const auto path = real_file("bandai/dataset-1_walk_normal_001.bvh");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  const auto read = read_bvh(path);
+  ASSERT_TRUE(read) << read.error().message();
+  const Motion& motion = read->motion;
+  const auto hips = motion.skeleton.find("Hips");
+  ASSERT_TRUE(hips);
+  const auto joints = world_from_joints(motion.skeleton, motion.poses[0]);
+  // The first values of the file's Hips.
+  EXPECT_LT(glm::distance(joints[index(*hips)].translation,
+                          glm::dvec3(-0.0171443, 0.902704, -4.07123)),
+            1e-9);
+  EXPECT_LT(read->ignored_translation_m, 1e-6);
+}
+
+TEST(ReadBvh, ReadsRealFilesOfSeveralDialects) {
+  struct Expected {
+    const char* file;
+    std::size_t joints, frames;
+    double hz;
+  };
+  const auto absent = [](const Expected& e) { return !exists(real_file(e.file)); };
+  const std::vector<Expected> files{{"cmu_bvh_tmoco/02_01.bvh", 31, 343, 120.0},
+                                    {"cmu_bvh_tmoco/05_06.bvh", 31, 885, 120.0},
+                                    {"cmu_bvh_tmoco/arm.bvh", 3, 1, 1.0},
+                                    {"cmu_bvh_tmoco/rest.bvh", 31, 1, 24.0},
+                                    {"bvh_python/test_freebvh.bvh", 55, 69, 30.0},
+                                    {"bvh_python/test_mocapbank.bvh", 19, 455, 30.0}};
+  if (std::ranges::any_of(files, absent)) GTEST_SKIP() << "no mocap data here";
+  for (const Expected& expected : files) {
+    const auto read = read_bvh(real_file(expected.file));
+    ASSERT_TRUE(read) << read.error().message();
+    EXPECT_EQ(read->motion.skeleton.joints.size(), expected.joints) << expected.file;
+    EXPECT_EQ(read->motion.poses.size(), expected.frames) << expected.file;
+    EXPECT_NEAR(read->motion.rate.hz, expected.hz, 1e-4) << expected.file;
+    EXPECT_EQ(read->ignored_translation_m, 0.0) << expected.file;
+  }
+}
+
+TEST(ReadBvh, NamesTheLineWithAMissingValue) {
+  EXPECT_EQ(refusal(kTwoJoints + "0 0 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 0\n"),
+            "walk.bvh:20: expected 9 values, found 8. Next: export the file again, or "
+            "mend that line in a text editor.");
+}
+
+TEST(ReadBvh, NamesTheLineWithAWordAmongTheNumbers) {
+  EXPECT_EQ(refusal(kTwoJoints + "0 0 0 0 nan 0 0 0 0\n"),
+            "walk.bvh:19: 'nan' is not a number. Next: export the file again, or mend "
+            "that line in a text editor.");
+}
+
+TEST(ReadBvh, SaysHowManyFramesAreMissing) {
+  EXPECT_NE(refusal(kTwoJoints + "0 0 0 0 0 0 0 0 0\n")
+                .find("walk.bvh:20: expected 2 frames, found 1"),
+            std::string::npos);
+}
+
+TEST(ReadBvh, RefusesMoreFramesThanAnnounced) {
+  const std::string row = "0 0 0 0 0 0 0 0 0\n";
+  EXPECT_NE(refusal(kTwoJoints + row + row + row)
+                .find("walk.bvh:21: there is more than the 2 frames announced"),
+            std::string::npos);
+}
+
+TEST(ReadBvh, SaysWhereTheHierarchyBreaksOff) {
+  EXPECT_NE(refusal(kTwoJoints.substr(0, kTwoJoints.find("    End Site")))
+                .find("walk.bvh:10: the file ends inside the HIERARCHY"),
+            std::string::npos);
+}
+
+TEST(ReadBvh, RefusesAChannelItDoesNotKnow) {
+  std::string text = kTwoJoints;
+  text.replace(text.find("Zposition"), 9, "Wposition");
+  EXPECT_NE(refusal(text).find("walk.bvh:5: unknown channel 'wposition'"),
+            std::string::npos);
+}
+
+TEST(ReadBvh, RefusesAFileOfAnotherKind) {
+  EXPECT_NE(refusal("frame,time,joint\n")
+                .find("walk.bvh:1: expected 'HIERARCHY', found 'frame,time,joint'"),
+            std::string::npos);
+}
+
+TEST(ReadBvh, NamesAFileThatIsNotThere) {
+  const ScratchFolder folder;
+  const auto read = read_bvh(folder / "none.bvh");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message().find("none.bvh"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace marey::recordings
