@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/assert.h"
+#include "core/humanoid.h"
 
 namespace marey::recordings {
 namespace {
@@ -57,6 +58,12 @@ std::string suggestion(std::string_view wrong, std::span<const std::string_view>
     text.append(i == 0 ? "\"" : ", \"").append(words[i]).append("\"");
   }
   return text;
+}
+
+std::string bone_suggestion(std::string_view wrong) {
+  std::vector<std::string_view> names;
+  for (const HumanBone bone : human_bones()) names.push_back(name(bone));
+  return suggestion(wrong, names);
 }
 
 }  // namespace marey::recordings

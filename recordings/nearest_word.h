@@ -15,4 +15,7 @@ namespace marey::recordings {
 [[nodiscard]] std::string suggestion(std::string_view wrong,
                                      std::span<const std::string_view> words);
 
+/// suggestion() among the names of human_bones().
+[[nodiscard]] std::string bone_suggestion(std::string_view wrong);
+
 }  // namespace marey::recordings

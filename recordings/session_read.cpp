@@ -195,11 +195,8 @@ void SessionReader::read_tag(TomlReader& reader) {
   }
   const std::optional<HumanBone> bone = human_bone(segment);
   if (!bone) {
-    std::vector<std::string_view> segments;
-    for (const HumanBone known : human_bones()) segments.push_back(marey::name(known));
-    reader.fail("segment",
-                "unknown segment " + in_quotes(segment),
-                suggestion(segment, segments));
+    reader.fail(
+        "segment", "unknown segment " + in_quotes(segment), bone_suggestion(segment));
     return;
   }
   session_.tags.push_back({id, *bone, size_m});

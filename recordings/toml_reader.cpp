@@ -113,6 +113,11 @@ const TomlValue* TomlReader::find(std::string_view key) const {
   return nullptr;
 }
 
+bool TomlReader::is_table(std::string_view key) const {
+  const TomlValue* value = find(key);
+  return value != nullptr && std::holds_alternative<Table>(value->content);
+}
+
 int TomlReader::line(std::string_view key) const {
   const Table* table = value_ ? std::get_if<Table>(&value_->content) : nullptr;
   if (table == nullptr) return 1;
@@ -128,12 +133,12 @@ void TomlReader::fail(std::string_view key, std::string cause, std::string next)
       file_and_line(document_->file, line(key)), std::move(cause), std::move(next));
 }
 
-void TomlReader::allow(std::initializer_list<std::string_view> keys) {
+void TomlReader::allow(std::span<const std::string_view> keys) {
   for (const std::string& key : this->keys()) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     std::string cause = "unknown key " + in_quotes(key);
     if (!name_.empty()) cause.append(" in ").append(name_);
-    fail(key, std::move(cause), suggestion(key, std::span(keys.begin(), keys.size())));
+    fail(key, std::move(cause), suggestion(key, keys));
     return;
   }
 }

@@ -66,9 +66,13 @@ class TomlReader {
   explicit TomlReader(TomlDocument& document);
 
   /// Mistake: the table has a key that is not one of `keys`.
-  void allow(std::initializer_list<std::string_view> keys);
+  void allow(std::span<const std::string_view> keys);
+  void allow(std::initializer_list<std::string_view> keys) {
+    allow(std::span(keys.begin(), keys.size()));
+  }
 
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
+  [[nodiscard]] bool is_table(std::string_view key) const;
   /// Every key, in the order of the file.
   [[nodiscard]] std::vector<std::string> keys() const;
 

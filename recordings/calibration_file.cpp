@@ -1,0 +1,256 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recordings/calibration_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "recordings/atomic_file.h"
+#include "recordings/toml_reader.h"
+#include "recordings/toml_writer.h"
+
+namespace marey::recordings {
+namespace {
+
+constexpr Limits kAny{-1e12, 1e12};
+constexpr Limits kNotNegative{0.0, 1e12};
+constexpr Limits kCount{0, 2e9};
+
+std::array<double, 16> matrix_of(const RigidTransform& b_from_a) {
+  const glm::dmat3 r = glm::mat3_cast(b_from_a.rotation);  // r[column][row]
+  const glm::dvec3& t = b_from_a.translation;
+  return {r[0][0],
+          r[1][0],
+          r[2][0],
+          t.x,  //
+          r[0][1],
+          r[1][1],
+          r[2][1],
+          t.y,  //
+          r[0][2],
+          r[1][2],
+          r[2][2],
+          t.z,  //
+          0.0,
+          0.0,
+          0.0,
+          1.0};
+}
+
+void write_pose(TomlWriter& out, const RigidTransform& camera_from_world) {
+  const glm::dquat& q = camera_from_world.rotation;
+  const glm::dvec3& t = camera_from_world.translation;
+  const glm::dvec3 vector_rad = rotation_vector(q);
+  out.numbers("rotation", {vector_rad.x, vector_rad.y, vector_rad.z});
+  out.numbers("translation", {t.x, t.y, t.z});
+  out.boolean("fisheye", false);
+  // The pose exactly, since a rotation vector rounds; then the other way round, for
+  // people.
+  out.numbers("rotation_wxyz", {q.w, q.x, q.y, q.z});
+  out.matrix("world_from_camera", matrix_of(inverse(camera_from_world)), 4);
+}
+
+void write_camera(TomlWriter& out, const Camera& camera, const CameraRecord& record) {
+  const Intrinsics& k = camera.intrinsics;
+  out.table({camera.name});
+  out.text("name", camera.name);
+  out.integers("size", {k.width_px, k.height_px});
+  const std::array<double, 9> matrix{
+      k.focal_px.x, 0.0, k.centre_px.x, 0.0, k.focal_px.y, k.centre_px.y, 0.0, 0.0, 1.0};
+  out.matrix("matrix", matrix, 3);
+  out.numbers("distortions", k.distortion);
+  write_pose(out, camera.camera_from_world);
+  out.number("tag_shrinkage_px", camera.tag_shrinkage.offset_px);
+  out.number("tag_shrinkage_slope", camera.tag_shrinkage.slope);
+  out.number("time_offset_s", record.time_offset_s);
+  out.number("drift_ppm", record.drift_ppm);
+  out.number("rms_px", record.rms_px);
+  out.number("p95_px", record.p95_px);
+  out.number("centre_sigma_m", record.centre_sigma_m);
+  out.number("focal_sigma_px", record.focal_sigma_px);
+  out.integer("views", record.views);
+  out.integer("corners", record.corners);
+  out.number("coverage", record.coverage);
+}
+
+void read_size(TomlReader& in, Intrinsics& k) {
+  const std::vector<double> size = in.numbers("size", 2);
+  constexpr double kLargest = 1e5;
+  for (const double side : size) {
+    // Pose2Sim writes 1920.0.
+    if (side >= 1 && side <= kLargest && side == std::floor(side)) continue;
+    in.fail(
+        "size", "\"size\" must be two whole numbers of pixels", "write [width, height]");
+    return;
+  }
+  k.width_px = static_cast<int>(size[0]);
+  k.height_px = static_cast<int>(size[1]);
+}
+
+void read_intrinsics(TomlReader& in, Intrinsics& k) {
+  read_size(in, k);
+  const std::vector<double> m = in.matrix("matrix", 3, 3);
+  k.focal_px = {m[0], m[4]};
+  k.centre_px = {m[2], m[5]};
+  const bool is_pinhole = m[0] > 0 && m[4] > 0 && m[1] == 0 && m[3] == 0 && m[6] == 0 &&
+                          m[7] == 0 && m[8] == 1;
+  if (!is_pinhole) {
+    in.fail("matrix",
+            "\"matrix\" must be [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]",
+            "calibrate without skew");
+  }
+  if (in.has("fisheye") && in.boolean("fisheye")) {
+    in.fail("fisheye", "fisheye cameras are not supported", "calibrate as a pinhole");
+  }
+  const std::size_t terms = in.count("distortions") == 4 ? 4 : k.distortion.size();
+  const std::vector<double> distortion = in.numbers("distortions", terms);
+  std::copy(distortion.begin(), distortion.end(), k.distortion.begin());
+}
+
+/// rotation_wxyz, when it agrees with `rotation`.
+glm::dquat read_quaternion(TomlReader& in, const glm::dquat& rotation) {
+  const std::vector<double> wxyz = in.numbers("rotation_wxyz", 4);
+  const glm::dquat q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
+  constexpr double kTolerance = 1e-9;  // Far above rounding, far below what matters.
+  const double difference =
+      std::min(glm::length(q - rotation), glm::length(q + rotation));
+  if (difference > kTolerance) {
+    in.fail("rotation_wxyz",
+            "\"rotation\" and \"rotation_wxyz\" are different rotations",
+            "remove rotation_wxyz, and world_from_camera, if rotation is right");
+  }
+  return q;
+}
+
+void check_matrix(TomlReader& in, const RigidTransform& camera_from_world) {
+  const std::vector<double> given = in.matrix("world_from_camera", 4, 4);
+  const std::array<double, 16> expected = matrix_of(inverse(camera_from_world));
+  constexpr double kTolerance = 1e-6;  // People may have rounded it.
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (std::abs(given[i] - expected[i]) <= kTolerance) continue;
+    in.fail("world_from_camera",
+            "\"world_from_camera\" is not the inverse of rotation and translation",
+            "remove world_from_camera if rotation and translation are right");
+  }
+}
+
+RigidTransform read_pose(TomlReader& in) {
+  const std::vector<double> vector_rad = in.numbers("rotation", 3);
+  const std::vector<double> t = in.numbers("translation", 3);
+  RigidTransform camera_from_world;
+  camera_from_world.rotation =
+      rotation_from_vector({vector_rad[0], vector_rad[1], vector_rad[2]});
+  camera_from_world.translation = {t[0], t[1], t[2]};
+  if (in.has("rotation_wxyz")) {
+    camera_from_world.rotation = read_quaternion(in, camera_from_world.rotation);
+  }
+  if (in.has("world_from_camera")) check_matrix(in, camera_from_world);
+  return camera_from_world;
+}
+
+void read_if_there(TomlReader& in,
+                   std::string_view key,
+                   const Limits& limits,
+                   double& value) {
+  if (in.has(key)) value = in.number(key, limits);
+}
+
+void read_if_there(TomlReader& in,
+                   std::string_view key,
+                   const Limits& limits,
+                   int& value) {
+  if (in.has(key)) value = in.integer(key, limits);
+}
+
+CameraRecord read_record(TomlReader& in) {
+  CameraRecord record;
+  read_if_there(in, "time_offset_s", kAny, record.time_offset_s);
+  read_if_there(in, "drift_ppm", kAny, record.drift_ppm);
+  read_if_there(in, "rms_px", kNotNegative, record.rms_px);
+  read_if_there(in, "p95_px", kNotNegative, record.p95_px);
+  read_if_there(in, "centre_sigma_m", kNotNegative, record.centre_sigma_m);
+  read_if_there(in, "focal_sigma_px", kNotNegative, record.focal_sigma_px);
+  read_if_there(in, "views", kCount, record.views);
+  read_if_there(in, "corners", kCount, record.corners);
+  read_if_there(in, "coverage", {0.0, 1.0}, record.coverage);
+  return record;
+}
+
+void read_camera(TomlReader& in, const std::string& key, Calibration& out) {
+  Camera camera;
+  camera.name = in.has("name") ? in.text("name") : key;
+  read_intrinsics(in, camera.intrinsics);
+  camera.camera_from_world = read_pose(in);
+  read_if_there(in, "tag_shrinkage_px", kAny, camera.tag_shrinkage.offset_px);
+  // Towards 1 a tag would have to be seen infinitely large.
+  read_if_there(in, "tag_shrinkage_slope", {-0.5, 0.5}, camera.tag_shrinkage.slope);
+  for (const Camera& other : out.cameras) {
+    if (other.name != camera.name) continue;
+    in.fail("name", "two cameras have the name " + in_quotes(camera.name), "rename one");
+  }
+  out.cameras.push_back(std::move(camera));
+  out.records.push_back(read_record(in));
+}
+
+bool is_camera(const std::string& key) {
+  // Tables that Pose2Sim and Caliscope put beside the cameras'.
+  constexpr std::array<std::string_view, 4> kOthers{
+      "metadata", "capture_volume", "charuco", "checkerboard"};
+  return std::find(kOthers.begin(), kOthers.end(), key) == kOthers.end();
+}
+
+}  // namespace
+
+std::string calibration_text(const Calibration& calibration) {
+  MAREY_ASSERT(calibration.cameras.size() == calibration.records.size());
+  TomlWriter out;
+  out.comment("Cameras. World: right-handed, Y up, metres. rotation (Rodrigues) and");
+  out.comment("translation are camera_from_world; camera x right, y down, z forward.");
+  for (std::size_t i = 0; i < calibration.cameras.size(); ++i) {
+    write_camera(out, calibration.cameras[i], calibration.records[i]);
+  }
+  out.table({"metadata"});
+  out.boolean("adjusted", false);
+  out.number("error", calibration.rms_px);
+  return out.str();
+}
+
+Status write_calibration(const std::filesystem::path& path,
+                         const Calibration& calibration) {
+  return write_file(path, calibration_text(calibration));
+}
+
+Result<Calibration> parse_calibration(std::string_view text, const std::string& file) {
+  Result<TomlDocument> document = parse_toml(text, file);
+  if (!document) return document.error();
+  TomlReader root(*document);
+  Calibration calibration;
+  for (const std::string& key : root.keys()) {
+    if (!is_camera(key) || !root.is_table(key)) continue;
+    TomlReader camera = root.table(key);
+    read_camera(camera, key, calibration);
+  }
+  if (calibration.cameras.empty()) {
+    root.fail("", "no camera in it", "run marey calibrate, or name another file");
+  }
+  if (root.is_table("metadata")) {
+    TomlReader metadata = root.table("metadata");
+    read_if_there(metadata, "error", kNotNegative, calibration.rms_px);
+  }
+  if (document->mistake) return *document->mistake;
+  return calibration;
+}
+
+Result<Calibration> read_calibration(const std::filesystem::path& path) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return text.error();
+  return parse_calibration(*text, path.string());
+}
+
+}  // namespace marey::recordings
