@@ -83,8 +83,7 @@ std::vector<Slot> slots_of(HumanBone bone) {
     case B::kRightShoulder:
       return trunk({S::kRightShoulder});
     case B::kLeftUpperArm:
-      return trunk(
-          {S::kLeftShoulder, S::kLeftArm, S::kLeftElbow, S::kLeftUpperArmTwist});
+      return trunk({S::kLeftShoulder, S::kLeftArm, S::kLeftElbow, S::kLeftUpperArmTwist});
     case B::kLeftLowerArm:
       return trunk({S::kLeftShoulder, S::kLeftArm, S::kLeftElbow, S::kLeftForearmTwist});
     case B::kLeftHand:

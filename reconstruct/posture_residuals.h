@@ -201,9 +201,12 @@ ceres::CostFunction* tag_cost(std::unique_ptr<Functor> functor) {
   return nullptr;
 }
 
-/// Second difference of a rotation over three frames, in sigmas.
+/// Change of a rotation's speed over three frames, in sigmas. Speeds die out: of the
+/// first step only the share `keeps` is expected in the second (an Ornstein-Uhlenbeck
+/// process).
 struct RotationAcceleration {
   double sigma_rad;
+  double keeps;
 
   template <class T>
   bool operator()(const T* before, const T* now, const T* after, T* residual) const {
@@ -212,22 +215,51 @@ struct RotationAcceleration {
     const Q b = Eigen::Map<const Q>(now);
     const Q c = Eigen::Map<const Q>(after);
     Eigen::Map<Eigen::Matrix<T, 3, 1>> out(residual);
-    out = (log_rotation<T>(c * b.conjugate()) - log_rotation<T>(b * a.conjugate())) /
+    out = (log_rotation<T>(c * b.conjugate()) -
+           T(keeps) * log_rotation<T>(b * a.conjugate())) /
           T(sigma_rad);
     return true;
   }
 };
 
-/// Second difference of N plain numbers, in sigmas.
+/// The same for N plain numbers.
 template <int N>
 struct Acceleration {
   double sigma;
+  double keeps;
 
   template <class T>
   bool operator()(const T* before, const T* now, const T* after, T* residual) const {
     for (int i = 0; i < N; ++i) {
-      residual[i] = (after[i] - 2.0 * now[i] + before[i]) / sigma;
+      residual[i] = (after[i] - now[i] - keeps * (now[i] - before[i])) / sigma;
     }
+    return true;
+  }
+};
+
+/// A rotation's step from one frame to the next is small.
+struct RotationStep {
+  double sigma_rad;
+
+  template <class T>
+  bool operator()(const T* now, const T* after, T* residual) const {
+    using Q = Eigen::Quaternion<T>;
+    Eigen::Map<Eigen::Matrix<T, 3, 1>> out(residual);
+    out = log_rotation<T>(Q(Eigen::Map<const Q>(after)) *
+                          Q(Eigen::Map<const Q>(now)).conjugate()) /
+          T(sigma_rad);
+    return true;
+  }
+};
+
+/// The same for N plain numbers.
+template <int N>
+struct Step {
+  double sigma;
+
+  template <class T>
+  bool operator()(const T* now, const T* after, T* residual) const {
+    for (int i = 0; i < N; ++i) residual[i] = (after[i] - now[i]) / sigma;
     return true;
   }
 };

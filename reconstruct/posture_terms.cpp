@@ -74,6 +74,18 @@ constexpr std::array<SlotAcceleration, kSlotCount> kAccelerations{{
     {Slot::kRightThighTwist, 30.0},
 }};
 
+struct Process {
+  double sigma;  ///< Of the change of a step from one frame to the next.
+  double keeps;  ///< Share of a step that the next one inherits.
+};
+
+Process process_of(const SlotAcceleration& row, FrameRate rate) {
+  const double dt = 1.0 / rate.hz;
+  const double memory_s = row.slot == Slot::kHipsPosition ? 1.0 : 0.25;
+  // Variance of a second difference of integrated white noise grows with the cube of dt.
+  return {row.sigma * std::sqrt(dt * dt * dt / 30.0), std::exp(-dt / memory_s)};
+}
+
 void add_relative(Posture& posture,
                   Slot parent,
                   Slot child,
@@ -170,10 +182,10 @@ void add_habits(Posture& posture, const Lengths& lengths, ceres::Problem& proble
     add_scalar(posture.block(s.upper_twist), 0.0, arm ? 0.4 : 0.08, problem);
     add_scalar(posture.block(s.lower_twist), 0.0, arm ? 0.4 : 0.08, problem);
     add_scalar(posture.block(s.flexion), 0.3, 1.0, problem);
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<FlexionLimit, 1, 1>(
-                                 new FlexionLimit{-0.05, 0.05}),
-                             nullptr,
-                             posture.block(s.flexion));
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<FlexionLimit, 1, 1>(new FlexionLimit{-0.05, 0.1}),
+        nullptr,
+        posture.block(s.flexion));
   }
 }
 
@@ -202,26 +214,46 @@ void add_smoothness(Posture& before,
                     Posture& after,
                     FrameRate rate,
                     ceres::Problem& problem) {
-  const double dt = 1.0 / rate.hz;
-  const double scale = std::sqrt(dt * dt * dt / 30.0);
   for (const SlotAcceleration& row : kAccelerations) {
-    const double sigma = row.sigma * scale;
+    const Process process = process_of(row, rate);
     ceres::CostFunction* cost = nullptr;
     if (is_rotation(row.slot)) {
       cost = new ceres::AutoDiffCostFunction<RotationAcceleration, 3, 4, 4, 4>(
-          new RotationAcceleration{sigma});
+          new RotationAcceleration{process.sigma, process.keeps});
     } else if (row.slot == Slot::kHipsPosition) {
       cost = new ceres::AutoDiffCostFunction<Acceleration<3>, 3, 3, 3, 3>(
-          new Acceleration<3>{sigma});
+          new Acceleration<3>{process.sigma, process.keeps});
     } else {
       cost = new ceres::AutoDiffCostFunction<Acceleration<1>, 1, 1, 1, 1>(
-          new Acceleration<1>{sigma});
+          new Acceleration<1>{process.sigma, process.keeps});
     }
     problem.AddResidualBlock(cost,
                              nullptr,
                              before.block(row.slot),
                              now.block(row.slot),
                              after.block(row.slot));
+  }
+}
+
+void add_first_speed(Posture& first,
+                     Posture& second,
+                     FrameRate rate,
+                     ceres::Problem& problem) {
+  for (const SlotAcceleration& row : kAccelerations) {
+    const Process process = process_of(row, rate);
+    // The stationary spread of x' = keeps x + noise.
+    const double sigma = process.sigma / std::sqrt(1.0 - process.keeps * process.keeps);
+    ceres::CostFunction* cost = nullptr;
+    if (is_rotation(row.slot)) {
+      cost =
+          new ceres::AutoDiffCostFunction<RotationStep, 3, 4, 4>(new RotationStep{sigma});
+    } else if (row.slot == Slot::kHipsPosition) {
+      cost = new ceres::AutoDiffCostFunction<Step<3>, 3, 3, 3>(new Step<3>{sigma});
+    } else {
+      cost = new ceres::AutoDiffCostFunction<Step<1>, 1, 1, 1>(new Step<1>{sigma});
+    }
+    problem.AddResidualBlock(
+        cost, nullptr, first.block(row.slot), second.block(row.slot));
   }
 }
 

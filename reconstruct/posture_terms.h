@@ -28,14 +28,21 @@ void add_habits(Posture& posture, const Lengths& lengths, ceres::Problem& proble
 /// gives a static trial's bones their directions.
 void add_standing(Posture& posture, const Lengths& lengths, ceres::Problem& problem);
 
-/// Bodies do not jerk: white-noise acceleration over three neighbouring frames. The
-/// sigmas follow the frame rate (variance of a second difference of integrated white
-/// noise is proportional to the cube of the time step).
+/// Bodies do not jerk, and do not go on for ever: the speed of every block is an
+/// Ornstein-Uhlenbeck process (white-noise acceleration, and a memory of a quarter of a
+/// second for turning, a second for travelling). Three neighbouring frames; the sigmas
+/// follow the frame rate.
 void add_smoothness(Posture& before,
                     Posture& now,
                     Posture& after,
                     FrameRate rate,
                     ceres::Problem& problem);
+
+/// The speeds at the start of a trial: those that the process has on average.
+void add_first_speed(Posture& first,
+                     Posture& second,
+                     FrameRate rate,
+                     ceres::Problem& problem);
 
 /// Keeps every block of the posture near that of `expected`: within `rad` for rotations
 /// and angles, `metres` for the hips.

@@ -294,6 +294,9 @@ class TrialSolver {
             postures_[f - 2], postures_[f - 1], postures_[f], sightings_.rate, problem);
       }
     }
+    if (held == 0 && count > 1) {
+      add_first_speed(postures_[first], postures_[first + 1], sightings_.rate, problem);
+    }
     for (std::size_t f = first; f < first + count; ++f) {
       set_manifolds(postures_[f], problem);
       if (f < first + held) hold(postures_[f], problem);
