@@ -16,12 +16,12 @@ char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-// All costs are doubled, so that a change of case can cost half a letter.
-constexpr std::size_t kLetter = 2;
+// All costs are times four, so that a change of case can cost a quarter of a letter.
+constexpr std::size_t kLetter = 4;
 
 std::size_t cost_of_change(char a, char b) {
   if (a == b) return 0;
-  return lower(a) == lower(b) ? kLetter / 2 : kLetter;
+  return lower(a) == lower(b) ? kLetter / 4 : kLetter;
 }
 
 std::size_t distance(std::string_view a, std::string_view b) {

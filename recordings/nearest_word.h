@@ -9,9 +9,9 @@
 namespace marey::recordings {
 
 /// What to write instead of `wrong`: `perhaps you mean "stature_m"`, by the fewest
-/// letters changed, added or left out (Levenshtein 1965; a change of case counts half),
-/// the first of equals. When nothing is close (more than 40 % of the letters differ),
-/// the whole list: `choose one of "a", "b"`. Precondition: `words` not empty.
+/// letters changed, added or left out (Levenshtein 1965; a change of case counts a
+/// quarter), the first of equals. When nothing is close (more than 40 % of the letters
+/// differ), the whole list: `choose one of "a", "b"`. Precondition: `words` not empty.
 [[nodiscard]] std::string suggestion(std::string_view wrong,
                                      std::span<const std::string_view> words);
 

@@ -397,6 +397,18 @@ TEST(CheckFiles, IsContentWhenAllVideosAreThere) {
   EXPECT_TRUE(check_files(*session));
 }
 
+TEST(Session, TheExampleOfTheFormatsPageIsComplete) {
+  const Result<std::string> page =
+      read_file(fs::path(MAREY_SOURCE_DIR) / "docs/formats.md");
+  ASSERT_TRUE(page);
+  constexpr std::string_view kFence = "```toml\n";
+  const std::size_t start = page->find(kFence) + kFence.size();
+  const std::string example = page->substr(start, page->find("```", start) - start);
+  const Result<Session> session = read(example);
+  ASSERT_TRUE(session) << session.error().message();
+  EXPECT_EQ(session->trials.size(), 3U);
+}
+
 const fs::path kSample = fs::path(MAREY_SOURCE_DIR) / "recordings/samples/blender-dev";
 
 TEST(SampleSession, IsRead) {

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recordings/nearest_word.h"
+
+#include <array>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+namespace marey::recordings {
+namespace {
+
+constexpr std::array<std::string_view, 3> kWords{"rows", "columns", "first_id"};
+
+TEST(Suggestion, NamesAWordOneLetterAway) {
+  EXPECT_EQ(suggestion("column", kWords), "perhaps you mean \"columns\"");
+}
+
+TEST(Suggestion, TakesAnotherCaseForTheSameWord) {
+  EXPECT_EQ(suggestion("FIRST_ID", kWords), "perhaps you mean \"first_id\"");
+}
+
+TEST(Suggestion, ListsAllWhenNoneIsNear) {
+  EXPECT_EQ(suggestion("shoe", kWords),
+            "choose one of \"rows\", \"columns\", \"first_id\"");
+}
+
+TEST(Suggestion, NamesTheFirstOfEquals) {
+  constexpr std::array<std::string_view, 2> kTwins{"cam0", "cam1"};
+  EXPECT_EQ(suggestion("cam2", kTwins), "perhaps you mean \"cam0\"");
+}
+
+TEST(Suggestion, OfABoneKnowsTheForearm) {
+  EXPECT_EQ(bone_suggestion("left_lower_arm"), "perhaps you mean \"leftLowerArm\"");
+}
+
+}  // namespace
+}  // namespace marey::recordings
