@@ -86,7 +86,7 @@ class Parser {
   }
 
   Result<glm::dvec3> offset() {
-    if (const Status s = expect("OFFSET"); !s) return s.error();
+    if (Status s = expect("OFFSET"); !s) return s.error();
     glm::dvec3 value(0.0);
     for (int i = 0; i < 3; ++i) {
       const auto coordinate = number("OFFSET");
@@ -149,7 +149,7 @@ class Parser {
     if (joint.bone && file_.skeleton.find(*joint.bone)) {
       return fail("the joint " + in_quotes(joint.name) + " is there twice");
     }
-    if (const Status s = open_brace(); !s) return s;
+    if (Status s = open_brace(); !s) return s;
     const auto from_parent = offset();
     if (!from_parent) return from_parent.error();
     joint.parent_from_joint.translation = *from_parent;
@@ -160,7 +160,7 @@ class Parser {
 
   Status end_site(JointIndex joint) {
     (void)name();  // "Site", sometimes with a brace or a name behind it.
-    if (const Status s = open_brace(); !s) return s;
+    if (Status s = open_brace(); !s) return s;
     const auto tip = offset();
     if (!tip) return tip.error();
     file_.skeleton.joints[index(joint)].tip_in_joint = *tip;
@@ -168,9 +168,9 @@ class Parser {
   }
 
   Status hierarchy() {
-    if (const Status s = expect("HIERARCHY"); !s) return s;
-    if (const Status s = expect("ROOT"); !s) return s;
-    if (const Status s = begin_joint(std::nullopt); !s) return s;
+    if (Status s = expect("HIERARCHY"); !s) return s;
+    if (Status s = expect("ROOT"); !s) return s;
+    if (Status s = begin_joint(std::nullopt); !s) return s;
     std::vector<JointIndex> open{JointIndex{0}};
     while (!open.empty()) {
       const std::string_view word = reader_.word();
@@ -201,13 +201,13 @@ class Parser {
       (void)reader_.word();
       return fail("the file holds a second ROOT; marey reads one body per file");
     }
-    if (const Status s = expect("MOTION"); !s) return s;
-    if (const Status s = expect("Frames:"); !s) return s;
+    if (Status s = expect("MOTION"); !s) return s;
+    if (Status s = expect("Frames:"); !s) return s;
     const auto count = to_integer(reader_.word_on_line());
     if (!count || *count < 0) return fail("expected the number of frames");
     frame_count_ = *count;
-    if (const Status s = expect("Frame"); !s) return s;
-    if (const Status s = expect("Time:"); !s) return s;
+    if (Status s = expect("Frame"); !s) return s;
+    if (Status s = expect("Time:"); !s) return s;
     const auto time = number("Frame Time");
     if (!time) return time.error();
     if (*time <= 0.0) return fail("Frame Time must be above zero");
@@ -222,7 +222,7 @@ class Parser {
         return fail("expected " + std::to_string(frame_count_) + " frames, found " +
                     std::to_string(frame));
       }
-      if (const Status s = frame_values(); !s) return s;
+      if (Status s = frame_values(); !s) return s;
     }
     reader_.skip_blank();
     if (reader_.at_end()) return Done{};

@@ -354,10 +354,10 @@ Result<GltfSource> read_gltf_source(const std::filesystem::path& path) {
   auto json = json_of(file, *bytes);
   if (!json) return json.error();
   source.json = *std::move(json);
-  if (const Status s = load_model(file, path, *bytes, model, source); !s) {
+  if (Status s = load_model(file, path, *bytes, model, source); !s) {
     return s.error();
   }
-  if (const Status s = fill_source(file, source); !s) return s.error();
+  if (Status s = fill_source(file, source); !s) return s.error();
   return source;
 }
 

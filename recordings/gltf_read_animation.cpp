@@ -184,12 +184,14 @@ Result<ReadAnimation> read_animation(const NamedModel& file,
   motion.rate.hz = rate_of(*tracks);
   const double first = std::round(start_s * motion.rate.hz);
   const double last = std::round(end_s * motion.rate.hz);
-  if (std::abs(first) > kMostFrames || last - first > kMostFrames) {
+  if (std::abs(first) > kMostFrames || std::abs(last) > kMostFrames ||
+      last - first > kMostFrames) {
     return file.fail("the animation is longer than a million frames");
   }
   motion.first_frame = static_cast<int>(first);
   std::vector<NodePose> poses = tree.rest;
-  for (double frame = first; frame <= last; frame += 1.0) {
+  const auto last_frame = static_cast<int>(last);
+  for (int frame = motion.first_frame; frame <= last_frame; ++frame) {
     const double time_s = frame / motion.rate.hz;
     for (const Track& track : *tracks) apply(track, time_s, poses[track.node]);
     PosedBones posed = hand_travel_to_root(

@@ -73,10 +73,10 @@ Result<Vertices> read_vertices(const NamedModel& file,
     }
     return Done{};
   };
-  if (const auto s = read("POSITION", 3, true, vertices.positions); !s) return s.error();
-  if (const auto s = read("NORMAL", 3, false, vertices.normals); !s) return s.error();
-  if (const auto s = read("JOINTS_0", 4, true, vertices.joints); !s) return s.error();
-  if (const auto s = read("WEIGHTS_0", 4, true, vertices.weights); !s) return s.error();
+  if (auto s = read("POSITION", 3, true, vertices.positions); !s) return s.error();
+  if (auto s = read("NORMAL", 3, false, vertices.normals); !s) return s.error();
+  if (auto s = read("JOINTS_0", 4, true, vertices.joints); !s) return s.error();
+  if (auto s = read("WEIGHTS_0", 4, true, vertices.weights); !s) return s.error();
   return vertices;
 }
 
@@ -180,7 +180,7 @@ Status add_mesh(const NamedModel& file,
     if (!vertices) return vertices.error();
     auto part = part_of(file, primitive, mesh.p_in_world.size(), vertices->count());
     if (!part) return part.error();
-    if (const auto s = add_vertices(file, *vertices, binding, mesh); !s) return s;
+    if (auto s = add_vertices(file, *vertices, binding, mesh); !s) return s;
     mesh.parts.push_back(*std::move(part));
   }
   return Done{};
@@ -204,7 +204,7 @@ Result<std::optional<SkinnedMesh>> read_skinned_mesh(const NamedModel& file,
     const auto binding = bind(file, skin, placed, body);
     if (!binding) return binding.error();
     const auto& source = model.meshes[static_cast<std::size_t>(node.mesh)];
-    if (const auto s = add_mesh(file, source, *binding, mesh); !s) return s.error();
+    if (auto s = add_mesh(file, source, *binding, mesh); !s) return s.error();
   }
   if (mesh.parts.empty()) return std::optional<SkinnedMesh>{};
   return std::optional<SkinnedMesh>{std::move(mesh)};

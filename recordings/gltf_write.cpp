@@ -299,8 +299,7 @@ Status write_retargeted(const std::filesystem::path& source,
                         const Motion& motion) {
   const Result<GltfSource> asset = read_gltf_source(source);
   if (!asset) return asset.error();
-  if (const Status s = check_body(source, asset->character.skeleton, motion.skeleton);
-      !s) {
+  if (Status s = check_body(source, asset->character.skeleton, motion.skeleton); !s) {
     return s;
   }
   std::string bytes;

@@ -43,7 +43,7 @@ void add_limb(Figure& figure, const LimbShape& limb) {
   const glm::dvec3 lower_along = direction(lower, upper_along);
   const double blend_m = limb.blend * figure.thickness_m;
   std::vector<Ring> rings;
-  for (const double at : places_along(limb.sections, 30)) {
+  for (const double at : places_along(limb.sections, 26)) {
     const Section section = section_at(limb.sections, at);
     Ring ring;
     ring.skin = limb_skin(limb, at, glm::length(upper), glm::length(lower), blend_m);

@@ -137,6 +137,7 @@ void add_trunk(Figure& figure) {
   const std::vector<Section> sections = trunk_sections(hips, shoulders);
   const std::vector<double> places = places_along(sections, 44);
   std::vector<Ring> rings;
+  rings.reserve(places.size());
   for (const double at : places) {
     rings.push_back(trunk_ring(figure, section_at(sections, at)));
   }
