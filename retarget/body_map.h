@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/humanoid.h"
+#include "core/ids.h"
+#include "core/result.h"
+#include "core/skeleton.h"
+
+namespace marey::retarget {
+
+/// Vertebrae that one section of the spine may have.
+inline constexpr int kMaxVertebrae = 15;
+
+/// One complete limb of a body. The T-pose is the canonical one: arms along +-X, legs
+/// along -Y, whatever the skeleton's own rest pose.
+struct LimbMap {
+  JointIndex upper{};
+  JointIndex lower{};
+  JointIndex end{};
+  double upper_length_m = 0.0;
+  double lower_length_m = 0.0;
+  glm::dvec3 along_in_t_pose{0.0};  ///< Unit, from the limb's root to its end.
+  glm::dvec3 hinge_in_t_pose{0.0};  ///< Unit; see HumanLimb::hinge_axis.
+
+  /// Sum of the segment lengths: what eq. 1.3 divides by.
+  [[nodiscard]] double length_m() const { return upper_length_m + lower_length_m; }
+};
+
+/// A run of vertebrae, from low to high.
+struct SpineSection {
+  int count = 0;
+  std::array<JointIndex, kMaxVertebrae> joints{};
+  /// Normalized arc length at the far end of each vertebra; the last one's is 1.
+  std::array<double, kMaxVertebrae> at{};
+};
+
+/// A foot as it stands in the T-pose, sole on the floor, pointing to +Z.
+struct FootMap {
+  double ankle_height_m = 0.0;  ///< Of the ankle above the sole.
+  double ball_height_m = 0.0;   ///< Of the toe joint above the sole.
+  /// From the ankle to the toe joint; a guess when the body has no toes.
+  glm::dvec3 ball_from_ankle_in_t_pose{0.0};
+  bool has_toes = false;
+};
+
+/// How a joint gets its rotation when a normalized posture is expanded.
+enum class JointRole : unsigned char {
+  kFree,      ///< No mark: stays as at rest in its parent.
+  kSegment,   ///< Its own orientation is transferred.
+  kVertebra,  ///< Sampled from a spine curve.
+  kLimbBone,  ///< Solved with its limb.
+};
+
+struct JointDrive {
+  JointRole role = JointRole::kFree;
+  HumanBone bone{};  ///< Of a kSegment.
+  int limb = 0;      ///< Of a kLimbBone, as in human_limbs().
+  /// Rotation of the joint's frame in the canonical T-pose (not kFree). A joint's
+  /// T-pose-relative world rotation is world_from_joint * inverse(this).
+  glm::dquat t_pose_from_joint{1.0, 0.0, 0.0, 0.0};
+};
+
+/// What normalizing and expanding need to know of a skeleton, computed once.
+struct BodyMap {
+  std::array<std::optional<JointIndex>, kHumanBoneCount> joint_of{};
+  std::vector<JointDrive> joints;  ///< One per joint of the skeleton.
+  /// As in human_limbs(). Both legs are always there.
+  std::array<std::optional<LimbMap>, 4> limbs{};
+  SpineSection abdomen;           ///< From the hips to where the torso begins.
+  SpineSection torso;             ///< From there to the base of the neck.
+  std::array<FootMap, 2> feet{};  ///< Left, right.
+  double leg_length_m = 0.0;      ///< Hip to knee to ankle, mean of both sides.
+  double arm_length_m = 0.0;      ///< Shoulder to elbow to wrist; 0 without arms.
+  double hip_drop_m = 0.0;        ///< Height of the hips joint above the hip centres.
+
+  [[nodiscard]] JointIndex hips() const { return *joint_of[index(HumanBone::kHips)]; }
+  /// Side 0 is left, 1 is right.
+  [[nodiscard]] const LimbMap& leg(int side) const {
+    return *limbs[static_cast<std::size_t>(2 + side)];
+  }
+};
+
+/// Reads the marks (Joint::bone) of a skeleton.
+///
+/// Any skeleton that faces +Z at rest will do: other joints between the marked ones,
+/// arbitrary rest rotations, A- or T-pose. The bones of complete limbs are aligned, root
+/// first, onto their canonical T-pose directions by the smallest rotation; hands follow
+/// their forearm; feet keep their sole flat and turn about the vertical until they point
+/// forward; all else is taken as it rests. Joints between hips and neck (head, when there
+/// is no neck) are vertebrae, marked or not; the torso begins at the chest, or halfway.
+/// A limb that is not complete is treated bone by bone.
+///
+/// The sole is the floor Y = 0 of the rest pose if the lowest foot joint or toe tip is
+/// near above it, else where an average foot of that leg length has it below that joint.
+///
+/// Errors (bad input): hips or a leg bone is not marked, a limb bone has no length, or a
+/// section of the spine has more than kMaxVertebrae vertebrae.
+[[nodiscard]] Result<BodyMap> map_body(const Skeleton& skeleton);
+
+}  // namespace marey::retarget

@@ -1,0 +1,290 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/foot_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <glm/geometric.hpp>
+
+#include "core/assert.h"
+#include "core/transform.h"
+#include "retarget/smooth_step.h"
+
+namespace marey::retarget {
+namespace {
+
+// A quantity over time that some frames prescribe; bridge() finds the others.
+using Prescribed = std::vector<std::optional<glm::dvec3>>;
+
+// Value, speed and acceleration at the edge of a run of prescribed frames, by one-sided
+// differences; `step` is -1 at a run's last frame, +1 at its first. Time runs away from
+// the run.
+struct Edge {
+  glm::dvec3 value{0.0};
+  glm::dvec3 speed{0.0};
+  glm::dvec3 acceleration{0.0};
+};
+
+Edge edge_of(const Prescribed& p, int at, int step, double hz) {
+  const auto get = [&](int k) -> std::optional<glm::dvec3> {
+    const int frame = at + k * step;
+    if (frame < 0 || frame >= static_cast<int>(p.size())) return std::nullopt;
+    return p[static_cast<std::size_t>(frame)];
+  };
+  Edge edge{*get(0)};
+  const auto one = get(1);
+  const auto two = get(2);
+  if (one && two) {
+    edge.speed = (3.0 * edge.value - 4.0 * *one + *two) * (0.5 * hz);
+    edge.acceleration = (edge.value - 2.0 * *one + *two) * (hz * hz);
+  } else if (one) {
+    edge.speed = (edge.value - *one) * hz;
+  }
+  return edge;
+}
+
+// The edge's own course, fading to its value over `fade_s`.
+glm::dvec3 fading(const Edge& edge, double since_s, double fade_s) {
+  const double left = 1.0 - smooth_step(since_s / fade_s);
+  return left * since_s * (edge.speed + 0.5 * since_s * edge.acceleration);
+}
+
+// Fills the frames first..last, whose neighbours are prescribed (or the motion's ends).
+void bridge_gap(Prescribed& p, int first, int last, double hz, double blend_s) {
+  const int count = static_cast<int>(p.size());
+  std::optional<Edge> before;
+  std::optional<Edge> after;
+  if (first > 0) before = edge_of(p, first - 1, -1, hz);
+  if (last + 1 < count) after = edge_of(p, last + 1, +1, hz);
+  const double gap_s = (last - first + 2) / hz;
+  const double fade_s = std::min(blend_s, gap_s);
+  for (int t = first; t <= last; ++t) {
+    const double since_s = (t - first + 1) / hz;
+    const double until_s = gap_s - since_s;
+    glm::dvec3 value(0.0);
+    if (before && after) {
+      value = glm::mix(before->value, after->value, smooth_step(since_s / gap_s));
+    } else if (before || after) {
+      value = before ? before->value : after->value;
+    }
+    if (before) value += fading(*before, since_s, fade_s);
+    if (after) value += fading(*after, until_s, fade_s);
+    p[static_cast<std::size_t>(t)] = value;
+  }
+}
+
+// C2 across every edge, exact where prescribed; zero when nothing is.
+std::vector<glm::dvec3> bridge(Prescribed p, double hz, double blend_s) {
+  const int count = static_cast<int>(p.size());
+  const Prescribed given = p;
+  for (int t = 0; t < count; ++t) {
+    if (given[static_cast<std::size_t>(t)]) continue;
+    int last = t;
+    while (last + 1 < count && !given[static_cast<std::size_t>(last + 1)]) ++last;
+    bridge_gap(p, t, last, hz, blend_s);
+    t = last;
+  }
+  std::vector<glm::dvec3> out;
+  for (const auto& value : p) out.push_back(*value);
+  return out;
+}
+
+// One stance's place on the floor.
+struct Footprint {
+  glm::dquat heading{1.0, 0.0, 0.0, 0.0};
+  glm::dvec3 ankle_in_world{0.0};
+  glm::dvec3 ball_in_world{0.0};
+};
+
+// Everything the steps below share about one foot.
+struct Task {
+  std::span<const FootPlace> reference;
+  const FootMap& foot;
+  double leg_length_m = 0.0;
+  double hz = 0.0;
+  double blend_s = 0.0;
+  std::vector<char> heel;  // Per frame: does it bear?
+  std::vector<char> ball;
+  std::vector<Footprint> print;  // Of the stance that the frame is in.
+
+  [[nodiscard]] bool bears(std::size_t t) const { return heel[t] || ball[t]; }
+  [[nodiscard]] bool flat(std::size_t t) const { return heel[t] && ball[t]; }
+};
+
+std::vector<char> marks(const std::vector<FrameInterval>& runs, std::size_t count) {
+  std::vector<char> on(count, 0);
+  for (const FrameInterval& run : runs) {
+    MAREY_ASSERT(run.first >= 0 && run.last < static_cast<int>(count));
+    std::fill(on.begin() + run.first, on.begin() + run.last + 1, char{1});
+  }
+  return on;
+}
+
+// Mean of a point of the reference foot over the frames of `run` that count.
+template <class Counts, class Point>
+std::optional<glm::dvec3> mean(const Task& task,
+                               const FrameInterval& run,
+                               const Counts& counts,
+                               const Point& point) {
+  glm::dvec3 sum(0.0);
+  int n = 0;
+  for (int k = run.first; k <= run.last; ++k) {
+    const auto t = static_cast<std::size_t>(k);
+    if (!counts(t)) continue;
+    sum += point(task.reference[t]);
+    ++n;
+  }
+  if (n == 0) return std::nullopt;
+  return sum / static_cast<double>(n);
+}
+
+// Where the reference foot stands flat, on average; a stance on the ball or the heel
+// alone goes by that joint.
+Footprint footprint(const Task& task, const FrameInterval& run) {
+  const glm::dvec3& ball_from_ankle = task.foot.ball_from_ankle_in_t_pose;
+  const auto ankle = [](const FootPlace& place) { return place.ankle_in_world; };
+  const auto ball = [&](const FootPlace& place) {
+    return place.ankle_in_world + place.foot * ball_from_ankle;
+  };
+  const auto ahead = [](const FootPlace& place) {
+    return place.foot * glm::dvec3(0, 0, 1);
+  };
+  const auto flat = [&](std::size_t t) { return task.flat(t); };
+  const auto on_ball = [&](std::size_t t) { return task.ball[t] != 0; };
+  const auto any = [](std::size_t) { return true; };
+
+  Footprint print;
+  auto heading = mean(task, run, flat, ahead);
+  if (!heading) heading = mean(task, run, any, ahead);
+  print.heading = glm::angleAxis(std::atan2(heading->x, heading->z), glm::dvec3(0, 1, 0));
+  const glm::dvec3 flat_ball_from_ankle = print.heading * ball_from_ankle;
+  if (const auto place = mean(task, run, flat, ankle)) {
+    print.ankle_in_world = *place;
+  } else if (const auto place_of_ball = mean(task, run, on_ball, ball)) {
+    print.ankle_in_world = *place_of_ball - flat_ball_from_ankle;
+  } else {
+    print.ankle_in_world = *mean(task, run, any, ankle);
+  }
+  print.ankle_in_world.y = task.foot.ankle_height_m;
+  print.ball_in_world = print.ankle_in_world + flat_ball_from_ankle;
+  return print;
+}
+
+// Turns foot and toes flat where they must be, and as little as possible elsewhere.
+void turn(const Task& task, std::vector<FootPlace>& out) {
+  Prescribed foot_turn(out.size());
+  Prescribed toes_turn(out.size());
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    const glm::dquat& heading = task.print[t].heading;
+    const FootPlace& reference = task.reference[t];
+    if (task.flat(t)) {
+      foot_turn[t] = rotation_vector(heading * glm::conjugate(reference.foot));
+    }
+    if (task.ball[t]) {
+      toes_turn[t] = rotation_vector(heading * glm::conjugate(reference.toes));
+    }
+  }
+  const auto foot = bridge(std::move(foot_turn), task.hz, task.blend_s);
+  const auto toes = bridge(std::move(toes_turn), task.hz, task.blend_s);
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    out[t].foot = glm::normalize(rotation_from_vector(foot[t]) * task.reference[t].foot);
+    out[t].toes = glm::normalize(rotation_from_vector(toes[t]) * task.reference[t].toes);
+  }
+}
+
+// Pitches a foot that bears on one joint until the other is not below its own height.
+void keep_other_joint_up(const Task& task, std::size_t t, FootPlace& place) {
+  const glm::dvec3 flat = task.foot.ball_from_ankle_in_t_pose;
+  const glm::dvec3 now = place.foot * flat;
+  const bool sinks = task.heel[t] ? now.y < flat.y : now.y > flat.y;
+  if (!sinks) return;
+  const glm::dvec2 ground(now.x, now.z);
+  const double reach = glm::length(ground);
+  if (reach < 1e-6) return;
+  const glm::dvec2 ahead = ground * (glm::length(glm::dvec2(flat.x, flat.z)) / reach);
+  place.foot =
+      glm::normalize(rotation_between(now, {ahead.x, flat.y, ahead.y}) * place.foot);
+}
+
+// Lifts a swinging foot over the floor, softly: never below, and hardly at all when high.
+void lift(const Task& task, double softness_m, FootPlace& place) {
+  const double ankle = place.ankle_in_world.y - task.foot.ankle_height_m;
+  const double ball = place.ankle_in_world.y +
+                      (place.foot * task.foot.ball_from_ankle_in_t_pose).y -
+                      task.foot.ball_height_m;
+  const double clearance = std::min(ankle, ball);
+  const double wanted =
+      0.5 * (clearance + std::sqrt(clearance * clearance + softness_m * softness_m));
+  place.ankle_in_world.y += wanted - clearance;
+}
+
+// Seconds from each frame to the nearest that bears; large when none does.
+std::vector<double> distance_to_stance_s(const Task& task) {
+  const std::size_t count = task.reference.size();
+  std::vector<double> out(count, 1e9);
+  for (std::size_t t = 0; t < count; ++t) {
+    if (task.bears(t)) out[t] = 0.0;
+    if (t > 0) out[t] = std::min(out[t], out[t - 1] + 1.0 / task.hz);
+  }
+  for (std::size_t t = count; t-- > 1;) {
+    out[t - 1] = std::min(out[t - 1], out[t] + 1.0 / task.hz);
+  }
+  return out;
+}
+
+// Puts the bearing joint on its footprint, and the swinging foot in between.
+void place_ankles(const Task& task, std::vector<FootPlace>& out) {
+  Prescribed shift(out.size());
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    if (!task.bears(t)) continue;
+    const Footprint& print = task.print[t];
+    if (!task.flat(t)) keep_other_joint_up(task, t, out[t]);
+    out[t].ankle_in_world =
+        task.heel[t]
+            ? print.ankle_in_world
+            : print.ball_in_world - out[t].foot * task.foot.ball_from_ankle_in_t_pose;
+    shift[t] = out[t].ankle_in_world - task.reference[t].ankle_in_world;
+  }
+  const auto shifts = bridge(std::move(shift), task.hz, task.blend_s);
+  const auto away_s = distance_to_stance_s(task);
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    if (task.bears(t)) continue;
+    out[t].ankle_in_world = task.reference[t].ankle_in_world + shifts[t];
+    constexpr double kSoftnessInLegs = 0.01;
+    lift(task,
+         kSoftnessInLegs * task.leg_length_m * smooth_step(away_s[t] / task.blend_s),
+         out[t]);
+  }
+}
+
+}  // namespace
+
+std::vector<FootPlace> plan_foot(std::span<const FootPlace> reference,
+                                 const FootContacts& contacts,
+                                 const FootMap& foot,
+                                 double leg_length_m,
+                                 FrameRate rate,
+                                 const FootPlanOptions& options) {
+  MAREY_ASSERT(rate.hz > 0.0 && options.blend_s > 0.0);
+  const std::size_t count = reference.size();
+  Task task{reference,
+            foot,
+            leg_length_m,
+            rate.hz,
+            options.blend_s,
+            marks(contacts.heel, count),
+            marks(contacts.ball, count),
+            std::vector<Footprint>(count)};
+  for (const FrameInterval& run : contacts.stance) {
+    const Footprint print = footprint(task, run);
+    std::fill(task.print.begin() + run.first, task.print.begin() + run.last + 1, print);
+  }
+  std::vector<FootPlace> out(count);
+  turn(task, out);
+  place_ankles(task, out);
+  return out;
+}
+
+}  // namespace marey::retarget

@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/ground.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/assert.h"
+#include "core/pose.h"
+#include "core/transform.h"
+
+namespace marey::retarget {
+namespace {
+
+using B = HumanBone;
+
+// A root never sinks further than this for a leg's sake: past it, the leg gives up.
+constexpr double kMostSinkInLegs = 0.5;
+constexpr double kReachTolerance = 5e-4;  // [m] A foot further off its print has slipped.
+
+// One leg over the whole motion.
+struct LegPath {
+  std::vector<FootPlace> foot;
+  std::vector<glm::dvec3> hip_from_root;  // World axes. [m]
+};
+
+B foot_bone(int side) {
+  return side == 0 ? B::kLeftFoot : B::kRightFoot;
+}
+B toes_bone(int side) {
+  return side == 0 ? B::kLeftToes : B::kRightToes;
+}
+
+FootPlace foot_of(const BodyMap& map,
+                  const NormalizedPose& pose,
+                  std::span<const RigidTransform> world_from_joint,
+                  int side) {
+  const auto turn = [&](B bone) {
+    const auto joint = map.joint_of[index(bone)];
+    if (pose.segments[index(bone)]) return *pose.segments[index(bone)];
+    if (!joint) return glm::dquat(1, 0, 0, 0);
+    return world_from_joint[index(*joint)].rotation *
+           glm::conjugate(map.joints[index(*joint)].t_pose_from_joint);
+  };
+  return {world_from_joint[index(map.leg(side).end)].translation,
+          turn(foot_bone(side)),
+          turn(toes_bone(side))};
+}
+
+std::array<LegPath, 2> reference_legs(const Skeleton& body,
+                                      const BodyMap& map,
+                                      std::span<const NormalizedPose> poses) {
+  std::array<LegPath, 2> legs;
+  std::vector<RigidTransform> world_from_joint(body.joints.size());
+  Pose scratch;
+  for (const NormalizedPose& pose : poses) {
+    expand(pose, body, map, world_from_joint, scratch);
+    const glm::dvec3 root = world_from_joint[index(map.hips())].translation;
+    for (int side = 0; side < 2; ++side) {
+      LegPath& leg = legs[static_cast<std::size_t>(side)];
+      leg.foot.push_back(foot_of(map, pose, world_from_joint, side));
+      leg.hip_from_root.push_back(
+          world_from_joint[index(map.leg(side).upper)].translation - root);
+    }
+  }
+  return legs;
+}
+
+std::vector<char> bearing_frames(const FootContacts& foot, std::size_t count) {
+  std::vector<char> on(count, 0);
+  for (const FrameInterval& run : foot.stance) {
+    std::fill(on.begin() + run.first, on.begin() + run.last + 1, char{1});
+  }
+  return on;
+}
+
+// How far the root must sink for the leg to reach its ankle: steps 1 to 3 of 4.2.4.1.
+// The pelvis' width goes out with hip_from_root.
+double sink_m(const LegPath& leg,
+              std::size_t t,
+              const glm::dvec3& root,
+              double length_m) {
+  const glm::dvec3 hip = root + leg.hip_from_root[t];
+  const glm::dvec3 ankle = leg.foot[t].ankle_in_world;
+  const double aside = glm::length(glm::dvec2(hip.x - ankle.x, hip.z - ankle.z));
+  const double rise = std::sqrt(std::max(length_m * length_m - aside * aside, 0.0));
+  return std::clamp(hip.y - (ankle.y + rise), 0.0, kMostSinkInLegs * length_m);
+}
+
+// The least smooth curve of its kind above `needed`: the greatest within +-half a window,
+// averaged over +-half a window with a C2 bell. Every value averaged is at least the
+// one needed in the middle, so the average is too.
+std::vector<double> smooth_cover(const std::vector<double>& needed, int half) {
+  const int count = static_cast<int>(needed.size());
+  std::vector<double> peak(needed.size());
+  for (int t = 0; t < count; ++t) {
+    const auto from = needed.begin() + std::max(0, t - half);
+    const auto to = needed.begin() + std::min(count - 1, t + half) + 1;
+    peak[static_cast<std::size_t>(t)] = *std::max_element(from, to);
+  }
+  std::vector<double> out(needed.size());
+  for (int t = 0; t < count; ++t) {
+    double sum = 0.0;
+    double weights = 0.0;
+    for (int k = -half; k <= half; ++k) {
+      const double x = static_cast<double>(k) / (half + 1);
+      const double bell = (1.0 - x * x) * (1.0 - x * x) * (1.0 - x * x);
+      sum += bell * peak[static_cast<std::size_t>(std::clamp(t + k, 0, count - 1))];
+      weights += bell;
+    }
+    out[static_cast<std::size_t>(t)] = sum / weights;
+  }
+  return out;
+}
+
+// Step 5 of 4.2.4.1: the leg from this hip to this ankle, its half-plane turned along.
+// Returns how far the ankle stays away. [m]
+double aim_leg(const glm::dvec3& hip,
+               const glm::dvec3& ankle,
+               double length_m,
+               NormalizedLimb& leg) {
+  const glm::dvec3 wanted = ankle - hip;
+  const double distance = glm::length(wanted);
+  if (distance < 1e-9) return 0.0;
+  const glm::dvec3 now = leg.world_from_limb * glm::dvec3(0, 0, 1);
+  leg.world_from_limb =
+      glm::normalize(rotation_between(now, wanted) * leg.world_from_limb);
+  leg.extension = std::min(distance / length_m, 1.0);
+  return std::max(distance - length_m, 0.0);
+}
+
+}  // namespace
+
+double standing_rise_m(const BodyMap& source,
+                       const Contacts& contacts,
+                       const BodyMap& avatar,
+                       double scale) {
+  double source_m = source.hip_drop_m;
+  double avatar_m = avatar.hip_drop_m;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const FootContacts& foot = contacts.feet[side];
+    source_m += 0.5 * (foot.stance.empty() ? source.feet[side].ankle_height_m
+                                           : foot.ankle_height_m);
+    avatar_m += 0.5 * avatar.feet[side].ankle_height_m;
+  }
+  return avatar_m - scale * source_m;
+}
+
+GroundReport adapt_to_ground(const Skeleton& body,
+                             const BodyMap& map,
+                             const Contacts& contacts,
+                             FrameRate rate,
+                             std::span<NormalizedPose> poses,
+                             const GroundOptions& options) {
+  MAREY_ASSERT(static_cast<int>(poses.size()) == contacts.frame_count);
+  GroundReport report;
+  if (poses.empty()) return report;
+  const std::size_t count = poses.size();
+  const double unit_m = root_unit_m(map, poses[0].root_normalization);
+
+  std::array<LegPath, 2> legs = reference_legs(body, map, poses);
+  std::array<std::vector<char>, 2> bears;
+  std::vector<double> needed(count, 0.0);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const FootContacts& foot = contacts.feet[side];
+    LegPath& leg = legs[side];
+    leg.foot =
+        plan_foot(leg.foot, foot, map.feet[side], map.leg_length_m, rate, options.feet);
+    bears[side] = bearing_frames(foot, count);
+    const double full_m = map.leg(static_cast<int>(side)).length_m();
+    for (std::size_t t = 0; t < count; ++t) {
+      if (!bears[side][t]) continue;
+      const double length_m =
+          full_m * std::max(options.straight, poses[t].limbs[2 + side]->extension);
+      needed[t] = std::max(needed[t], sink_m(leg, t, poses[t].root * unit_m, length_m));
+    }
+  }
+
+  const int half =
+      std::max(1, static_cast<int>(std::lround(options.anticipation_s * 0.5 * rate.hz)));
+  const std::vector<double> sink = smooth_cover(needed, half);
+  report.deepest_sink_m = *std::max_element(sink.begin(), sink.end());
+  for (std::size_t t = 0; t < count; ++t) {
+    NormalizedPose& pose = poses[t];
+    pose.root.y -= sink[t] / unit_m;
+    bool slipped = false;
+    for (int side = 0; side < 2; ++side) {
+      const LegPath& leg = legs[static_cast<std::size_t>(side)];
+      const glm::dvec3 hip = pose.root * unit_m + leg.hip_from_root[t];
+      auto& limb = pose.limbs[static_cast<std::size_t>(2 + side)];
+      MAREY_ASSERT(limb.has_value());
+      const double missed_m =
+          aim_leg(hip, leg.foot[t].ankle_in_world, map.leg(side).length_m(), *limb);
+      slipped |= missed_m > kReachTolerance && bears[static_cast<std::size_t>(side)][t];
+      pose.segments[index(foot_bone(side))] = leg.foot[t].foot;
+      pose.segments[index(toes_bone(side))] = leg.foot[t].toes;
+    }
+    if (slipped) ++report.unreachable_frames;
+  }
+  return report;
+}
+
+}  // namespace marey::retarget

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+
+#include "core/skeleton.h"
+#include "core/time.h"
+#include "retarget/body_map.h"
+#include "retarget/detect_contacts.h"
+#include "retarget/foot_plan.h"
+#include "retarget/normalized_skeleton.h"
+
+namespace marey::retarget {
+
+struct GroundOptions {
+  FootPlanOptions feet;
+  /// The root starts to sink this long before a leg would be too short, and rises as
+  /// long after. [s]
+  double anticipation_s = 0.2;
+  /// A bearing leg is stretched no further than this share of its length, unless the
+  /// reference does: the last percent costs a knee ten degrees at once.
+  double straight = 0.995;
+};
+
+struct GroundReport {
+  /// Frames in which a bearing foot could not stay on its footprint.
+  int unreachable_frames = 0;
+  /// Most that the root was lowered so that a bearing leg reaches. [m]
+  double deepest_sink_m = 0.0;
+};
+
+/// By how much a root that was scaled with the legs must rise so that a body whose hips
+/// or ankles lie otherwise than the source's stands on Y = 0 with its legs as bent as
+/// the source's. [m] Negative: sink. Source resting heights are those of `contacts`.
+[[nodiscard]] double standing_rise_m(const BodyMap& source,
+                                     const Contacts& contacts,
+                                     const BodyMap& avatar,
+                                     double scale);
+
+/// Fast ground adaptation (Kulpa 2005, 4.2.4.1) of a whole motion, in place.
+///
+/// `poses` are the reference postures at this body's size, one per frame of `contacts`.
+/// The feet go where plan_foot() says. The root keeps its path, and its height unless a
+/// bearing leg would not reach: the height is the least of the reference's and those at
+/// which each bearing leg is straight, but taken smoothly, from before to after the
+/// moment (the thesis takes the minimum posture by posture). Legs follow analytically.
+/// Frames in which no foot bears, more than `anticipation_s` away from one that does,
+/// keep their root height. Linear in frames; two expansions per frame.
+GroundReport adapt_to_ground(const Skeleton& body,
+                             const BodyMap& map,
+                             const Contacts& contacts,
+                             FrameRate rate,
+                             std::span<NormalizedPose> poses,
+                             const GroundOptions& options = {});
+
+}  // namespace marey::retarget

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/retarget_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "core/assert.h"
+#include "core/pose.h"
+
+namespace marey::retarget {
+namespace {
+
+using B = HumanBone;
+
+// World places of one joint over a motion. [m]
+std::vector<glm::dvec3> path_of(const Motion& motion, JointIndex joint) {
+  std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
+  std::vector<glm::dvec3> path;
+  for (const Pose& pose : motion.poses) {
+    world_from_joints(motion.skeleton, pose, world_from_joint);
+    path.push_back(world_from_joint[index(joint)].translation);
+  }
+  return path;
+}
+
+struct Slide {
+  double sum_m = 0.0;
+  int steps = 0;
+};
+
+void add_slide(const std::vector<glm::dvec3>& path,
+               const std::vector<FrameInterval>& contacts,
+               Slide& slide) {
+  for (const FrameInterval& run : contacts) {
+    for (int t = run.first + 1; t <= run.last; ++t) {
+      const glm::dvec3 step =
+          path[static_cast<std::size_t>(t)] - path[static_cast<std::size_t>(t - 1)];
+      slide.sum_m += glm::length(glm::dvec2(step.x, step.z));
+      ++slide.steps;
+    }
+  }
+}
+
+Result<BodyMap> map_named_body(const Skeleton& skeleton, const char* who) {
+  Result<BodyMap> map = map_body(skeleton);
+  if (map) return map;
+  Error error = map.error();
+  error.where = who;
+  return error;
+}
+
+Motion expand_all(const std::vector<NormalizedPose>& poses,
+                  const Motion& source,
+                  const Skeleton& avatar,
+                  const BodyMap& map) {
+  Motion motion{avatar, source.rate, source.first_frame, {}};
+  motion.poses.resize(poses.size());
+  std::vector<RigidTransform> world_from_joint(avatar.joints.size());
+  for (std::size_t t = 0; t < poses.size(); ++t) {
+    expand(poses[t], avatar, map, world_from_joint, motion.poses[t]);
+  }
+  return motion;
+}
+
+}  // namespace
+
+FootFigures measure_feet(const Motion& motion,
+                         const BodyMap& map,
+                         const Contacts& contacts) {
+  MAREY_ASSERT(contacts.frame_count == static_cast<int>(motion.poses.size()));
+  FootFigures figures;
+  Slide slide;
+  constexpr std::array<B, 2> kToes{B::kLeftToes, B::kRightToes};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const auto measure =
+        [&](JointIndex joint, const std::vector<FrameInterval>& runs, double height_m) {
+          const std::vector<glm::dvec3> path = path_of(motion, joint);
+          add_slide(path, runs, slide);
+          for (const glm::dvec3& p : path) {
+            figures.deepest_penetration_mm =
+                std::max(figures.deepest_penetration_mm, 1e3 * (height_m - p.y));
+          }
+        };
+    const FootMap& foot = map.feet[side];
+    measure(map.leg(static_cast<int>(side)).end,
+            contacts.feet[side].heel,
+            foot.ankle_height_m);
+    if (const auto toes = map.joint_of[index(kToes[side])]) {
+      measure(*toes, contacts.feet[side].ball, foot.ball_height_m);
+    }
+  }
+  if (slide.steps > 0) {
+    figures.mean_slide_cm_per_s = 100.0 * slide.sum_m / slide.steps * motion.rate.hz;
+  }
+  return figures;
+}
+
+Result<RetargetedMotion> retarget_motion(const Motion& source,
+                                         const Skeleton& avatar,
+                                         const RetargetOptions& options) {
+  MAREY_ASSERT(source.rate.hz > 0.0);
+  const Result<BodyMap> from = map_named_body(source.skeleton, "source skeleton");
+  if (!from) return from.error();
+  const Result<BodyMap> to = map_named_body(avatar, "avatar");
+  if (!to) return to.error();
+  if (options.root == RootNormalization::kArmLength &&
+      (from->arm_length_m <= 0.0 || to->arm_length_m <= 0.0)) {
+    return bad_input(from->arm_length_m > 0.0 ? "avatar" : "source skeleton",
+                     "it has no complete arm to measure the root's path in",
+                     "normalize the root by leg length");
+  }
+
+  RetargetedMotion out;
+  out.report.contacts = detect_contacts(source, *from, options.contacts);
+  const double unit_m = root_unit_m(*to, options.root);
+  const double scale = unit_m / root_unit_m(*from, options.root);
+  const double rise_m = options.adapt_ground
+                            ? standing_rise_m(*from, out.report.contacts, *to, scale)
+                            : 0.0;
+
+  std::vector<NormalizedPose> poses(source.poses.size());
+  std::vector<RigidTransform> world_from_joint(source.skeleton.joints.size());
+  for (std::size_t t = 0; t < poses.size(); ++t) {
+    world_from_joints(source.skeleton, source.poses[t], world_from_joint);
+    normalize(*from, world_from_joint, poses[t], options.root);
+    poses[t].root.y += rise_m / unit_m;
+  }
+  out.motion = expand_all(poses, source, avatar, *to);
+  out.report.before = measure_feet(out.motion, *to, out.report.contacts);
+  out.report.after = out.report.before;
+  if (options.adapt_ground) {
+    out.report.ground = adapt_to_ground(
+        avatar, *to, out.report.contacts, source.rate, poses, options.ground);
+    out.motion = expand_all(poses, source, avatar, *to);
+    out.report.after = measure_feet(out.motion, *to, out.report.contacts);
+  }
+  return out;
+}
+
+}  // namespace marey::retarget

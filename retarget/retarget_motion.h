@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/motion.h"
+#include "core/result.h"
+#include "retarget/detect_contacts.h"
+#include "retarget/ground.h"
+#include "retarget/normalized_skeleton.h"
+
+namespace marey::retarget {
+
+struct RetargetOptions {
+  RootNormalization root = RootNormalization::kLegLength;
+  bool adapt_ground = true;
+  DetectContactsOptions contacts;
+  GroundOptions ground;
+};
+
+/// How well feet keep to the floor.
+struct FootFigures {
+  /// Mean horizontal speed of the joints that bear, over all contacts. [cm/s]
+  double mean_slide_cm_per_s = 0.0;
+  /// Most that an ankle or toe joint is lower than when it stands in the T-pose. [mm]
+  double deepest_penetration_mm = 0.0;
+};
+
+/// Measures a motion's feet against the contacts it should have.
+/// Precondition: `map` was made from the motion's skeleton; one contact frame per pose.
+[[nodiscard]] FootFigures measure_feet(const Motion& motion,
+                                       const BodyMap& map,
+                                       const Contacts& contacts);
+
+struct RetargetReport {
+  Contacts contacts;   ///< Stances, found in the source.
+  FootFigures before;  ///< On the avatar, without ground adaptation.
+  FootFigures after;   ///< On the avatar, as delivered.
+  GroundReport ground;
+};
+
+struct RetargetedMotion {
+  Motion motion;
+  RetargetReport report;
+};
+
+/// Puts a motion on another body: normalized skeleton, root at the avatar's height,
+/// feet on the floor Y = 0 (which the source's feet define, wherever they rest).
+/// Frames, rate and first_frame are the source's. Same input, same bytes. Linear in
+/// frames, some ten microseconds each.
+///
+/// Errors: map_body()'s, of the source ("source skeleton") or the avatar ("avatar");
+/// no arms to normalize the root with.
+/// Precondition: the rate is positive; every pose has one entry per joint.
+[[nodiscard]] Result<RetargetedMotion> retarget_motion(
+    const Motion& source, const Skeleton& avatar, const RetargetOptions& options = {});
+
+}  // namespace marey::retarget

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "retarget/normalized_skeleton.h"
+#include "tests/support/random_bodies.h"
+
+namespace {
+long allocations = 0;
+}  // namespace
+
+// Every allocation of this program is counted.
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace marey::retarget {
+namespace {
+
+// Proves it for the calls that a live frame makes, forward kinematics included.
+TEST(Normalize, AllocatesNothingPerFrame) {
+  testing::Dice dice(1);
+  const Skeleton source = testing::random_humanoid(dice);
+  const Skeleton avatar = testing::with_vertebrae(testing::giant(), 7);
+  const BodyMap from = *map_body(source);
+  const BodyMap to = *map_body(avatar);
+  const Pose pose = testing::random_pose(source, dice);
+  std::vector<RigidTransform> source_frames(source.joints.size());
+  std::vector<RigidTransform> avatar_frames(avatar.joints.size());
+  NormalizedPose posture;
+  Pose out = rest_pose(avatar);
+
+  const long before = allocations;
+  for (int k = 0; k < 100; ++k) {
+    world_from_joints(source, pose, source_frames);
+    normalize(from, source_frames, posture);
+    expand(posture, avatar, to, avatar_frames, out);
+  }
+  EXPECT_EQ(allocations - before, 0);
+}
+
+TEST(Normalize, WouldHaveItsAllocationsCounted) {
+  const long before = allocations;
+  const auto* memory = new std::vector<double>(100);
+  EXPECT_GT(allocations - before, 0);
+  delete memory;
+}
+
+}  // namespace
+}  // namespace marey::retarget

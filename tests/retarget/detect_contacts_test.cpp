@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/detect_contacts.h"
+
+#include <cstdlib>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/pose.h"
+#include "tests/support/random_bodies.h"
+#include "tests/support/synthetic_walk.h"
+
+namespace marey::retarget {
+namespace {
+
+std::vector<FrameInterval> runs_of(const std::vector<char>& on) {
+  std::vector<FrameInterval> out;
+  for (int t = 0; t < static_cast<int>(on.size()); ++t) {
+    if (!on[static_cast<std::size_t>(t)]) continue;
+    if (out.empty() || out.back().last != t - 1) out.push_back({t, t});
+    out.back().last = t;
+  }
+  return out;
+}
+
+// Same contacts, each end within `frames`. Ends at the motion's own ends count too.
+void expect_near(const std::vector<FrameInterval>& found,
+                 const std::vector<FrameInterval>& truth,
+                 int frames) {
+  ASSERT_EQ(found.size(), truth.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_LE(std::abs(found[i].first - truth[i].first), frames) << "contact " << i;
+    EXPECT_LE(std::abs(found[i].last - truth[i].last), frames) << "contact " << i;
+  }
+}
+
+void expect_truth(const testing::SyntheticWalk& walk, int frames) {
+  const BodyMap map = *map_body(walk.motion.skeleton);
+  const Contacts contacts = detect_contacts(walk.motion, map);
+  for (std::size_t side = 0; side < 2; ++side) {
+    expect_near(contacts.feet[side].heel, runs_of(walk.feet[side].heel), frames);
+    expect_near(contacts.feet[side].ball, runs_of(walk.feet[side].ball), frames);
+  }
+}
+
+// A foot leaves and arrives without a jerk, so the very first and last slow frames of a
+// swing look like rest: 50 ms.
+TEST(DetectContacts, FindsEveryStepOfAWalkWithin50ms) {
+  expect_truth(testing::synthetic_walk(190, 60.0), 3);
+}
+
+// 2 mm and 3 mrad per joint is what a good capture leaves; 67 ms.
+TEST(DetectContacts, FindsEveryStepOfANoisyWalkWithin67ms) {
+  expect_truth(testing::synthetic_walk(190, 60.0, 0.003, 0.002), 4);
+}
+
+TEST(DetectContacts, FindsTheSameStepsAt120Hz) {
+  expect_truth(testing::synthetic_walk(380, 120.0), 7);
+}
+
+TEST(DetectContacts, DoesNotMindAFloorThatIsThreeCentimetresOff) {
+  testing::SyntheticWalk walk = testing::synthetic_walk(190, 60.0);
+  for (Pose& pose : walk.motion.poses) pose.root_in_world.y += 0.03;
+  expect_truth(walk, 3);
+}
+
+TEST(DetectContacts, KnowsHowHighTheAnkleRests) {
+  const testing::SyntheticWalk walk = testing::synthetic_walk(190, 60.0);
+  const BodyMap map = *map_body(walk.motion.skeleton);
+  const Contacts contacts = detect_contacts(walk.motion, map);
+  EXPECT_NEAR(contacts.feet[0].ankle_height_m, map.feet[0].ankle_height_m, 1e-3);
+  EXPECT_NEAR(contacts.feet[1].ball_height_m, map.feet[1].ball_height_m, 1e-3);
+}
+
+TEST(DetectContacts, FindsNoneInFreeFall) {
+  Motion motion;
+  motion.skeleton = testing::giant();
+  motion.rate.hz = 60.0;
+  for (int t = 0; t < 40; ++t) {
+    Pose pose = rest_pose(motion.skeleton);
+    const double s = t / 60.0;
+    pose.root_in_world.y += 3.0 + 2.0 * s - 4.905 * s * s;
+    pose.root_in_world.z += 1.5 * s;
+    motion.poses.push_back(pose);
+  }
+  const Contacts contacts = detect_contacts(motion, *map_body(motion.skeleton));
+  EXPECT_TRUE(contacts.feet[0].stance.empty());
+  EXPECT_TRUE(contacts.feet[1].stance.empty());
+}
+
+TEST(DetectContacts, CallsAStillButRaisedFootNoContact) {
+  Motion motion;
+  motion.skeleton = testing::child();
+  motion.rate.hz = 30.0;
+  const BodyMap map = *map_body(motion.skeleton);
+  Pose pose = rest_pose(motion.skeleton);
+  // The left knee up, as a flamingo stands.
+  pose.parent_from_joint[index(map.leg(0).upper)] =
+      glm::angleAxis(-1.0, glm::dvec3(1, 0, 0));
+  pose.parent_from_joint[index(map.leg(0).lower)] =
+      glm::angleAxis(1.5, glm::dvec3(1, 0, 0));
+  motion.poses.assign(30, pose);
+  const Contacts contacts = detect_contacts(motion, map);
+  EXPECT_TRUE(contacts.feet[0].stance.empty());
+  EXPECT_EQ(contacts.feet[1].stance.size(), 1U);
+}
+
+TEST(DetectContacts, AcceptsAMotionWithoutFrames) {
+  Motion motion;
+  motion.skeleton = testing::child();
+  EXPECT_EQ(detect_contacts(motion, *map_body(motion.skeleton)).frame_count, 0);
+}
+
+}  // namespace
+}  // namespace marey::retarget

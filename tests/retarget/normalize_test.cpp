@@ -1,0 +1,459 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/pose.h"
+#include "core/transform.h"
+#include "retarget/body_map.h"
+#include "retarget/normalized_skeleton.h"
+#include "tests/support/random_bodies.h"
+
+namespace marey::retarget {
+namespace {
+
+using testing::Dice;
+using B = HumanBone;
+
+BodyMap mapped(const Skeleton& skeleton) {
+  Result<BodyMap> map = map_body(skeleton);
+  EXPECT_TRUE(map) << (map ? "" : map.error().message());
+  return *std::move(map);
+}
+
+struct Miss {
+  double position_m = 0.0;
+  double rotation_rad = 0.0;
+};
+
+// The worst joint of two postures of one skeleton.
+Miss miss(const Skeleton& skeleton, const Pose& a, const Pose& b) {
+  const auto frames_a = world_from_joints(skeleton, a);
+  const auto frames_b = world_from_joints(skeleton, b);
+  Miss worst;
+  for (std::size_t i = 0; i < frames_a.size(); ++i) {
+    worst.position_m =
+        std::max(worst.position_m,
+                 glm::distance(frames_a[i].translation, frames_b[i].translation));
+    worst.rotation_rad =
+        std::max(worst.rotation_rad,
+                 glm::length(rotation_vector(glm::conjugate(frames_a[i].rotation) *
+                                             frames_b[i].rotation)));
+  }
+  return worst;
+}
+
+Miss worst_round_trip(const Skeleton& body, Dice& dice, int poses) {
+  const BodyMap map = mapped(body);
+  Miss worst;
+  for (int k = 0; k < poses; ++k) {
+    const Pose pose = testing::random_pose(body, dice);
+    const Miss m = miss(body, pose, expand(normalize(body, map, pose), body, map));
+    worst.position_m = std::max(worst.position_m, m.position_m);
+    worst.rotation_rad = std::max(worst.rotation_rad, m.rotation_rad);
+  }
+  return worst;
+}
+
+glm::dquat t_pose_turn(const BodyMap& map,
+                       const std::vector<RigidTransform>& frames,
+                       JointIndex joint) {
+  return frames[index(joint)].rotation *
+         glm::conjugate(map.joints[index(joint)].t_pose_from_joint);
+}
+
+struct BodyCase {
+  const char* name;
+  std::function<Skeleton(Dice&)> make;
+};
+
+class EveryBody : public ::testing::TestWithParam<BodyCase> {};
+
+// Lossless, in place and in turn: the promise of 1.1.2.
+TEST_P(EveryBody, GetsItsOwnPostureBackToAMicrometre) {
+  Dice dice(11);
+  for (int k = 0; k < 20; ++k) {
+    const Miss worst = worst_round_trip(GetParam().make(dice), dice, 50);
+    ASSERT_LT(worst.position_m, 1e-6);
+    ASSERT_LT(worst.rotation_rad, 1e-6);
+  }
+}
+
+TEST_P(EveryBody, KeepsItsBoneLengthsUnderAnyPosture) {
+  Dice dice(12);
+  const Skeleton source = testing::random_humanoid(dice);
+  const BodyMap source_map = mapped(source);
+  const Skeleton body = GetParam().make(dice);
+  const BodyMap map = mapped(body);
+  std::vector<RigidTransform> frames(body.joints.size());
+  Pose pose;
+  for (int k = 0; k < 100; ++k) {
+    expand(normalize(source, source_map, testing::random_pose(source, dice)),
+           body,
+           map,
+           frames,
+           pose);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const Joint& joint = body.joints[i];
+      if (!joint.parent) continue;
+      const double length =
+          glm::distance(frames[i].translation, frames[index(*joint.parent)].translation);
+      ASSERT_NEAR(length, glm::length(joint.parent_from_joint.translation), 1e-9);
+    }
+  }
+}
+
+// The frames that expand() hands out are those of the pose it hands out.
+TEST_P(EveryBody, HasWorldFramesThatAgreeWithItsPose) {
+  Dice dice(13);
+  const Skeleton source = testing::random_humanoid(dice);
+  const Skeleton body = GetParam().make(dice);
+  const BodyMap map = mapped(body);
+  std::vector<RigidTransform> frames(body.joints.size());
+  Pose pose;
+  expand(normalize(source, mapped(source), testing::random_pose(source, dice)),
+         body,
+         map,
+         frames,
+         pose);
+  const auto again = world_from_joints(body, pose);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_LT(glm::distance(frames[i].translation, again[i].translation), 1e-9);
+  }
+}
+
+// Source and avatar differ in every way but the posture that their limbs show.
+TEST_P(EveryBody, PointsItsLimbsAsTheSourceDoes) {
+  Dice dice(14);
+  const Skeleton source = testing::random_humanoid(dice);
+  const BodyMap source_map = mapped(source);
+  const Skeleton body = GetParam().make(dice);
+  const BodyMap map = mapped(body);
+  for (int k = 0; k < 50; ++k) {
+    const NormalizedPose posture =
+        normalize(source, source_map, testing::random_pose(source, dice));
+    const auto frames = world_from_joints(body, expand(posture, body, map));
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!map.limbs[i]) continue;
+      const LimbMap& limb = *map.limbs[i];
+      const double shortest = std::abs(limb.upper_length_m - limb.lower_length_m);
+      if (posture.limbs[i]->extension * limb.length_m() < shortest) continue;
+      const glm::dvec3 end =
+          frames[index(limb.end)].translation - frames[index(limb.upper)].translation;
+      ASSERT_LT(glm::distance(end / limb.length_m(), posture.limbs[i]->end_from_root()),
+                1e-7);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Normalize,
+    EveryBody,
+    ::testing::Values(
+        BodyCase{"Plain", [](Dice& d) { return testing::random_humanoid(d); }},
+        BodyCase{"RandomAxes",
+                 [](Dice& d) {
+                   return testing::with_random_axes(testing::random_humanoid(d), d);
+                 }},
+        BodyCase{"APoseWithRandomAxes",
+                 [](Dice& d) {
+                   return testing::with_random_axes(
+                       testing::in_a_pose(testing::random_humanoid(d), 0.8), d);
+                 }},
+        BodyCase{"OneVertebra",
+                 [](Dice& d) {
+                   return testing::with_vertebrae(testing::random_humanoid(d), 1);
+                 }},
+        BodyCase{"SevenVertebrae",
+                 [](Dice& d) {
+                   return testing::with_vertebrae(testing::random_humanoid(d), 7);
+                 }},
+        BodyCase{
+            "NoClaviclesNoToes",
+            [](Dice& d) {
+              Skeleton s = testing::random_humanoid(d);
+              for (const B bone :
+                   {B::kLeftShoulder, B::kRightShoulder, B::kLeftToes, B::kRightToes}) {
+                s = testing::without(s, bone);
+              }
+              return s;
+            }},
+        BodyCase{"NoUpperChestNoNeck",
+                 [](Dice& d) {
+                   return testing::without(
+                       testing::without(testing::random_humanoid(d), B::kUpperChest),
+                       B::kNeck);
+                 }},
+        BodyCase{"HalfAnArm",
+                 [](Dice& d) {
+                   return testing::without(testing::random_humanoid(d), B::kLeftHand);
+                 }},
+        BodyCase{"FingersAndTwistJoints",
+                 [](Dice& d) {
+                   return testing::with_random_axes(
+                       testing::with_extra_joints(testing::random_humanoid(d)), d);
+                 }}),
+    [](const auto& case_info) { return std::string(case_info.param.name); });
+
+TEST(Normalize, ScalesTheRootHeightWithTheLegs) {
+  Dice dice(21);
+  const Skeleton source = testing::random_humanoid(dice);
+  const Skeleton avatar = testing::giant();
+  const BodyMap from = mapped(source);
+  const BodyMap to = mapped(avatar);
+  const Pose pose = testing::random_pose(source, dice);
+  const Pose adapted = expand(normalize(source, from, pose), avatar, to);
+  EXPECT_NEAR(adapted.root_in_world.y,
+              pose.root_in_world.y * to.leg_length_m / from.leg_length_m,
+              1e-12);
+}
+
+TEST(Normalize, ScalesTheRootWithTheArmsWhenWalkingOnHands) {
+  Dice dice(22);
+  const Skeleton source = testing::random_humanoid(dice);
+  const Skeleton avatar = testing::child();
+  const BodyMap from = mapped(source);
+  const BodyMap to = mapped(avatar);
+  const Pose pose = testing::random_pose(source, dice);
+  const Pose adapted =
+      expand(normalize(source, from, pose, RootNormalization::kArmLength), avatar, to);
+  EXPECT_NEAR(adapted.root_in_world.y,
+              pose.root_in_world.y * to.arm_length_m / from.arm_length_m,
+              1e-12);
+}
+
+TEST(Normalize, LeavesTheRootInMetresWhenAskedTo) {
+  Dice dice(23);
+  const Skeleton source = testing::random_humanoid(dice);
+  const Skeleton avatar = testing::child();
+  const Pose pose = testing::random_pose(source, dice);
+  const Pose adapted =
+      expand(normalize(source, mapped(source), pose, RootNormalization::kNone),
+             avatar,
+             mapped(avatar));
+  EXPECT_LT(glm::distance(adapted.root_in_world, pose.root_in_world), 1e-12);
+}
+
+TEST(Normalize, KeepsAStraightLimbStraightOnAnyBody) {
+  Dice dice(24);
+  for (int k = 0; k < 50; ++k) {
+    const Skeleton source = testing::random_humanoid(dice);
+    const BodyMap from = mapped(source);
+    Pose pose = rest_pose(source);
+    const LimbMap& leg = from.leg(0);
+    pose.parent_from_joint[index(leg.upper)] = dice.turn(1.5);
+    // Straight is where both bones lie in one line, wherever they point at rest.
+    const glm::dvec3 upper = source[leg.lower].parent_from_joint.translation;
+    const glm::dvec3 lower = source[leg.end].parent_from_joint.translation;
+    pose.parent_from_joint[index(leg.lower)] = rotation_between(lower, upper);
+    const Skeleton avatar = testing::random_humanoid(dice);
+    const BodyMap to = mapped(avatar);
+    const auto frames =
+        world_from_joints(avatar, expand(normalize(source, from, pose), avatar, to));
+    const double reach = glm::distance(frames[index(to.leg(0).upper)].translation,
+                                       frames[index(to.leg(0).end)].translation);
+    EXPECT_NEAR(reach, to.leg(0).length_m(), 1e-9);
+  }
+}
+
+// A bent knee stays in the half-plane that the source's knee is in.
+TEST(Normalize, KeepsTheHalfPlaneOfABentLimb) {
+  Dice dice(25);
+  for (int k = 0; k < 200; ++k) {
+    const Skeleton source = testing::random_humanoid(dice);
+    const BodyMap from = mapped(source);
+    const Pose pose = testing::random_pose(source, dice);
+    const auto source_frames = world_from_joints(source, pose);
+    const Skeleton avatar = testing::random_humanoid(dice);
+    const BodyMap to = mapped(avatar);
+    const auto frames =
+        world_from_joints(avatar, expand(normalize(source, from, pose), avatar, to));
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto side = [](const LimbMap& limb, const std::vector<RigidTransform>& f) {
+        const glm::dvec3 root = f[index(limb.upper)].translation;
+        const glm::dvec3 axis = glm::normalize(f[index(limb.end)].translation - root);
+        const glm::dvec3 mid = f[index(limb.lower)].translation - root;
+        return (mid - axis * glm::dot(mid, axis)) / limb.length_m();
+      };
+      const glm::dvec3 wanted = side(*from.limbs[i], source_frames);
+      const glm::dvec3 got = side(*to.limbs[i], frames);
+      if (glm::length(wanted) < 0.06 || glm::length(got) < 0.06) continue;
+      EXPECT_LT(glm::distance(glm::normalize(wanted), glm::normalize(got)), 1e-6);
+    }
+  }
+}
+
+// Just before straight, the hinge says where the knee would go; there is no jump on the
+// way from bent to straight.
+TEST(Normalize, TurnsTheHalfPlaneOfAStraighteningLimbContinuously) {
+  const Skeleton body = testing::long_legs();
+  const BodyMap map = mapped(body);
+  Pose pose = rest_pose(body);
+  std::optional<glm::dquat> before;
+  for (double bend = 0.6; bend > -1e-9; bend -= 0.002) {
+    // The knee bends 40 degrees away from its hinge.
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(1.0, 0.0, 0.8391));
+    pose.parent_from_joint[index(map.leg(0).lower)] = glm::angleAxis(bend, axis);
+    const glm::dquat frame = normalize(body, map, pose).limbs[2]->world_from_limb;
+    if (before) {
+      EXPECT_LT(glm::length(rotation_vector(glm::conjugate(*before) * frame)), 0.03);
+    }
+    before = frame;
+  }
+  const glm::dvec3 knee_side = *before * glm::dvec3(1, 0, 0);
+  EXPECT_GT(knee_side.z, 0.99);
+}
+
+TEST(Normalize, KeepsTheTurnOfEveryLimbBoneAboutItself) {
+  Dice dice(26);
+  const Skeleton source = testing::random_humanoid(dice);
+  const Skeleton avatar = testing::in_a_pose(testing::giant(), 0.7);
+  const BodyMap from = mapped(source);
+  const BodyMap to = mapped(avatar);
+  Pose pose = rest_pose(source);
+  // Palm turned up: the forearm turns about its own axis.
+  const glm::dquat palm_up = glm::angleAxis(1.2, glm::dvec3(1, 0, 0));
+  const std::size_t forearm = index(from.limbs[0]->lower);
+  pose.parent_from_joint[forearm] = pose.parent_from_joint[forearm] *
+                                    glm::inverse(from.joints[forearm].t_pose_from_joint) *
+                                    palm_up * from.joints[forearm].t_pose_from_joint;
+  const NormalizedPose posture = normalize(source, from, pose);
+  const NormalizedPose again = normalize(avatar, to, expand(posture, avatar, to));
+  // Other segment ratios bend the elbow a little otherwise, which turns the two untwisted
+  // frames by the product of two small angles.
+  EXPECT_NEAR(again.limbs[0]->lower_twist_rad, posture.limbs[0]->lower_twist_rad, 1e-4);
+  EXPECT_NEAR(again.limbs[0]->upper_twist_rad, posture.limbs[0]->upper_twist_rad, 1e-4);
+}
+
+// The T-pose of an A-posed avatar is the T-pose.
+TEST(Normalize, StretchesTheArmsOfAnAPosedAvatarWhenTheSourceDoes) {
+  const Skeleton source = testing::child();
+  Dice dice(27);
+  const Skeleton avatar =
+      testing::with_random_axes(testing::in_a_pose(testing::giant(), 0.8), dice);
+  const BodyMap to = mapped(avatar);
+  const auto frames = world_from_joints(
+      avatar, expand(normalize(source, mapped(source), rest_pose(source)), avatar, to));
+  const glm::dvec3 arm = frames[index(to.limbs[0]->end)].translation -
+                         frames[index(to.limbs[0]->upper)].translation;
+  EXPECT_LT(glm::distance(glm::normalize(arm), glm::dvec3(1, 0, 0)), 1e-9);
+}
+
+TEST(Normalize, KeepsTheEndsOfTheSpineFromThreeVertebraeToFiveAndBack) {
+  Dice dice(28);
+  const Skeleton plain = testing::random_humanoid(dice);
+  const Skeleton three = testing::with_vertebrae(plain, 3);
+  const Skeleton five = testing::with_vertebrae(plain, 5);
+  const BodyMap map3 = mapped(three);
+  const BodyMap map5 = mapped(five);
+  for (int k = 0; k < 50; ++k) {
+    const Pose pose = testing::random_pose(three, dice);
+    const Pose over = expand(normalize(three, map3, pose), five, map5);
+    const Pose back = expand(normalize(five, map5, over), three, map3);
+    const auto before = world_from_joints(three, pose);
+    const auto after = world_from_joints(three, back);
+    for (const JointIndex joint : {JointIndex{0}, JointIndex{3}}) {
+      const glm::dquat turned = glm::conjugate(t_pose_turn(map3, before, joint)) *
+                                t_pose_turn(map3, after, joint);
+      EXPECT_LT(glm::length(rotation_vector(turned)), 1e-9);
+    }
+  }
+}
+
+// A steady bend is a steady bend, however many vertebrae share it.
+TEST(Normalize, SharesASteadyBendOutOverMoreVertebrae) {
+  const Skeleton few = testing::with_vertebrae(testing::giant(), 4);
+  const Skeleton many = testing::with_vertebrae(testing::giant(), 8);
+  const BodyMap map = mapped(many);
+  Pose pose = rest_pose(few);
+  for (int k = 1; k <= 4; ++k) {
+    pose.parent_from_joint[static_cast<std::size_t>(k)] =
+        glm::angleAxis(0.2, glm::dvec3(1, 0, 0));
+  }
+  const Pose adapted = expand(normalize(few, mapped(few), pose), many, map);
+  for (std::size_t k = 1; k <= 8; ++k) {
+    EXPECT_NEAR(glm::length(rotation_vector(adapted.parent_from_joint[k])), 0.1, 1e-6);
+  }
+}
+
+TEST(Normalize, GivesTheMirrorImageOfTheMirrorImage) {
+  Dice dice(29);
+  const Skeleton source = testing::random_humanoid(dice);
+  const Skeleton avatar = testing::random_humanoid(dice);
+  const Skeleton source_m = testing::mirrored_body(source);
+  const Skeleton avatar_m = testing::mirrored_body(avatar);
+  const Pose pose = testing::random_pose(source, dice);
+  Pose pose_m = pose;
+  pose_m.root_in_world.x *= -1.0;
+  for (glm::dquat& q : pose_m.parent_from_joint) q = {q.w, q.x, -q.y, -q.z};
+  const auto frames = world_from_joints(
+      avatar, expand(normalize(source, mapped(source), pose), avatar, mapped(avatar)));
+  const auto frames_m = world_from_joints(
+      avatar_m,
+      expand(normalize(source_m, mapped(source_m), pose_m), avatar_m, mapped(avatar_m)));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const glm::dvec3 reflected = frames_m[i].translation * glm::dvec3(-1, 1, 1);
+    EXPECT_LT(glm::distance(frames[i].translation, reflected), 1e-9);
+  }
+}
+
+// Asked to reach further than it can, a leg is straight and points there.
+TEST(Expand, StretchesALimbThatCannotReach) {
+  const Skeleton body = testing::child();
+  const BodyMap map = mapped(body);
+  NormalizedPose posture = normalize(body, map, rest_pose(body));
+  posture.limbs[2]->extension = 1.7;
+  const auto frames = world_from_joints(body, expand(posture, body, map));
+  EXPECT_NEAR(glm::distance(frames[index(map.leg(0).upper)].translation,
+                            frames[index(map.leg(0).end)].translation),
+              map.leg(0).length_m(),
+              1e-12);
+}
+
+TEST(Expand, LeavesFingersAsTheyRest) {
+  Dice dice(30);
+  const Skeleton source = testing::random_humanoid(dice);
+  const Skeleton avatar = testing::with_extra_joints(testing::giant());
+  const Pose adapted =
+      expand(normalize(source, mapped(source), testing::random_pose(source, dice)),
+             avatar,
+             mapped(avatar));
+  const auto finger = avatar.find("leftHandFinger");
+  ASSERT_TRUE(finger);
+  EXPECT_EQ(adapted.parent_from_joint[index(*finger)],
+            avatar[*finger].parent_from_joint.rotation);
+}
+
+TEST(MapBody, SaysWhichBoneIsMissing) {
+  const auto map = map_body(testing::without(testing::child(), B::kLeftLowerLeg));
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().message(),
+            "skeleton: no joint is marked leftLowerLeg. Next: map the bone to one of the "
+            "skeleton's joints.");
+}
+
+TEST(MapBody, DeclinesALegWithoutLength) {
+  Skeleton body = testing::child();
+  body.joints[index(*body.find(B::kLeftFoot))].parent_from_joint.translation = {0, 0, 0};
+  const auto map = map_body(body);
+  ASSERT_FALSE(map);
+  EXPECT_EQ(map.error().cause, "the limb of leftUpperLeg has no length");
+}
+
+TEST(MapBody, FindsTheSoleOfABodyThatRestsAtTheOrigin) {
+  Skeleton body = testing::child();
+  const double ankle_m = mapped(body).feet[0].ankle_height_m;
+  body.joints[0].parent_from_joint.translation = {0, 0, 0};
+  const BodyMap map = mapped(body);
+  // The toe joints become the lowest points, 2 % of the hips' height lower than they are.
+  EXPECT_NEAR(map.feet[0].ankle_height_m, ankle_m, 0.03);
+  EXPECT_GT(map.feet[0].ankle_height_m, 0.01);
+}
+
+}  // namespace
+}  // namespace marey::retarget

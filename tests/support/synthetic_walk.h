@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/motion.h"
+
+namespace marey::testing {
+
+/// A walk written down, not captured: every foot stands flat, rolls over its toe joint
+/// and swings to the next footprint; the truth is known to the frame.
+struct SyntheticWalk {
+  Motion motion;  ///< Of an average adult, towards +Z, 1.1 s per two steps.
+  struct Foot {
+    std::vector<char> heel;  ///< Per frame: the ankle rests.
+    std::vector<char> ball;  ///< Per frame: the toe joint rests.
+  };
+  std::array<Foot, 2> feet;  ///< Left, right.
+};
+
+/// `frames` frames at `hz`; every joint rotation disturbed by `noise_rad` and the root by
+/// `noise_m` per axis (standard deviations, fixed seed).
+[[nodiscard]] SyntheticWalk synthetic_walk(int frames,
+                                           double hz,
+                                           double noise_rad = 0.0,
+                                           double noise_m = 0.0);
+
+}  // namespace marey::testing
