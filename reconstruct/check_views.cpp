@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/check_views.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include <glm/geometric.hpp>
+
+#include "reconstruct/sightings.h"
+#include "reconstruct/triangulate.h"
+
+namespace marey::reconstruct {
+namespace {
+
+constexpr std::size_t kFrames = 200;
+constexpr std::size_t kEnough = 10;
+// Quick movement seen by cameras a few milliseconds apart is off by some pixels; another
+// camera's picture by a hundred.
+constexpr double kDisagreePx = 12.0;
+constexpr double kSizeTolerance = 0.12;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Agreement {
+  std::vector<double> rms_px;                       ///< Per tag sighted twice.
+  std::map<std::size_t, std::vector<double>> size;  ///< Measured over declared, by tag.
+};
+
+/// `camera_of[c]` is the camera whose model explains the c-th video.
+Agreement compare(std::span<const Camera> cameras,
+                  std::span<const std::size_t> camera_of,
+                  const Sightings& sightings,
+                  std::span<const TagOnSegment> tags) {
+  Agreement agreement;
+  const std::size_t step = std::max<std::size_t>(1, sightings.frames.size() / kFrames);
+  for (std::size_t f = 0; f < sightings.frames.size(); f += step) {
+    const auto& frame = sightings.frames[f];
+    for (std::size_t i = 0; i < frame.size();) {
+      std::size_t end = i + 1;
+      while (end < frame.size() && frame[end].tag == frame[i].tag) ++end;
+      std::array<glm::dvec3, 4> corners{};
+      double rms_px = 0.0;
+      bool known = end - i >= 2;
+      for (std::size_t c = 0; known && c < 4; ++c) {
+        std::vector<PointView> views;
+        for (std::size_t s = i; s < end; ++s) {
+          views.push_back({&cameras[camera_of[index(frame[s].camera)]],
+                           frame[s].detection->corners_px[c]});
+        }
+        const auto point = triangulate(views);
+        known = point.has_value();
+        if (known) {
+          corners[c] = point->p_in_world;
+          rms_px = std::max(rms_px, point->rms_px);
+        }
+      }
+      if (known) {
+        agreement.rms_px.push_back(rms_px);
+        double side_m = 0.0;
+        for (std::size_t c = 0; c < 4; ++c) {
+          side_m += 0.25 * glm::distance(corners[c], corners[(c + 1) % 4]);
+        }
+        agreement.size[frame[i].tag].push_back(side_m / tags[frame[i].tag].size_m);
+      } else if (end - i >= 2) {
+        // Rays that meet behind a camera are no agreement at all.
+        agreement.rms_px.push_back(1e3);
+      }
+      i = end;
+    }
+  }
+  return agreement;
+}
+
+std::string text(const char* format, double a, double b = 0.0) {
+  std::array<char, 240> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, a, b);
+  return buffer.data();
+}
+
+Status check_cameras(std::span<const Camera> cameras,
+                     std::span<const CameraDetections> detections,
+                     const Sightings& sightings,
+                     std::span<const TagOnSegment> tags,
+                     double as_given_px) {
+  if (as_given_px < kDisagreePx) return Done{};
+  std::vector<std::size_t> order(cameras.size());
+  for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
+  double best_px = as_given_px;
+  std::size_t best_a = 0;
+  std::size_t best_b = 0;
+  for (std::size_t a = 0; a < cameras.size(); ++a) {
+    for (std::size_t b = a + 1; b < cameras.size(); ++b) {
+      std::swap(order[a], order[b]);
+      const double swapped_px = median(compare(cameras, order, sightings, tags).rms_px);
+      std::swap(order[a], order[b]);
+      if (swapped_px >= best_px) continue;
+      best_px = swapped_px;
+      best_a = a;
+      best_b = b;
+    }
+  }
+  if (best_px < 0.3 * as_given_px) {
+    return bad_input(
+        detections[best_a].source + " and " + detections[best_b].source,
+        "the two cameras' files look swapped: " +
+            text("tags disagree by %.0f px as given, by %.1f px the other way round",
+                 as_given_px,
+                 best_px),
+        "exchange them under this trial's videos in session.toml (or under the "
+        "calibration trial's, if every other trial says the same)");
+  }
+  return bad_input(detections.front().source,
+                   "the cameras do not agree on where the tags are: " +
+                       text("they differ by %.0f px", as_given_px),
+                   "check that no camera was moved or zoomed after the calibration and "
+                   "that all videos of the trial start at the same instant");
+}
+
+Status check_sizes(const Agreement& agreement, std::span<const TagOnSegment> tags) {
+  std::vector<double> ratios;
+  std::string wrong;
+  std::string correct;
+  for (const auto& [tag, samples] : agreement.size) {
+    if (samples.size() < kEnough) continue;
+    const double ratio = median(samples);
+    ratios.push_back(ratio);
+    if (std::abs(ratio - 1.0) < kSizeTolerance) continue;
+    const std::string id = std::to_string(number(tags[tag].id));
+    wrong +=
+        (wrong.empty() ? "tag " : ", tag ") + id +
+        text(" measures %.3f m, not %.3f m", ratio * tags[tag].size_m, tags[tag].size_m);
+  }
+  if (wrong.empty()) return Done{};
+  const double common = median(ratios);
+  const auto alike = std::count_if(ratios.begin(), ratios.end(), [&](double r) {
+    return std::abs(r / common - 1.0) < kSizeTolerance;
+  });
+  const bool all_alike = std::abs(common - 1.0) >= kSizeTolerance && ratios.size() > 2 &&
+                         static_cast<std::size_t>(alike) == ratios.size();
+  if (all_alike) {
+    return bad_input(
+        "[[tags.tag]] and [board]",
+        text("every tag on the body measures %.2f times its size_m against the board",
+             common),
+        "measure both prints (edge of the black square, in metres): either size_m of the "
+        "tags or tag_size_m of the board is wrong");
+  }
+  return bad_input("[[tags.tag]]",
+                   wrong,
+                   "measure the print (edge of the black square, in metres) and correct "
+                   "size_m in session.toml");
+}
+
+}  // namespace
+
+Status check_views(std::span<const Camera> cameras,
+                   std::span<const CameraDetections> detections,
+                   std::span<const TagOnSegment> tags) {
+  const Sightings sightings = group_sightings(detections, tags);
+  std::vector<std::size_t> order(cameras.size());
+  for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
+  const Agreement as_given = compare(cameras, order, sightings, tags);
+  if (as_given.rms_px.size() < kEnough) return Done{};
+  const double as_given_px = median(as_given.rms_px);
+  if (const Status ok = check_cameras(cameras, detections, sightings, tags, as_given_px);
+      !ok) {
+    return ok;
+  }
+  return check_sizes(as_given, tags);
+}
+
+}  // namespace marey::reconstruct
