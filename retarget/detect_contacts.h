@@ -33,12 +33,12 @@ struct Contacts {
 
 /// Lengths and speeds are in leg lengths, so that children and giants count alike.
 struct DetectContactsOptions {
-  double start_speed_legs_per_s = 0.25;  ///< Slower than this begins a contact,
-  double keep_speed_legs_per_s = 0.45;   ///< which lasts while slower than this.
-  double start_height_legs = 0.02;       ///< Lower above its resting height begins one,
-  double keep_height_legs = 0.03;        ///< which lasts while lower than this.
-  double shortest_s = 0.08;              ///< Shorter contacts are accidents.
-  double longest_gap_s = 0.05;           ///< Shorter interruptions are noise.
+  double start_speed_legs_per_s = 0.2;  ///< Slower than this begins a contact,
+  double keep_speed_legs_per_s = 0.35;  ///< which lasts while slower than this.
+  double start_height_legs = 0.02;      ///< Lower above its resting height begins one,
+  double keep_height_legs = 0.03;       ///< which lasts while lower than this.
+  double shortest_s = 0.08;             ///< Shorter contacts are accidents.
+  double longest_gap_s = 0.05;          ///< Shorter interruptions are noise.
   double smoothing_s = 0.06;  ///< Speeds are slopes of lines fitted over this long.
 };
 

@@ -64,7 +64,7 @@ struct NormalizedPose {
 };
 
 /// Removes the body from a posture (eq. 1.3). Lossless: expand() on the same body gives
-/// every marked bone and vertebra back. About a microsecond; allocates nothing.
+/// every marked bone and vertebra back. One to two microseconds; allocates nothing.
 /// Precondition: `world_from_joint` are the joints' frames in the world, as
 /// world_from_joints() gives them, for the skeleton that `map` was made from.
 void normalize(const BodyMap& map,
@@ -83,8 +83,8 @@ void normalize(const BodyMap& map,
 /// knees by the law of cosines, vertebrae sampled from the spine curves. A limb that
 /// cannot fold or stretch as asked goes as far as it can. Joints without a mark, and
 /// bones that the source does not have, stay as at rest in their parent.
-/// `world_from_joint` gets every joint's frame in the world, `out` the pose. About a
-/// microsecond; allocates nothing when `out` has one entry per joint already.
+/// `world_from_joint` gets every joint's frame in the world, `out` the pose. A few
+/// microseconds; allocates nothing when `out` has one entry per joint already.
 /// Precondition: `map` was made from `body`; one `world_from_joint` per joint.
 void expand(const NormalizedPose& pose,
             const Skeleton& body,
