@@ -54,7 +54,7 @@ Status write_table(const std::filesystem::path& path,
   const Motion& motion = estimated.motion;
   const std::vector<Joint>& joints = motion.skeleton.joints;
   MAREY_ASSERT(estimated.doubt.size() == motion.poses.size());
-  if (const Status names = check_names(path, motion.skeleton); !names) return names;
+  if (Status names = check_names(path, motion.skeleton); !names) return names;
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();
 

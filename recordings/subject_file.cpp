@@ -181,6 +181,7 @@ Result<Body> parse_subject(std::string_view text, const std::string& file) {
   if (root.has("mass_kg")) body.mass_kg = root.number("mass_kg", kMass);
   TomlReader tips = root.table("tips");
   std::vector<std::string_view> tip_keys;
+  tip_keys.reserve(kTips.size());
   for (const Tip& tip : kTips) tip_keys.push_back(tip.key);
   tips.allow(tip_keys);
   for (const Tip& tip : kTips) {
