@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/detect_videos.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+namespace marey::capture {
+namespace {
+
+/// A camera that is ready to be read, and the place of its answer.
+struct Job {
+  std::unique_ptr<FrameSource> source;
+  TagDetector detector;
+  std::optional<FrameRange> range;
+  CameraDetections found;
+  std::optional<Error> error;
+};
+
+/// Counts frames over all workers and passes them on, one caller at a time.
+class SharedProgress {
+ public:
+  SharedProgress(const Progress& progress, int total)
+      : progress_(progress), total_(total) {}
+
+  void one_more() {
+    if (!progress_) return;
+    const std::lock_guard lock(mutex_);
+    // A container's count may be short of the truth.
+    done_ = std::min(done_ + 1, total_);
+    progress_(done_, total_);
+  }
+
+ private:
+  const Progress& progress_;
+  int total_;
+  std::mutex mutex_;
+  int done_ = 0;
+};
+
+Error unreached_range(const std::string& name, const FrameRange& range, int frames) {
+  return bad_input(name,
+                   "frames " + std::to_string(range.first) + " to " +
+                       std::to_string(range.last) + " were asked for, but it has only " +
+                       std::to_string(frames),
+                   "correct the trial's range of frames");
+}
+
+Result<Job> open_job(const CameraInput& input, const TagDetectorOptions& options) {
+  MAREY_ASSERT(!input.rate || input.rate->hz > 0.0);
+  MAREY_ASSERT(!input.range ||
+               (input.range->first >= 0 && input.range->first <= input.range->last));
+  auto source = open_frames(input.path, input.name);
+  if (!source) return source.error();
+  auto detector = TagDetector::create(options);
+  if (!detector) return detector.error();
+  const StreamInfo& info = (*source)->info();
+  const auto rate = input.rate ? input.rate : info.rate;
+  if (!rate) {
+    return bad_input(info.name,
+                     "its frames have no rate",
+                     "give the camera's frames per second in the session file");
+  }
+  CameraDetections found;
+  found.source = info.name;
+  found.camera = input.camera;
+  found.width_px = info.width_px;
+  found.height_px = info.height_px;
+  found.rate = *rate;
+  found.offset = input.offset;
+  return Job{std::move(*source), std::move(*detector), input.range, std::move(found), {}};
+}
+
+/// Frames that a job will look at, as far as its stream knows.
+int expected_frames(const Job& job) {
+  const int all = job.source->info().expected_frames.value_or(0);
+  if (!job.range) return all;
+  return std::max(0, std::min(all, job.range->last + 1) - job.range->first);
+}
+
+/// Reads a job's stream until its range or the stream ends, or `stop()` says so.
+template <class Stop>
+Status run_job(Job& job, SharedProgress& progress, const Stop& stop) {
+  const int first = job.range ? job.range->first : 0;
+  const int last = job.range ? job.range->last : std::numeric_limits<int>::max();
+  int frames = 0;
+  while (frames <= last && !stop()) {
+    auto next = job.source->next();
+    if (!next) return next.error();
+    if (!*next) {
+      if (job.range) return unreached_range(job.found.source, *job.range, frames);
+      break;
+    }
+    const GrayFrame& frame = **next;
+    ++frames;
+    if (frame.index < first) continue;
+    job.found.frames.push_back({frame.index, job.detector.detect(frame)});
+    progress.one_more();
+  }
+  return Done{};
+}
+
+/// Runs all jobs on up to `workers` threads. A job stops early once one before it has
+/// failed: its answer is not wanted any more. Jobs before the failed one go on, because
+/// an error of theirs comes first, however the threads were scheduled.
+void run_jobs(std::vector<Job>& jobs, int workers, SharedProgress& progress) {
+  std::atomic<std::size_t> next_job{0};
+  std::atomic<std::size_t> first_failed{jobs.size()};
+  const auto work = [&] {
+    for (std::size_t i = next_job++; i < jobs.size(); i = next_job++) {
+      const Status status =
+          run_job(jobs[i], progress, [&] { return first_failed.load() < i; });
+      if (status) continue;
+      jobs[i].error = status.error();
+      std::size_t failed = first_failed.load();
+      while (i < failed && !first_failed.compare_exchange_weak(failed, i)) {
+      }
+    }
+  };
+  std::vector<std::jthread> threads;
+  for (int i = 1; i < workers; ++i) threads.emplace_back(work);
+  work();
+}
+
+}  // namespace
+
+Result<std::vector<CameraDetections>> detect_tags_in_videos(
+    std::span<const CameraInput> inputs,
+    const DetectVideosOptions& options,
+    const Progress& progress) {
+  std::vector<Job> jobs;
+  jobs.reserve(inputs.size());
+  int total = 0;
+  for (const CameraInput& input : inputs) {
+    auto job = open_job(input, options.detector);
+    if (!job) return job.error();
+    total += expected_frames(*job);
+    jobs.push_back(std::move(*job));
+  }
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int wanted = options.workers > 0 ? options.workers : cores;
+  SharedProgress shared(progress, total);
+  run_jobs(jobs, std::min(wanted, static_cast<int>(jobs.size())), shared);
+
+  std::vector<CameraDetections> found;
+  found.reserve(jobs.size());
+  for (Job& job : jobs) {
+    if (job.error) return *job.error;
+    found.push_back(std::move(job.found));
+  }
+  return found;
+}
+
+}  // namespace marey::capture

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "capture/detect_tags.h"
+#include "core/detection.h"
+#include "core/ids.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "core/time.h"
+
+namespace marey::capture {
+
+/// First and last frame, both included, counted from 0.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+};
+
+/// One camera's recording of a trial.
+struct CameraInput {
+  std::filesystem::path path;  ///< A video, or a folder of images.
+  CameraId camera{};
+  std::string name;                 ///< As messages should name it; the path when empty.
+  std::optional<FrameRate> rate;    ///< Overrides the container's; a folder needs it.
+  Timestamp offset{0};              ///< Frame k was exposed at k / rate + offset.
+  std::optional<FrameRange> range;  ///< All frames when absent.
+};
+
+struct DetectVideosOptions {
+  TagDetectorOptions detector;
+  /// Cameras worked on at the same time; 0 takes as many as the machine has cores. The
+  /// result does not depend on it.
+  int workers = 0;
+};
+
+/// Finds the tags in every frame of every camera. The answer is in the order of `inputs`,
+/// its frame numbers those of the whole recording even when a range was asked for.
+///
+/// Frames stream through: memory grows with the tags found, not with the pictures.
+/// `progress` counts frames over all cameras; it is called from worker threads, one at a
+/// time. When several cameras fail, the error is that of the first of them in `inputs`.
+/// Errors (kBadInput): those of open_frames() and FrameSource::next(); a folder without a
+/// rate; a range that the recording does not reach; a detector option out of range.
+/// Precondition: ranges have 0 <= first <= last; rates are positive.
+[[nodiscard]] Result<std::vector<CameraDetections>> detect_tags_in_videos(
+    std::span<const CameraInput> inputs,
+    const DetectVideosOptions& options = {},
+    const Progress& progress = {});
+
+}  // namespace marey::capture

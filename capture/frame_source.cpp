@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/frame_source.h"
+
+#include <system_error>
+#include <utility>
+
+#include "capture/image_folder.h"
+#include "capture/video_file.h"
+
+namespace marey::capture {
+
+Result<RecordingKind> recording_kind(const std::filesystem::path& path,
+                                     const std::string& name) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  if (!std::filesystem::exists(status)) {
+    return bad_input(name,
+                     "there is no such video or folder",
+                     "check the path and its spelling");
+  }
+  return std::filesystem::is_directory(status) ? RecordingKind::kImageFolder
+                                               : RecordingKind::kVideoFile;
+}
+
+Result<std::unique_ptr<FrameSource>> open_frames(const std::filesystem::path& path,
+                                                 std::string name) {
+  if (name.empty()) name = path.string();
+  const auto kind = recording_kind(path, name);
+  if (!kind) return kind.error();
+  return *kind == RecordingKind::kImageFolder ? open_image_folder(path, std::move(name))
+                                              : open_video_file(path, std::move(name));
+}
+
+}  // namespace marey::capture

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/opencv_reading.h"
+
+#include <cstdlib>
+#include <fstream>
+#include <ios>
+#include <vector>
+
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace marey::capture {
+namespace {
+
+void silence_opencv() {
+  static const bool once = [] {
+    // FFmpeg's AV_LOG_QUIET; read by OpenCV when it first opens a video. A developer's
+    // own setting is left alone.
+    ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    return true;
+  }();
+  static_cast<void>(once);
+}
+
+Error cannot_open(const std::string& name) {
+  return bad_input(name,
+                   "it cannot be opened as a video: it is not one, or its index is "
+                   "missing because the copy or the recording was cut short",
+                   "play it in a video player; if that fails too, copy it from the "
+                   "camera again");
+}
+
+std::vector<char> bytes_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  if (!in) return {};
+  const std::streamoff size = in.tellg();
+  if (size <= 0) return {};
+  std::vector<char> bytes(static_cast<std::size_t>(size));
+  in.seekg(0);
+  if (!in.read(bytes.data(), size)) return {};
+  return bytes;
+}
+
+}  // namespace
+
+Result<cv::VideoCapture> open_capture(const std::filesystem::path& path,
+                                      const std::string& name) {
+  silence_opencv();
+  try {
+    cv::VideoCapture video(path.string(), cv::CAP_FFMPEG);
+    if (!video.isOpened()) return cannot_open(name);
+    return video;
+  } catch (const cv::Exception&) {
+    return cannot_open(name);
+  }
+}
+
+Result<cv::Mat> read_image(const std::filesystem::path& path,
+                           int mode,
+                           const std::string& name) {
+  silence_opencv();
+  cv::Mat image;
+  try {
+    // From memory: there a file that was cut short fails, where imread() would pad it.
+    const std::vector<char> bytes = bytes_of(path);
+    if (!bytes.empty()) image = cv::imdecode(bytes, mode);
+  } catch (const cv::Exception&) {
+    image.release();
+  }
+  if (image.empty()) {
+    return bad_input(
+        name, "the image cannot be read", "copy it from the camera again, or remove it");
+  }
+  return image;
+}
+
+void to_gray(const cv::Mat& image, cv::Mat& gray) {
+  if (image.channels() == 1) {
+    image.copyTo(gray);
+  } else {
+    cv::cvtColor(image, gray, cv::COLOR_BGR2GRAY);
+  }
+}
+
+GrayFrame view_of(const cv::Mat& gray, int index) {
+  MAREY_ASSERT(gray.type() == CV_8UC1);
+  return {gray.data, gray.cols, gray.rows, static_cast<int>(gray.step[0]), index};
+}
+
+std::string size_text(int width_px, int height_px) {
+  return std::to_string(width_px) + "x" + std::to_string(height_px);
+}
+
+}  // namespace marey::capture
