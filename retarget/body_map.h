@@ -84,7 +84,7 @@ struct BodyMap {
   [[nodiscard]] JointIndex hips() const { return *joint_of[index(HumanBone::kHips)]; }
   /// Side 0 is left, 1 is right.
   [[nodiscard]] const LimbMap& leg(int side) const {
-    return *limbs[static_cast<std::size_t>(2 + side)];
+    return *limbs[2 + static_cast<std::size_t>(side)];
   }
 };
 

@@ -82,9 +82,11 @@ std::vector<FrameInterval> resting_runs(const Path& path,
   for (std::size_t t = 0; t < keep.size(); ++t) {
     const double speed = path.speed_m_per_s[t] / map.leg_length_m;
     const double height = (path.p_in_world[t].y - path.rest_height_m) / map.leg_length_m;
-    keep[t] = speed < o.keep_speed_legs_per_s && height < o.keep_height_legs;
-    start[t] =
-        keep[t] && speed < o.start_speed_legs_per_s && height < o.start_height_legs;
+    const bool keeps = speed < o.keep_speed_legs_per_s && height < o.keep_height_legs;
+    const bool starts =
+        keeps && speed < o.start_speed_legs_per_s && height < o.start_height_legs;
+    keep[t] = keeps ? 1 : 0;
+    start[t] = starts ? 1 : 0;
   }
   std::vector<FrameInterval> merged;
   for (const FrameInterval& run : runs(keep)) {

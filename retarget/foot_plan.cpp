@@ -79,10 +79,13 @@ void bridge_gap(Prescribed& p, int first, int last, double hz, double blend_s) {
 std::vector<glm::dvec3> bridge(Prescribed p, double hz, double blend_s) {
   const int count = static_cast<int>(p.size());
   const Prescribed given = p;
+  const auto is_given = [&](int t) {
+    return given[static_cast<std::size_t>(t)].has_value();
+  };
   for (int t = 0; t < count; ++t) {
-    if (given[static_cast<std::size_t>(t)]) continue;
+    if (is_given(t)) continue;
     int last = t;
-    while (last + 1 < count && !given[static_cast<std::size_t>(last + 1)]) ++last;
+    while (last + 1 < count && !is_given(last + 1)) ++last;
     bridge_gap(p, t, last, hz, blend_s);
     t = last;
   }

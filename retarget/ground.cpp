@@ -191,7 +191,7 @@ GroundReport adapt_to_ground(const Skeleton& body,
     for (int side = 0; side < 2; ++side) {
       const LegPath& leg = legs[static_cast<std::size_t>(side)];
       const glm::dvec3 hip = pose.root * unit_m + leg.hip_from_root[t];
-      auto& limb = pose.limbs[static_cast<std::size_t>(2 + side)];
+      auto& limb = pose.limbs[2 + static_cast<std::size_t>(side)];
       MAREY_ASSERT(limb.has_value());
       const double missed_m =
           aim_leg(hip, leg.foot[t].ankle_in_world, map.leg(side).length_m(), *limb);

@@ -177,6 +177,25 @@ TEST_P(EveryAvatar, FliesAsHighAsTheSourceInLegLengths) {
   }
 }
 
+// Hips and ankles that lie higher or lower on the avatar do not bend or stretch its legs.
+TEST_P(EveryAvatar, BendsItsKneesInStandingAsTheSourceDoes) {
+  Motion source;
+  source.skeleton = testing::long_legs();
+  source.rate.hz = 30.0;
+  const BodyMap from = *map_body(source.skeleton);
+  NormalizedPose crouch = normalize(source.skeleton, from, rest_pose(source.skeleton));
+  for (std::size_t leg : {2U, 3U}) {
+    crouch.root.y -= 0.5 * (crouch.limbs[leg]->extension - 0.9);
+    crouch.limbs[leg]->extension = 0.9;
+  }
+  source.poses.assign(30, expand(crouch, source.skeleton, from));
+  const Skeleton avatar = GetParam().make();
+  const auto out = retargeted(source, avatar);
+  const NormalizedPose got = normalize(avatar, *map_body(avatar), out.motion.poses[15]);
+  EXPECT_NEAR(got.limbs[2]->extension, 0.9, 2e-3);
+  EXPECT_NEAR(got.limbs[3]->extension, 0.9, 2e-3);
+}
+
 // On its own body a clean walk hardly changes: two centimetres at the ankle, from holding
 // still a foot that has begun to leave.
 TEST(RetargetMotion, LeavesACleanWalkOnItsOwnBodyNearlyAsItIs) {
