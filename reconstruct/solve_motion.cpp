@@ -472,36 +472,6 @@ class TrialSolver {
   }
 
   SolvedTrial to_trial() const {
-    if (getenv("DBG")) {
-      std::map<HumanBone, std::vector<double>> e;
-      for (std::size_t f = 0; f < postures_.size(); ++f) {
-        for (auto& s : sightings_.frames[f])
-          for (double x : corner_errors_px(model_, s, cameras_, postures_[f]))
-            e[model_.bone(s.tag)].push_back(x);
-        if (f % 10 == 0)
-          fprintf(stderr,
-                  "f %zu flex %.2f %.2f %.2f %.2f twist %.2f %.2f %.2f %.2f\n",
-                  f,
-                  *postures_[f].block(Slot::kLeftElbow),
-                  *postures_[f].block(Slot::kRightElbow),
-                  *postures_[f].block(Slot::kLeftKnee),
-                  *postures_[f].block(Slot::kRightKnee),
-                  *postures_[f].block(Slot::kLeftForearmTwist),
-                  *postures_[f].block(Slot::kRightForearmTwist),
-                  *postures_[f].block(Slot::kLeftShankTwist),
-                  *postures_[f].block(Slot::kRightShankTwist));
-      }
-      for (auto& [b, v] : e) {
-        auto m = median(v);
-        std::sort(v.begin(), v.end());
-        fprintf(stderr,
-                "%s median %.2f p90 %.2f max %.1f\n",
-                std::string(name(b)).c_str(),
-                m,
-                v[v.size() * 9 / 10],
-                v.back());
-      }
-    }
     SolvedTrial trial;
     measure_fit(trial);
     Motion& motion = trial.estimate.motion;

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/console.h"
+#include "app/pipeline.h"
+#include "recordings/mannequin.h"
+
+namespace marey::app {
+
+/// How far a session is taken.
+enum class Stage { kTrack, kCalibrate, kSolve, kProcess };
+
+/// `marey track | calibrate | solve | process`. With `json`, report.json goes to standard
+/// output.
+[[nodiscard]] Exit run_session(Stage stage,
+                               const PipelineOptions& options,
+                               bool json,
+                               Console& console);
+
+/// `marey retarget MOTION --avatar A --out OUT`.
+[[nodiscard]] Exit run_retarget(const std::filesystem::path& motion,
+                                const std::filesystem::path& avatar,
+                                const std::filesystem::path& out,
+                                bool json,
+                                Console& console);
+
+/// `marey inspect FILE`: what a session, calibration, subject, motion or table holds.
+[[nodiscard]] Exit run_inspect(const std::filesystem::path& file,
+                               bool json,
+                               Console& console);
+
+/// `marey mannequin --out body.glb`.
+[[nodiscard]] Exit run_mannequin(const recordings::MannequinOptions& options,
+                                 const recordings::MannequinStyle& style,
+                                 const std::filesystem::path& out,
+                                 Console& console);
+
+/// `marey doctor`: what this machine has, and whether it is enough.
+[[nodiscard]] Exit run_doctor(bool json, Console& console);
+
+/// `marey demo`: the sample session on two mannequins. `sample` is its folder.
+[[nodiscard]] Exit run_demo(const std::filesystem::path& sample,
+                            const std::filesystem::path& out,
+                            Console& console);
+
+}  // namespace marey::app

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/console.h"
+
+#include <array>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+namespace marey::app {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+std::string bar(const std::string& label, int done, int total, double elapsed_s) {
+  constexpr int kWidth = 24;
+  const double share = total > 0 ? static_cast<double>(done) / total : 0.0;
+  std::string cells(kWidth, '.');
+  for (int i = 0; i < static_cast<int>(share * kWidth); ++i) {
+    cells[static_cast<std::size_t>(i)] = '#';
+  }
+  const double rate = elapsed_s > 0.0 ? done / elapsed_s : 0.0;
+  const double left_s = rate > 0.0 ? (total - done) / rate : 0.0;
+  std::array<char, 200> text{};
+  std::snprintf(text.data(),
+                text.size(),
+                "%-22s [%s] %d/%d  %.0f/s  %.0f s left",
+                label.c_str(),
+                cells.c_str(),
+                done,
+                total,
+                rate,
+                left_s);
+  return text.data();
+}
+
+}  // namespace
+
+Exit exit_for(Errc code) {
+  switch (code) {
+    case Errc::kInternal:
+      return Exit::kInternal;
+    case Errc::kBadInput:
+      return Exit::kBadInput;
+    case Errc::kDevice:
+      return Exit::kDevice;
+  }
+  return Exit::kInternal;
+}
+
+Console::Console(ProgressStyle style)
+    : style_(style), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress Console::stage(const std::string& label) {
+  return [this, label, start = Clock::now()](int done, int total) {
+    const std::scoped_lock lock(mutex_);
+    show(label, done, total, start);
+  };
+}
+
+void Console::show(const std::string& label,
+                   int done,
+                   int total,
+                   Clock::time_point start) {
+  if (style_ == ProgressStyle::kQuiet) return;
+  const Clock::time_point now = Clock::now();
+  const bool finished = done >= total;
+  const bool bar_style = style_ == ProgressStyle::kAuto && terminal_;
+  const Seconds pause(bar_style ? 0.1 : (style_ == ProgressStyle::kJson ? 0.5 : 5.0));
+  if (!finished && now - last_shown_ < pause) return;
+  last_shown_ = now;
+  const double elapsed_s = Seconds(now - start).count();
+  if (style_ == ProgressStyle::kJson) {
+    const nlohmann::ordered_json line{
+        {"stage", label}, {"done", done}, {"total", total}, {"elapsed_s", elapsed_s}};
+    std::fprintf(stderr, "%s\n", line.dump().c_str());
+  } else if (bar_style) {
+    std::fprintf(stderr, "\r\033[K%s", bar(label, done, total, elapsed_s).c_str());
+    bar_shown_ = !finished;
+    if (finished) std::fputc('\n', stderr);
+  } else {
+    std::fprintf(stderr, "%s: %d/%d, %.1f s\n", label.c_str(), done, total, elapsed_s);
+  }
+}
+
+void Console::clear_bar() {
+  if (bar_shown_) std::fputs("\r\033[K", stderr);
+  bar_shown_ = false;
+}
+
+void Console::say(const std::string& text) {
+  const std::scoped_lock lock(mutex_);
+  if (style_ == ProgressStyle::kQuiet) return;
+  clear_bar();
+  if (style_ == ProgressStyle::kJson) {
+    const nlohmann::ordered_json line{{"message", text}};
+    std::fprintf(stderr, "%s\n", line.dump().c_str());
+  } else {
+    std::fprintf(stderr, "%s\n", text.c_str());
+  }
+}
+
+void Console::warn(const std::string& text) {
+  const std::scoped_lock lock(mutex_);
+  clear_bar();
+  std::fprintf(stderr, "warning: %s\n", text.c_str());
+}
+
+Exit Console::fail(const Error& error) {
+  const std::scoped_lock lock(mutex_);
+  clear_bar();
+  std::fprintf(stderr, "error: %s\n", error.message().c_str());
+  return exit_for(error.code);
+}
+
+}  // namespace marey::app

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <functional>
+
+#include <CLI/CLI.hpp>
+#include <unistd.h>
+
+#include "app/commands.h"
+#include "app/version.h"
+
+namespace marey::app {
+namespace {
+
+/// Files appear whole or not at all, so there is nothing to clean but the screen.
+extern "C" void on_interrupt(int /*signal*/) {
+  static constexpr char kText[] = "\ninterrupted\n";
+  [[maybe_unused]] const ssize_t written =
+      write(STDERR_FILENO, static_cast<const char*>(kText), sizeof kText - 1);
+  _exit(static_cast<int>(Exit::kInterrupted));
+}
+
+struct Arguments {
+  PipelineOptions pipeline;
+  std::filesystem::path media;
+  bool json = false;
+  std::string progress = "auto";
+  std::filesystem::path motion;
+  std::filesystem::path avatar;
+  std::filesystem::path out;
+  std::filesystem::path file;
+  std::filesystem::path sample = MAREY_SAMPLE;
+  recordings::MannequinOptions mannequin;
+  recordings::MannequinStyle style;
+
+  [[nodiscard]] ProgressStyle style_of_progress() const {
+    if (progress == "json") return ProgressStyle::kJson;
+    return progress == "none" ? ProgressStyle::kQuiet : ProgressStyle::kAuto;
+  }
+};
+
+using Command = std::function<Exit(Console&)>;
+
+void add_session_command(CLI::App& app,
+                         const char* name,
+                         const char* help,
+                         Stage stage,
+                         Arguments& args,
+                         Command& chosen) {
+  CLI::App* command = app.add_subcommand(name, help);
+  command->add_option("session", args.pipeline.session, "session.toml, or its folder")
+      ->required();
+  command->add_option("-o,--out", args.pipeline.out, "Folder for the results")
+      ->required();
+  command->add_option(
+      "--media", args.media, "Folder that the session's video paths are relative to");
+  if (stage == Stage::kSolve || stage == Stage::kProcess) {
+    command->add_option("-a,--avatar",
+                        args.pipeline.avatars,
+                        "Body to put the motion on (.glb, .vrm, .bvh); may be repeated");
+  }
+  command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
+  command->callback([&, stage] {
+    if (!args.media.empty()) args.pipeline.media = args.media;
+    chosen = [&args, stage](Console& console) {
+      return run_session(stage, args.pipeline, args.json, console);
+    };
+  });
+}
+
+void add_retarget(CLI::App& app, Arguments& args, Command& chosen) {
+  CLI::App* command = app.add_subcommand("retarget", "Put a motion on another body");
+  command->add_option("motion", args.motion, ".bvh, .glb, .vrm or .vrma")->required();
+  command->add_option("-a,--avatar", args.avatar, ".glb, .vrm or .bvh")->required();
+  command->add_option("-o,--out", args.out, "Result: .glb or .bvh")->required();
+  command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
+  command->callback([&] {
+    chosen = [&args](Console& console) {
+      return run_retarget(args.motion, args.avatar, args.out, args.json, console);
+    };
+  });
+}
+
+void add_mannequin(CLI::App& app, Arguments& args, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("mannequin", "Make a skinned body of any proportions (GLB)");
+  recordings::MannequinOptions& m = args.mannequin;
+  const auto size = CLI::Range(0.3, 10.0);
+  const auto ratio = CLI::Range(0.2, 5.0);
+  command->add_option("--height", m.stature_m, "Stature [m]")->check(size);
+  command->add_option("--arm-ratio", m.arm, "Arms against the average")->check(ratio);
+  command->add_option("--leg-ratio", m.leg, "Legs")->check(ratio);
+  command->add_option("--foot-ratio", m.foot, "Feet")->check(ratio);
+  command->add_option("--trunk-ratio", m.trunk, "Trunk")->check(ratio);
+  command->add_option("--head-ratio", m.head, "Neck and head")->check(ratio);
+  command->add_option("--shoulder-ratio", m.shoulder_width, "Shoulder breadth")
+      ->check(ratio);
+  command->add_option("--hip-ratio", m.hip_width, "Hip breadth")->check(ratio);
+  command->add_option("--girth", args.style.girth, "Thickness of every part")
+      ->check(ratio);
+  command->add_option("-o,--out", args.out, "Result (.glb)")->required();
+  command->callback([&] {
+    chosen = [&args](Console& console) {
+      return run_mannequin(args.mannequin, args.style, args.out, console);
+    };
+  });
+}
+
+void add_small_commands(CLI::App& app, Arguments& args, Command& chosen) {
+  CLI::App* inspect = app.add_subcommand("inspect", "Say what a file holds");
+  inspect->add_option("file", args.file, "A session, result, motion or body")->required();
+  inspect->add_flag("--json", args.json, "As JSON");
+  inspect->callback([&] {
+    chosen = [&args](Console& console) {
+      return run_inspect(args.file, args.json, console);
+    };
+  });
+  CLI::App* doctor = app.add_subcommand("doctor", "Check this machine");
+  doctor->add_flag("--json", args.json, "As JSON");
+  doctor->callback([&] {
+    chosen = [&args](Console& console) { return run_doctor(args.json, console); };
+  });
+  CLI::App* demo = app.add_subcommand("demo", "Process the sample session on two bodies");
+  demo->add_option("-o,--out", args.out, "Folder for the results")
+      ->default_val("out/first-light");
+  demo->add_option("--sample", args.sample, "Folder of the sample session");
+  demo->callback([&] {
+    chosen = [&args](Console& console) {
+      return run_demo(args.sample, args.out, console);
+    };
+  });
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"marey turns camera-seen markers into clean human motion on any body"};
+  app.set_version_flag("--version", std::string("marey ") + kVersion);
+  app.require_subcommand(1);
+  app.fallthrough();
+  Arguments args;
+  Command chosen;
+  app.add_option("--progress", args.progress, "auto, json or none")
+      ->check(CLI::IsMember({"auto", "json", "none"}));
+  add_session_command(app,
+                      "process",
+                      "Everything: tags, cameras, subject, motion, avatars, report",
+                      Stage::kProcess,
+                      args,
+                      chosen);
+  add_session_command(
+      app, "track", "Find the tags of every trial", Stage::kTrack, args, chosen);
+  add_session_command(
+      app, "calibrate", "Calibrate the cameras", Stage::kCalibrate, args, chosen);
+  add_session_command(app,
+                      "solve",
+                      "Subject, motion and avatars, with the cameras calibrated before",
+                      Stage::kSolve,
+                      args,
+                      chosen);
+  add_retarget(app, args, chosen);
+  add_mannequin(app, args, chosen);
+  add_small_commands(app, args, chosen);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(Exit::kUsage);
+  }
+  Console console(args.style_of_progress());
+  return static_cast<int>(chosen(console));
+}
+
+}  // namespace
+}  // namespace marey::app
+
+int main(int argc, char** argv) {
+  std::signal(SIGINT, marey::app::on_interrupt);
+  std::signal(SIGTERM, marey::app::on_interrupt);
+  try {
+    return marey::app::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr,
+                 "error: internal: %s. Next: report this with the command that you "
+                 "ran.\n",
+                 error.what());
+    return static_cast<int>(marey::app::Exit::kInternal);
+  }
+}

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/console.h"
+#include "app/report.h"
+#include "calib/calibrate_cameras.h"
+#include "core/body.h"
+#include "core/camera.h"
+#include "core/detection.h"
+#include "core/result.h"
+#include "reconstruct/solve_motion.h"
+#include "recordings/session.h"
+
+namespace marey::app {
+
+struct PipelineOptions {
+  std::filesystem::path session;               ///< session.toml or its folder.
+  std::filesystem::path out;                   ///< Where results go; created.
+  std::optional<std::filesystem::path> media;  ///< Overrides the session's.
+  std::vector<std::filesystem::path> avatars;  ///< GLB, VRM or BVH, each of its own name.
+};
+
+/// The line through the rooms, drawn once: videos to tag corners to cameras, subject,
+/// motion, other bodies and files. Each stage leaves a file that the next one reads, so
+/// that a stage can be run alone; what an earlier stage of this run already holds is not
+/// read again.
+///
+/// Every stage's errors are its room's. Files appear whole or not at all.
+class Pipeline {
+ public:
+  /// Reads and checks the session and that its videos are there.
+  [[nodiscard]] static Result<Pipeline> open(const PipelineOptions& options,
+                                             Console& console);
+
+  /// Tag corners of every trial, from the cache in OUT/TRIAL/detections where it is
+  /// current.
+  [[nodiscard]] Status track();
+  /// Cameras: OUT/calibration.toml.
+  [[nodiscard]] Status calibrate();
+  /// The subject: OUT/subject.toml. Reads calibration.toml if calibrate() did not run.
+  [[nodiscard]] Status fit();
+  /// Motion of every motion trial: joints.csv, segments.csv, motion.bvh, motion.glb.
+  /// Reads calibration.toml and subject.toml if need be.
+  [[nodiscard]] Status solve();
+  /// Every solved motion on every avatar: AVATAR.glb and AVATAR.bvh.
+  [[nodiscard]] Status retarget();
+  /// OUT/report.json and OUT/report.html.
+  [[nodiscard]] Status write_report();
+
+  [[nodiscard]] const Report& report() const { return report_; }
+
+ private:
+  struct SolvedMotion {
+    const recordings::Trial* trial = nullptr;
+    reconstruct::SolvedTrial solved;
+    std::vector<ReportBody> avatars;
+  };
+
+  Pipeline(recordings::Session session, PipelineOptions options, Console& console);
+
+  [[nodiscard]] Status track_trial(const recordings::Trial& trial);
+  [[nodiscard]] Result<std::vector<CameraDetections>> detections_of(
+      const recordings::Trial& trial);
+  [[nodiscard]] Result<std::vector<CameraDetections>> unshrunk_detections_of(
+      const recordings::Trial& trial);
+  [[nodiscard]] Status need_cameras();
+  [[nodiscard]] Status need_body();
+  [[nodiscard]] Result<reconstruct::SolvedTrial> solve_trial(
+      const recordings::Trial& trial, const Progress& progress);
+  [[nodiscard]] Status export_trial(const SolvedMotion& motion);
+  [[nodiscard]] Result<ReportBody> retarget_one(SolvedMotion& motion,
+                                                const std::filesystem::path& avatar);
+  [[nodiscard]] Result<ReportTrial> report_trial(const SolvedMotion& motion);
+  [[nodiscard]] std::vector<const recordings::Trial*> motion_trials() const;
+  void time_stage(const std::string& name, double seconds);
+
+  recordings::Session session_;
+  PipelineOptions options_;
+  Console* console_;
+  std::map<std::string, std::vector<CameraDetections>> detections_;  ///< By trial.
+  std::vector<Camera> cameras_;
+  std::optional<Body> body_;
+  std::vector<SolvedMotion> motions_;
+  Report report_;
+};
+
+}  // namespace marey::app

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/retarget_files.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "recordings/bvh.h"
+#include "recordings/gltf.h"
+
+namespace marey::app {
+namespace {
+
+std::string extension(const std::filesystem::path& path) {
+  std::string text = path.extension().string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool is_gltf(const std::filesystem::path& path) {
+  const std::string kind = extension(path);
+  return kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma";
+}
+
+Error unknown_kind(const std::filesystem::path& path) {
+  return bad_input(path.string(),
+                   "is not a .bvh, .glb, .gltf, .vrm or .vrma file",
+                   "convert it to one of these");
+}
+
+Result<Skeleton> read_skeleton(const std::filesystem::path& path) {
+  if (is_gltf(path)) {
+    auto character = recordings::read_character(path);
+    if (!character) return character.error();
+    return std::move(character->skeleton);
+  }
+  if (extension(path) == ".bvh") {
+    auto bvh = recordings::read_bvh(path);
+    if (!bvh) return bvh.error();
+    return std::move(bvh->motion.skeleton);
+  }
+  return unknown_kind(path);
+}
+
+Result<RetargetedFiles> retarget_only(const Motion& motion,
+                                      const std::filesystem::path& avatar) {
+  const auto skeleton = read_skeleton(avatar);
+  if (!skeleton) return skeleton.error();
+  auto retargeted = retarget::retarget_motion(motion, *skeleton);
+  if (!retargeted) {
+    Error error = retargeted.error();
+    error.where = avatar.string() + (error.where.empty() ? "" : ": " + error.where);
+    return error;
+  }
+  return RetargetedFiles{std::move(*retargeted), {}};
+}
+
+Status write(RetargetedFiles& result,
+             const std::filesystem::path& avatar,
+             const std::filesystem::path& out) {
+  const Motion& motion = result.retargeted.motion;
+  const Status ok = is_gltf(out) ? recordings::write_retargeted(avatar, out, motion)
+                                 : recordings::write_bvh(out, motion);
+  if (ok) result.files.push_back(out);
+  return ok;
+}
+
+}  // namespace
+
+Result<RetargetedFiles> retarget_to_files(const Motion& motion,
+                                          const std::filesystem::path& avatar,
+                                          const std::filesystem::path& stem) {
+  auto result = retarget_only(motion, avatar);
+  if (!result) return result.error();
+  if (is_gltf(avatar)) {
+    if (const Status ok = write(*result, avatar, stem.string() + ".glb"); !ok) {
+      return ok.error();
+    }
+  }
+  if (const Status ok = write(*result, avatar, stem.string() + ".bvh"); !ok) {
+    return ok.error();
+  }
+  return result;
+}
+
+Result<RetargetedFiles> retarget_to_file(const Motion& motion,
+                                         const std::filesystem::path& avatar,
+                                         const std::filesystem::path& out) {
+  const std::string kind = extension(out);
+  if (kind != ".bvh" && kind != ".glb") {
+    return bad_input(out.string(),
+                     "cannot write a \"" + kind + "\" file",
+                     "name the result .glb or .bvh");
+  }
+  if (kind == ".glb" && !is_gltf(avatar)) {
+    return bad_input(avatar.string(),
+                     "has no mesh to put into a .glb",
+                     "give a GLB or VRM avatar, or name the result .bvh");
+  }
+  auto result = retarget_only(motion, avatar);
+  if (!result) return result.error();
+  if (const Status ok = write(*result, avatar, out); !ok) return ok.error();
+  return result;
+}
+
+Result<Motion> read_motion(const std::filesystem::path& path) {
+  if (extension(path) == ".bvh") {
+    auto bvh = recordings::read_bvh(path);
+    if (!bvh) return bvh.error();
+    return std::move(bvh->motion);
+  }
+  if (!is_gltf(path)) return unknown_kind(path);
+  auto character = recordings::read_character(path);
+  if (!character) return character.error();
+  if (!character->motion) {
+    return bad_input(path.string(), "holds no animation", "give a file with a motion");
+  }
+  return std::move(*character->motion);
+}
+
+}  // namespace marey::app

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/retarget_files.h"
+#include "recordings/gltf.h"
+
+namespace marey::app {
+
+Exit run_retarget(const std::filesystem::path& motion,
+                  const std::filesystem::path& avatar,
+                  const std::filesystem::path& out,
+                  bool json,
+                  Console& console) {
+  const auto source = read_motion(motion);
+  if (!source) return console.fail(source.error());
+  const auto result = retarget_to_file(*source, avatar, out);
+  if (!result) return console.fail(result.error());
+  const retarget::RetargetReport& report = result->retargeted.report;
+  if (json) {
+    const nlohmann::ordered_json figures{
+        {"out", out.string()},
+        {"frames", result->retargeted.motion.poses.size()},
+        {"slide_before_cm_per_s", report.before.mean_slide_cm_per_s},
+        {"slide_after_cm_per_s", report.after.mean_slide_cm_per_s},
+        {"deepest_penetration_mm", report.after.deepest_penetration_mm},
+        {"unreachable_frames", report.ground.unreachable_frames}};
+    std::printf("%s\n", figures.dump(2).c_str());
+  }
+  std::array<char, 200> text{};
+  std::snprintf(text.data(),
+                text.size(),
+                "%s: %zu frames, stance feet slide %.2f cm/s (%.2f before the ground), "
+                "deepest foot %.1f mm",
+                out.string().c_str(),
+                result->retargeted.motion.poses.size(),
+                report.after.mean_slide_cm_per_s,
+                report.before.mean_slide_cm_per_s,
+                report.after.deepest_penetration_mm);
+  console.say(text.data());
+  return Exit::kOk;
+}
+
+Exit run_mannequin(const recordings::MannequinOptions& options,
+                   const recordings::MannequinStyle& style,
+                   const std::filesystem::path& out,
+                   Console& console) {
+  const Proportions proportions = recordings::mannequin_proportions(options);
+  const Status ok =
+      recordings::write_character(out,
+                                  make_humanoid(proportions),
+                                  recordings::make_mannequin_mesh(proportions, style));
+  if (!ok) return console.fail(ok.error());
+  console.say("mannequin: " + out.string());
+  return Exit::kOk;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "recordings/bvh.h"
+#include "recordings/calibration_file.h"
+#include "recordings/gltf.h"
+#include "recordings/motion_tables.h"
+#include "recordings/subject_file.h"
+
+namespace marey::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json describe(const Skeleton& skeleton) {
+  Json bones = Json::array();
+  for (const Joint& joint : skeleton.joints) {
+    if (joint.bone) bones.push_back(name(*joint.bone));
+  }
+  return {{"joints", skeleton.joints.size()}, {"human_bones", bones}};
+}
+
+Json describe(const Motion& motion) {
+  const double frames = static_cast<double>(motion.poses.size());
+  return {{"frames", motion.poses.size()},
+          {"rate_hz", motion.rate.hz},
+          {"duration_s", frames / motion.rate.hz}};
+}
+
+Result<Json> inspect_session(const std::filesystem::path& file) {
+  const auto session = recordings::read_session(file);
+  if (!session) return session.error();
+  Json trials = Json::array();
+  for (const recordings::Trial& trial : session->trials) {
+    trials.push_back({{"name", trial.name},
+                      {"kind", recordings::name(trial.kind)},
+                      {"videos", trial.videos.size()}});
+  }
+  return Json{{"kind", "session"},
+              {"name", session->name},
+              {"subject", session->subject.name},
+              {"stature_m", session->subject.stature_m},
+              {"cameras", session->cameras},
+              {"tags", session->tags.size()},
+              {"trials", trials}};
+}
+
+Result<Json> inspect_calibration(const std::filesystem::path& file) {
+  const auto calibration = recordings::read_calibration(file);
+  if (!calibration) return calibration.error();
+  Json cameras = Json::array();
+  for (std::size_t c = 0; c < calibration->cameras.size(); ++c) {
+    const Camera& camera = calibration->cameras[c];
+    const glm::dvec3 centre = centre_in_world(camera);
+    cameras.push_back(
+        {{"name", camera.name},
+         {"size_px", {camera.intrinsics.width_px, camera.intrinsics.height_px}},
+         {"focal_px", {camera.intrinsics.focal_px.x, camera.intrinsics.focal_px.y}},
+         {"centre_in_world_m", {centre.x, centre.y, centre.z}},
+         {"rms_px", calibration->records[c].rms_px}});
+  }
+  return Json{
+      {"kind", "calibration"}, {"rms_px", calibration->rms_px}, {"cameras", cameras}};
+}
+
+Result<Json> inspect_subject(const std::filesystem::path& file) {
+  const auto body = recordings::read_subject(file);
+  if (!body) return body.error();
+  return Json{{"kind", "subject"},
+              {"name", body->name},
+              {"stature_m", body->stature_m},
+              {"leg_length_m", leg_length_m(body->proportions)},
+              {"tags", body->tags.size()}};
+}
+
+Result<Json> inspect_joints(const std::filesystem::path& file) {
+  const auto rows = recordings::read_joints_csv(file);
+  if (!rows) return rows.error();
+  std::set<std::string> joints;
+  std::set<int> frames;
+  for (const recordings::JointRow& row : *rows) {
+    joints.insert(row.joint);
+    frames.insert(row.frame);
+  }
+  return Json{{"kind", "joints"}, {"frames", frames.size()}, {"joints", joints}};
+}
+
+Result<Json> inspect_bvh(const std::filesystem::path& file) {
+  const auto bvh = recordings::read_bvh(file);
+  if (!bvh) return bvh.error();
+  return Json{{"kind", "bvh"},
+              {"skeleton", describe(bvh->motion.skeleton)},
+              {"motion", describe(bvh->motion)}};
+}
+
+Result<Json> inspect_character(const std::filesystem::path& file) {
+  const auto character = recordings::read_character(file);
+  if (!character) return character.error();
+  Json out{{"kind", "character"}, {"skeleton", describe(character->skeleton)}};
+  if (character->mesh) out["vertices"] = character->mesh->p_in_world.size();
+  if (character->motion) out["motion"] = describe(*character->motion);
+  return out;
+}
+
+Result<Json> inspect(const std::filesystem::path& file) {
+  std::error_code ignored;
+  const std::string kind = file.extension().string();
+  const std::string named = file.filename().string();
+  if (!std::filesystem::exists(file, ignored)) {
+    return bad_input(file.string(), "does not exist", "check its name");
+  }
+  if (std::filesystem::is_directory(file, ignored)) return inspect_session(file);
+  if (named == "calibration.toml") return inspect_calibration(file);
+  if (named == "subject.toml") return inspect_subject(file);
+  if (kind == ".toml") return inspect_session(file);
+  if (named == "joints.csv") return inspect_joints(file);
+  if (kind == ".bvh") return inspect_bvh(file);
+  if (kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma") {
+    return inspect_character(file);
+  }
+  return bad_input(file.string(),
+                   "is not a kind of file that marey knows",
+                   "give a session, calibration.toml, subject.toml, joints.csv, .bvh, "
+                   ".glb, .gltf, .vrm or .vrma");
+}
+
+/// "key: value" lines, nested with two spaces.
+void print(const Json& value, int depth) {
+  const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
+  for (const auto& [key, item] : value.items()) {
+    const bool flat =
+        !item.is_structured() ||
+        (item.is_array() && std::none_of(item.begin(), item.end(), [](const Json& i) {
+           return i.is_object();
+         }));
+    if (flat) {
+      std::printf("%s%s: %s\n", indent.c_str(), key.c_str(), item.dump().c_str());
+    } else {
+      std::printf("%s%s:\n", indent.c_str(), key.c_str());
+      print(item, depth + 1);
+    }
+  }
+}
+
+}  // namespace
+
+Exit run_inspect(const std::filesystem::path& file, bool json, Console& console) {
+  const auto found = inspect(file);
+  if (!found) return console.fail(found.error());
+  if (json) {
+    std::printf("%s\n", found->dump(2).c_str());
+  } else {
+    print(*found, 0);
+  }
+  return Exit::kOk;
+}
+
+}  // namespace marey::app

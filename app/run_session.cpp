@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdio>
+
+#include "app/commands.h"
+
+namespace marey::app {
+namespace {
+
+Status run_stages(Stage stage, Pipeline& pipeline) {
+  if (const Status ok = pipeline.track(); !ok) return ok;
+  if (stage == Stage::kTrack) return Done{};
+  if (stage != Stage::kSolve) {
+    if (const Status ok = pipeline.calibrate(); !ok) return ok;
+    if (stage == Stage::kCalibrate) return Done{};
+  }
+  if (const Status ok = pipeline.fit(); !ok) return ok;
+  if (const Status ok = pipeline.solve(); !ok) return ok;
+  if (const Status ok = pipeline.retarget(); !ok) return ok;
+  return pipeline.write_report();
+}
+
+void tell(const Report& report, const std::filesystem::path& out, Console& console) {
+  std::array<char, 200> text{};
+  for (const ReportTrial& trial : report.trials) {
+    std::snprintf(text.data(),
+                  text.size(),
+                  "%s: %d of %d frames solved, reprojection %.2f px (median %.2f)",
+                  trial.name.c_str(),
+                  trial.frames_solved,
+                  trial.frames,
+                  trial.rms_px,
+                  trial.median_px);
+    console.say(text.data());
+  }
+  for (const std::string& warning : report.warnings) console.warn(warning);
+  if (!report.trials.empty()) {
+    console.say("report: " + (out / "report.html").string());
+  }
+}
+
+}  // namespace
+
+Exit run_session(Stage stage,
+                 const PipelineOptions& options,
+                 bool json,
+                 Console& console) {
+  auto pipeline = Pipeline::open(options, console);
+  if (!pipeline) return console.fail(pipeline.error());
+  if (const Status ok = run_stages(stage, *pipeline); !ok) {
+    return console.fail(ok.error());
+  }
+  tell(pipeline->report(), options.out, console);
+  if (json) std::printf("%s\n", report_json(pipeline->report()).c_str());
+  return Exit::kOk;
+}
+
+Exit run_demo(const std::filesystem::path& sample,
+              const std::filesystem::path& out,
+              Console& console) {
+  const std::filesystem::path bodies = out / "avatars";
+  recordings::MannequinOptions child;
+  child.stature_m = 1.1;
+  child.head = 1.35;
+  child.leg = 0.9;
+  recordings::MannequinOptions giant;
+  giant.stature_m = 2.4;
+  giant.arm = 1.25;
+  giant.shoulder_width = 1.2;
+  recordings::MannequinStyle broad;
+  broad.girth = 1.2;
+  PipelineOptions options;
+  options.session = sample;
+  options.out = out;
+  options.avatars = {bodies / "child.glb", bodies / "giant.glb"};
+  Exit made = run_mannequin(child, {}, options.avatars[0], console);
+  if (made == Exit::kOk) made = run_mannequin(giant, broad, options.avatars[1], console);
+  if (made != Exit::kOk) return made;
+  const Exit done = run_session(Stage::kProcess, options, false, console);
+  if (done != Exit::kOk) return done;
+  std::error_code ignored;
+  const auto page = std::filesystem::absolute(out / "report.html", ignored);
+  std::printf("results: %s\npage:    file://%s\n", out.c_str(), page.c_str());
+  return Exit::kOk;
+}
+
+}  // namespace marey::app
