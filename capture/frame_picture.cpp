@@ -5,23 +5,25 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <memory>
+#include <utility>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "capture/frame_source.h"
 #include "capture/image_folder.h"
 #include "capture/opencv_reading.h"
 
 namespace marey::capture {
 namespace {
 
-Error no_such_frame(const std::string& name, int frame) {
+Error no_such_frame(const std::string& name, int frame, std::size_t has) {
   return bad_input(name,
-                   "there is no frame " + std::to_string(frame),
-                   "ask for a frame that the recording has");
+                   "there is no frame " + std::to_string(frame) + ", it has " +
+                       std::to_string(has) + ", counted from 0",
+                   "ask for an earlier frame");
 }
 
 FramePicture encode(const cv::Mat& image, int frame, const PictureOptions& options) {
@@ -54,9 +56,11 @@ Result<Pictures> from_video(const std::filesystem::path& path,
   for (const int frame : frames) {
     // grab() decodes without converting to colour: all that passing over needs.
     for (; next < frame; ++next) {
-      if (!video->grab()) return no_such_frame(name, frame);
+      if (!video->grab())
+        return no_such_frame(name, frame, static_cast<std::size_t>(next));
     }
-    if (!video->read(image)) return no_such_frame(name, frame);
+    if (!video->read(image))
+      return no_such_frame(name, frame, static_cast<std::size_t>(next));
     ++next;
     pictures[frame] = encode(image, frame, options);
   }
@@ -71,11 +75,11 @@ Result<Pictures> from_folder(const std::filesystem::path& path,
   if (!files) return files.error();
   Pictures pictures;
   for (const int frame : frames) {
-    if (static_cast<std::size_t>(frame) >= files->size()) {
-      return no_such_frame(name, frame);
-    }
-    const auto& file = (*files)[static_cast<std::size_t>(frame)];
-    const auto image = read_image(file, cv::IMREAD_COLOR, file.string());
+    const auto place = static_cast<std::size_t>(frame);
+    if (place >= files->size()) return no_such_frame(name, frame, files->size());
+    const auto& file = (*files)[place];
+    const auto image =
+        read_image(file, cv::IMREAD_COLOR, name + "/" + file.filename().string());
     if (!image) return image.error();
     pictures[frame] = encode(*image, frame, options);
   }
@@ -88,13 +92,17 @@ Result<std::vector<FramePicture>> read_pictures(const std::filesystem::path& pat
                                                 std::span<const int> frames,
                                                 const PictureOptions& options,
                                                 const std::string& name) {
+  MAREY_ASSERT(options.max_width_px >= 1);
+  MAREY_ASSERT(options.jpeg_quality >= 1 && options.jpeg_quality <= 100);
   std::vector<int> wanted(frames.begin(), frames.end());
   std::sort(wanted.begin(), wanted.end());
   wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  MAREY_ASSERT(wanted.empty() || wanted.front() >= 0);
   const std::string called = name.empty() ? path.string() : name;
+  const auto kind = recording_kind(path, called);
+  if (!kind) return kind.error();
   try {
-    std::error_code ignored;
-    const auto pictures = std::filesystem::is_directory(path, ignored)
+    const auto pictures = *kind == RecordingKind::kImageFolder
                               ? from_folder(path, wanted, options, called)
                               : from_video(path, wanted, options, called);
     if (!pictures) return pictures.error();

@@ -15,9 +15,8 @@ Result<RecordingKind> recording_kind(const std::filesystem::path& path,
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) {
-    return bad_input(name,
-                     "there is no such video or folder",
-                     "check the path and its spelling");
+    return bad_input(
+        name, "there is no such video or folder", "check the path and its spelling");
   }
   return std::filesystem::is_directory(status) ? RecordingKind::kImageFolder
                                                : RecordingKind::kVideoFile;

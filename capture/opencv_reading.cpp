@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <ios>
+#include <string_view>
 #include <vector>
 
 #include <opencv2/core/utils/logger.hpp>
@@ -44,6 +45,19 @@ std::vector<char> bytes_of(const std::filesystem::path& path) {
   return bytes;
 }
 
+/// Whether an image file lacks its end: OpenCV would hand out the part that is there, and
+/// libpng complain on standard error. A PNG ends with its IEND chunk; a JPEG's last scan
+/// (FF DA) ends with the end mark (FF D9), and neither can occur inside a scan.
+bool is_cut_short(const std::vector<char>& bytes) {
+  using namespace std::string_view_literals;
+  const std::string_view text(bytes.data(), bytes.size());
+  if (text.substr(0, 4) == "\x89PNG"sv) return text.rfind("IEND"sv) == text.npos;
+  if (text.substr(0, 2) != "\xFF\xD8"sv) return false;
+  const std::size_t scan = text.rfind("\xFF\xDA"sv);
+  const std::size_t end = text.rfind("\xFF\xD9"sv);
+  return scan == text.npos || end == text.npos || end < scan;
+}
+
 }  // namespace
 
 Result<cv::VideoCapture> open_capture(const std::filesystem::path& path,
@@ -66,7 +80,7 @@ Result<cv::Mat> read_image(const std::filesystem::path& path,
   try {
     // From memory: there a file that was cut short fails, where imread() would pad it.
     const std::vector<char> bytes = bytes_of(path);
-    if (!bytes.empty()) image = cv::imdecode(bytes, mode);
+    if (!bytes.empty() && !is_cut_short(bytes)) image = cv::imdecode(bytes, mode);
   } catch (const cv::Exception&) {
     image.release();
   }

@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/detect_tags.h"
+
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/capture/tag_artist.h"
+
+namespace marey::capture {
+namespace {
+
+using tests::DrawnTag;
+
+TagDetector detector(const TagDetectorOptions& options = {}) {
+  auto made = TagDetector::create(options);
+  EXPECT_TRUE(made) << made.error().message();
+  return std::move(*made);
+}
+
+std::vector<TagDetection> detect(const cv::Mat& image,
+                                 const TagDetectorOptions& options = {}) {
+  return detector(options).detect(tests::frame_of(image));
+}
+
+/// A tag seen from the side and from above, 60 px wide.
+DrawnTag slanted_tag() {
+  return {
+      "tag36h11", 7, {{{131.3, 158.2}, {186.9, 149.4}, {181.6, 96.7}, {127.8, 101.5}}}};
+}
+
+// 0.15 px: the edge search of libapriltag 3.3 looks at whole pixels only.
+TEST(DetectTags, FindsTheCornersOfASlantedTag) {
+  const DrawnTag truth = slanted_tag();
+  const auto found = detect(tests::draw_tags(320, 240, {truth}));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(number(found[0].id), 7);
+  EXPECT_LT(tests::worst_corner_px(found[0], truth), 0.15 /* px */);
+}
+
+// Proves the half pixel between libapriltag's coordinates and ours: a mean over many
+// places in the pixel, where the edge search's own errors cancel.
+TEST(DetectTags, PutsPixelCentresAtIntegers) {
+  glm::dvec2 sum{0.0};
+  int count = 0;
+  for (int i = 0; i < 16; ++i) {
+    const double shift = i / 16.0;
+    const DrawnTag truth{
+        "tag36h11", 3, tests::square({100.0 + shift, 90.0 + 3.0 * shift}, 48.0, 0.4 * i)};
+    const auto found = detect(tests::draw_tags(200, 180, {truth}));
+    ASSERT_EQ(found.size(), 1U);
+    for (std::size_t c = 0; c < 4; ++c) {
+      sum += found[0].corners_px[c] - truth.corners_px[c];
+      ++count;
+    }
+  }
+  EXPECT_NEAR(sum.x / count, 0.0, 0.03 /* px */);
+  EXPECT_NEAR(sum.y / count, 0.0, 0.03 /* px */);
+}
+
+TEST(DetectTags, KeepsTheOrderOfCornersWhenTheTagIsTurned) {
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const double turn_rad = 0.3 + quarter * std::numbers::pi / 2;
+    const DrawnTag truth{"tag36h11", 12, tests::square({120.0, 110.0}, 60.0, turn_rad)};
+    const auto found = detect(tests::draw_tags(240, 220, {truth}));
+    ASSERT_EQ(found.size(), 1U) << "turned by " << turn_rad;
+    EXPECT_LT(tests::worst_corner_px(found[0], truth), 0.3 /* px */);
+  }
+}
+
+// Three times the claimed standard deviation on each of two coordinates.
+TEST(DetectTags, FindsCornersWithinItsDoubtUnderBlurAndNoise) {
+  const DrawnTag truth = slanted_tag();
+  const cv::Mat image =
+      tests::disturbed(tests::draw_tags(320, 240, {truth}), 0.6, 3.0, /*seed=*/1);
+  const auto found = detect(image);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LT(tests::worst_corner_px(found[0], truth), 3.0 * found[0].sigma_px * 1.42);
+}
+
+TEST(DetectTags, KnowsOtherFamilies) {
+  for (const char* family : {"tag25h9", "tagStandard41h12", "tagCircle21h7"}) {
+    const DrawnTag truth{family, 5, tests::square({120.2, 99.7}, 60.0, 0.2)};
+    const auto found = detect(tests::draw_tags(240, 200, {truth}), {.family = family});
+    ASSERT_EQ(found.size(), 1U) << family;
+    EXPECT_EQ(number(found[0].id), 5) << family;
+    EXPECT_LT(tests::worst_corner_px(found[0], truth), 0.3 /* px */) << family;
+  }
+}
+
+TEST(DetectTags, SortsTagsById) {
+  const auto found =
+      detect(tests::draw_tags(400,
+                              140,
+                              {{"tag36h11", 20, tests::square({70.0, 70.0}, 50.0)},
+                               {"tag36h11", 4, tests::square({330.0, 70.0}, 50.0)},
+                               {"tag36h11", 11, tests::square({200.0, 70.0}, 50.0)}}));
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(number(found[0].id), 4);
+  EXPECT_EQ(number(found[1].id), 11);
+  EXPECT_EQ(number(found[2].id), 20);
+}
+
+TEST(DetectTags, DropsAnIdThatIsInTheImageTwice) {
+  const cv::Mat image =
+      tests::draw_tags(400,
+                       140,
+                       {{"tag36h11", 4, tests::square({70.0, 70.0}, 50.0)},
+                        {"tag36h11", 4, tests::square({330.0, 70.0}, 50.0)},
+                        {"tag36h11", 11, tests::square({200.0, 70.0}, 50.0)}});
+  TagDetector one = detector();
+  const auto found = one.detect(tests::frame_of(image));
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(number(found[0].id), 11);
+  EXPECT_EQ(one.dropped().duplicated, 2);
+}
+
+TEST(DetectTags, DropsSightingsBelowTheAskedMargin) {
+  TagDetector strict = detector({.min_decision_margin = 1000.0});
+  const cv::Mat image = tests::draw_tags(320, 240, {slanted_tag()});
+  EXPECT_TRUE(strict.detect(tests::frame_of(image)).empty());
+  EXPECT_EQ(strict.dropped().unsure, 1);
+}
+
+TEST(DetectTags, FindsNothingInAnEmptyImage) {
+  EXPECT_TRUE(detect(cv::Mat(240, 320, CV_8UC1, cv::Scalar(128))).empty());
+}
+
+TEST(DetectTags, FindsNothingInAnImageTooSmallForATag) {
+  EXPECT_TRUE(detect(cv::Mat(3, 5, CV_8UC1, cv::Scalar(128))).empty());
+}
+
+TEST(DetectTags, ReadsPartOfALargerImageThroughItsStride) {
+  DrawnTag truth = slanted_tag();
+  const cv::Mat image = tests::draw_tags(320, 240, {truth});
+  const auto found = detect(image(cv::Rect(90, 60, 130, 130)));
+  ASSERT_EQ(found.size(), 1U);
+  for (auto& corner : truth.corners_px) corner -= glm::dvec2(90.0, 60.0);
+  EXPECT_LT(tests::worst_corner_px(found[0], truth), 0.15 /* px */);
+}
+
+TEST(DetectTags, GivesTheSameAnswerAfterBeingMoved) {
+  const cv::Mat image = tests::draw_tags(320, 240, {slanted_tag()});
+  TagDetector first = detector();
+  const auto before = first.detect(tests::frame_of(image));
+  TagDetector second = std::move(first);
+  const auto after = second.detect(tests::frame_of(image));
+  ASSERT_EQ(before.size(), 1U);
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_EQ(before[0].corners_px, after[0].corners_px);
+}
+
+TEST(DetectTags, RefusesAnUnknownFamilyAndNamesTheKnownOnes) {
+  const auto made = TagDetector::create({.family = "tag36h12"});
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().code, Errc::kBadInput);
+  EXPECT_EQ(made.error().cause, "\"tag36h12\" is not one that marey knows");
+  EXPECT_NE(made.error().next.find("tag36h11"), std::string::npos);
+}
+
+TEST(DetectTags, RefusesToForgiveManyBits) {
+  const auto made = TagDetector::create({.max_hamming = 3});
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().cause, "max_hamming must be 0, 1 or 2");
+}
+
+TEST(CornerSigma, FallsAsTagsGrow) {
+  EXPECT_GT(corner_sigma_px(14.0), corner_sigma_px(23.0));
+  EXPECT_GT(corner_sigma_px(23.0), corner_sigma_px(58.0));
+}
+
+}  // namespace
+}  // namespace marey::capture

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace marey::tests {
+
+/// An empty folder of one test's own, gone at the end of the test.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
+    return path_ / name;
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// The brightness that write_video() gives to frame `index`: steps large enough to
+/// survive the codec.
+[[nodiscard]] int brightness_of_frame(int index);
+
+/// A motion JPEG film of `frames` plain grey frames, 64x48, 25 frames a second, in the
+/// container that `path`'s extension names (.mp4, .avi, .mkv).
+void write_video(const std::filesystem::path& path, int frames);
+
+/// The same frames as PNG images, f0.png, f1.png...
+void write_images(const std::filesystem::path& folder, int frames);
+
+/// Cuts a file to a part of its size.
+void truncate(const std::filesystem::path& path, double fraction);
+
+}  // namespace marey::tests

@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/capture/tag_artist.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag25h9.h>
+#include <apriltag/tag36h11.h>
+#include <apriltag/tagCircle21h7.h>
+#include <apriltag/tagStandard41h12.h>
+#include <glm/geometric.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace marey::tests {
+namespace {
+
+struct FamilyMaker {
+  const char* name;
+  apriltag_family_t* (*create)();
+  void (*destroy)(apriltag_family_t*);
+};
+
+constexpr std::array<FamilyMaker, 4> kMakers{{
+    {"tag25h9", tag25h9_create, tag25h9_destroy},
+    {"tag36h11", tag36h11_create, tag36h11_destroy},
+    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy},
+    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
+}};
+
+/// libapriltag's own drawing of a tag, one pixel a cell, and how many cells lie between
+/// the edge of the paper and the square whose corners are detected.
+struct Bitmap {
+  cv::Mat cells;
+  int margin_cells = 0;
+};
+
+Bitmap bitmap_of(const DrawnTag& tag) {
+  for (const FamilyMaker& maker : kMakers) {
+    if (tag.family != maker.name) continue;
+    apriltag_family_t* family = maker.create();
+    image_u8_t* image = apriltag_to_image(family, static_cast<std::uint32_t>(tag.id));
+    Bitmap bitmap;
+    bitmap.margin_cells = (family->total_width - family->width_at_border) / 2;
+    cv::Mat(image->height,
+            image->width,
+            CV_8UC1,
+            image->buf,
+            static_cast<std::size_t>(image->stride))
+        .copyTo(bitmap.cells);
+    image_u8_destroy(image);
+    maker.destroy(family);
+    return bitmap;
+  }
+  throw std::invalid_argument("no such family: " + tag.family);
+}
+
+/// How many times finer than the image the tags are drawn before being averaged.
+constexpr int kFiner = 8;
+
+cv::Point2f finer(double u, double v) {
+  return {static_cast<float>((u + 0.5) * kFiner - 0.5),
+          static_cast<float>((v + 0.5) * kFiner - 0.5)};
+}
+
+void draw_tag(const DrawnTag& tag, cv::Mat& fine_image) {
+  constexpr int kCellPixels = 32;
+  const Bitmap bitmap = bitmap_of(tag);
+  cv::Mat paper;
+  cv::resize(bitmap.cells, paper, {}, kCellPixels, kCellPixels, cv::INTER_NEAREST);
+  const auto low = static_cast<float>(bitmap.margin_cells * kCellPixels) - 0.5F;
+  const auto high =
+      static_cast<float>((bitmap.cells.cols - bitmap.margin_cells) * kCellPixels) - 0.5F;
+  const std::array<cv::Point2f, 4> from{
+      {{low, high}, {high, high}, {high, low}, {low, low}}};
+  std::array<cv::Point2f, 4> to;
+  for (std::size_t i = 0; i < 4; ++i) {
+    to[i] = finer(tag.corners_px[i].x, tag.corners_px[i].y);
+  }
+  const cv::Mat fine_from_paper = cv::getPerspectiveTransform(from.data(), to.data());
+  cv::Mat drawn;
+  cv::Mat covered;
+  cv::warpPerspective(paper, drawn, fine_from_paper, fine_image.size(), cv::INTER_LINEAR);
+  cv::warpPerspective(cv::Mat(paper.size(), CV_8UC1, cv::Scalar(255)),
+                      covered,
+                      fine_from_paper,
+                      fine_image.size(),
+                      cv::INTER_NEAREST);
+  // Black at 30 and white at 220, as in a photograph.
+  drawn.convertTo(drawn, CV_8UC1, 190.0 / 255.0, 30.0);
+  drawn.copyTo(fine_image, covered);
+}
+
+}  // namespace
+
+std::array<glm::dvec2, 4> square(const glm::dvec2& centre_px,
+                                 double side_px,
+                                 double turn_rad) {
+  const double h = 0.5 * side_px;
+  const glm::dvec2 x{h * std::cos(turn_rad), h * std::sin(turn_rad)};
+  const glm::dvec2 y{-x.y, x.x};
+  return {centre_px - x + y, centre_px + x + y, centre_px + x - y, centre_px - x - y};
+}
+
+cv::Mat draw_tags(int width_px, int height_px, const std::vector<DrawnTag>& tags) {
+  cv::Mat fine(height_px * kFiner, width_px * kFiner, CV_8UC1, cv::Scalar(160));
+  for (const DrawnTag& tag : tags) draw_tag(tag, fine);
+  cv::Mat image;
+  cv::resize(fine, image, {width_px, height_px}, 0, 0, cv::INTER_AREA);
+  return image;
+}
+
+cv::Mat disturbed(const cv::Mat& image,
+                  double blur_sigma_px,
+                  double noise_sigma,
+                  unsigned seed) {
+  cv::Mat blurred;
+  image.convertTo(blurred, CV_32F);
+  cv::GaussianBlur(blurred, blurred, {0, 0}, blur_sigma_px);
+  cv::Mat noise(image.size(), CV_32F);
+  cv::RNG random(seed);
+  random.fill(noise, cv::RNG::NORMAL, 0.0, noise_sigma);
+  cv::Mat out;
+  cv::Mat(blurred + noise).convertTo(out, CV_8U);
+  return out;
+}
+
+capture::GrayFrame frame_of(const cv::Mat& gray) {
+  return {gray.data, gray.cols, gray.rows, static_cast<int>(gray.step[0]), 0};
+}
+
+double worst_corner_px(const TagDetection& found, const DrawnTag& truth) {
+  double worst = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    worst = std::max(worst, glm::distance(found.corners_px[i], truth.corners_px[i]));
+  }
+  return worst;
+}
+
+}  // namespace marey::tests
