@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: The marey authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# cmake -D CASE=<name> -D SOURCE=<checkout> -D WORK=<scratch folder> -P seen_to_fail.cmake
+#
+# A guard that never fails guards nothing. Each case builds a small sound house, sees its
+# guard pass, plants one fault and wants the guard to fail for that very reason.
+# tests/CMakeLists.txt registers every case below as a test.
+cmake_minimum_required(VERSION 3.25)
+
+set(house ${WORK}/${CASE})
+set(licence "// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+")
+
+function(source file text)
+  file(WRITE ${house}/${file} "${licence}${text}\n")
+endfunction()
+
+function(build_sound_house)
+  file(REMOVE_RECURSE ${house})
+  source(core/point.h "#pragma once
+#include <vector>
+struct Cloud { std::vector<double> points; };")
+  source(core/point.cpp "#include \"core/point.h\"")
+  source(calib/place.h "#include \"core/point.h\"")
+  source(calib/residuals.h "#include <ceres/ceres.h>")
+  source(calib/place.cpp "#include \"calib/place.h\"\n#include \"calib/residuals.h\"")
+  source(app/report/page.cpp "#include \"calib/place.h\"")
+  file(WRITE ${house}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(house LANGUAGES CXX)
+set(CMAKE_CXX_STANDARD 20)
+include(\${HELPERS}/marey_add_module.cmake)
+marey_find_package(glm 0.9 DEBIAN libglm-dev)
+if(EXISTS \${PROJECT_SOURCE_DIR}/core)
+  add_subdirectory(core)
+endif()\n")
+  file(WRITE ${house}/core/CMakeLists.txt
+    "marey_add_module(core HEADERS point.h SOURCES point.cpp)\n")
+  file(WRITE ${house}/calib/CMakeLists.txt
+    "marey_add_module(calib HEADERS place.h SOURCES place.cpp USES marey::core)\n")
+  file(WRITE ${house}/app/CMakeLists.txt "add_executable(house report/page.cpp)\n")
+  file(WRITE ${house}/run "readonly BUILD_PACKAGES=(\n  cmake libglm-dev)\n")
+endfunction()
+
+# Each guard, run on the small house as ctest runs it on the real one.
+function(run_script script out_result out_text)
+  execute_process(
+    COMMAND ${CMAKE_COMMAND} -D ROOT=${house} -P ${SOURCE}/tests/${script}
+    RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  # Messages are wrapped and indented.
+  string(REGEX REPLACE "[ \n]+" " " text "${text}")
+  set(${out_result} ${result} PARENT_SCOPE)
+  set(${out_text} "${text}" PARENT_SCOPE)
+endfunction()
+
+macro(layering out_result out_text)
+  run_script(layering.cmake ${out_result} ${out_text})
+endmacro()
+
+macro(packages out_result out_text)
+  run_script(packages.cmake ${out_result} ${out_text})
+endmacro()
+
+macro(public_text out_result out_text)
+  set(git git -c safe.directory=* -C ${house})
+  execute_process(COMMAND ${git} init -q COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${git} add -A COMMAND_ERROR_IS_FATAL ANY)
+  run_script(public_text.cmake ${out_result} ${out_text})
+endmacro()
+
+# The same helper and the same target as the real house's.
+function(headers_stand_alone out_result out_text)
+  execute_process(
+    COMMAND ${CMAKE_COMMAND} -S ${house} -B ${house}/build -D HELPERS=${SOURCE}/cmake
+    OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(
+    COMMAND ${CMAKE_COMMAND} --build ${house}/build
+            --target all_verify_interface_header_sets
+    RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  set(${out_result} ${result} PARENT_SCOPE)
+  set(${out_text} "${text}" PARENT_SCOPE)
+endfunction()
+
+# fault(<name> <guard> <file> <what is planted at its end> <what the guard must say>)
+set(slash "/")
+function(fault name guard file planted says)
+  if(NOT name STREQUAL CASE)
+    return()
+  endif()
+  build_sound_house()
+  cmake_language(CALL ${guard} result text)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "the guard fails before anything is planted: ${text}")
+  endif()
+  file(APPEND ${house}/${file} "${planted}\n")
+  cmake_language(CALL ${guard} result text)
+  if(result EQUAL 0 OR NOT text MATCHES "${says}")
+    message(FATAL_ERROR "the guard does not say \"${says}\": ${result} ${text}")
+  endif()
+  set(seen TRUE PARENT_SCOPE)
+endfunction()
+
+# emptied(<name> <guard> <files to take away> <what the guard must say>)
+function(emptied name guard files says)
+  if(NOT name STREQUAL CASE)
+    return()
+  endif()
+  build_sound_house()
+  file(GLOB taken ${files})
+  file(REMOVE_RECURSE ${taken})
+  cmake_language(CALL ${guard} result text)
+  if(result EQUAL 0 OR NOT text MATCHES "${says}")
+    message(FATAL_ERROR "the guard does not say \"${says}\": ${result} ${text}")
+  endif()
+  set(seen TRUE PARENT_SCOPE)
+endfunction()
+
+set(seen FALSE)
+fault(a_stage_that_includes_a_stage layering calib/place.cpp
+  "#include \"capture/frame.h\"" "calib may not include capture")
+fault(a_core_that_includes_a_stage layering core/point.cpp
+  "#include \"calib/place.h\"" "core may not include calib")
+fault(a_stage_that_includes_the_app layering calib/place.cpp
+  "#include \"app/page.h\"" "calib may not include app")
+fault(a_subfolder_that_reaches_out layering app/report/page.cpp
+  "#include \"../secret.h\"" "is not written from the top")
+fault(a_heavy_library_in_a_public_header layering calib/place.h
+  "#include <opencv2/core.hpp>" "heavy and may not be in a public header")
+fault(a_private_header_in_a_public_one layering calib/place.h
+  "#include \"calib/residuals.h\"" "may not include the private calib/residuals.h")
+fault(a_core_that_uses_more_than_glm layering core/point.cpp
+  "#include <Eigen/Dense>" "core has no business with <Eigen/Dense>")
+fault(a_room_that_is_not_listed layering utils/misc.h
+  "#pragma once" "utils/: holds C.. and is no room")
+fault(a_room_without_public_headers layering live/CMakeLists.txt
+  "add_library(live live.cpp)" "live/CMakeLists.txt: no HEADERS found")
+fault(a_machine_path public_text README.md
+  "see ${slash}home/me/video.mp4" "names a place on one machine")
+fault(a_source_without_a_licence public_text core/bare.h
+  "#pragma once" "lacks its two SPDX lines")
+fault(a_header_that_needs_another headers_stand_alone core/point.h
+  "inline std::string name;" "point.h.*string")
+fault(an_installer_that_forgets_a_package packages calib/CMakeLists.txt
+  "marey_find_package(Ceres 2.1 DEBIAN libceres-dev)" "libceres-dev is not in")
+
+emptied(an_empty_house layering "${house}/*" "nothing was checked")
+emptied(a_checkout_without_files public_text "${house}/*" "nothing was checked")
+emptied(a_house_without_packages packages "${house}/CMakeLists.txt" "packages checked: 0")
+emptied(a_house_without_rooms headers_stand_alone "${house}/core"
+  "all_verify_interface_header_sets")
+
+if(NOT seen)
+  message(FATAL_ERROR "there is no case \"${CASE}\"")
+endif()
