@@ -8,6 +8,19 @@
 #include <glm/gtc/type_ptr.hpp>
 
 namespace marey {
+namespace {
+
+/// Whether rays further out still go to pixels further out. Past that the polynomial
+/// folds the picture over, and a pixel found there is not what a lens would show.
+bool before_the_fold(const Intrinsics& intrinsics, const glm::dvec2& ray) {
+  const auto& k = intrinsics.distortion;
+  const double r2 = glm::dot(ray, ray);
+  const double factor = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+  const double slope = 1.0 + r2 * (3.0 * k[0] + r2 * (5.0 * k[1] + r2 * 7.0 * k[4]));
+  return factor > 0.0 && slope > 0.0;
+}
+
+}  // namespace
 
 std::array<double, Intrinsics::kParameterCount> Intrinsics::parameters() const {
   return {focal_px.x,
@@ -49,7 +62,7 @@ std::optional<glm::dvec2> unproject(const Intrinsics& intrinsics,
   };
   for (int iteration = 0; iteration < 20; ++iteration) {
     const glm::dvec2 miss = image_of(ray) - pixel_px;
-    if (glm::length(miss) < 1e-9) return ray;
+    if (glm::length(miss) < 1e-9) break;
     // Central differences: the model is smooth and the step far above rounding error.
     constexpr double kStep = 1e-6;
     const glm::dvec2 dx =
@@ -64,8 +77,9 @@ std::optional<glm::dvec2> unproject(const Intrinsics& intrinsics,
            determinant;
     if (glm::length(ray - start) > 10.0) return std::nullopt;
   }
-  if (glm::length(image_of(ray) - pixel_px) < 1e-6) return ray;
-  return std::nullopt;
+  const bool found = glm::length(image_of(ray) - pixel_px) < 1e-6;
+  if (!found || !before_the_fold(intrinsics, ray)) return std::nullopt;
+  return ray;
 }
 
 }  // namespace marey

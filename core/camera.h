@@ -76,8 +76,9 @@ template <class T>
                                                 const glm::dvec3& p_in_world);
 
 /// The point at z = 1 in the camera's frame whose projection is `pixel_px`: the inverse
-/// of project(), by Newton's method. nullopt when it does not converge, which happens
-/// only far outside the image of a strongly distorted lens.
+/// of project(), by Newton's method. nullopt when it does not converge, or only where the
+/// distortion has folded the picture over: both happen only far outside the image of a
+/// strongly distorted lens.
 [[nodiscard]] std::optional<glm::dvec2> unproject(const Intrinsics& intrinsics,
                                                   const glm::dvec2& pixel_px);
 
