@@ -40,6 +40,7 @@ endif()\n")
   file(WRITE ${house}/calib/CMakeLists.txt
     "marey_add_module(calib HEADERS place.h SOURCES place.cpp USES marey::core)\n")
   file(WRITE ${house}/app/CMakeLists.txt "add_executable(house report/page.cpp)\n")
+  file(WRITE ${house}/README.md "see [the app](app/report/page.cpp#there), core/point.h\n")
   file(WRITE ${house}/run "readonly BUILD_PACKAGES=(\n  cmake libglm-dev)\n")
 endfunction()
 
@@ -56,6 +57,10 @@ endfunction()
 
 macro(layering out_result out_text)
   run_script(layering.cmake ${out_result} ${out_text})
+endmacro()
+
+macro(docs out_result out_text)
+  run_script(docs.cmake ${out_result} ${out_text})
 endmacro()
 
 macro(packages out_result out_text)
@@ -143,9 +148,14 @@ fault(a_header_that_needs_another headers_stand_alone core/point.h
   "inline std::string name;" "point.h.*string")
 fault(an_installer_that_forgets_a_package packages calib/CMakeLists.txt
   "marey_find_package(Ceres 2.1 DEBIAN libceres-dev)" "libceres-dev is not in")
+fault(a_link_that_leads_nowhere docs README.md
+  "see [there](docs/there.md)" "docs/there.md is not there")
+fault(a_page_that_names_a_lost_file docs README.md
+  "see core/gone.h" "core/gone.h is not there")
 
 emptied(an_empty_house layering "${house}/*" "nothing was checked")
 emptied(a_checkout_without_files public_text "${house}/*" "nothing was checked")
+emptied(a_house_without_pages docs "${house}/README.md" "names checked: 0")
 emptied(a_house_without_packages packages "${house}/CMakeLists.txt" "packages checked: 0")
 emptied(a_house_without_rooms headers_stand_alone "${house}/core"
   "all_verify_interface_header_sets")

@@ -1,0 +1,44 @@
+# SPDX-FileCopyrightText: The marey authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# cmake -D ROOT=<source tree> -P docs.cmake
+#
+# Fails when README.md or a page of docs/ links to, or names, a file of the tree that is
+# not there. Also when there was nothing to check.
+cmake_minimum_required(VERSION 3.25)
+
+set(checked 0)
+set(errors "")
+
+macro(want path page)
+  math(EXPR checked "${checked}+1")
+  if(NOT EXISTS "${path}")
+    string(APPEND errors "${page}: ${path} is not there\n")
+  endif()
+endmacro()
+
+file(GLOB pages ${ROOT}/README.md ${ROOT}/docs/*.md)
+foreach(page ${pages})
+  get_filename_component(folder ${page} DIRECTORY)
+  file(READ ${page} text)
+  # Brackets and semicolons mean something to CMake's lists.
+  string(REPLACE ";" "," text "${text}")
+  string(REPLACE "](" "LINK=" text "${text}")
+  string(REGEX MATCHALL "LINK=[^)#: ]+[)#]" links "${text}")
+  list(TRANSFORM links REPLACE "LINK=([^)#]+).*" "\\1")
+  foreach(link ${links})
+    want(${folder}/${link} ${page})
+  endforeach()
+  # Sources are named from the top: core/camera.h.
+  string(REGEX MATCHALL
+    "(core|capture|calib|reconstruct|retarget|recordings|app|tests|cmake)/[a-z_/]*[a-z_]\\.(h|cpp|cmake)"
+    sources "${text}")
+  foreach(source ${sources})
+    want(${ROOT}/${source} ${page})
+  endforeach()
+endforeach()
+
+if(errors OR checked EQUAL 0)
+  message(FATAL_ERROR "${errors}names checked: ${checked}")
+endif()
+message(STATUS "names checked: ${checked}")
