@@ -70,7 +70,7 @@ class ImageFolder final : public FrameSource {
     info_.expected_frames = static_cast<int>(images_.size());
   }
 
-  const StreamInfo& info() const override { return info_; }
+  [[nodiscard]] const StreamInfo& info() const override { return info_; }
 
   Result<std::optional<GrayFrame>> next() override {
     const auto place = static_cast<std::size_t>(index_);

@@ -19,6 +19,7 @@ void silence_opencv() {
   static const bool once = [] {
     // FFmpeg's AV_LOG_QUIET; read by OpenCV when it first opens a video. A developer's
     // own setting is left alone.
+    // NOLINTNEXTLINE(concurrency-mt-unsafe): once, before any worker has started.
     ::setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", /*overwrite=*/0);
     cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     return true;

@@ -42,10 +42,10 @@ std::optional<Promise> promise_of(const std::filesystem::path& path,
 
 class VideoFile final : public FrameSource {
  public:
-  VideoFile(cv::VideoCapture video, StreamInfo info, int least_frames)
-      : video_(std::move(video)), info_(std::move(info)), least_frames_(least_frames) {}
+  VideoFile(const cv::VideoCapture& video, StreamInfo info, int least_frames)
+      : video_(video), info_(std::move(info)), least_frames_(least_frames) {}
 
-  const StreamInfo& info() const override { return info_; }
+  [[nodiscard]] const StreamInfo& info() const override { return info_; }
 
   Result<std::optional<GrayFrame>> next() override {
     try {
@@ -69,7 +69,7 @@ class VideoFile final : public FrameSource {
     return std::optional(view_of(gray_, index_++));
   }
 
-  Result<std::optional<GrayFrame>> at_end() const {
+  [[nodiscard]] Result<std::optional<GrayFrame>> at_end() const {
     if (index_ >= least_frames_) return std::optional<GrayFrame>();
     const std::string promised =
         info_.expected_frames ? " of " + std::to_string(*info_.expected_frames) : "";
@@ -79,9 +79,11 @@ class VideoFile final : public FrameSource {
         "copy the file from the camera again");
   }
 
-  std::string where() const { return info_.name + ": frame " + std::to_string(index_); }
+  [[nodiscard]] std::string where() const {
+    return info_.name + ": frame " + std::to_string(index_);
+  }
 
-  cv::VideoCapture video_;
+  cv::VideoCapture video_;  // A handle: copies share one decoder.
   StreamInfo info_;
   int least_frames_;
   int index_ = 0;
@@ -105,7 +107,7 @@ Result<std::unique_ptr<FrameSource>> open_video_file(const std::filesystem::path
   if (promise) info.expected_frames = promise->expected;
   const int least_frames = promise ? promise->least : 1;
   return std::unique_ptr<FrameSource>(
-      std::make_unique<VideoFile>(std::move(*video), std::move(info), least_frames));
+      std::make_unique<VideoFile>(*video, std::move(info), least_frames));
 }
 
 }  // namespace marey::capture
