@@ -30,6 +30,7 @@ struct CalibratedRig {
   std::vector<Camera> cameras;
   std::vector<CameraQuality> quality;  ///< Per camera.
   double rms_px = 0.0;                 ///< Over all corners of all cameras.
+  double median_px = 0.0;  ///< Likewise the median distance: a few wrong tags leave it.
 };
 
 /// Calibrates all cameras together from a board waved through the volume and then lying
@@ -42,9 +43,9 @@ struct CalibratedRig {
 /// the same order, and all frames of one index were taken at the same time (floor frames
 /// may come from anywhere: nothing moves). Errors (kBadInput): a camera that never sees
 /// the board, or too little of it; groups of cameras that never see the board together;
-/// no floor; a board that lies face down; a bundle that does not converge or ends above 3
-/// px RMS (wrong board geometry). Cost: a few seconds for four cameras and a hundred
-/// frames.
+/// no floor; a board that lies face down; a bundle that does not converge or ends with a
+/// median corner more than 2.5 px off (wrong board geometry); tags whose size does not go
+/// with the gaps between them. Cost: a few seconds for four cameras and a hundred frames.
 [[nodiscard]] Result<CalibratedRig> calibrate_cameras(
     std::span<const std::string> names,
     std::span<const CameraDetections> waved,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <opencv2/calib3d.hpp>
@@ -23,6 +25,19 @@ std::vector<cv::Point3f> object_points(const BoardView& view) {
                         static_cast<float>(c.p_in_board.z));
   }
   return points;
+}
+
+/// Whether some view shows the board turned away from the image plane. Square on, twice
+/// the focal length at twice the distance is the same picture.
+bool is_tilted_somewhere(const cv::Mat& rotation_vectors_rad) {
+  constexpr double kTilted = 0.1;  // [rad] A hand cannot hold a board straighter.
+  for (int i = 0; i < static_cast<int>(rotation_vectors_rad.total()); ++i) {
+    const auto& r = rotation_vectors_rad.at<cv::Vec3d>(i);
+    const glm::dvec3 face =
+        rotation_from_vector({r[0], r[1], r[2]}) * glm::dvec3(0, 0, 1);
+    if (std::hypot(face.x, face.y) > std::sin(kTilted)) return true;
+  }
+  return false;
 }
 
 std::vector<cv::Point2f> image_points(const BoardView& view) {
@@ -73,6 +88,53 @@ RigidTransform to_transform(const cv::Mat& rotation_vector_rad,
           {at(translation, 0), at(translation, 1), at(translation, 2)}};
 }
 
+/// camera_from_board by IPPE and refinement, solved for in the frame `print`.
+std::optional<RigidTransform> solve_plane(std::span<const glm::dvec2> rays,
+                                          std::span<const glm::dvec3> p_in_board,
+                                          const RigidTransform& board_from_print) {
+  std::vector<cv::Point2f> image;
+  std::vector<cv::Point3f> object;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const glm::dvec3 p = inverse(board_from_print) * p_in_board[i];
+    image.emplace_back(static_cast<float>(rays[i].x), static_cast<float>(rays[i].y));
+    object.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y), 0.0F);
+  }
+  std::vector<cv::Mat> rotations;
+  std::vector<cv::Mat> translations;
+  try {
+    cv::solvePnPGeneric(object,
+                        image,
+                        cv::Matx33d::eye(),
+                        cv::noArray(),
+                        rotations,
+                        translations,
+                        false,
+                        cv::SOLVEPNP_IPPE);
+    if (rotations.empty()) return std::nullopt;
+    cv::solvePnPRefineLM(
+        object, image, cv::Matx33d::eye(), cv::noArray(), rotations[0], translations[0]);
+  } catch (const cv::Exception&) {
+    return std::nullopt;
+  }
+  return to_transform(rotations[0], translations[0]) * inverse(board_from_print);
+}
+
+/// Sum of squared distances of the rays, at z = 1, to their points. Infinite for a board
+/// that is not before the camera.
+double misfit_of(std::span<const glm::dvec2> rays,
+                 std::span<const glm::dvec3> p_in_board,
+                 const RigidTransform& camera_from_board) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const glm::dvec3 p = camera_from_board * p_in_board[i];
+    // Also of a pose that is no number.
+    if (!(p.z > 0.0)) return std::numeric_limits<double>::infinity();
+    const glm::dvec2 off = glm::dvec2(p) / p.z - rays[i];
+    sum += glm::dot(off, off);
+  }
+  return sum;
+}
+
 }  // namespace
 
 std::optional<Intrinsics> estimate_intrinsics(std::span<const BoardView* const> views,
@@ -118,42 +180,40 @@ std::optional<Intrinsics> estimate_intrinsics(std::span<const BoardView* const> 
   const double focal = k.focal_px.x / width_px;
   const bool sane = std::isfinite(focal) && focal > 0.2 && focal < 10.0 &&
                     std::abs(k.focal_px.y / k.focal_px.x - 1.0) < 0.2;
-  if (!sane) return std::nullopt;
+  if (!sane || !is_tilted_somewhere(rotations)) return std::nullopt;
   return k;
 }
 
 std::optional<RigidTransform> camera_from_board(const Intrinsics& intrinsics,
                                                 const BoardView& view) {
-  std::vector<cv::Point2f> rays;
-  std::vector<cv::Point3f> object;
-  const std::vector<cv::Point3f> all = object_points(view);
-  for (std::size_t i = 0; i < view.corners.size(); ++i) {
-    const auto ray = unproject(intrinsics, view.corners[i].pixel_px);
+  std::vector<glm::dvec2> rays;
+  std::vector<glm::dvec3> p_in_board;
+  for (const BoardCorner& corner : view.corners) {
+    const auto ray = unproject(intrinsics, corner.pixel_px);
     if (!ray) continue;
-    rays.emplace_back(static_cast<float>(ray->x), static_cast<float>(ray->y));
-    object.push_back(all[i]);
+    rays.push_back(*ray);
+    p_in_board.push_back(corner.p_in_board);
   }
   if (rays.size() < 8) return std::nullopt;
-  std::vector<cv::Mat> rotations;
-  std::vector<cv::Mat> translations;
-  try {
-    cv::solvePnPGeneric(object,
-                        rays,
-                        cv::Matx33d::eye(),
-                        cv::noArray(),
-                        rotations,
-                        translations,
-                        false,
-                        cv::SOLVEPNP_IPPE);
-    if (rotations.empty()) return std::nullopt;
-    cv::solvePnPRefineLM(
-        object, rays, cv::Matx33d::eye(), cv::noArray(), rotations[0], translations[0]);
-  } catch (const cv::Exception&) {
-    return std::nullopt;
+  std::optional<RigidTransform> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const double quarter_rad : {0.0, 0.5 * std::numbers::pi}) {
+    // A frame in which a board seen upright is hardly turned, and one a quarter on:
+    // OpenCV's IPPE loses itself where a rotation is a half turn, as from the board's own
+    // frame (z out of its face) to any camera that stands upright before it.
+    const RigidTransform board_from_print{
+        rotation_from_vector({std::numbers::pi, 0.0, 0.0}) *
+            rotation_from_vector({0.0, 0.0, quarter_rad}),
+        glm::dvec3(0.0)};
+    const auto pose = solve_plane(rays, p_in_board, board_from_print);
+    if (!pose) continue;
+    const double misfit = misfit_of(rays, p_in_board, *pose);
+    if (misfit < least) {
+      least = misfit;
+      best = pose;
+    }
   }
-  const RigidTransform pose = to_transform(rotations[0], translations[0]);
-  if (pose.translation.z <= 0.0) return std::nullopt;
-  return pose;
+  return best;
 }
 
 }  // namespace marey::calib

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "calib/calibrate_cameras.h"
+#include "tests/support/synthetic_rig.h"
+
+namespace marey::calib {
+namespace {
+
+using marey::testing::BoardRecording;
+using marey::testing::names_of;
+using marey::testing::ring_of_cameras;
+using marey::testing::wave_board;
+
+const AprilGrid kBoard{6, 6, 0.1, 0.03, 0, 0.005};
+constexpr int kFrames = 40;
+
+Error error_of(const std::vector<Camera>& cameras,
+               const BoardRecording& recording,
+               const AprilGrid& board = kBoard) {
+  const auto rig =
+      calibrate_cameras(names_of(cameras), recording.waved, recording.floor, board);
+  EXPECT_FALSE(rig);
+  return rig ? Error{} : rig.error();
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(CalibrateCameras, TellsWhichVideoNeverShowsTheBoard) {
+  const auto cameras = ring_of_cameras();
+  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  for (FrameDetections& frame : recording.waved[2].frames) frame.tags.clear();
+  for (FrameDetections& frame : recording.floor[2].frames) frame.tags.clear();
+  const Error error = error_of(cameras, recording);
+  EXPECT_EQ(error.where, "calibration/cam2.mp4");
+  EXPECT_EQ(error.cause,
+            "no tag of the calibration board (ids 0 to 35) is seen in any frame");
+}
+
+TEST(CalibrateCameras, TellsWhichVideoShowsTheBoardTooLittle) {
+  const auto cameras = ring_of_cameras();
+  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  int left = 2;
+  for (FrameDetections& frame : recording.waved[1].frames) {
+    if (frame.tags.size() >= 6 && left > 0) {
+      --left;
+    } else {
+      frame.tags.clear();
+    }
+  }
+  const Error error = error_of(cameras, recording);
+  EXPECT_EQ(error.code, Errc::kBadInput);
+  EXPECT_EQ(error.where, "calibration/cam1.mp4");
+  EXPECT_TRUE(contains(error.cause, "seen too little to calibrate this camera: 2 frames"))
+      << error.cause;
+}
+
+TEST(CalibrateCameras, NamesTheGroupsThatNeverSeeTheBoardTogether) {
+  const auto cameras = ring_of_cameras();
+  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    for (FrameDetections& frame : recording.waved[c].frames) {
+      if ((c == 3) != (frame.frame % 2 == 0)) frame.tags.clear();
+    }
+  }
+  for (FrameDetections& frame : recording.floor[3].frames) frame.tags.clear();
+  const Error error = error_of(cameras, recording);
+  EXPECT_TRUE(contains(error.cause, "{cam0, cam1, cam2} and one of {cam3}"))
+      << error.cause;
+  EXPECT_TRUE(contains(error.next, "where both groups see it")) << error.next;
+}
+
+TEST(CalibrateCameras, AsksForAFloor) {
+  const auto cameras = ring_of_cameras();
+  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  for (CameraDetections& camera : recording.floor) {
+    for (FrameDetections& frame : camera.frames) frame.tags.clear();
+  }
+  const Error error = error_of(cameras, recording);
+  EXPECT_TRUE(contains(error.cause, "no camera sees the board lying on the floor"))
+      << error.cause;
+}
+
+// A printed face cannot be read through the board, but a mirrored print can: what the
+// cameras then see is a board seen from behind.
+TEST(CalibrateCameras, NoticesABoardThatLiesFaceDown) {
+  const auto cameras = ring_of_cameras();
+  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  const RigidTransform face_down{rotation_from_vector({glm::radians(90.0), 0.0, 0.0}),
+                                 glm::dvec3(0.0)};
+  const RigidTransform upright_tag{rotation_from_vector({glm::radians(180.0), 0.0, 0.0}),
+                                   glm::dvec3(0.0)};
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    for (FrameDetections& frame : recording.floor[c].frames) {
+      frame.tags.clear();
+      for (int id = 0; id < kBoard.tag_count(); ++id) {
+        RigidTransform board_from_tag = upright_tag;
+        board_from_tag.translation = 0.5 * (*kBoard.corner_in_board(TagId{id}, 0) +
+                                            *kBoard.corner_in_board(TagId{id}, 2));
+        const auto tag = marey::testing::see_tag(cameras[c],
+                                                 face_down * board_from_tag,
+                                                 TagId{id},
+                                                 kBoard.tag_size_m,
+                                                 glm::radians(180.0));
+        if (tag) frame.tags.push_back(*tag);
+      }
+    }
+  }
+  const Error error = error_of(cameras, recording);
+  EXPECT_EQ(error.where, "floor/cam0.mp4");
+  EXPECT_TRUE(contains(error.cause, "below the floor")) << error.cause;
+  EXPECT_EQ(error.next, "lay the board on the floor with its printed face up");
+}
+
+TEST(CalibrateCameras, NoticesAWrongGap) {
+  // Printed with gaps of 30 mm, declared with 20: a world 120/130 of its size would fit
+  // every corner if tags could shrink at will.
+  const auto cameras = ring_of_cameras();
+  const BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  AprilGrid declared = kBoard;
+  declared.gap_m = 0.02;
+  const Error error = error_of(cameras, recording, declared);
+  EXPECT_EQ(error.cause,
+            "the board's black squares measure 0.92 times what the distances between "
+            "them allow");
+  EXPECT_TRUE(contains(error.next, "correct tag_size_m or gap_m of [board]"))
+      << error.next;
+}
+
+TEST(CalibrateCameras, DeclinesABoardOfOtherColumns) {
+  // Every view is of a shape that no flat board has: no camera fits even one of them.
+  const auto cameras = ring_of_cameras();
+  const BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  AprilGrid declared = kBoard;
+  declared.rows = 4;
+  declared.columns = 9;
+  const Error error = error_of(cameras, recording, declared);
+  EXPECT_EQ(error.code, Errc::kBadInput);
+}
+
+}  // namespace
+}  // namespace marey::calib
