@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What stands before the eye: the bodies of one trial, the cameras that saw them.
+
+const DOUBT_SCALE_M = 0.03; // Sigma at the far end of the colour scale.
+const FOLLOW_BEYOND_M = 3.0; // A subject that travels farther is followed.
+
+class Stage {
+  constructor(trial, cameras) {
+    this.bodies = trial.bodies.map((body) => new Body(body));
+    standAbreast(this.bodies);
+    this.figures = this.bodies.map((body) => new Figure(body));
+    this.cameras = cameras;
+    this.capsules = new Capsules();
+    this.theme = null;
+    this.shadowHalf = this.#shadowHalf();
+  }
+
+  get frames() {
+    return Math.max(0, ...this.bodies.map((body) => body.frames));
+  }
+
+  get travels() {
+    const {low, high} = this.#ranges([[1, 0, 0], [0, 0, 1]], false, true);
+    return Math.max(high[0] - low[0], high[1] - low[1]) > FOLLOW_BEYOND_M;
+  }
+
+  /** Every sampled place of the bodies (of the subject's root alone), as seen along
+   *  `axes`; relative to where the subject stands when it is followed. */
+  #ranges(axes, followed, rootOnly = false) {
+    const low = axes.map(() => Infinity);
+    const high = axes.map(() => -Infinity);
+    const step = Math.max(1, Math.floor(this.frames / 60));
+    for (let frame = 0; frame < this.frames; frame += step) {
+      const root = followed ? this.standsAt(frame) : [0, 0, 0];
+      for (const body of rootOnly ? this.bodies.slice(0, 1) : this.bodies) {
+        if (frame >= body.frames) continue;
+        body.show(frame);
+        const count = rootOnly ? 1 : body.parents.length;
+        for (let i = 0; i < count; ++i) {
+          const p = subtract(body.at(i), root);
+          axes.forEach((axis, k) => {
+            const value = dot(axis, p);
+            low[k] = Math.min(low[k], value);
+            high[k] = Math.max(high[k], value);
+          });
+        }
+      }
+    }
+    return {low, high};
+  }
+
+  #shadowHalf() {
+    if (this.frames === 0) return 1;
+    const {low, high} = this.#ranges([[1, 0, 0], [0, 0, 1]], true);
+    return Math.max(high[0], high[1], -low[0], -low[1]) + 0.9;
+  }
+
+  /** The subject's root on the floor, between frames too. */
+  standsAt(time) {
+    const [subject] = this.bodies;
+    const last = subject.frames - 1;
+    const frame = Math.min(Math.max(time, 0), last);
+    const a = subject.recorded(Math.floor(frame), 0);
+    const b = subject.recorded(Math.min(Math.floor(frame) + 1, last), 0);
+    const p = mix(a, b, frame - Math.floor(frame));
+    return [p[0], 0, p[2]];
+  }
+
+  /** Which way the subject looks on the whole: angle about Y from +Z. [rad] */
+  heading() {
+    const [subject] = this.bodies;
+    let sum = [0, 0, 0];
+    const step = Math.max(1, Math.floor(subject.frames / 30));
+    for (let frame = 0; frame < subject.frames; frame += step) {
+      subject.show(frame);
+      sum = add(sum, subject.turned(0, [0, 0, 1]));
+    }
+    return Math.atan2(sum[0], sum[2]);
+  }
+
+  /** What Orbit.frame() wants in order to show all of the motion. */
+  box(followed, withCameras) {
+    const azimuth = this.heading() + 0.55;
+    const axes = [[Math.cos(azimuth), 0, -Math.sin(azimuth)], [0, 1, 0],
+      [Math.sin(azimuth), 0, Math.cos(azimuth)]];
+    const {low, high} = this.#ranges(axes, followed);
+    if (withCameras) {
+      const root = followed ? this.standsAt(0) : [0, 0, 0];
+      for (const camera of this.cameras) {
+        const p = subtract(camera.centre_in_world_m, root);
+        axes.forEach((axis, k) => {
+          low[k] = Math.min(low[k], dot(axis, p) - 0.3);
+          high[k] = Math.max(high[k], dot(axis, p) + 0.3);
+        });
+      }
+    }
+    // The floor under the feet and a little air above the head.
+    low[1] = Math.min(low[1], 0) - 0.12;
+    high[1] += 0.15;
+    const half = axes.map((_, k) => (high[k] - low[k]) / 2);
+    let centre = followed ? this.standsAt(0) : [0, 0, 0];
+    axes.forEach((axis, k) => {
+      centre = add(centre, scaled(axis, (high[k] + low[k]) / 2));
+    });
+    return {centre, halfWidth: half[0] + 0.15, halfHeight: half[1], halfDepth: half[2],
+      azimuth};
+  }
+
+  readTheme() {
+    this.theme = {
+      backdrop: rgb('stage'), ground: rgb('stage-floor'), grid: rgb('stage-grid'),
+      sky: rgb('stage-sky'), bounce: rgb('stage-bounce'), line: rgb('stage-line'),
+      shadow: parseFloat(cssColour('stage-shadow')),
+      subject: rgb('subject'), avatar: rgb('avatar'),
+      sources: SOURCES.map((source) => rgb(source)),
+    };
+  }
+
+  #paint(index, colouring) {
+    const body = this.bodies[index];
+    const {theme} = this;
+    if (index > 0) return () => theme.avatar;
+    if (colouring === 'source' && body.source) {
+      return (joint) => theme.sources[body.sourceNow(joint)];
+    }
+    if (colouring === 'doubt' && body.sigma) {
+      return (joint) => doubtColour(body.sigmaNow(joint) / DOUBT_SCALE_M);
+    }
+    return () => theme.subject;
+  }
+
+  /** The scene at `time`, in frames, for draw(). */
+  scene(time, orbit, aspect, {colouring, cameras}) {
+    if (!this.theme) this.readTheme();
+    this.capsules.clear();
+    this.bodies.forEach((body, i) => {
+      if (body.frames === 0) return;
+      body.show(time);
+      this.figures[i].build(this.capsules, this.#paint(i, colouring));
+    });
+    const eye = orbit.eye();
+    return {
+      capsules: this.capsules, eye, target: orbit.target, theme: this.theme,
+      clipFromWorld: product(perspective(VIEW_ANGLE, aspect, 0.05, 80),
+        lookAt(eye, orbit.target)),
+      focal: 1 / Math.tan(VIEW_ANGLE / 2),
+      lines: cameras ? this.#frusta() : new Float32Array(0),
+      shadow: {centre: this.frames > 0 ? this.standsAt(time) : [0, 0, 0],
+        half: this.shadowHalf},
+    };
+  }
+
+  #frusta() {
+    const depth = 0.35; // [m]
+    const values = [];
+    for (const camera of this.cameras) {
+      const corner = (x, y) => add(camera.centre_in_world_m, add(
+        scaled(camera.forward_in_world, depth), add(
+          scaled(camera.right_in_world,
+            depth * (x - camera.centre_px[0]) / camera.focal_px[0]),
+          scaled(camera.down_in_world,
+            depth * (y - camera.centre_px[1]) / camera.focal_px[1]))));
+      const [w, h] = [camera.width_px, camera.height_px];
+      const corners = [corner(0, 0), corner(w, 0), corner(w, h), corner(0, h)];
+      corners.forEach((p, i) => {
+        for (const end of [p, corners[(i + 1) % 4], p, camera.centre_in_world_m]) {
+          values.push(...end, ...this.theme.line);
+        }
+      });
+    }
+    return new Float32Array(values);
+  }
+
+  /** Names and where they hang, for the scene made last. */
+  labels(withCameras) {
+    const labels = this.bodies.filter((body) => body.frames > 0).map((body) => {
+      let top = -Infinity;
+      for (let i = 1; i < body.points.length; i += 3) top = Math.max(top, body.points[i]);
+      const [x, , z] = body.at(0);
+      return {text: body.name, at: [x, top + 0.12, z]};
+    });
+    if (!withCameras) return labels;
+    return labels.concat(this.cameras.map((camera) =>
+      ({text: camera.name, at: add(camera.centre_in_world_m, [0, 0.12, 0])})));
+  }
+}

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace marey::app {
+
+// The files of app/report/, built into the program (app/report/embed.cmake).
+
+/// report.html, with the places {{style}}, {{data}} and {{script}}.
+[[nodiscard]] std::string_view report_page();
+
+/// report.css.
+[[nodiscard]] std::string_view report_style();
+
+/// The .js files one after the other, in one scope of their own.
+[[nodiscard]] std::string_view report_script();
+
+}  // namespace marey::app

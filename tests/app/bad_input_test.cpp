@@ -1,0 +1,248 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// The mistakes that people make. Each must end in one sentence that names the file, the
+// cause and what to do, and leave nothing that looks like a result.
+#include <algorithm>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/broken_video.h"
+#include "tests/app/spoiled_session.h"
+
+namespace marey::testing {
+namespace {
+
+using ::testing::AssertionFailure;
+using ::testing::AssertionResult;
+using ::testing::AssertionSuccess;
+
+/// What an error must say.
+struct Blame {
+  std::string where;  ///< Part of what stands before the cause: a file's name.
+  std::string cause;
+  std::string next;
+};
+
+std::vector<std::string> error_lines(const std::string& err) {
+  std::vector<std::string> errors;
+  std::istringstream lines(err);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("error: ")) errors.push_back(line);
+  }
+  return errors;
+}
+
+/// Whether the run ended as a mistake of the user's must, blaming `blame`, with no other
+/// results than `kept`, which earlier stages made.
+AssertionResult declines(const SpoiledSession& session,
+                         const ProgramRun& run,
+                         const Blame& blame,
+                         const std::vector<std::string>& kept = {}) {
+  if (run.exit_code != 3) {
+    return AssertionFailure() << "exit code " << run.exit_code << "\n" << run.err;
+  }
+  const auto errors = error_lines(run.err);
+  if (errors.size() != 1) {
+    return AssertionFailure() << errors.size() << " errors\n" << run.err;
+  }
+  const std::string& error = errors.front();
+  const std::size_t where = error.find(blame.where);
+  const std::size_t cause = error.find(blame.cause);
+  const std::size_t next = error.find("Next: ");
+  if (where == std::string::npos || cause == std::string::npos ||
+      next == std::string::npos || error.find(blame.next, next) == std::string::npos) {
+    return AssertionFailure() << "expected \"" << blame.where << "\", \"" << blame.cause
+                              << "\", \"" << blame.next << "\" in\n"
+                              << error;
+  }
+  if (cause > next || where > next) {
+    return AssertionFailure() << "out of order: " << error;
+  }
+  if (!run.out.empty()) return AssertionFailure() << "printed " << run.out;
+  const auto left = session.results();
+  if (left != kept) {
+    AssertionResult failure = AssertionFailure();
+    failure << "left behind:";
+    for (const std::string& name : left) failure << " " << name;
+    return failure;
+  }
+  return AssertionSuccess();
+}
+
+const std::vector<std::string> kCalibrated{"calibration.toml"};
+const std::vector<std::string> kFitted{"calibration.toml", "subject.toml"};
+
+// --- session.toml
+// -----------------------------------------------------------------------
+
+TEST(BadSession, WithAWrongKeyIsDeclinedAtItsLine) {
+  SpoiledSession session;
+  session.replace("stature_m", "statur_m");
+  EXPECT_TRUE(declines(
+      session, session.run(), {"session.toml:9: ", "\"statur_m\"", "\"stature_m\""}));
+}
+
+TEST(BadSession, WithoutAKeyThatIsNeededIsDeclined) {
+  SpoiledSession session;
+  session.replace("stature_m = 1.734\n", "");
+  EXPECT_TRUE(declines(session, session.run(), {"session.toml:", "stature_m", ""}));
+}
+
+TEST(BadSession, WithATagOnTwoSegmentsIsDeclined) {
+  SpoiledSession session;
+  session.replace("id = 46", "id = 41");
+  EXPECT_TRUE(declines(session, session.run(), {"session.toml:", "41", ""}));
+}
+
+TEST(BadSession, WithABodyTagThatIsOnTheBoardIsDeclined) {
+  SpoiledSession session;
+  session.replace("id = 46", "id = 7");
+  EXPECT_TRUE(declines(session, session.run(), {"session.toml:", "7", ""}));
+}
+
+TEST(BadSession, WithAVideoThatIsNotThereIsDeclinedByItsLine) {
+  SpoiledSession session;
+  session.replace("walk/cam2.mp4", "walk/cam9.mp4");
+  EXPECT_TRUE(declines(session, session.run(), {"session.toml:", "walk/cam9.mp4", ""}));
+}
+
+// --- Videos
+// -----------------------------------------------------------------------------
+
+TEST(BadVideo, CutBeforeItsIndexCannotBeOpened) {
+  SpoiledSession session;
+  copy_part_without_index(SpoiledSession::sample_video("walk", "cam1"),
+                          session.new_video("walk", "cam1"),
+                          0.6);
+  EXPECT_TRUE(declines(session, session.run(), {"walk-cam1.mp4: ", "video", ""}));
+}
+
+TEST(BadVideo, CutAfterItsIndexEndsEarly) {
+  SpoiledSession session;
+  copy_part(SpoiledSession::sample_video("walk", "cam1"),
+            session.new_video("walk", "cam1"),
+            0.6);
+  EXPECT_TRUE(declines(session, session.run(), {"walk-cam1.mp4: frame ", " of 90", ""}));
+}
+
+TEST(BadVideo, WithoutASingleTagIsNamed) {
+  SpoiledSession session;
+  write_grey_video(SpoiledSession::sample_video("walk", "cam3"),
+                   session.new_video("walk", "cam3"),
+                   90);
+  EXPECT_TRUE(declines(session,
+                       session.run(),
+                       {"walk-cam3.mp4: ", "not a single tag", "leave this camera"}));
+}
+
+TEST(BadVideo, ThatIsATextFileCannotBeOpened) {
+  SpoiledSession session;
+  copy_part(session.file(), session.new_video("static", "cam0"), 1.0);
+  EXPECT_TRUE(declines(session, session.run(), {"static-cam0.mp4: ", "", ""}));
+}
+
+// --- Sizes that were not measured
+// -------------------------------------------------------
+
+TEST(BadSize, OfAllTagsIsNoticedAgainstTheBoard) {
+  SpoiledSession session;
+  session.replace("size_m = 0.09\n", "size_m = 0.18\n");
+  session.replace("\nsize_m = 0.075\n", "\nsize_m = 0.15\n");
+  EXPECT_TRUE(declines(
+      session, session.run(), {"session.toml", "0.50 times", "size_m"}, kCalibrated));
+}
+
+TEST(BadSize, OfOneTagIsNoticedByItsNumber) {
+  SpoiledSession session;
+  session.replace("id = 41\nsegment = \"hips\"\nsize_m = 0.09",
+                  "id = 41\nsegment = \"hips\"\nsize_m = 0.18");
+  EXPECT_TRUE(declines(session,
+                       session.run(),
+                       {"session.toml", "tag 41 measures 0.09", "measure the print"},
+                       kCalibrated));
+}
+
+TEST(BadSize, OfTheBoardIsNoticedAgainstTheTags) {
+  SpoiledSession session;
+  session.replace("tag_size_m = 0.1\n", "tag_size_m = 0.2\n");
+  session.replace("gap_m = 0.03", "gap_m = 0.06");
+  EXPECT_TRUE(declines(
+      session, session.run(), {"session.toml", "2.00 times", "tag_size_m"}, kCalibrated));
+}
+
+TEST(BadSize, OfTheBoardsTagsAloneIsNoticedByTheBoard) {
+  SpoiledSession session;
+  session.replace("tag_size_m = 0.1\n", "tag_size_m = 0.2\n");
+  EXPECT_TRUE(declines(session, session.run(), {"session.toml", "board", "gap_m"}));
+}
+
+TEST(BadSize, OfThePersonIsNoticedByTheLimbs) {
+  SpoiledSession session;
+  session.replace("stature_m = 1.734", "stature_m = 0.9");
+  EXPECT_TRUE(declines(session,
+                       session.run(),
+                       {"session.toml", "times those of a person of 0.90 m", "stature_m"},
+                       kCalibrated));
+}
+
+// --- Cameras
+// ----------------------------------------------------------------------------
+
+/// Exchanges the videos of cam0 and cam1 in a trial.
+void swap_cameras(SpoiledSession& session, const std::string& trial) {
+  session.replace_in_trial(trial, "cam0 = ", "camX = ");
+  session.replace_in_trial(trial, "cam1 = ", "cam0 = ");
+  session.replace_in_trial(trial, "camX = ", "cam1 = ");
+}
+
+TEST(SwappedCameras, InTheWalkAreNamed) {
+  SpoiledSession session;
+  swap_cameras(session, "walk");
+  EXPECT_TRUE(declines(session,
+                       session.run(),
+                       {"walk/cam1.mp4 and ", "look swapped", "exchange them"},
+                       kCalibrated));
+}
+
+TEST(SwappedCameras, InTheCalibrationAreNoticedInWhatFollows) {
+  SpoiledSession session;
+  swap_cameras(session, "calib");
+  swap_cameras(session, "floor");
+  EXPECT_TRUE(declines(
+      session, session.run(), {"/cam1.mp4", "look swapped", "calibration"}, kCalibrated));
+}
+
+TEST(SwappedCameras, OnTheFloorAloneAreNoticed) {
+  SpoiledSession session;
+  swap_cameras(session, "floor");
+  EXPECT_TRUE(declines(session, session.run(), {"calib/cam", "floor", ""}));
+}
+
+// The board shows itself to cam0 in the even frames, to the others in the odd ones, and
+// on the floor not to cam0 at all.
+TEST(BadCalibration, WithABoardThatNoTwoCamerasSeeTogetherNamesTheCamera) {
+  SpoiledSession session;
+  for (const char* camera : {"cam0", "cam1", "cam2", "cam3"}) {
+    const bool first = std::string(camera) == "cam0";
+    copy_with_blanks(
+        SpoiledSession::sample_video("calib", camera),
+        session.new_video("calib", camera),
+        [first](int frame) { return frame < 4 ? !first : (frame % 2 == 0) == first; });
+  }
+  session.replace_in_trial("floor", "cam0 = \"calib/cam0.mp4\", ", "");
+  EXPECT_TRUE(declines(session, session.run("calibrate"), {"", "cam0", "together"}));
+}
+
+TEST(BadCalibration, WithoutCamerasTheSolverSaysWhatToRun) {
+  const SpoiledSession session;
+  EXPECT_TRUE(declines(
+      session, session.run("solve"), {"calibration.toml", "", "marey calibrate"}));
+}
+
+}  // namespace
+}  // namespace marey::testing

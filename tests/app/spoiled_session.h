@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/run_program.h"
+
+namespace marey::testing {
+
+/// A copy of the sample session for one test to spoil, in a folder of its own that goes
+/// with it. Its videos are the sample's, and the tags in them were found before (by the
+/// fixture sample_once), so that only what a test changes is looked at again.
+class SpoiledSession {
+ public:
+  SpoiledSession();
+  ~SpoiledSession();
+  SpoiledSession(const SpoiledSession&) = delete;
+  SpoiledSession& operator=(const SpoiledSession&) = delete;
+
+  /// Replaces every `from` in session.toml. Throws std::logic_error when there is none:
+  /// a test that spoils nothing tests nothing.
+  void replace(const std::string& from, const std::string& to);
+
+  /// Replaces every `from` in the table of one trial; likewise.
+  void replace_in_trial(const std::string& trial,
+                        const std::string& from,
+                        const std::string& to);
+
+  /// Gives a camera of a trial another video, made by the caller: the path to make it at.
+  std::filesystem::path new_video(const std::string& trial, const std::string& camera);
+
+  /// Where the sample has this video: sample_video("walk", "cam0").
+  [[nodiscard]] static std::filesystem::path sample_video(const std::string& trial,
+                                                          const std::string& camera);
+
+  /// Runs a stage on it.
+  [[nodiscard]] ProgramRun run(const std::string& stage = "process") const;
+
+  [[nodiscard]] std::filesystem::path file() const { return folder_ / "session.toml"; }
+  [[nodiscard]] std::filesystem::path out() const { return folder_ / "out"; }
+
+  /// Whether the run left this result.
+  [[nodiscard]] bool has_result(const std::string& name) const;
+  /// Everything in out() that is not detections: what stages leave.
+  [[nodiscard]] std::vector<std::string> results() const;
+
+ private:
+  void write() const;
+
+  std::filesystem::path folder_;
+  std::string text_;
+};
+
+}  // namespace marey::testing
