@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "reconstruct/frame_solver.h"
 #include "reconstruct/initial_posture.h"
 #include "reconstruct/segment_frames.h"
 #include "reconstruct/sightings.h"
@@ -167,17 +168,20 @@ std::array<double, kHumanBoneCount> centre_sigmas(const SubjectBundle& bundle) {
   return sigmas;
 }
 
+/// Bundle and single frames in turn: a frame in which a limb or a lone tag was read the
+/// wrong way round cannot leave it by itself, and pulls at everybody's lengths.
 bool refine(SubjectBundle& bundle, std::span<const Camera> cameras) {
-  if (!adjust(bundle, cameras, 30, false)) return false;
   constexpr int kRounds = 3;
   for (int round = 0; round < kRounds; ++round) {
+    const FrameSolver solver(bundle.model, cameras);
     int changed = 0;
     for (BundleFrame& frame : bundle.frames) {
+      changed += solver.settle(frame.sightings, frame.posture);
       changed += reconsider_extremities(
           bundle.model, frame.sightings, cameras, nullptr, frame.posture);
     }
-    const bool last = changed == 0 || round + 1 == kRounds;
-    if (!adjust(bundle, cameras, 30, last)) return false;
+    const bool last = (round > 0 && changed == 0) || round + 1 == kRounds;
+    if (!adjust(bundle, cameras, last ? 25 : 12, last)) return false;
     if (last) break;
   }
   return true;

@@ -40,8 +40,9 @@ void append_corner_views(const Camera& camera,
                          std::vector<RigidPointView>& views);
 
 /// The two poses in the world from which a flat square looks alike to a single camera
-/// (Collins & Bartoli 2014 explain why there are two), the likelier first by no order.
-/// Empty when a corner cannot be undistorted or the square is degenerate.
+/// (Collins & Bartoli 2014 explain why there are two), in no particular order: one solves
+/// the homography, the other is its tilt mirrored about the line of sight, a start for
+/// locate_rigid(). Empty when a corner cannot be undistorted or the square is degenerate.
 [[nodiscard]] std::vector<RigidTransform> planar_candidates(const Camera& camera,
                                                             const TagDetection& tag,
                                                             double size_m);

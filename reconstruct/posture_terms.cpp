@@ -156,7 +156,10 @@ std::vector<double*> blocks_of(Posture& posture, HumanBone bone) {
   return blocks;
 }
 
-void add_habits(Posture& posture, const Lengths& lengths, ceres::Problem& problem) {
+void add_habits(Posture& posture,
+                const Lengths& lengths,
+                ceres::Problem& problem,
+                double arm_twist_rad) {
   const glm::dquat none(1, 0, 0, 0);
   add_halfway(posture, Slot::kHips, Slot::kAbdomenEnd, Slot::kThorax, 0.12, problem);
   add_halfway(posture, Slot::kThorax, Slot::kNeck, Slot::kHead, 0.15, problem);
@@ -179,8 +182,8 @@ void add_habits(Posture& posture, const Lengths& lengths, ceres::Problem& proble
     const LimbSlots& s = kLimbSlots[limb];
     const bool arm = limb < 2;
     add_extremity(posture, limb, lengths, arm ? 0.5 : 0.35, problem);
-    add_scalar(posture.block(s.upper_twist), 0.0, arm ? 0.4 : 0.08, problem);
-    add_scalar(posture.block(s.lower_twist), 0.0, arm ? 0.4 : 0.08, problem);
+    add_scalar(posture.block(s.upper_twist), 0.0, arm ? arm_twist_rad : 0.08, problem);
+    add_scalar(posture.block(s.lower_twist), 0.0, arm ? arm_twist_rad : 0.08, problem);
     add_scalar(posture.block(s.flexion), 0.3, 1.0, problem);
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<FlexionLimit, 1, 1>(new FlexionLimit{-0.05, 0.1}),

@@ -14,6 +14,10 @@
 namespace marey::reconstruct {
 namespace {
 
+// Over a range-of-motion trial, elbows bend about one axis of the arm's skin; what turns
+// about the bone would otherwise hide where along that axis the elbow lies. [rad]
+constexpr double kArmTwistRad = 0.1;
+
 struct LengthDifference {
   Length a;
   Length b;
@@ -38,6 +42,43 @@ struct UsualLengths {
     return true;
   }
 };
+
+/// A tag on a limb faces away from its bone: the line through its middle and along its
+/// normal passes the bone's axis nearby. Without this an elbow that only bends could lie
+/// anywhere along its hinge.
+struct FacesBonePrior {
+  glm::dvec3 along;
+  double sigma_m;
+
+  template <class T>
+  bool operator()(const T* rotation, const T* place, T* residual) const {
+    using Vector = Eigen::Matrix<T, 3, 1>;
+    const Eigen::Map<const Eigen::Quaternion<T>> q(rotation);
+    const Vector normal = q * Vector(T(0), T(0), T(1));
+    const Vector across = detail::vec<T>(along).cross(normal);
+    const Vector p = Eigen::Map<const Vector>(place);
+    // A tag that faces along the bone says nothing.
+    const T sine = across.norm() + T(0.05);
+    residual[0] = p.dot(across) / (sine * sigma_m);
+    return true;
+  }
+};
+
+void add_tag_priors(SubjectBundle& bundle, ceres::Problem& problem) {
+  for (auto& [tag, pose] : bundle.model.segment_from_tag) {
+    for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
+      const HumanBone bone = bundle.model.bone(tag);
+      if (bone != human_limbs()[limb].upper && bone != human_limbs()[limb].lower) {
+        continue;
+      }
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<FacesBonePrior, 1, 4, 3>(
+                                   new FacesBonePrior{limb_axis(limb), 0.02}),
+                               nullptr,
+                               &pose.rotation.x,
+                               &pose.translation.x);
+    }
+  }
+}
 
 void add_length_priors(SubjectBundle& bundle, ceres::Problem& problem) {
   problem.AddResidualBlock(
@@ -185,7 +226,7 @@ bool adjust(SubjectBundle& bundle,
   ceres::Problem problem;
   for (BundleFrame& frame : bundle.frames) {
     add_sightings(bundle, frame, cameras, problem);
-    add_habits(frame.posture, bundle.model.lengths, problem);
+    add_habits(frame.posture, bundle.model.lengths, problem, kArmTwistRad);
     if (frame.standing) add_standing(frame.posture, bundle.model.lengths, problem);
     set_manifolds(frame.posture, problem);
   }
@@ -198,8 +239,11 @@ bool adjust(SubjectBundle& bundle,
     problem.SetManifold(&pose.rotation.x, new ceres::EigenQuaternionManifold);
   }
   add_length_priors(bundle, problem);
+  add_tag_priors(bundle, problem);
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(max_iterations), &problem, &summary);
+  ceres::Solver::Options options = solver_options(max_iterations);
+  options.function_tolerance = 1e-5;
+  ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return false;
   measure(bundle, cameras);
   if (sigmas) fill_sigmas(bundle, problem);

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/frame_solver.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "reconstruct/initial_posture.h"
+#include "reconstruct/locate_rigid.h"
+#include "reconstruct/posture_terms.h"
+
+namespace marey::reconstruct {
+namespace {
+
+// A tag further than this from its model is not explained by noise or blur.
+constexpr double kLostPx = 3.0;
+// How far a tracked frame may stray from the one before: a loose leash that matters only
+// where nothing is seen.
+constexpr double kLeashRad = 0.3;
+constexpr double kLeashM = 0.1;
+// Share of its speed that a frame is expected to keep: less than all, so that what nobody
+// sees does not run away.
+constexpr double kKeeps = 0.7;
+// Postures nearer than this, in every rotation, are one reading of the tags.
+constexpr double kAgreeRad = 0.35;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<TagCluster> clusters_of(const BodyModel& model) {
+  std::map<HumanBone, TagCluster> by_bone;
+  for (const auto& [tag, segment_from_tag] : model.segment_from_tag) {
+    TagCluster& cluster = by_bone[model.bone(tag)];
+    cluster.segment = model.bone(tag);
+    cluster.cluster_from_tag[tag] = segment_from_tag;
+  }
+  std::vector<TagCluster> clusters;
+  for (auto& [bone, cluster] : by_bone) clusters.push_back(std::move(cluster));
+  return clusters;
+}
+
+/// Largest rotation between blocks of two postures. [rad]
+double turn_between(const Posture& a, const Posture& b) {
+  double most = 0.0;
+  for (const Slot slot : kAllSlots) {
+    if (!is_rotation(slot)) continue;
+    const glm::dquat turn = glm::conjugate(a.rotation(slot)) * b.rotation(slot);
+    most = std::max(most, glm::length(rotation_vector(turn)));
+  }
+  return most;
+}
+
+}  // namespace
+
+FrameSolver::FrameSolver(const BodyModel& model, std::span<const Camera> cameras)
+    : model_(&model), cameras_(cameras), clusters_(clusters_of(model)) {}
+
+std::map<HumanBone, RigidTransform> FrameSolver::locate(
+    std::span<const TagSighting> frame) const {
+  std::map<HumanBone, RigidTransform> found;
+  for (const TagCluster& cluster : clusters_) {
+    if (const auto pose = locate_cluster(cluster, cameras_, model_->tags, frame)) {
+      found[cluster.segment] = *pose;
+    }
+  }
+  return found;
+}
+
+Posture FrameSolver::track(std::span<const TagSighting> frame,
+                           const Posture* before,
+                           const Posture* earlier) const {
+  Posture predicted = before ? *before : Posture{};
+  if (earlier) predicted = extrapolate(*earlier, *before, kKeeps);
+  const Posture* leash = before ? &predicted : nullptr;
+  const auto found = locate(frame);
+  const Posture from_tags =
+      posture_from_segments(found, model_->lengths, model_->body, predicted);
+  const bool tags_are_nearer =
+      !before || median_misfit_px(frame, from_tags) < median_misfit_px(frame, predicted);
+  Posture posture = tags_are_nearer ? from_tags : predicted;
+  (void)refine(frame, leash, posture);
+  if (reconsider_extremities(*model_, frame, cameras_, before, posture) > 0) {
+    (void)refine(frame, leash, posture);
+  }
+  if (median_misfit_px(frame, posture) > kLostPx) {
+    Posture other = tags_are_nearer ? predicted : from_tags;
+    (void)refine(frame, leash, other);
+    if (median_misfit_px(frame, other) < median_misfit_px(frame, posture)) {
+      posture = other;
+    }
+  }
+  retry_limbs(frame, found, leash, posture);
+  return posture;
+}
+
+void FrameSolver::track_back(std::span<const TagSighting> frame,
+                             const Posture& after,
+                             const Posture* later,
+                             Posture& posture) const {
+  const Posture predicted = later ? extrapolate(*later, after, kKeeps) : after;
+  if (turn_between(predicted, posture) < kAgreeRad) return;
+  Posture candidate = predicted;
+  (void)refine(frame, &predicted, candidate);
+  (void)reconsider_extremities(*model_, frame, cameras_, &after, candidate);
+  Posture forward = posture;
+  if (refine(frame, &predicted, candidate) < refine(frame, &predicted, forward)) {
+    posture = candidate;
+  }
+}
+
+bool FrameSolver::settle(std::span<const TagSighting> frame, Posture& posture) const {
+  double worst_px = 0.0;
+  for (const TagSighting& s : frame) {
+    worst_px = std::max(worst_px, misfit_px(s, posture));
+  }
+  if (worst_px < kLostPx) return false;
+  Posture mended = posture;
+  retry_limbs(frame, locate(frame), nullptr, mended);
+  Posture fresh = track(frame, nullptr, nullptr);
+  const double mended_cost = refine(frame, nullptr, mended);
+  const double fresh_cost = refine(frame, nullptr, fresh);
+  Posture as_it_was = posture;
+  if (std::min(mended_cost, fresh_cost) >= refine(frame, nullptr, as_it_was)) {
+    return false;
+  }
+  posture = mended_cost <= fresh_cost ? mended : fresh;
+  return true;
+}
+
+double FrameSolver::refine(std::span<const TagSighting> frame,
+                           const Posture* predicted,
+                           Posture& posture) const {
+  ceres::Problem problem;
+  for (const TagSighting& s : frame) {
+    add_sighting(*model_, s, cameras_, posture, problem);
+  }
+  add_habits(posture, model_->lengths, problem);
+  if (predicted) add_leash(*predicted, kLeashRad, kLeashM, posture, problem);
+  set_manifolds(posture, problem);
+  ceres::Solver::Options solver = solver_options(15);
+  solver.function_tolerance = 1e-4;
+  solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  return summary.final_cost;
+}
+
+/// Distance of the sighting's corners to their model, the median of the four; none for a
+/// tag without a place.
+double FrameSolver::misfit_px(const TagSighting& sighting, const Posture& posture) const {
+  if (!model_->place(sighting.tag)) return 0.0;
+  const auto e = corner_errors_px(*model_, sighting, cameras_, posture);
+  return median({e.begin(), e.end()});
+}
+
+double FrameSolver::median_misfit_px(std::span<const TagSighting> frame,
+                                     const Posture& posture) const {
+  std::vector<double> misfits;
+  for (const TagSighting& s : frame) {
+    if (model_->place(s.tag)) misfits.push_back(misfit_px(s, posture));
+  }
+  return median(std::move(misfits));
+}
+
+/// A limb whose tags do not fit has bent the wrong way, led there by a lone tag read the
+/// wrong way round. Starts it again from every reading of its bones' tags.
+void FrameSolver::retry_limbs(std::span<const TagSighting> frame,
+                              const std::map<HumanBone, RigidTransform>& found,
+                              const Posture* predicted,
+                              Posture& posture) const {
+  for (const HumanLimb& limb : human_limbs()) {
+    std::vector<const TagSighting*> of_limb;
+    double worst_px = 0.0;
+    for (const TagSighting& s : frame) {
+      const HumanBone bone = model_->bone(s.tag);
+      if (bone != limb.upper && bone != limb.lower && bone != limb.end) continue;
+      if (model_->place(s.tag)) of_limb.push_back(&s);
+      worst_px = std::max(worst_px, misfit_px(s, posture));
+    }
+    if (worst_px < kLostPx) continue;
+    double least = refine(frame, predicted, posture);
+    const Posture start = posture;
+    for (const TagSighting* s : of_limb) {
+      for (const RigidTransform& world_from_tag : planar_candidates(
+               cameras_[index(s->camera)], *s->detection, model_->tags[s->tag].size_m)) {
+        auto segments = found;
+        segments[model_->bone(s->tag)] = world_from_tag * inverse(*model_->place(s->tag));
+        Posture candidate =
+            posture_from_segments(segments, model_->lengths, model_->body, start);
+        const double cost = refine(frame, predicted, candidate);
+        if (cost >= least) continue;
+        least = cost;
+        posture = candidate;
+      }
+    }
+  }
+}
+
+std::optional<std::vector<Posture>> track_postures(const FrameSolver& solver,
+                                                   const Sightings& sightings,
+                                                   const Progress& progress) {
+  const std::size_t count = sightings.frames.size();
+  std::size_t first = 0;
+  while (first < count &&
+         !solver.locate(sightings.frames[first]).contains(HumanBone::kHips)) {
+    ++first;
+  }
+  if (first == count) return std::nullopt;
+  std::vector<Posture> postures(count);
+  for (std::size_t f = first; f < count; ++f) {
+    const Posture* before = f > first ? &postures[f - 1] : nullptr;
+    const Posture* earlier = f > first + 1 ? &postures[f - 2] : nullptr;
+    postures[f] = solver.track(sightings.frames[f], before, earlier);
+    if (progress) progress(static_cast<int>(f) + 1, static_cast<int>(count));
+  }
+  for (std::size_t f = 0; f < first; ++f) postures[f] = postures[first];
+  for (std::size_t f = count - 1; f-- > 0;) {
+    const Posture* later = f + 2 < count ? &postures[f + 2] : nullptr;
+    solver.track_back(sightings.frames[f], postures[f + 1], later, postures[f]);
+  }
+  return postures;
+}
+
+}  // namespace marey::reconstruct

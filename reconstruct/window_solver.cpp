@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/window_solver.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "reconstruct/posture_terms.h"
+
+namespace marey::reconstruct {
+namespace {
+
+// Webcams that start together are within a frame of each other.
+constexpr double kOffsetSigmaS = 0.02;
+// Two seconds of movement fix an offset to a fraction of a millisecond.
+constexpr std::size_t kOffsetFrames = 60;
+// After this many the joints move by less than a tenth of a millimetre.
+constexpr int kWindowIterations = 10;
+
+}  // namespace
+
+WindowSolver::WindowSolver(const BodyModel& model,
+                           std::span<const Camera> cameras,
+                           const Sightings& sightings,
+                           std::vector<double> offsets_s,
+                           std::vector<bool> given,
+                           std::vector<Posture>& postures)
+    : model_(&model),
+      cameras_(cameras),
+      sightings_(&sightings),
+      offsets_s_(std::move(offsets_s)),
+      given_(std::move(given)),
+      postures_(&postures),
+      sigmas_(postures.size()) {
+  find_velocities();
+}
+
+void WindowSolver::find_velocities() {
+  velocities_.assign(sightings_->frames.size(), {});
+  const std::vector<Posture>& postures = *postures_;
+  const std::size_t last = postures.size() - 1;
+  for (std::size_t f = 0; f < postures.size(); ++f) {
+    const std::size_t before = f > 0 ? f - 1 : 0;
+    const std::size_t after = std::min(f + 1, last);
+    const double dt = static_cast<double>(std::max<std::size_t>(1, after - before)) /
+                      sightings_->rate.hz;
+    for (const TagSighting& s : sightings_->frames[f]) {
+      std::array<glm::dvec2, 4> v{};
+      const auto a = predicted_corners_px(*model_, s, cameras_, postures[before]);
+      const auto b = predicted_corners_px(*model_, s, cameras_, postures[after]);
+      for (std::size_t c = 0; a && b && c < 4; ++c) v[c] = ((*b)[c] - (*a)[c]) / dt;
+      velocities_[f].push_back(v);
+    }
+  }
+}
+
+/// A window's problem. The first `held` postures are the past: they do not move.
+void WindowSolver::build(std::size_t first,
+                         std::size_t count,
+                         std::size_t held,
+                         ceres::Problem& problem) {
+  std::vector<Posture>& postures = *postures_;
+  for (std::size_t f = first; f < first + count; ++f) {
+    for (std::size_t i = 0; i < sightings_->frames[f].size(); ++i) {
+      const TagSighting& s = sightings_->frames[f][i];
+      add_sighting(*model_,
+                   s,
+                   cameras_,
+                   postures[f],
+                   problem,
+                   &offsets_s_[index(s.camera)],
+                   velocities_[f][i]);
+    }
+    add_habits(postures[f], model_->lengths, problem);
+    if (f >= first + 2) {
+      add_smoothness(
+          postures[f - 2], postures[f - 1], postures[f], sightings_->rate, problem);
+    }
+  }
+  if (held == 0 && count > 1) {
+    add_first_speed(postures[first], postures[first + 1], sightings_->rate, problem);
+  }
+  for (std::size_t f = first; f < first + count; ++f) {
+    set_manifolds(postures[f], problem);
+    if (f < first + held) hold(postures[f], problem);
+  }
+}
+
+void WindowSolver::hold_offsets(bool all, ceres::Problem& problem) {
+  for (std::size_t c = 0; c < offsets_s_.size(); ++c) {
+    double* offset_s = &offsets_s_[c];
+    if (!problem.HasParameterBlock(offset_s)) continue;
+    if (all || given_[c]) {
+      problem.SetParameterBlockConstant(offset_s);
+    } else {
+      problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ScalarPrior, 1, 1>(
+                                   new ScalarPrior{0.0, kOffsetSigmaS}),
+                               nullptr,
+                               offset_s);
+    }
+  }
+}
+
+/// Start of the stretch of `count` frames in which corners move most.
+std::size_t WindowSolver::liveliest(std::size_t count) const {
+  std::vector<double> energy(velocities_.size() + 1, 0.0);
+  for (std::size_t f = 0; f < velocities_.size(); ++f) {
+    double here = 0.0;
+    for (const auto& v : velocities_[f]) here += glm::dot(v[0], v[0]);
+    energy[f + 1] = energy[f] + here;
+  }
+  std::size_t best = 0;
+  for (std::size_t f = 0; f + count < energy.size(); ++f) {
+    if (energy[f + count] - energy[f] > energy[best + count] - energy[best]) best = f;
+  }
+  return best;
+}
+
+void WindowSolver::estimate_offsets() {
+  if (std::all_of(given_.begin(), given_.end(), [](bool g) { return g; })) return;
+  const std::size_t count = std::min(postures_->size(), kOffsetFrames);
+  const std::size_t first = liveliest(count);
+  ceres::Problem problem;
+  build(first, count, 0, problem);
+  hold_offsets(false, problem);
+  ceres::Solver::Options solver = solver_options(12);
+  solver.function_tolerance = 1e-4;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  find_velocities();
+}
+
+void WindowSolver::solve(const WindowSize& size, const Progress& progress) {
+  const std::size_t frames = postures_->size();
+  std::size_t first = 0;  // The first frame that is not yet final.
+  while (first < frames) {
+    const std::size_t held = std::min<std::size_t>(2, first);
+    std::size_t count = std::min(size.frames, frames - first);
+    // A short rest is not worth a window of its own.
+    if (frames - first - count < size.overlap) count = frames - first;
+    ceres::Problem problem;
+    build(first - held, count + held, held, problem);
+    hold_offsets(true, problem);
+    ceres::Solver::Options solver = solver_options(kWindowIterations);
+    solver.function_tolerance = 1e-5;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem, &summary);
+    const bool last = first + count == frames;
+    const std::size_t done = last ? count : count - size.overlap;
+    const auto sigmas =
+        bone_sigmas(*model_, std::span(*postures_).subspan(first, count), problem);
+    for (std::size_t i = 0; i < done && i < sigmas.size(); ++i) {
+      sigmas_[first + i] = sigmas[i];
+    }
+    first += done;
+    if (progress) progress(static_cast<int>(first), static_cast<int>(frames));
+  }
+}
+
+std::vector<double> WindowSolver::errors_px(std::size_t frame,
+                                            std::size_t sighting) const {
+  const TagSighting& s = sightings_->frames[frame][sighting];
+  const auto predicted = predicted_corners_px(*model_, s, cameras_, (*postures_)[frame]);
+  std::vector<double> errors;
+  for (std::size_t c = 0; predicted && c < 4; ++c) {
+    const glm::dvec2 drift =
+        velocities_[frame][sighting][c] * offsets_s_[index(s.camera)];
+    errors.push_back(glm::distance((*predicted)[c] + drift, s.detection->corners_px[c]));
+  }
+  return errors;
+}
+
+}  // namespace marey::reconstruct
