@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/humanoid.h"
+
+namespace marey::testing {
+
+/// Where a joint really was, by frame. World metres, Y up.
+using TruthJoints = std::map<std::pair<int, HumanBone>, glm::dvec3>;
+
+/// The twelve joints of the limbs (shoulder, elbow, wrist, hip, knee and ankle, left and
+/// right) of a rendered recording, from its truth/joints.csv: Z up there, Y up here.
+/// Joints of other names are passed over. nullopt when the file is not there or not such
+/// a table.
+[[nodiscard]] std::optional<TruthJoints> truth_joints(const std::filesystem::path& csv);
+
+/// A camera of a rendered recording.
+struct TruthCamera {
+  std::string name;
+  glm::dvec2 focal_px{0.0};
+  glm::dvec3 centre_in_world{0.0};  ///< [m], Y up.
+  double offset_s = 0.0;            ///< Frame k was exposed at k / fps + offset.
+};
+
+/// The cameras of truth/cameras.json; likewise.
+[[nodiscard]] std::optional<std::vector<TruthCamera>> truth_cameras(
+    const std::filesystem::path& json);
+
+/// The value below which the share `share` (0 to 1) of `values` lies.
+/// Precondition: there are values.
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+
+}  // namespace marey::testing
