@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <string_view>
 #include <utility>
 
@@ -19,6 +21,8 @@
 #include <apriltag/tagStandard41h12.h>
 #include <apriltag/tagStandard52h13.h>
 #include <glm/geometric.hpp>
+
+#include "capture/align_pattern.h"
 
 namespace marey::capture {
 namespace {
@@ -90,10 +94,23 @@ TagDetection to_detection(const apriltag_detection_t& found) {
     // libapriltag's first pixel has its centre at 0.5, ours at 0.
     tag.corners_px[i] = {found.p[i][0] - 0.5, found.p[i][1] - 0.5};
   }
-  tag.sigma_px = corner_sigma_px(mean_side_px(tag.corners_px));
+  tag.sigma_px = edge_corner_sigma_px(mean_side_px(tag.corners_px));
   tag.decision_margin = static_cast<double>(found.decision_margin);
   tag.hamming = found.hamming;
   return tag;
+}
+
+TagPattern pattern_of(apriltag_family_t* family, TagId id) {
+  image_u8_t* image = apriltag_to_image(family, static_cast<std::uint32_t>(number(id)));
+  TagPattern pattern;
+  pattern.cells = image->width;
+  pattern.margin_cells = (family->total_width - family->width_at_border) / 2;
+  for (int y = 0; y < image->height; ++y) {
+    const std::uint8_t* row = image->buf + static_cast<std::ptrdiff_t>(y) * image->stride;
+    for (int x = 0; x < image->width; ++x) pattern.white.push_back(row[x] != 0 ? 1 : 0);
+  }
+  image_u8_destroy(image);
+  return pattern;
 }
 
 /// Sorts by id and drops every id that is there more than once. Returns how many
@@ -122,7 +139,8 @@ struct TagDetector::Impl {
       : family(its_family),
         codes(its_family.create()),
         detector(apriltag_detector_create()),
-        min_decision_margin(options.min_decision_margin) {
+        min_decision_margin(options.min_decision_margin),
+        align_patterns(options.align_patterns) {
     apriltag_detector_add_family_bits(detector, codes, options.max_hamming);
     detector->nthreads = options.threads;
     detector->quad_decimate = static_cast<float>(options.quad_decimate);
@@ -142,12 +160,27 @@ struct TagDetector::Impl {
     family.destroy(codes);
   }
 
+  void align(const GrayFrame& frame, TagDetection& tag);
+
   const Family& family;
   apriltag_family_t* codes;
   apriltag_detector_t* detector;
   double min_decision_margin;
+  bool align_patterns;
+  std::map<TagId, TagPattern> patterns;  ///< Of the tags seen so far.
   DroppedSightings dropped;
 };
+
+void TagDetector::Impl::align(const GrayFrame& frame, TagDetection& tag) {
+  auto known = patterns.find(tag.id);
+  if (known == patterns.end()) {
+    known = patterns.emplace(tag.id, pattern_of(codes, tag.id)).first;
+  }
+  const auto aligned = align_pattern(frame, known->second, tag.corners_px);
+  if (!aligned) return;
+  tag.corners_px = aligned->corners_px;
+  tag.sigma_px = aligned_corner_sigma_px(mean_side_px(tag.corners_px), aligned->blur_px);
+}
 
 TagDetector::TagDetector(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 TagDetector::TagDetector(TagDetector&&) noexcept = default;
@@ -186,6 +219,9 @@ std::vector<TagDetection> TagDetector::detect(const GrayFrame& frame) {
   }
   apriltag_detections_destroy(found);
   impl_->dropped.duplicated += keep_unique_ids(tags);
+  if (impl_->align_patterns) {
+    for (TagDetection& tag : tags) impl_->align(frame, tag);
+  }
   return tags;
 }
 

@@ -32,13 +32,22 @@ DrawnTag slanted_tag() {
       "tag36h11", 7, {{{131.3, 158.2}, {186.9, 149.4}, {181.6, 96.7}, {127.8, 101.5}}}};
 }
 
-// 0.15 px: the edge search of libapriltag 3.3 looks at whole pixels only.
+// 0.05 px: the image has 256 greys, and the drawing 8 steps to a pixel.
 TEST(DetectTags, FindsTheCornersOfASlantedTag) {
   const DrawnTag truth = slanted_tag();
   const auto found = detect(tests::draw_tags(320, 240, {truth}));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(number(found[0].id), 7);
-  EXPECT_LT(tests::worst_corner_px(found[0], truth), 0.15 /* px */);
+  EXPECT_LT(tests::worst_corner_px(found[0], truth), 0.05 /* px */);
+}
+
+// 0.5 px: libapriltag's own edge search, which blur draws inward.
+TEST(DetectTags, FindsCornersRoughlyWithoutAligningThePattern) {
+  const DrawnTag truth = slanted_tag();
+  const auto found =
+      detect(tests::draw_tags(320, 240, {truth}), {.align_patterns = false});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LT(tests::worst_corner_px(found[0], truth), 0.5 /* px */);
 }
 
 // Proves the half pixel between libapriltag's coordinates and ours: a mean over many
@@ -168,8 +177,12 @@ TEST(DetectTags, RefusesToForgiveManyBits) {
 }
 
 TEST(CornerSigma, FallsAsTagsGrow) {
-  EXPECT_GT(corner_sigma_px(14.0), corner_sigma_px(23.0));
-  EXPECT_GT(corner_sigma_px(23.0), corner_sigma_px(58.0));
+  EXPECT_GT(edge_corner_sigma_px(14.0), edge_corner_sigma_px(58.0));
+  EXPECT_GT(aligned_corner_sigma_px(14.0, 0.5), aligned_corner_sigma_px(58.0, 0.5));
+}
+
+TEST(CornerSigma, GrowsWithBlur) {
+  EXPECT_GT(aligned_corner_sigma_px(25.0, 2.0), 1.9 * aligned_corner_sigma_px(25.0, 1.0));
 }
 
 }  // namespace

@@ -58,6 +58,32 @@ Bitmap bitmap_of(const DrawnTag& tag) {
   throw std::invalid_argument("no such family: " + tag.family);
 }
 
+/// Light, 0 to 1, as 8-bit grey, and back. IEC 61966-2-1.
+double gray_of_light(double light) {
+  return 255.0 * (light <= 0.0031308 ? 12.92 * light
+                                     : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055);
+}
+double light_of_gray(double gray) {
+  const double x = gray / 255.0;
+  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
+template <class Function>
+cv::Mat mapped(const cv::Mat& image, const Function& function) {
+  cv::Mat out;
+  image.convertTo(out, CV_32F);
+  out.forEach<float>([&](float& value, const int*) {
+    value = static_cast<float>(function(static_cast<double>(value)));
+  });
+  return out;
+}
+
+cv::Mat as_gray(const cv::Mat& light) {
+  cv::Mat gray;
+  mapped(light, gray_of_light).convertTo(gray, CV_8U);
+  return gray;
+}
+
 /// How many times finer than the image the tags are drawn before being averaged.
 constexpr int kFiner = 8;
 
@@ -89,8 +115,8 @@ void draw_tag(const DrawnTag& tag, cv::Mat& fine_image) {
                       fine_from_paper,
                       fine_image.size(),
                       cv::INTER_NEAREST);
-  // Black at 30 and white at 220, as in a photograph.
-  drawn.convertTo(drawn, CV_8UC1, 190.0 / 255.0, 30.0);
+  // The light of black ink and of white paper.
+  drawn.convertTo(drawn, CV_32F, 0.70 / 255.0, 0.02);
   drawn.copyTo(fine_image, covered);
 }
 
@@ -106,26 +132,39 @@ std::array<glm::dvec2, 4> square(const glm::dvec2& centre_px,
 }
 
 cv::Mat draw_tags(int width_px, int height_px, const std::vector<DrawnTag>& tags) {
-  cv::Mat fine(height_px * kFiner, width_px * kFiner, CV_8UC1, cv::Scalar(160));
+  cv::Mat fine(height_px * kFiner, width_px * kFiner, CV_32F, cv::Scalar(0.35));
   for (const DrawnTag& tag : tags) draw_tag(tag, fine);
   cv::Mat image;
   cv::resize(fine, image, {width_px, height_px}, 0, 0, cv::INTER_AREA);
-  return image;
+  return as_gray(image);
 }
 
 cv::Mat disturbed(const cv::Mat& image,
                   double blur_sigma_px,
                   double noise_sigma,
                   unsigned seed) {
-  cv::Mat blurred;
-  image.convertTo(blurred, CV_32F);
+  cv::Mat blurred = mapped(image, light_of_gray);
   cv::GaussianBlur(blurred, blurred, {0, 0}, blur_sigma_px);
+  blurred = mapped(blurred, gray_of_light);
   cv::Mat noise(image.size(), CV_32F);
   cv::RNG random(seed);
   random.fill(noise, cv::RNG::NORMAL, 0.0, noise_sigma);
   cv::Mat out;
   cv::Mat(blurred + noise).convertTo(out, CV_8U);
   return out;
+}
+
+capture::TagPattern pattern_of(const DrawnTag& tag) {
+  const Bitmap bitmap = bitmap_of(tag);
+  capture::TagPattern pattern;
+  pattern.cells = bitmap.cells.cols;
+  pattern.margin_cells = bitmap.margin_cells;
+  for (int y = 0; y < bitmap.cells.rows; ++y) {
+    for (int x = 0; x < bitmap.cells.cols; ++x) {
+      pattern.white.push_back(bitmap.cells.at<std::uint8_t>(y, x) != 0 ? 1 : 0);
+    }
+  }
+  return pattern;
 }
 
 capture::GrayFrame frame_of(const cv::Mat& gray) {

@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 #include <opencv2/core.hpp>
 
+#include "capture/align_pattern.h"
 #include "capture/frame_source.h"
 #include "core/detection.h"
 
@@ -28,17 +29,21 @@ struct DrawnTag {
                                                double side_px,
                                                double turn_rad = 0.0);
 
-/// A light grey 8-bit image with the tags in it, each pixel the mean of the light that
-/// falls on it, as a linear camera would see them.
+/// A light grey 8-bit image with the tags in it: each pixel the mean of the light that
+/// falls on it, coded by sRGB's curve, as cameras do.
 [[nodiscard]] cv::Mat draw_tags(int width_px,
                                 int height_px,
                                 const std::vector<DrawnTag>& tags);
 
-/// Blurs as a lens and adds noise as a sensor. The same seed gives the same noise.
+/// Blurs the light as a lens does and adds noise [grey levels]. The same seed gives the
+/// same noise.
 [[nodiscard]] cv::Mat disturbed(const cv::Mat& image,
                                 double blur_sigma_px,
                                 double noise_sigma,
                                 unsigned seed);
+
+/// The cells of a tag.
+[[nodiscard]] capture::TagPattern pattern_of(const DrawnTag& tag);
 
 /// The image as TagDetector wants it; it must outlive the view.
 [[nodiscard]] capture::GrayFrame frame_of(const cv::Mat& gray);

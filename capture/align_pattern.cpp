@@ -1,0 +1,443 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/align_pattern.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <opencv2/core.hpp>
+
+#include "core/assert.h"
+
+namespace marey::capture {
+namespace {
+
+constexpr int kPlace = 8;          // Homography, its last element being 1.
+constexpr int kBlur = kPlace;      // Logarithm of the blur.
+constexpr int kLight = kBlur + 1;  // First of the six of the light.
+constexpr int kUnknowns = kLight + 6;
+using Unknowns = cv::Vec<double, kUnknowns>;
+using Normal = cv::Matx<double, kUnknowns, kUnknowns>;
+
+/// How far outside of the square pixels still count. [cells]
+constexpr double kRingCells = 0.6;
+
+/// Light of each grey value, 0 to 1. IEC 61966-2-1.
+const std::array<double, 256>& light_of_gray() {
+  static const std::array<double, 256> table = [] {
+    std::array<double, 256> light{};
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      const double x = static_cast<double>(i) / 255.0;
+      light[i] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+    }
+    return light;
+  }();
+  return table;
+}
+
+/// How much of a blurred point each cell of a row of cells contributes, with derivatives.
+struct CellWeights {
+  static constexpr int kMost = 16;
+  int first = 0;
+  int count = 0;
+  std::array<double, kMost> weight;
+  std::array<double, kMost> by_place;      ///< d weight / d place. [1/cell]
+  std::array<double, kMost> by_log_sigma;  ///< d weight / d log(sigma).
+};
+
+/// Weights of a Gaussian at `place` over `cells` unit cells, the outer ones endless.
+void weigh_cells(double place, double sigma, int cells, CellWeights& out) {
+  constexpr double kReach = 4.0;
+  const auto cell_at = [&](double x) {
+    return static_cast<int>(std::clamp(std::floor(x), 0.0, cells - 1.0));
+  };
+  out.first = cell_at(place - kReach * sigma);
+  const int last = cell_at(place + kReach * sigma);
+  out.count = std::min(last - out.first + 1, CellWeights::kMost);
+  double below = 0.0;
+  double slope_below = 0.0;
+  double spread_below = 0.0;
+  for (int i = 0; i < out.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    double above = 1.0;
+    double slope = 0.0;
+    double spread = 0.0;
+    if (i + 1 < out.count) {
+      const double z = (out.first + i + 1 - place) / sigma;
+      above = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+      slope = std::exp(-0.5 * z * z) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
+      spread = slope * z;
+    }
+    out.weight[k] = above - below;
+    out.by_place[k] = -(slope - slope_below) / sigma;
+    out.by_log_sigma[k] = -(spread - spread_below);
+    below = above;
+    slope_below = slope;
+    spread_below = spread;
+  }
+}
+
+/// The blurred pattern at a point: 0 black, 1 white, and its derivatives.
+struct Blurred {
+  double value = 0.0;
+  double by_u = 0.0;
+  double by_v = 0.0;
+  double by_log_sigma = 0.0;
+};
+
+Blurred blurred(const TagPattern& pattern, const CellWeights& u, const CellWeights& v) {
+  Blurred sum;
+  for (int j = 0; j < v.count; ++j) {
+    double row = 0.0;
+    double row_by_u = 0.0;
+    double row_by_sigma = 0.0;
+    const auto line = static_cast<std::size_t>((v.first + j) * pattern.cells + u.first);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(u.count); ++i) {
+      if (pattern.white[line + i] == 0) continue;
+      row += u.weight[i];
+      row_by_u += u.by_place[i];
+      row_by_sigma += u.by_log_sigma[i];
+    }
+    const auto k = static_cast<std::size_t>(j);
+    sum.value += v.weight[k] * row;
+    sum.by_u += v.weight[k] * row_by_u;
+    sum.by_v += v.by_place[k] * row;
+    sum.by_log_sigma += v.weight[k] * row_by_sigma + v.by_log_sigma[k] * row;
+  }
+  return sum;
+}
+
+/// A pixel that belongs to the tag, relative to the tag's middle.
+struct Pixel {
+  double x = 0.0;
+  double y = 0.0;
+  double light = 0.0;
+};
+
+/// A homography `image_from_cell` at one pixel: the cell coordinates (from the tag's
+/// middle) there, and what the pixel's distance is in cells.
+struct Place {
+  double u = 0.0;
+  double v = 0.0;
+  double depth = 1.0;  ///< Third homogeneous coordinate, seen from the cells.
+  double u_by_x = 0.0;
+  double u_by_y = 0.0;
+  double v_by_x = 0.0;
+  double v_by_y = 0.0;
+};
+
+Place place_of(const cv::Matx33d& image_from_cell,
+               const cv::Matx33d& cell_from_image,
+               double x,
+               double y) {
+  const cv::Vec3d q = cell_from_image * cv::Vec3d(x, y, 1.0);
+  const cv::Matx33d& h = image_from_cell;
+  Place at;
+  at.u = q[0] / q[2];
+  at.v = q[1] / q[2];
+  at.depth = h(2, 0) * at.u + h(2, 1) * at.v + h(2, 2);
+  const double x_by_u = (h(0, 0) - h(2, 0) * x) / at.depth;
+  const double x_by_v = (h(0, 1) - h(2, 1) * x) / at.depth;
+  const double y_by_u = (h(1, 0) - h(2, 0) * y) / at.depth;
+  const double y_by_v = (h(1, 1) - h(2, 1) * y) / at.depth;
+  const double area = x_by_u * y_by_v - x_by_v * y_by_u;
+  at.u_by_x = y_by_v / area;
+  at.u_by_y = -x_by_v / area;
+  at.v_by_x = -y_by_u / area;
+  at.v_by_y = x_by_u / area;
+  return at;
+}
+
+cv::Matx33d homography(const Unknowns& unknowns) {
+  cv::Matx33d h;
+  for (int i = 0; i < kPlace; ++i) h.val[i] = unknowns[i];
+  h.val[kPlace] = 1.0;
+  return h;
+}
+
+/// One step's linear system, and how well the state it was made at fits.
+struct System {
+  Normal normal = Normal::zeros();
+  Unknowns right = Unknowns::all(0.0);
+  double cost = 0.0;
+  double squares = 0.0;
+};
+
+class Fit {
+ public:
+  Fit(const GrayFrame& frame,
+      const TagPattern& pattern,
+      const std::array<glm::dvec2, 4>& corners_px);
+
+  /// False when it does not get anywhere.
+  bool run();
+  [[nodiscard]] Alignment answer() const;
+
+ private:
+  void gather(const GrayFrame& frame);
+  [[nodiscard]] bool guess_light();
+  [[nodiscard]] System linearized(const Unknowns& at) const;
+  void add(const Pixel& pixel,
+           const Place& place,
+           const Blurred& model,
+           const Unknowns& at,
+           System& system) const;
+
+  const TagPattern& pattern_;
+  double half_cells_;  ///< Half of the square's side.
+  glm::dvec2 middle_px_{0.0};
+  Unknowns state_ = Unknowns::all(0.0);
+  std::vector<Pixel> pixels_;
+  double residual_ = 0.0;
+};
+
+/// The corners in cells from the tag's middle, in TagDetection's order.
+constexpr std::array<std::array<int, 2>, 4> kCorners{
+    {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
+
+/// The homography that takes the corners of a square of half side `h` to `corners`.
+/// False when there is none.
+bool through_corners(double h,
+                     const std::array<glm::dvec2, 4>& corners,
+                     Unknowns& unknowns) {
+  cv::Matx<double, 8, 8> a = cv::Matx<double, 8, 8>::zeros();
+  cv::Vec<double, 8> b;
+  for (int i = 0; i < 4; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const double u = h * kCorners[k][0];
+    const double v = h * kCorners[k][1];
+    for (int axis = 0; axis < 2; ++axis) {
+      const double p = corners[k][axis];
+      const int row = 2 * i + axis;
+      a(row, 3 * axis) = u;
+      a(row, 3 * axis + 1) = v;
+      a(row, 3 * axis + 2) = 1.0;
+      a(row, 6) = -p * u;
+      a(row, 7) = -p * v;
+      b[row] = p;
+    }
+  }
+  bool solved = false;
+  const auto inverse = a.inv(cv::DECOMP_LU, &solved);
+  if (!solved) return false;
+  const auto h8 = inverse * b;
+  for (int i = 0; i < kPlace; ++i) unknowns[i] = h8[i];
+  return true;
+}
+
+Fit::Fit(const GrayFrame& frame,
+         const TagPattern& pattern,
+         const std::array<glm::dvec2, 4>& corners_px)
+    : pattern_(pattern), half_cells_(0.5 * (pattern.cells - 2 * pattern.margin_cells)) {
+  for (const auto& corner : corners_px) middle_px_ += 0.25 * corner;
+  std::array<glm::dvec2, 4> from_middle = corners_px;
+  for (auto& corner : from_middle) corner -= middle_px_;
+  if (!through_corners(half_cells_, from_middle, state_)) return;
+  constexpr double kUsualBlurPx = 0.55;  // A sharp lens, and the pixel's own width.
+  state_[kBlur] = std::log(kUsualBlurPx);
+  gather(frame);
+}
+
+void Fit::gather(const GrayFrame& frame) {
+  const cv::Matx33d image_from_cell = homography(state_);
+  const cv::Matx33d cell_from_image = image_from_cell.inv();
+  const double reach = half_cells_ + kRingCells;
+  glm::dvec2 low(std::numeric_limits<double>::max());
+  glm::dvec2 high(-low);
+  for (const auto& corner : kCorners) {
+    const cv::Vec3d p =
+        image_from_cell * cv::Vec3d(reach * corner[0], reach * corner[1], 1.0);
+    if (p[2] <= 0.0) return;  // So slanted that the horizon crosses the ring.
+    const glm::dvec2 pixel = middle_px_ + glm::dvec2(p[0], p[1]) / p[2];
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+  }
+  const int x0 = std::max(0, static_cast<int>(std::ceil(low.x)));
+  const int y0 = std::max(0, static_cast<int>(std::ceil(low.y)));
+  const int x1 = std::min(frame.width_px - 1, static_cast<int>(std::floor(high.x)));
+  const int y1 = std::min(frame.height_px - 1, static_cast<int>(std::floor(high.y)));
+  // A large tag has pixels to spare; a grid of them bounds the cost.
+  constexpr int kMostPerSide = 72;
+  const int step = 1 + std::max(x1 - x0, y1 - y0) / kMostPerSide;
+  for (int y = y0; y <= y1; y += step) {
+    for (int x = x0; x <= x1; x += step) {
+      const glm::dvec2 p = glm::dvec2(x, y) - middle_px_;
+      const Place at = place_of(image_from_cell, cell_from_image, p.x, p.y);
+      if (std::max(std::abs(at.u), std::abs(at.v)) > reach) continue;
+      const std::uint8_t gray =
+          frame.pixels[static_cast<std::ptrdiff_t>(y) * frame.stride + x];
+      pixels_.push_back({p.x, p.y, light_of_gray()[gray]});
+    }
+  }
+}
+
+void Fit::add(const Pixel& pixel,
+              const Place& place,
+              const Blurred& model,
+              const Unknowns& at,
+              System& system) const {
+  const double across = place.u / half_cells_;
+  const double down = place.v / half_cells_;
+  const double* light = at.val + kLight;
+  const double contrast = light[1] + light[4] * across + light[5] * down;
+  const double shown =
+      light[0] + light[2] * across + light[3] * down + contrast * model.value;
+  const double error = pixel.light - shown;
+
+  // The pattern moves with its place, so a point of the image sees it move backwards.
+  const double by_x = -contrast * (model.by_u * place.u_by_x + model.by_v * place.v_by_x);
+  const double by_y = -contrast * (model.by_u * place.u_by_y + model.by_v * place.v_by_y);
+  const double turn = -(by_x * pixel.x + by_y * pixel.y);
+  const double u = place.u / place.depth;
+  const double v = place.v / place.depth;
+  const std::array<double, kUnknowns> slope{by_x * u,
+                                            by_x * v,
+                                            by_x / place.depth,
+                                            by_y * u,
+                                            by_y * v,
+                                            by_y / place.depth,
+                                            turn * u,
+                                            turn * v,
+                                            contrast * model.by_log_sigma,
+                                            1.0,
+                                            model.value,
+                                            across,
+                                            down,
+                                            across * model.value,
+                                            down * model.value};
+
+  constexpr double kSurprise = 0.08;  // Of the contrast: dirt, a finger, a highlight.
+  const double limit = kSurprise * std::abs(light[1]);
+  const double size = std::abs(error);
+  const double weight = limit <= 0.0 || size <= limit ? 1.0 : limit / size;
+  system.cost += weight * error * error;
+  system.squares += error * error;
+  for (std::size_t i = 0; i < kUnknowns; ++i) {
+    const double scaled = weight * slope[i];
+    const int row = static_cast<int>(i);
+    system.right[row] += scaled * error;
+    for (std::size_t j = i; j < kUnknowns; ++j) {
+      system.normal(row, static_cast<int>(j)) += scaled * slope[j];
+    }
+  }
+}
+
+System Fit::linearized(const Unknowns& at) const {
+  System system;
+  const cv::Matx33d image_from_cell = homography(at);
+  const cv::Matx33d cell_from_image = image_from_cell.inv();
+  const double blur_px = std::exp(at[kBlur]);
+  const double middle_cells = 0.5 * pattern_.cells;
+  CellWeights u;
+  CellWeights v;
+  for (const Pixel& pixel : pixels_) {
+    const Place place = place_of(image_from_cell, cell_from_image, pixel.x, pixel.y);
+    // The blur is round in the image; of its ellipse in the cells the axes are kept.
+    weigh_cells(place.u + middle_cells,
+                blur_px * std::hypot(place.u_by_x, place.u_by_y),
+                pattern_.cells,
+                u);
+    weigh_cells(place.v + middle_cells,
+                blur_px * std::hypot(place.v_by_x, place.v_by_y),
+                pattern_.cells,
+                v);
+    add(pixel, place, blurred(pattern_, u, v), at, system);
+  }
+  for (int i = 0; i < kUnknowns; ++i) {
+    for (int j = 0; j < i; ++j) system.normal(i, j) = system.normal(j, i);
+  }
+  return system;
+}
+
+/// The light alone is a linear problem.
+bool Fit::guess_light() {
+  const System system = linearized(state_);
+  cv::Matx<double, 2, 2> normal;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) normal(i, j) = system.normal(kLight + i, kLight + j);
+  }
+  bool solved = false;
+  const auto inverse = normal.inv(cv::DECOMP_LU, &solved);
+  if (!solved) return false;
+  const auto light = inverse * cv::Vec2d(system.right[kLight], system.right[kLight + 1]);
+  state_[kLight] = light[0];
+  state_[kLight + 1] = light[1];
+  constexpr double kLeastContrast = 0.01;  // Below, there is nothing to align.
+  return light[1] > kLeastContrast;
+}
+
+bool Fit::run() {
+  if (pixels_.size() < 4 * static_cast<std::size_t>(kUnknowns) || !guess_light()) {
+    return false;
+  }
+  constexpr int kMostSteps = 12;
+  constexpr double kLargestDamping = 1e3;
+  System system = linearized(state_);
+  double damping = 1e-3;
+  for (int step = 0; step < kMostSteps && damping < kLargestDamping; ++step) {
+    Normal damped = system.normal;
+    for (int i = 0; i < kUnknowns; ++i) damped(i, i) *= 1.0 + damping;
+    bool solved = false;
+    const Normal inverse = damped.inv(cv::DECOMP_CHOLESKY, &solved);
+    if (!solved) return false;
+    Unknowns next = state_ + inverse * system.right;
+    next[kBlur] = std::clamp(next[kBlur], std::log(0.25), std::log(4.0));
+    const System there = linearized(next);
+    if (!(there.cost < system.cost)) {
+      damping *= 10.0;
+      continue;
+    }
+    const double gain = 1.0 - there.cost / system.cost;
+    state_ = next;
+    system = there;
+    damping *= 0.1;
+    // What is left to gain is far below the doubt, and creeping after it costs more.
+    if (gain < 1e-2) break;
+  }
+  const double contrast = std::abs(state_[kLight + 1]);
+  residual_ = std::sqrt(system.squares / static_cast<double>(pixels_.size())) / contrast;
+  return true;
+}
+
+Alignment Fit::answer() const {
+  const cv::Matx33d image_from_cell = homography(state_);
+  Alignment alignment;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const cv::Vec3d p =
+        image_from_cell *
+        cv::Vec3d(half_cells_ * kCorners[i][0], half_cells_ * kCorners[i][1], 1.0);
+    alignment.corners_px[i] = middle_px_ + glm::dvec2(p[0], p[1]) / p[2];
+  }
+  alignment.blur_px = std::exp(state_[kBlur]);
+  alignment.residual = residual_;
+  return alignment;
+}
+
+}  // namespace
+
+std::optional<Alignment> align_pattern(const GrayFrame& frame,
+                                       const TagPattern& pattern,
+                                       const std::array<glm::dvec2, 4>& corners_px) {
+  MAREY_ASSERT(pattern.cells - 2 * pattern.margin_cells >= 4);
+  Fit fit(frame, pattern, corners_px);
+  if (!fit.run()) return std::nullopt;
+  const Alignment alignment = fit.answer();
+  // Another fit than that of this tag: more than a cell away, or of something else.
+  const double side_px =
+      glm::distance(corners_px[0], corners_px[2]) / std::numbers::sqrt2;
+  const double cell_px = side_px / (pattern.cells - 2 * pattern.margin_cells);
+  constexpr double kLargestResidual = 0.25;
+  if (alignment.residual > kLargestResidual) return std::nullopt;
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (glm::distance(alignment.corners_px[i], corners_px[i]) > std::max(1.5, cell_px)) {
+      return std::nullopt;
+    }
+  }
+  return alignment;
+}
+
+}  // namespace marey::capture
