@@ -1,6 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
+#include <fstream>
+#include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
@@ -90,6 +93,37 @@ Result<Json> inspect_joints(const std::filesystem::path& file) {
   return Json{{"kind", "joints"}, {"frames", frames.size()}, {"joints", joints}};
 }
 
+Result<Json> inspect_segments(const std::filesystem::path& file) {
+  const auto rows = recordings::read_segments_csv(file);
+  if (!rows) return rows.error();
+  std::set<std::string> segments;
+  std::set<int> frames;
+  std::map<std::string, int> sources;
+  for (const recordings::SegmentRow& row : *rows) {
+    segments.insert(row.segment);
+    frames.insert(row.frame);
+    ++sources[std::string(name(row.source))];
+  }
+  return Json{{"kind", "segments"},
+              {"frames", frames.size()},
+              {"segments", segments},
+              {"places_by_source", sources}};
+}
+
+Result<Json> inspect_report(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const Json report = Json::parse(in, nullptr, false);
+  if (!report.is_object() || !report.contains("summary")) {
+    return bad_input(file.string(),
+                     "is not a report of marey's",
+                     "give the report.json that marey process wrote");
+  }
+  return Json{{"kind", "report"},
+              {"session", report.value("session", Json())},
+              {"summary", report["summary"]},
+              {"warnings", report.value("warnings", Json::array())}};
+}
+
 Result<Json> inspect_bvh(const std::filesystem::path& file) {
   const auto bvh = recordings::read_bvh(file);
   if (!bvh) return bvh.error();
@@ -119,14 +153,17 @@ Result<Json> inspect(const std::filesystem::path& file) {
   if (named == "subject.toml") return inspect_subject(file);
   if (kind == ".toml") return inspect_session(file);
   if (named == "joints.csv") return inspect_joints(file);
+  if (named == "segments.csv") return inspect_segments(file);
+  if (named == "report.json") return inspect_report(file);
   if (kind == ".bvh") return inspect_bvh(file);
   if (kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma") {
     return inspect_character(file);
   }
-  return bad_input(file.string(),
-                   "is not a kind of file that marey knows",
-                   "give a session, calibration.toml, subject.toml, joints.csv, .bvh, "
-                   ".glb, .gltf, .vrm or .vrma");
+  return bad_input(
+      file.string(),
+      "is not a kind of file that marey knows",
+      "give a session, calibration.toml, subject.toml, joints.csv, segments.csv, "
+      "report.json, .bvh, .glb, .gltf, .vrm or .vrma");
 }
 
 /// "key: value" lines, nested with two spaces.

@@ -182,10 +182,10 @@ TEST_F(Exit, IsThreeForASessionThatDoesNotExist) {
 }
 
 // A folder cannot be made below a file, whoever one is.
-TEST_F(Exit, IsFiveWhenResultsCannotBeWritten) {
+TEST_F(Exit, IsThreeForAPlaceThatCannotHoldResults) {
   std::ofstream(in_folder("file")) << "in the way";
   const ProgramRun run = marey({"mannequin", "--out", in_folder("file/a.glb").string()});
-  EXPECT_EQ(run.exit_code, 5) << run.err;
+  EXPECT_EQ(run.exit_code, 3) << run.err;
   EXPECT_NE(run.err.find("Next: "), std::string::npos) << run.err;
 }
 

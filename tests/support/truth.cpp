@@ -65,7 +65,8 @@ std::optional<std::vector<TruthCamera>> truth_cameras(
     const std::filesystem::path& json) try {
   std::ifstream file(json);
   std::vector<TruthCamera> cameras;
-  for (const auto& camera : nlohmann::json::parse(file).at("cameras")) {
+  const auto truth = nlohmann::json::parse(file);
+  for (const auto& camera : truth.at("cameras")) {
     const auto& k = camera.at("K");
     const auto& pose = camera.at("world_from_camera");
     const auto along = [&](std::size_t axis) {
