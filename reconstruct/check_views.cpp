@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -30,8 +31,20 @@ double median(std::vector<double> values) {
 }
 
 struct Agreement {
-  std::vector<double> rms_px;                       ///< Per tag sighted twice.
+  /// Per tag sighted twice, by camera that took part.
+  std::map<std::size_t, std::vector<double>> rms_px;
   std::map<std::size_t, std::vector<double>> size;  ///< Measured over declared, by tag.
+
+  /// What the camera disagrees by that disagrees most: half of all pairs are right when
+  /// one camera of four is wrong. nullopt when hardly any tag is seen twice.
+  [[nodiscard]] std::optional<double> worst_px() const {
+    std::optional<double> worst;
+    for (const auto& [camera, samples] : rms_px) {
+      if (samples.size() < kEnough) continue;
+      worst = std::max(worst.value_or(0.0), median(samples));
+    }
+    return worst;
+  }
 };
 
 /// `camera_of[c]` is the camera whose model explains the c-th video.
@@ -62,16 +75,17 @@ Agreement compare(std::span<const Camera> cameras,
           rms_px = std::max(rms_px, point->rms_px);
         }
       }
+      // Rays that meet behind a camera are no agreement at all.
+      if (end - i >= 2 && !known) rms_px = 1e3;
+      for (std::size_t s = i; end - i >= 2 && s < end; ++s) {
+        agreement.rms_px[index(frame[s].camera)].push_back(rms_px);
+      }
       if (known) {
-        agreement.rms_px.push_back(rms_px);
         double side_m = 0.0;
         for (std::size_t c = 0; c < 4; ++c) {
           side_m += 0.25 * glm::distance(corners[c], corners[(c + 1) % 4]);
         }
         agreement.size[frame[i].tag].push_back(side_m / tags[frame[i].tag].size_m);
-      } else if (end - i >= 2) {
-        // Rays that meet behind a camera are no agreement at all.
-        agreement.rms_px.push_back(1e3);
       }
       i = end;
     }
@@ -83,6 +97,14 @@ std::string text(const char* format, double a, double b = 0.0) {
   std::array<char, 240> buffer{};
   std::snprintf(buffer.data(), buffer.size(), format, a, b);
   return buffer.data();
+}
+
+Error cameras_disagree(std::span<const CameraDetections> detections,
+                       const std::string& by_how_much) {
+  return bad_input(detections.front().source,
+                   "the cameras do not agree on where the tags are: " + by_how_much,
+                   "check that no camera was moved or zoomed after the calibration and "
+                   "that all videos of the trial start at the same instant");
 }
 
 Status check_cameras(std::span<const Camera> cameras,
@@ -99,7 +121,8 @@ Status check_cameras(std::span<const Camera> cameras,
   for (std::size_t a = 0; a < cameras.size(); ++a) {
     for (std::size_t b = a + 1; b < cameras.size(); ++b) {
       std::swap(order[a], order[b]);
-      const double swapped_px = median(compare(cameras, order, sightings, tags).rms_px);
+      const double swapped_px =
+          compare(cameras, order, sightings, tags).worst_px().value_or(as_given_px);
       std::swap(order[a], order[b]);
       if (swapped_px >= best_px) continue;
       best_px = swapped_px;
@@ -117,15 +140,21 @@ Status check_cameras(std::span<const Camera> cameras,
         "exchange them under this trial's videos in session.toml (or under the "
         "calibration trial's, if every other trial says the same)");
   }
-  return bad_input(detections.front().source,
-                   "the cameras do not agree on where the tags are: " +
-                       text("they differ by %.0f px", as_given_px),
-                   "check that no camera was moved or zoomed after the calibration and "
-                   "that all videos of the trial start at the same instant");
+  return cameras_disagree(detections, text("they differ by %.0f px", as_given_px));
 }
 
-Status check_sizes(const Agreement& agreement, std::span<const TagOnSegment> tags) {
+/// Share by which the middle four fifths of the samples spread.
+double spread(std::vector<double> samples) {
+  std::sort(samples.begin(), samples.end());
+  const std::size_t tenth = samples.size() / 10;
+  return (samples[samples.size() - 1 - tenth] - samples[tenth]) / median(samples);
+}
+
+Status check_sizes(const Agreement& agreement,
+                   std::span<const CameraDetections> detections,
+                   std::span<const TagOnSegment> tags) {
   std::vector<double> ratios;
+  std::vector<double> spreads;
   std::string wrong;
   std::string correct;
   for (const auto& [tag, samples] : agreement.size) {
@@ -133,12 +162,19 @@ Status check_sizes(const Agreement& agreement, std::span<const TagOnSegment> tag
     const double ratio = median(samples);
     ratios.push_back(ratio);
     if (std::abs(ratio - 1.0) < kSizeTolerance) continue;
+    spreads.push_back(spread(samples));
     const std::string id = std::to_string(number(tags[tag].id));
     wrong +=
         (wrong.empty() ? "tag " : ", tag ") + id +
         text(" measures %.3f m, not %.3f m", ratio * tags[tag].size_m, tags[tag].size_m);
   }
   if (wrong.empty()) return Done{};
+  // A print has one size. One that changes with who looks is no fault of the print's.
+  if (median(spreads) > kSizeTolerance) {
+    return cameras_disagree(detections,
+                            text("the size of one tag differs by %.0f %% between them",
+                                 100.0 * median(spreads)));
+  }
   const double common = median(ratios);
   const auto alike = std::count_if(ratios.begin(), ratios.end(), [&](double r) {
     return std::abs(r / common - 1.0) < kSizeTolerance;
@@ -168,13 +204,13 @@ Status check_views(std::span<const Camera> cameras,
   std::vector<std::size_t> order(cameras.size());
   for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
   const Agreement as_given = compare(cameras, order, sightings, tags);
-  if (as_given.rms_px.size() < kEnough) return Done{};
-  const double as_given_px = median(as_given.rms_px);
-  if (const Status ok = check_cameras(cameras, detections, sightings, tags, as_given_px);
+  const auto as_given_px = as_given.worst_px();
+  if (!as_given_px) return Done{};
+  if (const Status ok = check_cameras(cameras, detections, sightings, tags, *as_given_px);
       !ok) {
     return ok;
   }
-  return check_sizes(as_given, tags);
+  return check_sizes(as_given, detections, tags);
 }
 
 }  // namespace marey::reconstruct

@@ -172,6 +172,8 @@ std::array<double, kHumanBoneCount> centre_sigmas(const SubjectBundle& bundle) {
 /// wrong way round cannot leave it by itself, and pulls at everybody's lengths.
 bool refine(SubjectBundle& bundle, std::span<const Camera> cameras) {
   constexpr int kRounds = 3;
+  // First the bundle: against a body that is still centimetres off, every frame misfits.
+  if (!adjust(bundle, cameras, 25, false)) return false;
   for (int round = 0; round < kRounds; ++round) {
     const FrameSolver solver(bundle.model, cameras);
     int changed = 0;
@@ -180,8 +182,8 @@ bool refine(SubjectBundle& bundle, std::span<const Camera> cameras) {
       changed += reconsider_extremities(
           bundle.model, frame.sightings, cameras, nullptr, frame.posture);
     }
-    const bool last = (round > 0 && changed == 0) || round + 1 == kRounds;
-    if (!adjust(bundle, cameras, last ? 25 : 12, last)) return false;
+    const bool last = changed == 0 || round + 1 == kRounds;
+    if (!adjust(bundle, cameras, 25, last)) return false;
     if (last) break;
   }
   return true;
