@@ -132,6 +132,7 @@ std::optional<TagDetection> see_tag(const Camera& camera,
 }
 
 TagDetection disturbed(TagDetection tag, const Disturbance& disturbance, Dice& dice) {
+  tag.sigma_px = disturbance.declared_px;
   std::array<std::array<double, 2>, 4> corners{};
   for (std::size_t i = 0; i < 4; ++i) {
     corners[i] = {tag.corners_px[i].x, tag.corners_px[i].y};

@@ -35,6 +35,7 @@ struct Disturbance {
   double noise_px = 0.0;  ///< Standard deviation of every corner coordinate.
   TagShrinkage shrinkage;
   double wrong_share = 0.0;  ///< Of tags that are seen 20 px off, all four corners alike.
+  double declared_px = 0.3;  ///< What the detector believes its noise to be.
 };
 
 /// What a camera sees of a tag: nullopt when it faces away by more than `widest_rad`, or

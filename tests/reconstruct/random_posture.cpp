@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/reconstruct/random_posture.h"
+
+#include <glm/geometric.hpp>
+
+namespace marey::reconstruct {
+
+using marey::testing::Dice;
+
+Lengths random_lengths(Dice& dice) {
+  Lengths lengths = lengths_of(average_proportions(1.75));
+  for (double& length_m : lengths) length_m *= dice.between(0.9, 1.1);
+  return lengths;
+}
+
+BodyFrame average_frame() {
+  return frame_of(average_proportions(1.75));
+}
+
+Posture random_posture(Dice& dice) {
+  Posture posture;
+  for (int i = 0; i < 3; ++i) {
+    posture.block(Slot::kHipsPosition)[i] = dice.between(-2.0, 2.0);
+  }
+  const glm::dquat hips = dice.turn(3.0);
+  posture.set_rotation(Slot::kHips, hips);
+  const glm::dquat chest = glm::normalize(hips * dice.turn(0.5));
+  posture.set_rotation(Slot::kAbdomenEnd, chest);
+  const glm::dquat thorax = glm::normalize(chest * dice.turn(0.5));
+  posture.set_rotation(Slot::kThorax, thorax);
+  const glm::dquat neck = glm::normalize(thorax * dice.turn(0.5));
+  posture.set_rotation(Slot::kNeck, neck);
+  posture.set_rotation(Slot::kHead, glm::normalize(neck * dice.turn(0.5)));
+  for (const Slot shoulder : {Slot::kLeftShoulder, Slot::kRightShoulder}) {
+    const glm::dquat swing =
+        rotation_from_vector({0.0, dice.between(-0.4, 0.4), dice.between(-0.4, 0.4)});
+    posture.set_rotation(shoulder, glm::normalize(thorax * swing));
+  }
+  for (const LimbSlots& slots : kLimbSlots) {
+    posture.set_rotation(slots.frame, dice.turn(3.0));
+    posture.set_rotation(slots.extremity, dice.turn(3.0));
+    *posture.block(slots.flexion) = dice.between(0.3, 2.3);
+    *posture.block(slots.upper_twist) = dice.between(-1.2, 1.2);
+    *posture.block(slots.lower_twist) = dice.between(-1.2, 1.2);
+  }
+  return posture;
+}
+
+}  // namespace marey::reconstruct

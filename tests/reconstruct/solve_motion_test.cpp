@@ -1,0 +1,311 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/solve_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/support/synthetic_person.h"
+
+namespace marey::reconstruct {
+namespace {
+
+using marey::testing::Film;
+using marey::testing::ring_of_cameras;
+using marey::testing::tagged_person;
+using marey::testing::tags_of;
+
+struct Scene {
+  Body truth = tagged_person();
+  std::vector<Camera> cameras = ring_of_cameras();
+  marey::testing::Movement movement = marey::testing::walking(truth);
+  Film film{45, 30.0, "walk", {}, {}, {}};
+  SolveMotionOptions options;
+
+  explicit Scene(double noise_px = 0.0) { film.disturbance.noise_px = noise_px; }
+
+  [[nodiscard]] std::vector<CameraDetections> detections() const {
+    return marey::testing::film(truth, movement, cameras, film);
+  }
+  [[nodiscard]] Result<SolvedTrial> solve() const {
+    return solve_motion(truth, cameras, detections(), options);
+  }
+  void hide(std::vector<HumanBone> bones, int first, int last) {
+    film.hidden = [=](const TagOnSegment& tag, int frame) {
+      return frame >= first && frame <= last &&
+             std::find(bones.begin(), bones.end(), tag.segment) != bones.end();
+    };
+  }
+};
+
+/// Distance of a joint from its truth, per frame. [m]
+std::vector<double> off_m(const Scene& scene, const SolvedTrial& trial, HumanBone bone) {
+  const Skeleton truth = make_humanoid(scene.truth.proportions);
+  const Motion& motion = trial.estimate.motion;
+  std::vector<double> off;
+  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+    const auto found = world_from_joints(motion.skeleton, motion.poses[f]);
+    const auto right =
+        world_from_joints(truth, scene.movement(static_cast<double>(f) / scene.film.hz));
+    off.push_back(
+        glm::distance(found[index(bone)].translation, right[index(bone)].translation));
+  }
+  return off;
+}
+
+std::vector<double> limbs_off_m(const Scene& scene, const SolvedTrial& trial) {
+  std::vector<double> all;
+  for (const HumanBone bone : marey::testing::limb_joints()) {
+    const auto of_bone = off_m(scene, trial, bone);
+    all.insert(all.end(), of_bone.begin(), of_bone.end());
+  }
+  return all;
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  const auto last = static_cast<double>(values.size() - 1);
+  return values[static_cast<std::size_t>(std::lround(share * last))];
+}
+
+std::vector<Source> sources(const SolvedTrial& trial, HumanBone bone) {
+  std::vector<Source> out;
+  for (const auto& frame : trial.estimate.doubt) out.push_back(frame[index(bone)].source);
+  return out;
+}
+
+TEST(SolveMotion, RecoversAWalkFromExactCorners) {
+  const Scene scene;
+  const auto trial = scene.solve();
+  ASSERT_TRUE(trial) << trial.error().message();
+  const auto off = limbs_off_m(scene, *trial);
+  // Habits and smoothness pull with a ten thousandth of a sighting's strength.
+  EXPECT_LT(quantile(off, 0.5), 2e-5);
+  EXPECT_LT(quantile(off, 1.0), 1e-3);
+  EXPECT_LT(trial->rms_px, 0.02);
+  EXPECT_EQ(trial->frames_solved, scene.film.frames);
+}
+
+TEST(SolveMotion, StaysWithinMillimetresUnderNoise) {
+  const Scene scene(0.2);
+  const auto trial = scene.solve();
+  ASSERT_TRUE(trial) << trial.error().message();
+  const auto off = limbs_off_m(scene, *trial);
+  // A corner is 0.8 mm off in space; a few tags and three frames share each joint.
+  EXPECT_LT(quantile(off, 0.5), 1e-3);
+  EXPECT_LT(quantile(off, 0.95), 3e-3);
+  EXPECT_NEAR(trial->rms_px, 0.26, 0.03);
+}
+
+TEST(SolveMotion, IsHonestAboutItsDoubt) {
+  const Scene scene(0.2);
+  const auto trial = scene.solve();
+  ASSERT_TRUE(trial) << trial.error().message();
+  std::vector<double> in_sigmas;
+  for (const HumanBone bone : marey::testing::limb_joints()) {
+    const auto off = off_m(scene, *trial, bone);
+    for (std::size_t f = 0; f < off.size(); ++f) {
+      const double sigma_m = trial->estimate.doubt[f][index(bone)].sigma_m;
+      in_sigmas.push_back(off[f] / (std::sqrt(3.0) * sigma_m));
+    }
+  }
+  // Honest would be 0.89, were the noise the 0.3 px that detections declare: 0.6.
+  EXPECT_GT(quantile(in_sigmas, 0.5), 0.4);
+  EXPECT_LT(quantile(in_sigmas, 0.5), 2.0);
+}
+
+TEST(SolveMotion, AddsTheBodysOwnDoubt) {
+  Scene scene;
+  scene.film.frames = 10;
+  const auto sure = scene.solve();
+  scene.truth.joint_centre_sigma_m.fill(0.01);
+  const auto unsure = scene.solve();
+  ASSERT_TRUE(sure && unsure);
+  for (const HumanBone bone : human_bones()) {
+    EXPECT_NEAR(unsure->estimate.doubt[5][index(bone)].sigma_m,
+                std::hypot(0.01, sure->estimate.doubt[5][index(bone)].sigma_m),
+                1e-12);
+  }
+}
+
+TEST(SolveMotion, FindsByHowMuchCamerasAreLate) {
+  Scene scene(0.2);
+  scene.film.offsets_s = {0.0, 0.0073, -0.0111, 0.0049};
+  const auto trial = scene.solve();
+  ASSERT_TRUE(trial) << trial.error().message();
+  for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
+    EXPECT_NEAR(trial->cameras[c].offset_s, scene.film.offsets_s[c], 1e-3);
+    EXPECT_EQ(trial->cameras[c].offset_is_given, c == 0);
+  }
+  // With them, the walk is as good as without any.
+  EXPECT_LT(quantile(limbs_off_m(scene, *trial), 0.95), 3e-3);
+}
+
+TEST(SolveMotion, KeepsAnOffsetThatIsGiven) {
+  Scene scene;
+  scene.film.frames = 20;
+  auto detections = scene.detections();
+  detections[2].offset = from_seconds(0.004);  // Wrong, but the user's word.
+  const auto trial = solve_motion(scene.truth, scene.cameras, detections, scene.options);
+  ASSERT_TRUE(trial) << trial.error().message();
+  EXPECT_EQ(trial->cameras[2].offset_s, 0.004);
+  EXPECT_TRUE(trial->cameras[2].offset_is_given);
+  EXPECT_FALSE(trial->cameras[1].offset_is_given);
+}
+
+TEST(SolveMotion, CallsABridgedSegmentRepaired) {
+  Scene scene;
+  scene.hide({HumanBone::kLeftHand}, 12, 26);  // Half a second.
+  const auto trial = scene.solve();
+  ASSERT_TRUE(trial) << trial.error().message();
+  std::vector<Source> expected(45, Source::kMeasured);
+  std::fill(expected.begin() + 12, expected.begin() + 27, Source::kRepaired);
+  EXPECT_EQ(sources(*trial, HumanBone::kLeftHand), expected);
+  ASSERT_EQ(trial->gaps.size(), 1U);
+  EXPECT_EQ(trial->gaps[0].segment, HumanBone::kLeftHand);
+  EXPECT_EQ(trial->gaps[0].first_frame, 12);
+  EXPECT_EQ(trial->gaps[0].last_frame, 26);
+  EXPECT_EQ(trial->gaps[0].bridged_as, Source::kRepaired);
+}
+
+TEST(SolveMotion, CallsASegmentHiddenForTooLongInferred) {
+  Scene scene;
+  scene.hide({HumanBone::kLeftHand}, 12, 26);
+  scene.options.longest_repair_s = 0.4;
+  const auto trial = scene.solve();
+  ASSERT_TRUE(trial) << trial.error().message();
+  EXPECT_EQ(sources(*trial, HumanBone::kLeftHand)[11], Source::kMeasured);
+  EXPECT_EQ(sources(*trial, HumanBone::kLeftHand)[20], Source::kInferred);
+}
+
+TEST(SolveMotion, CallsASegmentHiddenForEverInferred) {
+  Scene scene;
+  scene.hide({HumanBone::kRightHand}, 0, 1000);
+  const auto trial = scene.solve();
+  ASSERT_TRUE(trial) << trial.error().message();
+  const std::vector<Source> never(45, Source::kInferred);
+  EXPECT_EQ(sources(*trial, HumanBone::kRightHand), never);
+  // Nobody wears a tag on the neck: inferred, but no gap of anything.
+  EXPECT_EQ(sources(*trial, HumanBone::kNeck), never);
+  ASSERT_EQ(trial->gaps.size(), 1U);
+  EXPECT_EQ(trial->gaps[0].segment, HumanBone::kRightHand);
+  EXPECT_EQ(trial->gaps[0].last_frame, 44);
+}
+
+TEST(SolveMotion, BridgesAForearmHiddenForHalfASecond) {
+  Scene scene(0.2);
+  scene.hide({HumanBone::kLeftLowerArm, HumanBone::kLeftHand}, 12, 26);
+  const auto trial = scene.solve();
+  ASSERT_TRUE(trial) << trial.error().message();
+  const auto off = off_m(scene, *trial, HumanBone::kLeftHand);
+  for (std::size_t f = 12; f < 27; ++f) {
+    // An arm that swings at 1 m/s goes on by what it did before and does after: off by a
+    // fraction of the 0.3 m that it travels meanwhile.
+    EXPECT_LT(off[f], 0.1);
+    const double sigma_m = trial->estimate.doubt[f][index(HumanBone::kLeftHand)].sigma_m;
+    EXPECT_LT(off[f], 3.0 * std::sqrt(3.0) * sigma_m) << "frame " << f;
+  }
+  // And is back as soon as it is seen.
+  EXPECT_LT(off[28], 3e-3);
+}
+
+TEST(SolveMotion, DoubtsWhatItDidNotSee) {
+  Scene scene(0.2);
+  scene.hide({HumanBone::kLeftLowerArm, HumanBone::kLeftHand}, 12, 26);
+  const auto trial = scene.solve();
+  ASSERT_TRUE(trial) << trial.error().message();
+  const auto sigma_m = [&](std::size_t frame) {
+    return trial->estimate.doubt[frame][index(HumanBone::kLeftHand)].sigma_m;
+  };
+  EXPECT_GT(sigma_m(19), 5.0 * sigma_m(5));
+  EXPECT_GT(sigma_m(19), sigma_m(13));
+}
+
+TEST(SolveMotion, GivesTheSameBytesTwice) {
+  Scene scene(0.2);
+  scene.film.frames = 20;
+  const auto once = scene.solve();
+  const auto again = scene.solve();
+  ASSERT_TRUE(once && again);
+  for (std::size_t f = 0; f < once->estimate.motion.poses.size(); ++f) {
+    EXPECT_EQ(once->estimate.motion.poses[f].root_in_world,
+              again->estimate.motion.poses[f].root_in_world);
+    EXPECT_EQ(once->estimate.motion.poses[f].parent_from_joint,
+              again->estimate.motion.poses[f].parent_from_joint);
+    for (std::size_t j = 0; j < kHumanBoneCount; ++j) {
+      EXPECT_EQ(once->estimate.doubt[f][j].sigma_m, again->estimate.doubt[f][j].sigma_m);
+    }
+  }
+}
+
+TEST(SolveMotion, HardlyDependsOnItsWindows) {
+  Scene scene(0.2);
+  const auto whole = scene.solve();
+  scene.options.window_frames = 20;
+  scene.options.overlap_frames = 8;
+  const auto pieces = scene.solve();
+  ASSERT_TRUE(whole && pieces);
+  double most_m = 0.0;
+  for (const HumanBone bone : marey::testing::limb_joints()) {
+    const auto a = off_m(scene, *whole, bone);
+    const auto b = off_m(scene, *pieces, bone);
+    for (std::size_t f = 0; f < a.size(); ++f)
+      most_m = std::max(most_m, std::abs(a[f] - b[f]));
+  }
+  // Eight frames on, a measurement no longer counts.
+  EXPECT_LT(most_m, 5e-4);
+}
+
+TEST(SolveMotion, DoesWithoutACameraThatHasNoVideo) {
+  Scene scene;
+  scene.film.frames = 20;
+  auto detections = scene.detections();
+  detections[1].frames.clear();
+  const auto trial = solve_motion(scene.truth, scene.cameras, detections, scene.options);
+  ASSERT_TRUE(trial) << trial.error().message();
+  EXPECT_EQ(trial->cameras[1].corners, 0);
+  EXPECT_LT(quantile(limbs_off_m(scene, *trial), 0.5), 1e-3);
+}
+
+TEST(SolveMotion, CountsWhatWasSeen) {
+  Scene scene;
+  scene.film.frames = 10;
+  const auto detections = scene.detections();
+  const auto trial = solve_motion(scene.truth, scene.cameras, detections, scene.options);
+  ASSERT_TRUE(trial) << trial.error().message();
+  int tags = 0;
+  for (const CameraDetections& camera : detections) {
+    tags += static_cast<int>(camera.frames[4].tags.size());
+  }
+  EXPECT_EQ(trial->tags_seen[4], tags);
+  EXPECT_EQ(trial->estimate.motion.rate.hz, 30.0);
+  EXPECT_EQ(trial->estimate.doubt.size(), 10U);
+  EXPECT_EQ(trial->frame_rms_px.size(), 10U);
+}
+
+TEST(SolveMotion, TellsOfATrialWithoutBodyTags) {
+  Scene scene;
+  scene.film.hidden = [](const TagOnSegment&, int) { return true; };
+  const auto trial = scene.solve();
+  ASSERT_FALSE(trial);
+  EXPECT_EQ(trial.error().code, Errc::kBadInput);
+  EXPECT_EQ(trial.error().where, "walk/cam0.mp4");
+  EXPECT_EQ(trial.error().cause, "no tag of the body is seen in any frame");
+}
+
+TEST(SolveMotion, TellsOfATrialThatNeverShowsTheHips) {
+  Scene scene;
+  scene.film.frames = 10;
+  scene.hide({HumanBone::kHips}, 0, 1000);
+  const auto trial = scene.solve();
+  ASSERT_FALSE(trial);
+  EXPECT_EQ(trial.error().cause, "the body is not found: its hips are never seen");
+}
+
+}  // namespace
+}  // namespace marey::reconstruct
