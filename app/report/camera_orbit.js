@@ -22,12 +22,9 @@ class Orbit {
     this.changed();
   }
 
-  /** Frames a box around `centre` from `azimuth`, in a canvas of the given aspect. */
-  frame({centre, halfWidth, halfHeight, halfDepth, azimuth}, aspect) {
-    const tall = halfHeight / Math.tan(VIEW_ANGLE / 2);
-    const broad = halfWidth / (Math.tan(VIEW_ANGLE / 2) * aspect);
-    this.home = {target: centre, distance: 1.1 * Math.max(tall, broad) + 0.6 * halfDepth,
-      azimuth, height: 0.2};
+  /** Goes to a view: target, distance, azimuth, height; reset() comes back to it. */
+  frame(view) {
+    this.home = view;
     this.reset();
   }
 

@@ -41,8 +41,8 @@ function onThemeChange(then) {
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', then);
 }
 
-function sourceLegend(withDash) {
-  return el('ul', {class: 'legend'}, ...SOURCES.map((source) => {
+function sourceLegend(withDash, sources = SOURCES) {
+  return el('ul', {class: 'legend'}, ...sources.map((source) => {
     const line = svg('svg', {viewBox: '0 0 28 10', width: 28, height: 10,
       'aria-hidden': 'true'},
     svg('line', {x1: 1, y1: 5, x2: 27, y2: 5, class: `source-${source}`,

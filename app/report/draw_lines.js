@@ -56,13 +56,13 @@ class LineDrawing {
     return Array.from({length: count}, (_, i) => {
       const v = values.subarray(CAPSULE * i, CAPSULE * (i + 1));
       return {a: [v[0], v[1], v[2]], b: [v[3], v[4], v[5]], radius: (v[6] + v[7]) / 2,
-        colour: [v[13], v[14], v[15]]};
+        flatEnds: v[9] < 1, colour: [v[13], v[14], v[15]]};
     });
   }
 
   #drawShadows(scene) {
     const {context} = this;
-    context.globalAlpha = 0.10 * scene.theme.shadow;
+    context.globalAlpha = 0.05 * scene.theme.shadow;
     for (const {a, b, radius} of this.#capsules(scene)) {
       const [p, q] = [a, b].map((end) => this.#at(scene, [end[0], 0, end[2]]));
       if (p && q) this.#stroke(p, q, scene.focal * this.canvas.height * radius / p.depth,
@@ -76,9 +76,10 @@ class LineDrawing {
       .map((c) => ({...c, p: this.#at(scene, c.a), q: this.#at(scene, c.b)}))
       .filter(({p, q}) => p && q)
       .sort((one, other) => other.p.depth + other.q.depth - one.p.depth - one.q.depth);
-    for (const {p, q, radius, colour} of ends) {
+    for (const {p, q, radius, flatEnds, colour} of ends) {
       const width = scene.focal * this.canvas.height * radius / ((p.depth + q.depth) / 2);
-      this.#stroke(p, q, width + 2, cssRgb(scaled(colour, 0.45)));
+      // Outlines tell an arm from the trunk; the slices of the trunk are one.
+      if (!flatEnds) this.#stroke(p, q, width + 2, cssRgb(scaled(colour, 0.5)));
       this.#stroke(p, q, width, cssRgb(colour));
     }
   }

@@ -39,15 +39,16 @@ function table(columns, rows, caption) {
             c.cell(row))))))));
 }
 
-const fixed = (value, decimals) => value.toFixed(decimals);
+/** A number with a minus that is one. */
+const fixed = (value, decimals) => value.toFixed(decimals).replace('-', '−');
 const plural = (count, one, many) => `${count} ${count === 1 ? one : many}`;
 
 /** A length of time in words: "0.43 s", "41 s", "3 min 20 s". */
 function duration(seconds) {
-  if (seconds < 10) return `${fixed(seconds, 2)} s`;
-  if (seconds < 120) return `${fixed(seconds, 0)} s`;
+  if (seconds < 10) return `${fixed(seconds, 2)}\u00a0s`;
+  if (seconds < 120) return `${fixed(seconds, 0)}\u00a0s`;
   const whole = Math.round(seconds);
-  return `${Math.floor(whole / 60)} min ${whole % 60} s`;
+  return `${Math.floor(whole / 60)}\u00a0min ${whole % 60}\u00a0s`;
 }
 
 /** "leftUpperArm" as "left upper arm"; other names as they are. */

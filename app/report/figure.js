@@ -4,7 +4,8 @@
 // A body as solid capsules: a mannequin whose girth follows its size, since the report
 // knows its joints and nothing of its flesh.
 
-/** Numbers per capsule: a 3, b 3, radius at a and b, side 3, flatness, cap, colour 3. */
+/** Numbers per capsule: a 3, b 3, radius at a and b, flatness, cap, side 3,
+ *  colour 3. */
 const CAPSULE = 16;
 
 /** Capsules of one instant, for every body. */
@@ -30,7 +31,7 @@ class Capsules {
     const along = unit(subtract(far, a));
     let across = side ?? (Math.abs(along[1]) < 0.9 ? [0, 1, 0] : [1, 0, 0]);
     across = subtract(across, scaled(along, dot(across, along)));
-    this.values.set([...a, ...far, radiusA, radiusB, ...unit(across), flat, cap, ...colour],
+    this.values.set([...a, ...far, radiusA, radiusB, flat, cap, ...unit(across), ...colour],
       CAPSULE * this.count++);
   }
 }
@@ -42,8 +43,8 @@ const LIMBS = [
 ];
 const TORSO = ['hips', 'spine', 'chest', 'upperChest', 'neck'];
 /** Half of the torso's width from the hips (0) to the root of the neck (1). */
-const TORSO_WIDTH = [[0, 0.083], [0.25, 0.076], [0.5, 0.085], [0.75, 0.094], [0.9, 0.075],
-  [1, 0.032]];
+const TORSO_WIDTH = [[0, 0.086], [0.25, 0.077], [0.5, 0.085], [0.7, 0.093], [0.85, 0.09],
+  [0.94, 0.072], [1, 0.04]];
 const TORSO_FLAT = 0.68;
 
 function torsoWidth(share) {
@@ -120,7 +121,7 @@ class Figure {
     const total = lengths.reduce((sum, length) => sum + length, 0) || 1;
     let before = 0;
     lengths.forEach((length, i) => {
-      const pieces = Math.max(1, Math.round(7 * length / total));
+      const pieces = Math.max(1, Math.round(12 * length / total));
       for (let k = 0; k < pieces; ++k) {
         const [s, e] = [k / pieces, (k + 1) / pieces];
         const radius = (t) => stature * torsoWidth((before + t * length) / total);
@@ -167,14 +168,14 @@ class Figure {
     const collar = body.places.get(`${side}Shoulder`);
     const arm = body.places.get(`${side}UpperArm`);
     if (collar !== undefined && arm !== undefined) {
-      capsules.add(body.at(collar), body.at(arm), 0.03 * stature, 0.034 * stature,
+      capsules.add(body.at(collar), body.at(arm), 0.026 * stature, 0.035 * stature,
         colour(collar));
     }
     const leg = body.places.get(`${side}UpperLeg`);
     const hips = body.places.get('hips');
     if (leg !== undefined && hips !== undefined) {
-      capsules.add(mix(body.at(hips), body.at(leg), 0.35), body.at(leg), 0.052 * stature,
-        0.053 * stature, colour(hips));
+      capsules.add(mix(body.at(hips), body.at(leg), 0.55), body.at(leg), 0.05 * stature,
+        0.05 * stature, colour(hips));
     }
   }
 

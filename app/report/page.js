@@ -22,8 +22,7 @@ function showTrial(data, viewer, chosen) {
   viewer.load(trial, figure, figures.calibration.cameras);
   fillSection('pictures', picturesSection(player, trial, figure));
   fillSection('reprojection', reprojectionSection(player, trial, figure));
-  fillSection('tags', tagsSection(player, trial, figure,
-    Math.max(figures.calibration.cameras.length, 1)));
+  fillSection('tags', tagsSection(player, trial, figure));
   fillSection('joints', jointsSection(figure));
   fillSection('cameras', camerasSection(figures.calibration, trial));
   document.getElementById('trial-about').textContent = `${figure.frames_solved} of ` +

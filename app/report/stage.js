@@ -4,7 +4,7 @@
 // What stands before the eye: the bodies of one trial, the cameras that saw them.
 
 const DOUBT_SCALE_M = 0.03; // Sigma at the far end of the colour scale.
-const FOLLOW_BEYOND_M = 3.0; // A subject that travels farther is followed.
+const FOLLOW_BEYOND_M = 1.5; // A subject that travels farther is followed.
 
 class Stage {
   constructor(trial, cameras) {
@@ -26,11 +26,9 @@ class Stage {
     return Math.max(high[0] - low[0], high[1] - low[1]) > FOLLOW_BEYOND_M;
   }
 
-  /** Every sampled place of the bodies (of the subject's root alone), as seen along
-   *  `axes`; relative to where the subject stands when it is followed. */
-  #ranges(axes, followed, rootOnly = false) {
-    const low = axes.map(() => Infinity);
-    const high = axes.map(() => -Infinity);
+  /** Visits sampled places of the bodies (of the subject's root alone), relative to where
+   *  the subject stands when it is followed. */
+  #visit(followed, rootOnly, then) {
     const step = Math.max(1, Math.floor(this.frames / 60));
     for (let frame = 0; frame < this.frames; frame += step) {
       const root = followed ? this.standsAt(frame) : [0, 0, 0];
@@ -38,16 +36,19 @@ class Stage {
         if (frame >= body.frames) continue;
         body.show(frame);
         const count = rootOnly ? 1 : body.parents.length;
-        for (let i = 0; i < count; ++i) {
-          const p = subtract(body.at(i), root);
-          axes.forEach((axis, k) => {
-            const value = dot(axis, p);
-            low[k] = Math.min(low[k], value);
-            high[k] = Math.max(high[k], value);
-          });
-        }
+        for (let i = 0; i < count; ++i) then(subtract(body.at(i), root));
       }
     }
+  }
+
+  #ranges(axes, followed, rootOnly = false) {
+    const low = axes.map(() => Infinity);
+    const high = axes.map(() => -Infinity);
+    this.#visit(followed, rootOnly, (p) => axes.forEach((axis, k) => {
+      const value = dot(axis, p);
+      low[k] = Math.min(low[k], value);
+      high[k] = Math.max(high[k], value);
+    }));
     return {low, high};
   }
 
@@ -80,32 +81,35 @@ class Stage {
     return Math.atan2(sum[0], sum[2]);
   }
 
-  /** What Orbit.frame() wants in order to show all of the motion. */
-  box(followed, withCameras) {
-    const azimuth = this.heading() + 0.55;
-    const axes = [[Math.cos(azimuth), 0, -Math.sin(azimuth)], [0, 1, 0],
-      [Math.sin(azimuth), 0, Math.cos(azimuth)]];
+  /** Where to look from so that all of the motion is in a picture of this aspect: what
+   *  Orbit.frame() wants. */
+  view(followed, withCameras, aspect) {
+    const [azimuth, height] = [this.heading() + 0.55, 0.2];
+    const right = [Math.cos(azimuth), 0, -Math.sin(azimuth)];
+    const toward = [Math.sin(azimuth) * Math.cos(height), Math.sin(height),
+      Math.cos(azimuth) * Math.cos(height)];
+    const axes = [right, cross(toward, right), toward];
     const {low, high} = this.#ranges(axes, followed);
-    if (withCameras) {
-      const root = followed ? this.standsAt(0) : [0, 0, 0];
-      for (const camera of this.cameras) {
-        const p = subtract(camera.centre_in_world_m, root);
-        axes.forEach((axis, k) => {
-          low[k] = Math.min(low[k], dot(axis, p) - 0.3);
-          high[k] = Math.max(high[k], dot(axis, p) + 0.3);
-        });
-      }
-    }
-    // The floor under the feet and a little air above the head.
-    low[1] = Math.min(low[1], 0) - 0.12;
-    high[1] += 0.15;
-    const half = axes.map((_, k) => (high[k] - low[k]) / 2);
-    let centre = followed ? this.standsAt(0) : [0, 0, 0];
-    axes.forEach((axis, k) => {
-      centre = add(centre, scaled(axis, (high[k] + low[k]) / 2));
+    const start = followed ? this.standsAt(0) : [0, 0, 0];
+    const cameras = withCameras
+      ? this.cameras.map((camera) => subtract(camera.centre_in_world_m, start)) : [];
+    const middle = axes.map((axis, k) => {
+      const along = cameras.map((p) => dot(axis, p));
+      return (Math.min(low[k], ...along) + Math.max(high[k], ...along)) / 2;
     });
-    return {centre, halfWidth: half[0] + 0.15, halfHeight: half[1], halfDepth: half[2],
-      azimuth};
+    // Far enough for every point: flesh is some way from the joints.
+    const flesh = 0.2; // [m]
+    const slope = Math.tan(VIEW_ANGLE / 2);
+    let distance = 1;
+    const include = (p) => {
+      const [x, y, z] = axes.map((axis, k) => dot(axis, p) - middle[k]);
+      distance = Math.max(distance, z + (Math.abs(y) + flesh) / slope,
+        z + (Math.abs(x) + flesh) / (slope * aspect));
+    };
+    this.#visit(followed, false, include);
+    cameras.forEach(include);
+    const target = axes.reduce((sum, axis, k) => add(sum, scaled(axis, middle[k])), start);
+    return {target, distance: 1.04 * distance, azimuth, height};
   }
 
   readTheme() {
@@ -175,11 +179,13 @@ class Stage {
 
   /** Names and where they hang, for the scene made last. */
   labels(withCameras) {
-    const labels = this.bodies.filter((body) => body.frames > 0).map((body) => {
+    const labels = this.frames === 0 ? [] : this.bodies.map((body, k) => {
       let top = -Infinity;
       for (let i = 1; i < body.points.length; i += 3) top = Math.max(top, body.points[i]);
+      // The head's joint is at the root of the skull; not every body knows its top.
+      if (!body.tips.has(body.places.get('head'))) top += 0.13 * this.figures[k].stature;
       const [x, , z] = body.at(0);
-      return {text: body.name, at: [x, top + 0.12, z]};
+      return {text: body.name, at: [x, top + 0.04, z]};
     });
     if (!withCameras) return labels;
     return labels.concat(this.cameras.map((camera) =>

@@ -39,8 +39,8 @@ function verdicts(summary) {
     verdict('Motion', fixed(summary.solve_rms_px, 2), 'px',
       'how far tags are from where the solved body has them',
       grade('solve_px', summary.solve_rms_px), 'solve_px'),
-    verdict('Joint centres', `± ${fixed(summary.joint_sigma_median_mm, 1)}`, 'mm',
-      'typical doubt (sigma) of a joint in a frame',
+    verdict('Joints', `± ${fixed(summary.joint_sigma_median_mm, 1)}`, 'mm',
+      'typical doubt (sigma) of a joint centre in a frame',
       grade('sigma_mm', summary.joint_sigma_median_mm), 'sigma_mm'));
 }
 
@@ -66,7 +66,7 @@ function reprojectionSection(player, trial, figures) {
       'tags and where the solved motion puts them. Steady is good; a hump marks moments ' +
       'to look at. Click to see them in the viewer.'),
     lineGraph(player, trial.frame_rms_px, {unit: 'px', level: figures.rms_px,
-      levelName: 'all', firstFrame: figures.first_frame,
+      levelName: 'RMS', firstFrame: figures.first_frame,
       name: 'Reprojection of every frame'}),
     table([
       {title: 'Camera', cell: (camera) => camera.name},
@@ -101,7 +101,7 @@ function jointsSection(figures) {
   return [
     el('p', {class: 'lead'}, 'How well each joint centre is known, by the solver’s own ' +
       'reckoning: half of the frames have a smaller sigma than the bar, 95 % a smaller ' +
-      `one than the whisker. The bars end at ${fixed(highest, 0)} mm.`),
+      `one than the whisker. The widest ends at ${fixed(highest, 0)}\u00a0mm.`),
     el('div', {class: 'row'}, sourceLegend(false)),
     table([
       {title: 'Joint', cell: (joint) => boneWords(joint.joint)},
@@ -142,17 +142,22 @@ function subjectSection(subject, unplaced) {
       {title: 'Right', number: true, cell: (row) => length(row.other)},
     ], pairBones(subject.bones), 'Lengths of the subject'),
     el('h3', {}, 'Tags on the body'),
-    ...(unplaced.length === 0 ? [] : [el('p', {},
-      `Not placed, for want of sightings: ${unplaced.join(', ')}.`)]),
-    table([
-      {title: 'Tag', number: true, cell: (tag) => String(tag.id)},
-      {title: 'Segment', cell: (tag) => boneWords(tag.segment)},
-      {title: 'Edge', number: true, cell: (tag) => `${fixed(tag.size_mm, 1)} mm`},
-      {title: 'Place', number: true, cell: (tag) => `± ${fixed(tag.sigma_mm, 1)} mm`},
-      {title: 'Tilt', number: true, cell: (tag) => `± ${fixed(tag.sigma_deg, 2)}°`},
-      {title: 'Sightings', number: true, cell: (tag) => String(tag.sightings)},
-    ], subject.tags, 'Tags of the subject'),
+    el('p', {class: 'lead'}, `${plural(subject.tags.length, 'tag is', 'tags are')} placed` +
+      (unplaced.length === 0 ? '.'
+        : `; not placed, for want of sightings: ${unplaced.join(', ')}.`)),
+    el('details', {}, el('summary', {}, 'All tags as a table'), tagTable(subject.tags)),
   ];
+}
+
+function tagTable(tags) {
+  return table([
+    {title: 'Tag', cell: (tag) => String(tag.id)},
+    {title: 'Segment', cell: (tag) => boneWords(tag.segment)},
+    {title: 'Edge', number: true, cell: (tag) => `${fixed(tag.size_mm, 1)} mm`},
+    {title: 'Place', number: true, cell: (tag) => `± ${fixed(tag.sigma_mm, 1)} mm`},
+    {title: 'Tilt', number: true, cell: (tag) => `± ${fixed(tag.sigma_deg, 2)}°`},
+    {title: 'Sightings', number: true, cell: (tag) => String(tag.sightings)},
+  ], tags, 'Tags of the subject');
 }
 
 function avatarsSection(trials) {
@@ -188,7 +193,8 @@ function timingsSection({timings, summary}) {
   return [
     el('p', {class: 'lead'}, `${duration(summary.processing_s)} for ` +
       `${duration(summary.recorded_s)} of recording: ` +
-      `${fixed(summary.times_real_time, 1)} × real time.`),
+      `${fixed(summary.times_real_time, 1)} × real time. What was kept from an earlier run ` +
+      'takes next to none.'),
     table([
       {title: 'Stage', cell: (timing) => timing.stage},
       {title: 'Share', cell: (timing) => el('div', {class: 'doubt', 'aria-hidden': 'true'},

@@ -16,14 +16,22 @@ function groupTags(tags) {
   return groups;
 }
 
+/** The most cameras that ever saw one of them at once. */
+function mostSeeing(groups) {
+  let most = 1;
+  for (const tag of [...groups.values()].flat()) {
+    for (const count of tag.cameras) most = Math.max(most, count);
+  }
+  return most;
+}
+
 /** The shade of a number of cameras. */
 function seenColour(count, most) {
   const [none, all] = [rgb('seen-none'), rgb('seen-all')];
   return cssRgb(mix(none, all, count === 0 ? 0 : 0.3 + 0.7 * count / Math.max(most, 1)));
 }
 
-function tagMatrix(player, tags, cameras, firstFrame) {
-  const groups = groupTags(tags);
+function tagMatrix(player, groups, cameras, firstFrame) {
   const rows = [];
   const labels = [];
   let top = 0;
@@ -109,21 +117,23 @@ function gapTable(gaps) {
   ], longestFirst, 'Gaps, the longest first');
 }
 
-function tagsSection(player, trial, figures, cameras) {
+function tagsSection(player, trial, figures) {
   const {gaps, first_frame: first} = figures;
+  const groups = groupTags(trial.tags);
+  const most = mostSeeing(groups);
   const lost = gaps.reduce((sum, gap) => sum + gap.duration_s, 0);
   return [
     el('p', {class: 'lead'}, 'Every row is a tag, every column a frame. The darker, the ' +
       'more cameras saw it: two or more fix a tag well, one still does, none leaves a gap.'),
-    seenLegend(cameras),
-    tagMatrix(player, trial.tags, cameras, first),
+    seenLegend(most),
+    tagMatrix(player, groups, most, first),
     el('h3', {}, 'Gaps'),
     ...(gaps.length === 0
       ? [el('p', {}, 'None: every segment was seen in every frame.')]
       : [el('p', {class: 'lead'}, `${plural(gaps.length, 'time', 'times')} a segment with ` +
           `tags was out of sight, ${duration(lost)} in all. What was not seen is marked so ` +
           'in every file that marey writes.'),
-        sourceLegend(false), gapRows(player, gaps, first),
+        sourceLegend(false, SOURCES.slice(1)), gapRows(player, gaps, first),
         el('details', {}, el('summary', {}, 'All gaps as a table'), gapTable(gaps))]),
   ];
 }

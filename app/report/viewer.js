@@ -107,7 +107,7 @@ class Viewer {
   #frame() {
     if (!this.stage || this.stage.frames === 0) return;
     const {follow, cameras} = this.options;
-    this.orbit.frame(this.stage.box(follow, cameras), this.#aspect());
+    this.orbit.frame(this.stage.view(follow, cameras, this.#aspect()));
     this.stood = this.stage.standsAt(0);
     this.#follow();
     this.redraw();

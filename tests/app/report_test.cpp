@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/report.h"
 
-#include <array>
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -374,7 +375,7 @@ TEST_F(ReportInABrowser, OpensWithoutAWordOnTheConsole) {
 TEST_F(ReportInABrowser, DrawsShadedBodies) {
   const Shown shown = show(report(), "check");
   EXPECT_EQ(status(shown, "drawing"), "shaded");
-  // A floor with its grid alone has fewer than a hundred.
+  // A floor with its grid alone has about 150.
   EXPECT_GT(std::atoi(status(shown, "colours").c_str()), 500);
 }
 
@@ -382,6 +383,7 @@ TEST_F(ReportInABrowser, DrawsLinesWhereThereIsNoWebGl) {
   const Shown shown = show(report(), "check,lines");
   EXPECT_EQ(status(shown, "status"), "ready");
   EXPECT_EQ(status(shown, "drawing"), "lines");
+  // A grid alone has about 5.
   EXPECT_GT(std::atoi(status(shown, "colours").c_str()), 20);
 }
 
