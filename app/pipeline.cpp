@@ -65,7 +65,8 @@ Result<std::string> cache_key(const TrialVideo& video,
                               const std::string& family) {
   const auto content = recordings::content_key(video.path);
   if (!content) return content.error();
-  std::string key = *content + " " + family;
+  // Raise the number when the detector finds other corners in the same picture.
+  std::string key = *content + " detector-2 " + family;
   if (trial.frames) {
     key += " frames " + std::to_string(trial.frames->first) + "-" +
            std::to_string(trial.frames->last);
