@@ -44,10 +44,18 @@ Error too_few_views(const CameraDetections& camera, const AprilGrid& board) {
                      "session.toml names the printed ids and [tags] the family, and that "
                      "the picture is sharp");
   }
+  if (frames_seen >= 4) {
+    return bad_input(camera.source,
+                     "no lens makes the board look as it does in the " +
+                         std::to_string(frames_seen) +
+                         " frames that show six tags or more: it never tilts, or is not "
+                         "as [board] says",
+                     "tilt the board while it is filmed, and check [board] in "
+                     "session.toml (rows, columns, sizes, first_id) against the print");
+  }
   return bad_input(camera.source,
                    "the board is seen too little to calibrate this camera: " +
-                       std::to_string(frames_seen) +
-                       " frames show six tags or more, or the board never tilts",
+                       std::to_string(frames_seen) + " frames show six tags or more",
                    "record the calibration again: tilt the board, bring it close to this "
                    "camera and into the corners of its picture");
 }

@@ -140,6 +140,9 @@ TEST(CalibrateCameras, DeclinesABoardOfOtherColumns) {
   declared.columns = 9;
   const Error error = error_of(cameras, recording, declared);
   EXPECT_EQ(error.code, Errc::kBadInput);
+  EXPECT_TRUE(contains(error.cause, "no lens makes the board look as it does"))
+      << error.cause;
+  EXPECT_TRUE(contains(error.next, "check [board] in session.toml")) << error.next;
 }
 
 }  // namespace
