@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <opencv2/core.hpp>
 
+#include "capture/blurred_pattern.h"
 #include "core/assert.h"
 
 namespace marey::capture {
@@ -37,78 +38,6 @@ const std::array<double, 256>& light_of_gray() {
     return light;
   }();
   return table;
-}
-
-/// How much of a blurred point each cell of a row of cells contributes, with derivatives.
-struct CellWeights {
-  static constexpr int kMost = 16;
-  int first = 0;
-  int count = 0;
-  std::array<double, kMost> weight;
-  std::array<double, kMost> by_place;      ///< d weight / d place. [1/cell]
-  std::array<double, kMost> by_log_sigma;  ///< d weight / d log(sigma).
-};
-
-/// Weights of a Gaussian at `place` over `cells` unit cells, the outer ones endless.
-void weigh_cells(double place, double sigma, int cells, CellWeights& out) {
-  constexpr double kReach = 4.0;
-  const auto cell_at = [&](double x) {
-    return static_cast<int>(std::clamp(std::floor(x), 0.0, cells - 1.0));
-  };
-  out.first = cell_at(place - kReach * sigma);
-  const int last = cell_at(place + kReach * sigma);
-  out.count = std::min(last - out.first + 1, CellWeights::kMost);
-  double below = 0.0;
-  double slope_below = 0.0;
-  double spread_below = 0.0;
-  for (int i = 0; i < out.count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    double above = 1.0;
-    double slope = 0.0;
-    double spread = 0.0;
-    if (i + 1 < out.count) {
-      const double z = (out.first + i + 1 - place) / sigma;
-      above = 0.5 * std::erfc(-z / std::numbers::sqrt2);
-      slope = std::exp(-0.5 * z * z) * std::numbers::inv_sqrtpi / std::numbers::sqrt2;
-      spread = slope * z;
-    }
-    out.weight[k] = above - below;
-    out.by_place[k] = -(slope - slope_below) / sigma;
-    out.by_log_sigma[k] = -(spread - spread_below);
-    below = above;
-    slope_below = slope;
-    spread_below = spread;
-  }
-}
-
-/// The blurred pattern at a point: 0 black, 1 white, and its derivatives.
-struct Blurred {
-  double value = 0.0;
-  double by_u = 0.0;
-  double by_v = 0.0;
-  double by_log_sigma = 0.0;
-};
-
-Blurred blurred(const TagPattern& pattern, const CellWeights& u, const CellWeights& v) {
-  Blurred sum;
-  for (int j = 0; j < v.count; ++j) {
-    double row = 0.0;
-    double row_by_u = 0.0;
-    double row_by_sigma = 0.0;
-    const auto line = static_cast<std::size_t>((v.first + j) * pattern.cells + u.first);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(u.count); ++i) {
-      if (pattern.white[line + i] == 0) continue;
-      row += u.weight[i];
-      row_by_u += u.by_place[i];
-      row_by_sigma += u.by_log_sigma[i];
-    }
-    const auto k = static_cast<std::size_t>(j);
-    sum.value += v.weight[k] * row;
-    sum.by_u += v.weight[k] * row_by_u;
-    sum.by_v += v.by_place[k] * row;
-    sum.by_log_sigma += v.weight[k] * row_by_sigma + v.by_log_sigma[k] * row;
-  }
-  return sum;
 }
 
 /// A pixel that belongs to the tag, relative to the tag's middle.
@@ -426,14 +355,14 @@ std::optional<Alignment> align_pattern(const GrayFrame& frame,
   Fit fit(frame, pattern, corners_px);
   if (!fit.run()) return std::nullopt;
   const Alignment alignment = fit.answer();
-  // Another fit than that of this tag: more than a cell away, or of something else.
+  // Another fit than that of this tag: cells away, or of something else.
   const double side_px =
       glm::distance(corners_px[0], corners_px[2]) / std::numbers::sqrt2;
   const double cell_px = side_px / (pattern.cells - 2 * pattern.margin_cells);
   constexpr double kLargestResidual = 0.25;
   if (alignment.residual > kLargestResidual) return std::nullopt;
   for (std::size_t i = 0; i < 4; ++i) {
-    if (glm::distance(alignment.corners_px[i], corners_px[i]) > std::max(1.5, cell_px)) {
+    if (glm::distance(alignment.corners_px[i], corners_px[i]) > 1.5 * cell_px) {
       return std::nullopt;
     }
   }

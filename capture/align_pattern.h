@@ -3,24 +3,15 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include <glm/vec2.hpp>
 
+#include "capture/blurred_pattern.h"
 #include "capture/frame_source.h"
 
 // Private to capture/.
 namespace marey::capture {
-
-/// A printed tag: square cells, black or white, rows from the top of the upright tag.
-struct TagPattern {
-  int cells = 0;  ///< In a row and in a column, quiet zone included.
-  int margin_cells =
-      0;  ///< From the edge of the pattern to the square whose corners count.
-  std::vector<std::uint8_t> white;  ///< cells * cells; 1 is white.
-};
 
 /// Where a pattern lies in an image, and how it is seen.
 struct Alignment {

@@ -101,7 +101,7 @@ TagDetection to_detection(const apriltag_detection_t& found) {
 }
 
 TagPattern pattern_of(apriltag_family_t* family, TagId id) {
-  image_u8_t* image = apriltag_to_image(family, static_cast<std::uint32_t>(number(id)));
+  image_u8_t* image = apriltag_to_image(family, number(id));
   TagPattern pattern;
   pattern.cells = image->width;
   pattern.margin_cells = (family->total_width - family->width_at_border) / 2;

@@ -42,7 +42,7 @@ Bitmap bitmap_of(const DrawnTag& tag) {
   for (const FamilyMaker& maker : kMakers) {
     if (tag.family != maker.name) continue;
     apriltag_family_t* family = maker.create();
-    image_u8_t* image = apriltag_to_image(family, static_cast<std::uint32_t>(tag.id));
+    image_u8_t* image = apriltag_to_image(family, tag.id);
     Bitmap bitmap;
     bitmap.margin_cells = (family->total_width - family->width_at_border) / 2;
     cv::Mat(image->height,
