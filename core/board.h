@@ -34,8 +34,10 @@ struct AprilGrid {
   [[nodiscard]] std::optional<glm::dvec3> corner_in_board(TagId id, int corner) const {
     if (!contains(id)) return std::nullopt;
     const int place = number(id) - first_id;
-    const double x = (place % columns) * (tag_size_m + gap_m);
-    const double y = (place / columns) * (tag_size_m + gap_m);
+    const int column = place % columns;
+    const int row = place / columns;
+    const double x = column * (tag_size_m + gap_m);
+    const double y = row * (tag_size_m + gap_m);
     // Bottom left, bottom right, top right, top left.
     return glm::dvec3(x + (corner == 1 || corner == 2 ? tag_size_m : 0.0),
                       y + (corner >= 2 ? tag_size_m : 0.0),

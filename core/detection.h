@@ -55,9 +55,9 @@ template <class T, class Grow>
 void move_edges(std::array<std::array<T, 2>, 4>& corners, const Grow& grow) {
   using std::abs;
   using std::sqrt;
-  std::array<T, 2> middle;
-  std::array<T, 2> u;  // Half of a side, bottom left to bottom right.
-  std::array<T, 2> v;  // Half of a side, bottom left to top left.
+  std::array<T, 2> middle{};
+  std::array<T, 2> u{};  // Half of a side, bottom left to bottom right.
+  std::array<T, 2> v{};  // Half of a side, bottom left to top left.
   for (std::size_t i = 0; i < 2; ++i) {
     middle[i] = 0.25 * (corners[0][i] + corners[1][i] + corners[2][i] + corners[3][i]);
     u[i] = 0.25 * (corners[1][i] - corners[0][i] + corners[2][i] - corners[3][i]);
