@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "app/draw_frames.h"
+#include "app/report_figures.h"
 #include "app/retarget_files.h"
 #include "app/version.h"
 #include "capture/detect_videos.h"
@@ -46,9 +47,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Where an error without a place of its own happened.
-Error at(const std::string& where, Error error) {
-  if (error.where.empty()) error.where = where;
+/// The error with its file: rooms that see no files leave the place empty, or name a
+/// table of session.toml, "[board]".
+Error at(const std::string& file, Error error) {
+  if (error.where.empty()) {
+    error.where = file;
+  } else if (error.where.front() == '[') {
+    error.where = file + ": " + error.where;
+  }
   return error;
 }
 
@@ -283,8 +289,9 @@ Status Pipeline::calibrate() {
     recordings::CameraRecord record;
     record.rms_px = q.rms_px;
     record.p95_px = q.p95_px;
-    record.centre_sigma_m = q.centre_sigma_m;
-    record.focal_sigma_px = q.focal_sigma_px;
+    // Their last digits depend on how the linear algebra library orders its work.
+    record.centre_sigma_m = rounded(q.centre_sigma_m, 6);
+    record.focal_sigma_px = rounded(q.focal_sigma_px, 4);
     record.views = q.views;
     record.corners = q.corners;
     record.coverage = q.coverage;
@@ -297,7 +304,14 @@ Status Pipeline::calibrate() {
 Status Pipeline::need_cameras() {
   const auto file = options_.out / "calibration.toml";
   const auto calibration = recordings::read_calibration(file);
-  if (!calibration) return calibration.error();
+  if (!calibration) {
+    Error error = calibration.error();
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+      error.next = "run marey calibrate on this session first, with the same --out";
+    }
+    return error;
+  }
   report_.calibration_rms_px = calibration->rms_px;
   report_.cameras.clear();
   for (std::size_t c = 0; c < calibration->cameras.size(); ++c) {
@@ -325,6 +339,18 @@ Status Pipeline::need_cameras() {
   return Done{};
 }
 
+Status Pipeline::check_trials() {
+  for (const Trial& trial : session_.trials) {
+    if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor)
+      continue;
+    const auto detections = unshrunk_detections_of(trial);
+    if (!detections) return detections.error();
+    const Status ok = reconstruct::check_views(cameras_, *detections, session_.tags);
+    if (!ok) return at(session_.file.string(), ok.error());
+  }
+  return Done{};
+}
+
 Status Pipeline::fit() {
   if (const Status ok = need_cameras(); !ok) return ok;
   const Trial* standing_trial = session_.find(TrialKind::kStatic);
@@ -335,11 +361,9 @@ Status Pipeline::fit() {
   if (!standing) return standing.error();
   const auto moving = unshrunk_detections_of(*moving_trial);
   if (!moving) return moving.error();
+  // Every trial, before the long work: who swapped two videos wants to know now.
+  if (const Status ok = check_trials(); !ok) return ok;
   const Stopwatch watch;
-  for (const auto* trial : {&*standing, &*moving}) {
-    const Status ok = reconstruct::check_views(cameras_, *trial, session_.tags);
-    if (!ok) return at(session_.file.string(), ok.error());
-  }
   const reconstruct::SubjectPrior prior{session_.subject.name,
                                         session_.subject.stature_m,
                                         session_.subject.mass_kg,
@@ -374,8 +398,6 @@ Result<reconstruct::SolvedTrial> Pipeline::solve_trial(const Trial& trial,
                                                        const Progress& progress) {
   const auto detections = unshrunk_detections_of(trial);
   if (!detections) return detections.error();
-  const Status agree = reconstruct::check_views(cameras_, *detections, session_.tags);
-  if (!agree) return at(session_.file.string(), agree.error());
   // A camera without a video in this trial keeps its place, and stays silent.
   auto solved = reconstruct::solve_motion(*body_, cameras_, *detections, {}, progress);
   if (!solved) return at(trial.name, solved.error());

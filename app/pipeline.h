@@ -46,6 +46,7 @@ class Pipeline {
   /// Cameras: OUT/calibration.toml.
   [[nodiscard]] Status calibrate();
   /// The subject: OUT/subject.toml. Reads calibration.toml if calibrate() did not run.
+  /// Checks first that in every trial the cameras agree on the tags.
   [[nodiscard]] Status fit();
   /// Motion of every motion trial: joints.csv, segments.csv, motion.bvh, motion.glb.
   /// Reads calibration.toml and subject.toml if need be.
@@ -73,6 +74,7 @@ class Pipeline {
       const recordings::Trial& trial);
   [[nodiscard]] Status need_cameras();
   [[nodiscard]] Status need_body();
+  [[nodiscard]] Status check_trials();
   [[nodiscard]] Result<reconstruct::SolvedTrial> solve_trial(
       const recordings::Trial& trial, const Progress& progress);
   [[nodiscard]] Status export_trial(const SolvedMotion& motion);
