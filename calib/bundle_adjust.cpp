@@ -33,7 +33,7 @@ struct TagResidual {
     const Eigen::Map<const Eigen::Quaternion<T>> world_from_board(world_from_board_xyzw);
     const Eigen::Map<const Vector> centre(camera_in_world);
     const Eigen::Map<const Vector> origin(board_in_world);
-    std::array<std::array<T, 2>, 4> pixels;
+    std::array<std::array<T, 2>, 4> pixels{};
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const BoardCorner& corner = corners[i];
       const Vector p_in_board{

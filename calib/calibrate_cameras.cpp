@@ -181,7 +181,7 @@ Status check(const CalibratedRig& rig, std::span<const CameraDetections> floor) 
         "check [board] in session.toml (rows, columns, sizes, first_id) "
         "against the print, and that all calibration videos start together");
   }
-  if (const Status ok = check_print(rig); !ok) return ok;
+  if (Status ok = check_print(rig); !ok) return ok;
   for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
     if (centre_in_world(rig.cameras[c]).y > 0.0 || !rig.quality[c].sees_floor) continue;
     return bad_input(floor[c].source,

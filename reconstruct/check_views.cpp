@@ -206,7 +206,7 @@ Status check_views(std::span<const Camera> cameras,
   const Agreement as_given = compare(cameras, order, sightings, tags);
   const auto as_given_px = as_given.worst_px();
   if (!as_given_px) return Done{};
-  if (const Status ok = check_cameras(cameras, detections, sightings, tags, *as_given_px);
+  if (Status ok = check_cameras(cameras, detections, sightings, tags, *as_given_px);
       !ok) {
     return ok;
   }

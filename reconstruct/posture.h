@@ -235,6 +235,44 @@ Vec3<T> vec(const glm::dvec3& v) {
   return {T(v.x), T(v.y), T(v.z)};
 }
 
+/// Frame of a limb's upper bone (`place` 0), lower bone (1) or extremity (2): root,
+/// triangle, extremity.
+template <class T, class L>
+BoneFrame<T> limb_bone(std::size_t limb,
+                       int place,
+                       const Vec3<T>& root,
+                       std::span<const T* const, kSlotCount> blocks,
+                       const L* lengths) {
+  using Quaternion = Eigen::Quaternion<T>;
+  using std::atan2;
+  using std::cos;
+  using std::sin;
+  const LimbSlots& s = kLimbSlots[limb];
+  const glm::dvec3 hinge = human_limbs()[limb].hinge_axis;
+  const glm::dvec3 along = limb_axis(limb);
+  const auto rotation = [&](Slot slot) {
+    return Quaternion(Eigen::Map<const Quaternion>(blocks[index(slot)]));
+  };
+  const T flexion = *blocks[index(s.flexion)];
+  const T l1 = T(lengths[index(s.upper)]);
+  const T l2 = T(lengths[index(s.lower)]);
+  // The upper bone leans back by alpha and the lower forward by the rest of the flexion,
+  // so that the end stays on the frame's axis.
+  const T alpha = atan2(l2 * sin(flexion), l1 + l2 * cos(flexion));
+  const Quaternion frame = rotation(s.frame);
+  const Quaternion upper = frame * about_axis(hinge, T(-alpha));
+  if (place == 0) {
+    return {upper * about_axis(along, *blocks[index(s.upper_twist)]), root};
+  }
+  const Vec3<T> p_mid = root + upper * (vec<T>(along) * l1);
+  const Quaternion lower = frame * about_axis(hinge, T(flexion - alpha));
+  if (place == 1) {
+    return {lower * about_axis(along, *blocks[index(s.lower_twist)]), p_mid};
+  }
+  const Vec3<T> p_end = p_mid + lower * (vec<T>(along) * l2);
+  return {rotation(s.extremity), p_end};
+}
+
 }  // namespace detail
 
 /// Forward kinematics of one bone.
@@ -252,7 +290,6 @@ BoneFrame<T> bone_frame(HumanBone bone,
   const auto rotation = [&](Slot slot) {
     return Quaternion(Eigen::Map<const Quaternion>(blocks[index(slot)]));
   };
-  const auto scalar = [&](Slot slot) { return *blocks[index(slot)]; };
   const auto length = [&](Length which) { return T(lengths[index(which)]); };
   const auto up = [&](Length which) { return Vec3<T>(T(0), length(which), T(0)); };
 
@@ -260,33 +297,8 @@ BoneFrame<T> bone_frame(HumanBone bone,
   const Vec3<T> p_hips = Eigen::Map<const Vec3<T>>(blocks[index(Slot::kHipsPosition)]);
   if (bone == B::kHips) return {hips, p_hips};
 
-  // Limb: root, triangle, extremity.
-  const auto limb_bone =
-      [&](std::size_t limb, const Vec3<T>& root, int place) -> BoneFrame<T> {
-    using std::atan2;
-    using std::cos;
-    using std::sin;
-    const LimbSlots& s = kLimbSlots[limb];
-    const glm::dvec3 hinge = human_limbs()[limb].hinge_axis;
-    const glm::dvec3 along = limb_axis(limb);
-    const T flexion = scalar(s.flexion);
-    const T l1 = length(s.upper);
-    const T l2 = length(s.lower);
-    // The upper bone leans back by alpha and the lower forward by the rest of the
-    // flexion, so that the end stays on the frame's axis.
-    const T alpha = atan2(l2 * sin(flexion), l1 + l2 * cos(flexion));
-    const Quaternion frame = rotation(s.frame);
-    const Quaternion upper = frame * detail::about_axis(hinge, T(-alpha));
-    if (place == 0) {
-      return {upper * detail::about_axis(along, scalar(s.upper_twist)), root};
-    }
-    const Vec3<T> p_mid = root + upper * (detail::vec<T>(along) * l1);
-    const Quaternion lower = frame * detail::about_axis(hinge, T(flexion - alpha));
-    if (place == 1) {
-      return {lower * detail::about_axis(along, scalar(s.lower_twist)), p_mid};
-    }
-    const Vec3<T> p_end = p_mid + lower * (detail::vec<T>(along) * l2);
-    return {rotation(s.extremity), p_end};
+  const auto limb_bone = [&](std::size_t limb, const Vec3<T>& root, int place) {
+    return detail::limb_bone<T, L>(limb, place, root, blocks, lengths);
   };
   const auto leg = [&](std::size_t limb, double side, int place) {
     const Vec3<T> hip(

@@ -57,7 +57,7 @@ struct TagImage {
     for (std::size_t i = 0; i < 4; ++i) {
       const Eigen::Matrix<T, 3, 1> p =
           camera_from_segment * corners_in_segment[i] + origin;
-      std::array<T, 2> pixel;
+      std::array<T, 2> pixel{};
       if (!project(k.data(), p.data(), pixel.data())) {
         out[2 * i] = out[2 * i + 1] = T(1e3);
         continue;

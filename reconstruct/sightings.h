@@ -14,8 +14,8 @@ namespace marey::reconstruct {
 /// One body tag in one image.
 struct TagSighting {
   CameraId camera{};
-  std::size_t tag = 0;            ///< Position in the subject's list of tags.
-  const TagDetection* detection;  ///< Borrowed from the CameraDetections.
+  std::size_t tag = 0;                      ///< Position in the subject's list of tags.
+  const TagDetection* detection = nullptr;  ///< Borrowed from the CameraDetections.
 };
 
 /// All sightings of body tags, frame by frame, over the frames that any camera has.
