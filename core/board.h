@@ -6,6 +6,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/assert.h"
 #include "core/ids.h"
 
 namespace marey {
@@ -31,7 +32,9 @@ struct AprilGrid {
 
   /// Corner `corner` (0..3, the order of TagDetection::corners_px) of tag `id`, in the
   /// board's frame. [m] nullopt when the tag is not on this board.
+  /// Precondition: 0 <= corner < 4.
   [[nodiscard]] std::optional<glm::dvec3> corner_in_board(TagId id, int corner) const {
+    MAREY_ASSERT(corner >= 0 && corner < 4);
     if (!contains(id)) return std::nullopt;
     const int place = number(id) - first_id;
     const int column = place % columns;

@@ -47,7 +47,7 @@ struct Camera {
 /// as OpenCV writes it.
 template <class P, class T>
 [[nodiscard]] bool project(const P* parameters, const T* p_in_camera, T* pixel_px) {
-  if (p_in_camera[2] <= T(1e-6)) return false;
+  if (!(p_in_camera[2] > T(1e-6))) return false;  // Nor is NaN in front of anything.
   const T x = p_in_camera[0] / p_in_camera[2];
   const T y = p_in_camera[1] / p_in_camera[2];
   const T r2 = x * x + y * y;

@@ -4,13 +4,16 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/assert.h"
 #include "core/ids.h"
+#include "core/result.h"
 #include "core/time.h"
 
 namespace marey {
@@ -29,12 +32,17 @@ struct TagDetection {
   int hamming = 0;               ///< Bits corrected while decoding.
 };
 
+/// On which side of the tag's centre each corner is, along x and y of the tag frame; in
+/// the order of TagDetection::corners_px.
+inline constexpr std::array<std::array<int, 2>, 4> kCornerSides{
+    {{-1, +1}, {+1, +1}, {+1, -1}, {-1, -1}}};
+
 /// Corner `corner` (order of TagDetection::corners_px) in the tag frame. [m]
+/// Precondition: 0 <= corner < 4.
 [[nodiscard]] inline glm::dvec3 corner_in_tag(int corner, double size_m) {
+  MAREY_ASSERT(corner >= 0 && corner < 4);
   const double h = 0.5 * size_m;
-  constexpr std::array<std::array<double, 2>, 4> kSigns{
-      {{-1, +1}, {+1, +1}, {+1, -1}, {-1, -1}}};
-  const auto& sign = kSigns[static_cast<std::size_t>(corner)];
+  const auto& sign = kCornerSides[static_cast<std::size_t>(corner)];
   return {sign[0] * h, sign[1] * h, 0.0};
 }
 
@@ -51,6 +59,7 @@ struct TagShrinkage {
 /// Moves opposite edges of a quadrilateral apart: `grow` gives the new distance between
 /// two edges for the old one. Corners as in TagDetection, x and y in turn; T is double or
 /// ceres::Jet. First order in perspective: the sides of a tag are taken as parallel.
+/// Corners that enclose no area, such as those of a tag seen edge-on, stay as they are.
 template <class T, class Grow>
 void move_edges(std::array<std::array<T, 2>, 4>& corners, const Grow& grow) {
   using std::abs;
@@ -64,6 +73,8 @@ void move_edges(std::array<std::array<T, 2>, 4>& corners, const Grow& grow) {
     v[i] = 0.25 * (corners[3][i] - corners[0][i] + corners[2][i] - corners[1][i]);
   }
   const T area = u[0] * v[1] - u[1] * v[0];
+  const T least_px2(1e-9);  // What rounding leaves of no area, some thousand pixels out.
+  if (!(abs(area) > least_px2)) return;
   const T apart_u = 2.0 * abs(area) / sqrt(v[0] * v[0] + v[1] * v[1]);
   const T apart_v = 2.0 * abs(area) / sqrt(u[0] * u[0] + u[1] * u[1]);
   const T factor_u = grow(apart_u) / apart_u;
@@ -78,8 +89,8 @@ void move_edges(std::array<std::array<T, 2>, 4>& corners, const Grow& grow) {
   }
 }
 
-/// The corners as they would be found without shrinkage.
-/// Precondition: a quadrilateral with an area.
+/// The corners as they would be found without shrinkage. As move_edges(), it leaves
+/// corners alone that enclose no area. Precondition: slope < 1.
 [[nodiscard]] inline std::array<glm::dvec2, 4> unshrunk(
     const std::array<glm::dvec2, 4>& corners_px, const TagShrinkage& shrinkage) {
   std::array<std::array<double, 2>, 4> corners{};
@@ -91,6 +102,13 @@ void move_edges(std::array<std::array<T, 2>, 4>& corners, const Grow& grow) {
   for (std::size_t i = 0; i < 4; ++i) out[i] = {corners[i][0], corners[i][1]};
   return out;
 }
+
+/// Sightings that a detector dropped.
+struct DroppedSightings {
+  int unsure = 0;      ///< Decision margin too low.
+  int duplicated = 0;  ///< The same id in two places of one image, and no telling
+                       ///< which is right, or the one that is wrong.
+};
 
 /// All tags of one frame of one camera, in ascending id order, each id at most once.
 struct FrameDetections {
@@ -106,8 +124,17 @@ struct CameraDetections {
   int width_px = 0;
   int height_px = 0;
   FrameRate rate;
-  Timestamp offset{0};  ///< Frame k was exposed at k / rate + offset.
+  /// When known, frame k was exposed at k / rate + offset.
+  std::optional<Timestamp> offset;
   std::vector<FrameDetections> frames;
+  DroppedSightings dropped;  ///< In all of these frames together.
+  /// Frames that are damaged in the recording and could not be decoded: empty here.
+  int damaged_frames = 0;
+  /// Why there are no more frames, when reading ended before the recording's end.
+  std::optional<Error> broken_off;
+  /// When frames were matched by time: which of the recording's frames each of `frames`
+  /// is, nullopt where the camera took none. Empty when they have the same numbers.
+  std::vector<std::optional<int>> in_recording;
 };
 
 }  // namespace marey

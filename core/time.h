@@ -31,4 +31,11 @@ struct FrameRate {
   return Timestamp{std::llround(1e9 * time_s)};
 }
 
+/// Where a camera's time offset comes from.
+enum class ClockSource {
+  kReference,  ///< The first camera's: its clock is the trial's.
+  kGiven,      ///< The session's word.
+  kEstimated,  ///< From what the cameras saw.
+};
+
 }  // namespace marey
