@@ -13,6 +13,7 @@
 
 #include "capture/blurred_pattern.h"
 #include "core/assert.h"
+#include "core/detection.h"
 
 namespace marey::capture {
 namespace {
@@ -40,13 +41,6 @@ const std::array<double, 256>& light_of_gray() {
   return table;
 }
 
-/// A pixel that belongs to the tag, relative to the tag's middle.
-struct Pixel {
-  double x = 0.0;
-  double y = 0.0;
-  double light = 0.0;
-};
-
 /// A homography `image_from_cell` at one pixel: the cell coordinates (from the tag's
 /// middle) there, and what the pixel's distance is in cells.
 struct Place {
@@ -63,22 +57,29 @@ Place place_of(const cv::Matx33d& image_from_cell,
                const cv::Matx33d& cell_from_image,
                double x,
                double y) {
-  const cv::Vec3d q = cell_from_image * cv::Vec3d(x, y, 1.0);
+  const cv::Matx33d& g = cell_from_image;
   const cv::Matx33d& h = image_from_cell;
+  const double w = 1.0 / (g(2, 0) * x + g(2, 1) * y + g(2, 2));
   Place at;
-  at.u = q[0] / q[2];
-  at.v = q[1] / q[2];
+  at.u = w * (g(0, 0) * x + g(0, 1) * y + g(0, 2));
+  at.v = w * (g(1, 0) * x + g(1, 1) * y + g(1, 2));
   at.depth = h(2, 0) * at.u + h(2, 1) * at.v + h(2, 2);
-  const double x_by_u = (h(0, 0) - h(2, 0) * x) / at.depth;
-  const double x_by_v = (h(0, 1) - h(2, 1) * x) / at.depth;
-  const double y_by_u = (h(1, 0) - h(2, 0) * y) / at.depth;
-  const double y_by_v = (h(1, 1) - h(2, 1) * y) / at.depth;
-  const double area = x_by_u * y_by_v - x_by_v * y_by_u;
-  at.u_by_x = y_by_v / area;
-  at.u_by_y = -x_by_v / area;
-  at.v_by_x = -y_by_u / area;
-  at.v_by_y = x_by_u / area;
+  // Derivatives of image by cell coordinates, times the depth; their inverse.
+  const double x_by_u = h(0, 0) - h(2, 0) * x;
+  const double x_by_v = h(0, 1) - h(2, 1) * x;
+  const double y_by_u = h(1, 0) - h(2, 0) * y;
+  const double y_by_v = h(1, 1) - h(2, 1) * y;
+  const double scale = at.depth / (x_by_u * y_by_v - x_by_v * y_by_u);
+  at.u_by_x = y_by_v * scale;
+  at.u_by_y = -x_by_v * scale;
+  at.v_by_x = -y_by_u * scale;
+  at.v_by_y = x_by_u * scale;
   return at;
+}
+
+/// std::hypot without its care for numbers that no image has.
+double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
 }
 
 cv::Matx33d homography(const Unknowns& unknowns) {
@@ -90,17 +91,38 @@ cv::Matx33d homography(const Unknowns& unknowns) {
 
 /// One step's linear system, and how well the state it was made at fits.
 struct System {
-  Normal normal = Normal::zeros();
+  Normal normal = Normal::zeros();  ///< Its upper half, until closed().
   Unknowns right = Unknowns::all(0.0);
   double cost = 0.0;
   double squares = 0.0;
+
+  /// Adds a pixel of `slope`, whose unknowns before `first` are zero.
+  void add(const std::array<double, kUnknowns>& slope,
+           std::size_t first,
+           double weight,
+           double error) {
+    for (std::size_t i = first; i < kUnknowns; ++i) {
+      const double scaled = weight * slope[i];
+      right.val[i] += scaled * error;
+      double* row = normal.val + i * kUnknowns;
+      for (std::size_t j = i; j < kUnknowns; ++j) row[j] += scaled * slope[j];
+    }
+  }
+
+  /// Fills the lower half.
+  void close() {
+    for (int i = 0; i < kUnknowns; ++i) {
+      for (int j = 0; j < i; ++j) normal(i, j) = normal(j, i);
+    }
+  }
 };
 
 class Fit {
  public:
   Fit(const GrayFrame& frame,
       const TagPattern& pattern,
-      const std::array<glm::dvec2, 4>& corners_px);
+      const std::array<glm::dvec2, 4>& corners_px,
+      AlignScratch& scratch);
 
   /// False when it does not get anywhere.
   bool run();
@@ -109,8 +131,9 @@ class Fit {
  private:
   void gather(const GrayFrame& frame);
   [[nodiscard]] bool guess_light();
-  [[nodiscard]] System linearized(const Unknowns& at) const;
-  void add(const Pixel& pixel,
+  /// By all unknowns, or by those of the light alone, which is quicker.
+  [[nodiscard]] System linearized(const Unknowns& at, bool light_alone = false) const;
+  void add(const AlignPixel& pixel,
            const Place& place,
            const Blurred& model,
            const Unknowns& at,
@@ -120,13 +143,9 @@ class Fit {
   double half_cells_;  ///< Half of the square's side.
   glm::dvec2 middle_px_{0.0};
   Unknowns state_ = Unknowns::all(0.0);
-  std::vector<Pixel> pixels_;
+  AlignScratch& pixels_;
   double residual_ = 0.0;
 };
-
-/// The corners in cells from the tag's middle, in TagDetection's order.
-constexpr std::array<std::array<int, 2>, 4> kCorners{
-    {{-1, 1}, {1, 1}, {1, -1}, {-1, -1}}};
 
 /// The homography that takes the corners of a square of half side `h` to `corners`.
 /// False when there is none.
@@ -137,8 +156,8 @@ bool through_corners(double h,
   cv::Vec<double, 8> b;
   for (int i = 0; i < 4; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double u = h * kCorners[k][0];
-    const double v = h * kCorners[k][1];
+    const double u = h * kCornerSides[k][0];
+    const double v = h * kCornerSides[k][1];
     for (int axis = 0; axis < 2; ++axis) {
       const double p = corners[k][axis];
       const int row = 2 * i + axis;
@@ -160,8 +179,12 @@ bool through_corners(double h,
 
 Fit::Fit(const GrayFrame& frame,
          const TagPattern& pattern,
-         const std::array<glm::dvec2, 4>& corners_px)
-    : pattern_(pattern), half_cells_(0.5 * (pattern.cells - 2 * pattern.margin_cells)) {
+         const std::array<glm::dvec2, 4>& corners_px,
+         AlignScratch& scratch)
+    : pattern_(pattern),
+      half_cells_(0.5 * (pattern.cells - 2 * pattern.margin_cells)),
+      pixels_(scratch) {
+  pixels_.clear();
   for (const auto& corner : corners_px) middle_px_ += 0.25 * corner;
   std::array<glm::dvec2, 4> from_middle = corners_px;
   for (auto& corner : from_middle) corner -= middle_px_;
@@ -177,10 +200,10 @@ void Fit::gather(const GrayFrame& frame) {
   const double reach = half_cells_ + kRingCells;
   glm::dvec2 low(std::numeric_limits<double>::max());
   glm::dvec2 high(-low);
-  for (const auto& corner : kCorners) {
+  for (const auto& corner : kCornerSides) {
     const cv::Vec3d p =
         image_from_cell * cv::Vec3d(reach * corner[0], reach * corner[1], 1.0);
-    if (p[2] <= 0.0) return;  // So slanted that the horizon crosses the ring.
+    if (!(p[2] > 0.0)) return;  // So slanted that the horizon crosses the ring.
     const glm::dvec2 pixel = middle_px_ + glm::dvec2(p[0], p[1]) / p[2];
     low = glm::min(low, pixel);
     high = glm::max(high, pixel);
@@ -204,7 +227,7 @@ void Fit::gather(const GrayFrame& frame) {
   }
 }
 
-void Fit::add(const Pixel& pixel,
+void Fit::add(const AlignPixel& pixel,
               const Place& place,
               const Blurred& model,
               const Unknowns& at,
@@ -217,45 +240,44 @@ void Fit::add(const Pixel& pixel,
       light[0] + light[2] * across + light[3] * down + contrast * model.value;
   const double error = pixel.light - shown;
 
-  // The pattern moves with its place, so a point of the image sees it move backwards.
-  const double by_x = -contrast * (model.by_u * place.u_by_x + model.by_v * place.v_by_x);
-  const double by_y = -contrast * (model.by_u * place.u_by_y + model.by_v * place.v_by_y);
-  const double turn = -(by_x * pixel.x + by_y * pixel.y);
-  const double u = place.u / place.depth;
-  const double v = place.v / place.depth;
-  const std::array<double, kUnknowns> slope{by_x * u,
-                                            by_x * v,
-                                            by_x / place.depth,
-                                            by_y * u,
-                                            by_y * v,
-                                            by_y / place.depth,
-                                            turn * u,
-                                            turn * v,
-                                            contrast * model.by_log_sigma,
-                                            1.0,
-                                            model.value,
-                                            across,
-                                            down,
-                                            across * model.value,
-                                            down * model.value};
-
   constexpr double kSurprise = 0.08;  // Of the contrast: dirt, a finger, a highlight.
   const double limit = kSurprise * std::abs(light[1]);
   const double size = std::abs(error);
   const double weight = limit <= 0.0 || size <= limit ? 1.0 : limit / size;
   system.cost += weight * error * error;
   system.squares += error * error;
-  for (std::size_t i = 0; i < kUnknowns; ++i) {
-    const double scaled = weight * slope[i];
-    const int row = static_cast<int>(i);
-    system.right[row] += scaled * error;
-    for (std::size_t j = i; j < kUnknowns; ++j) {
-      system.normal(row, static_cast<int>(j)) += scaled * slope[j];
-    }
+
+  std::array<double, kUnknowns> slope{};
+  slope[kLight] = 1.0;
+  slope[kLight + 1] = model.value;
+  slope[kLight + 2] = across;
+  slope[kLight + 3] = down;
+  slope[kLight + 4] = across * model.value;
+  slope[kLight + 5] = down * model.value;
+  if (model.flat) {
+    system.add(slope, kLight, weight, error);
+    return;
   }
+  // The pattern moves with its place, so a point of the image sees it move backwards.
+  const double by_x = -contrast * (model.by_u * place.u_by_x + model.by_v * place.v_by_x);
+  const double by_y = -contrast * (model.by_u * place.u_by_y + model.by_v * place.v_by_y);
+  const double turn = -(by_x * pixel.x + by_y * pixel.y);
+  const double per_depth = 1.0 / place.depth;
+  const double u = place.u * per_depth;
+  const double v = place.v * per_depth;
+  slope[0] = by_x * u;
+  slope[1] = by_x * v;
+  slope[2] = by_x * per_depth;
+  slope[3] = by_y * u;
+  slope[4] = by_y * v;
+  slope[5] = by_y * per_depth;
+  slope[6] = turn * u;
+  slope[7] = turn * v;
+  slope[kBlur] = contrast * model.by_log_sigma;
+  system.add(slope, 0, weight, error);
 }
 
-System Fit::linearized(const Unknowns& at) const {
+System Fit::linearized(const Unknowns& at, bool light_alone) const {
   System system;
   const cv::Matx33d image_from_cell = homography(at);
   const cv::Matx33d cell_from_image = image_from_cell.inv();
@@ -263,28 +285,28 @@ System Fit::linearized(const Unknowns& at) const {
   const double middle_cells = 0.5 * pattern_.cells;
   CellWeights u;
   CellWeights v;
-  for (const Pixel& pixel : pixels_) {
+  for (const AlignPixel& pixel : pixels_) {
     const Place place = place_of(image_from_cell, cell_from_image, pixel.x, pixel.y);
     // The blur is round in the image; of its ellipse in the cells the axes are kept.
     weigh_cells(place.u + middle_cells,
-                blur_px * std::hypot(place.u_by_x, place.u_by_y),
+                blur_px * length(place.u_by_x, place.u_by_y),
                 pattern_.cells,
                 u);
     weigh_cells(place.v + middle_cells,
-                blur_px * std::hypot(place.v_by_x, place.v_by_y),
+                blur_px * length(place.v_by_x, place.v_by_y),
                 pattern_.cells,
                 v);
-    add(pixel, place, blurred(pattern_, u, v), at, system);
+    Blurred model = blurred(pattern_, u, v);
+    model.flat |= light_alone;
+    add(pixel, place, model, at, system);
   }
-  for (int i = 0; i < kUnknowns; ++i) {
-    for (int j = 0; j < i; ++j) system.normal(i, j) = system.normal(j, i);
-  }
+  system.close();
   return system;
 }
 
 /// The light alone is a linear problem.
 bool Fit::guess_light() {
-  const System system = linearized(state_);
+  const System system = linearized(state_, true);
   cv::Matx<double, 2, 2> normal;
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j) normal(i, j) = system.normal(kLight + i, kLight + j);
@@ -336,9 +358,9 @@ Alignment Fit::answer() const {
   const cv::Matx33d image_from_cell = homography(state_);
   Alignment alignment;
   for (std::size_t i = 0; i < 4; ++i) {
-    const cv::Vec3d p =
-        image_from_cell *
-        cv::Vec3d(half_cells_ * kCorners[i][0], half_cells_ * kCorners[i][1], 1.0);
+    const cv::Vec3d p = image_from_cell * cv::Vec3d(half_cells_ * kCornerSides[i][0],
+                                                    half_cells_ * kCornerSides[i][1],
+                                                    1.0);
     alignment.corners_px[i] = middle_px_ + glm::dvec2(p[0], p[1]) / p[2];
   }
   alignment.blur_px = std::exp(state_[kBlur]);
@@ -350,9 +372,10 @@ Alignment Fit::answer() const {
 
 std::optional<Alignment> align_pattern(const GrayFrame& frame,
                                        const TagPattern& pattern,
-                                       const std::array<glm::dvec2, 4>& corners_px) {
+                                       const std::array<glm::dvec2, 4>& corners_px,
+                                       AlignScratch& scratch) {
   MAREY_ASSERT(pattern.cells - 2 * pattern.margin_cells >= 4);
-  Fit fit(frame, pattern, corners_px);
+  Fit fit(frame, pattern, corners_px, scratch);
   if (!fit.run()) return std::nullopt;
   const Alignment alignment = fit.answer();
   // Another fit than that of this tag: cells away, or of something else.
@@ -360,11 +383,11 @@ std::optional<Alignment> align_pattern(const GrayFrame& frame,
       glm::distance(corners_px[0], corners_px[2]) / std::numbers::sqrt2;
   const double cell_px = side_px / (pattern.cells - 2 * pattern.margin_cells);
   constexpr double kLargestResidual = 0.25;
-  if (alignment.residual > kLargestResidual) return std::nullopt;
+  // Asked for what is good, so that a fit that went to NaN is refused.
+  if (!(alignment.residual <= kLargestResidual)) return std::nullopt;
   for (std::size_t i = 0; i < 4; ++i) {
-    if (glm::distance(alignment.corners_px[i], corners_px[i]) > 1.5 * cell_px) {
-      return std::nullopt;
-    }
+    const double moved_px = glm::distance(alignment.corners_px[i], corners_px[i]);
+    if (!(moved_px <= 1.5 * cell_px)) return std::nullopt;
   }
   return alignment;
 }

@@ -3,19 +3,11 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <vector>
+
+#include "core/tag_pattern.h"
 
 // Private to capture/.
 namespace marey::capture {
-
-/// A printed tag: square cells, black or white, rows from the top of the upright tag.
-struct TagPattern {
-  int cells = 0;  ///< In a row and in a column, quiet zone included.
-  /// From the edge of the pattern to the square whose corners count.
-  int margin_cells = 0;
-  std::vector<std::uint8_t> white;  ///< cells * cells; 1 is white.
-};
 
 /// How much of a blurred point each cell of a row of cells contributes, with derivatives.
 struct CellWeights {
@@ -28,7 +20,7 @@ struct CellWeights {
 };
 
 /// Weights of a Gaussian at `place` over a row of `cells` unit cells, the outer two of
-/// which have no end. `place` 0 is where the first cell begins. Cells more than four
+/// which have no end. `place` 0 is where the first cell begins. Cells more than 3.2
 /// sigma away are left out, and all beyond the first CellWeights::kMost.
 /// Preconditions: sigma > 0, cells > 0.
 void weigh_cells(double place, double sigma, int cells, CellWeights& out);
@@ -39,6 +31,7 @@ struct Blurred {
   double by_u = 0.0;
   double by_v = 0.0;
   double by_log_sigma = 0.0;
+  bool flat = false;  ///< All cells in reach are of one colour: no derivative.
 };
 
 /// The pattern where the weights say, columns by `u` and rows by `v`.

@@ -7,62 +7,38 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <string_view>
+#include <set>
 #include <utility>
 
 #include <apriltag/apriltag.h>
-#include <apriltag/tag16h5.h>
-#include <apriltag/tag25h9.h>
-#include <apriltag/tag36h10.h>
-#include <apriltag/tag36h11.h>
-#include <apriltag/tagCircle21h7.h>
-#include <apriltag/tagCircle49h12.h>
-#include <apriltag/tagCustom48h12.h>
-#include <apriltag/tagStandard41h12.h>
-#include <apriltag/tagStandard52h13.h>
 #include <glm/geometric.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "capture/align_pattern.h"
+#include "capture/tag_families.h"
 
 namespace marey::capture {
 namespace {
 
-struct Family {
-  std::string_view name;
-  apriltag_family_t* (*create)();
-  void (*destroy)(apriltag_family_t*);
-};
-
-constexpr std::array<Family, 9> kFamilies{{
-    {"tag16h5", tag16h5_create, tag16h5_destroy},
-    {"tag25h9", tag25h9_create, tag25h9_destroy},
-    {"tag36h10", tag36h10_create, tag36h10_destroy},
-    {"tag36h11", tag36h11_create, tag36h11_destroy},
-    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy},
-    {"tagCircle49h12", tagCircle49h12_create, tagCircle49h12_destroy},
-    {"tagCustom48h12", tagCustom48h12_create, tagCustom48h12_destroy},
-    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
-    {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy},
-}};
-
-const Family* find_family(std::string_view name) {
-  const auto found = std::find_if(kFamilies.begin(),
-                                  kFamilies.end(),
-                                  [&](const Family& f) { return f.name == name; });
-  return found == kFamilies.end() ? nullptr : &*found;
-}
-
-Error unknown_family(const std::string& name) {
-  std::string known;
-  for (const Family& family : kFamilies) {
-    known += (known.empty() ? "" : ", ") + std::string(family.name);
+std::optional<Error> refusal_of_families(const std::vector<TagFamilyUse>& families) {
+  std::set<TagId> taken;
+  for (const TagFamilyUse& use : families) {
+    if (!find_family(use.name)) return unknown_family(use.name);
+    const bool shared = std::any_of(use.ids.begin(), use.ids.end(), [&](TagId id) {
+      return !taken.insert(id).second;
+    });
+    if (!shared && (families.size() == 1 || !use.ids.empty())) continue;
+    return bad_input("tag family",
+                     "\"" + use.name + "\" shares ids with another family",
+                     "give every tag an id of its own, whatever its family");
   }
-  return bad_input("tag family",
-                   "\"" + name + "\" is not one that marey knows",
-                   "use one of " + known);
+  if (!families.empty()) return std::nullopt;
+  return bad_input("tag family", "none is given", "use tag36h11");
 }
 
 std::optional<Error> refusal(const TagDetectorOptions& options) {
+  if (auto error = refusal_of_families(options.families)) return error;
   if (!(options.quad_decimate >= 1.0 && options.quad_decimate <= 16.0)) {
     return bad_input("tag detector",
                      "quad_decimate must be from 1 to 16",
@@ -79,6 +55,10 @@ std::optional<Error> refusal(const TagDetectorOptions& options) {
   return std::nullopt;
 }
 
+// A code that needed a bit corrected may be another tag's, or of a tag half hidden: it
+// weighs a quarter.
+constexpr double kCorrectedDoubt = 2.0;
+
 double mean_side_px(const std::array<glm::dvec2, 4>& corners_px) {
   double sum = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -87,12 +67,14 @@ double mean_side_px(const std::array<glm::dvec2, 4>& corners_px) {
   return 0.25 * sum;
 }
 
-TagDetection to_detection(const apriltag_detection_t& found) {
+/// `origin_px` is where the searched part of the picture begins.
+TagDetection to_detection(const apriltag_detection_t& found,
+                          const glm::dvec2& origin_px) {
   TagDetection tag;
   tag.id = TagId{found.id};
   for (std::size_t i = 0; i < 4; ++i) {
     // libapriltag's first pixel has its centre at 0.5, ours at 0.
-    tag.corners_px[i] = {found.p[i][0] - 0.5, found.p[i][1] - 0.5};
+    tag.corners_px[i] = origin_px + glm::dvec2(found.p[i][0] - 0.5, found.p[i][1] - 0.5);
   }
   tag.sigma_px = edge_corner_sigma_px(mean_side_px(tag.corners_px));
   tag.decision_margin = static_cast<double>(found.decision_margin);
@@ -100,48 +82,42 @@ TagDetection to_detection(const apriltag_detection_t& found) {
   return tag;
 }
 
-TagPattern pattern_of(apriltag_family_t* family, TagId id) {
-  image_u8_t* image = apriltag_to_image(family, number(id));
-  TagPattern pattern;
-  pattern.cells = image->width;
-  pattern.margin_cells = (family->total_width - family->width_at_border) / 2;
-  for (int y = 0; y < image->height; ++y) {
-    const std::uint8_t* row = image->buf + static_cast<std::ptrdiff_t>(y) * image->stride;
-    for (int x = 0; x < image->width; ++x) pattern.white.push_back(row[x] != 0 ? 1 : 0);
-  }
-  image_u8_destroy(image);
-  return pattern;
-}
-
-/// Sorts by id and drops every id that is there more than once. Returns how many
-/// sightings went.
+/// Sorts by id, and of an id that is there more than once keeps the one sighting that
+/// needed no bit corrected, or none: a corrected code may be another tag's. Returns how
+/// many sightings went.
 int keep_unique_ids(std::vector<TagDetection>& tags) {
   std::sort(tags.begin(), tags.end(), [](const auto& a, const auto& b) {
-    return number(a.id) < number(b.id);
+    return std::pair(number(a.id), a.hamming) < std::pair(number(b.id), b.hamming);
   });
-  std::vector<TagDetection> kept;
-  kept.reserve(tags.size());
+  std::size_t kept = 0;
   for (std::size_t first = 0; first < tags.size();) {
     std::size_t last = first + 1;
     while (last < tags.size() && tags[last].id == tags[first].id) ++last;
-    if (last == first + 1) kept.push_back(tags[first]);
+    const bool sole = last == first + 1;
+    if (sole || (tags[first].hamming == 0 && tags[first + 1].hamming > 0)) {
+      tags[kept++] = tags[first];
+    }
     first = last;
   }
-  const auto dropped = static_cast<int>(tags.size() - kept.size());
-  tags = std::move(kept);
+  const auto dropped = static_cast<int>(tags.size() - kept);
+  tags.resize(kept);
   return dropped;
 }
 
 }  // namespace
 
 struct TagDetector::Impl {
-  Impl(const TagDetectorOptions& options, const Family& its_family)
-      : family(its_family),
-        codes(its_family.create()),
-        detector(apriltag_detector_create()),
+  explicit Impl(const TagDetectorOptions& options)
+      : detector(apriltag_detector_create()),
         min_decision_margin(options.min_decision_margin),
         align_patterns(options.align_patterns) {
-    apriltag_detector_add_family_bits(detector, codes, options.max_hamming);
+    for (const TagFamilyUse& use : options.families) {
+      const FamilyMaker& family = *find_family(use.name);
+      codes.push_back({&family, family.create(), {use.ids.begin(), use.ids.end()}});
+      on_kalibr_board |= use.name == "tag36h11b2";
+      apriltag_detector_add_family_bits(
+          detector, codes.back().codes, options.max_hamming);
+    }
     detector->nthreads = options.threads;
     detector->quad_decimate = static_cast<float>(options.quad_decimate);
     detector->quad_sigma = 0.0F;  // Anything else would write into the caller's image.
@@ -157,29 +133,115 @@ struct TagDetector::Impl {
   Impl& operator=(const Impl&) = delete;
   ~Impl() {
     apriltag_detector_destroy(detector);
-    family.destroy(codes);
+    for (const Codes& one : codes) one.family->destroy(one.codes);
+  }
+
+  /// Appends what libapriltag finds in an image that begins at `origin_px` of the frame.
+  void find(image_u8_t& image,
+            const glm::dvec2& origin_px,
+            std::vector<TagDetection>& found);
+  void find_on_kalibr_board(const image_u8_t& image,
+                            const glm::dvec2& origin_px,
+                            std::vector<TagDetection>& found);
+
+  /// Whether the sighting is of a tag in use.
+  [[nodiscard]] bool in_use(const apriltag_detection_t& sighting) const {
+    for (const Codes& one : codes) {
+      if (one.codes != sighting.family) continue;
+      return one.ids.empty() || one.ids.contains(TagId{sighting.id});
+    }
+    return false;
+  }
+
+  [[nodiscard]] apriltag_family_t* family_of(TagId id) const {
+    for (const Codes& one : codes) {
+      if (one.ids.empty() || one.ids.contains(id)) return one.codes;
+    }
+    return codes.front().codes;
   }
 
   void align(const GrayFrame& frame, TagDetection& tag);
 
-  const Family& family;
-  apriltag_family_t* codes;
+  struct Codes {
+    const FamilyMaker* family = nullptr;
+    apriltag_family_t* codes = nullptr;  ///< Owned.
+    std::set<TagId> ids;                 ///< Empty: all.
+  };
+  std::vector<Codes> codes;
   apriltag_detector_t* detector;
+  bool on_kalibr_board = false;  ///< One of the families is.
+  std::vector<std::uint8_t> copy;
+  std::vector<TagDetection> again;
   double min_decision_margin;
   bool align_patterns;
   std::map<TagId, TagPattern> patterns;  ///< Of the tags seen so far.
+  AlignScratch scratch;
   DroppedSightings dropped;
 };
 
 void TagDetector::Impl::align(const GrayFrame& frame, TagDetection& tag) {
   auto known = patterns.find(tag.id);
   if (known == patterns.end()) {
-    known = patterns.emplace(tag.id, pattern_of(codes, tag.id)).first;
+    known = patterns.emplace(tag.id, pattern_of(family_of(tag.id), tag.id)).first;
   }
-  const auto aligned = align_pattern(frame, known->second, tag.corners_px);
+  const auto aligned = align_pattern(frame, known->second, tag.corners_px, scratch);
   if (!aligned) return;
   tag.corners_px = aligned->corners_px;
   tag.sigma_px = aligned_corner_sigma_px(mean_side_px(tag.corners_px), aligned->blur_px);
+}
+
+void TagDetector::Impl::find(image_u8_t& image,
+                             const glm::dvec2& origin_px,
+                             std::vector<TagDetection>& found) {
+  zarray_t* sightings = apriltag_detector_detect(detector, &image);
+  for (int i = 0; i < zarray_size(sightings); ++i) {
+    apriltag_detection_t* one = nullptr;
+    zarray_get(sightings, i, static_cast<void*>(&one));
+    if (!in_use(*one)) continue;  // Somebody else's tag.
+    if (static_cast<double>(one->decision_margin) < min_decision_margin) {
+      ++dropped.unsure;
+    } else {
+      found.push_back(to_detection(*one, origin_px));
+    }
+  }
+  apriltag_detections_destroy(sightings);
+}
+
+/// Kalibr's boards have black squares that touch the corners of their tags: in a blurred
+/// picture they are one. Looks again in a sharpened copy, and in one whose white has
+/// grown by a pixel. A tag that is found anew in the same place is not doubled; what
+/// moves its edges is undone where its pattern is aligned, in the frame itself.
+void TagDetector::Impl::find_on_kalibr_board(const image_u8_t& image,
+                                             const glm::dvec2& origin_px,
+                                             std::vector<TagDetection>& found) {
+  const cv::Mat original(image.height, image.width, CV_8UC1, image.buf, image.stride);
+  constexpr float kSharpen = -1.5F;
+  const int usual_diff = detector->qtp.min_white_black_diff;
+  detector->qtp.min_white_black_diff = 5;  // Dull boards too: it is not done often.
+  for (const bool grown : {false, true}) {
+    copy.resize(original.total());
+    cv::Mat changed(original.size(), CV_8UC1, copy.data());
+    if (grown) {
+      cv::dilate(original, changed, cv::Mat());  // 3 x 3.
+    } else {
+      original.copyTo(changed);
+    }
+    image_u8_t view{changed.cols, changed.rows, changed.cols, changed.data};
+    detector->quad_sigma = grown ? 0.0F : kSharpen;
+    again.clear();
+    find(view, origin_px, again);
+    detector->quad_sigma = 0.0F;
+    for (const TagDetection& tag : again) {
+      const bool known =
+          std::any_of(found.begin(), found.end(), [&](const TagDetection& other) {
+            return other.id == tag.id &&
+                   glm::distance(other.corners_px[0], tag.corners_px[0]) <
+                       0.5 * mean_side_px(other.corners_px);
+          });
+      if (!known) found.push_back(tag);
+    }
+  }
+  detector->qtp.min_white_black_diff = usual_diff;
 }
 
 TagDetector::TagDetector(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -188,41 +250,46 @@ TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 TagDetector::~TagDetector() = default;
 
 Result<TagDetector> TagDetector::create(const TagDetectorOptions& options) {
-  const Family* family = find_family(options.family);
-  if (family == nullptr) return unknown_family(options.family);
   if (auto error = refusal(options)) return *error;
-  return TagDetector(std::make_unique<Impl>(options, *family));
+  return TagDetector(std::make_unique<Impl>(options));
 }
 
 std::vector<TagDetection> TagDetector::detect(const GrayFrame& frame) {
+  std::vector<TagDetection> tags;
+  search(frame, {0, 0, frame.width_px, frame.height_px}, tags);
+  finish(frame, tags);
+  return tags;
+}
+
+void TagDetector::search(const GrayFrame& frame,
+                         const PixelBox& box,
+                         std::vector<TagDetection>& found) {
   MAREY_ASSERT(frame.pixels != nullptr && frame.stride >= frame.width_px);
+  MAREY_ASSERT(box.left >= 0 && box.top >= 0 && box.right <= frame.width_px &&
+               box.bottom <= frame.height_px);
   // The library divides the image into tiles and assumes that there are some.
   constexpr int kLeastSide = 16;
+  const int width_px = box.right - box.left;
+  const int height_px = box.bottom - box.top;
   const double decimate = static_cast<double>(impl_->detector->quad_decimate);
-  if (std::min(frame.width_px, frame.height_px) < kLeastSide * decimate) return {};
+  if (std::min(width_px, height_px) < kLeastSide * decimate) return;
 
   // The library's image is not const, but with quad_sigma 0 it only reads.
-  image_u8_t image{frame.width_px,
-                   frame.height_px,
-                   frame.stride,
-                   const_cast<std::uint8_t*>(frame.pixels)};
-  zarray_t* found = apriltag_detector_detect(impl_->detector, &image);
-  std::vector<TagDetection> tags;
-  for (int i = 0; i < zarray_size(found); ++i) {
-    apriltag_detection_t* one = nullptr;
-    zarray_get(found, i, static_cast<void*>(&one));
-    if (static_cast<double>(one->decision_margin) < impl_->min_decision_margin) {
-      ++impl_->dropped.unsure;
-    } else {
-      tags.push_back(to_detection(*one));
-    }
+  auto* first = const_cast<std::uint8_t*>(
+      frame.pixels + static_cast<std::ptrdiff_t>(box.top) * frame.stride + box.left);
+  image_u8_t image{width_px, height_px, frame.stride, first};
+  impl_->find(image, {box.left, box.top}, found);
+  if (impl_->on_kalibr_board) {
+    impl_->find_on_kalibr_board(image, {box.left, box.top}, found);
   }
-  apriltag_detections_destroy(found);
-  impl_->dropped.duplicated += keep_unique_ids(tags);
-  if (impl_->align_patterns) {
-    for (TagDetection& tag : tags) impl_->align(frame, tag);
+}
+
+void TagDetector::finish(const GrayFrame& frame, std::vector<TagDetection>& found) {
+  impl_->dropped.duplicated += keep_unique_ids(found);
+  for (TagDetection& tag : found) {
+    if (impl_->align_patterns) impl_->align(frame, tag);
+    if (tag.hamming > 0) tag.sigma_px *= kCorrectedDoubt;
   }
-  return tags;
 }
 
 const DroppedSightings& TagDetector::dropped() const {

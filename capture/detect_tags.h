@@ -9,13 +9,16 @@
 #include "capture/frame_source.h"
 #include "core/detection.h"
 #include "core/result.h"
+#include "core/tag_family.h"
 
 namespace marey::capture {
 
 struct TagDetectorOptions {
-  /// tag16h5, tag25h9, tag36h10, tag36h11, tagCircle21h7, tagCircle49h12,
-  /// tagCustom48h12, tagStandard41h12 or tagStandard52h13.
-  std::string family = "tag36h11";
+  /// By name: tag16h5, tag25h9, tag36h10, tag36h11, tag36h11b2 (Kalibr's boards: a frame
+  /// of two black cells, squares at the corners; three times the work), tagCircle21h7,
+  /// tagCircle49h12, tagCustom48h12, tagStandard41h12 or tagStandard52h13. Of several
+  /// families, each lists its ids, and none is in two lists.
+  std::vector<TagFamilyUse> families{{}};
   /// Look for squares in an image this many times smaller: 1 (finest), 1.5, 2, 3...
   double quad_decimate = 1.0;
   /// More than one gains nothing within an image: give each camera a detector instead.
@@ -30,17 +33,20 @@ struct TagDetectorOptions {
   bool align_patterns = true;
 };
 
-/// Sightings that detect() dropped, since the detector was made.
-struct DroppedSightings {
-  int unsure = 0;      ///< Decision margin too low.
-  int duplicated = 0;  ///< The same id in two places of one image: both dropped.
+/// Pixels from `left` and `top` on, up to but without `right` and `bottom`.
+struct PixelBox {
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
 };
 
-/// Finds tags of one family in images. Owns libapriltag's detector and its buffers; one
+/// Finds tags in images. Owns libapriltag's detector and its buffers; one
 /// thread at a time may use it.
 class TagDetector {
  public:
-  /// kBadInput when an option is out of its range, such as a family that is not known.
+  /// kBadInput when an option is out of its range, such as a family that is not known, or
+  /// an id that two families share.
   [[nodiscard]] static Result<TagDetector> create(const TagDetectorOptions& options = {});
 
   TagDetector(TagDetector&&) noexcept;
@@ -49,11 +55,22 @@ class TagDetector {
 
   /// Tags in `frame`, ids ascending, each id once. An image too small to hold a tag has
   /// none. sigma_px is aligned_corner_sigma_px() of the tag's mean side, or
-  /// edge_corner_sigma_px() where its pattern was not aligned. Same image, same answer:
-  /// nothing is remembered but the counts in dropped(). About 24 ms at 1280x720 and 1 ms
-  /// for each tag.
+  /// edge_corner_sigma_px() where its pattern was not aligned; twice that where a bit of
+  /// its code was corrected. Same image, same answer: nothing is remembered but the
+  /// counts in dropped(). About 24 ms at 1280x720 and 1 ms for each tag.
   [[nodiscard]] std::vector<TagDetection> detect(const GrayFrame& frame);
 
+  /// detect() in parts, for who knows where to look: appends the sightings in `box`,
+  /// which must lie in the frame, as they come. A box that is too small to hold a tag has
+  /// none.
+  void search(const GrayFrame& frame,
+              const PixelBox& box,
+              std::vector<TagDetection>& found);
+  /// Ends what search() began: orders the sightings of all boxes, drops ids that are
+  /// there twice, aligns the rest. Allocates nothing for tags that it has met before.
+  void finish(const GrayFrame& frame, std::vector<TagDetection>& found);
+
+  /// What detect() dropped since this detector was made.
   [[nodiscard]] const DroppedSightings& dropped() const;
 
  private:

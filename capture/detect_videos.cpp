@@ -16,8 +16,8 @@ namespace {
 
 /// A camera that is ready to be read, and the place of its answer.
 struct Job {
-  std::unique_ptr<FrameSource> source;
-  TagDetector detector;
+  std::unique_ptr<FrameSource> source;  ///< Null when it cannot be opened.
+  TagTracker tracker;
   std::optional<FrameRange> range;
   CameraDetections found;
   std::optional<Error> error;
@@ -26,15 +26,21 @@ struct Job {
 /// Counts frames over all workers and passes them on, one caller at a time.
 class SharedProgress {
  public:
+  /// `total` is kUnknownTotal when a stream does not know how many frames it has.
   SharedProgress(const Progress& progress, int total)
       : progress_(progress), total_(total) {}
 
   void one_more() {
     if (!progress_) return;
     const std::lock_guard lock(mutex_);
+    ++done_;
     // A container's count may be short of the truth.
-    done_ = std::min(done_ + 1, total_);
-    progress_(done_, total_);
+    progress_(total_ != kUnknownTotal ? std::min(done_, total_) : done_, total_);
+  }
+
+  /// Of no known total, this many were all.
+  void all_done() {
+    if (progress_ && total_ == kUnknownTotal && done_ > 0) progress_(done_, done_);
   }
 
  private:
@@ -52,14 +58,23 @@ Error unreached_range(const std::string& name, const FrameRange& range, int fram
                    "correct the trial's range of frames");
 }
 
-Result<Job> open_job(const CameraInput& input, const TagDetectorOptions& options) {
+Result<Job> open_job(const CameraInput& input,
+                     const TrackTagsOptions& options,
+                     bool keep_broken) {
   MAREY_ASSERT(!input.rate || input.rate->hz > 0.0);
   MAREY_ASSERT(!input.range ||
                (input.range->first >= 0 && input.range->first <= input.range->last));
+  auto tracker = TagTracker::create(options);
+  if (!tracker) return tracker.error();
   auto source = open_frames(input.path, input.name);
-  if (!source) return source.error();
-  auto detector = TagDetector::create(options);
-  if (!detector) return detector.error();
+  if (!source && !keep_broken) return source.error();
+  if (!source) {
+    CameraDetections none;
+    none.source = input.name.empty() ? input.path.string() : input.name;
+    none.camera = input.camera;
+    none.broken_off = source.error();
+    return Job{nullptr, std::move(*tracker), input.range, std::move(none), {}};
+  }
   const StreamInfo& info = (*source)->info();
   const auto rate = input.rate ? input.rate : info.rate;
   if (!rate) {
@@ -74,14 +89,16 @@ Result<Job> open_job(const CameraInput& input, const TagDetectorOptions& options
   found.height_px = info.height_px;
   found.rate = *rate;
   found.offset = input.offset;
-  return Job{std::move(*source), std::move(*detector), input.range, std::move(found), {}};
+  return Job{std::move(*source), std::move(*tracker), input.range, std::move(found), {}};
 }
 
-/// Frames that a job will look at, as far as its stream knows.
-int expected_frames(const Job& job) {
-  const int all = job.source->info().expected_frames.value_or(0);
+/// Frames that a job will look at; nullopt when its stream does not know.
+std::optional<int> expected_frames(const Job& job) {
+  if (!job.source) return 0;
+  const auto all = job.source->info().expected_frames;
   if (!job.range) return all;
-  return std::max(0, std::min(all, job.range->last + 1) - job.range->first);
+  const int last = job.range->last + 1;
+  return std::max(0, std::min(all.value_or(last), last) - job.range->first);
 }
 
 /// Reads a job's stream until its range or the stream ends, or `stop()` says so.
@@ -100,23 +117,38 @@ Status run_job(Job& job, SharedProgress& progress, const Stop& stop) {
     const GrayFrame& frame = **next;
     ++frames;
     if (frame.index < first) continue;
-    job.found.frames.push_back({frame.index, job.detector.detect(frame)});
+    if (frame.damaged) {
+      ++job.found.damaged_frames;
+      job.found.frames.push_back({frame.index, {}});
+    } else {
+      job.found.frames.push_back({frame.index, job.tracker.track(frame)});
+    }
     progress.one_more();
   }
+  job.found.dropped = job.tracker.dropped();
   return Done{};
 }
 
 /// Runs all jobs on up to `workers` threads. A job stops early once one before it has
 /// failed: its answer is not wanted any more. Jobs before the failed one go on, because
 /// an error of theirs comes first, however the threads were scheduled.
-void run_jobs(std::vector<Job>& jobs, int workers, SharedProgress& progress) {
+void run_jobs(std::vector<Job>& jobs,
+              int workers,
+              bool keep_broken,
+              SharedProgress& progress) {
   std::atomic<std::size_t> next_job{0};
   std::atomic<std::size_t> first_failed{jobs.size()};
   const auto work = [&] {
     for (std::size_t i = next_job++; i < jobs.size(); i = next_job++) {
+      if (!jobs[i].source) continue;
       const Status status =
           run_job(jobs[i], progress, [&] { return first_failed.load() < i; });
       if (status) continue;
+      if (keep_broken) {
+        jobs[i].found.broken_off = status.error();
+        jobs[i].found.dropped = jobs[i].tracker.dropped();
+        continue;
+      }
       jobs[i].error = status.error();
       std::size_t failed = first_failed.load();
       while (i < failed && !first_failed.compare_exchange_weak(failed, i)) {
@@ -134,19 +166,23 @@ Result<std::vector<CameraDetections>> detect_tags_in_videos(
     std::span<const CameraInput> inputs,
     const DetectVideosOptions& options,
     const Progress& progress) {
+  TrackTagsOptions tracking = options.tracker;
+  if (options.search_every_frame) tracking.full_every_frames = 1;
   std::vector<Job> jobs;
   jobs.reserve(inputs.size());
-  int total = 0;
+  std::optional<int> total = 0;
   for (const CameraInput& input : inputs) {
-    auto job = open_job(input, options.detector);
+    auto job = open_job(input, tracking, options.keep_broken);
     if (!job) return job.error();
-    total += expected_frames(*job);
+    const auto expected = expected_frames(*job);
+    total = total && expected ? std::optional(*total + *expected) : std::nullopt;
     jobs.push_back(std::move(*job));
   }
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const int wanted = options.workers > 0 ? options.workers : cores;
-  SharedProgress shared(progress, total);
-  run_jobs(jobs, std::min(wanted, static_cast<int>(jobs.size())), shared);
+  SharedProgress shared(progress, total.value_or(kUnknownTotal));
+  run_jobs(
+      jobs, std::min(wanted, static_cast<int>(jobs.size())), options.keep_broken, shared);
 
   std::vector<CameraDetections> found;
   found.reserve(jobs.size());
@@ -154,6 +190,7 @@ Result<std::vector<CameraDetections>> detect_tags_in_videos(
     if (job.error) return *job.error;
     found.push_back(std::move(job.found));
   }
+  shared.all_done();
   return found;
 }
 

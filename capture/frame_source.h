@@ -21,6 +21,8 @@ struct GrayFrame {
   int height_px = 0;
   int stride = 0;  ///< Bytes from one row to the next, >= width_px.
   int index = 0;   ///< Frames before this one in its stream.
+  /// It is damaged in the file and could not be decoded: nothing is to be seen in it.
+  bool damaged = false;
 };
 
 /// What a stream says of itself before its first frame.

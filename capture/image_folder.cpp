@@ -3,7 +3,6 @@
 #include "capture/image_folder.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -12,6 +11,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/opencv_reading.h"
+#include "core/extension.h"
 
 namespace marey::capture {
 namespace {
@@ -53,11 +53,8 @@ int natural_compare(std::string_view a, std::string_view b) {
 }
 
 bool is_image(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+  const std::string kind = kind_by_extension(path);
+  return kind == ".png" || kind == ".jpg" || kind == ".jpeg";
 }
 
 class ImageFolder final : public FrameSource {

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/mp4_duration.h"
 
-#include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
 #include <string>
 #include <string_view>
+
+#include "core/extension.h"
 
 namespace marey::capture {
 namespace {
@@ -49,11 +49,8 @@ bool enter_box(std::istream& in, std::string_view type) {
 }  // namespace
 
 bool is_mp4(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) {
-    return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  });
-  return extension == ".mp4" || extension == ".mov" || extension == ".m4v";
+  const std::string kind = kind_by_extension(path);
+  return kind == ".mp4" || kind == ".mov" || kind == ".m4v";
 }
 
 std::optional<double> mp4_duration_s(const std::filesystem::path& path) {

@@ -73,6 +73,17 @@ Result<cv::VideoCapture> open_capture(const std::filesystem::path& path,
   }
 }
 
+std::optional<cv::VideoCapture> open_packets(const std::filesystem::path& path) {
+  silence_opencv();
+  try {
+    cv::VideoCapture video(path.string(), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1});
+    if (!video.isOpened()) return std::nullopt;
+    return video;
+  } catch (const cv::Exception&) {
+    return std::nullopt;
+  }
+}
+
 Result<cv::Mat> read_image(const std::filesystem::path& path,
                            int mode,
                            const std::string& name) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <opencv2/core.hpp>
@@ -19,6 +20,11 @@ namespace marey::capture {
 /// should see one sentence. kBadInput when it cannot be opened.
 [[nodiscard]] Result<cv::VideoCapture> open_capture(const std::filesystem::path& path,
                                                     const std::string& name);
+
+/// The frames of a video as they are in the file, not decoded: each a row of bytes.
+/// nullopt when it cannot be opened.
+[[nodiscard]] std::optional<cv::VideoCapture> open_packets(
+    const std::filesystem::path& path);
 
 /// An 8-bit image, decoded as cv::ImreadModes `mode` says. Messages call it `name`.
 /// kBadInput when it cannot be read to its end.

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "capture/mjpg_file.h"
 #include "capture/mp4_duration.h"
 #include "capture/opencv_reading.h"
 
@@ -95,6 +97,17 @@ class VideoFile final : public FrameSource {
 
 Result<std::unique_ptr<FrameSource>> open_video_file(const std::filesystem::path& path,
                                                      std::string name) {
+  std::error_code ignored;
+  if (std::filesystem::file_size(path, ignored) == 0) {
+    return bad_input(
+        name,
+        "the file is empty",
+        "copy it from the camera again; if it is empty there too, nothing was "
+        "recorded");
+  }
+  if (!is_mp4(path)) {
+    if (auto mjpg = open_mjpg_file(path, name)) return mjpg;
+  }
   auto video = open_capture(path, name);
   if (!video) return video.error();
   StreamInfo info;

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/track_tags.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/assert.h"
+
+namespace marey::capture {
+namespace {
+
+// A tag needs its quiet zone and some of what is around it to be found at all; the rest
+// is for the error of its prediction. In sides of the tag; then in px per frame of speed.
+constexpr double kPadSides = 0.35;
+constexpr double kPadPerSpeed = 0.5;
+constexpr double kPadPx = 3.0;
+// How far beyond the tags that are seen the others of a body may be: a share of the box.
+// A head or foot that nothing near it announces needs more, now and then.
+constexpr double kBodyPad = 0.25;
+constexpr double kWideBodyPad = 0.8;
+constexpr int kWideEvery = 4;
+// A call of the detector costs as much as this many pixels, however small its box.
+constexpr int kPixelsPerCall = 1500;
+// Above this share of the picture boxes are not worth their trouble.
+constexpr double kAsGoodAsFull = 0.75;
+// Corners of threshold tiles: a box that begins there is cut into the same tiles.
+constexpr int kTile = 4;
+
+std::int64_t area(const PixelBox& box) {
+  return static_cast<std::int64_t>(box.right - box.left) * (box.bottom - box.top);
+}
+
+PixelBox hull(const PixelBox& a, const PixelBox& b) {
+  return {std::min(a.left, b.left),
+          std::min(a.top, b.top),
+          std::max(a.right, b.right),
+          std::max(a.bottom, b.bottom)};
+}
+
+/// From tile to tile within the picture; empty when outside of it.
+PixelBox tiled(const GrayFrame& frame,
+               const glm::dvec2& low_px,
+               const glm::dvec2& high_px) {
+  const auto down = [](double x) {
+    return static_cast<int>(std::floor(x / kTile)) * kTile;
+  };
+  const auto up = [](double x) { return static_cast<int>(std::ceil(x / kTile)) * kTile; };
+  const glm::dvec2 most(frame.width_px, frame.height_px);
+  const glm::dvec2 low = glm::clamp(low_px, glm::dvec2(0.0), most);
+  const glm::dvec2 high = glm::clamp(high_px, glm::dvec2(0.0), most);
+  return {down(low.x),
+          down(low.y),
+          std::min(up(high.x), frame.width_px),
+          std::min(up(high.y), frame.height_px)};
+}
+
+glm::dvec2 middle_of(const std::array<glm::dvec2, 4>& corners_px) {
+  return 0.25 * (corners_px[0] + corners_px[1] + corners_px[2] + corners_px[3]);
+}
+
+}  // namespace
+
+Result<TagTracker> TagTracker::create(const TrackTagsOptions& options) {
+  MAREY_ASSERT(options.full_every_frames > 0 && options.body_every_frames > 0 &&
+               options.remember_frames >= 0);
+  auto detector = TagDetector::create(options.detector);
+  if (!detector) return detector.error();
+  return TagTracker(std::move(*detector), options);
+}
+
+TagTracker::TagTracker(TagDetector detector, const TrackTagsOptions& options)
+    : options_(options), detector_(std::move(detector)) {}
+
+const std::vector<TagDetection>& TagTracker::track(const GrayFrame& frame) {
+  last_search_ = choose_search(frame);
+  found_.clear();
+  for (const PixelBox& box : boxes_) detector_.search(frame, box, found_);
+  detector_.finish(frame, found_);
+  remember(frame);
+  return found_;
+}
+
+/// Fills boxes_ with what to search.
+SearchKind TagTracker::choose_search(const GrayFrame& frame) {
+  const PixelBox whole{0, 0, frame.width_px, frame.height_px};
+  boxes_.clear();
+  SearchKind kind = SearchKind::kFull;
+  if (frame.index < next_full_ && !tracks_.empty()) {
+    predict_boxes(frame);
+    kind = SearchKind::kRegions;
+    if (frame.index >= next_body_ && !boxes_.empty()) {
+      kind = SearchKind::kBody;
+      PixelBox body = boxes_.front();
+      for (const PixelBox& box : boxes_) body = hull(body, box);
+      const glm::dvec2 low(body.left, body.top);
+      const glm::dvec2 high(body.right, body.bottom);
+      const bool wide = ++body_searches_ % kWideEvery == 0;
+      const glm::dvec2 pad = (wide ? kWideBodyPad : kBodyPad) * (high - low);
+      boxes_.assign(1, tiled(frame, low - pad, high + pad));
+    }
+    merge_boxes();
+    std::int64_t cost = 0;
+    for (const PixelBox& box : boxes_) cost += area(box) + kPixelsPerCall;
+    if (static_cast<double>(cost) > kAsGoodAsFull * static_cast<double>(area(whole))) {
+      kind = SearchKind::kFull;
+    }
+  }
+  if (kind == SearchKind::kFull) {
+    boxes_.assign(1, whole);
+    next_full_ = frame.index + options_.full_every_frames;
+  }
+  if (kind != SearchKind::kRegions) next_body_ = frame.index + options_.body_every_frames;
+  return kind;
+}
+
+void TagTracker::predict_boxes(const GrayFrame& frame) {
+  for (const Track& track : tracks_) {
+    const int ahead = frame.index - track.last_frame;
+    const glm::dvec2 travel = track.velocity_px * static_cast<double>(ahead);
+    glm::dvec2 low = track.corners_px[0];
+    glm::dvec2 high = track.corners_px[0];
+    for (const glm::dvec2& corner : track.corners_px) {
+      low = glm::min(low, corner);
+      high = glm::max(high, corner);
+    }
+    const glm::dvec2 size = high - low;
+    // A tag seen once may go anywhere.
+    const double speed = track.sightings > 1 ? glm::length(track.velocity_px)
+                                             : 0.5 * std::max(size.x, size.y);
+    const double pad = kPadPx + kPadSides * std::max(size.x, size.y) +
+                       kPadPerSpeed * speed * static_cast<double>(ahead);
+    const PixelBox box = tiled(frame, low + travel - pad, high + travel + pad);
+    if (box.right > box.left && box.bottom > box.top) boxes_.push_back(box);
+  }
+}
+
+/// Joins boxes that overlap, or that one call searches for less than two do.
+void TagTracker::merge_boxes() {
+  for (std::size_t i = 0; i < boxes_.size();) {
+    bool joined = false;
+    for (std::size_t j = i + 1; j < boxes_.size(); ++j) {
+      const PixelBox both = hull(boxes_[i], boxes_[j]);
+      const PixelBox& a = boxes_[i];
+      const PixelBox& b = boxes_[j];
+      const bool overlap =
+          a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+      if (!overlap && area(both) > area(a) + area(b) + kPixelsPerCall) continue;
+      boxes_[i] = both;
+      boxes_.erase(boxes_.begin() + static_cast<std::ptrdiff_t>(j));
+      joined = true;
+      break;
+    }
+    // What has grown may reach those before it.
+    i = joined ? 0 : i + 1;
+  }
+}
+
+/// Moves the tracks to what was found, in ascending ids; forgets what is gone.
+void TagTracker::remember(const GrayFrame& frame) {
+  updated_.clear();
+  auto old = tracks_.begin();
+  const auto keep_lost_before = [&](auto wanted) {
+    for (; old != tracks_.end() && wanted(*old); ++old) {
+      if (frame.index - old->last_frame < options_.remember_frames) {
+        updated_.push_back(*old);
+      }
+    }
+  };
+  for (const TagDetection& tag : found_) {
+    keep_lost_before([&](const Track& t) { return number(t.id) < number(tag.id); });
+    Track track{tag.id, tag.corners_px, glm::dvec2(0.0), frame.index, 1};
+    if (old != tracks_.end() && old->id == tag.id) {
+      const int elapsed = frame.index - old->last_frame;
+      MAREY_ASSERT(elapsed > 0);
+      track.velocity_px = (middle_of(tag.corners_px) - middle_of(old->corners_px)) /
+                          static_cast<double>(elapsed);
+      track.sightings = old->sightings + 1;
+      ++old;
+    }
+    updated_.push_back(track);
+  }
+  keep_lost_before([](const Track&) { return true; });
+  std::swap(tracks_, updated_);
+}
+
+}  // namespace marey::capture
