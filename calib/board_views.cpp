@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <glm/geometric.hpp>
+
+#include "core/assert.h"
+#include "core/quantile.h"
 
 namespace marey::calib {
 namespace {
@@ -22,12 +26,6 @@ BoardView view_of(const FrameDetections& frame, CameraId camera, const AprilGrid
     }
   }
   return view;
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// One averaged view of a board at rest. Averaging takes off the sensor's noise but not
@@ -103,6 +101,19 @@ std::vector<BoardView> board_views(std::span<const CameraDetections> waved,
         return std::pair(a.camera, a.instant) < std::pair(b.camera, b.instant);
       });
   return views;
+}
+
+double median_error_px(const BoardView& view,
+                       const Camera& camera,
+                       const RigidTransform& world_from_board) {
+  MAREY_ASSERT(!view.corners.empty());
+  std::vector<double> errors_px;
+  for (const BoardCorner& corner : view.corners) {
+    const auto pixel = project(camera, world_from_board * corner.p_in_board);
+    errors_px.push_back(pixel ? glm::distance(*pixel, corner.pixel_px)
+                              : camera.intrinsics.width_px);
+  }
+  return median(std::move(errors_px));
 }
 
 }  // namespace marey::calib

@@ -9,8 +9,10 @@
 #include <glm/vec3.hpp>
 
 #include "core/board.h"
+#include "core/camera.h"
 #include "core/detection.h"
 #include "core/ids.h"
+#include "core/transform.h"
 
 namespace marey::calib {
 
@@ -41,5 +43,12 @@ inline constexpr int kFloorInstant = -1;
                                                  std::span<const CameraDetections> floor,
                                                  const AprilGrid& board,
                                                  int minimum_tags = 3);
+
+/// Median distance between the view's corners and where `camera` would see them of a
+/// board there, [px]. A corner behind the camera is as wrong as the picture is wide.
+/// Precondition: the view has a corner.
+[[nodiscard]] double median_error_px(const BoardView& view,
+                                     const Camera& camera,
+                                     const RigidTransform& world_from_board);
 
 }  // namespace marey::calib

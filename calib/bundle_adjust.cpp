@@ -10,6 +10,8 @@
 #include <Eigen/Geometry>
 #include <ceres/ceres.h>
 
+#include "calib/camera_doubt.h"
+
 namespace marey::calib {
 namespace {
 
@@ -134,29 +136,30 @@ void set_manifolds(Bundle& bundle, ceres::Problem& problem) {
   }
 }
 
-void fill_sigmas(Bundle& bundle, Blocks& blocks, ceres::Problem& problem) {
-  std::vector<std::pair<const double*, const double*>> wanted;
+bool fill_sigmas(Bundle& bundle, Blocks& blocks, ceres::Problem& problem) {
+  std::vector<CameraBlocks> cameras;
   for (std::size_t c = 0; c < bundle.cameras.size(); ++c) {
-    const double* centre = &bundle.cameras[c].world_from_camera.translation.x;
-    wanted.emplace_back(centre, centre);
-    wanted.emplace_back(blocks.intrinsics[c].data(), blocks.intrinsics[c].data());
+    RigidTransform& world_from_camera = bundle.cameras[c].world_from_camera;
+    // A camera without a view has no place to doubt.
+    if (!problem.HasParameterBlock(&world_from_camera.rotation.x)) return false;
+    cameras.push_back({blocks.intrinsics[c].data(),
+                       &world_from_camera.rotation.x,
+                       &world_from_camera.translation.x,
+                       blocks.shrinkage[c].data()});
   }
-  ceres::Covariance::Options options;
-  options.algorithm_type = ceres::SPARSE_QR;
-  options.num_threads = 1;
-  ceres::Covariance covariance(options);
-  if (!covariance.Compute(wanted, &problem)) return;
+  std::vector<BoardBlocks> boards;
+  for (auto& [instant, board] : bundle.world_from_board) {
+    const bool moves =
+        instant != kFloorInstant && problem.HasParameterBlock(&board.rotation.x);
+    if (moves) boards.push_back({&board.rotation.x, &board.translation.x});
+  }
+  const auto sigmas = camera_sigmas(cameras, boards, problem);
+  if (!sigmas) return false;
   for (std::size_t c = 0; c < bundle.cameras.size(); ++c) {
-    BundleCamera& camera = bundle.cameras[c];
-    const double* centre = &camera.world_from_camera.translation.x;
-    Eigen::Matrix3d centre_covariance;
-    covariance.GetCovarianceBlock(centre, centre, centre_covariance.data());
-    camera.centre_sigma_m = std::sqrt(centre_covariance.trace() / 3.0);
-    Eigen::Matrix<double, kIntrinsics, kIntrinsics, Eigen::RowMajor> k;
-    covariance.GetCovarianceBlock(
-        blocks.intrinsics[c].data(), blocks.intrinsics[c].data(), k.data());
-    camera.focal_sigma_px = std::sqrt(0.5 * (k(0, 0) + k(1, 1)));
+    bundle.cameras[c].centre_sigma_m = (*sigmas)[c].centre_m;
+    bundle.cameras[c].focal_sigma_px = (*sigmas)[c].focal_px;
   }
+  return true;
 }
 
 }  // namespace
@@ -186,6 +189,9 @@ bool bundle_adjust(std::span<const BoardView> views, Bundle& bundle) {
 
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  // SuiteSparse calls whatever BLAS the machine has, whose order of summation may follow
+  // where memory lies.
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   options.max_num_iterations = 100;
   options.function_tolerance = 1e-9;
   options.num_threads = 1;  // One order of summation: the same bytes every time.
@@ -197,8 +203,7 @@ bool bundle_adjust(std::span<const BoardView> views, Bundle& bundle) {
     bundle.cameras[c].intrinsics.set_parameters(blocks.intrinsics[c]);
     bundle.cameras[c].shrinkage = {blocks.shrinkage[c][0], blocks.shrinkage[c][1]};
   }
-  fill_sigmas(bundle, blocks, problem);
-  return true;
+  return fill_sigmas(bundle, blocks, problem);
 }
 
 }  // namespace marey::calib

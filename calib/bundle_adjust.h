@@ -30,7 +30,8 @@ struct Bundle {
 /// board poses, the board on the floor held fixed: it is the world. Robust (Cauchy at 5
 /// sigma of a tag's eight residuals together, which are 2.8 long when all is well). Weak
 /// priors keep what a recording does not show (distortion of unseen image corners) at its
-/// usual value. Fills the sigmas. False when the solver finds no minimum.
+/// usual value. Fills the sigmas. False when the solver
+/// finds no minimum, or one that leaves a camera free to move.
 [[nodiscard]] bool bundle_adjust(std::span<const BoardView> views, Bundle& bundle);
 
 }  // namespace marey::calib

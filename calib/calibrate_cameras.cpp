@@ -12,9 +12,11 @@
 
 #include "calib/board_views.h"
 #include "calib/bundle_adjust.h"
+#include "calib/check_floor.h"
 #include "calib/estimate_intrinsics.h"
 #include "calib/place_cameras.h"
 #include "core/assert.h"
+#include "core/quantile.h"
 
 namespace marey::calib {
 namespace {
@@ -101,7 +103,6 @@ CameraQuality judge(const Camera& camera,
       continue;
     }
     ++quality.views;
-    quality.sees_floor |= view.instant == kFloorInstant;
     for (std::size_t i = 0; i < view.corners.size(); ++i) {
       const auto pixel = project(camera, board->second * view.corners[i].p_in_board);
       const glm::dvec2 seen_px = true_pixel(view, i, camera.tag_shrinkage);
@@ -118,8 +119,7 @@ CameraQuality judge(const Camera& camera,
   if (!own.empty()) {
     quality.rms_px = std::sqrt(sum / static_cast<double>(own.size()));
     errors_px.insert(errors_px.end(), own.begin(), own.end());
-    std::sort(own.begin(), own.end());
-    quality.p95_px = own[own.size() * 95 / 100];
+    quality.p95_px = quantile(std::move(own), 0.95);
   }
   quality.centre_sigma_m = solved.centre_sigma_m;
   quality.focal_sigma_px = solved.focal_sigma_px;
@@ -143,10 +143,7 @@ CalibratedRig to_rig(std::span<const std::string> names,
   double sum = 0.0;
   for (const double e : errors_px) sum += e * e;
   rig.rms_px = std::sqrt(sum / static_cast<double>(errors_px.size()));
-  const auto middle =
-      errors_px.begin() + static_cast<std::ptrdiff_t>(errors_px.size() / 2);
-  std::nth_element(errors_px.begin(), middle, errors_px.end());
-  rig.median_px = *middle;
+  rig.median_px = median(std::move(errors_px));
   return rig;
 }
 
@@ -160,8 +157,7 @@ std::string text(const char* format, double value) {
 Status check_print(const CalibratedRig& rig) {
   std::vector<double> slopes;
   for (const Camera& camera : rig.cameras) slopes.push_back(camera.tag_shrinkage.slope);
-  std::sort(slopes.begin(), slopes.end());
-  const double slope = slopes[slopes.size() / 2];
+  const double slope = median(std::move(slopes));
   if (std::abs(slope) < kMostShrinkage) return Done{};
   return bad_input("",
                    text("the board's black squares measure %.2f times what the distances "
@@ -171,7 +167,9 @@ Status check_print(const CalibratedRig& rig) {
                    "metres) and correct tag_size_m or gap_m of [board] in session.toml");
 }
 
-Status check(const CalibratedRig& rig, std::span<const CameraDetections> floor) {
+Status check(const CalibratedRig& rig,
+             std::span<const BoardView> views,
+             std::span<const CameraDetections> floor) {
   if (rig.median_px > kHopelessMedianPx) {
     return bad_input(
         "",
@@ -182,8 +180,14 @@ Status check(const CalibratedRig& rig, std::span<const CameraDetections> floor) 
         "against the print, and that all calibration videos start together");
   }
   if (Status ok = check_print(rig); !ok) return ok;
-  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
-    if (centre_in_world(rig.cameras[c]).y > 0.0 || !rig.quality[c].sees_floor) continue;
+  std::vector<const BoardView*> floor_views;
+  for (const BoardView& view : views) {
+    if (view.instant == kFloorInstant) floor_views.push_back(&view);
+  }
+  if (Status ok = check_floor(rig.cameras, floor_views, floor); !ok) return ok;
+  for (const BoardView* view : floor_views) {
+    const std::size_t c = index(view->camera);
+    if (centre_in_world(rig.cameras[c]).y > 0.0) continue;
     return bad_input(floor[c].source,
                      "the camera would stand below the floor: the board lies face down "
                      "or its ids run the other way",
@@ -218,7 +222,7 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
                      "every camera");
   }
   CalibratedRig rig = to_rig(names, views, bundle);
-  if (const Status ok = check(rig, floor); !ok) return ok.error();
+  if (const Status ok = check(rig, views, floor); !ok) return ok.error();
   return rig;
 }
 

@@ -8,23 +8,11 @@
 
 #include "core/board.h"
 #include "core/camera.h"
+#include "core/camera_quality.h"
 #include "core/detection.h"
 #include "core/result.h"
 
 namespace marey::calib {
-
-/// How well one camera is known.
-struct CameraQuality {
-  double rms_px = 0.0;          ///< Root mean square distance of corners to their model.
-  double p95_px = 0.0;          ///< 95th percentile of that distance.
-  double centre_sigma_m = 0.0;  ///< Standard deviation of its place, per coordinate.
-  double focal_sigma_px = 0.0;
-  int views = 0;    ///< Instants at which it saw the board.
-  int corners = 0;  ///< Corners over all of them.
-  /// Share of the image's 8 x 6 cells in which it saw a corner of the board, 0..1.
-  double coverage = 0.0;
-  bool sees_floor = false;
-};
 
 struct CalibratedRig {
   std::vector<Camera> cameras;
@@ -43,7 +31,8 @@ struct CalibratedRig {
 /// the same order, and all frames of one index were taken at the same time (floor frames
 /// may come from anywhere: nothing moves). Errors (kBadInput): a camera that never sees
 /// the board, or too little of it; groups of cameras that never see the board together;
-/// no floor; a board that lies face down; a bundle that does not converge or ends with a
+/// no floor; two floor files swapped or a camera moved between the trials; a board that
+/// lies face down; a bundle that does not converge or ends with a
 /// median corner more than 2.5 px off (wrong board geometry); tags whose size does not go
 /// with the gaps between them. Cost: a few seconds for four cameras and a hundred frames.
 [[nodiscard]] Result<CalibratedRig> calibrate_cameras(

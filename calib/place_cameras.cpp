@@ -100,15 +100,7 @@ double misfit_px(std::span<const BoardView* const> views,
   for (const BoardView* view : views) {
     const std::size_t c = index(view->camera);
     const Camera camera{{}, intrinsics[c], guess.camera_from_world[c], {}};
-    std::vector<double> errors;
-    for (const BoardCorner& corner : view->corners) {
-      const auto pixel = project(camera, world_from_board * corner.p_in_board);
-      errors.push_back(pixel ? glm::distance(*pixel, corner.pixel_px) : 1e4);
-    }
-    std::nth_element(errors.begin(),
-                     errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
-                     errors.end());
-    sum += errors[errors.size() / 2];
+    sum += median_error_px(*view, camera, world_from_board);
   }
   return sum;
 }
