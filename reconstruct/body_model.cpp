@@ -55,7 +55,7 @@ double refine_leaf(const BodyModel& model,
   options.linear_solver_type = ceres::DENSE_QR;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
-  return summary.final_cost;
+  return cost_of(summary);
 }
 
 /// The rotations of the leaf that its tags propose, two each.

@@ -11,6 +11,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/quantile.h"
 #include "reconstruct/sightings.h"
 #include "reconstruct/triangulate.h"
 
@@ -22,13 +23,7 @@ constexpr std::size_t kEnough = 10;
 // Quick movement seen by cameras a few milliseconds apart is off by some pixels; another
 // camera's picture by a hundred.
 constexpr double kDisagreePx = 12.0;
-constexpr double kSizeTolerance = 0.12;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+constexpr double kSizeTolerance = 0.06;
 
 struct Agreement {
   /// Per tag sighted twice, by camera that took part.
@@ -47,7 +42,46 @@ struct Agreement {
   }
 };
 
+/// What the cameras that see one tag at once make of it.
+struct Measured {
+  double rms_px = 0.0;  ///< Worst corner: how far their rays miss each other.
+  /// Mean side; nullopt when the rays are too nearly parallel to give a depth.
+  std::optional<double> side_m;
+};
+
 /// `camera_of[c]` is the camera whose model explains the c-th video.
+Measured measure(std::span<const Camera> cameras,
+                 std::span<const std::size_t> camera_of,
+                 std::span<const TagSighting> of_tag) {
+  // Rays that meet behind a camera are no agreement at all.
+  constexpr double kNoAgreementPx = 1e3;
+  Measured out;
+  std::array<glm::dvec3, 4> corners{};
+  bool has_depth = true;
+  for (std::size_t c = 0; c < 4; ++c) {
+    std::vector<PointView> views;
+    for (const TagSighting& s : of_tag) {
+      views.push_back({&cameras[camera_of[index(s.camera)]], s.detection->corners_px[c]});
+    }
+    auto point = triangulate(views);
+    if (!point) {
+      // Cameras side by side agree on the direction of what is far away.
+      has_depth = false;
+      point = triangulate(views, {.min_ray_angle_rad = 0.0});
+    }
+    out.rms_px = std::max(out.rms_px, point ? point->rms_px : kNoAgreementPx);
+    if (point) corners[c] = point->p_in_world;
+  }
+  if (!has_depth) return out;
+  double side_m = 0.0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    side_m += 0.25 * glm::distance(corners[c], corners[(c + 1) % 4]);
+  }
+  out.side_m = side_m;
+  return out;
+}
+
+/// All tags that two cameras see at once, in a spread of frames.
 Agreement compare(std::span<const Camera> cameras,
                   std::span<const std::size_t> camera_of,
                   const Sightings& sightings,
@@ -55,39 +89,21 @@ Agreement compare(std::span<const Camera> cameras,
   Agreement agreement;
   const std::size_t step = std::max<std::size_t>(1, sightings.frames.size() / kFrames);
   for (std::size_t f = 0; f < sightings.frames.size(); f += step) {
-    const auto& frame = sightings.frames[f];
-    for (std::size_t i = 0; i < frame.size();) {
-      std::size_t end = i + 1;
+    const std::span<const TagSighting> frame = sightings.frames[f];
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < frame.size(); i = end) {
+      end = i + 1;
       while (end < frame.size() && frame[end].tag == frame[i].tag) ++end;
-      std::array<glm::dvec3, 4> corners{};
-      double rms_px = 0.0;
-      bool known = end - i >= 2;
-      for (std::size_t c = 0; known && c < 4; ++c) {
-        std::vector<PointView> views;
-        for (std::size_t s = i; s < end; ++s) {
-          views.push_back({&cameras[camera_of[index(frame[s].camera)]],
-                           frame[s].detection->corners_px[c]});
-        }
-        const auto point = triangulate(views);
-        known = point.has_value();
-        if (known) {
-          corners[c] = point->p_in_world;
-          rms_px = std::max(rms_px, point->rms_px);
-        }
+      if (end - i < 2) continue;
+      const auto of_tag = frame.subspan(i, end - i);
+      const Measured measured = measure(cameras, camera_of, of_tag);
+      for (const TagSighting& s : of_tag) {
+        agreement.rms_px[index(s.camera)].push_back(measured.rms_px);
       }
-      // Rays that meet behind a camera are no agreement at all.
-      if (end - i >= 2 && !known) rms_px = 1e3;
-      for (std::size_t s = i; end - i >= 2 && s < end; ++s) {
-        agreement.rms_px[index(frame[s].camera)].push_back(rms_px);
+      if (measured.side_m) {
+        agreement.size[frame[i].tag].push_back(*measured.side_m /
+                                               tags[frame[i].tag].size_m);
       }
-      if (known) {
-        double side_m = 0.0;
-        for (std::size_t c = 0; c < 4; ++c) {
-          side_m += 0.25 * glm::distance(corners[c], corners[(c + 1) % 4]);
-        }
-        agreement.size[frame[i].tag].push_back(side_m / tags[frame[i].tag].size_m);
-      }
-      i = end;
     }
   }
   return agreement;

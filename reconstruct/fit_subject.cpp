@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include <glm/geometric.hpp>
 
+#include "core/assert.h"
 #include "reconstruct/frame_solver.h"
 #include "reconstruct/initial_posture.h"
 #include "reconstruct/segment_frames.h"
@@ -23,6 +25,11 @@ namespace {
 constexpr std::size_t kStandingFrames = 5;
 constexpr std::size_t kMovingFrames = 90;
 constexpr std::size_t kLocatedFrames = 300;
+constexpr std::size_t kFramesPerTag = 3;
+constexpr std::size_t kFewestMovingFrames = 10;
+// How far a segment's pose may be off in a frame of the bundle when a tag is placed on
+// it: metres, a radian counting as 0.1 m.
+constexpr double kPostureDoubt = 0.04;
 
 std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
   std::vector<std::size_t> chosen;
@@ -73,23 +80,87 @@ LocatedTrial locate_trial(const Sightings& trial,
   return located;
 }
 
+/// Located frames in which the hips are known: the others have nowhere to start.
+std::vector<std::size_t> usable_frames(const LocatedTrial& located) {
+  std::vector<std::size_t> usable;
+  for (std::size_t i = 0; i < located.frames.size(); ++i) {
+    if (located.poses[i].contains(HumanBone::kHips)) usable.push_back(i);
+  }
+  return usable;
+}
+
+bool shows(std::span<const TagSighting> frame, std::size_t tag) {
+  return std::any_of(
+      frame.begin(), frame.end(), [&](const TagSighting& s) { return s.tag == tag; });
+}
+
+/// Spread over the trial, and some for each tag: one that none of them shows could not be
+/// placed.
+std::vector<std::size_t> choose_frames(const Sightings& trial,
+                                       const LocatedTrial& located,
+                                       std::size_t wanted,
+                                       std::size_t tags) {
+  const std::vector<std::size_t> usable = usable_frames(located);
+  std::set<std::size_t> chosen;
+  for (const std::size_t i : evenly(usable.size(), wanted)) chosen.insert(usable[i]);
+  for (std::size_t tag = 0; tag < tags; ++tag) {
+    std::vector<std::size_t> showing;
+    for (const std::size_t i : usable) {
+      if (shows(trial.frames[located.frames[i]], tag)) showing.push_back(i);
+    }
+    for (const std::size_t i : evenly(showing.size(), kFramesPerTag)) {
+      chosen.insert(showing[i]);
+    }
+  }
+  return {chosen.begin(), chosen.end()};
+}
+
 void add_frames(const Sightings& trial,
                 const LocatedTrial& located,
-                std::size_t wanted,
+                std::span<const std::size_t> chosen,
                 bool standing,
                 const SegmentFrames& frames,
                 SubjectBundle& bundle) {
   Posture fallback;
-  for (const std::size_t i : evenly(located.frames.size(), wanted)) {
-    const auto segments = to_segments(located.poses[i], frames);
-    if (!segments.contains(HumanBone::kHips)) continue;
+  for (const std::size_t i : chosen) {
     BundleFrame frame;
     frame.sightings = trial.frames[located.frames[i]];
     frame.standing = standing;
-    frame.posture =
-        posture_from_segments(segments, frames.lengths, frames.body, fallback);
+    frame.posture = posture_from_segments(
+        to_segments(located.poses[i], frames), frames.lengths, frames.body, fallback);
     fallback = frame.posture;
     bundle.frames.push_back(std::move(frame));
+  }
+}
+
+/// A tag that none of the frames shows has no say, and would be as doubtful as can be.
+void keep_sighted(SubjectBundle& bundle) {
+  std::erase_if(bundle.model.segment_from_tag, [&](const auto& placed) {
+    return std::none_of(
+        bundle.frames.begin(), bundle.frames.end(), [&](const BundleFrame& frame) {
+          return shows(frame.sightings, placed.first);
+        });
+  });
+}
+
+/// Tags without a place: where the body's postures say that they sit, as far as several
+/// sightings agree.
+void place_on_body(SubjectBundle& bundle, std::span<const Camera> cameras) {
+  BodyModel& model = bundle.model;
+  for (std::size_t tag = 0; tag < model.tags.size(); ++tag) {
+    if (model.place(tag)) continue;
+    std::vector<RigidTransform> segment_from_tag;
+    for (const BundleFrame& frame : bundle.frames) {
+      const auto world_from_tag = locate_tag(tag, cameras, model.tags, frame.sightings);
+      if (!world_from_tag) continue;
+      segment_from_tag.push_back(
+          inverse(world_from_bone(
+              model.bone(tag), frame.posture, model.lengths, model.body)) *
+          *world_from_tag);
+    }
+    if (const auto agreed = agreed_pose(segment_from_tag, kPostureDoubt)) {
+      model.segment_from_tag[tag] = *agreed;
+    }
   }
 }
 
@@ -131,7 +202,8 @@ Proportions finish(const SubjectBundle& bundle, const Proportions& average) {
                  .translation.y;
       ++count;
     }
-    return count > 0 ? sum / count : -average[HumanBone::kLeftToes].y;
+    MAREY_ASSERT(count > 0);
+    return sum / count;
   };
   const double toe_height_m =
       average[HumanBone::kHips].y + average[HumanBone::kLeftUpperLeg].y +
@@ -159,7 +231,7 @@ std::array<double, kHumanBoneCount> centre_sigmas(const SubjectBundle& bundle) {
   std::array<int, kHumanBoneCount> counts{};
   for (const auto& [tag, sigma] : bundle.tag_sigma) {
     const std::size_t bone = index(bundle.model.bone(tag));
-    sums[bone] += sigma[0] * sigma[0];
+    sums[bone] += sigma.m * sigma.m;
     ++counts[bone];
   }
   for (std::size_t b = 0; b < sigmas.size(); ++b) {
@@ -174,6 +246,7 @@ bool refine(SubjectBundle& bundle, std::span<const Camera> cameras) {
   constexpr int kRounds = 3;
   // First the bundle: against a body that is still centimetres off, every frame misfits.
   if (!adjust(bundle, cameras, 25, false)) return false;
+  place_on_body(bundle, cameras);
   for (int round = 0; round < kRounds; ++round) {
     const FrameSolver solver(bundle.model, cameras);
     int changed = 0;
@@ -205,9 +278,9 @@ SubjectFit to_fit(const SubjectPrior& prior,
       continue;
     }
     PlacedTag placed{bundle.model.tags[i], pose->second, 0.0, 0.0, 0};
-    const auto& sigma = bundle.tag_sigma.at(i);
-    placed.sigma_m = sigma[0];
-    placed.sigma_rad = sigma[1];
+    const TagSigma& sigma = bundle.tag_sigma.at(i);
+    placed.sigma_m = sigma.m;
+    placed.sigma_rad = sigma.rad;
     for (const BundleFrame& frame : bundle.frames) {
       placed.sightings += static_cast<int>(std::count_if(
           frame.sightings.begin(), frame.sightings.end(), [&](const TagSighting& s) {
@@ -217,8 +290,6 @@ SubjectFit to_fit(const SubjectPrior& prior,
     fit.body.tags.push_back(placed);
   }
   fit.rms_px = bundle.rms_px;
-  fit.median_px = bundle.median_px;
-  fit.frames_used = static_cast<int>(bundle.frames.size());
   fit.limb_ratio = limb_ratio(bundle.model.lengths, bundle.usual);
   return fit;
 }
@@ -262,15 +333,19 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
       bundle.model.segment_from_tag[tag] = known->second * cluster_from_tag;
     }
   }
-  add_frames(trials[0], stood, kStandingFrames, true, *frames, bundle);
-  add_frames(trials[1], moved, kMovingFrames, false, *frames, bundle);
+  const std::size_t tag_count = prior.tags.size();
+  const auto still = choose_frames(trials[0], stood, kStandingFrames, tag_count);
+  const auto lively = choose_frames(trials[1], moved, kMovingFrames, tag_count);
+  add_frames(trials[0], stood, still, true, *frames, bundle);
+  add_frames(trials[1], moved, lively, false, *frames, bundle);
+  keep_sighted(bundle);
   tell(2);
-  if (bundle.frames.size() < 10 || !refine(bundle, cameras)) {
+  if (still.empty() || lively.size() < kFewestMovingFrames || !refine(bundle, cameras)) {
     return bad_input(
         "",
         "the body cannot be fitted: too few frames show enough tags",
-        "record the range-of-motion trial longer, moving every joint in view "
-        "of at least two cameras");
+        "record the static and the range-of-motion trial longer, moving every joint in "
+        "view of at least two cameras, and the hips always");
   }
   tell(kSteps);
   SubjectFit fit = to_fit(prior, bundle, average);

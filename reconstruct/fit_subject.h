@@ -25,11 +25,9 @@ struct SubjectPrior {
 
 struct SubjectFit {
   Body body;
-  double rms_px = 0.0;     ///< Reprojection of all tag corners used, inliers and not.
-  double median_px = 0.0;  ///< Median distance of a corner to its model.
+  double rms_px = 0.0;  ///< Reprojection of all tag corners used, inliers and not.
   /// Measured limb lengths over an average person's of the declared stature.
   double limb_ratio = 0.0;
-  int frames_used = 0;
   /// Tags that were never seen well enough to be placed; the body does without them.
   std::vector<TagId> unplaced;
 };
@@ -41,9 +39,12 @@ struct SubjectFit {
 ///
 /// `standing` and `moving` hold one CameraDetections per camera of `cameras`, in order.
 /// Sigmas come from the bundle's covariance, scaled by its residuals.
-/// Errors (kBadInput, `where` empty): segments without a usable tag; limbs whose lengths
-/// are absurd for the declared stature (a wrong tag or board size).
-/// Cost: some seconds; memory independent of the trials' lengths beyond the detections.
+/// A tag that faces away from the others of its segment, or sits on a segment that the
+/// bundle does not need (neck, collar bones, spine), is placed on the body that the
+/// others found, then refined with it. Errors (kBadInput, `where` empty): segments
+/// without a usable tag; too few frames that show the hips, standing or moving; limbs
+/// whose lengths are absurd for the declared stature (a wrong tag or board size). Cost:
+/// some seconds; memory independent of the trials' lengths beyond the detections.
 [[nodiscard]] Result<SubjectFit> fit_subject(const SubjectPrior& prior,
                                              std::span<const Camera> cameras,
                                              std::span<const CameraDetections> standing,

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/quantile.h"
 #include "reconstruct/initial_posture.h"
 #include "reconstruct/locate_rigid.h"
 #include "reconstruct/posture_terms.h"
@@ -24,13 +25,6 @@ constexpr double kLeashM = 0.1;
 constexpr double kKeeps = 0.7;
 // Postures nearer than this, in every rotation, are one reading of the tags.
 constexpr double kAgreeRad = 0.35;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<TagCluster> clusters_of(const BodyModel& model) {
   std::map<HumanBone, TagCluster> by_bone;
@@ -147,7 +141,7 @@ double FrameSolver::refine(std::span<const TagSighting> frame,
   solver.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
-  return summary.final_cost;
+  return cost_of(summary);
 }
 
 /// Distance of the sighting's corners to their model, the median of the four; none for a
@@ -164,7 +158,7 @@ double FrameSolver::median_misfit_px(std::span<const TagSighting> frame,
   for (const TagSighting& s : frame) {
     if (model_->place(s.tag)) misfits.push_back(misfit_px(s, posture));
   }
-  return median(std::move(misfits));
+  return misfits.empty() ? 0.0 : median(std::move(misfits));
 }
 
 /// A limb whose tags do not fit has bent the wrong way, led there by a lone tag read the

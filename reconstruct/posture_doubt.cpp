@@ -3,9 +3,12 @@
 #include "reconstruct/posture_doubt.h"
 
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
+
+#include "reconstruct/normal_matrix.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -13,27 +16,6 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 using Dense = Eigen::MatrixXd;
 constexpr int kN = kPostureFreedom;
-
-/// Normal matrix of the moving postures, in time order.
-bool normal_matrix(std::span<Posture> postures, ceres::Problem& problem, Sparse& out) {
-  ceres::Problem::EvaluateOptions options;
-  for (Posture& posture : postures) {
-    for (const Slot slot : kAllSlots) {
-      options.parameter_blocks.push_back(posture.block(slot));
-    }
-  }
-  ceres::CRSMatrix crs;
-  std::vector<double> residuals;
-  if (!problem.Evaluate(options, nullptr, &residuals, nullptr, &crs)) return false;
-  const Eigen::Map<const Sparse> jacobian(crs.num_rows,
-                                          crs.num_cols,
-                                          static_cast<Eigen::Index>(crs.values.size()),
-                                          crs.rows.data(),
-                                          crs.cols.data(),
-                                          crs.values.data());
-  out = Sparse(jacobian.transpose()) * jacobian;
-  return true;
-}
 
 /// Diagonal blocks of the inverse of a symmetric block-tridiagonal matrix.
 std::vector<Dense> inverse_diagonal(const Sparse& matrix, int block) {
@@ -106,12 +88,16 @@ Eigen::Matrix<double, 3 * kHumanBoneCount, kN> origin_jacobian(const BodyModel& 
 
 }  // namespace
 
-std::vector<BoneSigmas> bone_sigmas(const BodyModel& model,
-                                    std::span<Posture> postures,
-                                    ceres::Problem& problem) {
-  Sparse normal;
-  if (!normal_matrix(postures, problem, normal)) return {};
-  const std::vector<Dense> pairs = inverse_diagonal(normal, 2 * kN);
+std::optional<std::vector<BoneSigmas>> bone_sigmas(const BodyModel& model,
+                                                   std::span<Posture> postures,
+                                                   ceres::Problem& problem) {
+  std::vector<double*> blocks;
+  for (Posture& posture : postures) {
+    for (const Slot slot : kAllSlots) blocks.push_back(posture.block(slot));
+  }
+  const auto normal = normal_matrix(problem, std::move(blocks));
+  if (!normal) return std::nullopt;
+  const std::vector<Dense> pairs = inverse_diagonal(*normal, 2 * kN);
   std::vector<BoneSigmas> sigmas(postures.size());
   for (std::size_t f = 0; f < postures.size(); ++f) {
     const int within = static_cast<int>(f % 2) * kN;

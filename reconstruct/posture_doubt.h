@@ -5,6 +5,7 @@
 // Private to reconstruct: how well a window's postures are known.
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,10 +21,9 @@ using BoneSigmas = std::array<double, kHumanBoneCount>;
 /// For each posture that the problem moves, from the diagonal blocks of the inverse of
 /// the problem's normal matrix. That matrix is block pentadiagonal in time, so it is
 /// inverted by blocks of two frames in one forward and one backward pass (Takahashi's
-/// equations). `postures` are the moving ones, in time order. Empty when Ceres cannot
-/// evaluate.
-[[nodiscard]] std::vector<BoneSigmas> bone_sigmas(const BodyModel& model,
-                                                  std::span<Posture> postures,
-                                                  ceres::Problem& problem);
+/// equations). `postures` are the moving ones, in time order. nullopt when Ceres
+/// cannot evaluate.
+[[nodiscard]] std::optional<std::vector<BoneSigmas>> bone_sigmas(
+    const BodyModel& model, std::span<Posture> postures, ceres::Problem& problem);
 
 }  // namespace marey::reconstruct

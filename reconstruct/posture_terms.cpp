@@ -3,6 +3,7 @@
 #include "reconstruct/posture_terms.h"
 
 #include <cmath>
+#include <limits>
 
 namespace marey::reconstruct {
 namespace {
@@ -301,11 +302,19 @@ void hold(Posture& posture, ceres::Problem& problem) {
 ceres::Solver::Options solver_options(int max_iterations) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  // SuiteSparse calls whatever BLAS the machine has, whose order of summation may follow
+  // where memory lies.
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   options.max_num_iterations = max_iterations;
   options.function_tolerance = 1e-6;
   options.num_threads = 1;
   options.logging_type = ceres::SILENT;
   return options;
+}
+
+double cost_of(const ceres::Solver::Summary& summary) {
+  return summary.IsSolutionUsable() ? summary.final_cost
+                                    : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace marey::reconstruct

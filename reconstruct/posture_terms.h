@@ -66,4 +66,7 @@ void hold(Posture& posture, ceres::Problem& problem);
 /// Options that give the same bytes on every run: one thread, no clock.
 [[nodiscard]] ceres::Solver::Options solver_options(int max_iterations);
 
+/// What a solve ended with, for comparing it with others: infinity where it failed.
+[[nodiscard]] double cost_of(const ceres::Solver::Summary& summary);
+
 }  // namespace marey::reconstruct

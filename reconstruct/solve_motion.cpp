@@ -6,23 +6,22 @@
 #include <cmath>
 
 #include "core/assert.h"
+#include "core/quantile.h"
 #include "reconstruct/frame_solver.h"
 #include "reconstruct/window_solver.h"
 
 namespace marey::reconstruct {
 namespace {
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 double root_mean_square(const std::vector<double>& values) {
   double sum = 0.0;
   for (const double v : values) sum += v * v;
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+ClockSource clock_of(std::size_t camera, const WindowSolver& windows) {
+  if (camera == 0) return ClockSource::kReference;
+  return windows.offset_given()[camera] ? ClockSource::kGiven : ClockSource::kEstimated;
 }
 
 void measure_fit(const WindowSolver& windows,
@@ -45,13 +44,13 @@ void measure_fit(const WindowSolver& windows,
   }
   for (std::size_t c = 0; c < cameras; ++c) {
     trial.cameras.push_back({root_mean_square(by_camera[c]),
-                             median(by_camera[c]),
+                             by_camera[c].empty() ? 0.0 : median(by_camera[c]),
                              static_cast<int>(by_camera[c].size()),
                              windows.offsets_s()[c],
-                             static_cast<bool>(windows.offset_given()[c])});
+                             clock_of(c, windows)});
   }
   trial.rms_px = root_mean_square(all);
-  trial.median_px = median(std::move(all));
+  if (!all.empty()) trial.median_px = median(std::move(all));
 }
 
 /// Frames in which any tag of the segment is seen; empty if it has no tag.
@@ -179,15 +178,19 @@ Result<SolvedTrial> solve_motion(const Body& body,
   std::vector<double> offsets_s;
   std::vector<bool> given;
   for (std::size_t c = 0; c < detections.size(); ++c) {
-    offsets_s.push_back(seconds(detections[c].offset));
-    given.push_back(c == 0 || detections[c].offset != Timestamp{0});
+    offsets_s.push_back(seconds(detections[c].offset.value_or(Timestamp{0})));
+    // The first camera's clock is the trial's: nothing else fixes where zero is.
+    given.push_back(c == 0 || detections[c].offset.has_value());
   }
   WindowSolver windows(
       model, cameras, sightings, std::move(offsets_s), std::move(given), *postures);
   if (options.estimate_offsets) windows.estimate_offsets();
-  windows.solve({static_cast<std::size_t>(options.window_frames),
-                 static_cast<std::size_t>(options.overlap_frames)},
-                tell(frames));
+  const bool solved = windows.solve({static_cast<std::size_t>(options.window_frames),
+                                     static_cast<std::size_t>(options.overlap_frames)},
+                                    tell(frames));
+  if (!solved) {
+    return not_found(detections, "the solver finds no motion that explains the tags");
+  }
 
   SolvedTrial trial;
   measure_fit(windows, sightings, cameras.size(), trial);

@@ -41,7 +41,7 @@ struct CameraFit {
   double median_px = 0.0;
   int corners = 0;
   double offset_s = 0.0;  ///< Frame k was exposed at k / rate + offset_s.
-  bool offset_is_given = false;
+  ClockSource clock = ClockSource::kEstimated;
 };
 
 struct SolvedTrial {
@@ -64,10 +64,10 @@ struct SolvedTrial {
 /// Sigmas are the windows' covariance, scaled by the residuals, with the body's own doubt
 /// added.
 ///
-/// `detections` holds one entry per camera of `cameras`, in order; an entry with a
-/// non-zero offset keeps it. Deterministic. Errors (kBadInput, `where` the first video):
-/// no body tag seen in any frame; the body never found in the trial. Cost: about 10 ms a
-/// frame; memory grows only by the poses.
+/// `detections` holds one entry per camera of `cameras`, in order; an entry with an
+/// offset keeps it. Deterministic. Errors (kBadInput, `where` the first video):
+/// no body tag seen in any frame; the body never found in the trial; no motion that
+/// explains the tags. Cost: about 50 ms a frame and core; memory grows only by the poses.
 [[nodiscard]] Result<SolvedTrial> solve_motion(
     const Body& body,
     std::span<const Camera> cameras,

@@ -6,9 +6,11 @@
 #include <cmath>
 
 #include <Eigen/Dense>
-#include <Eigen/Sparse>
 #include <glm/geometric.hpp>
 
+#include "core/assert.h"
+#include "core/quantile.h"
+#include "reconstruct/normal_matrix.h"
 #include "reconstruct/posture_terms.h"
 
 namespace marey::reconstruct {
@@ -17,6 +19,9 @@ namespace {
 // Over a range-of-motion trial, elbows bend about one axis of the arm's skin; what turns
 // about the bone would otherwise hide where along that axis the elbow lies. [rad]
 constexpr double kArmTwistRad = 0.1;
+
+// The median length of a two-dimensional error whose coordinates have unit sigma.
+constexpr double kMedianOfUnitNoise = 1.177;
 
 struct LengthDifference {
   Length a;
@@ -135,72 +140,70 @@ void measure(SubjectBundle& bundle, std::span<const Camera> cameras) {
   }
   if (errors.empty()) return;
   bundle.rms_px = std::sqrt(sum / static_cast<double>(errors.size()));
-  std::nth_element(errors.begin(),
-                   errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
-                   errors.end());
-  bundle.median_px = errors[errors.size() / 2];
+  bundle.median_px = median(std::move(errors));
 }
 
-/// Covariance of the subject's own blocks: frames share nothing but the subject, so they
+/// Residuals larger than their sigmas say that the sigmas are too small: by how much.
+double sigma_scale(const SubjectBundle& bundle) {
+  double sum_px = 0.0;
+  int count = 0;
+  for (const BundleFrame& frame : bundle.frames) {
+    for (const TagSighting& s : frame.sightings) {
+      sum_px += s.detection->sigma_px;
+      ++count;
+    }
+  }
+  return count == 0
+             ? 1.0
+             : std::max(1.0, bundle.median_px * count / (kMedianOfUnitNoise * sum_px));
+}
+
+/// Information on the subject's own blocks: frames share nothing but the subject, so they
 /// are eliminated one by one (Schur complement).
-void fill_sigmas(SubjectBundle& bundle, ceres::Problem& problem) {
-  ceres::Problem::EvaluateOptions options;
+std::optional<Eigen::MatrixXd> subject_information(SubjectBundle& bundle,
+                                                   ceres::Problem& problem) {
+  std::vector<double*> blocks;
   std::vector<int> frame_sizes;
   for (BundleFrame& frame : bundle.frames) {
     int size = 0;
     for (const Slot slot : kAllSlots) {
       double* block = frame.posture.block(slot);
       if (!problem.HasParameterBlock(block)) continue;
-      options.parameter_blocks.push_back(block);
+      blocks.push_back(block);
       size += tangent_size(slot);
     }
     frame_sizes.push_back(size);
   }
-  options.parameter_blocks.push_back(bundle.model.lengths.data());
+  blocks.push_back(bundle.model.lengths.data());
   int subject_size = kLengthCount;
   for (auto& [tag, pose] : bundle.model.segment_from_tag) {
-    options.parameter_blocks.push_back(&pose.rotation.x);
-    options.parameter_blocks.push_back(&pose.translation.x);
+    blocks.push_back(&pose.rotation.x);
+    blocks.push_back(&pose.translation.x);
     subject_size += 6;
   }
-  ceres::CRSMatrix crs;
-  std::vector<double> residuals;
-  if (!problem.Evaluate(options, nullptr, &residuals, nullptr, &crs)) return;
-  using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-  const Eigen::Map<const Sparse> jacobian(crs.num_rows,
-                                          crs.num_cols,
-                                          static_cast<Eigen::Index>(crs.values.size()),
-                                          crs.rows.data(),
-                                          crs.cols.data(),
-                                          crs.values.data());
-  const Sparse hessian = Sparse(jacobian.transpose()) * jacobian;
-  const int first_subject = crs.num_cols - subject_size;
+  const auto normal = normal_matrix(problem, std::move(blocks));
+  if (!normal) return std::nullopt;
+  const int first_subject = static_cast<int>(normal->cols()) - subject_size;
   Eigen::MatrixXd subject =
-      hessian.block(first_subject, first_subject, subject_size, subject_size);
+      normal->block(first_subject, first_subject, subject_size, subject_size);
   int start = 0;
   for (const int size : frame_sizes) {
-    Eigen::MatrixXd own = hessian.block(start, start, size, size);
+    Eigen::MatrixXd own = normal->block(start, start, size, size);
     own.diagonal().array() += 1e-9;
-    const Eigen::MatrixXd cross = hessian.block(start, first_subject, size, subject_size);
+    const Eigen::MatrixXd cross = normal->block(start, first_subject, size, subject_size);
     subject -= cross.transpose() * own.ldlt().solve(cross);
     start += size;
   }
   subject.diagonal().array() += 1e-9;
-  const Eigen::MatrixXd covariance =
-      subject.ldlt().solve(Eigen::MatrixXd::Identity(subject_size, subject_size));
+  return subject;
+}
 
-  // Residuals larger than their sigmas say that the sigmas are too small. Corner errors
-  // have two coordinates; the median distance of unit noise is 1.177.
-  double sigma_px = 0.0;
-  int count = 0;
-  for (const BundleFrame& frame : bundle.frames) {
-    for (const TagSighting& s : frame.sightings) {
-      sigma_px += s.detection->sigma_px;
-      ++count;
-    }
-  }
-  sigma_px /= std::max(1, count);
-  const double scale = std::max(1.0, bundle.median_px / (1.177 * sigma_px));
+bool fill_sigmas(SubjectBundle& bundle, ceres::Problem& problem) {
+  const auto information = subject_information(bundle, problem);
+  if (!information) return false;
+  const Eigen::MatrixXd covariance = information->ldlt().solve(
+      Eigen::MatrixXd::Identity(information->rows(), information->cols()));
+  const double scale = sigma_scale(bundle);
   const auto variance = [&](int i) { return std::max(0.0, covariance(i, i)); };
   for (int i = 0; i < kLengthCount; ++i) {
     bundle.length_sigma_m[static_cast<std::size_t>(i)] = scale * std::sqrt(variance(i));
@@ -215,6 +218,7 @@ void fill_sigmas(SubjectBundle& bundle, ceres::Problem& problem) {
     bundle.tag_sigma[tag] = {rms(column + 3), 2.0 * rms(column)};
     column += 6;
   }
+  return true;
 }
 
 }  // namespace
@@ -231,11 +235,7 @@ bool adjust(SubjectBundle& bundle,
     set_manifolds(frame.posture, problem);
   }
   for (auto& [tag, pose] : bundle.model.segment_from_tag) {
-    if (!problem.HasParameterBlock(&pose.rotation.x)) {
-      // Placed, but not in a chosen frame: it keeps its place.
-      problem.AddParameterBlock(&pose.rotation.x, 4);
-      problem.AddParameterBlock(&pose.translation.x, 3);
-    }
+    MAREY_ASSERT(problem.HasParameterBlock(&pose.rotation.x));
     problem.SetManifold(&pose.rotation.x, new ceres::EigenQuaternionManifold);
   }
   add_length_priors(bundle, problem);
@@ -246,8 +246,7 @@ bool adjust(SubjectBundle& bundle,
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return false;
   measure(bundle, cameras);
-  if (sigmas) fill_sigmas(bundle, problem);
-  return true;
+  return !sigmas || fill_sigmas(bundle, problem);
 }
 
 }  // namespace marey::reconstruct

@@ -4,7 +4,6 @@
 
 // Private to reconstruct: the joint refinement behind fit_subject().
 
-#include <array>
 #include <map>
 #include <span>
 #include <vector>
@@ -22,6 +21,12 @@ struct BundleFrame {
   Posture posture;
 };
 
+/// How well a tag's pose on its segment is known, root mean square over coordinates.
+struct TagSigma {
+  double m = 0.0;
+  double rad = 0.0;
+};
+
 struct SubjectBundle {
   BodyModel model;
   Lengths usual{};  ///< Of an average person: the prior.
@@ -29,13 +34,14 @@ struct SubjectBundle {
 
   // Filled by adjust().
   Lengths length_sigma_m{};
-  std::map<std::size_t, std::array<double, 2>> tag_sigma;  ///< [m], [rad]
+  std::map<std::size_t, TagSigma> tag_sigma;
   double rms_px = 0.0;
   double median_px = 0.0;
 };
 
 /// Moves lengths, tag poses and postures to the least reprojection. With `sigmas`, also
 /// fills the sigmas. False when the solver finds no usable minimum.
+/// Precondition: every tag of the model is sighted in some frame of the bundle.
 [[nodiscard]] bool adjust(SubjectBundle& bundle,
                           std::span<const Camera> cameras,
                           int max_iterations,

@@ -25,22 +25,11 @@ TagPoses locate_tags(std::span<const Camera> cameras,
                      std::span<const TagOnSegment> tags,
                      std::span<const TagSighting> frame) {
   TagPoses poses;
-  for (std::size_t i = 0; i < frame.size();) {
-    const std::size_t tag = frame[i].tag;
-    std::vector<RigidPointView> views;
-    std::vector<RigidTransform> starts;
-    int cameras_seeing = 0;
-    for (; i < frame.size() && frame[i].tag == tag; ++i) {
-      const Camera& camera = cameras[index(frame[i].camera)];
-      append_corner_views(camera, *frame[i].detection, tags[tag].size_m, {}, views);
-      const auto both = planar_candidates(camera, *frame[i].detection, tags[tag].size_m);
-      starts.insert(starts.end(), both.begin(), both.end());
-      ++cameras_seeing;
+  for (const TagSighting& sighting : frame) {
+    if (poses.contains(sighting.tag)) continue;
+    if (const auto pose = locate_tag(sighting.tag, cameras, tags, frame)) {
+      poses[sighting.tag] = *pose;
     }
-    const auto pose = locate_rigid(views, starts);
-    if (!pose || pose->rms_px > kBelievableRmsPx) continue;
-    if (cameras_seeing == 1 && pose->ambiguity_ratio < kUnambiguous) continue;
-    poses[tag] = pose->world_from_body;
   }
   return poses;
 }
@@ -55,20 +44,20 @@ struct Agreed {
   int support = 0;
 };
 
-/// The candidate that most others are near, averaged with those.
-Agreed agree(const std::vector<RigidTransform>& candidates) {
+/// The candidate that most others are within `near` of, averaged with those.
+Agreed agree(std::span<const RigidTransform> candidates, double near) {
   Agreed best;
   for (const RigidTransform& candidate : candidates) {
     int support = 0;
     for (const RigidTransform& other : candidates) {
-      support += disagreement(candidate, other) < kAgree;
+      support += disagreement(candidate, other) < near;
     }
     if (support > best.support) best = {candidate, support};
   }
   glm::dvec3 shift(0.0);
   glm::dvec3 turn(0.0);
   for (const RigidTransform& other : candidates) {
-    if (disagreement(best.pose, other) >= kAgree) continue;
+    if (disagreement(best.pose, other) >= near) continue;
     shift += other.translation - best.pose.translation;
     turn += rotation_vector(glm::conjugate(best.pose.rotation) * other.rotation);
   }
@@ -110,19 +99,50 @@ TagCluster grow(HumanBone segment,
                                here->second);
         }
       }
-      const Agreed agreed = agree(candidates);
+      const Agreed agreed = agree(candidates, kAgree);
       if (agreed.support > best.support) {
         best = agreed;
         best_tag = tag;
       }
     }
-    if (best.support == 0) break;  // Never seen together: placed later, on the skeleton.
+    // Never seen together: fit_subject() places it on the body.
+    if (best.support == 0) break;
     cluster.cluster_from_tag[best_tag] = best.pose;
   }
   return cluster;
 }
 
 }  // namespace
+
+std::optional<RigidTransform> locate_tag(std::size_t tag,
+                                         std::span<const Camera> cameras,
+                                         std::span<const TagOnSegment> tags,
+                                         std::span<const TagSighting> frame) {
+  std::vector<RigidPointView> views;
+  std::vector<RigidTransform> starts;
+  int cameras_seeing = 0;
+  for (const TagSighting& sighting : frame) {
+    if (sighting.tag != tag) continue;
+    const Camera& camera = cameras[index(sighting.camera)];
+    append_corner_views(camera, *sighting.detection, tags[tag].size_m, {}, views);
+    const auto both = planar_candidates(camera, *sighting.detection, tags[tag].size_m);
+    starts.insert(starts.end(), both.begin(), both.end());
+    ++cameras_seeing;
+  }
+  const auto pose = locate_rigid(views, starts);
+  if (!pose || pose->rms_px > kBelievableRmsPx) return std::nullopt;
+  if (cameras_seeing == 1 && pose->ambiguity_ratio < kUnambiguous) return std::nullopt;
+  return pose->world_from_body;
+}
+
+std::optional<RigidTransform> agreed_pose(std::span<const RigidTransform> candidates,
+                                          double near) {
+  // Two that agree may both be wrong alike; one always agrees with itself.
+  constexpr int kFewest = 3;
+  const Agreed agreed = agree(candidates, near);
+  if (agreed.support < kFewest) return std::nullopt;
+  return agreed.pose;
+}
 
 std::vector<TagCluster> cluster_tags(std::span<const Camera> cameras,
                                      std::span<const TagOnSegment> tags,

@@ -29,6 +29,21 @@ struct TagCluster {
                                                    std::span<const TagOnSegment> tags,
                                                    std::span<const Sightings> trials);
 
+/// world_from_tag of one tag in one frame, from all cameras that see it. nullopt when
+/// none does, or a single one so that it could just as well be tilted the other way, or
+/// they do not agree.
+[[nodiscard]] std::optional<RigidTransform> locate_tag(
+    std::size_t tag,
+    std::span<const Camera> cameras,
+    std::span<const TagOnSegment> tags,
+    std::span<const TagSighting> frame);
+
+/// The pose that most of `candidates` are within `near` of (metres, a radian counting as
+/// 0.1 m), averaged over those; nullopt when fewer than three are. Quadratic in their
+/// number.
+[[nodiscard]] std::optional<RigidTransform> agreed_pose(
+    std::span<const RigidTransform> candidates, double near);
+
 /// Where a cluster is in one frame, from all corners that any camera sees of it. nullopt
 /// when it is not seen, or only so that it could just as well be tilted the other way.
 [[nodiscard]] std::optional<RigidTransform> locate_cluster(

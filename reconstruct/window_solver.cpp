@@ -131,7 +131,7 @@ void WindowSolver::estimate_offsets() {
   find_velocities();
 }
 
-void WindowSolver::solve(const WindowSize& size, const Progress& progress) {
+bool WindowSolver::solve(const WindowSize& size, const Progress& progress) {
   const std::size_t frames = postures_->size();
   std::size_t first = 0;  // The first frame that is not yet final.
   while (first < frames) {
@@ -146,16 +146,17 @@ void WindowSolver::solve(const WindowSize& size, const Progress& progress) {
     solver.function_tolerance = 1e-5;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary);
+    if (!summary.IsSolutionUsable()) return false;
     const bool last = first + count == frames;
     const std::size_t done = last ? count : count - size.overlap;
     const auto sigmas =
         bone_sigmas(*model_, std::span(*postures_).subspan(first, count), problem);
-    for (std::size_t i = 0; i < done && i < sigmas.size(); ++i) {
-      sigmas_[first + i] = sigmas[i];
-    }
+    if (!sigmas) return false;
+    for (std::size_t i = 0; i < done; ++i) sigmas_[first + i] = (*sigmas)[i];
     first += done;
     if (progress) progress(static_cast<int>(first), static_cast<int>(frames));
   }
+  return true;
 }
 
 std::vector<double> WindowSolver::errors_px(std::size_t frame,

@@ -35,8 +35,8 @@ class WindowSolver {
   void estimate_offsets();
 
   /// All windows in turn: a window's first frames continue the one before, which is final
-  /// by then. `progress` counts frames.
-  void solve(const WindowSize& size, const Progress& progress);
+  /// by then. `progress` counts frames. False when a window has no usable minimum.
+  [[nodiscard]] bool solve(const WindowSize& size, const Progress& progress);
 
   /// Distance from where the camera saw each corner of a sighting to where it should have
   /// at its own time; empty for a tag behind the camera. [px]
