@@ -180,10 +180,11 @@ GroundReport adapt_to_ground(const Skeleton& body,
     }
   }
 
-  const int half =
-      std::max(1, static_cast<int>(std::lround(options.anticipation_s * 0.5 * rate.hz)));
+  // A window that reaches over the whole motion gains nothing by being wider.
+  const double half_frames =
+      std::clamp(options.anticipation_s * 0.5 * rate.hz, 1.0, static_cast<double>(count));
+  const int half = static_cast<int>(std::lround(half_frames));
   const std::vector<double> sink = smooth_cover(needed, half);
-  report.deepest_sink_m = *std::max_element(sink.begin(), sink.end());
   for (std::size_t t = 0; t < count; ++t) {
     NormalizedPose& pose = poses[t];
     pose.root.y -= sink[t] / unit_m;

@@ -26,8 +26,6 @@ struct GroundOptions {
 struct GroundReport {
   /// Frames in which a bearing foot could not stay on its footprint.
   int unreachable_frames = 0;
-  /// Most that the root was lowered so that a bearing leg reaches. [m]
-  double deepest_sink_m = 0.0;
 };
 
 /// By how much a root that was scaled with the legs must rise so that a body whose hips
@@ -46,7 +44,8 @@ struct GroundReport {
 /// which each bearing leg is straight, but taken smoothly, from before to after the
 /// moment (the thesis takes the minimum posture by posture). Legs follow analytically.
 /// Frames in which no foot bears, more than `anticipation_s` away from one that does,
-/// keep their root height. Linear in frames; two expansions per frame.
+/// keep their root height. Linear in frames, and in `anticipation_s`; one expansion per
+/// frame.
 GroundReport adapt_to_ground(const Skeleton& body,
                              const BodyMap& map,
                              const Contacts& contacts,
