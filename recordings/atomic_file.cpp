@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/atomic_file.h"
 
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <random>
 #include <system_error>
 #include <utility>
 
@@ -9,6 +15,42 @@ namespace marey::recordings {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// A partial file that a signal's handler would have to remove. The state says who may
+/// touch the path: whoever made it kTaken, until it is kNamed; then the handler.
+struct PartialPath {
+  enum State : int { kFree, kTaken, kNamed };
+  std::atomic<int> state{kFree};
+  std::array<char, 4096> path{};
+};
+static_assert(std::atomic<int>::is_always_lock_free, "a handler may use it");
+
+// A global, because a signal's handler gets no argument.
+std::array<PartialPath, 16> partial_paths;  // NOLINT(*-non-const-global-variables)
+
+const std::string& word_of_process() {
+  static const std::string word = std::to_string(std::random_device()());
+  return word;
+}
+
+void remember(const std::string& path) {
+  if (path.size() >= partial_paths[0].path.size()) return;
+  for (PartialPath& place : partial_paths) {
+    int expected = PartialPath::kFree;
+    if (!place.state.compare_exchange_strong(expected, PartialPath::kTaken)) continue;
+    std::memcpy(place.path.data(), path.c_str(), path.size() + 1);
+    place.state.store(PartialPath::kNamed);
+    return;
+  }
+}
+
+void forget(const std::string& path) {
+  for (PartialPath& place : partial_paths) {
+    if (place.state.load() != PartialPath::kNamed || path != place.path.data()) continue;
+    place.state.store(PartialPath::kFree);
+    return;
+  }
+}
 
 Status make_parent_folder(const fs::path& path) {
   const fs::path folder = path.parent_path();
@@ -21,19 +63,31 @@ Status make_parent_folder(const fs::path& path) {
                    "choose an output folder that may be written to");
 }
 
-Error disk_error(const fs::path& path, const std::string& cause) {
-  return {Errc::kDevice, path.string(), cause, "free some disk space and run again"};
+std::string reason(int error) {
+  return error == 0 ? "" : ": " + std::generic_category().message(error);
+}
+
+Error disk_error(const fs::path& path, const std::string& what, int error) {
+  const bool is_full = error == ENOSPC || error == EDQUOT;
+  return {Errc::kDevice,
+          path.string(),
+          what + reason(error),
+          is_full
+              ? "free some disk space and run again"
+              : "check the disk and that its folder may be written to, and run again"};
 }
 
 }  // namespace
 
 AtomicFile::AtomicFile(fs::path path)
-    : path_(std::move(path)), partial_(path_.string() + ".partial") {}
+    : path_(std::move(path)),
+      partial_(path_.string() + "." + word_of_process() + ".partial") {}
 
 AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : path_(std::move(other.path_)),
       partial_(std::move(other.partial_)),
       stream_(std::move(other.stream_)),
+      write_errno_(other.write_errno_),
       open_(std::exchange(other.open_, false)) {}
 
 AtomicFile::~AtomicFile() {
@@ -46,6 +100,7 @@ void AtomicFile::discard() {
   stream_.close();
   std::error_code ignored;
   fs::remove(partial_, ignored);
+  forget(partial_.string());
 }
 
 Result<AtomicFile> AtomicFile::create(const fs::path& path) {
@@ -56,10 +111,14 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
   }
   if (const Status made = make_parent_folder(path); !made) return made.error();
   AtomicFile file(path);
+  remember(file.partial_.string());  // Before it is there, so that no signal is between.
+  errno = 0;
   file.stream_.open(file.partial_, std::ios::binary | std::ios::trunc);
   if (!file.stream_) {
+    const int error = errno;
+    forget(file.partial_.string());
     return bad_input(path.string(),
-                     "the file cannot be written",
+                     "the file cannot be written" + reason(error),
                      "check that its folder may be written to");
   }
   file.open_ = true;
@@ -68,24 +127,36 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
 
 void AtomicFile::append(std::string_view bytes) {
   MAREY_ASSERT(open_);
+  if (!stream_) return;
+  errno = 0;
   stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!stream_) write_errno_ = errno;
 }
 
 Status AtomicFile::commit() {
   MAREY_ASSERT(open_);
+  errno = 0;
   stream_.close();
   if (!stream_) {
+    const int error = write_errno_ != 0 ? write_errno_ : errno;
     discard();
-    return disk_error(path_, "the file could not be written to its end");
+    return disk_error(path_, "the file could not be written to its end", error);
   }
   std::error_code problem;
   fs::rename(partial_, path_, problem);
   if (problem) {
     discard();
-    return disk_error(path_, "the file cannot be put in place: " + problem.message());
+    return disk_error(path_, "the file cannot be put in place", problem.value());
   }
   open_ = false;
+  forget(partial_.string());
   return Done{};
+}
+
+void visit_partial_files(void (*visit)(const char* path)) noexcept {
+  for (const PartialPath& place : partial_paths) {
+    if (place.state.load() == PartialPath::kNamed) visit(place.path.data());
+  }
 }
 
 Status write_file(const fs::path& path, std::string_view bytes) {
@@ -98,6 +169,11 @@ Status write_file(const fs::path& path, std::string_view bytes) {
 Result<std::string> read_file(const fs::path& path) {
   std::error_code problem;
   const fs::file_status status = fs::status(path, problem);
+  if (status.type() == fs::file_type::none) {
+    return bad_input(path.string(),
+                     "the file cannot be read: " + problem.message(),
+                     "check the name and its folder's permissions");
+  }
   if (!fs::exists(status)) {
     return bad_input(
         path.string(), "the file does not exist", "check the name and the folder");
@@ -105,9 +181,12 @@ Result<std::string> read_file(const fs::path& path) {
   if (fs::is_directory(status)) {
     return bad_input(path.string(), "this is a folder, not a file", "name a file in it");
   }
+  errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
-    return bad_input(path.string(), "the file cannot be read", "check its permissions");
+    return bad_input(path.string(),
+                     "the file cannot be read" + reason(errno),
+                     "check its permissions");
   }
   // In pieces rather than one of file_size(), which is 0 for pipes and /proc.
   constexpr std::size_t kPiece = std::size_t{1} << 20;

@@ -11,7 +11,8 @@
 
 namespace marey::recordings {
 
-/// A file being written beside its final place (PATH.partial). It appears at PATH, whole
+/// A file being written beside its final place (PATH.WORD.partial, with a word of this
+/// process' own, so that two programs do not write into one). It appears at PATH, whole
 /// and at once, with commit(); without one, or after any failure, nothing is left behind.
 ///
 ///   Result<AtomicFile> file = AtomicFile::create(path);
@@ -20,8 +21,8 @@ namespace marey::recordings {
 ///   return file->commit();
 class AtomicFile {
  public:
-  /// Opens PATH.partial, creating parent folders. Errors (kBadInput): `path` is a folder,
-  /// or its folder cannot be created or written to.
+  /// Opens the partial file, creating parent folders. Errors (kBadInput): `path` is a
+  /// folder, or its folder cannot be created or written to.
   [[nodiscard]] static Result<AtomicFile> create(const std::filesystem::path& path);
 
   AtomicFile(AtomicFile&& other) noexcept;
@@ -34,7 +35,8 @@ class AtomicFile {
   /// Precondition: not committed.
   void append(std::string_view bytes);
 
-  /// Puts the file in its place. Errors (kDevice): the disk is full or failed.
+  /// Puts the file in its place. Errors (kDevice): the disk is full or failed, or the
+  /// folder has changed meanwhile.
   /// Precondition: not committed.
   [[nodiscard]] Status commit();
 
@@ -45,8 +47,15 @@ class AtomicFile {
   std::filesystem::path path_;
   std::filesystem::path partial_;
   std::ofstream stream_;
-  bool open_ = false;  ///< The partial file is ours to commit or to remove.
+  int write_errno_ = 0;  ///< Of the first append() that failed.
+  bool open_ = false;    ///< The partial file is ours to commit or to remove.
 };
+
+/// Calls `visit` with the path of each partial file that this process is writing: for a
+/// signal's handler that removes them and then ends the process, and for no other use.
+/// Async-signal-safe when `visit` is; a file that another thread opens at this very
+/// moment may escape it, and so may all but the first 16 at once.
+void visit_partial_files(void (*visit)(const char* path)) noexcept;
 
 /// Writes `bytes` to `path`, replacing the file at once or not at all; creates parent
 /// folders. Errors as AtomicFile's.

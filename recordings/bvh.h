@@ -49,7 +49,8 @@ struct BvhMotion {
 [[nodiscard]] std::string bvh_text(const Motion& motion,
                                    const BvhWriteOptions& options = {});
 
-/// Writes bvh_text() to `path`, replacing the file at once or not at all.
+/// Writes bvh_text() to `path`, replacing the file at once or not at all. Errors as
+/// write_file()'s.
 [[nodiscard]] Status write_bvh(const std::filesystem::path& path,
                                const Motion& motion,
                                const BvhWriteOptions& options = {});
@@ -62,11 +63,17 @@ struct BvhMotion {
 /// the height at which the lowest joint or tip stands on the floor. Joints that carry
 /// VRM's bone names, and only those, get their `bone`. The rate is rounded to a whole
 /// number when Frame Time, which has few digits, is within 1e-4 of it.
+///
+/// Errors (kBadInput), with the line: not a BVH file, or one that is cut short; a second
+/// ROOT; a joint with the same bone or with CHANNELS twice; an unknown channel; a row
+/// with another number of values, or that is no number; more frames than announced; an
+/// OFFSET or a position beyond 10 km; a rate outside 0.1 to 2000 Hz.
+/// Cost: linear in the text, about 50 MB/s.
 [[nodiscard]] Result<BvhMotion> parse_bvh(std::string_view text,
                                           const std::string& file,
                                           const BvhReadOptions& options = {});
 
-/// parse_bvh() of the file at `path`.
+/// parse_bvh() of the file at `path`. Errors also as read_file()'s.
 [[nodiscard]] Result<BvhMotion> read_bvh(const std::filesystem::path& path,
                                          const BvhReadOptions& options = {});
 

@@ -16,6 +16,7 @@
 #include "core/pose.h"
 #include "recordings/atomic_file.h"
 #include "recordings/bvh.h"
+#include "recordings/motion_limits.h"
 #include "recordings/text_reader.h"
 #include "recordings/travelling_joint.h"
 
@@ -30,10 +31,9 @@ std::string lower(std::string_view word) {
   return text;
 }
 
-std::string in_quotes(std::string_view word) {
-  std::string text(1, '\'');
-  text.append(word.substr(0, 40));  // A broken file may hold very long words.
-  return text + '\'';
+/// A broken file may hold very long words.
+std::string shown(std::string_view word) {
+  return in_quotes(word.substr(0, 40));
 }
 
 struct Channel {
@@ -41,10 +41,17 @@ struct Channel {
   int axis = 0;  ///< 0 X, 1 Y, 2 Z.
 };
 
+/// A joint's channels, in the order of its values in each frame.
+struct JointChannels {
+  std::vector<Channel> list;
+  std::size_t first_value = 0;  ///< Place of the first one's value in a frame.
+  bool announced = false;
+};
+
 /// Skeleton, channels of each joint, and frames, in the file's units.
 struct BvhFile {
   Skeleton skeleton;
-  std::vector<std::vector<Channel>> channels;
+  std::vector<JointChannels> channels;
   std::size_t values_per_frame = 0;
   double frame_time_s = 0.0;
   std::vector<double> values;  ///< Frame after frame.
@@ -52,7 +59,8 @@ struct BvhFile {
 
 class Parser {
  public:
-  Parser(std::string_view text, const std::string& file) : reader_(text, file) {}
+  Parser(std::string_view text, const std::string& file, double unit_m)
+      : reader_(text, file), furthest_(kFurthest_m / unit_m) {}
 
   Result<BvhFile> parse() {
     for (const auto step : {&Parser::hierarchy, &Parser::motion_head, &Parser::frames}) {
@@ -72,51 +80,67 @@ class Parser {
     const std::string_view found = reader_.word();
     if (lower(found) == lower(keyword)) return Done{};
     if (found.empty()) {
-      return fail("the file ends where " + in_quotes(keyword) + " should be");
+      return fail("the file ends where " + shown(keyword) + " should be");
     }
-    return fail("expected " + in_quotes(keyword) + ", found " + in_quotes(found));
+    return fail("expected " + shown(keyword) + ", found " + shown(found));
   }
 
   Result<double> number(std::string_view what) {
     const std::string_view found = reader_.word_on_line();
     const auto value = to_number(found);
     if (value) return *value;
-    return fail("expected a number for " + std::string(what) + ", found " +
-                in_quotes(found));
+    return fail("expected a number for " + std::string(what) + ", found " + shown(found));
+  }
+
+  /// A length in the file's unit.
+  Result<double> length(std::string_view what) {
+    const auto value = number(what);
+    if (!value || std::abs(*value) <= furthest_) return value;
+    return too_far(std::string(what));
+  }
+
+  [[nodiscard]] Error too_far(std::string what) const {
+    return fail(std::move(what) + " goes further than 10 km");
   }
 
   Result<glm::dvec3> offset() {
     if (Status s = expect("OFFSET"); !s) return s.error();
     glm::dvec3 value(0.0);
     for (int i = 0; i < 3; ++i) {
-      const auto coordinate = number("OFFSET");
+      const auto coordinate = length("OFFSET");
       if (!coordinate) return coordinate.error();
       value[i] = *coordinate;
     }
     return value;
   }
 
-  Status channels() {
+  Status channels(JointIndex joint) {
+    JointChannels& channels = file_.channels[index(joint)];
+    if (channels.announced) {
+      return fail("the joint " + shown(file_.skeleton.joints[index(joint)].name) +
+                  " has its CHANNELS twice");
+    }
     const auto count = to_integer(reader_.word_on_line());
     if (!count || *count < 0 || *count > 6) {
       return fail("expected 0 to 6 channels");
     }
-    std::vector<Channel> found;
+    channels.announced = true;
+    channels.first_value = file_.values_per_frame;
     for (int i = 0; i < *count; ++i) {
       const std::string word = lower(reader_.word_on_line());
       const bool is_rotation = word.size() == 9 && word.ends_with("rotation");
       const bool is_position = word.size() == 9 && word.ends_with("position");
       if ((!is_rotation && !is_position) || word[0] < 'x' || word[0] > 'z') {
-        return fail("unknown channel " + in_quotes(word));
+        return fail("unknown channel " + shown(word));
       }
-      found.push_back({is_rotation, word[0] - 'x'});
+      channels.list.push_back({is_rotation, word[0] - 'x'});
+      is_length_.push_back(is_position);
     }
     if (!reader_.rest_of_line().empty()) {
       return fail("there are more than the " + std::to_string(*count) +
                   " channels announced");
     }
-    file_.values_per_frame += found.size();
-    file_.channels.back() = std::move(found);
+    file_.values_per_frame += channels.list.size();
     return Done{};
   }
 
@@ -147,7 +171,7 @@ class Parser {
     joint.name = *text;
     joint.bone = human_bone(joint.name);
     if (joint.bone && file_.skeleton.find(*joint.bone)) {
-      return fail("the joint " + in_quotes(joint.name) + " is there twice");
+      return fail("the joint " + shown(joint.name) + " is there twice");
     }
     if (Status s = open_brace(); !s) return s;
     const auto from_parent = offset();
@@ -180,7 +204,7 @@ class Parser {
         done = begin_joint(open.back());
         open.push_back(JointIndex{static_cast<int>(file_.skeleton.joints.size()) - 1});
       } else if (keyword == "channels") {
-        done = channels();
+        done = channels(open.back());
       } else if (keyword == "end") {
         done = end_site(open.back());
       } else if (keyword == "}") {
@@ -188,8 +212,7 @@ class Parser {
       } else if (keyword.empty()) {
         done = fail("the file ends inside the HIERARCHY");
       } else {
-        done =
-            fail("expected JOINT, CHANNELS, End Site or '}', found " + in_quotes(word));
+        done = fail("expected JOINT, CHANNELS, End Site or '}', found " + shown(word));
       }
       if (!done) return done;
     }
@@ -206,11 +229,18 @@ class Parser {
     const auto count = to_integer(reader_.word_on_line());
     if (!count || *count < 0) return fail("expected the number of frames");
     frame_count_ = *count;
+    const auto frames = static_cast<std::size_t>(*count);
+    if (too_many_rotations(
+            file_.skeleton.joints.size(), frames, frames * file_.values_per_frame)) {
+      return fail("so many frames of so many joints do not fit into memory");
+    }
     if (Status s = expect("Frame"); !s) return s;
     if (Status s = expect("Time:"); !s) return s;
     const auto time = number("Frame Time");
     if (!time) return time.error();
-    if (*time <= 0.0) return fail("Frame Time must be above zero");
+    if (!(*time >= 1.0 / kFastestRateHz && *time <= 1.0 / kSlowestRateHz)) {
+      return fail("Frame Time must be 0.0005 to 10 seconds");
+    }
     file_.frame_time_s = *time;
     return Done{};
   }
@@ -236,7 +266,11 @@ class Parser {
          word = reader_.word_on_line(), ++found) {
       const auto value = to_number(word);
       if (!value) {
-        return fail(in_quotes(word) + " is not a number");
+        return fail(shown(word) + " is not a number");
+      }
+      if (found < is_length_.size() && is_length_[found] &&
+          std::abs(*value) > furthest_) {
+        return too_far("a position of " + shown(word));
       }
       file_.values.push_back(*value);
     }
@@ -247,6 +281,8 @@ class Parser {
 
   TextReader reader_;
   BvhFile file_;
+  double furthest_;              ///< In the file's unit.
+  std::vector<bool> is_length_;  ///< Per value of a frame.
   int frame_count_ = 0;
   bool brace_read_ = false;
 };
@@ -311,8 +347,8 @@ BvhMotion motion_of(BvhFile file, double unit_m) {
   for (std::size_t frame = 0; frame < count; ++frame) {
     const double* values = file.values.data() + frame * file.values_per_frame;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      local[i] = local_transform(joints[i], file.channels[i], values, unit_m);
-      values += file.channels[i].size();
+      const auto& [channels, first_value, announced] = file.channels[i];
+      local[i] = local_transform(joints[i], channels, values + first_value, unit_m);
     }
     PosedBones posed = hand_travel_to_root(result.motion.skeleton, local);
     result.motion.poses.push_back(std::move(posed.pose));
@@ -328,7 +364,7 @@ Result<BvhMotion> parse_bvh(std::string_view text,
                             const std::string& file,
                             const BvhReadOptions& options) {
   MAREY_ASSERT(options.unit_m > 0.0);
-  Result<BvhFile> parsed = Parser(text, file).parse();
+  Result<BvhFile> parsed = Parser(text, file, options.unit_m).parse();
   if (!parsed) return parsed.error();
   return motion_of(*std::move(parsed), options.unit_m);
 }

@@ -56,7 +56,10 @@ void write_pose(TomlWriter& out, const RigidTransform& camera_from_world) {
   out.matrix("world_from_camera", matrix_of(inverse(camera_from_world)), 4);
 }
 
-void write_camera(TomlWriter& out, const Camera& camera, const CameraRecord& record) {
+void write_camera(TomlWriter& out,
+                  const Camera& camera,
+                  const CameraQuality& quality,
+                  const CameraClock& clock) {
   const Intrinsics& k = camera.intrinsics;
   out.table({camera.name});
   out.text("name", camera.name);
@@ -68,15 +71,15 @@ void write_camera(TomlWriter& out, const Camera& camera, const CameraRecord& rec
   write_pose(out, camera.camera_from_world);
   out.number("tag_shrinkage_px", camera.tag_shrinkage.offset_px);
   out.number("tag_shrinkage_slope", camera.tag_shrinkage.slope);
-  out.number("time_offset_s", record.time_offset_s);
-  out.number("drift_ppm", record.drift_ppm);
-  out.number("rms_px", record.rms_px);
-  out.number("p95_px", record.p95_px);
-  out.number("centre_sigma_m", record.centre_sigma_m);
-  out.number("focal_sigma_px", record.focal_sigma_px);
-  out.integer("views", record.views);
-  out.integer("corners", record.corners);
-  out.number("coverage", record.coverage);
+  out.number("time_offset_s", clock.offset_s);
+  out.number("drift_ppm", clock.drift_ppm);
+  out.number("rms_px", quality.rms_px);
+  out.number("p95_px", quality.p95_px);
+  out.number("centre_sigma_m", quality.centre_sigma_m);
+  out.number("focal_sigma_px", quality.focal_sigma_px);
+  out.integer("views", quality.views);
+  out.integer("corners", quality.corners);
+  out.number("coverage", quality.coverage);
 }
 
 void read_size(TomlReader& in, Intrinsics& k) {
@@ -168,18 +171,23 @@ void read_if_there(TomlReader& in,
   if (in.has(key)) value = in.integer(key, limits);
 }
 
-CameraRecord read_record(TomlReader& in) {
-  CameraRecord record;
-  read_if_there(in, "time_offset_s", kAny, record.time_offset_s);
-  read_if_there(in, "drift_ppm", kAny, record.drift_ppm);
-  read_if_there(in, "rms_px", kNotNegative, record.rms_px);
-  read_if_there(in, "p95_px", kNotNegative, record.p95_px);
-  read_if_there(in, "centre_sigma_m", kNotNegative, record.centre_sigma_m);
-  read_if_there(in, "focal_sigma_px", kNotNegative, record.focal_sigma_px);
-  read_if_there(in, "views", kCount, record.views);
-  read_if_there(in, "corners", kCount, record.corners);
-  read_if_there(in, "coverage", {0.0, 1.0}, record.coverage);
-  return record;
+CameraClock read_clock(TomlReader& in) {
+  CameraClock clock;
+  read_if_there(in, "time_offset_s", kAny, clock.offset_s);
+  read_if_there(in, "drift_ppm", kAny, clock.drift_ppm);
+  return clock;
+}
+
+CameraQuality read_quality(TomlReader& in) {
+  CameraQuality quality;
+  read_if_there(in, "rms_px", kNotNegative, quality.rms_px);
+  read_if_there(in, "p95_px", kNotNegative, quality.p95_px);
+  read_if_there(in, "centre_sigma_m", kNotNegative, quality.centre_sigma_m);
+  read_if_there(in, "focal_sigma_px", kNotNegative, quality.focal_sigma_px);
+  read_if_there(in, "views", kCount, quality.views);
+  read_if_there(in, "corners", kCount, quality.corners);
+  read_if_there(in, "coverage", {0.0, 1.0}, quality.coverage);
+  return quality;
 }
 
 void read_camera(TomlReader& in, const std::string& key, Calibration& out) {
@@ -195,7 +203,8 @@ void read_camera(TomlReader& in, const std::string& key, Calibration& out) {
     in.fail("name", "two cameras have the name " + in_quotes(camera.name), "rename one");
   }
   out.cameras.push_back(std::move(camera));
-  out.records.push_back(read_record(in));
+  out.quality.push_back(read_quality(in));
+  out.clocks.push_back(read_clock(in));
 }
 
 bool is_camera(const std::string& key) {
@@ -208,12 +217,14 @@ bool is_camera(const std::string& key) {
 }  // namespace
 
 std::string calibration_text(const Calibration& calibration) {
-  MAREY_ASSERT(calibration.cameras.size() == calibration.records.size());
+  MAREY_ASSERT(calibration.cameras.size() == calibration.quality.size());
+  MAREY_ASSERT(calibration.cameras.size() == calibration.clocks.size());
   TomlWriter out;
   out.comment("Cameras. World: right-handed, Y up, metres. rotation (Rodrigues) and");
   out.comment("translation are camera_from_world; camera x right, y down, z forward.");
   for (std::size_t i = 0; i < calibration.cameras.size(); ++i) {
-    write_camera(out, calibration.cameras[i], calibration.records[i]);
+    write_camera(
+        out, calibration.cameras[i], calibration.quality[i], calibration.clocks[i]);
   }
   out.table({"metadata"});
   out.boolean("adjusted", false);

@@ -8,35 +8,29 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "core/camera_quality.h"
 #include "core/result.h"
 
 namespace marey::recordings {
 
-/// What calibration.toml says of a camera besides its model. Zeros where nothing is
-/// known.
-struct CameraRecord {
-  double rms_px = 0.0;          ///< Root mean square distance of corners to their model.
-  double p95_px = 0.0;          ///< 95th percentile of that distance.
-  double centre_sigma_m = 0.0;  ///< Standard deviation of its place, per coordinate.
-  double focal_sigma_px = 0.0;
-  int views = 0;               ///< Instants at which it saw the board.
-  int corners = 0;             ///< Corners over all of them.
-  double coverage = 0.0;       ///< Share of its image in which it saw a corner, 0..1.
-  double time_offset_s = 0.0;  ///< Frame k was exposed at k / rate + offset.
-  double drift_ppm = 0.0;      ///< Of its clock against the first camera's.
+/// A camera's clock against the first camera's.
+struct CameraClock {
+  double offset_s = 0.0;  ///< Frame k was exposed at k / rate + offset.
+  double drift_ppm = 0.0;
 };
 
 /// calibration.toml.
 struct Calibration {
   std::vector<Camera> cameras;
-  std::vector<CameraRecord> records;  ///< Per camera.
-  double rms_px = 0.0;                ///< Over all corners of all cameras.
+  std::vector<CameraQuality> quality;  ///< Per camera.
+  std::vector<CameraClock> clocks;     ///< Per camera.
+  double rms_px = 0.0;                 ///< Over all corners of all cameras.
 };
 
 /// The text of calibration.toml: a table per camera, named after it, with Pose2Sim's and
 /// Caliscope's keys (size, matrix, distortions, rotation, translation, fisheye) and
 /// marey's own. docs/formats.md has them all. parse_calibration() gives the same doubles.
-/// Precondition: one record per camera; every number finite.
+/// Precondition: one quality and one clock per camera; every number finite.
 [[nodiscard]] std::string calibration_text(const Calibration& calibration);
 
 /// Writes calibration_text() to `path`, at once or not at all.

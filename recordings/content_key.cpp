@@ -59,21 +59,23 @@ Result<std::string> key_of_file(const fs::path& path) {
 }
 
 Result<std::string> key_of_folder(const fs::path& path) {
-  std::vector<std::pair<std::string, std::uintmax_t>> files;
+  std::vector<std::pair<std::string, std::string>> files;
   std::error_code problem;
   for (fs::directory_iterator at(path, problem), end; !problem && at != end;
        at.increment(problem)) {
     std::error_code ignored;
     if (!at->is_regular_file(ignored)) continue;
-    files.emplace_back(at->path().filename().string(), at->file_size(ignored));
+    // What may not be read is not the recording; should it be, reading it will tell.
+    const Result<std::string> key = key_of_file(at->path());
+    files.emplace_back(at->path().filename().string(), key ? *key : "unreadable");
   }
   if (problem) return unreadable(path);
   std::sort(files.begin(), files.end());  // Folders list their files in any order.
   Fnv hash;
-  for (const auto& [name, size] : files) {
+  for (const auto& [name, key] : files) {
     hash.add(name);
     hash.add(std::string_view("\0", 1));  // No name holds it: "a1" 2 is not "a" 12.
-    hash.add(std::to_string(size) + "\n");
+    hash.add(key + "\n");
   }
   return std::to_string(files.size()) + "-" + hash.hex();
 }

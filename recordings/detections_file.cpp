@@ -3,6 +3,8 @@
 #include "recordings/detections_file.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <system_error>
@@ -16,9 +18,11 @@ namespace marey::recordings {
 namespace {
 
 constexpr std::string_view kAnyVersion = "# marey detections ";
-constexpr std::string_view kVersion = "# marey detections 1 ";
+constexpr std::string_view kVersion = "# marey detections 3 ";
 constexpr std::string_view kSource = "# source: ";
-constexpr std::string_view kCamera = "# camera,width_px,height_px,rate_hz,offset_ns: ";
+constexpr std::string_view kCamera =
+    "# camera,width_px,height_px,rate_hz,offset_ns,unsure,duplicated,damaged: ";
+constexpr double kLeastTag_px2 = 1.0;  // A tag has 64 cells and more.
 constexpr std::string_view kHeader =
     "frame,tag,x0,y0,x1,y1,x2,y2,x3,y3,sigma,margin,hamming";
 constexpr std::string_view kNoTag = ",,,,,,,,,,,,";
@@ -33,7 +37,14 @@ void append_header(std::string& text, const CameraDetections& found) {
   }
   text += ',';
   append_exact(text, found.rate.hz);
-  text.append(",").append(std::to_string(found.offset.count())).append("\n");
+  text += ',';
+  if (found.offset) text += std::to_string(found.offset->count());
+  for (const int count :
+       {found.dropped.unsure, found.dropped.duplicated, found.damaged_frames}) {
+    text += ',';
+    append_exact(text, count);
+  }
+  text += '\n';
   text.append(kHeader).append("\n");
 }
 
@@ -53,6 +64,13 @@ void append_tag(std::string& text, const TagDetection& tag) {
   append_cell(text, tag.decision_margin);
   text += ',';
   append_exact(text, tag.hamming);
+}
+
+/// Signed; its edges may cross only in files that are wrong.
+double area_px2(const std::array<glm::dvec2, 4>& corners_px) {
+  const glm::dvec2 a = corners_px[2] - corners_px[0];
+  const glm::dvec2 b = corners_px[3] - corners_px[1];
+  return 0.5 * (a.x * b.y - a.y * b.x);
 }
 
 TagDetection take_tag(CsvFields& fields) {
@@ -97,7 +115,15 @@ class DetectionsParser {
     found_.width_px = fields.number<int>();
     found_.height_px = fields.number<int>();
     found_.rate.hz = fields.number<double>();
-    found_.offset = Timestamp{fields.number<std::int64_t>()};
+    const std::string_view offset = fields.text();
+    if (!offset.empty()) {
+      CsvFields alone(offset);
+      found_.offset = Timestamp{alone.number<std::int64_t>()};
+      if (!alone.good()) return false;
+    }
+    found_.dropped.unsure = fields.number<int>();
+    found_.dropped.duplicated = fields.number<int>();
+    found_.damaged_frames = fields.number<int>();
     return fields.good() && fields.ended() && lines_.next().value_or("") == kHeader;
   }
 
@@ -117,6 +143,10 @@ class DetectionsParser {
     if (!is_new && tags.empty()) return "a frame is listed twice";
     const TagDetection tag = take_tag(fields);
     if (!fields.good() || !fields.ended()) return "the row is not 13 numbers";
+    if (tag.sigma_px <= 0.0) return "a tag's sigma is not above zero";
+    if (!(std::abs(area_px2(tag.corners_px)) >= kLeastTag_px2)) {
+      return "a tag's corners enclose no area";
+    }
     if (!tags.empty() && tags.back().id >= tag.id) return "the tags are not in order";
     tags.push_back(tag);
     return nullptr;
@@ -166,6 +196,13 @@ std::string detections_text(const CameraDetections& detections, std::string_view
 Status write_detections(const std::filesystem::path& path,
                         const CameraDetections& detections,
                         std::string_view key) {
+  if (detections.source.find_first_of("\r\n") != std::string::npos) {
+    std::string shown = detections.source;
+    for (char& c : shown) c = c == '\r' || c == '\n' ? ' ' : c;
+    return bad_input(std::move(shown),
+                     "the recording's name holds a line break",
+                     "rename it, and correct its path in the session");
+  }
   return write_file(path, detections_text(detections, key));
 }
 

@@ -35,12 +35,18 @@ struct Character {
 /// sampled at the rate of its keys when they are evenly spaced at 10 Hz or more, else at
 /// 30 Hz. Vertices keep their first four joints. Scaled nodes give scaled bone lengths;
 /// morph targets, textures and materials beyond the base colour are not read.
+///
+/// Errors (kBadInput): as read_file()'s; not glTF 2.0, or cut short; compressed or sparse
+/// data; indices, accessors or buffers that do not fit together; nodes without one root;
+/// a skin without joints; anything further than 10 km away; an animation of too many
+/// frames for memory. Cost: linear in vertices, and in frames times nodes.
 [[nodiscard]] Result<Character> read_character(const std::filesystem::path& path);
 
 /// Writes a GLB of the skeleton in its rest pose with its skinned mesh and, unless it is
 /// null, one animation of `motion`: linear keys at the motion's rate, the first at time
 /// 0. Nodes are named like the joints. glTF's own validator finds neither errors nor
-/// warnings. Replaces the file at once or not at all. Same input, same bytes.
+/// warnings. Replaces the file at once or not at all. Same input, same bytes. Errors as
+/// write_file()'s. Linear in vertices and frames.
 /// Precondition: the mesh is bound to `skeleton`, which has one root, its first joint;
 /// the motion's poses have as many joints.
 [[nodiscard]] Status write_character(const std::filesystem::path& path,

@@ -45,6 +45,8 @@ struct PlacedNodes {
 };
 [[nodiscard]] PlacedNodes place_nodes(const NodeTree& tree,
                                       std::span<const NodePose> poses);
+/// The node's place is a number within kFurthest_m, and its rotation is one.
+[[nodiscard]] bool is_near(const PlacedNodes& placed, std::size_t node);
 
 /// Skeleton and the nodes its joints are.
 struct NodeSkeleton {

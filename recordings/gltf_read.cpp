@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -16,6 +17,7 @@
 #include "recordings/atomic_file.h"
 #include "recordings/gltf_model.h"
 #include "recordings/gltf_source.h"
+#include "recordings/motion_limits.h"
 
 namespace marey::recordings {
 namespace {
@@ -273,6 +275,10 @@ Result<NodeSkeleton> skeleton_of(const NamedModel& file,
   for (const std::size_t node : tree.parents_first) {
     const bool under_root = tree.parent[node] && body.joint_of_node[*tree.parent[node]];
     if (node != *root && (!under_root || below[node] == 0)) continue;
+    if (!is_near(placed, node)) {
+      return file.fail("the node '" + file.model.nodes[node].name.substr(0, 40) +
+                       "' lies further than 10 km away");
+    }
     Joint joint;
     joint.name = file.model.nodes[node].name;
     const glm::dvec3 place(placed.world_from_node[node][3]);
@@ -343,6 +349,12 @@ PlacedNodes place_nodes(const NodeTree& tree, std::span<const NodePose> poses) {
         (parent ? placed.rotation[*parent] : tree.world_from_file) * pose.rotation);
   }
   return placed;
+}
+
+bool is_near(const PlacedNodes& placed, std::size_t node) {
+  // Asked for what is good: what overflowed may be NaN.
+  return glm::length(glm::dvec3(placed.world_from_node[node][3])) <= kFurthest_m &&
+         std::abs(glm::length(placed.rotation[node]) - 1.0) <= 1e-6;
 }
 
 Result<GltfSource> read_gltf_source(const std::filesystem::path& path) {

@@ -7,15 +7,15 @@
 #include <tiny_gltf.h>
 
 #include "recordings/gltf_model.h"
+#include "recordings/motion_limits.h"
 #include "recordings/travelling_joint.h"
 
 namespace marey::recordings {
 namespace {
 
 constexpr double kUsualRateHz = 30.0;
-constexpr double kSlowestRateHz = 10.0;  // Slower keys are meant to be blended.
-constexpr double kFastestRateHz = 1000.0;
-constexpr double kMostFrames = 1e6;
+constexpr double kSlowestKeysHz = 10.0;  // Slower keys are meant to be blended.
+constexpr double kLatestFrame = 1e6;
 
 enum class Blend { kStep, kLinear, kCubic };
 
@@ -128,7 +128,7 @@ double rate_of(const std::vector<Track>& tracks) {
     if (std::abs(times[i] - even) > 0.01 * step) return kUsualRateHz;
   }
   const double hz = 1.0 / step;
-  if (hz < kSlowestRateHz || hz > kFastestRateHz) return kUsualRateHz;
+  if (hz < kSlowestKeysHz || hz > kFastestRateHz) return kUsualRateHz;
   // Times are floats, so the step is not quite what was meant.
   const double whole = std::round(hz);
   return std::abs(hz - whole) < 1e-4 * hz ? whole : hz;
@@ -184,9 +184,15 @@ Result<ReadAnimation> read_animation(const NamedModel& file,
   motion.rate.hz = rate_of(*tracks);
   const double first = std::round(start_s * motion.rate.hz);
   const double last = std::round(end_s * motion.rate.hz);
-  if (std::abs(first) > kMostFrames || std::abs(last) > kMostFrames ||
-      last - first > kMostFrames) {
-    return file.fail("the animation is longer than a million frames");
+  if (!(std::abs(first) <= kLatestFrame && std::abs(last) <= kLatestFrame)) {
+    return file.fail("the animation has frames beyond the millionth");
+  }
+  const auto frames = static_cast<std::size_t>(last - first) + 1;
+  std::size_t numbers = 0;
+  for (const Track& track : *tracks) numbers += track.values.size();
+  if (too_many_rotations(body.node_of_joint.size(), frames, numbers)) {
+    return file.fail("the animation's few keys stand for " + std::to_string(frames) +
+                     " frames, which do not fit into memory");
   }
   motion.first_frame = static_cast<int>(first);
   std::vector<NodePose> poses = tree.rest;
@@ -194,8 +200,13 @@ Result<ReadAnimation> read_animation(const NamedModel& file,
   for (int frame = motion.first_frame; frame <= last_frame; ++frame) {
     const double time_s = frame / motion.rate.hz;
     for (const Track& track : *tracks) apply(track, time_s, poses[track.node]);
-    PosedBones posed = hand_travel_to_root(
-        body.skeleton, parent_from_joints(place_nodes(tree, poses), body));
+    const PlacedNodes placed = place_nodes(tree, poses);
+    for (const std::size_t node : body.node_of_joint) {
+      if (is_near(placed, node)) continue;
+      return file.fail("the animation takes a joint further than 10 km away");
+    }
+    PosedBones posed =
+        hand_travel_to_root(body.skeleton, parent_from_joints(placed, body));
     motion.poses.push_back(std::move(posed.pose));
     result.ignored_translation_m =
         std::max(result.ignored_translation_m, posed.ignored_translation_m);

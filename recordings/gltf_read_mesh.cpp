@@ -9,6 +9,7 @@
 #include <tiny_gltf.h>
 
 #include "recordings/gltf_model.h"
+#include "recordings/motion_limits.h"
 
 namespace marey::recordings {
 namespace {
@@ -23,6 +24,7 @@ Result<Binding> bind(const NamedModel& file,
                      const tinygltf::Skin& skin,
                      const PlacedNodes& placed,
                      const NodeSkeleton& body) {
+  if (skin.joints.empty()) return file.fail("a skin has no joints");
   Binding binding;
   std::vector<double> inverse_binds;
   if (skin.inverseBindMatrices >= 0) {
@@ -124,8 +126,12 @@ Status add_vertices(const NamedModel& file,
     const auto triple = [&](const std::vector<double>& list) {
       return glm::dvec3(list[3 * v], list[3 * v + 1], list[3 * v + 2]);
     };
-    mesh.p_in_world.emplace_back(world_from_bound *
-                                 glm::dvec4(triple(vertices.positions), 1.0));
+    const glm::dvec3 p(world_from_bound * glm::dvec4(triple(vertices.positions), 1.0));
+    // Asked for what is good: a sum that overflowed is NaN.
+    if (!(glm::length(p) <= kFurthest_m)) {
+      return file.fail("a vertex lies further than 10 km away");
+    }
+    mesh.p_in_world.push_back(p);
     glm::dvec3 normal(0.0, 1.0, 0.0);
     if (!vertices.normals.empty()) {
       const glm::dvec3 turned = glm::dmat3(world_from_bound) * triple(vertices.normals);

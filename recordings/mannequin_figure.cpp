@@ -41,7 +41,7 @@ Section section_at(std::span<const Section> keys, double at) {
           value(&Section::shift)};
 }
 
-double smooth_step(double from, double to, double x) {
+double ease(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
@@ -51,7 +51,7 @@ glm::dvec3 direction(const glm::dvec3& v, const glm::dvec3& otherwise) {
   return length > 1e-9 ? v / length : otherwise;
 }
 
-glm::dvec3 perpendicular(const glm::dvec3& wanted, const glm::dvec3& along) {
+glm::dvec3 unit_across(const glm::dvec3& wanted, const glm::dvec3& along) {
   const glm::dvec3 v = wanted - glm::dot(wanted, along) * along;
   if (glm::length(v) > 1e-3) return glm::normalize(v);
   const glm::dvec3 other =

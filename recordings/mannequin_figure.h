@@ -66,13 +66,14 @@ struct Section {
 /// where the surface rounds off.
 [[nodiscard]] std::vector<double> places_along(std::span<const Section> keys, int count);
 
-/// 0 up to `from`, 1 beyond `to`, smooth between; from > to runs the other way.
-[[nodiscard]] double smooth_step(double from, double to, double x);
+/// 0 up to `from`, 1 beyond `to`, smooth (C1: enough for a shape) between; from > to runs
+/// the other way.
+[[nodiscard]] double ease(double from, double to, double x);
 
 /// Unit `v`, or `otherwise` when v has no direction.
 [[nodiscard]] glm::dvec3 direction(const glm::dvec3& v, const glm::dvec3& otherwise);
 
 /// The unit vector nearest to `wanted` that is perpendicular to the unit `along`.
-[[nodiscard]] glm::dvec3 perpendicular(const glm::dvec3& wanted, const glm::dvec3& along);
+[[nodiscard]] glm::dvec3 unit_across(const glm::dvec3& wanted, const glm::dvec3& along);
 
 }  // namespace marey::recordings

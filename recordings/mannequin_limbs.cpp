@@ -27,9 +27,9 @@ struct LimbShape {
 SkinWeights limb_skin(
     const LimbShape& limb, double at, double upper_m, double lower_m, double blend_m) {
   const double past_middle_m = at < 1.0 ? (at - 1.0) * upper_m : (at - 1.0) * lower_m;
-  const double lower = smooth_step(-blend_m, blend_m, past_middle_m);
+  const double lower = ease(-blend_m, blend_m, past_middle_m);
   // Half of the hand's turn is already in the wrist's skin.
-  const double end = 0.5 * smooth_step(1.7, 2.0, at);
+  const double end = 0.5 * ease(1.7, 2.0, at);
   return carried_by({{limb.bones[0], 1.0 - lower},
                      {limb.bones[1], lower * (1.0 - end)},
                      {limb.bones[2], lower * end}});
@@ -47,9 +47,9 @@ void add_limb(Figure& figure, const LimbShape& limb) {
     const Section section = section_at(limb.sections, at);
     Ring ring;
     ring.skin = limb_skin(limb, at, glm::length(upper), glm::length(lower), blend_m);
-    const double bent = smooth_step(0.85, 1.15, at);
+    const double bent = ease(0.85, 1.15, at);
     ring.along = direction(glm::mix(upper_along, lower_along, bent), upper_along);
-    ring.front = perpendicular({0, 0, 1}, ring.along);
+    ring.front = unit_across({0, 0, 1}, ring.along);
     ring.centre = figure.at(limb.bones[1]) + (at < 1.0 ? upper : lower) * (at - 1.0) +
                   section.shift * figure.thickness_m * ring.front;
     ring.half_width = section.half_width * figure.thickness_m;
@@ -116,7 +116,7 @@ void add_hand(Figure& figure, B hand, const glm::dvec3& tip_in_hand) {
   const double length_m = glm::length(tip_in_hand);
   Ring ring;
   ring.along = direction(tip_in_hand, {hand == B::kLeftHand ? 1.0 : -1.0, 0, 0});
-  ring.front = perpendicular({0, 0, 1}, ring.along);
+  ring.front = unit_across({0, 0, 1}, ring.along);
   ring.skin = carried_by({{hand, 1.0}});
   std::vector<Ring> rings;
   for (const double at : places_along(kSections, 16)) {
@@ -133,7 +133,7 @@ void add_hand(Figure& figure, B hand, const glm::dvec3& tip_in_hand) {
   Ring thumb = ring;
   const glm::dvec3 outward = ring.front;
   thumb.along = glm::normalize(0.72 * ring.along + 0.69 * outward);
-  thumb.front = perpendicular(outward, thumb.along);
+  thumb.front = unit_across(outward, thumb.along);
   thumb.centre = figure.at(hand) + length_m * (0.36 * ring.along + 0.22 * outward);
   thumb.half_width = thumb.half_depth = 0.062 * length_m;
   figure.builder.add_ellipsoid(thumb, 0.23 * length_m, 12);
@@ -175,7 +175,7 @@ void add_foot(Figure& figure, B foot, B toes, const glm::dvec3& tip_in_toes) {
     ring.along = along;
     ring.front = up;
     ring.exponent = 3.2;
-    const double toe_part = smooth_step(0.8, 1.2, at);
+    const double toe_part = ease(0.8, 1.2, at);
     ring.skin = carried_by({{foot, 1.0 - toe_part}, {toes, toe_part}});
     rings.push_back(ring);
   }

@@ -29,7 +29,7 @@ std::array<double, 5> trunk_weights(double at) {
   std::array<double, 5> weights{};
   const double place = std::clamp(at - 0.5, 0.0, 3.0);
   const double below = std::min(std::floor(place), 2.0);
-  const double share = smooth_step(0.0, 1.0, place - below);
+  const double share = ease(0.0, 1.0, place - below);
   weights[static_cast<std::size_t>(below)] = 1.0 - share;
   weights[static_cast<std::size_t>(below) + 1] = share;
   return weights;
@@ -42,10 +42,10 @@ SkinWeights trunk_skin(double at, double across, double half_m) {
   const B thigh = across > 0.0 ? B::kLeftUpperLeg : B::kRightUpperLeg;
   const double aside = std::abs(across) / half_m;
   if (at < 0.0) {
-    const double share = 0.4 * smooth_step(-0.1, -0.9, at) * smooth_step(0.1, 0.7, aside);
+    const double share = 0.4 * ease(-0.1, -0.9, at) * ease(0.1, 0.7, aside);
     return carried_by({{B::kHips, 1.0 - share}, {thigh, share}});
   }
-  const double share = 0.75 * smooth_step(2.6, 3.4, at) * smooth_step(0.25, 0.9, aside);
+  const double share = 0.75 * ease(2.6, 3.4, at) * ease(0.25, 0.9, aside);
   const double rest = 1.0 - share;
   return carried_by({{B::kHips, w[0] * rest},
                      {B::kSpine, w[1] * rest},
@@ -98,13 +98,13 @@ glm::dvec3 trunk_left(const Figure& figure, double at) {
       direction(figure.at(B::kLeftUpperLeg) - figure.at(B::kRightUpperLeg), {1, 0, 0});
   const glm::dvec3 shoulders =
       direction(figure.at(B::kLeftUpperArm) - figure.at(B::kRightUpperArm), {1, 0, 0});
-  return direction(glm::mix(hips, shoulders, smooth_step(0.5, 3.0, at)), {1, 0, 0});
+  return direction(glm::mix(hips, shoulders, ease(0.5, 3.0, at)), {1, 0, 0});
 }
 
 Ring trunk_ring(const Figure& figure, const Section& section) {
   const glm::dvec3 left = trunk_left(figure, section.at);
   Ring ring;
-  ring.front = perpendicular({0, 0, 1}, left);
+  ring.front = unit_across({0, 0, 1}, left);
   ring.along = glm::cross(ring.front, left);
   ring.centre =
       trunk_middle(figure, section.at) + section.shift * figure.thickness_m * ring.front;
@@ -163,7 +163,7 @@ void add_neck(Figure& figure) {
   const glm::dvec3 neck = figure.at(B::kHead) - figure.at(B::kNeck);
   Ring ring;
   ring.along = direction(neck, {0, 1, 0});
-  ring.front = perpendicular({0, 0, 1}, ring.along);
+  ring.front = unit_across({0, 0, 1}, ring.along);
   ring.part = kJoint;
   std::vector<Ring> rings;
   for (const double at : places_along(kSections, 12)) {
@@ -171,8 +171,8 @@ void add_neck(Figure& figure) {
     ring.centre = figure.at(B::kNeck) + at * neck;
     ring.half_width = section.half_width * figure.thickness_m;
     ring.half_depth = section.half_depth * figure.thickness_m;
-    const double head = smooth_step(0.3, 1.2, at);
-    const double chest = smooth_step(0.5, -0.3, at);
+    const double head = ease(0.3, 1.2, at);
+    const double chest = ease(0.5, -0.3, at);
     ring.skin = carried_by({{B::kUpperChest, chest},
                             {B::kNeck, std::max(0.0, 1.0 - chest - head)},
                             {B::kHead, head}});
@@ -219,7 +219,7 @@ void add_head(Figure& figure) {
   const double height_m = glm::length(top);
   Ring ring;
   ring.along = direction(top, {0, 1, 0});
-  ring.front = perpendicular({0, 0, 1}, ring.along);
+  ring.front = unit_across({0, 0, 1}, ring.along);
   ring.skin = carried_by({{B::kHead, 1.0}});
   std::vector<Ring> rings;
   for (const double at : places_along(kSections, 22)) {

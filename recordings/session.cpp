@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/session.h"
 
+#include <algorithm>
 #include <system_error>
 
+#include "core/assert.h"
+#include "recordings/take_file.h"
+#include "recordings/text_reader.h"
 #include "recordings/toml_reader.h"
 
 namespace marey::recordings {
@@ -24,6 +28,14 @@ std::string_view name(TrialKind kind) {
   return "motion";
 }
 
+const std::string& Session::family_of(TagId id) const {
+  for (const TagFamilyUse& use : families) {
+    if (std::find(use.ids.begin(), use.ids.end(), id) != use.ids.end()) return use.name;
+  }
+  MAREY_ASSERT(false);
+  return families.front().name;
+}
+
 const Trial* Session::find(TrialKind kind) const {
   for (const Trial& trial : trials) {
     if (trial.kind == kind) return &trial;
@@ -38,8 +50,24 @@ const Trial* Session::find(std::string_view trial_name) const {
   return nullptr;
 }
 
+bool has_recording(const Trial& trial) {
+  std::error_code ignored;
+  const auto folder = trial.videos.front().path.parent_path();
+  return std::filesystem::exists(folder / kTakeFile, ignored) ||
+         std::any_of(trial.videos.begin(), trial.videos.end(), [&](const auto& video) {
+           return std::filesystem::exists(video.path, ignored);
+         });
+}
+
 Status check_files(const Session& session) {
   for (const Trial& trial : session.trials) {
+    if (trial.is_recorded) {
+      if (has_recording(trial)) continue;
+      return bad_input(file_and_line(session.file.string(), trial.line),
+                       "trial " + in_quotes(trial.name) + " is not recorded yet",
+                       "marey record SESSION --out FOLDER --trial " + trial.name +
+                           ", and process that folder; or name the trial's videos");
+    }
     for (const TrialVideo& video : trial.videos) {
       std::error_code ignored;
       if (std::filesystem::exists(video.path, ignored)) continue;

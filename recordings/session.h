@@ -12,6 +12,7 @@
 #include "core/body.h"
 #include "core/ids.h"
 #include "core/result.h"
+#include "core/tag_family.h"
 #include "core/time.h"
 
 namespace marey::recordings {
@@ -44,13 +45,29 @@ struct TrialVideo {
   int line = 0;  ///< In session.toml, for messages.
 };
 
+/// How a camera is recorded from.
+struct SessionDevice {
+  std::string path;  ///< "/dev/video0".
+  int width_px = 1280;
+  int height_px = 720;
+  FrameRate rate{30.0};
+  /// nullopt leaves each to the camera. Exposure [s]; focus and gain in the driver's own
+  /// units.
+  std::optional<double> exposure_s;
+  std::optional<int> focus;
+  std::optional<int> gain;
+  int line = 0;  ///< In session.toml, for messages.
+};
+
 struct Trial {
   std::string name;  ///< Safe as the name of a folder.
   TrialKind kind = TrialKind::kMotion;
   std::optional<FrameRate> rate;     ///< nullopt: as the video says.
   std::optional<FrameRange> frames;  ///< nullopt: all.
   std::vector<TrialVideo> videos;    ///< At least one; ascending cameras, each once.
-  int line = 0;                      ///< In session.toml, for messages.
+  /// The session names no videos: they are what `marey record` makes, if it has.
+  bool is_recorded = false;
+  int line = 0;  ///< In session.toml, for messages.
 };
 
 struct Subject {
@@ -64,12 +81,17 @@ struct Session {
   std::filesystem::path file;  ///< session.toml itself.
   std::string name;
   Subject subject;
-  std::string tag_family;
+  /// In use, each with its tags: the board's first, then those of the body.
+  std::vector<TagFamilyUse> families;
   std::vector<TagOnSegment> tags;  ///< In the order of the file.
   AprilGrid board;
   std::vector<std::string> cameras;  ///< Names, by CameraId; safe as names of folders.
-  std::vector<Trial> trials;         ///< In the order of the file.
+  /// By CameraId; nullopt of a camera that is not recorded from.
+  std::vector<std::optional<SessionDevice>> devices;
+  std::vector<Trial> trials;  ///< In the order of the file.
 
+  /// The family of a tag on the board or the body. Precondition: it is on one of them.
+  [[nodiscard]] const std::string& family_of(TagId id) const;
   /// The first trial of this kind, if any.
   [[nodiscard]] const Trial* find(TrialKind kind) const;
   /// The trial of this name, if any.
@@ -88,13 +110,19 @@ struct ReadSessionOptions {
 /// Errors (kBadInput), each with its line: not TOML; a key that is unknown, missing, of
 /// the wrong type or out of range; a tag, camera or trial named twice; a body tag that is
 /// also on the board; an unknown segment or camera; a name that cannot be a folder's; a
-/// trial without videos; frames the wrong way round; fewer than two cameras; no
-/// calibration trial; no floor trial.
+/// trial without videos while no camera has a device; frames the wrong way round; a floor
+/// trial that is all of the calibration's videos; time offsets of anything but motion;
+/// fewer than two cameras; no calibration trial or no floor trial; two trials of one kind
+/// other than motion.
 [[nodiscard]] Result<Session> read_session(const std::filesystem::path& path,
                                            const ReadSessionOptions& options = {});
 
+/// Whether anything of a trial to be recorded is there. Precondition: is_recorded.
+[[nodiscard]] bool has_recording(const Trial& trial);
+
 /// Whether every video is there. Errors (kBadInput): the first that is not, with the line
-/// that names it.
+/// that names it; a trial to be recorded that was not. That one of its cameras has no
+/// video is no error.
 [[nodiscard]] Status check_files(const Session& session);
 
 }  // namespace marey::recordings

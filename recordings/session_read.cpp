@@ -12,7 +12,10 @@
 #include "recordings/nearest_word.h"
 #include "recordings/number_text.h"
 #include "recordings/session.h"
+#include "recordings/session_device.h"
+#include "recordings/session_family.h"
 #include "recordings/toml_reader.h"
+#include "recordings/trial_rules.h"
 
 namespace marey::recordings {
 namespace fs = std::filesystem;
@@ -24,14 +27,6 @@ constexpr std::array kKinds{TrialKind::kCalibration,
                             TrialKind::kStatic,
                             TrialKind::kRangeOfMotion,
                             TrialKind::kMotion};
-
-/// Families whose size is the edge of the black square, and how many tags each has
-/// (apriltag 3.3, ncodes).
-constexpr std::array<std::pair<std::string_view, int>, 3> kFamilies{{
-    {"tag36h11", 587},
-    {"tag25h9", 35},
-    {"tag16h5", 30},
-}};
 
 // Wide enough for everybody and everything; they catch millimetres given as metres.
 constexpr Limits kTagSize{0.005, 1.0, "m"};
@@ -72,7 +67,7 @@ class SessionReader {
     session_.name = root_.text("name");
     read_media();
     read_subject();
-    read_family();
+    read_usual_family();
     read_board();
     read_tags();
     read_cameras();
@@ -82,7 +77,7 @@ class SessionReader {
  private:
   void read_media();
   void read_subject();
-  void read_family();
+  void read_usual_family();
   void read_board();
   void read_tags();
   void read_tag(TomlReader& reader);
@@ -103,7 +98,7 @@ class SessionReader {
   const ReadSessionOptions& options_;
   Session& session_;
   fs::path media_;
-  int tags_in_family_ = 0;
+  KnownFamily usual_family_;
 };
 
 void SessionReader::read_media() {
@@ -120,26 +115,22 @@ void SessionReader::read_subject() {
   if (subject.has("mass_kg")) session_.subject.mass_kg = subject.number("mass_kg", kMass);
 }
 
-void SessionReader::read_family() {
+void SessionReader::read_usual_family() {
   TomlReader tags = root_.table("tags");
   tags.allow({"family", "tag"});
-  session_.tag_family = tags.has("family") ? tags.text("family") : kFamilies[0].first;
-  std::vector<std::string_view> families;
-  for (const auto& [family, count] : kFamilies) {
-    families.push_back(family);
-    if (session_.tag_family == family) tags_in_family_ = count;
-  }
-  if (tags_in_family_ == 0) {
-    tags.fail("family",
-              "unknown tag family " + in_quotes(session_.tag_family),
-              suggestion(session_.tag_family, families));
-  }
+  usual_family_ = read_family(tags, usual_family());
 }
 
 void SessionReader::read_board() {
   TomlReader reader = root_.table("board");
-  reader.allow(
-      {"type", "rows", "columns", "tag_size_m", "gap_m", "first_id", "thickness_m"});
+  reader.allow({"type",
+                "family",
+                "rows",
+                "columns",
+                "tag_size_m",
+                "gap_m",
+                "first_id",
+                "thickness_m"});
   if (const std::string type = reader.text("type"); type != "aprilgrid") {
     reader.fail(
         "type", "unknown board type " + in_quotes(type), "write type = \"aprilgrid\"");
@@ -149,17 +140,24 @@ void SessionReader::read_board() {
   board.columns = reader.integer("columns", kGridCount);
   board.tag_size_m = reader.number("tag_size_m", kTagSize);
   board.gap_m = reader.number("gap_m", kGap);
-  const int last_id = std::max(tags_in_family_ - 1, 0);
+  const KnownFamily family = read_family(reader, usual_family_);
+  const int last_id = family.tags - 1;
   board.first_id = reader.integer("first_id", {0, static_cast<double>(last_id)});
   if (reader.has("thickness_m")) {
     board.thickness_m = reader.number("thickness_m", kThickness);
   }
   const int last_on_board = board.first_id + board.tag_count() - 1;
   if (last_on_board > last_id) {
-    reader.fail("first_id",
-                with_number("the board would need tags up to id ", last_on_board) +
-                    with_number(", but " + session_.tag_family + " ends at ", last_id),
-                "correct rows, columns or first_id");
+    reader.fail(
+        "first_id",
+        with_number("the board would need tags up to id ", last_on_board) +
+            with_number(", but " + std::string(family.name) + " ends at ", last_id),
+        "correct rows, columns or first_id");
+    return;
+  }
+  if (!reader.ok()) return;
+  for (int i = 0; i < board.tag_count(); ++i) {
+    use_tag(family, TagId{board.first_id + i}, session_);
   }
 }
 
@@ -174,8 +172,9 @@ void SessionReader::read_tags() {
 }
 
 void SessionReader::read_tag(TomlReader& reader) {
-  reader.allow({"id", "segment", "size_m"});
-  const Limits ids{0, static_cast<double>(std::max(tags_in_family_ - 1, 0))};
+  reader.allow({"id", "family", "segment", "size_m"});
+  const KnownFamily family = read_family(reader, usual_family_);
+  const Limits ids{0, family.tags - 1.0};
   const auto id = TagId{reader.integer("id", ids)};
   const std::string segment = reader.text("segment");
   const double size_m = reader.number("size_m", kTagSize);
@@ -200,6 +199,7 @@ void SessionReader::read_tag(TomlReader& reader) {
     return;
   }
   session_.tags.push_back({id, *bone, size_m});
+  use_tag(family, id, session_);
 }
 
 std::string SessionReader::read_name(TomlReader& reader,
@@ -228,8 +228,9 @@ void SessionReader::read_cameras() {
   constexpr std::array<std::string_view, 4> kReserved{
       "metadata", "capture_volume", "charuco", "checkerboard"};
   for (TomlReader& reader : root_.tables("camera")) {
-    reader.allow({"name"});
+    reader.allow(kCameraKeys);
     session_.cameras.push_back(read_name(reader, "camera", session_.cameras, kReserved));
+    session_.devices.push_back(read_device(reader, session_));
   }
   if (session_.cameras.size() < 2) {
     root_.fail("camera",
@@ -241,7 +242,10 @@ void SessionReader::read_cameras() {
 
 void SessionReader::read_trials() {
   for (TomlReader& reader : root_.tables("trial")) {
-    session_.trials.push_back(read_trial(reader));
+    Trial trial = read_trial(reader);
+    const auto mistake = mistake_of(trial, session_);
+    if (mistake && reader.ok()) reader.fail(mistake->key, mistake->cause, mistake->next);
+    session_.trials.push_back(std::move(trial));
   }
   for (const TrialKind kind : {TrialKind::kCalibration, TrialKind::kFloor}) {
     if (session_.find(kind) != nullptr) continue;
@@ -267,8 +271,8 @@ TrialKind SessionReader::read_kind(TomlReader& reader) {
 
 Trial SessionReader::read_trial(TomlReader& reader) {
   // What the program writes beside the trials' folders.
-  constexpr std::array<std::string_view, 5> kReserved{
-      "detections", "calibration.toml", "subject.toml", "report.json", "report.html"};
+  constexpr std::array<std::string_view, 4> kReserved{
+      "calibration.toml", "subject.toml", "report.json", "report.html"};
   reader.allow({"name", "kind", "fps", "frames", "videos", "time_offset_s"});
   std::vector<std::string> taken;
   for (const Trial& earlier : session_.trials) taken.push_back(earlier.name);
@@ -310,6 +314,7 @@ std::optional<CameraId> SessionReader::camera_of(TomlReader& videos,
 }
 
 void SessionReader::read_videos(TomlReader& trial, Trial& out) {
+  if (!trial.has("videos") && add_recorded_videos(session_, out)) return;
   if (!trial.has("videos") || trial.table("videos").keys().empty()) {
     trial.fail("videos",
                "trial " + in_quotes(out.name) + " has no video",
@@ -324,6 +329,11 @@ void SessionReader::read_videos(TomlReader& trial, Trial& out) {
     if (path.empty()) {
       videos.fail(
           name, "the video of " + in_quotes(name) + " has no name", "name its file");
+    }
+    if (path.find_first_of("\n\r") != std::string::npos) {
+      videos.fail(name,
+                  "the video of " + in_quotes(name) + " has a line break in its name",
+                  "rename the file");
     }
     const fs::path full = (media_ / path).lexically_normal();
     for (const TrialVideo& other : out.videos) {
@@ -340,6 +350,13 @@ void SessionReader::read_videos(TomlReader& trial, Trial& out) {
 }
 
 void SessionReader::read_offsets(TomlReader& trial, Trial& out) {
+  if (out.kind != TrialKind::kMotion) {
+    trial.fail("time_offset_s",
+               "time offsets are for motion trials",
+               "remove it here: start the cameras together, or cut the videos so that "
+               "they do");
+    return;
+  }
   TomlReader offsets = trial.table("time_offset_s");
   for (const std::string& name : offsets.keys()) {
     const std::optional<CameraId> camera = camera_of(offsets, name);

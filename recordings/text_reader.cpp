@@ -89,4 +89,8 @@ std::optional<int> to_integer(std::string_view word) {
   return whole_number<int>(word);
 }
 
+std::string in_quotes(std::string_view word) {
+  return std::string("\"").append(word).append("\"");
+}
+
 }  // namespace marey::recordings

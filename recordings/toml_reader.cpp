@@ -86,10 +86,6 @@ std::string file_and_line(const std::string& file, int line) {
   return text;
 }
 
-std::string in_quotes(std::string_view word) {
-  return std::string("\"").append(word).append("\"");
-}
-
 Result<TomlDocument> parse_toml(std::string_view text, const std::string& file) {
   try {
     const toml::table table = toml::parse(text, file);

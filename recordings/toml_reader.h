@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "recordings/text_reader.h"
 
 namespace marey::recordings {
 
@@ -122,8 +123,5 @@ class TomlReader {
 
 /// "session.toml:12"
 [[nodiscard]] std::string file_and_line(const std::string& file, int line);
-
-/// The word as messages show it: "word", quotes included.
-[[nodiscard]] std::string in_quotes(std::string_view word);
 
 }  // namespace marey::recordings

@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "core/result.h"
+#include "core/time.h"
+
+namespace marey::recordings {
+
+struct MjpgVideoOptions {
+  int width_px = 0;
+  int height_px = 0;
+  FrameRate rate;  ///< What players should be told.
+  /// Frames reach the file at least this often.
+  std::chrono::milliseconds flush_every{400};
+};
+
+/// A Matroska video of JPEG pictures, each kept byte for byte. Every player opens it,
+/// also when it was cut off while it was written. One thread at a time.
+class MjpgVideo {
+ public:
+  /// Errors (kDevice): the file cannot be made.
+  [[nodiscard]] static Result<MjpgVideo> create(const std::filesystem::path& path,
+                                                const MjpgVideoOptions& options);
+  MjpgVideo(MjpgVideo&&) noexcept;
+  MjpgVideo& operator=(MjpgVideo&&) noexcept;
+  ~MjpgVideo();
+
+  /// Appends a frame, `time` after the first's or a little before; players get it in
+  /// milliseconds, growing. Errors (kDevice): the disk is full or failed.
+  [[nodiscard]] Status write(std::span<const std::byte> jpeg, Timestamp time);
+  /// Writes the index that lets players jump. Errors as write(). Not to be written to
+  /// afterwards.
+  [[nodiscard]] Status finish();
+
+ private:
+  struct Impl;
+  explicit MjpgVideo(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace marey::recordings

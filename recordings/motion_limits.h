@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+namespace marey::recordings {
+
+// What files from elsewhere may say of a moving body. Further out lie mistakes, whose
+// numbers overflow later and elsewhere, and small files that ask for all memory.
+
+/// Of a joint from its parent, and of anything from the origin. [m]
+inline constexpr double kFurthest_m = 1e4;
+
+inline constexpr double kSlowestRateHz = 0.1;
+inline constexpr double kFastestRateHz = 2000.0;
+
+/// Whether a motion holds more rotations than a file that says `numbers` numbers may ask
+/// for: an hour of a whole body at 120 Hz (some 600 MB), or one for each number.
+[[nodiscard]] inline bool too_many_rotations(std::size_t joints,
+                                             std::size_t frames,
+                                             std::size_t numbers) {
+  constexpr std::size_t kMost = 20'000'000;
+  return joints > 0 && frames > std::max(kMost, numbers) / joints;
+}
+
+}  // namespace marey::recordings

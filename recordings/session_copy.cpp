@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recordings/session_copy.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "recordings/atomic_file.h"
+#include "recordings/text_reader.h"
+#include "recordings/toml_reader.h"
+
+namespace marey::recordings {
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The text with `media` naming the same folder from anywhere.
+std::string with_absolute_media(std::string text,
+                                TomlReader& root,
+                                const fs::path& folder) {
+  std::error_code ignored;
+  fs::path media = fs::absolute(folder, ignored);
+  if (root.has("media")) media /= root.text("media");
+  const std::string line =
+      "media = " + in_quotes(media.lexically_normal().string()) + "\n";
+  // Before the first key, or in the place of its own line.
+  const int at = root.has("media") ? root.line("media") : root.line("format");
+  std::size_t begin = 0;
+  for (int i = 1; i < at; ++i) begin = text.find('\n', begin) + 1;
+  const std::size_t end = root.has("media") ? text.find('\n', begin) + 1 : begin;
+  return text.replace(begin, end - begin, line);
+}
+
+}  // namespace
+
+Status copy_session(const Session& session, const fs::path& folder, const Trial& trial) {
+  const fs::path copy = folder / "session.toml";
+  std::error_code ignored;
+  if (fs::exists(copy, ignored)) {
+    const Result<Session> there = read_session(copy);
+    if (!there) return there.error();
+    const Trial* same = there->find(trial.name);
+    if (same != nullptr && same->is_recorded && same->kind == trial.kind) return Done{};
+    return bad_input(copy.string(),
+                     "it has no trial " + in_quotes(trial.name) + " of the kind " +
+                         in_quotes(std::string(name(trial.kind))) + " to record",
+                     "add it there too, or record into another folder");
+  }
+  Result<std::string> text = read_file(session.file);
+  if (!text) return text.error();
+  const bool has_videos = std::any_of(session.trials.begin(),
+                                      session.trials.end(),
+                                      [](const Trial& t) { return !t.is_recorded; });
+  if (has_videos) {
+    Result<TomlDocument> document = parse_toml(*text, session.file.string());
+    if (!document) return document.error();
+    TomlReader root(*document);
+    *text = with_absolute_media(std::move(*text), root, session.file.parent_path());
+  }
+  return write_file(copy, *text);
+}
+
+}  // namespace marey::recordings

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <system_error>
+#include <utility>
+
+#include "recordings/sqlite.h"
+#include "recordings/take_file.h"
+#include "recordings/take_schema.h"
+
+namespace marey::recordings {
+namespace {
+
+Error damaged(const std::string& file) {
+  return bad_input(file,
+                   "it is not the database of a take, or it is damaged",
+                   "copy it again from where it was recorded, with the files " +
+                       std::string(kTakeFile) + "-wal and -shm if they are there");
+}
+
+std::int64_t setting(sqlite3* database, const std::string& name) {
+  Statement ask(database, "PRAGMA " + name);
+  return ask.next_row() ? ask.integer(0) : -1;
+}
+
+/// A log that was left behind is read with the file, which takes the right to write; a
+/// take on a read-only disk is read without.
+Database open_take(const std::string& file) {
+  Database database = open_database(file, SQLITE_OPEN_READWRITE);
+  if (database && setting(database.get(), "schema_version") > 0) return database;
+  return open_database("file:" + file + "?immutable=1",
+                       SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+}
+
+bool read_head(sqlite3* database, Take& take) {
+  Statement head(database, "SELECT trial, started, finished FROM take");
+  if (!head.next_row()) return false;
+  take.trial = head.text(0);
+  take.started = head.text(1);
+  take.finished = head.integer(2) != 0;
+  return true;
+}
+
+bool read_cameras(sqlite3* database, Take& take) {
+  Statement rows(database,
+                 "SELECT camera, name, file, width_px, height_px, rate_hz, device, "
+                 "settings FROM camera ORDER BY camera");
+  while (rows.next_row()) {
+    if (rows.integer(0) != static_cast<std::int64_t>(take.cameras.size())) return false;
+    TakeCamera camera;
+    camera.name = rows.text(1);
+    camera.file = rows.text(2);
+    camera.width_px = static_cast<int>(rows.integer(3));
+    camera.height_px = static_cast<int>(rows.integer(4));
+    camera.rate.hz = rows.number(5);
+    camera.device = rows.text(6);
+    camera.settings = rows.text(7);
+    if (!(camera.rate.hz > 0.0) || camera.file.find('/') != std::string::npos) {
+      return false;
+    }
+    take.cameras.push_back(std::move(camera));
+  }
+  return !rows.failed();
+}
+
+bool read_frames(sqlite3* database, Take& take) {
+  Statement rows(database,
+                 "SELECT camera, number, time_ns, sequence, dropped_before, "
+                 "time_is_arrival, damaged FROM frame ORDER BY camera, number");
+  while (rows.next_row()) {
+    const auto camera = static_cast<std::size_t>(rows.integer(0));
+    if (camera >= take.cameras.size()) return false;
+    std::vector<TakeFrame>& frames = take.cameras[camera].frames;
+    if (rows.integer(1) != static_cast<std::int64_t>(frames.size())) return false;
+    TakeFrame frame;
+    frame.time = Timestamp{rows.integer(2)};
+    frame.sequence = static_cast<std::uint32_t>(rows.integer(3));
+    frame.dropped_before = static_cast<int>(rows.integer(4));
+    frame.time_is_arrival = rows.integer(5) != 0;
+    frame.damaged = rows.integer(6) != 0;
+    frames.push_back(frame);
+  }
+  return !rows.failed();
+}
+
+bool read_events(sqlite3* database, Take& take) {
+  Statement rows(database, "SELECT camera, time_ns, text FROM event ORDER BY time_ns");
+  while (rows.next_row()) {
+    take.events.push_back(
+        {static_cast<int>(rows.integer(0)), Timestamp{rows.integer(1)}, rows.text(2)});
+  }
+  return !rows.failed();
+}
+
+}  // namespace
+
+Result<Take> read_take(const std::filesystem::path& path) {
+  const std::string file = path.string();
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored)) {
+    return bad_input(file,
+                     "it is missing: nobody knows when the frames were taken",
+                     "copy it from where the take was recorded; or name the videos in "
+                     "the trial's `videos`, elsewhere than in the take: then frames are "
+                     "matched by their numbers");
+  }
+  const Database database = open_take(file);
+  if (!database || setting(database.get(), "application_id") != kTakeApplication) {
+    return damaged(file);
+  }
+  const std::int64_t version = setting(database.get(), "user_version");
+  if (version > kTakeVersion) {
+    return bad_input(file,
+                     "it was recorded by a newer marey (format " +
+                         std::to_string(version) + ", this one knows " +
+                         std::to_string(kTakeVersion) + ")",
+                     "install the newer marey");
+  }
+  Take take;
+  sqlite3* const raw = database.get();
+  const bool whole = version == kTakeVersion && read_head(raw, take) &&
+                     read_cameras(raw, take) && read_frames(raw, take) &&
+                     read_events(raw, take);
+  if (!whole) return damaged(file);
+  return take;
+}
+
+}  // namespace marey::recordings
