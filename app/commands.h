@@ -13,15 +13,22 @@
 
 namespace marey::app {
 
-/// How far a session is taken.
-enum class Stage { kTrack, kCalibrate, kSolve, kProcess };
-
 /// `marey track | calibrate | solve | process`. With `json`, report.json goes to standard
 /// output.
 [[nodiscard]] Exit run_session(Stage stage,
                                const PipelineOptions& options,
                                bool json,
                                Console& console);
+
+struct RecordArguments {
+  std::filesystem::path session;  ///< session.toml or its folder.
+  std::filesystem::path out;      ///< The take's folder.
+  std::string trial;
+  std::optional<double> seconds;
+};
+
+/// `marey record SESSION --out TAKE --trial NAME`: until Ctrl-C, or for some seconds.
+[[nodiscard]] Exit run_record(const RecordArguments& arguments, Console& console);
 
 /// `marey retarget MOTION --avatar A --out OUT`.
 [[nodiscard]] Exit run_retarget(const std::filesystem::path& motion,

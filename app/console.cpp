@@ -14,15 +14,20 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 
 std::string bar(const std::string& label, int done, int total, double elapsed_s) {
+  std::array<char, 200> text{};
+  const double rate = elapsed_s > 0.0 ? done / elapsed_s : 0.0;
+  if (total == kUnknownTotal) {
+    std::snprintf(
+        text.data(), text.size(), "%-22s %d  %.0f/s", label.c_str(), done, rate);
+    return text.data();
+  }
   constexpr int kWidth = 24;
-  const double share = total > 0 ? static_cast<double>(done) / total : 0.0;
+  const double share = static_cast<double>(done) / total;
   std::string cells(kWidth, '.');
   for (int i = 0; i < static_cast<int>(share * kWidth); ++i) {
     cells[static_cast<std::size_t>(i)] = '#';
   }
-  const double rate = elapsed_s > 0.0 ? done / elapsed_s : 0.0;
   const double left_s = rate > 0.0 ? (total - done) / rate : 0.0;
-  std::array<char, 200> text{};
   std::snprintf(text.data(),
                 text.size(),
                 "%-22s [%s] %d/%d  %.0f/s  %.0f s left",
@@ -33,6 +38,13 @@ std::string bar(const std::string& label, int done, int total, double elapsed_s)
                 rate,
                 left_s);
   return text.data();
+}
+
+/// Paths may hold bytes that are not UTF-8, which JSON must be.
+constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+
+void print_json(const nlohmann::ordered_json& line) {
+  std::fprintf(stderr, "%s\n", line.dump(-1, ' ', false, kReplace).c_str());
 }
 
 }  // namespace
@@ -65,20 +77,23 @@ void Console::show(const std::string& label,
                    Clock::time_point start) {
   if (style_ == ProgressStyle::kQuiet) return;
   const Clock::time_point now = Clock::now();
-  const bool finished = done >= total;
+  const bool finished = total != kUnknownTotal && done >= total;
   const bool bar_style = style_ == ProgressStyle::kAuto && terminal_;
   const Seconds pause(bar_style ? 0.1 : (style_ == ProgressStyle::kJson ? 0.5 : 5.0));
   if (!finished && now - last_shown_ < pause) return;
   last_shown_ = now;
   const double elapsed_s = Seconds(now - start).count();
   if (style_ == ProgressStyle::kJson) {
-    const nlohmann::ordered_json line{
-        {"stage", label}, {"done", done}, {"total", total}, {"elapsed_s", elapsed_s}};
-    std::fprintf(stderr, "%s\n", line.dump().c_str());
+    nlohmann::ordered_json line{{"stage", label}, {"done", done}};
+    if (total != kUnknownTotal) line["total"] = total;
+    line["elapsed_s"] = elapsed_s;
+    print_json(line);
   } else if (bar_style) {
     std::fprintf(stderr, "\r\033[K%s", bar(label, done, total, elapsed_s).c_str());
     bar_shown_ = !finished;
     if (finished) std::fputc('\n', stderr);
+  } else if (total == kUnknownTotal) {
+    std::fprintf(stderr, "%s: %d, %.1f s\n", label.c_str(), done, elapsed_s);
   } else {
     std::fprintf(stderr, "%s: %d/%d, %.1f s\n", label.c_str(), done, total, elapsed_s);
   }
@@ -94,8 +109,7 @@ void Console::say(const std::string& text) {
   if (style_ == ProgressStyle::kQuiet) return;
   clear_bar();
   if (style_ == ProgressStyle::kJson) {
-    const nlohmann::ordered_json line{{"message", text}};
-    std::fprintf(stderr, "%s\n", line.dump().c_str());
+    print_json({{"message", text}});
   } else {
     std::fprintf(stderr, "%s\n", text.c_str());
   }
@@ -104,13 +118,21 @@ void Console::say(const std::string& text) {
 void Console::warn(const std::string& text) {
   const std::scoped_lock lock(mutex_);
   clear_bar();
-  std::fprintf(stderr, "warning: %s\n", text.c_str());
+  if (style_ == ProgressStyle::kJson) {
+    print_json({{"warning", text}});
+  } else {
+    std::fprintf(stderr, "warning: %s\n", text.c_str());
+  }
 }
 
 Exit Console::fail(const Error& error) {
   const std::scoped_lock lock(mutex_);
   clear_bar();
-  std::fprintf(stderr, "error: %s\n", error.message().c_str());
+  if (style_ == ProgressStyle::kJson) {
+    print_json({{"error", error.message()}, {"exit_code", exit_for(error.code)}});
+  } else {
+    std::fprintf(stderr, "error: %s\n", error.message().c_str());
+  }
   return exit_for(error.code);
 }
 

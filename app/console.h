@@ -26,7 +26,7 @@ enum class Exit {
 
 enum class ProgressStyle {
   kAuto,   ///< A bar on a terminal, lines otherwise.
-  kJson,   ///< One JSON object a line.
+  kJson,   ///< One JSON object a line; warnings and errors too.
   kQuiet,  ///< None.
 };
 

@@ -61,6 +61,14 @@ std::vector<ReportPicture::Tag> draw_tags(const CameraDetections& camera,
   return tags;
 }
 
+/// The number that a frame has in the camera's video, if it has it.
+std::optional<int> in_video(const CameraDetections& camera, int frame) {
+  const int place = frame - camera.frames.front().frame;
+  if (place < 0 || frame > camera.frames.back().frame) return std::nullopt;
+  if (camera.in_recording.empty()) return frame;
+  return camera.in_recording[static_cast<std::size_t>(place)];
+}
+
 }  // namespace
 
 Result<std::vector<ReportPicture>> draw_frames(
@@ -75,18 +83,24 @@ Result<std::vector<ReportPicture>> draw_frames(
     const int frame =
         estimate.motion.first_frame + (2 * i + 1) * frames / (2 * kPictures);
     const CameraDetections& camera = detections[index(trial.videos[video].camera)];
-    if (frame > camera.frames.back().frame || frame < camera.frames.front().frame) {
-      continue;
-    }
+    if (camera.frames.empty() || !in_video(camera, frame)) continue;
     wanted[video].push_back(frame);
   }
   std::vector<ReportPicture> pictures;
   for (const auto& [video, list] : wanted) {
     const auto& source = trial.videos[video];
-    auto read = capture::read_pictures(source.path, list);
+    std::vector<int> in_file;
+    for (const int frame : list) {
+      in_file.push_back(*in_video(detections[index(source.camera)], frame));
+    }
+    auto read = capture::read_pictures(source.path, in_file);
+    // The video's trouble was told when its tags were looked for.
+    if (!read && detections[index(source.camera)].damaged_frames > 0) continue;
     if (!read) return read.error();
     const Camera& camera = cameras[index(source.camera)];
-    for (capture::FramePicture& picture : *read) {
+    for (std::size_t i = 0; i < read->size(); ++i) {
+      capture::FramePicture& picture = (*read)[i];
+      picture.frame = list[i];
       ReportPicture out;
       out.camera = camera.name;
       out.frame = picture.frame;

@@ -9,16 +9,19 @@
 #include <unistd.h>
 
 #include "app/commands.h"
+#include "app/print_commands.h"
 #include "app/version.h"
+#include "recordings/atomic_file.h"
 
 namespace marey::app {
 namespace {
 
-/// Files appear whole or not at all, so there is nothing to clean but the screen.
+/// Files appear whole or not at all, so there is nothing to clean but those half written.
 extern "C" void on_interrupt(int /*signal*/) {
   static constexpr char kText[] = "\ninterrupted\n";
   [[maybe_unused]] const ssize_t written =
       write(STDERR_FILENO, static_cast<const char*>(kText), sizeof kText - 1);
+  recordings::visit_partial_files([](const char* path) { unlink(path); });
   _exit(static_cast<int>(Exit::kInterrupted));
 }
 
@@ -32,8 +35,10 @@ struct Arguments {
   std::filesystem::path out;
   std::filesystem::path file;
   std::filesystem::path sample = MAREY_SAMPLE;
+  RecordArguments record;
   recordings::MannequinOptions mannequin;
   recordings::MannequinStyle style;
+  PrintArguments print;
 
   [[nodiscard]] ProgressStyle style_of_progress() const {
     if (progress == "json") return ProgressStyle::kJson;
@@ -57,9 +62,12 @@ void add_session_command(CLI::App& app,
   command->add_option(
       "--media", args.media, "Folder that the session's video paths are relative to");
   if (stage == Stage::kSolve || stage == Stage::kProcess) {
-    command->add_option("-a,--avatar",
-                        args.pipeline.avatars,
-                        "Body to put the motion on (.glb, .vrm, .bvh); may be repeated");
+    command
+        ->add_option("-a,--avatar",
+                     args.pipeline.avatars,
+                     "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
+        // One each time: what follows may be the session.
+        ->allow_extra_args(false);
   }
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback([&, stage] {
@@ -67,6 +75,20 @@ void add_session_command(CLI::App& app,
     chosen = [&args, stage](Console& console) {
       return run_session(stage, args.pipeline, args.json, console);
     };
+  });
+}
+
+void add_record(CLI::App& app, Arguments& args, Command& chosen) {
+  CLI::App* command = app.add_subcommand("record", "Record a trial from the cameras");
+  command->add_option("session", args.record.session, "session.toml, or its folder")
+      ->required();
+  command->add_option("-o,--out", args.record.out, "Folder of the take")->required();
+  command->add_option("--trial", args.record.trial, "The session's trial to record")
+      ->required();
+  command->add_option("--seconds", args.record.seconds, "Stop by itself after so long")
+      ->check(CLI::PositiveNumber);
+  command->callback([&] {
+    chosen = [&args](Console& console) { return run_record(args.record, console); };
   });
 }
 
@@ -83,12 +105,23 @@ void add_retarget(CLI::App& app, Arguments& args, Command& chosen) {
   });
 }
 
+/// CLI::Range, which lets pass what is no number.
+CLI::Validator between(double low, double high) {
+  const CLI::Range range(low, high);
+  return CLI::Validator(
+      [range](std::string& word) {
+        const bool is_nan = CLI::detail::to_lower(word).find("nan") != std::string::npos;
+        return is_nan ? "Value " + word + " is no number" : range(word);
+      },
+      range.get_description());
+}
+
 void add_mannequin(CLI::App& app, Arguments& args, Command& chosen) {
   CLI::App* command =
       app.add_subcommand("mannequin", "Make a skinned body of any proportions (GLB)");
   recordings::MannequinOptions& m = args.mannequin;
-  const auto size = CLI::Range(0.3, 10.0);
-  const auto ratio = CLI::Range(0.2, 5.0);
+  const auto size = between(0.3, 10.0);
+  const auto ratio = between(0.2, 5.0);
   command->add_option("--height", m.stature_m, "Stature [m]")->check(size);
   command->add_option("--arm-ratio", m.arm, "Arms against the average")->check(ratio);
   command->add_option("--leg-ratio", m.leg, "Legs")->check(ratio);
@@ -158,8 +191,10 @@ int run(int argc, char** argv) {
                       Stage::kSolve,
                       args,
                       chosen);
+  add_record(app, args, chosen);
   add_retarget(app, args, chosen);
   add_mannequin(app, args, chosen);
+  add_print_commands(app, args.print, chosen);
   add_small_commands(app, args, chosen);
   try {
     app.parse(argc, argv);

@@ -3,29 +3,20 @@
 #include "app/pipeline.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 #include <set>
-#include <thread>
 
-#include "app/draw_frames.h"
-#include "app/report_figures.h"
+#include "app/find_tags.h"
+#include "app/report_trial.h"
 #include "app/retarget_files.h"
 #include "app/version.h"
-#include "capture/detect_videos.h"
+#include "app/write_motion.h"
+#include "core/assert.h"
+#include "core/parallel.h"
 #include "reconstruct/check_views.h"
 #include "reconstruct/fit_subject.h"
 #include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
 #include "recordings/calibration_file.h"
-#include "recordings/content_key.h"
-#include "recordings/detections_file.h"
-#include "recordings/gltf.h"
-#include "recordings/mannequin.h"
-#include "recordings/motion_tables.h"
 #include "recordings/subject_file.h"
 #include "retarget/retarget_motion.h"
 
@@ -34,7 +25,6 @@ namespace {
 
 using recordings::Trial;
 using recordings::TrialKind;
-using recordings::TrialVideo;
 
 class Stopwatch {
  public:
@@ -65,75 +55,32 @@ Error missing_trial(const recordings::Session& session, TrialKind kind) {
       "record one and add it as a [[trial]]");
 }
 
-/// What a cached detection depends on.
-Result<std::string> cache_key(const TrialVideo& video,
-                              const Trial& trial,
-                              const std::string& family) {
-  const auto content = recordings::content_key(video.path);
-  if (!content) return content.error();
-  // Raise the number when the detector finds other corners in the same picture.
-  std::string key = *content + " detector-2 " + family;
-  if (trial.frames) {
-    key += " frames " + std::to_string(trial.frames->first) + "-" +
-           std::to_string(trial.frames->last);
-  }
-  return key;
+/// Motions that are yet to be recorded are no obstacle to the others.
+void leave_out_unrecorded(recordings::Session& session, Console& console) {
+  std::erase_if(session.trials, [&](const Trial& trial) {
+    const bool left_out = trial.is_recorded && trial.kind == TrialKind::kMotion &&
+                          !recordings::has_recording(trial);
+    if (left_out) console.warn("trial " + trial.name + " is not recorded yet");
+    return left_out;
+  });
 }
 
-Status check_seen(const CameraDetections& camera) {
-  const bool any = std::any_of(camera.frames.begin(),
-                               camera.frames.end(),
-                               [](const FrameDetections& f) { return !f.tags.empty(); });
-  if (any) return Done{};
-  return bad_input(
-      camera.source,
-      "not a single tag is seen in its " + std::to_string(camera.frames.size()) +
-          " frames",
-      "check that the video is of this trial and sharp, and the tag family in "
-      "session.toml; or leave this camera out of the trial");
-}
-
-/// Frames are matched by their number: all videos of a trial must run at one rate.
-/// Cameras without a video in the trial take that rate.
-Status check_rates(const recordings::Session& session,
-                   const Trial& trial,
-                   std::vector<CameraDetections>& cameras) {
-  const CameraDetections& first = cameras[index(trial.videos.front().camera)];
-  for (CameraDetections& camera : cameras) {
-    if (camera.frames.empty()) {
-      camera.rate = first.rate;
-      camera.source = session.file.string();
-      continue;
-    }
-    if (std::abs(camera.rate.hz / first.rate.hz - 1.0) < 1e-3) continue;
-    std::array<char, 120> text{};
-    std::snprintf(text.data(),
-                  text.size(),
-                  "runs at %.3f frames per second, %s at %.3f",
-                  camera.rate.hz,
-                  session.cameras[index(first.camera)].c_str(),
-                  first.rate.hz);
-    return bad_input(camera.source,
-                     text.data(),
-                     "record all cameras at one rate, or give the trial an fps in "
-                     "session.toml if the files state it wrongly");
+/// What a stage, and those before it, must find in the session.
+std::vector<TrialKind> kinds_for(Stage stage) {
+  switch (stage) {
+    case Stage::kTrack:
+      return {};
+    case Stage::kCalibrate:
+      return {TrialKind::kCalibration, TrialKind::kFloor};
+    case Stage::kSolve:
+    case Stage::kProcess:
+      return {TrialKind::kCalibration,
+              TrialKind::kFloor,
+              TrialKind::kStatic,
+              TrialKind::kRangeOfMotion,
+              TrialKind::kMotion};
   }
-  return Done{};
-}
-
-/// Runs `work(i)` for all i below `count` on as many threads as there are cores.
-template <class Work>
-void in_parallel(std::size_t count, const Work& work) {
-  const std::size_t threads =
-      std::min<std::size_t>(count, std::max(1U, std::thread::hardware_concurrency()));
-  std::atomic<std::size_t> next = 0;
-  std::vector<std::thread> workers;
-  for (std::size_t t = 0; t < threads; ++t) {
-    workers.emplace_back([&] {
-      for (std::size_t i = next++; i < count; i = next++) work(i);
-    });
-  }
-  for (std::thread& worker : workers) worker.join();
+  return {};
 }
 
 }  // namespace
@@ -144,9 +91,15 @@ Pipeline::Pipeline(recordings::Session session, PipelineOptions options, Console
   report_.version = kVersion;
 }
 
-Result<Pipeline> Pipeline::open(const PipelineOptions& options, Console& console) {
+Result<Pipeline> Pipeline::open(Stage stage,
+                                const PipelineOptions& options,
+                                Console& console) {
   auto session = recordings::read_session(options.session, {options.media});
   if (!session) return session.error();
+  leave_out_unrecorded(*session, console);
+  for (const TrialKind kind : kinds_for(stage)) {
+    if (!session->find(kind)) return missing_trial(*session, kind);
+  }
   if (const Status ok = recordings::check_files(*session); !ok) return ok.error();
   std::set<std::string> names{"motion"};
   for (const auto& avatar : options.avatars) {
@@ -155,6 +108,7 @@ Result<Pipeline> Pipeline::open(const PipelineOptions& options, Console& console
                        "two results would be called \"" + avatar.stem().string() + "\"",
                        "rename the avatar's file: results are named after it");
     }
+    if (const Status ok = check_avatar(avatar); !ok) return ok.error();
   }
   return Pipeline(std::move(*session), options, console);
 }
@@ -182,55 +136,20 @@ Status Pipeline::track() {
 
 Status Pipeline::track_trial(const Trial& trial) {
   if (detections_.contains(trial.name)) return Done{};
-  const auto folder = options_.out / trial.name / "detections";
-  std::vector<CameraDetections> found(session_.cameras.size());
-  for (std::size_t c = 0; c < found.size(); ++c) {
-    found[c].camera = CameraId{static_cast<int>(c)};
+  RecordingTroubles troubles;
+  auto found = find_tags(session_, trial, options_.out, *console_, troubles);
+  if (!found) return found.error();
+  for (const std::string& warning : troubles.warnings) {
+    report_.warnings.push_back(warning);
   }
-  std::vector<capture::CameraInput> missing;
-  std::map<CameraId, std::string> keys;
-  for (const TrialVideo& video : trial.videos) {
-    const auto key = cache_key(video, trial, session_.tag_family);
-    if (!key) return key.error();
-    keys[video.camera] = *key;
-    const auto file = folder / (session_.cameras[index(video.camera)] + ".csv");
-    auto cached = recordings::read_detections(file, *key);
-    // A cache that cannot be read is a cache that must be made again.
-    if (cached && *cached) {
-      found[index(video.camera)] = std::move(**cached);
-      continue;
-    }
-    capture::CameraInput input;
-    input.path = video.path;
-    input.camera = video.camera;
-    if (trial.frames) input.range = {trial.frames->first, trial.frames->last};
-    input.rate = trial.rate;
-    missing.push_back(std::move(input));
+  for (const Error& failure : troubles.failures) {
+    report_.warnings.push_back(failure.message());
+    failures_.push_back(failure);
   }
-  if (!missing.empty()) {
-    capture::DetectVideosOptions detector;
-    detector.detector.family = session_.tag_family;
-    auto made = capture::detect_tags_in_videos(
-        missing, detector, console_->stage("tags in " + trial.name));
-    if (!made) return made.error();
-    for (CameraDetections& camera : *made) {
-      const auto file = folder / (session_.cameras[index(camera.camera)] + ".csv");
-      const Status written =
-          recordings::write_detections(file, camera, keys[camera.camera]);
-      if (!written) return written;
-      found[index(camera.camera)] = std::move(camera);
-    }
+  for (const auto& [name, earlier] : detections_) {
+    if (const Status ok = check_picture_sizes(earlier, *found); !ok) return ok;
   }
-  for (const TrialVideo& video : trial.videos) {
-    CameraDetections& camera = found[index(video.camera)];
-    camera.camera = video.camera;
-    camera.source = video.path.string();
-    camera.offset = video.offset.value_or(Timestamp{0});
-    if (trial.rate) camera.rate = *trial.rate;
-    if (const Status ok = check_seen(camera); !ok) return ok;
-  }
-  if (const Status ok = check_rates(session_, trial, found); !ok) return ok;
-  detections_[trial.name] = std::move(found);
+  detections_[trial.name] = std::move(*found);
   return Done{};
 }
 
@@ -257,8 +176,7 @@ Result<std::vector<CameraDetections>> Pipeline::unshrunk_detections_of(
 Status Pipeline::calibrate() {
   const Trial* waved_trial = session_.find(TrialKind::kCalibration);
   const Trial* floor_trial = session_.find(TrialKind::kFloor);
-  if (!waved_trial) return missing_trial(session_, TrialKind::kCalibration);
-  if (!floor_trial) return missing_trial(session_, TrialKind::kFloor);
+  MAREY_ASSERT(waved_trial && floor_trial);
   const auto waved = detections_of(*waved_trial);
   if (!waved) return waved.error();
   const auto floor = detections_of(*floor_trial);
@@ -279,26 +197,12 @@ Status Pipeline::calibrate() {
       calib::calibrate_cameras(session_.cameras, *waved, *floor, session_.board);
   if (!rig) return at(session_.file.string(), rig.error());
   progress(1, 1);
-  cameras_ = rig->cameras;
-  recordings::Calibration calibration;
-  calibration.cameras = rig->cameras;
-  calibration.rms_px = rig->rms_px;
-  report_.calibration_rms_px = rig->rms_px;
-  for (std::size_t c = 0; c < rig->cameras.size(); ++c) {
-    const calib::CameraQuality& q = rig->quality[c];
-    recordings::CameraRecord record;
-    record.rms_px = q.rms_px;
-    record.p95_px = q.p95_px;
-    // Their last digits depend on how the linear algebra library orders its work.
-    record.centre_sigma_m = rounded(q.centre_sigma_m, 6);
-    record.focal_sigma_px = rounded(q.focal_sigma_px, 4);
-    record.views = q.views;
-    record.corners = q.corners;
-    record.coverage = q.coverage;
-    calibration.records.push_back(record);
-  }
+  recordings::Calibration calibration{rig->cameras, rig->quality, {}, rig->rms_px};
+  calibration.clocks.resize(rig->cameras.size());
   time_stage("cameras", watch.seconds());
-  return recordings::write_calibration(options_.out / "calibration.toml", calibration);
+  const Status written =
+      recordings::write_calibration(options_.out / "calibration.toml", calibration);
+  return written ? need_cameras() : written;
 }
 
 Status Pipeline::need_cameras() {
@@ -315,14 +219,7 @@ Status Pipeline::need_cameras() {
   report_.calibration_rms_px = calibration->rms_px;
   report_.cameras.clear();
   for (std::size_t c = 0; c < calibration->cameras.size(); ++c) {
-    const recordings::CameraRecord& r = calibration->records[c];
-    report_.cameras.push_back({calibration->cameras[c],
-                               r.rms_px,
-                               r.p95_px,
-                               r.centre_sigma_m,
-                               r.focal_sigma_px,
-                               r.coverage,
-                               r.views});
+    report_.cameras.push_back({calibration->cameras[c], calibration->quality[c]});
   }
   cameras_.clear();
   for (const std::string& name : session_.cameras) {
@@ -355,8 +252,7 @@ Status Pipeline::fit() {
   if (const Status ok = need_cameras(); !ok) return ok;
   const Trial* standing_trial = session_.find(TrialKind::kStatic);
   const Trial* moving_trial = session_.find(TrialKind::kRangeOfMotion);
-  if (!standing_trial) return missing_trial(session_, TrialKind::kStatic);
-  if (!moving_trial) return missing_trial(session_, TrialKind::kRangeOfMotion);
+  MAREY_ASSERT(standing_trial && moving_trial);
   const auto standing = unshrunk_detections_of(*standing_trial);
   if (!standing) return standing.error();
   const auto moving = unshrunk_detections_of(*moving_trial);
@@ -400,20 +296,19 @@ Result<reconstruct::SolvedTrial> Pipeline::solve_trial(const Trial& trial,
   if (!detections) return detections.error();
   // A camera without a video in this trial keeps its place, and stays silent.
   auto solved = reconstruct::solve_motion(*body_, cameras_, *detections, {}, progress);
-  if (!solved) return at(trial.name, solved.error());
+  if (!solved) return at(session_.file.string(), solved.error());
   return solved;
 }
 
 Status Pipeline::solve() {
   if (const Status ok = need_body(); !ok) return ok;
   const std::vector<const Trial*> trials = motion_trials();
-  if (trials.empty()) return missing_trial(session_, TrialKind::kMotion);
   for (const Trial* trial : trials) {
     if (const Status ok = track_trial(*trial); !ok) return ok;
   }
   const Stopwatch watch;
   std::vector<std::optional<Result<reconstruct::SolvedTrial>>> results(trials.size());
-  in_parallel(trials.size(), [&](std::size_t i) {
+  in_parallel(trials.size(), 0, [&](std::size_t i) {
     results[i] = solve_trial(*trials[i], console_->stage("motion of " + trials[i]->name));
   });
   time_stage("motion", watch.seconds());
@@ -422,31 +317,13 @@ Status Pipeline::solve() {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (!*results[i]) return results[i]->error();
     motions_.push_back({trials[i], std::move(**results[i]), {}});
-    if (const Status ok = export_trial(motions_.back()); !ok) return ok;
+    const Status written = write_motion(options_.out / trials[i]->name,
+                                        motions_.back().solved.estimate,
+                                        body_->proportions);
+    if (!written) return written;
   }
   time_stage("files", writing.seconds());
   return Done{};
-}
-
-Status Pipeline::export_trial(const SolvedMotion& motion) {
-  const auto folder = options_.out / motion.trial->name;
-  const EstimatedMotion& estimate = motion.solved.estimate;
-  if (const Status ok = recordings::write_joints_csv(folder / "joints.csv", estimate);
-      !ok) {
-    return ok;
-  }
-  if (const Status ok = recordings::write_segments_csv(folder / "segments.csv", estimate);
-      !ok) {
-    return ok;
-  }
-  if (const Status ok = recordings::write_bvh(folder / "motion.bvh", estimate.motion);
-      !ok) {
-    return ok;
-  }
-  return recordings::write_character(folder / "motion.glb",
-                                     estimate.motion.skeleton,
-                                     recordings::make_mannequin_mesh(body_->proportions),
-                                     &estimate.motion);
 }
 
 Status Pipeline::retarget() {
@@ -481,53 +358,17 @@ Result<ReportBody> Pipeline::retarget_one(SolvedMotion& motion,
   return body;
 }
 
-Result<ReportTrial> Pipeline::report_trial(const SolvedMotion& motion) {
-  const auto detections = unshrunk_detections_of(*motion.trial);
-  if (!detections) return detections.error();
-  const reconstruct::SolvedTrial& solved = motion.solved;
-  const Motion& poses = solved.estimate.motion;
-  ReportTrial out;
-  out.name = motion.trial->name;
-  out.rate = poses.rate;
-  out.first_frame = poses.first_frame;
-  out.frames = static_cast<int>(poses.poses.size());
-  out.frames_solved = solved.frames_solved;
-  out.rms_px = solved.rms_px;
-  out.median_px = solved.median_px;
-  out.frame_rms_px = solved.frame_rms_px;
-  for (std::size_t c = 0; c < cameras_.size(); ++c) {
-    const reconstruct::CameraFit& fit = solved.cameras[c];
-    out.cameras.push_back({cameras_[c].name,
-                           fit.rms_px,
-                           fit.median_px,
-                           fit.corners,
-                           fit.offset_s,
-                           fit.offset_is_given});
-  }
-  for (const reconstruct::Gap& gap : solved.gaps) {
-    out.gaps.push_back({std::string(name(gap.segment)),
-                        gap.first_frame,
-                        gap.last_frame,
-                        gap.bridged_as});
-  }
-  out.tags = tags_over_time(session_.tags, *detections, poses);
-  auto pictures = draw_frames(*motion.trial, cameras_, *detections, solved.estimate);
-  if (!pictures) return pictures.error();
-  out.pictures = std::move(*pictures);
-  out.bodies.push_back({"subject", poses, solved.estimate.doubt, 0, 0, 0, {}});
-  for (const char* file : {"motion.bvh", "motion.glb", "joints.csv", "segments.csv"}) {
-    out.bodies.front().files.push_back(motion.trial->name + "/" + file);
-  }
-  out.bodies.insert(out.bodies.end(), motion.avatars.begin(), motion.avatars.end());
-  return out;
-}
-
 Status Pipeline::write_report() {
   const Stopwatch watch;
   report_.trials.clear();
   for (const SolvedMotion& motion : motions_) {
-    auto trial = report_trial(motion);
+    const auto detections = unshrunk_detections_of(*motion.trial);
+    if (!detections) return detections.error();
+    auto trial =
+        report_trial(*motion.trial, cameras_, session_.tags, *detections, motion.solved);
     if (!trial) return trial.error();
+    trial->bodies.insert(
+        trial->bodies.end(), motion.avatars.begin(), motion.avatars.end());
     report_.trials.push_back(std::move(*trial));
   }
   report_.recorded_s = 0.0;

@@ -21,6 +21,9 @@
 
 namespace marey::app {
 
+/// How far a session is taken.
+enum class Stage { kTrack, kCalibrate, kSolve, kProcess };
+
 struct PipelineOptions {
   std::filesystem::path session;               ///< session.toml or its folder.
   std::filesystem::path out;                   ///< Where results go; created.
@@ -30,14 +33,17 @@ struct PipelineOptions {
 
 /// The line through the rooms, drawn once: videos to tag corners to cameras, subject,
 /// motion, other bodies and files. Each stage leaves a file that the next one reads, so
-/// that a stage can be run alone; what an earlier stage of this run already holds is not
-/// read again.
+/// that a stage can be run alone. Cameras and subject are read back from their files even
+/// in the run that wrote them: a stage sees the same numbers either way. Tags are not.
 ///
 /// Every stage's errors are its room's. Files appear whole or not at all.
 class Pipeline {
  public:
-  /// Reads and checks the session and that its videos are there.
-  [[nodiscard]] static Result<Pipeline> open(const PipelineOptions& options,
+  /// Reads and checks what can be checked before the long work: the session, that its
+  /// videos are there, that it has the trials that `stage` needs, and that every avatar
+  /// can be read and has the bones.
+  [[nodiscard]] static Result<Pipeline> open(Stage stage,
+                                             const PipelineOptions& options,
                                              Console& console);
 
   /// Tag corners of every trial, from the cache in OUT/TRIAL/detections where it is
@@ -45,11 +51,11 @@ class Pipeline {
   [[nodiscard]] Status track();
   /// Cameras: OUT/calibration.toml.
   [[nodiscard]] Status calibrate();
-  /// The subject: OUT/subject.toml. Reads calibration.toml if calibrate() did not run.
-  /// Checks first that in every trial the cameras agree on the tags.
+  /// The subject: OUT/subject.toml. Reads calibration.toml. Checks first that in every
+  /// trial the cameras agree on the tags.
   [[nodiscard]] Status fit();
   /// Motion of every motion trial: joints.csv, segments.csv, motion.bvh, motion.glb.
-  /// Reads calibration.toml and subject.toml if need be.
+  /// Reads calibration.toml and subject.toml.
   [[nodiscard]] Status solve();
   /// Every solved motion on every avatar: AVATAR.glb and AVATAR.bvh.
   [[nodiscard]] Status retarget();
@@ -57,6 +63,9 @@ class Pipeline {
   [[nodiscard]] Status write_report();
 
   [[nodiscard]] const Report& report() const { return report_; }
+  /// What should have been there and is missing, though the rest went on without it; also
+  /// among the report's warnings.
+  [[nodiscard]] const std::vector<Error>& failures() const { return failures_; }
 
  private:
   struct SolvedMotion {
@@ -77,10 +86,8 @@ class Pipeline {
   [[nodiscard]] Status check_trials();
   [[nodiscard]] Result<reconstruct::SolvedTrial> solve_trial(
       const recordings::Trial& trial, const Progress& progress);
-  [[nodiscard]] Status export_trial(const SolvedMotion& motion);
   [[nodiscard]] Result<ReportBody> retarget_one(SolvedMotion& motion,
                                                 const std::filesystem::path& avatar);
-  [[nodiscard]] Result<ReportTrial> report_trial(const SolvedMotion& motion);
   [[nodiscard]] std::vector<const recordings::Trial*> motion_trials() const;
   void time_stage(const std::string& name, double seconds);
 
@@ -91,6 +98,7 @@ class Pipeline {
   std::vector<Camera> cameras_;
   std::optional<Body> body_;
   std::vector<SolvedMotion> motions_;
+  std::vector<Error> failures_;
   Report report_;
 };
 

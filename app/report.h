@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,20 +12,18 @@
 
 #include "core/body.h"
 #include "core/camera.h"
+#include "core/camera_quality.h"
+#include "core/detection.h"
 #include "core/motion.h"
 #include "core/provenance.h"
+#include "core/time.h"
 
 namespace marey::app {
 
 /// One camera as the calibration left it.
 struct ReportCamera {
   Camera camera;
-  double rms_px = 0.0;
-  double p95_px = 0.0;
-  double centre_sigma_m = 0.0;
-  double focal_sigma_px = 0.0;
-  double coverage = 0.0;  ///< Share of the image in which the board was seen, 0..1.
-  int views = 0;
+  CameraQuality quality;
 };
 
 /// Reprojection of a solved trial in one camera.
@@ -34,7 +33,8 @@ struct ReportTrialCamera {
   double median_px = 0.0;
   int corners = 0;
   double offset_s = 0.0;
-  bool offset_is_given = false;
+  ClockSource clock = ClockSource::kEstimated;
+  DroppedSightings dropped;
 };
 
 /// A run of frames without a sight of a segment, and what became of it.
@@ -112,7 +112,7 @@ struct Report {
   std::string version;
   std::vector<ReportCamera> cameras;
   double calibration_rms_px = 0.0;
-  Body subject;
+  std::optional<Body> subject;  ///< Once it is measured.
   double subject_rms_px = 0.0;
   double limb_ratio = 0.0;  ///< Limb lengths over an average person's of that stature.
   std::vector<int> unplaced_tags;

@@ -9,6 +9,7 @@
 
 #include "app/report_figures.h"
 #include "core/assert.h"
+#include "core/quantile.h"
 
 namespace marey::app {
 namespace {
@@ -34,13 +35,9 @@ Json metres(const glm::dvec3& p) {
   return {rounded(p.x, 4), rounded(p.y, 4), rounded(p.z, 4)};
 }
 
-/// The value below which `share` of `values` lie, the nearest one; 0 of nothing.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto rank =
-      static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[static_cast<std::size_t>(rank)];
+/// Null when there is none to choose from.
+Json quantile_mm(const std::vector<double>& values_m, double share) {
+  return values_m.empty() ? Json(nullptr) : Json(mm(quantile(values_m, share)));
 }
 
 /// Every sigma of every joint and frame of the trial's subject. [m]
@@ -60,18 +57,18 @@ Json camera_figures(const ReportCamera& camera) {
           {"width_px", k.width_px},
           {"height_px", k.height_px},
           {"focal_px", {px(k.focal_px.x), px(k.focal_px.y)}},
-          {"focal_sigma_px", px(camera.focal_sigma_px)},
+          {"focal_sigma_px", px(camera.quality.focal_sigma_px)},
           {"centre_px", {px(k.centre_px.x), px(k.centre_px.y)}},
           {"distortion", distortion},
           {"centre_in_world_m", metres(world_from_camera.translation)},
-          {"centre_sigma_mm", mm(camera.centre_sigma_m)},
+          {"centre_sigma_mm", mm(camera.quality.centre_sigma_m)},
           {"right_in_world", metres(world_from_camera.rotation * glm::dvec3(1, 0, 0))},
           {"down_in_world", metres(world_from_camera.rotation * glm::dvec3(0, 1, 0))},
           {"forward_in_world", metres(world_from_camera.rotation * glm::dvec3(0, 0, 1))},
-          {"rms_px", px(camera.rms_px)},
-          {"p95_px", px(camera.p95_px)},
-          {"coverage_percent", percent(camera.coverage, 1.0)},
-          {"views", camera.views}};
+          {"rms_px", px(camera.quality.rms_px)},
+          {"p95_px", px(camera.quality.p95_px)},
+          {"coverage_percent", percent(camera.quality.coverage, 1.0)},
+          {"views", camera.quality.views}};
 }
 
 Json calibration_figures(const Report& report) {
@@ -97,7 +94,8 @@ Json bone_figures(const Body& body) {
 }
 
 Json subject_figures(const Report& report) {
-  const Body& body = report.subject;
+  if (!report.subject) return nullptr;
+  const Body& body = *report.subject;
   Json tags = Json::array();
   for (const PlacedTag& placed : body.tags) {
     tags.push_back({{"id", number(placed.tag.id)},
@@ -117,6 +115,18 @@ Json subject_figures(const Report& report) {
           {"unplaced_tags", report.unplaced_tags}};
 }
 
+const char* clock_word(ClockSource clock) {
+  switch (clock) {
+    case ClockSource::kReference:
+      return "reference";
+    case ClockSource::kGiven:
+      return "given";
+    case ClockSource::kEstimated:
+      return "estimated";
+  }
+  return "";
+}
+
 Json trial_camera_figures(const ReportTrial& trial) {
   Json cameras = Json::array();
   for (const ReportTrialCamera& camera : trial.cameras) {
@@ -125,7 +135,9 @@ Json trial_camera_figures(const ReportTrial& trial) {
                        {"median_px", px(camera.median_px)},
                        {"corners", camera.corners},
                        {"offset_ms", rounded(1000.0 * camera.offset_s, 2)},
-                       {"offset_is_given", camera.offset_is_given}});
+                       {"clock", clock_word(camera.clock)},
+                       {"unsure_sightings", camera.dropped.unsure},
+                       {"doubled_sightings", camera.dropped.duplicated}});
   }
   return cameras;
 }
@@ -172,8 +184,8 @@ Json joint_figures(const ReportTrial& trial) {
     }
     const auto total = static_cast<double>(sigmas_m.size());
     Json joint{{"joint", subject.motion.skeleton.joints[j].name},
-               {"median_sigma_mm", mm(quantile(sigmas_m, 0.5))},
-               {"p95_sigma_mm", mm(quantile(sigmas_m, 0.95))}};
+               {"median_sigma_mm", quantile_mm(sigmas_m, 0.5)},
+               {"p95_sigma_mm", quantile_mm(sigmas_m, 0.95)}};
     for (const Source source :
          {Source::kMeasured, Source::kRepaired, Source::kInferred}) {
       joint[std::string(name(source)) + "_percent"] = percent(frames[source], total);
@@ -208,8 +220,8 @@ Json trial_figures(const ReportTrial& trial) {
       {"solved_percent", percent(trial.frames_solved, trial.frames)},
       {"rms_px", px(trial.rms_px)},
       {"median_px", px(trial.median_px)},
-      {"joint_sigma_median_mm", mm(quantile(sigmas_m, 0.5))},
-      {"joint_sigma_p95_mm", mm(quantile(sigmas_m, 0.95))},
+      {"joint_sigma_median_mm", quantile_mm(sigmas_m, 0.5)},
+      {"joint_sigma_p95_mm", quantile_mm(sigmas_m, 0.95)},
       {"files",
        trial.bodies.empty() ? std::vector<std::string>{} : trial.bodies.front().files},
       {"cameras", trial_camera_figures(trial)},
@@ -250,8 +262,8 @@ Json summary_figures(const Report& report) {
           {"solved_percent", percent(solved, frames)},
           {"calibration_rms_px", px(report.calibration_rms_px)},
           {"solve_rms_px", px(solve_rms_px(report))},
-          {"joint_sigma_median_mm", mm(quantile(sigmas_m, 0.5))},
-          {"joint_sigma_p95_mm", mm(quantile(sigmas_m, 0.95))},
+          {"joint_sigma_median_mm", quantile_mm(sigmas_m, 0.5)},
+          {"joint_sigma_p95_mm", quantile_mm(sigmas_m, 0.95)},
           {"recorded_s", rounded(recorded_s, 3)},
           {"processing_s", rounded(processing_s, 3)},
           {"times_real_time",

@@ -2,23 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/retarget_files.h"
 
-#include <algorithm>
-#include <cctype>
-
+#include "core/extension.h"
 #include "recordings/bvh.h"
 #include "recordings/gltf.h"
+#include "retarget/body_map.h"
 
 namespace marey::app {
 namespace {
 
-std::string extension(const std::filesystem::path& path) {
-  std::string text = path.extension().string();
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 bool is_gltf(const std::filesystem::path& path) {
-  const std::string kind = extension(path);
+  const std::string kind = kind_by_extension(path);
   return kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma";
 }
 
@@ -34,7 +27,7 @@ Result<Skeleton> read_skeleton(const std::filesystem::path& path) {
     if (!character) return character.error();
     return std::move(character->skeleton);
   }
-  if (extension(path) == ".bvh") {
+  if (kind_by_extension(path) == ".bvh") {
     auto bvh = recordings::read_bvh(path);
     if (!bvh) return bvh.error();
     return std::move(bvh->motion.skeleton);
@@ -86,7 +79,7 @@ Result<RetargetedFiles> retarget_to_files(const Motion& motion,
 Result<RetargetedFiles> retarget_to_file(const Motion& motion,
                                          const std::filesystem::path& avatar,
                                          const std::filesystem::path& out) {
-  const std::string kind = extension(out);
+  const std::string kind = kind_by_extension(out);
   if (kind != ".bvh" && kind != ".glb") {
     return bad_input(out.string(),
                      "cannot write a \"" + kind + "\" file",
@@ -103,11 +96,21 @@ Result<RetargetedFiles> retarget_to_file(const Motion& motion,
   return result;
 }
 
-Result<Motion> read_motion(const std::filesystem::path& path) {
-  if (extension(path) == ".bvh") {
+Status check_avatar(const std::filesystem::path& avatar) {
+  const auto skeleton = read_skeleton(avatar);
+  if (!skeleton) return skeleton.error();
+  const auto map = retarget::map_body(*skeleton);
+  if (map) return Done{};
+  Error error = map.error();
+  error.where = avatar.string();
+  return error;
+}
+
+Result<ReadMotion> read_motion(const std::filesystem::path& path) {
+  if (kind_by_extension(path) == ".bvh") {
     auto bvh = recordings::read_bvh(path);
     if (!bvh) return bvh.error();
-    return std::move(bvh->motion);
+    return ReadMotion{std::move(bvh->motion), bvh->ignored_translation_m};
   }
   if (!is_gltf(path)) return unknown_kind(path);
   auto character = recordings::read_character(path);
@@ -115,7 +118,7 @@ Result<Motion> read_motion(const std::filesystem::path& path) {
   if (!character->motion) {
     return bad_input(path.string(), "holds no animation", "give a file with a motion");
   }
-  return std::move(*character->motion);
+  return ReadMotion{std::move(*character->motion), character->ignored_translation_m};
 }
 
 }  // namespace marey::app

@@ -31,8 +31,18 @@ struct RetargetedFiles {
     const std::filesystem::path& avatar,
     const std::filesystem::path& out);
 
+/// Whether a motion can be put on this body: it can be read and has the bones. Costs what
+/// reading does. Errors: those of retarget_to_files() that are the avatar's.
+[[nodiscard]] Status check_avatar(const std::filesystem::path& avatar);
+
+struct ReadMotion {
+  Motion motion;
+  /// The largest movement of a bone against its parent that was left out. [m]
+  double ignored_translation_m = 0.0;
+};
+
 /// The motion in a .bvh, .glb, .gltf, .vrm or .vrma file.
 /// Errors: unreadable; another kind of file; a file without a motion.
-[[nodiscard]] Result<Motion> read_motion(const std::filesystem::path& path);
+[[nodiscard]] Result<ReadMotion> read_motion(const std::filesystem::path& path);
 
 }  // namespace marey::app

@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/retarget_files.h"
+#include "core/extension.h"
 #include "recordings/gltf.h"
 
 namespace marey::app {
@@ -18,7 +19,17 @@ Exit run_retarget(const std::filesystem::path& motion,
                   Console& console) {
   const auto source = read_motion(motion);
   if (!source) return console.fail(source.error());
-  const auto result = retarget_to_file(*source, avatar, out);
+  constexpr double kVisible_m = 1e-3;
+  if (source->ignored_translation_m > kVisible_m) {
+    std::array<char, 200> text{};
+    std::snprintf(text.data(),
+                  text.size(),
+                  ": bones move up to %.0f mm against their parents; bones of a body "
+                  "keep their lengths, so that this is left out",
+                  1000.0 * source->ignored_translation_m);
+    console.warn(motion.string() + text.data());
+  }
+  const auto result = retarget_to_file(source->motion, avatar, out);
   if (!result) return console.fail(result.error());
   const retarget::RetargetReport& report = result->retargeted.report;
   if (json) {
@@ -49,6 +60,10 @@ Exit run_mannequin(const recordings::MannequinOptions& options,
                    const recordings::MannequinStyle& style,
                    const std::filesystem::path& out,
                    Console& console) {
+  if (kind_by_extension(out) != ".glb") {
+    return console.fail(bad_input(
+        out.string(), "a mannequin is written as GLB alone", "name the result .glb"));
+  }
   const Proportions proportions = recordings::mannequin_proportions(options);
   const Status ok =
       recordings::write_character(out,

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <thread>
@@ -8,7 +9,9 @@
 
 #include "app/commands.h"
 #include "app/version.h"
+#include "capture/check_camera.h"
 #include "capture/detect_tags.h"
+#include "capture/v4l2_device.h"
 
 namespace marey::app {
 namespace {
@@ -42,59 +45,196 @@ struct Check {
   bool good = false;
   std::string finding;
   std::string advice;  ///< When not good.
+  /// What the program ends with when it is not good: a small machine is still one.
+  Exit exit = Exit::kOk;
 };
 
-std::vector<Check> examine() {
+struct Camera {
+  capture::DeviceInfo device;
+  capture::CameraCheck check;
+};
+
+std::vector<Check> examine_machine() {
   const unsigned cores = std::thread::hardware_concurrency();
   const long memory_mib = available_memory_mib();
-  std::vector<Check> checks;
-  checks.push_back({"processor",
-                    cores >= 2,
-                    std::to_string(cores) + " cores",
-                    "two cores or more keep up with four cameras"});
-  checks.push_back({"memory",
-                    memory_mib >= 1500,
-                    std::to_string(memory_mib) + " MiB available",
-                    "close other programs: a session needs up to 1.5 GB"});
-  checks.push_back({"working folder",
-                    can_write_here(),
-                    can_write_here() ? "can be written to" : "cannot be written to",
-                    "run marey in a folder of yours, or give --out one"});
+  const bool writes = can_write_here();
   const bool detector = capture::TagDetector::create().has_value();
-  checks.push_back({"tag detector",
-                    detector,
-                    detector ? "tag36h11 ready" : "cannot be started",
-                    "install libapriltag3"});
+  return {{"processor",
+           cores >= 2,
+           std::to_string(cores) + " cores",
+           "two cores or more keep up with four cameras"},
+          {"memory",
+           memory_mib >= 1500,
+           std::to_string(memory_mib) + " MiB available",
+           "close other programs: a session needs up to 1.5 GB"},
+          {"working folder",
+           writes,
+           writes ? "can be written to" : "cannot be written to",
+           "run marey in a folder of yours, or give --out one",
+           Exit::kDevice},
+          {"tag detector",
+           detector,
+           detector ? "tag36h11 ready" : "cannot be started",
+           "install libapriltag3",
+           Exit::kInternal}};
+}
+
+/// Each camera for about a second, one after the other.
+std::vector<Camera> examine_cameras(const std::vector<capture::DeviceInfo>& devices) {
+  std::vector<Camera> cameras;
+  for (const capture::DeviceInfo& device : devices) {
+    if (device.modes.empty()) continue;
+    capture::DeviceRequest request;
+    request.path = device.path;
+    cameras.push_back({device, capture::check_camera(request)});
+  }
+  return cameras;
+}
+
+Check trouble(const Error& error) {
+  return {"camera", false, error.where + ": " + error.cause, error.next, Exit::kDevice};
+}
+
+std::vector<Check> checks_of(const std::vector<Camera>& cameras,
+                             const std::vector<Error>& troubles) {
+  std::vector<Check> checks;
+  for (const Camera& camera : cameras) {
+    const auto& check = camera.check;
+    if (check.trouble && !check.in_use) {
+      checks.push_back(trouble(*check.trouble));
+    } else {
+      checks.push_back({"camera",
+                        true,
+                        camera.device.path + " (" + camera.device.card +
+                            "): " + capture::summary(check),
+                        {}});
+    }
+  }
+  for (const Error& error : troubles) checks.push_back(trouble(error));
+  if (checks.empty()) {
+    checks.push_back({"cameras", true, "none is plugged in; videos need none", {}});
+  }
   return checks;
+}
+
+Json json_of(const std::vector<capture::DeviceMode>& modes) {
+  Json list = Json::array();
+  for (const auto& mode : modes) {
+    Json rates = Json::array();
+    for (const FrameRate& rate : mode.rates) rates.push_back(rate.hz);
+    list.push_back({{"format", capture::name(mode.format)},
+                    {"width_px", mode.width_px},
+                    {"height_px", mode.height_px},
+                    {"rates_hz", rates}});
+  }
+  return list;
+}
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json json_of(const capture::DeviceSettings& settings) {
+  return {{"format", capture::name(settings.format)},
+          {"width_px", settings.width_px},
+          {"height_px", settings.height_px},
+          {"rate_hz", settings.rate.hz},
+          {"exposure_s", or_null(settings.exposure_s)},
+          {"exposure_is_automatic", settings.exposure_is_automatic},
+          {"focus", or_null(settings.focus)},
+          {"gain", or_null(settings.gain)},
+          {"monotonic_clock", settings.monotonic_clock},
+          {"differences", settings.differences}};
+}
+
+Json json_of(const Camera& camera) {
+  const auto& [device, check] = camera;
+  Json out{{"path", device.path},
+           {"card", device.card},
+           {"bus", device.bus},
+           {"driver", device.driver},
+           {"in_use", check.in_use},
+           {"trouble", check.trouble ? Json(check.trouble->message()) : Json(nullptr)},
+           {"offers", json_of(device.modes)},
+           {"chosen", check.settings ? json_of(*check.settings) : Json(nullptr)}};
+  out["measured"] = {
+      {"rate_hz", check.measured ? Json(check.measured->hz) : Json(nullptr)},
+      {"frames", check.frames},
+      {"dropped", check.dropped},
+      {"damaged", check.damaged}};
+  out["advice"] = check.advice;
+  return out;
+}
+
+void print_json(const std::vector<Check>& checks,
+                const std::vector<Camera>& cameras,
+                bool all_good) {
+  Json list = Json::array();
+  for (const Check& check : checks) {
+    list.push_back(
+        {{"check", check.name}, {"good", check.good}, {"finding", check.finding}});
+    if (!check.good) list.back()["advice"] = check.advice;
+  }
+  Json seen = Json::array();
+  for (const Camera& camera : cameras) seen.push_back(json_of(camera));
+  const Json out{
+      {"version", kVersion}, {"good", all_good}, {"checks", list}, {"cameras", seen}};
+  // Cameras may call themselves anything.
+  std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
+void print_line(const char* verdict, const std::string& what, const std::string& text) {
+  std::printf("%-5s %-16s %s\n", verdict, what.c_str(), text.c_str());
+}
+
+void print_text(const std::vector<Check>& checks, const std::vector<Camera>& cameras) {
+  std::printf("marey %s\n", kVersion);
+  for (const Check& check : checks) {
+    print_line(check.good ? "ok" : "poor",
+               check.name,
+               check.finding + (check.good ? "" : ": " + check.advice));
+  }
+  for (const auto& [device, check] : cameras) {
+    std::printf("\n%s: %s at %s, driver %s\n",
+                device.path.c_str(),
+                device.card.c_str(),
+                device.bus.c_str(),
+                device.driver.c_str());
+    for (const std::string& line : capture::offers(device)) {
+      print_line("", "offers", line);
+    }
+    if (check.settings) {
+      print_line("", "chosen", capture::summary(check));
+      for (const std::string& line : check.settings->differences) {
+        print_line("", "", line);
+      }
+    }
+    for (const std::string& line : check.advice) print_line("", "advice", line);
+  }
 }
 
 }  // namespace
 
 Exit run_doctor(bool json, Console& console) {
-  const std::vector<Check> checks = examine();
-  bool all_good = true;
-  Json list = Json::array();
-  for (const Check& check : checks) {
-    all_good &= check.good;
-    list.push_back(
-        {{"check", check.name}, {"good", check.good}, {"finding", check.finding}});
-    if (!check.good) list.back()["advice"] = check.advice;
+  std::vector<Check> checks = examine_machine();
+  const capture::DeviceList found = capture::list_devices();
+  const std::vector<Camera> cameras = examine_cameras(found.devices);
+  for (Check& check : checks_of(cameras, found.troubles)) {
+    checks.push_back(std::move(check));
   }
+  const bool all_good = std::ranges::all_of(checks, &Check::good);
   if (json) {
-    const Json out{{"version", kVersion}, {"good", all_good}, {"checks", list}};
-    std::printf("%s\n", out.dump(2).c_str());
+    print_json(checks, cameras, all_good);
   } else {
-    std::printf("marey %s\n", kVersion);
-    for (const Check& check : checks) {
-      std::printf("%-5s %-16s %s%s\n",
-                  check.good ? "ok" : "poor",
-                  check.name.c_str(),
-                  check.finding.c_str(),
-                  check.good ? "" : (": " + check.advice).c_str());
-    }
+    print_text(checks, cameras);
   }
   if (!all_good) console.warn("this machine may not be enough: see above");
-  return all_good ? Exit::kOk : Exit::kDevice;
+  Exit exit = Exit::kOk;
+  for (const Check& check : checks) {
+    if (!check.good && check.exit != Exit::kOk) exit = check.exit;
+  }
+  return exit;
 }
 
 }  // namespace marey::app

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "core/extension.h"
 #include "recordings/bvh.h"
 #include "recordings/calibration_file.h"
 #include "recordings/gltf.h"
@@ -28,11 +29,12 @@ Json describe(const Skeleton& skeleton) {
   return {{"joints", skeleton.joints.size()}, {"human_bones", bones}};
 }
 
-Json describe(const Motion& motion) {
+Json describe(const Motion& motion, double ignored_translation_m) {
   const double frames = static_cast<double>(motion.poses.size());
   return {{"frames", motion.poses.size()},
           {"rate_hz", motion.rate.hz},
-          {"duration_s", frames / motion.rate.hz}};
+          {"duration_s", frames / motion.rate.hz},
+          {"ignored_translation_m", ignored_translation_m}};
 }
 
 Result<Json> inspect_session(const std::filesystem::path& file) {
@@ -65,7 +67,7 @@ Result<Json> inspect_calibration(const std::filesystem::path& file) {
          {"size_px", {camera.intrinsics.width_px, camera.intrinsics.height_px}},
          {"focal_px", {camera.intrinsics.focal_px.x, camera.intrinsics.focal_px.y}},
          {"centre_in_world_m", {centre.x, centre.y, centre.z}},
-         {"rms_px", calibration->records[c].rms_px}});
+         {"rms_px", calibration->quality[c].rms_px}});
   }
   return Json{
       {"kind", "calibration"}, {"rms_px", calibration->rms_px}, {"cameras", cameras}};
@@ -129,7 +131,7 @@ Result<Json> inspect_bvh(const std::filesystem::path& file) {
   if (!bvh) return bvh.error();
   return Json{{"kind", "bvh"},
               {"skeleton", describe(bvh->motion.skeleton)},
-              {"motion", describe(bvh->motion)}};
+              {"motion", describe(bvh->motion, bvh->ignored_translation_m)}};
 }
 
 Result<Json> inspect_character(const std::filesystem::path& file) {
@@ -137,13 +139,15 @@ Result<Json> inspect_character(const std::filesystem::path& file) {
   if (!character) return character.error();
   Json out{{"kind", "character"}, {"skeleton", describe(character->skeleton)}};
   if (character->mesh) out["vertices"] = character->mesh->p_in_world.size();
-  if (character->motion) out["motion"] = describe(*character->motion);
+  if (character->motion) {
+    out["motion"] = describe(*character->motion, character->ignored_translation_m);
+  }
   return out;
 }
 
 Result<Json> inspect(const std::filesystem::path& file) {
   std::error_code ignored;
-  const std::string kind = file.extension().string();
+  const std::string kind = kind_by_extension(file);
   const std::string named = file.filename().string();
   if (!std::filesystem::exists(file, ignored)) {
     return bad_input(file.string(), "does not exist", "check its name");
@@ -166,6 +170,11 @@ Result<Json> inspect(const std::filesystem::path& file) {
       "report.json, .bvh, .glb, .gltf, .vrm or .vrma");
 }
 
+/// Files from elsewhere may hold names that are not UTF-8, which JSON must be.
+std::string text(const Json& value, int indent) {
+  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 /// "key: value" lines, nested with two spaces.
 void print(const Json& value, int depth) {
   const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
@@ -176,7 +185,7 @@ void print(const Json& value, int depth) {
            return i.is_object();
          }));
     if (flat) {
-      std::printf("%s%s: %s\n", indent.c_str(), key.c_str(), item.dump().c_str());
+      std::printf("%s%s: %s\n", indent.c_str(), key.c_str(), text(item, -1).c_str());
     } else {
       std::printf("%s%s:\n", indent.c_str(), key.c_str());
       print(item, depth + 1);
@@ -190,7 +199,7 @@ Exit run_inspect(const std::filesystem::path& file, bool json, Console& console)
   const auto found = inspect(file);
   if (!found) return console.fail(found.error());
   if (json) {
-    std::printf("%s\n", found->dump(2).c_str());
+    std::printf("%s\n", text(*found, 2).c_str());
   } else {
     print(*found, 0);
   }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -21,8 +22,24 @@ Status run_stages(Stage stage, Pipeline& pipeline) {
   return pipeline.write_report();
 }
 
-void tell(const Report& report, const std::filesystem::path& out, Console& console) {
+/// Failures are told apart, as errors.
+void tell(const Report& report,
+          const std::vector<Error>& failures,
+          const std::filesystem::path& out,
+          Console& console) {
   std::array<char, 200> text{};
+  for (const ReportCamera& camera : report.cameras) {
+    std::snprintf(
+        text.data(),
+        text.size(),
+        "camera %s: reprojection %.2f px, centre known to %.1f mm, focal length "
+        "to %.2f %%",
+        camera.camera.name.c_str(),
+        camera.quality.rms_px,
+        1000.0 * camera.quality.centre_sigma_m,
+        100.0 * camera.quality.focal_sigma_px / camera.camera.intrinsics.focal_px.x);
+    console.say(text.data());
+  }
   for (const ReportTrial& trial : report.trials) {
     std::snprintf(text.data(),
                   text.size(),
@@ -34,7 +51,12 @@ void tell(const Report& report, const std::filesystem::path& out, Console& conso
                   trial.median_px);
     console.say(text.data());
   }
-  for (const std::string& warning : report.warnings) console.warn(warning);
+  for (const std::string& warning : report.warnings) {
+    const bool told = std::any_of(failures.begin(), failures.end(), [&](const Error& f) {
+      return f.message() == warning;
+    });
+    if (!told) console.warn(warning);
+  }
   if (!report.trials.empty()) {
     console.say("report: " + (out / "report.html").string());
   }
@@ -46,14 +68,21 @@ Exit run_session(Stage stage,
                  const PipelineOptions& options,
                  bool json,
                  Console& console) {
-  auto pipeline = Pipeline::open(options, console);
+  auto pipeline = Pipeline::open(stage, options, console);
   if (!pipeline) return console.fail(pipeline.error());
   if (const Status ok = run_stages(stage, *pipeline); !ok) {
+    for (const Error& failure : pipeline->failures()) {
+      if (failure.message() != ok.error().message()) console.warn(failure.message());
+    }
     return console.fail(ok.error());
   }
-  tell(pipeline->report(), options.out, console);
-  if (json) std::printf("%s\n", report_json(pipeline->report()).c_str());
-  return Exit::kOk;
+  tell(pipeline->report(), pipeline->failures(), options.out, console);
+  if (json) std::fputs(report_json(pipeline->report()).c_str(), stdout);
+  // The rest is done and written; that something is missing must still not pass for
+  // whole.
+  Exit exit = Exit::kOk;
+  for (const Error& failure : pipeline->failures()) exit = console.fail(failure);
+  return exit;
 }
 
 Exit run_demo(const std::filesystem::path& sample,

@@ -40,7 +40,9 @@ function table(columns, rows, caption) {
 }
 
 /** A number with a minus that is one. */
-const fixed = (value, decimals) => value.toFixed(decimals).replace('-', '−');
+/** A number as text; a dash where nothing was measured. */
+const fixed = (value, decimals) =>
+  (value === null ? '–' : value.toFixed(decimals).replace('-', '−'));
 const plural = (count, one, many) => `${count} ${count === 1 ? one : many}`;
 
 /** A length of time in words: "0.43 s", "41 s", "3 min 20 s". */

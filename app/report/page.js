@@ -41,7 +41,9 @@ function fillPage(data, options) {
   const {figures} = data;
   document.title = `${figures.session} – marey report`;
   document.getElementById('head').replaceChildren(...headSection(figures));
-  fillSection('subject', subjectSection(figures.subject, figures.subject.unplaced_tags));
+  if (figures.subject) {
+    fillSection('subject', subjectSection(figures.subject, figures.subject.unplaced_tags));
+  }
   fillSection('avatars', avatarsSection(figures.trials));
   fillSection('time', timingsSection(figures));
   document.getElementById('version').textContent =

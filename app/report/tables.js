@@ -75,7 +75,7 @@ function reprojectionSection(player, trial, figures) {
       {title: 'Corners', number: true, cell: (camera) => String(camera.corners)},
       {title: 'Time offset', number: true, cell: (camera) =>
         `${camera.offset_ms > 0 ? '+' : ''}${fixed(camera.offset_ms, 1)} ms`},
-      {title: 'Offset is', cell: (camera) => (camera.offset_is_given ? 'given' : 'found')},
+      {title: 'Offset is', cell: (camera) => camera.clock},
     ], figures.cameras, 'Reprojection and time offset per camera'),
   ];
 }

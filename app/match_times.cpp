@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/match_times.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <system_error>
+
+#include "app/align_frames.h"
+#include "recordings/take_file.h"
+#include "recordings/video_times.h"
+
+namespace marey::app {
+namespace {
+
+using recordings::Take;
+using recordings::TakeCamera;
+using recordings::Trial;
+using recordings::TrialVideo;
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  std::array<char, 300> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  return text.data();
+}
+
+std::filesystem::path take_beside(const TrialVideo& video) {
+  return video.path.parent_path() / recordings::kTakeFile;
+}
+
+/// Lays the frames out by `aligned`, from instant `range.first` on.
+void renumber(const AlignedCamera& aligned,
+              const std::optional<recordings::FrameRange>& range,
+              CameraDetections& camera) {
+  const int all = static_cast<int>(aligned.recorded.size());
+  const int first = range ? range->first : 0;
+  const int end = range ? std::min(all, range->last + 1) : all;
+  std::vector<FrameDetections> frames;
+  std::vector<std::optional<int>> in_recording;
+  for (int k = first; k < end; ++k) {
+    const auto recorded = aligned.recorded[static_cast<std::size_t>(k)];
+    FrameDetections& frame = frames.emplace_back();
+    frame.frame = k;
+    in_recording.push_back(recorded);
+    if (recorded) {
+      frame.tags = std::move(camera.frames[static_cast<std::size_t>(*recorded)].tags);
+    }
+  }
+  camera.frames = std::move(frames);
+  camera.in_recording = std::move(in_recording);
+}
+
+/// Fewer frames in the video than the take's file has, or the other way round: the last
+/// moments of a recording that was cut off, or a video that is not whole.
+std::size_t usable_frames(const Take& take,
+                          const TakeCamera& recorded,
+                          const CameraDetections& camera,
+                          RecordingTroubles& troubles) {
+  const std::size_t seen = camera.frames.size();
+  const std::size_t timed = recorded.frames.size();
+  if (take.finished && seen < timed && !camera.broken_off) {
+    troubles.failures.push_back(
+        bad_input(camera.source,
+                  "the video ends after " + std::to_string(seen) + " of the " +
+                      std::to_string(timed) + " frames that were recorded",
+                  "copy the file again from where it was recorded"));
+  }
+  return std::min(seen, timed);
+}
+
+const TakeCamera* find_camera(const Take& take, const TrialVideo& video) {
+  const std::string file = video.path.filename().string();
+  const auto found = std::find_if(take.cameras.begin(),
+                                  take.cameras.end(),
+                                  [&](const TakeCamera& c) { return c.file == file; });
+  return found == take.cameras.end() ? nullptr : &*found;
+}
+
+void tell_losses(const TakeCamera& recorded,
+                 const CameraDetections& camera,
+                 const AlignedCamera& aligned,
+                 FrameRate rate,
+                 RecordingTroubles& troubles) {
+  int dropped = 0;
+  for (const recordings::TakeFrame& frame : recorded.frames) {
+    dropped += frame.dropped_before;
+  }
+  const int frames = static_cast<int>(recorded.frames.size());
+  // Some drops are usual, and bridged as what is hidden is.
+  if (dropped > frames / 100) {
+    troubles.warnings.push_back(
+        format("%s: %d frames were dropped while recording, and %d "
+               "recorded",
+               camera.source.c_str(),
+               dropped,
+               frames));
+  }
+  if (aligned.surplus > 0) {
+    troubles.warnings.push_back(
+        format("%s: %d frames are left out: the camera took them between two instants of "
+               "the others",
+               camera.source.c_str(),
+               aligned.surplus));
+  }
+  // A person's fastest limb moves by 3 cm meanwhile.
+  const double spread_s = seconds(aligned.spread);
+  if (spread_s > 0.01 || spread_s > 0.25 / rate.hz) {
+    troubles.warnings.push_back(
+        format("%s: its frames are up to %.1f ms away from a steady rate of %.2f Hz",
+               camera.source.c_str(),
+               1e3 * spread_s,
+               rate.hz));
+  }
+}
+
+Status match_take(const Trial& trial,
+                  std::vector<CameraDetections>& found,
+                  RecordingTroubles& troubles) {
+  const auto file = take_beside(trial.videos.front());
+  const Result<Take> take = recordings::read_take(file);
+  if (!take) return take.error();
+  if (!take->finished) {
+    troubles.warnings.push_back(file.string() +
+                                ": the recording was cut off; what was recorded until "
+                                "then is used");
+  }
+  std::vector<CameraTimes> times;
+  std::vector<const TakeCamera*> recorded;
+  for (const TrialVideo& video : trial.videos) {
+    CameraDetections& camera = found[index(video.camera)];
+    if (camera.frames.empty()) continue;
+    const TakeCamera* one = find_camera(*take, video);
+    if (one == nullptr) {
+      return bad_input(file.string(),
+                       "it knows nothing of " + video.path.filename().string(),
+                       "give the recording's videos their names back");
+    }
+    CameraTimes& stamps = times.emplace_back();
+    stamps.camera = video.camera;
+    const std::size_t usable = usable_frames(*take, *one, camera, troubles);
+    for (std::size_t i = 0; i < usable; ++i) stamps.times.push_back(one->frames[i].time);
+    recorded.push_back(one);
+  }
+  if (times.empty()) return Done{};
+  const auto alignment = align_frames(times, trial.rate);
+  if (!alignment) {
+    return bad_input(
+        file.string(), "it has too few frames to be used", "record the trial again");
+  }
+  for (std::size_t i = 0; i < alignment->cameras.size(); ++i) {
+    const AlignedCamera& aligned = alignment->cameras[i];
+    CameraDetections& camera = found[index(aligned.camera)];
+    renumber(aligned, trial.frames, camera);
+    camera.rate = alignment->rate;
+    camera.offset = camera.offset.value_or(Timestamp{0}) + aligned.offset;
+    tell_losses(*recorded[i], camera, aligned, alignment->rate, troubles);
+  }
+  return Done{};
+}
+
+/// How far a video's frames are from a steady rate; nullopt when it does not tell, or its
+/// times are of other frames than were read.
+std::optional<CameraTimes> uneven_times(const TrialVideo& video,
+                                        const CameraDetections& camera,
+                                        RecordingTroubles& troubles) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(video.path, ignored)) return std::nullopt;
+  auto times = recordings::video_times(video.path);
+  if (!times) return std::nullopt;
+  const auto rate = measured_rate(*times);
+  if (!rate) return std::nullopt;
+  // What a container rounds away is less than this; what is more is a camera's doing.
+  constexpr double kSteady = 0.25;
+  double worst_s = 0.0;
+  for (std::size_t i = 0; i < times->size(); ++i) {
+    const double even_s = static_cast<double>(i) / camera.rate.hz;
+    worst_s = std::max(worst_s, std::abs(seconds((*times)[i] - times->front()) - even_s));
+  }
+  if (worst_s * camera.rate.hz < kSteady) return std::nullopt;
+  const bool usable = times->size() == camera.frames.size() + camera.frames.front().frame;
+  troubles.warnings.push_back(format(
+      "%s: its frame rate varies: frames are up to %.1f ms away from a steady %.2f "
+      "Hz; %s",
+      camera.source.c_str(),
+      1e3 * worst_s,
+      camera.rate.hz,
+      usable ? "its own times are used" : "it is used by frame numbers all the same"));
+  if (!usable) return std::nullopt;
+  return CameraTimes{video.camera, std::move(*times)};
+}
+
+}  // namespace
+
+bool has_take(const Trial& trial) {
+  std::error_code ignored;
+  return trial.is_recorded ||
+         std::filesystem::exists(take_beside(trial.videos.front()), ignored);
+}
+
+Status match_times(const Trial& trial,
+                   std::vector<CameraDetections>& found,
+                   RecordingTroubles& troubles) {
+  if (has_take(trial)) return match_take(trial, found, troubles);
+  if (trial.rate || trial.frames) return Done{};  // The session knows better.
+  std::vector<CameraTimes> uneven;
+  std::optional<FrameRate> steady;
+  for (const TrialVideo& video : trial.videos) {
+    const CameraDetections& camera = found[index(video.camera)];
+    if (camera.frames.empty()) continue;
+    auto times = uneven_times(video, camera, troubles);
+    if (times) {
+      uneven.push_back(std::move(*times));
+    } else if (!steady) {
+      steady = camera.rate;
+    }
+  }
+  for (const CameraTimes& times : uneven) {
+    CameraDetections& camera = found[index(times.camera)];
+    if (!steady) steady = camera.rate;
+    const auto alignment = align_frames(std::span(&times, 1), steady);
+    if (!alignment) continue;
+    renumber(alignment->cameras.front(), std::nullopt, camera);
+    camera.rate = *steady;
+  }
+  return Done{};
+}
+
+}  // namespace marey::app

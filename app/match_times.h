@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/detection.h"
+#include "core/result.h"
+#include "recordings/session.h"
+
+namespace marey::app {
+
+/// What was found wrong with a trial's recording, though it could be used.
+struct RecordingTroubles {
+  std::vector<std::string> warnings;
+  /// Something is missing that should be there: the rest goes on without it.
+  std::vector<Error> failures;
+};
+
+/// Gives frames of `found` (one entry per camera of the session) new numbers where the
+/// videos' own are not to be trusted, so that equal numbers mean equal times:
+/// - of a take, by the times in its file, with each camera's constant lag as its offset;
+/// - of videos whose own time stamps are uneven, by these, each video for itself.
+/// Of steady videos nothing changes. Cuts to the trial's range of frames where it
+/// renumbers.
+///
+/// Errors (kBadInput): a recorded trial's file of times is missing, damaged or newer.
+[[nodiscard]] Status match_times(const recordings::Trial& trial,
+                                 std::vector<CameraDetections>& found,
+                                 RecordingTroubles& troubles);
+
+/// Whether match_times() will renumber frames by a take's file: then all frames of its
+/// videos are wanted.
+[[nodiscard]] bool has_take(const recordings::Trial& trial);
+
+}  // namespace marey::app

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "app/console.h"
+#include "core/board.h"
+#include "recordings/print_board.h"
+#include "recordings/print_words.h"
+#include "recordings/printed_page.h"
+
+namespace marey::app {
+
+/// What `marey tags` and `marey board` were asked for.
+struct PrintArguments {
+  std::filesystem::path out;
+  std::filesystem::path session;  ///< Empty: none.
+  bool json = false;
+  recordings::Paper paper;
+  double margin_m = 0.010;
+  std::string family = "tag36h11";
+  // marey tags
+  std::vector<recordings::NamedTag> ids;
+  double size_m = 0.0;  ///< 0: the session's.
+  bool plates = false;
+  // marey board
+  std::string type = "aprilgrid";
+  bool one_page = false;
+  AprilGrid grid{6, 6, 0.022, 0.0066, 0, 0.0};
+  recordings::CharucoBoard charuco;
+};
+
+/// `marey tags`: a PDF of tags, true to scale.
+[[nodiscard]] Exit run_tags(const PrintArguments& args, Console& console);
+
+/// `marey board`: a PDF of a calibration board.
+[[nodiscard]] Exit run_board(const PrintArguments& args, Console& console);
+
+/// Adds both commands; the one that is given becomes `chosen`. Mistakes in single words,
+/// such as a length without unit, are CLI11's to tell: exit 2.
+void add_print_commands(CLI::App& app,
+                        PrintArguments& args,
+                        std::function<Exit(Console&)>& chosen);
+
+}  // namespace marey::app

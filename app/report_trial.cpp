@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/report_trial.h"
+
+#include <string>
+
+#include "app/draw_frames.h"
+
+namespace marey::app {
+
+Result<ReportTrial> report_trial(const recordings::Trial& trial,
+                                 std::span<const Camera> cameras,
+                                 std::span<const TagOnSegment> tags,
+                                 std::span<const CameraDetections> detections,
+                                 const reconstruct::SolvedTrial& solved) {
+  const Motion& poses = solved.estimate.motion;
+  ReportTrial out;
+  out.name = trial.name;
+  out.rate = poses.rate;
+  out.first_frame = poses.first_frame;
+  out.frames = static_cast<int>(poses.poses.size());
+  out.frames_solved = solved.frames_solved;
+  out.rms_px = solved.rms_px;
+  out.median_px = solved.median_px;
+  out.frame_rms_px = solved.frame_rms_px;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const reconstruct::CameraFit& fit = solved.cameras[c];
+    out.cameras.push_back({cameras[c].name,
+                           fit.rms_px,
+                           fit.median_px,
+                           fit.corners,
+                           fit.offset_s,
+                           fit.clock,
+                           detections[c].dropped});
+  }
+  for (const reconstruct::Gap& gap : solved.gaps) {
+    out.gaps.push_back({std::string(name(gap.segment)),
+                        gap.first_frame,
+                        gap.last_frame,
+                        gap.bridged_as});
+  }
+  out.tags = tags_over_time(tags, detections, poses);
+  auto pictures = draw_frames(trial, cameras, detections, solved.estimate);
+  if (!pictures) return pictures.error();
+  out.pictures = std::move(*pictures);
+  out.bodies.push_back({"subject", poses, solved.estimate.doubt, 0, 0, 0, {}});
+  for (const char* file : {"motion.bvh", "motion.glb", "joints.csv", "segments.csv"}) {
+    out.bodies.front().files.push_back(trial.name + "/" + file);
+  }
+  return out;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/write_motion.h"
+
+#include "recordings/bvh.h"
+#include "recordings/gltf.h"
+#include "recordings/mannequin.h"
+#include "recordings/motion_tables.h"
+
+namespace marey::app {
+
+Status write_motion(const std::filesystem::path& folder,
+                    const EstimatedMotion& estimate,
+                    const Proportions& proportions) {
+  if (const Status ok = recordings::write_joints_csv(folder / "joints.csv", estimate);
+      !ok) {
+    return ok;
+  }
+  if (const Status ok = recordings::write_segments_csv(folder / "segments.csv", estimate);
+      !ok) {
+    return ok;
+  }
+  if (const Status ok = recordings::write_bvh(folder / "motion.bvh", estimate.motion);
+      !ok) {
+    return ok;
+  }
+  return recordings::write_character(folder / "motion.glb",
+                                     estimate.motion.skeleton,
+                                     recordings::make_mannequin_mesh(proportions),
+                                     &estimate.motion);
+}
+
+}  // namespace marey::app

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "core/body.h"
+#include "core/motion.h"
+#include "core/result.h"
+
+namespace marey::app {
+
+/// The files of one solved motion: joints.csv, segments.csv, motion.bvh, and motion.glb
+/// with a mannequin of the subject's proportions. Each appears whole or not at all.
+/// Errors: the disk.
+[[nodiscard]] Status write_motion(const std::filesystem::path& folder,
+                                  const EstimatedMotion& estimate,
+                                  const Proportions& proportions);
+
+}  // namespace marey::app
