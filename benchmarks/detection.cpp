@@ -80,7 +80,7 @@ void decode(benchmark::State& state) {
 }
 BENCHMARK(decode)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Argument: quad_decimate.
+/// Arguments: quad_decimate, and whether patterns are aligned.
 void detect(benchmark::State& state) {
   const KeptFrames kept(/*most=*/32);
   if (kept.views().empty()) {
@@ -89,6 +89,7 @@ void detect(benchmark::State& state) {
   }
   TagDetectorOptions options;
   options.quad_decimate = static_cast<double>(state.range(0));
+  options.align_patterns = state.range(1) != 0;
   auto detector = TagDetector::create(options);
   std::size_t next = 0;
   std::size_t tags = 0;
@@ -99,7 +100,12 @@ void detect(benchmark::State& state) {
   state.counters["tags_per_frame"] =
       benchmark::Counter(static_cast<double>(tags), benchmark::Counter::kAvgIterations);
 }
-BENCHMARK(detect)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+BENCHMARK(detect)
+    ->ArgNames({"decimate", "align"})
+    ->Args({1, 0})
+    ->Args({1, 1})
+    ->Args({2, 1})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace marey::capture

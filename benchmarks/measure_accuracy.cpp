@@ -8,77 +8,26 @@
 // TRIAL/truth/cameras.json (see the recording's README). The truth's world is Z up;
 // nothing else is aligned.
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
+#include "core/humanoid.h"
+#include "core/quantile.h"
 #include "recordings/calibration_file.h"
 #include "recordings/motion_tables.h"
+#include "tests/support/truth.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-struct TruthName {
-  const char* truth;
-  const char* ours;
-};
-
-// The twelve limb joint centres.
-constexpr TruthName kJoints[] = {{"hip_l", "leftUpperLeg"},
-                                 {"hip_r", "rightUpperLeg"},
-                                 {"knee_l", "leftLowerLeg"},
-                                 {"knee_r", "rightLowerLeg"},
-                                 {"ankle_l", "leftFoot"},
-                                 {"ankle_r", "rightFoot"},
-                                 {"shoulder_l", "leftUpperArm"},
-                                 {"shoulder_r", "rightUpperArm"},
-                                 {"elbow_l", "leftLowerArm"},
-                                 {"elbow_r", "rightLowerArm"},
-                                 {"wrist_l", "leftHand"},
-                                 {"wrist_r", "rightHand"}};
-
-glm::dvec3 y_up(double x, double y, double z) {
-  return {x, z, -y};
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(std::lround(share * last))];
-}
-
-using Places = std::map<std::pair<int, std::string>, glm::dvec3>;
-
-Places read_truth(const fs::path& file) {
-  Places places;
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream row(line);
-    int frame = 0;
-    double time_s = 0.0;
-    std::string joint;
-    double x = 0.0;
-    double y = 0.0;
-    double z = 0.0;
-    row >> frame >> time_s >> joint >> x >> y >> z;
-    places[{frame, joint}] = y_up(x, y, z);
-  }
-  return places;
-}
+using marey::quantile;
 
 bool measure_cameras(const fs::path& out, const fs::path& truth) {
   const auto calibration = marey::recordings::read_calibration(out / "calibration.toml");
@@ -86,9 +35,8 @@ bool measure_cameras(const fs::path& out, const fs::path& truth) {
     std::fprintf(stderr, "%s\n", calibration.error().message().c_str());
     return false;
   }
-  std::ifstream in(truth / "cameras.json");
-  const auto json = nlohmann::json::parse(in, nullptr, false);
-  if (json.is_discarded()) {
+  const auto cameras = marey::testing::truth_cameras(truth / "cameras.json");
+  if (!cameras) {
     std::fprintf(stderr, "%s: no cameras.json\n", truth.c_str());
     return false;
   }
@@ -96,16 +44,13 @@ bool measure_cameras(const fs::path& out, const fs::path& truth) {
   std::printf("  %-6s %14s %12s %10s\n", "", "centre off mm", "focal off %", "sigma mm");
   for (std::size_t c = 0; c < calibration->cameras.size(); ++c) {
     const marey::Camera& camera = calibration->cameras[c];
-    for (const auto& t : json["cameras"]) {
-      if (t["name"] != camera.name) continue;
-      const auto& pose = t["world_from_camera"];
-      const glm::dvec3 centre = y_up(pose[0][3], pose[1][3], pose[2][3]);
-      const double focal_px = t["K"][0][0];
+    for (const marey::testing::TruthCamera& t : *cameras) {
+      if (t.name != camera.name) continue;
       std::printf("  %-6s %14.1f %12.3f %10.1f\n",
                   camera.name.c_str(),
-                  1e3 * glm::distance(centre, centre_in_world(camera)),
-                  100.0 * (camera.intrinsics.focal_px.x / focal_px - 1.0),
-                  1e3 * calibration->records[c].centre_sigma_m);
+                  1e3 * glm::distance(t.centre_in_world, centre_in_world(camera)),
+                  100.0 * (camera.intrinsics.focal_px.x / t.focal_px.x - 1.0),
+                  1e3 * calibration->quality[c].centre_sigma_m);
     }
   }
   return true;
@@ -117,19 +62,28 @@ bool measure_trial(const fs::path& out, const fs::path& truth, const std::string
     std::fprintf(stderr, "%s\n", rows.error().message().c_str());
     return false;
   }
-  const Places places = read_truth(truth / trial / "truth" / "joints.csv");
+  const auto places =
+      marey::testing::truth_joints(truth / trial / "truth" / "joints.csv");
+  if (!places) {
+    std::fprintf(stderr, "%s: no joints.csv of %s\n", truth.c_str(), trial.c_str());
+    return false;
+  }
   std::map<std::string, std::vector<double>> by_joint;
   std::vector<double> all;
   std::vector<double> in_sigmas;
   for (const auto& row : *rows) {
-    for (const TruthName& name : kJoints) {
-      const auto place = places.find({row.frame, name.truth});
-      if (row.joint != name.ours || place == places.end()) continue;
-      const double error_mm = 1e3 * glm::distance(row.p_in_world, place->second);
-      by_joint[name.ours].push_back(error_mm);
-      all.push_back(error_mm);
-      in_sigmas.push_back(error_mm / (1e3 * std::sqrt(3.0) * row.sigma_m));
-    }
+    const auto bone = marey::human_bone(row.joint);
+    if (!bone) continue;
+    const auto place = places->find({row.frame, *bone});
+    if (place == places->end()) continue;
+    const double error_mm = 1e3 * glm::distance(row.p_in_world, place->second);
+    by_joint[row.joint].push_back(error_mm);
+    all.push_back(error_mm);
+    in_sigmas.push_back(error_mm / (1e3 * std::sqrt(3.0) * row.sigma_m));
+  }
+  if (all.empty()) {
+    std::fprintf(stderr, "%s: no frame in common with its truth\n", trial.c_str());
+    return false;
   }
   std::printf(
       "%s: %zu joint centres, off by median %.1f, p95 %.1f, max %.1f mm; "
@@ -147,7 +101,7 @@ bool measure_trial(const fs::path& out, const fs::path& truth, const std::string
                 quantile(errors, 0.95),
                 quantile(errors, 1.0));
   }
-  return !all.empty();
+  return true;
 }
 
 }  // namespace

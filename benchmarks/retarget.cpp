@@ -12,24 +12,9 @@
 #include "core/pose.h"
 #include "retarget/normalized_skeleton.h"
 #include "retarget/retarget_motion.h"
+#include "tests/support/count_allocations.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_walk.h"
-
-namespace {
-long allocations = 0;
-}  // namespace
-
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace marey::retarget {
 namespace {
@@ -57,14 +42,15 @@ struct Scene {
 void normalize_and_expand(benchmark::State& state) {
   Scene s;
   std::size_t k = 0;
-  const long before = allocations;
+  const long before = testing::allocations();
   for (auto _ : state) {
     normalize(s.from, s.source_frames[k++ % s.source_frames.size()], s.posture);
     expand(s.posture, s.avatar, s.to, s.avatar_frames, s.out);
     benchmark::DoNotOptimize(s.out.parent_from_joint.data());
   }
   state.counters["allocations_per_frame"] =
-      static_cast<double>(allocations - before) / static_cast<double>(state.iterations());
+      static_cast<double>(testing::allocations() - before) /
+      static_cast<double>(state.iterations());
 }
 BENCHMARK(normalize_and_expand);
 

@@ -3,8 +3,8 @@
 #
 # cmake -D ROOT=<source tree> -P docs.cmake
 #
-# Fails when README.md or a page of docs/ links to, or names, a file of the tree that is
-# not there. Also when there was nothing to check.
+# Fails when README.md, a page of docs/ or a note beside samples and test data links to, or
+# names, a file of the tree that is not there. Also when there was nothing to check.
 cmake_minimum_required(VERSION 3.25)
 
 set(checked 0)
@@ -17,21 +17,29 @@ macro(want path page)
   endif()
 endmacro()
 
+# Longer endings first: the first that fits is taken.
+set(rooms "core|capture|calib|reconstruct|retarget|recordings|live|app")
+set(endings "html|hpp|h|cpp|cmake|css|json|js|mjs|py|toml|txt|md")
+
 file(GLOB pages ${ROOT}/README.md ${ROOT}/docs/*.md)
-foreach(page ${pages})
+file(GLOB_RECURSE notes ${ROOT}/recordings/*.md ${ROOT}/tests/*.md ${ROOT}/benchmarks/*.md)
+list(FILTER notes EXCLUDE REGEX "/node_modules/")
+foreach(page ${pages} ${notes})
   get_filename_component(folder ${page} DIRECTORY)
   file(READ ${page} text)
   # Brackets and semicolons mean something to CMake's lists.
   string(REPLACE ";" "," text "${text}")
   string(REPLACE "](" "LINK=" text "${text}")
+  string(REGEX REPLACE "[][]" " " text "${text}")
   string(REGEX MATCHALL "LINK=[^)#: ]+[)#]" links "${text}")
   list(TRANSFORM links REPLACE "LINK=([^)#]+).*" "\\1")
   foreach(link ${links})
     want(${folder}/${link} ${page})
   endforeach()
-  # Sources are named from the top: core/camera.h.
+  # Sources are named from the top: core/camera.h. A link was looked at above.
+  string(REGEX REPLACE "LINK=[^)]*[)]" " " text "${text}")
   string(REGEX MATCHALL
-    "(core|capture|calib|reconstruct|retarget|recordings|app|tests|cmake)/[a-z_/]*[a-z_]\\.(h|cpp|cmake)"
+    "(${rooms}|tests|benchmarks|docs|cmake)/[A-Za-z0-9_./-]*[A-Za-z0-9_]\\.(${endings})"
     sources "${text}")
   foreach(source ${sources})
     want(${ROOT}/${source} ${page})

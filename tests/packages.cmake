@@ -3,9 +3,12 @@
 #
 # cmake -D ROOT=<source tree> -P packages.cmake
 #
-# Fails when a CMakeLists.txt asks for a Debian package that ./run does not install. Also
-# when there was nothing to check.
+# Fails when a CMakeLists.txt asks for a Debian package that ./run does not install, or for
+# a library without naming its package. Also when there was nothing to check.
 cmake_minimum_required(VERSION 3.25)
+
+# They come with the compiler.
+set(NEEDS_NO_PACKAGE Threads)
 
 file(READ ${ROOT}/run text)
 if(NOT text MATCHES "BUILD_PACKAGES=\\(([^)]*)\\)")
@@ -16,14 +19,24 @@ string(REGEX MATCHALL "[^ \t\r\n]+" installed "${CMAKE_MATCH_1}")
 set(checked 0)
 set(errors "")
 file(GLOB lists RELATIVE ${ROOT} ${ROOT}/CMakeLists.txt ${ROOT}/*/CMakeLists.txt
-  ${ROOT}/*/*/CMakeLists.txt)
+  ${ROOT}/*/*/CMakeLists.txt ${ROOT}/*/*/*/CMakeLists.txt)
+list(FILTER lists EXCLUDE REGEX "^(build|out)/")
 foreach(list ${lists})
-  file(STRINGS ${ROOT}/${list} lines REGEX "DEBIAN")
-  foreach(line ${lines})
-    string(REGEX REPLACE ".*DEBIAN[ \t]+([a-z0-9.+-]+).*" "\\1" package "${line}")
+  file(READ ${ROOT}/${list} text)
+  string(REGEX REPLACE "#[^\n]*" "" text "${text}")
+  string(REGEX MATCHALL "(marey_)?find_package[ \t]*\\([^)]*\\)" calls "${text}")
+  foreach(call ${calls})
     math(EXPR checked "${checked}+1")
-    if(NOT package IN_LIST installed)
-      string(APPEND errors "${list}: ${package} is not in BUILD_PACKAGES of ./run\n")
+    string(REGEX REPLACE "^[a-z_]+[ \t]*\\([ \t\r\n]*([A-Za-z0-9_]+).*" "\\1" library
+      "${call}")
+    if(library IN_LIST NEEDS_NO_PACKAGE)
+      continue()
+    elseif(NOT call MATCHES "^marey_find_package.*[ \t\r\n]DEBIAN[ \t\r\n]+([a-z0-9.+-]+)")
+      string(APPEND errors
+        "${list}: ${library} names no package: use marey_find_package( ... DEBIAN ...)\n")
+    elseif(NOT CMAKE_MATCH_1 IN_LIST installed)
+      string(APPEND errors
+        "${list}: ${CMAKE_MATCH_1} is not in BUILD_PACKAGES of ./run\n")
     endif()
   endforeach()
 endforeach()

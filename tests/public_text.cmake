@@ -38,9 +38,13 @@ if(places)
   message(FATAL_ERROR "names a place on one machine:\n${places}")
 endif()
 
-files_of(unlicensed grep -L "SPDX-License-Identifier: Apache-2.0" --
-  *.h *.cpp *.py *.mjs *.js *.css)
-if(unlicensed)
-  message(FATAL_ERROR "lacks its two SPDX lines:\n${unlicensed}")
-endif()
+foreach(line "SPDX-FileCopyrightText: The marey authors"
+             "SPDX-License-Identifier: Apache-2.0")
+  files_of(unlicensed grep -L "${line}" --
+    *.h *.hpp *.cpp *.py *.mjs *.js *.css *.html *.sh *.cmake run */run
+    CMakeLists.txt tests/*CMakeLists.txt benchmarks/*CMakeLists.txt)
+  if(unlicensed)
+    message(FATAL_ERROR "lacks the line ${line}:\n${unlicensed}")
+  endif()
+endforeach()
 message(STATUS "files checked: ${count}")

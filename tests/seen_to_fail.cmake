@@ -9,12 +9,17 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(house ${WORK}/${CASE})
-set(licence "// SPDX-FileCopyrightText: The marey authors
-// SPDX-License-Identifier: Apache-2.0
-")
+set(licence "SPDX-FileCopyrightText: The marey authors"
+  "SPDX-License-Identifier: Apache-2.0")
 
 function(source file text)
-  file(WRITE ${house}/${file} "${licence}${text}\n")
+  list(JOIN licence "\n// " lines)
+  file(WRITE ${house}/${file} "// ${lines}\n${text}\n")
+endfunction()
+
+function(script file text)
+  list(JOIN licence "\n# " lines)
+  file(WRITE ${house}/${file} "# ${lines}\n${text}\n")
 endfunction()
 
 function(build_sound_house)
@@ -27,21 +32,25 @@ struct Cloud { std::vector<double> points; };")
   source(calib/residuals.h "#include <ceres/ceres.h>")
   source(calib/place.cpp "#include \"calib/place.h\"\n#include \"calib/residuals.h\"")
   source(app/report/page.cpp "#include \"calib/place.h\"")
-  file(WRITE ${house}/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+  source(tests/support/scene.h "#include \"core/point.h\"")
+  source(tests/calib/place_test.cpp "#include <gtest/gtest.h>
+#include \"calib/place.h\"
+#include \"tests/support/scene.h\"")
+  script(CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
 project(house LANGUAGES CXX)
 set(CMAKE_CXX_STANDARD 20)
 include(\${HELPERS}/marey_add_module.cmake)
 marey_find_package(glm 0.9 DEBIAN libglm-dev)
 if(EXISTS \${PROJECT_SOURCE_DIR}/core)
   add_subdirectory(core)
-endif()\n")
-  file(WRITE ${house}/core/CMakeLists.txt
-    "marey_add_module(core HEADERS point.h SOURCES point.cpp)\n")
-  file(WRITE ${house}/calib/CMakeLists.txt
-    "marey_add_module(calib HEADERS place.h SOURCES place.cpp USES marey::core)\n")
-  file(WRITE ${house}/app/CMakeLists.txt "add_executable(house report/page.cpp)\n")
+endif()")
+  script(core/CMakeLists.txt
+    "marey_add_module(core HEADERS point.h SOURCES point.cpp)")
+  script(calib/CMakeLists.txt
+    "marey_add_module(calib HEADERS place.h SOURCES place.cpp USES marey::core)")
+  script(app/CMakeLists.txt "add_executable(house report/page.cpp)")
   file(WRITE ${house}/README.md "see [the app](app/report/page.cpp#there), core/point.h\n")
-  file(WRITE ${house}/run "readonly BUILD_PACKAGES=(\n  cmake libglm-dev)\n")
+  script(run "readonly BUILD_PACKAGES=(\n  cmake libglm-dev)")
 endfunction()
 
 # Each guard, run on the small house as ctest runs it on the real one.
@@ -67,6 +76,10 @@ macro(packages out_result out_text)
   run_script(packages.cmake ${out_result} ${out_text})
 endmacro()
 
+macro(sizes out_result out_text)
+  run_script(sizes.cmake ${out_result} ${out_text})
+endmacro()
+
 macro(public_text out_result out_text)
   set(git git -c safe.directory=* -C ${house})
   execute_process(COMMAND ${git} init -q COMMAND_ERROR_IS_FATAL ANY)
@@ -83,6 +96,20 @@ function(headers_stand_alone out_result out_text)
     COMMAND ${CMAKE_COMMAND} --build ${house}/build
             --target all_verify_interface_header_sets
     RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  set(${out_result} ${result} PARENT_SCOPE)
+  set(${out_text} "${text}" PARENT_SCOPE)
+endfunction()
+
+# clang-tidy as the preset tidy has it.
+function(tidy out_result out_text)
+  find_program(CLANG_TIDY clang-tidy)
+  if(NOT CLANG_TIDY)
+    message(FATAL_ERROR "skipped: clang-tidy is missing; apt-get install clang-tidy")
+  endif()
+  execute_process(
+    COMMAND ${CLANG_TIDY} --quiet --config-file=${SOURCE}/.clang-tidy
+            ${house}/core/point.cpp -- -std=c++20 -I${house}
+    RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_QUIET)
   set(${out_result} ${result} PARENT_SCOPE)
   set(${out_text} "${text}" PARENT_SCOPE)
 endfunction()
@@ -138,24 +165,64 @@ fault(a_core_that_uses_more_than_glm layering core/point.cpp
   "#include <Eigen/Dense>" "core has no business with <Eigen/Dense>")
 fault(a_room_that_is_not_listed layering utils/misc.h
   "#pragma once" "utils/: holds C.. and is no room")
+fault(a_header_under_another_name layering core/point.hpp
+  "#include <Eigen/Dense>" "core/point.hpp: code of this kind has no place here")
+fault(a_script_in_a_room layering core/point.js
+  "let point" "core/point.js: code of this kind has no place here")
+fault(an_include_in_disguise layering calib/place.cpp
+  "#include CAPTURE_HEADER" "calib/place.cpp: this include cannot be followed")
+fault(a_test_that_includes_another_room layering tests/calib/place_test.cpp
+  "#include \"capture/frame.h\"" "tests/calib may not include capture/frame.h")
+fault(a_test_that_includes_another_rooms_tests layering tests/calib/place_test.cpp
+  "#include \"tests/capture/artist.h\"" "tests/calib may not include tests/capture")
+fault(a_shared_scene_that_includes_a_room layering tests/support/scene.h
+  "#include \"calib/place.h\"" "tests/support may not include calib/place.h")
+fault(a_benchmark_that_includes_the_app layering benchmarks/frames.cpp
+  "#include \"app/page.h\"" "benchmarks may not include app/page.h")
+fault(tests_of_no_room layering tests/utils/misc_test.cpp
+  "#include \"core/point.h\"" "tests/utils/: tests no room")
 fault(a_room_without_public_headers layering live/CMakeLists.txt
   "add_library(live live.cpp)" "live/CMakeLists.txt: no HEADERS found")
 fault(a_machine_path public_text README.md
   "see ${slash}home/me/video.mp4" "names a place on one machine")
 fault(a_source_without_a_licence public_text core/bare.h
-  "#pragma once" "lacks its two SPDX lines")
+  "#pragma once" "lacks the line SPDX-FileCopyrightText.*core/bare.h")
+fault(a_source_with_half_a_licence public_text core/half.h
+  "// SPDX-FileCopyrightText: The marey authors" "SPDX-License-Identifier.*core/half.h")
+fault(a_list_without_a_licence public_text tests/core/CMakeLists.txt
+  "marey_add_tests(core)" "lacks the line SPDX.*tests/core/CMakeLists.txt")
+fault(a_script_without_a_licence public_text cmake/bare.cmake
+  "set(bare TRUE)" "lacks the line SPDX.*cmake/bare.cmake")
+fault(a_page_without_a_licence public_text app/report/page.html
+  "<p>" "lacks the line SPDX.*app/report/page.html")
 fault(a_header_that_needs_another headers_stand_alone core/point.h
   "inline std::string name;" "point.h.*string")
 fault(an_installer_that_forgets_a_package packages calib/CMakeLists.txt
   "marey_find_package(Ceres 2.1 DEBIAN libceres-dev)" "libceres-dev is not in")
+fault(a_library_without_a_package packages tests/calib/CMakeLists.txt
+  "find_package(Ceres 2.1 REQUIRED)" "tests/calib/CMakeLists.txt: Ceres names no package")
 fault(a_link_that_leads_nowhere docs README.md
   "see [there](docs/there.md)" "docs/there.md is not there")
 fault(a_page_that_names_a_lost_file docs README.md
   "see core/gone.h" "core/gone.h is not there")
+fault(a_page_that_names_a_lost_number docs docs/page.md
+  "see capture/mp4_gone.h" "capture/mp4_gone.h is not there")
+fault(a_page_that_names_a_lost_script docs README.md
+  "see app/report/gone.js" "app/report/gone.js is not there")
+fault(a_note_that_names_a_lost_file docs recordings/samples/README.md
+  "see recordings/gone.cpp" "recordings/gone.cpp is not there")
+string(REPEAT "// One line of many.\n" 400 many_lines)
+fault(a_file_without_end sizes core/point.cpp
+  "${many_lines}" "core/point.cpp: 40[0-9] lines are more than 400")
+string(REPEAT "  ++sum;\n" 81 many_statements)
+fault(a_function_without_end tidy core/point.cpp
+  "int total() {\n  int sum = 0;\n${many_statements}  return sum;\n}"
+  "readability-function-size")
 
 emptied(an_empty_house layering "${house}/*" "nothing was checked")
 emptied(a_checkout_without_files public_text "${house}/*" "nothing was checked")
 emptied(a_house_without_pages docs "${house}/README.md" "names checked: 0")
+emptied(a_house_without_sources sizes "${house}/*" "files checked: 0")
 emptied(a_house_without_packages packages "${house}/CMakeLists.txt" "packages checked: 0")
 emptied(a_house_without_rooms headers_stand_alone "${house}/core"
   "all_verify_interface_header_sets")

@@ -75,7 +75,6 @@ AssertionResult declines(const SpoiledSession& session,
 }
 
 const std::vector<std::string> kCalibrated{"calibration.toml"};
-const std::vector<std::string> kFitted{"calibration.toml", "subject.toml"};
 
 // --- session.toml
 // -----------------------------------------------------------------------
@@ -90,19 +89,27 @@ TEST(BadSession, WithAWrongKeyIsDeclinedAtItsLine) {
 TEST(BadSession, WithoutAKeyThatIsNeededIsDeclined) {
   SpoiledSession session;
   session.replace("stature_m = 1.734\n", "");
-  EXPECT_TRUE(declines(session, session.run(), {"session.toml:", "stature_m", ""}));
+  EXPECT_TRUE(
+      declines(session,
+               session.run(),
+               {"session.toml:7: ", "the key \"stature_m\" is missing", "add it"}));
 }
 
 TEST(BadSession, WithATagOnTwoSegmentsIsDeclined) {
   SpoiledSession session;
   session.replace("id = 46", "id = 41");
-  EXPECT_TRUE(declines(session, session.run(), {"session.toml:", "41", ""}));
+  EXPECT_TRUE(declines(session,
+                       session.run(),
+                       {"session.toml:", "tag 41 is listed twice", "correct its id"}));
 }
 
 TEST(BadSession, WithABodyTagThatIsOnTheBoardIsDeclined) {
   SpoiledSession session;
   session.replace("id = 46", "id = 7");
-  EXPECT_TRUE(declines(session, session.run(), {"session.toml:", "7", ""}));
+  EXPECT_TRUE(
+      declines(session,
+               session.run(),
+               {"session.toml:", "tag 7 is on the body and on the board", "another id"}));
 }
 
 TEST(BadSession, WithAVideoThatIsNotThereIsDeclinedByItsLine) {
@@ -111,24 +118,90 @@ TEST(BadSession, WithAVideoThatIsNotThereIsDeclinedByItsLine) {
   EXPECT_TRUE(declines(session, session.run(), {"session.toml:", "walk/cam9.mp4", ""}));
 }
 
+TEST(BadSession, WithoutATrialThatTheStageNeedsIsDeclinedBeforeAnyWork) {
+  SpoiledSession session;
+  session.replace_in_trial("static", "kind = \"static\"", "kind = \"motion\"");
+  const ProgramRun run = session.run();
+  EXPECT_TRUE(declines(
+      session, run, {"session.toml: ", "no trial of kind \"static\"", "record one"}));
+  EXPECT_EQ(run.err.find("tags in"), std::string::npos) << run.err;
+}
+
+TEST(BadSession, WithTwoStaticTrialsIsDeclinedByTheSecondsLine) {
+  SpoiledSession session;
+  session.replace_in_trial("rom", "kind = \"range-of-motion\"", "kind = \"static\"");
+  EXPECT_TRUE(declines(session,
+                       session.run(),
+                       {"session.toml:", "\"static\" already has the kind", "keep the"}));
+}
+
+TEST(BadSession, WhoseFloorIsAllOfTheCalibrationIsDeclined) {
+  SpoiledSession session;
+  session.replace_in_trial("floor", "frames = [0, 3]\n", "");
+  EXPECT_TRUE(declines(
+      session,
+      session.run(),
+      {"session.toml:", "the whole of a video of trial \"calib\"", "frames = ["}));
+}
+
+TEST(BadSession, WithAnOffsetOfManyFramesIsDeclined) {
+  SpoiledSession session;
+  session.replace_in_trial("walk",
+                           "kind = \"motion\"\n",
+                           "kind = \"motion\"\ntime_offset_s = { cam1 = 0.5 }\n");
+  EXPECT_TRUE(
+      declines(session,
+               session.run(),
+               {"session.toml:", "\"cam1\" is more than two frames", "start together"}));
+}
+
+TEST(BadAvatar, ThatIsNotThereIsToldBeforeAnyWork) {
+  SpoiledSession session;
+  const ProgramRun run = session.run("process", {"--avatar", "no-such-body.glb"});
+  EXPECT_TRUE(declines(session, run, {"no-such-body.glb: ", "does not exist", "check"}));
+  EXPECT_EQ(run.err.find("tags in"), std::string::npos) << run.err;
+}
+
 // --- Videos
 // -----------------------------------------------------------------------------
 
-TEST(BadVideo, CutBeforeItsIndexCannotBeOpened) {
+/// Whether the run ended with one error, which the report tells too, and with results.
+AssertionResult goes_on(const SpoiledSession& session,
+                        const ProgramRun& run,
+                        const std::string& where,
+                        const std::string& cause) {
+  if (run.exit_code != 3) {
+    return AssertionFailure() << "exit code " << run.exit_code << "\n" << run.err;
+  }
+  const auto errors = error_lines(run.err);
+  if (errors.size() != 1 || errors.front().find(where) == std::string::npos ||
+      errors.front().find(cause) == std::string::npos) {
+    return AssertionFailure() << "expected \"" << where << "\", \"" << cause << "\" in\n"
+                              << run.err;
+  }
+  const auto report = nlohmann::json::parse(run.out);
+  if (report.at("warnings").dump().find(cause) == std::string::npos) {
+    return AssertionFailure() << "the report does not tell";
+  }
+  if (!session.has_result("walk/joints.csv")) return AssertionFailure() << "no motion";
+  return AssertionSuccess();
+}
+
+TEST(BadVideo, OfAMotionCutBeforeItsIndexIsLeftOut) {
   SpoiledSession session;
   copy_part_without_index(SpoiledSession::sample_video("walk", "cam1"),
                           session.new_video("walk", "cam1"),
                           0.6);
-  EXPECT_TRUE(declines(session, session.run(), {"walk-cam1.mp4: ", "video", ""}));
+  EXPECT_TRUE(
+      goes_on(session, session.run(), "walk-cam1.mp4: ", "cannot be opened as a video"));
 }
 
-TEST(BadVideo, CutAfterItsIndexEndsEarly) {
+TEST(BadVideo, OfAMotionCutAfterItsIndexIsUsedAsFarAsItGoes) {
   SpoiledSession session;
   copy_part(SpoiledSession::sample_video("walk", "cam1"),
             session.new_video("walk", "cam1"),
             0.6);
-  EXPECT_TRUE(declines(
-      session, session.run(), {"walk-cam1.mp4: ", " of 90 frames", "copy the file"}));
+  EXPECT_TRUE(goes_on(session, session.run(), "walk-cam1.mp4: ", " of 90 frames"));
 }
 
 TEST(BadVideo, WithoutASingleTagIsNamed) {
@@ -144,7 +217,8 @@ TEST(BadVideo, WithoutASingleTagIsNamed) {
 TEST(BadVideo, ThatIsATextFileCannotBeOpened) {
   SpoiledSession session;
   copy_part(session.file(), session.new_video("static", "cam0"), 1.0);
-  EXPECT_TRUE(declines(session, session.run(), {"static-cam0.mp4: ", "", ""}));
+  EXPECT_TRUE(declines(
+      session, session.run(), {"static-cam0.mp4: ", "cannot be opened as a video", "."}));
 }
 
 // --- Sizes that were not measured
@@ -223,11 +297,22 @@ TEST(SwappedCameras, InTheCalibrationAreNoticedInWhatFollows) {
       session, session.run(), {"/cam1.mp4", "look swapped", "calibration"}, kCalibrated));
 }
 
-TEST(SwappedCameras, InTheWavedTrialAloneAreNoticedInWhatFollows) {
+TEST(SwappedCameras, InTheWavedTrialAloneAreNamedByTheFloor) {
   SpoiledSession session;
   swap_cameras(session, "calib");
   EXPECT_TRUE(declines(
-      session, session.run(), {"/cam1.mp4", "look swapped", "calibration"}, kCalibrated));
+      session,
+      session.run(),
+      {"/cam1.mp4", "look swapped: the board on the floor", "calibration trial's"}));
+}
+
+TEST(SwappedCameras, InTheFloorTrialAloneAreNamed) {
+  SpoiledSession session;
+  swap_cameras(session, "floor");
+  EXPECT_TRUE(
+      declines(session,
+               session.run(),
+               {"/cam1.mp4", "look swapped: the board on the floor", "floor trial's"}));
 }
 
 // The board shows itself to cam0 in the even frames, to the others in the odd ones, and

@@ -18,6 +18,7 @@
 
 #include "core/camera.h"
 #include "core/humanoid.h"
+#include "core/quantile.h"
 #include "recordings/calibration_file.h"
 #include "recordings/motion_tables.h"
 #include "tests/support/truth.h"

@@ -5,122 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "app/base64.h"
 #include "core/pose.h"
-#include "tests/support/synthetic_walk.h"
+#include "tests/app/sample_report.h"
 
 namespace marey::app {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* kHostile = "</script><b>x</b>&<!--\"'\xE2\x80\xA8";
-constexpr int kFrames = 40;
-
-/// A picture of 2 x 2 pixels would do; the page never decodes it in these tests.
-const std::string kJpegStart = "\xFF\xD8\xFF\xE0";
-
-ReportBody subject() {
-  ReportBody body;
-  body.name = "subject";
-  body.motion = marey::testing::synthetic_walk(kFrames, 30.0).motion;
-  const std::size_t joints = body.motion.skeleton.joints.size();
-  for (int frame = 0; frame < kFrames; ++frame) {
-    const auto source = frame < 20   ? Source::kMeasured
-                        : frame < 30 ? Source::kRepaired
-                                     : Source::kInferred;
-    body.doubt.emplace_back(joints, JointDoubt{0.001 * (frame + 1), source});
-  }
-  body.files = {"walk/motion.bvh", "javascript:alert(1)/<b>x.glb"};
-  return body;
-}
-
-ReportBody avatar(const std::string& name) {
-  ReportBody body = subject();
-  body.name = name;
-  body.doubt.clear();
-  body.slide_before_cm_per_s = 12.3456;
-  body.slide_after_cm_per_s = 0.1234;
-  body.penetration_mm = 1.5;
-  return body;
-}
-
-ReportTrial trial(const std::string& name) {
-  ReportTrial out;
-  out.name = name;
-  out.rate = {30.0};
-  out.first_frame = 5;
-  out.frames = kFrames;
-  out.frames_solved = 39;
-  out.rms_px = 0.51239;
-  out.median_px = 0.4;
-  out.cameras = {{"left", 0.5, 0.3, 1000, 0.0, true},
-                 {kHostile, 0.6, 0.4, 900, 0.00731, false}};
-  out.frame_rms_px.assign(kFrames, 0.5);
-  out.frame_rms_px[7] = 0.0;
-  out.tags = {{41, "hips", std::vector<int>(kFrames, 2)},
-              {42, kHostile, std::vector<int>(kFrames, 0)}};
-  out.tags[1].cameras_seeing[3] = 1;
-  out.gaps = {{"leftFoot", 25, 34, Source::kRepaired},
-              {kHostile, 40, 44, Source::kInferred}};
-  ReportPicture picture;
-  picture.camera = kHostile;
-  picture.frame = 12;
-  picture.width_px = 640;
-  picture.height_px = 360;
-  picture.jpeg = kJpegStart;
-  picture.bones = {{{10, 20}, {30, 40}, Source::kMeasured},
-                   {{30, 40}, {50, 60}, Source::kInferred}};
-  picture.tags = {{41, {{1, 2}, {3, 2}, {3, 4}, {1, 4}}}};
-  out.pictures = {picture};
-  out.bodies = {subject(), avatar(kHostile), avatar("robot")};
-  return out;
-}
-
-Report report() {
-  Report out;
-  out.session = kHostile;
-  out.version = "0.1.0";
-  for (const double x : {-2.0, 2.0}) {
-    ReportCamera camera;
-    camera.camera.name = x < 0 ? "left" : kHostile;
-    camera.camera.intrinsics.width_px = 1280;
-    camera.camera.intrinsics.height_px = 720;
-    camera.camera.intrinsics.centre_px = {639.5, 359.5};
-    // Looks along -Z from x, 1.5, 4: half a turn about X.
-    camera.camera.camera_from_world =
-        inverse(RigidTransform{{0.0, 1.0, 0.0, 0.0}, {x, 1.5, 4.0}});
-    camera.rms_px = 0.21;
-    camera.centre_sigma_m = 0.0012;
-    camera.focal_sigma_px = 0.8;
-    camera.coverage = 0.62;
-    camera.views = 51;
-    out.cameras.push_back(camera);
-  }
-  out.calibration_rms_px = 0.2149;
-  out.subject.name = kHostile;
-  out.subject.stature_m = 1.75;
-  out.subject.proportions = average_proportions(1.75);
-  out.subject.joint_centre_sigma_m.fill(0.002);
-  out.subject.tags = {{{TagId{41}, HumanBone::kHips, 0.09}, {}, 0.0011, 0.01, 77}};
-  out.subject_rms_px = 0.44;
-  out.limb_ratio = 1.02;
-  out.unplaced_tags = {99};
-  out.trials = {trial("walk"), trial(kHostile)};
-  out.timings = {{"tags", 3.0}, {kHostile, 1.0}};
-  out.recorded_s = 2.0;
-  out.warnings = {std::string("tag 99 was never seen ") + kHostile};
-  return out;
-}
 
 json parsed(const Report& value) {
   return json::parse(report_json(value));
@@ -311,91 +209,6 @@ TEST(ReportHtml, LeavesOutWhatIsNotPartOfTheFigure) {
 
 TEST(ReportHtml, StaysSmall) {
   EXPECT_LT(report_html(report()).size(), 1'000'000u);
-}
-
-// --- In a browser ---
-
-constexpr const char* kBrowser = "/usr/bin/chromium";
-
-struct Shown {
-  std::string page;     ///< The document after its scripts ran.
-  std::string console;  ///< What the browser said.
-};
-
-std::string text_of(const std::filesystem::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
-
-/// Opens a report in a headless browser; `wishes` are those of app/report/page.js.
-Shown show(const Report& value, const std::string& wishes) {
-  std::string pattern =
-      (std::filesystem::temp_directory_path() / "marey-report-XXXXXX").string();
-  const std::filesystem::path folder = mkdtemp(pattern.data());
-  std::ofstream(folder / "report.html") << report_html(value);
-  const std::string command =
-      "cd '" + folder.string() + "' && timeout 120 " + kBrowser +
-      " --headless --no-sandbox --disable-quic --no-first-run"
-      " --disable-background-networking --disable-component-update --disable-sync"
-      " --use-angle=swiftshader --enable-unsafe-swiftshader --window-size=1280,900"
-      " --enable-logging=stderr --user-data-dir=profile --virtual-time-budget=5000"
-      " --dump-dom 'file://" +
-      (folder / "report.html").string() + "#" + wishes + "' > page 2> console";
-  EXPECT_EQ(std::system(command.c_str()), 0);
-  Shown shown{text_of(folder / "page"), text_of(folder / "console")};
-  std::filesystem::remove_all(folder);
-  return shown;
-}
-
-/// The value of an attribute of <html>.
-std::string status(const Shown& shown, const std::string& attribute) {
-  const std::string start = "data-" + attribute + "=\"";
-  const std::size_t at = shown.page.find(start);
-  if (at == std::string::npos) return "";
-  const std::size_t from = at + start.size();
-  return shown.page.substr(from, shown.page.find('"', from) - from);
-}
-
-class ReportInABrowser : public ::testing::Test {
- protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(kBrowser)) {
-      GTEST_SKIP() << kBrowser << " is missing; apt-get install chromium";
-    }
-  }
-};
-
-TEST_F(ReportInABrowser, OpensWithoutAWordOnTheConsole) {
-  const Shown shown = show(report(), "check");
-  EXPECT_EQ(status(shown, "status"), "ready");
-  EXPECT_EQ(shown.console.find("CONSOLE"), std::string::npos) << shown.console;
-}
-
-TEST_F(ReportInABrowser, DrawsShadedBodies) {
-  const Shown shown = show(report(), "check");
-  EXPECT_EQ(status(shown, "drawing"), "shaded");
-  // A floor with its grid alone has about 150.
-  EXPECT_GT(std::atoi(status(shown, "colours").c_str()), 500);
-}
-
-TEST_F(ReportInABrowser, DrawsLinesWhereThereIsNoWebGl) {
-  const Shown shown = show(report(), "check,lines");
-  EXPECT_EQ(status(shown, "status"), "ready");
-  EXPECT_EQ(status(shown, "drawing"), "lines");
-  // A grid alone has about 5.
-  EXPECT_GT(std::atoi(status(shown, "colours").c_str()), 20);
-}
-
-TEST_F(ReportInABrowser, MakesNoElementOutOfAName) {
-  const Shown shown = show(report(), "check");
-  EXPECT_EQ(shown.page.find("<b>x"), std::string::npos);
-}
-
-TEST_F(ReportInABrowser, OpensWithoutATrial) {
-  const Shown shown = show(Report{}, "check");
-  EXPECT_EQ(status(shown, "status"), "ready");
-  EXPECT_EQ(shown.console.find("CONSOLE"), std::string::npos) << shown.console;
 }
 
 }  // namespace

@@ -89,9 +89,12 @@ fs::path SpoiledSession::sample_video(const std::string& trial,
   return kSample / (trial == "floor" ? "calib" : trial) / (camera + ".mp4");
 }
 
-ProgramRun SpoiledSession::run(const std::string& stage) const {
-  return run_program(MAREY_PROGRAM,
-                     {stage, file().string(), "--out", out().string(), "--json"});
+ProgramRun SpoiledSession::run(const std::string& stage,
+                               const std::vector<std::string>& more) const {
+  std::vector<std::string> arguments{
+      stage, file().string(), "--out", out().string(), "--json"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return run_program(MAREY_PROGRAM, arguments);
 }
 
 bool SpoiledSession::has_result(const std::string& name) const {

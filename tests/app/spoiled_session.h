@@ -37,7 +37,8 @@ class SpoiledSession {
                                                           const std::string& camera);
 
   /// Runs a stage on it.
-  [[nodiscard]] ProgramRun run(const std::string& stage = "process") const;
+  [[nodiscard]] ProgramRun run(const std::string& stage = "process",
+                               const std::vector<std::string>& more = {}) const;
 
   [[nodiscard]] std::filesystem::path file() const { return folder_ / "session.toml"; }
   [[nodiscard]] std::filesystem::path out() const { return folder_ / "out"; }

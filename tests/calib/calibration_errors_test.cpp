@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -114,6 +116,32 @@ TEST(CalibrateCameras, NoticesABoardThatLiesFaceDown) {
   EXPECT_EQ(error.where, "floor/cam0.mp4");
   EXPECT_TRUE(contains(error.cause, "below the floor")) << error.cause;
   EXPECT_EQ(error.next, "lay the board on the floor with its printed face up");
+}
+
+TEST(CalibrateCameras, NamesTwoFloorVideosThatAreSwapped) {
+  const auto cameras = ring_of_cameras();
+  for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}}) {
+    BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+    std::swap(recording.floor[a].frames, recording.floor[b].frames);
+    const Error error = error_of(cameras, recording);
+    EXPECT_EQ(error.where,
+              "floor/cam" + std::to_string(a) + ".mp4 and floor/cam" + std::to_string(b) +
+                  ".mp4");
+    EXPECT_TRUE(contains(error.cause, "look swapped")) << error.cause;
+    EXPECT_TRUE(contains(error.next, "exchange them")) << error.next;
+  }
+}
+
+TEST(CalibrateCameras, NamesACameraThatWasMovedBeforeTheFloorTrial) {
+  const auto cameras = ring_of_cameras();
+  auto moved = cameras;
+  // 20 cm to its right.
+  moved[2].camera_from_world.translation.x -= 0.2;
+  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  recording.floor[2] = wave_board(moved, kBoard, kFrames).floor[2];
+  const Error error = error_of(cameras, recording);
+  EXPECT_EQ(error.where, "floor/cam2.mp4");
+  EXPECT_TRUE(contains(error.next, "no camera was moved")) << error.next;
 }
 
 TEST(CalibrateCameras, NoticesAWrongGap) {

@@ -38,8 +38,9 @@ double worst_px(const Corners& a, const Corners& b) {
 }
 
 std::optional<Alignment> align(const cv::Mat& image, const DrawnTag& tag) {
+  AlignScratch scratch;
   return align_pattern(
-      tests::frame_of(image), tests::pattern_of(tag), displaced(tag.corners_px));
+      tests::frame_of(image), tests::pattern_of(tag), displaced(tag.corners_px), scratch);
 }
 
 // 0.04 px: the drawing has 8 steps to a pixel and the image 256 greys.

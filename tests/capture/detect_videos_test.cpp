@@ -4,19 +4,21 @@
 
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/capture/scratch_folder.h"
+#include "tests/capture/scratch_video.h"
 #include "tests/capture/tag_artist.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::capture {
 namespace {
 
-using tests::ScratchFolder;
+using testing::ScratchFolder;
 
 /// A folder of `frames` images in which tag `id` moves to the right, 5 px a frame; it is
 /// missing from frame 2.
@@ -77,7 +79,7 @@ TEST(DetectVideos, FillsInEverythingAboutACamera) {
   EXPECT_EQ(camera.width_px, 160);
   EXPECT_EQ(camera.height_px, 100);
   EXPECT_EQ(camera.rate.hz, 50.0);
-  EXPECT_EQ(camera.offset.count(), 7'300'000);
+  EXPECT_EQ(camera.offset->count(), 7'300'000);
 }
 
 TEST(DetectVideos, KeepsFramesWithoutTags) {
@@ -114,11 +116,11 @@ TEST(DetectVideos, NumbersTheFramesOfARangeAsInTheWholeRecording) {
 TEST(DetectVideos, FindsTheSameWithAnyNumberOfWorkers) {
   const ScratchFolder scratch;
   const auto inputs = three_cameras(scratch);
-  const auto alone = detect_tags_in_videos(inputs, {.detector = {}, .workers = 1});
+  const auto alone = detect_tags_in_videos(inputs, {.tracker = {}, .workers = 1});
   ASSERT_TRUE(alone) << alone.error().message();
   for (const int workers : {2, 3, 8}) {
     const auto shared =
-        detect_tags_in_videos(inputs, {.detector = {}, .workers = workers});
+        detect_tags_in_videos(inputs, {.tracker = {}, .workers = workers});
     ASSERT_TRUE(shared) << shared.error().message();
     EXPECT_EQ(flattened(*shared), flattened(*alone)) << workers << " workers";
   }
@@ -131,7 +133,7 @@ TEST(DetectVideos, ReportsTheErrorOfTheFirstCameraThatFails) {
   break_image(inputs[2], 1);
   for (const int workers : {1, 3}) {
     const auto cameras =
-        detect_tags_in_videos(inputs, {.detector = {}, .workers = workers});
+        detect_tags_in_videos(inputs, {.tracker = {}, .workers = workers});
     ASSERT_FALSE(cameras);
     EXPECT_EQ(cameras.error().where, "trial/b/5.png") << workers << " workers";
   }
@@ -143,7 +145,7 @@ TEST(DetectVideos, CountsEveryFrameOfEveryCameraOnce) {
   std::vector<int> done;
   int last_total = 0;
   const auto cameras = detect_tags_in_videos(
-      inputs, {.detector = {}, .workers = 3}, [&](int now, int total) {
+      inputs, {.tracker = {}, .workers = 3}, [&](int now, int total) {
         done.push_back(now);
         last_total = total;
       });
@@ -151,6 +153,47 @@ TEST(DetectVideos, CountsEveryFrameOfEveryCameraOnce) {
   EXPECT_EQ(last_total, 15);
   ASSERT_EQ(done.size(), 15U);
   for (int i = 0; i < 15; ++i) EXPECT_EQ(done[static_cast<std::size_t>(i)], i + 1);
+}
+
+// JPEG images one after the other, which is what network cameras send: no header says
+// how many there are.
+TEST(DetectVideos, SaysThatItDoesNotKnowTheTotalUntilItsEnd) {
+  const ScratchFolder scratch;
+  {
+    std::ofstream film(scratch / "a.mjpeg", std::ios::binary);
+    for (int i = 0; i < 7; ++i) {
+      std::vector<unsigned char> jpeg;
+      cv::imencode(".jpg", tests::draw_tags(160, 100, {}), jpeg);
+      film.write(reinterpret_cast<const char*>(jpeg.data()),
+                 static_cast<std::streamsize>(jpeg.size()));
+    }
+  }
+  CameraInput input;
+  input.path = scratch / "a.mjpeg";
+  input.rate = FrameRate{25.0};
+  std::vector<std::pair<int, int>> said;
+  const auto cameras = detect_tags_in_videos(
+      std::vector{input}, {}, [&](int now, int total) { said.emplace_back(now, total); });
+  ASSERT_TRUE(cameras) << cameras.error().message();
+  ASSERT_EQ(said.size(), 8U);
+  for (int i = 0; i < 7; ++i) {
+    EXPECT_EQ(said[static_cast<std::size_t>(i)], std::pair(i + 1, kUnknownTotal));
+  }
+  EXPECT_EQ(said.back(), std::pair(7, 7));
+}
+
+TEST(DetectVideos, CountsTheSightingsThatItDropped) {
+  const ScratchFolder scratch;
+  CameraInput input = moving_tag(scratch, "a", 3, 4);
+  cv::imwrite((scratch / "a/0.png").string(),
+              tests::draw_tags(160,
+                               100,
+                               {{"tag36h11", 3, tests::square({40, 50}, 50)},
+                                {"tag36h11", 3, tests::square({120, 50}, 50)}}));
+  const auto cameras = detect_tags_in_videos(std::vector{input});
+  ASSERT_TRUE(cameras) << cameras.error().message();
+  EXPECT_EQ(cameras->at(0).dropped.duplicated, 2);
+  EXPECT_EQ(cameras->at(0).dropped.unsure, 0);
 }
 
 TEST(DetectVideos, RefusesARangeThatTheRecordingDoesNotReach) {

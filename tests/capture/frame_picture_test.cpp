@@ -10,12 +10,13 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "tests/capture/scratch_folder.h"
+#include "tests/capture/scratch_video.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::capture {
 namespace {
 
-using tests::ScratchFolder;
+using testing::ScratchFolder;
 
 cv::Mat decoded(const std::vector<std::byte>& jpeg) {
   const auto* bytes = reinterpret_cast<const uchar*>(jpeg.data());

@@ -13,13 +13,14 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "capture/image_folder.h"
-#include "tests/capture/scratch_folder.h"
+#include "tests/capture/scratch_video.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::capture {
 namespace {
 
 namespace fs = std::filesystem;
-using tests::ScratchFolder;
+using testing::ScratchFolder;
 
 const fs::path kData = fs::path(MAREY_SOURCE_DIR) / "tests/capture/data";
 
@@ -50,7 +51,7 @@ ReadThrough read_all(FrameSource& source) {
   }
 }
 
-/// The frames as scratch_folder.h makes them, each once and in order; a codec may be 3
+/// The frames as scratch_video.h makes them, each once and in order; a codec may be 3
 /// grey levels off.
 void expect_frames(const ReadThrough& all, int count) {
   ASSERT_FALSE(all.error) << all.error->message();
@@ -153,12 +154,12 @@ TEST(VideoFile, LeavesStandardErrorSilentAboutABrokenVideo) {
   std::ofstream(scratch / "notes.mp4") << "not a video\n";
   fs::copy_file(kData / "index_first.mp4", scratch / "cut.mp4");
   tests::truncate(scratch / "cut.mp4", 0.9);
-  testing::internal::CaptureStderr();
+  ::testing::internal::CaptureStderr();
   EXPECT_FALSE(open_frames(scratch / "notes.mp4"));
   const auto source = open(scratch / "cut.mp4");
   ASSERT_TRUE(source);
   EXPECT_TRUE(read_all(*source).error);
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(OpenFrames, NamesAMissingFile) {
@@ -221,11 +222,11 @@ TEST(ImageFolder, NamesAnImageThatWasCutShort) {
     cv::randu(noise, 0, 255);
     cv::imwrite((scratch / broken).string(), noise);
     tests::truncate(scratch / broken, 0.5);
-    testing::internal::CaptureStderr();
+    ::testing::internal::CaptureStderr();
     const auto source = open(scratch.path(), "cam0");
     ASSERT_TRUE(source);
     const ReadThrough all = read_all(*source);
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
     ASSERT_TRUE(all.error) << kind;
     EXPECT_EQ(all.error->where, "cam0/" + broken);
     EXPECT_EQ(all.error->cause, "the image cannot be read");

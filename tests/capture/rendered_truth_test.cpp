@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/capture/rendered_truth.h"
+#include "tests/support/rendered_truth.h"
 
 #include <array>
 #include <cmath>

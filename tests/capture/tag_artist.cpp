@@ -154,9 +154,9 @@ cv::Mat disturbed(const cv::Mat& image,
   return out;
 }
 
-capture::TagPattern pattern_of(const DrawnTag& tag) {
+TagPattern pattern_of(const DrawnTag& tag) {
   const Bitmap bitmap = bitmap_of(tag);
-  capture::TagPattern pattern;
+  TagPattern pattern;
   pattern.cells = bitmap.cells.cols;
   pattern.margin_cells = bitmap.margin_cells;
   for (int y = 0; y < bitmap.cells.rows; ++y) {

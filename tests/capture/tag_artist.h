@@ -12,6 +12,7 @@
 #include "capture/align_pattern.h"
 #include "capture/frame_source.h"
 #include "core/detection.h"
+#include "core/tag_pattern.h"
 
 namespace marey::tests {
 
@@ -43,7 +44,7 @@ struct DrawnTag {
                                 unsigned seed);
 
 /// The cells of a tag.
-[[nodiscard]] capture::TagPattern pattern_of(const DrawnTag& tag);
+[[nodiscard]] TagPattern pattern_of(const DrawnTag& tag);
 
 /// The image as TagDetector wants it; it must outlive the view.
 [[nodiscard]] capture::GrayFrame frame_of(const cv::Mat& gray);

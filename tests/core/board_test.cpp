@@ -37,5 +37,9 @@ TEST(AprilGrid, DoesNotKnowTagsBeforeItsFirstOrAfterItsLast) {
   EXPECT_TRUE(kSmall.contains(TagId{15}));
 }
 
+TEST(AprilGridDeathTest, HasFourCornersATag) {
+  EXPECT_DEATH((void)kSmall.corner_in_board(TagId{10}, 4), "contract broken");
+}
+
 }  // namespace
 }  // namespace marey

@@ -3,6 +3,7 @@
 #include "core/camera.h"
 
 #include <array>
+#include <limits>
 
 #include <ceres/jet.h>
 #include <glm/geometric.hpp>
@@ -59,6 +60,19 @@ TEST(Project, DeclinesAPointBehindTheCameraAndLeavesThePixelAlone) {
   }
   const Camera camera{"front", k, {}, {}};
   EXPECT_FALSE(project(camera, glm::dvec3(0.0, 0.0, -2.0)));
+}
+
+TEST(Project, DeclinesAPointThatIsNotANumber) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const Intrinsics lens;
+  std::array<double, 2> pixel_px{1.0, 2.0};
+  const std::array<double, 3> p{0.1, 0.2, nan};
+  EXPECT_FALSE(project(lens, p.data(), pixel_px.data()));
+  EXPECT_EQ(pixel_px[0], 1.0);
+  using Jet = ceres::Jet<double, 3>;
+  const std::array<Jet, 3> p_jet{Jet(0.1, 0), Jet(0.2, 1), Jet(nan, 2)};
+  std::array<Jet, 2> jet_px;
+  EXPECT_FALSE(project(lens, p_jet.data(), jet_px.data()));
 }
 
 TEST(Project, GivesTheSameValueToJetsAndToDoubles) {

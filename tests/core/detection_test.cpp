@@ -60,5 +60,19 @@ TEST(Unshrunk, LeavesCornersAloneWithoutShrinkage) {
   }
 }
 
+// A tag seen edge-on has no sides to move apart; nothing may come of dividing by its
+// area.
+TEST(Unshrunk, LeavesCornersWithoutAnAreaAlone) {
+  const std::array<glm::dvec2, 4> edge_on_px{{{10, 50}, {50, 50}, {50, 50}, {10, 50}}};
+  const std::array<glm::dvec2, 4> point_px{{{10, 50}, {10, 50}, {10, 50}, {10, 50}}};
+  EXPECT_EQ(unshrunk(edge_on_px, {0.8, 0.02}), edge_on_px);
+  EXPECT_EQ(unshrunk(point_px, {0.8, 0.02}), point_px);
+}
+
+TEST(CornerInTagDeathTest, HasFourCorners) {
+  EXPECT_DEATH((void)corner_in_tag(4, 0.1), "contract broken");
+  EXPECT_DEATH((void)corner_in_tag(-1, 0.1), "contract broken");
+}
+
 }  // namespace
 }  // namespace marey

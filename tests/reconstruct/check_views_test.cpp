@@ -42,6 +42,19 @@ TEST(CheckViews, PassesViewsThatBelongTogether) {
   EXPECT_TRUE(status) << status.error().message();
 }
 
+TEST(CheckViews, PassesCamerasSideBySide) {
+  // 8 cm apart and 5 m away: an angle of a degree, too little for a depth.
+  Scene scene;
+  scene.cameras = {marey::testing::webcam_at("cam0", {0.0, 1.4, 5.0}, {0.0, 1.0, 0.0}),
+                   marey::testing::webcam_at("cam1", {0.08, 1.4, 5.0}, {0.0, 1.0, 0.0})};
+  scene.detections = marey::testing::film(scene.body,
+                                          marey::testing::range_of_motion(scene.body),
+                                          scene.cameras,
+                                          {60, 10.0, "rom", {0.2, {}, 0.0}, {}, {}});
+  const Status status = check_views(scene.cameras, scene.detections, scene.tags);
+  EXPECT_TRUE(status) << status.error().message();
+}
+
 TEST(CheckViews, NamesTheFilesThatAreSwapped) {
   Scene scene;
   scene.swap_files(1, 2);

@@ -140,7 +140,8 @@ TEST(SolveMotion, FindsByHowMuchCamerasAreLate) {
   ASSERT_TRUE(trial) << trial.error().message();
   for (std::size_t c = 0; c < scene.cameras.size(); ++c) {
     EXPECT_NEAR(trial->cameras[c].offset_s, scene.film.offsets_s[c], 1e-3);
-    EXPECT_EQ(trial->cameras[c].offset_is_given, c == 0);
+    EXPECT_EQ(trial->cameras[c].clock,
+              c == 0 ? ClockSource::kReference : ClockSource::kEstimated);
   }
   // With them, the walk is as good as without any.
   EXPECT_LT(quantile(limbs_off_m(scene, *trial), 0.95), 3e-3);
@@ -154,8 +155,8 @@ TEST(SolveMotion, KeepsAnOffsetThatIsGiven) {
   const auto trial = solve_motion(scene.truth, scene.cameras, detections, scene.options);
   ASSERT_TRUE(trial) << trial.error().message();
   EXPECT_EQ(trial->cameras[2].offset_s, 0.004);
-  EXPECT_TRUE(trial->cameras[2].offset_is_given);
-  EXPECT_FALSE(trial->cameras[1].offset_is_given);
+  EXPECT_EQ(trial->cameras[2].clock, ClockSource::kGiven);
+  EXPECT_EQ(trial->cameras[1].clock, ClockSource::kEstimated);
 }
 
 TEST(SolveMotion, CallsABridgedSegmentRepaired) {

@@ -2,17 +2,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/atomic_file.h"
 
+#include <csignal>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
-#include "tests/recordings/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
 
+using testing::ScratchFolder;
 namespace fs = std::filesystem;
+
+void remove_file(const char* path) {
+  unlink(path);
+}
+
+std::vector<std::string> files_in(const ScratchFolder& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    names.push_back(entry.path().filename().string());
+  }
+  return names;
+}
 
 TEST(AtomicFile, GivesBackEveryByteWritten) {
   const ScratchFolder folder;
@@ -33,7 +49,7 @@ TEST(AtomicFile, CreatesParentFolders) {
 TEST(AtomicFile, LeavesNoPartialFileBehindACommit) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_file(folder / "a.txt", "a"));
-  EXPECT_FALSE(fs::exists(folder / "a.txt.partial"));
+  EXPECT_EQ(files_in(folder), std::vector<std::string>{"a.txt"});
 }
 
 TEST(AtomicFile, WithoutCommitTheOldFileStaysAndThePartialGoes) {
@@ -45,7 +61,48 @@ TEST(AtomicFile, WithoutCommitTheOldFileStaysAndThePartialGoes) {
     file->append("new");
   }
   EXPECT_EQ(*read_file(folder / "a.txt"), "old");
-  EXPECT_FALSE(fs::exists(folder / "a.txt.partial"));
+  EXPECT_EQ(files_in(folder), std::vector<std::string>{"a.txt"});
+}
+
+// As a signal's handler finds them: one file being written, one done, one given up.
+TEST(AtomicFile, CanBeRemovedWhileItIsBeingWritten) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(folder / "done.txt", "done"));
+  { const auto given_up = AtomicFile::create(folder / "given up.txt"); }
+  Result<AtomicFile> file = AtomicFile::create(folder / "a.txt");
+  ASSERT_TRUE(file);
+  file->append("new");
+  EXPECT_EQ(files_in(folder).size(), 2U);
+  visit_partial_files(remove_file);
+  EXPECT_EQ(files_in(folder), std::vector<std::string>{"done.txt"});
+  EXPECT_FALSE(file->commit());
+}
+
+TEST(AtomicFile, LeavesNothingForASignalToRemoveOnceItIsDone) {
+  const ScratchFolder folder;
+  for (int i = 0; i < 100; ++i) {  // More than can be remembered at once.
+    ASSERT_TRUE(write_file(folder / "a.txt", "a"));
+    ASSERT_FALSE(write_file(folder / std::string(250, 'x'), "too long a name"));
+  }
+  const Result<AtomicFile> file = AtomicFile::create(folder / "b.txt");
+  visit_partial_files(remove_file);
+  EXPECT_EQ(files_in(folder), std::vector<std::string>{"a.txt"});
+}
+
+TEST(AtomicFileDeathTest, IsRemovedByAHandlerThatEndsTheProcess) {
+  const ScratchFolder folder;
+  const auto write_for_ever = [&] {
+    std::signal(SIGTERM, [](int) {
+      visit_partial_files(remove_file);
+      _exit(130);
+    });
+    Result<AtomicFile> file = AtomicFile::create(folder / "a.txt");
+    file->append(std::string(1U << 20, 'a'));
+    if (files_in(folder).size() != 1) _exit(1);
+    (void)std::raise(SIGTERM);
+  };
+  EXPECT_EXIT(write_for_ever(), ::testing::ExitedWithCode(130), "");
+  EXPECT_EQ(files_in(folder), std::vector<std::string>{});
 }
 
 TEST(AtomicFile, SurvivesBeingMoved) {
@@ -80,11 +137,21 @@ TEST(AtomicFile, DeclinesAFolderWhereAFileIs) {
 TEST(AtomicFile, AFullDiskIsADeviceErrorAndLeavesNothing) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
   const ScratchFolder folder;
-  fs::create_symlink("/dev/full", folder / "a.txt.partial");
+  // The word in its name is the process' own: this file's will be the next one's.
+  fs::path partial;
+  {
+    const Result<AtomicFile> file = AtomicFile::create(folder / "a.txt");
+    ASSERT_TRUE(file);
+    partial = folder / files_in(folder).at(0);
+  }
+  fs::create_symlink("/dev/full", partial);
   const Status status = write_file(folder / "a.txt", "a");
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, Errc::kDevice);
-  EXPECT_FALSE(fs::exists(fs::symlink_status(folder / "a.txt.partial")));
+  EXPECT_EQ(status.error().cause,
+            "the file could not be written to its end: No space left on device");
+  EXPECT_EQ(status.error().next, "free some disk space and run again");
+  EXPECT_FALSE(fs::exists(fs::symlink_status(partial)));
 }
 
 TEST(ReadFile, NamesAFileThatDoesNotExist) {
@@ -94,6 +161,13 @@ TEST(ReadFile, NamesAFileThatDoesNotExist) {
   EXPECT_EQ(text.error().message(),
             (folder / "absent.txt").string() +
                 ": the file does not exist. Next: check the name and the folder.");
+}
+
+TEST(ReadFile, DoesNotTakeAFileThatItCannotAskForForAbsent) {
+  const ScratchFolder folder;
+  const Result<std::string> text = read_file(folder / std::string(300, 'x'));
+  ASSERT_FALSE(text);
+  EXPECT_EQ(text.error().cause, "the file cannot be read: File name too long");
 }
 
 TEST(ReadFile, DeclinesAFolder) {

@@ -2,16 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/bvh.h"
 
+#include <numbers>
 #include <sstream>
 
-#include "scratch_folder.h"
-#include "wild_motion.h"
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
 #include "recordings/mannequin.h"
+#include "tests/recordings/wild_motion.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
+
+using testing::ScratchFolder;
 
 // Six decimals of a degree turn the far end of a 2 m chain by 0.00002 mm each.
 constexpr double kRounding_m = 1e-6;
@@ -234,7 +238,7 @@ TEST(ReadBvh, NamesTheLineWithAMissingValue) {
 
 TEST(ReadBvh, NamesTheLineWithAWordAmongTheNumbers) {
   EXPECT_EQ(refusal(kTwoJoints + "0 0 0 0 nan 0 0 0 0\n"),
-            "walk.bvh:19: 'nan' is not a number. Next: export the file again, or mend "
+            "walk.bvh:19: \"nan\" is not a number. Next: export the file again, or mend "
             "that line in a text editor.");
 }
 
@@ -260,13 +264,62 @@ TEST(ReadBvh, SaysWhereTheHierarchyBreaksOff) {
 TEST(ReadBvh, RefusesAChannelItDoesNotKnow) {
   std::string text = kTwoJoints;
   text.replace(text.find("Zposition"), 9, "Wposition");
-  EXPECT_NE(refusal(text).find("walk.bvh:5: unknown channel 'wposition'"),
+  EXPECT_NE(refusal(text).find("walk.bvh:5: unknown channel \"wposition\""),
             std::string::npos);
+}
+
+TEST(ReadBvh, GivesChannelsBehindANestedJointToTheJointThatIsOpen) {
+  const std::string text =
+      "HIERARCHY\nROOT hips\n{\nOFFSET 0 0 0\nJOINT spine\n{\nOFFSET 0 10 0\n"
+      "CHANNELS 1 Xrotation\n}\nCHANNELS 3 Xposition Yposition Zposition\n}\n"
+      "MOTION\nFrames: 1\nFrame Time: 0.01\n90 100 200 300\n";
+  const auto read = parse_bvh(text, "a.bvh");
+  ASSERT_TRUE(read) << read.error().message();
+  const Pose& pose = read->motion.poses.at(0);
+  EXPECT_LT(glm::distance(pose.root_in_world, glm::dvec3(1, 2, 3)), 1e-12);
+  EXPECT_LT(glm::angle(pose.parent_from_joint[0]), 1e-12);
+  EXPECT_NEAR(glm::angle(pose.parent_from_joint[1]), std::numbers::pi / 2, 1e-12);
+}
+
+TEST(ReadBvh, RefusesTheChannelsOfAJointTwice) {
+  std::string text = kTwoJoints;
+  text.insert(text.find("  JOINT spine"), "  CHANNELS 1 Xrotation\n");
+  EXPECT_NE(refusal(text).find("walk.bvh:6: the joint \"hips\" has its CHANNELS twice"),
+            std::string::npos);
+}
+
+// Numbers that a double holds, but whose squares it does not.
+TEST(ReadBvh, RefusesLengthsThatNoBodyHas) {
+  std::string text = kTwoJoints;
+  text.replace(text.find("OFFSET 0 10 0"), 13, "OFFSET 0 1e200 0");
+  EXPECT_NE(refusal(text).find("walk.bvh:8: OFFSET goes further than 10 km"),
+            std::string::npos);
+  EXPECT_NE(refusal(kTwoJoints + "0 -1e200 0 0 0 0 0 0 0\n")
+                .find("walk.bvh:19: a position of \"-1e200\" goes further than 10 km"),
+            std::string::npos);
+}
+
+TEST(ReadBvh, RefusesARateThatNoCameraHas) {
+  for (const char* time : {"0", "-0.01", "0.0004", "11", "1e-300"}) {
+    std::string text = kTwoJoints;
+    text.replace(text.find("0.0333333"), 9, time);
+    EXPECT_NE(refusal(text).find("walk.bvh:18: Frame Time must be 0.0005 to 10 seconds"),
+              std::string::npos)
+        << time;
+  }
+}
+
+TEST(ReadBvh, RefusesAMotionThatAsksForAllMemory) {
+  std::string text = "HIERARCHY\nROOT hips\n{\nOFFSET 0 0 0\nCHANNELS 1 Xrotation\n";
+  for (int i = 0; i < 2000; ++i) text += "JOINT j\n{\nOFFSET 0 1 0\n}\n";
+  text += "}\nMOTION\nFrames: 20000\nFrame Time: 0.01\n";
+  for (int i = 0; i < 20000; ++i) text += "0\n";
+  EXPECT_NE(refusal(text).find("do not fit into memory"), std::string::npos);
 }
 
 TEST(ReadBvh, RefusesAFileOfAnotherKind) {
   EXPECT_NE(refusal("frame,time,joint\n")
-                .find("walk.bvh:1: expected 'HIERARCHY', found 'frame,time,joint'"),
+                .find("walk.bvh:1: expected \"HIERARCHY\", found \"frame,time,joint\""),
             std::string::npos);
 }
 

@@ -8,10 +8,12 @@
 #include <gtest/gtest.h>
 
 #include "recordings/atomic_file.h"
-#include "tests/recordings/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
+
+using testing::ScratchFolder;
 
 /// Two cameras whose numbers have no short decimal form.
 Calibration two_cameras() {
@@ -29,15 +31,14 @@ Calibration two_cameras() {
     camera.camera_from_world.translation = {i / 3.0, -i / 7.0, 3.0};
     camera.tag_shrinkage = {0.1 / 3.0 * i, 0.001 / 7.0};
     calibration.cameras.push_back(camera);
-    calibration.records.push_back({.rms_px = 0.2 / 3.0 * i,
+    calibration.quality.push_back({.rms_px = 0.2 / 3.0 * i,
                                    .p95_px = 0.5 / 3.0,
                                    .centre_sigma_m = 1e-3 / 7.0,
                                    .focal_sigma_px = 0.7 / 3.0,
                                    .views = 88,
                                    .corners = 1234,
-                                   .coverage = 1.0 / 3.0,
-                                   .time_offset_s = -0.0111 / 3.0,
-                                   .drift_ppm = 2.0 / 3.0});
+                                   .coverage = 1.0 / 3.0});
+    calibration.clocks.push_back({-0.0111 / 3.0, 2.0 / 3.0});
   }
   calibration.rms_px = 0.3 / 7.0;
   return calibration;
@@ -100,7 +101,7 @@ TEST(CalibrationFile, IsReadFromDisk) {
   ASSERT_TRUE(write_calibration(folder / "calibration.toml", two_cameras()));
   const Result<Calibration> read = read_calibration(folder / "calibration.toml");
   ASSERT_TRUE(read);
-  EXPECT_EQ(read->records[1].corners, 1234);
+  EXPECT_EQ(read->quality[1].corners, 1234);
 }
 
 TEST(CalibrationFile, ReadsPose2SimsOwn) {
@@ -138,7 +139,8 @@ TEST(CalibrationFile, WritesTheKeysThatPose2SimReads) {
 TEST(CalibrationFile, WorldFromCameraHoldsTheCentreOfTheCamera) {
   Calibration calibration = two_cameras();
   calibration.cameras.resize(1);
-  calibration.records.resize(1);
+  calibration.quality.resize(1);
+  calibration.clocks.resize(1);
   calibration.cameras[0].camera_from_world = {{1.0, 0.0, 0.0, 0.0}, {1.0, 2.0, 3.0}};
   EXPECT_NE(
       calibration_text(calibration)

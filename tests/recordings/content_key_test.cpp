@@ -7,10 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "recordings/atomic_file.h"
-#include "tests/recordings/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
+
+using testing::ScratchFolder;
 
 std::string key_of_bytes(const std::string& bytes) {
   const ScratchFolder folder;
@@ -58,6 +60,18 @@ TEST(ContentKey, OfAFolderChangesWithNamesAndSizes) {
   const std::string longer = *content_key(folder.path());
   EXPECT_NE(one, two);
   EXPECT_NE(two, longer);
+}
+
+// Raw frames of a camera all have one size.
+TEST(ContentKey, OfAFolderChangesWithTheBytesOfAFile) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(folder / "1.png", "a"));
+  ASSERT_TRUE(write_file(folder / "2.png", "a"));
+  const std::string before = *content_key(folder.path());
+  ASSERT_TRUE(write_file(folder / "2.png", "b"));
+  EXPECT_NE(*content_key(folder.path()), before);
+  ASSERT_TRUE(write_file(folder / "2.png", "a"));
+  EXPECT_EQ(*content_key(folder.path()), before);
 }
 
 TEST(ContentKey, DeclinesWhatIsNotThere) {

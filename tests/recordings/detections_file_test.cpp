@@ -7,16 +7,20 @@
 #include <gtest/gtest.h>
 
 #include "recordings/atomic_file.h"
-#include "tests/recordings/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
 
+using testing::ScratchFolder;
+
 TagDetection a_tag(int id) {
   TagDetection tag;
   tag.id = TagId{id};
+  // Thirds and sevenths: no decimal number is as good.
   for (std::size_t i = 0; i < 4; ++i) {
-    tag.corners_px[i] = {100.0 + static_cast<double>(i) / 3.0, -0.1 * id / 7.0};
+    tag.corners_px[i] = {100.0 + kCornerSides[i][0] * 40.0 / 3.0,
+                         200.0 + kCornerSides[i][1] * (20.0 - id / 7.0)};
   }
   tag.sigma_px = 0.2 / 3.0;
   tag.decision_margin = 61.5;
@@ -33,6 +37,8 @@ CameraDetections four_frames() {
   found.height_px = 720;
   found.rate = {30000.0 / 1001.0};
   found.offset = Timestamp{-11'100'001};
+  found.dropped = {12, 4};
+  found.damaged_frames = 3;
   found.frames = {{5, {}}, {6, {a_tag(3), a_tag(40)}}, {7, {a_tag(40)}}, {8, {}}};
   return found;
 }
@@ -79,6 +85,44 @@ TEST(DetectionsFile, GivesBackWhatIsKnownOfTheCamera) {
   EXPECT_EQ((*read)->height_px, written.height_px);
   EXPECT_EQ((*read)->rate.hz, written.rate.hz);
   EXPECT_EQ((*read)->offset, written.offset);
+  EXPECT_EQ((*read)->dropped.unsure, 12);
+  EXPECT_EQ((*read)->dropped.duplicated, 4);
+  EXPECT_EQ((*read)->damaged_frames, 3);
+}
+
+TEST(DetectionsFile, DoesNotTakeAnUnknownOffsetForZero) {
+  CameraDetections written = four_frames();
+  written.offset.reset();
+  const auto read = parse_detections(detections_text(written, "k"), "k", "d.csv");
+  ASSERT_TRUE(read) << read.error().message();
+  ASSERT_TRUE(*read);
+  EXPECT_FALSE((*read)->offset);
+}
+
+TEST(DetectionsFile, IsNotWrittenForANameOfTwoLines) {
+  const ScratchFolder folder;
+  CameraDetections found = four_frames();
+  found.source = "walk\nrun.mp4";
+  const Status written = write_detections(folder / "cam0.csv", found, "k");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().message(),
+            "walk run.mp4: the recording's name holds a line break. Next: rename it, and "
+            "correct its path in the session.");
+}
+
+TEST(DetectionsFile, RefusesATagWithoutAnArea) {
+  std::string text = detections_text(four_frames(), "k");
+  const std::size_t row = text.find("\n6,3,") + 1;
+  text.replace(row, text.find('\n', row) - row, "6,3,1,1,9,1,9,1,1,1,0.1,61.5,1");
+  const auto read = parse_detections(text, "k", "d.csv");
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().where, "d.csv:6");
+  EXPECT_EQ(read.error().cause, "a tag's corners enclose no area");
+}
+
+TEST(DetectionsFile, RefusesATagWithoutSigma) {
+  EXPECT_TRUE(mistake(",0.06666666666666667,", ",0,")
+                  .starts_with("d.csv:6: a tag's sigma is not"));
 }
 
 TEST(DetectionsFile, IsReadFromDisk) {

@@ -2,18 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/gltf.h"
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 
-#include "scratch_folder.h"
-#include "wild_motion.h"
 #include <gtest/gtest.h>
 
 #include "recordings/atomic_file.h"
 #include "recordings/mannequin.h"
+#include "tests/recordings/wild_motion.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
+
+using testing::ScratchFolder;
 
 // Floats hold 2 m to 0.0001 mm, and a chain of ten quaternions multiplies that.
 constexpr double kFloat_m = 5e-6;
@@ -279,6 +282,84 @@ TEST(ReadCharacter, RefusesAnAccessorThatLeavesItsBuffer) {
  "animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}}],
  "samplers":[{"input":0,"output":0}]}]})"),
             "accessor 0 reaches beyond the end of its buffer");
+}
+
+/// A triangle on a skin of these joints, by their nodes.
+std::string skinned_triangle(const std::string& skin_joints) {
+  // Three vertices at (0, 0, 0); their joints and weights are 0 too.
+  const std::string zeros(64, 'A');
+  return R"({"asset":{"version":"2.0"},
+ "nodes":[{"name":"hips"},{"name":"body","mesh":0,"skin":0}],
+ "skins":[{"joints":[)" +
+         skin_joints + R"(]}],
+ "meshes":[{"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":1,"WEIGHTS_0":2}}]}],
+ "buffers":[{"byteLength":48,"uri":"data:application/octet-stream;base64,)" +
+         zeros + R"("}],
+ "bufferViews":[{"buffer":0,"byteLength":48}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
+  {"bufferView":0,"componentType":5121,"count":3,"type":"VEC4"},
+  {"bufferView":0,"componentType":5126,"count":3,"type":"VEC4"}]})";
+}
+
+TEST(ReadCharacter, HangsVerticesWithoutWeightsOnTheFirstJoint) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(folder / "a.gltf", skinned_triangle("0")));
+  const auto read = read_character(folder / "a.gltf");
+  ASSERT_TRUE(read) << read.error().message();
+  ASSERT_TRUE(read->mesh);
+  EXPECT_EQ(read->mesh->skin.at(0).weights[0], 1.0);
+}
+
+TEST(ReadCharacter, RefusesASkinWithoutJoints) {
+  const ScratchFolder folder;
+  EXPECT_EQ(refusal(folder, skinned_triangle("")), "a skin has no joints");
+}
+
+TEST(ReadCharacter, RefusesNodesBeyondAllReason) {
+  const ScratchFolder folder;
+  EXPECT_EQ(refusal(folder,
+                    R"({"asset":{"version":"2.0"},
+ "nodes":[{"name":"hips","translation":[0,1e200,0]}]})"),
+            "the node 'hips' lies further than 10 km away");
+  EXPECT_EQ(refusal(folder,
+                    R"({"asset":{"version":"2.0"},
+ "nodes":[{"name":"hips","scale":[1e200,1,1],"children":[1]},
+          {"name":"spine","translation":[1,0,0]}]})"),
+            "the node 'spine' lies further than 10 km away");
+}
+
+/// A body of `joints` whose root turns from the first key to one `last_s` later.
+std::string two_keys(const ScratchFolder& folder, int joints, float last_s) {
+  const std::array<float, 10> keys{0, last_s, 0, 0, 0, 1, 0, 1, 0, 0};
+  std::string bytes(sizeof keys, '\0');
+  std::memcpy(bytes.data(), keys.data(), sizeof keys);
+  EXPECT_TRUE(write_file(folder / "keys.bin", bytes));
+  std::string nodes = R"({"name":"j0"})";
+  std::string children;
+  for (int i = 1; i < joints; ++i) {
+    const std::string number = std::to_string(i);
+    children.append(i > 1 ? "," : "").append(number);
+    nodes.append(R"(,{"name":"j)").append(number).append("\"}");
+  }
+  nodes.insert(nodes.find('}'),
+               std::string(R"(,"children":[)").append(children).append("]"));
+  return R"({"asset":{"version":"2.0"},"nodes":[)" + nodes + R"(],
+ "buffers":[{"byteLength":40,"uri":"keys.bin"}],
+ "bufferViews":[{"buffer":0,"byteLength":8},{"buffer":0,"byteOffset":8,"byteLength":32}],
+ "accessors":[{"bufferView":0,"componentType":5126,"count":2,"type":"SCALAR"},
+  {"bufferView":1,"componentType":5126,"count":2,"type":"VEC4"}],
+ "animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"rotation"}}],
+ "samplers":[{"input":0,"output":1}]}]})";
+}
+
+TEST(ReadCharacter, RefusesKeysThatStandForMoreFramesThanFitIntoMemory) {
+  const ScratchFolder folder;
+  EXPECT_EQ(refusal(folder, two_keys(folder, 20, 1.0F)), "no refusal");
+  EXPECT_EQ(refusal(folder, two_keys(folder, 1000, 1000.0F)),
+            "the animation's few keys stand for 30001 frames, which do not fit into "
+            "memory");
+  EXPECT_EQ(refusal(folder, two_keys(folder, 2, 1e6F)),
+            "the animation has frames beyond the millionth");
 }
 
 TEST(ReadCharacter, RefusesNodesThatGoRoundInACircle) {

@@ -4,8 +4,9 @@
 
 #include <map>
 
-#include "wild_motion.h"
 #include <gtest/gtest.h>
+
+#include "tests/recordings/wild_motion.h"
 
 namespace marey::recordings {
 namespace {

@@ -7,10 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "recordings/atomic_file.h"
-#include "tests/recordings/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
+
+using testing::ScratchFolder;
 
 /// Two joints, frames 3 and 4 at 30 Hz; the second frame is turned half round and more.
 EstimatedMotion a_motion() {

@@ -6,10 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/recordings/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
+
+using testing::ScratchFolder;
 
 Body a_body() {
   Body body;

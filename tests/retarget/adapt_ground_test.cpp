@@ -32,7 +32,9 @@ struct Standing {
     FootContacts& foot = contacts.feet[static_cast<std::size_t>(side)];
     foot.heel = foot.ball = foot.stance = {{first, last}};
   }
-  GroundReport adapt() { return adapt_to_ground(body, map, contacts, {60.0}, poses); }
+  GroundReport adapt(const GroundOptions& options = {}) {
+    return adapt_to_ground(body, map, contacts, {60.0}, poses, options);
+  }
   [[nodiscard]] double root_m(std::size_t t) const {
     return poses[t].root.y * map.leg_length_m;
   }
@@ -87,6 +89,18 @@ TEST(AdaptToGround, SinksSmoothly) {
         (s.root_m(t - 1) - 2 * s.root_m(t) + s.root_m(t + 1)) * 3600.0;
     EXPECT_LT(std::abs(acceleration), 30.0) << t;
   }
+}
+
+// The window is no wider than the motion: else this would take an hour, or overflow.
+TEST(AdaptToGround, MayLookFurtherThanTheMotionGoes) {
+  Standing s(30, 0.10);
+  const double before_m = s.root_m(0);
+  s.bear(0, 20, 25);
+  GroundOptions options;
+  options.anticipation_s = 1e9;
+  s.adapt(options);
+  EXPECT_NEAR(before_m - s.root_m(0), 0.10, 1e-3);
+  EXPECT_NEAR(before_m - s.root_m(29), 0.10, 1e-3);
 }
 
 TEST(AdaptToGround, CountsFramesInWhichALegCannotReach) {

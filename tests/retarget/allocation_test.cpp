@@ -1,30 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "retarget/normalized_skeleton.h"
+#include "tests/support/count_allocations.h"
 #include "tests/support/random_bodies.h"
-
-namespace {
-long allocations = 0;
-}  // namespace
-
-// Every allocation of this program is counted.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace marey::retarget {
 namespace {
@@ -42,19 +24,19 @@ TEST(Normalize, AllocatesNothingPerFrame) {
   NormalizedPose posture;
   Pose out = rest_pose(avatar);
 
-  const long before = allocations;
+  const long before = testing::allocations();
   for (int k = 0; k < 100; ++k) {
     world_from_joints(source, pose, source_frames);
     normalize(from, source_frames, posture);
     expand(posture, avatar, to, avatar_frames, out);
   }
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(testing::allocations() - before, 0);
 }
 
 TEST(Normalize, WouldHaveItsAllocationsCounted) {
-  const long before = allocations;
+  const long before = testing::allocations();
   const auto* memory = new std::vector<double>(100);
-  EXPECT_GT(allocations - before, 0);
+  EXPECT_GT(testing::allocations() - before, 0);
   delete memory;
 }
 

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +12,8 @@
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "tests/support/scratch_folder.h"
 
 namespace marey::testing {
 namespace {
@@ -27,25 +28,11 @@ std::string text_of(const fs::path& file) {
 }
 
 /// Two files for what the program says, gone afterwards.
-class Ears {
- public:
-  Ears() {
-    std::string name = (fs::temp_directory_path() / "marey-run-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
-    folder_ = name;
-  }
-  ~Ears() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
-  Ears(const Ears&) = delete;
-  Ears& operator=(const Ears&) = delete;
+struct Ears {
+  ScratchFolder folder;
 
-  [[nodiscard]] fs::path out() const { return folder_ / "out"; }
-  [[nodiscard]] fs::path err() const { return folder_ / "err"; }
-
- private:
-  fs::path folder_;
+  [[nodiscard]] fs::path out() const { return folder / "out"; }
+  [[nodiscard]] fs::path err() const { return folder / "err"; }
 };
 
 void point_at(const char* file, int flags, int descriptor) {

@@ -2,16 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/truth.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <exception>
 #include <fstream>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
-
-#include "core/assert.h"
 
 namespace marey::testing {
 namespace {
@@ -80,15 +75,6 @@ std::optional<std::vector<TruthCamera>> truth_cameras(
   return cameras;
 } catch (const std::exception&) {
   return std::nullopt;
-}
-
-double quantile(std::vector<double> values, double share) {
-  MAREY_ASSERT(!values.empty() && share >= 0.0 && share <= 1.0);
-  const auto last = static_cast<double>(values.size() - 1);
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(std::lround(share * last));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 }  // namespace marey::testing

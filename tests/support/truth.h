@@ -37,8 +37,4 @@ struct TruthCamera {
 [[nodiscard]] std::optional<std::vector<TruthCamera>> truth_cameras(
     const std::filesystem::path& json);
 
-/// The value below which the share `share` (0 to 1) of `values` lies.
-/// Precondition: there are values.
-[[nodiscard]] double quantile(std::vector<double> values, double share);
-
 }  // namespace marey::testing

@@ -3,26 +3,8 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 namespace marey::tests {
-
-/// An empty folder of one test's own, gone at the end of the test.
-class ScratchFolder {
- public:
-  ScratchFolder();
-  ~ScratchFolder();
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
-    return path_ / name;
-  }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// The brightness that write_video() gives to frame `index`: steps large enough to
 /// survive the codec.

@@ -21,7 +21,9 @@ namespace marey::tests {
 /// was, and the cameras. The world is the data's own (Z up); only pixels leave here.
 struct RenderedTruth {
   std::filesystem::path folder;
-  std::vector<Camera> cameras;  ///< Only the sessions without time offsets make sense.
+  std::vector<Camera> cameras;
+  /// Per camera: by how many frames it is late. A session's clock is the first camera's.
+  std::vector<double> late_frames;
   /// By frame and tag: the corners in the world, in TagDetection's order. [m]
   std::map<std::pair<int, int>, std::array<glm::dvec3, 4>> corners_in_world;
 
@@ -44,7 +46,8 @@ struct CornerResidual {
   glm::dvec2 outward_px{0.0};  ///< Unit direction from the tag's centre to the corner.
 };
 
-/// Residuals of all tags whose truth is known. Precondition: `found` is of this session's
+/// Residuals of all tags whose truth is known, at the camera's own time: between frames,
+/// on a cubic through the four around. Precondition: `found` is of this session's
 /// camera `camera`.
 [[nodiscard]] std::vector<CornerResidual> residuals(const RenderedTruth& truth,
                                                     std::size_t camera,

@@ -1,17 +1,15 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/capture/scratch_folder.h"
+#include "tests/capture/scratch_video.h"
 
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
 
-#include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
-#include <unistd.h>
 
 namespace marey::tests {
 namespace {
@@ -23,21 +21,6 @@ cv::Mat plain_frame(int index) {
 }
 
 }  // namespace
-
-ScratchFolder::ScratchFolder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  std::string name = "marey-";
-  name.append(test->test_suite_name()).append(".").append(test->name());
-  name.append("-").append(std::to_string(::getpid()));
-  path_ = fs::temp_directory_path() / name;
-  fs::remove_all(path_);
-  fs::create_directories(path_);
-}
-
-ScratchFolder::~ScratchFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 int brightness_of_frame(int index) {
   return 20 + 8 * (index % 28);

@@ -2,24 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdlib>
 #include <filesystem>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 
-#include <gtest/gtest.h>
-#include <unistd.h>
+namespace marey::testing {
 
-namespace marey::recordings {
-
-/// An empty folder of the running test's own, removed with everything in it at the end.
+/// An empty folder of its owner's alone, removed with everything in it at the end.
+/// Throws std::runtime_error when it cannot be made.
 class ScratchFolder {
  public:
   ScratchFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            ("marey_" + std::string(test->test_suite_name()) + "_" + test->name() + "_" +
-             std::to_string(getpid()));
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+    std::string name = (std::filesystem::temp_directory_path() / "marey-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    path_ = name;
   }
   ~ScratchFolder() {
     std::error_code ignored;
@@ -37,4 +35,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace marey::recordings
+}  // namespace marey::testing

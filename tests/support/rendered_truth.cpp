@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/capture/rendered_truth.h"
+#include "tests/support/rendered_truth.h"
 
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -90,6 +91,31 @@ std::optional<std::array<glm::dvec2, 4>> see(const Camera& camera,
   return pixels;
 }
 
+/// The tag's corners `late` frames after a frame, within one frame, by the cubic through
+/// the four frames around: a step lasts ten frames, so it is right to a hundredth of the
+/// way between two. nullopt at the ends.
+std::optional<std::array<glm::dvec3, 4>> corners_at(const RenderedTruth& truth,
+                                                    int frame,
+                                                    double late,
+                                                    int tag) {
+  const auto here = truth.corners_in_world.find({frame, tag});
+  if (here == truth.corners_in_world.end()) return std::nullopt;
+  if (late == 0.0) return here->second;
+  const int first = frame + (late > 0.0 ? -1 : -2);
+  const double t = late + frame - first;
+  std::array<glm::dvec3, 4> corners{};
+  for (int i = 0; i < 4; ++i) {
+    const auto knot = truth.corners_in_world.find({first + i, tag});
+    if (knot == truth.corners_in_world.end()) return std::nullopt;
+    double weight = 1.0;
+    for (int j = 0; j < 4; ++j) {
+      if (j != i) weight *= (t - j) / (i - j);
+    }
+    for (std::size_t c = 0; c < 4; ++c) corners[c] += weight * knot->second[c];
+  }
+  return corners;
+}
+
 }  // namespace
 
 RenderedTruth load_rendered_truth(const std::filesystem::path& folder) {
@@ -99,6 +125,9 @@ RenderedTruth load_rendered_truth(const std::filesystem::path& folder) {
   const auto json = nlohmann::json::parse(in);
   for (const auto& camera : json["cameras"]) {
     truth.cameras.push_back(camera_of(camera));
+    const double fps = json["fps"];
+    const double offset_s = camera.value("time_offset_s", 0.0);
+    truth.late_frames.push_back(fps * offset_s);
   }
   if (std::filesystem::exists(folder / "truth/board_pose.csv")) {
     load_board(truth);
@@ -114,9 +143,10 @@ std::vector<CornerResidual> residuals(const RenderedTruth& truth,
   std::vector<CornerResidual> all;
   for (const FrameDetections& frame : found.frames) {
     for (const TagDetection& tag : frame.tags) {
-      const auto known = truth.corners_in_world.find({frame.frame, number(tag.id)});
-      if (known == truth.corners_in_world.end()) continue;
-      const auto pixels = see(truth.cameras[camera], known->second);
+      const auto known =
+          corners_at(truth, frame.frame, truth.late_frames[camera], number(tag.id));
+      if (!known) continue;
+      const auto pixels = see(truth.cameras[camera], *known);
       if (!pixels) continue;
       const auto& p = *pixels;
       const glm::dvec2 centre = 0.25 * (p[0] + p[1] + p[2] + p[3]);

@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_groups.h"
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/count_allocations.h"
+
+namespace marey::app {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A camera of the real clock that may be slow or fall silent.
+class ClockFeed final : public FrameFeed {
+ public:
+  ClockFeed(milliseconds period, long frames) : period_(period), frames_(frames) {}
+
+  std::optional<capture::RawFrame> next(milliseconds timeout) override {
+    if (frames_ >= 0 && next_ >= frames_) {
+      std::this_thread::sleep_for(timeout);
+      return std::nullopt;
+    }
+    std::this_thread::sleep_for(period_);
+    capture::RawFrame frame;
+    frame.time = std::chrono::steady_clock::now().time_since_epoch();
+    frame.sequence = static_cast<std::uint32_t>(next_++);
+    return frame;
+  }
+  [[nodiscard]] const capture::DeviceSettings& settings() const override {
+    return settings_;
+  }
+  [[nodiscard]] std::string device() const override { return "clock"; }
+  std::vector<std::string> events() override { return {}; }
+
+ private:
+  milliseconds period_;
+  long frames_;
+  long next_ = 0;
+  capture::DeviceSettings settings_;
+};
+
+capture::GroupFramesOptions live() {
+  capture::GroupFramesOptions options;
+  options.mode = capture::GroupingMode::kLive;
+  options.rate = {100.0};
+  options.origin = std::nullopt;
+  options.longest_wait = milliseconds(40);
+  options.silent_after = milliseconds(150);
+  options.capacity = 8;
+  return options;
+}
+
+bool keep_sequence(CameraId /*camera*/, const capture::RawFrame& frame, long& made) {
+  made = static_cast<long>(frame.sequence);
+  return true;
+}
+
+// Only counts, no durations: machines are slow at times.
+TEST(LiveGroups, GoOnWithoutACameraThatIsSlowAndOneThatDied) {
+  ClockFeed steady(milliseconds(10), -1);
+  ClockFeed slow(milliseconds(55), -1);
+  ClockFeed dying(milliseconds(10), 20);
+  const std::array<FrameFeed*, 3> feeds{&steady, &slow, &dying};
+  const std::vector<capture::ClockModel> clocks(3);
+  LiveGroups<long> groups(feeds, clocks, live(), keep_sequence);
+  std::int64_t last = -1;
+  long last_sequence = -1;
+  int with_steady = 0;
+  int with_slow = 0;
+  int with_dead = 0;
+  for (int i = 0; i < 100; ++i) {
+    const LiveGroup<long>* group = groups.next(milliseconds(5000));
+    ASSERT_NE(group, nullptr) << i;
+    EXPECT_GT(group->number, last);
+    last = group->number;
+    EXPECT_EQ(group->frames.size() + group->missing.size(), 3U);
+    for (const LiveFrame<long>& frame : group->frames) {
+      if (frame.camera == CameraId{0}) {
+        ++with_steady;
+        EXPECT_GT(*frame.made, last_sequence);
+        last_sequence = *frame.made;
+      }
+      with_slow += frame.camera == CameraId{1};
+      with_dead += frame.camera == CameraId{2};
+    }
+  }
+  EXPECT_GT(with_steady, 50);
+  EXPECT_GT(with_slow, 0);
+  EXPECT_LE(with_dead, 20);
+}
+
+TEST(LiveGroups, GiveNothingWhenNothingComes) {
+  ClockFeed silent(milliseconds(10), 0);
+  const std::array<FrameFeed*, 1> feeds{&silent};
+  const std::vector<capture::ClockModel> clocks(1);
+  LiveGroups<long> groups(feeds, clocks, live(), keep_sequence);
+  EXPECT_EQ(groups.next(milliseconds(30)), nullptr);
+}
+
+TEST(LiveGroups, PassOverFramesThatAreNotWanted) {
+  ClockFeed steady(milliseconds(2), -1);
+  const std::array<FrameFeed*, 1> feeds{&steady};
+  const std::vector<capture::ClockModel> clocks(1);
+  LiveGroups<long> groups(
+      feeds, clocks, live(), [](CameraId, const capture::RawFrame& frame, long& made) {
+        made = static_cast<long>(frame.sequence);
+        return made % 5 == 0;
+      });
+  for (int i = 0; i < 20; ++i) {
+    const LiveGroup<long>* group = groups.next(milliseconds(5000));
+    ASSERT_NE(group, nullptr);
+    ASSERT_EQ(group->frames.size(), 1U);
+    EXPECT_EQ(*group->frames[0].made % 5, 0);
+  }
+}
+
+TEST(LiveGroups, AllocateNothingPerFrame) {
+  ClockFeed left(milliseconds(1), -1);
+  ClockFeed right(milliseconds(1), -1);
+  const std::array<FrameFeed*, 2> feeds{&left, &right};
+  const std::vector<capture::ClockModel> clocks(2);
+  LiveGroups<long> groups(feeds, clocks, live(), keep_sequence);
+  for (int i = 0; i < 20; ++i) (void)groups.next(milliseconds(5000));
+  const long before = testing::allocations();
+  for (int i = 0; i < 200; ++i) (void)groups.next(milliseconds(5000));
+
+  EXPECT_EQ(testing::allocations() - before, 0);
+}
+
+}  // namespace
+}  // namespace marey::app

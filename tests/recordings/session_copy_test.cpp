@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recordings/session_copy.h"
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/recordings/session_text.h"
+#include "tests/support/scratch_folder.h"
+
+namespace marey::recordings {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ScratchFolder;
+
+/// The walk is to be recorded; the other trials have videos.
+std::string mixed(const std::string& media) {
+  std::string text =
+      with("name = \"right\"\n", "name = \"right\"\ndevice = \"/dev/video0\"\n");
+  const std::size_t videos = text.rfind("videos = {");
+  text.erase(videos);
+  text.replace(text.find("media = \"videos\"\n"), 17, media);
+  return text;
+}
+
+Result<Session> session_in(const fs::path& folder, const std::string& text) {
+  EXPECT_TRUE(write_file(folder / "session.toml", text));
+  return read_session(folder);
+}
+
+TEST(CopySession, LeavesVideosWhereTheyAre) {
+  for (const std::string& media : {std::string("media = \"videos\"\n"), std::string()}) {
+    const ScratchFolder folder;
+    const auto session = session_in(folder / "s", mixed(media));
+    ASSERT_TRUE(session) << session.error().message();
+    const Trial& walk = *session->find("walk");
+    ASSERT_TRUE(copy_session(*session, folder / "take", walk));
+    const auto copy = read_session(folder / "take");
+    ASSERT_TRUE(copy) << copy.error().message();
+    EXPECT_EQ(copy->find("calib")->videos[0].path,
+              session->find("calib")->videos[0].path);
+    EXPECT_EQ(copy->find("walk")->videos[0].path, folder / "take" / "walk" / "right.mkv");
+    // A second trial into the same folder.
+    EXPECT_TRUE(copy_session(*session, folder / "take", walk));
+  }
+}
+
+TEST(CopySession, DoesNotTouchAnotherSession) {
+  const ScratchFolder folder;
+  const auto session = session_in(folder / "s", mixed("media = \"videos\"\n"));
+  ASSERT_TRUE(session) << session.error().message();
+  ASSERT_TRUE(write_file(folder / "take" / "session.toml", kSession));
+  const Status copied = copy_session(*session, folder / "take", *session->find("walk"));
+  ASSERT_FALSE(copied);
+  EXPECT_EQ(copied.error().cause,
+            "it has no trial \"walk\" of the kind \"motion\" to record");
+}
+
+}  // namespace
+}  // namespace marey::recordings

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recordings/take_file.h"
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "recordings/atomic_file.h"
+#include "tests/support/scratch_folder.h"
+
+namespace marey::recordings {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ScratchFolder;
+
+Take two_cameras() {
+  Take take;
+  take.trial = "walk";
+  take.started = "2026-11-21T11:56:29Z";
+  take.cameras.push_back(
+      {"cam0", "cam0.mkv", 1280, 720, {30.0}, "/dev/video0 C920", "gain = 3", {}});
+  take.cameras.push_back({"cam1", "cam1.mkv", 640, 480, {29.97}, "/dev/video2", "", {}});
+  return take;
+}
+
+TakeFrame frame_of(int k) {
+  TakeFrame frame;
+  frame.time = Timestamp{123456789012345LL + 33333333LL * k};
+  frame.sequence = 4000000000U + static_cast<unsigned>(k);
+  frame.dropped_before = k % 7 == 0 ? 2 : 0;
+  frame.time_is_arrival = k % 5 == 0;
+  frame.damaged = k % 11 == 0;
+  return frame;
+}
+
+void run_sql(const fs::path& file, const std::string& text) {
+  sqlite3* database = nullptr;
+  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(database, text.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(database);
+}
+
+void make_take(const fs::path& file) {
+  auto writer = TakeWriter::create(file, two_cameras());
+  ASSERT_TRUE(writer) << writer.error().message();
+  writer->add(0, frame_of(0));
+  ASSERT_TRUE(writer->finish());
+}
+
+TEST(TakeFile, GivesBackWhatWasWritten) {
+  const ScratchFolder folder;
+  auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
+  ASSERT_TRUE(writer) << writer.error().message();
+  for (int k = 0; k < 100; ++k) {
+    writer->add(k % 2, frame_of(k));
+    if (k % 30 == 0) {
+      ASSERT_TRUE(writer->commit());
+    }
+  }
+  writer->note({1, Timestamp{5}, "lost: it's \"gone\""});
+  ASSERT_TRUE(writer->finish());
+  const Result<Take> take = read_take(folder / kTakeFile);
+  ASSERT_TRUE(take) << take.error().message();
+  EXPECT_EQ(take->trial, "walk");
+  EXPECT_EQ(take->started, "2026-11-21T11:56:29Z");
+  EXPECT_TRUE(take->finished);
+  ASSERT_EQ(take->cameras.size(), 2U);
+  EXPECT_EQ(take->cameras[0].file, "cam0.mkv");
+  EXPECT_EQ(take->cameras[0].settings, "gain = 3");
+  EXPECT_EQ(take->cameras[1].rate.hz, 29.97);
+  EXPECT_EQ(take->cameras[1].width_px, 640);
+  ASSERT_EQ(take->cameras[1].frames.size(), 50U);
+  for (std::size_t i = 0; i < 50; ++i) {
+    const TakeFrame& frame = take->cameras[1].frames[i];
+    const TakeFrame expected = frame_of(2 * static_cast<int>(i) + 1);
+    EXPECT_EQ(frame.time, expected.time);
+    EXPECT_EQ(frame.sequence, expected.sequence);
+    EXPECT_EQ(frame.dropped_before, expected.dropped_before);
+    EXPECT_EQ(frame.time_is_arrival, expected.time_is_arrival);
+    EXPECT_EQ(frame.damaged, expected.damaged);
+  }
+  ASSERT_EQ(take->events.size(), 1U);
+  EXPECT_EQ(take->events[0].camera, 1);
+  EXPECT_EQ(take->events[0].text, "lost: it's \"gone\"");
+}
+
+TEST(TakeFile, IsOneFileWhenFinished) {
+  const ScratchFolder folder;
+  make_take(folder / kTakeFile);
+  int files = 0;
+  for ([[maybe_unused]] const auto& entry : fs::directory_iterator(folder.path())) {
+    ++files;
+  }
+  EXPECT_EQ(files, 1);
+}
+
+TEST(TakeFile, IsReadFromAFolderThatMayNotBeWrittenTo) {
+  const ScratchFolder folder;
+  make_take(folder / kTakeFile);
+  fs::permissions(folder / kTakeFile, fs::perms::owner_read);
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  EXPECT_TRUE(read_take(folder / kTakeFile));
+  fs::permissions(folder.path(), fs::perms::owner_all);
+}
+
+// All that was committed is there; what was only added is not promised.
+TEST(TakeFile, KeepsWhatWasCommittedWhenItsProcessIsKilled) {
+  const ScratchFolder folder;
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
+    for (int k = 0; k < 500; ++k) writer->add(0, frame_of(k));
+    const bool committed = writer->commit().has_value();
+    for (int k = 500; k < 600; ++k) writer->add(0, frame_of(k));
+    if (committed) raise(SIGKILL);
+    _exit(1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+  const Result<Take> take = read_take(folder / kTakeFile);
+  ASSERT_TRUE(take) << take.error().message();
+  EXPECT_FALSE(take->finished);
+  ASSERT_EQ(take->cameras[0].frames.size(), 500U);
+  EXPECT_EQ(take->cameras[0].frames[499].time, frame_of(499).time);
+}
+
+TEST(TakeFile, IsNotWrittenOverAnother) {
+  const ScratchFolder folder;
+  make_take(folder / kTakeFile);
+  const auto second = TakeWriter::create(folder / kTakeFile, two_cameras());
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::kBadInput);
+  EXPECT_EQ(second.error().cause, "there is a recording already");
+}
+
+TEST(TakeFile, ThatIsMissingIsTold) {
+  const ScratchFolder folder;
+  const Result<Take> take = read_take(folder / kTakeFile);
+  ASSERT_FALSE(take);
+  EXPECT_EQ(take.error().where, (folder / kTakeFile).string());
+  EXPECT_EQ(take.error().cause, "it is missing: nobody knows when the frames were taken");
+}
+
+TEST(TakeFile, OfANewerVersionIsTold) {
+  const ScratchFolder folder;
+  make_take(folder / kTakeFile);
+  run_sql(folder / kTakeFile, "PRAGMA user_version=2");
+  const Result<Take> take = read_take(folder / kTakeFile);
+  ASSERT_FALSE(take);
+  EXPECT_EQ(take.error().cause,
+            "it was recorded by a newer marey (format 2, this one knows 1)");
+  EXPECT_EQ(take.error().next, "install the newer marey");
+}
+
+TEST(TakeFile, ThatIsSomethingElseIsTold) {
+  const ScratchFolder folder;
+  for (const std::string& bytes :
+       {std::string(), std::string("not a database"), std::string(5000, 'x')}) {
+    ASSERT_TRUE(write_file(folder / "other.sqlite", bytes));
+    const Result<Take> take = read_take(folder / "other.sqlite");
+    ASSERT_FALSE(take);
+    EXPECT_EQ(take.error().cause, "it is not the database of a take, or it is damaged");
+  }
+}
+
+TEST(TakeFile, ThatLacksItsTablesOrAFrameIsTold) {
+  const ScratchFolder folder;
+  make_take(folder / kTakeFile);
+  run_sql(folder / kTakeFile, "UPDATE frame SET number=3");
+  EXPECT_FALSE(read_take(folder / kTakeFile));
+  run_sql(folder / kTakeFile, "DROP TABLE frame");
+  EXPECT_FALSE(read_take(folder / kTakeFile));
+}
+
+TEST(TakeFile, CutAtAnyPlaceIsToldOrRead) {
+  const ScratchFolder folder;
+  make_take(folder / kTakeFile);
+  const Result<std::string> whole = read_file(folder / kTakeFile);
+  ASSERT_TRUE(whole);
+  for (std::size_t size = 0; size < whole->size(); size += 1000) {
+    ASSERT_TRUE(write_file(folder / "cut.sqlite", whole->substr(0, size)));
+    const Result<Take> take = read_take(folder / "cut.sqlite");
+    if (!take) {
+      EXPECT_EQ(take.error().code, Errc::kBadInput);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace marey::recordings
