@@ -52,7 +52,9 @@ Json camera_figures(const ReportCamera& camera) {
   const Intrinsics& k = camera.camera.intrinsics;
   const RigidTransform world_from_camera = inverse(camera.camera.camera_from_world);
   Json distortion = Json::array();
-  for (const double term : k.distortion) distortion.push_back(rounded(term, 6));
+  for (std::size_t i = 0; i < distortion_terms(k.lens); ++i) {
+    distortion.push_back(rounded(k.distortion[i], 6));
+  }
   return {{"name", camera.camera.name},
           {"width_px", k.width_px},
           {"height_px", k.height_px},

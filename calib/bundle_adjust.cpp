@@ -19,6 +19,7 @@ constexpr int kIntrinsics = Intrinsics::kParameterCount;
 
 /// One tag of the board in one view.
 struct TagResidual {
+  LensModel lens = LensModel::kBrownConrady;
   std::array<BoardCorner, 4> corners;
 
   template <class T>
@@ -42,7 +43,7 @@ struct TagResidual {
           T(corner.p_in_board.x), T(corner.p_in_board.y), T(corner.p_in_board.z)};
       const Vector p_in_world = world_from_board * p_in_board + origin;
       const Vector p_in_camera = world_from_camera.conjugate() * (p_in_world - centre);
-      if (!project(intrinsics, p_in_camera.data(), pixels[i].data())) return false;
+      if (!project(lens, intrinsics, p_in_camera.data(), pixels[i].data())) return false;
     }
     move_edges(pixels, [&](const T& apart_px) {
       return T(apart_px - shrinkage[0] - shrinkage[1] * apart_px);
@@ -71,6 +72,8 @@ struct IntrinsicsPrior {
     residual[5] = k[6] / T(0.005);
     residual[6] = k[7] / T(0.005);
     residual[7] = k[8] / T(0.05);
+    // Terms that the lens does not have: nothing else speaks of them.
+    for (int i = 8; i < 11; ++i) residual[i] = k[i + 1] / T(0.1);
     return true;
   }
 };
@@ -100,6 +103,7 @@ void add_views(std::span<const BoardView> views,
     BundleCamera& camera = bundle.cameras[index(view.camera)];
     for (std::size_t first = 0; first + 3 < view.corners.size(); first += 4) {
       auto residual = std::make_unique<TagResidual>();
+      residual->lens = camera.intrinsics.lens;
       std::copy_n(view.corners.begin() + static_cast<std::ptrdiff_t>(first),
                   4,
                   residual->corners.begin());
@@ -175,7 +179,7 @@ bool bundle_adjust(std::span<const BoardView> views, Bundle& bundle) {
   for (std::size_t c = 0; c < bundle.cameras.size(); ++c) {
     const Intrinsics& k = bundle.cameras[c].intrinsics;
     problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<IntrinsicsPrior, 8, kIntrinsics>(
+        new ceres::AutoDiffCostFunction<IntrinsicsPrior, 11, kIntrinsics>(
             new IntrinsicsPrior{static_cast<double>(k.width_px),
                                 static_cast<double>(k.height_px)}),
         nullptr,

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
@@ -47,5 +50,57 @@ struct AprilGrid {
                       0.0);
   }
 };
+
+/// A flat chessboard with a marker in every white square. What is found are its inner
+/// corners.
+///
+/// Board frame: origin at the bottom left corner of the outermost square, x to the right,
+/// y up, z out of the printed face, when the markers stand upright.
+struct CharucoBoard {
+  int rows = 5;     ///< Squares, not corners.
+  int columns = 7;  ///< Likewise.
+  double square_size_m = 0.04;
+  double marker_size_m = 0.03;             ///< Edge of a marker's black square.
+  std::string dictionary = "DICT_4X4_50";  ///< As OpenCV calls it.
+  /// Boards of even rows start with a white square at the top left, as OpenCV drew them
+  /// before version 4.6.
+  bool is_legacy = false;
+  double thickness_m = 0.0;  ///< As AprilGrid's.
+};
+
+/// A flat chessboard. Board frame as CharucoBoard's, the right way up when the corner
+/// square at the origin is black; a board whose rows and columns are both even or both
+/// odd looks the same after half a turn, and cannot serve several cameras.
+struct Chessboard {
+  int rows = 7;      ///< Squares, not corners.
+  int columns = 10;  ///< Likewise.
+  double square_size_m = 0.03;
+  double thickness_m = 0.0;  ///< As AprilGrid's.
+};
+
+/// A rigid body that carries tags of known size; where each sits is found when it is
+/// used. Its frame is that of the tag with the lowest id.
+struct Wand {
+  struct Tag {
+    TagId id{};
+    double size_m = 0.1;  ///< Edge of its black square.
+  };
+  std::vector<Tag> tags;  ///< Ascending ids, at least one.
+};
+
+/// What cameras are calibrated with.
+using CalibrationTarget = std::variant<AprilGrid, CharucoBoard, Chessboard, Wand>;
+
+/// Inner corner `point` of a board of squares, in its frame [m]: 0 is next to the origin,
+/// numbers grow along x, then along y. nullopt when the board has no such corner.
+[[nodiscard]] inline std::optional<glm::dvec3> inner_corner_in_board(int rows,
+                                                                     int columns,
+                                                                     double square_size_m,
+                                                                     int point) {
+  if (point < 0 || point >= (rows - 1) * (columns - 1)) return std::nullopt;
+  const int column = point % (columns - 1);
+  const int row = point / (columns - 1);
+  return glm::dvec3((column + 1) * square_size_m, (row + 1) * square_size_m, 0.0);
+}
 
 }  // namespace marey

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -15,29 +16,48 @@ namespace {
 bool before_the_fold(const Intrinsics& intrinsics, const glm::dvec2& ray) {
   const auto& k = intrinsics.distortion;
   const double r2 = glm::dot(ray, ray);
-  const double factor = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-  const double slope = 1.0 + r2 * (3.0 * k[0] + r2 * (5.0 * k[1] + r2 * 7.0 * k[4]));
-  return factor > 0.0 && slope > 0.0;
+  if (intrinsics.lens == LensModel::kFisheye) {
+    const double angle = std::atan(std::sqrt(r2));
+    const double a2 = angle * angle;
+    return 1.0 + a2 * (3.0 * k[0] +
+                       a2 * (5.0 * k[1] + a2 * (7.0 * k[2] + a2 * 9.0 * k[3]))) >
+           0.0;
+  }
+  // r -> r * above(r^2) / below(r^2)
+  const double above = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+  const double above_slope = k[0] + r2 * (2.0 * k[1] + r2 * 3.0 * k[4]);
+  double below = 1.0;
+  double below_slope = 0.0;
+  if (intrinsics.lens == LensModel::kRational) {
+    below += r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+    below_slope = k[5] + r2 * (2.0 * k[6] + r2 * 3.0 * k[7]);
+  }
+  const double slope =
+      above * below + 2.0 * r2 * (above_slope * below - above * below_slope);
+  return above > 0.0 && below > 0.0 && slope > 0.0;
+}
+
+/// A ray near the one that is looked for.
+glm::dvec2 first_ray(const Intrinsics& intrinsics, const glm::dvec2& pixel_px) {
+  const glm::dvec2 flat = (pixel_px - intrinsics.centre_px) / intrinsics.focal_px;
+  const double angle = glm::length(flat);
+  if (intrinsics.lens != LensModel::kFisheye || angle < 1e-8) return flat;
+  return flat * (std::tan(std::min(angle, 1.4)) / angle);
 }
 
 }  // namespace
 
 std::array<double, Intrinsics::kParameterCount> Intrinsics::parameters() const {
-  return {focal_px.x,
-          focal_px.y,
-          centre_px.x,
-          centre_px.y,
-          distortion[0],
-          distortion[1],
-          distortion[2],
-          distortion[3],
-          distortion[4]};
+  std::array<double, kParameterCount> values{
+      focal_px.x, focal_px.y, centre_px.x, centre_px.y};
+  std::copy(distortion.begin(), distortion.end(), values.begin() + 4);
+  return values;
 }
 
 void Intrinsics::set_parameters(std::span<const double, kParameterCount> values) {
   focal_px = {values[0], values[1]};
   centre_px = {values[2], values[3]};
-  for (std::size_t i = 0; i < distortion.size(); ++i) distortion[i] = values[i + 4];
+  std::copy(values.begin() + 4, values.end(), distortion.begin());
 }
 
 std::optional<glm::dvec2> project(const Camera& camera, const glm::dvec3& p_in_world) {
@@ -52,7 +72,7 @@ std::optional<glm::dvec2> project(const Camera& camera, const glm::dvec3& p_in_w
 
 std::optional<glm::dvec2> unproject(const Intrinsics& intrinsics,
                                     const glm::dvec2& pixel_px) {
-  const glm::dvec2 start = (pixel_px - intrinsics.centre_px) / intrinsics.focal_px;
+  const glm::dvec2 start = first_ray(intrinsics, pixel_px);
   glm::dvec2 ray = start;
   const auto image_of = [&](const glm::dvec2& r) {
     const glm::dvec3 p(r, 1.0);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,17 +17,39 @@
 
 namespace marey {
 
-/// Pinhole with Brown-Conrady distortion, OpenCV's five-term model.
-/// Camera frame: x right, y down, z forward. Pixel centres at integers.
+/// How a lens bends the picture. The names are OpenCV's, as are the orders of the terms.
+enum class LensModel : unsigned char {
+  kBrownConrady,  ///< k1, k2, p1, p2, k3
+  kRational,      ///< k1, k2, p1, p2, k3, k4, k5, k6
+  kFisheye,       ///< k1, k2, k3, k4 of the angle from the axis (equidistant)
+};
+
+/// Distortion terms that `lens` has.
+[[nodiscard]] constexpr std::size_t distortion_terms(LensModel lens) {
+  switch (lens) {
+    case LensModel::kBrownConrady:
+      return 5;
+    case LensModel::kRational:
+      return 8;
+    case LensModel::kFisheye:
+      return 4;
+  }
+  return 0;
+}
+
+/// What a camera does to rays. Camera frame: x right, y down, z forward. Pixel centres at
+/// integers.
 struct Intrinsics {
-  /// What a solver moves: focal x, y [px]; centre x, y [px]; k1, k2, p1, p2, k3.
-  static constexpr int kParameterCount = 9;
+  /// What a solver moves: focal x, y [px]; centre x, y [px]; the distortion terms, those
+  /// that the lens does not have at the end and zero.
+  static constexpr int kParameterCount = 12;
 
   int width_px = 0;
   int height_px = 0;
   glm::dvec2 focal_px{1000.0};
   glm::dvec2 centre_px{0.0};
-  std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3 (OpenCV's order).
+  std::array<double, 8> distortion{};  ///< The first distortion_terms(lens) count.
+  LensModel lens = LensModel::kBrownConrady;
 
   [[nodiscard]] std::array<double, kParameterCount> parameters() const;
   void set_parameters(std::span<const double, kParameterCount> values);
@@ -42,21 +66,47 @@ struct Camera {
 /// Pixel of a point in the camera's frame [m]. `parameters` as in Intrinsics,
 /// `p_in_camera` 3 numbers, `pixel_px` 2. P and T are double, or ceres::Jet inside a
 /// residual (P stays double when the intrinsics are not being solved for): there is no
-/// second copy of this formula. False, with `pixel_px` untouched, when the point is not
-/// in front of the camera. Source: D. C. Brown, "Close-range camera calibration", 1971,
-/// as OpenCV writes it.
+/// second copy of these formulas. False, with `pixel_px` untouched, when the point is not
+/// in front of the camera or the rational model has no value there. Sources: D. C. Brown,
+/// "Close-range camera calibration", 1971, and for fisheyes J. Kannala and S. Brandt, "A
+/// generic camera model and calibration method", 2006, eq. 6, both as OpenCV writes them.
 template <class P, class T>
-[[nodiscard]] bool project(const P* parameters, const T* p_in_camera, T* pixel_px) {
+[[nodiscard]] bool project(LensModel lens,
+                           const P* parameters,
+                           const T* p_in_camera,
+                           T* pixel_px) {
+  using std::atan2;
+  using std::sqrt;
   if (!(p_in_camera[2] > T(1e-6))) return false;  // Nor is NaN in front of anything.
   const T x = p_in_camera[0] / p_in_camera[2];
   const T y = p_in_camera[1] / p_in_camera[2];
   const T r2 = x * x + y * y;
-  const T radial = 1.0 + r2 * (parameters[4] + r2 * (parameters[5] + r2 * parameters[8]));
-  const P& p1 = parameters[6];
-  const P& p2 = parameters[7];
-  const T xy = 2.0 * x * y;
-  const T xd = x * radial + xy * p1 + (r2 + 2.0 * x * x) * p2;
-  const T yd = y * radial + (r2 + 2.0 * y * y) * p1 + xy * p2;
+  const P* k = parameters + 4;
+  T xd = x;
+  T yd = y;
+  if (lens == LensModel::kFisheye) {
+    // On the axis the root has no derivative; there the angle is the radius.
+    if (r2 > T(1e-16)) {
+      const T r = sqrt(r2);
+      const T angle = atan2(r, T(1.0));
+      const T a2 = angle * angle;
+      const T bent = angle * (1.0 + a2 * (k[0] + a2 * (k[1] + a2 * (k[2] + a2 * k[3]))));
+      xd = x * bent / r;
+      yd = y * bent / r;
+    }
+  } else {
+    T radial = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+    if (lens == LensModel::kRational) {
+      const T below = 1.0 + r2 * (k[5] + r2 * (k[6] + r2 * k[7]));
+      if (!(below > T(1e-6))) return false;
+      radial = radial / below;
+    }
+    const P& p1 = k[2];
+    const P& p2 = k[3];
+    const T xy = 2.0 * x * y;
+    xd = x * radial + xy * p1 + (r2 + 2.0 * x * x) * p2;
+    yd = y * radial + (r2 + 2.0 * y * y) * p1 + xy * p2;
+  }
   pixel_px[0] = xd * parameters[0] + parameters[2];
   pixel_px[1] = yd * parameters[1] + parameters[3];
   return true;
@@ -67,7 +117,7 @@ template <class T>
 [[nodiscard]] bool project(const Intrinsics& intrinsics,
                            const T* p_in_camera,
                            T* pixel_px) {
-  return project(intrinsics.parameters().data(), p_in_camera, pixel_px);
+  return project(intrinsics.lens, intrinsics.parameters().data(), p_in_camera, pixel_px);
 }
 
 /// Pixel of a world point; nullopt when it is not in front of the camera. The pixel may

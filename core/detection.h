@@ -103,6 +103,13 @@ void move_edges(std::array<std::array<T, 2>, 4>& corners, const Grow& grow) {
   return out;
 }
 
+/// One inner corner of a board of squares, seen in one image.
+struct PointDetection {
+  int point = 0;             ///< Its number on the board (inner_corner_in_board()).
+  glm::dvec2 pixel_px{0.0};  ///< Pixel centres at integers.
+  double sigma_px = 0.3;     ///< Standard deviation of one coordinate.
+};
+
 /// Sightings that a detector dropped.
 struct DroppedSightings {
   int unsure = 0;      ///< Decision margin too low.
@@ -110,10 +117,11 @@ struct DroppedSightings {
                        ///< which is right, or the one that is wrong.
 };
 
-/// All tags of one frame of one camera, in ascending id order, each id at most once.
+/// All that was found in one frame of one camera.
 struct FrameDetections {
   int frame = 0;
-  std::vector<TagDetection> tags;
+  std::vector<TagDetection> tags;        ///< Ascending ids, each at most once.
+  std::vector<PointDetection> points{};  ///< Of the board; likewise.
 };
 
 /// All frames of one camera in one trial; frames ascending, empty ones included, so that

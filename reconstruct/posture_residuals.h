@@ -58,7 +58,7 @@ struct TagImage {
       const Eigen::Matrix<T, 3, 1> p =
           camera_from_segment * corners_in_segment[i] + origin;
       std::array<T, 2> pixel{};
-      if (!project(k.data(), p.data(), pixel.data())) {
+      if (!project(intrinsics.lens, k.data(), p.data(), pixel.data())) {
         out[2 * i] = out[2 * i + 1] = T(1e3);
         continue;
       }

@@ -49,7 +49,6 @@ void write_pose(TomlWriter& out, const RigidTransform& camera_from_world) {
   const glm::dvec3 vector_rad = rotation_vector(q);
   out.numbers("rotation", {vector_rad.x, vector_rad.y, vector_rad.z});
   out.numbers("translation", {t.x, t.y, t.z});
-  out.boolean("fisheye", false);
   // The pose exactly, since a rotation vector rounds; then the other way round, for
   // people.
   out.numbers("rotation_wxyz", {q.w, q.x, q.y, q.z});
@@ -67,7 +66,8 @@ void write_camera(TomlWriter& out,
   const std::array<double, 9> matrix{
       k.focal_px.x, 0.0, k.centre_px.x, 0.0, k.focal_px.y, k.centre_px.y, 0.0, 0.0, 1.0};
   out.matrix("matrix", matrix, 3);
-  out.numbers("distortions", k.distortion);
+  out.numbers("distortions", std::span(k.distortion).first(distortion_terms(k.lens)));
+  out.boolean("fisheye", k.lens == LensModel::kFisheye);
   write_pose(out, camera.camera_from_world);
   out.number("tag_shrinkage_px", camera.tag_shrinkage.offset_px);
   out.number("tag_shrinkage_slope", camera.tag_shrinkage.slope);
@@ -108,10 +108,15 @@ void read_intrinsics(TomlReader& in, Intrinsics& k) {
             "\"matrix\" must be [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]",
             "calibrate without skew");
   }
-  if (in.has("fisheye") && in.boolean("fisheye")) {
-    in.fail("fisheye", "fisheye cameras are not supported", "calibrate as a pinhole");
+  const bool is_fisheye = in.has("fisheye") && in.boolean("fisheye");
+  const std::size_t given = in.count("distortions");
+  if (is_fisheye) {
+    k.lens = LensModel::kFisheye;
+  } else if (given == distortion_terms(LensModel::kRational)) {
+    k.lens = LensModel::kRational;
   }
-  const std::size_t terms = in.count("distortions") == 4 ? 4 : k.distortion.size();
+  // OpenCV's shortest form leaves out k3.
+  const std::size_t terms = given == 4 ? 4 : distortion_terms(k.lens);
   const std::vector<double> distortion = in.numbers("distortions", terms);
   std::copy(distortion.begin(), distortion.end(), k.distortion.begin());
 }

@@ -50,6 +50,62 @@ TEST(Project, IsBrownsFormulaInOpenCvsOrder) {
   EXPECT_NEAR(pixel_px.y, 259.4874625, 1e-9);
 }
 
+/// A lens of 150 degrees across.
+Intrinsics fisheye() {
+  Intrinsics k = webcam();
+  k.lens = LensModel::kFisheye;
+  k.focal_px = {490.0, 489.0};
+  k.distortion = {-0.021, 0.013, -0.006, 0.0011};
+  return k;
+}
+
+/// The same picture as a strong barrel, with a denominator.
+Intrinsics rational() {
+  Intrinsics k = webcam();
+  k.lens = LensModel::kRational;
+  k.distortion = {0.31, -0.04, 0.0004, -0.0003, 0.002, 0.62, 0.05, 0.001};
+  return k;
+}
+
+TEST(Project, IsOpenCvsRationalFormula) {
+  Intrinsics k = rational();
+  k.focal_px = {1000.0, 1000.0};
+  k.centre_px = {640.0, 360.0};
+  // cv2.projectPoints of (0.2, -0.1, 1) with these terms.
+  const glm::dvec2 pixel_px = project_ray(k, {0.2, -0.1});
+  EXPECT_NEAR(pixel_px.x, 836.89495794, 1e-6);
+  EXPECT_NEAR(pixel_px.y, 261.56502103, 1e-6);
+}
+
+TEST(Project, IsOpenCvsFisheyeFormula) {
+  // cv2.fisheye.projectPoints of (1.5, -0.8, 1) with these terms.
+  const glm::dvec2 pixel_px = project_ray(fisheye(), {1.5, -0.8});
+  EXPECT_NEAR(pixel_px.x, 1084.6470829921, 1e-6);
+  EXPECT_NEAR(pixel_px.y, 116.1372260320, 1e-6);
+}
+
+TEST(Project, OfAFisheyeHasADerivativeOnTheAxis) {
+  using Jet = ceres::Jet<double, 2>;
+  const Intrinsics k = fisheye();
+  const std::array<Jet, 3> p{Jet(0.0, 0), Jet(0.0, 1), Jet(1.0)};
+  std::array<Jet, 2> pixel_px;
+  ASSERT_TRUE(project(k, p.data(), pixel_px.data()));
+  EXPECT_DOUBLE_EQ(pixel_px[0].v[0], k.focal_px.x);
+  EXPECT_DOUBLE_EQ(pixel_px[1].v[1], k.focal_px.y);
+}
+
+TEST(Unproject, UndoesEveryLens) {
+  for (const Intrinsics& k : {webcam(), rational(), fisheye()}) {
+    for (double x_px = 0.0; x_px < 1280.0; x_px += 79.9) {
+      for (double y_px = 0.0; y_px < 720.0; y_px += 71.9) {
+        const auto ray = unproject(k, {x_px, y_px});
+        ASSERT_TRUE(ray) << x_px << ", " << y_px;
+        EXPECT_LT(glm::distance(project_ray(k, *ray), {x_px, y_px}), 1e-8);
+      }
+    }
+  }
+}
+
 TEST(Project, DeclinesAPointBehindTheCameraAndLeavesThePixelAlone) {
   const Intrinsics k = webcam();
   for (const double depth_m : {-1.0, 0.0, 1e-7}) {

@@ -171,9 +171,30 @@ TEST(CalibrationFile, NamesTheLineOfAMissingKey) {
       "c.toml:1: the key \"rotation\" is missing in [int_cam1_img]"));
 }
 
-TEST(CalibrationFile, RefusesAFisheye) {
-  EXPECT_TRUE(mistake(with(std::string(kPose2Sim), "false", "true"))
-                  .starts_with("c.toml:8: fisheye cameras are not supported"));
+TEST(CalibrationFile, OfAFisheyeHasFourTerms) {
+  const auto read =
+      parse_calibration(with(std::string(kPose2Sim), "false", "true"), "c.toml");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->cameras[0].intrinsics.lens, LensModel::kFisheye);
+  EXPECT_EQ(read->cameras[0].intrinsics.distortion[3], -0.00049);
+}
+
+TEST(CalibrationFile, KeepsEveryLens) {
+  Calibration calibration = two_cameras();
+  Intrinsics& wide = calibration.cameras[0].intrinsics;
+  wide.lens = LensModel::kRational;
+  wide.distortion = {0.31, -0.1 / 3, 1e-4, -2e-4 / 7, 0.01, 0.6 / 7, -0.02, 0.003 / 7};
+  Intrinsics& widest = calibration.cameras[1].intrinsics;
+  widest.lens = LensModel::kFisheye;
+  widest.distortion = {-0.02, 0.01 / 3, -0.004, 0.001 / 7};
+  const auto back = parse_calibration(calibration_text(calibration), "c.toml");
+  ASSERT_TRUE(back);
+  for (std::size_t c = 0; c < 2; ++c) {
+    const Intrinsics& a = calibration.cameras[c].intrinsics;
+    const Intrinsics& b = back->cameras[c].intrinsics;
+    EXPECT_EQ(a.lens, b.lens);
+    EXPECT_EQ(a.distortion, b.distortion);
+  }
 }
 
 TEST(CalibrationFile, RefusesSkew) {
