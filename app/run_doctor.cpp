@@ -49,7 +49,7 @@ struct Check {
   Exit exit = Exit::kOk;
 };
 
-struct Camera {
+struct ExaminedCamera {
   capture::DeviceInfo device;
   capture::CameraCheck check;
 };
@@ -80,8 +80,9 @@ std::vector<Check> examine_machine() {
 }
 
 /// Each camera for about a second, one after the other.
-std::vector<Camera> examine_cameras(const std::vector<capture::DeviceInfo>& devices) {
-  std::vector<Camera> cameras;
+std::vector<ExaminedCamera> examine_cameras(
+    const std::vector<capture::DeviceInfo>& devices) {
+  std::vector<ExaminedCamera> cameras;
   for (const capture::DeviceInfo& device : devices) {
     if (device.modes.empty()) continue;
     capture::DeviceRequest request;
@@ -95,10 +96,10 @@ Check trouble(const Error& error) {
   return {"camera", false, error.where + ": " + error.cause, error.next, Exit::kDevice};
 }
 
-std::vector<Check> checks_of(const std::vector<Camera>& cameras,
+std::vector<Check> checks_of(const std::vector<ExaminedCamera>& cameras,
                              const std::vector<Error>& troubles) {
   std::vector<Check> checks;
-  for (const Camera& camera : cameras) {
+  for (const ExaminedCamera& camera : cameras) {
     const auto& check = camera.check;
     if (check.trouble && !check.in_use) {
       checks.push_back(trouble(*check.trouble));
@@ -148,7 +149,7 @@ Json json_of(const capture::DeviceSettings& settings) {
           {"differences", settings.differences}};
 }
 
-Json json_of(const Camera& camera) {
+Json json_of(const ExaminedCamera& camera) {
   const auto& [device, check] = camera;
   Json out{{"path", device.path},
            {"card", device.card},
@@ -168,7 +169,7 @@ Json json_of(const Camera& camera) {
 }
 
 void print_json(const std::vector<Check>& checks,
-                const std::vector<Camera>& cameras,
+                const std::vector<ExaminedCamera>& cameras,
                 bool all_good) {
   Json list = Json::array();
   for (const Check& check : checks) {
@@ -177,7 +178,7 @@ void print_json(const std::vector<Check>& checks,
     if (!check.good) list.back()["advice"] = check.advice;
   }
   Json seen = Json::array();
-  for (const Camera& camera : cameras) seen.push_back(json_of(camera));
+  for (const ExaminedCamera& camera : cameras) seen.push_back(json_of(camera));
   const Json out{
       {"version", kVersion}, {"good", all_good}, {"checks", list}, {"cameras", seen}};
   // Cameras may call themselves anything.
@@ -188,7 +189,8 @@ void print_line(const char* verdict, const std::string& what, const std::string&
   std::printf("%-5s %-16s %s\n", verdict, what.c_str(), text.c_str());
 }
 
-void print_text(const std::vector<Check>& checks, const std::vector<Camera>& cameras) {
+void print_text(const std::vector<Check>& checks,
+                const std::vector<ExaminedCamera>& cameras) {
   std::printf("marey %s\n", kVersion);
   for (const Check& check : checks) {
     print_line(check.good ? "ok" : "poor",
@@ -219,7 +221,7 @@ void print_text(const std::vector<Check>& checks, const std::vector<Camera>& cam
 Exit run_doctor(bool json, Console& console) {
   std::vector<Check> checks = examine_machine();
   const capture::DeviceList found = capture::list_devices();
-  const std::vector<Camera> cameras = examine_cameras(found.devices);
+  const std::vector<ExaminedCamera> cameras = examine_cameras(found.devices);
   for (Check& check : checks_of(cameras, found.troubles)) {
     checks.push_back(std::move(check));
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <csetjmp>
 #include <cstdio>
+#include <cstdlib>
 
 // It needs <cstdio> before it.
 #include <jerror.h>
@@ -34,6 +35,9 @@ struct JpegDecoder::Impl {
       if (level < 0) of(j).hear_warning(j);
     };
     errors.output_message = [](j_common_ptr) {};
+    // No memory, or a library of another version than its header: nothing to go on with.
+    // NOLINTNEXTLINE(modernize-avoid-setjmp-longjmp)
+    if (setjmp(on_error) != 0) std::abort();
     jpeg_create_decompress(&jpeg);
   }
   Impl(const Impl&) = delete;

@@ -10,6 +10,7 @@
 
 #include "capture/decode_jpeg.h"
 #include "capture/opencv_reading.h"
+#include "core/extension.h"
 
 namespace marey::capture {
 namespace {
@@ -152,7 +153,7 @@ std::unique_ptr<FrameSource> open_mjpg_file(const std::filesystem::path& path,
     info.expected_frames = promised;
     // AVI counts its frames. Matroska knows a duration at most, of which frames that the
     // camera dropped are no part.
-    if (path.extension() == ".avi") least = promised - std::max(2, promised / 50);
+    if (kind_by_extension(path) == ".avi") least = promised - std::max(2, promised / 50);
   }
   return std::make_unique<MjpgFile>(*video, std::move(info), least);
 }

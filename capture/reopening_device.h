@@ -47,9 +47,10 @@ struct ReopeningOptions {
 /// Keeps one camera alive: notices within a second that it was unplugged, and has it back
 /// within three after it was plugged into the same port, whatever path it has then.
 ///
-/// One worker thread for each: what a sick device blocks is its own worker, never
-/// another camera's. Opening may take as long as the kernel needs (a USB device that does
-/// not answer: 5 s). Nothing is kept of the time between; sequence numbers begin anew,
+/// One worker thread for each: a sick device blocks its own worker, never one whose
+/// camera streams. Opening may take as long as the kernel needs (a USB device that does
+/// not answer: 5 s), and who looks for a lost camera opens every device of the machine in
+/// turn. Nothing is kept of the time between; sequence numbers begin anew,
 /// and `status().restarts` tells frames before from those after.
 class ReopeningDevice {
  public:

@@ -68,6 +68,8 @@ glm::dvec2 middle_of(const std::array<glm::dvec2, 4>& corners_px) {
 Result<TagTracker> TagTracker::create(const TrackTagsOptions& options) {
   MAREY_ASSERT(options.full_every_frames > 0 && options.body_every_frames > 0 &&
                options.remember_frames >= 0);
+  // Boxes on a coarser grid would not give the corners of the whole picture.
+  MAREY_ASSERT(options.detector.quad_decimate == 1.0F);
   auto detector = TagDetector::create(options.detector);
   if (!detector) return detector.error();
   return TagTracker(std::move(*detector), options);
@@ -92,7 +94,8 @@ SearchKind TagTracker::choose_search(const GrayFrame& frame) {
   SearchKind kind = SearchKind::kFull;
   if (frame.index < next_full_ && !tracks_.empty()) {
     predict_boxes(frame);
-    kind = SearchKind::kRegions;
+    // All that was followed has left the picture: somebody else may have come.
+    kind = boxes_.empty() ? SearchKind::kFull : SearchKind::kRegions;
     if (frame.index >= next_body_ && !boxes_.empty()) {
       kind = SearchKind::kBody;
       PixelBox body = boxes_.front();

@@ -41,7 +41,7 @@ enum class SearchKind {
 class TagTracker {
  public:
   /// kBadInput as TagDetector::create(). Precondition: intervals are positive,
-  /// remember_frames not negative.
+  /// remember_frames not negative, quad_decimate is 1.
   [[nodiscard]] static Result<TagTracker> create(const TrackTagsOptions& options = {});
 
   /// Tags in `frame`, as TagDetector::detect() says, but for those that it has not come

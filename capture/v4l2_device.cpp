@@ -190,7 +190,10 @@ Result<V4l2Device> V4l2Device::open(const DeviceRequest& request, V4l2Kernel& ke
                  "use another camera"};
   }
   DeviceSettings& settings = impl->settings;
-  if (auto set = set_format(kernel, fd, request, *format, settings); !set) {
+  const auto listed = std::ranges::find(impl->info.modes, *format, &DeviceMode::format);
+  const std::uint32_t fourcc =
+      listed == impl->info.modes.end() ? fourcc_of(*format) : listed->fourcc;
+  if (auto set = set_format(kernel, fd, request, *format, fourcc, settings); !set) {
     return set.error();
   }
   set_controls(kernel, fd, request);

@@ -33,6 +33,8 @@ struct DeviceMode {
   int width_px = 0;  ///< 0 by 0 when the driver does not list its sizes.
   int height_px = 0;
   std::vector<FrameRate> rates;  ///< Fastest first; empty when the driver does not list.
+  /// The driver's own code: motion JPEG goes by two names.
+  std::uint32_t fourcc = 0;
 };
 
 /// A capture device as the kernel lists it.

@@ -214,7 +214,8 @@ std::vector<DeviceMode> list_modes(V4l2Kernel& kernel, int fd) {
       modes.push_back({*format,
                        static_cast<int>(size.width_px),
                        static_cast<int>(size.height_px),
-                       list_rates(kernel, fd, entry.pixelformat, size)});
+                       list_rates(kernel, fd, entry.pixelformat, size),
+                       entry.pixelformat});
     }
   }
   std::ranges::stable_sort(modes, {}, &DeviceMode::format);
@@ -244,12 +245,13 @@ Status set_format(V4l2Kernel& kernel,
                   int fd,
                   const DeviceRequest& request,
                   PixelFormat format,
+                  std::uint32_t fourcc,
                   DeviceSettings& settings) {
   v4l2_format wanted{};
   wanted.type = kCapture;
   wanted.fmt.pix.width = static_cast<std::uint32_t>(request.width_px);
   wanted.fmt.pix.height = static_cast<std::uint32_t>(request.height_px);
-  wanted.fmt.pix.pixelformat = fourcc_of(format);
+  wanted.fmt.pix.pixelformat = fourcc;
   wanted.fmt.pix.field = V4L2_FIELD_NONE;
   if (const int refused = kernel.ioctl(fd, VIDIOC_S_FMT, &wanted); refused < 0) {
     return device_error(request.path, V4l2Step::kSetFormat, -refused);
@@ -263,10 +265,20 @@ Status set_format(V4l2Kernel& kernel,
                      fourcc_text(got.pixelformat) + ", which marey does not read",
                  "use a camera, or a mode of it, with MJPG, YUYV, NV12 or GREY"};
   }
+  if (got.width == 0 || got.height == 0) {
+    return Error{Errc::kDevice,
+                 request.path,
+                 "its driver gives pictures without a size",
+                 "unplug the camera and plug it in again"};
+  }
   settings.format = *known;
   settings.width_px = static_cast<int>(got.width);
   settings.height_px = static_cast<int>(got.height);
-  settings.stride = *known == PixelFormat::kMjpg ? 0 : static_cast<int>(got.bytesperline);
+  // Some drivers leave the length of a row to be guessed.
+  const std::uint32_t row_bytes = (*known == PixelFormat::kYuyv ? 2 : 1) * got.width;
+  settings.stride = *known == PixelFormat::kMjpg
+                        ? 0
+                        : static_cast<int>(std::max(got.bytesperline, row_bytes));
   if (*known != format) {
     settings.differences.push_back(std::string("asked for ") + name(format) + ", got " +
                                    name(*known));

@@ -26,13 +26,15 @@ namespace marey::capture {
 /// that gives a range are the usual ones within it.
 [[nodiscard]] std::vector<DeviceMode> list_modes(V4l2Kernel& kernel, int fd);
 
-/// Sets format, size and rate, and reads back what came of it into `settings`, with a
-/// sentence for each difference. Errors (kDevice): busy, gone; the device gives only
-/// pictures that marey does not read.
+/// Sets format (`fourcc`, the driver's code for `format`), size and rate, and reads back
+/// what came of it into `settings`, with a sentence for each difference. Errors
+/// (kDevice): busy, gone; the device gives only pictures that marey does not read, or
+/// none at all.
 [[nodiscard]] Status set_format(V4l2Kernel& kernel,
                                 int fd,
                                 const DeviceRequest& request,
                                 PixelFormat format,
+                                std::uint32_t fourcc,
                                 DeviceSettings& settings);
 
 }  // namespace marey::capture

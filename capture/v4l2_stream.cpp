@@ -209,13 +209,18 @@ RawFrame V4l2Stream::frame_in(const v4l2_buffer& buffer) {
                   frame.bytes.size() < least_bytes_ ||
                   (format_ == PixelFormat::kMjpg && !begins_as_jpeg(frame.bytes));
   const Timestamp now = kernel_->now();
-  // A stamp that makes no sense may also be too large to be multiplied.
+  // A stamp that makes no sense may also be too large to be turned into nanoseconds.
+  const std::int64_t now_s = std::chrono::floor<seconds>(now).count();
   const std::int64_t whole_s = buffer.timestamp.tv_sec;
-  const bool sane = seconds{whole_s} >= now - kOldestStamp - seconds{1} &&
-                    seconds{whole_s} <= now + kNewestStamp;
-  frame.time_is_arrival = !sane;
-  frame.time =
-      sane ? seconds{whole_s} + std::chrono::microseconds{buffer.timestamp.tv_usec} : now;
+  const std::int64_t part_us = buffer.timestamp.tv_usec;
+  const bool is_near = whole_s >= now_s - kOldestStamp.count() - 1 &&
+                       whole_s <= now_s + kNewestStamp.count() + 1 && part_us >= 0 &&
+                       part_us < 1'000'000;
+  const Timestamp stamp =
+      is_near ? Timestamp(seconds{whole_s} + std::chrono::microseconds{part_us}) : now;
+  frame.time_is_arrival =
+      !is_near || stamp < now - kOldestStamp || stamp > now + kNewestStamp;
+  frame.time = frame.time_is_arrival ? now : stamp;
   return frame;
 }
 

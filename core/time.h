@@ -7,7 +7,9 @@
 
 namespace marey {
 
-/// Time since the start of the trial, on the clock of its first camera.
+/// A point on a clock that the owner names. Of frames of a trial: since the trial's start,
+/// on the clock of its first camera. Of a device's frames and events: the kernel's
+/// monotonic clock.
 using Timestamp = std::chrono::nanoseconds;
 
 /// Frames per second of a steady stream.

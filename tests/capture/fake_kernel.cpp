@@ -66,6 +66,7 @@ int set_format(FakeCamera& camera, v4l2_pix_format& wanted) {
   wanted.height = size.height_px;
   wanted.bytesperline =
       wanted.pixelformat == V4L2_PIX_FMT_YUYV ? 2 * wanted.width : wanted.width;
+  if (camera.keeps_stride) wanted.bytesperline = 0;
   wanted.sizeimage = 2 * wanted.width * wanted.height;
   camera.format = wanted;
   return 0;
@@ -227,7 +228,7 @@ int FakeKernel::take_frame(FakeCamera& camera, v4l2_buffer& buffer) {
   buffer.flags = camera.stamp_flags | frame.flags;
   const auto stamp =
       std::chrono::duration_cast<std::chrono::microseconds>(frame.stamp.value_or(time));
-  buffer.timestamp.tv_sec = stamp.count() / 1'000'000;
+  buffer.timestamp.tv_sec = frame.stamp_s.value_or(stamp.count() / 1'000'000);
   buffer.timestamp.tv_usec = stamp.count() % 1'000'000;
   return 0;
 }

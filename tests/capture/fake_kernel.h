@@ -38,6 +38,7 @@ struct FakeFrame {
   std::uint32_t flags = 0;
   std::optional<std::uint32_t> bytes_used;  ///< nullopt: a whole picture.
   std::optional<Timestamp> stamp;           ///< nullopt: when it comes.
+  std::optional<std::int64_t> stamp_s;      ///< Replaces the whole seconds of it.
   Timestamp wait = std::chrono::milliseconds(33);
   std::uint8_t first_bytes[2] = {0xFF, 0xD8};
 };
@@ -51,6 +52,7 @@ struct FakeCamera {
   std::vector<FakeFormat> formats{{}};
   std::optional<std::uint32_t> always_gives;  ///< Whatever format is asked for.
   std::optional<v4l2_fract> always_every;     ///< Whatever rate is asked for.
+  bool keeps_stride = false;                  ///< Does not say how long a row is.
   std::map<std::uint32_t, FakeControl> controls;
   std::uint32_t stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   bool plugged = true;

@@ -130,8 +130,11 @@ TEST(RealPictures, OfKalibrBoardsAreReadWhole) {
     ASSERT_TRUE(detector);
     const auto found = detector->detect(tests::frame_of(image));
     std::string ids;
-    for (const TagDetection& t : found) ids.append(std::to_string(number(t.id))).append(" ");
-    ASSERT_EQ(found.size(), picture.tags) << picture.name << ":" << ids << ", doubled " << detector->dropped().duplicated << ", unsure " << detector->dropped().unsure;
+    for (const TagDetection& t : found)
+      ids.append(std::to_string(number(t.id))).append(" ");
+    ASSERT_EQ(found.size(), picture.tags)
+        << picture.name << ":" << ids << ", doubled " << detector->dropped().duplicated
+        << ", unsure " << detector->dropped().unsure;
     for (std::size_t i = 0; i < found.size(); ++i) {
       EXPECT_EQ(number(found[i].id), static_cast<int>(i)) << picture.name;
     }

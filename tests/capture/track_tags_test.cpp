@@ -32,7 +32,8 @@ DrawnTag swinging(int id, int frame) {
   const double phase = 2.0 * std::numbers::pi * frame / kPeriod + id;
   return {"tag36h11",
           id,
-          tests::square({(id == 5 ? 250.0 : 110.0) + 40.0 * std::sin(phase), 120.0 + 20.0 * std::cos(phase)},
+          tests::square({(id == 5 ? 250.0 : 110.0) + 40.0 * std::sin(phase),
+                         120.0 + 20.0 * std::cos(phase)},
                         40.0,
                         0.5 * std::sin(phase))};
 }
@@ -117,6 +118,24 @@ TEST(TrackTags, ComesUponATagFarAwayWithTheNextWholeSearch) {
     const cv::Mat image = draw(tags);
     const auto& found = tracker->track(numbered(image, f));
     EXPECT_EQ(found.size(), f >= 10 ? 2U : 1U) << f;
+  }
+}
+
+TEST(TrackTags, LooksEverywhereOnceAllItFollowedHasLeft) {
+  TrackTagsOptions options;
+  options.remember_frames = 12;
+  auto tracker = TagTracker::create(options);
+  for (int f = 0; f < 9; ++f) {
+    std::vector<DrawnTag> tags;
+    if (f < 2) {
+      const double x_px = kWidth - 55.0 + 24.0 * f;
+      tags.push_back({"tag36h11", 3, tests::square({x_px, 60.0}, 40.0)});
+    }
+    // Where the first has gone, as far as anybody knows: 376 px and beyond.
+    if (f == 8) tags.push_back({"tag36h11", 5, tests::square({60.0, 60.0}, 40.0)});
+    const cv::Mat image = draw(tags);
+    const auto& found = tracker->track(numbered(image, f));
+    EXPECT_EQ(found.size(), tags.size()) << f;
   }
 }
 

@@ -46,6 +46,38 @@ bool says(const std::vector<std::string>& sentences, const std::string& sentence
   return std::ranges::find(sentences, sentence) != sentences.end();
 }
 
+TEST(V4l2Open, AsksForMotionJpegByTheNameThatIsListed) {
+  FakeKernel kernel;
+  kernel.cameras[0].formats = {{V4L2_PIX_FMT_JPEG, {{}}}, {V4L2_PIX_FMT_YUYV, {{}}}};
+  DeviceRequest request;
+  request.path = kernel.cameras[0].path;
+  const auto device = V4l2Device::open(request, kernel);
+  ASSERT_TRUE(device);
+  EXPECT_EQ(device->settings().format, PixelFormat::kMjpg);
+  EXPECT_EQ(kernel.cameras[0].format.pixelformat, V4L2_PIX_FMT_JPEG);
+}
+
+TEST(V4l2Open, KnowsHowLongARowIsWhereTheDriverDoesNotSay) {
+  FakeKernel kernel;
+  kernel.cameras[0].keeps_stride = true;
+  DeviceRequest request;
+  request.path = kernel.cameras[0].path;
+  const auto device = V4l2Device::open(request, kernel);
+  ASSERT_TRUE(device);
+  EXPECT_EQ(device->settings().stride, 2 * device->settings().width_px);
+}
+
+TEST(V4l2Open, RefusesPicturesWithoutASize) {
+  FakeKernel kernel;
+  kernel.cameras[0].formats = {{V4L2_PIX_FMT_YUYV, {{0, 0, {30}}}}};
+  DeviceRequest request;
+  request.path = kernel.cameras[0].path;
+  const auto device = V4l2Device::open(request, kernel);
+  ASSERT_FALSE(device);
+  EXPECT_EQ(device.error().code, Errc::kDevice);
+  EXPECT_EQ(kernel.open_files, 0);
+}
+
 TEST(V4l2List, IsOfCamerasAloneAndTellsOfTheRest) {
   FakeKernel kernel;
   kernel.cameras.resize(3);

@@ -3,6 +3,9 @@
 #include "capture/v4l2_stream.h"
 
 #include <cerrno>
+#include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -148,6 +151,34 @@ TEST_F(V4l2Frames, WithSenselessStampsGetTheTimeOfTheirArrival) {
     ASSERT_TRUE(frame && *frame);
     EXPECT_TRUE((*frame)->time_is_arrival);
     EXPECT_EQ((*frame)->time, kernel_.now());
+  }
+}
+
+TEST_F(V4l2Frames, WithStampsBeyondAnyClockGetTheTimeOfTheirArrival) {
+  // The first is near now once multiplied modulo 2^64.
+  for (const std::int64_t stamp_s : {std::int64_t{18446745073},
+                                     std::numeric_limits<std::int64_t>::max(),
+                                     std::numeric_limits<std::int64_t>::min()}) {
+    camera_.frames = frames_from(0, 1);
+    camera_.frames[0].stamp_s = stamp_s;
+    V4l2Device device = open();
+    const auto frame = device.next(milliseconds(100));
+    ASSERT_TRUE(frame && *frame);
+    EXPECT_TRUE((*frame)->time_is_arrival) << stamp_s;
+    EXPECT_EQ((*frame)->time, kernel_.now());
+  }
+}
+
+TEST_F(V4l2Frames, AreStampedASecondAheadAtMost) {
+  for (const auto& [ahead, sane] :
+       {std::pair{milliseconds(900), true}, std::pair{milliseconds(1100), false}}) {
+    camera_.frames = frames_from(0, 1);
+    camera_.frames[0].wait = milliseconds(0);
+    camera_.frames[0].stamp = kernel_.now() + ahead;
+    V4l2Device device = open();
+    const auto frame = device.next(milliseconds(100));
+    ASSERT_TRUE(frame && *frame);
+    EXPECT_EQ((*frame)->time_is_arrival, !sane) << ahead.count();
   }
 }
 
