@@ -65,7 +65,23 @@ struct CharucoBoard {
   /// Boards of even rows start with a white square at the top left, as OpenCV drew them
   /// before version 4.6.
   bool is_legacy = false;
+  /// White and black are exchanged, also in the markers.
+  bool is_inverted = false;
+  /// Its back shows it mirrored, each corner behind that of the front; the plate is thin.
+  /// Then cameras on both sides see the same points.
+  bool is_two_sided = false;
   double thickness_m = 0.0;  ///< As AprilGrid's.
+
+  /// Markers, one in every square that is not black: ids from 0 along the rows, from the
+  /// top left.
+  [[nodiscard]] int marker_count() const { return rows * columns / 2; }
+
+  /// Whether a square is white, that is, has a marker; row 0 is at the origin.
+  [[nodiscard]] bool is_white(int row, int column) const {
+    const int from_top = rows - 1 - row;
+    const bool starts_white = is_legacy && rows % 2 == 0;
+    return ((from_top + column) % 2 == 0) == starts_white;
+  }
 };
 
 /// A flat chessboard. Board frame as CharucoBoard's, the right way up when the corner
