@@ -6,20 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "calib/calibrated_rig.h"
 #include "core/board.h"
-#include "core/camera.h"
-#include "core/camera_quality.h"
 #include "core/detection.h"
 #include "core/result.h"
 
 namespace marey::calib {
-
-struct CalibratedRig {
-  std::vector<Camera> cameras;
-  std::vector<CameraQuality> quality;  ///< Per camera.
-  double rms_px = 0.0;                 ///< Over all corners of all cameras.
-  double median_px = 0.0;  ///< Likewise the median distance: a few wrong tags leave it.
-};
 
 /// Calibrates all cameras together from a board waved through the volume and then lying
 /// on the floor: intrinsics (5-term Brown-Conrady) and poses by one bundle adjustment.

@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How good is a calibration of real cameras, where nobody surveyed them?
+//
+//   measure_calibration wand ../shared/data/camera/tagslam_tracks/test_4
+//   measure_calibration rig ../shared/data/camera/tagslam_tracks/test_5
+//
+// wand: a wand of tags 0 to 4, 119.86 mm each, calibrates the cameras; then each of its
+// tags in turn is left out of the calibration, triangulated, and its sides measured.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "calib/calibrate_wand.h"
+#include "core/quantile.h"
+
+namespace marey::calib {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+struct Tracks {
+  std::vector<std::string> names;
+  std::vector<CameraDetections> cameras;
+};
+
+/// tag_corners.csv: topic, stamp, tag_id, hamming, four corners.
+Tracks read_tracks(const std::filesystem::path& folder, int width_px, int height_px) {
+  std::ifstream file(folder / "tag_corners.csv");
+  if (!file) {
+    std::fprintf(stderr, "%s cannot be read\n", (folder / "tag_corners.csv").c_str());
+    std::exit(1);
+  }
+  struct Row {
+    std::string topic;
+    std::string stamp;
+    TagDetection tag;
+  };
+  std::vector<Row> rows;
+  std::set<std::string> topics;
+  std::set<std::string> stamps;
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream in(line);
+    Row row;
+    int id = 0;
+    in >> row.topic >> row.stamp >> id >> row.tag.hamming;
+    row.tag.id = TagId{id};
+    for (glm::dvec2& corner : row.tag.corners_px) in >> corner.x >> corner.y;
+    if (row.tag.hamming > 1) continue;
+    topics.insert(row.topic);
+    stamps.insert(row.stamp);
+    rows.push_back(row);
+  }
+  Tracks tracks;
+  std::map<std::string, std::size_t> camera_of;
+  for (const std::string& topic : topics) {
+    camera_of[topic] = tracks.names.size();
+    const std::size_t start = topic.find('/', 1) + 1;
+    tracks.names.push_back(topic.substr(start, topic.rfind('/') - start));
+  }
+  std::map<std::string, int> frame_of;
+  for (const std::string& stamp : stamps) {
+    frame_of.emplace(stamp, static_cast<int>(frame_of.size()));
+  }
+  tracks.cameras.resize(topics.size());
+  for (std::size_t c = 0; c < tracks.cameras.size(); ++c) {
+    CameraDetections& camera = tracks.cameras[c];
+    camera.source = tracks.names[c];
+    camera.camera = CameraId{static_cast<int>(c)};
+    camera.width_px = width_px;
+    camera.height_px = height_px;
+    camera.frames.resize(stamps.size());
+    for (std::size_t f = 0; f < stamps.size(); ++f) {
+      camera.frames[f].frame = static_cast<int>(f);
+    }
+  }
+  for (const Row& row : rows) {
+    auto& frame = tracks.cameras[camera_of[row.topic]]
+                      .frames[static_cast<std::size_t>(frame_of[row.stamp])];
+    frame.tags.push_back(row.tag);
+  }
+  for (CameraDetections& camera : tracks.cameras) {
+    for (FrameDetections& frame : camera.frames) {
+      std::stable_sort(frame.tags.begin(), frame.tags.end(), [](auto& a, auto& b) {
+        return a.id < b.id;
+      });
+      // A tag seen twice is one too many.
+      std::vector<TagDetection> once;
+      for (const TagDetection& tag : frame.tags) {
+        const auto same = std::count_if(frame.tags.begin(),
+                                        frame.tags.end(),
+                                        [&](auto& t) { return t.id == tag.id; });
+        if (same == 1) once.push_back(tag);
+      }
+      frame.tags = once;
+    }
+  }
+  return tracks;
+}
+
+void print_rig(const CalibratedRig& rig) {
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    const Intrinsics& k = rig.cameras[c].intrinsics;
+    const CameraQuality& q = rig.quality[c];
+    const glm::dvec3 centre = centre_in_world(rig.cameras[c]);
+    std::printf(
+        "%-14s f %8.2f %8.2f +- %.2f  c %8.2f %8.2f  k %7.4f %7.4f %7.4f %7.4f %7.4f  at "
+        "%7.4f %7.4f %7.4f +- %.2f mm  rms %.3f p95 %.3f px, %d corners\n",
+        rig.cameras[c].name.c_str(),
+        k.focal_px.x,
+        k.focal_px.y,
+        q.focal_sigma_px,
+        k.centre_px.x,
+        k.centre_px.y,
+        k.distortion[0],
+        k.distortion[1],
+        k.distortion[2],
+        k.distortion[3],
+        k.distortion[4],
+        centre.x,
+        centre.y,
+        centre.z,
+        1e3 * q.centre_sigma_m,
+        q.rms_px,
+        q.p95_px,
+        q.corners);
+  }
+  std::printf(
+      "all: rms %.3f px, median %.3f px, without outliers %.3f px; %d of %d "
+      "sightings are outliers; corners stray %.2f times their sigma\n",
+      rig.rms_px,
+      rig.median_px,
+      rig.inlier_rms_px,
+      rig.outliers,
+      rig.sightings,
+      rig.sigma_factor);
+}
+
+}  // namespace
+
+int measure_wand(const std::filesystem::path& folder) {
+  const Tracks tracks = read_tracks(folder, 1920, 1200);
+  const Wand wand{{{TagId{0}, 0.11986},
+                   {TagId{1}, 0.11986},
+                   {TagId{2}, 0.11986},
+                   {TagId{3}, 0.11986}}};
+  const auto start = Clock::now();
+  const auto found = calibrate_wand(tracks.names, tracks.cameras, wand);
+  std::printf("%.1f s\n", seconds_since(start));
+  if (!found) {
+    std::printf("%s\n", found.error().message().c_str());
+    return 1;
+  }
+  print_rig(found->rig);
+  for (const auto& [id, size_m] : found->scenery_sizes_m) {
+    std::printf("%d: %.2f mm  ", number(id), 1e3 * size_m);
+  }
+  std::printf("\n");
+  return 0;
+}
+
+}  // namespace marey::calib
+
+int main(int argc, char** argv) {
+  const std::string what = argc > 2 ? argv[1] : "";
+  if (what == "wand") return marey::calib::measure_wand(argv[2]);
+  std::fprintf(stderr, "measure_calibration wand FOLDER\n");
+  return 2;
+}

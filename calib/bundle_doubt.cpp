@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+
+#include "calib/bundle_problem.h"
+
+namespace marey::calib {
+namespace {
+
+using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
+using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr int kLens = Intrinsics::kParameterCount;
+
+/// Covariance of the first `shared` columns of a normal matrix, the others eliminated.
+std::optional<Eigen::MatrixXd> leading_covariance(const Sparse& normal, int shared) {
+  Eigen::MatrixXd information = Eigen::MatrixXd(normal.topLeftCorner(shared, shared));
+  const int rest = static_cast<int>(normal.cols()) - shared;
+  if (rest > 0) {
+    const Sparse poses = normal.bottomRightCorner(rest, rest);
+    const Eigen::MatrixXd mixed = Eigen::MatrixXd(normal.bottomLeftCorner(rest, shared));
+    const Eigen::SimplicialLDLT<Sparse> factor(poses);
+    if (factor.info() != Eigen::Success) return std::nullopt;
+    information -= mixed.transpose() * factor.solve(mixed);
+  }
+  // Radians, metres and pixels: scaled before they are compared.
+  const Eigen::VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt();
+  const Eigen::MatrixXd unit =
+      scale.cwiseInverse().asDiagonal() * information * scale.cwiseInverse().asDiagonal();
+  const Eigen::LLT<Eigen::MatrixXd> factor(unit);
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(shared, shared));
+  return scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal();
+}
+
+}  // namespace
+
+std::vector<double*> BundleProblem::shared_blocks() {
+  std::vector<double*> blocks;
+  for (CameraBlock& c : cameras_) {
+    for (double* block :
+         {c.lens.data(), c.pose.data(), c.clock.data(), c.shrinkage.data()}) {
+      if (moves(block)) blocks.push_back(block);
+    }
+  }
+  for (TargetBlock& t : targets_) {
+    for (PieceBlock& piece : t.pieces) {
+      if (moves(piece.data())) blocks.push_back(piece.data());
+    }
+    if (moves(t.warp.data())) blocks.push_back(t.warp.data());
+  }
+  return blocks;
+}
+
+std::vector<double*> BundleProblem::pose_blocks() {
+  std::vector<double*> blocks;
+  for (TargetBlock& t : targets_) {
+    for (auto& [instant, pose] : t.poses) {
+      if (moves(pose.data())) blocks.push_back(pose.data());
+    }
+  }
+  return blocks;
+}
+
+std::optional<RigDoubt> BundleProblem::doubt() {
+  ceres::Problem::EvaluateOptions options;
+  options.parameter_blocks = shared_blocks();
+  std::map<const double*, int> first;
+  int shared = 0;
+  for (const double* block : options.parameter_blocks) {
+    first[block] = shared;
+    shared += problem_.ParameterBlockTangentSize(block);
+  }
+  const std::vector<double*> poses = pose_blocks();
+  options.parameter_blocks.insert(
+      options.parameter_blocks.end(), poses.begin(), poses.end());
+  ceres::CRSMatrix crs;
+  double cost = 0.0;
+  if (!problem_.Evaluate(options, &cost, nullptr, nullptr, &crs)) return std::nullopt;
+  const Eigen::Map<const RowSparse> jacobian(crs.num_rows,
+                                             crs.num_cols,
+                                             static_cast<Eigen::Index>(crs.values.size()),
+                                             crs.rows.data(),
+                                             crs.cols.data(),
+                                             crs.values.data());
+  const Sparse columns = jacobian;
+  const Sparse normal = Sparse(columns.transpose()) * columns;
+  const auto covariance = leading_covariance(normal, shared);
+  if (!covariance) return std::nullopt;
+
+  RigDoubt doubt;
+  const int freedom = residuals_ - crs.num_cols;
+  if (freedom > 0) {
+    doubt.sigma_factor = std::max(1.0, std::sqrt(2.0 * cost / freedom));
+  }
+  const double scale = doubt.sigma_factor * doubt.sigma_factor;
+  doubt.covariance.cameras = cameras_.size();
+  const std::size_t size = doubt.covariance.size();
+  doubt.covariance.values.assign(size * size, 0.0);
+  std::vector<int> place(size, -1);  // Column of each number of a camera.
+  for (std::size_t c = 0; c < cameras_.size(); ++c) {
+    const std::size_t at = RigCovariance::kPerCamera * c;
+    const auto lens = first.find(cameras_[c].lens.data());
+    const auto pose = first.find(cameras_[c].pose.data());
+    for (int i = 0; i < kLens && lens != first.end(); ++i) {
+      place[at + static_cast<std::size_t>(i)] = lens->second + i;
+    }
+    for (int i = 0; i < 6 && pose != first.end(); ++i) {
+      place[at + static_cast<std::size_t>(kLens + i)] = pose->second + i;
+    }
+    ClockSigma clock;
+    const auto found = first.find(cameras_[c].clock.data());
+    if (found != first.end()) {
+      std::array<double*, 3> out{&clock.offset_s, &clock.drift, &clock.line_delay_s};
+      const ceres::Manifold* manifold = problem_.GetManifold(cameras_[c].clock.data());
+      const int count = problem_.ParameterBlockTangentSize(cameras_[c].clock.data());
+      Eigen::MatrixXd plus = Eigen::MatrixXd::Identity(3, count);
+      if (manifold) {
+        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> p(3,
+                                                                                 count);
+        manifold->PlusJacobian(cameras_[c].clock.data(), p.data());
+        plus = p;
+      }
+      const Eigen::Matrix3d full =
+          plus * covariance->block(found->second, found->second, count, count) *
+          plus.transpose();
+      for (int i = 0; i < 3; ++i) {
+        *out[static_cast<std::size_t>(i)] = std::sqrt(scale * full(i, i));
+      }
+    }
+    doubt.clocks.push_back(clock);
+  }
+  for (std::size_t row = 0; row < size; ++row) {
+    for (std::size_t column = 0; column < size; ++column) {
+      if (place[row] < 0 || place[column] < 0) continue;
+      doubt.covariance.values[row * size + column] =
+          scale * (*covariance)(place[row], place[column]);
+    }
+  }
+  return doubt;
+}
+
+}  // namespace marey::calib

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to calib: what is believed before anything is measured.
+
+#include <algorithm>
+
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+
+#include "calib/see_point.h"
+#include "calib/sighting_cost.h"
+#include "core/camera.h"
+
+namespace marey::calib {
+
+/// What any camera is like before it is measured: square pixels, a centre near the
+/// middle, modest distortion.
+struct LensPrior {
+  LensModel lens;
+  double width_px;
+  double height_px;
+
+  static constexpr int kCount = 3 + 8;
+
+  template <class T>
+  bool operator()(const T* k, T* residual) const {
+    residual[0] = (k[0] - k[1]) / (T(0.002) * (k[0] + k[1]));
+    residual[1] = (k[2] - T(0.5 * (width_px - 1))) / T(0.04 * width_px);
+    residual[2] = (k[3] - T(0.5 * (height_px - 1))) / T(0.04 * width_px);
+    // Terms that the lens does not have come last: nothing else speaks of them.
+    constexpr double kBrown[] = {0.5, 0.3, 0.005, 0.005, 0.05, 0.1, 0.1, 0.1};
+    constexpr double kRational[] = {0.5, 0.3, 0.005, 0.005, 0.1, 0.5, 0.3, 0.1};
+    constexpr double kFisheye[] = {0.1, 0.1, 0.1, 0.05, 0.1, 0.1, 0.1, 0.1};
+    const double* sigma = lens == LensModel::kFisheye    ? kFisheye
+                          : lens == LensModel::kRational ? kRational
+                                                         : kBrown;
+    for (int i = 0; i < 8; ++i) residual[3 + i] = k[4 + i] / T(sigma[i]);
+    return true;
+  }
+};
+
+/// A tag shrinks by less than a pixel and by a few percent.
+struct ShrinkagePrior {
+  template <class T>
+  bool operator()(const T* shrinkage, T* residual) const {
+    residual[0] = shrinkage[0] / 0.5;
+    residual[1] = shrinkage[1] / 0.02;
+    return true;
+  }
+};
+
+/// A board bends by some millimetres.
+struct WarpPrior {
+  template <class T>
+  bool operator()(const T* warp_m, T* residual) const {
+    for (int i = 0; i < 3; ++i) residual[i] = warp_m[i] / 0.003;
+    return true;
+  }
+};
+
+/// A tag of unknown size is neither a stamp nor a house: within a factor of e or so of
+/// how it starts. This keeps one that a single camera sees at a definite distance.
+/// Derivatives as PoseManifold's.
+class SizePrior final : public ceres::SizedCostFunction<1, 8> {
+ public:
+  explicit SizePrior(double log_size) : log_size_(log_size) {}
+
+  bool Evaluate(const double* const* blocks,
+                double* residuals,
+                double** jacobians) const override {
+    residuals[0] = blocks[0][7] - log_size_;
+    if (!jacobians || !jacobians[0]) return true;
+    std::fill_n(jacobians[0], 8, 0.0);
+    jacobians[0][6] = 1.0;
+    return true;
+  }
+
+ private:
+  double log_size_;
+};
+
+/// Clocks drift by parts in ten thousand at most, and rows of webcams follow each other
+/// within some fifty microseconds.
+struct ClockPrior {
+  template <class T>
+  bool operator()(const T* clock, T* residual) const {
+    residual[0] = clock[0] / 10.0;
+    residual[1] = clock[1] / 1e-3;
+    residual[2] = clock[2] / 5e-5;
+    return true;
+  }
+};
+
+/// A hand (or a limb) speeds up and slows down only so fast: three knots in a row.
+/// Derivatives as PoseManifold's; those of the rotation to first order.
+class MotionPrior final : public ceres::SizedCostFunction<6, 7, 7, 7> {
+ public:
+  MotionPrior(double sigma_m, double sigma_rad)
+      : sigma_m_(sigma_m), sigma_rad_(sigma_rad) {}
+
+  bool Evaluate(const double* const* blocks,
+                double* residuals,
+                double** jacobians) const override;
+
+ private:
+  double sigma_m_;
+  double sigma_rad_;
+};
+
+}  // namespace marey::calib

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to calib: a RigModel as Ceres sees it.
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include <ceres/ceres.h>
+
+#include "calib/refine_rig.h"
+#include "calib/rig_model.h"
+#include "calib/sighting_cost.h"
+
+namespace marey::calib {
+
+/// Holds the numbers that a solver moves. Outliers are not part of it.
+class BundleProblem {
+ public:
+  /// Knots that smooth targets lack about a sighting leave that sighting out.
+  BundleProblem(const RigModel& model, const RefineOptions& options, bool robust);
+
+  [[nodiscard]] bool solve();
+  void write_back(RigModel& model) const;
+
+  /// At the present numbers: the inverse of the normal matrix, poses of targets
+  /// eliminated first. nullopt when it leaves a camera free to move.
+  [[nodiscard]] std::optional<RigDoubt> doubt();
+
+ private:
+  struct CameraBlock {
+    std::array<double, Intrinsics::kParameterCount> lens{};
+    PoseBlock pose{};
+    ClockBlock clock{};
+    std::array<double, 2> shrinkage{};
+  };
+  struct TargetBlock {
+    std::map<int, PoseBlock> poses;
+    std::vector<PieceBlock> pieces;
+    std::array<double, 3> warp{};
+  };
+  struct Column {
+    double* block = nullptr;
+    int first = 0;
+    int count = 0;
+  };
+
+  void add_sighting(const RigModel& model, const Sighting& sighting, bool robust);
+  void add_priors(const RigModel& model, const RefineOptions& options);
+  void set_manifolds(const RigModel& model, const RefineOptions& options);
+  void set_clocks(const RigModel& model, const RefineOptions& options);
+  [[nodiscard]] bool moves(const double* block) const;
+  [[nodiscard]] std::vector<double*> shared_blocks();
+  [[nodiscard]] std::vector<double*> pose_blocks();
+
+  std::vector<CameraBlock> cameras_;
+  std::vector<TargetBlock> targets_;
+  bool shrinks_ = false;
+  ceres::Problem problem_;
+  int residuals_ = 0;
+};
+
+}  // namespace marey::calib

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "calib/expected_error.h"
+#include "core/camera.h"
+#include "core/camera_quality.h"
+#include "core/ids.h"
+
+namespace marey::calib {
+
+/// What one camera saw in one frame that does not go with the rest.
+struct OutlierFrame {
+  CameraId camera{};
+  int frame = 0;  ///< kFloorInstant (calib/board_views.h) for what stays in all frames.
+  int sightings = 0;             ///< Tags (or points) left out of the last refinement.
+  int of = 0;                    ///< Seen in that frame.
+  double median_error_px = 0.0;  ///< Of those left out.
+};
+
+/// A camera's clock: its frame at time t of its own was exposed at t * (1 + drift) +
+/// offset on the first camera's clock.
+struct SolvedClock {
+  double offset_s = 0.0;
+  double offset_sigma_s = 0.0;
+  double drift = 0.0;
+  double drift_sigma = 0.0;
+  double line_delay_s = 0.0;  ///< From one row of the image to the next.
+  double line_delay_sigma_s = 0.0;
+};
+
+/// Cameras, and how sure we are of them.
+struct CalibratedRig {
+  std::vector<Camera> cameras;
+  std::vector<CameraQuality> quality;  ///< Per camera.
+  double rms_px = 0.0;                 ///< Over all corners of all cameras.
+  double median_px = 0.0;  ///< Likewise the median distance: a few wrong tags leave it.
+  double inlier_rms_px = 0.0;  ///< Over what the last refinement took.
+  int sightings = 0;           ///< Tags, or points of boards without tags.
+  int outliers = 0;            ///< Of them, left out of the last refinement.
+  std::vector<OutlierFrame> outlier_frames;  ///< Worst first.
+  RigCovariance covariance;
+  /// By how much corners stray further than their detector said, at least 1; in the
+  /// covariance and in every sigma.
+  double sigma_factor = 1.0;
+  std::vector<SolvedClock> clocks;  ///< Per camera; zeros where they were not solved for.
+  /// How far the board's plate rises out of its plane towards its edges along x and y,
+  /// and twists [m]; nullopt when the data do not tell.
+  std::optional<std::array<double, 3>> warp_m;
+};
+
+}  // namespace marey::calib

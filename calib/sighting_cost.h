@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to calib: what the joint refinement minimises.
+
+#include <array>
+
+#include <ceres/ceres.h>
+
+#include "calib/rig_model.h"
+#include "calib/spline_pose.h"
+
+namespace marey::calib {
+
+/// A piece of a target as a solver moves it: a PoseBlock, then the logarithm of its size.
+using PieceBlock = std::array<double, 8>;
+
+/// offset [s], drift, line delay [s].
+using ClockBlock = std::array<double, 3>;
+
+/// PoseBlock's step, and with eight numbers PieceBlock's. Cost functions of this room
+/// give derivatives by the step itself, in the first columns of a block; the last is
+/// zero.
+class PoseManifold final : public ceres::Manifold {
+ public:
+  explicit PoseManifold(int numbers = 7, int steps = 6)
+      : numbers_(numbers), steps_(steps) {}
+
+  [[nodiscard]] int AmbientSize() const override { return numbers_; }
+  [[nodiscard]] int TangentSize() const override { return steps_; }
+  bool Plus(const double* x, const double* step, double* out) const override;
+  bool PlusJacobian(const double* x, double* jacobian) const override;
+  bool Minus(const double* y, const double* x, double* step) const override;
+  bool MinusJacobian(const double* x, double* jacobian) const override;
+
+ private:
+  int numbers_;
+  int steps_;
+};
+
+/// Moves the size of a PieceBlock alone. Derivatives as PoseManifold's.
+class SizeManifold final : public ceres::Manifold {
+ public:
+  [[nodiscard]] int AmbientSize() const override { return 8; }
+  [[nodiscard]] int TangentSize() const override { return 1; }
+  bool Plus(const double* x, const double* step, double* out) const override;
+  bool PlusJacobian(const double* x, double* jacobian) const override;
+  bool Minus(const double* y, const double* x, double* step) const override;
+  bool MinusJacobian(const double* x, double* jacobian) const override;
+};
+
+/// Reprojection of a sighting's corners, in sigmas. Blocks in order: intrinsics, camera's
+/// pose, target's pose or the four knots about the time of the sighting, then as far as
+/// they are asked for: clock (with knots), shrinkage (tags), piece, warp.
+class SightingCost final : public ceres::CostFunction {
+ public:
+  struct Parts {
+    bool spline = false;
+    bool shrinks = false;
+    bool piece = false;
+    bool warp = false;
+  };
+  /// Where on the spline the camera's clock puts the sighting.
+  struct Knots {
+    double first_s = 0.0;  ///< Time of the second knot of the four.
+    double spacing_s = 1.0;
+  };
+
+  SightingCost(const Sighting& sighting,
+               const RigidTarget& target,
+               LensModel lens,
+               int height_px,
+               Parts parts,
+               Knots knots);
+
+  bool Evaluate(const double* const* blocks,
+                double* residuals,
+                double** jacobians) const override;
+
+ private:
+  Sighting sighting_;
+  std::array<std::array<double, 3>, 4> bend_{};  ///< z of each corner per warp_m.
+  LensModel lens_;
+  Parts parts_;
+  Knots knots_;
+  double line_ = 0.0;  ///< Rows of the sighting below the image's middle.
+};
+
+/// What warp_m of one adds to z at a point of a board: the squares and the product of its
+/// distances from the middle in half extents.
+[[nodiscard]] std::array<double, 3> board_warp(const RigidTarget& target,
+                                               const glm::dvec3& p_in_target);
+
+}  // namespace marey::calib
