@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -26,6 +27,7 @@
 
 #include "calib/calibrate_wand.h"
 #include "core/quantile.h"
+#include "reconstruct/triangulate.h"
 
 namespace marey::calib {
 namespace {
@@ -156,26 +158,116 @@ void print_rig(const CalibratedRig& rig) {
       rig.sigma_factor);
 }
 
+struct HeldOut {
+  std::vector<double> side_errors_m;    ///< Of every side of every tag and instant.
+  std::vector<double> reprojection_px;  ///< In a camera that took no part in placing.
+};
+
+/// What the calibrated cameras make of a tag that took no part in their calibration.
+void judge_tag(const std::vector<Camera>& cameras,
+               const Tracks& tracks,
+               TagId id,
+               double size_m,
+               HeldOut& out) {
+  for (std::size_t f = 0; f < tracks.cameras[0].frames.size(); ++f) {
+    std::vector<std::pair<std::size_t, const TagDetection*>> views;
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      for (const TagDetection& tag : tracks.cameras[c].frames[f].tags) {
+        if (tag.id == id) views.emplace_back(c, &tag);
+      }
+    }
+    if (views.size() < 2) continue;
+    std::array<std::optional<glm::dvec3>, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) {
+      std::vector<reconstruct::PointView> sights;
+      for (const auto& [c, tag] : views)
+        sights.push_back({&cameras[c], tag->corners_px[i]});
+      const auto p = reconstruct::triangulate(sights);
+      if (p) corners[i] = p->p_in_world;
+      for (std::size_t held = 0; held < sights.size() && sights.size() > 2; ++held) {
+        auto others = sights;
+        others.erase(others.begin() + static_cast<std::ptrdiff_t>(held));
+        const auto q = reconstruct::triangulate(others);
+        if (!q) continue;
+        const auto pixel = project(*sights[held].camera, q->p_in_world);
+        if (pixel) {
+          out.reprojection_px.push_back(glm::distance(*pixel, sights[held].pixel_px));
+        }
+      }
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& a = corners[i];
+      const auto& b = corners[(i + 1) % 4];
+      if (a && b) out.side_errors_m.push_back(glm::distance(*a, *b) - size_m);
+    }
+  }
+}
+
+void print_held_out(const char* what, const HeldOut& held) {
+  if (held.side_errors_m.empty()) return;
+  std::vector<double> size;
+  double sum = 0.0;
+  for (const double e : held.side_errors_m) {
+    size.push_back(std::abs(e));
+    sum += e;
+  }
+  std::printf("%s: %zu sides, mean %+.3f mm, median |error| %.3f mm, p95 %.3f mm",
+              what,
+              size.size(),
+              1e3 * sum / static_cast<double>(size.size()),
+              1e3 * median(size),
+              1e3 * quantile(size, 0.95));
+  if (!held.reprojection_px.empty()) {
+    std::printf("; held-out camera: %zu corners, median %.3f px, p95 %.3f px",
+                held.reprojection_px.size(),
+                median(held.reprojection_px),
+                quantile(held.reprojection_px, 0.95));
+  }
+  std::printf("\n");
+}
+
 }  // namespace
 
 int measure_wand(const std::filesystem::path& folder) {
+  constexpr double kSize_m = 0.11986;
   const Tracks tracks = read_tracks(folder, 1920, 1200);
-  const Wand wand{{{TagId{0}, 0.11986},
-                   {TagId{1}, 0.11986},
-                   {TagId{2}, 0.11986},
-                   {TagId{3}, 0.11986}}};
-  const auto start = Clock::now();
-  const auto found = calibrate_wand(tracks.names, tracks.cameras, wand);
-  std::printf("%.1f s\n", seconds_since(start));
-  if (!found) {
-    std::printf("%s\n", found.error().message().c_str());
-    return 1;
+  const Wand wand{{{TagId{0}, kSize_m},
+                   {TagId{1}, kSize_m},
+                   {TagId{2}, kSize_m},
+                   {TagId{3}, kSize_m}}};
+  for (const bool use_scenery : {true}) {
+    WandOptions options;
+    options.use_scenery = use_scenery;
+    const auto start = Clock::now();
+    const auto found = calibrate_wand(tracks.names, tracks.cameras, wand, options);
+    std::printf("%.1f s\n", seconds_since(start));
+    if (!found) {
+      std::printf("%s\n", found.error().message().c_str());
+      return 1;
+    }
+    print_rig(found->rig);
+    HeldOut seen;
+    for (const Wand::Tag& tag : wand.tags) {
+      judge_tag(found->rig.cameras, tracks, tag.id, tag.size_m, seen);
+    }
+    print_held_out("all tags took part", seen);
+    HeldOut held;
+    for (const Wand::Tag& tag : wand.tags) {
+      Wand others = wand;
+      std::erase_if(others.tags, [&](const Wand::Tag& t) { return t.id == tag.id; });
+      const auto without = calibrate_wand(tracks.names, tracks.cameras, others, options);
+      if (!without) {
+        std::printf(
+            "without %d: %s\n", number(tag.id), without.error().message().c_str());
+        continue;
+      }
+      HeldOut one;
+      judge_tag(without->rig.cameras, tracks, tag.id, tag.size_m, one);
+      print_held_out(("without tag " + std::to_string(number(tag.id))).c_str(), one);
+      judge_tag(without->rig.cameras, tracks, tag.id, tag.size_m, held);
+    }
+    print_held_out("held-out tags", held);
   }
-  print_rig(found->rig);
-  for (const auto& [id, size_m] : found->scenery_sizes_m) {
-    std::printf("%d: %.2f mm  ", number(id), 1e3 * size_m);
-  }
-  std::printf("\n");
   return 0;
 }
 
