@@ -190,11 +190,27 @@ std::optional<FrameRate> measured_rate(std::span<const Timestamp> times) {
   return FrameRate{1e9 / period_ns};
 }
 
+bool reach_too_far(std::span<const CameraTimes> cameras, FrameRate rate) {
+  constexpr double kMostPerFrame = 10.0;
+  constexpr double kMostBeyond = 10000.0;
+  std::optional<Timestamp> first;
+  std::optional<Timestamp> last;
+  double frames = 0.0;
+  for (const CameraTimes& camera : cameras) {
+    if (camera.times.empty()) continue;
+    first = std::min(first.value_or(camera.times.front()), camera.times.front());
+    last = std::max(last.value_or(camera.times.back()), camera.times.back());
+    frames += static_cast<double>(camera.times.size());
+  }
+  if (!first) return false;
+  return seconds(*last - *first) * rate.hz > kMostPerFrame * frames + kMostBeyond;
+}
+
 std::optional<Alignment> align_frames(std::span<const CameraTimes> cameras,
                                       std::optional<FrameRate> rate) {
   MAREY_ASSERT(!cameras.empty());
   if (!rate) rate = fastest(cameras);
-  if (!rate) return std::nullopt;
+  if (!rate || reach_too_far(cameras, *rate)) return std::nullopt;
   const double period_ns = 1e9 / rate->hz;
   const auto with_frames = std::find_if(
       cameras.begin(), cameras.end(), [](const auto& c) { return !c.times.empty(); });

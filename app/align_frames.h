@@ -38,12 +38,18 @@ struct Alignment {
 /// or times that do not grow.
 [[nodiscard]] std::optional<FrameRate> measured_rate(std::span<const Timestamp> times);
 
+/// Whether there are so many more instants than frames, from the first of them to the
+/// last, that a time stamp must be wrong: more than ten for each frame, and a few
+/// minutes'.
+[[nodiscard]] bool reach_too_far(std::span<const CameraTimes> cameras, FrameRate rate);
+
 /// Matches the frames of several cameras by time: a common grid of instants, in step with
 /// the first camera, and for each camera the frame next to each of its instants (less its
 /// own constant offset, of half a period at most). All cameras get as many instants, the
 /// first being that of the first frame. `rate` nullopt: that of the fastest cameras, as
 /// measured.
-/// nullopt when no camera tells a rate. Precondition: at least one camera, ascending.
+/// nullopt when no camera tells a rate, or the times reach_too_far(). Preconditions: at
+/// least one camera; times ascend, and their differences are times.
 [[nodiscard]] std::optional<Alignment> align_frames(std::span<const CameraTimes> cameras,
                                                     std::optional<FrameRate> rate = {});
 

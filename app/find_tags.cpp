@@ -10,6 +10,7 @@
 #include <string>
 
 #include "capture/detect_videos.h"
+#include "core/assert.h"
 #include "recordings/content_key.h"
 #include "recordings/detections_file.h"
 
@@ -120,12 +121,13 @@ Status check_offset(const recordings::Session& session,
 
 /// Frames are matched by their number: all videos of a trial must run at one rate.
 /// Cameras without a video in the trial take that rate.
+/// Precondition: a camera has frames.
 Status check_rates(const recordings::Session& session,
                    std::vector<CameraDetections>& cameras) {
-  const CameraDetections& first =
-      *std::find_if(cameras.begin(), cameras.end(), [](const CameraDetections& c) {
-        return !c.frames.empty();
-      });
+  const auto with_frames = std::find_if(
+      cameras.begin(), cameras.end(), [](const auto& c) { return !c.frames.empty(); });
+  MAREY_ASSERT(with_frames != cameras.end());
+  const CameraDetections& first = *with_frames;
   for (CameraDetections& camera : cameras) {
     if (camera.frames.empty()) {
       camera.rate = first.rate;
@@ -165,6 +167,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
   std::map<CameraId, std::string> keys;
   for (const TrialVideo& video : trial.videos) {
     if (const auto lost = lost_video(session, trial, video)) {
+      if (trial.kind != recordings::TrialKind::kMotion) return *lost;
       troubles.failures.push_back(*lost);
       continue;
     }

@@ -2,40 +2,69 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/frame_queue.h"
 
+#include <algorithm>
+
 #include "core/assert.h"
 
 namespace marey::app {
 
-FrameQueue::FrameQueue(std::size_t places) : ring_(places) {
-  MAREY_ASSERT(places > 0);
+// for_overwrite: memory that nobody wrote to costs nothing.
+FrameQueue::FrameQueue(std::size_t places, std::size_t most_bytes)
+    : memory_(std::make_unique_for_overwrite<std::byte[]>(most_bytes)),
+      size_(most_bytes),
+      ring_(places) {
+  MAREY_ASSERT(places > 0 && most_bytes > 0);
+}
+
+/// Where a frame of `bytes` can lie in one piece: behind the newest, or at the beginning
+/// when that is free again.
+std::optional<std::size_t> FrameQueue::room_for(std::size_t bytes) const {
+  if (count_ == 0) return bytes <= size_ ? std::optional<std::size_t>(0) : std::nullopt;
+  const auto begin = static_cast<std::size_t>(ring_[first_].bytes.data() - memory_.get());
+  if (end_ > begin) {
+    if (size_ - end_ >= bytes) return end_;
+    return begin >= bytes ? std::optional<std::size_t>(0) : std::nullopt;
+  }
+  return begin - end_ >= bytes ? std::optional(end_) : std::nullopt;
 }
 
 bool FrameQueue::push(std::span<const std::byte> bytes,
                       const recordings::TakeFrame& stamp) {
+  MAREY_ASSERT(!bytes.empty());
   {
     const std::lock_guard lock(mutex_);
     MAREY_ASSERT(!closed_);
-    if (count_ == ring_.size()) return false;
-    QueuedFrame& place = ring_[(first_ + count_) % ring_.size()];
-    place.bytes.assign(bytes.begin(), bytes.end());
-    place.stamp = stamp;
+    const auto at = room_for(bytes.size());
+    if (!at || count_ == ring_.size()) return false;
+    std::byte* const place = memory_.get() + *at;
+    std::copy(bytes.begin(), bytes.end(), place);
+    ring_[(first_ + count_) % ring_.size()] = {{place, bytes.size()}, stamp};
+    end_ = *at + bytes.size();
     ++count_;
   }
   changed_.notify_one();
   return true;
 }
 
-const QueuedFrame* FrameQueue::pop() {
+void FrameQueue::take_back() {
+  if (!lent_) return;
+  first_ = (first_ + 1) % ring_.size();
+  --count_;
+  lent_ = false;
+}
+
+const QueuedFrame* FrameQueue::pop(std::chrono::milliseconds timeout) {
   std::unique_lock lock(mutex_);
-  if (lent_) {
-    first_ = (first_ + 1) % ring_.size();
-    --count_;
-    lent_ = false;
-  }
-  changed_.wait(lock, [this] { return count_ > 0 || closed_; });
+  take_back();
+  changed_.wait_for(lock, timeout, [this] { return count_ > 0 || closed_; });
   if (count_ == 0) return nullptr;
   lent_ = true;
   return &ring_[first_];
+}
+
+bool FrameQueue::is_over() {
+  const std::lock_guard lock(mutex_);
+  return closed_ && count_ == (lent_ ? 1 : 0);
 }
 
 void FrameQueue::close() {

@@ -12,9 +12,10 @@
 #include <mutex>
 #include <span>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include "app/record_take.h"
+#include "app/frame_feed.h"
 #include "capture/group_frames.h"
 #include "core/assert.h"
 
@@ -58,8 +59,8 @@ class LiveGroups {
       : grouper_(clocks, options), make_(std::move(make)) {
     MAREY_ASSERT(options.mode == capture::GroupingMode::kLive);
     MAREY_ASSERT(feeds.size() == clocks.size());
-    // Those kept, those shown, one that is being made.
-    const auto places = 2 * static_cast<std::size_t>(options.capacity) + 1;
+    // Those kept until their group is made, one that is shown, one that is being made.
+    const auto places = static_cast<std::size_t>(options.capacity) + 2;
     for (std::size_t c = 0; c < feeds.size(); ++c) {
       lanes_.push_back(std::make_unique<Lane>());
       for (std::size_t p = 0; p < places; ++p) {

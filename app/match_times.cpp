@@ -3,12 +3,14 @@
 #include "app/match_times.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdarg>
+#include <cstdint>
 #include <cstdio>
 #include <system_error>
 
 #include "app/align_frames.h"
+#include "core/assert.h"
 #include "recordings/take_file.h"
 #include "recordings/video_times.h"
 
@@ -20,34 +22,42 @@ using recordings::TakeCamera;
 using recordings::Trial;
 using recordings::TrialVideo;
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 300> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  std::va_list values;
+  va_start(values, pattern);
+  std::va_list again;
+  va_copy(again, values);
+  const int size = std::vsnprintf(nullptr, 0, pattern, values);
+  va_end(values);
+  std::string text(static_cast<std::size_t>(std::max(size, 0)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  va_end(again);
+  return text;
 }
 
 std::filesystem::path take_beside(const TrialVideo& video) {
   return video.path.parent_path() / recordings::kTakeFile;
 }
 
-/// Lays the frames out by `aligned`, from instant `range.first` on.
+/// Lays the frames out by `aligned`, those of `range` alone.
+/// Precondition: `aligned` has all of the range.
 void renumber(const AlignedCamera& aligned,
               const std::optional<recordings::FrameRange>& range,
               CameraDetections& camera) {
   const int all = static_cast<int>(aligned.recorded.size());
   const int first = range ? range->first : 0;
-  const int end = range ? std::min(all, range->last + 1) : all;
+  const int end = range ? range->last + 1 : all;
+  MAREY_ASSERT(end <= all);
   std::vector<FrameDetections> frames;
   std::vector<std::optional<int>> in_recording;
   for (int k = first; k < end; ++k) {
     const auto recorded = aligned.recorded[static_cast<std::size_t>(k)];
     FrameDetections& frame = frames.emplace_back();
+    if (recorded) {
+      frame = std::move(camera.frames[static_cast<std::size_t>(*recorded)]);
+    }
     frame.frame = k;
     in_recording.push_back(recorded);
-    if (recorded) {
-      frame.tags = std::move(camera.frames[static_cast<std::size_t>(*recorded)].tags);
-    }
   }
   camera.frames = std::move(frames);
   camera.in_recording = std::move(in_recording);
@@ -84,19 +94,16 @@ void tell_losses(const TakeCamera& recorded,
                  const AlignedCamera& aligned,
                  FrameRate rate,
                  RecordingTroubles& troubles) {
-  int dropped = 0;
+  std::int64_t dropped = 0;
   for (const recordings::TakeFrame& frame : recorded.frames) {
     dropped += frame.dropped_before;
   }
-  const int frames = static_cast<int>(recorded.frames.size());
+  const auto frames = static_cast<std::int64_t>(recorded.frames.size());
   // Some drops are usual, and bridged as what is hidden is.
   if (dropped > frames / 100) {
-    troubles.warnings.push_back(
-        format("%s: %d frames were dropped while recording, and %d "
-               "recorded",
-               camera.source.c_str(),
-               dropped,
-               frames));
+    troubles.warnings.push_back(camera.source + ": " + std::to_string(dropped) +
+                                " frames were dropped while recording, and " +
+                                std::to_string(frames) + " recorded");
   }
   if (aligned.surplus > 0) {
     troubles.warnings.push_back(
@@ -114,6 +121,57 @@ void tell_losses(const TakeCamera& recorded,
                1e3 * spread_s,
                rate.hz));
   }
+}
+
+/// The longest time between a frame and the next, as messages should tell it.
+std::string longest_gap(const std::vector<CameraTimes>& cameras,
+                        const std::vector<const TakeCamera*>& recorded) {
+  Timestamp longest{-1};
+  std::string text;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const std::vector<Timestamp>& times = cameras[c].times;
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      if (times[i] - times[i - 1] <= longest) continue;
+      longest = times[i] - times[i - 1];
+      text = format("frame %zu of %s comes %.1f s after the one before it",
+                    i,
+                    recorded[c]->file.c_str(),
+                    seconds(longest));
+    }
+  }
+  return text;
+}
+
+/// Why align_frames() declined.
+Error unusable_times(const std::filesystem::path& file,
+                     const std::vector<CameraTimes>& cameras,
+                     const std::vector<const TakeCamera*>& recorded) {
+  const auto tells_rate = [](const CameraTimes& c) {
+    return measured_rate(c.times).has_value();
+  };
+  if (std::none_of(cameras.begin(), cameras.end(), tells_rate)) {
+    return bad_input(
+        file.string(), "it has too few frames to be used", "record the trial again");
+  }
+  return bad_input(
+      file.string(),
+      "its times reach too far for so few frames: " + longest_gap(cameras, recorded),
+      "record the trial again; or name the videos in the trial's `videos`, "
+      "elsewhere than in the take: then frames are matched by their numbers");
+}
+
+Status check_range(const Trial& trial,
+                   const std::filesystem::path& file,
+                   const Alignment& alignment) {
+  const std::size_t instants = alignment.cameras.front().recorded.size();
+  if (!trial.frames || static_cast<std::size_t>(trial.frames->last) < instants) {
+    return Done{};
+  }
+  return bad_input(file.string(),
+                   "frames " + std::to_string(trial.frames->first) + " to " +
+                       std::to_string(trial.frames->last) +
+                       " were asked for, but it has only " + std::to_string(instants),
+                   "correct the trial's range of frames");
 }
 
 Status match_take(const Trial& trial,
@@ -146,10 +204,8 @@ Status match_take(const Trial& trial,
   }
   if (times.empty()) return Done{};
   const auto alignment = align_frames(times, trial.rate);
-  if (!alignment) {
-    return bad_input(
-        file.string(), "it has too few frames to be used", "record the trial again");
-  }
+  if (!alignment) return unusable_times(file, times, recorded);
+  if (const Status ok = check_range(trial, file, *alignment); !ok) return ok;
   for (std::size_t i = 0; i < alignment->cameras.size(); ++i) {
     const AlignedCamera& aligned = alignment->cameras[i];
     CameraDetections& camera = found[index(aligned.camera)];
@@ -159,6 +215,19 @@ Status match_take(const Trial& trial,
     tell_losses(*recorded[i], camera, aligned, alignment->rate, troubles);
   }
   return Done{};
+}
+
+/// Of videos that do not lie in one folder, a take's file knows some at most.
+void tell_unused_take(const Trial& trial, RecordingTroubles& troubles) {
+  for (const TrialVideo& video : trial.videos) {
+    std::error_code ignored;
+    const auto file = take_beside(video);
+    if (!std::filesystem::exists(file, ignored)) continue;
+    troubles.warnings.push_back(file.string() +
+                                ": it is not used, since the videos of trial " +
+                                trial.name + " lie in several folders");
+    return;
+  }
 }
 
 /// How far a video's frames are from a steady rate; nullopt when it does not tell, or its
@@ -180,7 +249,10 @@ std::optional<CameraTimes> uneven_times(const TrialVideo& video,
     worst_s = std::max(worst_s, std::abs(seconds((*times)[i] - times->front()) - even_s));
   }
   if (worst_s * camera.rate.hz < kSteady) return std::nullopt;
-  const bool usable = times->size() == camera.frames.size() + camera.frames.front().frame;
+  const CameraTimes own{video.camera, std::move(*times)};
+  const bool usable =
+      own.times.size() == camera.frames.size() + camera.frames.front().frame &&
+      !reach_too_far(std::span(&own, 1), camera.rate);
   troubles.warnings.push_back(format(
       "%s: its frame rate varies: frames are up to %.1f ms away from a steady %.2f "
       "Hz; %s",
@@ -189,21 +261,25 @@ std::optional<CameraTimes> uneven_times(const TrialVideo& video,
       camera.rate.hz,
       usable ? "its own times are used" : "it is used by frame numbers all the same"));
   if (!usable) return std::nullopt;
-  return CameraTimes{video.camera, std::move(*times)};
+  return own;
 }
 
 }  // namespace
 
 bool has_take(const Trial& trial) {
+  const auto file = take_beside(trial.videos.front());
+  const auto is_beside = [&](const TrialVideo& v) { return take_beside(v) == file; };
   std::error_code ignored;
   return trial.is_recorded ||
-         std::filesystem::exists(take_beside(trial.videos.front()), ignored);
+         (std::all_of(trial.videos.begin(), trial.videos.end(), is_beside) &&
+          std::filesystem::exists(file, ignored));
 }
 
 Status match_times(const Trial& trial,
                    std::vector<CameraDetections>& found,
                    RecordingTroubles& troubles) {
   if (has_take(trial)) return match_take(trial, found, troubles);
+  tell_unused_take(trial, troubles);
   if (trial.rate || trial.frames) return Done{};  // The session knows better.
   std::vector<CameraTimes> uneven;
   std::optional<FrameRate> steady;
@@ -221,7 +297,12 @@ Status match_times(const Trial& trial,
     CameraDetections& camera = found[index(times.camera)];
     if (!steady) steady = camera.rate;
     const auto alignment = align_frames(std::span(&times, 1), steady);
-    if (!alignment) continue;
+    if (!alignment) {
+      troubles.warnings.push_back(camera.source +
+                                  ": its times are not those of its rate; it is used by "
+                                  "frame numbers all the same");
+      continue;
+    }
     renumber(alignment->cameras.front(), std::nullopt, camera);
     camera.rate = *steady;
   }

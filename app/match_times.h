@@ -20,18 +20,21 @@ struct RecordingTroubles {
 
 /// Gives frames of `found` (one entry per camera of the session) new numbers where the
 /// videos' own are not to be trusted, so that equal numbers mean equal times:
-/// - of a take, by the times in its file, with each camera's constant lag as its offset;
+/// - of a take, by the times in its file, with each camera's constant lag as its offset,
+///   and cut to the trial's range of frames, which counts instants;
 /// - of videos whose own time stamps are uneven, by these, each video for itself.
-/// Of steady videos nothing changes. Cuts to the trial's range of frames where it
-/// renumbers.
+/// Of steady videos nothing changes.
 ///
-/// Errors (kBadInput): a recorded trial's file of times is missing, damaged or newer.
+/// Errors (kBadInput): a take's file of times is missing, damaged or newer; it does not
+/// know the videos, tells no rate, or has times that cannot be; it has fewer instants
+/// than the trial's range. Precondition: `found` has all frames of a take's videos.
 [[nodiscard]] Status match_times(const recordings::Trial& trial,
                                  std::vector<CameraDetections>& found,
                                  RecordingTroubles& troubles);
 
-/// Whether match_times() will renumber frames by a take's file: then all frames of its
-/// videos are wanted.
+/// Whether match_times() will renumber frames by a take's file: the trial was recorded,
+/// or all its videos lie in one folder with such a file. Then all frames of its videos
+/// are wanted.
 [[nodiscard]] bool has_take(const recordings::Trial& trial);
 
 }  // namespace marey::app

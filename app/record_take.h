@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -10,28 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "capture/v4l2_device.h"
+#include "app/frame_feed.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "core/time.h"
 
 namespace marey::app {
-
-/// A camera as the recorder sees it. One thread at a time.
-class FrameFeed {
- public:
-  virtual ~FrameFeed() = default;
-
-  /// The next frame, valid until the next call; nullopt when none came within about
-  /// `timeout`.
-  [[nodiscard]] virtual std::optional<capture::RawFrame> next(
-      std::chrono::milliseconds timeout) = 0;
-  /// How frames are packed from now on.
-  [[nodiscard]] virtual const capture::DeviceSettings& settings() const = 0;
-  /// What the camera is: "/dev/video0 HD Webcam C920".
-  [[nodiscard]] virtual std::string device() const = 0;
-  /// What happened to the camera since the last call, a sentence each.
-  [[nodiscard]] virtual std::vector<std::string> events() = 0;
-};
 
 struct RecordedCamera {
   std::string name;
@@ -42,8 +26,13 @@ struct RecordOptions {
   std::filesystem::path folder;  ///< Of this trial; created.
   std::string trial;
   std::optional<double> seconds;  ///< nullopt: until stopped.
-  /// Frames of a camera that may wait for the disk. 90 are three seconds.
+  /// Frames of a camera that may wait for the disk, and their size together: memory that
+  /// is used only while the disk is slow. 90 are three seconds of a camera that sends
+  /// JPEG; of 1280x720 in YUYV 64 MB hold 36.
   std::size_t queue_frames = 90;
+  std::size_t queue_bytes = std::size_t{64} << 20;
+  /// What time it is on the cameras' clock; empty: CLOCK_MONOTONIC.
+  std::function<Timestamp()> now;
 };
 
 struct CameraSummary {
@@ -54,15 +43,23 @@ struct CameraSummary {
   std::optional<Error> error;
 };
 
+/// Whether `folder` has nothing that a recording of these cameras would write over.
+/// Errors (kBadInput): there is a recording, or part of one.
+[[nodiscard]] Status check_unrecorded(const std::filesystem::path& folder,
+                                      std::span<const std::string> cameras);
+
 /// Records all cameras at once, until `stop` says so or the time is over:
 /// FOLDER/CAMERA.mkv of each, and FOLDER/take.sqlite. JPEG pictures are kept byte for
 /// byte, others are encoded. Each camera has a thread that listens to it and one that
-/// writes; a camera or disk that is slow costs others nothing. What is in the files at
-/// any moment is at most half a second old, also when this process is killed.
+/// writes; a camera or disk that is slow costs others nothing. Frames from before the
+/// beginning are not of the take. What is in the files at any moment is at most half a
+/// second old, also when this process is killed.
 ///
-/// `progress` counts the frames of all cameras. Errors: there is a recording already
-/// (kBadInput); the folder or files cannot be made; the take's file cannot be written to
-/// (kDevice). A camera that fails is told in its summary, and the others go on.
+/// `progress` counts the frames of all cameras. Errors: those of check_unrecorded(); the
+/// folder or files cannot be made; a camera's pictures cannot be recorded; the take's
+/// file cannot be written to (kDevice). Where it cannot begin, nothing is left behind. A
+/// camera that fails, sends nothing in the last second, or comes back with other pictures
+/// is told in its summary, and the others go on.
 /// Preconditions: at least one camera; names are those of files, each once.
 [[nodiscard]] Result<std::vector<CameraSummary>> record_take(
     std::span<const RecordedCamera> cameras,

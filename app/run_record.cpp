@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include <atomic>
-#include <csignal>
 #include <memory>
 #include <utility>
 
 #include "app/commands.h"
 #include "app/record_take.h"
+#include "app/stop_signal.h"
 #include "capture/reopening_device.h"
 #include "recordings/atomic_file.h"
 #include "recordings/session_copy.h"
@@ -18,12 +17,6 @@ namespace fs = std::filesystem;
 using recordings::Session;
 using recordings::SessionDevice;
 using recordings::Trial;
-
-std::atomic<bool> stop_wanted = false;
-
-extern "C" void on_stop(int /*signal*/) {
-  stop_wanted = true;
-}
 
 /// A real camera, which is opened again when it was unplugged.
 class DeviceFeed final : public FrameFeed {
@@ -62,7 +55,7 @@ class DeviceFeed final : public FrameFeed {
   [[nodiscard]] std::string device() const override {
     return device_->info().path + " " + device_->info().card;
   }
-  std::vector<std::string> events() override { return std::exchange(events_, {}); }
+  std::vector<FeedEvent> events() override { return std::exchange(events_, {}); }
 
  private:
   DeviceFeed(std::string name, Console& console)
@@ -72,12 +65,12 @@ class DeviceFeed final : public FrameFeed {
     std::string text = capture::name(status.state);
     if (status.trouble) text += ": " + status.trouble->message();
     console_->warn("camera " + name_ + " is " + text);
-    events_.push_back(std::move(text));
+    events_.push_back({status.since, std::move(text)});
   }
 
   std::string name_;
   Console* console_;
-  std::vector<std::string> events_;
+  std::vector<FeedEvent> events_;
   std::optional<capture::ReopeningDevice> device_;
 };
 
@@ -120,6 +113,17 @@ Exit run_record(const RecordArguments& arguments, Console& console) {
   if (!session) return console.fail(session.error());
   const auto trial = trial_to_record(*session, arguments.trial);
   if (!trial) return console.fail(trial.error());
+  std::vector<std::string> names;
+  for (std::size_t c = 0; c < session->cameras.size(); ++c) {
+    if (session->devices[c]) names.push_back(session->cameras[c]);
+  }
+  RecordOptions options;
+  options.folder = arguments.out / (*trial)->name;
+  options.trial = (*trial)->name;
+  options.seconds = arguments.seconds;
+  if (const Status ok = check_unrecorded(options.folder, names); !ok) {
+    return console.fail(ok.error());
+  }
   std::vector<std::unique_ptr<DeviceFeed>> feeds;
   std::vector<RecordedCamera> cameras;
   for (std::size_t c = 0; c < session->cameras.size(); ++c) {
@@ -132,19 +136,10 @@ Exit run_record(const RecordArguments& arguments, Console& console) {
   if (const Status ok = recordings::copy_session(*session, arguments.out, **trial); !ok) {
     return console.fail(ok.error());
   }
-  stop_wanted = false;
-  std::signal(SIGINT, on_stop);
-  std::signal(SIGTERM, on_stop);
-  RecordOptions options;
-  options.folder = arguments.out / (*trial)->name;
-  options.trial = (*trial)->name;
-  options.seconds = arguments.seconds;
+  catch_stop_signals();
   if (!options.seconds) console.say("recording; Ctrl-C ends it");
   const auto recorded = record_take(
-      cameras,
-      options,
-      [] { return stop_wanted.load(); },
-      console.stage("recording " + options.trial));
+      cameras, options, stop_wanted, console.stage("recording " + options.trial));
   if (!recorded) return console.fail(recorded.error());
   const Exit exit = tell(*recorded, console);
   console.say("recorded to " + options.folder.string());

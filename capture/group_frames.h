@@ -109,7 +109,7 @@ class FrameGrouper {
   /// The next group that is ready: offline the oldest, live the newest; nullopt while
   /// there is none. `now` is common time; offline does not look at it.
   [[nodiscard]] std::optional<FrameGroup> next(Timestamp now = Timestamp{0});
-  /// Live: when next() would have a group even if no other frame came before. nullopt
+  /// Live: when next() has a group at the latest, even if no other frame comes. nullopt
   /// while no frame is kept.
   [[nodiscard]] std::optional<Timestamp> deadline() const;
 

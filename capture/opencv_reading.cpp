@@ -59,13 +59,18 @@ bool is_cut_short(const std::vector<char>& bytes) {
   return scan == text.npos || end == text.npos || end < scan;
 }
 
+/// FFmpeg takes what it opens for a URL: "a:b.mkv" would be of a protocol "a".
+std::string url_of(const std::filesystem::path& path) {
+  return "file:" + path.string();
+}
+
 }  // namespace
 
 Result<cv::VideoCapture> open_capture(const std::filesystem::path& path,
                                       const std::string& name) {
   silence_opencv();
   try {
-    cv::VideoCapture video(path.string(), cv::CAP_FFMPEG);
+    cv::VideoCapture video(url_of(path), cv::CAP_FFMPEG);
     if (!video.isOpened()) return cannot_open(name);
     return video;
   } catch (const cv::Exception&) {
@@ -76,7 +81,7 @@ Result<cv::VideoCapture> open_capture(const std::filesystem::path& path,
 std::optional<cv::VideoCapture> open_packets(const std::filesystem::path& path) {
   silence_opencv();
   try {
-    cv::VideoCapture video(path.string(), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1});
+    cv::VideoCapture video(url_of(path), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1});
     if (!video.isOpened()) return std::nullopt;
     return video;
   } catch (const cv::Exception&) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "core/assert.h"
@@ -71,7 +72,8 @@ int MjpgVideo::Impl::begin(const MjpgVideoOptions& options) {
   stream->codecpar->height = options.height_px;
   stream->time_base = kMilliseconds;
   stream->avg_frame_rate = av_d2q(options.rate.hz, 1000000);
-  problem = avio_open(&muxer->pb, file.c_str(), AVIO_FLAG_WRITE);
+  // Without the protocol's name, "a:b.mkv" would be of a protocol "a".
+  problem = avio_open(&muxer->pb, ("file:" + file).c_str(), AVIO_FLAG_WRITE);
   if (problem < 0) return problem;
   muxer->flags |= AVFMT_FLAG_FLUSH_PACKETS;
   AVDictionary* settings = nullptr;
@@ -96,6 +98,9 @@ Result<MjpgVideo> MjpgVideo::create(const std::filesystem::path& path,
   MAREY_ASSERT(options.width_px > 0 && options.height_px > 0 && options.rate.hz > 0.0);
   auto impl = std::make_unique<Impl>(path.string());
   if (const int problem = impl->begin(options); problem < 0) {
+    const bool made = impl->muxer != nullptr && impl->muxer->pb != nullptr;
+    std::error_code ignored;
+    if (made) std::filesystem::remove(path, ignored);
     return impl->error("the video cannot be begun", problem);
   }
   return MjpgVideo(std::move(impl));
@@ -105,7 +110,7 @@ Status MjpgVideo::write(std::span<const std::byte> jpeg, Timestamp time) {
   MAREY_ASSERT(impl_->begun);
   using std::chrono::milliseconds;
   AVPacket& packet = *impl_->packet;
-  const std::int64_t now_ms = std::chrono::duration_cast<milliseconds>(time).count();
+  const std::int64_t now_ms = std::chrono::round<milliseconds>(time).count();
   impl_->last_ms = std::max(impl_->last_ms + 1, now_ms);
   // Lent: the muxer makes its own copy of what is not reference-counted.
   packet.data = reinterpret_cast<std::uint8_t*>(const_cast<std::byte*>(jpeg.data()));
@@ -122,6 +127,15 @@ Status MjpgVideo::write(std::span<const std::byte> jpeg, Timestamp time) {
   if (const int late = impl_->muxer->pb->error; late < 0) {
     return impl_->error("a frame cannot be written", late);
   }
+  return Done{};
+}
+
+Status MjpgVideo::flush() {
+  MAREY_ASSERT(impl_->begun);
+  int problem = av_write_frame(impl_->muxer, nullptr);
+  avio_flush(impl_->muxer->pb);
+  if (problem >= 0) problem = impl_->muxer->pb->error;
+  if (problem < 0) return impl_->error("frames cannot be written", problem);
   return Done{};
 }
 

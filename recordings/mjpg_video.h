@@ -16,7 +16,7 @@ struct MjpgVideoOptions {
   int width_px = 0;
   int height_px = 0;
   FrameRate rate;  ///< What players should be told.
-  /// Frames reach the file at least this often.
+  /// While frames come, they reach the file at least this often.
   std::chrono::milliseconds flush_every{400};
 };
 
@@ -24,16 +24,19 @@ struct MjpgVideoOptions {
 /// also when it was cut off while it was written. One thread at a time.
 class MjpgVideo {
  public:
-  /// Errors (kDevice): the file cannot be made.
+  /// Writes over a file that is there. Errors (kDevice): the file cannot be made; none is
+  /// left then. Preconditions: positive size and rate.
   [[nodiscard]] static Result<MjpgVideo> create(const std::filesystem::path& path,
                                                 const MjpgVideoOptions& options);
   MjpgVideo(MjpgVideo&&) noexcept;
   MjpgVideo& operator=(MjpgVideo&&) noexcept;
   ~MjpgVideo();
 
-  /// Appends a frame, `time` after the first's or a little before; players get it in
-  /// milliseconds, growing. Errors (kDevice): the disk is full or failed.
+  /// Appends a frame, to be shown at `time`; players get it in milliseconds, growing. Errors (kDevice): the disk is full or failed.
   [[nodiscard]] Status write(std::span<const std::byte> jpeg, Timestamp time);
+  /// Puts all that was written into the file now: for when no more frames come that would
+  /// take it along. Costs little when there is nothing. Errors as write().
+  [[nodiscard]] Status flush();
   /// Writes the index that lets players jump. Errors as write(). Not to be written to
   /// afterwards.
   [[nodiscard]] Status finish();

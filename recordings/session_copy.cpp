@@ -8,6 +8,7 @@
 #include "recordings/atomic_file.h"
 #include "recordings/text_reader.h"
 #include "recordings/toml_reader.h"
+#include "recordings/toml_writer.h"
 
 namespace marey::recordings {
 namespace fs = std::filesystem;
@@ -21,14 +22,15 @@ std::string with_absolute_media(std::string text,
   std::error_code ignored;
   fs::path media = fs::absolute(folder, ignored);
   if (root.has("media")) media /= root.text("media");
-  const std::string line =
-      "media = " + in_quotes(media.lexically_normal().string()) + "\n";
+  TomlWriter line;
+  line.text("media", media.lexically_normal().string());
   // Before the first key, or in the place of its own line.
   const int at = root.has("media") ? root.line("media") : root.line("format");
   std::size_t begin = 0;
   for (int i = 1; i < at; ++i) begin = text.find('\n', begin) + 1;
-  const std::size_t end = root.has("media") ? text.find('\n', begin) + 1 : begin;
-  return text.replace(begin, end - begin, line);
+  std::size_t end = begin;
+  if (root.has("media")) end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+  return text.replace(begin, end - begin, line.str());
 }
 
 }  // namespace
@@ -56,6 +58,12 @@ Status copy_session(const Session& session, const fs::path& folder, const Trial&
     if (!document) return document.error();
     TomlReader root(*document);
     *text = with_absolute_media(std::move(*text), root, session.file.parent_path());
+    // A folder's name need not be UTF-8, as TOML must be; and a `media` may have lines.
+    if (!parse_toml(*text, copy.string())) {
+      return bad_input(session.file.string(),
+                       "its videos cannot be named from another folder",
+                       "give it a `media` of one line, and its folder a name in UTF-8");
+    }
   }
   return write_file(copy, *text);
 }

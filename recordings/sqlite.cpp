@@ -2,11 +2,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/sqlite.h"
 
-namespace marey::recordings {
+#include <system_error>
 
-Database open_database(const std::string& name, int flags) {
+namespace marey::recordings {
+namespace {
+
+/// The file as a URI: "#", "?" and "%" mean something there, and Debian's SQLite takes
+/// every name for one that looks like it.
+std::string uri_of(const std::filesystem::path& file) {
+  constexpr std::string_view kHex = "0123456789ABCDEF";
+  constexpr std::string_view kPlain = "/._-~";
+  std::error_code ignored;
+  std::string uri = "file://";
+  for (const char letter : std::filesystem::absolute(file, ignored).string()) {
+    const auto byte = static_cast<unsigned char>(letter);
+    const bool is_plain = (byte >= '0' && byte <= '9') || (byte >= 'A' && byte <= 'Z') ||
+                          (byte >= 'a' && byte <= 'z') ||
+                          kPlain.find(letter) != std::string_view::npos;
+    if (is_plain) {
+      uri += letter;
+    } else {
+      uri.append({'%', kHex[byte / 16U], kHex[byte % 16U]});
+    }
+  }
+  return uri;
+}
+
+}  // namespace
+
+Database open_database(const std::filesystem::path& file,
+                       int flags,
+                       const std::string& query) {
+  std::string uri = uri_of(file);
+  if (!query.empty()) uri += "?" + query;
   sqlite3* raw = nullptr;
-  const int result = sqlite3_open_v2(name.c_str(), &raw, flags, nullptr);
+  const int result = sqlite3_open_v2(uri.c_str(), &raw, flags | SQLITE_OPEN_URI, nullptr);
   Database database(raw);
   if (result != SQLITE_OK) return nullptr;
   sqlite3_busy_timeout(raw, 2000);

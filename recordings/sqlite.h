@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -17,8 +18,11 @@ struct CloseDatabase {
 };
 using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 
-/// Opens a database; null when it cannot be opened. `flags` as sqlite3_open_v2().
-[[nodiscard]] Database open_database(const std::string& name, int flags);
+/// Opens a database; null when it cannot be opened. `flags` as sqlite3_open_v2();
+/// `query` as in SQLite's URIs: "immutable=1".
+[[nodiscard]] Database open_database(const std::filesystem::path& file,
+                                     int flags,
+                                     const std::string& query = {});
 
 /// Runs statements without results. False when one failed: see sqlite3_errmsg().
 [[nodiscard]] bool execute(sqlite3* database, const std::string& statements);

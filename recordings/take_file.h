@@ -58,15 +58,17 @@ struct Take {
 /// What was committed survives the end of this process at any moment.
 class TakeWriter {
  public:
-  /// Makes the file, with `take`'s cameras and no frames. Errors (kDevice): the disk;
-  /// (kBadInput): the file is there already.
+  /// Makes the file, with `take`'s cameras and no frames. Errors (kDevice): the disk, and
+  /// no file is left; (kBadInput): the file is there already.
   [[nodiscard]] static Result<TakeWriter> create(const std::filesystem::path& path,
                                                  const Take& take);
   TakeWriter(TakeWriter&&) noexcept;
   TakeWriter& operator=(TakeWriter&&) noexcept;
   ~TakeWriter();
 
-  // From any thread; they do not wait for the disk.
+  // From any thread; they do not wait for the disk. Preconditions: the camera is one of
+  // the take's; times of its frames never fall, and neither they nor numbers are
+  // negative.
   void add(int camera, const TakeFrame& frame);
   void note(const TakeEvent& event);
 
@@ -82,8 +84,9 @@ class TakeWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Reads a take's file, also one that was cut off. Errors (kBadInput): it is missing; no
-/// take; damaged; of a newer version of marey.
+/// Reads a take's file, also one that was cut off. Times of a camera's frames never fall
+/// and are not negative, nor are numbers. Errors (kBadInput): it is missing; no take;
+/// damaged, or with what TakeWriter would not have written; of a newer version of marey.
 [[nodiscard]] Result<Take> read_take(const std::filesystem::path& path);
 
 }  // namespace marey::recordings

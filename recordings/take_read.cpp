@@ -1,5 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -24,11 +27,10 @@ std::int64_t setting(sqlite3* database, const std::string& name) {
 
 /// A log that was left behind is read with the file, which takes the right to write; a
 /// take on a read-only disk is read without.
-Database open_take(const std::string& file) {
+Database open_take(const std::filesystem::path& file) {
   Database database = open_database(file, SQLITE_OPEN_READWRITE);
   if (database && setting(database.get(), "schema_version") > 0) return database;
-  return open_database("file:" + file + "?immutable=1",
-                       SQLITE_OPEN_READONLY | SQLITE_OPEN_URI);
+  return open_database(file, SQLITE_OPEN_READONLY, "immutable=1");
 }
 
 bool read_head(sqlite3* database, Take& take) {
@@ -54,15 +56,24 @@ bool read_cameras(sqlite3* database, Take& take) {
     camera.rate.hz = rows.number(5);
     camera.device = rows.text(6);
     camera.settings = rows.text(7);
-    if (!(camera.rate.hz > 0.0) || camera.file.find('/') != std::string::npos) {
-      return false;
-    }
+    const bool can_be = camera.rate.hz > 0.0 && std::isfinite(camera.rate.hz) &&
+                        camera.file.find('/') == std::string::npos;
+    if (!can_be) return false;
     take.cameras.push_back(std::move(camera));
   }
   return !rows.failed();
 }
 
+/// What `frame` tells cannot be, after the frames before it.
+bool is_impossible(const TakeFrame& frame, const std::vector<TakeFrame>& before) {
+  // 70 years: differences of such times are times as well.
+  constexpr Timestamp kLatest{std::int64_t{1} << 61};
+  const Timestamp least = before.empty() ? Timestamp{0} : before.back().time;
+  return frame.time < least || frame.time > kLatest;
+}
+
 bool read_frames(sqlite3* database, Take& take) {
+  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
   Statement rows(database,
                  "SELECT camera, number, time_ns, sequence, dropped_before, "
                  "time_is_arrival, damaged FROM frame ORDER BY camera, number");
@@ -73,8 +84,10 @@ bool read_frames(sqlite3* database, Take& take) {
     if (rows.integer(1) != static_cast<std::int64_t>(frames.size())) return false;
     TakeFrame frame;
     frame.time = Timestamp{rows.integer(2)};
+    const std::int64_t dropped = rows.integer(4);
+    if (is_impossible(frame, frames) || dropped < 0 || dropped > kMost) return false;
     frame.sequence = static_cast<std::uint32_t>(rows.integer(3));
-    frame.dropped_before = static_cast<int>(rows.integer(4));
+    frame.dropped_before = static_cast<int>(dropped);
     frame.time_is_arrival = rows.integer(5) != 0;
     frame.damaged = rows.integer(6) != 0;
     frames.push_back(frame);
@@ -85,8 +98,10 @@ bool read_frames(sqlite3* database, Take& take) {
 bool read_events(sqlite3* database, Take& take) {
   Statement rows(database, "SELECT camera, time_ns, text FROM event ORDER BY time_ns");
   while (rows.next_row()) {
+    const auto camera = static_cast<std::size_t>(rows.integer(0));
+    if (camera >= take.cameras.size()) return false;
     take.events.push_back(
-        {static_cast<int>(rows.integer(0)), Timestamp{rows.integer(1)}, rows.text(2)});
+        {static_cast<int>(camera), Timestamp{rows.integer(1)}, rows.text(2)});
   }
   return !rows.failed();
 }
@@ -103,7 +118,7 @@ Result<Take> read_take(const std::filesystem::path& path) {
                      "the trial's `videos`, elsewhere than in the take: then frames are "
                      "matched by their numbers");
   }
-  const Database database = open_take(file);
+  const Database database = open_take(path);
   if (!database || setting(database.get(), "application_id") != kTakeApplication) {
     return damaged(file);
   }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <filesystem>
 #include <mutex>
 #include <system_error>
 #include <utility>
@@ -9,6 +10,16 @@
 #include "recordings/take_schema.h"
 
 namespace marey::recordings {
+namespace {
+
+Error disk_error(const std::string& file, sqlite3* database, const std::string& what) {
+  return {Errc::kDevice,
+          file,
+          what + ": " + sqlite3_errmsg(database),
+          "make room on the disk, or record to another one"};
+}
+
+}  // namespace
 
 struct TakeWriter::Impl {
   struct Row {
@@ -35,10 +46,7 @@ struct TakeWriter::Impl {
         numbers(cameras, 0) {}
 
   [[nodiscard]] Error error(const std::string& what) const {
-    return {Errc::kDevice,
-            file,
-            what + ": " + sqlite3_errmsg(database.get()),
-            "make room on the disk, or record to another one"};
+    return disk_error(file, database.get(), what);
   }
 
   [[nodiscard]] bool write(const Row& row) {
@@ -102,8 +110,7 @@ Result<TakeWriter> TakeWriter::create(const std::filesystem::path& path,
                      "there is a recording already",
                      "record under another trial's name, or move the old one away");
   }
-  Database database =
-      open_database(path.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  Database database = open_database(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   if (!database) {
     return Error{Errc::kDevice,
                  path.string(),
@@ -119,11 +126,17 @@ Result<TakeWriter> TakeWriter::create(const std::filesystem::path& path,
               "PRAGMA application_id=" + std::to_string(kTakeApplication) +
                   "; PRAGMA user_version=" + std::to_string(kTakeVersion)) &&
       execute(raw, kTakeSchema) && write_head(raw, take) && execute(raw, "COMMIT");
+  if (!made) {
+    Error error = disk_error(path.string(), raw, "the take cannot be begun");
+    database.reset();
+    for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
+      std::filesystem::remove(path.string() + suffix, ignored);
+    }
+    return error;
+  }
   // Only now: the statements want their tables.
-  auto impl =
-      std::make_unique<Impl>(path.string(), std::move(database), take.cameras.size());
-  if (!made) return impl->error("the take cannot be begun");
-  return TakeWriter(std::move(impl));
+  return TakeWriter(
+      std::make_unique<Impl>(path.string(), std::move(database), take.cameras.size()));
 }
 
 void TakeWriter::add(int camera, const TakeFrame& frame) {

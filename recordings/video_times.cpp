@@ -3,7 +3,9 @@
 #include "recordings/video_times.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <memory>
+#include <string>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -16,6 +18,8 @@ namespace marey::recordings {
 namespace {
 
 constexpr AVRational kNanoseconds{1, 1000000000};
+/// 70 years: no video is as long, and differences of such times are times as well.
+constexpr std::int64_t kFarthest_ns = std::int64_t{1} << 61;
 
 struct CloseInput {
   void operator()(AVFormatContext* input) const { avformat_close_input(&input); }
@@ -29,7 +33,9 @@ std::unique_ptr<AVFormatContext, CloseInput> open_input(
   // A library does not print: who calls is told.
   av_log_set_level(AV_LOG_QUIET);
   AVFormatContext* raw = nullptr;
-  if (avformat_open_input(&raw, path.c_str(), nullptr, nullptr) < 0) return nullptr;
+  // Without the protocol's name, "a:b.mkv" would be of a protocol "a".
+  const std::string url = "file:" + path.string();
+  if (avformat_open_input(&raw, url.c_str(), nullptr, nullptr) < 0) return nullptr;
   std::unique_ptr<AVFormatContext, CloseInput> input(raw);
   if (avformat_find_stream_info(raw, nullptr) < 0) return nullptr;
   return input;
@@ -53,7 +59,9 @@ std::optional<std::vector<Timestamp>> video_times(const std::filesystem::path& p
     av_packet_unref(packet.get());
     if (!counts) continue;
     if (pts == AV_NOPTS_VALUE) return std::nullopt;
-    times.push_back(Timestamp{av_rescale_q(pts, base, kNanoseconds)});
+    const std::int64_t time_ns = av_rescale_q(pts, base, kNanoseconds);
+    if (time_ns < -kFarthest_ns || time_ns > kFarthest_ns) return std::nullopt;
+    times.push_back(Timestamp{time_ns});
   }
   std::sort(times.begin(), times.end());
   if (times.empty()) return std::nullopt;

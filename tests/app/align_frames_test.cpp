@@ -3,7 +3,9 @@
 #include "app/align_frames.h"
 
 #include <algorithm>
+#include <chrono>
 #include <random>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -109,6 +111,27 @@ TEST(AlignFrames, DeclinesWhatTellsNoRate) {
   EXPECT_TRUE(align_frames(one, FrameRate{100.0}));
   const std::vector<Timestamp> still(5, ms(3));
   EXPECT_FALSE(measured_rate(still));
+}
+
+// A month between two frames would be a hundred million instants.
+TEST(AlignFrames, DeclinesATimeStampThatIsFarOff) {
+  CameraTimes wild = camera(0, 0.0, 0.0, {});
+  wild.times.back() += std::chrono::hours(24 * 35);
+  const std::vector<CameraTimes> within{wild, camera(1, 0.0, 0.0, {})};
+  EXPECT_FALSE(align_frames(within));
+  CameraTimes elsewhere = camera(1, 0.0, 0.0, {});
+  for (Timestamp& time : elsewhere.times) time += std::chrono::hours(24 * 35);
+  const std::vector<CameraTimes> between{camera(0, 0.0, 0.0, {}), elsewhere};
+  EXPECT_FALSE(align_frames(between));
+}
+
+TEST(AlignFrames, BearsAMinuteWithoutFrames) {
+  CameraTimes pausing = camera(0, 0.0, 0.0, {});
+  for (std::size_t k = 100; k < 200; ++k) pausing.times[k] += std::chrono::minutes(1);
+  const auto found = align_frames(std::span(&pausing, 1));
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->cameras[0].recorded.size(), 6200U);
+  EXPECT_EQ(found->cameras[0].recorded[6100], 100);
 }
 
 TEST(MeasuredRate, IsThatOfTheStreamWhateverIsMissing) {

@@ -5,25 +5,32 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
-#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
-#include "app/record_take.h"
+#include "app/frame_feed.h"
 
 namespace marey::testing {
 
 /// A camera that is none: frame k of `camera` is made of its numbers alone, so that who
-/// reads a recording knows what must be in it.
+/// reads a recording knows what must be in it. Its clock is its own, and goes on by a
+/// period with each frame, however long that takes.
 class SyntheticFeed final : public app::FrameFeed {
  public:
   struct Behaviour {
     double rate_hz = 100.0;
-    long frames = -1;          ///< After so many it is silent; -1: it never ends.
-    int drop_every = 0;        ///< Each so-many-th frame never comes; 0: all come.
-    bool is_grey = false;      ///< Raw pixels instead of JPEG.
-    int empty_every = 0;       ///< Each so-many-th frame is without bytes.
-    bool in_real_time = true;  ///< Else as fast as they are fetched.
+    long frames = -1;           ///< After so many it is silent; -1: it never ends.
+    int drop_every = 0;         ///< Each so-many-th frame never comes; 0: all come.
+    bool is_grey = false;       ///< Raw pixels instead of JPEG.
+    int empty_every = 0;        ///< Each so-many-th frame is without bytes.
+    bool in_real_time = false;  ///< Else as fast as they are fetched.
+    long stale = 0;             ///< The first so many frames are from before now().
+    int dropped_after_stale = 0;
+    long other_size_from = -1;  ///< From this frame on pictures are wider; -1: never.
+    int big_every = 0;          ///< Each so-many-th frame has `big_bytes` more.
+    std::size_t big_bytes = 0;
+    std::map<long, std::string> events{};  ///< Before frame k: event_time(k).
   };
 
   SyntheticFeed(int camera, const Behaviour& behaviour);
@@ -33,14 +40,23 @@ class SyntheticFeed final : public app::FrameFeed {
     return settings_;
   }
   [[nodiscard]] std::string device() const override { return "synthetic"; }
-  std::vector<std::string> events() override { return {}; }
+  std::vector<app::FeedEvent> events() override;
 
-  /// Frames handed out so far, from any thread.
+  /// Before anything is fetched.
+  [[nodiscard]] capture::DeviceSettings& settings_to_spoil() { return settings_; }
+
+  // From any thread: frames handed out so far, whether that were all, and what time it
+  // is on its clock: that of the next frame, first of the one after those that are stale.
   [[nodiscard]] long handed_out() const { return handed_out_; }
+  [[nodiscard]] bool is_done() const {
+    return behaviour_.frames >= 0 && next_ >= behaviour_.frames;
+  }
+  [[nodiscard]] Timestamp now() const;
 
   /// What frame k holds, when it was taken, and whether it never comes.
   [[nodiscard]] std::vector<std::byte> bytes_of(long k) const;
   [[nodiscard]] Timestamp time_of(long k) const;
+  [[nodiscard]] Timestamp event_time(long k) const;
   [[nodiscard]] bool is_dropped(long k) const;
 
  private:
@@ -48,9 +64,10 @@ class SyntheticFeed final : public app::FrameFeed {
   Behaviour behaviour_;
   capture::DeviceSettings settings_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-  long next_ = 0;
+  std::atomic<long> next_ = 0;
   std::atomic<long> handed_out_ = 0;
   std::vector<std::byte> bytes_;
+  std::vector<app::FeedEvent> events_;
 };
 
 }  // namespace marey::testing

@@ -4,154 +4,29 @@
 // The sample's walk as `marey record` would have recorded it: cameras that drop frames,
 // whose clocks jitter, of which one stops early.
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
-#include <random>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sqlite3.h>
 
-#include "core/quantile.h"
+#include "app/record_take.h"
 #include "recordings/atomic_file.h"
-#include "recordings/motion_tables.h"
-#include "recordings/take_file.h"
-#include "tests/app/broken_video.h"
+#include "tests/app/recorded_walk.h"
 #include "tests/app/spoiled_session.h"
-#include "tests/support/truth.h"
+#include "tests/support/video_packets.h"
 
 namespace marey::testing {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using recordings::kTakeFile;
-using recordings::Take;
-using recordings::TakeWriter;
-
-const char* const kFfmpeg = "/usr/bin/ffmpeg";
-const fs::path kSample = MAREY_SAMPLE;
-constexpr int kFrames = 90;
-constexpr double kRate = 30.0;
-const std::vector<std::string> kCameras{"cam0", "cam1", "cam2", "cam3"};
-
-/// Frames that each camera dropped: single ones, a burst, the beginning, one in nine.
-bool is_dropped(std::size_t camera, int k) {
-  switch (camera) {
-    case 1:
-      return k == 10 || k == 40 || (k >= 60 && k < 65);
-    case 2:
-      return k < 3;
-    case 3:
-      return k % 9 == 4;
-    default:
-      return false;
-  }
-}
-
-/// The sample's session, its walk recorded in its own folder.
-class RecordedWalk {
- public:
-  RecordedWalk() {
-    for (std::size_t c = 0; c < kCameras.size(); ++c) {
-      session_.replace("name = \"" + kCameras[c] + "\"",
-                       "name = \"" + kCameras[c] + "\"\ndevice = \"/dev/video" +
-                           std::to_string(c) + "\"");
-    }
-    session_.replace_in_trial(
-        "walk",
-        "videos = { cam0 = \"walk/cam0.mp4\", cam1 = \"walk/cam1.mp4\", cam2 = "
-        "\"walk/cam2.mp4\", cam3 = \"walk/cam3.mp4\" }\n",
-        "");
-    fs::create_directories(folder());
-    for (std::size_t c = 0; c < kCameras.size(); ++c) make_video(c);
-    make_take();
-    fs::remove_all(session_.out() / "walk");  // What was found in the other videos.
-  }
-
-  [[nodiscard]] fs::path folder() const { return session_.file().parent_path() / "walk"; }
-  [[nodiscard]] fs::path take() const { return folder() / kTakeFile; }
-  [[nodiscard]] const SpoiledSession& session() const { return session_; }
-
- private:
-  void make_video(std::size_t camera) const {
-    std::string keep = "select='1";
-    for (int k = 0; k < kFrames; ++k) {
-      if (is_dropped(camera, k)) keep += "*not(eq(n," + std::to_string(k) + "))";
-    }
-    const auto run = run_program(kFfmpeg,
-                                 {"-v",
-                                  "error",
-                                  "-i",
-                                  SpoiledSession::sample_video("walk", kCameras[camera]),
-                                  "-vf",
-                                  keep + "'",
-                                  "-vsync",
-                                  "0",
-                                  "-c:v",
-                                  "mjpeg",
-                                  "-q:v",
-                                  "2",
-                                  "-pix_fmt",
-                                  "yuvj420p",
-                                  (folder() / (kCameras[camera] + ".mkv")).string()});
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-  }
-
-  void make_take() const {
-    const auto cameras = truth_cameras(kSample / "walk/truth/cameras.json");
-    Take description;
-    description.trial = "walk";
-    for (const std::string& name : kCameras) {
-      description.cameras.push_back(
-          {name, name + ".mkv", 1280, 720, {kRate}, "", "", {}});
-    }
-    auto writer = TakeWriter::create(take(), description);
-    ASSERT_TRUE(writer) << writer.error().message();
-    std::mt19937 random(2);
-    std::uniform_real_distribution<double> jitter_s(-0.003, 0.003);
-    for (std::size_t c = 0; c < kCameras.size(); ++c) {
-      const double lag_s = cameras ? (*cameras)[c].offset_s : 0.0;
-      int dropped = 0;
-      for (int k = 0; k < kFrames; ++k) {
-        const double time_s = 7000.0 + k / kRate + lag_s + jitter_s(random);
-        if (is_dropped(c, k)) {
-          ++dropped;
-          continue;
-        }
-        recordings::TakeFrame frame;
-        frame.time = from_seconds(time_s);
-        frame.sequence = static_cast<unsigned>(k);
-        frame.dropped_before = std::exchange(dropped, 0);
-        writer->add(static_cast<int>(c), frame);
-      }
-    }
-    ASSERT_TRUE(writer->finish());
-  }
-
-  SpoiledSession session_;
-};
-
-/// Median distance of the limbs' joints to their truth. [mm]
-double median_error_mm(const SpoiledSession& session) {
-  const auto truth = truth_joints(kSample / "walk/truth/joints.csv");
-  const auto rows = recordings::read_joints_csv(session.out() / "walk/joints.csv");
-  EXPECT_TRUE(truth);
-  EXPECT_TRUE(rows);
-  if (!truth || !rows) return 1e9;
-  std::vector<double> errors_mm;
-  for (const recordings::JointRow& row : *rows) {
-    const auto bone = human_bone(row.joint);
-    const auto known = bone ? truth->find({row.frame, *bone}) : truth->end();
-    if (known == truth->end()) continue;
-    errors_mm.push_back(1000.0 * glm::distance(row.p_in_world, known->second));
-  }
-  EXPECT_GT(errors_mm.size(), 500U);
-  std::sort(errors_mm.begin(), errors_mm.end());
-  return errors_mm[errors_mm.size() / 2];
-}
 
 int error_lines(const std::string& err) {
   int count = 0;
@@ -175,8 +50,8 @@ TEST(RecordedTake, IsMatchedByTimeThroughDropsAndJitter) {
   // 3.5 mm when every frame is there.
   EXPECT_LT(median_error_mm(walk.session()), 6.0);
   const Json report = Json::parse(run.out);
-  EXPECT_EQ(report.at("trials").at(0).at("frames"), kFrames);
-  EXPECT_NEAR(report.at("trials").at(0).at("rate_hz"), kRate, 0.03);
+  EXPECT_EQ(report.at("trials").at(0).at("frames"), kWalkFrames);
+  EXPECT_NEAR(report.at("trials").at(0).at("rate_hz"), kWalkRate_hz, 0.03);
   EXPECT_NE(warnings_of(run).find("cam3.mkv: 10 frames were dropped while recording"),
             std::string::npos)
       << warnings_of(run);
@@ -185,17 +60,9 @@ TEST(RecordedTake, IsMatchedByTimeThroughDropsAndJitter) {
 TEST(RecordedTake, ThatWasCutOffIsUsedAndTold) {
   if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   const RecordedWalk walk;
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(walk.take().c_str(), &database), SQLITE_OK);
   // The last moments of one camera's times, and of another's video.
-  ASSERT_EQ(sqlite3_exec(database,
-                         "UPDATE take SET finished=0; DELETE FROM frame WHERE camera=0 "
-                         "AND number>=80",
-                         nullptr,
-                         nullptr,
-                         nullptr),
-            SQLITE_OK);
-  sqlite3_close(database);
+  walk.spoil_take(
+      "UPDATE take SET finished=0; DELETE FROM frame WHERE camera=0 AND number>=80");
   const fs::path video = walk.folder() / "cam3.mkv";
   fs::resize_file(video, fs::file_size(video) * 9 / 10);
   const ProgramRun run = walk.session().run();
@@ -217,11 +84,7 @@ TEST(RecordedTake, WithoutItsTimesIsDeclined) {
 TEST(RecordedTake, OfANewerVersionIsDeclined) {
   if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   const RecordedWalk walk;
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(walk.take().c_str(), &database), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(database, "PRAGMA user_version=9", nullptr, nullptr, nullptr),
-            SQLITE_OK);
-  sqlite3_close(database);
+  walk.spoil_take("PRAGMA user_version=9");
   const ProgramRun run = walk.session().run("track");
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_EQ(error_lines(run.err), 1) << run.err;
@@ -263,6 +126,141 @@ TEST(RecordedTake, WithDamagedFramesLosesTheseAlone) {
             std::string::npos)
       << warnings_of(run);
   EXPECT_LT(median_error_mm(walk.session()), 6.0);
+}
+
+TEST(RecordedTake, IsCutToTheRangeThatTheTrialNames) {
+  if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
+  RecordedWalk walk;
+  walk.session().replace_in_trial(
+      "walk", "kind = \"motion\"", "kind = \"motion\"\nframes = [20, 79]");
+  const ProgramRun run = walk.session().run();
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json trial = Json::parse(run.out).at("trials").at(0);
+  EXPECT_EQ(trial.at("first_frame"), 20);
+  EXPECT_EQ(trial.at("frames"), 60);
+  EXPECT_LT(median_error_mm(walk.session()), 6.0);
+}
+
+TEST(RecordedTake, OfFewerFramesThanTheTrialNamesIsDeclined) {
+  if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
+  RecordedWalk walk;
+  walk.session().replace_in_trial(
+      "walk", "kind = \"motion\"", "kind = \"motion\"\nframes = [5000, 5100]");
+  const ProgramRun run = walk.session().run("track");
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_EQ(error_lines(run.err), 1) << run.err;
+  EXPECT_NE(run.err.find("frames 5000 to 5100 were asked for, but it has only 90"),
+            std::string::npos)
+      << run.err;
+}
+
+// Each would be years of instants.
+TEST(RecordedTake, WithTimesThatCannotBeIsDeclined) {
+  if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
+  for (const char* change :
+       {"UPDATE frame SET time_ns = time_ns + 3000000000000000 WHERE number >= 40",
+        "UPDATE frame SET time_ns = 9223372036854775807 WHERE number = 60",
+        "UPDATE frame SET time_ns = 0 WHERE number = 0",
+        "UPDATE frame SET time_ns = -time_ns"}) {
+    const RecordedWalk walk;
+    walk.spoil_take(change);
+    const ProgramRun run = walk.session().run("track");
+    EXPECT_EQ(run.exit_code, 3) << change;
+    EXPECT_EQ(error_lines(run.err), 1) << run.err;
+    EXPECT_NE(run.err.find("take.sqlite: "), std::string::npos) << run.err;
+  }
+}
+
+/// A camera that shows the sample's walk.
+class WalkFeed final : public app::FrameFeed {
+ public:
+  /// `pictures` has all frames as %d.jpg.
+  WalkFeed(std::size_t camera, fs::path pictures)
+      : camera_(camera), pictures_(std::move(pictures)) {
+    settings_.width_px = 1280;
+    settings_.height_px = 720;
+    settings_.rate = {kWalkRate_hz};
+  }
+
+  std::optional<capture::RawFrame> next(std::chrono::milliseconds /*timeout*/) override {
+    int dropped = 0;
+    for (; next_ < kWalkFrames && RecordedWalk::is_dropped(camera_, next_); ++next_) {
+      ++dropped;
+    }
+    if (next_ >= kWalkFrames) return std::nullopt;
+    const auto file = pictures_ / (std::to_string(next_) + ".jpg");
+    bytes_ = *recordings::read_file(file);
+    capture::RawFrame frame;
+    frame.bytes = std::as_bytes(std::span(bytes_));
+    frame.time = times_[static_cast<std::size_t>(next_)];
+    frame.sequence = static_cast<std::uint32_t>(next_);
+    frame.dropped_before = dropped;
+    ++next_;
+    return frame;
+  }
+  [[nodiscard]] const capture::DeviceSettings& settings() const override {
+    return settings_;
+  }
+  [[nodiscard]] std::string device() const override { return "walk"; }
+  std::vector<app::FeedEvent> events() override { return {}; }
+
+  /// From any thread.
+  [[nodiscard]] bool is_done() const { return next_ >= kWalkFrames; }
+
+ private:
+  std::size_t camera_;
+  fs::path pictures_;
+  std::vector<Timestamp> times_ = RecordedWalk::times()[camera_];
+  capture::DeviceSettings settings_;
+  std::atomic<int> next_ = 0;
+  std::string bytes_;
+};
+
+TEST(RecordedTake, IsProcessedAsTheRecorderMadeIt) {
+  if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
+  const RecordedWalk walk(RecordedWalk::Made::kNothing);
+  std::vector<std::unique_ptr<WalkFeed>> feeds;
+  std::vector<app::RecordedCamera> cameras;
+  for (std::size_t c = 0; c < RecordedWalk::cameras().size(); ++c) {
+    const std::string& name = RecordedWalk::cameras()[c];
+    const fs::path pictures = walk.session().out().parent_path() / ("pictures-" + name);
+    fs::create_directories(pictures);
+    const auto run = run_program(kFfmpeg,
+                                 {"-v",
+                                  "error",
+                                  "-i",
+                                  SpoiledSession::sample_video("walk", name),
+                                  "-q:v",
+                                  "2",
+                                  "-pix_fmt",
+                                  "yuvj420p",
+                                  "-start_number",
+                                  "0",
+                                  (pictures / "%d.jpg").string()});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    feeds.push_back(std::make_unique<WalkFeed>(c, pictures));
+    cameras.push_back({name, feeds.back().get()});
+  }
+  app::RecordOptions options;
+  options.folder = walk.folder();
+  options.trial = "walk";
+  // The cameras' clock, from before their first frames to just after the last.
+  options.now = [before = true]() mutable {
+    return from_seconds(std::exchange(before, false) ? 6999.0 : 7003.2);
+  };
+  const auto recorded = app::record_take(cameras, options, [&] {
+    return std::all_of(
+        feeds.begin(), feeds.end(), [](const auto& feed) { return feed->is_done(); });
+  });
+  ASSERT_TRUE(recorded) << recorded.error().message();
+  for (const app::CameraSummary& camera : *recorded) {
+    EXPECT_FALSE(camera.error) << camera.error->message();
+    EXPECT_EQ(camera.unsaved, 0);
+  }
+  const ProgramRun run = walk.session().run();
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_LT(median_error_mm(walk.session()), 6.0);
+  EXPECT_EQ(Json::parse(run.out).at("trials").at(0).at("frames"), kWalkFrames);
 }
 
 // A phone's video: frames at times of their own.

@@ -14,19 +14,21 @@
 #include <unistd.h>
 
 #include "recordings/jpeg_encoder.h"
+#include "recordings/video_times.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/video_packets.h"
 
 namespace marey::recordings {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::kFfmpeg;
 using testing::run_program;
 using testing::ScratchFolder;
 
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
-const char* const kFfmpeg = "/usr/bin/ffmpeg";
 
 /// Brightness of pixel x, y of picture k.
 std::uint8_t luma(int x, int y, int k) {
@@ -59,25 +61,6 @@ MjpgVideoOptions small() {
   return options;
 }
 
-/// The packets of a video, one after the other, as another program reads them.
-std::string packets(const fs::path& video, const fs::path& to) {
-  const auto run = run_program(kFfmpeg,
-                               {"-v",
-                                "error",
-                                "-i",
-                                video.string(),
-                                "-c",
-                                "copy",
-                                "-f",
-                                "data",
-                                "-map",
-                                "0:v",
-                                to.string()});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  std::ifstream in(to, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::string joined(const std::vector<std::vector<std::byte>>& pictures) {
   std::string all;
   for (const auto& picture : pictures) {
@@ -97,7 +80,7 @@ TEST(MjpgVideo, KeepsEveryPictureByteForByte) {
     ASSERT_TRUE(video->write(pictures.back(), std::chrono::milliseconds(33 * k)));
   }
   ASSERT_TRUE(video->finish());
-  EXPECT_EQ(packets(folder / "a.mkv", folder / "a.bin"), joined(pictures));
+  EXPECT_EQ(testing::video_packets(folder / "a.mkv"), joined(pictures));
 }
 
 TEST(MjpgVideo, ThatWasCutOffIsReadUpToItsLastMoments) {
@@ -117,11 +100,63 @@ TEST(MjpgVideo, ThatWasCutOffIsReadUpToItsLastMoments) {
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);
-  const std::string read = packets(folder / "a.mkv", folder / "a.bin");
+  const std::string read = testing::video_packets(folder / "a.mkv");
   const std::string all = joined(pictures);
   // 0.4 s are 12 frames, and the one that closes the cluster.
   EXPECT_GE(read.size(), all.size() * 46 / 60);
   EXPECT_EQ(read, all.substr(0, read.size()));
+}
+
+// An outage: the frames before it are on the disk though none comes after them.
+TEST(MjpgVideo, HasAllOfItsFramesOnceTheyAreFlushed) {
+  const ScratchFolder folder;
+  auto video = MjpgVideo::create(folder / "a.mkv", small());
+  ASSERT_TRUE(video);
+  for (int k = 0; k < 5; ++k) {
+    ASSERT_TRUE(video->write(jpeg_of(k), std::chrono::milliseconds(33 * k)));
+  }
+  const auto before = video_times(folder / "a.mkv");
+  EXPECT_LT(before ? before->size() : 0, 5U);
+  ASSERT_TRUE(video->flush());
+  ASSERT_TRUE(video->flush());
+  const auto after = video_times(folder / "a.mkv");
+  ASSERT_TRUE(after);
+  EXPECT_EQ(after->size(), 5U);
+  for (int k = 5; k < 10; ++k) {
+    ASSERT_TRUE(video->write(jpeg_of(k), std::chrono::milliseconds(33 * k)));
+  }
+  ASSERT_TRUE(video->finish());
+  EXPECT_EQ(video_times(folder / "a.mkv")->size(), 10U);
+}
+
+/// Works in a folder for a while.
+class InFolder {
+ public:
+  explicit InFolder(const fs::path& folder) { fs::current_path(folder); }
+  ~InFolder() { fs::current_path(before_); }
+  InFolder(const InFolder&) = delete;
+  InFolder& operator=(const InFolder&) = delete;
+
+ private:
+  fs::path before_ = fs::current_path();
+};
+
+// FFmpeg takes names for URLs.
+TEST(MjpgVideo, MayHaveAnyName) {
+  const ScratchFolder folder;
+  const InFolder here(folder.path());
+  for (const char* name : {"take-11:56", "pipe:1", "a#b", "q?x=1", "50%20"}) {
+    fs::create_directories(name);
+    const fs::path file = fs::path(name) / "cam0.mkv";
+    auto video = MjpgVideo::create(file, small());
+    ASSERT_TRUE(video) << video.error().message();
+    ASSERT_TRUE(video->write(jpeg_of(0), Timestamp{0}));
+    ASSERT_TRUE(video->finish());
+    EXPECT_TRUE(fs::exists(file));
+    const auto times = video_times(file);
+    ASSERT_TRUE(times) << name;
+    EXPECT_EQ(times->size(), 1U);
+  }
 }
 
 TEST(MjpgVideo, ThatCannotBeMadeIsTold) {

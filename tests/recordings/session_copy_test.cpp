@@ -48,6 +48,55 @@ TEST(CopySession, LeavesVideosWhereTheyAre) {
   }
 }
 
+TEST(CopySession, NamesFoldersThatHaveAnyName) {
+  for (const char* name : {"a \"b\"", "back\\slash", "line\nbreak", "\xC3\xA4 #1"}) {
+    const ScratchFolder folder;
+    const auto session = session_in(folder / name, mixed("media = \"videos\"\n"));
+    ASSERT_TRUE(session) << session.error().message();
+    const Status copied = copy_session(*session, folder / "take", *session->find("walk"));
+    ASSERT_TRUE(copied) << copied.error().message();
+    const auto copy = read_session(folder / "take");
+    ASSERT_TRUE(copy) << copy.error().message();
+    EXPECT_EQ(copy->find("calib")->videos[0].path,
+              session->find("calib")->videos[0].path);
+  }
+}
+
+// Of a file without a line end at its end.
+TEST(CopySession, ReplacesAMediaThatIsTheLastLine) {
+  const ScratchFolder folder;
+  const std::string text = R"(format = 1
+name = "dev"
+subject = { name = "S16", stature_m = 1.734 }
+tags = { tag = [{ id = 41, segment = "hips", size_m = 0.09 }] }
+camera = [{ name = "right", device = "/dev/video0" }, { name = "left" }]
+board = { type = "aprilgrid", rows = 6, columns = 5, tag_size_m = 0.1, gap_m = 0.03, first_id = 0 }
+trial = [
+  { name = "calib", kind = "calibration", videos = { left = "l.mp4", right = "r.mp4" } },
+  { name = "floor", kind = "floor", frames = [0, 7], videos = { left = "l.mp4", right = "r.mp4" } },
+  { name = "walk", kind = "motion" },
+]
+media = "videos")";
+  const auto session = session_in(folder / "s", text);
+  ASSERT_TRUE(session) << session.error().message();
+  const Status copied = copy_session(*session, folder / "take", *session->find("walk"));
+  ASSERT_TRUE(copied) << copied.error().message();
+  const auto copy = read_session(folder / "take");
+  ASSERT_TRUE(copy) << copy.error().message();
+  EXPECT_EQ(copy->find("calib")->videos[0].path, session->find("calib")->videos[0].path);
+}
+
+// TOML is UTF-8, and names of folders need not be.
+TEST(CopySession, DeclinesAFolderThatCannotBeNamed) {
+  const ScratchFolder folder;
+  const auto session = session_in(folder / "\xE4", mixed("media = \"videos\"\n"));
+  ASSERT_TRUE(session) << session.error().message();
+  const Status copied = copy_session(*session, folder / "take", *session->find("walk"));
+  ASSERT_FALSE(copied);
+  EXPECT_EQ(copied.error().cause, "its videos cannot be named from another folder");
+  EXPECT_FALSE(fs::exists(folder / "take" / "session.toml"));
+}
+
 TEST(CopySession, DoesNotTouchAnotherSession) {
   const ScratchFolder folder;
   const auto session = session_in(folder / "s", mixed("media = \"videos\"\n"));

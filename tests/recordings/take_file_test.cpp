@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -101,13 +102,39 @@ TEST(TakeFile, IsOneFileWhenFinished) {
   EXPECT_EQ(files, 1);
 }
 
+/// Whether a user without rights can read the take. Preconditions: everybody may enter
+/// its folders.
+bool is_readable_without_rights(const fs::path& file) {
+  const pid_t child = fork();
+  if (child == 0) {
+    constexpr unsigned kNobody = 65534;
+    const bool is_root = geteuid() == 0;
+    if (is_root && (setgid(kNobody) != 0 || setuid(kNobody) != 0)) _exit(1);
+    if (access(file.parent_path().c_str(), W_OK) == 0) _exit(2);
+    _exit(read_take(file) ? 0 : 3);
+  }
+  int status = 0;
+  return child > 0 && waitpid(child, &status, 0) == child && WIFEXITED(status) &&
+         WEXITSTATUS(status) == 0;
+}
+
+// "#" and "?" mean something in the names that SQLite is given then.
 TEST(TakeFile, IsReadFromAFolderThatMayNotBeWrittenTo) {
-  const ScratchFolder folder;
-  make_take(folder / kTakeFile);
-  fs::permissions(folder / kTakeFile, fs::perms::owner_read);
-  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
-  EXPECT_TRUE(read_take(folder / kTakeFile));
-  fs::permissions(folder.path(), fs::perms::owner_all);
+  const ScratchFolder scratch;
+  const auto everybody_reads = fs::perms::owner_read | fs::perms::group_read |
+                               fs::perms::others_read | fs::perms::owner_exec |
+                               fs::perms::group_exec | fs::perms::others_exec;
+  fs::permissions(scratch.path(), everybody_reads | fs::perms::owner_write);
+  for (const char* name : {"plain", "a#b", "q#1?mode=memory", "50%20", "\xC3\xA4"}) {
+    const fs::path folder = scratch / name;
+    fs::create_directories(folder);
+    make_take(folder / kTakeFile);
+    fs::permissions(folder / kTakeFile, everybody_reads);
+    fs::permissions(folder, everybody_reads);
+    EXPECT_TRUE(is_readable_without_rights(folder / kTakeFile)) << name;
+    fs::permissions(folder, fs::perms::owner_all);
+    EXPECT_TRUE(fs::exists(folder / kTakeFile)) << name;
+  }
 }
 
 // All that was committed is there; what was only added is not promised.
@@ -181,18 +208,83 @@ TEST(TakeFile, ThatLacksItsTablesOrAFrameIsTold) {
   EXPECT_FALSE(read_take(folder / kTakeFile));
 }
 
+TEST(TakeFile, WithWhatNoRecorderWritesIsTold) {
+  const ScratchFolder folder;
+  for (const char* change :
+       {"UPDATE frame SET time_ns = -1 WHERE number = 0",
+        "UPDATE frame SET time_ns = time_ns - 1000000000 WHERE number = 2",
+        "UPDATE frame SET time_ns = 9223372036854775807 WHERE number = 2",
+        "UPDATE frame SET time_ns = -9223372036854775807 WHERE number = 1",
+        "UPDATE frame SET dropped_before = -1 WHERE number = 1",
+        "UPDATE frame SET dropped_before = 4294967296 WHERE number = 1",
+        "UPDATE frame SET camera = -1 WHERE number = 1",
+        "UPDATE frame SET camera = 2 WHERE number = 1",
+        "UPDATE camera SET rate_hz = 9e999",
+        "UPDATE camera SET file = '../cam0.mkv'",
+        "INSERT INTO event VALUES(2, 5, 'of nobody')"}) {
+    fs::remove(folder / kTakeFile);
+    auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
+    ASSERT_TRUE(writer);
+    for (int k = 0; k < 3; ++k) writer->add(0, frame_of(k));
+    ASSERT_TRUE(writer->finish());
+    ASSERT_TRUE(read_take(folder / kTakeFile));
+    run_sql(folder / kTakeFile, change);
+    const Result<Take> take = read_take(folder / kTakeFile);
+    ASSERT_FALSE(take) << change;
+    EXPECT_EQ(take.error().cause, "it is not the database of a take, or it is damaged");
+  }
+}
+
+// Nothing but the whole is ever read.
 TEST(TakeFile, CutAtAnyPlaceIsToldOrRead) {
   const ScratchFolder folder;
-  make_take(folder / kTakeFile);
+  auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
+  ASSERT_TRUE(writer);
+  for (int k = 0; k < 500; ++k) writer->add(k % 2, frame_of(k));
+  ASSERT_TRUE(writer->finish());
   const Result<std::string> whole = read_file(folder / kTakeFile);
   ASSERT_TRUE(whole);
-  for (std::size_t size = 0; size < whole->size(); size += 1000) {
+  for (std::size_t size = 0; size <= whole->size(); size += 512) {
     ASSERT_TRUE(write_file(folder / "cut.sqlite", whole->substr(0, size)));
     const Result<Take> take = read_take(folder / "cut.sqlite");
+    EXPECT_TRUE(take || size < whole->size());
     if (!take) {
       EXPECT_EQ(take.error().code, Errc::kBadInput);
+      continue;
+    }
+    ASSERT_EQ(take->cameras.size(), 2U);
+    for (std::size_t c = 0; c < 2; ++c) {
+      const auto& frames = take->cameras[c].frames;
+      ASSERT_EQ(frames.size(), 250U) << size;
+      for (std::size_t i = 0; i < 250; ++i) {
+        EXPECT_EQ(frames[i].time, frame_of(static_cast<int>(2 * i + c)).time);
+      }
     }
   }
+}
+
+// What went wrong first, and not what could not be done after that.
+TEST(TakeFile, ThatCannotBeBegunSaysWhyAndLeavesNothing) {
+  const ScratchFolder folder;
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{3000, 3000};  // Less than a page.
+    if (setrlimit(RLIMIT_FSIZE, &limit) != 0) _exit(1);
+    const auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
+    if (writer || writer.error().code != Errc::kDevice) _exit(2);
+    const std::string& cause = writer.error().cause;
+    const bool told = cause.rfind("the take cannot be begun: ", 0) == 0 &&
+                      cause.find("no such table") == std::string::npos &&
+                      cause.find("not an error") == std::string::npos;
+    _exit(told ? 0 : 3);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
 }
 
 }  // namespace

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/stop_signal.h"
+
+#include <atomic>
+#include <csignal>
+
+#include <unistd.h>
+
+namespace marey::app {
+namespace {
+
+constexpr int kInterrupted = 130;
+
+std::atomic<bool> is_wanted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);  // As signals need it.
+
+extern "C" void on_stop(int /*signal*/) {
+  if (is_wanted.exchange(true)) _exit(kInterrupted);
+}
+
+}  // namespace
+
+void catch_stop_signals() {
+  is_wanted = false;
+  std::signal(SIGINT, on_stop);
+  std::signal(SIGTERM, on_stop);
+}
+
+bool stop_wanted() {
+  return is_wanted;
+}
+
+}  // namespace marey::app
