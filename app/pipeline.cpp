@@ -55,6 +55,14 @@ Error missing_trial(const recordings::Session& session, TrialKind kind) {
       "record one and add it as a [[trial]]");
 }
 
+/// Targets that cameras cannot be calibrated with yet.
+Error not_yet(const recordings::Session& session) {
+  return bad_input(session.file.string(),
+                   "cameras are calibrated with an AprilGrid only, as yet",
+                   "marey track finds this target; calibrate with [board] type = "
+                   "\"aprilgrid\"");
+}
+
 /// Motions that are yet to be recorded are no obstacle to the others.
 void leave_out_unrecorded(recordings::Session& session, Console& console) {
   std::erase_if(session.trials, [&](const Trial& trial) {
@@ -193,8 +201,9 @@ Status Pipeline::calibrate() {
   const Stopwatch watch;
   const Progress progress = console_->stage("cameras");
   progress(0, 1);
-  const auto rig =
-      calib::calibrate_cameras(session_.cameras, *waved, *floor, session_.board);
+  const auto* grid = std::get_if<AprilGrid>(&session_.target);
+  if (grid == nullptr) return not_yet(session_);
+  const auto rig = calib::calibrate_cameras(session_.cameras, *waved, *floor, *grid);
   if (!rig) return at(session_.file.string(), rig.error());
   progress(1, 1);
   recordings::Calibration calibration{rig->cameras, rig->quality, {}, rig->rms_px};

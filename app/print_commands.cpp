@@ -127,22 +127,37 @@ void add_aprilgrid(CLI::App& command,
 void add_charuco(CLI::App& command,
                  PrintArguments& args,
                  std::vector<CLI::Option*>& own) {
-  const auto count = CLI::Range(2, 50);
-  recordings::CharucoBoard& board = args.charuco;
-  own = {
-      command.add_option("--squares-x", board.squares_x, "Squares in a row; default 5")
-          ->check(count),
-      command.add_option("--squares-y", board.squares_y, "Rows of squares; default 7")
-          ->check(count),
-      add_length(
-          command, "--square-size", "Edge of a square; default 30mm", board.square_m),
-      add_length(
-          command, "--marker-size", "Edge of a marker; default 22mm", board.marker_m),
-      command.add_option("--dictionary",
-                         board.dictionary,
-                         "OpenCV's name, such as DICT_5X5_100 (default) or "
-                         "DICT_APRILTAG_36h11")};
+  CharucoBoard& board = args.charuco;
+  own = {add_length(command,
+                    "--marker-size",
+                    "Edge of a marker; default 22mm",
+                    board.marker_size_m),
+         command.add_option("--dictionary",
+                            board.dictionary,
+                            "OpenCV's name, such as DICT_5X5_100 (default) or "
+                            "DICT_APRILTAG_36h11"),
+         command.add_flag("--legacy",
+                          board.is_legacy,
+                          "An even number of rows as OpenCV drew it before 4.6")};
   for (CLI::Option* option : own) option->group("ChArUco");
+}
+
+void add_squares(CLI::App& command,
+                 PrintArguments& args,
+                 std::vector<CLI::Option*>& own) {
+  const auto count = CLI::Range(2, 50);
+  own = {command
+             .add_option("--squares-x",
+                         args.squares_x,
+                         "Squares in a row; default 5, of a chessboard 10")
+             ->check(count),
+         command.add_option("--squares-y", args.squares_y, "Rows of squares; default 7")
+             ->check(count),
+         add_length(command,
+                    "--square-size",
+                    "Edge of a square; default 30mm, of a chessboard 25mm",
+                    args.square_size_m)};
+  for (CLI::Option* option : own) option->group("ChArUco and chessboard");
 }
 
 void add_board(CLI::App& app,
@@ -154,24 +169,38 @@ void add_board(CLI::App& app,
   CLI::Option* session =
       command->add_option("--session", args.session, "Print the board of this session");
   CLI::Option* type =
-      command->add_option("--type", args.type, "aprilgrid (default) or charuco")
-          ->check(CLI::IsMember({"aprilgrid", "charuco"}));
+      command
+          ->add_option("--type", args.type, "aprilgrid (default), charuco or chessboard")
+          ->check(CLI::IsMember({"aprilgrid", "charuco", "chessboard"}));
   type->excludes(session);
   command->add_flag(
       "--one-page", args.one_page, "Refuse a board that is larger than the page");
+  add_length(*command,
+             "--thickness",
+             "Of the plate it will be glued to, for the table",
+             args.thickness_m)
+      ->excludes(session);
   std::vector<CLI::Option*> of_grid;
   std::vector<CLI::Option*> of_charuco;
+  std::vector<CLI::Option*> of_squares;
   add_aprilgrid(*command, args, of_grid);
   add_charuco(*command, args, of_charuco);
-  for (CLI::Option* option : of_grid) option->excludes(session);
-  for (CLI::Option* option : of_charuco) option->excludes(session);
-  command->callback([&, of_grid, of_charuco] {
-    for (CLI::Option* option : args.type == "charuco" ? of_grid : of_charuco) {
-      if (option->count() == 0) continue;
-      throw CLI::ValidationError(
-          option->get_name(),
-          "does not belong to --type " + args.type + ". Next: leave it out");
-    }
+  add_squares(*command, args, of_squares);
+  for (const auto& options : {of_grid, of_charuco, of_squares}) {
+    for (CLI::Option* option : options) option->excludes(session);
+  }
+  command->callback([&, of_grid, of_charuco, of_squares] {
+    const auto refuse = [&](const std::vector<CLI::Option*>& options) {
+      for (CLI::Option* option : options) {
+        if (option->count() == 0) continue;
+        throw CLI::ValidationError(
+            option->get_name(),
+            "does not belong to --type " + args.type + ". Next: leave it out");
+      }
+    };
+    if (args.type != "aprilgrid") refuse(of_grid);
+    if (args.type != "charuco") refuse(of_charuco);
+    if (args.type == "aprilgrid") refuse(of_squares);
     chosen = [&args](Console& console) { return run_board(args, console); };
   });
 }

@@ -32,8 +32,18 @@ struct PrintArguments {
   // marey board
   std::string type = "aprilgrid";
   bool one_page = false;
+  double thickness_m = 0.0;
   AprilGrid grid{6, 6, 0.022, 0.0066, 0, 0.0};
-  recordings::CharucoBoard charuco;
+  CharucoBoard charuco{.rows = 7,
+                       .columns = 5,
+                       .square_size_m = 0.030,
+                       .marker_size_m = 0.022,
+                       .dictionary = "DICT_5X5_100"};
+  Chessboard chessboard{.rows = 7, .columns = 10, .square_size_m = 0.025};
+  // Of the latter two; 0: as above.
+  int squares_x = 0;
+  int squares_y = 0;
+  double square_size_m = 0.0;
 };
 
 /// `marey tags`: a PDF of tags, true to scale.

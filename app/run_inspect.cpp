@@ -46,10 +46,11 @@ Result<Json> inspect_session(const std::filesystem::path& file) {
                       {"kind", recordings::name(trial.kind)},
                       {"videos", trial.videos.size()}});
   }
+  const bool has_body = !session->tags.empty();
   return Json{{"kind", "session"},
               {"name", session->name},
-              {"subject", session->subject.name},
-              {"stature_m", session->subject.stature_m},
+              {"subject", has_body ? Json(session->subject.name) : Json()},
+              {"stature_m", has_body ? Json(session->subject.stature_m) : Json()},
               {"cameras", session->cameras},
               {"tags", session->tags.size()},
               {"trials", trials}};

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include <nlohmann/json.hpp>
 
@@ -131,26 +132,42 @@ Exit write(const PrintArguments& args,
   return Exit::kOk;
 }
 
-Exit print_charuco(const PrintArguments& args, Console& console) {
-  const recordings::CharucoBoard& board = args.charuco;
+Exit print_board(const PrintArguments& args,
+                 const CharucoBoard& board,
+                 Console& console) {
   const auto patterns = capture::aruco_patterns(board.dictionary, board.marker_count());
   if (!patterns) return console.fail(patterns.error());
   const auto document =
       recordings::lay_out_board(board, *patterns, {paper_of(args), args.one_page});
   const Json more{{"board",
                    {{"type", "charuco"},
-                    {"squares_x", board.squares_x},
-                    {"squares_y", board.squares_y},
-                    {"square_size_m", board.square_m},
-                    {"marker_size_m", board.marker_m},
-                    {"dictionary", board.dictionary}}}};
+                    {"rows", board.rows},
+                    {"columns", board.columns},
+                    {"square_size_m", board.square_size_m},
+                    {"marker_size_m", board.marker_size_m},
+                    {"dictionary", board.dictionary},
+                    {"legacy", board.is_legacy},
+                    {"thickness_m", board.thickness_m}}},
+                  {"board_toml", recordings::board_table(board)}};
   return write(args, document, more, console);
 }
 
-Exit print_aprilgrid(const PrintArguments& args,
-                     const AprilGrid& grid,
-                     const std::string& family,
-                     Console& console) {
+Exit print_board(const PrintArguments& args, const Chessboard& board, Console& console) {
+  const auto document = recordings::lay_out_board(board, {paper_of(args), args.one_page});
+  const Json more{{"board",
+                   {{"type", "chessboard"},
+                    {"rows", board.rows},
+                    {"columns", board.columns},
+                    {"square_size_m", board.square_size_m},
+                    {"thickness_m", board.thickness_m}}},
+                  {"board_toml", recordings::board_table(board)}};
+  return write(args, document, more, console);
+}
+
+Exit print_board(const PrintArguments& args,
+                 const AprilGrid& grid,
+                 const std::string& family,
+                 Console& console) {
   const auto shape = capture::tag_family_shape(family);
   if (!shape) return console.fail(shape.error());
   std::vector<TagId> ids;
@@ -168,8 +185,24 @@ Exit print_aprilgrid(const PrintArguments& args,
                     {"gap_m", grid.gap_m},
                     {"first_id", grid.first_id},
                     {"thickness_m", grid.thickness_m}}},
-                  {"board_toml", recordings::board_table(grid)}};
+                  {"board_toml", recordings::board_table(grid, family)}};
   return write(args, document, more, console);
+}
+
+/// The board that the arguments describe.
+CalibrationTarget board_of_arguments(const PrintArguments& args) {
+  const auto with_squares = [&](auto board) {
+    if (args.squares_x > 0) board.columns = args.squares_x;
+    if (args.squares_y > 0) board.rows = args.squares_y;
+    if (args.square_size_m > 0.0) board.square_size_m = args.square_size_m;
+    board.thickness_m = args.thickness_m;
+    return board;
+  };
+  if (args.type == "charuco") return with_squares(args.charuco);
+  if (args.type == "chessboard") return with_squares(args.chessboard);
+  AprilGrid grid = args.grid;
+  grid.thickness_m = args.thickness_m;
+  return grid;
 }
 
 }  // namespace
@@ -183,14 +216,29 @@ Exit run_tags(const PrintArguments& args, Console& console) {
 }
 
 Exit run_board(const PrintArguments& args, Console& console) {
-  if (args.session.empty()) {
-    if (args.type == "charuco") return print_charuco(args, console);
-    return print_aprilgrid(args, args.grid, args.family, console);
+  CalibrationTarget target = board_of_arguments(args);
+  std::string family = args.family;
+  if (!args.session.empty()) {
+    const auto session = recordings::read_session(args.session);
+    if (!session) return console.fail(session.error());
+    target = session->target;
+    if (const auto* grid = std::get_if<AprilGrid>(&target)) {
+      family = session->family_of(TagId{grid->first_id});
+    }
+    if (std::holds_alternative<Wand>(target)) {
+      return console.fail(
+          bad_input(session->file.string(),
+                    "its cameras are calibrated with a wand, not with a board",
+                    "print the wand's tags with marey tags --ids and --size"));
+    }
   }
-  const auto session = recordings::read_session(args.session);
-  if (!session) return console.fail(session.error());
-  const TagId first{session->board.first_id};
-  return print_aprilgrid(args, session->board, session->family_of(first), console);
+  if (const auto* grid = std::get_if<AprilGrid>(&target)) {
+    return print_board(args, *grid, family, console);
+  }
+  if (const auto* board = std::get_if<CharucoBoard>(&target)) {
+    return print_board(args, *board, console);
+  }
+  return print_board(args, std::get<Chessboard>(target), console);
 }
 
 }  // namespace marey::app

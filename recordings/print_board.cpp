@@ -77,44 +77,65 @@ BoardPicture picture_of(const AprilGrid& grid,
   return picture;
 }
 
-BoardPicture picture_of(const CharucoBoard& board, std::span<const TagPattern> patterns) {
-  // White around, where black squares would meet whatever lies behind.
-  const double edge = 0.5 * (board.square_m - board.marker_m);
-  const double inset = 0.5 * (board.square_m - board.marker_m);
+/// Squares of `side`, black where `is_black(from_top, column)`, with white around them.
+template <class IsBlack>
+BoardPicture squares_of(int rows,
+                        int columns,
+                        double side,
+                        double edge,
+                        double seam,
+                        const IsBlack& is_black) {
   BoardPicture picture;
   picture.name = "the board";
-  picture.width = board.squares_x * board.square_m + 2.0 * edge;
-  picture.height = board.squares_y * board.square_m + 2.0 * edge;
+  picture.width = columns * side + 2.0 * edge;
+  picture.height = rows * side + 2.0 * edge;
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      if (!is_black(row, column)) continue;
+      const glm::dvec2 corner{edge + column * side, edge + row * side};
+      picture.black.push_back({corner.x, corner.y, corner.x + side, corner.y + side});
+    }
+  }
+  // Beside the squares' corners, not through them.
+  for (int i = 1; i < columns; ++i) picture.seams_x.push_back(edge + i * side + seam);
+  for (int i = 1; i < rows; ++i) picture.seams_y.push_back(edge + i * side + seam);
+  picture.below = {edge, edge + side, "square_size_m " + mm_text(side)};
+  picture.origin = glm::dvec2(edge, picture.height - edge);
+  picture.origin_text = "origin: here";
+  return picture;
+}
+
+BoardPicture picture_of(const CharucoBoard& board, std::span<const TagPattern> patterns) {
+  const double side = board.square_size_m;
+  const double inset = 0.5 * (side - board.marker_size_m);
+  // White around, where black squares would meet whatever lies behind; seams beside the
+  // markers.
+  const double edge = inset;
+  const auto is_white = [&](int from_top, int column) {
+    return board.is_white(board.rows - 1 - from_top, column);
+  };
+  BoardPicture picture = squares_of(
+      board.rows, board.columns, side, edge, 0.5 * inset, [&](int row, int column) {
+        return !is_white(row, column);
+      });
   std::size_t next = 0;
-  for (int row = 0; row < board.squares_y; ++row) {
-    for (int column = 0; column < board.squares_x; ++column) {
-      const glm::dvec2 corner{edge + column * board.square_m,
-                              edge + row * board.square_m};
-      if (row % 2 == column % 2) {
-        picture.black.push_back(
-            {corner.x, corner.y, corner.x + board.square_m, corner.y + board.square_m});
-        continue;
-      }
+  for (int row = 0; row < board.rows; ++row) {
+    for (int column = 0; column < board.columns; ++column) {
+      if (!is_white(row, column)) continue;
+      const glm::dvec2 corner{edge + column * side, edge + row * side};
       const TagPattern& pattern = patterns[next];
       const glm::dvec2 marker = corner + glm::dvec2(inset);
-      append(picture.black, black_boxes(pattern, marker, board.marker_m / pattern.cells));
-      picture.tags.push_back(
-          {TagId{static_cast<int>(next)},
-           {marker.x, marker.y, marker.x + board.marker_m, marker.y + board.marker_m},
-           {corner.x, corner.y, corner.x + board.square_m, corner.y + board.square_m}});
+      const double size = board.marker_size_m;
+      append(picture.black, black_boxes(pattern, marker, size / pattern.cells));
+      picture.tags.push_back({TagId{static_cast<int>(next)},
+                              {marker.x, marker.y, marker.x + size, marker.y + size},
+                              {corner.x, corner.y, corner.x + side, corner.y + side}});
       ++next;
     }
   }
-  // Beside the squares' corners and the markers, not through them.
-  for (int i = 1; i < board.squares_x; ++i) {
-    picture.seams_x.push_back(edge + i * board.square_m + 0.5 * inset);
-  }
-  for (int i = 1; i < board.squares_y; ++i) {
-    picture.seams_y.push_back(edge + i * board.square_m + 0.5 * inset);
-  }
-  picture.below = {edge, edge + board.square_m, mm_text(board.square_m)};
   const PrintBox& marker = picture.tags.front().square;
-  picture.above = {marker.left, marker.right, mm_text(board.marker_m)};
+  picture.above = {
+      marker.left, marker.right, "marker_size_m " + mm_text(board.marker_size_m)};
   return picture;
 }
 
@@ -130,44 +151,89 @@ PageFrame frame_of(const AprilGrid& grid, const TagFamilyShape& family) {
   frame.how_to += family.white_square
                       ? "tag_size_m is the edge of the white square inside a black ring."
                       : "tag_size_m is the edge of a black square.";
-  frame.table = lines_of(board_table(grid));
+  frame.table = lines_of(board_table(grid, family.name));
   return frame;
 }
 
+constexpr const char* kGlueIt =
+    "Glue it to a plate that is flat and stiff, and copy the table below into "
+    "session.toml.";
+
+std::string squares_text(int columns, int rows) {
+  return std::to_string(columns) + " x " + std::to_string(rows) + " squares";
+}
+
 PageFrame frame_of(const CharucoBoard& board) {
-  const std::string squares =
-      std::to_string(board.squares_x) + " x " + std::to_string(board.squares_y);
   PageFrame frame;
-  frame.title = "ChArUco " + squares + ", " + board.dictionary;
-  frame.how_to =
-      "Glue it to a plate that is flat and stiff, without bubbles. The arrows show the "
-      "edge of a square and of a marker.";
-  if (board.squares_y % 2 == 0) {
+  frame.title =
+      "ChArUco " + squares_text(board.columns, board.rows) + ", " + board.dictionary;
+  frame.how_to = kGlueIt;
+  if (board.rows % 2 == 0) {
     frame.how_to +=
-        " OpenCV before 4.6 wants another pattern for an even number of rows.";
+        board.is_legacy
+            ? " Its pattern is that of OpenCV before 4.6."
+            : " OpenCV before 4.6 wants another pattern for an even number of "
+              "rows.";
   }
-  frame.table = {"squares    " + squares,
-                 "square     " + mm_text(board.square_m),
-                 "marker     " + mm_text(board.marker_m),
-                 "dictionary " + board.dictionary};
+  frame.table = lines_of(board_table(board));
   return frame;
+}
+
+PageFrame frame_of(const Chessboard& board) {
+  PageFrame frame;
+  frame.title = "Chessboard " + squares_text(board.columns, board.rows);
+  frame.how_to = kGlueIt;
+  frame.table = lines_of(board_table(board));
+  return frame;
+}
+
+/// What TomlWriter begins with is an empty line.
+std::string without_blank(std::string text) {
+  text.erase(0, text.find_first_not_of('\n'));
+  return text;
 }
 
 }  // namespace
 
-std::string board_table(const AprilGrid& grid) {
+std::string board_table(const AprilGrid& grid, const std::string& family) {
   TomlWriter writer;
   writer.table({"board"});
   writer.text("type", "aprilgrid");
+  writer.text("family", family);
   writer.integer("rows", grid.rows);
   writer.integer("columns", grid.columns);
   writer.number("tag_size_m", grid.tag_size_m);
   writer.number("gap_m", grid.gap_m);
   writer.integer("first_id", grid.first_id);
   writer.number("thickness_m", grid.thickness_m);
-  std::string text = writer.str();
-  text.erase(0, text.find_first_not_of('\n'));
-  return text;
+  return without_blank(writer.str());
+}
+
+std::string board_table(const CharucoBoard& board) {
+  TomlWriter writer;
+  writer.table({"board"});
+  writer.text("type", "charuco");
+  writer.integer("rows", board.rows);
+  writer.integer("columns", board.columns);
+  writer.number("square_size_m", board.square_size_m);
+  writer.number("marker_size_m", board.marker_size_m);
+  writer.text("dictionary", board.dictionary);
+  if (board.is_legacy) writer.boolean("legacy", true);
+  if (board.is_inverted) writer.boolean("inverted", true);
+  if (board.is_two_sided) writer.boolean("two_sided", true);
+  if (board.thickness_m > 0.0) writer.number("thickness_m", board.thickness_m);
+  return without_blank(writer.str());
+}
+
+std::string board_table(const Chessboard& board) {
+  TomlWriter writer;
+  writer.table({"board"});
+  writer.text("type", "chessboard");
+  writer.integer("rows", board.rows);
+  writer.integer("columns", board.columns);
+  writer.number("square_size_m", board.square_size_m);
+  if (board.thickness_m > 0.0) writer.number("thickness_m", board.thickness_m);
+  return without_blank(writer.str());
 }
 
 Result<PrintedDocument> lay_out_board(const AprilGrid& grid,
@@ -192,19 +258,47 @@ Result<PrintedDocument> lay_out_board(const AprilGrid& grid,
 Result<PrintedDocument> lay_out_board(const CharucoBoard& board,
                                       std::span<const TagPattern> patterns,
                                       const BoardPages& pages) {
-  MAREY_ASSERT(board.squares_x > 1 && board.squares_y > 1 &&
+  MAREY_ASSERT(board.rows > 1 && board.columns > 1 &&
                patterns.size() == static_cast<std::size_t>(board.marker_count()));
-  const double cell = board.marker_m / patterns.front().cells;
+  if (board.is_inverted || board.is_two_sided) {
+    return bad_input("board",
+                     "boards of white on black, or with two sides, are not printed",
+                     "leave out inverted and two_sided, or print it with what made it");
+  }
+  const double cell = board.marker_size_m / patterns.front().cells;
   const double least_white = 0.5 * cell;
-  if (0.5 * (board.square_m - board.marker_m) < least_white - kRounding_m) {
+  if (0.5 * (board.square_size_m - board.marker_size_m) < least_white - kRounding_m) {
     return bad_input(
         "marker",
-        "markers of " + mm_text(board.marker_m) +
-            " leave too little white in squares of " + mm_text(board.square_m),
+        "markers of " + mm_text(board.marker_size_m) +
+            " leave too little white in squares of " + mm_text(board.square_size_m),
         "use --marker-size " +
-            mm_text(board.square_m / (1.0 + 1.0 / patterns.front().cells)) + " or less");
+            mm_text(board.square_size_m / (1.0 + 1.0 / patterns.front().cells)) +
+            " or less");
   }
   return tile(picture_of(board, patterns), frame_of(board), pages);
+}
+
+Result<PrintedDocument> lay_out_board(const Chessboard& board, const BoardPages& pages) {
+  MAREY_ASSERT(board.rows > 1 && board.columns > 1);
+  if ((board.rows + board.columns) % 2 == 0) {
+    return bad_input("board",
+                     "a chessboard of " + squares_text(board.columns, board.rows) +
+                         " looks the same after half a turn: no two cameras could agree "
+                         "on it",
+                     "take one row or column more, or a board of another type");
+  }
+  const double side = board.square_size_m;
+  return tile(squares_of(board.rows,
+                         board.columns,
+                         side,
+                         0.5 * side,
+                         0.2 * side,
+                         [&](int from_top, int column) {
+                           return (board.rows - 1 - from_top + column) % 2 == 0;
+                         }),
+              frame_of(board),
+              pages);
 }
 
 }  // namespace marey::recordings

@@ -80,17 +80,17 @@ struct Subject {
 struct Session {
   std::filesystem::path file;  ///< session.toml itself.
   std::string name;
-  Subject subject;
-  /// In use, each with its tags: the board's first, then those of the body.
+  Subject subject;  ///< Without a name when the session is for cameras alone.
+  /// In use, each with its tags: the target's first, then those of the body.
   std::vector<TagFamilyUse> families;
-  std::vector<TagOnSegment> tags;  ///< In the order of the file.
-  AprilGrid board;
+  std::vector<TagOnSegment> tags;    ///< On the body; in the order of the file.
+  CalibrationTarget target;          ///< What the cameras are calibrated with.
   std::vector<std::string> cameras;  ///< Names, by CameraId; safe as names of folders.
   /// By CameraId; nullopt of a camera that is not recorded from.
   std::vector<std::optional<SessionDevice>> devices;
   std::vector<Trial> trials;  ///< In the order of the file.
 
-  /// The family of a tag on the board or the body. Precondition: it is on one of them.
+  /// The family of a tag on the target or the body. Precondition: it is on one of them.
   [[nodiscard]] const std::string& family_of(TagId id) const;
   /// The first trial of this kind, if any.
   [[nodiscard]] const Trial* find(TrialKind kind) const;
@@ -108,12 +108,13 @@ struct ReadSessionOptions {
 /// video: see check_files().
 ///
 /// Errors (kBadInput), each with its line: not TOML; a key that is unknown, missing, of
-/// the wrong type or out of range; a tag, camera or trial named twice; a body tag that is
-/// also on the board; an unknown segment or camera; a name that cannot be a folder's; a
-/// trial without videos while no camera has a device; frames the wrong way round; a floor
-/// trial that is all of the calibration's videos; time offsets of anything but motion;
-/// fewer than two cameras; no calibration trial or no floor trial; two trials of one kind
-/// other than motion.
+/// the wrong type or out of range; a target that cannot serve (see docs/formats.md); a
+/// tag, camera or trial named twice; a body tag that is also on the target; an unknown
+/// segment or camera; a name that cannot be a folder's; a trial without videos while no
+/// camera has a device; frames the wrong way round; a floor trial that is all of the
+/// calibration's videos; time offsets of anything but motion; fewer than two cameras; no
+/// calibration trial; no floor trial, subject or tags though there are trials of a
+/// person; two trials of one kind other than motion.
 [[nodiscard]] Result<Session> read_session(const std::filesystem::path& path,
                                            const ReadSessionOptions& options = {});
 

@@ -12,14 +12,17 @@ namespace marey::recordings {
 namespace {
 
 /// How many tags each has: apriltag 3.3, ncodes.
-constexpr std::array<KnownFamily, 7> kFamilies{{
+constexpr std::array<KnownFamily, 10> kFamilies{{
     {"tag36h11", 587},
     {"tag36h11b2", 587},
     {"tag25h9", 35},
     {"tag16h5", 30},
+    {"tag36h10", 2320},
     {"tagStandard41h12", 2115},
     {"tagCircle21h7", 38},
     {"tagCircle49h12", 65535},
+    {"tagCustom48h12", 42211},
+    {"tagStandard52h13", 48714},
 }};
 
 }  // namespace

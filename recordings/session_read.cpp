@@ -14,6 +14,7 @@
 #include "recordings/session.h"
 #include "recordings/session_device.h"
 #include "recordings/session_family.h"
+#include "recordings/session_target.h"
 #include "recordings/toml_reader.h"
 #include "recordings/trial_rules.h"
 
@@ -30,9 +31,6 @@ constexpr std::array kKinds{TrialKind::kCalibration,
 
 // Wide enough for everybody and everything; they catch millimetres given as metres.
 constexpr Limits kTagSize{0.005, 1.0, "m"};
-constexpr Limits kGap{0.001, 1.0, "m"};
-constexpr Limits kThickness{0.0, 0.2, "m"};
-constexpr Limits kGridCount{1, 50};
 constexpr Limits kStature{0.3, 2.8, "m"};
 constexpr Limits kMass{2.0, 500.0, "kg"};
 constexpr Limits kRate{0.1, 2000.0, "frames per second"};
@@ -61,24 +59,32 @@ class SessionReader {
       : root_(document), options_(options), session_(session) {}
 
   void read() {
-    root_.allow(
-        {"format", "name", "media", "subject", "tags", "board", "camera", "trial"});
+    root_.allow({"format",
+                 "name",
+                 "media",
+                 "subject",
+                 "tags",
+                 "board",
+                 "wand",
+                 "camera",
+                 "trial"});
     (void)root_.integer("format", {1, 1});
     session_.name = root_.text("name");
     read_media();
-    read_subject();
-    read_usual_family();
-    read_board();
-    read_tags();
+    const bool only_cameras = !has_a_person();
+    if (!only_cameras || root_.has("subject")) read_subject();
+    if (!only_cameras || root_.has("tags")) read_usual_family();
+    session_.target = read_target(root_, usual_family_, session_);
+    if (!only_cameras || root_.has("tags")) read_tags();
     read_cameras();
     read_trials();
   }
 
  private:
+  bool has_a_person();
   void read_media();
   void read_subject();
   void read_usual_family();
-  void read_board();
   void read_tags();
   void read_tag(TomlReader& reader);
   void read_cameras();
@@ -98,8 +104,20 @@ class SessionReader {
   const ReadSessionOptions& options_;
   Session& session_;
   fs::path media_;
-  KnownFamily usual_family_;
+  KnownFamily usual_family_ = usual_family();
 };
+
+/// A session of nothing but calibration and floor has nobody in it.
+bool SessionReader::has_a_person() {
+  const std::vector<TomlReader> trials = root_.tables("trial");
+  return trials.empty() ||
+         std::any_of(trials.begin(), trials.end(), [](TomlReader trial) {
+           if (!trial.has("kind")) return true;
+           const std::string kind = trial.text("kind");
+           return kind != name(TrialKind::kCalibration) &&
+                  kind != name(TrialKind::kFloor);
+         });
+}
 
 void SessionReader::read_media() {
   media_ = session_.file.parent_path();
@@ -119,46 +137,6 @@ void SessionReader::read_usual_family() {
   TomlReader tags = root_.table("tags");
   tags.allow({"family", "tag"});
   usual_family_ = read_family(tags, usual_family());
-}
-
-void SessionReader::read_board() {
-  TomlReader reader = root_.table("board");
-  reader.allow({"type",
-                "family",
-                "rows",
-                "columns",
-                "tag_size_m",
-                "gap_m",
-                "first_id",
-                "thickness_m"});
-  if (const std::string type = reader.text("type"); type != "aprilgrid") {
-    reader.fail(
-        "type", "unknown board type " + in_quotes(type), "write type = \"aprilgrid\"");
-  }
-  AprilGrid& board = session_.board;
-  board.rows = reader.integer("rows", kGridCount);
-  board.columns = reader.integer("columns", kGridCount);
-  board.tag_size_m = reader.number("tag_size_m", kTagSize);
-  board.gap_m = reader.number("gap_m", kGap);
-  const KnownFamily family = read_family(reader, usual_family_);
-  const int last_id = family.tags - 1;
-  board.first_id = reader.integer("first_id", {0, static_cast<double>(last_id)});
-  if (reader.has("thickness_m")) {
-    board.thickness_m = reader.number("thickness_m", kThickness);
-  }
-  const int last_on_board = board.first_id + board.tag_count() - 1;
-  if (last_on_board > last_id) {
-    reader.fail(
-        "first_id",
-        with_number("the board would need tags up to id ", last_on_board) +
-            with_number(", but " + std::string(family.name) + " ends at ", last_id),
-        "correct rows, columns or first_id");
-    return;
-  }
-  if (!reader.ok()) return;
-  for (int i = 0; i < board.tag_count(); ++i) {
-    use_tag(family, TagId{board.first_id + i}, session_);
-  }
 }
 
 void SessionReader::read_tags() {
@@ -186,11 +164,11 @@ void SessionReader::read_tag(TomlReader& reader) {
                 with_number("tag ", number(id)) + " is listed twice",
                 "remove one, or correct its id");
   }
-  if (session_.board.contains(id)) {
-    reader.fail(
-        "id",
-        with_number("tag ", number(id)) + " is on the body and on the board",
-        "glue a tag with another id to the body, or correct the board's first_id");
+  if (const auto place = place_on_target(session_.target, id, family)) {
+    reader.fail("id",
+                with_number("tag ", number(id)) + " is on the body and " + *place,
+                "glue a tag with another id to the body, or correct what session.toml "
+                "says of the other");
   }
   const std::optional<HumanBone> bone = human_bone(segment);
   if (!bone) {
@@ -248,7 +226,9 @@ void SessionReader::read_trials() {
     session_.trials.push_back(std::move(trial));
   }
   for (const TrialKind kind : {TrialKind::kCalibration, TrialKind::kFloor}) {
-    if (session_.find(kind) != nullptr) continue;
+    // Without a person the floor is of no use.
+    const bool is_needed = kind == TrialKind::kCalibration || has_a_person();
+    if (session_.find(kind) != nullptr || !is_needed) continue;
     const std::string word(name(kind));
     root_.fail("trial",
                "no trial has the kind " + in_quotes(word),

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "recordings/atomic_file.h"
+#include "recordings/session.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -106,6 +108,49 @@ TEST_F(Print, LeavesNothingWhereItCannotWrite) {
       {"tags", "--ids", "1", "--size", "8cm", "--out", in_folder("file/a.pdf").string()});
   EXPECT_EQ(run.exit_code, 3) << run.err;
   EXPECT_NE(run.err.find("Next: "), std::string::npos) << run.err;
+}
+
+// The table that comes with a board, in a session of two cameras.
+TEST_F(Print, TablesOfEveryTypeAndFamilyAreWhatSessionsRead) {
+  std::vector<std::vector<std::string>> boards{
+      {"--type", "charuco"},
+      {"--type", "charuco", "--squares-y", "6", "--legacy", "--thickness", "3mm"},
+      {"--type", "charuco", "--dictionary", "DICT_APRILTAG_16h5"},
+      {"--type", "chessboard"},
+      {"--type", "chessboard", "--squares-x", "8", "--square-size", "20mm"}};
+  for (const char* family : {"tag16h5",
+                             "tag25h9",
+                             "tag36h10",
+                             "tag36h11",
+                             "tag36h11b2",
+                             "tagCircle21h7",
+                             "tagCircle49h12",
+                             "tagCustom48h12",
+                             "tagStandard41h12",
+                             "tagStandard52h13"}) {
+    boards.push_back({"--family", family, "--rows", "3", "--gap", "22mm"});
+  }
+  for (const std::vector<std::string>& board : boards) {
+    std::vector<std::string> words{"board", "--json"};
+    words.insert(words.end(), board.begin(), board.end());
+    const ProgramRun run = print(words);
+    ASSERT_EQ(run.exit_code, 0) << board[1] << run.err;
+    const auto said = nlohmann::json::parse(run.out);
+    const std::string table = said["board_toml"];
+    ASSERT_TRUE(
+        recordings::write_file(in_folder("session.toml"),
+                               "format = 1\nname = \"boards\"\n" + table +
+                                   "[[camera]]\nname = \"a\"\n[[camera]]\nname = \"b\"\n"
+                                   "[[trial]]\nname = \"c\"\nkind = \"calibration\"\n"
+                                   "videos = { a = \"a\", b = \"b\" }\n"));
+    const auto session = recordings::read_session(in_folder("session.toml"));
+    ASSERT_TRUE(session) << session.error().message() << table;
+    if (const auto* grid = std::get_if<AprilGrid>(&session->target)) {
+      EXPECT_EQ(session->family_of(TagId{grid->first_id}), board[1]);
+    } else {
+      EXPECT_EQ(said["board"]["type"], board[1]);
+    }
+  }
 }
 
 }  // namespace

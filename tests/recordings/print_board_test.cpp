@@ -135,24 +135,71 @@ TEST(PrintBoard, WithoutRoomForQuietZonesIsRefused) {
       << document.error().message();
 }
 
-// The table in a session, in place of its own, makes the session's board this one.
-TEST(PrintBoard, TableIsWhatSessionsRead) {
-  const AprilGrid grid{4, 3, 0.0515, 0.0154, 400, 0.0045};
+/// kSession with this table in place of its own.
+Result<Session> session_with(const std::string& table) {
   std::string session(kSession);
   const std::size_t from = session.find("[board]");
   const std::size_t to = session.find("[[", from);
-  ASSERT_NE(to, std::string::npos);
-  session.replace(from, to - from, board_table(grid));
-  const testing::ScratchFolder folder;
-  ASSERT_TRUE(write_file(folder / "session.toml", session));
-  const auto read = read_session(folder.path());
-  ASSERT_TRUE(read) << read.error().message();
-  EXPECT_EQ(read->board.rows, grid.rows);
-  EXPECT_EQ(read->board.columns, grid.columns);
-  EXPECT_EQ(read->board.tag_size_m, grid.tag_size_m);
-  EXPECT_EQ(read->board.gap_m, grid.gap_m);
-  EXPECT_EQ(read->board.first_id, grid.first_id);
-  EXPECT_EQ(read->board.thickness_m, grid.thickness_m);
+  EXPECT_NE(to, std::string::npos);
+  session.replace(from, to - from, table);
+  return read(session);
+}
+
+TEST(PrintBoard, TableIsWhatSessionsRead) {
+  const AprilGrid grid{4, 3, 0.0515, 0.0154, 400, 0.0045};
+  const auto session = session_with(board_table(grid, "tag36h11b2"));
+  ASSERT_TRUE(session) << session.error().message();
+  const auto& read = std::get<AprilGrid>(session->target);
+  EXPECT_EQ(read.rows, grid.rows);
+  EXPECT_EQ(read.columns, grid.columns);
+  EXPECT_EQ(read.tag_size_m, grid.tag_size_m);
+  EXPECT_EQ(read.gap_m, grid.gap_m);
+  EXPECT_EQ(read.first_id, grid.first_id);
+  EXPECT_EQ(read.thickness_m, grid.thickness_m);
+  EXPECT_EQ(session->family_of(TagId{400}), "tag36h11b2");
+}
+
+TEST(PrintBoard, TableOfSquaresIsWhatSessionsRead) {
+  const CharucoBoard board{.rows = 6,
+                           .columns = 8,
+                           .square_size_m = 0.0311,
+                           .marker_size_m = 0.0233,
+                           .dictionary = "DICT_6X6_250",
+                           .is_legacy = true,
+                           .is_inverted = true,
+                           .is_two_sided = true,
+                           .thickness_m = 0.003};
+  const auto session = session_with(board_table(board));
+  ASSERT_TRUE(session) << session.error().message();
+  const auto& read = std::get<CharucoBoard>(session->target);
+  EXPECT_EQ(read.rows, board.rows);
+  EXPECT_EQ(read.columns, board.columns);
+  EXPECT_EQ(read.square_size_m, board.square_size_m);
+  EXPECT_EQ(read.marker_size_m, board.marker_size_m);
+  EXPECT_EQ(read.dictionary, board.dictionary);
+  EXPECT_TRUE(read.is_legacy);
+  EXPECT_TRUE(read.is_inverted);
+  EXPECT_TRUE(read.is_two_sided);
+  EXPECT_EQ(read.thickness_m, board.thickness_m);
+
+  const Chessboard plain{
+      .rows = 6, .columns = 9, .square_size_m = 0.0311, .thickness_m = 0.002};
+  const auto other = session_with(board_table(plain));
+  ASSERT_TRUE(other) << other.error().message();
+  const auto& read_plain = std::get<Chessboard>(other->target);
+  EXPECT_EQ(read_plain.rows, plain.rows);
+  EXPECT_EQ(read_plain.columns, plain.columns);
+  EXPECT_EQ(read_plain.square_size_m, plain.square_size_m);
+  EXPECT_EQ(read_plain.thickness_m, plain.thickness_m);
+}
+
+/// A board for an A4 page.
+CharucoBoard charuco() {
+  return {.rows = 7,
+          .columns = 5,
+          .square_size_m = 0.030,
+          .marker_size_m = 0.022,
+          .dictionary = "DICT_5X5_100"};
 }
 
 std::vector<TagPattern> markers(const CharucoBoard& board) {
@@ -160,7 +207,7 @@ std::vector<TagPattern> markers(const CharucoBoard& board) {
 }
 
 TEST(PrintBoard, OfSquaresKeepsLayoutLaws) {
-  const CharucoBoard board;
+  const CharucoBoard board = charuco();
   const auto document = lay_out_board(board, markers(board), {{}, true});
   ASSERT_TRUE(document) << document.error().message();
   expect_lawful(*document, {}, false);
@@ -168,12 +215,47 @@ TEST(PrintBoard, OfSquaresKeepsLayoutLaws) {
 }
 
 TEST(PrintBoard, WithMarkersAsLargeAsSquaresIsRefused) {
-  CharucoBoard board;
-  board.marker_m = 0.031;
+  CharucoBoard board = charuco();
+  board.marker_size_m = 0.031;
   const auto document = lay_out_board(board, markers(board), {});
   ASSERT_FALSE(document);
   EXPECT_NE(document.error().next.find("26.25 mm or less"), std::string::npos)
       << document.error().message();
+}
+
+TEST(PrintBoard, OfSquaresInTheOldMannerHasItsMarkersInTheOtherSquares) {
+  CharucoBoard board = charuco();
+  board.rows = 6;
+  const auto modern = lay_out_board(board, markers(board), {{}, true});
+  board.is_legacy = true;
+  const auto old = lay_out_board(board, markers(board), {{}, true});
+  ASSERT_TRUE(modern && old);
+  // The first marker is in the top left square, or in the one next to it.
+  const double step = modern->pages.front().tags.front().square.left -
+                      old->pages.front().tags.front().square.left;
+  EXPECT_NEAR(step, board.square_size_m, 1e-9);
+}
+
+TEST(PrintBoard, InvertedIsRefused) {
+  CharucoBoard board = charuco();
+  board.is_inverted = true;
+  const auto document = lay_out_board(board, markers(board), {});
+  ASSERT_FALSE(document);
+  EXPECT_NE(document.error().cause.find("white on black"), std::string::npos);
+}
+
+TEST(PrintBoard, OfPlainSquaresKeepsLayoutLaws) {
+  const Chessboard board{.rows = 7, .columns = 6, .square_size_m = 0.025};
+  const auto document = lay_out_board(board, {{}, true});
+  ASSERT_TRUE(document) << document.error().message();
+  expect_lawful(*document, {}, false);
+}
+
+TEST(PrintBoard, ThatLooksTheSameAfterHalfATurnIsRefused) {
+  const auto document =
+      lay_out_board(Chessboard{.rows = 7, .columns = 5, .square_size_m = 0.025}, {});
+  ASSERT_FALSE(document);
+  EXPECT_NE(document.error().cause.find("half a turn"), std::string::npos);
 }
 
 }  // namespace

@@ -41,11 +41,12 @@ TEST(Session, ReadsTags) {
 TEST(Session, ReadsTheBoard) {
   const Result<Session> session = read(kSession);
   ASSERT_TRUE(session);
-  EXPECT_EQ(session->board.rows, 6);
-  EXPECT_EQ(session->board.columns, 5);
-  EXPECT_EQ(session->board.tag_size_m, 0.1);
-  EXPECT_EQ(session->board.gap_m, 0.03);
-  EXPECT_EQ(session->board.thickness_m, 0.005);
+  const auto& board = std::get<AprilGrid>(session->target);
+  EXPECT_EQ(board.rows, 6);
+  EXPECT_EQ(board.columns, 5);
+  EXPECT_EQ(board.tag_size_m, 0.1);
+  EXPECT_EQ(board.gap_m, 0.03);
+  EXPECT_EQ(board.thickness_m, 0.005);
 }
 
 TEST(Session, KeepsCamerasInTheOrderOfTheFile) {
