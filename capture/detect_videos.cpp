@@ -10,6 +10,9 @@
 #include <mutex>
 #include <thread>
 #include <utility>
+#include <variant>
+
+#include "capture/find_board_points.h"
 
 namespace marey::capture {
 namespace {
@@ -17,7 +20,8 @@ namespace {
 /// A camera that is ready to be read, and the place of its answer.
 struct Job {
   std::unique_ptr<FrameSource> source;  ///< Null when it cannot be opened.
-  TagTracker tracker;
+  std::optional<TagTracker> tracker;
+  std::optional<BoardFinder> board;
   std::optional<FrameRange> range;
   CameraDetections found;
   std::optional<Error> error;
@@ -58,22 +62,55 @@ Error unreached_range(const std::string& name, const FrameRange& range, int fram
                    "correct the trial's range of frames");
 }
 
-Result<Job> open_job(const CameraInput& input,
-                     const TrackTagsOptions& options,
-                     bool keep_broken) {
+/// What looks for the target's points, if it has any.
+Result<std::optional<BoardFinder>> finder_of(
+    const std::optional<CalibrationTarget>& target) {
+  const auto made = [](Result<BoardFinder> finder) -> Result<std::optional<BoardFinder>> {
+    if (!finder) return finder.error();
+    return std::optional(std::move(*finder));
+  };
+  if (!target) return std::optional<BoardFinder>();
+  if (const auto* charuco = std::get_if<CharucoBoard>(&*target)) {
+    return made(BoardFinder::create(*charuco));
+  }
+  if (const auto* chess = std::get_if<Chessboard>(&*target)) {
+    return made(BoardFinder::create(*chess));
+  }
+  return std::optional<BoardFinder>();
+}
+
+Result<std::optional<TagTracker>> tracker_of(const DetectVideosOptions& options) {
+  if (!options.find_tags) return std::optional<TagTracker>();
+  TrackTagsOptions tracking = options.tracker;
+  if (options.search_every_frame) tracking.full_every_frames = 1;
+  auto tracker = TagTracker::create(tracking);
+  if (!tracker) return tracker.error();
+  return std::optional(std::move(*tracker));
+}
+
+FrameDetections look(const GrayFrame& frame, Job& job) {
+  FrameDetections found{frame.index, {}};
+  if (job.tracker) found.tags = job.tracker->track(frame);
+  if (job.board) found.points = job.board->find(frame);
+  return found;
+}
+
+Result<Job> open_job(const CameraInput& input, const DetectVideosOptions& options) {
   MAREY_ASSERT(!input.rate || input.rate->hz > 0.0);
   MAREY_ASSERT(!input.range ||
                (input.range->first >= 0 && input.range->first <= input.range->last));
-  auto tracker = TagTracker::create(options);
+  auto tracker = tracker_of(options);
   if (!tracker) return tracker.error();
+  auto board = finder_of(options.target);
+  if (!board) return board.error();
   auto source = open_frames(input.path, input.name);
-  if (!source && !keep_broken) return source.error();
+  if (!source && !options.keep_broken) return source.error();
   if (!source) {
     CameraDetections none;
     none.source = input.name.empty() ? input.path.string() : input.name;
     none.camera = input.camera;
     none.broken_off = source.error();
-    return Job{nullptr, std::move(*tracker), input.range, std::move(none), {}};
+    return Job{nullptr, {}, {}, input.range, std::move(none), {}};
   }
   const StreamInfo& info = (*source)->info();
   const auto rate = input.rate ? input.rate : info.rate;
@@ -89,7 +126,12 @@ Result<Job> open_job(const CameraInput& input,
   found.height_px = info.height_px;
   found.rate = *rate;
   found.offset = input.offset;
-  return Job{std::move(*source), std::move(*tracker), input.range, std::move(found), {}};
+  return Job{std::move(*source),
+             std::move(*tracker),
+             std::move(*board),
+             input.range,
+             std::move(found),
+             {}};
 }
 
 /// Frames that a job will look at; nullopt when its stream does not know.
@@ -121,11 +163,11 @@ Status run_job(Job& job, SharedProgress& progress, const Stop& stop) {
       ++job.found.damaged_frames;
       job.found.frames.push_back({frame.index, {}});
     } else {
-      job.found.frames.push_back({frame.index, job.tracker.track(frame)});
+      job.found.frames.push_back(look(frame, job));
     }
     progress.one_more();
   }
-  job.found.dropped = job.tracker.dropped();
+  if (job.tracker) job.found.dropped = job.tracker->dropped();
   return Done{};
 }
 
@@ -146,7 +188,7 @@ void run_jobs(std::vector<Job>& jobs,
       if (status) continue;
       if (keep_broken) {
         jobs[i].found.broken_off = status.error();
-        jobs[i].found.dropped = jobs[i].tracker.dropped();
+        if (jobs[i].tracker) jobs[i].found.dropped = jobs[i].tracker->dropped();
         continue;
       }
       jobs[i].error = status.error();
@@ -166,13 +208,11 @@ Result<std::vector<CameraDetections>> detect_tags_in_videos(
     std::span<const CameraInput> inputs,
     const DetectVideosOptions& options,
     const Progress& progress) {
-  TrackTagsOptions tracking = options.tracker;
-  if (options.search_every_frame) tracking.full_every_frames = 1;
   std::vector<Job> jobs;
   jobs.reserve(inputs.size());
   std::optional<int> total = 0;
   for (const CameraInput& input : inputs) {
-    auto job = open_job(input, tracking, options.keep_broken);
+    auto job = open_job(input, options);
     if (!job) return job.error();
     const auto expected = expected_frames(*job);
     total = total && expected ? std::optional(*total + *expected) : std::nullopt;

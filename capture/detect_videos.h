@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capture/track_tags.h"
+#include "core/board.h"
 #include "core/detection.h"
 #include "core/ids.h"
 #include "core/progress.h"
@@ -34,7 +35,11 @@ struct CameraInput {
 };
 
 struct DetectVideosOptions {
+  /// Look for tags, as `tracker` says.
+  bool find_tags = true;
   TrackTagsOptions tracker;
+  /// Look for this target's points; of one that is made of tags there are none.
+  std::optional<CalibrationTarget> target;
   /// Search every frame whole instead: three to four times the time, and the two to four
   /// percent of sightings that the tracker comes upon a frame or two late.
   bool search_every_frame = false;
@@ -46,16 +51,18 @@ struct DetectVideosOptions {
   int workers = 0;
 };
 
-/// Follows the tags through every frame of every camera (TagTracker). The answer is in
-/// the order of `inputs`, its frame numbers those of the whole recording even when a
-/// range was asked for.
+/// Follows the tags through every frame of every camera (TagTracker), and finds the
+/// points of a board of squares in each (BoardFinder). The answer is in the order of
+/// `inputs`, its frame numbers those of the whole recording even when a range was asked
+/// for.
 ///
 /// Frames stream through: memory grows with the tags found, not with the pictures.
 /// `progress` counts frames over all cameras, with kUnknownTotal when a stream does not
 /// know its length; it is called from worker threads, one at a time. When several cameras
 /// fail, the error is that of the first of them in `inputs`. Errors (kBadInput): those of
 /// open_frames() and FrameSource::next(); a folder without a rate; a range that the
-/// recording does not reach; a detector option out of range. Precondition: ranges have 0
+/// recording does not reach; a detector option out of range; a dictionary that is not
+/// known or too small. Precondition: ranges have 0
 /// <= first <= last; rates are positive.
 [[nodiscard]] Result<std::vector<CameraDetections>> detect_tags_in_videos(
     std::span<const CameraInput> inputs,

@@ -18,13 +18,14 @@ namespace marey::recordings {
 namespace {
 
 constexpr std::string_view kAnyVersion = "# marey detections ";
-constexpr std::string_view kVersion = "# marey detections 3 ";
+constexpr std::string_view kVersion = "# marey detections 4 ";
 constexpr std::string_view kSource = "# source: ";
 constexpr std::string_view kCamera =
     "# camera,width_px,height_px,rate_hz,offset_ns,unsure,duplicated,damaged: ";
 constexpr double kLeastTag_px2 = 1.0;  // A tag has 64 cells and more.
 constexpr std::string_view kHeader =
-    "frame,tag,x0,y0,x1,y1,x2,y2,x3,y3,sigma,margin,hamming";
+    "frame,tag,x0,y0,x1,y1,x2,y2,x3,y3,sigma,margin,hamming or frame,point,x,y,sigma";
+constexpr std::ptrdiff_t kPointCommas = 4;
 constexpr std::string_view kNoTag = ",,,,,,,,,,,,";
 constexpr std::string_view kEnd = "# end, frames: ";
 
@@ -66,6 +67,14 @@ void append_tag(std::string& text, const TagDetection& tag) {
   append_exact(text, tag.hamming);
 }
 
+void append_point(std::string& text, const PointDetection& point) {
+  text += ',';
+  append_exact(text, point.point);
+  append_cell(text, point.pixel_px.x);
+  append_cell(text, point.pixel_px.y);
+  append_cell(text, point.sigma_px);
+}
+
 /// Signed; its edges may cross only in files that are wrong.
 double area_px2(const std::array<glm::dvec2, 4>& corners_px) {
   const glm::dvec2 a = corners_px[2] - corners_px[0];
@@ -84,6 +93,15 @@ TagDetection take_tag(CsvFields& fields) {
   tag.decision_margin = fields.number<double>();
   tag.hamming = fields.number<int>();
   return tag;
+}
+
+PointDetection take_point(CsvFields& fields) {
+  PointDetection point;
+  point.point = fields.number<int>();
+  point.pixel_px.x = fields.number<double>();
+  point.pixel_px.y = fields.number<double>();
+  point.sigma_px = fields.number<double>();
+  return point;
 }
 
 class DetectionsParser {
@@ -139,8 +157,13 @@ class DetectionsParser {
     }
     if (is_new) frames.push_back({frame, {}});
     std::vector<TagDetection>& tags = frames.back().tags;
+    std::vector<PointDetection>& points = frames.back().points;
     if (line.ends_with(kNoTag)) return is_new ? nullptr : "a frame is listed twice";
-    if (!is_new && tags.empty()) return "a frame is listed twice";
+    if (!is_new && tags.empty() && points.empty()) return "a frame is listed twice";
+    if (std::count(line.begin(), line.end(), ',') == kPointCommas) {
+      return take_point_row(fields, points);
+    }
+    if (!points.empty()) return "a tag comes after points";
     const TagDetection tag = take_tag(fields);
     if (!fields.good() || !fields.ended()) return "the row is not 13 numbers";
     if (tag.sigma_px <= 0.0) return "a tag's sigma is not above zero";
@@ -149,6 +172,19 @@ class DetectionsParser {
     }
     if (!tags.empty() && tags.back().id >= tag.id) return "the tags are not in order";
     tags.push_back(tag);
+    return nullptr;
+  }
+
+  static const char* take_point_row(CsvFields& fields,
+                                    std::vector<PointDetection>& points) {
+    const PointDetection point = take_point(fields);
+    if (!fields.good() || !fields.ended()) return "the row is not 5 numbers";
+    if (point.sigma_px <= 0.0) return "a point's sigma is not above zero";
+    if (point.point < 0) return "a point's number is below zero";
+    if (!points.empty() && points.back().point >= point.point) {
+      return "the points are not in order";
+    }
+    points.push_back(point);
     return nullptr;
   }
 
@@ -185,7 +221,12 @@ std::string detections_text(const CameraDetections& detections, std::string_view
       append_tag(text, tag);
       text += '\n';
     }
-    if (!frame.tags.empty()) continue;
+    for (const PointDetection& point : frame.points) {
+      append_exact(text, frame.frame);
+      append_point(text, point);
+      text += '\n';
+    }
+    if (!frame.tags.empty() || !frame.points.empty()) continue;
     append_exact(text, frame.frame);
     text.append(kNoTag).append("\n");
   }

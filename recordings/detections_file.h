@@ -30,8 +30,8 @@ namespace marey::recordings {
 /// Reads such a text. nullopt when it was made with another key or by another version of
 /// the format: then it is simply out of date. `file` is what error messages call it.
 /// Errors (kBadInput), with the line: not such a table; a row that does not fit; frames
-/// or tags out of order; a tag without area or sigma; the end is missing. Cost: about a
-/// second for a million rows.
+/// tags or points out of order; a tag without area; no sigma; the end is missing. Cost:
+/// about a second for a million rows.
 [[nodiscard]] Result<std::optional<CameraDetections>> parse_detections(
     std::string_view text, std::string_view key, const std::string& file);
 

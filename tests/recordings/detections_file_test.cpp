@@ -200,5 +200,54 @@ TEST(DetectionsFile, RefusesATableWithAFrameTooFew) {
       mistake("8,,,,,,,,,,,,\n", "").starts_with("d.csv:9: the table's end does"));
 }
 
+/// Frame 5 has tags and points, frame 6 points alone.
+CameraDetections with_points() {
+  CameraDetections found = four_frames();
+  const PointDetection first{0, {1.0 / 3.0, 2.0 / 7.0}, 0.1 / 3.0};
+  const PointDetection later{11, {-0.4, 719.25}, 0.05};
+  found.frames = {{5, {a_tag(3)}, {first, later}}, {6, {}, {later}}, {7, {}}};
+  return found;
+}
+
+std::string mistake_of_points(std::string_view from, std::string_view to) {
+  std::string text = detections_text(with_points(), "k");
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  const auto found = parse_detections(text.replace(at, from.size(), to), "k", "d.csv");
+  return found ? "" : found.error().message();
+}
+
+TEST(DetectionsFile, GivesBackThePointsOfABoard) {
+  const CameraDetections written = with_points();
+  const auto read = parse_detections(detections_text(written, "k"), "k", "d.csv");
+  ASSERT_TRUE(read) << read.error().message();
+  ASSERT_TRUE(*read);
+  ASSERT_EQ((*read)->frames.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& points = written.frames[i].points;
+    const auto& again = (*read)->frames[i].points;
+    EXPECT_EQ((*read)->frames[i].tags.size(), written.frames[i].tags.size());
+    ASSERT_EQ(again.size(), points.size());
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      EXPECT_EQ(again[j].point, points[j].point);
+      EXPECT_EQ(again[j].pixel_px, points[j].pixel_px);
+      EXPECT_EQ(again[j].sigma_px, points[j].sigma_px);
+    }
+  }
+}
+
+TEST(DetectionsFile, RefusesPointsThatDoNotFit) {
+  EXPECT_TRUE(mistake_of_points("\n5,11,", "\n5,x,")
+                  .starts_with("d.csv:7: the row is not 5 numbers"));
+  EXPECT_TRUE(mistake_of_points("\n5,11,", "\n5,0,")
+                  .starts_with("d.csv:7: the points are not in order"));
+  EXPECT_TRUE(mistake_of_points("\n6,11,", "\n6,-1,")
+                  .starts_with("d.csv:8: a point's number is below zero"));
+  EXPECT_TRUE(mistake_of_points("719.25,0.05\n6,", "719.25,0\n6,")
+                  .starts_with("d.csv:7: a point's sigma is not above zero"));
+  EXPECT_TRUE(
+      mistake_of_points("\n7,", "\n6,").starts_with("d.csv:9: a frame is listed twice"));
+}
+
 }  // namespace
 }  // namespace marey::recordings
