@@ -27,13 +27,15 @@ struct BoardView {
   CameraId camera{};
   int instant = 0;  ///< Views with one instant show the board in one place.
   std::vector<BoardCorner> corners;  ///< Four per tag, tags in ascending id order.
+  bool of_tags = true;               ///< Otherwise each corner is a point of its own.
 };
 
 /// The instant of every view of the board lying on the floor: it does not move there.
 inline constexpr int kFloorInstant = -1;
 
-/// Views of the board, ordered by camera and instant. A view with fewer than
-/// `minimum_tags` tags is left out: too little to place the board by.
+/// Views of the board, ordered by camera and instant. A view of fewer than `minimum_tags`
+/// tags, or of fewer than twice as many points of a board of squares, is left out: too
+/// little to place the board by. A wand is no board and has no views.
 ///
 /// `floor` may be frames of the same recording as `waved`: a frame that is in both counts
 /// as floor. Several floor frames of one camera become one view of averaged corners,
@@ -41,8 +43,18 @@ inline constexpr int kFloorInstant = -1;
 /// more than 3 px (somebody's foot on the board) is left out of that average.
 [[nodiscard]] std::vector<BoardView> board_views(std::span<const CameraDetections> waved,
                                                  std::span<const CameraDetections> floor,
-                                                 const AprilGrid& board,
+                                                 const CalibrationTarget& board,
                                                  int minimum_tags = 3);
+
+/// How far a board's face is above the floor it lies on; 0 for a wand. [m]
+[[nodiscard]] double thickness_m(const CalibrationTarget& board);
+
+/// The lower left and upper right ends of what is seen of a board, in its frame [m].
+struct BoardExtent {
+  glm::dvec3 least{0.0};
+  glm::dvec3 greatest{0.0};
+};
+[[nodiscard]] BoardExtent extent_of(const CalibrationTarget& board);
 
 /// Median distance between the view's corners and where `camera` would see them of a
 /// board there, [px]. A corner behind the camera is as wrong as the picture is wide.

@@ -97,7 +97,10 @@ void BundleProblem::add_sighting(const RigModel& model,
   if (parts.spline) parameters.push_back(camera.clock.data());
   if (parts.shrinks) parameters.push_back(camera.shrinkage.data());
   if (parts.piece) parameters.push_back(blocks.pieces[sighting.piece].data());
-  if (parts.warp) parameters.push_back(blocks.warp.data());
+  if (parts.warp) {
+    const std::size_t board = target.same_board_as.value_or(sighting.target);
+    parameters.push_back(targets_[board].warp.data());
+  }
   // The norm of a tag's eight residuals is near 2.8 when all is well, of a point's 1.4.
   ceres::LossFunction* loss =
       robust ? new ceres::CauchyLoss(sighting.count == 4 ? 5.0 : 3.0) : nullptr;
@@ -256,7 +259,7 @@ void BundleProblem::write_back(RigModel& model) const {
       target.pieces[i].target_from_piece = to_transform(block);
       if (!target.pieces[i].is_size_known) target.pieces[i].size_m = std::exp(block[7]);
     }
-    target.warp_m = targets_[t].warp;
+    target.warp_m = targets_[target.same_board_as.value_or(t)].warp;
   }
 }
 

@@ -13,24 +13,46 @@
 
 namespace marey::calib {
 
+struct CalibrateOptions {
+  LensModel lens = LensModel::kBrownConrady;
+  /// Instead of `lens`, the one that does best on odd frames after seeing the even ones.
+  bool choose_lens = false;
+  /// Cameras started on their own: their clocks' offsets against the first camera's are
+  /// found from the board's motion, and perhaps by how much they drift, and how long a
+  /// sensor takes from one row to the next. Needs `rate` of the detections.
+  bool solve_offsets = false;
+  bool solve_drifts = false;
+  bool solve_line_delays = false;
+  double most_offset_s = 5.0;  ///< Offsets are looked for up to this, either way.
+  /// Asks whether the board is bent (CalibratedRig::warp_m): twice the time.
+  bool find_warp = false;
+  /// Fills CalibratedRig::cross_validation: some times the time.
+  bool cross_validate = false;
+};
+
 /// Calibrates all cameras together from a board waved through the volume and then lying
-/// on the floor: intrinsics (5-term Brown-Conrady) and poses by one bundle adjustment.
+/// on the floor: intrinsics and poses, and what the options ask for, by one bundle
+/// adjustment.
 ///
 /// World: right-handed, Y up, metres, origin at the board's origin on the floor, X along
-/// its x, Z = -(board y).
+/// its x, Z = -(board y). Without any floor detections, the first camera's place is the
+/// origin, its right X, its up Y.
 ///
 /// `names` per camera, for messages; `waved` and `floor` have one entry per camera, in
-/// the same order, and all frames of one index were taken at the same time (floor frames
-/// may come from anywhere: nothing moves). Errors (kBadInput): a camera that never sees
-/// the board, or too little of it; groups of cameras that never see the board together;
-/// no floor; two floor files swapped or a camera moved between the trials; a board that
-/// lies face down; a bundle that does not converge or ends with a
-/// median corner more than 2.5 px off (wrong board geometry); tags whose size does not go
-/// with the gaps between them. Cost: a few seconds for four cameras and a hundred frames.
+/// the same order (`floor` may be empty), and all frames of one index were taken at the
+/// same time unless offsets are solved for (floor frames may come from anywhere: nothing
+/// moves). Errors (kBadInput): a camera that never sees the board, or too little of it;
+/// groups of cameras that never see the board together; no board in the floor detections;
+/// two floor files swapped or a camera moved between the trials; a board that lies face
+/// down, or is mirrored; a bundle that does not converge or ends with a median corner
+/// more than 2.5 px off (wrong board geometry); tags whose size does not go with the gaps
+/// between them. Cost: a few seconds for four cameras and a hundred frames.
+/// Precondition: the board is no wand (calibrate_wand()).
 [[nodiscard]] Result<CalibratedRig> calibrate_cameras(
     std::span<const std::string> names,
     std::span<const CameraDetections> waved,
     std::span<const CameraDetections> floor,
-    const AprilGrid& board);
+    const CalibrationTarget& board,
+    const CalibrateOptions& options = {});
 
 }  // namespace marey::calib

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <set>
 
 #include "calib/judge_rig.h"
+#include "calib/place_cameras.h"
 #include "calib/place_tags.h"
 #include "calib/refine_rig.h"
 #include "calib/rig_model.h"
@@ -135,13 +135,6 @@ Error not_connected(std::span<const std::string> names, const std::vector<bool>&
                    "groups see it");
 }
 
-/// The first camera's place is the origin, its right X, its up Y.
-RigidTransform upright_from(const RigidTransform& world_from_camera) {
-  return RigidTransform{rotation_from_vector({std::numbers::pi, 0.0, 0.0}),
-                        glm::dvec3(0.0)} *
-         inverse(world_from_camera);
-}
-
 WandCalibration to_calibration(std::span<const std::string> names,
                                const RigModel& model,
                                const RigDoubt& doubt) {
@@ -194,7 +187,9 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
                      "record the calibration again: carry the wand through the whole "
                      "volume and turn it");
   }
-  move_world(upright_from(model.cameras[0].world_from_camera), model, *doubt);
+  move_world(world_from_upright_camera() * inverse(model.cameras[0].world_from_camera),
+             model,
+             *doubt);
   WandCalibration out = to_calibration(names, model, *doubt);
   if (out.rig.median_px > kHopelessMedianPx) {
     std::array<char, 120> text{};

@@ -33,6 +33,20 @@ struct SolvedClock {
   double line_delay_sigma_s = 0.0;
 };
 
+/// How a calibration fares on what it did not see.
+struct CrossValidation {
+  double seen_rms_px = 0.0;      ///< Of a calibration from the even frames, on these.
+  double held_out_rms_px = 0.0;  ///< On the odd ones. Outliers left out of both.
+  /// Per camera: cameras found from the even frames less those from the odd ones. What
+  /// both share (the print, the lens model's shortcomings) does not show.
+  std::vector<double> centre_apart_m;
+  std::vector<double> turn_apart_rad;
+  std::vector<double> focal_apart_px;
+  /// Per camera: median error of its sightings when the board's places come from the
+  /// other cameras alone; nullopt when it shares none.
+  std::vector<std::optional<double>> held_out_camera_px;
+};
+
 /// Cameras, and how sure we are of them.
 struct CalibratedRig {
   std::vector<Camera> cameras;
@@ -48,6 +62,7 @@ struct CalibratedRig {
   /// covariance and in every sigma.
   double sigma_factor = 1.0;
   std::vector<SolvedClock> clocks;  ///< Per camera; zeros where they were not solved for.
+  std::optional<CrossValidation> cross_validation;  ///< When it was asked for.
   /// How far the board's plate rises out of its plane towards its edges along x and y,
   /// and twists [m]; nullopt when the data do not tell.
   std::optional<std::array<double, 3>> warp_m;

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
+#include "calib/agree.h"
 #include "calib/estimate_intrinsics.h"
 
 namespace marey::calib {
@@ -28,20 +30,8 @@ Sightings see_boards(std::span<const BoardView> views,
   return sightings;
 }
 
-struct Edge {
-  std::size_t a = 0;
-  std::size_t b = 0;
-  RigidTransform a_from_b;
-  int support = 0;  ///< Instants that agree with it.
-};
-
-double disagreement(const RigidTransform& x, const RigidTransform& y) {
-  // A radian counts like a metre: cameras look at a volume a few metres away.
-  return glm::length(x.translation - y.translation) +
-         glm::length(rotation_vector(glm::conjugate(x.rotation) * y.rotation));
-}
-
-std::optional<Edge> connect(const Sightings& sightings, std::size_t a, std::size_t b) {
+/// What the instants that both see propose, agreed on.
+std::optional<Link> connect(const Sightings& sightings, std::size_t a, std::size_t b) {
   std::vector<RigidTransform> candidates;
   for (const auto& [instant, a_from_board] : sightings[a]) {
     const auto other = sightings[b].find(instant);
@@ -49,46 +39,7 @@ std::optional<Edge> connect(const Sightings& sightings, std::size_t a, std::size
     candidates.push_back(a_from_board * inverse(other->second));
   }
   if (candidates.empty()) return std::nullopt;
-  // The medoid under a bounded distance: the candidate most others are near.
-  constexpr double kFar = 0.3;
-  double best_cost = std::numeric_limits<double>::infinity();
-  Edge edge{a, b, {}, 0};
-  for (const RigidTransform& candidate : candidates) {
-    double cost = 0.0;
-    int support = 0;
-    for (const RigidTransform& other : candidates) {
-      const double d = disagreement(candidate, other);
-      cost += std::min(d, kFar);
-      support += d < kFar;
-    }
-    if (cost < best_cost) {
-      best_cost = cost;
-      edge.a_from_b = candidate;
-      edge.support = support;
-    }
-  }
-  return edge;
-}
-
-/// Prim's algorithm: camera_from_first for all that can be reached from camera 0.
-std::vector<std::optional<RigidTransform>> span_cameras(std::span<const Edge> edges,
-                                                        std::size_t cameras) {
-  std::vector<std::optional<RigidTransform>> camera_from_first(cameras);
-  camera_from_first[0] = RigidTransform{};
-  while (true) {
-    const Edge* best = nullptr;
-    for (const Edge& e : edges) {
-      const bool new_link =
-          camera_from_first[e.a].has_value() != camera_from_first[e.b].has_value();
-      if (new_link && (!best || e.support > best->support)) best = &e;
-    }
-    if (!best) return camera_from_first;
-    if (camera_from_first[best->a]) {
-      camera_from_first[best->b] = inverse(best->a_from_b) * *camera_from_first[best->a];
-    } else {
-      camera_from_first[best->a] = best->a_from_b * *camera_from_first[best->b];
-    }
-  }
+  return agree_on(a, b, candidates);
 }
 
 /// Sum over the views of one instant of the median corner error, [px].
@@ -157,24 +108,29 @@ Error not_connected(std::span<const std::string> names,
 
 }  // namespace
 
-RigidTransform world_from_floor_board(const AprilGrid& board) {
+RigidTransform world_from_floor_board(const CalibrationTarget& board) {
   // Turn -90 degrees about X: board y goes to -Z, board z (out of the face) to +Y.
   return {rotation_from_vector({-glm::radians(90.0), 0.0, 0.0}),
-          {0.0, board.thickness_m, 0.0}};
+          {0.0, thickness_m(board), 0.0}};
+}
+
+RigidTransform world_from_upright_camera() {
+  return {rotation_from_vector({std::numbers::pi, 0.0, 0.0}), glm::dvec3(0.0)};
 }
 
 Result<RigGuess> place_cameras(std::span<const BoardView> views,
                                std::span<const Intrinsics> intrinsics,
                                std::span<const std::string> names,
-                               const AprilGrid& board) {
+                               const CalibrationTarget& board,
+                               bool needs_floor) {
   const Sightings sightings = see_boards(views, intrinsics);
-  std::vector<Edge> edges;
+  std::vector<Link> edges;
   for (std::size_t a = 0; a < sightings.size(); ++a) {
     for (std::size_t b = a + 1; b < sightings.size(); ++b) {
       if (const auto edge = connect(sightings, a, b)) edges.push_back(*edge);
     }
   }
-  const auto camera_from_first = span_cameras(edges, sightings.size());
+  const auto camera_from_first = span_from(0, edges, sightings.size());
   for (const auto& placed : camera_from_first) {
     if (!placed) return not_connected(names, camera_from_first);
   }
@@ -188,22 +144,24 @@ Result<RigGuess> place_cameras(std::span<const BoardView> views,
       floor = &view;
     }
   }
-  if (!floor) {
+  if (!floor && needs_floor) {
     return bad_input("",
                      "no camera sees the board lying on the floor",
                      "record a floor trial in which at least three tags of the board are "
                      "in view");
   }
-  const std::size_t f = index(floor->camera);
-  const RigidTransform first_from_world = inverse(*camera_from_first[f]) *
-                                          sightings[f].at(kFloorInstant) *
-                                          inverse(world_from_floor_board(board));
+  RigidTransform first_from_world = inverse(world_from_upright_camera());
+  if (floor) {
+    const std::size_t f = index(floor->camera);
+    first_from_world = inverse(*camera_from_first[f]) * sightings[f].at(kFloorInstant) *
+                       inverse(world_from_floor_board(board));
+  }
   RigGuess guess;
   for (const auto& placed : camera_from_first) {
     guess.camera_from_world.push_back(*placed * first_from_world);
   }
   guess.world_from_board = place_boards(views, intrinsics, sightings, guess);
-  guess.world_from_board[kFloorInstant] = world_from_floor_board(board);
+  if (floor) guess.world_from_board[kFloorInstant] = world_from_floor_board(board);
   return guess;
 }
 

@@ -39,6 +39,8 @@ struct RigidTarget {
   /// How far the middle of a board rises out of its plane, along x, y and across [m]
   /// (board_warp()).
   std::array<double, 3> warp_m{};
+  /// The earlier target that is the same board: they bend alike.
+  std::optional<std::size_t> same_board_as;
   glm::dvec3 middle_in_target{0.0};  ///< Of a board that bends.
   glm::dvec3 half_extent_m{1.0};     ///< Likewise.
   /// Where it is, per instant; instant 0 alone when it stays.

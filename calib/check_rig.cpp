@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/check_rig.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "calib/check_floor.h"
+#include "calib/estimate_intrinsics.h"
+#include "core/quantile.h"
+
+namespace marey::calib {
+namespace {
+
+// The median: a few tags read from another place do not make a calibration wrong.
+constexpr double kHopelessMedianPx = 2.5;
+// Lenses and detectors take one to three percent off a tag. More is another print: a
+// wrong gap looks exactly like tags that are too small.
+constexpr double kMostShrinkage = 0.05;
+
+Error too_few_tags(const CameraDetections& camera, const AprilGrid& board) {
+  int tags_seen = 0;
+  int frames_seen = 0;
+  for (const FrameDetections& frame : camera.frames) {
+    int here = 0;
+    for (const TagDetection& tag : frame.tags) here += board.contains(tag.id);
+    tags_seen += here;
+    frames_seen += here >= 6;
+  }
+  if (tags_seen == 0) {
+    return bad_input(camera.source,
+                     "no tag of the calibration board (ids " +
+                         std::to_string(board.first_id) + " to " +
+                         std::to_string(board.first_id + board.tag_count() - 1) +
+                         ") is seen in any frame",
+                     "check that this is the calibration video, that [board] in "
+                     "session.toml names the printed ids and [tags] the family, and that "
+                     "the picture is sharp");
+  }
+  if (frames_seen >= 4) {
+    return bad_input(camera.source,
+                     "no lens makes the board look as it does in the " +
+                         std::to_string(frames_seen) +
+                         " frames that show six tags or more: it never tilts, or is not "
+                         "as [board] says",
+                     "tilt the board while it is filmed, and check [board] in "
+                     "session.toml (rows, columns, sizes, first_id) against the print");
+  }
+  return bad_input(camera.source,
+                   "the board is seen too little to calibrate this camera: " +
+                       std::to_string(frames_seen) + " frames show six tags or more",
+                   "record the calibration again: tilt the board, bring it close to this "
+                   "camera and into the corners of its picture");
+}
+
+Error too_few_points(const CameraDetections& camera) {
+  int points_seen = 0;
+  int frames_seen = 0;
+  for (const FrameDetections& frame : camera.frames) {
+    points_seen += static_cast<int>(frame.points.size());
+    frames_seen += frame.points.size() >= 12;
+  }
+  if (points_seen == 0) {
+    return bad_input(camera.source,
+                     "no corner of the calibration board is seen in any frame",
+                     "check that this is the calibration video, that [board] in "
+                     "session.toml has the board's kind, rows, columns and dictionary, "
+                     "and that the picture is sharp");
+  }
+  if (frames_seen >= 4) {
+    return bad_input(camera.source,
+                     "no lens makes the board look as it does in the " +
+                         std::to_string(frames_seen) +
+                         " frames that show twelve corners or more: it never tilts, or "
+                         "is not as [board] says",
+                     "tilt the board while it is filmed, and check [board] in "
+                     "session.toml (rows, columns) against the print");
+  }
+  return bad_input(camera.source,
+                   "the board is seen too little to calibrate this camera: " +
+                       std::to_string(frames_seen) +
+                       " frames show twelve corners or more",
+                   "record the calibration again: tilt the board, bring it close to this "
+                   "camera and into the corners of its picture");
+}
+
+std::string text(const char* format, double value) {
+  std::array<char, 200> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, value);
+  return buffer.data();
+}
+
+/// Gaps and black squares are measured apart: their ratio must be the declared one.
+Status check_print(const CalibratedRig& rig) {
+  std::vector<double> slopes;
+  for (const Camera& camera : rig.cameras) slopes.push_back(camera.tag_shrinkage.slope);
+  const double slope = median(std::move(slopes));
+  if (std::abs(slope) < kMostShrinkage) return Done{};
+  return bad_input("",
+                   text("the board's black squares measure %.2f times what the distances "
+                        "between them allow",
+                        1.0 - slope),
+                   "measure the print (edge of a black square, gap between two, in "
+                   "metres) and correct tag_size_m or gap_m of [board] in session.toml");
+}
+
+}  // namespace
+
+Error too_few_views(const CameraDetections& camera, const CalibrationTarget& board) {
+  if (const auto* grid = std::get_if<AprilGrid>(&board)) {
+    return too_few_tags(camera, *grid);
+  }
+  return too_few_points(camera);
+}
+
+Status check_mirrored(std::span<const BoardView> views,
+                      std::span<const Intrinsics> intrinsics) {
+  int before = 0;
+  int behind = 0;
+  for (const BoardView& view : views) {
+    const auto pose = camera_from_board(intrinsics[index(view.camera)], view);
+    if (!pose) continue;
+    (inverse(*pose).translation.z > 0.0 ? before : behind) += 1;
+  }
+  if (behind <= before) return Done{};
+  return bad_input("",
+                   "the cameras see the board from behind: its corners are mirrored",
+                   "check that no video is mirrored (a webcam's \"selfie\" view), and "
+                   "that rows and columns of [board] in session.toml are not exchanged");
+}
+
+Status check_rig(const CalibratedRig& rig,
+                 std::span<const BoardView> views,
+                 std::span<const CameraDetections> floor,
+                 const CalibrationTarget& board) {
+  if (rig.median_px > kHopelessMedianPx) {
+    return bad_input(
+        "",
+        text("calibration ends %.1f px away from what the cameras saw (good: "
+             "under 0.5)",
+             rig.median_px),
+        "check [board] in session.toml (rows, columns, sizes, first_id) "
+        "against the print, and that all calibration videos start together");
+  }
+  if (std::holds_alternative<AprilGrid>(board)) {
+    if (Status ok = check_print(rig); !ok) return ok;
+  }
+  std::vector<const BoardView*> floor_views;
+  for (const BoardView& view : views) {
+    if (view.instant == kFloorInstant) floor_views.push_back(&view);
+  }
+  if (Status ok = check_floor(rig.cameras, floor_views, floor); !ok) return ok;
+  for (const BoardView* view : floor_views) {
+    const std::size_t c = index(view->camera);
+    if (centre_in_world(rig.cameras[c]).y > 0.0) continue;
+    return bad_input(floor[c].source,
+                     "the camera would stand below the floor: the board lies face down "
+                     "or its ids run the other way",
+                     "lay the board on the floor with its printed face up");
+  }
+  return Done{};
+}
+
+}  // namespace marey::calib

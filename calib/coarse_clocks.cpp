@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/coarse_clocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "calib/agree.h"
+#include "calib/estimate_intrinsics.h"
+
+namespace marey::calib {
+namespace {
+
+/// camera_from_board by step of time.
+using Track = std::map<int, RigidTransform>;
+
+constexpr std::size_t kMostPoses = 120;
+
+Track thinned(const Track& track) {
+  if (track.size() <= kMostPoses) return track;
+  Track out;
+  std::size_t i = 0;
+  for (const auto& [step, pose] : track) {
+    if (i * kMostPoses / track.size() != (i + 1) * kMostPoses / track.size()) {
+      out[step] = pose;
+    }
+    ++i;
+  }
+  return out;
+}
+
+struct Fit {
+  double score = 0.0;
+  int lag = 0;  ///< Steps by which b's frames are to be moved.
+};
+
+Fit best_lag(const Track& a, const Track& b, int most) {
+  Fit best;
+  const Track few = thinned(a);
+  for (int lag = -most; lag <= most; ++lag) {
+    std::vector<RigidTransform> proposals;
+    for (const auto& [step, a_from_board] : few) {
+      const auto other = b.find(step - lag);
+      if (other == b.end()) continue;
+      proposals.push_back(a_from_board * inverse(other->second));
+    }
+    if (proposals.size() < 4) continue;
+    const Link link = agree_on(0, 1, proposals);
+    constexpr double kFar = 0.3;  // As agree_on()'s.
+    const double score = link.support * (kFar - link.spread);
+    // Of equals, the smaller lag: a board at rest agrees with every one.
+    const bool better =
+        score > 1.001 * best.score ||
+        (score > 0.999 * best.score && std::abs(lag) < std::abs(best.lag));
+    if (better) best = {score, lag};
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<double> coarse_offsets_s(std::span<const BoardView> views,
+                                     std::span<const Intrinsics> intrinsics,
+                                     std::span<const CameraDetections> waved,
+                                     double most_s) {
+  const std::size_t count = waved.size();
+  double step_s = 0.0;
+  for (const CameraDetections& camera : waved) {
+    step_s = std::max(step_s, 1.0 / camera.rate.hz);
+  }
+  std::vector<Track> tracks(count);
+  for (const BoardView& view : views) {
+    if (view.instant == kFloorInstant) continue;
+    const std::size_t c = index(view.camera);
+    const auto pose = camera_from_board(intrinsics[c], view);
+    if (!pose) continue;
+    const double time_s = view.instant / waved[c].rate.hz;
+    tracks[c][static_cast<int>(std::lround(time_s / step_s))] = *pose;
+  }
+  const int most = static_cast<int>(std::lround(most_s / step_s));
+  std::vector<std::optional<double>> offset_s(count);
+  if (count > 0) offset_s[0] = 0.0;
+  std::map<std::pair<std::size_t, std::size_t>, Fit> fits;
+  for (std::size_t a = 0; a < count; ++a) {
+    for (std::size_t b = a + 1; b < count; ++b) {
+      fits[{a, b}] = best_lag(tracks[a], tracks[b], most);
+    }
+  }
+  // As span_from(): the surest first.
+  while (true) {
+    const std::pair<const std::pair<std::size_t, std::size_t>, Fit>* best = nullptr;
+    for (const auto& fit : fits) {
+      const auto& [a, b] = fit.first;
+      const bool is_new = offset_s[a].has_value() != offset_s[b].has_value();
+      const bool is_sure = fit.second.score > 0.0;
+      if (is_new && is_sure && (!best || fit.second.score > best->second.score)) {
+        best = &fit;
+      }
+    }
+    if (!best) break;
+    const auto& [a, b] = best->first;
+    const double lag_s = best->second.lag * step_s;
+    if (offset_s[a]) {
+      offset_s[b] = *offset_s[a] + lag_s;
+    } else {
+      offset_s[a] = *offset_s[b] - lag_s;
+    }
+  }
+  std::vector<double> out;
+  for (const auto& offset : offset_s) out.push_back(offset.value_or(0.0));
+  return out;
+}
+
+}  // namespace marey::calib

@@ -1,0 +1,126 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/cross_validate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "core/quantile.h"
+
+namespace marey::calib {
+namespace {
+
+double inlier_rms_px(const RigModel& model) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Sighting& sighting : model.sightings) {
+    if (sighting.is_outlier) continue;
+    for (const double e : errors_px(model, sighting)) {
+      sum += e * e;
+      ++count;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0.0;
+}
+
+RefineOptions places_only() {
+  RefineOptions options;
+  options.intrinsics = false;
+  options.camera_poses = false;
+  options.covariance = false;
+  return options;
+}
+
+std::optional<double> without_camera_px(const RigModel& model, std::size_t camera) {
+  RigModel others = model;
+  std::erase_if(others.sightings, [&](const Sighting& s) { return s.camera == camera; });
+  std::set<std::pair<std::size_t, int>> known;
+  for (const Sighting& s : others.sightings) known.insert({s.target, s.instant});
+  if (others.sightings.empty() || !refine_rig(others, places_only())) return std::nullopt;
+  std::vector<double> errors;
+  for (const Sighting& s : model.sightings) {
+    const RigidTarget& target = model.targets[s.target];
+    if (s.camera != camera || s.is_outlier || target.stays) continue;
+    if (target.knot_spacing_s <= 0.0 && !known.contains({s.target, s.instant})) continue;
+    const std::vector<double> own = errors_px(others, s);
+    errors.insert(errors.end(), own.begin(), own.end());
+  }
+  if (errors.empty()) return std::nullopt;
+  return median(std::move(errors));
+}
+
+}  // namespace
+
+RigModel half_of(const RigModel& model, int parity) {
+  RigModel half = model;
+  std::erase_if(half.sightings, [&](const Sighting& s) {
+    return !model.targets[s.target].stays && std::abs(s.frame) % 2 != parity;
+  });
+  return half;
+}
+
+std::optional<double> held_out_rms_px(const RigModel& solved, const RigModel& held_out) {
+  RigModel judged = held_out;
+  judged.cameras = solved.cameras;
+  for (std::size_t t = 0; t < judged.targets.size(); ++t) {
+    judged.targets[t].warp_m = solved.targets[t].warp_m;
+    judged.targets[t].bends = solved.targets[t].bends;
+  }
+  if (!refine_rig(judged, places_only())) return std::nullopt;
+  return inlier_rms_px(judged);
+}
+
+std::optional<CrossValidation> cross_validate(const RigModel& model,
+                                              const RefineOptions& options) {
+  RefineOptions quick = options;
+  quick.covariance = false;
+  RigModel even = half_of(model, 0);
+  RigModel odd = half_of(model, 1);
+  if (!refine_rig(even, quick) || !refine_rig(odd, quick)) return std::nullopt;
+  const auto held_out = held_out_rms_px(even, half_of(model, 1));
+  if (!held_out) return std::nullopt;
+  CrossValidation out;
+  out.seen_rms_px = inlier_rms_px(even);
+  out.held_out_rms_px = *held_out;
+  for (std::size_t c = 0; c < model.cameras.size(); ++c) {
+    const RigCamera& a = even.cameras[c];
+    const RigCamera& b = odd.cameras[c];
+    out.centre_apart_m.push_back(
+        glm::distance(a.world_from_camera.translation, b.world_from_camera.translation));
+    out.turn_apart_rad.push_back(glm::length(rotation_vector(
+        glm::conjugate(a.world_from_camera.rotation) * b.world_from_camera.rotation)));
+    out.focal_apart_px.push_back(a.intrinsics.focal_px.x - b.intrinsics.focal_px.x);
+    out.held_out_camera_px.push_back(without_camera_px(model, c));
+  }
+  return out;
+}
+
+bool find_warp(RigModel& model, const RefineOptions& options) {
+  RigModel bent = model;
+  for (RigidTarget& target : bent.targets) target.bends = !target.stays;
+  RefineOptions quick = options;
+  quick.covariance = false;
+  std::array<std::array<double, 3>, 2> warp_m{};
+  for (int parity = 0; parity < 2; ++parity) {
+    RigModel half = half_of(bent, parity);
+    if (half.targets.size() < 2 || !refine_rig(half, quick)) return false;
+    warp_m[static_cast<std::size_t>(parity)] = half.targets[1].warp_m;
+  }
+  double apart = 0.0;
+  double size = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    apart += std::pow(warp_m[0][i] - warp_m[1][i], 2.0);
+    size += std::pow(0.5 * (warp_m[0][i] + warp_m[1][i]), 2.0);
+  }
+  if (std::sqrt(size) < 1e-4 || std::sqrt(apart) > 0.5 * std::sqrt(size)) return false;
+  for (std::size_t t = 0; t < model.targets.size(); ++t) {
+    model.targets[t].bends = bent.targets[t].bends;
+  }
+  return true;
+}
+
+}  // namespace marey::calib

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to calib: models judged by what they did not see.
+
+#include <optional>
+
+#include "calib/calibrated_rig.h"
+#include "calib/refine_rig.h"
+#include "calib/rig_model.h"
+
+namespace marey::calib {
+
+/// The model's sightings of frames whose number is even (0) or odd (1); what stays is in
+/// both.
+[[nodiscard]] RigModel half_of(const RigModel& model, int parity);
+
+/// Root mean square error [px] of the sightings of `held_out`, outliers left out, when
+/// seen by the cameras of `solved`: targets find their places, cameras stay. nullopt
+/// where they do not.
+[[nodiscard]] std::optional<double> held_out_rms_px(const RigModel& solved,
+                                                    const RigModel& held_out);
+
+/// Refines both halves of a refined model anew, and leaves out each camera in turn.
+/// nullopt where a half says too little.
+[[nodiscard]] std::optional<CrossValidation> cross_validate(const RigModel& model,
+                                                            const RefineOptions& options);
+
+/// Whether the board is bent: halves of the recording, refined with a warp of the boards'
+/// own, agree on it to a half of its size, and it is a tenth of a millimetre or more
+/// somewhere. The board is then bent in `model` (which is not refined).
+[[nodiscard]] bool find_warp(RigModel& model, const RefineOptions& options);
+
+}  // namespace marey::calib
