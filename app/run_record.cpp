@@ -1,78 +1,32 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include <memory>
-#include <utility>
 
 #include "app/commands.h"
+#include "app/device_feed.h"
 #include "app/record_take.h"
 #include "app/stop_signal.h"
-#include "capture/reopening_device.h"
 #include "recordings/atomic_file.h"
 #include "recordings/session_copy.h"
 
 namespace marey::app {
 namespace {
 
-namespace fs = std::filesystem;
 using recordings::Session;
 using recordings::SessionDevice;
 using recordings::Trial;
 
-/// A real camera, which is opened again when it was unplugged.
-class DeviceFeed final : public FrameFeed {
- public:
-  /// `console` outlives it.
-  static Result<std::unique_ptr<DeviceFeed>> open(const std::string& name,
-                                                  const SessionDevice& wanted,
-                                                  Console& console) {
-    capture::DeviceRequest request;
-    request.path = wanted.path;
-    request.width_px = wanted.width_px;
-    request.height_px = wanted.height_px;
-    request.rate = wanted.rate;
-    request.exposure_s = wanted.exposure_s;
-    request.focus = wanted.focus;
-    request.gain = wanted.gain;
-    // On the heap first: the listener points to it.
-    auto feed = std::unique_ptr<DeviceFeed>(new DeviceFeed(name, console));
-    auto device = capture::ReopeningDevice::open(
-        request,
-        [raw = feed.get()](const capture::CameraStatus& status) { raw->hear(status); });
-    if (!device) return device.error();
-    feed->device_.emplace(std::move(*device));
-    for (const std::string& difference : feed->settings().differences) {
-      console.warn(std::string("camera ").append(name).append(": ").append(difference));
-    }
-    return feed;
-  }
-
-  std::optional<capture::RawFrame> next(std::chrono::milliseconds timeout) override {
-    return device_->next(timeout);
-  }
-  [[nodiscard]] const capture::DeviceSettings& settings() const override {
-    return device_->settings();
-  }
-  [[nodiscard]] std::string device() const override {
-    return device_->info().path + " " + device_->info().card;
-  }
-  std::vector<FeedEvent> events() override { return std::exchange(events_, {}); }
-
- private:
-  DeviceFeed(std::string name, Console& console)
-      : name_(std::move(name)), console_(&console) {}
-
-  void hear(const capture::CameraStatus& status) {
-    std::string text = capture::name(status.state);
-    if (status.trouble) text += ": " + status.trouble->message();
-    console_->warn("camera " + name_ + " is " + text);
-    events_.push_back({status.since, std::move(text)});
-  }
-
-  std::string name_;
-  Console* console_;
-  std::vector<FeedEvent> events_;
-  std::optional<capture::ReopeningDevice> device_;
-};
+capture::DeviceRequest request_of(const SessionDevice& wanted) {
+  capture::DeviceRequest request;
+  request.path = wanted.path;
+  request.width_px = wanted.width_px;
+  request.height_px = wanted.height_px;
+  request.rate = wanted.rate;
+  request.exposure_s = wanted.exposure_s;
+  request.focus = wanted.focus;
+  request.gain = wanted.gain;
+  return request;
+}
 
 Result<const Trial*> trial_to_record(const Session& session, const std::string& name) {
   const Trial* trial = session.find(name);
@@ -124,11 +78,13 @@ Exit run_record(const RecordArguments& arguments, Console& console) {
   if (const Status ok = check_unrecorded(options.folder, names); !ok) {
     return console.fail(ok.error());
   }
+  const auto warn = [&console](const std::string& text) { console.warn(text); };
   std::vector<std::unique_ptr<DeviceFeed>> feeds;
   std::vector<RecordedCamera> cameras;
   for (std::size_t c = 0; c < session->cameras.size(); ++c) {
     if (!session->devices[c]) continue;
-    auto feed = DeviceFeed::open(session->cameras[c], *session->devices[c], console);
+    auto feed =
+        DeviceFeed::open(session->cameras[c], request_of(*session->devices[c]), warn);
     if (!feed) return console.fail(feed.error());
     feeds.push_back(std::move(*feed));
     cameras.push_back({session->cameras[c], feeds.back().get()});

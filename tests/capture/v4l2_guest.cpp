@@ -19,8 +19,8 @@
 #include "capture/reopening_device.h"
 #include "capture/v4l2_device.h"
 #include "tests/capture/guest_take.h"
-#include "tests/capture/vivid.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/vivid.h"
 
 namespace marey::guest {
 namespace {

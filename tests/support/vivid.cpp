@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/capture/vivid.h"
+#include "tests/support/vivid.h"
 
 #include <algorithm>
 #include <chrono>
