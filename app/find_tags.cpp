@@ -8,8 +8,10 @@
 #include <cstdio>
 #include <map>
 #include <string>
+#include <variant>
 
 #include "capture/detect_videos.h"
+#include "capture/look_for_boards.h"
 #include "core/assert.h"
 #include "recordings/content_key.h"
 #include "recordings/detections_file.h"
@@ -27,6 +29,40 @@ std::vector<TagFamilyUse> families_to_find(const recordings::Session& session) {
   return session.families;
 }
 
+/// What a trial's frames are searched for. A board of squares is in the trials that are
+/// about it; tags are everywhere, when there are any.
+struct Wanted {
+  std::vector<TagFamilyUse> families;       ///< Empty: no tags.
+  std::optional<CalibrationTarget> target;  ///< Of squares: its points.
+};
+
+Wanted wanted_in(const recordings::Session& session, const Trial& trial) {
+  Wanted wanted;
+  if (!session.families.empty()) wanted.families = families_to_find(session);
+  const bool shows_target = trial.kind == recordings::TrialKind::kCalibration ||
+                            trial.kind == recordings::TrialKind::kFloor;
+  if (shows_target && has_points(session.target)) wanted.target = session.target;
+  return wanted;
+}
+
+/// All that the finding of points depends on.
+std::string words_of(const CalibrationTarget& target) {
+  std::string words;
+  if (const auto* board = std::get_if<CharucoBoard>(&target)) {
+    words.append(" charuco-1 ").append(board->dictionary);
+    if (board->is_legacy) words.append(" legacy");
+    if (board->is_inverted) words.append(" inverted");
+    if (board->is_two_sided) words.append(" two-sided");
+    words.append(" ").append(std::to_string(board->marker_size_m / board->square_size_m));
+    words.append(" ").append(std::to_string(board->columns));
+    words.append("x").append(std::to_string(board->rows));
+  } else if (const auto* chess = std::get_if<Chessboard>(&target)) {
+    words.append(" chessboard-1 ").append(std::to_string(chess->columns));
+    words.append("x").append(std::to_string(chess->rows));
+  }
+  return words;
+}
+
 std::string words_of(const std::vector<TagFamilyUse>& families) {
   std::string words;
   for (const TagFamilyUse& use : families) {
@@ -39,11 +75,13 @@ std::string words_of(const std::vector<TagFamilyUse>& families) {
 /// What a cached detection depends on.
 Result<std::string> cache_key(const TrialVideo& video,
                               const Trial& trial,
-                              const std::vector<TagFamilyUse>& families) {
+                              const Wanted& wanted) {
   const auto content = recordings::content_key(video.path);
   if (!content) return content.error();
   // Raise the number when the detector finds other corners in the same picture.
-  std::string key = *content + " tracker-1" + words_of(families);
+  std::string key = *content;
+  if (!wanted.families.empty()) key += " tracker-1" + words_of(wanted.families);
+  if (wanted.target) key += words_of(*wanted.target);
   if (trial.frames && !has_take(trial)) {
     key += " frames " + std::to_string(trial.frames->first) + "-" +
            std::to_string(trial.frames->last);
@@ -91,11 +129,26 @@ Status tell_broken(const Trial& trial,
   return troubles.failures.back();
 }
 
-Status check_seen(const CameraDetections& camera) {
-  const bool any = std::any_of(camera.frames.begin(),
-                               camera.frames.end(),
-                               [](const FrameDetections& f) { return !f.tags.empty(); });
+Error no_board(const CameraDetections& camera, const CalibrationTarget& target) {
+  const std::string frames = std::to_string(camera.frames.size());
+  const auto seen = capture::look_for_boards(camera.source, target);
+  return bad_input(
+      camera.source,
+      "no " + name_of(target) + " is seen in its " + frames + " frames" +
+          (seen ? ", but " + seen->what : std::string()),
+      seen
+          ? seen->remedy
+          : "check that the video is of this trial, sharp and bright enough, and [board] "
+            "in session.toml: rows and columns count squares");
+}
+
+Status check_seen(const CameraDetections& camera, const Wanted& wanted) {
+  const bool any = std::any_of(
+      camera.frames.begin(), camera.frames.end(), [&](const FrameDetections& f) {
+        return wanted.target ? !f.points.empty() : !f.tags.empty();
+      });
   if (any) return Done{};
+  if (wanted.target) return no_board(camera, *wanted.target);
   return bad_input(
       camera.source,
       "not a single tag is seen in its " + std::to_string(camera.frames.size()) +
@@ -162,7 +215,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
   for (std::size_t c = 0; c < found.size(); ++c) {
     found[c].camera = CameraId{static_cast<int>(c)};
   }
-  const std::vector<TagFamilyUse> families = families_to_find(session);
+  const Wanted wanted = wanted_in(session, trial);
   std::vector<capture::CameraInput> missing;
   std::map<CameraId, std::string> keys;
   for (const TrialVideo& video : trial.videos) {
@@ -171,7 +224,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
       troubles.failures.push_back(*lost);
       continue;
     }
-    const auto key = cache_key(video, trial, families);
+    const auto key = cache_key(video, trial, wanted);
     if (!key) return key.error();
     keys[video.camera] = *key;
     const auto file = folder / (session.cameras[index(video.camera)] + ".csv");
@@ -191,10 +244,14 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
   }
   if (!missing.empty()) {
     capture::DetectVideosOptions detector;
-    detector.tracker.detector.families = families;
+    detector.find_tags = !wanted.families.empty();
+    if (detector.find_tags) detector.tracker.detector.families = wanted.families;
+    detector.target = wanted.target;
     detector.keep_broken = true;
     auto made = capture::detect_tags_in_videos(
-        missing, detector, console.stage("tags in " + trial.name));
+        missing,
+        detector,
+        console.stage((wanted.target ? "board in " : "tags in ") + trial.name));
     if (!made) return made.error();
     for (CameraDetections& camera : *made) {
       const auto file = folder / (session.cameras[index(camera.camera)] + ".csv");
@@ -214,7 +271,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
     camera.source = video.path.string();
     camera.offset = video.offset;
     if (trial.rate) camera.rate = *trial.rate;
-    if (const Status ok = check_seen(camera); !ok) return ok.error();
+    if (const Status ok = check_seen(camera, wanted); !ok) return ok.error();
     if (const Status ok = check_offset(session, video, camera.rate); !ok) {
       return ok.error();
     }

@@ -13,7 +13,8 @@
 
 namespace marey::app {
 
-/// The tag corners of a trial, one entry per camera of the session; a camera without a
+/// The tag corners of a trial, and in trials of the target the points of a board of
+/// squares; one entry per camera of the session; a camera without a
 /// video in the trial has no frames. Taken from OUT/TRIAL/detections where that was made
 /// of the same bytes of video by the same detector; what is not there is detected and
 /// written there.
@@ -23,8 +24,9 @@ namespace marey::app {
 /// with a video's part that can be: `troubles` says so.
 ///
 /// Errors: a video of another trial that cannot be read, one that shows not a single tag,
-/// or runs at another rate than its trial's other videos; fewer than two cameras left;
-/// the disk. Cost: 10 ms per frame and core of 1280 x 720 where it detects.
+/// or nothing of the board where that is wanted (and what it shows instead), or runs at
+/// another rate than its trial's other videos; fewer than two cameras left; the disk.
+/// Cost: 10 ms per frame and core of 1280 x 720 where it detects.
 [[nodiscard]] Result<std::vector<CameraDetections>> find_tags(
     const recordings::Session& session,
     const recordings::Trial& trial,

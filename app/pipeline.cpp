@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <set>
+#include <utility>
 
+#include "app/calibrate_session.h"
 #include "app/find_tags.h"
 #include "app/report_trial.h"
 #include "app/retarget_files.h"
@@ -55,14 +57,6 @@ Error missing_trial(const recordings::Session& session, TrialKind kind) {
       "record one and add it as a [[trial]]");
 }
 
-/// Targets that cameras cannot be calibrated with yet.
-Error not_yet(const recordings::Session& session) {
-  return bad_input(session.file.string(),
-                   "cameras are calibrated with an AprilGrid only, as yet",
-                   "marey track finds this target; calibrate with [board] type = "
-                   "\"aprilgrid\"");
-}
-
 /// Motions that are yet to be recorded are no obstacle to the others.
 void leave_out_unrecorded(recordings::Session& session, Console& console) {
   std::erase_if(session.trials, [&](const Trial& trial) {
@@ -79,7 +73,7 @@ std::vector<TrialKind> kinds_for(Stage stage) {
     case Stage::kTrack:
       return {};
     case Stage::kCalibrate:
-      return {TrialKind::kCalibration, TrialKind::kFloor};
+      return {TrialKind::kCalibration};
     case Stage::kSolve:
     case Stage::kProcess:
       return {TrialKind::kCalibration,
@@ -184,11 +178,15 @@ Result<std::vector<CameraDetections>> Pipeline::unshrunk_detections_of(
 Status Pipeline::calibrate() {
   const Trial* waved_trial = session_.find(TrialKind::kCalibration);
   const Trial* floor_trial = session_.find(TrialKind::kFloor);
-  MAREY_ASSERT(waved_trial && floor_trial);
+  MAREY_ASSERT(waved_trial);
   const auto waved = detections_of(*waved_trial);
   if (!waved) return waved.error();
-  const auto floor = detections_of(*floor_trial);
-  if (!floor) return floor.error();
+  std::vector<CameraDetections> floor;
+  if (floor_trial) {
+    auto found = detections_of(*floor_trial);
+    if (!found) return found.error();
+    floor = std::move(*found);
+  }
   for (const CameraDetections& camera : *waved) {
     if (!camera.frames.empty()) continue;
     return bad_input(
@@ -201,9 +199,7 @@ Status Pipeline::calibrate() {
   const Stopwatch watch;
   const Progress progress = console_->stage("cameras");
   progress(0, 1);
-  const auto* grid = std::get_if<AprilGrid>(&session_.target);
-  if (grid == nullptr) return not_yet(session_);
-  const auto rig = calib::calibrate_cameras(session_.cameras, *waved, *floor, *grid);
+  const auto rig = calibrate_session(session_, *waved, floor);
   if (!rig) return at(session_.file.string(), rig.error());
   progress(1, 1);
   recordings::Calibration calibration{rig->cameras, rig->quality, {}, rig->rms_px};

@@ -116,11 +116,7 @@ void add_aprilgrid(CLI::App& command,
           command, "--tag-size", "Edge of a tag's square; default 22mm", grid.tag_size_m),
       add_length(command, "--gap", "Between two squares; default 6.6mm", grid.gap_m),
       command.add_option("--first-id", grid.first_id, "The tag at the origin; default 0")
-          ->check(CLI::Range(0, 65535)),
-      add_length(command,
-                 "--thickness",
-                 "Of the plate it will be glued to, for the table",
-                 grid.thickness_m)};
+          ->check(CLI::Range(0, 65535))};
   for (CLI::Option* option : own) option->group("AprilGrid");
 }
 

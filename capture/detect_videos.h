@@ -39,7 +39,7 @@ struct DetectVideosOptions {
   bool find_tags = true;
   TrackTagsOptions tracker;
   /// Look for this target's points; of one that is made of tags there are none.
-  std::optional<CalibrationTarget> target;
+  std::optional<CalibrationTarget> target{};
   /// Search every frame whole instead: three to four times the time, and the two to four
   /// percent of sightings that the tracker comes upon a frame or two late.
   bool search_every_frame = false;

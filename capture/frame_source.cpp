@@ -7,12 +7,17 @@
 
 #include "capture/image_folder.h"
 #include "capture/video_file.h"
+#include "core/name_pattern.h"
 
 namespace marey::capture {
 
 Result<RecordingKind> recording_kind(const std::filesystem::path& path,
                                      const std::string& name) {
   std::error_code ignored;
+  if (is_name_pattern(path) &&
+      std::filesystem::is_directory(path.parent_path(), ignored)) {
+    return RecordingKind::kImageFolder;
+  }
   const auto status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) {
     return bad_input(

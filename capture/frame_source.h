@@ -54,8 +54,8 @@ class FrameSource {
 
 enum class RecordingKind { kVideoFile, kImageFolder };
 
-/// What is at `path`: a folder means images. kBadInput when there is nothing. Messages
-/// call it `name`.
+/// What is at `path`: a folder means images, as does a pattern of their names. kBadInput
+/// when there is nothing. Messages call it `name`.
 [[nodiscard]] Result<RecordingKind> recording_kind(const std::filesystem::path& path,
                                                    const std::string& name);
 

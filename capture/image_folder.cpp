@@ -12,6 +12,7 @@
 
 #include "capture/opencv_reading.h"
 #include "core/extension.h"
+#include "core/name_pattern.h"
 
 namespace marey::capture {
 namespace {
@@ -103,11 +104,17 @@ bool natural_less(std::string_view a, std::string_view b) {
 
 Result<std::vector<fs::path>> list_images(const fs::path& folder,
                                           const std::string& name) {
+  const bool some = is_name_pattern(folder);
   std::vector<fs::path> images;
   std::error_code failed;
-  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
+  for (fs::directory_iterator entry(some ? folder.parent_path() : folder, failed), end;
+       !failed && entry != end;
        entry.increment(failed)) {
-    if (is_image(entry->path())) images.push_back(entry->path());
+    const fs::path& path = entry->path();
+    if (some && !fits_pattern(path.filename().string(), folder.filename().string())) {
+      continue;
+    }
+    if (is_image(path)) images.push_back(path);
   }
   if (failed) {
     return bad_input(name,

@@ -16,9 +16,9 @@ namespace marey::capture {
 /// so "frame9.png" comes before "frame10.png". A strict total order on strings.
 [[nodiscard]] bool natural_less(std::string_view a, std::string_view b);
 
-/// The .png, .jpg and .jpeg files (any case) directly in a folder, in natural order of
-/// their names. kBadInput when it cannot be listed or has none. Messages call the folder
-/// `name`.
+/// The .png, .jpg and .jpeg files (any case) directly in a folder, or those of them that
+/// a pattern stands for (core/name_pattern.h), in natural order of their names. kBadInput
+/// when it cannot be listed or has none. Messages call the folder `name`.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> list_images(
     const std::filesystem::path& folder, const std::string& name);
 

@@ -107,6 +107,31 @@ struct Wand {
 /// What cameras are calibrated with.
 using CalibrationTarget = std::variant<AprilGrid, CharucoBoard, Chessboard, Wand>;
 
+/// Whether cameras see it as PointDetections: a board of squares.
+[[nodiscard]] inline bool has_points(const CalibrationTarget& target) {
+  return std::holds_alternative<CharucoBoard>(target) ||
+         std::holds_alternative<Chessboard>(target);
+}
+
+/// The target as messages call it: "ChArUco board of 4 x 5 squares (DICT_4X4_1000)", its
+/// columns first.
+[[nodiscard]] inline std::string name_of(const CalibrationTarget& target) {
+  const auto by = [](int columns, int rows) {
+    return std::to_string(columns) + " x " + std::to_string(rows);
+  };
+  if (const auto* grid = std::get_if<AprilGrid>(&target)) {
+    return "AprilGrid of " + by(grid->columns, grid->rows) + " tags";
+  }
+  if (const auto* charuco = std::get_if<CharucoBoard>(&target)) {
+    return "ChArUco board of " + by(charuco->columns, charuco->rows) + " squares (" +
+           charuco->dictionary + ")";
+  }
+  if (const auto* chess = std::get_if<Chessboard>(&target)) {
+    return "chessboard of " + by(chess->columns, chess->rows) + " squares";
+  }
+  return "wand of " + std::to_string(std::get<Wand>(target).tags.size()) + " tags";
+}
+
 /// Inner corner `point` of a board of squares, in its frame [m]: 0 is next to the origin,
 /// numbers grow along x, then along y. nullopt when the board has no such corner.
 [[nodiscard]] inline std::optional<glm::dvec3> inner_corner_in_board(int rows,

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/name_pattern.h"
+
 namespace marey::recordings {
 namespace fs = std::filesystem;
 
@@ -84,6 +86,8 @@ Result<std::string> key_of_folder(const fs::path& path) {
 
 Result<std::string> content_key(const fs::path& path) {
   std::error_code ignored;
+  // Of a pattern the whole folder: a change too many does no harm.
+  if (is_name_pattern(path)) return key_of_folder(path.parent_path());
   return fs::is_directory(path, ignored) ? key_of_folder(path) : key_of_file(path);
 }
 

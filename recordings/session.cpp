@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/assert.h"
+#include "core/name_pattern.h"
 #include "recordings/take_file.h"
 #include "recordings/text_reader.h"
 #include "recordings/toml_reader.h"
@@ -70,7 +71,9 @@ Status check_files(const Session& session) {
     }
     for (const TrialVideo& video : trial.videos) {
       std::error_code ignored;
-      if (std::filesystem::exists(video.path, ignored)) continue;
+      const bool many = is_name_pattern(video.path);
+      const auto there = many ? video.path.parent_path() : video.path;
+      if (std::filesystem::exists(there, ignored)) continue;
       return bad_input(file_and_line(session.file.string(), video.line),
                        "trial " + trial.name + ": there is no " + video.path.string(),
                        "copy the video there, or correct its path or `media`");

@@ -20,6 +20,9 @@ cv::Ptr<cv::aruco::Dictionary> dictionary_of(const CharucoBoard& board) {
   if (board.dictionary == "DICT_4X4_50") {
     return cv::aruco::getPredefinedDictionary(cv::aruco::DICT_4X4_50);
   }
+  if (board.dictionary == "DICT_APRILTAG_36h11") {
+    return cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
+  }
   throw std::invalid_argument("no such dictionary: " + board.dictionary);
 }
 

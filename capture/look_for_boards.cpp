@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "capture/look_for_boards.h"
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "capture/aruco_dictionary.h"
+#include "capture/board_search.h"
+#include "capture/detect_tags.h"
+#include "capture/frame_source.h"
+#include "core/assert.h"
+
+namespace marey::capture {
+namespace {
+
+constexpr int kFrames = 12;
+// Fewer markers than this in a picture may be noise that looks like one.
+constexpr std::size_t kLeastMarkers = 4;
+
+/// Frames from all over the recording.
+std::vector<cv::Mat> sample(const std::filesystem::path& path) {
+  std::vector<cv::Mat> frames;
+  auto source = open_frames(path);
+  if (!source) return frames;
+  const int step = std::max(1, (*source)->info().expected_frames.value_or(0) / kFrames);
+  while (frames.size() < static_cast<std::size_t>(kFrames)) {
+    const auto next = (*source)->next();
+    if (!next || !*next) break;
+    const GrayFrame& frame = **next;
+    if (frame.index % step != 0 || frame.damaged) continue;
+    frames.push_back(cv::Mat(frame.height_px,
+                             frame.width_px,
+                             CV_8UC1,
+                             const_cast<std::uint8_t*>(frame.pixels),
+                             static_cast<std::size_t>(frame.stride))
+                         .clone());
+  }
+  return frames;
+}
+
+/// A way to look at a picture of markers.
+struct Look {
+  bool inverted = false;
+  bool mirrored = false;
+};
+
+/// A copy, or the frame itself where nothing changes.
+cv::Mat looked_at(const cv::Mat& gray, const Look& look) {
+  if (!look.inverted && !look.mirrored) return gray;
+  cv::Mat picture = gray.clone();
+  if (look.inverted) cv::bitwise_not(picture, picture);
+  if (look.mirrored) cv::flip(picture, picture, /*flipCode=*/1);
+  return picture;
+}
+
+/// Ids of the markers in the frame that shows most of them; none when all show too few.
+std::set<int> best_ids(const std::vector<cv::Mat>& frames,
+                       std::string_view dictionary,
+                       const Look& look) {
+  std::set<int> best;
+  const auto codes = aruco_dictionary(dictionary, 0);
+  MAREY_ASSERT(codes);
+  for (const cv::Mat& frame : frames) {
+    std::set<int> ids;
+    for (const ReadMarker& marker : read_markers(looked_at(frame, look), *codes)) {
+      ids.insert(marker.id);
+    }
+    if (ids.size() > best.size()) best = std::move(ids);
+  }
+  if (best.size() < kLeastMarkers) best.clear();
+  return best;
+}
+
+std::string range_of(const std::set<int>& ids) {
+  return "markers " + std::to_string(*ids.begin()) + " to " +
+         std::to_string(*ids.rbegin());
+}
+
+/// The declared dictionary, seen otherwise than was said.
+std::optional<SeenInstead> look_for_own(const std::vector<cv::Mat>& frames,
+                                        const CharucoBoard& board) {
+  const Look own{board.is_inverted, false};
+  if (const auto ids = best_ids(frames, board.dictionary, own); !ids.empty()) {
+    return SeenInstead{
+        range_of(ids) + " of " + board.dictionary + " are, in other places than on it",
+        "correct rows and columns, which count squares, or legacy; marker_size_m is that "
+        "of a marker's black square"};
+  }
+  const Look other{!board.is_inverted, false};
+  if (const auto ids = best_ids(frames, board.dictionary, other); !ids.empty()) {
+    return SeenInstead{
+        range_of(ids) + " of " + board.dictionary +
+            " are, with black and white exchanged",
+        board.is_inverted ? "leave out inverted = true" : "write inverted = true"};
+  }
+  const Look mirror{board.is_inverted, true};
+  if (const auto ids = best_ids(frames, board.dictionary, mirror); !ids.empty()) {
+    return SeenInstead{range_of(ids) + " of " + board.dictionary + " are, mirrored",
+                       "record without mirroring; where the back of a board shows it "
+                       "mirrored, write two_sided = true"};
+  }
+  return std::nullopt;
+}
+
+/// The smallest dictionary with the same markers that has all of `ids`.
+std::string smallest_with(std::string_view dictionary, const std::set<int>& ids) {
+  const std::string_view kind = dictionary.substr(0, dictionary.find_last_of('_'));
+  for (const ArucoDictionary& known : aruco_dictionaries()) {
+    const bool alike = known.name.substr(0, known.name.find_last_of('_')) == kind &&
+                       (kind != "DICT_APRILTAG" || known.name == dictionary);
+    if (alike && aruco_dictionary(known.name, *ids.rbegin() + 1)) {
+      return std::string(known.name);
+    }
+  }
+  return std::string(dictionary);
+}
+
+/// Markers of any other dictionary: that of which one frame shows most.
+std::optional<SeenInstead> look_for_markers(const std::vector<cv::Mat>& frames) {
+  std::set<int> best;
+  std::string_view dictionary;
+  Look best_look;
+  for (const std::string_view name : {"DICT_APRILTAG_36h11",
+                                      "DICT_4X4_1000",
+                                      "DICT_5X5_1000",
+                                      "DICT_6X6_1000",
+                                      "DICT_7X7_1000",
+                                      "DICT_ARUCO_ORIGINAL",
+                                      "DICT_APRILTAG_36h10",
+                                      "DICT_APRILTAG_25h9",
+                                      "DICT_APRILTAG_16h5"}) {
+    for (const bool inverted : {false, true}) {
+      std::set<int> ids = best_ids(frames, name, {inverted, false});
+      if (ids.size() <= best.size()) continue;
+      best = std::move(ids);
+      dictionary = name;
+      best_look.inverted = inverted;
+    }
+  }
+  if (best.empty()) return std::nullopt;
+  const std::string name = smallest_with(dictionary, best);
+  std::string remedy = "write type = \"charuco\" and dictionary = \"" + name + "\"";
+  if (best_look.inverted) remedy += " and inverted = true";
+  if (dictionary == "DICT_APRILTAG_36h11") {
+    remedy =
+        "for an AprilGrid write type = \"aprilgrid\"; for a ChArUco board "
+        "dictionary = \"DICT_APRILTAG_36h11\"";
+  }
+  return SeenInstead{range_of(best) + " of " + name + " are", std::move(remedy)};
+}
+
+/// Kalibr's tags, with their frame of two cells, are no dictionary's.
+std::optional<SeenInstead> look_for_kalibr(const std::vector<cv::Mat>& frames) {
+  auto detector = TagDetector::create({.families = {{"tag36h11b2", {}}}});
+  MAREY_ASSERT(detector);
+  for (const cv::Mat& frame : frames) {
+    const GrayFrame view{
+        frame.data, frame.cols, frame.rows, static_cast<int>(frame.step[0]), 0};
+    if (detector->detect(view).size() < kLeastMarkers) continue;
+    return SeenInstead{
+        "an AprilGrid of tag36h11b2 is",
+        "write type = \"aprilgrid\", family = \"tag36h11b2\" and its sizes"};
+  }
+  return std::nullopt;
+}
+
+/// A chessboard of any size, in squares.
+std::optional<cv::Size> chess_squares(const std::vector<cv::Mat>& frames) {
+  constexpr double kSide = 900.0;
+  for (const cv::Mat& frame : frames) {
+    const double scale = std::min(1.0, kSide / std::max(frame.cols, frame.rows));
+    cv::Mat small;
+    cv::resize(frame, small, {}, scale, scale, cv::INTER_AREA);
+    std::vector<cv::Point2f> corners;
+    cv::Mat layout;
+    const bool found = cv::findChessboardCornersSB(
+        small,
+        {3, 3},
+        corners,
+        cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_LARGER | cv::CALIB_CB_EXHAUSTIVE,
+        layout);
+    if (found) return cv::Size(layout.cols + 1, layout.rows + 1);
+  }
+  return std::nullopt;
+}
+
+std::optional<SeenInstead> look_for_chessboard(const std::vector<cv::Mat>& frames) {
+  const auto squares = chess_squares(frames);
+  if (!squares) return std::nullopt;
+  const std::string columns = std::to_string(squares->width);
+  const std::string rows = std::to_string(squares->height);
+  return SeenInstead{
+      "a chessboard of " + columns + " x " + rows + " squares is",
+      "if all of it was seen, write type = \"chessboard\", columns = " + columns +
+          " and rows = " + rows + ": squares are counted, not their corners"};
+}
+
+}  // namespace
+
+std::optional<SeenInstead> look_for_boards(const std::filesystem::path& path,
+                                           const CalibrationTarget& target) {
+  MAREY_ASSERT(has_points(target));
+  try {
+    const std::vector<cv::Mat> frames = sample(path);
+    if (const auto* charuco = std::get_if<CharucoBoard>(&target)) {
+      if (auto seen = look_for_own(frames, *charuco)) return seen;
+    }
+    if (auto seen = look_for_markers(frames)) return seen;
+    if (auto seen = look_for_kalibr(frames)) return seen;
+    return look_for_chessboard(frames);
+  } catch (const cv::Exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace marey::capture
