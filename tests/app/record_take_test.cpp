@@ -165,6 +165,22 @@ TEST(RecordTake, BeginsWithTheFirstFrameThatWasTakenSinceItsBeginning) {
   EXPECT_EQ(frames[0].dropped_before, 0);
 }
 
+// The frames before it are on the disk though none comes after them.
+TEST(RecordTake, HasWrittenAllThatCameBeforeAnOutage) {
+  const ScratchFolder folder;
+  SyntheticFeed feed(0, {.frames = 20});
+  const std::array<RecordedCamera, 1> cameras{{{"cam", &feed}}};
+  bool is_written = false;
+  int looked = 0;
+  const auto done = record_take(cameras, options_for(folder / "walk", feed), [&] {
+    const auto times = recordings::video_times(folder / "walk" / "cam.mkv");
+    is_written = times && times->size() == 20;
+    return is_written || ++looked == 40;  // Ten seconds and more.
+  });
+  EXPECT_TRUE(done);
+  EXPECT_TRUE(is_written);
+}
+
 /// Shared with the child that is killed.
 struct Handed {
   std::atomic<long> left;
