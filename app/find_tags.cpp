@@ -34,6 +34,7 @@ std::vector<TagFamilyUse> families_to_find(const recordings::Session& session) {
 struct Wanted {
   std::vector<TagFamilyUse> families;       ///< Empty: no tags.
   std::optional<CalibrationTarget> target;  ///< Of squares: its points.
+  bool shows_grid = false;                  ///< The trial is about an AprilGrid.
 };
 
 Wanted wanted_in(const recordings::Session& session, const Trial& trial) {
@@ -42,6 +43,7 @@ Wanted wanted_in(const recordings::Session& session, const Trial& trial) {
   const bool shows_target = trial.kind == recordings::TrialKind::kCalibration ||
                             trial.kind == recordings::TrialKind::kFloor;
   if (shows_target && has_points(session.target)) wanted.target = session.target;
+  wanted.shows_grid = shows_target && std::holds_alternative<AprilGrid>(session.target);
   return wanted;
 }
 
@@ -149,10 +151,16 @@ Status check_seen(const CameraDetections& camera, const Wanted& wanted) {
       });
   if (any) return Done{};
   if (wanted.target) return no_board(camera, *wanted.target);
+  std::string cause = "not a single tag is seen in its " +
+                      std::to_string(camera.frames.size()) + " frames";
+  if (wanted.shows_grid) {
+    if (const auto seen = capture::look_for_boards(camera.source, AprilGrid{})) {
+      return bad_input(camera.source, cause + ", but " + seen->what, seen->remedy);
+    }
+  }
   return bad_input(
       camera.source,
-      "not a single tag is seen in its " + std::to_string(camera.frames.size()) +
-          " frames",
+      cause,
       "check that the video is of this trial and sharp, and the tag family in "
       "session.toml; or leave this camera out of the trial");
 }

@@ -88,24 +88,20 @@ class Grid {
 std::vector<cv::Point2f> find_chess_grid(const cv::Mat& gray, int rows, int columns) {
   constexpr int kFlags = cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE |
                          cv::CALIB_CB_FAST_CHECK;
-  constexpr int kSmall = 800;  // Boards fill enough of the picture to be found in less.
-  const int side = std::max(gray.cols, gray.rows);
+  // Boards that serve are large enough to be found in less than the whole picture, of
+  // which the search of one that shows other squares would take a second.
+  constexpr double kSide = 800.0;
+  const double scale = std::min(1.0, kSide / std::max(gray.cols, gray.rows));
+  cv::Mat small = gray;
+  if (scale < 1.0) cv::resize(gray, small, {}, scale, scale, cv::INTER_AREA);
   std::vector<cv::Point2f> grid;
-  if (side > kSmall) {
-    const int factor = (side + kSmall - 1) / kSmall;
-    cv::Mat small;
-    cv::resize(gray, small, {}, 1.0 / factor, 1.0 / factor, cv::INTER_AREA);
-    if (cv::findChessboardCorners(small, {columns, rows}, grid, kFlags)) {
-      const double fx = static_cast<double>(gray.cols) / small.cols;
-      const double fy = static_cast<double>(gray.rows) / small.rows;
-      for (cv::Point2f& p : grid) {
-        p = {static_cast<float>((static_cast<double>(p.x) + 0.5) * fx - 0.5),
-             static_cast<float>((static_cast<double>(p.y) + 0.5) * fy - 0.5)};
-      }
-      return grid;
-    }
+  if (!cv::findChessboardCorners(small, {columns, rows}, grid, kFlags)) return {};
+  const double fx = static_cast<double>(gray.cols) / small.cols;
+  const double fy = static_cast<double>(gray.rows) / small.rows;
+  for (cv::Point2f& p : grid) {
+    p = {static_cast<float>((static_cast<double>(p.x) + 0.5) * fx - 0.5),
+         static_cast<float>((static_cast<double>(p.y) + 0.5) * fy - 0.5)};
   }
-  if (!cv::findChessboardCorners(gray, {columns, rows}, grid, kFlags)) grid.clear();
   return grid;
 }
 

@@ -16,11 +16,10 @@ struct SeenInstead {
   std::string remedy;  ///< What to change in session.toml, or what to record.
 };
 
-/// Looks at a dozen frames of a video or folder for boards other than `target`, which was
+/// Looks at eight frames of a video or folder for boards other than `target`, which was
 /// not found there: markers of any of OpenCV's dictionaries, white on black and mirrored
 /// too, Kalibr's tags, chessboards of any size. nullopt when there is none of them, or
-/// the recording cannot be read. A few seconds. Precondition: `target` is a board of
-/// squares.
+/// the recording cannot be read. Ten seconds.
 [[nodiscard]] std::optional<SeenInstead> look_for_boards(
     const std::filesystem::path& path, const CalibrationTarget& target);
 

@@ -128,7 +128,7 @@ TEST_F(Print, TablesOfEveryTypeAndFamilyAreWhatSessionsRead) {
                              "tagCustom48h12",
                              "tagStandard41h12",
                              "tagStandard52h13"}) {
-    boards.push_back({"--family", family, "--rows", "3", "--gap", "22mm"});
+    boards.push_back({"--family", family, "--rows", "3", "--gap", "40mm"});
   }
   for (const std::vector<std::string>& board : boards) {
     std::vector<std::string> words{"board", "--json"};
