@@ -33,8 +33,9 @@ class BoardFinder {
   /// next to a marker that was read. A chessboard must be all there; which way up it is,
   /// its black corner square tells. The back of a board with two sides is looked for
   /// where the front is not seen. No board, or too little of it: empty. Same image, same
-  /// answer; nothing is remembered. At 1280x720 about 20 ms for a ChArUco board, 10 ms
-  /// for a chessboard, 30 ms where there is none.
+  /// answer; nothing is remembered. At 1280x720 about 20 ms for a ChArUco board, and
+  /// for a chessboard, whose squares must be 16 px wide there or more; several times that
+  /// where other squares are seen in its place.
   [[nodiscard]] std::vector<PointDetection> find(const GrayFrame& frame);
 
  private:
