@@ -18,6 +18,8 @@ namespace marey::calib {
 [[nodiscard]] int measure_webcams(const std::filesystem::path& folder);
 
 void print_rig(const CalibratedRig& rig);
+/// Prints nothing when there is none.
+void print_cross_validation(const CalibratedRig& rig);
 
 class Stopwatch {
  public:

@@ -7,9 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <numbers>
-#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include <glm/geometric.hpp>
 
 #include "calib/calibrate_cameras.h"
+#include "calib/estimate_clocks.h"
 #include "capture/detect_videos.h"
 #include "core/quantile.h"
 #include "reconstruct/triangulate.h"
@@ -104,25 +106,6 @@ void compare(const CalibratedRig& rig,
   }
 }
 
-void print_cross_validation(const CalibratedRig& rig) {
-  if (!rig.cross_validation) return;
-  const CrossValidation& v = *rig.cross_validation;
-  std::printf("even frames %.3f px, held-out odd frames %.3f px\n",
-              v.seen_rms_px,
-              v.held_out_rms_px);
-  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
-    std::printf("  %s: odd less even: centre %.2f mm, turn %.4f deg, focal %+.2f px",
-                rig.cameras[c].name.c_str(),
-                1e3 * v.centre_apart_m[c],
-                180.0 / std::numbers::pi * v.turn_apart_rad[c],
-                v.focal_apart_px[c]);
-    if (v.held_out_camera_px[c]) {
-      std::printf("; held-out camera: median %.3f px", *v.held_out_camera_px[c]);
-    }
-    std::printf("\n");
-  }
-}
-
 int calibrate_and_compare(const tests::RenderedTruth& truth,
                           const std::vector<CameraDetections>& whole,
                           const std::vector<int>& late) {
@@ -138,6 +121,7 @@ int calibrate_and_compare(const tests::RenderedTruth& truth,
   CalibrateOptions options;
   options.solve_offsets =
       std::any_of(late.begin(), late.end(), [](int frames) { return frames > 0; });
+  options.cross_validate = !options.solve_offsets;
   const Stopwatch watch;
   const auto rig = calibrate_cameras(names, waved, floor, board, options);
   std::printf("%s: %.1f s\n",
@@ -149,6 +133,7 @@ int calibrate_and_compare(const tests::RenderedTruth& truth,
   }
   print_rig(*rig);
   compare(*rig, truth.cameras, late, 10.0);
+  print_cross_validation(*rig);
   for (std::size_t i = 0; i < std::min<std::size_t>(5, rig->outlier_frames.size()); ++i) {
     const OutlierFrame& o = rig->outlier_frames[i];
     std::printf("  outlier: camera %zu frame %d, %d of %d tags, %.1f px off\n",
@@ -161,10 +146,7 @@ int calibrate_and_compare(const tests::RenderedTruth& truth,
   return 0;
 }
 
-}  // namespace
-
-int measure_rendered(const std::filesystem::path& folder) {
-  const tests::RenderedTruth truth = tests::load_rendered_truth(folder / "calib");
+std::vector<capture::CameraInput> inputs_of(const tests::RenderedTruth& truth) {
   std::vector<capture::CameraInput> inputs;
   for (std::size_t c = 0; c < truth.cameras.size(); ++c) {
     capture::CameraInput input;
@@ -172,9 +154,46 @@ int measure_rendered(const std::filesystem::path& folder) {
     input.camera = CameraId{static_cast<int>(c)};
     inputs.push_back(input);
   }
-  const auto whole = detect(inputs, {});
+  return inputs;
+}
+
+/// Clocks of a motion trial, from the body's tags and the true cameras.
+void measure_clocks(const std::filesystem::path& folder, const std::string& trial) {
+  const tests::RenderedTruth truth = tests::load_rendered_truth(folder / trial);
+  const auto detections = detect(inputs_of(truth), {});
+  std::map<TagId, double> sizes_m;
+  for (const auto& [place, corners] : truth.corners_in_world) {
+    const double size_m = glm::distance(corners[0], corners[1]);
+    sizes_m[TagId{place.second}] = 1e-3 * std::round(1e3 * size_m);
+  }
+  std::vector<Camera> cameras;
+  for (const Camera& camera : truth.cameras) cameras.push_back(in_our_world(camera));
+  const Stopwatch watch;
+  const auto clocks = estimate_clocks(cameras, detections, sizes_m);
+  std::printf("%s: %.1f s\n", trial.c_str(), watch.seconds());
+  if (!clocks) {
+    std::printf("no clocks\n");
+    return;
+  }
+  for (std::size_t c = 0; c < clocks->size(); ++c) {
+    const double true_s = truth.late_frames[c] / detections[c].rate.hz;
+    std::printf("  camera %zu: offset %+.2f ms, off by %+.3f ms (+- %.3f)\n",
+                c,
+                1e3 * (*clocks)[c].offset_s,
+                1e3 * ((*clocks)[c].offset_s - true_s),
+                1e3 * (*clocks)[c].offset_sigma_s);
+  }
+}
+
+}  // namespace
+
+int measure_rendered(const std::filesystem::path& folder) {
+  const tests::RenderedTruth truth = tests::load_rendered_truth(folder / "calib");
+  const auto whole = detect(inputs_of(truth), {});
   const int synchronised = calibrate_and_compare(truth, whole, {0, 0, 0, 0});
-  return std::max(synchronised, calibrate_and_compare(truth, whole, {0, 3, 7, 5}));
+  const int apart = calibrate_and_compare(truth, whole, {0, 3, 7, 5});
+  for (const std::string trial : {"walk", "jump", "reach"}) measure_clocks(folder, trial);
+  return std::max(synchronised, apart);
 }
 
 int measure_stereo(const std::filesystem::path& folder) {
@@ -222,11 +241,58 @@ int measure_stereo(const std::filesystem::path& folder) {
 
 namespace {
 
+/// xy.csv: sync_index, cam_id, frame_index, frame_time, object_id, keypoint_id, x, y...
+/// of corners whose rows are counted from the board's top.
+std::vector<CameraDetections> read_corners(const std::filesystem::path& path,
+                                           const CharucoBoard& board) {
+  std::ifstream file(path);
+  if (!file) {
+    std::fprintf(stderr, "%s cannot be read\n", path.c_str());
+    std::exit(1);
+  }
+  std::vector<CameraDetections> cameras(4);
+  std::map<int, int> frame_of;
+  std::vector<std::array<double, 8>> rows;
+  std::string line;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    std::replace(line.begin(), line.end(), ',', ' ');
+    std::istringstream in(line);
+    std::array<double, 8> row{};
+    for (double& value : row) in >> value;
+    rows.push_back(row);
+    frame_of[static_cast<int>(row[0])] = 0;
+  }
+  int frames = 0;
+  for (auto& [index, frame] : frame_of) frame = frames++;
+  for (std::size_t c = 0; c < 4; ++c) {
+    cameras[c].source = "cam_" + std::to_string(c);
+    cameras[c].camera = CameraId{static_cast<int>(c)};
+    cameras[c].width_px = 1280;
+    cameras[c].height_px = 720;
+    cameras[c].rate.hz = 6.0;
+    for (int f = 0; f < frames; ++f) cameras[c].frames.push_back({f, {}, {}});
+  }
+  const int across = board.columns - 1;
+  for (const auto& row : rows) {
+    const int point = static_cast<int>(row[5]);
+    PointDetection found;
+    found.point = (board.rows - 2 - point / across) * across + point % across;
+    found.pixel_px = {row[6], row[7]};
+    cameras[static_cast<std::size_t>(row[1])]
+        .frames[static_cast<std::size_t>(frame_of[static_cast<int>(row[0])])]
+        .points.push_back(found);
+  }
+  return cameras;
+}
+
 /// Lengths between neighbouring corners of the board, triangulated from what the cameras
-/// saw, less the truth.
+/// saw, less the truth; corners whose cameras disagree by more than `most_px` left out.
 std::vector<double> edge_errors_m(const std::vector<Camera>& cameras,
                                   const std::vector<CameraDetections>& waved,
-                                  const CharucoBoard& board) {
+                                  const CharucoBoard& board,
+                                  double most_px,
+                                  int& left_out) {
   std::map<std::pair<int, int>, std::vector<reconstruct::PointView>> sights;
   for (std::size_t c = 0; c < waved.size(); ++c) {
     for (const FrameDetections& frame : waved[c].frames) {
@@ -237,7 +303,12 @@ std::vector<double> edge_errors_m(const std::vector<Camera>& cameras,
   }
   std::map<std::pair<int, int>, glm::dvec3> placed;
   for (const auto& [place, views] : sights) {
-    if (const auto p = reconstruct::triangulate(views)) placed[place] = p->p_in_world;
+    const auto p = reconstruct::triangulate(views);
+    if (!p || p->rms_px > most_px) {
+      ++left_out;
+      continue;
+    }
+    placed[place] = p->p_in_world;
   }
   std::vector<double> errors;
   const int across = board.columns - 1;
@@ -261,19 +332,8 @@ int measure_webcams(const std::filesystem::path& folder) {
                            .square_size_m = 0.054,
                            .marker_size_m = 0.0405,
                            .dictionary = "DICT_4X4_1000"};
-  std::vector<capture::CameraInput> inputs;
-  std::vector<std::string> names;
-  for (int c = 0; c < 4; ++c) {
-    capture::CameraInput input;
-    names.push_back("cam_" + std::to_string(c));
-    input.path = folder / "calibration" / "extrinsic" / (names.back() + ".mp4");
-    input.camera = CameraId{c};
-    inputs.push_back(input);
-  }
-  capture::DetectVideosOptions detection;
-  detection.find_tags = false;
-  detection.target = board;
-  const auto waved = detect(inputs, detection);
+  const std::vector<std::string> names{"cam_0", "cam_1", "cam_2", "cam_3"};
+  const auto waved = read_corners(folder / "calibration" / "extrinsic" / "xy.csv", board);
   for (const bool clocks : {false, true}) {
     CalibrateOptions options;
     options.solve_offsets = clocks;
@@ -295,16 +355,19 @@ int measure_webcams(const std::filesystem::path& folder) {
                   1e3 * (*rig->warp_m)[1],
                   1e3 * (*rig->warp_m)[2]);
     }
-    const auto edges = edge_errors_m(rig->cameras, waved, board);
-    double sum = 0.0;
-    std::vector<double> size;
-    for (const double e : edges) {
-      sum += e * e;
-      size.push_back(std::abs(e));
-    }
-    if (!edges.empty()) {
-      std::printf("%zu edges: rms %.3f mm, median |error| %.3f mm\n",
+    for (const double most_px : {1e9, 2.0}) {
+      int left_out = 0;
+      const auto edges = edge_errors_m(rig->cameras, waved, board, most_px, left_out);
+      double sum = 0.0;
+      std::vector<double> size;
+      for (const double e : edges) {
+        sum += e * e;
+        size.push_back(std::abs(e));
+      }
+      if (edges.empty()) continue;
+      std::printf("%zu edges, %d corners left out: rms %.3f mm, median |error| %.3f mm\n",
                   edges.size(),
+                  left_out,
                   1e3 * std::sqrt(sum / static_cast<double>(edges.size())),
                   1e3 * median(size));
     }

@@ -9,6 +9,7 @@
 //   measure_calibration stereo ../shared/data/camera/opencv_samples
 //   measure_calibration webcams ../shared/data/camera/caliscope/sessions/4_cam_recording
 #include <cstdio>
+#include <numbers>
 #include <string>
 
 #include "benchmarks/calibration_cases.h"
@@ -45,13 +46,32 @@ void print_rig(const CalibratedRig& rig) {
   }
   std::printf(
       "all: rms %.3f px, median %.3f px, without outliers %.3f px; %d of %d "
-      "sightings are outliers; corners stray %.2f times their sigma\n",
+      "sightings are outliers; sigmas are %.2f times those of independent corners\n",
       rig.rms_px,
       rig.median_px,
       rig.inlier_rms_px,
       rig.outliers,
       rig.sightings,
       rig.sigma_factor);
+}
+
+void print_cross_validation(const CalibratedRig& rig) {
+  if (!rig.cross_validation) return;
+  const CrossValidation& v = *rig.cross_validation;
+  std::printf("even frames %.3f px, held-out odd frames %.3f px\n",
+              v.seen_rms_px,
+              v.held_out_rms_px);
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    std::printf("  %s: odd less even: centre %.2f mm, turn %.4f deg, focal %+.2f px",
+                rig.cameras[c].name.c_str(),
+                1e3 * v.centre_apart_m[c],
+                180.0 / std::numbers::pi * v.turn_apart_rad[c],
+                v.focal_apart_px[c]);
+    if (v.held_out_camera_px[c]) {
+      std::printf("; held-out camera: median %.3f px", *v.held_out_camera_px[c]);
+    }
+    std::printf("\n");
+  }
 }
 
 }  // namespace marey::calib

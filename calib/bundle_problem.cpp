@@ -35,7 +35,8 @@ RigidTransform to_transform(const Block& b) {
 BundleProblem::BundleProblem(const RigModel& model,
                              const RefineOptions& options,
                              bool robust)
-    : shrinks_(options.shrinkage) {
+    // The robust pass only gives the other a start.
+    : shrinks_(options.shrinkage), tolerance_(robust ? 1e-6 : 1e-9) {
   for (const RigCamera& camera : model.cameras) {
     CameraBlock block;
     block.lens = camera.intrinsics.parameters();
@@ -62,9 +63,11 @@ BundleProblem::BundleProblem(const RigModel& model,
   for (const Sighting& sighting : model.sightings) {
     if (!sighting.is_outlier) add_sighting(model, sighting, robust);
   }
-  add_priors(model, options);
+  add_motion_priors(model, options);
   set_manifolds(model, options);
   set_clocks(model, options);
+  // Of what moves alone: nobody asks how likely it is that a given lens is as given.
+  add_priors(model);
 }
 
 void BundleProblem::add_sighting(const RigModel& model,
@@ -102,8 +105,14 @@ void BundleProblem::add_sighting(const RigModel& model,
     parameters.push_back(targets_[board].warp.data());
   }
   // The norm of a tag's eight residuals is near 2.8 when all is well, of a point's 1.4.
-  ceres::LossFunction* loss =
-      robust ? new ceres::CauchyLoss(sighting.count == 4 ? 5.0 : 3.0) : nullptr;
+  // A tag's corners err together (a shadow, a fold of the paper): a loss that trusts no
+  // tag too much stays on.
+  ceres::LossFunction* loss = nullptr;
+  if (sighting.count == 4) {
+    loss = new ceres::CauchyLoss(5.0);
+  } else if (robust) {
+    loss = new ceres::CauchyLoss(3.0);
+  }
   problem_.AddResidualBlock(
       new SightingCost(
           sighting, target, intrinsics.lens, intrinsics.height_px, parts, knots),
@@ -112,7 +121,7 @@ void BundleProblem::add_sighting(const RigModel& model,
   residuals_ += 2 * sighting.count;
 }
 
-void BundleProblem::add_priors(const RigModel& model, const RefineOptions& options) {
+void BundleProblem::add_priors(const RigModel& model) {
   for (std::size_t c = 0; c < cameras_.size(); ++c) {
     const Intrinsics& k = model.cameras[c].intrinsics;
     if (moves(cameras_[c].lens.data())) {
@@ -149,6 +158,12 @@ void BundleProblem::add_priors(const RigModel& model, const RefineOptions& optio
           nullptr,
           targets_[t].warp.data());
     }
+  }
+}
+
+void BundleProblem::add_motion_priors(const RigModel& model,
+                                      const RefineOptions& options) {
+  for (std::size_t t = 0; t < targets_.size(); ++t) {
     const double spacing_s = model.targets[t].knot_spacing_s;
     if (spacing_s <= 0.0) continue;
     auto& poses = targets_[t].poses;
@@ -230,7 +245,7 @@ bool BundleProblem::solve() {
   // where memory lies.
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
   options.max_num_iterations = 100;
-  options.function_tolerance = 1e-9;
+  options.function_tolerance = tolerance_;
   options.num_threads = 1;  // One order of summation: the same bytes every time.
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;

@@ -48,7 +48,8 @@ class BundleProblem {
   };
 
   void add_sighting(const RigModel& model, const Sighting& sighting, bool robust);
-  void add_priors(const RigModel& model, const RefineOptions& options);
+  void add_motion_priors(const RigModel& model, const RefineOptions& options);
+  void add_priors(const RigModel& model);
   void set_manifolds(const RigModel& model, const RefineOptions& options);
   void set_clocks(const RigModel& model, const RefineOptions& options);
   [[nodiscard]] bool moves(const double* block) const;
@@ -58,6 +59,7 @@ class BundleProblem {
   std::vector<CameraBlock> cameras_;
   std::vector<TargetBlock> targets_;
   bool shrinks_ = false;
+  double tolerance_ = 1e-9;  ///< Relative, of the cost.
   ceres::Problem problem_;
   int residuals_ = 0;
 };

@@ -58,8 +58,9 @@ struct CalibratedRig {
   int outliers = 0;            ///< Of them, left out of the last refinement.
   std::vector<OutlierFrame> outlier_frames;  ///< Worst first.
   RigCovariance covariance;
-  /// By how much corners stray further than their detector said, at least 1; in the
-  /// covariance and in every sigma.
+  /// By how much the covariance and every sigma are larger than independent corners, with
+  /// the sigmas that their detector claims, would leave: corners may stray further, and a
+  /// small part of their error is common to all that a camera sees. At least 1.
   double sigma_factor = 1.0;
   std::vector<SolvedClock> clocks;  ///< Per camera; zeros where they were not solved for.
   std::optional<CrossValidation> cross_validation;  ///< When it was asked for.

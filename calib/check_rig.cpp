@@ -146,6 +146,7 @@ Status check_rig(const CalibratedRig& rig,
   if (std::holds_alternative<AprilGrid>(board)) {
     if (Status ok = check_print(rig); !ok) return ok;
   }
+  if (floor.empty()) return Done{};
   std::vector<const BoardView*> floor_views;
   for (const BoardView& view : views) {
     if (view.instant == kFloorInstant) floor_views.push_back(&view);

@@ -38,8 +38,9 @@ struct ClockSigma {
 struct RigDoubt {
   RigCovariance covariance;
   std::vector<ClockSigma> clocks;  ///< Per camera.
-  /// By how much residuals are larger than their sigmas say, at least 1: all doubts are
-  /// that much larger.
+  /// By how much all doubts are larger than independent corners with the sigmas that
+  /// their detector claims would leave: residuals may be larger than they say, and a
+  /// small part of a corner's error is common to all of a camera's corners, however many.
   double sigma_factor = 1.0;
 };
 

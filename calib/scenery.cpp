@@ -38,7 +38,7 @@ std::optional<TagDetection> at_rest(const std::vector<const TagDetection*>& tags
   }
   if (strays_px > kStillPx) return std::nullopt;
   const double shrink = 1.0 / std::sqrt(static_cast<double>(tags.size()));
-  out.sigma_px *= std::max(1.0 / 3.0, shrink);
+  out.sigma_px *= std::max(0.75, shrink);
   return out;
 }
 

@@ -75,8 +75,8 @@ TEST(BoardViews, AverageTheFloorsNoise) {
   // Sixteen frames leave a quarter of 0.3 px; a hundred corners tell that to a tenth.
   EXPECT_NEAR(
       std::sqrt(sum_px2 / static_cast<double>(floor->corners.size())), 0.075, 0.02);
-  // The systematic part does not average out: sigma stays at a third.
-  EXPECT_NEAR(floor->corners[0].sigma_px, frame.tags[0].sigma_px / 3.0, 1e-12);
+  // The systematic part does not average out: sigma stays at three quarters.
+  EXPECT_NEAR(floor->corners[0].sigma_px, 0.75 * frame.tags[0].sigma_px, 1e-12);
 }
 
 TEST(BoardViews, LeaveAFootOnTheBoardOutOfTheAverage) {

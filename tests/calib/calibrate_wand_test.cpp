@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/calibrate_wand.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/support/random_bodies.h"
+#include "tests/support/synthetic_rig.h"
+
+namespace marey::calib {
+namespace {
+
+using marey::testing::names_of;
+using marey::testing::ring_of_cameras;
+
+constexpr double kSize_m = 0.16;
+constexpr double kPi = std::numbers::pi;
+
+const Wand kWand{
+    {{TagId{0}, kSize_m}, {TagId{1}, kSize_m}, {TagId{2}, kSize_m}, {TagId{3}, kSize_m}}};
+
+/// A tag on each side of a box, its printed face outwards.
+RigidTransform wand_from_tag(int side) {
+  const glm::dquat turn = rotation_from_vector({0.0, 0.5 * kPi * side, 0.0});
+  return {turn, turn * glm::dvec3(0.0, 0.0, -0.1)};
+}
+
+RigidTransform world_from_wand(double share) {
+  const double round = 2.0 * kPi * share;
+  return {rotation_from_vector({0.0, 2.3 * round, 0.0}) *
+              rotation_from_vector({0.6 * std::sin(5.0 * round), 0.0, 0.0}) *
+              rotation_from_vector({0.0, 0.0, 0.6 * std::cos(4.0 * round)}),
+          {0.7 * std::sin(3.0 * round),
+           1.0 + 0.5 * std::cos(2.0 * round),
+           0.7 * std::cos(round)}};
+}
+
+std::vector<CameraDetections> wave_wand(const std::vector<Camera>& cameras,
+                                        int frames,
+                                        double noise_px) {
+  auto out = marey::testing::unseeing(cameras, frames, 10.0, "wand");
+  marey::testing::Dice dice(5);
+  for (int f = 0; f < frames; ++f) {
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      for (int side = 0; side < 4; ++side) {
+        const auto tag = marey::testing::see_tag(
+            cameras[c],
+            world_from_wand(f / static_cast<double>(frames)) * wand_from_tag(side),
+            TagId{side},
+            kSize_m);
+        if (!tag) continue;
+        out[c].frames[static_cast<std::size_t>(f)].tags.push_back(
+            marey::testing::disturbed(*tag, {noise_px, {}, 0.0}, dice));
+      }
+    }
+  }
+  return out;
+}
+
+/// Distances between cameras do not ask where the world is.
+double worst_distance_m(const CalibratedRig& rig, const std::vector<Camera>& truth) {
+  double worst = 0.0;
+  for (std::size_t a = 0; a < truth.size(); ++a) {
+    for (std::size_t b = a + 1; b < truth.size(); ++b) {
+      const double found =
+          glm::distance(centre_in_world(rig.cameras[a]), centre_in_world(rig.cameras[b]));
+      const double expected =
+          glm::distance(centre_in_world(truth[a]), centre_in_world(truth[b]));
+      worst = std::max(worst, std::abs(found - expected));
+    }
+  }
+  return worst;
+}
+
+TEST(CalibrateWand, RecoversCamerasAndLayoutFromExactCorners) {
+  const auto cameras = ring_of_cameras();
+  const auto found =
+      calibrate_wand(names_of(cameras), wave_wand(cameras, 60, 0.0), kWand);
+  ASSERT_TRUE(found) << found.error().message();
+  // Priors (a centred principal point, mild distortion) pull a little.
+  EXPECT_LT(worst_distance_m(found->rig, cameras), 2e-3);
+  ASSERT_EQ(found->wand_from_tag.size(), 4U);
+  for (int side = 0; side < 4; ++side) {
+    const RigidTransform expected = inverse(wand_from_tag(0)) * wand_from_tag(side);
+    EXPECT_LT(glm::distance(found->wand_from_tag.at(TagId{side}).translation,
+                            expected.translation),
+              2e-4);
+  }
+}
+
+TEST(CalibrateWand, StaysNearUnderNoise) {
+  const auto cameras = ring_of_cameras();
+  const auto found =
+      calibrate_wand(names_of(cameras), wave_wand(cameras, 60, 0.2), kWand);
+  ASSERT_TRUE(found) << found.error().message();
+  // A few hundred tags of 45 px: a fifth of a pixel is half a percent of each.
+  EXPECT_LT(worst_distance_m(found->rig, cameras), 0.03);
+  EXPECT_NEAR(found->rig.inlier_rms_px, 0.28, 0.05);
+}
+
+TEST(CalibrateWand, PutsTheFirstCameraUprightAtTheOrigin) {
+  const auto cameras = ring_of_cameras();
+  const auto found =
+      calibrate_wand(names_of(cameras), wave_wand(cameras, 60, 0.0), kWand);
+  ASSERT_TRUE(found) << found.error().message();
+  EXPECT_LT(glm::length(centre_in_world(found->rig.cameras[0])), 1e-9);
+  const glm::dvec3 down =
+      inverse(found->rig.cameras[0].camera_from_world).rotation * glm::dvec3(0, 1, 0);
+  EXPECT_LT(glm::distance(down, {0.0, -1.0, 0.0}), 1e-9);
+}
+
+TEST(CalibrateWand, NamesCamerasThatNothingJoins) {
+  const auto cameras = ring_of_cameras();
+  auto waved = wave_wand(cameras, 60, 0.0);
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (FrameDetections& frame : waved[c].frames) {
+      if ((frame.frame % 2 == 0) != (c < 2)) frame.tags.clear();
+    }
+  }
+  const auto found = calibrate_wand(names_of(cameras), waved, kWand);
+  ASSERT_FALSE(found);
+  EXPECT_NE(found.error().cause.find("nothing joins the cameras"), std::string::npos);
+}
+
+TEST(CalibrateWand, SaysWhenNoTagOfItIsSeen) {
+  const auto cameras = ring_of_cameras();
+  const auto found = calibrate_wand(
+      names_of(cameras), wave_wand(cameras, 10, 0.0), Wand{{{TagId{40}, 0.1}}});
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().cause, "no tag of the wand is seen by any camera");
+}
+
+}  // namespace
+}  // namespace marey::calib
