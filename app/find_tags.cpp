@@ -82,7 +82,7 @@ Result<std::string> cache_key(const TrialVideo& video,
   if (!content) return content.error();
   // Raise the number when the detector finds other corners in the same picture.
   std::string key = *content;
-  if (!wanted.families.empty()) key += " tracker-1" + words_of(wanted.families);
+  if (!wanted.families.empty()) key += " tracker-2" + words_of(wanted.families);
   if (wanted.target) key += words_of(*wanted.target);
   if (trial.frames && !has_take(trial)) {
     key += " frames " + std::to_string(trial.frames->first) + "-" +

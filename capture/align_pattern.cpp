@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 
 #include "capture/blurred_pattern.h"
+#include "capture/sample_tag.h"
 #include "core/assert.h"
 #include "core/detection.h"
 
@@ -21,61 +22,15 @@ namespace {
 constexpr int kPlace = 8;          // Homography, its last element being 1.
 constexpr int kBlur = kPlace;      // Logarithm of the blur.
 constexpr int kLight = kBlur + 1;  // First of the six of the light.
-constexpr int kUnknowns = kLight + 6;
+constexpr int kBend = kLight + 6;  // Of the tone curve.
+constexpr int kUnknowns = kBend + 1;
+
+/// Pixels err by about this share of the contrast, tone curves bend by about that much:
+/// what both together weigh keeps apart what a tag with few edges cannot.
+constexpr double kUsualNoise = 0.02;
+constexpr double kUsualBend = 0.25;
 using Unknowns = cv::Vec<double, kUnknowns>;
 using Normal = cv::Matx<double, kUnknowns, kUnknowns>;
-
-/// How far outside of the square pixels still count. [cells]
-constexpr double kRingCells = 0.6;
-
-/// Light of each grey value, 0 to 1. IEC 61966-2-1.
-const std::array<double, 256>& light_of_gray() {
-  static const std::array<double, 256> table = [] {
-    std::array<double, 256> light{};
-    for (std::size_t i = 0; i < light.size(); ++i) {
-      const double x = static_cast<double>(i) / 255.0;
-      light[i] = x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-    }
-    return light;
-  }();
-  return table;
-}
-
-/// A homography `image_from_cell` at one pixel: the cell coordinates (from the tag's
-/// middle) there, and what the pixel's distance is in cells.
-struct Place {
-  double u = 0.0;
-  double v = 0.0;
-  double depth = 1.0;  ///< Third homogeneous coordinate, seen from the cells.
-  double u_by_x = 0.0;
-  double u_by_y = 0.0;
-  double v_by_x = 0.0;
-  double v_by_y = 0.0;
-};
-
-Place place_of(const cv::Matx33d& image_from_cell,
-               const cv::Matx33d& cell_from_image,
-               double x,
-               double y) {
-  const cv::Matx33d& g = cell_from_image;
-  const cv::Matx33d& h = image_from_cell;
-  const double w = 1.0 / (g(2, 0) * x + g(2, 1) * y + g(2, 2));
-  Place at;
-  at.u = w * (g(0, 0) * x + g(0, 1) * y + g(0, 2));
-  at.v = w * (g(1, 0) * x + g(1, 1) * y + g(1, 2));
-  at.depth = h(2, 0) * at.u + h(2, 1) * at.v + h(2, 2);
-  // Derivatives of image by cell coordinates, times the depth; their inverse.
-  const double x_by_u = h(0, 0) - h(2, 0) * x;
-  const double x_by_v = h(0, 1) - h(2, 1) * x;
-  const double y_by_u = h(1, 0) - h(2, 0) * y;
-  const double y_by_v = h(1, 1) - h(2, 1) * y;
-  const double scale = at.depth / (x_by_u * y_by_v - x_by_v * y_by_u);
-  at.u_by_x = y_by_v * scale;
-  at.u_by_y = -x_by_v * scale;
-  at.v_by_x = -y_by_u * scale;
-  at.v_by_y = x_by_u * scale;
-  return at;
-}
 
 /// std::hypot without its care for numbers that no image has.
 double length(double x, double y) {
@@ -95,6 +50,7 @@ struct System {
   Unknowns right = Unknowns::all(0.0);
   double cost = 0.0;
   double squares = 0.0;
+  int pixels = 0;  ///< That weigh.
 
   /// Adds a pixel of `slope`, whose unknowns before `first` are zero.
   void add(const std::array<double, kUnknowns>& slope,
@@ -129,7 +85,9 @@ class Fit {
   [[nodiscard]] Alignment answer() const;
 
  private:
-  void gather(const GrayFrame& frame);
+  /// Root mean square of the standard deviations of the corners' coordinates, where the
+  /// noise of a pixel is 1.
+  [[nodiscard]] double spread(const Normal& normal) const;
   [[nodiscard]] bool guess_light();
   /// By all unknowns, or by those of the light alone, which is quicker.
   [[nodiscard]] System linearized(const Unknowns& at, bool light_alone = false) const;
@@ -145,6 +103,8 @@ class Fit {
   Unknowns state_ = Unknowns::all(0.0);
   AlignScratch& pixels_;
   double residual_ = 0.0;
+  double noise_px_ = 0.0;     ///< What the pixels' noise does to a corner.
+  double bend_weight_ = 0.0;  ///< Of a straight tone curve.
 };
 
 /// The homography that takes the corners of a square of half side `h` to `corners`.
@@ -191,40 +151,7 @@ Fit::Fit(const GrayFrame& frame,
   if (!through_corners(half_cells_, from_middle, state_)) return;
   constexpr double kUsualBlurPx = 0.55;  // A sharp lens, and the pixel's own width.
   state_[kBlur] = std::log(kUsualBlurPx);
-  gather(frame);
-}
-
-void Fit::gather(const GrayFrame& frame) {
-  const cv::Matx33d image_from_cell = homography(state_);
-  const cv::Matx33d cell_from_image = image_from_cell.inv();
-  const double reach = half_cells_ + kRingCells;
-  glm::dvec2 low(std::numeric_limits<double>::max());
-  glm::dvec2 high(-low);
-  for (const auto& corner : kCornerSides) {
-    const cv::Vec3d p =
-        image_from_cell * cv::Vec3d(reach * corner[0], reach * corner[1], 1.0);
-    if (!(p[2] > 0.0)) return;  // So slanted that the horizon crosses the ring.
-    const glm::dvec2 pixel = middle_px_ + glm::dvec2(p[0], p[1]) / p[2];
-    low = glm::min(low, pixel);
-    high = glm::max(high, pixel);
-  }
-  const int x0 = std::max(0, static_cast<int>(std::ceil(low.x)));
-  const int y0 = std::max(0, static_cast<int>(std::ceil(low.y)));
-  const int x1 = std::min(frame.width_px - 1, static_cast<int>(std::floor(high.x)));
-  const int y1 = std::min(frame.height_px - 1, static_cast<int>(std::floor(high.y)));
-  // A large tag has pixels to spare; a grid of them bounds the cost.
-  constexpr int kMostPerSide = 72;
-  const int step = 1 + std::max(x1 - x0, y1 - y0) / kMostPerSide;
-  for (int y = y0; y <= y1; y += step) {
-    for (int x = x0; x <= x1; x += step) {
-      const glm::dvec2 p = glm::dvec2(x, y) - middle_px_;
-      const Place at = place_of(image_from_cell, cell_from_image, p.x, p.y);
-      if (std::max(std::abs(at.u), std::abs(at.v)) > reach) continue;
-      const std::uint8_t gray =
-          frame.pixels[static_cast<std::ptrdiff_t>(y) * frame.stride + x];
-      pixels_.push_back({p.x, p.y, light_of_gray()[gray]});
-    }
-  }
+  sample_tag(frame, pattern, homography(state_), middle_px_, pixels_);
 }
 
 void Fit::add(const AlignPixel& pixel,
@@ -236,9 +163,14 @@ void Fit::add(const AlignPixel& pixel,
   const double down = place.v / half_cells_;
   const double* light = at.val + kLight;
   const double contrast = light[1] + light[4] * across + light[5] * down;
-  const double shown =
-      light[0] + light[2] * across + light[3] * down + contrast * model.value;
+  // The tone curve: what is half white shows brighter than half by a quarter of its bend.
+  const double bulge = model.value * (1.0 - model.value);
+  const double value = model.value + at[kBend] * bulge;
+  const double shown = light[0] + light[2] * across + light[3] * down + contrast * value;
   const double error = pixel.light - shown;
+  // A clipped pixel says only on which side of it the light is.
+  if ((pixel.white && error < 0.0) || (pixel.black && error > 0.0)) return;
+  ++system.pixels;
 
   constexpr double kSurprise = 0.08;  // Of the contrast: dirt, a finger, a highlight.
   const double limit = kSurprise * std::abs(light[1]);
@@ -249,18 +181,22 @@ void Fit::add(const AlignPixel& pixel,
 
   std::array<double, kUnknowns> slope{};
   slope[kLight] = 1.0;
-  slope[kLight + 1] = model.value;
+  slope[kLight + 1] = value;
   slope[kLight + 2] = across;
   slope[kLight + 3] = down;
-  slope[kLight + 4] = across * model.value;
-  slope[kLight + 5] = down * model.value;
+  slope[kLight + 4] = across * value;
+  slope[kLight + 5] = down * value;
+  slope[kBend] = contrast * bulge;
   if (model.flat) {
     system.add(slope, kLight, weight, error);
     return;
   }
   // The pattern moves with its place, so a point of the image sees it move backwards.
-  const double by_x = -contrast * (model.by_u * place.u_by_x + model.by_v * place.v_by_x);
-  const double by_y = -contrast * (model.by_u * place.u_by_y + model.by_v * place.v_by_y);
+  const double steepness = contrast * (1.0 + at[kBend] * (1.0 - 2.0 * model.value));
+  const double by_x =
+      -steepness * (model.by_u * place.u_by_x + model.by_v * place.v_by_x);
+  const double by_y =
+      -steepness * (model.by_u * place.u_by_y + model.by_v * place.v_by_y);
   const double turn = -(by_x * pixel.x + by_y * pixel.y);
   const double per_depth = 1.0 / place.depth;
   const double u = place.u * per_depth;
@@ -273,7 +209,7 @@ void Fit::add(const AlignPixel& pixel,
   slope[5] = by_y * per_depth;
   slope[6] = turn * u;
   slope[7] = turn * v;
-  slope[kBlur] = contrast * model.by_log_sigma;
+  slope[kBlur] = steepness * model.by_log_sigma;
   system.add(slope, 0, weight, error);
 }
 
@@ -300,6 +236,9 @@ System Fit::linearized(const Unknowns& at, bool light_alone) const {
     model.flat |= light_alone;
     add(pixel, place, model, at, system);
   }
+  system.normal(kBend, kBend) += bend_weight_;
+  system.right[kBend] -= bend_weight_ * at[kBend];
+  system.cost += bend_weight_ * at[kBend] * at[kBend];
   system.close();
   return system;
 }
@@ -318,6 +257,15 @@ bool Fit::guess_light() {
   state_[kLight] = light[0];
   state_[kLight + 1] = light[1];
   constexpr double kLeastContrast = 0.01;  // Below, there is nothing to align.
+  bend_weight_ = std::pow(kUsualNoise / kUsualBend * light[1], 2);
+  const auto clipped = std::count_if(
+      pixels_.begin(), pixels_.end(), [](const AlignPixel& p) { return p.white; });
+  // Overexposed: white is beyond what pixels show, which a bend must not stand for.
+  constexpr int kFew = 20;
+  if (kFew * clipped > static_cast<std::ptrdiff_t>(pixels_.size())) {
+    state_[kLight + 1] *= 1.4;
+    bend_weight_ *= 100.0;
+  }
   return light[1] > kLeastContrast;
 }
 
@@ -336,6 +284,7 @@ bool Fit::run() {
     const Normal inverse = damped.inv(cv::DECOMP_CHOLESKY, &solved);
     if (!solved) return false;
     Unknowns next = state_ + inverse * system.right;
+    next[kBend] = std::clamp(next[kBend], -0.8, 0.8);
     next[kBlur] = std::clamp(next[kBlur], std::log(0.25), std::log(4.0));
     const System there = linearized(next);
     if (!(there.cost < system.cost)) {
@@ -350,8 +299,31 @@ bool Fit::run() {
     if (gain < 1e-2) break;
   }
   const double contrast = std::abs(state_[kLight + 1]);
-  residual_ = std::sqrt(system.squares / static_cast<double>(pixels_.size())) / contrast;
+  const double noise = std::sqrt(system.squares / std::max(1, system.pixels));
+  residual_ = noise / contrast;
+  noise_px_ = noise * spread(system.normal);
   return true;
+}
+
+double Fit::spread(const Normal& normal) const {
+  bool solved = false;
+  const Normal inverse = normal.inv(cv::DECOMP_CHOLESKY, &solved);
+  if (!solved) return std::numeric_limits<double>::infinity();
+  const cv::Matx<double, kPlace, kPlace> doubt = inverse.get_minor<kPlace, kPlace>(0, 0);
+  double sum = 0.0;
+  const cv::Matx33d h = homography(state_);
+  for (const auto& corner : kCornerSides) {
+    const cv::Vec3d cell(half_cells_ * corner[0], half_cells_ * corner[1], 1.0);
+    const cv::Vec3d p = h * cell;
+    const double w = 1.0 / p[2];
+    cv::Matx<double, 2, kPlace> slope = cv::Matx<double, 2, kPlace>::zeros();
+    for (int axis = 0; axis < 2; ++axis) {
+      for (int i = 0; i < 3; ++i) slope(axis, 3 * axis + i) = w * cell[i];
+      for (int i = 0; i < 2; ++i) slope(axis, 6 + i) = -w * w * p[axis] * cell[i];
+    }
+    sum += cv::trace(slope * doubt * slope.t());
+  }
+  return std::sqrt(sum / 8.0);
 }
 
 Alignment Fit::answer() const {
@@ -365,6 +337,8 @@ Alignment Fit::answer() const {
   }
   alignment.blur_px = std::exp(state_[kBlur]);
   alignment.residual = residual_;
+  alignment.sigma_px = aligned_corner_sigma_px(
+      noise_px_, residual_, alignment.blur_px, state_[kLight] + state_[kLight + 1]);
   return alignment;
 }
 
@@ -373,6 +347,7 @@ Alignment Fit::answer() const {
 std::optional<Alignment> align_pattern(const GrayFrame& frame,
                                        const TagPattern& pattern,
                                        const std::array<glm::dvec2, 4>& corners_px,
+                                       double slack_px,
                                        AlignScratch& scratch) {
   MAREY_ASSERT(pattern.cells - 2 * pattern.margin_cells >= 4);
   Fit fit(frame, pattern, corners_px, scratch);
@@ -383,11 +358,15 @@ std::optional<Alignment> align_pattern(const GrayFrame& frame,
       glm::distance(corners_px[0], corners_px[2]) / std::numbers::sqrt2;
   const double cell_px = side_px / (pattern.cells - 2 * pattern.margin_cells);
   constexpr double kLargestResidual = 0.25;
+  // A search along edges is drawn inward by the blur, most where light was clipped.
+  constexpr double kDrawnPerBlur = 2.0;
+  const double most_px =
+      std::min(1.5 * cell_px, slack_px + kDrawnPerBlur * alignment.blur_px);
   // Asked for what is good, so that a fit that went to NaN is refused.
   if (!(alignment.residual <= kLargestResidual)) return std::nullopt;
   for (std::size_t i = 0; i < 4; ++i) {
     const double moved_px = glm::distance(alignment.corners_px[i], corners_px[i]);
-    if (!(moved_px <= 1.5 * cell_px)) return std::nullopt;
+    if (!(moved_px <= most_px)) return std::nullopt;
   }
   return alignment;
 }

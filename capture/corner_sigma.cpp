@@ -3,32 +3,44 @@
 #include <algorithm>
 #include <cmath>
 
+#include "capture/align_pattern.h"
 #include "capture/detect_tags.h"
 #include "core/assert.h"
 
 // Both laws were fitted to rendered 720p video with known corners (noise of 2 grey
-// levels, lens blur of 0.4 to 0.5 px, H.264): 18000 sightings of tags of 14 to 35 px.
-// Root mean square of a coordinate, in px, at a side of
-//                                         14     18     22     26     30
-//   along edges, shrinkage taken off     0.26   0.15   0.13   0.11   0.11
-//   law                                  0.24   0.16   0.13   0.12   0.11
-//   aligned patterns                     0.10   0.09   0.08   0.07   0.07
-//   law                                  0.10   0.09   0.08   0.08   0.07
-// Most of it is not noise: a tag at rest keeps its error from frame to frame.
+// levels, lens blur of 0.4 to 0.5 px, H.264): 18000 and 56000 corners of tags of 12 to
+// 35 px.
 namespace marey::capture {
 
+// Root mean square of a coordinate, its shrinkage taken off, in px, at a side of
+//             14     18     22     26     30
+//   found    0.26   0.15   0.13   0.11   0.11
+//   law      0.24   0.16   0.13   0.12   0.11
 double edge_corner_sigma_px(double side_px) {
   MAREY_ASSERT(side_px > 0.0);
   const double small = 6.5 / side_px;
   return std::hypot(0.1, small * small);
 }
 
-double aligned_corner_sigma_px(double side_px, double blur_px) {
-  MAREY_ASSERT(side_px > 0.0 && blur_px >= 0.0);
-  // An edge's place is the less certain the wider it is smeared: 0.085 px below a blur of
-  // 0.7 px, 0.11 at 0.75, 0.14 at 0.9.
-  constexpr double kSharpPx = 0.6;
-  return std::max(1.0, blur_px / kSharpPx) * std::hypot(0.04, 0.34 / std::sqrt(side_px));
+// Of each fit's own noise, in px, and what was found:
+//   noise    0.023   0.038   0.052   0.061   0.070   0.079   0.104
+//   found    0.037   0.072   0.086   0.094   0.100   0.118   0.146
+double aligned_corner_sigma_px(double noise_px,
+                               double residual,
+                               double blur_px,
+                               double white) {
+  MAREY_ASSERT(noise_px >= 0.0 && residual >= 0.0 && blur_px > 0.0 && white >= 0.0);
+  // Neighbouring pixels err together, by compression above all: so the noise counts for
+  // more than that of as many pixels, and some of it moves a whole edge.
+  constexpr double kNoise = 1.4;
+  constexpr double kEdge = 0.9;
+  // A pixel is a box; where that is most of the blur, a Gaussian is not its shape. What
+  // is clipped is the upper part of each edge: the more of it, the more the shape of the
+  // rest matters. From drawn tags, upright ones being worst.
+  constexpr double kShapePx = 0.05;
+  const double box = std::min(1.0, 1.0 / (12.0 * blur_px * blur_px));
+  const double shape_px = kShapePx * box * std::pow(std::max(1.0, white), 1.5);
+  return std::hypot(kNoise * noise_px, kEdge * residual * blur_px, shape_px);
 }
 
 }  // namespace marey::capture

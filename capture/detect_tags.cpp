@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -184,10 +185,21 @@ void TagDetector::Impl::align(const GrayFrame& frame, TagDetection& tag) {
   if (known == patterns.end()) {
     known = patterns.emplace(tag.id, pattern_of(family_of(tag.id), tag.id)).first;
   }
-  const auto aligned = align_pattern(frame, known->second, tag.corners_px, scratch);
-  if (!aligned) return;
+  constexpr double kSigmas = 4.0;
+  constexpr double kKalibrPx = 1.5;  // White grown by a pixel.
+  const double slack_px = 0.5 + kSigmas * tag.sigma_px +
+                          static_cast<double>(detector->quad_decimate) - 1.0 +
+                          (on_kalibr_board ? kKalibrPx : 0.0);
+  const auto aligned =
+      align_pattern(frame, known->second, tag.corners_px, slack_px, scratch);
+  if (!aligned) {
+    // Among aligned tags nobody takes the shrinkage of this one off.
+    constexpr double kShrinkagePx = 0.3;
+    tag.sigma_px = std::hypot(tag.sigma_px, kShrinkagePx);
+    return;
+  }
   tag.corners_px = aligned->corners_px;
-  tag.sigma_px = aligned_corner_sigma_px(mean_side_px(tag.corners_px), aligned->blur_px);
+  tag.sigma_px = aligned->sigma_px;
 }
 
 void TagDetector::Impl::find(image_u8_t& image,

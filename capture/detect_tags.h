@@ -54,10 +54,12 @@ class TagDetector {
   ~TagDetector();
 
   /// Tags in `frame`, ids ascending, each id once. An image too small to hold a tag has
-  /// none. sigma_px is aligned_corner_sigma_px() of the tag's mean side, or
-  /// edge_corner_sigma_px() where its pattern was not aligned; twice that where a bit of
-  /// its code was corrected. Same image, same answer: nothing is remembered but the
-  /// counts in dropped(). About 24 ms at 1280x720 and 1 ms for each tag.
+  /// none. sigma_px is what the fit of the tag's pattern says (capture/align_pattern.h):
+  /// more for less contrast, more blur and whatever else does not look like the tag. It
+  /// is edge_corner_sigma_px() where options ask for no such fit, and that with 0.3 px of
+  /// shrinkage where the fit failed; twice that where a bit of its code was corrected.
+  /// Same image, same answer: nothing is remembered but the counts in dropped(). About 24
+  /// ms at 1280x720 and 1 ms for each tag.
   [[nodiscard]] std::vector<TagDetection> detect(const GrayFrame& frame);
 
   /// detect() in parts, for who knows where to look: appends the sightings in `box`,
@@ -84,10 +86,5 @@ class TagDetector {
 /// is left after the common shrinkage (TagShrinkage) is taken off, which it does not
 /// cover. Precondition: side_px > 0.
 [[nodiscard]] double edge_corner_sigma_px(double side_px);
-
-/// The same for aligned patterns, whose shrinkage is small and covered. `blur_px` is the
-/// blur that the alignment found.
-/// Preconditions: side_px > 0, blur_px >= 0.
-[[nodiscard]] double aligned_corner_sigma_px(double side_px, double blur_px);
 
 }  // namespace marey::capture

@@ -39,8 +39,11 @@ double worst_px(const Corners& a, const Corners& b) {
 
 std::optional<Alignment> align(const cv::Mat& image, const DrawnTag& tag) {
   AlignScratch scratch;
-  return align_pattern(
-      tests::frame_of(image), tests::pattern_of(tag), displaced(tag.corners_px), scratch);
+  return align_pattern(tests::frame_of(image),
+                       tests::pattern_of(tag),
+                       displaced(tag.corners_px),
+                       /*slack_px=*/1.0,
+                       scratch);
 }
 
 // 0.04 px: the drawing has 8 steps to a pixel and the image 256 greys.

@@ -262,11 +262,15 @@ TEST(DetectTags, RefusesToForgiveManyBits) {
 
 TEST(CornerSigma, FallsAsTagsGrow) {
   EXPECT_GT(edge_corner_sigma_px(14.0), edge_corner_sigma_px(58.0));
-  EXPECT_GT(aligned_corner_sigma_px(14.0, 0.5), aligned_corner_sigma_px(58.0, 0.5));
 }
 
-TEST(CornerSigma, GrowsWithBlur) {
-  EXPECT_GT(aligned_corner_sigma_px(25.0, 2.0), 1.9 * aligned_corner_sigma_px(25.0, 1.0));
+TEST(CornerSigma, GrowsWithNoiseBlurAndClipping) {
+  EXPECT_GT(aligned_corner_sigma_px(0.05, 0.08, 0.5, 0.8),
+            1.5 * aligned_corner_sigma_px(0.03, 0.05, 0.5, 0.8));
+  EXPECT_GT(aligned_corner_sigma_px(0.03, 0.05, 2.0, 0.8),
+            1.5 * aligned_corner_sigma_px(0.03, 0.05, 0.5, 0.8));
+  EXPECT_GT(aligned_corner_sigma_px(0.01, 0.02, 0.5, 2.0),
+            1.5 * aligned_corner_sigma_px(0.01, 0.02, 0.5, 1.0));
 }
 
 }  // namespace

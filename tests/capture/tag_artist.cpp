@@ -5,57 +5,32 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <stdexcept>
 
-#include <apriltag/apriltag.h>
-#include <apriltag/tag25h9.h>
-#include <apriltag/tag36h11.h>
-#include <apriltag/tagCircle21h7.h>
-#include <apriltag/tagStandard41h12.h>
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
+
+#include "capture/tag_pattern.h"
 
 namespace marey::tests {
 namespace {
 
-struct FamilyMaker {
-  const char* name;
-  apriltag_family_t* (*create)();
-  void (*destroy)(apriltag_family_t*);
-};
-
-constexpr std::array<FamilyMaker, 4> kMakers{{
-    {"tag25h9", tag25h9_create, tag25h9_destroy},
-    {"tag36h11", tag36h11_create, tag36h11_destroy},
-    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy},
-    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
-}};
-
-/// libapriltag's own drawing of a tag, one pixel a cell, and how many cells lie between
-/// the edge of the paper and the square whose corners are detected.
+/// The tag as it is printed, one pixel a cell, and how many cells lie between the edge of
+/// the paper and the square whose corners are detected.
 struct Bitmap {
   cv::Mat cells;
   int margin_cells = 0;
 };
 
 Bitmap bitmap_of(const DrawnTag& tag) {
-  for (const FamilyMaker& maker : kMakers) {
-    if (tag.family != maker.name) continue;
-    apriltag_family_t* family = maker.create();
-    image_u8_t* image = apriltag_to_image(family, tag.id);
-    Bitmap bitmap;
-    bitmap.margin_cells = (family->total_width - family->width_at_border) / 2;
-    cv::Mat(image->height,
-            image->width,
-            CV_8UC1,
-            image->buf,
-            static_cast<std::size_t>(image->stride))
-        .copyTo(bitmap.cells);
-    image_u8_destroy(image);
-    maker.destroy(family);
-    return bitmap;
-  }
-  throw std::invalid_argument("no such family: " + tag.family);
+  const TagPattern pattern = pattern_of(tag);
+  Bitmap bitmap{cv::Mat(pattern.cells, pattern.cells, CV_8UC1), pattern.margin_cells};
+  std::transform(pattern.white.begin(),
+                 pattern.white.end(),
+                 bitmap.cells.begin<std::uint8_t>(),
+                 [](std::uint8_t white) { return white != 0 ? 255 : 0; });
+  return bitmap;
 }
 
 /// Light, 0 to 1, as 8-bit grey, and back. IEC 61966-2-1.
@@ -93,13 +68,19 @@ cv::Point2f finer(double u, double v) {
 }
 
 void draw_tag(const DrawnTag& tag, cv::Mat& fine_image) {
-  constexpr int kCellPixels = 32;
   const Bitmap bitmap = bitmap_of(tag);
+  const double square_cells = bitmap.cells.cols - 2.0 * bitmap.margin_cells;
+  // No coarser than the fine image, or interpolation would blur the edges of large tags.
+  const int cell_pixels = std::max(
+      32,
+      static_cast<int>(
+          std::ceil(kFiner * glm::distance(tag.corners_px[0], tag.corners_px[2]) /
+                    (std::numbers::sqrt2 * square_cells))));
   cv::Mat paper;
-  cv::resize(bitmap.cells, paper, {}, kCellPixels, kCellPixels, cv::INTER_NEAREST);
-  const auto low = static_cast<float>(bitmap.margin_cells * kCellPixels) - 0.5F;
+  cv::resize(bitmap.cells, paper, {}, cell_pixels, cell_pixels, cv::INTER_NEAREST);
+  const auto low = static_cast<float>(bitmap.margin_cells * cell_pixels) - 0.5F;
   const auto high =
-      static_cast<float>((bitmap.cells.cols - bitmap.margin_cells) * kCellPixels) - 0.5F;
+      static_cast<float>((bitmap.cells.cols - bitmap.margin_cells) * cell_pixels) - 0.5F;
   const std::array<cv::Point2f, 4> from{
       {{low, high}, {high, high}, {high, low}, {low, low}}};
   std::array<cv::Point2f, 4> to;
@@ -142,10 +123,14 @@ cv::Mat draw_tags(int width_px, int height_px, const std::vector<DrawnTag>& tags
 cv::Mat disturbed(const cv::Mat& image,
                   double blur_sigma_px,
                   double noise_sigma,
-                  unsigned seed) {
+                  unsigned seed,
+                  const Exposure& exposure) {
   cv::Mat blurred = mapped(image, light_of_gray);
-  cv::GaussianBlur(blurred, blurred, {0, 0}, blur_sigma_px);
-  blurred = mapped(blurred, gray_of_light);
+  if (blur_sigma_px > 0.0) cv::GaussianBlur(blurred, blurred, {0, 0}, blur_sigma_px);
+  blurred = mapped(blurred, [&exposure](double light) {
+    const double gray = gray_of_light(std::min(1.0, exposure.gain * light));
+    return 255.0 * std::pow(gray / 255.0, exposure.tone);
+  });
   cv::Mat noise(image.size(), CV_32F);
   cv::RNG random(seed);
   random.fill(noise, cv::RNG::NORMAL, 0.0, noise_sigma);
@@ -155,16 +140,10 @@ cv::Mat disturbed(const cv::Mat& image,
 }
 
 TagPattern pattern_of(const DrawnTag& tag) {
-  const Bitmap bitmap = bitmap_of(tag);
-  TagPattern pattern;
-  pattern.cells = bitmap.cells.cols;
-  pattern.margin_cells = bitmap.margin_cells;
-  for (int y = 0; y < bitmap.cells.rows; ++y) {
-    for (int x = 0; x < bitmap.cells.cols; ++x) {
-      pattern.white.push_back(bitmap.cells.at<std::uint8_t>(y, x) != 0 ? 1 : 0);
-    }
-  }
-  return pattern;
+  const auto patterns =
+      capture::tag_patterns(tag.family, std::array{static_cast<TagId>(tag.id)});
+  if (!patterns) throw std::invalid_argument(patterns.error().message());
+  return patterns->front();
 }
 
 capture::GrayFrame frame_of(const cv::Mat& gray) {

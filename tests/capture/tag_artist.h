@@ -36,12 +36,19 @@ struct DrawnTag {
                                 int height_px,
                                 const std::vector<DrawnTag>& tags);
 
-/// Blurs the light as a lens does and adds noise [grey levels]. The same seed gives the
-/// same noise.
+/// How a camera turns light into grey.
+struct Exposure {
+  double gain = 1.0;  ///< Of the light; what then exceeds 1 is clipped. Paper is 0.72.
+  double tone = 1.0;  ///< Exponent on top of sRGB's curve: below 1 lifts the shadows.
+};
+
+/// Blurs the light as a lens does, exposes it and adds noise [grey levels]. The same seed
+/// gives the same noise.
 [[nodiscard]] cv::Mat disturbed(const cv::Mat& image,
                                 double blur_sigma_px,
                                 double noise_sigma,
-                                unsigned seed);
+                                unsigned seed,
+                                const Exposure& exposure = {});
 
 /// The cells of a tag.
 [[nodiscard]] TagPattern pattern_of(const DrawnTag& tag);
