@@ -34,13 +34,18 @@ double aligned_corner_sigma_px(double noise_px,
   // more than that of as many pixels, and some of it moves a whole edge.
   constexpr double kNoise = 1.4;
   constexpr double kEdge = 0.9;
-  // A pixel is a box; where that is most of the blur, a Gaussian is not its shape. What
-  // is clipped is the upper part of each edge: the more of it, the more the shape of the
-  // rest matters. From drawn tags, upright ones being worst.
+  // A pixel is a box; where that is most of the blur, a Gaussian is not its shape. Where
+  // white is clipped, only the lower part of each edge is seen, and the shape matters
+  // more. From drawn tags, upright ones being worst.
   constexpr double kShapePx = 0.05;
-  const double box = std::min(1.0, 1.0 / (12.0 * blur_px * blur_px));
-  const double shape_px = kShapePx * box * std::pow(std::max(1.0, white), 1.5);
-  return std::hypot(kNoise * noise_px, kEdge * residual * blur_px, shape_px);
+  constexpr double kClippedPx = 0.055;
+  const double shape_px = kShapePx * std::min(1.0, 1.0 / (12.0 * blur_px * blur_px));
+  const double clipped_px = white > 1.0 ? kClippedPx * white : 0.0;
+  // All edges between two pixels: nothing says where, but it is within one.
+  constexpr double kMostNoisePx = 0.3;
+  return std::hypot(kNoise * std::min(noise_px, kMostNoisePx),
+                    kEdge * residual * blur_px,
+                    std::hypot(shape_px, clipped_px));
 }
 
 }  // namespace marey::capture

@@ -111,8 +111,8 @@ void Sampler::run() {
   y1_ = std::min(frame_.height_px - 1, static_cast<int>(std::floor(high.y)));
   // A large tag has pixels to spare, and most of them are far from any edge.
   constexpr int kMostPerSide = 72;
-  constexpr int kBlocksPerSide = 32;
-  constexpr int kRows = 450;
+  constexpr int kBlocksPerSide = 24;
+  constexpr int kRows = 250;
   const double side_px = std::max(high.x - low.x, high.y - low.y);
   if (!(side_px >= kMostPerSide)) {
     take_blocks(1);
