@@ -12,6 +12,7 @@
 #include <opencv2/core.hpp>
 
 #include "capture/blurred_pattern.h"
+#include "capture/cell_place.h"
 #include "capture/sample_tag.h"
 #include "core/assert.h"
 #include "core/detection.h"

@@ -13,24 +13,6 @@
 // Private to capture/.
 namespace marey::capture {
 
-/// Where a pixel lies among the cells of a tag.
-struct Place {
-  double u = 0.0;  ///< From the tag's middle. [cells]
-  double v = 0.0;
-  double depth = 1.0;   ///< Third homogeneous coordinate, seen from the cells.
-  double u_by_x = 0.0;  ///< [cells/px]
-  double u_by_y = 0.0;
-  double v_by_x = 0.0;
-  double v_by_y = 0.0;
-};
-
-/// The place of pixel `x`, `y`, counted from where `image_from_cell` counts.
-/// Precondition: the second matrix is the inverse of the first.
-[[nodiscard]] Place place_of(const cv::Matx33d& image_from_cell,
-                             const cv::Matx33d& cell_from_image,
-                             double x,
-                             double y);
-
 /// A pixel of a tag, relative to the tag's middle, and its light.
 struct AlignPixel {
   double x = 0.0;

@@ -89,6 +89,18 @@ TEST(AlignPattern, HeedsNoShadowOverTheTag) {
   EXPECT_LT(worst_px(found->corners_px, tag.corners_px), 0.1 /* px */);
 }
 
+// 2.5 px off, half a cell, is found, but is more than a search along edges can be.
+TEST(AlignPattern, DeclinesToMoveCornersFurtherThanTheyCanBeOff) {
+  const DrawnTag tag{"tag36h11", 17, tests::square({60.0, 60.0}, 44.0, 0.3)};
+  const cv::Mat image = tests::disturbed(tests::draw_tags(120, 120, {tag}), 0.5, 1.0, 5);
+  Corners start = tag.corners_px;
+  for (auto& corner : start) corner.x += 2.5;
+  AlignScratch scratch;
+  const TagPattern pattern = tests::pattern_of(tag);
+  EXPECT_TRUE(align_pattern(tests::frame_of(image), pattern, start, 3.0, scratch));
+  EXPECT_FALSE(align_pattern(tests::frame_of(image), pattern, start, 1.0, scratch));
+}
+
 TEST(AlignPattern, DeclinesAnImageWithoutTheTag) {
   const DrawnTag tag = small_tag();
   EXPECT_FALSE(align(cv::Mat(100, 110, CV_8UC1, cv::Scalar(128)), tag));

@@ -260,18 +260,5 @@ TEST(DetectTags, RefusesToForgiveManyBits) {
   EXPECT_EQ(made.error().cause, "max_hamming must be 0, 1 or 2");
 }
 
-TEST(CornerSigma, FallsAsTagsGrow) {
-  EXPECT_GT(edge_corner_sigma_px(14.0), edge_corner_sigma_px(58.0));
-}
-
-TEST(CornerSigma, GrowsWithNoiseBlurAndClipping) {
-  EXPECT_GT(aligned_corner_sigma_px(0.05, 0.08, 0.5, 0.8),
-            1.5 * aligned_corner_sigma_px(0.03, 0.05, 0.5, 0.8));
-  EXPECT_GT(aligned_corner_sigma_px(0.03, 0.05, 2.0, 0.8),
-            1.5 * aligned_corner_sigma_px(0.03, 0.05, 0.5, 0.8));
-  EXPECT_GT(aligned_corner_sigma_px(0.01, 0.02, 0.5, 2.0),
-            1.5 * aligned_corner_sigma_px(0.01, 0.02, 0.5, 1.0));
-}
-
 }  // namespace
 }  // namespace marey::capture

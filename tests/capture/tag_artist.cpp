@@ -70,12 +70,13 @@ cv::Point2f finer(double u, double v) {
 void draw_tag(const DrawnTag& tag, cv::Mat& fine_image) {
   const Bitmap bitmap = bitmap_of(tag);
   const double square_cells = bitmap.cells.cols - 2.0 * bitmap.margin_cells;
+  const double fine_cell_pixels = kFiner *
+                                  glm::distance(tag.corners_px[0], tag.corners_px[2]) /
+                                  (std::numbers::sqrt2 * square_cells);
   // No coarser than the fine image, or interpolation would blur the edges of large tags.
-  const int cell_pixels = std::max(
-      32,
-      static_cast<int>(
-          std::ceil(kFiner * glm::distance(tag.corners_px[0], tag.corners_px[2]) /
-                    (std::numbers::sqrt2 * square_cells))));
+  // A power of two: cv::resize rounds others to a neighbouring pixel.
+  int cell_pixels = 32;
+  while (cell_pixels < fine_cell_pixels) cell_pixels *= 2;
   cv::Mat paper;
   cv::resize(bitmap.cells, paper, {}, cell_pixels, cell_pixels, cv::INTER_NEAREST);
   const auto low = static_cast<float>(bitmap.margin_cells * cell_pixels) - 0.5F;
