@@ -55,6 +55,8 @@ Exit exit_for(Errc code) {
       return Exit::kInternal;
     case Errc::kBadInput:
       return Exit::kBadInput;
+    case Errc::kQuality:
+      return Exit::kQualityGate;
     case Errc::kDevice:
       return Exit::kDevice;
   }

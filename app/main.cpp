@@ -78,6 +78,17 @@ void add_session_command(CLI::App& app,
   });
 }
 
+/// CLI::Range, which lets pass what is no number.
+CLI::Validator between(double low, double high) {
+  const CLI::Range range(low, high);
+  return CLI::Validator(
+      [range](std::string& word) {
+        const bool is_nan = CLI::detail::to_lower(word).find("nan") != std::string::npos;
+        return is_nan ? "Value " + word + " is no number" : range(word);
+      },
+      range.get_description());
+}
+
 void add_record(CLI::App& app, Arguments& args, Command& chosen) {
   CLI::App* command = app.add_subcommand("record", "Record a trial from the cameras");
   command->add_option("session", args.record.session, "session.toml, or its folder")
@@ -86,7 +97,7 @@ void add_record(CLI::App& app, Arguments& args, Command& chosen) {
   command->add_option("--trial", args.record.trial, "The session's trial to record")
       ->required();
   command->add_option("--seconds", args.record.seconds, "Stop by itself after so long")
-      ->check(CLI::PositiveNumber);
+      ->check(between(0.001, 1e6));
   command->callback([&] {
     chosen = [&args](Console& console) { return run_record(args.record, console); };
   });
@@ -103,17 +114,6 @@ void add_retarget(CLI::App& app, Arguments& args, Command& chosen) {
       return run_retarget(args.motion, args.avatar, args.out, args.json, console);
     };
   });
-}
-
-/// CLI::Range, which lets pass what is no number.
-CLI::Validator between(double low, double high) {
-  const CLI::Range range(low, high);
-  return CLI::Validator(
-      [range](std::string& word) {
-        const bool is_nan = CLI::detail::to_lower(word).find("nan") != std::string::npos;
-        return is_nan ? "Value " + word + " is no number" : range(word);
-      },
-      range.get_description());
 }
 
 void add_mannequin(CLI::App& app, Arguments& args, Command& chosen) {
@@ -202,7 +202,14 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(Exit::kUsage);
   }
   Console console(args.style_of_progress());
-  return static_cast<int>(chosen(console));
+  const Exit exit = chosen(console);
+  const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (told || exit != Exit::kOk) return static_cast<int>(exit);
+  return static_cast<int>(console.fail({Errc::kDevice,
+                                        "standard output",
+                                        "what was asked for cannot be written",
+                                        "free some disk space, or read on in the other "
+                                        "program"}));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "app/calibrate_session.h"
 #include "app/find_tags.h"
+#include "app/judge_quality.h"
 #include "app/report_trial.h"
 #include "app/retarget_files.h"
 #include "app/version.h"
@@ -129,8 +130,21 @@ void Pipeline::time_stage(const std::string& name, double seconds) {
 
 Status Pipeline::track() {
   const Stopwatch watch;
+  std::set<std::string> lost;
   for (const Trial& trial : session_.trials) {
-    if (const Status ok = track_trial(trial); !ok) return ok;
+    const Status ok = track_trial(trial);
+    if (ok) continue;
+    if (trial.kind != TrialKind::kMotion) return ok;
+    // Other motions can do without this one.
+    report_.warnings.push_back(ok.error().message());
+    failures_.push_back(ok.error());
+    lost.insert(trial.name);
+  }
+  std::erase_if(session_.trials, [&](const Trial& t) { return lost.contains(t.name); });
+  if (!lost.empty() && motion_trials().empty()) {
+    const Error error = failures_.back();
+    failures_.pop_back();
+    return error;
   }
   time_stage("tags", watch.seconds());
   return Done{};
@@ -384,6 +398,10 @@ Status Pipeline::write_report() {
           std::max(longest_s, static_cast<double>(camera.frames.size()) / camera.rate.hz);
     }
     report_.recorded_s += longest_s;
+  }
+  for (const Error& poor : judge_quality(report_)) {
+    report_.warnings.push_back(poor.message());
+    failures_.push_back(poor);
   }
   time_stage("report", watch.seconds());
   if (const Status ok =

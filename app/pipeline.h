@@ -47,7 +47,8 @@ class Pipeline {
                                              Console& console);
 
   /// Tag corners of every trial, from the cache in OUT/TRIAL/detections where it is
-  /// current.
+  /// current. A motion trial that cannot be read is a failure, and left out from then on;
+  /// an error when it was the last.
   [[nodiscard]] Status track();
   /// Cameras: OUT/calibration.toml.
   [[nodiscard]] Status calibrate();
@@ -63,8 +64,8 @@ class Pipeline {
   [[nodiscard]] Status write_report();
 
   [[nodiscard]] const Report& report() const { return report_; }
-  /// What should have been there and is missing, though the rest went on without it; also
-  /// among the report's warnings.
+  /// What should have been there and is missing, though the rest went on without it, and
+  /// what is too poor to be trusted; also among the report's warnings.
   [[nodiscard]] const std::vector<Error>& failures() const { return failures_; }
 
  private:

@@ -13,6 +13,7 @@
 
 #include "app/print_commands.h"
 #include "capture/tag_pattern.h"
+#include "core/extension.h"
 #include "recordings/pdf_write.h"
 #include "recordings/print_tags.h"
 #include "recordings/session.h"
@@ -117,6 +118,10 @@ Exit write(const PrintArguments& args,
            const Json& more,
            Console& console) {
   if (!document) return console.fail(document.error());
+  if (kind_by_extension(args.out) != ".pdf") {
+    return console.fail(
+        bad_input(args.out.string(), "pages are written as PDF alone", "name it .pdf"));
+  }
   const Status written = recordings::write_pdf(args.out, *document);
   if (!written) return console.fail(written.error());
   const std::size_t pages = document->pages.size();

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 #include "app/commands.h"
+#include "app/judge_quality.h"
 
 namespace marey::app {
 namespace {
@@ -76,12 +79,19 @@ Exit run_session(Stage stage,
     }
     return console.fail(ok.error());
   }
-  tell(pipeline->report(), pipeline->failures(), options.out, console);
+  std::vector<Error> failures = pipeline->failures();
+  if (stage == Stage::kCalibrate) {
+    // Where a report is written, it is judged already.
+    for (Error& poor : judge_quality(pipeline->report())) {
+      failures.push_back(std::move(poor));
+    }
+  }
+  tell(pipeline->report(), failures, options.out, console);
   if (json) std::fputs(report_json(pipeline->report()).c_str(), stdout);
   // The rest is done and written; that something is missing must still not pass for
   // whole.
   Exit exit = Exit::kOk;
-  for (const Error& failure : pipeline->failures()) exit = console.fail(failure);
+  for (const Error& failure : failures) exit = console.fail(failure);
   return exit;
 }
 

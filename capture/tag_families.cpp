@@ -18,6 +18,7 @@
 #include <apriltag/tagStandard52h13.h>
 
 #include "core/assert.h"
+#include "core/tag_family.h"
 
 namespace marey::capture {
 namespace {
@@ -34,7 +35,7 @@ apriltag_family_t* create_tag36h11b2() {
   return family;
 }
 
-constexpr std::array<FamilyMaker, 10> kFamilies{{
+constexpr std::array<FamilyMaker, kTagFamilies.size()> kFamilies{{
     {"tag16h5", tag16h5_create, tag16h5_destroy},
     {"tag25h9", tag25h9_create, tag25h9_destroy},
     {"tag36h10", tag36h10_create, tag36h10_destroy},

@@ -14,6 +14,7 @@ namespace marey {
 enum class Errc {
   kInternal,  ///< A bug of ours.
   kBadInput,  ///< A file or setting of the user's.
+  kQuality,   ///< Done, but too poor to be trusted.
   kDevice,    ///< A camera, disk or network.
 };
 

@@ -19,11 +19,16 @@ namespace marey::reconstruct {
 namespace {
 
 constexpr std::size_t kFrames = 200;
-constexpr std::size_t kEnough = 10;
+constexpr std::size_t kEnough = 6;
 // Quick movement seen by cameras a few milliseconds apart is off by some pixels; another
 // camera's picture by a hundred.
 constexpr double kDisagreePx = 12.0;
-constexpr double kSizeTolerance = 0.06;
+// Sides that several cameras measure are right to half a percent. A ruler is wrong by one
+// at most, unless it was read wrongly.
+constexpr double kSizeTolerance = 0.025;
+constexpr double kCommonTolerance = 0.02;
+// A size that differs by more with who looks is no fault of the print's.
+constexpr double kSizeSpread = 0.06;
 
 struct Agreement {
   /// Per tag sighted twice, by camera that took part.
@@ -169,35 +174,42 @@ double spread(std::vector<double> samples) {
 Status check_sizes(const Agreement& agreement,
                    std::span<const CameraDetections> detections,
                    std::span<const TagOnSegment> tags) {
+  struct Size {
+    std::size_t tag;
+    double ratio;  ///< Measured over declared.
+    double spread;
+  };
+  std::vector<Size> sizes;
   std::vector<double> ratios;
-  std::vector<double> spreads;
-  std::string wrong;
-  std::string correct;
   for (const auto& [tag, samples] : agreement.size) {
     if (samples.size() < kEnough) continue;
-    const double ratio = median(samples);
-    ratios.push_back(ratio);
-    if (std::abs(ratio - 1.0) < kSizeTolerance) continue;
-    spreads.push_back(spread(samples));
-    const std::string id = std::to_string(number(tags[tag].id));
-    wrong +=
-        (wrong.empty() ? "tag " : ", tag ") + id +
-        text(" measures %.3f m, not %.3f m", ratio * tags[tag].size_m, tags[tag].size_m);
+    sizes.push_back({tag, median(samples), spread(samples)});
+    ratios.push_back(sizes.back().ratio);
+  }
+  if (sizes.empty()) return Done{};
+  const double common = median(std::move(ratios));
+  const bool all_alike = sizes.size() > 2 && std::ranges::all_of(sizes, [&](auto& size) {
+                           return std::abs(size.ratio / common - 1.0) < kSizeTolerance;
+                         });
+  const bool all_wrong = all_alike && std::abs(common - 1.0) >= kCommonTolerance;
+  std::string wrong;
+  std::vector<double> spreads;
+  for (const Size& size : sizes) {
+    if (!all_wrong && std::abs(size.ratio - 1.0) < kSizeTolerance) continue;
+    const TagOnSegment& tag = tags[size.tag];
+    spreads.push_back(size.spread);
+    wrong += (wrong.empty() ? "tag " : ", tag ") + std::to_string(number(tag.id)) +
+             text(" measures %.3f m, not %.3f m", size.ratio * tag.size_m, tag.size_m);
   }
   if (wrong.empty()) return Done{};
   // A print has one size. One that changes with who looks is no fault of the print's.
-  if (median(spreads) > kSizeTolerance) {
-    return cameras_disagree(detections,
-                            text("the size of one tag differs by %.0f %% between them",
-                                 100.0 * median(spreads)));
+  const double spread = median(std::move(spreads));
+  if (spread > kSizeSpread) {
+    return cameras_disagree(
+        detections,
+        text("the size of one tag differs by %.0f %% between them", 100.0 * spread));
   }
-  const double common = median(ratios);
-  const auto alike = std::count_if(ratios.begin(), ratios.end(), [&](double r) {
-    return std::abs(r / common - 1.0) < kSizeTolerance;
-  });
-  const bool all_alike = std::abs(common - 1.0) >= kSizeTolerance && ratios.size() > 2 &&
-                         static_cast<std::size_t>(alike) == ratios.size();
-  if (all_alike) {
+  if (all_wrong) {
     return bad_input(
         "[[tags.tag]] and [board]",
         text("every tag on the body measures %.2f times its size_m against the board",
@@ -208,7 +220,8 @@ Status check_sizes(const Agreement& agreement,
   return bad_input("[[tags.tag]]",
                    wrong,
                    "measure the print (edge of the black square, in metres) and correct "
-                   "size_m in session.toml");
+                   "size_m in session.toml; if it is right, a camera was moved after the "
+                   "calibration");
 }
 
 }  // namespace

@@ -109,6 +109,12 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
     return bad_input(
         path.string(), "a folder is in the way of the file", "remove or rename it");
   }
+  // Renaming onto a device or a pipe would put an ordinary file in its place.
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+    return bad_input(path.string(),
+                     "it is a device or a pipe, not a file",
+                     "name a file: results appear whole or not at all");
+  }
   if (const Status made = make_parent_folder(path); !made) return made.error();
   AtomicFile file(path);
   remember(file.partial_.string());  // Before it is there, so that no signal is between.

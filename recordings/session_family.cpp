@@ -3,39 +3,21 @@
 #include "recordings/session_family.h"
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "recordings/nearest_word.h"
 
 namespace marey::recordings {
-namespace {
-
-/// How many tags each has: apriltag 3.3, ncodes.
-constexpr std::array<KnownFamily, 10> kFamilies{{
-    {"tag36h11", 587},
-    {"tag36h11b2", 587},
-    {"tag25h9", 35},
-    {"tag16h5", 30},
-    {"tag36h10", 2320},
-    {"tagStandard41h12", 2115},
-    {"tagCircle21h7", 38},
-    {"tagCircle49h12", 65535},
-    {"tagCustom48h12", 42211},
-    {"tagStandard52h13", 48714},
-}};
-
-}  // namespace
 
 KnownFamily usual_family() {
-  return kFamilies[0];
+  return kTagFamilies[0];
 }
 
 KnownFamily read_family(TomlReader& reader, const KnownFamily& usual) {
   if (!reader.has("family")) return usual;
   const std::string word = reader.text("family");
   std::vector<std::string_view> names;
-  for (const KnownFamily& family : kFamilies) {
+  for (const KnownFamily& family : kTagFamilies) {
     if (family.name == word) return family;
     names.push_back(family.name);
   }

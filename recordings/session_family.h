@@ -2,20 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <string_view>
-
+#include "core/tag_family.h"
 #include "recordings/session.h"
 #include "recordings/toml_reader.h"
 
 // Private to recordings.
 namespace marey::recordings {
-
-/// A family of tags that a session may name.
-struct KnownFamily {
-  std::string_view name;
-  int tags = 0;  ///< Ids go from 0 up to but without this.
-};
 
 /// The family that a table's `family` names, or `usual` without that key. Mistake: a
 /// family that marey does not read.

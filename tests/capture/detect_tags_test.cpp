@@ -3,11 +3,14 @@
 #include "capture/detect_tags.h"
 
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "capture/tag_pattern.h"
+#include "core/tag_family.h"
 #include "tests/capture/tag_artist.h"
 
 namespace marey::capture {
@@ -90,8 +93,12 @@ TEST(DetectTags, FindsCornersWithinItsDoubtUnderBlurAndNoise) {
   EXPECT_LT(tests::worst_corner_px(found[0], truth), 3.0 * found[0].sigma_px * 1.42);
 }
 
-TEST(DetectTags, KnowsOtherFamilies) {
-  for (const char* family : {"tag25h9", "tagStandard41h12", "tagCircle21h7"}) {
+TEST(DetectTags, KnowsEveryFamilyThatASessionMayName) {
+  for (const KnownFamily& known : kTagFamilies) {
+    const std::string family(known.name);
+    const auto shape = tag_family_shape(family);
+    ASSERT_TRUE(shape) << family;
+    EXPECT_EQ(shape->tag_count, known.tags) << family;
     const DrawnTag truth{family, 5, tests::square({120.2, 99.7}, 60.0, 0.2)};
     const auto found =
         detect(tests::draw_tags(240, 200, {truth}), {.families = {{family, {}}}});

@@ -111,6 +111,36 @@ TEST(CheckViews, BlamesThePrintWhenAllTagsAreOfAnotherSize) {
             "every tag on the body measures 0.80 times its size_m against the board");
 }
 
+TEST(CheckViews, NoticesSizesThatAreThreePercentWrong) {
+  Scene one;
+  one.tags[3].size_m *= 1.03;
+  const Status of_one = check_views(one.cameras, one.detections, one.tags);
+  ASSERT_FALSE(of_one);
+  EXPECT_EQ(of_one.error().cause, "tag 43 measures 0.090 m, not 0.093 m");
+  Scene all;
+  for (TagOnSegment& tag : all.tags) tag.size_m /= 1.03;
+  const Status of_all = check_views(all.cameras, all.detections, all.tags);
+  ASSERT_FALSE(of_all);
+  EXPECT_EQ(of_all.error().cause,
+            "every tag on the body measures 1.03 times its size_m against the board");
+}
+
+TEST(CheckViews, PassesWhatARulerMayBeWrongBy) {
+  Scene scene;
+  for (TagOnSegment& tag : scene.tags) tag.size_m *= 1.01;
+  EXPECT_TRUE(check_views(scene.cameras, scene.detections, scene.tags));
+}
+
+TEST(CheckViews, NoticesASwapInEightFrames) {
+  Scene scene;
+  scene.swap_files(1, 2);
+  for (CameraDetections& camera : scene.detections) camera.frames.resize(8);
+  const Status status = check_views(scene.cameras, scene.detections, scene.tags);
+  ASSERT_FALSE(status);
+  EXPECT_TRUE(contains(status.error().cause, "files look swapped"))
+      << status.error().cause;
+}
+
 TEST(CheckViews, PassesWhenThereIsNothingToJudge) {
   // One camera alone sees tags: wrong sizes and all, nobody can tell.
   Scene scene;

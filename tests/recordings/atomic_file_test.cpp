@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/support/scratch_folder.h"
@@ -123,6 +124,16 @@ TEST(AtomicFile, DeclinesAFileWhereAFolderIs) {
   const Status status = write_file(folder / "taken", "a");
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().cause, "a folder is in the way of the file");
+}
+
+TEST(AtomicFile, LeavesPipesAndDevicesAsTheyAre) {
+  const ScratchFolder folder;
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const Result<AtomicFile> file = AtomicFile::create(pipe);
+  ASSERT_FALSE(file);
+  EXPECT_EQ(file.error().code, Errc::kBadInput);
+  EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
 TEST(AtomicFile, DeclinesAFolderWhereAFileIs) {

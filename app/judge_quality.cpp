@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/judge_quality.h"
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+namespace marey::app {
+namespace {
+
+// Webcams with a person in front of them end at 0.5 to 2 px.
+constexpr double kPoorCalibrationPx = 3.0;
+constexpr double kPoorSubjectPx = 5.0;
+constexpr double kPoorTrialPx = 8.0;
+constexpr double kPoorMedianPx = 3.0;
+constexpr double kPoorCameraMedianPx = 5.0;
+constexpr double kLeastSolved = 0.9;
+
+std::string text(const char* pattern, double a, double b = 0.0) {
+  std::array<char, 200> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), pattern, a, b);
+  return buffer.data();
+}
+
+Error poor(std::string where, std::string cause, std::string next) {
+  return {Errc::kQuality, std::move(where), std::move(cause), std::move(next)};
+}
+
+void judge_trial(const ReportTrial& trial, std::vector<Error>& found) {
+  const std::string where = "trial " + trial.name;
+  if (trial.frames_solved < kLeastSolved * trial.frames) {
+    found.push_back(poor(where,
+                         text("only %.0f of %.0f frames could be solved",
+                              trial.frames_solved,
+                              trial.frames),
+                         "look in report.html which tags are seen when"));
+  }
+  // One camera that is wrong is named; what it does to the others is not told again.
+  bool told = false;
+  for (const ReportTrialCamera& camera : trial.cameras) {
+    if (camera.corners == 0 || camera.median_px < kPoorCameraMedianPx) continue;
+    told = true;
+    found.push_back(poor(where + ", camera " + camera.name,
+                         text("the motion is %.0f px away from what it saw (median; "
+                              "good: under 1)",
+                              camera.median_px),
+                         "check that this is its video of this trial, that its frames "
+                         "are evenly spaced, and that it was not moved"));
+  }
+  if (told || (trial.rms_px < kPoorTrialPx && trial.median_px < kPoorMedianPx)) return;
+  found.push_back(poor(where,
+                       text("the motion is %.1f px away from what the cameras saw "
+                            "(median %.1f; good: under 2)",
+                            trial.rms_px,
+                            trial.median_px),
+                       "check that this is the same person with the same tags, and look "
+                       "at the pictures in report.html"));
+}
+
+}  // namespace
+
+std::vector<Error> judge_quality(const Report& report) {
+  std::vector<Error> found;
+  if (report.calibration_rms_px > kPoorCalibrationPx) {
+    found.push_back(poor("calibration.toml",
+                         text("the cameras are %.1f px away from what they saw of the "
+                              "board (good: under 0.5)",
+                              report.calibration_rms_px),
+                         "record the calibration again, with a flat board and short "
+                         "exposure"));
+  }
+  if (report.subject_rms_px > kPoorSubjectPx) {
+    found.push_back(poor("subject.toml",
+                         text("the subject is %.1f px away from what the cameras saw "
+                              "(good: under 1)",
+                              report.subject_rms_px),
+                         "check that every id is on the segment that session.toml says, "
+                         "that tags are glued firmly, and that both trials show the same "
+                         "person"));
+  }
+  for (const ReportTrial& trial : report.trials) judge_trial(trial, found);
+  return found;
+}
+
+}  // namespace marey::app

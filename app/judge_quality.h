@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "app/report.h"
+#include "core/result.h"
+
+namespace marey::app {
+
+/// What of the results does not show what the cameras saw: figures that only wrong input
+/// gives (another session's video, exchanged ids, a camera that was moved), far beyond
+/// what lenses, loose tags and fast movement do. Empty when all is well. Each is
+/// kQuality, with the trial or camera that it is about.
+[[nodiscard]] std::vector<Error> judge_quality(const Report& report);
+
+}  // namespace marey::app

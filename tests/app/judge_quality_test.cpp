@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/judge_quality.h"
+
+#include <gtest/gtest.h>
+
+namespace marey::app {
+namespace {
+
+/// As good as real webcams allow.
+Report decent() {
+  Report report;
+  report.calibration_rms_px = 0.8;
+  report.subject_rms_px = 1.5;
+  ReportTrial walk;
+  walk.name = "walk";
+  walk.frames = 100;
+  walk.frames_solved = 98;
+  walk.rms_px = 2.0;
+  walk.median_px = 0.8;
+  walk.cameras = {{"left", 1.9, 0.7, 4000, 0.0, ClockSource::kReference, {}},
+                  {"right", 2.1, 0.9, 4000, 0.0, ClockSource::kEstimated, {}}};
+  report.trials = {walk};
+  return report;
+}
+
+TEST(JudgeQuality, LetsDecentResultsPass) {
+  EXPECT_TRUE(judge_quality(decent()).empty());
+  EXPECT_TRUE(judge_quality(Report{}).empty());
+}
+
+TEST(JudgeQuality, NamesTheCameraThatSawSomethingElse) {
+  Report report = decent();
+  report.trials[0].rms_px = 15.2;
+  report.trials[0].cameras[1].median_px = 21.6;
+  const auto found = judge_quality(report);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].code, Errc::kQuality);
+  EXPECT_EQ(found[0].where, "trial walk, camera right");
+}
+
+TEST(JudgeQuality, NamesATrialThatNobodySaw) {
+  Report report = decent();
+  report.trials[0].rms_px = 95.0;
+  const auto found = judge_quality(report);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].where, "trial walk");
+}
+
+TEST(JudgeQuality, CountsFramesWithoutAnAnswer) {
+  Report report = decent();
+  report.trials[0].frames_solved = 89;
+  const auto found = judge_quality(report);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].cause, "only 89 of 100 frames could be solved");
+}
+
+TEST(JudgeQuality, DoubtsASubjectWithExchangedTags) {
+  Report report = decent();
+  report.subject_rms_px = 10.0;
+  const auto found = judge_quality(report);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].where, "subject.toml");
+}
+
+TEST(JudgeQuality, DoubtsCamerasThatDoNotShowTheirBoard) {
+  Report report = decent();
+  report.calibration_rms_px = 4.0;
+  ASSERT_EQ(judge_quality(report).size(), 1U);
+}
+
+}  // namespace
+}  // namespace marey::app
