@@ -230,38 +230,59 @@ void tell_unused_take(const Trial& trial, RecordingTroubles& troubles) {
   }
 }
 
-/// How far a video's frames are from a steady rate; nullopt when it does not tell, or its
-/// times are of other frames than were read.
-std::optional<CameraTimes> uneven_times(const TrialVideo& video,
-                                        const CameraDetections& camera,
-                                        RecordingTroubles& troubles) {
+struct UnevenVideo {
+  CameraTimes own;
+  double worst_s = 0.0;  ///< How far a frame is from the steady rate.
+};
+
+/// nullopt of a video that is steady, or does not tell.
+std::optional<UnevenVideo> uneven_video(const TrialVideo& video, FrameRate rate) {
   std::error_code ignored;
   if (std::filesystem::is_directory(video.path, ignored)) return std::nullopt;
   auto times = recordings::video_times(video.path);
-  if (!times) return std::nullopt;
-  const auto rate = measured_rate(*times);
-  if (!rate) return std::nullopt;
+  if (!times || !measured_rate(*times)) return std::nullopt;
   // What a container rounds away is less than this; what is more is a camera's doing.
   constexpr double kSteady = 0.25;
   double worst_s = 0.0;
   for (std::size_t i = 0; i < times->size(); ++i) {
-    const double even_s = static_cast<double>(i) / camera.rate.hz;
+    const double even_s = static_cast<double>(i) / rate.hz;
     worst_s = std::max(worst_s, std::abs(seconds((*times)[i] - times->front()) - even_s));
   }
-  if (worst_s * camera.rate.hz < kSteady) return std::nullopt;
-  const CameraTimes own{video.camera, std::move(*times)};
-  const bool usable =
-      own.times.size() == camera.frames.size() + camera.frames.front().frame &&
-      !reach_too_far(std::span(&own, 1), camera.rate);
-  troubles.warnings.push_back(format(
-      "%s: its frame rate varies: frames are up to %.1f ms away from a steady %.2f "
-      "Hz; %s",
-      camera.source.c_str(),
-      1e3 * worst_s,
-      camera.rate.hz,
-      usable ? "its own times are used" : "it is used by frame numbers all the same"));
-  if (!usable) return std::nullopt;
-  return own;
+  if (worst_s * rate.hz < kSteady) return std::nullopt;
+  return UnevenVideo{{video.camera, std::move(*times)}, worst_s};
+}
+
+std::string how_uneven(const UnevenVideo& video, FrameRate rate) {
+  return format(
+      "its frame rate varies: frames are up to %.1f ms away from a steady %.2f "
+      "Hz",
+      1e3 * video.worst_s,
+      rate.hz);
+}
+
+/// The frames to use are chosen by number, or the session says their rate: an uneven
+/// video's own times cannot be used.
+Status check_even(const Trial& trial,
+                  std::span<const CameraDetections> found,
+                  RecordingTroubles& troubles) {
+  for (const TrialVideo& video : trial.videos) {
+    const CameraDetections& camera = found[index(video.camera)];
+    if (camera.frames.empty()) continue;
+    const FrameRate rate = trial.rate.value_or(camera.rate);
+    const auto uneven = uneven_video(video, rate);
+    if (!uneven) continue;
+    if (!trial.rate) {
+      return bad_input(camera.source,
+                       how_uneven(*uneven, rate) +
+                           ", so that numbers of frames say nothing of their times",
+                       "leave out \"frames\" of trial " + trial.name +
+                           ", and its own times are used; or give the trial an \"fps\", "
+                           "if frames of one number belong together all the same");
+    }
+    troubles.warnings.push_back(camera.source + ": " + how_uneven(*uneven, rate) +
+                                "; the session's fps is used all the same");
+  }
+  return Done{};
 }
 
 }  // namespace
@@ -280,18 +301,22 @@ Status match_times(const Trial& trial,
                    RecordingTroubles& troubles) {
   if (has_take(trial)) return match_take(trial, found, troubles);
   tell_unused_take(trial, troubles);
-  if (trial.rate || trial.frames) return Done{};  // The session knows better.
+  if (trial.rate || trial.frames) return check_even(trial, found, troubles);
   std::vector<CameraTimes> uneven;
   std::optional<FrameRate> steady;
   for (const TrialVideo& video : trial.videos) {
     const CameraDetections& camera = found[index(video.camera)];
     if (camera.frames.empty()) continue;
-    auto times = uneven_times(video, camera, troubles);
-    if (times) {
-      uneven.push_back(std::move(*times));
-    } else if (!steady) {
-      steady = camera.rate;
-    }
+    auto own = uneven_video(video, camera.rate);
+    if (!own && !steady) steady = camera.rate;
+    if (!own) continue;
+    const bool usable =
+        own->own.times.size() == camera.frames.size() + camera.frames.front().frame &&
+        !reach_too_far(std::span(&own->own, 1), camera.rate);
+    troubles.warnings.push_back(
+        camera.source + ": " + how_uneven(*own, camera.rate) + "; " +
+        (usable ? "its own times are used" : "it is used by frame numbers all the same"));
+    if (usable) uneven.push_back(std::move(own->own));
   }
   for (const CameraTimes& times : uneven) {
     CameraDetections& camera = found[index(times.camera)];

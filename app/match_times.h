@@ -23,11 +23,13 @@ struct RecordingTroubles {
 /// - of a take, by the times in its file, with each camera's constant lag as its offset,
 ///   and cut to the trial's range of frames, which counts instants;
 /// - of videos whose own time stamps are uneven, by these, each video for itself.
-/// Of steady videos nothing changes.
+/// Of steady videos nothing changes, nor of uneven ones whose trial gives an fps: it is
+/// believed, with a warning.
 ///
 /// Errors (kBadInput): a take's file of times is missing, damaged or newer; it does not
 /// know the videos, tells no rate, or has times that cannot be; it has fewer instants
-/// than the trial's range. Precondition: `found` has all frames of a take's videos.
+/// than the trial's range; an uneven video whose frames the trial chooses by number.
+/// Precondition: `found` has all frames of a take's videos.
 [[nodiscard]] Status match_times(const recordings::Trial& trial,
                                  std::vector<CameraDetections>& found,
                                  RecordingTroubles& troubles);

@@ -264,9 +264,8 @@ TEST(RecordedTake, IsProcessedAsTheRecorderMadeIt) {
 }
 
 // A phone's video: frames at times of their own.
-TEST(UnevenVideo, IsUsedByItsOwnTimesAndTold) {
-  if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
-  SpoiledSession session;
+/// The walk of one camera without seven frames of every thirty.
+void leave_out_frames(SpoiledSession& session) {
   const fs::path video = session.new_video("walk", "cam2");
   const auto made = run_program(kFfmpeg,
                                 {"-v",
@@ -283,6 +282,24 @@ TEST(UnevenVideo, IsUsedByItsOwnTimesAndTold) {
                                  "12",
                                  video.string()});
   ASSERT_EQ(made.exit_code, 0) << made.err;
+}
+
+TEST(UnevenVideo, WhoseFramesAreChosenByNumberIsRefused) {
+  if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
+  SpoiledSession session;
+  leave_out_frames(session);
+  session.replace_in_trial("walk", "kind =", "frames = [0, 30]\nkind =");
+  const ProgramRun run = session.run();
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("its frame rate varies"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("leave out \"frames\" of trial walk"), std::string::npos)
+      << run.err;
+}
+
+TEST(UnevenVideo, IsUsedByItsOwnTimesAndTold) {
+  if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
+  SpoiledSession session;
+  leave_out_frames(session);
   const ProgramRun run = session.run();
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(warnings_of(run).find("its frame rate varies"), std::string::npos);
