@@ -326,7 +326,8 @@ TEST_F(PrintToScale, AprilGridIsTheBoardOfTheProgram) {
   ASSERT_EQ(found.size(), 4U * 35U);
   EXPECT_LT(worst_after_similarity(wanted, found), kTolerance_m);
   EXPECT_EQ(summary.at("board_toml"),
-            "[board]\ntype = \"aprilgrid\"\nfamily = \"tag36h11\"\nrows = 7\ncolumns = 5\ntag_size_m = 0.023\n"
+            "[board]\ntype = \"aprilgrid\"\nfamily = \"tag36h11\"\nrows = 7\ncolumns = "
+            "5\ntag_size_m = 0.023\n"
             "gap_m = 0.007\nfirst_id = 100\nthickness_m = 0.0\n");
   expect_ruler(summary, pictures);
 }
