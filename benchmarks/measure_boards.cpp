@@ -196,49 +196,6 @@ int measure_rendered(const std::filesystem::path& folder) {
   return std::max(synchronised, apart);
 }
 
-int measure_stereo(const std::filesystem::path& folder) {
-  const Chessboard board{.rows = 7, .columns = 10, .square_size_m = 1.0};
-  const auto scratch = std::filesystem::temp_directory_path() / "measure_stereo";
-  std::filesystem::remove_all(scratch);
-  std::vector<capture::CameraInput> inputs;
-  for (const std::string side : {"left", "right"}) {
-    std::filesystem::create_directories(scratch / side);
-    for (int i = 1; i <= 14; ++i) {
-      const std::string name = side + (i < 10 ? "0" : "") + std::to_string(i) + ".jpg";
-      const auto file = std::filesystem::absolute(folder / name);
-      if (!std::filesystem::exists(file)) continue;
-      std::filesystem::create_symlink(file, scratch / side / name);
-    }
-    capture::CameraInput input;
-    input.path = scratch / side;
-    input.camera = CameraId{static_cast<int>(inputs.size())};
-    input.rate = FrameRate{1.0};
-    inputs.push_back(input);
-  }
-  capture::DetectVideosOptions options;
-  options.find_tags = false;
-  options.target = board;
-  const auto waved = detect(inputs, options);
-  std::filesystem::remove_all(scratch);
-  for (const LensModel lens : {LensModel::kBrownConrady, LensModel::kRational}) {
-    CalibrateOptions calibrate;
-    calibrate.lens = lens;
-    calibrate.cross_validate = true;
-    const auto rig = calibrate_cameras(
-        std::vector<std::string>{"left", "right"}, waved, {}, board, calibrate);
-    if (!rig) {
-      std::printf("%s\n", rig.error().message().c_str());
-      return 1;
-    }
-    print_rig(*rig);
-    std::printf("baseline %.4f squares\n",
-                glm::distance(centre_in_world(rig->cameras[0]),
-                              centre_in_world(rig->cameras[1])));
-    print_cross_validation(*rig);
-  }
-  return 0;
-}
-
 namespace {
 
 /// xy.csv: sync_index, cam_id, frame_index, frame_time, object_id, keypoint_id, x, y...

@@ -91,12 +91,12 @@ Result<RigModel> first_model(Work& work, LensModel lens) {
 }
 
 /// Of all lenses, the one that does best on frames it did not see; the simpler one unless
-/// it is beaten by two percent.
+/// it is beaten by two percent: five terms before four of another kind, before eight.
 LensModel choose_lens(Work& work) {
   LensModel best = LensModel::kBrownConrady;
   double least = 0.0;
   for (const LensModel lens :
-       {LensModel::kBrownConrady, LensModel::kRational, LensModel::kFisheye}) {
+       {LensModel::kBrownConrady, LensModel::kFisheye, LensModel::kRational}) {
     auto model = first_model(work, lens);
     if (!model) continue;
     RefineOptions refine = refine_options(work, *model);

@@ -127,6 +127,23 @@ CalibratedRig judge_rig(std::span<const std::string> names,
   return rig;
 }
 
+void turn_covariance(const glm::dquat& new_from_old, RigCovariance& covariance) {
+  if (covariance.values.empty()) return;
+  // Rotation vectors and centres turn with the world; lenses do not.
+  const auto size = static_cast<Eigen::Index>(covariance.size());
+  Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(size, size);
+  const Eigen::Matrix3d rotation = to_eigen(new_from_old).toRotationMatrix();
+  for (std::size_t c = 0; c < covariance.cameras; ++c) {
+    const auto at = static_cast<Eigen::Index>(RigCovariance::kPerCamera * c + kLens);
+    turn.block<3, 3>(at, at) = rotation;
+    turn.block<3, 3>(at + 3, at + 3) = rotation;
+  }
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::Map<RowMajor> values(covariance.values.data(), size, size);
+  const Eigen::MatrixXd turned = turn * values * turn.transpose();
+  values = turned;
+}
+
 void move_world(const RigidTransform& new_from_world, RigModel& model, RigDoubt& doubt) {
   for (RigCamera& camera : model.cameras) {
     camera.world_from_camera = new_from_world * camera.world_from_camera;
@@ -134,20 +151,7 @@ void move_world(const RigidTransform& new_from_world, RigModel& model, RigDoubt&
   for (RigidTarget& target : model.targets) {
     for (auto& [instant, pose] : target.world_from_target) pose = new_from_world * pose;
   }
-  if (doubt.covariance.values.empty()) return;
-  // Rotation vectors and centres turn with the world; lenses do not.
-  const auto size = static_cast<Eigen::Index>(doubt.covariance.size());
-  Eigen::MatrixXd turn = Eigen::MatrixXd::Identity(size, size);
-  const Eigen::Matrix3d rotation = to_eigen(new_from_world.rotation).toRotationMatrix();
-  for (std::size_t c = 0; c < model.cameras.size(); ++c) {
-    const auto at = static_cast<Eigen::Index>(RigCovariance::kPerCamera * c + kLens);
-    turn.block<3, 3>(at, at) = rotation;
-    turn.block<3, 3>(at + 3, at + 3) = rotation;
-  }
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Eigen::Map<RowMajor> values(doubt.covariance.values.data(), size, size);
-  const Eigen::MatrixXd turned = turn * values * turn.transpose();
-  values = turned;
+  turn_covariance(new_from_world.rotation, doubt.covariance);
 }
 
 }  // namespace marey::calib

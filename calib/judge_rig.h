@@ -19,6 +19,9 @@ namespace marey::calib {
                                       const RigModel& model,
                                       const RigDoubt& doubt);
 
+/// The covariance in a world turned by that.
+void turn_covariance(const glm::dquat& new_from_old, RigCovariance& covariance);
+
 /// Moves the model's world: `new_from_world` for cameras, targets, and the covariance.
 void move_world(const RigidTransform& new_from_world, RigModel& model, RigDoubt& doubt);
 

@@ -141,16 +141,25 @@ TEST(CalibratePoints, RecoverFisheyes) {
 }
 
 TEST(CalibratePoints, ChooseTheLensThatPredictsBest) {
-  auto cameras = three_cameras();
+  // So near that the board fills half of a fisheye's picture.
+  std::vector<Camera> cameras{webcam_at("cam0", {-0.35, 1.2, 0.75}, {0.0, 1.0, 0.0}),
+                              webcam_at("cam1", {0.3, 1.0, 0.8}, {0.0, 1.0, 0.0})};
   for (Camera& camera : cameras) {
     camera.intrinsics.lens = LensModel::kFisheye;
-    camera.intrinsics.focal_px = {330.0, 330.0};
+    camera.intrinsics.focal_px = {420.0, 420.0};
     camera.intrinsics.distortion = {-0.05, 0.01};
   }
-  const auto rig =
-      calibrate(cameras, {.noise_px = 0.05, .seconds = 2.0}, {.choose_lens = true});
+  const Scene scene{.noise_px = 0.05, .seconds = 2.0};
+  const auto rig = calibrate(cameras, scene, {.choose_lens = true});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_EQ(rig->cameras[0].intrinsics.lens, LensModel::kFisheye);
+}
+
+TEST(CalibratePoints, KeepTheSimplestLensThatServes) {
+  const Scene scene{.noise_px = 0.05, .seconds = 2.0};
+  const auto rig = calibrate(three_cameras(), scene, {.choose_lens = true});
+  ASSERT_TRUE(rig) << rig.error().message();
+  EXPECT_EQ(rig->cameras[0].intrinsics.lens, LensModel::kBrownConrady);
 }
 
 TEST(CalibratePoints, RefuseAMirroredBoard) {

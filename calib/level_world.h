@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <span>
+
+#include "calib/calibrated_rig.h"
+#include "core/camera.h"
+#include "core/detection.h"
+#include "core/ids.h"
+#include "core/transform.h"
+
+namespace marey::calib {
+
+/// A world that stands on a floor, for a rig whose world nobody laid down: new_from_old.
+///
+/// Up is across all cameras' horizontal axes, as cameras on stands are level though they
+/// look down (a degree of roll is a degree of slope); of two cameras or more that do not
+/// look along one line. The lowest corner of any tag that at least two cameras see in
+/// `standing`, a trial in which nothing moves, is on the floor; the origin is below the
+/// middle of all, and Z points from there to the first camera.
+///
+/// nullopt when cameras are all alike turned, fewer than three tags are placed, or a
+/// camera would stand below the floor. Precondition: one detections entry per camera.
+[[nodiscard]] std::optional<RigidTransform> level_by_tags(
+    std::span<const Camera> cameras, std::span<const CameraDetections> standing);
+
+/// Moves a rig's world, its covariance with it.
+void move_world(const RigidTransform& new_from_old, CalibratedRig& rig);
+
+}  // namespace marey::calib
