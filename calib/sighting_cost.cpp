@@ -37,6 +37,9 @@ struct CornerSight {
 };
 
 using Pixels = Eigen::Matrix<double, 8, 1>;
+using Rows = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kLens>;
+
+constexpr std::size_t kFirstPose = 2;  // After intrinsics and the camera's pose.
 
 /// Shrinks a tag's four pixels; derivatives by the pixels and the shrinkage.
 Pixels shrink(const Pixels& seen,
@@ -145,144 +148,209 @@ SightingCost::SightingCost(const Sighting& sighting,
   line_ -= 0.5 * (height_px - 1);
 }
 
-bool SightingCost::Evaluate(const double* const* blocks,
-                            double* residuals,
-                            double** jacobians) const {
-  const double* lens = blocks[0];
-  const double* camera = blocks[1];
-  std::size_t next = 2;
-  const std::size_t first_pose = next;
+/// Where a target is as a sighting met it, from its pose or four knots and a clock.
+struct TargetPose {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d origin;
   SplinePose spline;
-  std::size_t clock_block = 0;
-  if (parts_.spline) {
-    clock_block = next + 4;
-    const double* clock = blocks[clock_block];
-    const double time_s =
-        sighting_.time_s * (1.0 + clock[1]) + clock[0] + clock[2] * line_;
-    const double u = (time_s - knots_.first_s) / knots_.spacing_s;
-    spline = spline_pose(
-        {blocks[next], blocks[next + 1], blocks[next + 2], blocks[next + 3]}, u);
-    rotation = spline.rotation;
-    origin = spline.translation;
-    next += 5;
-  } else {
-    rotation = rotation_of(blocks[next]).toRotationMatrix();
-    origin = Eigen::Map<const Eigen::Vector3d>(blocks[next] + 4);
-    next += 1;
-  }
-  const std::size_t shrink_block = next;
-  next += parts_.shrinks;
-  const std::size_t piece_block = next;
-  next += parts_.piece;
-  const std::size_t warp_block = next;
+};
 
+/// Which blocks are where (SightingCost).
+struct SightingCost::Places {
+  std::size_t clock = 0;
+  std::size_t shrinkage = 0;
+  std::size_t piece = 0;
+  std::size_t warp = 0;
+};
+
+SightingCost::Places SightingCost::places() const {
+  Places places;
+  std::size_t next = kFirstPose + (parts_.spline ? 4 : 1);
+  places.clock = next;
+  next += parts_.spline ? 1 : 0;
+  places.shrinkage = next;
+  next += parts_.shrinks ? 1 : 0;
+  places.piece = next;
+  next += parts_.piece ? 1 : 0;
+  places.warp = next;
+  return places;
+}
+
+TargetPose SightingCost::target_pose(const double* const* blocks) const {
+  TargetPose out;
+  if (!parts_.spline) {
+    out.rotation = rotation_of(blocks[kFirstPose]).toRotationMatrix();
+    out.origin = Eigen::Map<const Eigen::Vector3d>(blocks[kFirstPose] + 4);
+    return out;
+  }
+  const double* clock = blocks[kFirstPose + 4];
+  const double time_s = sighting_.time_s * (1.0 + clock[1]) + clock[0] + clock[2] * line_;
+  const double* const* knots = blocks + kFirstPose;
+  out.spline = spline_pose({knots[0], knots[1], knots[2], knots[3]},
+                           (time_s - knots_.first_s) / knots_.spacing_s);
+  out.rotation = out.spline.rotation;
+  out.origin = out.spline.translation;
+  return out;
+}
+
+/// Everything that the derivatives of a sighting are put together from.
+struct SightingCost::View {
+  TargetPose target;
+  Eigen::Matrix3d piece_rotation = Eigen::Matrix3d::Identity();
+  double size_m = 1.0;
+  std::array<CornerSight, 4> sights;
+  Pixels pixels = Pixels::Zero();  ///< Shrunk, when tags are.
+  Eigen::Matrix<double, 8, 10> by_seen = Eigen::Matrix<double, 8, 10>::Identity();
+  Pixels weight = Pixels::Zero();
+};
+
+bool SightingCost::see(const double* const* blocks, View& view) const {
+  const Places at = places();
+  view.target = target_pose(blocks);
+  const double* camera = blocks[1];
   const Eigen::Matrix3d camera_from_world =
       rotation_of(camera).conjugate().toRotationMatrix();
   const Eigen::Vector3d centre = Eigen::Map<const Eigen::Vector3d>(camera + 4);
-  Eigen::Matrix3d piece_rotation = Eigen::Matrix3d::Identity();
   Eigen::Vector3d piece_origin = Eigen::Vector3d::Zero();
-  double size_m = 1.0;
   if (parts_.piece) {
-    piece_rotation = rotation_of(blocks[piece_block]).toRotationMatrix();
-    piece_origin = Eigen::Map<const Eigen::Vector3d>(blocks[piece_block] + 4);
-    size_m = std::exp(blocks[piece_block][7]);
+    view.piece_rotation = rotation_of(blocks[at.piece]).toRotationMatrix();
+    piece_origin = Eigen::Map<const Eigen::Vector3d>(blocks[at.piece] + 4);
+    view.size_m = std::exp(blocks[at.piece][7]);
   }
-
-  const auto count = static_cast<std::size_t>(sighting_.count);
-  std::array<CornerSight, 4> sights;
-  Pixels pixels = Pixels::Zero();
-  for (std::size_t i = 0; i < count; ++i) {
-    CornerSight& sight = sights[i];
+  for (std::size_t i = 0; i < static_cast<std::size_t>(sighting_.count); ++i) {
+    CornerSight& sight = view.sights[i];
     Eigen::Vector3d p = to_eigen(sighting_.corners[i].p_in_board);
     if (parts_.warp) {
-      for (std::size_t k = 0; k < 3; ++k) p.z() += bend_[i][k] * blocks[warp_block][k];
+      for (std::size_t k = 0; k < 3; ++k) p.z() += bend_[i][k] * blocks[at.warp][k];
     }
-    sight.from_piece = piece_rotation * (size_m * p);
-    sight.from_target = rotation * (sight.from_piece + piece_origin);
-    sight.from_centre = sight.from_target + origin - centre;
-    const auto pixel = pixel_of_point(lens_, lens, camera_from_world * sight.from_centre);
+    sight.from_piece = view.piece_rotation * (view.size_m * p);
+    sight.from_target = view.target.rotation * (sight.from_piece + piece_origin);
+    sight.from_centre = sight.from_target + view.target.origin - centre;
+    const auto pixel =
+        pixel_of_point(lens_, blocks[0], camera_from_world * sight.from_centre);
     if (!pixel) return false;
     sight.lens = pixel->by_lens;
     sight.world = pixel->by_point * camera_from_world;
-    pixels.segment<2>(2 * static_cast<int>(i)) = pixel->pixel_px;
+    const auto row = 2 * static_cast<Eigen::Index>(i);
+    view.pixels.segment<2>(row) = pixel->pixel_px;
+    view.weight.segment<2>(row).setConstant(1.0 / sighting_.corners[i].sigma_px);
   }
-  Eigen::Matrix<double, 8, 10> by_seen = Eigen::Matrix<double, 8, 10>::Identity();
-  if (parts_.shrinks) pixels = shrink(pixels, blocks[shrink_block], &by_seen);
+  if (parts_.shrinks) {
+    view.pixels = shrink(view.pixels, blocks[at.shrinkage], &view.by_seen);
+  }
+  return true;
+}
+
+template <class OfCorner>
+void SightingCost::put(const View& view,
+                       double* jacobian,
+                       std::size_t block,
+                       int columns,
+                       const OfCorner& of_corner) const {
+  if (!jacobian) return;
   const int rows = 2 * sighting_.count;
-  Pixels weight;
-  for (int i = 0; i < rows; ++i) {
+  Eigen::Matrix<double, 8, Eigen::Dynamic, 0, 8, kLens> raw(8, columns);
+  raw.setZero();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(sighting_.count); ++i) {
+    raw.middleRows<2>(2 * static_cast<Eigen::Index>(i)) = of_corner(i, view.sights[i]);
+  }
+  if (parts_.shrinks) raw = (view.by_seen.leftCols<8>() * raw).eval();
+  Eigen::Map<RowMajor> out(jacobian, rows, parameter_block_sizes()[block]);
+  out.setZero();
+  out.leftCols(columns) = view.weight.head(rows).asDiagonal() * raw.topRows(rows);
+}
+
+void SightingCost::put_target(const View& view, double** jacobians) const {
+  if (!parts_.spline) {
+    put(view,
+        jacobians[kFirstPose],
+        kFirstPose,
+        6,
+        [&](std::size_t, const CornerSight& s) -> Rows {
+          Rows d(2, 6);
+          d << -s.world * cross_matrix(s.from_target), s.world;
+          return d;
+        });
+    return;
+  }
+  const SplinePose& spline = view.target.spline;
+  for (std::size_t k = 0; k < 4; ++k) {
+    put(view,
+        jacobians[kFirstPose + k],
+        kFirstPose + k,
+        6,
+        [&](std::size_t, const CornerSight& s) -> Rows {
+          Rows d(2, 6);
+          d << -s.world * cross_matrix(s.from_target) * spline.rotation_by_knot[k],
+              s.world * spline.translation_by_knot[k];
+          return d;
+        });
+  }
+  const std::size_t clock = places().clock;
+  put(view, jacobians[clock], clock, 3, [&](std::size_t, const CornerSight& s) -> Rows {
+    const Eigen::Vector2d by_time =
+        s.world * (spline.rotation_by_u.cross(s.from_target) + spline.translation_by_u) /
+        knots_.spacing_s;
+    Rows d(2, 3);
+    d << by_time, by_time * sighting_.time_s, by_time * line_;
+    return d;
+  });
+}
+
+void SightingCost::put_rest(const View& view, double** jacobians) const {
+  const Places at = places();
+  const Eigen::Matrix3d& rotation = view.target.rotation;
+  if (parts_.shrinks && jacobians[at.shrinkage]) {
+    Eigen::Map<Eigen::Matrix<double, 8, 2, Eigen::RowMajor>> out(jacobians[at.shrinkage]);
+    out = view.weight.asDiagonal() * view.by_seen.rightCols<2>();
+  }
+  if (parts_.piece) {
+    put(view,
+        jacobians[at.piece],
+        at.piece,
+        7,
+        [&](std::size_t, const CornerSight& s) -> Rows {
+          Rows d(2, 7);
+          d << -s.world * rotation * cross_matrix(s.from_piece), s.world * rotation,
+              s.world * rotation * s.from_piece;
+          return d;
+        });
+  }
+  if (parts_.warp) {
+    put(view,
+        jacobians[at.warp],
+        at.warp,
+        3,
+        [&](std::size_t i, const CornerSight& s) -> Rows {
+          const Eigen::Vector2d up =
+              s.world * rotation * view.piece_rotation.col(2) * view.size_m;
+          Rows d(2, 3);
+          d << up * bend_[i][0], up * bend_[i][1], up * bend_[i][2];
+          return d;
+        });
+  }
+}
+
+bool SightingCost::Evaluate(const double* const* blocks,
+                            double* residuals,
+                            double** jacobians) const {
+  View view;
+  if (!see(blocks, view)) return false;
+  for (int i = 0; i < 2 * sighting_.count; ++i) {
     const BoardCorner& corner = sighting_.corners[static_cast<std::size_t>(i / 2)];
-    weight[i] = 1.0 / corner.sigma_px;
-    residuals[i] = (pixels[i] - corner.pixel_px[i % 2]) * weight[i];
+    residuals[i] = (view.pixels[i] - corner.pixel_px[i % 2]) * view.weight[i];
   }
   if (!jacobians) return true;
-
-  const auto put = [&](std::size_t block, int columns, const auto& of_corner) {
-    if (!jacobians[block]) return;
-    Eigen::Matrix<double, 8, Eigen::Dynamic, 0, 8, kLens> raw(8, columns);
-    raw.setZero();
-    for (std::size_t i = 0; i < count; ++i) {
-      raw.middleRows<2>(2 * static_cast<int>(i)) = of_corner(i, sights[i]);
-    }
-    if (parts_.shrinks) raw = (by_seen.leftCols<8>() * raw).eval();
-    Eigen::Map<RowMajor> out(jacobians[block], rows, parameter_block_sizes()[block]);
-    out.setZero();
-    out.leftCols(columns) = weight.head(rows).asDiagonal() * raw.topRows(rows);
-  };
-  using Two = Eigen::Matrix<double, 2, Eigen::Dynamic, 0, 2, kLens>;
-  put(0, kLens, [&](std::size_t, const CornerSight& s) -> Two { return s.lens; });
-  put(1, 6, [&](std::size_t, const CornerSight& s) -> Two {
-    Two d(2, 6);
+  put(view, jacobians[0], 0, kLens, [](std::size_t, const CornerSight& s) -> Rows {
+    return s.lens;
+  });
+  put(view, jacobians[1], 1, 6, [](std::size_t, const CornerSight& s) -> Rows {
+    Rows d(2, 6);
     d << s.world * cross_matrix(s.from_centre), -s.world;
     return d;
   });
-  if (parts_.spline) {
-    for (std::size_t k = 0; k < 4; ++k) {
-      put(first_pose + k, 6, [&](std::size_t, const CornerSight& s) -> Two {
-        Two d(2, 6);
-        d << -s.world * cross_matrix(s.from_target) * spline.rotation_by_knot[k],
-            s.world * spline.translation_by_knot[k];
-        return d;
-      });
-    }
-    put(clock_block, 3, [&](std::size_t, const CornerSight& s) -> Two {
-      const Eigen::Vector2d by_time =
-          s.world *
-          (spline.rotation_by_u.cross(s.from_target) + spline.translation_by_u) /
-          knots_.spacing_s;
-      Two d(2, 3);
-      d << by_time, by_time * sighting_.time_s, by_time * line_;
-      return d;
-    });
-  } else {
-    put(first_pose, 6, [&](std::size_t, const CornerSight& s) -> Two {
-      Two d(2, 6);
-      d << -s.world * cross_matrix(s.from_target), s.world;
-      return d;
-    });
-  }
-  if (parts_.shrinks && jacobians[shrink_block]) {
-    Eigen::Map<Eigen::Matrix<double, 8, 2, Eigen::RowMajor>> out(jacobians[shrink_block]);
-    out = weight.asDiagonal() * by_seen.rightCols<2>();
-  }
-  if (parts_.piece) {
-    put(piece_block, 7, [&](std::size_t, const CornerSight& s) -> Two {
-      Two d(2, 7);
-      d << -s.world * rotation * cross_matrix(s.from_piece), s.world * rotation,
-          s.world * rotation * s.from_piece;
-      return d;
-    });
-  }
-  if (parts_.warp) {
-    put(warp_block, 3, [&](std::size_t i, const CornerSight& s) -> Two {
-      const Eigen::Vector2d up = s.world * rotation * piece_rotation.col(2) * size_m;
-      Two d(2, 3);
-      d << up * bend_[i][0], up * bend_[i][1], up * bend_[i][2];
-      return d;
-    });
-  }
+  put_target(view, jacobians);
+  put_rest(view, jacobians);
   return true;
 }
 

@@ -50,6 +50,8 @@ class SizeManifold final : public ceres::Manifold {
   bool MinusJacobian(const double* x, double* jacobian) const override;
 };
 
+struct TargetPose;
+
 /// Reprojection of a sighting's corners, in sigmas. Blocks in order: intrinsics, camera's
 /// pose, target's pose or the four knots about the time of the sighting, then as far as
 /// they are asked for: clock (with knots), shrinkage (tags), piece, warp.
@@ -79,6 +81,21 @@ class SightingCost final : public ceres::CostFunction {
                 double** jacobians) const override;
 
  private:
+  struct Places;
+  struct View;
+
+  [[nodiscard]] Places places() const;
+  [[nodiscard]] TargetPose target_pose(const double* const* blocks) const;
+  [[nodiscard]] bool see(const double* const* blocks, View& view) const;
+  template <class OfCorner>
+  void put(const View& view,
+           double* jacobian,
+           std::size_t block,
+           int columns,
+           const OfCorner& of_corner) const;
+  void put_target(const View& view, double** jacobians) const;
+  void put_rest(const View& view, double** jacobians) const;
+
   Sighting sighting_;
   std::array<std::array<double, 3>, 4> bend_{};  ///< z of each corner per warp_m.
   LensModel lens_;
