@@ -81,14 +81,24 @@ Exit run_record(const RecordArguments& arguments, Console& console) {
   const auto warn = [&console](const std::string& text) { console.warn(text); };
   std::vector<std::unique_ptr<DeviceFeed>> feeds;
   std::vector<RecordedCamera> cameras;
+  Exit opened = Exit::kOk;
   for (std::size_t c = 0; c < session->cameras.size(); ++c) {
-    if (!session->devices[c]) continue;
+    if (!session->devices[c]) {
+      console.warn("camera " + session->cameras[c] +
+                   " has no device in session.toml: it is not recorded");
+      continue;
+    }
     auto feed =
         DeviceFeed::open(session->cameras[c], request_of(*session->devices[c]), warn);
-    if (!feed) return console.fail(feed.error());
+    if (!feed) {
+      // The others record all the same: the movement may not come again.
+      opened = console.fail(feed.error());
+      continue;
+    }
     feeds.push_back(std::move(*feed));
     cameras.push_back({session->cameras[c], feeds.back().get()});
   }
+  if (cameras.empty()) return opened;
   if (const Status ok = recordings::copy_session(*session, arguments.out, **trial); !ok) {
     return console.fail(ok.error());
   }
@@ -97,9 +107,9 @@ Exit run_record(const RecordArguments& arguments, Console& console) {
   const auto recorded = record_take(
       cameras, options, stop_wanted, console.stage("recording " + options.trial));
   if (!recorded) return console.fail(recorded.error());
-  const Exit exit = tell(*recorded, console);
+  const Exit ended = tell(*recorded, console);
   console.say("recorded to " + options.folder.string());
-  return exit;
+  return ended == Exit::kOk ? opened : ended;
 }
 
 }  // namespace marey::app

@@ -264,6 +264,26 @@ TEST(RecordedTake, IsProcessedAsTheRecorderMadeIt) {
 }
 
 // A phone's video: frames at times of their own.
+TEST(Record, TellsOfEveryCameraThatCannotBeOpened) {
+  SpoiledSession session;
+  session.replace("name = \"cam0\"", "name = \"cam0\"\ndevice = \"/dev/no-video0\"");
+  session.replace("name = \"cam1\"", "name = \"cam1\"\ndevice = \"/dev/no-video1\"");
+  session.replace_in_trial("walk",
+                           "videos = { cam0 = \"walk/cam0.mp4\", cam1 = "
+                           "\"walk/cam1.mp4\", cam2 = \"walk/cam2.mp4\", cam3 = "
+                           "\"walk/cam3.mp4\" }",
+                           "");
+  const fs::path take = session.out() / "take";
+  const ProgramRun run = run_program(
+      MAREY_PROGRAM,
+      {"record", session.file().string(), "--out", take.string(), "--trial", "walk"});
+  EXPECT_EQ(run.exit_code, 5) << run.err;
+  EXPECT_NE(run.err.find("/dev/no-video0"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("/dev/no-video1"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("camera cam2 has no device"), std::string::npos) << run.err;
+  EXPECT_FALSE(fs::exists(take));
+}
+
 /// The walk of one camera without seven frames of every thirty.
 void leave_out_frames(SpoiledSession& session) {
   const fs::path video = session.new_video("walk", "cam2");
