@@ -50,11 +50,11 @@ TEST(Project, IsBrownsFormulaInOpenCvsOrder) {
   EXPECT_NEAR(pixel_px.y, 259.4874625, 1e-9);
 }
 
-/// A lens of 150 degrees across.
+/// A lens of 130 degrees across.
 Intrinsics fisheye() {
   Intrinsics k = webcam();
   k.lens = LensModel::kFisheye;
-  k.focal_px = {490.0, 489.0};
+  k.focal_px = {640.0, 638.0};
   k.distortion = {-0.021, 0.013, -0.006, 0.0011};
   return k;
 }
@@ -63,7 +63,7 @@ Intrinsics fisheye() {
 Intrinsics rational() {
   Intrinsics k = webcam();
   k.lens = LensModel::kRational;
-  k.distortion = {0.31, -0.04, 0.0004, -0.0003, 0.002, 0.62, 0.05, 0.001};
+  k.distortion = {0.31, 0.02, 0.0004, -0.0003, 0.002, 0.52, 0.03, 0.001};
   return k;
 }
 
@@ -73,15 +73,15 @@ TEST(Project, IsOpenCvsRationalFormula) {
   k.centre_px = {640.0, 360.0};
   // cv2.projectPoints of (0.2, -0.1, 1) with these terms.
   const glm::dvec2 pixel_px = project_ray(k, {0.2, -0.1});
-  EXPECT_NEAR(pixel_px.x, 836.89495794, 1e-6);
-  EXPECT_NEAR(pixel_px.y, 261.56502103, 1e-6);
+  EXPECT_NEAR(pixel_px.x, 837.89351766, 1e-6);
+  EXPECT_NEAR(pixel_px.y, 261.06574117, 1e-6);
 }
 
 TEST(Project, IsOpenCvsFisheyeFormula) {
   // cv2.fisheye.projectPoints of (1.5, -0.8, 1) with these terms.
   const glm::dvec2 pixel_px = project_ray(fisheye(), {1.5, -0.8});
-  EXPECT_NEAR(pixel_px.x, 1084.6470829921, 1e-6);
-  EXPECT_NEAR(pixel_px.y, 116.1372260320, 1e-6);
+  EXPECT_NEAR(pixel_px.x, 1220.30435330, 1e-6);
+  EXPECT_NEAR(pixel_px.y, 44.26901883, 1e-6);
 }
 
 TEST(Project, OfAFisheyeHasADerivativeOnTheAxis) {
