@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the line makes of solved motions: other bodies, and the report.
+#include <algorithm>
+
+#include "app/judge_quality.h"
+#include "app/pipeline.h"
+#include "app/report_trial.h"
+#include "app/retarget_files.h"
+#include "app/stopwatch.h"
+#include "recordings/atomic_file.h"
+
+namespace marey::app {
+
+Status Pipeline::retarget() {
+  const Stopwatch watch;
+  for (SolvedMotion& motion : motions_) {
+    for (const auto& avatar : options_.avatars) {
+      auto body = retarget_one(motion, avatar);
+      if (!body) return body.error();
+      motion.avatars.push_back(std::move(*body));
+    }
+  }
+  if (!options_.avatars.empty()) time_stage("avatars", watch.seconds());
+  return Done{};
+}
+
+Result<ReportBody> Pipeline::retarget_one(SolvedMotion& motion,
+                                          const std::filesystem::path& avatar) {
+  const std::string name = avatar.stem().string();
+  const std::filesystem::path folder = motion.trial->name;
+  const auto written = retarget_to_files(
+      motion.solved.estimate.motion, avatar, options_.out / folder / name);
+  if (!written) return written.error();
+  ReportBody body;
+  body.name = name;
+  body.motion = written->retargeted.motion;
+  body.slide_before_cm_per_s = written->retargeted.report.before.mean_slide_cm_per_s;
+  body.slide_after_cm_per_s = written->retargeted.report.after.mean_slide_cm_per_s;
+  body.penetration_mm = written->retargeted.report.after.deepest_penetration_mm;
+  for (const auto& file : written->files) {
+    body.files.push_back((folder / file.filename()).string());
+  }
+  return body;
+}
+
+Status Pipeline::write_report() {
+  const Stopwatch watch;
+  report_.trials.clear();
+  for (const SolvedMotion& motion : motions_) {
+    const auto detections = unshrunk_detections_of(*motion.trial);
+    if (!detections) return detections.error();
+    auto trial =
+        report_trial(*motion.trial, cameras_, session_.tags, *detections, motion.solved);
+    if (!trial) return trial.error();
+    trial->bodies.insert(
+        trial->bodies.end(), motion.avatars.begin(), motion.avatars.end());
+    report_.trials.push_back(std::move(*trial));
+  }
+  report_.recorded_s = 0.0;
+  for (const auto& [name, cameras] : detections_) {
+    double longest_s = 0.0;
+    for (const CameraDetections& camera : cameras) {
+      longest_s =
+          std::max(longest_s, static_cast<double>(camera.frames.size()) / camera.rate.hz);
+    }
+    report_.recorded_s += longest_s;
+  }
+  for (const Error& poor : judge_quality(report_)) {
+    report_.warnings.push_back(poor.message());
+    failures_.push_back(poor);
+  }
+  time_stage("report", watch.seconds());
+  if (const Status ok =
+          recordings::write_file(options_.out / "report.json", report_json(report_));
+      !ok) {
+    return ok;
+  }
+  return recordings::write_file(options_.out / "report.html", report_html(report_));
+}
+
+}  // namespace marey::app
