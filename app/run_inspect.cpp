@@ -56,6 +56,18 @@ Result<Json> inspect_session(const std::filesystem::path& file) {
               {"trials", trials}};
 }
 
+const char* lens_name(LensModel lens) {
+  switch (lens) {
+    case LensModel::kBrownConrady:
+      return "brown-conrady";
+    case LensModel::kRational:
+      return "rational";
+    case LensModel::kFisheye:
+      return "fisheye";
+  }
+  return "";
+}
+
 Result<Json> inspect_calibration(const std::filesystem::path& file) {
   const auto calibration = recordings::read_calibration(file);
   if (!calibration) return calibration.error();
@@ -67,6 +79,7 @@ Result<Json> inspect_calibration(const std::filesystem::path& file) {
         {{"name", camera.name},
          {"size_px", {camera.intrinsics.width_px, camera.intrinsics.height_px}},
          {"focal_px", {camera.intrinsics.focal_px.x, camera.intrinsics.focal_px.y}},
+         {"lens", lens_name(camera.intrinsics.lens)},
          {"centre_in_world_m", {centre.x, centre.y, centre.z}},
          {"rms_px", calibration->quality[c].rms_px}});
   }
@@ -154,9 +167,13 @@ Result<Json> inspect(const std::filesystem::path& file) {
     return bad_input(file.string(), "does not exist", "check its name");
   }
   if (std::filesystem::is_directory(file, ignored)) return inspect_session(file);
-  if (named == "calibration.toml") return inspect_calibration(file);
+  const bool is_toml = kind == ".toml";
+  if (named == "calibration.toml" || kind == ".yaml" || kind == ".yml" ||
+      kind == ".xml" || (is_toml && recordings::is_calibration(file))) {
+    return inspect_calibration(file);
+  }
   if (named == "subject.toml") return inspect_subject(file);
-  if (kind == ".toml") return inspect_session(file);
+  if (is_toml) return inspect_session(file);
   if (named == "joints.csv") return inspect_joints(file);
   if (named == "segments.csv") return inspect_segments(file);
   if (named == "report.json") return inspect_report(file);
@@ -167,8 +184,8 @@ Result<Json> inspect(const std::filesystem::path& file) {
   return bad_input(
       file.string(),
       "is not a kind of file that marey knows",
-      "give a session, calibration.toml, subject.toml, joints.csv, segments.csv, "
-      "report.json, .bvh, .glb, .gltf, .vrm or .vrma");
+      "give a session, a calibration (.toml, .yaml, .yml, .xml), subject.toml, "
+      "joints.csv, segments.csv, report.json, .bvh, .glb, .gltf, .vrm or .vrma");
 }
 
 /// Files from elsewhere may hold names that are not UTF-8, which JSON must be.

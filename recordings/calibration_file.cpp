@@ -12,6 +12,8 @@
 #include <glm/mat3x3.hpp>
 
 #include "recordings/atomic_file.h"
+#include "recordings/calibration_import.h"
+#include "recordings/camera_numbers.h"
 #include "recordings/toml_reader.h"
 #include "recordings/toml_writer.h"
 
@@ -99,11 +101,7 @@ void read_size(TomlReader& in, Intrinsics& k) {
 void read_intrinsics(TomlReader& in, Intrinsics& k) {
   read_size(in, k);
   const std::vector<double> m = in.matrix("matrix", 3, 3);
-  k.focal_px = {m[0], m[4]};
-  k.centre_px = {m[2], m[5]};
-  const bool is_pinhole = m[0] > 0 && m[4] > 0 && m[1] == 0 && m[3] == 0 && m[6] == 0 &&
-                          m[7] == 0 && m[8] == 1;
-  if (!is_pinhole) {
+  if (!set_pinhole(std::span<const double, 9>(m.data(), 9), k)) {
     in.fail("matrix",
             "\"matrix\" must be [[fx, 0, cx], [0, fy, cy], [0, 0, 1]]",
             "calibrate without skew");
@@ -148,15 +146,31 @@ void check_matrix(TomlReader& in, const RigidTransform& camera_from_world) {
   }
 }
 
+glm::dquat read_rotation(TomlReader& in) {
+  if (!in.is_matrix("rotation")) {
+    const std::vector<double> vector_rad = in.numbers("rotation", 3);
+    return rotation_from_vector({vector_rad[0], vector_rad[1], vector_rad[2]});
+  }
+  // Caliscope's.
+  const std::vector<double> rows = in.matrix("rotation", 3, 3);
+  const auto rotation = rotation_of_rows(std::span<const double, 9>(rows.data(), 9));
+  if (!rotation) {
+    in.fail("rotation", "\"rotation\" is not a rotation", "export it again");
+  }
+  return rotation.value_or(glm::dquat(1.0, 0.0, 0.0, 0.0));
+}
+
 RigidTransform read_pose(TomlReader& in) {
-  const std::vector<double> vector_rad = in.numbers("rotation", 3);
   const std::vector<double> t = in.numbers("translation", 3);
   RigidTransform camera_from_world;
-  camera_from_world.rotation =
-      rotation_from_vector({vector_rad[0], vector_rad[1], vector_rad[2]});
+  camera_from_world.rotation = read_rotation(in);
   camera_from_world.translation = {t[0], t[1], t[2]};
   if (in.has("rotation_wxyz")) {
     camera_from_world.rotation = read_quaternion(in, camera_from_world.rotation);
+  } else if (glm::length(camera_from_world.translation) > kFarthest_m) {
+    in.fail("translation",
+            "the camera stands more than 100 m from the world's origin",
+            "give places in metres: divide them by 1000 if they are millimetres");
   }
   if (in.has("world_from_camera")) check_matrix(in, camera_from_world);
   return camera_from_world;
@@ -197,7 +211,9 @@ CameraQuality read_quality(TomlReader& in) {
 
 void read_camera(TomlReader& in, const std::string& key, Calibration& out) {
   Camera camera;
-  camera.name = in.has("name") ? in.text("name") : key;
+  // Caliscope's videos and timestamps are named cam_0, cam_1...
+  const bool is_number = key.find_first_not_of("0123456789") == std::string::npos;
+  camera.name = in.has("name") ? in.text("name") : is_number ? "cam_" + key : key;
   read_intrinsics(in, camera.intrinsics);
   camera.camera_from_world = read_pose(in);
   read_if_there(in, "tag_shrinkage_px", kAny, camera.tag_shrinkage.offset_px);
@@ -247,9 +263,13 @@ Result<Calibration> parse_calibration(std::string_view text, const std::string& 
   if (!document) return document.error();
   TomlReader root(*document);
   Calibration calibration;
-  for (const std::string& key : root.keys()) {
-    if (!is_camera(key) || !root.is_table(key)) continue;
-    TomlReader camera = root.table(key);
+  // Caliscope's camera_array.toml has [cameras.0], [cameras.1]...
+  const bool is_array = root.is_table("cameras") && !root.table("cameras").has("matrix");
+  TomlReader cameras = is_array ? root.table("cameras") : root;
+  for (const std::string& key : cameras.keys()) {
+    if (!is_camera(key) || !cameras.is_table(key)) continue;
+    TomlReader camera = cameras.table(key);
+    if (camera.has("ignore") && camera.boolean("ignore")) continue;
     read_camera(camera, key, calibration);
   }
   if (calibration.cameras.empty()) {
@@ -266,7 +286,21 @@ Result<Calibration> parse_calibration(std::string_view text, const std::string& 
 Result<Calibration> read_calibration(const std::filesystem::path& path) {
   const Result<std::string> text = read_file(path);
   if (!text) return text.error();
+  if (is_yaml_or_xml(*text)) return import_calibration(*text, path);
   return parse_calibration(*text, path.string());
+}
+
+bool is_calibration(const std::filesystem::path& path) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return false;
+  if (is_yaml_or_xml(*text)) return true;
+  Result<TomlDocument> document = parse_toml(*text, path.string());
+  if (!document) return false;
+  TomlReader root(*document);
+  const std::vector<std::string> keys = root.keys();
+  return std::any_of(keys.begin(), keys.end(), [&](const std::string& key) {
+    return root.is_table(key) && (key == "cameras" || root.table(key).has("matrix"));
+  });
 }
 
 }  // namespace marey::recordings

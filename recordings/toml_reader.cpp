@@ -215,6 +215,13 @@ std::size_t TomlReader::count(std::string_view key) const {
   return array ? array->size() : 0;
 }
 
+bool TomlReader::is_matrix(std::string_view key) const {
+  const TomlValue* value = find(key);
+  const Array* array = value ? std::get_if<Array>(&value->content) : nullptr;
+  return array != nullptr && !array->empty() &&
+         std::holds_alternative<Array>(array->front().content);
+}
+
 void TomlReader::append_numbers(std::string_view key,
                                 const TomlValue& value,
                                 std::size_t count,

@@ -91,6 +91,8 @@ class TomlReader {
                                            std::size_t columns);
   /// How many values the array `key` has; 0 when it is not an array.
   [[nodiscard]] std::size_t count(std::string_view key) const;
+  /// `key` is an array whose first value is an array.
+  [[nodiscard]] bool is_matrix(std::string_view key) const;
   [[nodiscard]] TomlReader table(std::string_view key);
   /// [[key]]. Empty when the key is missing.
   [[nodiscard]] std::vector<TomlReader> tables(std::string_view key);
