@@ -169,9 +169,12 @@ std::optional<Intrinsics> estimate_intrinsics(std::span<const BoardView* const> 
   k.lens = lens;
   k.width_px = width_px;
   k.height_px = height_px;
-  k.focal_px = {found->matrix.at<double>(0, 0), found->matrix.at<double>(1, 1)};
-  k.centre_px = {found->matrix.at<double>(0, 2), found->matrix.at<double>(1, 2)};
-  k.distortion[0] = found->distortion.at<double>(0);
+  const auto at = [&](int row, int column) {
+    return settled(found->matrix.at<double>(row, column));
+  };
+  k.focal_px = {at(0, 0), at(1, 1)};
+  k.centre_px = {at(0, 2), at(1, 2)};
+  k.distortion[0] = settled(found->distortion.at<double>(0));
   const double focal = k.focal_px.x / width_px;
   const bool sane = std::isfinite(focal) && focal > 0.2 && focal < 10.0 &&
                     std::abs(k.focal_px.y / k.focal_px.x - 1.0) < 0.2;

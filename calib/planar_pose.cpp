@@ -17,7 +17,7 @@ namespace {
 
 RigidTransform to_transform(const cv::Mat& rotation_vector_rad,
                             const cv::Mat& translation) {
-  const auto at = [](const cv::Mat& m, int i) { return m.at<double>(i); };
+  const auto at = [](const cv::Mat& m, int i) { return settled(m.at<double>(i)); };
   return {rotation_from_vector({at(rotation_vector_rad, 0),
                                 at(rotation_vector_rad, 1),
                                 at(rotation_vector_rad, 2)}),

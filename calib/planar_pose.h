@@ -16,6 +16,12 @@
 
 namespace marey::calib {
 
+/// A guess by OpenCV, to single precision: its solvers call whatever BLAS the machine has,
+/// whose last bits follow where memory lies, and what starts there would too.
+[[nodiscard]] inline double settled(double guess) {
+  return static_cast<float>(guess);
+}
+
 /// A place that suits what the camera saw.
 struct PlacedPlane {
   RigidTransform camera_from_plane;
