@@ -167,7 +167,7 @@ RigidTransform read_pose(TomlReader& in) {
   camera_from_world.translation = {t[0], t[1], t[2]};
   if (in.has("rotation_wxyz")) {
     camera_from_world.rotation = read_quaternion(in, camera_from_world.rotation);
-  } else if (glm::length(camera_from_world.translation) > kFarthest_m) {
+  } else if (glm::length(camera_from_world.translation) > kFarthest) {
     in.fail("translation",
             "the camera stands more than 100 m from the world's origin",
             "give places in metres: divide them by 1000 if they are millimetres");

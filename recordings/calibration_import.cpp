@@ -62,7 +62,7 @@ Result<Calibration> import_calibration(std::string_view text,
   if (document->mistake) return *document->mistake;
   if (!status) return status.error();
   for (const Camera& camera : calibration.cameras) {
-    if (glm::length(centre_in_world(camera)) <= kFarthest_m) continue;
+    if (glm::length(centre_in_world(camera)) <= kFarthest) continue;
     return bad_input(
         file,
         in_quotes(camera.name) +

@@ -36,8 +36,8 @@ constexpr auto kMatrix2 =
 constexpr auto kTerms2 =
     std::to_array<std::string_view>({"D2", "distCoeffs2", "dist_coeffs_2"});
 
-/// Two cameras of one rig stand nearer to each other; in millimetres they do not.
-constexpr double kWidestPair_m = 20.0;
+/// Two cameras of one rig stand nearer to each other; in millimetres they do not. [m]
+constexpr double kWidestPair = 20.0;
 
 /// The first of `keys` that the file has; empty when it has none.
 std::string_view first_of(const TomlReader& in, Keys keys) {
@@ -204,7 +204,7 @@ Status import_opencv(TomlReader& root,
   const auto second_from_first = read_pair(root, path);
   if (!second_from_first) return second_from_first.error();
   second.camera_from_world = *second_from_first;
-  if (glm::length(second_from_first->translation) > kWidestPair_m) {
+  if (glm::length(second_from_first->translation) > kWidestPair) {
     root.fail("T",
               "T puts the second camera more than 20 m from the first",
               "give T in metres: divide it by 1000 if it is in millimetres");

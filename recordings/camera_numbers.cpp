@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include <glm/mat3x3.hpp>
 
@@ -11,10 +12,8 @@ namespace marey::recordings {
 
 std::optional<glm::dquat> rotation_of_rows(std::span<const double, 9> rows) {
   glm::dmat3 r(0.0);  // r[column][row]
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      r[column][row] = rows[static_cast<std::size_t>(3 * row + column)];
-    }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    r[static_cast<int>(i % 3)][static_cast<int>(i / 3)] = rows[i];
   }
   const glm::dmat3 product = glm::transpose(r) * r;
   constexpr double kTolerance = 1e-3;

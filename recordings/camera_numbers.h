@@ -26,7 +26,7 @@ namespace marey::recordings {
                                   Intrinsics& intrinsics);
 
 /// Cameras of a room or a hall stand nearer to their world's origin; a file in
-/// millimetres has them beyond.
-inline constexpr double kFarthest_m = 100.0;
+/// millimetres has them beyond. [m]
+inline constexpr double kFarthest = 100.0;
 
 }  // namespace marey::recordings
