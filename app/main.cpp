@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "app/commands.h"
+#include "app/plan_commands.h"
 #include "app/print_commands.h"
 #include "app/version.h"
 #include "recordings/atomic_file.h"
@@ -39,6 +40,7 @@ struct Arguments {
   recordings::MannequinOptions mannequin;
   recordings::MannequinStyle style;
   PrintArguments print;
+  PlanArguments plan;
 
   [[nodiscard]] ProgressStyle style_of_progress() const {
     if (progress == "json") return ProgressStyle::kJson;
@@ -195,6 +197,7 @@ int run(int argc, char** argv) {
   add_retarget(app, args, chosen);
   add_mannequin(app, args, chosen);
   add_print_commands(app, args.print, chosen);
+  add_plan_command(app, args.plan, chosen);
   add_small_commands(app, args, chosen);
   try {
     app.parse(argc, argv);

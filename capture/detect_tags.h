@@ -87,4 +87,8 @@ class TagDetector {
 /// cover. Precondition: side_px > 0.
 [[nodiscard]] double edge_corner_sigma_px(double side_px);
 
+/// The same for a corner whose tag's pattern was aligned, as far as its size tells: what
+/// to expect of a picture that is not taken yet. Precondition: side_px > 0.
+[[nodiscard]] double expected_corner_sigma_px(double side_px);
+
 }  // namespace marey::capture

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/plan_commands.h"
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "app/plan_figures.h"
+#include "capture/detect_tags.h"
+#include "recordings/atomic_file.h"
+#include "recordings/plan_file.h"
+#include "recordings/print_words.h"
+
+namespace marey::app {
+namespace {
+
+/// Heights of joints over the stature: R. Drillis and R. Contini, "Body segment
+/// parameters", 1966.
+struct BodyHeight {
+  const char* name;
+  double over_stature;
+};
+constexpr std::array<BodyHeight, 3> kHeights{
+    {{"ankle", 0.039}, {"hip", 0.530}, {"shoulder", 0.818}}};
+
+PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
+  PlanReport report;
+  report.name = args.plan.filename().string();
+  report.cameras = std::move(plan.cameras);
+  constexpr double kUsualTag_m = 0.08;
+  constexpr double kUsualStature_m = 1.75;
+  report.options.tag_size_m =
+      args.tag_size_m.value_or(plan.tag_size_m.value_or(kUsualTag_m));
+  report.stature_m = args.stature_m.value_or(plan.stature_m.value_or(kUsualStature_m));
+  report.grid = calib::grid_before(report.cameras);
+  if (plan.volume) {
+    const auto& [least, greatest, step_m] = *plan.volume;
+    report.grid = {{least.x, 0.0, least.y}, {greatest.x, 0.0, greatest.y}, step_m, {}};
+  }
+  report.grid.heights_m.clear();
+  for (const BodyHeight& height : kHeights) {
+    report.height_names.emplace_back(height.name);
+    report.grid.heights_m.push_back(height.over_stature * report.stature_m);
+  }
+  report.plan = calib::plan_rig(report.cameras,
+                                nullptr,
+                                report.grid,
+                                capture::expected_corner_sigma_px,
+                                report.options);
+  return report;
+}
+
+}  // namespace
+
+Exit run_plan(const PlanArguments& args, Console& console) {
+  auto plan = recordings::read_plan(args.plan);
+  if (!plan) return console.fail(plan.error());
+  const PlanReport report = report_of(args, *std::move(plan));
+  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+  const std::string json = plan_figures(report).dump(1, ' ', false, kReplace) + "\n";
+  if (const Status ok = recordings::write_file(args.out / "plan.json", json); !ok) {
+    return console.fail(ok.error());
+  }
+  if (const Status ok = recordings::write_file(args.out / "plan.html", plan_page(report));
+      !ok) {
+    return console.fail(ok.error());
+  }
+  std::fputs(args.json ? json.c_str() : plan_table(report).c_str(), stdout);
+  if (report.cameras.size() < 2) {
+    console.warn(report.name +
+                 ": one camera alone places no tag. Next: plan two or more");
+  }
+  console.say((args.out / "plan.html").string() + " shows it from above");
+  return Exit::kOk;
+}
+
+void add_plan_command(CLI::App& app,
+                      PlanArguments& args,
+                      std::function<Exit(Console&)>& chosen) {
+  CLI::App* command =
+      app.add_subcommand("plan", "Predict what cameras will see, and how well");
+  command->add_option("plan", args.plan, "plan.toml, or a calibration.toml")->required();
+  command->add_option("-o,--out", args.out, "Folder for plan.json and plan.html")
+      ->required();
+  command
+      ->add_option_function<std::string>(
+          "--tag",
+          [&args](const std::string& word) {
+            auto size_m = recordings::parse_length_m(word);
+            if (!size_m) {
+              throw CLI::ValidationError(
+                  "--tag", size_m.error().cause + ". Next: " + size_m.error().next);
+            }
+            args.tag_size_m = *size_m;
+          },
+          "Edge of a tag's square, with its unit; default the plan's, or 80mm")
+      ->type_name("LENGTH");
+  command
+      ->add_option("--height", args.stature_m, "Stature [m]; default the plan's, or 1.75")
+      ->check(CLI::Range(0.3, 10.0));
+  command->add_flag("--json", args.json, "Print plan.json instead of the table");
+  command->callback(
+      [&] { chosen = [&args](Console& console) { return run_plan(args, console); }; });
+}
+
+}  // namespace marey::app

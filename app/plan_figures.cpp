@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/plan_figures.h"
+
+#include <cstdio>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "app/report_figures.h"
+#include "core/camera.h"
+
+namespace marey::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json percent(double share) {
+  return rounded(100.0 * share, 1);
+}
+
+Json mm(const std::optional<double>& value_m) {
+  return value_m ? Json(rounded(1e3 * *value_m, 3)) : Json(nullptr);
+}
+
+Json spread(const std::optional<calib::MedianAndP95>& error_m, bool is_median) {
+  if (!error_m) return nullptr;
+  return rounded(1e3 * (is_median ? error_m->median : error_m->p95), 3);
+}
+
+Json point(const glm::dvec3& p) {
+  return {rounded(p.x, 4), rounded(p.y, 4), rounded(p.z, 4)};
+}
+
+Json cameras_of(const PlanReport& report) {
+  Json out = Json::array();
+  for (const Camera& camera : report.cameras) {
+    const Intrinsics& k = camera.intrinsics;
+    const RigidTransform world_from_camera = inverse(camera.camera_from_world);
+    out.push_back(
+        {{"name", camera.name},
+         {"width_px", k.width_px},
+         {"height_px", k.height_px},
+         {"focal_px", {rounded(k.focal_px.x, 2), rounded(k.focal_px.y, 2)}},
+         {"centre_in_world_m", point(world_from_camera.translation)},
+         {"forward_in_world", point(world_from_camera.rotation * glm::dvec3(0, 0, 1))}});
+  }
+  return out;
+}
+
+/// Lines of "   12.3" and the like, or as many blanks and a dash.
+std::string cell(const char* format, int width, const std::optional<double>& value) {
+  char text[32];
+  if (!value) {
+    std::snprintf(text, sizeof text, "%*s", width, "-");
+  } else {
+    std::snprintf(text, sizeof text, format, width, *value);
+  }
+  return text;
+}
+
+std::optional<double> in_mm(const std::optional<calib::MedianAndP95>& error_m,
+                            double calib::MedianAndP95::*which) {
+  if (!error_m) return std::nullopt;
+  return 1e3 * (*error_m).*which;
+}
+
+}  // namespace
+
+Json plan_figures(const PlanReport& report) {
+  Json heights = Json::array();
+  for (std::size_t i = 0; i < report.plan.heights.size(); ++i) {
+    const calib::PlannedHeight& h = report.plan.heights[i];
+    heights.push_back({{"name", report.height_names[i]},
+                       {"height_m", rounded(h.height_m, 3)},
+                       {"seen_percent", percent(h.seen_share)},
+                       {"measured_percent", percent(h.measured_share)},
+                       {"tag_side_px", h.side_px ? Json(rounded(*h.side_px, 1)) : Json()},
+                       {"tag_median_mm", spread(h.centre_error_m, true)},
+                       {"tag_p95_mm", spread(h.centre_error_m, false)},
+                       {"joint_median_mm", spread(h.joint_error_m, true)},
+                       {"joint_p95_mm", spread(h.joint_error_m, false)}});
+  }
+  Json places = Json::array();
+  for (const calib::PlannedPlace& place : report.plan.places) {
+    places.push_back({{"p_in_world_m", point(place.p_in_world)},
+                      {"seen_percent", percent(place.seen_share)},
+                      {"measured_percent", percent(place.measured_share)},
+                      {"tag_side_px", rounded(place.side_px, 1)},
+                      {"tag_mm", mm(place.centre_error_m)},
+                      {"joint_mm", mm(place.joint_error_m)}});
+  }
+  const calib::ErrorMapGrid& grid = report.grid;
+  return {
+      {"plan", report.name},
+      {"tag_size_mm", rounded(1e3 * report.options.tag_size_m, 2)},
+      {"stature_m", rounded(report.stature_m, 3)},
+      {"lever_mm", rounded(1e3 * report.options.lever_m, 1)},
+      {"least_m", {rounded(grid.least_in_world.x, 4), rounded(grid.least_in_world.z, 4)}},
+      {"greatest_m",
+       {rounded(grid.greatest_in_world.x, 4), rounded(grid.greatest_in_world.z, 4)}},
+      {"step_m", rounded(grid.step_m, 4)},
+      {"cameras", cameras_of(report)},
+      {"heights", heights},
+      {"places", places}};
+}
+
+std::string plan_table(const PlanReport& report) {
+  std::string out =
+      "                    tags seen by     side   error of a tag's    of a joint\n"
+      "height               one    two     of tag   median    95 %    median    95 %\n";
+  for (std::size_t i = 0; i < report.plan.heights.size(); ++i) {
+    const calib::PlannedHeight& h = report.plan.heights[i];
+    char start[48];
+    std::snprintf(
+        start, sizeof start, "%-10s %4.2f m", report.height_names[i].c_str(), h.height_m);
+    using Spread = calib::MedianAndP95;
+    out += start;
+    out += cell("%*.0f %%", 6, 100.0 * h.seen_share);
+    out += cell("%*.0f %%", 5, 100.0 * h.measured_share);
+    out += cell(h.side_px ? "%*.0f px" : "%*.0f", h.side_px ? 8 : 11, h.side_px);
+    out += cell("%*.2f", 9, in_mm(h.centre_error_m, &Spread::median));
+    out += cell("%*.2f", 8, in_mm(h.centre_error_m, &Spread::p95));
+    out += cell("%*.2f", 10, in_mm(h.joint_error_m, &Spread::median));
+    out += cell("%*.2f mm", 8, in_mm(h.joint_error_m, &Spread::p95));
+    out += '\n';
+  }
+  return out;
+}
+
+}  // namespace marey::app

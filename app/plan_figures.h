@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "calib/plan_rig.h"
+
+namespace marey::app {
+
+/// A plan and what it was made from.
+struct PlanReport {
+  std::string name;             ///< Of the file that the cameras come from.
+  std::vector<Camera> cameras;  ///< At least one.
+  calib::PlanOptions options;
+  double stature_m = 1.75;
+  /// Of the grid's heights: "ankle", "hip"...
+  std::vector<std::string> height_names;
+  calib::ErrorMapGrid grid;
+  calib::RigPlan plan;
+};
+
+/// What plan.json holds (docs/formats.md).
+[[nodiscard]] nlohmann::ordered_json plan_figures(const PlanReport& report);
+
+/// The table of heights for a terminal, lines of at most 90 columns.
+[[nodiscard]] std::string plan_table(const PlanReport& report);
+
+/// plan.html: the table, and for every height the floor from above, with the cameras,
+/// where tags are seen by two, and how well. One file, nothing fetched.
+[[nodiscard]] std::string plan_page(const PlanReport& report);
+
+}  // namespace marey::app

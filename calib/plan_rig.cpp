@@ -1,0 +1,281 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/plan_rig.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include <Eigen/Dense>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "calib/see_point.h"
+#include "core/assert.h"
+
+namespace marey::calib {
+namespace {
+
+constexpr int kPerCamera = static_cast<int>(RigCovariance::kPerCamera);
+using Corners = std::array<glm::dvec3, 4>;
+
+/// The mean side [px] of a tag in a camera that sees it; nullopt when it does not.
+std::optional<double> side_seen_px(const Camera& camera,
+                                   const RigidTransform& world_from_tag,
+                                   const Corners& corners_in_world,
+                                   const PlanOptions& options) {
+  const glm::dvec3 sight = world_from_tag.translation - centre_in_world(camera);
+  const glm::dvec3 into_tag = world_from_tag.rotation * glm::dvec3(0.0, 0.0, 1.0);
+  const double facing = glm::dot(sight, into_tag) / glm::length(sight);
+  if (!(facing > std::cos(options.widest_rad))) return std::nullopt;
+  std::array<glm::dvec2, 4> pixels{};
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (cameras_that_see(std::span(&camera, 1), corners_in_world[c]).empty()) {
+      return std::nullopt;
+    }
+    pixels[c] = *project(camera, corners_in_world[c]);
+  }
+  double around_px = 0.0;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const double edge_px = glm::distance(pixels[c], pixels[(c + 1) % 4]);
+    if (edge_px < options.least_side_px) return std::nullopt;
+    around_px += edge_px;
+  }
+  return 0.25 * around_px;
+}
+
+struct View {
+  CameraId camera{};
+  double side_px = 0.0;
+};
+
+/// Covariance of a tag's pose: rotation vector in the world [rad], then centre [m].
+/// nullopt where point_covariance() would have none.
+std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance(
+    std::span<const Camera> cameras,
+    const RigCovariance* covariance,
+    const glm::dvec3& centre,
+    const Corners& corners_in_world,
+    std::span<const View> views,
+    const CornerSigma& corner_sigma) {
+  const auto count = static_cast<Eigen::Index>(views.size());
+  Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::MatrixXd pull = Eigen::MatrixXd::Zero(6, kPerCamera * count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const View& view = views[static_cast<std::size_t>(i)];
+    const double sigma_px = corner_sigma(view.side_px);
+    MAREY_ASSERT(sigma_px > 0.0);
+    const double weight = 1.0 / (sigma_px * sigma_px);
+    for (const glm::dvec3& corner : corners_in_world) {
+      const auto sight = see_point(cameras[index(view.camera)], corner);
+      if (!sight) return std::nullopt;
+      Eigen::Matrix<double, 2, 6> by_pose;
+      by_pose << -sight->by_point * cross_matrix(to_eigen(corner - centre)),
+          sight->by_point;
+      information += weight * by_pose.transpose() * by_pose;
+      pull.middleCols<kPerCamera>(kPerCamera * i) +=
+          weight * by_pose.transpose() * sight->by_camera;
+    }
+  }
+  const Eigen::LDLT<Eigen::Matrix<double, 6, 6>> factor(information);
+  const Eigen::Matrix<double, 6, 1> pivots = factor.vectorD();
+  // Metres and radians differ by the tag's size; see point_covariance().
+  if (!(pivots.minCoeff() > 1e-16 * pivots.maxCoeff())) return std::nullopt;
+  Eigen::Matrix<double, 6, 6> out = factor.solve(Eigen::Matrix<double, 6, 6>::Identity());
+  if (!covariance) return out;
+  const Eigen::MatrixXd gain = factor.solve(pull);
+  Eigen::MatrixXd doubt(gain.cols(), gain.cols());
+  const auto place = [&](Eigen::Index k) {
+    const View& view = views[static_cast<std::size_t>(k / kPerCamera)];
+    return RigCovariance::kPerCamera * index(view.camera) +
+           static_cast<std::size_t>(k % kPerCamera);
+  };
+  for (Eigen::Index row = 0; row < doubt.rows(); ++row) {
+    for (Eigen::Index column = 0; column < doubt.cols(); ++column) {
+      doubt(row, column) = covariance->at(place(row), place(column));
+    }
+  }
+  return out + gain * doubt * gain.transpose();
+}
+
+/// An upright tag that faces the level direction `angle_rad`, 0 being +Z, towards +X.
+RigidTransform upright_tag(const glm::dvec3& p_in_world, double angle_rad) {
+  const glm::dvec3 into_tag{-std::sin(angle_rad), 0.0, -std::cos(angle_rad)};
+  const glm::dvec3 down{0.0, -1.0, 0.0};
+  return {glm::quat_cast(glm::dmat3(glm::cross(down, into_tag), down, into_tag)),
+          p_in_world};
+}
+
+/// Precondition: not empty.
+double quantile(std::vector<double>& values, double share) {
+  const auto at = static_cast<std::size_t>(
+      std::lround(share * static_cast<double>(values.size() - 1)));
+  std::nth_element(
+      values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
+  return values[at];
+}
+
+std::optional<MedianAndP95> spread(std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return MedianAndP95{quantile(values, 0.5), quantile(values, 0.95)};
+}
+
+/// Tags of one place or one height, as they are added.
+struct Tally {
+  int tags = 0;
+  std::vector<double> sides_px;
+  std::vector<double> centre_m;
+  std::vector<double> joint_m;
+
+  void add(const ExpectedTag& tag) {
+    ++tags;
+    if (!tag.seen_by.empty()) sides_px.push_back(tag.side_px);
+    if (tag.centre_error_m) centre_m.push_back(*tag.centre_error_m);
+    if (tag.joint_error_m) joint_m.push_back(*tag.joint_error_m);
+  }
+  [[nodiscard]] double share(const std::vector<double>& of) const {
+    return static_cast<double>(of.size()) / std::max(1, tags);
+  }
+};
+
+std::optional<double> root_mean_square(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  double squares = 0.0;
+  for (const double value : values) squares += value * value;
+  return std::sqrt(squares / static_cast<double>(values.size()));
+}
+
+PlannedPlace place_of(const glm::dvec3& p_in_world, const Tally& tally) {
+  PlannedPlace out;
+  out.p_in_world = p_in_world;
+  out.seen_share = tally.share(tally.sides_px);
+  out.measured_share = tally.share(tally.centre_m);
+  for (const double side : tally.sides_px) {
+    out.side_px += side / static_cast<double>(tally.sides_px.size());
+  }
+  out.centre_error_m = root_mean_square(tally.centre_m);
+  out.joint_error_m = root_mean_square(tally.joint_m);
+  return out;
+}
+
+PlannedHeight height_of(double height_m, Tally& tally) {
+  PlannedHeight out;
+  out.height_m = height_m;
+  out.seen_share = tally.share(tally.sides_px);
+  out.measured_share = tally.share(tally.centre_m);
+  if (!tally.sides_px.empty()) out.side_px = quantile(tally.sides_px, 0.5);
+  out.centre_error_m = spread(tally.centre_m);
+  out.joint_error_m = spread(tally.joint_m);
+  return out;
+}
+
+}  // namespace
+
+ExpectedTag expect_tag(std::span<const Camera> cameras,
+                       const RigCovariance* covariance,
+                       const RigidTransform& world_from_tag,
+                       const CornerSigma& corner_sigma,
+                       const PlanOptions& options) {
+  MAREY_ASSERT(options.tag_size_m > 0.0);
+  MAREY_ASSERT(!covariance || covariance->cameras == cameras.size());
+  Corners corners_in_world{};
+  for (int c = 0; c < 4; ++c) {
+    corners_in_world[static_cast<std::size_t>(c)] =
+        world_from_tag * corner_in_tag(c, options.tag_size_m);
+  }
+  ExpectedTag out;
+  std::vector<View> views;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const auto side_px =
+        side_seen_px(cameras[c], world_from_tag, corners_in_world, options);
+    if (!side_px) continue;
+    views.push_back({CameraId{static_cast<int>(c)}, *side_px});
+    out.seen_by.push_back(views.back().camera);
+    out.side_px += *side_px;
+  }
+  if (!views.empty()) out.side_px /= static_cast<double>(views.size());
+  if (views.size() < 2) return out;
+  const auto pose = pose_covariance(cameras,
+                                    covariance,
+                                    world_from_tag.translation,
+                                    corners_in_world,
+                                    views,
+                                    corner_sigma);
+  if (!pose) return out;
+  const double turn_rad2 = pose->topLeftCorner<3, 3>().trace();
+  const double centre_m2 = pose->bottomRightCorner<3, 3>().trace();
+  out.centre_error_m = std::sqrt(centre_m2);
+  // The mean of |turn x lever|^2 over all directions of the lever is two thirds of both
+  // squared; what turn and centre have in common averages out.
+  out.joint_error_m =
+      std::sqrt(centre_m2 + 2.0 / 3.0 * options.lever_m * options.lever_m * turn_rad2);
+  return out;
+}
+
+RigPlan plan_rig(std::span<const Camera> cameras,
+                 const RigCovariance* covariance,
+                 const ErrorMapGrid& grid,
+                 const CornerSigma& corner_sigma,
+                 const PlanOptions& options) {
+  MAREY_ASSERT(grid.step_m > 0.0 && options.directions > 0);
+  const glm::dvec3 extent = grid.greatest_in_world - grid.least_in_world;
+  const int columns = static_cast<int>(std::floor(extent.x / grid.step_m + 1e-9)) + 1;
+  const int rows = static_cast<int>(std::floor(extent.z / grid.step_m + 1e-9)) + 1;
+  RigPlan plan;
+  for (const double height_m : grid.heights_m) {
+    Tally of_height;
+    for (int at = 0; at < rows * columns; ++at) {
+      const glm::dvec3 p_in_world{grid.least_in_world.x + at % columns * grid.step_m,
+                                  height_m,
+                                  grid.least_in_world.z + at / columns * grid.step_m};
+      Tally of_place;
+      for (int k = 0; k < options.directions; ++k) {
+        const double angle_rad = 2.0 * std::numbers::pi * k / options.directions;
+        const ExpectedTag tag = expect_tag(cameras,
+                                           covariance,
+                                           upright_tag(p_in_world, angle_rad),
+                                           corner_sigma,
+                                           options);
+        of_place.add(tag);
+        of_height.add(tag);
+      }
+      plan.places.push_back(place_of(p_in_world, of_place));
+    }
+    plan.heights.push_back(height_of(height_m, of_height));
+  }
+  return plan;
+}
+
+ErrorMapGrid grid_before(std::span<const Camera> cameras) {
+  MAREY_ASSERT(!cameras.empty());
+  // Least squares of the distances to all axes.
+  Eigen::Matrix3d across_all = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Camera& camera : cameras) {
+    const RigidTransform world_from_camera = inverse(camera.camera_from_world);
+    const Eigen::Vector3d centre = to_eigen(world_from_camera.translation);
+    const Eigen::Vector3d axis =
+        to_eigen(world_from_camera.rotation * glm::dvec3(0.0, 0.0, 1.0));
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+    across_all += across;
+    pull += across * centre;
+    middle += centre / static_cast<double>(cameras.size());
+  }
+  const Eigen::LDLT<Eigen::Matrix3d> factor(across_all);
+  const bool is_known =
+      factor.vectorD().minCoeff() > 1e-3 * static_cast<double>(cameras.size());
+  const Eigen::Vector3d target = is_known ? Eigen::Vector3d(factor.solve(pull)) : middle;
+  constexpr double kHalf_m = 2.0;
+  constexpr double kRound_m = 0.1;  // Legible coordinates.
+  const glm::dvec3 around{std::round(target.x() / kRound_m) * kRound_m,
+                          0.0,
+                          std::round(target.z() / kRound_m) * kRound_m};
+  const glm::dvec3 half{kHalf_m, 0.0, kHalf_m};
+  return {around - half, around + half, 0.25, ErrorMapGrid{}.heights_m};
+}
+
+}  // namespace marey::calib

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// marey plan, from the outside.
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/run_program.h"
+#include "tests/support/scratch_folder.h"
+
+namespace marey::testing {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+class Plan : public ::testing::Test {
+ protected:
+  /// Writes plan.toml: two cameras in front of a volume of 2 m, and `more`.
+  void write_plan(const std::string& more = "") {
+    std::ofstream out(folder_ / "plan.toml");
+    out << "format = 1\n[volume]\nleast_m = [-1, -1]\ngreatest_m = [1, 1]\n"
+           "step_m = 0.5\n";
+    for (const char* side : {"-1.2", "1.2"}) {
+      out << "[[camera]]\nname = \"<b>" << side << "\"\nplace_m = [" << side
+          << ", 1.4, 3.0]\nlooks_at_m = [0, 0.9, 0]\nwidth_px = 1280\n"
+             "height_px = 720\nfield_of_view_deg = 70\n";
+    }
+    out << more;
+  }
+
+  [[nodiscard]] ProgramRun plan(std::vector<std::string> more = {},
+                                const std::string& out = "out") {
+    std::vector<std::string> words{
+        "plan", (folder_ / "plan.toml").string(), "--out", (folder_ / out).string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_program(MAREY_PROGRAM, words);
+  }
+
+  [[nodiscard]] fs::path in_folder(const std::string& name) const {
+    return folder_ / name;
+  }
+
+ private:
+  ScratchFolder folder_;
+};
+
+TEST_F(Plan, TellsEveryHeightInATableAndInFiles) {
+  write_plan();
+  const ProgramRun run = plan({"--tag", "90mm", "--height", "2"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"ankle", "hip", "shoulder"}) {
+    EXPECT_NE(run.out.find(name), std::string::npos) << run.out;
+  }
+  const Json json = Json::parse(text_of(in_folder("out/plan.json")), nullptr, false);
+  EXPECT_EQ(json.at("tag_size_mm"), 90.0);
+  EXPECT_EQ(json.at("places").size(), 75U);
+  ASSERT_EQ(json.at("heights").size(), 3U);
+  EXPECT_EQ(json.at("heights")[1].at("height_m"), 1.06);
+  EXPECT_GT(json.at("heights")[1].at("measured_percent"), 5.0);
+  EXPECT_GT(json.at("heights")[1].at("tag_median_mm"), 0.05);
+}
+
+TEST_F(Plan, DrawsAPageThatNeedsNothingElse) {
+  write_plan();
+  EXPECT_EQ(plan().exit_code, 0);
+  const std::string page = text_of(in_folder("out/plan.html"));
+  EXPECT_NE(page.find("<svg"), std::string::npos);
+  EXPECT_NE(page.find("&lt;b&gt;-1.2"), std::string::npos);
+  for (const char* not_there : {"<b>", "http:", "https:", "src=", "<script", "nan"}) {
+    EXPECT_EQ(page.find(not_there), std::string::npos) << not_there;
+  }
+}
+
+TEST_F(Plan, WritesTheSameBytesAgain) {
+  write_plan();
+  EXPECT_EQ(plan({"--json"}, "a").out, plan({"--json"}, "b").out);
+  for (const char* name : {"plan.json", "plan.html"}) {
+    EXPECT_EQ(text_of(in_folder("a") / name), text_of(in_folder("b") / name)) << name;
+  }
+  EXPECT_EQ(plan({"--json"}).out, text_of(in_folder("a/plan.json")));
+}
+
+TEST_F(Plan, RefusesWhatItCannotUse) {
+  write_plan("height_m = 2\n");
+  const ProgramRun unknown = plan();
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_NE(unknown.err.find("plan.toml:20: unknown key \"height_m\" in [[camera]]"),
+            std::string::npos)
+      << unknown.err;
+  EXPECT_FALSE(fs::exists(in_folder("out")));
+  write_plan();
+  EXPECT_EQ(plan({"--tag", "90"}).exit_code, 2);
+  EXPECT_EQ(plan({"--height", "90"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace marey::testing
