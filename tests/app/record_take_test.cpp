@@ -29,18 +29,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::kFfmpeg;
+using testing::options_for;
 using testing::ScratchFolder;
 using testing::SyntheticFeed;
-
-/// On the clock of `feed`, with room for all that comes however slow the disk is.
-RecordOptions options_for(const fs::path& folder, const SyntheticFeed& feed) {
-  RecordOptions options;
-  options.folder = folder;
-  options.trial = "walk";
-  options.queue_frames = 1000;
-  options.now = [&feed] { return feed.now(); };
-  return options;
-}
 
 /// The bytes that the recorded frames should have.
 std::string expected_packets(const SyntheticFeed& feed,

@@ -28,19 +28,9 @@ namespace {
 namespace fs = std::filesystem;
 using capture::DeviceSettings;
 using capture::PixelFormat;
+using testing::options_for;
 using testing::ScratchFolder;
 using testing::SyntheticFeed;
-
-/// On the clock of `feed`, the first of the cameras, with room for all that comes however
-/// slow the disk is.
-RecordOptions options_for(const fs::path& folder, const SyntheticFeed& feed) {
-  RecordOptions options;
-  options.folder = folder;
-  options.trial = "walk";
-  options.queue_frames = 1000;
-  options.now = [&feed] { return feed.now(); };
-  return options;
-}
 
 recordings::Take take_in(const fs::path& folder) {
   const auto take = recordings::read_take(folder / recordings::kTakeFile);

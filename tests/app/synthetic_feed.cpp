@@ -108,4 +108,14 @@ std::optional<capture::RawFrame> SyntheticFeed::next(std::chrono::milliseconds t
   return frame;
 }
 
+app::RecordOptions options_for(const std::filesystem::path& folder,
+                               const SyntheticFeed& feed) {
+  app::RecordOptions options;
+  options.folder = folder;
+  options.trial = "walk";
+  options.queue_frames = 1000;
+  options.now = [&feed] { return feed.now(); };
+  return options;
+}
+
 }  // namespace marey::testing

@@ -5,11 +5,13 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "app/frame_feed.h"
+#include "app/record_take.h"
 
 namespace marey::testing {
 
@@ -69,5 +71,11 @@ class SyntheticFeed final : public app::FrameFeed {
   std::vector<std::byte> bytes_;
   std::vector<app::FeedEvent> events_;
 };
+
+/// To record the trial "walk" into `folder` on the clock of `feed`, the first of the
+/// cameras, with room for all that comes however slow the disk is. The feed must live as
+/// long as the options.
+[[nodiscard]] app::RecordOptions options_for(const std::filesystem::path& folder,
+                                             const SyntheticFeed& feed);
 
 }  // namespace marey::testing
