@@ -6,7 +6,6 @@
 #include <set>
 #include <utility>
 
-#include "app/calibrate_session.h"
 #include "app/find_tags.h"
 #include "app/retarget_files.h"
 #include "app/stopwatch.h"
@@ -17,7 +16,6 @@
 #include "reconstruct/check_views.h"
 #include "reconstruct/fit_subject.h"
 #include "recordings/atomic_file.h"
-#include "recordings/calibration_file.h"
 #include "recordings/subject_file.h"
 
 namespace marey::app {
@@ -25,17 +23,6 @@ namespace {
 
 using recordings::Trial;
 using recordings::TrialKind;
-
-/// The error with its file: rooms that see no files leave the place empty, or name a
-/// table of session.toml, "[board]".
-Error at(const std::string& file, Error error) {
-  if (error.where.empty()) {
-    error.where = file;
-  } else if (error.where.front() == '[') {
-    error.where = file + ": " + error.where;
-  }
-  return error;
-}
 
 Error missing_trial(const recordings::Session& session, TrialKind kind) {
   return bad_input(
@@ -110,6 +97,16 @@ std::vector<const Trial*> Pipeline::motion_trials() const {
   return trials;
 }
 
+Error Pipeline::in_session(Error error) const {
+  const std::string file = session_.file.string();
+  if (error.where.empty()) {
+    error.where = file;
+  } else if (error.where.front() == '[') {
+    error.where = file + ": " + error.where;
+  }
+  return error;
+}
+
 void Pipeline::time_stage(const std::string& name, double seconds) {
   report_.timings.push_back({name, seconds});
 }
@@ -175,72 +172,6 @@ Result<std::vector<CameraDetections>> Pipeline::unshrunk_detections_of(
   return detections;
 }
 
-Status Pipeline::calibrate() {
-  const Trial* waved_trial = session_.find(TrialKind::kCalibration);
-  const Trial* floor_trial = session_.find(TrialKind::kFloor);
-  MAREY_ASSERT(waved_trial);
-  const auto waved = detections_of(*waved_trial);
-  if (!waved) return waved.error();
-  std::vector<CameraDetections> floor;
-  if (floor_trial) {
-    auto found = detections_of(*floor_trial);
-    if (!found) return found.error();
-    floor = std::move(*found);
-  }
-  for (const CameraDetections& camera : *waved) {
-    if (!camera.frames.empty()) continue;
-    return bad_input(
-        session_.file.string(),
-        "camera \"" + session_.cameras[index(camera.camera)] +
-            "\" has no video in trial \"" + waved_trial->name + "\"",
-        "every camera must see the calibration board: add its video, or take the camera "
-        "out of the session");
-  }
-  const Stopwatch watch;
-  const Progress progress = console_->stage("cameras");
-  progress(0, 1);
-  const auto rig = calibrate_session(session_, *waved, floor);
-  if (!rig) return at(session_.file.string(), rig.error());
-  progress(1, 1);
-  recordings::Calibration calibration{rig->cameras, rig->quality, {}, rig->rms_px};
-  calibration.clocks.resize(rig->cameras.size());
-  time_stage("cameras", watch.seconds());
-  const Status written =
-      recordings::write_calibration(options_.out / "calibration.toml", calibration);
-  return written ? need_cameras() : written;
-}
-
-Status Pipeline::need_cameras() {
-  const auto file = options_.out / "calibration.toml";
-  const auto calibration = recordings::read_calibration(file);
-  if (!calibration) {
-    Error error = calibration.error();
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) {
-      error.next = "run marey calibrate on this session first, with the same --out";
-    }
-    return error;
-  }
-  report_.calibration_rms_px = calibration->rms_px;
-  report_.cameras.clear();
-  for (std::size_t c = 0; c < calibration->cameras.size(); ++c) {
-    report_.cameras.push_back({calibration->cameras[c], calibration->quality[c]});
-  }
-  cameras_.clear();
-  for (const std::string& name : session_.cameras) {
-    const auto found = std::find_if(calibration->cameras.begin(),
-                                    calibration->cameras.end(),
-                                    [&](const Camera& c) { return c.name == name; });
-    if (found == calibration->cameras.end()) {
-      return bad_input(file.string(),
-                       "camera \"" + name + "\" of the session is not in it",
-                       "run marey calibrate on this session again");
-    }
-    cameras_.push_back(*found);
-  }
-  return Done{};
-}
-
 Status Pipeline::check_trials() {
   for (const Trial& trial : session_.trials) {
     if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor)
@@ -248,7 +179,7 @@ Status Pipeline::check_trials() {
     const auto detections = unshrunk_detections_of(trial);
     if (!detections) return detections.error();
     const Status ok = reconstruct::check_views(cameras_, *detections, session_.tags);
-    if (!ok) return at(session_.file.string(), ok.error());
+    if (!ok) return in_session(ok.error());
   }
   return Done{};
 }
@@ -271,7 +202,7 @@ Status Pipeline::fit() {
                                         session_.tags};
   const auto fit = reconstruct::fit_subject(
       prior, cameras_, *standing, *moving, console_->stage("subject"));
-  if (!fit) return at(session_.file.string(), fit.error());
+  if (!fit) return in_session(fit.error());
   body_ = fit->body;
   report_.subject_rms_px = fit->rms_px;
   report_.limb_ratio = fit->limb_ratio;
@@ -301,7 +232,7 @@ Result<reconstruct::SolvedTrial> Pipeline::solve_trial(const Trial& trial,
   if (!detections) return detections.error();
   // A camera without a video in this trial keeps its place, and stays silent.
   auto solved = reconstruct::solve_motion(*body_, cameras_, *detections, {}, progress);
-  if (!solved) return at(session_.file.string(), solved.error());
+  if (!solved) return in_session(solved.error());
   return solved;
 }
 

@@ -90,6 +90,9 @@ class Pipeline {
   [[nodiscard]] Result<ReportBody> retarget_one(SolvedMotion& motion,
                                                 const std::filesystem::path& avatar);
   [[nodiscard]] std::vector<const recordings::Trial*> motion_trials() const;
+  /// The error with its file: rooms that see no files leave the place empty, or name a
+  /// table of session.toml, "[board]".
+  [[nodiscard]] Error in_session(Error error) const;
   void time_stage(const std::string& name, double seconds);
 
   recordings::Session session_;
