@@ -11,8 +11,8 @@
 
 namespace marey::app {
 
-/// The session's cameras, by what they are calibrated with. `floor` is empty when there is
-/// no such trial; a wand knows no floor: then the first camera is the world's origin.
+/// The session's cameras, by what they are calibrated with. `floor` is empty when there
+/// is no such trial; a wand knows no floor: then the first camera is the world's origin.
 /// Errors as calib::calibrate_cameras()'s and calib::calibrate_wand()'s.
 [[nodiscard]] Result<calib::CalibratedRig> calibrate_session(
     const recordings::Session& session,

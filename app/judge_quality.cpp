@@ -63,7 +63,7 @@ void judge_trial(const ReportTrial& trial, std::vector<Error>& found) {
 
 std::vector<Error> judge_quality(const Report& report) {
   std::vector<Error> found;
-  if (report.calibration_rms_px > kPoorCalibrationPx) {
+  if (!report.cameras_are_judged && report.calibration_rms_px > kPoorCalibrationPx) {
     found.push_back(poor("calibration.toml",
                          text("the cameras are %.1f px away from what they saw of the "
                               "board (good: under 0.5)",

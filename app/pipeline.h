@@ -50,7 +50,9 @@ class Pipeline {
   /// current. A motion trial that cannot be read is a failure, and left out from then on;
   /// an error when it was the last.
   [[nodiscard]] Status track();
-  /// Cameras: OUT/calibration.toml.
+  /// Cameras: OUT/calibration.toml, and what there is to say of them, in
+  /// OUT/calibration.json and calibration.html. Cameras too poor to be trusted are
+  /// failures.
   [[nodiscard]] Status calibrate();
   /// The subject: OUT/subject.toml. Reads calibration.toml. Checks first that in every
   /// trial the cameras agree on the tags.
@@ -82,6 +84,7 @@ class Pipeline {
       const recordings::Trial& trial);
   [[nodiscard]] Result<std::vector<CameraDetections>> unshrunk_detections_of(
       const recordings::Trial& trial);
+  [[nodiscard]] Status show_cameras(calib::CalibratedRig rig, double rate_hz);
   [[nodiscard]] Status need_cameras();
   [[nodiscard]] Status need_body();
   [[nodiscard]] Status check_trials();

@@ -6,9 +6,13 @@
 #include <utility>
 
 #include "app/calibrate_session.h"
+#include "app/calibration_report.h"
+#include "app/judge_calibration.h"
 #include "app/pipeline.h"
 #include "app/stopwatch.h"
+#include "app/version.h"
 #include "core/assert.h"
+#include "recordings/atomic_file.h"
 #include "recordings/calibration_file.h"
 
 namespace marey::app {
@@ -40,7 +44,7 @@ Status Pipeline::calibrate() {
   const Stopwatch watch;
   const Progress progress = console_->stage("cameras");
   progress(0, 1);
-  const auto rig = calibrate_session(session_, *waved, floor);
+  auto rig = calibrate_session(session_, *waved, floor);
   if (!rig) return in_session(rig.error());
   progress(1, 1);
   recordings::Calibration calibration{rig->cameras, rig->quality, {}, rig->rms_px};
@@ -48,7 +52,28 @@ Status Pipeline::calibrate() {
   time_stage("cameras", watch.seconds());
   const Status written =
       recordings::write_calibration(options_.out / "calibration.toml", calibration);
-  return written ? need_cameras() : written;
+  if (!written) return written;
+  const Status shown = show_cameras(std::move(*rig), waved->front().rate.hz);
+  return shown ? need_cameras() : shown;
+}
+
+Status Pipeline::show_cameras(calib::CalibratedRig rig, double rate_hz) {
+  const CalibrationReport report = report_calibration(
+      {session_.name, kVersion, &session_.target, session_.subject.stature_m, rate_hz},
+      std::move(rig));
+  for (Error& poor : poor_of(report)) {
+    report_.warnings.push_back(poor.message());
+    failures_.push_back(std::move(poor));
+  }
+  for (std::string& warning : warnings_of(report)) {
+    report_.warnings.push_back(std::move(warning));
+  }
+  report_.cameras_are_judged = true;
+  const Status written =
+      recordings::write_file(options_.out / "calibration.json", calibration_json(report));
+  if (!written) return written;
+  return recordings::write_file(options_.out / "calibration.html",
+                                calibration_html(report));
 }
 
 Status Pipeline::need_cameras() {

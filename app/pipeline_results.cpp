@@ -71,6 +71,9 @@ Status Pipeline::write_report() {
     report_.warnings.push_back(poor.message());
     failures_.push_back(poor);
   }
+  std::error_code ignored;
+  report_.has_calibration_page =
+      std::filesystem::exists(options_.out / "calibration.html", ignored);
   time_stage("report", watch.seconds());
   if (const Status ok =
           recordings::write_file(options_.out / "report.json", report_json(report_));

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/plan_commands.h"
 
-#include <array>
 #include <cstdio>
 #include <string>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "app/body_heights.h"
 #include "app/plan_figures.h"
 #include "capture/detect_tags.h"
 #include "recordings/atomic_file.h"
@@ -18,21 +18,11 @@
 namespace marey::app {
 namespace {
 
-/// Heights of joints over the stature: R. Drillis and R. Contini, "Body segment
-/// parameters", 1966.
-struct BodyHeight {
-  const char* name;
-  double over_stature;
-};
-constexpr std::array<BodyHeight, 3> kHeights{
-    {{"ankle", 0.039}, {"hip", 0.530}, {"shoulder", 0.818}}};
-
 PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
   PlanReport report;
   report.name = args.plan.filename().string();
   report.cameras = std::move(plan.cameras);
   constexpr double kUsualTag_m = 0.08;
-  constexpr double kUsualStature_m = 1.75;
   report.options.tag_size_m =
       args.tag_size_m.value_or(plan.tag_size_m.value_or(kUsualTag_m));
   report.stature_m = args.stature_m.value_or(plan.stature_m.value_or(kUsualStature_m));
@@ -42,7 +32,7 @@ PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
     report.grid = {{least.x, 0.0, least.y}, {greatest.x, 0.0, greatest.y}, step_m, {}};
   }
   report.grid.heights_m.clear();
-  for (const BodyHeight& height : kHeights) {
+  for (const BodyHeight& height : kBodyHeights) {
     report.height_names.emplace_back(height.name);
     report.grid.heights_m.push_back(height.over_stature * report.stature_m);
   }

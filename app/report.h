@@ -112,6 +112,9 @@ struct Report {
   std::string version;
   std::vector<ReportCamera> cameras;
   double calibration_rms_px = 0.0;
+  /// This run calibrated them: it said what there is to say (app/judge_calibration.h).
+  bool cameras_are_judged = false;
+  bool has_calibration_page = false;  ///< calibration.html lies beside the report.
   std::optional<Body> subject;  ///< Once it is measured.
   double subject_rms_px = 0.0;
   double limb_ratio = 0.0;  ///< Limb lengths over an average person's of that stature.

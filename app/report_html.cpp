@@ -5,10 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/base64.h"
+#include "app/fill_page.h"
 #include "app/report_body.h"
 #include "app/report_figures.h"
 #include "app/report_page.h"
-#include "core/assert.h"
 
 namespace marey::app {
 namespace {
@@ -65,54 +65,18 @@ Json page_trial(const ReportTrial& trial) {
       {"frame_rms_px", rms}, {"tags", tags}, {"pictures", pictures}, {"bodies", bodies}};
 }
 
-/// JSON that no HTML parser can take for markup: `<`, `>` and `&` occur in strings only,
-/// and there an escape means the same.
-std::string json_in_html(const Json& json) {
-  std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
-    if (c == '<') {
-      text += "\\u003c";
-    } else if (c == '>') {
-      text += "\\u003e";
-    } else if (c == '&') {
-      text += "\\u0026";
-    } else {
-      text += c;
-    }
-  }
-  return text;
-}
-
-/// The template with every `{{name}}` replaced by its part.
-std::string fill(std::string_view page,
-                 const std::vector<std::pair<std::string_view, std::string>>& parts) {
-  std::string out;
-  while (!page.empty()) {
-    const std::size_t at = page.find("{{");
-    out += page.substr(0, at);
-    if (at == std::string_view::npos) break;
-    page.remove_prefix(at);
-    const auto part = std::find_if(parts.begin(), parts.end(), [&](const auto& p) {
-      return page.substr(2).starts_with(p.first) &&
-             page.substr(2 + p.first.size()).starts_with("}}");
-    });
-    MAREY_ASSERT(part != parts.end());
-    out += part->second;
-    page.remove_prefix(part->first.size() + 4);
-  }
-  return out;
-}
-
 }  // namespace
 
 std::string report_html(const Report& report) {
   Json trials = Json::array();
   for (const ReportTrial& trial : report.trials) trials.push_back(page_trial(trial));
-  const Json data{{"figures", report_figures(report)}, {"trials", trials}};
-  return fill(report_page(),
-              {{"style", std::string(report_style())},
-               {"data", json_in_html(data)},
-               {"script", std::string(report_script())}});
+  const Json data{{"figures", report_figures(report)},
+                  {"trials", trials},
+                  {"calibration_page", report.has_calibration_page}};
+  return fill_page(report_page(),
+                   {{"style", std::string(report_style())},
+                    {"data", json_in_html(data)},
+                    {"script", std::string(report_script())}});
 }
 
 }  // namespace marey::app

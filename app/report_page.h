@@ -17,4 +17,10 @@ namespace marey::app {
 /// The .js files one after the other, in one scope of their own.
 [[nodiscard]] std::string_view report_script();
 
+// The same for the page of a calibration: calibration.html, calibration.css after
+// report.css, and those .js files that it needs.
+[[nodiscard]] std::string_view calibration_page();
+[[nodiscard]] std::string_view calibration_style();
+[[nodiscard]] std::string_view calibration_script();
+
 }  // namespace marey::app

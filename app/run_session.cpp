@@ -62,6 +62,8 @@ void tell(const Report& report,
   }
   if (!report.trials.empty()) {
     console.say("report: " + (out / "report.html").string());
+  } else if (report.cameras_are_judged) {
+    console.say("report: " + (out / "calibration.html").string());
   }
 }
 

@@ -6,10 +6,13 @@
 #include <optional>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "calib/expected_error.h"
 #include "core/camera.h"
 #include "core/camera_quality.h"
 #include "core/ids.h"
+#include "core/transform.h"
 
 namespace marey::calib {
 
@@ -47,6 +50,25 @@ struct CrossValidation {
   std::vector<std::optional<double>> held_out_camera_px;
 };
 
+/// A corner of the board, or of a tag of the wand, as a camera saw it. Single precision:
+/// there may be a million of them, and nothing is computed from them any more.
+struct SeenCorner {
+  glm::vec2 seen_px{0.0F};   ///< Where, common shrinkage of tags taken off.
+  glm::vec2 error_px{0.0F};  ///< Seen less expected.
+  bool is_outlier = false;   ///< Left out of the last refinement.
+};
+
+/// What one camera saw of one target in one frame, and where the target was then.
+struct TargetView {
+  CameraId camera{};
+  int frame = 0;   ///< kFloorInstant (calib/board_views.h) for what stays in all frames.
+  int target = 0;  ///< Views of one camera and frame may be of several.
+  bool stays = false;  ///< The board on the floor, or the scenery around a wand.
+  /// As the camera met it. z is out of a board's face.
+  RigidTransform world_from_target;
+  std::vector<SeenCorner> corners;
+};
+
 /// Cameras, and how sure we are of them.
 struct CalibratedRig {
   std::vector<Camera> cameras;
@@ -67,6 +89,12 @@ struct CalibratedRig {
   /// How far the board's plate rises out of its plane towards its edges along x and y,
   /// and twists [m]; nullopt when the data do not tell.
   std::optional<std::array<double, 3>> warp_m;
+  /// Every sighting that has a place, ordered by camera, frame and target; some 20 bytes
+  /// a corner.
+  std::vector<TargetView> views;
+  /// At how many instants cameras a and b saw the moving board (or wand) together:
+  /// [a * cameras + b], and [a * cameras + a] at how many a saw it at all.
+  std::vector<int> shared_views;
 };
 
 }  // namespace marey::calib

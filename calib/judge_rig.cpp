@@ -11,6 +11,7 @@
 #include <Eigen/Dense>
 
 #include "calib/see_point.h"
+#include "calib/target_views.h"
 #include "core/quantile.h"
 
 namespace marey::calib {
@@ -124,6 +125,8 @@ CalibratedRig judge_rig(std::span<const std::string> names,
   if (!all_px.empty()) rig.median_px = median(std::move(all_px));
   rig.covariance = doubt.covariance;
   rig.sigma_factor = doubt.sigma_factor;
+  rig.views = target_views(model);
+  rig.shared_views = shared_views(model);
   return rig;
 }
 

@@ -1,7 +1,9 @@
 # SPDX-FileCopyrightText: The marey authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# cmake -D OUT=<page.cpp> -D PAGE=<html> -D STYLE=<css> -D SCRIPT=<js|js|...> -P embed.cmake
+# cmake -D OUT=<page.cpp> -D PAGE=<html> -D STYLE=<css> -D SCRIPT=<js|js|...>
+#       -D CALIBRATION_PAGE=... -D CALIBRATION_STYLE=... -D CALIBRATION_SCRIPT=...
+#       -P embed.cmake
 #
 # Writes the definitions of app/report_page.h. The same files give the same bytes.
 cmake_minimum_required(VERSION 3.25)
@@ -30,5 +32,8 @@ set(text "#include \"app/report_page.h\"\n\nnamespace marey::app {\n")
 add_text(report_page "${PAGE}")
 add_text(report_style "${STYLE}")
 add_text(report_script "${SCRIPT}")
+add_text(calibration_page "${CALIBRATION_PAGE}")
+add_text(calibration_style "${CALIBRATION_STYLE}")
+add_text(calibration_script "${CALIBRATION_SCRIPT}")
 string(APPEND text "\n}  // namespace marey::app\n")
 file(WRITE ${OUT} "${text}")

@@ -24,7 +24,8 @@ function showTrial(data, viewer, chosen) {
   fillSection('reprojection', reprojectionSection(player, trial, figure));
   fillSection('tags', tagsSection(player, trial, figure));
   fillSection('joints', jointsSection(figure));
-  fillSection('cameras', camerasSection(figures.calibration, trial));
+  fillSection('cameras', camerasSection(figures.calibration, trial,
+    data.calibration_page));
   document.getElementById('trial-about').textContent = `${figure.frames_solved} of ` +
     `${plural(figure.frames, 'frame', 'frames')} solved, ${fixed(figure.rms_px, 2)} px, ` +
     `joints ± ${fixed(figure.joint_sigma_median_mm, 1)} mm`;
@@ -51,7 +52,8 @@ function fillPage(data, options) {
   document.getElementById('sections').replaceChildren(
     ...SECTIONS.map(([id, title]) => el('a', {href: `#${id}`}, title)));
   if (data.trials.length === 0) {
-    fillSection('cameras', camerasSection(figures.calibration, null));
+    fillSection('cameras', camerasSection(figures.calibration, null,
+      data.calibration_page));
     for (const name of ['motion', 'pictures', 'reprojection', 'tags', 'joints']) {
       fillSection(name, [el('p', {}, 'No trial was solved.')]);
     }

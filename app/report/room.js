@@ -42,7 +42,7 @@ function roomView(title, flat, cameras, way, grounded) {
     el('figcaption', {}, title));
 }
 
-function camerasSection(calibration, trial) {
+function camerasSection(calibration, trial, hasPage) {
   const {cameras} = calibration;
   const [subject] = trial ? trial.bodies.map((body) => new Body(body)) : [];
   const way = subject && subject.frames > 0
@@ -50,7 +50,9 @@ function camerasSection(calibration, trial) {
   return [
     el('p', {class: 'lead'}, `The board lies ${fixed(calibration.rms_px, 2)} px from where ` +
       'the cameras expect it. Coverage is the share of the picture in which it was shown: ' +
-      'lenses are known only there.'),
+      'lenses are known only there. ',
+      hasPage ? el('a', {href: './calibration.html'}, 'More in the calibration’s own page')
+        : null),
     table([
       {title: 'Camera', cell: (camera) => camera.name},
       {title: 'Picture', number: true, cell: (c) => `${c.width_px} × ${c.height_px}`},

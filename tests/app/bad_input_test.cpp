@@ -74,7 +74,8 @@ AssertionResult declines(const SpoiledSession& session,
   return AssertionSuccess();
 }
 
-const std::vector<std::string> kCalibrated{"calibration.toml"};
+const std::vector<std::string> kCalibrated{
+    "calibration.html", "calibration.json", "calibration.toml"};
 
 // --- session.toml
 // -----------------------------------------------------------------------

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "app/finding_list.h"
+#include "core/quantile.h"
+
+namespace marey::app {
+namespace {
+
+constexpr double kFairRmsPx = kResidualLimitsPx[0];
+constexpr double kPoorRmsPx = kResidualLimitsPx[1];
+constexpr double kPoorMedianPx = 2.0;
+constexpr double kWorseThanOthers = 2.5;
+constexpr double kWorthSayingPx = 0.4;
+// A few wrong tags in a hundred are usual and do no harm; when a third does not fit, it
+// is no longer clear who is right.
+constexpr double kPoorOutliers = 0.33;
+constexpr double kFairOutliers = 0.05;
+constexpr double kFairPatternPx = 0.3;
+
+double share_of_outliers(const CalibrationReport& report, std::size_t c) {
+  const double corners = report.rig.quality[c].corners;
+  return corners > 0.0 ? report.cameras[c].outlier_corners / corners : 0.0;
+}
+
+/// Median of what the other cameras have; nullopt of a single one.
+std::optional<double> others_px(const CalibrationReport& report, std::size_t c) {
+  std::vector<double> others;
+  for (std::size_t other = 0; other < report.cameras.size(); ++other) {
+    if (other != c) others.push_back(report.cameras[other].inlier_rms_px);
+  }
+  if (others.empty()) return std::nullopt;
+  return median(std::move(others));
+}
+
+void judge_level(FindingList& list, std::size_t c) {
+  const CameraMeasures& camera = list.report.cameras[c];
+  const double scale = pixel_scale(list.report.rig.cameras[c]);
+  const bool is_poor = camera.inlier_rms_px > kPoorRmsPx * scale ||
+                       camera.median_px > kPoorMedianPx * scale;
+  const auto others = others_px(list.report, c);
+  const bool stands_out = others && camera.inlier_rms_px > kWorseThanOthers * *others &&
+                          camera.inlier_rms_px > kWorthSayingPx * scale;
+  if (stands_out) {
+    list.add(is_poor ? Severity::kPoor : Severity::kFair,
+             "worse",
+             list.camera(c),
+             worded("it is %.2f px away from what it saw, the others %.2f px",
+                    camera.inlier_rms_px,
+                    *others),
+             "check that its focus is fixed and sharp, that its exposure is short, that "
+             "it did not move, and that its video starts with the others'");
+  } else if (is_poor || camera.inlier_rms_px > kFairRmsPx * scale) {
+    list.add_shared(
+        is_poor ? Severity::kPoor : Severity::kFair,
+        "residual",
+        c,
+        worded("it is %.2f px away from what it saw (median %.2f; good: under %.1f)",
+               camera.inlier_rms_px,
+               camera.median_px,
+               kFairRmsPx * scale),
+        std::string("check the ") + list.target() +
+            "'s measures in session.toml, that it is flat and firm, that exposure is "
+            "short "
+            "and focus fixed, and that all videos start together",
+        worded("%.2f px", camera.inlier_rms_px),
+        worded("they are that far from what they saw (good: under %.1f)",
+               kFairRmsPx * scale));
+  }
+}
+
+void judge_outliers(FindingList& list, std::size_t c) {
+  const CameraMeasures& camera = list.report.cameras[c];
+  const double share = share_of_outliers(list.report, c);
+  // A camera that is out of step loses whole stretches too: where the board was fast.
+  if ((camera.astray_from || camera.astray_until) && !is_late(camera)) {
+    list.add(Severity::kPoor,
+             "moved",
+             list.camera(c),
+             camera.astray_from
+                 ? worded("from frame %d on it does not see the board where it should",
+                          *camera.astray_from)
+                 : worded("up to frame %d it does not see the board where it should",
+                          *camera.astray_until),
+             "fix it firmly: it was touched or refocused, or its video skips frames; "
+             "then record the calibration again");
+    return;
+  }
+  if (share <= kFairOutliers) return;
+  list.add_shared(
+      graver(share, kPoorOutliers),
+      "outliers",
+      c,
+      worded("%.0f %% of what it saw does not go with the rest and was left out (good: "
+             "under %.0f %%)",
+             100.0 * share,
+             100.0 * kFairOutliers),
+      std::string("look at the frames in calibration.html: blur, hands over the ") +
+          list.target() +
+          ", mirrors, another print with its tags, or cameras that are "
+          "out of step",
+      worded("%.0f %%", 100.0 * share),
+      worded("that much of what they saw does not go with the rest and was left out "
+             "(good: under %.0f %%)",
+             100.0 * kFairOutliers));
+}
+
+/// Frames in which several cameras disagree with the board's place.
+void judge_frames(FindingList& list) {
+  std::map<int, std::set<int>> cameras;
+  std::map<int, int> left_out;
+  int all = 0;
+  for (const calib::OutlierFrame& frame : list.report.rig.outlier_frames) {
+    all += frame.sightings;
+    left_out[frame.frame] += frame.sightings;
+    cameras[frame.frame].insert(static_cast<int>(frame.camera));
+  }
+  constexpr int kWorthSaying = 10;
+  for (const auto& [frame, count] : left_out) {
+    if (count < kWorthSaying || 2 * count < all || cameras.at(frame).size() < 2) continue;
+    list.add(Severity::kNote,
+             "outlier-frame",
+             frame == calib::kFloorInstant ? "floor" : worded("frame %d", frame),
+             worded("%d of all %d sightings that were left out are in it", count, all),
+             "they do no harm; if it recurs, turn the board more slowly");
+  }
+}
+
+void judge_lag(FindingList& list, std::size_t c) {
+  const CameraMeasures& camera = list.report.cameras[c];
+  const double scale = pixel_scale(list.report.rig.cameras[c]);
+  if (!is_late(camera) || camera.lag->explained_px < kFairPatternPx * scale) return;
+  const double ms =
+      list.report.rate_hz > 0.0 ? 1e3 * camera.lag->frames / list.report.rate_hz : 0.0;
+  const char* way = camera.lag->frames > 0.0 ? "later" : "earlier";
+  list.add_shared(
+      Severity::kFair,
+      "clock",
+      c,
+      worded(
+          "its errors follow the %s's movement (%.2f px): it is %.0f ms or more %s than "
+          "the others",
+          list.target(),
+          camera.lag->explained_px,
+          std::abs(ms),
+          way),
+      std::string("start all cameras together, let their clocks be found, or move the ") +
+          list.target() + " more slowly",
+      worded("%.0f ms %s", std::abs(ms), way),
+      std::string("their errors follow the ") + list.target() +
+          "'s movement: they are out of step by that or more");
+}
+
+void judge_pattern(FindingList& list, std::size_t c) {
+  const CameraMeasures& camera = list.report.cameras[c];
+  const double scale = pixel_scale(list.report.rig.cameras[c]);
+  if (camera.pattern_px < kFairPatternPx * scale ||
+      camera.pattern_px < 0.5 * camera.inlier_rms_px) {
+    return;
+  }
+  list.add(Severity::kFair,
+           "lens",
+           list.camera(c),
+           worded("%.2f px of its errors point the same way wherever the board was: the "
+                  "lens bends the picture in a way that its model does not have",
+                  camera.pattern_px),
+           "choose another lens model in session.toml, and switch off the camera's own "
+           "correction or stabilisation");
+}
+
+void judge_floor(FindingList& list, std::size_t c) {
+  const CameraMeasures& camera = list.report.cameras[c];
+  const double scale = pixel_scale(list.report.rig.cameras[c]);
+  if (!camera.floor_median_px || *camera.floor_median_px < 1.5 * scale ||
+      *camera.floor_median_px < 3.0 * camera.inlier_rms_px) {
+    return;
+  }
+  list.add(graver(*camera.floor_median_px, 5.0 * scale),
+           "floor",
+           list.camera(c),
+           worded("the board on the floor is %.1f px from where it should be, the moving "
+                  "one %.2f px",
+                  *camera.floor_median_px,
+                  camera.inlier_rms_px),
+           "the camera was touched between the two trials, or the board did not lie "
+           "still: record both again without touching anything");
+}
+
+void judge_warp(FindingList& list) {
+  if (!list.report.rig.warp_m) return;
+  double most_m = 0.0;
+  for (const double rise_m : *list.report.rig.warp_m) {
+    most_m = std::max(most_m, std::abs(rise_m));
+  }
+  constexpr double kWorthSaying_m = 1e-3;
+  if (most_m < kWorthSaying_m) return;
+  list.add(
+      Severity::kNote,
+      "warp",
+      "board",
+      worded("its plate is bent by %.1f mm, which was taken into account", 1e3 * most_m),
+      "glue the print to glass or a stiff plate");
+}
+
+}  // namespace
+
+bool is_late(const CameraMeasures& camera) {
+  // Views next to each other share their errors: four sigmas of independent ones are few.
+  constexpr double kSureLag = 6.0;
+  return camera.lag &&
+         std::abs(camera.lag->frames) > kSureLag * camera.lag->sigma_frames &&
+         camera.lag->explained_px > kFairPatternPx;
+}
+
+void judge_residuals(FindingList& list) {
+  for (std::size_t c = 0; c < list.report.cameras.size(); ++c) {
+    judge_level(list, c);
+    judge_outliers(list, c);
+    judge_lag(list, c);
+    judge_pattern(list, c);
+    judge_floor(list, c);
+  }
+  judge_frames(list);
+  judge_warp(list);
+}
+
+}  // namespace marey::app

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "app/finding_list.h"
+
+namespace marey::app {
+namespace {
+
+double fair_error_m(const CalibrationReport& report) {
+  return limits_of(report).error_m[0];
+}
+
+double poor_error_m(const CalibrationReport& report) {
+  return limits_of(report).error_m[1];
+}
+
+void judge_middle(FindingList& list) {
+  const CalibrationMap& map = list.report.map;
+  const std::string heights =
+      list.report.has_floor
+          ? "between ankle and shoulder height"
+          : "at the heights the " + std::string(list.target()) + " was held";
+  if (!map.middle_error_m) {
+    list.add(Severity::kPoor,
+             "unseen",
+             "all cameras",
+             worded("no two of them see the middle of the volume (x %.1f, z %.1f m) ",
+                    map.middle_in_world.x,
+                    map.middle_in_world.z) +
+                 heights,
+             "point the cameras at one place, or check that they were not moved");
+    return;
+  }
+  if (*map.middle_error_m <= fair_error_m(list.report)) return;
+  const auto& cameras = list.report.cameras;
+  const bool any_late = std::any_of(cameras.begin(), cameras.end(), is_late);
+  list.add(graver(*map.middle_error_m, poor_error_m(list.report)),
+           "error",
+           "all cameras",
+           worded("a point in the middle of the volume is known to %.0f mm ",
+                  1e3 * *map.middle_error_m) +
+               heights + worded(" (good: under %.0f)", 1e3 * fair_error_m(list.report)),
+           (any_late ? "get the cameras in step, then show the " : "show the ") +
+               std::string(list.target()) +
+               " longer, nearer and more tilted, and to several cameras at once; see "
+               "which camera is the least sure");
+}
+
+/// The side of the map on which errors are large, as words; empty when they are
+/// everywhere.
+std::string side_of(const glm::dvec3& from, const glm::dvec3& to) {
+  const glm::dvec3 way = to - from;
+  if (std::hypot(way.x, way.z) < 0.2) return "";
+  if (std::abs(way.x) > std::abs(way.z))
+    return way.x > 0.0 ? " towards +x" : " towards -x";
+  return way.z > 0.0 ? " towards +z" : " towards -z";
+}
+
+void judge_volume(FindingList& list) {
+  const CalibrationMap& map = list.report.map;
+  if (!map.middle_error_m) return;
+  const double limit = std::max(fair_error_m(list.report), 3.0 * *map.middle_error_m);
+  const std::size_t level = map.grid.heights_m.size() / 2;
+  const std::size_t count = map.places.size() / map.grid.heights_m.size();
+  int near = 0;
+  int seen = 0;
+  int far = 0;
+  glm::dvec3 sum{0.0};
+  // Where a person would be: within two metres, or two thirds of the cameras' distance.
+  const double reach_m = std::min(2.0, 0.67 * map.distance_m);
+  for (std::size_t i = level * count; i < (level + 1) * count; ++i) {
+    const calib::ErrorMapPlace& place = map.places[i];
+    if (glm::distance(place.p_in_world, map.middle_in_world) > reach_m) continue;
+    ++near;
+    if (!place.error_m) continue;
+    ++seen;
+    if (*place.error_m <= limit) continue;
+    ++far;
+    sum += place.p_in_world;
+  }
+  if (seen == 0) return;
+  if (far > 0.2 * seen) {
+    list.add(Severity::kFair,
+             "volume",
+             "all cameras",
+             worded("in %.0f %% of what two cameras see within %.1f m of the middle, "
+                    "points are known to worse than %.0f mm",
+                    100.0 * far / seen,
+                    reach_m,
+                    1e3 * limit) +
+                 side_of(map.middle_in_world, sum / static_cast<double>(far)),
+             "let a camera look there from the side, or show more of the " +
+                 std::string(list.target()) + " there; see the map in calibration.html");
+  }
+  if (list.report.has_floor && seen < 0.6 * near) {
+    list.add(Severity::kNote,
+             "seen",
+             "all cameras",
+             worded("two cameras see %.0f %% of the places at hip height within %.1f m "
+                    "of the middle",
+                    100.0 * seen / near,
+                    reach_m),
+             "stay where the map in calibration.html is coloured, or turn the cameras");
+  }
+}
+
+void judge_held_out(FindingList& list) {
+  const auto& check = list.report.rig.cross_validation;
+  if (!check) return;
+  if (check->held_out_rms_px > 1.5 * check->seen_rms_px && check->held_out_rms_px > 0.3) {
+    list.add(
+        check->held_out_rms_px > 3.0 * check->seen_rms_px && check->held_out_rms_px > 1.0
+            ? Severity::kPoor
+            : Severity::kFair,
+        "held-out",
+        "all cameras",
+        worded("%.2f px off in frames that they were not calibrated from, against "
+               "%.2f px in the others",
+               check->held_out_rms_px,
+               check->seen_rms_px),
+        std::string("show the ") + list.target() +
+            " in more places and postures: "
+            "the recording is too short for so many unknowns");
+  }
+  for (std::size_t c = 0; c < list.report.cameras.size(); ++c) {
+    const double scale = pixel_scale(list.report.rig.cameras[c]);
+    if (const auto& px = check->held_out_camera_px[c];
+        px && *px > 2.0 * scale && *px > 3.0 * list.report.rig.median_px) {
+      list.add(graver(*px, 6.0 * scale),
+               "held-out",
+               list.camera(c),
+               worded("%.1f px off when the other cameras say where the board was, "
+                      "against %.2f px with its own word",
+                      *px,
+                      list.report.cameras[c].median_px),
+               "check its video's start, and that it was not moved; hold the board where "
+               "it and two others see it");
+    }
+    const double apart_m = check->centre_apart_m[c];
+    // From halves of the recording, which together are surer by the root of two, and
+    // whose difference is larger by it.
+    if (apart_m > 2.0 * fair_error_m(list.report)) {
+      list.add(graver(apart_m, 2.0 * poor_error_m(list.report)),
+               "halves",
+               list.camera(c),
+               worded("the even frames put it %.0f mm from where the odd ones do",
+                      1e3 * apart_m),
+               "show it the " + std::string(list.target()) +
+                   " longer, together with another camera");
+    }
+  }
+}
+
+}  // namespace
+
+CalibrationLimits limits_of(const CalibrationReport& report) {
+  // A joint is known to some 10 mm at best (skin moves over it): cameras that err by less
+  // hardly show, and beyond twice that nothing else matters. That is for a person, three
+  // metres away; what is smaller and nearer is looked at more closely, and the other way
+  // round.
+  constexpr double kFair_m = 0.008;
+  constexpr double kPoor_m = 0.020;
+  constexpr double kUsualDistance_m = 3.0;
+  const double scale = std::max(0.1, report.map.distance_m / kUsualDistance_m);
+  return {{kFair_m * scale, kPoor_m * scale}, kResidualLimitsPx, kCoverageLimits};
+}
+
+void judge_trust(FindingList& list) {
+  judge_middle(list);
+  judge_volume(list);
+  judge_held_out(list);
+}
+
+}  // namespace marey::app

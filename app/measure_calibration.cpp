@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/measure_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "core/quantile.h"
+
+namespace marey::app {
+namespace {
+
+using calib::SeenCorner;
+using calib::TargetView;
+
+/// Cells of a picture, row by row; places outside count for the nearest.
+int cell_of(const Intrinsics& k, const glm::vec2& pixel_px, int columns, int rows) {
+  const int column = static_cast<int>(columns * (pixel_px.x + 0.5) / k.width_px);
+  const int row = static_cast<int>(rows * (pixel_px.y + 0.5) / k.height_px);
+  return columns * std::clamp(row, 0, rows - 1) + std::clamp(column, 0, columns - 1);
+}
+
+/// Errors of one area of the picture.
+struct Area {
+  glm::dvec2 sum_px{0.0};
+  double squares = 0.0;
+  std::set<int> frames;
+};
+
+/// Of what the areas' means are, the part that chance does not account for. Errors of one
+/// frame hang together (the board's pose is shared), so that a mean is as sure as its
+/// frames are many, not its corners.
+double pattern_px(const std::map<int, Area>& areas, const std::map<int, int>& corners) {
+  constexpr std::size_t kFewestFrames = 6;
+  double squares = 0.0;
+  double weight = 0.0;
+  for (const auto& [cell, area] : areas) {
+    const double n = corners.at(cell);
+    if (area.frames.size() < kFewestFrames) continue;
+    const glm::dvec2 mean = area.sum_px / n;
+    const double square = glm::dot(mean, mean);
+    const double spread = std::max(0.0, area.squares / n - square);
+    squares += n * (square - spread / static_cast<double>(area.frames.size()));
+    weight += n;
+  }
+  return weight > 0.0 && squares > 0.0 ? std::sqrt(squares / weight) : 0.0;
+}
+
+std::optional<ViewTilt> tilt_of(const CalibrationReport& report,
+                                const TargetView& view,
+                                const Camera& camera) {
+  if (!report.extent) return std::nullopt;
+  const RigidTransform camera_from_board =
+      camera.camera_from_world * view.world_from_target;
+  glm::dvec3 normal = camera_from_board.rotation * glm::dvec3(0.0, 0.0, 1.0);
+  // A board whose back serves too is tilted the same from there.
+  if (normal.z > 0.0) normal = -normal;
+  const glm::dvec3 middle =
+      camera_from_board * (0.5 * (report.extent->least + report.extent->greatest));
+  return ViewTilt{std::acos(std::clamp(-normal.z, -1.0, 1.0)),
+                  std::atan2(normal.y, normal.x),
+                  glm::length(middle)};
+}
+
+/// Errors of a camera's views against the board's movement in its picture, as a straight
+/// line through zero: e = lag * velocity.
+std::optional<CameraLag> lag_of(const CalibrationReport& report,
+                                const Camera& camera,
+                                const std::vector<const TargetView*>& views) {
+  constexpr int kFurthest = 3;  // Frames between neighbours that tell a velocity.
+  constexpr std::size_t kFewest = 10;
+  const glm::dvec3 middle = report.extent
+                                ? 0.5 * (report.extent->least + report.extent->greatest)
+                                : glm::dvec3(0.0);
+  std::vector<std::pair<glm::dvec2, glm::dvec2>> pairs;  // Velocity and error.
+  for (std::size_t i = 1; i + 1 < views.size(); ++i) {
+    const TargetView& before = *views[i - 1];
+    const TargetView& after = *views[i + 1];
+    if (views[i]->frame - before.frame > kFurthest ||
+        after.frame - views[i]->frame > kFurthest) {
+      continue;
+    }
+    const auto from = project(camera, before.world_from_target * middle);
+    const auto to = project(camera, after.world_from_target * middle);
+    if (!from || !to) continue;
+    std::vector<double> xs;
+    std::vector<double> ys;
+    for (const SeenCorner& corner : views[i]->corners) {
+      xs.push_back(corner.error_px.x);
+      ys.push_back(corner.error_px.y);
+    }
+    pairs.push_back({(*to - *from) / static_cast<double>(after.frame - before.frame),
+                     {median(std::move(xs)), median(std::move(ys))}});
+  }
+  double squares = 0.0;
+  double products = 0.0;
+  for (const auto& [velocity, error] : pairs) {
+    squares += glm::dot(velocity, velocity);
+    products += glm::dot(velocity, error);
+  }
+  if (pairs.size() < kFewest || !(squares > 0.0)) return std::nullopt;
+  CameraLag lag;
+  // Seen less expected: a camera that is late sees the board further along.
+  lag.frames = products / squares;
+  double left = 0.0;
+  for (const auto& [velocity, error] : pairs) {
+    const glm::dvec2 rest = error - lag.frames * velocity;
+    left += glm::dot(rest, rest);
+  }
+  const auto n = static_cast<double>(pairs.size());
+  lag.sigma_frames = std::sqrt(left / (2.0 * n - 1.0) / squares);
+  lag.explained_px = std::abs(lag.frames) * std::sqrt(squares / n);
+  return lag;
+}
+
+/// The frame at which a camera stops (or starts) to fit: most of what it sees on one side
+/// of it is left out, hardly any on the other.
+void find_astray(const std::vector<const TargetView*>& views, CameraMeasures& out) {
+  constexpr std::size_t kFewest = 5;
+  constexpr double kMost = 0.7;
+  constexpr double kHardly = 0.1;
+  if (views.size() < 2 * kFewest) return;
+  std::vector<double> lost;  // Running sum of the views' shares of outliers.
+  lost.push_back(0.0);
+  for (const TargetView* view : views) {
+    const auto count = std::count_if(view->corners.begin(),
+                                     view->corners.end(),
+                                     [](const SeenCorner& c) { return c.is_outlier; });
+    lost.push_back(lost.back() + static_cast<double>(count) /
+                                     static_cast<double>(view->corners.size()));
+  }
+  double clearest = 0.0;
+  for (std::size_t i = kFewest; i + kFewest <= views.size(); ++i) {
+    const double before = lost[i] / static_cast<double>(i);
+    const double after = (lost.back() - lost[i]) / static_cast<double>(views.size() - i);
+    if (std::max(before, after) < kMost || std::min(before, after) > kHardly) continue;
+    if (std::abs(after - before) <= clearest) continue;
+    clearest = std::abs(after - before);
+    out.astray_from.reset();
+    out.astray_until.reset();
+    (after > before ? out.astray_from : out.astray_until) =
+        views[after > before ? i : i - 1]->frame;
+  }
+}
+
+CameraMeasures measure(const CalibrationReport& report, std::size_t c) {
+  const Camera& camera = report.rig.cameras[c];
+  CameraMeasures out;
+  std::vector<double> errors_px;
+  std::vector<double> floor_px;
+  double squares = 0.0;
+  std::set<int> coarse;
+  std::map<int, Area> areas;
+  std::map<int, int> area_corners;
+  std::map<int, std::vector<const TargetView*>> moving;  // By target.
+  for (const TargetView& view : report.rig.views) {
+    if (index(view.camera) != c || view.corners.empty()) continue;
+    if (!view.stays) moving[view.target].push_back(&view);
+    if (const auto tilt = tilt_of(report, view, camera); tilt && !view.stays) {
+      out.tilts.push_back(*tilt);
+    }
+    for (const SeenCorner& corner : view.corners) {
+      const Intrinsics& k = camera.intrinsics;
+      const double error_px = glm::length(corner.error_px);
+      errors_px.push_back(error_px);
+      if (view.frame == calib::kFloorInstant) floor_px.push_back(error_px);
+      coarse.insert(cell_of(k, corner.seen_px, 8, 6));
+      const int cell = cell_of(k, corner.seen_px, kCoverageColumns, kCoverageRows);
+      ++out.cells[static_cast<std::size_t>(cell)];
+      if (corner.is_outlier) {
+        ++out.outlier_corners;
+        continue;
+      }
+      squares += error_px * error_px;
+      const int area = cell_of(k, corner.seen_px, 8, 6);
+      areas[area].sum_px += glm::dvec2(corner.error_px);
+      areas[area].squares += error_px * error_px;
+      areas[area].frames.insert(view.frame);
+      ++area_corners[area];
+    }
+  }
+  for (const int cell : coarse) {
+    out.half_coverage[cell % 8 < 4 ? 0 : 1] += 1.0 / 24.0;
+    out.half_coverage[cell / 8 < 3 ? 2 : 3] += 1.0 / 24.0;
+  }
+  const auto inliers = static_cast<double>(errors_px.size()) - out.outlier_corners;
+  out.inlier_rms_px = inliers > 0.0 ? std::sqrt(squares / inliers) : 0.0;
+  if (!errors_px.empty()) out.median_px = median(std::move(errors_px));
+  if (!floor_px.empty()) out.floor_median_px = median(std::move(floor_px));
+  out.pattern_px = pattern_px(areas, area_corners);
+  for (const auto& [target, views] : moving) {
+    if (!report.has_clocks && !out.lag) out.lag = lag_of(report, camera, views);
+    find_astray(views, out);
+  }
+  std::vector<double> tilts_rad;
+  for (const ViewTilt& tilt : out.tilts) tilts_rad.push_back(tilt.tilt_rad);
+  if (!tilts_rad.empty()) out.p90_tilt_rad = quantile(std::move(tilts_rad), 0.9);
+  const std::size_t cameras = report.rig.cameras.size();
+  if (report.rig.shared_views.size() == cameras * cameras) {
+    out.instants = report.rig.shared_views[c * cameras + c];
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<CameraMeasures> measure_cameras(const CalibrationReport& report) {
+  std::vector<CameraMeasures> out;
+  for (std::size_t c = 0; c < report.rig.cameras.size(); ++c) {
+    out.push_back(measure(report, c));
+  }
+  return out;
+}
+
+}  // namespace marey::app

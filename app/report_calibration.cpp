@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "app/body_heights.h"
+#include "app/calibration_report.h"
+#include "app/judge_calibration.h"
+#include "app/measure_calibration.h"
+#include "core/assert.h"
+
+namespace marey::app {
+
+CalibrationReport report_calibration(const CalibrationSource& source,
+                                     calib::CalibratedRig rig) {
+  MAREY_ASSERT(source.target && !rig.cameras.empty());
+  CalibrationReport report;
+  report.session = source.session;
+  report.version = source.version;
+  report.target = name_of(*source.target);
+  const bool is_wand = std::holds_alternative<Wand>(*source.target);
+  if (!is_wand) report.extent = calib::extent_of(*source.target);
+  report.stature_m = source.stature_m > 0.0 ? source.stature_m : kUsualStature_m;
+  report.rate_hz = source.rate_hz;
+  report.rig = std::move(rig);
+  const auto& views = report.rig.views;
+  report.has_floor =
+      !is_wand && std::any_of(views.begin(), views.end(), [](const auto& view) {
+        return view.frame == calib::kFloorInstant;
+      });
+  const auto& clocks = report.rig.clocks;
+  report.has_clocks = std::any_of(clocks.begin(), clocks.end(), [](const auto& clock) {
+    return clock.offset_sigma_s > 0.0 || clock.drift_sigma > 0.0 ||
+           clock.line_delay_sigma_s > 0.0;
+  });
+  // Points are found as corners are: by what the calibration left of these. A hundredth
+  // of a pixel where they are exact.
+  report.corner_sigma_px = std::max(report.rig.inlier_rms_px / std::numbers::sqrt2, 0.01);
+  report.cameras = measure_cameras(report);
+  report.map = map_errors(report);
+  report.findings = judge_calibration(report);
+  return report;
+}
+
+}  // namespace marey::app
