@@ -73,8 +73,9 @@ struct CalibrationLimits {
 /// Webcams in focus end at 0.1 to 0.5 px; a pixel is blur, a bent print or clocks that
 /// are a frame apart; three are another board, another video, or a camera that moved.
 inline constexpr std::array<double, 2> kResidualLimitsPx{0.5, 3.0};
-/// Seen in less than a sixteenth of a picture, a lens is a guess everywhere else.
-inline constexpr std::array<double, 2> kCoverageLimits{0.35, 0.0625};
+/// A board that was waved through all of the volume fills a third to a half of a picture.
+/// Seen in less than a sixteenth of it, a lens is a guess everywhere else.
+inline constexpr std::array<double, 2> kCoverageLimits{0.3, 0.0625};
 [[nodiscard]] CalibrationLimits limits_of(const CalibrationReport& report);
 
 /// The graver one when `value` goes beyond its limit.

@@ -18,10 +18,11 @@ namespace {
 using calib::SeenCorner;
 using calib::TargetView;
 
-/// Cells of a picture, row by row; places outside count for the nearest.
+/// Cells of a picture, row by row, as CameraQuality::coverage has them; places outside
+/// count for the nearest.
 int cell_of(const Intrinsics& k, const glm::vec2& pixel_px, int columns, int rows) {
-  const int column = static_cast<int>(columns * (pixel_px.x + 0.5) / k.width_px);
-  const int row = static_cast<int>(rows * (pixel_px.y + 0.5) / k.height_px);
+  const int column = static_cast<int>(columns * double{pixel_px.x} / k.width_px);
+  const int row = static_cast<int>(rows * double{pixel_px.y} / k.height_px);
   return columns * std::clamp(row, 0, rows - 1) + std::clamp(column, 0, columns - 1);
 }
 

@@ -342,5 +342,42 @@ TEST(BadCalibration, WithoutCamerasTheSolverSaysWhatToRun) {
                        {"out/calibration.toml: ", "does not exist", "marey calibrate"}));
 }
 
+/// Whether the run ended as one of poor quality must: exit code 4, results all the same,
+/// and an error that blames `blame`.
+AssertionResult is_poor(const SpoiledSession& session,
+                        const ProgramRun& run,
+                        const Blame& blame) {
+  if (run.exit_code != 4) {
+    return AssertionFailure() << "exit code " << run.exit_code << "\n" << run.err;
+  }
+  if (session.results() != kCalibrated) return AssertionFailure() << "other results";
+  for (const std::string& error : error_lines(run.err)) {
+    const std::size_t where = error.find(blame.where);
+    const std::size_t cause = error.find(blame.cause);
+    const std::size_t next = error.find("Next: ");
+    if (where < cause && cause < next && next != std::string::npos &&
+        error.find(blame.next, next) != std::string::npos) {
+      return AssertionSuccess();
+    }
+  }
+  return AssertionFailure() << run.err;
+}
+
+TEST(PoorCalibration, OfAMomentOfWavingIsToldByTheFewViews) {
+  SpoiledSession session;
+  session.replace_in_trial(
+      "calib", "kind = \"calibration\"", "kind = \"calibration\"\nframes = [10, 30]");
+  EXPECT_TRUE(is_poor(session,
+                      session.run("calibrate"),
+                      {"camera cam0", "at 3 instants", "wave the board longer"}));
+}
+
+TEST(PoorCalibration, IsNotWhatTheSampleHas) {
+  const SpoiledSession session;
+  const ProgramRun run = session.run("calibrate");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(session.results(), kCalibrated);
+}
+
 }  // namespace
 }  // namespace marey::testing

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "calib/board_views.h"
 #include "tests/support/synthetic_rig.h"
 
 namespace marey::calib {
@@ -174,6 +175,54 @@ TEST(CalibrateCameras, CountsWhatEachCameraSaw) {
     EXPECT_GT(rig->quality[c].coverage, 0.2);
     EXPECT_LT(rig->quality[c].coverage, 1.0);
   }
+}
+
+/// How often two cameras saw three tags or more of the waved board in one frame.
+int seen_together(const BoardRecording& recording, std::size_t a, std::size_t b) {
+  int count = 0;
+  for (std::size_t f = 0; f < recording.waved[a].frames.size(); ++f) {
+    if (recording.waved[a].frames[f].tags.size() >= 3 &&
+        recording.waved[b].frames[f].tags.size() >= 3) {
+      ++count;
+    }
+  }
+  return count;
+}
+
+TEST(CalibrateCameras, KeepsWhatItSawForReports) {
+  const auto cameras = ring_of_cameras();
+  Disturbance disturbance;
+  disturbance.noise_px = 0.2;
+  const BoardRecording recording = wave_board(cameras, kBoard, kFrames, disturbance);
+  const auto rig =
+      calibrate_cameras(names_of(cameras), recording.waved, recording.floor, kBoard);
+  ASSERT_TRUE(rig) << rig.error().message();
+  std::vector<double> squares(cameras.size());
+  std::vector<int> corners(cameras.size());
+  int outliers = 0;
+  for (const TargetView& view : rig->views) {
+    const std::size_t c = index(view.camera);
+    for (const SeenCorner& corner : view.corners) {
+      squares[c] += glm::dot(corner.error_px, corner.error_px);
+      ++corners[c];
+      outliers += corner.is_outlier ? 1 : 0;
+    }
+    // The floor is where the world is: the board lies on it, face up.
+    if (!view.stays) continue;
+    EXPECT_EQ(view.frame, kFloorInstant);
+    const glm::dvec3 up = view.world_from_target.rotation * glm::dvec3(0.0, 0.0, 1.0);
+    EXPECT_GT(up.y, 0.9999);
+  }
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    EXPECT_EQ(corners[c], rig->quality[c].corners);
+    // Single precision.
+    EXPECT_NEAR(std::sqrt(squares[c] / corners[c]), rig->quality[c].rms_px, 1e-4);
+    for (std::size_t other = 0; other < cameras.size(); ++other) {
+      EXPECT_EQ(rig->shared_views[c * cameras.size() + other],
+                seen_together(recording, c, other));
+    }
+  }
+  EXPECT_EQ(outliers, 4 * rig->outliers);
 }
 
 }  // namespace

@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/judge_calibration.h"
+
+#include <gtest/gtest.h>
+
+namespace marey::app {
+namespace {
+
+/// Three webcams that were calibrated as one should.
+CalibrationReport decent() {
+  CalibrationReport report;
+  report.extent = calib::BoardExtent{};
+  report.has_floor = true;
+  report.rate_hz = 30.0;
+  for (const char* name : {"left", "middle", "right"}) {
+    Camera camera;
+    camera.name = name;
+    camera.intrinsics.width_px = 1280;
+    camera.intrinsics.height_px = 720;
+    report.rig.cameras.push_back(camera);
+    CameraQuality quality;
+    quality.corners = 4000;
+    quality.views = 40;
+    quality.coverage = 0.6;
+    report.rig.quality.push_back(quality);
+    CameraMeasures measures;
+    measures.inlier_rms_px = 0.3;
+    measures.median_px = 0.2;
+    measures.outlier_corners = 40;
+    measures.instants = 40;
+    measures.half_coverage = {0.6, 0.6, 0.6, 0.6};
+    measures.tilts = {{0.7, 0.0, 2.0}};
+    measures.p90_tilt_rad = 0.7;
+    measures.lag = CameraLag{0.01, 0.01, 0.02};
+    measures.floor_median_px = 0.3;
+    report.cameras.push_back(measures);
+  }
+  report.rig.median_px = 0.2;
+  report.rig.shared_views = {40, 30, 2, 30, 40, 25, 2, 25, 40};
+  report.map.distance_m = 3.0;
+  report.map.middle_error_m = 0.003;
+  report.map.grid = {{-1.0, 0.0, -1.0}, {1.0, 0.0, 1.0}, 0.5, {0.9}};
+  report.map.height_names = {"hip"};
+  for (int i = 0; i < 25; ++i) {
+    report.map.places.push_back(
+        {{-1.0 + 0.5 * (i % 5), 0.9, -1.0 + 0.5 * (i / 5)}, 3, 0.004});
+  }
+  report.map.middle_in_world = {0.0, 0.9, 0.0};
+  return report;
+}
+
+/// The one finding; a test fails where there are none or several.
+Finding only(const CalibrationReport& report) {
+  const auto found = judge_calibration(report);
+  EXPECT_EQ(found.size(), 1U);
+  return found.empty() ? Finding{} : found.front();
+}
+
+void expect(const Finding& found,
+            Severity severity,
+            const std::string& kind,
+            const std::string& where,
+            const std::string& figure) {
+  EXPECT_EQ(found.severity, severity) << found.cause;
+  EXPECT_EQ(found.kind, kind);
+  EXPECT_EQ(found.where, where);
+  EXPECT_NE(found.cause.find(figure), std::string::npos) << found.cause;
+  EXPECT_FALSE(found.next.empty());
+}
+
+TEST(JudgeCalibration, HasNothingToSayOfADecentOne) {
+  const CalibrationReport report = decent();
+  EXPECT_TRUE(judge_calibration(report).empty());
+  EXPECT_STREQ(verdict_of(report), "good");
+}
+
+TEST(JudgeCalibration, NamesTheHalfThatWasNotShown) {
+  CalibrationReport report = decent();
+  report.cameras[0].half_coverage = {0.9, 0.1, 0.5, 0.5};
+  expect(
+      only(report), Severity::kFair, "coverage", "camera left", "10 % of the right half");
+}
+
+TEST(JudgeCalibration, NamesACameraThatSawLittle) {
+  CalibrationReport report = decent();
+  report.rig.quality[1].coverage = 0.2;
+  expect(only(report), Severity::kFair, "coverage", "camera middle", "20 %");
+  report.rig.quality[1].coverage = 0.04;
+  expect(only(report), Severity::kPoor, "coverage", "camera middle", "4 %");
+}
+
+TEST(JudgeCalibration, TellsOnceWhatCamerasShare) {
+  CalibrationReport report = decent();
+  report.rig.quality[0].coverage = 0.2;
+  report.rig.quality[2].coverage = 0.25;
+  const Finding found = only(report);
+  EXPECT_EQ(found.where, "cameras left (20 %), right (25 %)");
+}
+
+TEST(JudgeCalibration, NamesABoardThatWasHardlyTilted) {
+  CalibrationReport report = decent();
+  report.cameras[2].p90_tilt_rad = 0.1;
+  expect(only(report), Severity::kFair, "tilt", "camera right", "6 degrees");
+  report.cameras[2].tilts.clear();  // A wand has no face.
+  EXPECT_TRUE(judge_calibration(report).empty());
+}
+
+TEST(JudgeCalibration, NamesCamerasThatHardlyMeet) {
+  CalibrationReport report = decent();
+  // Left and right need not meet: the middle joins them. Now it does so badly.
+  report.rig.shared_views = {40, 30, 2, 30, 40, 3, 2, 3, 40};
+  expect(
+      only(report), Severity::kFair, "shared", "cameras middle and right", "3 instants");
+}
+
+TEST(JudgeCalibration, DoubtsWhatWasSeenThreeTimes) {
+  CalibrationReport report = decent();
+  report.cameras[1].instants = 3;
+  expect(only(report), Severity::kPoor, "views", "camera middle", "at 3 instants");
+}
+
+TEST(JudgeCalibration, NamesTheCameraThatIsWorseThanTheOthers) {
+  CalibrationReport report = decent();
+  report.cameras[2].inlier_rms_px = 1.2;
+  expect(only(report), Severity::kFair, "worse", "camera right", "1.20 px");
+  report.cameras[2].inlier_rms_px = 3.5;
+  expect(only(report), Severity::kPoor, "worse", "camera right", "3.50 px");
+}
+
+TEST(JudgeCalibration, TakesThePicturesSizeIntoAccount) {
+  CalibrationReport report = decent();
+  for (std::size_t c = 0; c < 3; ++c) {
+    report.rig.cameras[c].intrinsics.width_px = 3840;
+    report.cameras[c].inlier_rms_px = 0.9;
+  }
+  EXPECT_TRUE(judge_calibration(report).empty());
+}
+
+TEST(JudgeCalibration, NamesACameraThatWasMoved) {
+  CalibrationReport report = decent();
+  report.cameras[0].astray_from = 71;
+  expect(only(report), Severity::kPoor, "moved", "camera left", "frame 71");
+}
+
+TEST(JudgeCalibration, NamesACameraThatIsOutOfStepAndBlamesNothingElse) {
+  CalibrationReport report = decent();
+  report.cameras[1].lag = CameraLag{0.6, 0.02, 1.5};
+  report.cameras[1].astray_until = 30;
+  expect(only(report), Severity::kFair, "clock", "camera middle", "20 ms or more later");
+}
+
+TEST(JudgeCalibration, CountsOutliers) {
+  CalibrationReport report = decent();
+  report.cameras[0].outlier_corners = 600;
+  expect(only(report), Severity::kFair, "outliers", "camera left", "15 %");
+  report.cameras[0].outlier_corners = 2000;
+  expect(only(report), Severity::kPoor, "outliers", "camera left", "50 %");
+}
+
+TEST(JudgeCalibration, SeesALensThatItsModelDoesNotFit) {
+  CalibrationReport report = decent();
+  report.cameras[0].pattern_px = 0.32;
+  report.cameras[0].inlier_rms_px = 0.45;
+  expect(only(report), Severity::kFair, "lens", "camera left", "0.32 px");
+}
+
+TEST(JudgeCalibration, NamesTheCameraThatTheFloorDoesNotAgreeWith) {
+  CalibrationReport report = decent();
+  report.cameras[2].floor_median_px = 2.5;
+  expect(only(report), Severity::kFair, "floor", "camera right", "2.5 px");
+}
+
+TEST(JudgeCalibration, DoubtsPointsThatStandCentimetresOff) {
+  CalibrationReport report = decent();
+  report.map.middle_error_m = 0.03;
+  expect(only(report), Severity::kPoor, "error", "all cameras", "30 mm");
+  // In a hall of nine metres the same is a third of it.
+  report.map.distance_m = 9.0;
+  expect(only(report), Severity::kFair, "error", "all cameras", "30 mm");
+}
+
+TEST(JudgeCalibration, SaysWhereTheErrorsAreLarge) {
+  CalibrationReport report = decent();
+  for (auto& place : report.map.places) {
+    if (place.p_in_world.x > 0.4) place.error_m = 0.05;
+  }
+  expect(only(report), Severity::kFair, "volume", "all cameras", "towards +x");
+}
+
+TEST(JudgeCalibration, DoubtsWhatDoesNotPredict) {
+  CalibrationReport report = decent();
+  calib::CrossValidation check{0.3,
+                               0.32,
+                               {0.002, 0.002, 0.002},
+                               {0.0, 0.0, 0.0},
+                               {0.0, 0.0, 0.0},
+                               {0.3, 0.3, 0.3}};
+  report.rig.cross_validation = check;
+  EXPECT_TRUE(judge_calibration(report).empty());
+  report.rig.cross_validation->held_out_rms_px = 1.5;
+  expect(only(report), Severity::kPoor, "held-out", "all cameras", "1.50 px");
+  report.rig.cross_validation = check;
+  report.rig.cross_validation->held_out_camera_px[1] = 7.0;
+  expect(only(report), Severity::kPoor, "held-out", "camera middle", "7.0 px");
+  report.rig.cross_validation = check;
+  report.rig.cross_validation->centre_apart_m[2] = 0.025;
+  expect(only(report), Severity::kFair, "halves", "camera right", "25 mm");
+}
+
+TEST(JudgeCalibration, MakesErrorsOfWhatIsPoorAndWarningsOfTheRest) {
+  CalibrationReport report = decent();
+  report.cameras[0].astray_from = 71;
+  report.rig.quality[1].coverage = 0.2;
+  report.findings = judge_calibration(report);
+  EXPECT_STREQ(verdict_of(report), "look closer");
+  const auto poor = poor_of(report);
+  ASSERT_EQ(poor.size(), 1U);
+  EXPECT_EQ(poor[0].code, Errc::kQuality);
+  EXPECT_EQ(poor[0].where, "calibration, camera left");
+  ASSERT_EQ(warnings_of(report).size(), 1U);
+}
+
+}  // namespace
+}  // namespace marey::app
