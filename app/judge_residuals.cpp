@@ -99,7 +99,8 @@ void judge_outliers(FindingList& list, std::size_t c) {
              "under %.0f %%)",
              100.0 * share,
              100.0 * kFairOutliers),
-      std::string("look at the frames in calibration.html: blur, hands over the ") +
+      std::string(
+          "look at the frames in calibration.html's list: blur, hands over the ") +
           list.target() +
           ", mirrors, another print with its tags, or cameras that are "
           "out of step",

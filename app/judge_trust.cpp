@@ -41,9 +41,9 @@ void judge_middle(FindingList& list) {
   list.add(graver(*map.middle_error_m, poor_error_m(list.report)),
            "error",
            "all cameras",
-           worded("a point in the middle of the volume is known to %.0f mm ",
+           worded("a point in the middle of the volume is known to %.1f mm ",
                   1e3 * *map.middle_error_m) +
-               heights + worded(" (good: under %.0f)", 1e3 * fair_error_m(list.report)),
+               heights + worded(" (good: under %.1f)", 1e3 * fair_error_m(list.report)),
            (any_late ? "get the cameras in step, then show the " : "show the ") +
                std::string(list.target()) +
                " longer, nearer and more tilted, and to several cameras at once; see "
@@ -108,6 +108,30 @@ void judge_volume(FindingList& list) {
   }
 }
 
+/// Even against odd frames. What their sigma explains is said by the expected error,
+/// which knows that a camera further back with a longer lens sees the same.
+void judge_halves(FindingList& list, std::size_t c, double apart_m) {
+  constexpr double kFairRatio = 2.0;
+  constexpr double kPoorRatio = 4.0;
+  // Each half errs by the root of two more than the whole, their difference by that
+  // again; and there are three coordinates.
+  const double usual_m = 2.0 * std::sqrt(3.0) * list.report.rig.quality[c].centre_sigma_m;
+  if (apart_m <= kFairRatio * usual_m || apart_m <= 2.0 * fair_error_m(list.report)) {
+    return;
+  }
+  const bool is_poor =
+      apart_m > kPoorRatio * usual_m && apart_m > 2.0 * poor_error_m(list.report);
+  list.add(is_poor ? Severity::kPoor : Severity::kFair,
+           "halves",
+           list.camera(c),
+           worded("the even frames put it %.0f mm from where the odd ones do, and its "
+                  "doubt lets expect %.0f mm: it is less sure than it says",
+                  1e3 * apart_m,
+                  1e3 * usual_m),
+           "check that it was not touched while the " + std::string(list.target()) +
+               " was shown, and show it longer, together with another camera");
+}
+
 void judge_held_out(FindingList& list) {
   const auto& check = list.report.rig.cross_validation;
   if (!check) return;
@@ -140,18 +164,7 @@ void judge_held_out(FindingList& list) {
                "check its video's start, and that it was not moved; hold the board where "
                "it and two others see it");
     }
-    const double apart_m = check->centre_apart_m[c];
-    // From halves of the recording, which together are surer by the root of two, and
-    // whose difference is larger by it.
-    if (apart_m > 2.0 * fair_error_m(list.report)) {
-      list.add(graver(apart_m, 2.0 * poor_error_m(list.report)),
-               "halves",
-               list.camera(c),
-               worded("the even frames put it %.0f mm from where the odd ones do",
-                      1e3 * apart_m),
-               "show it the " + std::string(list.target()) +
-                   " longer, together with another camera");
-    }
+    judge_halves(list, c, check->centre_apart_m[c]);
   }
 }
 

@@ -48,6 +48,7 @@ function cards(figures) {
 }
 
 function judgement({verdict, middle_error_mm: error, findings}) {
+  const counted = (count, one, many) => (count === 1 ? one : `${count} ${many}`);
   const poor = findings.filter((finding) => finding.severity === 'poor').length;
   const fair = findings.filter((finding) => finding.severity === 'fair').length;
   const stands = error === null ? 'No two cameras see the middle of the volume.'
@@ -55,10 +56,10 @@ function judgement({verdict, middle_error_mm: error, findings}) {
       'truth.';
   if (verdict === 'good') return `Good: these cameras can be used. ${stands}`;
   if (verdict === 'fair') {
-    return `Fair: these cameras can be used, and ${plural(fair, 'thing', 'things')} below ` +
-      `would make them better. ${stands}`;
+    return `Fair: these cameras can be used, and ${counted(fair, 'one thing', 'things')} ` +
+      `below would make them better. ${stands}`;
   }
-  return `Look closer: do not trust these cameras before ${plural(poor, 'thing is',
+  return `Look closer: do not trust these cameras before ${counted(poor, 'one thing is',
     'things are')} put right. ${stands}`;
 }
 
@@ -112,6 +113,30 @@ function togetherSection(figures) {
   ];
 }
 
+/** Clocks that were solved for. */
+function clocksPart({cameras}) {
+  const of = (camera, name) => camera.parameters.find((p) => p.name === name);
+  if (!cameras.some((camera) => of(camera, 'offset'))) return [];
+  const cell = (name, unit, decimals) => (camera) => {
+    const found = of(camera, name);
+    if (!found) return '';
+    return found.sigma > 0
+      ? `${fixed(found.value, decimals)} ± ${fixed(found.sigma, decimals)} ${unit}` : 'held';
+  };
+  return [
+    el('h3', {}, 'Clocks'),
+    el('p', {class: 'lead'}, 'By how much each camera’s frames were taken later than the ' +
+      'first camera’s of the same number, how fast its clock runs away, and how long it ' +
+      'takes from one row of the picture to the next.'),
+    table([
+      {title: 'Camera', cell: (camera) => camera.name},
+      {title: 'Offset', number: true, cell: cell('offset', 'ms', 2)},
+      {title: 'Drift', number: true, cell: cell('drift', 'ppm', 1)},
+      {title: 'Row to row', number: true, cell: cell('line_delay', 'µs', 1)},
+    ], cameras, 'Clocks of the cameras'),
+  ];
+}
+
 function checksSection(figures) {
   const check = figures.cross_validation;
   const out = [];
@@ -152,6 +177,7 @@ function checksSection(figures) {
           `${fixed(lag.explained_px, 2)} px`},
       ], lags, 'Lag of every camera'));
   }
+  out.push(...clocksPart(figures));
   if (figures.warp_mm !== null) {
     const [x, y, twist] = figures.warp_mm;
     out.push(el('p', {}, `The board is bent: its middle rises ${fixed(x, 2)} mm along x and ` +
@@ -175,15 +201,15 @@ function parametersSection(figures) {
     camera.parameters.map((parameter) => parameter.name)))];
   const units = new Map(figures.cameras.flatMap((camera) =>
     camera.parameters.map((parameter) => [parameter.name, parameter.unit])));
-  const text = (value) => {
-    const made = Number(value).toString();
-    return (made.includes('e') ? value.toFixed(9) : made).replace('-', '−');
-  };
+  /** To the second figure of its sigma. */
+  const text = (value, sigma) => fixed(value, sigma > 0
+    ? Math.min(Math.max(Math.ceil(1 - Math.log10(sigma)), 0), 9) : 4);
   const cell = (camera, name) => {
     const parameter = camera.parameters.find((p) => p.name === name);
     if (!parameter) return '';
-    return el('span', {}, text(parameter.value), el('span', {class: 'sigma'},
-      parameter.sigma > 0 ? ` ± ${text(parameter.sigma)}` : ' (held)'));
+    const {value, sigma} = parameter;
+    return el('span', {}, text(value, sigma), el('span', {class: 'sigma'},
+      sigma > 0 ? ` ± ${text(sigma, sigma)}` : ' (held)'));
   };
   const unit = (name) => (units.get(name) === '' ? ''
     : ` [${UNIT_WORDS[units.get(name)] ?? units.get(name)}]`);

@@ -22,7 +22,7 @@ function coveragePicture(camera) {
       y2: camera.height_px}),
     svg('line', {x1: 0, x2: camera.width_px, y1: camera.height_px / 2,
       y2: camera.height_px / 2})),
-    el('figcaption', {}, `Coverage: ${words}; darker is more often.`));
+    el('figcaption', {}, `Coverage: ${words}; a fuller colour is more often.`));
 }
 
 /** By how much errors are drawn larger: most arrows are a few hundredths of the width. */
@@ -35,7 +35,7 @@ function arrowScale(camera, arrows) {
 
 function residualPicture(camera, page) {
   const scale = arrowScale(camera, page.arrows.length > 0 ? page.arrows : page.strays);
-  const longest = 0.15 * camera.width_px;
+  const longest = 0.08 * camera.width_px;
   const dot = camera.width_px / 260;
   const end = ([x, y, ex, ey]) => {
     const s = Math.min(scale, longest / (Math.hypot(ex, ey) || 1));
@@ -49,10 +49,11 @@ function residualPicture(camera, page) {
   return el('figure', {class: 'residuals'},
     svg('svg', {viewBox: `0 0 ${camera.width_px} ${camera.height_px}`, role: 'img',
       'aria-label': `${words}, ${plural(strays.length, 'outlier', 'outliers')}`},
+    // What was left out lies below, so that it does not hide what counts.
+    ...strays,
     ...page.arrows.flatMap((arrow) => [
       svg('circle', {class: 'tail', cx: arrow[0], cy: arrow[1], r: dot / 1.6}),
-      svg('line', {class: 'arrow', ...end(arrow)})]),
-    ...strays),
+      svg('line', {class: 'arrow', ...end(arrow)})])),
     el('figcaption', {}, `${words}.`, ...(strays.length === 0 ? []
       : [' ', el('span', {class: 'stray'}, '○ left out'), ', arrows cut short'])));
 }
@@ -81,7 +82,8 @@ function seenWords(camera) {
   const parts = [`${plural(camera.views, 'view', 'views')}`,
     `${fixed(camera.inlier_rms_px, 2)} px`,
     `lens ${camera.lens}, focal length ± ${fixed(camera.focal_sigma_px, 1)} px`,
-    `place ± ${fixed(camera.centre_sigma_mm, 1)} mm`];
+    camera.centre_sigma_mm > 0 ? `place ± ${fixed(camera.centre_sigma_mm, 1)} mm`
+      : 'its place is the origin'];
   if (camera.outlier_corners > 0) {
     const share = 100 * camera.outlier_corners / camera.corners;
     parts.push(`${fixed(share, share < 1 ? 1 : 0)} % of the corners left out`);

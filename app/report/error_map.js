@@ -67,10 +67,11 @@ function mapCamera(camera, size, reach, frame) {
   shapes.push(svg('polygon', {class: 'body',
     points: points([corner(-0.5, 0), corner(0.6, 0.6), corner(0.6, -0.6)])}));
   // Letters are some 0.6 of their height wide: the name stays inside.
-  const half = 0.3 * size * (camera.name.length + 1);
+  const half = 0.34 * size * (camera.name.length + 1);
   const x = Math.min(Math.max(at[0], frame.left + half), frame.right - half);
-  shapes.push(svg('text', {x, y: at[1] + (way[1] > 0 ? -0.9 : 1.6) * size,
-    'font-size': size, 'stroke-width': 0.15 * size}, camera.name));
+  const y = Math.min(Math.max(at[1] + (way[1] > 0 ? -0.9 : 1.6) * size,
+    frame.top + size), frame.bottom - 0.3 * size);
+  shapes.push(svg('text', {x, y, 'font-size': size, 'stroke-width': 0.15 * size}, camera.name));
   return shapes;
 }
 
@@ -81,7 +82,7 @@ function mapFrame(figures) {
   const box = {x0: map.x_from_m - half, x1: map.x_from_m + map.step_m * rows[0].length - half,
     z0: map.z_from_m - half, z1: map.z_from_m + map.step_m * rows.length - half};
   const extent = Math.max(box.x1 - box.x0, box.z1 - box.z0);
-  const rim = 0.1 * extent;
+  const rim = 0.13 * extent;
   const places = figures.cameras.map((camera) => camera.centre_in_world_m);
   return {...box, extent,
     left: Math.min(box.x0, ...places.map((p) => p[0] - rim)),
@@ -94,7 +95,7 @@ function errorMap(figures, height, top) {
   const map = figures.error_map;
   const frame = mapFrame(figures);
   const {left, right, top: upper, bottom} = frame;
-  const size = Math.max(right - left, bottom - upper) / 26;
+  const size = (right - left) / 24;
   const metre = frame.extent > 2 ? 1 : 0.1;
   const marks = (from, to) => Array.from({length: Math.max(0, Math.floor(to / metre) -
     Math.ceil(from / metre) + 1)}, (_, i) => metre * (Math.ceil(from / metre) + i));

@@ -93,7 +93,11 @@ class RigStage {
         if (corners.length > 1) loop(corners.map((p) => this.lifted(p)), this.theme.board);
       }
       for (const corners of this.floorPlaces) {
-        loop(corners.map((p) => this.lifted(p)), this.theme.floor);
+        const lifted = corners.map((p) => this.lifted(p));
+        loop(lifted, this.theme.floor);
+        if (lifted.length < 4) continue;
+        line(lifted[0], lifted[2], this.theme.floor);
+        line(lifted[1], lifted[3], this.theme.floor);
       }
     }
     if (options.doubt) {
@@ -241,13 +245,14 @@ class RigViewer {
 
 function layoutSection(figures, viewer) {
   const floor = figures.has_floor
-    ? 'the green outline is the board on the floor'
-    : 'there was no floor trial, so the grid is only a help to the eye';
+    ? ' The green one, crossed out, is the board on the floor.'
+    : ' There was no floor trial: the grid is only a help to the eye.';
+  const {sigmaScale: scale} = viewer.stage;
   return [
     el('p', {class: 'lead'}, 'Check that every camera stands and looks as in the room. ' +
       `Orange outlines are where the ${figures.target.startsWith('wand') ? 'wand' : 'board'} ` +
-      `was, ${floor}. Rings around a camera are the doubt of its place (one sigma), drawn ` +
-      `${viewer.stage.sigmaScale} times too large.`),
+      `was.${floor} Rings around a camera are the doubt of its place (one sigma), ` +
+      (scale > 1 ? `drawn ${scale} times too large.` : 'as large as it is.')),
     viewer.root,
   ];
 }

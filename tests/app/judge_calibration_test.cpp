@@ -23,6 +23,7 @@ CalibrationReport decent() {
     quality.corners = 4000;
     quality.views = 40;
     quality.coverage = 0.6;
+    quality.centre_sigma_m = 0.002;
     report.rig.quality.push_back(quality);
     CameraMeasures measures;
     measures.inlier_rms_px = 0.3;
@@ -174,10 +175,10 @@ TEST(JudgeCalibration, NamesTheCameraThatTheFloorDoesNotAgreeWith) {
 TEST(JudgeCalibration, DoubtsPointsThatStandCentimetresOff) {
   CalibrationReport report = decent();
   report.map.middle_error_m = 0.03;
-  expect(only(report), Severity::kPoor, "error", "all cameras", "30 mm");
+  expect(only(report), Severity::kPoor, "error", "all cameras", "30.0 mm");
   // In a hall of nine metres the same is a third of it.
   report.map.distance_m = 9.0;
-  expect(only(report), Severity::kFair, "error", "all cameras", "30 mm");
+  expect(only(report), Severity::kFair, "error", "all cameras", "30.0 mm");
 }
 
 TEST(JudgeCalibration, SaysWhereTheErrorsAreLarge) {
@@ -206,6 +207,11 @@ TEST(JudgeCalibration, DoubtsWhatDoesNotPredict) {
   report.rig.cross_validation = check;
   report.rig.cross_validation->centre_apart_m[2] = 0.025;
   expect(only(report), Severity::kFair, "halves", "camera right", "25 mm");
+  report.rig.cross_validation->centre_apart_m[2] = 0.05;
+  expect(only(report), Severity::kPoor, "halves", "camera right", "50 mm");
+  // Known to be as unsure as that.
+  report.rig.quality[2].centre_sigma_m = 0.02;
+  EXPECT_TRUE(judge_calibration(report).empty());
 }
 
 TEST(JudgeCalibration, MakesErrorsOfWhatIsPoorAndWarningsOfTheRest) {
