@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recordings/file_axes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/common.hpp>
+
+namespace marey::recordings {
+namespace {
+
+constexpr std::array<std::string_view, 6> kAxisNames{"+X", "+Y", "+Z", "-X", "-Y", "-Z"};
+
+int coordinate(FileAxis axis) {
+  return static_cast<int>(axis) % 3;
+}
+
+bool is_negative(FileAxis axis) {
+  return static_cast<int>(axis) >= 3;
+}
+
+std::string lower(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) > ' ' && c != '"' && c != '.') {
+      out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    }
+  }
+  return out;
+}
+
+// Markers of ankles are 0.05 of a stature high, and who walks has a floor of 0.02 to 0.1;
+// jumps from a box and stairs come to 0.4 and 0.65. The head of who stands is 1 away.
+constexpr double kFloor = 0.7;
+constexpr double kClear = 2.0;
+constexpr double kBelow = 5.0;
+// Arms held out make bodies wider than high, by less than this.
+constexpr double kWidest = 1.6;
+
+/// Of a list that is not empty, which is sorted here.
+double quantile_of(std::vector<double>& values, double share) {
+  std::sort(values.begin(), values.end());
+  const double at = share * static_cast<double>(values.size() - 1);
+  return values[static_cast<std::size_t>(std::lround(at))];
+}
+
+}  // namespace
+
+std::string_view name(FileAxis axis) {
+  return kAxisNames.at(static_cast<std::size_t>(axis));
+}
+
+std::optional<FileAxis> axis_of(std::string_view text) {
+  const std::string word = lower(text);
+  if (word.empty() || word.size() > 2) return std::nullopt;
+  const char letter = word.back();
+  if (letter < 'x' || letter > 'z') return std::nullopt;
+  if (word.size() == 2 && word[0] != '+' && word[0] != '-') return std::nullopt;
+  const auto axis = static_cast<FileAxis>(letter - 'x');
+  return word[0] == '-' ? opposite(axis) : axis;
+}
+
+FileAxis opposite(FileAxis axis) {
+  return static_cast<FileAxis>((static_cast<int>(axis) + 3) % 6);
+}
+
+glm::dvec3 unit_vector(FileAxis axis) {
+  glm::dvec3 v(0.0);
+  v[coordinate(axis)] = is_negative(axis) ? -1.0 : 1.0;
+  return v;
+}
+
+std::string_view name(Evidence evidence) {
+  switch (evidence) {
+    case Evidence::kFile:
+      return "file";
+    case Evidence::kMarkers:
+      return "markers";
+    case Evidence::kPlates:
+      return "force plates";
+    case Evidence::kHabit:
+      return "habit";
+    case Evidence::kUser:
+      return "user";
+  }
+  return "habit";
+}
+
+std::optional<double> units_per_metre(std::string_view name) {
+  const std::string unit = lower(name);
+  if (unit == "mm" || unit.starts_with("milli")) return 1000.0;
+  if (unit == "cm" || unit.starts_with("centi")) return 100.0;
+  if (unit == "dm" || unit.starts_with("deci")) return 10.0;
+  // "mete": some files have room for four letters.
+  if (unit == "m" || unit.starts_with("met")) return 1.0;
+  if (unit == "in" || unit.starts_with("inch")) return 1.0 / 0.0254;
+  if (unit == "ft" || unit.starts_with("feet") || unit.starts_with("foot")) {
+    return 1.0 / 0.3048;
+  }
+  return std::nullopt;
+}
+
+glm::dvec3 turned_to_world(FileAxis up, const glm::dvec3& v) {
+  switch (up) {
+    case FileAxis::kPlusX:
+      return {-v.y, v.x, v.z};
+    case FileAxis::kPlusY:
+      return v;
+    case FileAxis::kPlusZ:
+      return {v.x, v.z, -v.y};
+    case FileAxis::kMinusX:
+      return {v.y, -v.x, v.z};
+    case FileAxis::kMinusY:
+      return {v.x, -v.y, -v.z};
+    case FileAxis::kMinusZ:
+      return {v.x, -v.z, v.y};
+  }
+  return v;
+}
+
+glm::dvec3 turned_to_file(FileAxis up, const glm::dvec3& v) {
+  switch (up) {
+    case FileAxis::kPlusX:
+      return {v.y, -v.x, v.z};
+    case FileAxis::kPlusY:
+      return v;
+    case FileAxis::kPlusZ:
+      return {v.x, -v.z, v.y};
+    case FileAxis::kMinusX:
+      return {-v.y, v.x, v.z};
+    case FileAxis::kMinusY:
+      return {v.x, -v.y, -v.z};
+    case FileAxis::kMinusZ:
+      return {v.x, v.z, -v.y};
+  }
+  return v;
+}
+
+void AxisFinder::add_frame(std::span<const glm::dvec3> p_in_file) {
+  // 10 km in the smallest unit; further out are words for what was not seen.
+  constexpr double kFurthest = 1e7;
+  Box box;
+  for (const glm::dvec3& p : p_in_file) {
+    if (!(std::abs(p.x) < kFurthest && std::abs(p.y) < kFurthest &&
+          std::abs(p.z) < kFurthest)) {
+      continue;
+    }
+    box.least = box.markers == 0 ? p : glm::min(box.least, p);
+    box.greatest = box.markers == 0 ? p : glm::max(box.greatest, p);
+    ++box.markers;
+  }
+  constexpr std::size_t kFewest = 3;
+  if (box.markers >= kFewest) boxes_.push_back(box);
+}
+
+std::vector<AxisFinder::Box> AxisFinder::full_boxes() const {
+  std::size_t most = 0;
+  for (const Box& box : boxes_) most = std::max(most, box.markers);
+  std::vector<Box> full;
+  for (const Box& box : boxes_) {
+    if (10 * box.markers >= 7 * most) full.push_back(box);
+  }
+  return full;
+}
+
+std::optional<AxisFinder::Stance> AxisFinder::stance(FileAxis axis) const {
+  const std::vector<Box> boxes = full_boxes();
+  if (boxes.empty()) return std::nullopt;
+  const int i = coordinate(axis);
+  std::vector<double> low;
+  std::vector<double> extent;
+  for (const Box& box : boxes) {
+    low.push_back(is_negative(axis) ? -box.greatest[i] : box.least[i]);
+    extent.push_back(box.greatest[i] - box.least[i]);
+  }
+  Stance found;
+  found.extent = quantile_of(extent, 0.5);
+  if (!(found.extent > 0.0)) return std::nullopt;
+  const double spread = quantile_of(low, 0.9) - quantile_of(low, 0.1);
+  // Jumps and stairs lead above the floor; nothing is far below it.
+  const double lowest = quantile_of(low, 0.5);
+  found.floor =
+      (lowest < 0.0 ? -kBelow * lowest : lowest) / found.extent + spread / found.extent;
+  return found;
+}
+
+std::optional<FileAxis> AxisFinder::up() const {
+  double widest = 0.0;
+  std::array<std::optional<Stance>, 6> stances;
+  for (std::size_t i = 0; i < stances.size(); ++i) {
+    stances.at(i) = stance(static_cast<FileAxis>(i));
+    if (stances.at(i)) widest = std::max(widest, stances.at(i)->extent);
+  }
+  std::optional<FileAxis> best;
+  double best_cost = 0.0;
+  double next_cost = 0.0;
+  for (std::size_t i = 0; i < stances.size(); ++i) {
+    if (!stances.at(i) || stances.at(i)->extent * kWidest < widest) continue;
+    const double cost = stances.at(i)->floor * widest / stances.at(i)->extent;
+    if (!best || cost < best_cost) {
+      next_cost = best ? best_cost : cost;
+      best_cost = cost;
+      best = static_cast<FileAxis>(i);
+    } else if (next_cost <= best_cost || cost < next_cost) {
+      next_cost = cost;
+    }
+  }
+  const bool clear = best && best_cost < kFloor && next_cost > kClear * best_cost;
+  return clear ? best : std::nullopt;
+}
+
+std::optional<FileAxis> AxisFinder::up_along(FileAxis axis) const {
+  const auto along = stance(axis);
+  const auto against = stance(opposite(axis));
+  if (!along || !against) return std::nullopt;
+  if (along->floor < kFloor && against->floor > kClear * along->floor) return axis;
+  if (against->floor < kFloor && along->floor > kClear * against->floor) {
+    return opposite(axis);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> AxisFinder::unit() const {
+  const std::vector<Box> boxes = full_boxes();
+  if (boxes.empty()) return std::nullopt;
+  std::vector<double> extents;
+  for (const Box& box : boxes) {
+    const glm::dvec3 extent = box.greatest - box.least;
+    extents.push_back(std::max({extent.x, extent.y, extent.z}));
+  }
+  // A hand spans 15 cm, bodies and what they play with a few metres.
+  const double extent = quantile_of(extents, 0.5);
+  if (extent >= 0.15 && extent < 15.0) return "m";
+  if (extent >= 15.0 && extent < 200.0) return "cm";
+  if (extent >= 200.0 && extent < 15000.0) return "mm";
+  return std::nullopt;
+}
+
+}  // namespace marey::recordings

@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// fuzz_seeds FOLDER: writes small sound files into FOLDER/c3d and FOLDER/trc, from which
+// fuzzing starts.
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "recordings/atomic_file.h"
+#include "recordings/c3d.h"
+#include "recordings/marker_file.h"
+#include "recordings/trc.h"
+
+namespace {
+
+using namespace marey;
+using namespace marey::recordings;
+
+MarkerFile two_markers() {
+  MarkerFile markers;
+  markers.tracks.labels = {"LHEE", "RHEE"};
+  markers.tracks.rate = FrameRate{100.0};
+  markers.tracks.samples.resize(6);
+  markers.tracks.samples[0] = MarkerSample{{0.1, 0.2, 0.3}, 0.001F, 5, {}};
+  markers.tracks.samples[3] = MarkerSample{{0.1, 1.2, 0.3}, 0.0F, 0, Source::kRepaired};
+  markers.events.push_back({"Foot Strike", "Left", "A", 0.01});
+  return markers;
+}
+
+C3dParameter reals(const char* name, std::vector<std::uint8_t> dimensions) {
+  std::size_t count = 1;
+  for (const std::uint8_t d : dimensions) count *= d;
+  return {name, "", false, std::move(dimensions), C3dReals(count, 1.5F)};
+}
+
+C3dParameter integers(const char* name, std::vector<std::uint8_t> dimensions) {
+  std::size_t count = 1;
+  for (const std::uint8_t d : dimensions) count *= d;
+  return {name, "", false, std::move(dimensions), C3dIntegers(count, 2)};
+}
+
+C3dInfo example(C3dProcessor processor, C3dNumbers numbers) {
+  C3dInfo info;
+  info.processor = processor;
+  info.numbers = numbers;
+  info.points = 2;
+  info.analog_channels = 6;
+  info.analog_per_frame = 2;
+  info.frames = 2;
+  info.header_events.push_back({"LHS", 0.01, true});
+  put_texts(info.groups, "POINT", "LABELS", {"LHEE", "RHEE"});
+  put_texts(info.groups, "POINT", "UNITS", {"mm"});
+  put_texts(info.groups, "POINT", "Y_SCREEN", {"+Z"});
+  put_parameter(info.groups, "ANALOG", reals("SCALE", {6}));
+  put_parameter(info.groups, "ANALOG", integers("OFFSET", {6}));
+  put_parameter(info.groups, "ANALOG", reals("GEN_SCALE", {}));
+  put_parameter(info.groups, "FORCE_PLATFORM", integers("USED", {}));
+  put_parameter(info.groups, "FORCE_PLATFORM", integers("TYPE", {1}));
+  put_parameter(info.groups, "FORCE_PLATFORM", reals("CORNERS", {3, 4, 1}));
+  put_parameter(info.groups, "FORCE_PLATFORM", reals("ORIGIN", {3, 1}));
+  put_parameter(info.groups, "FORCE_PLATFORM", integers("CHANNEL", {6, 1}));
+  put_parameter(info.groups, "EVENT", reals("TIMES", {2, 1}));
+  return info;
+}
+
+bool write_c3d(const std::filesystem::path& path, const C3dInfo& info) {
+  Result<C3dWriter> writer = C3dWriter::create(path, info);
+  if (!writer) return false;
+  C3dFrame frame;
+  frame.points = {100, 200, 300, 261, 0, 0, 0, -1};
+  frame.analog.assign(12, 3.0F);
+  for (int i = 0; i < info.frames; ++i) writer->append(frame);
+  return writer->commit().has_value();
+}
+
+bool write_all(const std::filesystem::path& folder) {
+  const MarkerFile markers = two_markers();
+  bool ok = write_markers(folder / "c3d/markers.c3d", markers).has_value() &&
+            write_markers(folder / "trc/markers.trc", markers).has_value();
+  for (const auto processor :
+       {C3dProcessor::kIntel, C3dProcessor::kDec, C3dProcessor::kMips}) {
+    for (const auto numbers : {C3dNumbers::kReal, C3dNumbers::kInteger}) {
+      const std::string name = std::to_string(static_cast<int>(processor)) +
+                               (numbers == C3dNumbers::kReal ? "real" : "integer");
+      ok = ok && write_c3d(folder / "c3d" / (name + ".c3d"), example(processor, numbers));
+    }
+  }
+  const std::string odd =
+      "PathFileType\t4\t(X/Y/Z)\todd.trc\r\n"
+      "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\r\n"
+      "  60.0\t\t60.0\t2\t2\tm\r\n"
+      "Frame#\tTimes\t\tA\t\t\tA\t\t\r\n\t\t\tX1\tY1\tZ1\r\n\t\r\n"
+      "3\t0,033\t1.5e-1\tNaN\t0.2\t0\t0\t0\r\n5\t0.067\t1\t2\t-3\t1.#QNAN\r\n";
+  return ok && write_file(folder / "trc/odd.trc", odd).has_value();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2 || !write_all(argv[1])) {
+    std::fprintf(stderr, "usage: fuzz_seeds FOLDER, which can be written to\n");
+    return 1;
+  }
+  return 0;
+}
