@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "calib/calibrated_rig.h"
@@ -11,12 +12,28 @@
 
 namespace marey::app {
 
-/// The session's cameras, by what they are calibrated with. `floor` is empty when there
-/// is no such trial; a wand knows no floor: then the first camera is the world's origin.
-/// Errors as calib::calibrate_cameras()'s and calib::calibrate_wand()'s.
-[[nodiscard]] Result<calib::CalibratedRig> calibrate_session(
-    const recordings::Session& session,
-    const std::vector<CameraDetections>& waved,
-    const std::vector<CameraDetections>& floor);
+/// What was seen in the trials that cameras are calibrated from. Each has one entry per
+/// camera, or is empty when there is no such trial.
+struct CalibrationSights {
+  std::vector<CameraDetections> waved;
+  std::vector<CameraDetections> floor;
+  std::vector<CameraDetections> standing;  ///< Of the static trial.
+};
+
+struct SessionRig {
+  calib::CalibratedRig rig;
+  /// What was found out or decided, a sentence each.
+  std::vector<std::string> notes;
+};
+
+/// The session's cameras, by what they are calibrated with, as [calibration] asks for it,
+/// in a world that stands on the floor: the floor trial's; else that of the subject who
+/// stands still; else the first camera is the world's origin.
+///
+/// Errors as calib::calibrate_cameras()'s and calib::calibrate_wand()'s; as
+/// stand_on_floor()'s; lenses whose file cannot be read, or is of
+/// none of the cameras, or of pictures of another size.
+[[nodiscard]] Result<SessionRig> calibrate_session(const recordings::Session& session,
+                                                   const CalibrationSights& sights);
 
 }  // namespace marey::app

@@ -180,10 +180,11 @@ Status check_offset(const recordings::Session& session,
                    "is then found, or can be given");
 }
 
-/// Frames are matched by their number: all videos of a trial must run at one rate.
-/// Cameras without a video in the trial take that rate.
-/// Precondition: a camera has frames.
+/// Frames are matched by their number: all videos of a trial must run at one rate, but
+/// for the calibration's where clocks are solved for. Cameras without a video in the
+/// trial take that rate. Precondition: a camera has frames.
 Status check_rates(const recordings::Session& session,
+                   const Trial& trial,
                    std::vector<CameraDetections>& cameras) {
   const auto with_frames = std::find_if(
       cameras.begin(), cameras.end(), [](const auto& c) { return !c.frames.empty(); });
@@ -196,6 +197,11 @@ Status check_rates(const recordings::Session& session,
       continue;
     }
     if (std::abs(camera.rate.hz / first.rate.hz - 1.0) < 1e-3) continue;
+    if (trial.kind == recordings::TrialKind::kCalibration &&
+        session.calibration.clocks != recordings::ClockChoice::kShared &&
+        !std::holds_alternative<Wand>(session.target)) {
+      continue;
+    }
     std::array<char, 120> text{};
     std::snprintf(text.data(),
                   text.size(),
@@ -285,8 +291,20 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
     }
   }
   if (const Status ok = match_times(trial, found, troubles); !ok) return ok.error();
-  if (const Status ok = check_rates(session, found); !ok) return ok.error();
+  if (const Status ok = check_rates(session, trial, found); !ok) return ok.error();
   return found;
+}
+
+void take_off_shrinkage(std::span<const Camera> cameras,
+                        std::vector<CameraDetections>& detections) {
+  for (CameraDetections& camera : detections) {
+    const TagShrinkage& shrinkage = cameras[index(camera.camera)].tag_shrinkage;
+    for (FrameDetections& frame : camera.frames) {
+      for (TagDetection& tag : frame.tags) {
+        tag.corners_px = unshrunk(tag.corners_px, shrinkage);
+      }
+    }
+  }
 }
 
 Status check_picture_sizes(const std::vector<CameraDetections>& earlier,

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <vector>
 
 #include "app/console.h"
 #include "app/match_times.h"
+#include "core/camera.h"
 #include "core/detection.h"
 #include "core/result.h"
 #include "recordings/session.h"
@@ -38,5 +40,10 @@ namespace marey::app {
 /// one. Precondition: both per camera of the session.
 [[nodiscard]] Status check_picture_sizes(const std::vector<CameraDetections>& earlier,
                                          const std::vector<CameraDetections>& found);
+
+/// Puts the corners of every tag where they would be found without shrinkage.
+/// Precondition: detections are of these cameras.
+void take_off_shrinkage(std::span<const Camera> cameras,
+                        std::vector<CameraDetections>& detections);
 
 }  // namespace marey::app

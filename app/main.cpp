@@ -71,6 +71,16 @@ void add_session_command(CLI::App& app,
         // One each time: what follows may be the session.
         ->allow_extra_args(false);
   }
+  if (stage == Stage::kCalibrate || stage == Stage::kProcess) {
+    std::vector<std::string> lenses;
+    for (const auto& [word, lens] : recordings::kLensWords) lenses.emplace_back(word);
+    command
+        ->add_option("--lens",
+                     args.pipeline.lens,
+                     "Lens of the cameras, instead of the session's: auto, "
+                     "brown-conrady, rational or fisheye")
+        ->check(CLI::IsMember(lenses));
+  }
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback([&, stage] {
     if (!args.media.empty()) args.pipeline.media = args.media;

@@ -51,7 +51,6 @@ std::vector<TrialKind> kinds_for(Stage stage) {
     case Stage::kSolve:
     case Stage::kProcess:
       return {TrialKind::kCalibration,
-              TrialKind::kFloor,
               TrialKind::kStatic,
               TrialKind::kRangeOfMotion,
               TrialKind::kMotion};
@@ -73,6 +72,9 @@ Result<Pipeline> Pipeline::open(Stage stage,
   auto session = recordings::read_session(options.session, {options.media});
   if (!session) return session.error();
   leave_out_unrecorded(*session, console);
+  for (const auto& [word, lens] : recordings::kLensWords) {
+    if (options.lens == word) session->calibration.lens = lens;
+  }
   for (const TrialKind kind : kinds_for(stage)) {
     if (!session->find(kind)) return missing_trial(*session, kind);
   }
@@ -161,14 +163,7 @@ Result<std::vector<CameraDetections>> Pipeline::unshrunk_detections_of(
     const Trial& trial) {
   auto detections = detections_of(trial);
   if (!detections) return detections.error();
-  for (CameraDetections& camera : *detections) {
-    const TagShrinkage& shrinkage = cameras_[index(camera.camera)].tag_shrinkage;
-    for (FrameDetections& frame : camera.frames) {
-      for (TagDetection& tag : frame.tags) {
-        tag.corners_px = unshrunk(tag.corners_px, shrinkage);
-      }
-    }
-  }
+  take_off_shrinkage(cameras_, *detections);
   return detections;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/calibrate_session.h"
 #include "app/console.h"
 #include "app/report.h"
 #include "calib/calibrate_cameras.h"
@@ -29,6 +30,8 @@ struct PipelineOptions {
   std::filesystem::path out;                   ///< Where results go; created.
   std::optional<std::filesystem::path> media;  ///< Overrides the session's.
   std::vector<std::filesystem::path> avatars;  ///< GLB, VRM or BVH, each of its own name.
+  /// Instead of the session's lens: a word of recordings::kLensWords.
+  std::optional<std::string> lens;
 };
 
 /// The line through the rooms, drawn once: videos to tag corners to cameras, subject,
@@ -79,6 +82,9 @@ class Pipeline {
 
   Pipeline(recordings::Session session, PipelineOptions options, Console& console);
 
+  [[nodiscard]] Result<CalibrationSights> calibration_sights();
+  [[nodiscard]] Status check_subject(const SessionRig& found,
+                                     std::vector<CameraDetections> standing) const;
   [[nodiscard]] Status track_trial(const recordings::Trial& trial);
   [[nodiscard]] Result<std::vector<CameraDetections>> detections_of(
       const recordings::Trial& trial);

@@ -7,11 +7,14 @@
 
 #include "app/calibrate_session.h"
 #include "app/calibration_report.h"
+#include "app/find_tags.h"
 #include "app/judge_calibration.h"
 #include "app/pipeline.h"
+#include "app/stand_on_floor.h"
 #include "app/stopwatch.h"
 #include "app/version.h"
 #include "core/assert.h"
+#include "reconstruct/check_views.h"
 #include "recordings/atomic_file.h"
 #include "recordings/calibration_file.h"
 
@@ -20,40 +23,65 @@ namespace marey::app {
 using recordings::Trial;
 using recordings::TrialKind;
 
-Status Pipeline::calibrate() {
-  const Trial* waved_trial = session_.find(TrialKind::kCalibration);
-  const Trial* floor_trial = session_.find(TrialKind::kFloor);
-  MAREY_ASSERT(waved_trial);
-  const auto waved = detections_of(*waved_trial);
-  if (!waved) return waved.error();
-  std::vector<CameraDetections> floor;
-  if (floor_trial) {
-    auto found = detections_of(*floor_trial);
+Result<CalibrationSights> Pipeline::calibration_sights() {
+  CalibrationSights sights;
+  for (const auto& [kind, place] : {std::pair(TrialKind::kCalibration, &sights.waved),
+                                    std::pair(TrialKind::kFloor, &sights.floor),
+                                    std::pair(TrialKind::kStatic, &sights.standing)}) {
+    const Trial* trial = session_.find(kind);
+    if (!trial) continue;
+    auto found = detections_of(*trial);
     if (!found) return found.error();
-    floor = std::move(*found);
+    *place = std::move(*found);
   }
-  for (const CameraDetections& camera : *waved) {
+  const Trial* waved = session_.find(TrialKind::kCalibration);
+  MAREY_ASSERT(waved);
+  for (const CameraDetections& camera : sights.waved) {
     if (!camera.frames.empty()) continue;
     return bad_input(
         session_.file.string(),
         "camera \"" + session_.cameras[index(camera.camera)] +
-            "\" has no video in trial \"" + waved_trial->name + "\"",
-        "every camera must see the calibration board: add its video, or take the camera "
-        "out of the session");
+            "\" has no video in trial \"" + waved->name + "\"",
+        "every camera must see what cameras are calibrated with: add its video, or take "
+        "the camera out of the session");
   }
+  return sights;
+}
+
+/// Whether the subject who stands still is as large as was said, and upright. Who
+/// measured the board wrongly wants no cameras from it.
+Status Pipeline::check_subject(const SessionRig& found,
+                               std::vector<CameraDetections> standing) const {
+  if (standing.empty() || session_.tags.empty()) return Done{};
+  const auto& cameras = found.rig.cameras;
+  take_off_shrinkage(cameras, standing);
+  const Status ok = reconstruct::check_views(cameras, standing, session_.tags);
+  return ok ? check_upright(session_, cameras, standing) : ok;
+}
+
+Status Pipeline::calibrate() {
+  auto sights = calibration_sights();
+  if (!sights) return sights.error();
   const Stopwatch watch;
   const Progress progress = console_->stage("cameras");
   progress(0, 1);
-  auto rig = calibrate_session(session_, *waved, floor);
-  if (!rig) return in_session(rig.error());
+  auto found = calibrate_session(session_, *sights);
+  if (!found) return in_session(found.error());
+  const calib::CalibratedRig& rig = found->rig;
+  if (const Status ok = check_subject(*found, std::move(sights->standing)); !ok) {
+    return in_session(ok.error());
+  }
   progress(1, 1);
-  recordings::Calibration calibration{rig->cameras, rig->quality, {}, rig->rms_px};
-  calibration.clocks.resize(rig->cameras.size());
+  for (const std::string& note : found->notes) console_->say(note);
+  recordings::Calibration calibration{rig.cameras, rig.quality, {}, rig.rms_px};
+  for (const calib::SolvedClock& clock : rig.clocks) {
+    calibration.clocks.push_back({clock.offset_s, 1e6 * clock.drift, clock.line_delay_s});
+  }
   time_stage("cameras", watch.seconds());
   const Status written =
       recordings::write_calibration(options_.out / "calibration.toml", calibration);
   if (!written) return written;
-  const Status shown = show_cameras(std::move(*rig), waved->front().rate.hz);
+  const Status shown = show_cameras(std::move(found->rig), sights->waved.front().rate.hz);
   return shown ? need_cameras() : shown;
 }
 

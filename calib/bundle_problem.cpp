@@ -194,7 +194,10 @@ void BundleProblem::set_manifolds(const RigModel& model, const RefineOptions& op
     if (!options.camera_poses || options.fixed_camera == c) {
       problem_.SetParameterBlockConstant(camera.pose.data());
     }
-    if (!options.intrinsics) problem_.SetParameterBlockConstant(camera.lens.data());
+    const bool is_held = c < options.held_lenses.size() && options.held_lenses[c];
+    if (!options.intrinsics || is_held) {
+      problem_.SetParameterBlockConstant(camera.lens.data());
+    }
   }
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     const RigidTarget& target = model.targets[t];

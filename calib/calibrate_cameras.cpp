@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
+#include "calib/apparent_clocks.h"
 #include "calib/board_model.h"
 #include "calib/board_views.h"
 #include "calib/check_rig.h"
@@ -30,9 +33,21 @@ struct Work {
   std::vector<double> offsets_s;
 };
 
+bool has_lens(const Work& work, std::size_t camera) {
+  return camera < work.options.lenses.size() && work.options.lenses[camera].has_value();
+}
+
+bool moves(const CalibrateOptions& options) {
+  return options.solve_offsets || options.solve_drifts || options.solve_line_delays;
+}
+
 Result<std::vector<Intrinsics>> first_intrinsics(const Work& work, LensModel lens) {
   std::vector<Intrinsics> intrinsics;
   for (std::size_t c = 0; c < work.waved.size(); ++c) {
+    if (has_lens(work, c)) {
+      intrinsics.push_back(*work.options.lenses[c]);
+      continue;
+    }
     const CameraDetections& camera = work.waved[c];
     std::vector<const BoardView*> of_camera;
     for (const BoardView& view : work.views) {
@@ -52,9 +67,28 @@ RefineOptions refine_options(const Work& work, const RigModel& model) {
   refine.offsets = work.options.solve_offsets;
   refine.drifts = work.options.solve_drifts;
   refine.line_delays = work.options.solve_line_delays;
+  for (std::size_t c = 0; c < work.waved.size(); ++c) {
+    refine.held_lenses.push_back(has_lens(work, c));
+  }
   const bool has_floor = !model.targets[0].world_from_target.empty();
   if (!has_floor) refine.fixed_camera = 0;
   return refine;
+}
+
+/// Frames that are nearly simultaneous share an instant while cameras are placed.
+std::vector<BoardView> views_by_time(const Work& work) {
+  std::vector<BoardView> views = work.views;
+  for (BoardView& view : views) {
+    if (view.instant == kFloorInstant) continue;
+    const std::size_t c = index(view.camera);
+    const double time_s = view.instant / work.waved[c].rate.hz + work.offsets_s[c];
+    // The floor's instant is below zero: times start well above.
+    view.instant = static_cast<int>(
+        std::lround((time_s + 2.0 * work.options.most_offset_s *
+                                  static_cast<double>(work.waved.size())) *
+                    work.waved[0].rate.hz));
+  }
+  return views;
 }
 
 /// Cameras and boards as a first guess has them.
@@ -62,30 +96,19 @@ Result<RigModel> first_model(Work& work, LensModel lens) {
   const auto intrinsics = first_intrinsics(work, lens);
   if (!intrinsics) return intrinsics.error();
   if (const Status ok = check_mirrored(work.views, *intrinsics); !ok) return ok.error();
-  std::vector<BoardView> views = work.views;
-  if (work.options.solve_offsets) {
-    if (work.offsets_s.empty()) {
+  const bool is_moving = moves(work.options);
+  if (is_moving && work.offsets_s.empty()) {
+    work.offsets_s.assign(work.waved.size(), 0.0);
+    if (work.options.solve_offsets) {
       work.offsets_s = coarse_offsets_s(
           work.views, *intrinsics, work.waved, work.options.most_offset_s);
     }
-    // Frames that are nearly simultaneous share an instant while cameras are placed.
-    for (BoardView& view : views) {
-      if (view.instant == kFloorInstant) continue;
-      const std::size_t c = index(view.camera);
-      const double time_s = view.instant / work.waved[c].rate.hz + work.offsets_s[c];
-      // The floor's instant is below zero: times start well above.
-      view.instant = static_cast<int>(
-          std::lround((time_s + 2.0 * work.options.most_offset_s *
-                                    static_cast<double>(work.waved.size())) *
-                      work.waved[0].rate.hz));
-    }
   }
+  const std::vector<BoardView> views = is_moving ? views_by_time(work) : work.views;
   const auto guess =
       place_cameras(views, *intrinsics, work.names, *work.board, !work.floor.empty());
   if (!guess) return guess.error();
-  if (!work.options.solve_offsets) {
-    return still_model(work.views, *intrinsics, *guess, *work.board);
-  }
+  if (!is_moving) return still_model(work.views, *intrinsics, *guess, *work.board);
   return moving_model(
       work.views, *intrinsics, *guess, *work.board, work.waved, work.offsets_s);
 }
@@ -112,6 +135,68 @@ LensModel choose_lens(Work& work) {
   return best;
 }
 
+/// Cameras as the bundle leaves them, not judged yet.
+struct Solved {
+  RigModel model;
+  RefineOptions refine;
+  /// nullopt: there is no minimum.
+  std::optional<RigDoubt> doubt;
+};
+
+Result<Solved> solve(Work& work) {
+  const LensModel lens = work.options.choose_lens ? choose_lens(work) : work.options.lens;
+  auto model = first_model(work, lens);
+  if (!model) return model.error();
+  Solved solved{std::move(*model), {}, {}};
+  solved.refine = refine_options(work, solved.model);
+  solved.doubt = refine_rig(solved.model, solved.refine);
+  if (solved.doubt && work.options.find_warp && find_warp(solved.model, solved.refine)) {
+    solved.doubt = refine_rig(solved.model, solved.refine);
+  }
+  return solved;
+}
+
+bool of_one_rate(std::span<const CameraDetections> waved) {
+  return std::all_of(waved.begin(), waved.end(), [&](const CameraDetections& camera) {
+    return std::abs(camera.rate.hz / waved.front().rate.hz - 1.0) < 1e-3;
+  });
+}
+
+/// Whether cameras that were taken for simultaneous are.
+bool go_together(const Work& work, const Solved& shared) {
+  const CalibratedRig rig = judge_rig(work.names, shared.model, {});
+  // Of frames that do not go together, those in which the board rests remain.
+  const bool most_fit = rig.outliers < 0.2 * rig.sightings;
+  return !is_hopeless(rig) && most_fit &&
+         !run_apart(apparent_clocks(shared.model, work.waved.front().rate.hz));
+}
+
+/// With clocks where they are needed, as far as the cameras' pictures tell.
+Result<Solved> solve_choosing_clocks(Work& work) {
+  std::optional<Result<Solved>> shared;
+  if (of_one_rate(work.waved)) {
+    shared = solve(work);
+    // What is wrong before anything is fitted has nothing to do with clocks.
+    if (!*shared || ((**shared).doubt && go_together(work, **shared))) return *shared;
+  }
+  Work apart = work;
+  apart.options.solve_offsets = true;
+  // Within seconds no clock drifts by what could be seen.
+  constexpr double kLong_s = 20.0;
+  const CameraDetections& first = work.waved.front();
+  apart.options.solve_drifts =
+      static_cast<double>(first.frames.size()) / first.rate.hz > kLong_s;
+  auto solved = solve(apart);
+  if (!shared) return solved;
+  if (!solved || !solved->doubt) return *shared;
+  // Of a wrong board, say, clocks make nothing better.
+  const double shared_px = judge_rig(work.names, (**shared).model, {}).inlier_rms_px;
+  const CalibratedRig rig = judge_rig(work.names, solved->model, {});
+  const bool is_better =
+      !is_hopeless(rig) && (!(**shared).doubt || rig.inlier_rms_px < shared_px);
+  return is_better ? std::move(solved) : std::move(*shared);
+}
+
 }  // namespace
 
 Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
@@ -122,28 +207,23 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
   MAREY_ASSERT(names.size() == waved.size());
   MAREY_ASSERT(!std::holds_alternative<Wand>(board));
   Work work{names, waved, floor, &board, options, board_views(waved, floor, board), {}};
-  const LensModel lens = options.choose_lens ? choose_lens(work) : options.lens;
-  auto model = first_model(work, lens);
-  if (!model) return model.error();
-  const RefineOptions refine = refine_options(work, *model);
-  const auto no_minimum = [] {
+  auto solved = options.choose_clocks ? solve_choosing_clocks(work) : solve(work);
+  if (!solved) return solved.error();
+  if (!solved->doubt) {
     return bad_input("",
                      "the bundle adjustment of the cameras does not converge",
                      "record the calibration again with the board tilted in front of "
                      "every camera");
-  };
-  auto doubt = refine_rig(*model, refine);
-  if (!doubt) return no_minimum();
-  if (options.find_warp && find_warp(*model, refine)) {
-    doubt = refine_rig(*model, refine);
-    if (!doubt) return no_minimum();
   }
-  CalibratedRig rig = judge_rig(names, *model, *doubt);
-  if (model->targets.size() > 1 && model->targets[1].bends) {
-    rig.warp_m = model->targets[1].warp_m;
+  const RigModel& model = solved->model;
+  CalibratedRig rig = judge_rig(names, model, *solved->doubt);
+  if (model.targets.size() > 1 && model.targets[1].bends) {
+    rig.warp_m = model.targets[1].warp_m;
   }
   if (const Status ok = check_rig(rig, work.views, floor, board); !ok) return ok.error();
-  if (options.cross_validate) rig.cross_validation = cross_validate(*model, refine);
+  if (options.cross_validate) {
+    rig.cross_validation = cross_validate(model, solved->refine);
+  }
   return rig;
 }
 

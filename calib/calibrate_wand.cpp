@@ -87,9 +87,14 @@ RigModel model_of(std::span<const CameraDetections> waved,
   return model;
 }
 
+bool has_lens(const WandOptions& options, std::size_t camera) {
+  return camera < options.lenses.size() && options.lenses[camera].has_value();
+}
+
 /// Fills in first intrinsics. A camera that cannot tell starts as the others of its
 /// picture size do, or as any.
-bool start_lenses(RigModel& model, LensModel lens) {
+bool start_lenses(RigModel& model, const WandOptions& options) {
+  const LensModel lens = options.lens;
   std::vector<std::optional<Intrinsics>> found;
   std::vector<double> ratios;
   for (std::size_t c = 0; c < model.cameras.size(); ++c) {
@@ -101,9 +106,13 @@ bool start_lenses(RigModel& model, LensModel lens) {
       if (s.target == kWand) of_wand.push_back(&s);
     }
     const Intrinsics& k = model.cameras[c].intrinsics;
-    found.push_back(estimate_intrinsics_from_tags(
-        of_wand.size() >= 20 ? of_wand : own, lens, k.width_px, k.height_px));
-    if (found.back() && of_wand.size() >= 20) {
+    const bool is_given = has_lens(options, c);
+    found.push_back(
+        is_given
+            ? options.lenses[c]
+            : estimate_intrinsics_from_tags(
+                  of_wand.size() >= 20 ? of_wand : own, lens, k.width_px, k.height_px));
+    if (found.back() && (is_given || of_wand.size() >= 20)) {
       ratios.push_back(found.back()->focal_px.x / k.width_px);
     }
   }
@@ -111,6 +120,10 @@ bool start_lenses(RigModel& model, LensModel lens) {
   const double usual = median(std::move(ratios));
   for (std::size_t c = 0; c < model.cameras.size(); ++c) {
     Intrinsics& k = model.cameras[c].intrinsics;
+    if (has_lens(options, c)) {
+      k = *options.lenses[c];
+      continue;
+    }
     k.centre_px = {0.5 * (k.width_px - 1), 0.5 * (k.height_px - 1)};
     k.focal_px = glm::dvec2(usual * k.width_px);
     if (!found[c]) continue;
@@ -168,7 +181,7 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
                      "check the ids of the wand's tags and the tag family in "
                      "session.toml against the print");
   }
-  if (!start_lenses(model, options.lens)) {
+  if (!start_lenses(model, options)) {
     return bad_input("",
                      "the wand is seen too little to tell any camera's lens",
                      "record the calibration again: carry the wand through the whole "
@@ -180,6 +193,9 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
   }
   RefineOptions refine;
   refine.fixed_camera = 0;
+  for (std::size_t c = 0; c < waved.size(); ++c) {
+    refine.held_lenses.push_back(has_lens(options, c));
+  }
   auto doubt = refine_rig(model, refine);
   if (!doubt) {
     return bad_input("",

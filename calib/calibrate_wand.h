@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ namespace marey::calib {
 
 struct WandOptions {
   LensModel lens = LensModel::kBrownConrady;
+  /// Per camera: its lens, when it is known already; it is held. Empty: none is known.
+  std::vector<std::optional<Intrinsics>> lenses{};
   /// Tags of the scenery (none of the wand's, at rest in every picture) serve too, though
   /// their sizes are not known.
   bool use_scenery = true;

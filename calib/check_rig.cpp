@@ -130,11 +130,15 @@ Status check_mirrored(std::span<const BoardView> views,
                    "that rows and columns of [board] in session.toml are not exchanged");
 }
 
+bool is_hopeless(const CalibratedRig& rig) {
+  return rig.median_px > kHopelessMedianPx;
+}
+
 Status check_rig(const CalibratedRig& rig,
                  std::span<const BoardView> views,
                  std::span<const CameraDetections> floor,
                  const CalibrationTarget& board) {
-  if (rig.median_px > kHopelessMedianPx) {
+  if (is_hopeless(rig)) {
     return bad_input(
         "",
         text("calibration ends %.1f px away from what the cameras saw (good: "

@@ -23,6 +23,9 @@ namespace marey::calib {
 [[nodiscard]] Status check_mirrored(std::span<const BoardView> views,
                                     std::span<const Intrinsics> intrinsics);
 
+/// Its median corner is too far off for any calibration.
+[[nodiscard]] bool is_hopeless(const CalibratedRig& rig);
+
 /// Whether the refined rig is one: errors of hopeless corners, of a board whose squares
 /// do not go with their gaps, of a floor that disagrees or is seen from below.
 [[nodiscard]] Status check_rig(const CalibratedRig& rig,

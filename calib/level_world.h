@@ -6,6 +6,8 @@
 #include <optional>
 #include <span>
 
+#include <glm/vec3.hpp>
+
 #include "calib/calibrated_rig.h"
 #include "core/camera.h"
 #include "core/detection.h"
@@ -19,13 +21,29 @@ namespace marey::calib {
 /// Up is across all cameras' horizontal axes, as cameras on stands are level though they
 /// look down (a degree of roll is a degree of slope); of two cameras or more that do not
 /// look along one line. The lowest corner of any tag that at least two cameras see in
-/// `standing`, a trial in which nothing moves, is on the floor; the origin is below the
-/// middle of all, and Z points from there to the first camera.
+/// `standing`, a trial in which nothing moves, or one when its size is known, is on the
+/// floor; the origin is below the middle of all, and Z points from there to the first
+/// camera.
 ///
 /// nullopt when cameras are all alike turned, fewer than three tags are placed, or a
 /// camera would stand below the floor. Precondition: one detections entry per camera.
 [[nodiscard]] std::optional<RigidTransform> level_by_tags(
-    std::span<const Camera> cameras, std::span<const CameraDetections> standing);
+    std::span<const Camera> cameras,
+    std::span<const CameraDetections> standing,
+    const std::map<TagId, double>& sizes_m = {});
+
+/// Likewise by tags that lie on the floor: it is the plane through their corners, up is
+/// where the cameras are. nullopt when fewer than two tags are placed by two cameras, or
+/// any is more than two centimetres off the plane. Precondition: as level_by_tags()'s.
+[[nodiscard]] std::optional<RigidTransform> level_by_lying_tags(
+    std::span<const Camera> cameras, std::span<const CameraDetections> lying);
+
+/// Middles of tags at rest, in the world [m]: of those that two cameras see, or one when
+/// their size is known. Precondition: one detections entry per camera.
+[[nodiscard]] std::map<TagId, glm::dvec3> tags_at_rest(
+    std::span<const Camera> cameras,
+    std::span<const CameraDetections> standing,
+    const std::map<TagId, double>& sizes_m);
 
 /// Moves a rig's world, its covariance with it.
 void move_world(const RigidTransform& new_from_old, CalibratedRig& rig);

@@ -15,6 +15,8 @@ namespace marey::calib {
 /// What a refinement moves, beside targets.
 struct RefineOptions {
   bool intrinsics = true;
+  /// Per camera: its lens is known and does not move. Empty: none is.
+  std::vector<bool> held_lenses;
   bool camera_poses = true;
   bool shrinkage = false;  ///< Of tags.
   bool offsets = false;    ///< Of the clocks of all cameras but the first.

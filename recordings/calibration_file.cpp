@@ -75,6 +75,7 @@ void write_camera(TomlWriter& out,
   out.number("tag_shrinkage_slope", camera.tag_shrinkage.slope);
   out.number("time_offset_s", clock.offset_s);
   out.number("drift_ppm", clock.drift_ppm);
+  out.number("line_delay_s", clock.line_delay_s);
   out.number("rms_px", quality.rms_px);
   out.number("p95_px", quality.p95_px);
   out.number("centre_sigma_m", quality.centre_sigma_m);
@@ -194,6 +195,7 @@ CameraClock read_clock(TomlReader& in) {
   CameraClock clock;
   read_if_there(in, "time_offset_s", kAny, clock.offset_s);
   read_if_there(in, "drift_ppm", kAny, clock.drift_ppm);
+  read_if_there(in, "line_delay_s", kAny, clock.line_delay_s);
   return clock;
 }
 

@@ -17,6 +17,7 @@ namespace marey::recordings {
 struct CameraClock {
   double offset_s = 0.0;  ///< Frame k was exposed at k / rate + offset.
   double drift_ppm = 0.0;
+  double line_delay_s = 0.0;  ///< From one row of the image to the next.
 };
 
 /// calibration.toml.

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/board.h"
 #include "core/body.h"
+#include "core/camera.h"
 #include "core/ids.h"
 #include "core/result.h"
 #include "core/tag_family.h"
@@ -76,6 +79,41 @@ struct Subject {
   std::optional<double> mass_kg;
 };
 
+/// Which clocks cameras are taken to run on while they are calibrated.
+enum class ClockChoice {
+  kAuto,     ///< One, unless what they see says otherwise.
+  kShared,   ///< One: frames of a number belong together.
+  kOffsets,  ///< Each its own, at one rate.
+  kDrifts,   ///< Each its own.
+};
+
+/// Words for lenses in session.toml and on the command line; nullopt is what serves best.
+inline constexpr std::array<std::pair<std::string_view, std::optional<LensModel>>, 4>
+    kLensWords{{
+        {"auto", std::nullopt},
+        {"brown-conrady", LensModel::kBrownConrady},
+        {"rational", LensModel::kRational},
+        {"fisheye", LensModel::kFisheye},
+    }};
+
+/// [calibration] of session.toml: how cameras are calibrated.
+struct CalibrationChoices {
+  std::optional<LensModel> lens =
+      LensModel::kBrownConrady;  ///< nullopt: what serves best.
+  ClockChoice clocks = ClockChoice::kAuto;
+  double most_offset_s = 5.0;  ///< As far apart the cameras may have been started.
+  bool line_delays = false;
+  bool warp = false;
+  bool cross_validate = true;
+  /// A calibration whose lenses are taken as they are; absolute, or relative to the
+  /// working folder.
+  std::optional<std::filesystem::path> lenses;
+  int lenses_line = 0;  ///< In session.toml, for messages.
+  /// How high the lowest corner of a tag is while the subject stands still, where that
+  /// says where the floor is.
+  double lowest_corner_m = 0.0;
+};
+
 /// What session.toml says (docs/formats.md).
 struct Session {
   std::filesystem::path file;  ///< session.toml itself.
@@ -83,8 +121,9 @@ struct Session {
   Subject subject;  ///< Without a name when the session is for cameras alone.
   /// In use, each with its tags: the target's first, then those of the body.
   std::vector<TagFamilyUse> families;
-  std::vector<TagOnSegment> tags;    ///< On the body; in the order of the file.
-  CalibrationTarget target;          ///< What the cameras are calibrated with.
+  std::vector<TagOnSegment> tags;  ///< On the body; in the order of the file.
+  CalibrationTarget target;        ///< What the cameras are calibrated with.
+  CalibrationChoices calibration;
   std::vector<std::string> cameras;  ///< Names, by CameraId; safe as names of folders.
   /// By CameraId; nullopt of a camera that is not recorded from.
   std::vector<std::optional<SessionDevice>> devices;
@@ -113,8 +152,8 @@ struct ReadSessionOptions {
 /// segment or camera; a name that cannot be a folder's; a trial without videos while no
 /// camera has a device; frames the wrong way round; a floor trial that is all of the
 /// calibration's videos; time offsets of anything but motion; fewer than two cameras; no
-/// calibration trial; no floor trial, subject or tags though there are trials of a
-/// person; two trials of one kind other than motion.
+/// calibration trial; no floor trial (nor a static one), subject or tags though there are
+/// trials of a person; two trials of one kind other than motion.
 [[nodiscard]] Result<Session> read_session(const std::filesystem::path& path,
                                            const ReadSessionOptions& options = {});
 

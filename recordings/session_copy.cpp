@@ -33,6 +33,32 @@ std::string with_absolute_media(std::string text,
   return text.replace(begin, end - begin, line.str());
 }
 
+/// The text with `lenses` naming the same file from anywhere. As it is where it does not
+/// stand in its line as it is read.
+std::string with_absolute_lenses(std::string text,
+                                 const std::string& lenses,
+                                 const Session& session) {
+  std::size_t begin = 0;
+  for (int i = 1; i < session.calibration.lenses_line; ++i) {
+    begin = text.find('\n', begin) + 1;
+  }
+  std::error_code ignored;
+  TomlWriter line;
+  line.text(
+      "lenses",
+      fs::absolute(*session.calibration.lenses, ignored).lexically_normal().string());
+  const std::string word = line.str().substr(0, line.str().find('\n'));
+  const std::size_t key = text.find("lenses", begin);
+  const std::size_t value = text.find(lenses, key);
+  if (key == std::string::npos || value == std::string::npos || value == 0) return text;
+  // With its quotation marks, one or three.
+  std::size_t first = value;
+  std::size_t last = value + lenses.size();
+  while (first > 0 && (text[first - 1] == '"' || text[first - 1] == '\'')) --first;
+  while (last < text.size() && (text[last] == '"' || text[last] == '\'')) ++last;
+  return text.replace(key, last - key, word);
+}
+
 }  // namespace
 
 Status copy_session(const Session& session, const fs::path& folder, const Trial& trial) {
@@ -63,6 +89,26 @@ Status copy_session(const Session& session, const fs::path& folder, const Trial&
       return bad_input(session.file.string(),
                        "its videos cannot be named from another folder",
                        "give it a `media` of one line, and its folder a name in UTF-8");
+    }
+  }
+  if (session.calibration.lenses) {
+    Result<TomlDocument> document = parse_toml(*text, session.file.string());
+    if (!document) return document.error();
+    TomlReader root(*document);
+    const std::string lenses = root.table("calibration").text("lenses");
+    Session moved = session;
+    moved.calibration.lenses_line = root.table("calibration").line("lenses");
+    *text = with_absolute_lenses(std::move(*text), lenses, moved);
+    Result<TomlDocument> again = parse_toml(*text, copy.string());
+    std::string now;
+    if (again) {
+      TomlReader after(*again);
+      now = after.table("calibration").text("lenses");
+    }
+    if (!fs::path(now).is_absolute()) {
+      return bad_input(session.file.string(),
+                       "its `lenses` cannot be named from another folder",
+                       "give the file's whole path there");
     }
   }
   return write_file(copy, *text);

@@ -12,6 +12,7 @@
 #include "recordings/nearest_word.h"
 #include "recordings/number_text.h"
 #include "recordings/session.h"
+#include "recordings/session_calibration.h"
 #include "recordings/session_device.h"
 #include "recordings/session_family.h"
 #include "recordings/session_target.h"
@@ -66,6 +67,7 @@ class SessionReader {
                  "tags",
                  "board",
                  "wand",
+                 "calibration",
                  "camera",
                  "trial"});
     (void)root_.integer("format", {1, 1});
@@ -76,6 +78,7 @@ class SessionReader {
     if (!only_cameras || root_.has("tags")) read_usual_family();
     session_.target = read_target(root_, usual_family_, session_);
     if (!only_cameras || root_.has("tags")) read_tags();
+    session_.calibration = read_calibration_choices(root_, session_.file.parent_path());
     read_cameras();
     read_trials();
   }
@@ -226,15 +229,19 @@ void SessionReader::read_trials() {
     session_.trials.push_back(std::move(trial));
   }
   for (const TrialKind kind : {TrialKind::kCalibration, TrialKind::kFloor}) {
-    // Without a person the floor is of no use.
-    const bool is_needed = kind == TrialKind::kCalibration || has_a_person();
+    // Without a person the floor is of no use; a person who stands still tells it too.
+    const bool is_needed =
+        kind == TrialKind::kCalibration ||
+        (has_a_person() && session_.find(TrialKind::kStatic) == nullptr);
     if (session_.find(kind) != nullptr || !is_needed) continue;
     const std::string word(name(kind));
-    root_.fail("trial",
-               "no trial has the kind " + in_quotes(word),
-               "add a [[trial]] with kind = " + in_quotes(word) +
-                   (kind == TrialKind::kFloor ? ": the board lying still on the floor"
-                                              : ": the board waved through the volume"));
+    root_.fail(
+        "trial",
+        "no trial has the kind " + in_quotes(word),
+        "add a [[trial]] with kind = " + in_quotes(word) +
+            (kind == TrialKind::kFloor ? ": the board lying still on the floor; or "
+                                         "one of a subject who stands still"
+                                       : ": the board waved through the volume"));
   }
 }
 

@@ -3,14 +3,13 @@
 //
 // The mistakes that people make. Each must end in one sentence that names the file, the
 // cause and what to do, and leave nothing that looks like a result.
-#include <algorithm>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/app/blame.h"
 #include "tests/app/broken_video.h"
 #include "tests/app/spoiled_session.h"
 
@@ -20,59 +19,6 @@ namespace {
 using ::testing::AssertionFailure;
 using ::testing::AssertionResult;
 using ::testing::AssertionSuccess;
-
-/// What an error must say.
-struct Blame {
-  std::string where;  ///< Part of what stands before the cause: a file's name.
-  std::string cause;
-  std::string next;
-};
-
-std::vector<std::string> error_lines(const std::string& err) {
-  std::vector<std::string> errors;
-  std::istringstream lines(err);
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("error: ")) errors.push_back(line);
-  }
-  return errors;
-}
-
-/// Whether the run ended as a mistake of the user's must, blaming `blame`, with no other
-/// results than `kept`, which earlier stages made.
-AssertionResult declines(const SpoiledSession& session,
-                         const ProgramRun& run,
-                         const Blame& blame,
-                         const std::vector<std::string>& kept = {}) {
-  if (run.exit_code != 3) {
-    return AssertionFailure() << "exit code " << run.exit_code << "\n" << run.err;
-  }
-  const auto errors = error_lines(run.err);
-  if (errors.size() != 1) {
-    return AssertionFailure() << errors.size() << " errors\n" << run.err;
-  }
-  const std::string& error = errors.front();
-  const std::size_t where = error.find(blame.where);
-  const std::size_t cause = error.find(blame.cause);
-  const std::size_t next = error.find("Next: ");
-  if (where == std::string::npos || cause == std::string::npos ||
-      next == std::string::npos || error.find(blame.next, next) == std::string::npos) {
-    return AssertionFailure() << "expected \"" << blame.where << "\", \"" << blame.cause
-                              << "\", \"" << blame.next << "\" in\n"
-                              << error;
-  }
-  if (cause > next || where > next) {
-    return AssertionFailure() << "out of order: " << error;
-  }
-  if (!run.out.empty()) return AssertionFailure() << "printed " << run.out;
-  const auto left = session.results();
-  if (left != kept) {
-    AssertionResult failure = AssertionFailure();
-    failure << "left behind:";
-    for (const std::string& name : left) failure << " " << name;
-    return failure;
-  }
-  return AssertionSuccess();
-}
 
 const std::vector<std::string> kCalibrated{
     "calibration.html", "calibration.json", "calibration.toml"};
@@ -229,12 +175,11 @@ TEST(BadSize, OfAllTagsIsNoticedAgainstTheBoard) {
   SpoiledSession session;
   session.replace("size_m = 0.09\n", "size_m = 0.18\n");
   session.replace("\nsize_m = 0.075\n", "\nsize_m = 0.15\n");
-  EXPECT_TRUE(declines(session,
-                       session.run(),
-                       {"session.toml: [[tags.tag]]", "0.50 times", "size_m"},
-                       kCalibrated));
+  EXPECT_TRUE(declines(
+      session, session.run(), {"session.toml: [[tags.tag]]", "0.50 times", "size_m"}));
 }
 
+// Two cameras see it only while the subject moves.
 TEST(BadSize, OfOneTagIsNoticedByItsNumber) {
   SpoiledSession session;
   session.replace("id = 41\nsegment = \"hips\"\nsize_m = 0.09",
@@ -252,8 +197,7 @@ TEST(BadSize, OfTheBoardIsNoticedAgainstTheTags) {
   session.replace("gap_m = 0.03", "gap_m = 0.06");
   EXPECT_TRUE(declines(session,
                        session.run(),
-                       {"session.toml: [[tags.tag]]", "2.00 times", "tag_size_m"},
-                       kCalibrated));
+                       {"session.toml: [[tags.tag]]", "2.00 times", "tag_size_m"}));
 }
 
 TEST(BadSize, OfTheBoardsTagsAloneIsNoticedByTheBoard) {
@@ -294,8 +238,8 @@ TEST(SwappedCameras, InTheCalibrationAreNoticedInWhatFollows) {
   SpoiledSession session;
   swap_cameras(session, "calib");
   swap_cameras(session, "floor");
-  EXPECT_TRUE(declines(
-      session, session.run(), {"/cam1.mp4", "look swapped", "calibration"}, kCalibrated));
+  EXPECT_TRUE(
+      declines(session, session.run(), {"/cam1.mp4", "look swapped", "calibration"}));
 }
 
 TEST(SwappedCameras, InTheWavedTrialAloneAreNamedByTheFloor) {

@@ -100,4 +100,13 @@ void copy_with_blanks(const fs::path& from,
   }
 }
 
+void copy_late(const fs::path& from, const fs::path& to, int late) {
+  cv::VideoCapture in = opened(from);
+  cv::VideoWriter out = writer_like(in, to);
+  cv::Mat picture;
+  for (int frame = 0; in.read(picture); ++frame) {
+    if (frame >= late) out.write(picture);
+  }
+}
+
 }  // namespace marey::testing

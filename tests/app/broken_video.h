@@ -28,4 +28,9 @@ void copy_with_blanks(const std::filesystem::path& from,
                       const std::filesystem::path& to,
                       const std::function<bool(int frame)>& is_kept);
 
+/// A copy of a camera that was started `late` frames later.
+void copy_late(const std::filesystem::path& from,
+               const std::filesystem::path& to,
+               int late);
+
 }  // namespace marey::testing

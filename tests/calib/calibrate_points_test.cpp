@@ -198,6 +198,48 @@ TEST(CalibratePoints, SolveForClocksThatStartApart) {
   EXPECT_LT(worst_distance_m(*rig, cameras), 4e-3);
 }
 
+// The first camera's clock and the others' in one place each: less than a frame apart,
+// some frames apart, and together.
+TEST(CalibratePoints, FindOutThatClocksAreApart) {
+  const auto cameras = three_cameras();
+  for (const double late_s : {0.0087, 0.2613}) {
+    const auto rig =
+        calibrate(cameras,
+                  {.noise_px = 0.1, .late_s = {0.0, late_s, -0.02}, .seconds = 5.0},
+                  {.choose_clocks = true, .most_offset_s = 0.6});
+    ASSERT_TRUE(rig) << rig.error().message();
+    EXPECT_NEAR(rig->clocks[1].offset_s, late_s, 1e-3);
+    EXPECT_NEAR(rig->clocks[2].offset_s, -0.02, 1e-3);
+    EXPECT_GT(rig->clocks[1].offset_sigma_s, 0.0);
+    EXPECT_LT(worst_distance_m(*rig, cameras), 4e-3);
+  }
+}
+
+TEST(CalibratePoints, LeaveClocksAloneThatRunTogether) {
+  const auto cameras = three_cameras();
+  const auto rig =
+      calibrate(cameras, {.noise_px = 0.1, .seconds = 5.0}, {.choose_clocks = true});
+  const auto shared = calibrate(cameras, {.noise_px = 0.1, .seconds = 5.0});
+  ASSERT_TRUE(rig && shared);
+  EXPECT_EQ(rig->clocks[1].offset_sigma_s, 0.0);
+  EXPECT_EQ(centre_in_world(rig->cameras[1]), centre_in_world(shared->cameras[1]));
+}
+
+TEST(CalibratePoints, HoldLensesThatAreGiven) {
+  const auto cameras = three_cameras();
+  const auto rig =
+      calibrate(cameras,
+                {.noise_px = 0.1, .seconds = 4.0},
+                {.lenses = {cameras[0].intrinsics, std::nullopt, cameras[2].intrinsics}});
+  ASSERT_TRUE(rig) << rig.error().message();
+  EXPECT_EQ(rig->cameras[0].intrinsics.parameters(), cameras[0].intrinsics.parameters());
+  EXPECT_EQ(rig->cameras[2].intrinsics.parameters(), cameras[2].intrinsics.parameters());
+  EXPECT_NE(rig->cameras[1].intrinsics.focal_px, cameras[1].intrinsics.focal_px);
+  EXPECT_EQ(rig->quality[0].focal_sigma_px, 0.0);
+  EXPECT_GT(rig->quality[1].focal_sigma_px, 0.0);
+  EXPECT_LT(worst_distance_m(*rig, cameras), 2e-3);
+}
+
 TEST(CalibratePoints, JudgeThemselvesByFramesAndCamerasLeftOut) {
   const auto cameras = three_cameras();
   const auto rig =

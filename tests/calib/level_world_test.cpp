@@ -57,6 +57,45 @@ TEST(LevelByTags, FindsFloorAndUpOfATurnedWorld) {
   EXPECT_NEAR(centre_in_world(rig.cameras[0]).x, 0.0, 1e-6);
 }
 
+/// Tags that lie face up, the last of them as high as that.
+std::vector<CameraDetections> lying_tags(const std::vector<Camera>& cameras,
+                                         double last_m) {
+  auto out = marey::testing::unseeing(cameras, 1, 30.0, "floor");
+  const glm::dquat flat = rotation_from_vector({0.5 * std::numbers::pi, 0.0, 0.0});
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    for (int i = 0; i < 4; ++i) {
+      const RigidTransform tag_at{
+          flat, glm::dvec3(0.4 * (i % 2), i == 3 ? last_m : 0.0, 0.4 * (i / 2))};
+      const auto tag =
+          marey::testing::see_tag(cameras[c], tag_at, TagId{i}, kSize_m, 1.4);
+      if (tag) out[c].frames[0].tags.push_back(*tag);
+    }
+  }
+  return out;
+}
+
+TEST(LevelByLyingTags, FindsTheirPlane) {
+  const auto truth = marey::testing::ring_of_cameras();
+  const RigidTransform old_from_truth{rotation_from_vector({0.7, -0.4, 1.1}),
+                                      {2.0, -1.0, 0.5}};
+  CalibratedRig rig;
+  rig.cameras = truth;
+  for (Camera& camera : rig.cameras) {
+    camera.camera_from_world = camera.camera_from_world * inverse(old_from_truth);
+  }
+  const auto new_from_old = level_by_lying_tags(rig.cameras, lying_tags(truth, 0.0));
+  ASSERT_TRUE(new_from_old);
+  move_world(*new_from_old, rig);
+  for (std::size_t c = 0; c < truth.size(); ++c) {
+    EXPECT_NEAR(centre_in_world(rig.cameras[c]).y, centre_in_world(truth[c]).y, 1e-6);
+  }
+}
+
+TEST(LevelByLyingTags, DeclinesATagOnABox) {
+  const auto cameras = marey::testing::ring_of_cameras();
+  EXPECT_FALSE(level_by_lying_tags(cameras, lying_tags(cameras, 0.3)));
+}
+
 TEST(LevelByTags, DeclinesWithoutTags) {
   const auto cameras = marey::testing::ring_of_cameras();
   EXPECT_FALSE(

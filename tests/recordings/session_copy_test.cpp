@@ -62,6 +62,20 @@ TEST(CopySession, NamesFoldersThatHaveAnyName) {
   }
 }
 
+TEST(CopySession, LeavesLensesWhereTheyAre) {
+  const ScratchFolder folder;
+  const auto session = session_in(
+      folder / "s",
+      mixed("media = \"videos\"\n") +
+          "[calibration]\nlens = \"rational\"\nlenses = \"old.toml\"  # ours\n");
+  ASSERT_TRUE(session) << session.error().message();
+  ASSERT_TRUE(copy_session(*session, folder / "take", *session->find("walk")));
+  const auto copy = read_session(folder / "take");
+  ASSERT_TRUE(copy) << copy.error().message();
+  EXPECT_EQ(copy->calibration.lenses, folder / "s" / "old.toml");
+  EXPECT_EQ(copy->calibration.lens, LensModel::kRational);
+}
+
 // Of a file without a line end at its end.
 TEST(CopySession, ReplacesAMediaThatIsTheLastLine) {
   const ScratchFolder folder;
