@@ -208,6 +208,9 @@ void move_world(const RigidTransform& new_from_old, CalibratedRig& rig) {
   for (Camera& camera : rig.cameras) {
     camera.camera_from_world = camera.camera_from_world * inverse(new_from_old);
   }
+  for (TargetView& view : rig.views) {
+    view.world_from_target = new_from_old * view.world_from_target;
+  }
   turn_covariance(new_from_old.rotation, rig.covariance);
 }
 

@@ -45,7 +45,7 @@ namespace marey::calib {
     std::span<const CameraDetections> standing,
     const std::map<TagId, double>& sizes_m);
 
-/// Moves a rig's world, its covariance with it.
+/// Moves a rig's world: its cameras, what they saw and their covariance.
 void move_world(const RigidTransform& new_from_old, CalibratedRig& rig);
 
 }  // namespace marey::calib
