@@ -126,7 +126,10 @@ void tell_findings(const recordings::Session& session,
              : ""));
   }
   if (!delays.empty()) notes.push_back("from one row to the next: " + delays);
-  if (!session.calibration.lens) {
+  if (!session.calibration.lens && std::holds_alternative<Wand>(session.target)) {
+    notes.push_back(
+        "a wand does not tell which lens serves best: brown-conrady is taken");
+  } else if (!session.calibration.lens) {
     notes.push_back("the lens that predicts best: " +
                     name_of(rig.cameras.front().intrinsics.lens));
   }

@@ -45,6 +45,21 @@ void read_flag(TomlReader& reader, std::string_view key, bool& value) {
   if (reader.has(key)) value = reader.boolean(key);
 }
 
+/// What only boards tell must not look as if it had been done.
+void refuse_for_wand(TomlReader& reader, const CalibrationChoices& choices) {
+  const bool has_clocks =
+      choices.clocks == ClockChoice::kOffsets || choices.clocks == ClockChoice::kDrifts;
+  std::string key;
+  if (!choices.lens) key = "lens";
+  if (has_clocks) key = "clocks";
+  if (choices.line_delays) key = "line_delays";
+  if (choices.warp) key = "warp";
+  if (key.empty()) return;
+  reader.fail(key,
+              "a wand does not tell what \"" + key + "\" asks for",
+              "calibrate with a board, or leave it out");
+}
+
 }  // namespace
 
 CalibrationChoices read_calibration_choices(TomlReader& root,
@@ -75,6 +90,7 @@ CalibrationChoices read_calibration_choices(TomlReader& root,
   if (reader.has("lowest_corner_m")) {
     choices.lowest_corner_m = reader.number("lowest_corner_m", kHeight);
   }
+  if (root.has("wand")) refuse_for_wand(reader, choices);
   return choices;
 }
 

@@ -11,7 +11,7 @@
 namespace marey::recordings {
 
 /// What [calibration] of a session says. `folder` is what its paths are relative to.
-/// Mistakes: an unknown word, with the nearest known one.
+/// Mistakes: an unknown word, with the nearest known one; what a wand cannot tell.
 [[nodiscard]] CalibrationChoices read_calibration_choices(
     TomlReader& root, const std::filesystem::path& folder);
 

@@ -62,6 +62,20 @@ TEST(SessionCalibration, DeclinesWordsThatItDoesNotKnow) {
   EXPECT_TRUE(mistake(asking("most_offset_s = 600\n")).starts_with("session.toml:19: "));
 }
 
+TEST(SessionCalibration, DeclinesWhatAWandDoesNotTell) {
+  const std::string board =
+      "[board]\ntype = \"aprilgrid\"\nrows = 6\ncolumns = 5\ntag_size_m = 0.1\n"
+      "gap_m = 0.03\nfirst_id = 0\nthickness_m = 0.005\n";
+  const std::string wand = "[[wand.tag]]\nid = 3\nsize_m = 0.1\n[calibration]\n";
+  EXPECT_TRUE(read(with(board, wand + "lens = \"rational\"\n")));
+  EXPECT_NE(mistake(with(board, wand + "lens = \"auto\"\n"))
+                .find("a wand does not tell what \"lens\" asks for"),
+            std::string::npos);
+  EXPECT_NE(mistake(with(board, wand + "clocks = \"offsets\"\n"))
+                .find("a wand does not tell what \"clocks\" asks for"),
+            std::string::npos);
+}
+
 // Who stands still shows where the floor is.
 TEST(SessionCalibration, NeedsNoFloorBesideAStaticTrial) {
   std::string text = with("kind = \"floor\"", "kind = \"static\"");
