@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/plan_commands.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -10,6 +12,7 @@
 
 #include "app/body_heights.h"
 #include "app/plan_figures.h"
+#include "calib/plan_calibration.h"
 #include "capture/detect_tags.h"
 #include "recordings/atomic_file.h"
 #include "recordings/plan_file.h"
@@ -17,6 +20,29 @@
 
 namespace marey::app {
 namespace {
+
+/// How well the cameras are known, or will be; says in the report which.
+std::optional<calib::RigCovariance> doubt_of(const recordings::CapturePlan& plan,
+                                             PlanReport& report) {
+  auto doubt = calib::plan_calibration(report.cameras,
+                                       report.grid,
+                                       AprilGrid{},
+                                       capture::expected_corner_sigma_px,
+                                       report.options);
+  if (!doubt) {
+    report.not_calibrated = doubt.error().cause;
+    return std::nullopt;
+  }
+  report.is_calibrated = std::any_of(
+      plan.quality.begin(), plan.quality.end(), [](const CameraQuality& quality) {
+        return quality.centre_sigma_m > 0.0;
+      });
+  if (report.is_calibrated) calib::fit_to_quality(plan.quality, *doubt);
+  for (std::size_t c = 0; c < report.cameras.size(); ++c) {
+    report.centre_sigma_m.push_back(calib::centre_sigma_m(*doubt, c));
+  }
+  return *std::move(doubt);
+}
 
 PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
   PlanReport report;
@@ -36,11 +62,30 @@ PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
     report.height_names.emplace_back(height.name);
     report.grid.heights_m.push_back(height.over_stature * report.stature_m);
   }
+  const auto doubt = doubt_of(plan, report);
+  const calib::RigCovariance* covariance = doubt ? &*doubt : nullptr;
   report.plan = calib::plan_rig(report.cameras,
-                                nullptr,
+                                covariance,
                                 report.grid,
                                 capture::expected_corner_sigma_px,
                                 report.options);
+  std::vector<TagOnSegment> tags = std::move(plan.tags);
+  if (tags.empty()) tags = calib::usual_tags(report.options.tag_size_m);
+  if (args.tag_size_m) {
+    for (TagOnSegment& tag : tags) tag.size_m = *args.tag_size_m;
+  }
+  const calib::PlannedBody body = calib::dress_body(report.stature_m, tags);
+  report.tags_worn = static_cast<int>(body.tags.size());
+  calib::PlanBodyOptions options;
+  options.tags = report.options;
+  options.step_m = std::max(report.grid.step_m, report.stand_step_m);
+  report.stand_step_m = options.step_m;
+  report.body = calib::plan_body(report.cameras,
+                                 covariance,
+                                 body,
+                                 report.grid,
+                                 capture::expected_corner_sigma_px,
+                                 options);
   return report;
 }
 
@@ -63,6 +108,12 @@ Exit run_plan(const PlanArguments& args, Console& console) {
   if (report.cameras.size() < 2) {
     console.warn(report.name +
                  ": one camera alone places no tag. Next: plan two or more");
+  }
+  if (report.cameras.size() >= 2 && !report.not_calibrated.empty()) {
+    console.warn(report.name +
+                 ": a board waved in this volume would not calibrate the cameras (" +
+                 report.not_calibrated +
+                 "): they are taken as known exactly. Next: let their pictures overlap");
   }
   console.say((args.out / "plan.html").string() + " shows it from above");
   return Exit::kOk;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/plan_figures.h"
 
+#include <array>
 #include <cstdio>
 #include <optional>
 
@@ -34,15 +35,21 @@ Json point(const glm::dvec3& p) {
 
 Json cameras_of(const PlanReport& report) {
   Json out = Json::array();
-  for (const Camera& camera : report.cameras) {
+  for (std::size_t c = 0; c < report.cameras.size(); ++c) {
+    const Camera& camera = report.cameras[c];
     const Intrinsics& k = camera.intrinsics;
     const RigidTransform world_from_camera = inverse(camera.camera_from_world);
+    Json sigma_mm;
+    if (c < report.centre_sigma_m.size()) {
+      sigma_mm = rounded(1e3 * report.centre_sigma_m[c], 2);
+    }
     out.push_back(
         {{"name", camera.name},
          {"width_px", k.width_px},
          {"height_px", k.height_px},
          {"focal_px", {rounded(k.focal_px.x, 2), rounded(k.focal_px.y, 2)}},
          {"centre_in_world_m", point(world_from_camera.translation)},
+         {"centre_sigma_mm", sigma_mm},
          {"forward_in_world", point(world_from_camera.rotation * glm::dvec3(0, 0, 1))}});
   }
   return out;
@@ -65,7 +72,83 @@ std::optional<double> in_mm(const std::optional<calib::MedianAndP95>& error_m,
   return 1e3 * (*error_m).*which;
 }
 
+Json body_of(const PlanReport& report) {
+  const calib::BodyPlan& body = report.body;
+  Json joints = Json::array();
+  for (const calib::PlannedJoint& joint : body.joints) {
+    joints.push_back({{"name", joint_name(joint.bone)},
+                      {"measured_percent", percent(joint.measured_share)},
+                      {"median_mm", rounded(1e3 * joint.error_m.median, 3)},
+                      {"p95_mm", rounded(1e3 * joint.error_m.p95, 3)},
+                      {"lasting_mm", rounded(1e3 * joint.lasting_error_m, 3)}});
+  }
+  Json stands = Json::array();
+  for (const calib::PlannedStand& stand : body.stands) {
+    stands.push_back({{"p_on_floor_m", point(stand.p_on_floor)},
+                      {"measured_percent", percent(stand.measured_share)},
+                      {"joint_mm", mm(stand.error_m)}});
+  }
+  const bool found = !body.joints.empty();
+  return {{"tags", report.tags_worn},
+          {"found_percent", percent(body.found_share)},
+          {"measured_percent", percent(body.measured_share)},
+          {"tags_seen_percent", percent(body.views_share)},
+          {"tags_seen_by_two_percent", percent(body.twice_share)},
+          {"median_mm", found ? Json(rounded(1e3 * body.error_m.median, 3)) : Json()},
+          {"p95_mm", found ? Json(rounded(1e3 * body.error_m.p95, 3)) : Json()},
+          {"joints", joints},
+          {"stand_step_m", rounded(report.stand_step_m, 4)},
+          {"stands", stands}};
+}
+
+/// The lines of the table about the body.
+std::string body_table(const PlanReport& report) {
+  const calib::BodyPlan& body = report.body;
+  char line[160];
+  std::snprintf(line,
+                sizeof line,
+                "\na body with %d tags walks: found in %.0f %% of frames\n"
+                "joint             measured   error: median    95 %%    lasting part\n",
+                report.tags_worn,
+                100.0 * body.found_share);
+  std::string out = line;
+  for (const calib::PlannedJoint& joint : body.joints) {
+    std::snprintf(line,
+                  sizeof line,
+                  "%-17s %6.0f %%  %12.1f %9.1f %10.1f mm\n",
+                  joint_name(joint.bone).c_str(),
+                  100.0 * joint.measured_share,
+                  1e3 * joint.error_m.median,
+                  1e3 * joint.error_m.p95,
+                  1e3 * joint.lasting_error_m);
+    out += line;
+  }
+  if (body.joints.empty()) return out;
+  std::snprintf(line,
+                sizeof line,
+                "%-17s %6.0f %%  %12.1f %9.1f mm\n",
+                "all",
+                100.0 * body.measured_share,
+                1e3 * body.error_m.median,
+                1e3 * body.error_m.p95);
+  return out + line;
+}
+
 }  // namespace
+
+std::string joint_name(HumanBone bone) {
+  const auto& limbs = human_limbs();
+  constexpr std::array<std::array<const char*, 3>, 2> kNames{
+      {{"shoulder", "elbow", "wrist"}, {"hip", "knee", "ankle"}}};
+  for (std::size_t i = 0; i < limbs.size(); ++i) {
+    const std::array<HumanBone, 3> bones{limbs[i].upper, limbs[i].lower, limbs[i].end};
+    for (std::size_t k = 0; k < bones.size(); ++k) {
+      if (bones[k] != bone) continue;
+      return std::string(i % 2 == 0 ? "left " : "right ") + kNames[i / 2][k];
+    }
+  }
+  return std::string(name(bone));
+}
 
 Json plan_figures(const PlanReport& report) {
   Json heights = Json::array();
@@ -101,6 +184,10 @@ Json plan_figures(const PlanReport& report) {
        {rounded(grid.greatest_in_world.x, 4), rounded(grid.greatest_in_world.z, 4)}},
       {"step_m", rounded(grid.step_m, 4)},
       {"cameras", cameras_of(report)},
+      {"cameras_known",
+       report.centre_sigma_m.empty() ? "exactly"
+                                     : (report.is_calibrated ? "calibrated" : "planned")},
+      {"body", body_of(report)},
       {"heights", heights},
       {"places", places}};
 }
@@ -125,7 +212,7 @@ std::string plan_table(const PlanReport& report) {
     out += cell("%*.2f mm", 8, in_mm(h.joint_error_m, &Spread::p95));
     out += '\n';
   }
-  return out;
+  return out + body_table(report);
 }
 
 }  // namespace marey::app

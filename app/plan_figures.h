@@ -7,6 +7,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "calib/plan_body.h"
 #include "calib/plan_rig.h"
 
 namespace marey::app {
@@ -21,7 +22,17 @@ struct PlanReport {
   std::vector<std::string> height_names;
   calib::ErrorMapGrid grid;
   calib::RigPlan plan;
+  calib::BodyPlan body;
+  int tags_worn = 0;
+  double stand_step_m = 0.5;  ///< Between the places of BodyPlan::stands.
+  /// Of each camera's centre; empty when they are taken as known exactly.
+  std::vector<double> centre_sigma_m;
+  bool is_calibrated = false;  ///< These sigmas are of a calibration, not planned.
+  std::string not_calibrated;  ///< Why a board would not calibrate the cameras.
 };
+
+/// "left shoulder", "right ankle": the joint at a limb bone's near end.
+[[nodiscard]] std::string joint_name(HumanBone bone);
 
 /// What plan.json holds (docs/formats.md).
 [[nodiscard]] nlohmann::ordered_json plan_figures(const PlanReport& report);

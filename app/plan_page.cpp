@@ -8,11 +8,15 @@
 #include <numbers>
 #include <optional>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "app/plan_figures.h"
+#include "app/plan_map.h"
 #include "app/report_page.h"
+#include "core/quantile.h"
 
 namespace marey::app {
 namespace {
@@ -33,128 +37,6 @@ main { padding-bottom: 2rem; }
 .key .swatch { border: 1px solid var(--rule); margin-left: 1rem; }
 )";
 
-std::string text_of(const char* format, double a, double b = 0.0, double c = 0.0) {
-  char text[400];
-  std::snprintf(text, sizeof text, format, a, b, c);
-  return text;
-}
-
-/// `text` where HTML wants words, in an element or an attribute.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
-/// Cividis (Nunez, Anderton, Renslow 2018), as the report has it: 0 is dark blue.
-std::string colour(double share) {
-  constexpr std::array<std::array<double, 3>, 6> kStops{{{0.0, 0.135, 0.305},
-                                                         {0.2, 0.27, 0.43},
-                                                         {0.42, 0.42, 0.445},
-                                                         {0.65, 0.6, 0.47},
-                                                         {0.87, 0.78, 0.37},
-                                                         {1.0, 0.92, 0.27}}};
-  const double place = std::clamp(share, 0.0, 1.0) * (kStops.size() - 1);
-  const std::size_t i = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
-  std::array<double, 3> mixed{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double part = place - static_cast<double>(i);
-    mixed[k] = 255.0 * (kStops[i][k] + part * (kStops[i + 1][k] - kStops[i][k]));
-  }
-  return text_of("rgb(%.0f %.0f %.0f)", mixed[0], mixed[1], mixed[2]);
-}
-
-/// The part of the floor that a page shows: the volume and all cameras.
-struct Frame {
-  glm::dvec2 least{0.0};
-  glm::dvec2 extent{0.0};
-};
-
-glm::dvec2 flat(const glm::dvec3& p) {
-  return {p.x, p.z};
-}
-
-Frame frame_of(const PlanReport& report) {
-  glm::dvec2 least = flat(report.grid.least_in_world);
-  glm::dvec2 greatest = flat(report.grid.greatest_in_world);
-  for (const Camera& camera : report.cameras) {
-    const glm::dvec2 place = flat(centre_in_world(camera));
-    least = glm::min(least, place);
-    greatest = glm::max(greatest, place);
-  }
-  constexpr double kRim_m = 0.7;
-  return {least - kRim_m, greatest - least + 2.0 * kRim_m};
-}
-
-/// Where the ray through `pixel` goes on the floor plan; nullopt where there is none.
-std::optional<glm::dvec2> heading(const Camera& camera, const glm::dvec2& pixel) {
-  const auto ray = unproject(camera.intrinsics, pixel);
-  if (!ray) return std::nullopt;
-  const RigidTransform world_from_camera = inverse(camera.camera_from_world);
-  const glm::dvec2 way =
-      flat(world_from_camera.rotation * glm::dvec3(ray->x, ray->y, 1.0));
-  const double length = glm::length(way);
-  if (!(length > 1e-9)) return std::nullopt;
-  return way / length;
-}
-
-std::string polygon(const char* name, std::initializer_list<glm::dvec2> corners) {
-  std::string out = "<polygon class=\"" + std::string(name) + "\" points=\"";
-  for (const glm::dvec2& corner : corners)
-    out += text_of("%.3f,%.3f ", corner.x, corner.y);
-  return out + "\"/>";
-}
-
-std::string cone(const char* name, const Camera& camera, double length_m) {
-  const Intrinsics& k = camera.intrinsics;
-  const double middle = 0.5 * (k.height_px - 1);
-  const auto left = heading(camera, {0.0, middle});
-  const auto right = heading(camera, {k.width_px - 1.0, middle});
-  if (!left || !right) return "";
-  const glm::dvec2 at = flat(centre_in_world(camera));
-  return polygon(name, {at, at + length_m * *left, at + length_m * *right});
-}
-
-/// A camera as a wedge that opens where it looks, and its name behind it.
-std::string body(const Camera& camera, double size_m, const Frame& frame) {
-  const Intrinsics& k = camera.intrinsics;
-  const auto ahead = heading(camera, k.centre_px);
-  const glm::dvec2 at = flat(centre_in_world(camera));
-  const glm::dvec2 way = ahead.value_or(glm::dvec2(0.0, 1.0));
-  const glm::dvec2 aside{-way.y, way.x};
-  std::string out = polygon("body",
-                            {at - 0.5 * size_m * way,
-                             at + size_m * (0.6 * way + 0.6 * aside),
-                             at + size_m * (0.6 * way - 0.6 * aside)});
-  glm::dvec2 name = at + glm::dvec2(0.0, (way.y > 0.0 ? -0.9 : 1.6) * size_m);
-  // Letters are some 0.55 of their height wide: the name stays inside.
-  const double half_m = std::min(
-      0.3 * size_m * static_cast<double>(camera.name.size() + 1), 0.5 * frame.extent.x);
-  name.x =
-      std::clamp(name.x, frame.least.x + half_m, frame.least.x + frame.extent.x - half_m);
-  return out +
-         text_of(
-             "<text x=\"%.3f\" y=\"%.3f\" font-size=\"%.3f\">", name.x, name.y, size_m) +
-         escaped(camera.name) + "</text>";
-}
-
 /// What a map shows of a place: its share of the scale, nullopt for none, and words.
 using Shade = std::function<std::optional<double>(const calib::PlannedPlace&)>;
 
@@ -171,51 +53,33 @@ std::string words_of(const calib::PlannedPlace& place) {
                        place.side_px);
 }
 
-std::string metres(const Frame& frame) {
-  const glm::dvec2 end = frame.least + frame.extent;
-  std::string out;
-  for (double x = std::ceil(frame.least.x); x <= end.x; x += 1.0) {
-    out += text_of("<line class=\"metre\" x1=\"%.3f\" x2=\"%.3f\" ", x, x) +
-           text_of("y1=\"%.3f\" y2=\"%.3f\"/>", frame.least.y, end.y);
-  }
-  for (double z = std::ceil(frame.least.y); z <= end.y; z += 1.0) {
-    out +=
-        text_of("<line class=\"metre\" x1=\"%.3f\" x2=\"%.3f\" ", frame.least.x, end.x) +
-        text_of("y1=\"%.3f\" y2=\"%.3f\"/>", z, z);
-  }
-  return out;
-}
-
-std::string map_of(const PlanReport& report,
-                   std::size_t height,
-                   const std::string& caption,
-                   const Shade& shade) {
-  const Frame frame = frame_of(report);
-  const double size_m = std::max(frame.extent.x, frame.extent.y) / 30.0;
-  std::string out =
-      "<figure class=\"map\"><svg role=\"img\" aria-label=\"" + escaped(caption) +
-      "\" viewBox=\"" + text_of("%.3f %.3f ", frame.least.x, frame.least.y) +
-      text_of("%.3f %.3f\">", frame.extent.x, frame.extent.y) + metres(frame);
-  const double far_m = 2.0 * glm::length(frame.extent);
-  for (const Camera& camera : report.cameras) out += cone("sight", camera, far_m);
+std::vector<MapCell> cells_of(const PlanReport& report,
+                              std::size_t height,
+                              const Shade& shade) {
   const std::size_t count = report.plan.places.size() / report.plan.heights.size();
-  const double step_m = report.grid.step_m;
+  std::vector<MapCell> cells;
   for (std::size_t i = height * count; i < (height + 1) * count; ++i) {
     const calib::PlannedPlace& place = report.plan.places[i];
-    const auto share = shade(place);
-    // A little larger than its place, so that no seams show.
-    out += text_of("<rect x=\"%.3f\" y=\"%.3f\" ",
-                   place.p_in_world.x - 0.5 * step_m,
-                   place.p_in_world.z - 0.5 * step_m) +
-           text_of("width=\"%.3f\" height=\"%.3f\" ", 1.02 * step_m, 1.02 * step_m) +
-           (share ? "fill=\"" + colour(*share) + "\"" : "class=\"unseen-cell\"") +
-           "><title>" + words_of(place) + "</title></rect>";
+    cells.push_back(
+        {{place.p_in_world.x, place.p_in_world.z}, shade(place), words_of(place)});
   }
-  for (const Camera& camera : report.cameras) {
-    out += cone("cone", camera, far_m);
+  return cells;
+}
+
+/// The body's maps: of its joints' error, or of how many are measured.
+std::vector<MapCell> stands_of(const PlanReport& report, bool error, double worst_m) {
+  std::vector<MapCell> cells;
+  for (const calib::PlannedStand& stand : report.body.stands) {
+    MapCell cell{{stand.p_on_floor.x, stand.p_on_floor.z}, std::nullopt, ""};
+    cell.words = text_of("x %.2f, z %.2f m: ", stand.p_on_floor.x, stand.p_on_floor.z) +
+                 text_of("%.0f %% of joints measured", 100.0 * stand.measured_share);
+    if (stand.error_m) {
+      cell.words += text_of(", error %.1f mm", 1e3 * *stand.error_m);
+      cell.share = error ? *stand.error_m / worst_m : 1.0 - stand.measured_share;
+    }
+    cells.push_back(std::move(cell));
   }
-  for (const Camera& camera : report.cameras) out += body(camera, size_m, frame);
-  return out + "</svg><figcaption>" + escaped(caption) + "</figcaption></figure>\n";
+  return cells;
 }
 
 /// A number of one digit that is no smaller: 1, 2, 5, 10, 20...
@@ -236,6 +100,15 @@ double scale_of(const calib::RigPlan& plan) {
   return worst_m > 0.0 ? round_above(worst_m) : 1e-3;
 }
 
+/// Likewise of the body's joints: places where it is hardly seen go beyond the scale.
+double worst_stand(const calib::BodyPlan& body) {
+  std::vector<double> errors_m;
+  for (const calib::PlannedStand& stand : body.stands) {
+    if (stand.error_m) errors_m.push_back(*stand.error_m);
+  }
+  return errors_m.empty() ? 1e-3 : round_above(quantile(std::move(errors_m), 0.9));
+}
+
 /// The top of the scale of directions: two cameras rarely share all.
 double most_covered(const calib::RigPlan& plan) {
   double most = 0.1;
@@ -247,14 +120,16 @@ double most_covered(const calib::RigPlan& plan) {
 
 std::string key(const std::string& what,
                 const std::string& low,
-                const std::string& high) {
+                const std::string& high,
+                const std::string& none = "never seen by two") {
   std::string stops;
   for (int i = 0; i <= 5; ++i) stops += ", " + colour(i / 5.0);
   return "<p class=\"key\"><span>" + what + "</span> <span>" + low +
          "</span> <span class=\"ramp\" style=\"background: linear-gradient(to right" +
          stops + ")\"></span> <span>" + high +
          "</span> <span class=\"swatch\" style=\"background: var(--seen-none)\"></span> "
-         "<span>never seen by two</span></p>\n";
+         "<span>" +
+         none + "</span></p>\n";
 }
 
 std::string cell_mm(const std::optional<calib::MedianAndP95>& error_m) {
@@ -286,22 +161,91 @@ std::string table_of(const PlanReport& report) {
   return out + "</tbody></table></div>\n";
 }
 
+std::string known_words(const PlanReport& report) {
+  if (report.centre_sigma_m.empty()) return "Cameras are taken as known exactly.";
+  const auto worst =
+      std::max_element(report.centre_sigma_m.begin(), report.centre_sigma_m.end());
+  return text_of(
+      report.is_calibrated
+          ? "Cameras are known as their calibration says, the worst within "
+            "%.1f mm of its place (standard deviation)."
+          : "Cameras will be known as well as a board waved through the volume "
+            "tells, the worst within %.1f mm of its place (standard "
+            "deviation).",
+      1e3 * *worst);
+}
+
+std::string body_section(const PlanReport& report) {
+  const calib::BodyPlan& body = report.body;
+  std::string out = text_of(
+      "<h2>A body that walks</h2>\n<p class=\"about\">It wears %.0f tags and "
+      "walks through the volume every way; its own flesh hides tags. It is found "
+      "in %.0f %% of frames. Measured: a tag of the bone is seen by a camera. "
+      "Lasting: what comes of how body and cameras were measured, and stays "
+      "however long one looks. Skin that moves comes on top.</p>\n",
+      report.tags_worn,
+      100.0 * body.found_share);
+  if (body.joints.empty()) return out;
+  out +=
+      "<div class=\"scroll\"><table><thead><tr><th>Joint</th><th "
+      "class=\"number\">Measured</th><th class=\"number\">Error, median</th><th "
+      "class=\"number\">95 %</th><th class=\"number\">Lasting</th></tr></thead><tbody>\n";
+  for (const calib::PlannedJoint& joint : body.joints) {
+    out +=
+        "<tr><th>" + joint_name(joint.bone) +
+        text_of("</th><td class=\"number\">%.0f %%</td>", 100.0 * joint.measured_share) +
+        text_of(
+            "<td class=\"number\">%.1f mm</td><td class=\"number\">%.1f mm</td>"
+            "<td class=\"number\">%.1f mm</td></tr>\n",
+            1e3 * joint.error_m.median,
+            1e3 * joint.error_m.p95,
+            1e3 * joint.lasting_error_m);
+  }
+  out += text_of(
+      "<tr><th>All</th><td class=\"number\">%.0f %%</td><td "
+      "class=\"number\">%.1f mm</td><td class=\"number\">%.1f mm</td><td></td>"
+      "</tr>\n",
+      100.0 * body.measured_share,
+      1e3 * body.error_m.median,
+      1e3 * body.error_m.p95);
+  out += "</tbody></table></div>\n";
+  const double worst_m = worst_stand(report.body);
+  out += key("Expected error of a joint, standing there",
+             "0",
+             text_of("%g mm", 1e3 * worst_m),
+             "body not found");
+  out += key("Joints whose tags a camera sees", "100 %", "0 %", "body not found");
+  return out + "<div class=\"maps\">" +
+         floor_map(report,
+                   stands_of(report, true, worst_m),
+                   report.stand_step_m,
+                   "Median error of a joint, the body standing there, one frame alone") +
+         floor_map(report,
+                   stands_of(report, false, worst_m),
+                   report.stand_step_m,
+                   "Share of joints that are measured, the body standing there") +
+         "</div>\n";
+}
+
+std::string tag_words(const PlanReport& report) {
+  return text_of(
+      "Tags stand upright and face all around, with nothing in the way of a sight. A "
+      "joint "
+      "is %.0f mm from its tag. Errors are of one tag in one frame.",
+      1e3 * report.options.lever_m);
+}
+
 std::string lead_of(const PlanReport& report) {
   return text_of("<p class=\"lead\">%.0f cameras, tags of %.0f mm, a body of %.2f m. ",
                  static_cast<double>(report.cameras.size()),
                  1e3 * report.options.tag_size_m,
                  report.stature_m) +
          text_of(
-             "Tags stand upright and face all around; a camera sees one that lies "
-             "whole in its picture, turned away by less than %.0f degrees, with every "
-             "side of %.0f px or more. ",
+             "A camera sees a tag that lies whole in its picture, turned away by less "
+             "than %.0f degrees, with every side of %.0f px or more. ",
              report.options.widest_rad * 180.0 / std::numbers::pi,
              report.options.least_side_px) +
-         text_of(
-             "A joint is %.0f mm from its tag. Errors are of one tag in one frame, "
-             "from cameras that are known exactly; bodies hide some of their tags, "
-             "which is not counted.</p>\n",
-             1e3 * report.options.lever_m);
+         known_words(report) + "</p>\n";
 }
 
 }  // namespace
@@ -319,7 +263,9 @@ std::string plan_page(const PlanReport& report) {
   out += report_style();
   out += kStyle;
   out += "</style>\n</head>\n<body>\n<main>\n<h1>Plan: " + escaped(report.name) +
-         "</h1>\n" + lead_of(report) + table_of(report);
+         "</h1>\n" + lead_of(report) + body_section(report) +
+         "<h2>Single tags</h2>\n<p class=\"about\">" + tag_words(report) + "</p>\n" +
+         table_of(report);
   const auto error = [&](const calib::PlannedPlace& place) -> std::optional<double> {
     if (!place.centre_error_m) return std::nullopt;
     return *place.centre_error_m / worst_m;
@@ -329,7 +275,8 @@ std::string plan_page(const PlanReport& report) {
     return 1.0 - place.measured_share / most;
   };
   out +=
-      "<h2>From above</h2>\n<p class=\"about\">Squares of a metre, x to the right, z "
+      "<h2>Tags, from above</h2>\n<p class=\"about\">Squares of a metre, x to the right, "
+      "z "
       "down. Dashed: what each camera's picture takes in. Point at a square for its "
       "figures.</p>\n";
   out += key("Expected error of a tag", "0", text_of("%g mm", 1e3 * worst_m));
@@ -339,9 +286,14 @@ std::string plan_page(const PlanReport& report) {
     out +=
         "<section><h3>At the " + escaped(report.height_names[i]) +
         text_of(", %.2f m</h3>\n<div class=\"maps\">", report.plan.heights[i].height_m) +
-        map_of(report, i, "Expected error of a tag's centre", error) +
-        map_of(
-            report, i, "Share of directions in which two cameras see a tag", coverage) +
+        floor_map(report,
+                  cells_of(report, i, error),
+                  report.grid.step_m,
+                  "Expected error of a tag's centre") +
+        floor_map(report,
+                  cells_of(report, i, coverage),
+                  report.grid.step_m,
+                  "Share of directions in which two cameras see a tag") +
         "</div></section>\n";
   }
   return out + "</main>\n</body>\n</html>\n";

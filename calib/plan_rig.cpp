@@ -14,38 +14,14 @@
 #include <glm/mat3x3.hpp>
 
 #include "calib/see_point.h"
+#include "calib/see_tag.h"
 #include "core/assert.h"
 
 namespace marey::calib {
 namespace {
 
 constexpr int kPerCamera = static_cast<int>(RigCovariance::kPerCamera);
-using Corners = std::array<glm::dvec3, 4>;
-
-/// The mean side [px] of a tag in a camera that sees it; nullopt when it does not.
-std::optional<double> side_seen_px(const Camera& camera,
-                                   const RigidTransform& world_from_tag,
-                                   const Corners& corners_in_world,
-                                   const PlanOptions& options) {
-  const glm::dvec3 sight = world_from_tag.translation - centre_in_world(camera);
-  const glm::dvec3 into_tag = world_from_tag.rotation * glm::dvec3(0.0, 0.0, 1.0);
-  const double facing = glm::dot(sight, into_tag) / glm::length(sight);
-  if (!(facing > std::cos(options.widest_rad))) return std::nullopt;
-  std::array<glm::dvec2, 4> pixels{};
-  for (std::size_t c = 0; c < 4; ++c) {
-    if (cameras_that_see(std::span(&camera, 1), corners_in_world[c]).empty()) {
-      return std::nullopt;
-    }
-    pixels[c] = *project(camera, corners_in_world[c]);
-  }
-  double around_px = 0.0;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const double edge_px = glm::distance(pixels[c], pixels[(c + 1) % 4]);
-    if (edge_px < options.least_side_px) return std::nullopt;
-    around_px += edge_px;
-  }
-  return 0.25 * around_px;
-}
+using Corners = TagCorners;
 
 struct View {
   CameraId camera{};
@@ -58,7 +34,7 @@ std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance(
     std::span<const Camera> cameras,
     const RigCovariance* covariance,
     const glm::dvec3& centre,
-    const Corners& corners_in_world,
+    const Corners& corners,
     std::span<const View> views,
     const CornerSigma& corner_sigma) {
   const auto count = static_cast<Eigen::Index>(views.size());
@@ -69,7 +45,7 @@ std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance(
     const double sigma_px = corner_sigma(view.side_px);
     MAREY_ASSERT(sigma_px > 0.0);
     const double weight = 1.0 / (sigma_px * sigma_px);
-    for (const glm::dvec3& corner : corners_in_world) {
+    for (const glm::dvec3& corner : corners) {
       const auto sight = see_point(cameras[index(view.camera)], corner);
       if (!sight) return std::nullopt;
       Eigen::Matrix<double, 2, 6> by_pose;
@@ -181,16 +157,11 @@ ExpectedTag expect_tag(std::span<const Camera> cameras,
                        const PlanOptions& options) {
   MAREY_ASSERT(options.tag_size_m > 0.0);
   MAREY_ASSERT(!covariance || covariance->cameras == cameras.size());
-  Corners corners_in_world{};
-  for (int c = 0; c < 4; ++c) {
-    corners_in_world[static_cast<std::size_t>(c)] =
-        world_from_tag * corner_in_tag(c, options.tag_size_m);
-  }
+  const Corners corners = corners_in_world(world_from_tag, options.tag_size_m);
   ExpectedTag out;
   std::vector<View> views;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
-    const auto side_px =
-        side_seen_px(cameras[c], world_from_tag, corners_in_world, options);
+    const auto side_px = side_seen_px(cameras[c], world_from_tag, corners, options);
     if (!side_px) continue;
     views.push_back({CameraId{static_cast<int>(c)}, *side_px});
     out.seen_by.push_back(views.back().camera);
@@ -198,12 +169,8 @@ ExpectedTag expect_tag(std::span<const Camera> cameras,
   }
   if (!views.empty()) out.side_px /= static_cast<double>(views.size());
   if (views.size() < 2) return out;
-  const auto pose = pose_covariance(cameras,
-                                    covariance,
-                                    world_from_tag.translation,
-                                    corners_in_world,
-                                    views,
-                                    corner_sigma);
+  const auto pose = pose_covariance(
+      cameras, covariance, world_from_tag.translation, corners, views, corner_sigma);
   if (!pose) return out;
   const double turn_rad2 = pose->topLeftCorner<3, 3>().trace();
   const double centre_m2 = pose->bottomRightCorner<3, 3>().trace();

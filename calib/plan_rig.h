@@ -20,11 +20,12 @@ using CornerSigma = std::function<double(double side_px)>;
 
 /// Which tags a camera sees, and what is asked of them.
 struct PlanOptions {
-  double tag_size_m = 0.08;     ///< Edge of the black square.
-  double widest_rad = 1.134;    ///< Between a tag's normal and the sight: 65 degrees.
-  double least_side_px = 12.0;  ///< Of each edge; less is not decoded.
-  double lever_m = 0.15;        ///< From a tag to the joint that it carries.
-  int directions = 36;          ///< Level ones, all around, that tags face.
+  double tag_size_m = 0.08;   ///< Edge of the black square.
+  double widest_rad = 1.134;  ///< Between a tag's normal and the sight: 65 degrees.
+  /// Of each edge: half of the tags are read that are so small (docs/measurements.md).
+  double least_side_px = 15.0;
+  double lever_m = 0.15;  ///< From a tag to the joint that it carries.
+  int directions = 36;    ///< Level ones, all around, that tags face.
 };
 
 /// A tag at one place, as a rig would see it.

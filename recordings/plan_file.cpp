@@ -94,6 +94,21 @@ Camera read_camera(TomlReader& in, const std::vector<Camera>& before) {
   return camera;
 }
 
+TagOnSegment read_tag(TomlReader& in, int id, const std::optional<double>& usual_size_m) {
+  in.allow({"segment", "size_m"});
+  TagOnSegment tag{TagId{id}, HumanBone::kHips, usual_size_m.value_or(0.08)};
+  const std::string segment = in.text("segment");
+  if (const auto bone = human_bone(segment)) {
+    tag.segment = *bone;
+  } else if (in.ok()) {
+    in.fail("segment",
+            in_quotes(segment) + " is no segment of a body",
+            "use VRM's names: hips, upperChest, head, leftUpperArm...");
+  }
+  if (in.has("size_m")) tag.size_m = in.number("size_m", kTag);
+  return tag;
+}
+
 PlannedVolume read_volume(TomlReader in) {
   in.allow({"least_m", "greatest_m", "step_m"});
   PlannedVolume volume;
@@ -122,6 +137,7 @@ Result<CapturePlan> cameras_of_calibration(std::string_view text,
   if (!calibration) return calibration.error();
   CapturePlan plan;
   plan.cameras = std::move(calibration->cameras);
+  plan.quality = std::move(calibration->quality);
   return plan;
 }
 
@@ -135,7 +151,7 @@ Result<CapturePlan> parse_plan(std::string_view text, const std::string& file) {
                        root.has("volume") ||
                        (root.has("camera") && !root.is_table("camera"));
   if (!is_plan) return cameras_of_calibration(text, file);
-  root.allow({"format", "tag_size_m", "stature_m", "volume", "camera"});
+  root.allow({"format", "tag_size_m", "stature_m", "volume", "tag", "camera"});
   if (root.integer("format", {0, 1e6}) != 1) {
     root.fail("format", "this format is not known", "write format = 1, or update marey");
   }
@@ -143,6 +159,12 @@ Result<CapturePlan> parse_plan(std::string_view text, const std::string& file) {
   if (root.has("tag_size_m")) plan.tag_size_m = root.number("tag_size_m", kTag);
   if (root.has("stature_m")) plan.stature_m = root.number("stature_m", kStature);
   if (root.has("volume")) plan.volume = read_volume(root.table("volume"));
+  if (root.has("tag")) {
+    for (TomlReader& tag : root.tables("tag")) {
+      plan.tags.push_back(
+          read_tag(tag, static_cast<int>(plan.tags.size()), plan.tag_size_m));
+    }
+  }
   for (TomlReader& camera : root.tables("camera")) {
     plan.cameras.push_back(read_camera(camera, plan.cameras));
   }

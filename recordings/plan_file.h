@@ -10,7 +10,9 @@
 
 #include <glm/vec2.hpp>
 
+#include "core/body.h"
 #include "core/camera.h"
+#include "core/camera_quality.h"
 #include "core/result.h"
 
 namespace marey::recordings {
@@ -28,6 +30,8 @@ struct CapturePlan {
   std::optional<double> tag_size_m;
   std::optional<double> stature_m;
   std::optional<PlannedVolume> volume;
+  std::vector<TagOnSegment> tags;      ///< On the body; ids from 0 in the file's order.
+  std::vector<CameraQuality> quality;  ///< Per camera of a calibration; else empty.
 };
 
 /// Reads a plan.toml (docs/formats.md), or the cameras of a calibration.toml, as
@@ -36,8 +40,8 @@ struct CapturePlan {
 ///
 /// Errors (kBadInput), with the line: not TOML; a key unknown, missing, of the wrong type
 /// or out of range; a name twice; a camera that looks at itself or straight up or down;
-/// both field_of_view_deg and focal_px; a volume without extent, or of more than 40 000
-/// places.
+/// both field_of_view_deg and focal_px; a tag on no segment; a volume without extent, or
+/// of more than 40 000 places.
 [[nodiscard]] Result<CapturePlan> parse_plan(std::string_view text,
                                              const std::string& file);
 

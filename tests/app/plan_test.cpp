@@ -71,6 +71,14 @@ TEST_F(Plan, TellsEveryHeightInATableAndInFiles) {
   EXPECT_EQ(json.at("heights")[1].at("height_m"), 1.06);
   EXPECT_GT(json.at("heights")[1].at("measured_percent"), 5.0);
   EXPECT_GT(json.at("heights")[1].at("tag_median_mm"), 0.05);
+  EXPECT_EQ(json.at("cameras_known"), "planned");
+  EXPECT_GT(json.at("cameras")[1].at("centre_sigma_mm"), 0.05);
+  const Json& body = json.at("body");
+  EXPECT_EQ(body.at("tags"), 29);
+  ASSERT_EQ(body.at("joints").size(), 12U);
+  EXPECT_EQ(body.at("joints")[0].at("name"), "left shoulder");
+  EXPECT_GT(body.at("median_mm"), 0.2);
+  EXPECT_NE(run.out.find("right ankle"), std::string::npos) << run.out;
 }
 
 TEST_F(Plan, DrawsAPageThatNeedsNothingElse) {

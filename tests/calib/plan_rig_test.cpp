@@ -30,6 +30,13 @@ RigidTransform tag_facing(double angle_rad, const glm::dvec3& p_in_world) {
   return {rotation_from_vector({0.0, angle_rad, 0.0}) * upright, p_in_world};
 }
 
+/// Tags that two of these cameras can read at once.
+PlanOptions large_tags() {
+  PlanOptions options;
+  options.tag_size_m = 0.12;
+  return options;
+}
+
 /// Four webcams at the corners of a square around the origin.
 std::vector<Camera> square_of_cameras(double distance_m) {
   std::vector<Camera> cameras;
@@ -80,8 +87,8 @@ TEST(ExpectTag, ErrsMoreFartherAway) {
   double last_m = 0.0;
   for (const double distance_m : {1.5, 2.0, 2.5, 2.8}) {
     const auto cameras = square_of_cameras(distance_m);
-    const ExpectedTag tag =
-        expect_tag(cameras, nullptr, tag_facing(0.0, {0.0, 1.0, 0.0}), tenth_px, {});
+    const ExpectedTag tag = expect_tag(
+        cameras, nullptr, tag_facing(0.0, {0.0, 1.0, 0.0}), tenth_px, large_tags());
     ASSERT_TRUE(tag.centre_error_m) << distance_m;
     EXPECT_GT(*tag.centre_error_m, last_m);
     EXPECT_GT(*tag.joint_error_m, *tag.centre_error_m);
@@ -93,7 +100,7 @@ TEST(ExpectTag, ErrsAsFitsToNoisyCornersDo) {
   // 3000 draws tell a root mean square within 2 %; the rest is for what is not linear.
   constexpr int kDraws = 3000;
   const auto cameras = square_of_cameras(2.0);
-  const PlanOptions options;
+  const PlanOptions options = large_tags();
   const RigidTransform truth = tag_facing(0.1, {0.2, 0.9, 0.1});
   const ExpectedTag expected = expect_tag(cameras, nullptr, truth, tenth_px, options);
   ASSERT_GE(expected.seen_by.size(), 2U);
@@ -134,8 +141,8 @@ TEST(ExpectTag, TakesOverTheDoubtOfCameras) {
       }
     }
   }
-  const ExpectedTag sure = expect_tag(cameras, nullptr, pose, tenth_px, {});
-  const ExpectedTag unsure = expect_tag(cameras, &doubt, pose, tenth_px, {});
+  const ExpectedTag sure = expect_tag(cameras, nullptr, pose, tenth_px, large_tags());
+  const ExpectedTag unsure = expect_tag(cameras, &doubt, pose, tenth_px, large_tags());
   ASSERT_TRUE(sure.centre_error_m && unsure.centre_error_m);
   EXPECT_NEAR(std::pow(*unsure.centre_error_m, 2) - std::pow(*sure.centre_error_m, 2),
               3e-6,

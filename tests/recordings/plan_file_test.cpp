@@ -88,6 +88,24 @@ TEST(PlanFile, MayBeTheCamerasOfACalibration) {
   EXPECT_FALSE(found->volume || found->tag_size_m || found->stature_m);
 }
 
+TEST(PlanFile, MaySayWhichTagsAreWorn) {
+  const auto plan = parse_plan(
+      "format = 1\ntag_size_m = 0.07\n[[tag]]\nsegment = \"hips\"\n"
+      "[[tag]]\nsegment = \"leftHand\"\nsize_m = 0.05\n" +
+          plan_text().substr(plan_text().find("[[camera]]")),
+      "plan.toml");
+  ASSERT_TRUE(plan) << plan.error().message();
+  ASSERT_EQ(plan->tags.size(), 2U);
+  EXPECT_EQ(plan->tags[0].segment, HumanBone::kHips);
+  EXPECT_EQ(plan->tags[0].size_m, 0.07);
+  EXPECT_EQ(plan->tags[1].size_m, 0.05);
+  EXPECT_EQ(number(plan->tags[1].id), 1);
+  EXPECT_NE(mistake_of("format = 1\n[[tag]]\nsegment = \"tail\"\n" +
+                       plan_text().substr(plan_text().find("[[camera]]")))
+                .find("plan.toml:3: \"tail\" is no segment of a body"),
+            std::string::npos);
+}
+
 TEST(PlanFile, NamesTheMistakeAndItsLine) {
   EXPECT_EQ(
       mistake_of(with(plan_text(), "looks_at_m", "look_at_m")),
