@@ -37,6 +37,21 @@ struct RecordArguments {
                                 bool json,
                                 Console& console);
 
+struct ConvertArguments {
+  std::filesystem::path in;   ///< .c3d or .trc
+  std::filesystem::path out;  ///< .c3d or .trc
+  // Axes ("+Z") and units ("mm"), checked; empty where the files decide.
+  std::string up;
+  std::string unit;
+  std::string to_up;
+  std::string to_unit;
+};
+
+/// `marey convert IN OUT`: labelled markers from one kind of file to another.
+[[nodiscard]] Exit run_convert(const ConvertArguments& arguments,
+                               bool json,
+                               Console& console);
+
 /// `marey inspect FILE`: what a session, calibration, subject, motion or table holds.
 [[nodiscard]] Exit run_inspect(const std::filesystem::path& file,
                                bool json,

@@ -37,6 +37,7 @@ struct Arguments {
   std::filesystem::path file;
   std::filesystem::path sample = MAREY_SAMPLE;
   RecordArguments record;
+  ConvertArguments convert;
   recordings::MannequinOptions mannequin;
   recordings::MannequinStyle style;
   PrintArguments print;
@@ -153,6 +154,27 @@ void add_mannequin(CLI::App& app, Arguments& args, Command& chosen) {
   });
 }
 
+void add_convert(CLI::App& app, Arguments& args, Command& chosen) {
+  CLI::App* command =
+      app.add_subcommand("convert", "Labelled markers as another kind of file");
+  ConvertArguments& c = args.convert;
+  const CLI::IsMember axis({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
+  const CLI::IsMember unit({"mm", "cm", "m"});
+  command->add_option("in", c.in, ".c3d or .trc")->required();
+  command->add_option("out", c.out, "Result: .c3d or .trc")->required();
+  command->add_option("--up", c.up, "Axis of IN that is up, if not as found")
+      ->check(axis);
+  command->add_option("--unit", c.unit, "Unit of IN, if not as it says")->check(unit);
+  command->add_option("--to-up", c.to_up, "Axis of OUT that is up")->check(axis);
+  command->add_option("--to-unit", c.to_unit, "Unit of OUT")->check(unit);
+  command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
+  command->callback([&] {
+    chosen = [&args](Console& console) {
+      return run_convert(args.convert, args.json, console);
+    };
+  });
+}
+
 void add_small_commands(CLI::App& app, Arguments& args, Command& chosen) {
   CLI::App* inspect = app.add_subcommand("inspect", "Say what a file holds");
   inspect->add_option("file", args.file, "A session, result, motion or body")->required();
@@ -205,6 +227,7 @@ int run(int argc, char** argv) {
                       chosen);
   add_record(app, args, chosen);
   add_retarget(app, args, chosen);
+  add_convert(app, args, chosen);
   add_mannequin(app, args, chosen);
   add_print_commands(app, args.print, chosen);
   add_plan_command(app, args.plan, chosen);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/inspect_markers.h"
 #include "core/extension.h"
 #include "recordings/bvh.h"
 #include "recordings/calibration_file.h"
@@ -178,6 +179,7 @@ Result<Json> inspect(const std::filesystem::path& file) {
   if (named == "segments.csv") return inspect_segments(file);
   if (named == "report.json") return inspect_report(file);
   if (kind == ".bvh") return inspect_bvh(file);
+  if (kind == ".c3d" || kind == ".trc") return inspect_markers(file);
   if (kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma") {
     return inspect_character(file);
   }
@@ -185,7 +187,8 @@ Result<Json> inspect(const std::filesystem::path& file) {
       file.string(),
       "is not a kind of file that marey knows",
       "give a session, a calibration (.toml, .yaml, .yml, .xml), subject.toml, "
-      "joints.csv, segments.csv, report.json, .bvh, .glb, .gltf, .vrm or .vrma");
+      "joints.csv, segments.csv, report.json, .c3d, .trc, .bvh, .glb, .gltf, .vrm or "
+      ".vrma");
 }
 
 /// Files from elsewhere may hold names that are not UTF-8, which JSON must be.

@@ -235,7 +235,6 @@ TEST_P(MarkerSamples, AreKeptByWriting) {
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto read = read_markers(path);
   ASSERT_TRUE(read);
-  if (read->tracks.frames() > 2500) GTEST_SKIP() << "long, and as others are";
   const fs::path folder = ::testing::TempDir();
   const MarkerReadOptions same{.up = read->axes.up, .unit = read->axes.unit};
   for (const char* name : {"marey_again.c3d", "marey_again.trc"}) {

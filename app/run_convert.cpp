@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "core/extension.h"
+#include "recordings/marker_file.h"
+
+namespace marey::app {
+namespace {
+
+/// In which unit and axes to write: what was asked for, else the source's. A TRC cannot
+/// say which way is up, and who reads one expects +Y.
+recordings::FileAxes target_axes(const ConvertArguments& arguments,
+                                 const recordings::FileAxes& source) {
+  recordings::FileAxes axes = source;
+  if (kind_by_extension(arguments.out) == ".trc") axes.up = recordings::FileAxis::kPlusY;
+  if (!arguments.to_up.empty()) {
+    axes.up = recordings::axis_of(arguments.to_up).value_or(axes.up);
+  }
+  if (!arguments.to_unit.empty()) {
+    axes.unit = arguments.to_unit;
+    axes.per_metre =
+        recordings::units_per_metre(arguments.to_unit).value_or(axes.per_metre);
+  }
+  return axes;
+}
+
+}  // namespace
+
+Exit run_convert(const ConvertArguments& arguments, bool json, Console& console) {
+  recordings::MarkerReadOptions read_as;
+  if (!arguments.up.empty()) read_as.up = recordings::axis_of(arguments.up);
+  if (!arguments.unit.empty()) read_as.unit = arguments.unit;
+  const auto markers = recordings::read_markers(arguments.in, read_as);
+  if (!markers) return console.fail(markers.error());
+  for (const std::string& note : markers->notes) {
+    console.warn(arguments.in.string() + ": " + note);
+  }
+  recordings::MarkerWriteOptions options;
+  options.axes = target_axes(arguments, markers->axes);
+  const bool same_axes = options.axes->up == markers->axes.up &&
+                         options.axes->per_metre == markers->axes.per_metre;
+  const bool both_c3d = kind_by_extension(arguments.in) == ".c3d" &&
+                        kind_by_extension(arguments.out) == ".c3d";
+  // What else is in a C3D lies in its own axes, and is kept with them.
+  if (both_c3d && same_axes) options.source = arguments.in;
+  if (both_c3d && !same_axes) {
+    console.warn(arguments.out.string() +
+                 ": in other axes or units markers and events alone are written, not "
+                 "analog channels and force plates");
+  }
+  const Status written = recordings::write_markers(arguments.out, *markers, options);
+  if (!written) return console.fail(written.error());
+  const MarkerTracks& tracks = markers->tracks;
+  if (json) {
+    const nlohmann::ordered_json figures{{"out", arguments.out.string()},
+                                         {"markers", tracks.markers()},
+                                         {"frames", tracks.frames()},
+                                         {"rate_hz", tracks.rate.hz},
+                                         {"unit", options.axes->unit},
+                                         {"up", recordings::name(options.axes->up)},
+                                         {"notes", markers->notes}};
+    std::printf(
+        "%s\n",
+        figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+            .c_str());
+  }
+  console.say(arguments.out.string() + ": " + std::to_string(tracks.markers()) +
+              " markers, " + std::to_string(tracks.frames()) + " frames, " +
+              options.axes->unit + ", " +
+              std::string(recordings::name(options.axes->up)) + " up");
+  return Exit::kOk;
+}
+
+}  // namespace marey::app
