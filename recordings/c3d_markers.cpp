@@ -68,6 +68,11 @@ Result<MarkerFile> read_all(const Open& open, const MarkerReadOptions& options) 
   const C3dInfo& info = reader->info();
   MarkerFile file;
   file.notes = info.notes;
+  if (has_rotations(info)) {
+    file.notes.emplace_back(
+        "the rotations behind the frames (group ROTATION) are not read, nor written "
+        "again");
+  }
   C3dMarkers markers = markers_of(info, file.notes);
 
   Result<C3dReader> second = open();

@@ -42,6 +42,9 @@ void put_c3d_sample(const C3dInfo& info,
 /// to the first sample that was seen.
 [[nodiscard]] Result<bool> all_marked_unseen(C3dReader reader);
 
+/// Whether there is a section of rotations behind the frames, which marey does not know.
+[[nodiscard]] bool has_rotations(const C3dInfo& info);
+
 /// What the header's events and the group EVENT tell.
 [[nodiscard]] std::vector<MarkerEvent> events_of(const C3dInfo& info);
 /// Sets the group EVENT.

@@ -117,6 +117,10 @@ class SourceCopy {
                        "give the file that they were read from");
     }
     C3dInfo to = from;
+    // It would name a section that is not there.
+    if (has_rotations(from)) {
+      std::erase_if(to.groups, [](const C3dGroup& g) { return g.name == "ROTATION"; });
+    }
     // Integers have room for 32767 steps; what is further out needs reals.
     const double furthest = greatest_coordinate(tracks, markers_.axes);
     const bool widened =

@@ -105,6 +105,10 @@ void put_c3d_sample(const C3dInfo& info,
   words[3] = static_cast<float>(residual + 256.0 * (sample->cameras & 0x7FU));
 }
 
+bool has_rotations(const C3dInfo& info) {
+  return find_parameter(info.groups, "ROTATION", "DATA_START") != nullptr;
+}
+
 Result<bool> all_marked_unseen(C3dReader reader) {
   C3dFrame frame;
   bool has_positions = false;

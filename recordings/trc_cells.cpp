@@ -36,13 +36,21 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
+CellMark cell_mark(std::string_view line) {
+  for (const CellMark mark : {CellMark::kTab, CellMark::kSemicolon, CellMark::kComma}) {
+    if (line.find(static_cast<char>(mark)) != std::string_view::npos) return mark;
+  }
+  return CellMark::kBlanks;
+}
+
 void split_cells(std::string_view line,
-                 bool by_tabs,
+                 CellMark mark,
                  std::vector<std::string_view>& cells) {
   cells.clear();
-  if (by_tabs) {
+  if (mark != CellMark::kBlanks) {
     for (std::size_t at = 0; at <= line.size();) {
-      const std::size_t end = std::min(line.find('\t', at), line.size());
+      const std::size_t end =
+          std::min(line.find(static_cast<char>(mark), at), line.size());
       cells.push_back(trimmed(line.substr(at, end - at)));
       at = end + 1;
     }

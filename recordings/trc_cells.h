@@ -27,10 +27,16 @@ class LineReader {
 
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// The cells of a line into `cells`, without blanks around them: between tabs, or words
-/// where tabs are not what parts them.
+/// What parts the cells of a file: tabs, but other programs save it with other marks.
+/// Blanks, of which many are as one, leave no cell empty.
+enum class CellMark : char { kTab = '\t', kComma = ',', kSemicolon = ';', kBlanks = ' ' };
+
+/// The mark that `line`, which has several cells, is parted by.
+[[nodiscard]] CellMark cell_mark(std::string_view line);
+
+/// The cells of a line into `cells`, without blanks around them.
 void split_cells(std::string_view line,
-                 bool by_tabs,
+                 CellMark mark,
                  std::vector<std::string_view>& cells);
 
 /// Whether a cell says that nothing was seen: it is blank, or a NaN or infinity in one of

@@ -20,6 +20,14 @@ std::string lower(std::string_view text) {
   return out;
 }
 
+/// The cells of a line that are not blank: the header's lines are short, and some
+/// programs put two tabs between its cells, or blanks.
+void split_filled(std::string_view line, std::vector<std::string_view>& cells) {
+  const CellMark mark = cell_mark(line);
+  split_cells(line, mark == CellMark::kTab ? CellMark::kBlanks : mark, cells);
+  std::erase(cells, std::string_view());
+}
+
 std::optional<int> count_of(std::string_view word) {
   const auto value = to_number(word);
   if (!value || *value < 0.0 || *value > 1e9) return std::nullopt;
@@ -132,21 +140,21 @@ Result<TrcHeader> read_trc_header(LineReader& lines, const std::string& file) {
   std::vector<std::string_view> values;
   const auto names = lines.next();
   if (!names) return fail("the file ends in its header");
-  split_cells(*names, false, keys);
+  split_filled(*names, keys);
   if (keys.empty() || lower(keys[0]) != "datarate") {
     return fail("expected DataRate, CameraRate, NumFrames...");
   }
   const auto numbers = lines.next();
   if (!numbers) return fail("the file ends in its header");
-  split_cells(*numbers, false, values);
+  split_filled(*numbers, values);
   read_values(keys, values, header);
 
   auto labels = lines.next();
   while (labels && trimmed(*labels).empty()) labels = lines.next();
   if (!labels) return fail("the file ends in its header");
-  header.by_tabs = labels->find('\t') != std::string_view::npos;
+  header.mark = cell_mark(*labels);
   std::vector<std::string_view> cells;
-  split_cells(*labels, header.by_tabs, cells);
+  split_cells(*labels, header.mark, cells);
   if (!lower(trimmed(*labels)).starts_with("frame")) {
     return fail("expected Frame#, Time and the markers' labels");
   }

@@ -20,7 +20,7 @@ struct TrcHeader {
   std::optional<int> markers;
   std::string unit;
   std::vector<std::string> labels;  ///< As they are, perhaps empty or twice.
-  bool by_tabs = true;              ///< Whether tabs part the cells.
+  CellMark mark = CellMark::kTab;   ///< What parts the cells.
   bool has_axes_row = false;        ///< X1 Y1 Z1 was read.
 };
 

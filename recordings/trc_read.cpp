@@ -36,7 +36,7 @@ class Rows {
   Status read() {
     bool first = true;
     while (const auto line = lines_.next()) {
-      split_cells(*line, header_.by_tabs, cells_);
+      split_cells(*line, header_.mark, cells_);
       present_ = cells_.size();
       while (!cells_.empty() && cells_.back().empty()) cells_.pop_back();
       if (cells_.empty()) continue;
@@ -127,7 +127,7 @@ class Rows {
     LineReader ahead = lines_;
     std::vector<std::string_view> cells;
     while (const auto line = ahead.next()) {
-      split_cells(*line, header_.by_tabs, cells);
+      split_cells(*line, header_.mark, cells);
       while (!cells.empty() && cells.back().empty()) cells.pop_back();
       widest = std::max(widest, cells.size());
     }
@@ -141,7 +141,7 @@ class Rows {
                   "time and " + std::to_string(header_.labels.size()) +
                   " markers have room for " + std::to_string(most));
     }
-    if (cells_.size() < most && !header_.by_tabs) {
+    if (cells_.size() < most && header_.mark == CellMark::kBlanks) {
       return fail("the row has " + std::to_string(cells_.size()) +
                   " numbers instead of " + std::to_string(most));
     }
@@ -194,7 +194,8 @@ class Rows {
     const std::string_view text = cells_[cell];
     if (is_missing(text)) return std::optional<double>();
     if (const auto value = to_number(text)) return value;
-    if (header_.by_tabs && std::count(text.begin(), text.end(), ',') == 1) {
+    if (header_.mark != CellMark::kComma &&
+        std::count(text.begin(), text.end(), ',') == 1) {
       std::string pointed(text);
       pointed[pointed.find(',')] = '.';
       if (const auto value = to_number(pointed)) {

@@ -320,6 +320,27 @@ TEST(MarkerFile, AFileWithoutMarkersIsReadAsSuch) {
   EXPECT_TRUE(has_note(*read, "no markers"));
 }
 
+// Theia's files: a section of matrices behind the frames, in a group of its own.
+TEST(MarkerFile, RotationsBehindTheFramesAreToldOfAndLeftOut) {
+  const ScratchFolder folder;
+  C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);
+  put_parameter(info.groups, "ROTATION", {"DATA_START", "", false, {}, C3dIntegers{9}});
+  write_frames(folder / "a.c3d", info, example_frames(info));
+  std::string bytes = *read_file(folder / "a.c3d");
+  bytes.resize(bytes.size() + 9000, 'r');
+  ASSERT_TRUE(write_file(folder / "b.c3d", bytes));
+  const auto read = read_markers(folder / "b.c3d");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->tracks.frames(), 5U);
+  EXPECT_TRUE(has_note(*read, "ROTATION"));
+  ASSERT_TRUE(
+      write_markers(folder / "c.c3d", *read, {.axes = {}, .source = folder / "b.c3d"}));
+  const auto again = read_markers(folder / "c.c3d");
+  ASSERT_TRUE(again);
+  EXPECT_FALSE(has_note(*again, "ROTATION"));
+  EXPECT_EQ(largest_error_m(again->tracks, read->tracks), 0.0);
+}
+
 TEST(MarkerFile, OtherKindsAreRefused) {
   EXPECT_FALSE(read_markers("walk.csv"));
   EXPECT_FALSE(write_markers("walk.csv", walker()));

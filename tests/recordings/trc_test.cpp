@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/trc.h"
 
+#include <algorithm>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -106,6 +107,28 @@ TEST(Trc, ExtraTabsAndBlankColumnsDoNotMatter) {
   EXPECT_EQ(file.tracks.labels, (std::vector<std::string>{"A", "B"}));
   EXPECT_EQ(file.axes.unit, "mm");
   EXPECT_TRUE(file.notes.empty()) << file.notes[0];
+}
+
+TEST(Trc, CellsMayLieBetweenOtherMarksThanTabs) {
+  const std::string text =
+      head() + "1\t0.00\t\t\t\t4\t5\t6\n" + kRows.substr(kRows.find('\n') + 1);
+  for (const char mark : {',', ';'}) {
+    std::string other = text;
+    std::replace(other.begin(), other.end(), '\t', mark);
+    const MarkerFile file = read(other);
+    EXPECT_EQ(file.tracks.labels, (std::vector<std::string>{"A", "B"})) << mark;
+    ASSERT_EQ(file.tracks.frames(), 2U);
+    EXPECT_FALSE(file.tracks.at(0, 0));
+    EXPECT_EQ(file.tracks.at(1, 1)->p_in_world.z, 0.00625);
+    EXPECT_TRUE(file.notes.empty()) << file.notes[0];
+  }
+  // Of words between blanks none may be lacking.
+  std::string words = kKeys + "100 100 1 2 mm\nFrame# Time A B\n1 0 1 2 3 4 5 6\n";
+  EXPECT_EQ(read(words).tracks.at(0, 1)->p_in_world.x, 0.004);
+  words += "2 0.01 1 2 3\n";
+  EXPECT_EQ(refusal(words),
+            "a.trc:6: the row has 5 numbers instead of 8. Next: mend the line, or export "
+            "the file again.");
 }
 
 TEST(Trc, CommasForDecimalPointsAreToldOf) {
