@@ -12,6 +12,7 @@
 #include "recordings/atomic_file.h"
 #include "recordings/c3d_words.h"
 #include "tests/recordings/c3d_example.h"
+#include "tests/support/count_allocations.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -169,6 +170,23 @@ TEST(C3d, MoreThan65535FramesAreCounted) {
   EXPECT_EQ(reader->info().first_frame, 66'001);
   EXPECT_TRUE(reader->info().notes.empty());
   EXPECT_EQ(frames_of(*reader).size(), 70'000U);
+}
+
+// However long the file is.
+TEST(C3d, FramesAfterTheFirstTakeNoMemory) {
+  const ScratchFolder folder;
+  C3dInfo info = example_info(C3dProcessor::kDec, C3dNumbers::kReal);
+  info.frames = 2000;
+  write_frames(folder / "a.c3d", info, example_frames(info));
+  Result<C3dReader> reader = C3dReader::open(folder / "a.c3d");
+  ASSERT_TRUE(reader);
+  C3dFrame frame;
+  ASSERT_TRUE(*reader->next(frame));
+  const long before = testing::allocations();
+  int frames = 1;
+  while (*reader->next(frame)) ++frames;
+  EXPECT_EQ(testing::allocations(), before);
+  EXPECT_EQ(frames, 2000);
 }
 
 TEST(C3d, UnsignedSamplesAreReadWithoutASign) {
