@@ -107,6 +107,26 @@ void find_up_alone(const std::optional<FileAxis>& plates,
   }
 }
 
+/// Tells of an axis across which the markers stand. Only when the plates lie so too are
+/// they believed: people do lie down.
+void doubt_up(const std::optional<FileAxis>& plates,
+              const AxisFinder& finder,
+              FileAxes& axes,
+              std::vector<std::string>& notes) {
+  const auto markers = finder.up();
+  if (axes.up_from != Evidence::kFile || !markers) return;
+  if (*markers == axes.up || *markers == opposite(axes.up)) return;
+  const std::string doubt = "POINT:Y_SCREEN says that " + text_of(axes.up) +
+                            " is up, and the markers stand along " + text_of(*markers);
+  if (plates == markers) {
+    axes.up = *markers;
+    axes.up_from = Evidence::kMarkers;
+    notes.push_back(doubt + ", as the force plates lie; these are believed");
+  } else {
+    notes.push_back(doubt + "; the file is believed");
+  }
+}
+
 /// Corrects an axis whose sign the markers contradict: some vendors' screens are upside
 /// down, and so are some captures.
 void correct_up(const std::optional<FileAxis>& plates,
@@ -151,6 +171,7 @@ FileAxes axes_of(const C3dInfo& info,
   } else {
     find_up_alone(plates, finder, axes, notes);
   }
+  doubt_up(plates, finder, axes, notes);
   correct_up(plates, finder, axes, notes);
   return axes;
 }

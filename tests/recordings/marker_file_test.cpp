@@ -251,6 +251,33 @@ TEST(MarkerFile, ACaptureThatIsUpsideDownIsTurnedAndSaidSo) {
   EXPECT_LT(largest_error_m(read.tracks, walker().tracks), 1e-6);
 }
 
+TEST(MarkerFile, AnAxisThatMarkersAndPlatesContradictIsNotBelieved) {
+  const ScratchFolder folder;
+  MarkerFile markers = walker();
+  markers.axes.up = FileAxis::kPlusZ;
+  ASSERT_TRUE(write_markers(folder / "a.c3d", markers));
+  Result<C3dReader> reader = C3dReader::open(folder / "a.c3d");
+  ASSERT_TRUE(reader);
+  C3dInfo info = reader->info();
+  const std::vector<C3dFrame> frames = frames_of(*reader);
+  put_texts(info.groups, "POINT", "Y_SCREEN", {"+Y"});
+  write_frames(folder / "b.c3d", info, frames);
+  const auto doubted = read_markers(folder / "b.c3d");
+  ASSERT_TRUE(doubted);
+  EXPECT_EQ(doubted->axes.up, FileAxis::kPlusY);
+  EXPECT_TRUE(has_note(*doubted, "the markers stand along +Z; the file is believed"));
+  // A plate whose z axis points along the file's -Z.
+  const C3dReals corners{600, 400, 0, 0, 400, 0, 0, 0, 0, 600, 0, 0};
+  C3dReals down = corners;
+  std::swap_ranges(down.begin() + 3, down.begin() + 6, down.begin() + 9);
+  put_parameter(info.groups, "FORCE_PLATFORM", {"CORNERS", "", false, {3, 4, 1}, down});
+  write_frames(folder / "c.c3d", info, frames);
+  const auto corrected = read_markers(folder / "c.c3d");
+  ASSERT_TRUE(corrected);
+  EXPECT_EQ(corrected->axes.up, FileAxis::kPlusZ);
+  EXPECT_TRUE(has_note(*corrected, "these are believed"));
+}
+
 TEST(MarkerFile, TheReadersWordOnAxesComesFirst) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_markers(folder / "a.c3d", walker()));
