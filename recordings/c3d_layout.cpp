@@ -355,6 +355,12 @@ Result<C3dLayout> lay_out_c3d(std::string_view bytes,
   } else {
     settle_frames(words, file_size, guess, info);
   }
+  if (guess.frames == 0 && guess.frame_bytes() > 0 && !words.frames.empty()) {
+    return bad_input(file + ": byte " + std::to_string(file_size),
+                     "the file ends before its first frame, at byte " +
+                         std::to_string(guess.data_at()) + ", does",
+                     "copy or export it again");
+  }
   info.numbers = guess.real ? C3dNumbers::kReal : C3dNumbers::kInteger;
   info.points = static_cast<int>(guess.points);
   info.frames = guess.frames;

@@ -36,7 +36,7 @@ struct C3dSection {
 /// Reads the header and reconciles it with the parameters in `info.groups`, which with
 /// `info.processor` are there already, and with the size of the file. Where they
 /// contradict each other, the numbers are believed whose frames end where the file does.
-/// Errors (kBadInput): no usable frame rate.
+/// Errors (kBadInput): no usable frame rate; no whole frame, though some are promised.
 /// Precondition: `header` has 512 bytes.
 [[nodiscard]] Result<C3dLayout> lay_out_c3d(std::string_view header,
                                             std::uint64_t file_size,

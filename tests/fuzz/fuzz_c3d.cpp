@@ -17,7 +17,8 @@ using namespace marey::recordings;
 
 /// A head that was read can be written, and is read as the same.
 void write_again(C3dInfo info) {
-  if (info.first_frame < 0) return;
+  // A header has no word for no frames from 0 on.
+  if (info.first_frame < 1) return;
   info.frames = 0;
   const Result<std::string> head = c3d_head(info);
   if (!head) return;

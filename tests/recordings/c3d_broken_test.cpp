@@ -111,6 +111,16 @@ TEST(C3dBroken, OfAFileThatEndsEarlyTheWholeFramesAreRead) {
   EXPECT_EQ(frames[2].points, example_frames(info)[2].points);
 }
 
+TEST(C3dBroken, AFileThatEndsBeforeItsFirstFrameDoesIsRefused) {
+  const C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);
+  const std::size_t head = c3d_head(info)->size();
+  const std::string at = std::to_string(head);
+  EXPECT_EQ(refusal(example_bytes(info).substr(0, head + 50)),
+            "walk.c3d: byte " + std::to_string(head + 50) +
+                ": the file ends before its first frame, at byte " + at +
+                ", does. Next: copy or export it again.");
+}
+
 // The header's count of analog samples is one channel's, as MotionMonitor has it.
 TEST(C3dBroken, CountsAreBelievedThatEndWhereTheFileDoes) {
   // 40 frames, so that no other reading ends in the last block.
