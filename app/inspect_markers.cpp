@@ -33,9 +33,9 @@ Json events_json(const std::vector<recordings::MarkerEvent>& events) {
 Json plates_json(const recordings::ForcePlates& plates) {
   Json list = Json::array();
   for (const recordings::ForcePlate& plate : plates.plates) {
-    double greatest_N = 0.0;
+    double greatest_newton = 0.0;
     for (const recordings::PlateSample& sample : plate.samples) {
-      greatest_N = std::max(greatest_N, sample.force_in_world.y);
+      greatest_newton = std::max(greatest_newton, sample.force_in_world.y);
     }
     Json corners = Json::array();
     for (const glm::dvec3& corner : plate.corners_in_world) {
@@ -43,7 +43,7 @@ Json plates_json(const recordings::ForcePlates& plates) {
     }
     list.push_back({{"type", plate.type},
                     {"rate_hz", plates.rate.hz},
-                    {"greatest_upward_force_N", greatest_N},
+                    {"greatest_upward_force_N", greatest_newton},
                     {"corners_in_world_m", corners}});
   }
   return list;

@@ -59,10 +59,10 @@ Wrench wrench_of(const PlateModel& model, const std::array<double, 8>& v) {
 PlateSample pressed(const PlateModel& model,
                     const std::array<double, 8>& v,
                     double per_metre,
-                    double least_N) {
+                    double least_newton) {
   PlateSample sample;
   sample.force_in_world = model.world_from_plate * glm::dvec3(v[0], v[1], v[2]);
-  if (std::abs(v[2]) < least_N) return sample;
+  if (std::abs(v[2]) < least_newton) return sample;
   const glm::dvec3 p = glm::dvec3(v[3], v[4], 0.0) / per_metre;
   sample.centre_in_world = model.centre_in_world + model.world_from_plate * p;
   const double free_moment = v[5] * model.metres_per_moment;
@@ -74,12 +74,12 @@ PlateSample pressed(const PlateModel& model,
 PlateSample sample_of(const PlateModel& model,
                       const std::array<double, 8>& v,
                       const FileAxes& axes,
-                      double least_N) {
-  if (model.type == 1) return pressed(model, v, axes.per_metre, least_N);
+                      double least_newton) {
+  if (model.type == 1) return pressed(model, v, axes.per_metre, least_newton);
   const Wrench w = wrench_of(model, v);
   PlateSample sample;
   sample.force_in_world = model.world_from_plate * w.force;
-  if (std::abs(w.force.z) < least_N) return sample;
+  if (std::abs(w.force.z) < least_newton) return sample;
   // On the surface the moment of a force at p is p x F: Mx = py Fz, My = -px Fz.
   const glm::dvec3 p(-w.moment.y / w.force.z, w.moment.x / w.force.z, 0.0);
   sample.centre_in_world = model.centre_in_world + model.world_from_plate * p;
@@ -122,18 +122,18 @@ Status visit_samples(C3dReader& reader,
 /// Some files call Nmm Nm. A body presses within the plate, which tells them apart.
 Status settle_moments(C3dReader reader,
                       const FileAxes& axes,
-                      double least_N,
+                      double least_newton,
                       std::vector<PlateModel>& models,
                       std::vector<std::string>& notes) {
   std::vector<std::vector<double>> levers(models.size());
-  const Status ok = visit_samples(reader, models, [&](std::size_t i, const Values& v) {
+  Status ok = visit_samples(reader, models, [&](std::size_t i, const Values& v) {
     const PlateModel& model = models[i];
     if (model.type != 2 && model.type != 4) return;
     PlateModel bare = model;
     bare.metres_per_moment = 1.0;
     bare.origin = glm::dvec3(0.0);
     const Wrench w = wrench_of(bare, v);
-    if (std::abs(w.force.z) < least_N) return;
+    if (std::abs(w.force.z) < least_newton) return;
     levers[i].push_back(std::hypot(w.moment.x, w.moment.y) / std::abs(w.force.z));
   });
   if (!ok) return ok;
@@ -194,8 +194,9 @@ Result<ForcePlates> read_all(const Open& open,
   if (models.empty()) return plates;
   Result<C3dReader> first = open();
   if (!first) return first.error();
-  const double least_N = options.least_force_N;
-  if (Status ok = settle_moments(*std::move(first), axes, least_N, models, plates.notes);
+  const double least_newton = options.least_force_N;
+  if (Status ok =
+          settle_moments(*std::move(first), axes, least_newton, models, plates.notes);
       !ok) {
     return ok.error();
   }
@@ -203,7 +204,7 @@ Result<ForcePlates> read_all(const Open& open,
     plates.plates.push_back({model.type, model.corners_in_world, {}});
   }
   const Status ok = visit_samples(*reader, models, [&](std::size_t i, const Values& v) {
-    plates.plates[i].samples.push_back(sample_of(models[i], v, axes, least_N));
+    plates.plates[i].samples.push_back(sample_of(models[i], v, axes, least_newton));
   });
   if (!ok) return ok.error();
   for (std::size_t i = 0; i < models.size(); ++i) {
