@@ -136,9 +136,34 @@ Status tell_broken(const Trial& trial,
   return troubles.failures.back();
 }
 
-Error no_board(const CameraDetections& camera, const CalibrationTarget& target) {
+/// The tags that bodies in view wear.
+std::vector<TagFamilyUse> worn_tags(const recordings::Session& session) {
+  std::vector<TagFamilyUse> worn;
+  for (const TagOnSegment& tag : session.tags) {
+    worn.push_back({session.family_of(tag.id), {tag.id}});
+  }
+  return worn;
+}
+
+/// Before all frames are searched for what is not there: another board that was filmed.
+Status check_board(const recordings::Session& session,
+                   const std::vector<capture::CameraInput>& inputs,
+                   const std::optional<CalibrationTarget>& target) {
+  if (!target) return Done{};
+  const auto other = capture::glance_for_other_board(inputs, *target, worn_tags(session));
+  if (!other) return Done{};
+  return bad_input(inputs[other->input].path.string(),
+                   "no " + name_of(*target) + " is seen in " +
+                       std::to_string(other->frames) + " frames from all over it, but " +
+                       other->seen.what,
+                   other->seen.remedy);
+}
+
+Error no_board(const CameraDetections& camera,
+               const CalibrationTarget& target,
+               const std::vector<TagFamilyUse>& worn) {
   const std::string frames = std::to_string(camera.frames.size());
-  const auto seen = capture::look_for_boards(camera.source, target);
+  const auto seen = capture::look_for_boards(camera.source, target, worn);
   return bad_input(
       camera.source,
       "no " + name_of(target) + " is seen in its " + frames + " frames" +
@@ -149,7 +174,9 @@ Error no_board(const CameraDetections& camera, const CalibrationTarget& target) 
             "in session.toml: rows and columns count squares");
 }
 
-Status check_seen(const CameraDetections& camera, const Wanted& wanted) {
+Status check_seen(const CameraDetections& camera,
+                  const Wanted& wanted,
+                  const std::vector<TagFamilyUse>& worn) {
   const auto in_any = [&](const auto& shows) {
     return std::any_of(camera.frames.begin(), camera.frames.end(), shows);
   };
@@ -161,11 +188,14 @@ Status check_seen(const CameraDetections& camera, const Wanted& wanted) {
     });
   });
   if (sees_it) return Done{};
-  if (wanted.target) return no_board(camera, *wanted.target);
+  if (wanted.target) return no_board(camera, *wanted.target, worn);
   if (wanted.grid && sees_tags) {
     // Who holds the board wears tags. Other tags than the declared are told later.
     const auto seen = capture::look_for_boards(camera.source, AprilGrid{});
-    if (!seen || seen->what.find("APRILTAG_36h11") != std::string::npos) return Done{};
+    const auto says = [&](const char* word) {
+      return seen->what.find(word) != std::string::npos;
+    };
+    if (!seen || (says("APRILTAG_36h11") && !says("mirrored"))) return Done{};
     return bad_input(camera.source,
                      "no tag of the " + name_of(*wanted.grid) + " is seen in its " +
                          std::to_string(camera.frames.size()) + " frames, but " +
@@ -278,6 +308,9 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
     missing.push_back(std::move(input));
   }
   if (!missing.empty()) {
+    if (const Status ok = check_board(session, missing, wanted.target); !ok) {
+      return ok.error();
+    }
     capture::DetectVideosOptions detector;
     detector.find_tags = !wanted.families.empty();
     if (detector.find_tags) detector.tracker.detector.families = wanted.families;
@@ -306,7 +339,8 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
     camera.source = video.path.string();
     camera.offset = video.offset;
     if (trial.rate) camera.rate = *trial.rate;
-    if (const Status ok = check_seen(camera, wanted); !ok) return ok.error();
+    if (const Status ok = check_seen(camera, wanted, worn_tags(session)); !ok)
+      return ok.error();
     if (const Status ok = check_offset(session, video, camera.rate); !ok) {
       return ok.error();
     }

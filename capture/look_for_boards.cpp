@@ -3,6 +3,8 @@
 #include "capture/look_for_boards.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <set>
 #include <string_view>
 #include <utility>
@@ -15,36 +17,14 @@
 #include "capture/aruco_dictionary.h"
 #include "capture/board_search.h"
 #include "capture/detect_tags.h"
-#include "capture/frame_source.h"
+#include "capture/sample_frames.h"
 #include "core/assert.h"
 
 namespace marey::capture {
 namespace {
 
-constexpr int kFrames = 8;
 // Fewer markers than this in a picture may be noise that looks like one.
 constexpr std::size_t kLeastMarkers = 4;
-
-/// Frames from all over the recording.
-std::vector<cv::Mat> sample(const std::filesystem::path& path) {
-  std::vector<cv::Mat> frames;
-  auto source = open_frames(path);
-  if (!source) return frames;
-  const int step = std::max(1, (*source)->info().expected_frames.value_or(0) / kFrames);
-  while (frames.size() < static_cast<std::size_t>(kFrames)) {
-    const auto next = (*source)->next();
-    if (!next || !*next) break;
-    const GrayFrame& frame = **next;
-    if (frame.index % step != 0 || frame.damaged) continue;
-    frames.push_back(cv::Mat(frame.height_px,
-                             frame.width_px,
-                             CV_8UC1,
-                             const_cast<std::uint8_t*>(frame.pixels),
-                             static_cast<std::size_t>(frame.stride))
-                         .clone());
-  }
-  return frames;
-}
 
 /// A way to look at a picture of markers.
 struct Look {
@@ -61,17 +41,35 @@ cv::Mat looked_at(const cv::Mat& gray, const Look& look) {
   return picture;
 }
 
+/// Tags of the bodies in view, by OpenCV's name of their family.
+using WornIds = std::map<std::string, std::set<int>, std::less<>>;
+
+WornIds ids_of(std::span<const TagFamilyUse> worn) {
+  WornIds ids;
+  for (const TagFamilyUse& use : worn) {
+    constexpr std::string_view kTag = "tag";
+    if (!use.name.starts_with(kTag)) continue;
+    auto& of_family = ids["DICT_APRILTAG_" + use.name.substr(kTag.size())];
+    for (const TagId id : use.ids) of_family.insert(number(id));
+  }
+  return ids;
+}
+
 /// Ids of the markers in the frame that shows most of them; none when all show too few.
+/// `worn` are no board's.
 std::set<int> best_ids(const std::vector<cv::Mat>& frames,
                        std::string_view dictionary,
-                       const Look& look) {
+                       const Look& look,
+                       const WornIds& worn = {}) {
   std::set<int> best;
+  const auto on_body = worn.find(dictionary);
   const auto codes = aruco_dictionary(dictionary, 0);
   MAREY_ASSERT(codes);
   for (const cv::Mat& frame : frames) {
     std::set<int> ids;
     for (const ReadMarker& marker : read_markers(looked_at(frame, look), *codes)) {
-      ids.insert(marker.id);
+      const bool is_worn = on_body != worn.end() && on_body->second.contains(marker.id);
+      if (!is_worn) ids.insert(marker.id);
     }
     if (ids.size() > best.size()) best = std::move(ids);
   }
@@ -124,7 +122,11 @@ std::string smallest_with(std::string_view dictionary, const std::set<int>& ids)
 }
 
 /// Markers of any other dictionary: that of which one frame shows most.
-std::optional<SeenInstead> look_for_markers(const std::vector<cv::Mat>& frames) {
+std::optional<SeenInstead> look_for_markers(const std::vector<cv::Mat>& frames,
+                                            const WornIds& worn) {
+  // So many of one dictionary in a picture are no mistake, and no other's have to be
+  // counted.
+  constexpr std::size_t kPlenty = 12;
   std::set<int> best;
   std::string_view dictionary;
   Look best_look;
@@ -138,7 +140,8 @@ std::optional<SeenInstead> look_for_markers(const std::vector<cv::Mat>& frames) 
                                       "DICT_APRILTAG_25h9",
                                       "DICT_APRILTAG_16h5"}) {
     for (const bool inverted : {false, true}) {
-      std::set<int> ids = best_ids(frames, name, {inverted, false});
+      if (best.size() >= kPlenty) break;
+      std::set<int> ids = best_ids(frames, name, {inverted, false}, worn);
       if (ids.size() <= best.size()) continue;
       best = std::move(ids);
       dictionary = name;
@@ -157,6 +160,17 @@ std::optional<SeenInstead> look_for_markers(const std::vector<cv::Mat>& frames) 
   return SeenInstead{range_of(best) + " of " + name + " are", std::move(remedy)};
 }
 
+/// Pictures or a print that show tags from behind.
+std::optional<SeenInstead> look_for_mirrored_tags(const std::vector<cv::Mat>& frames) {
+  for (const std::string_view name : {"DICT_APRILTAG_36h11", "DICT_APRILTAG_25h9"}) {
+    const auto ids = best_ids(frames, name, {false, true});
+    if (ids.empty()) continue;
+    return SeenInstead{range_of(ids) + " of " + std::string(name) + " are, mirrored",
+                       "record without mirroring, and print the board as it is"};
+  }
+  return std::nullopt;
+}
+
 /// Kalibr's tags, with their frame of two cells, are no dictionary's.
 std::optional<SeenInstead> look_for_kalibr(const std::vector<cv::Mat>& frames) {
   auto detector = TagDetector::create({.families = {{"tag36h11b2", {}}}});
@@ -172,9 +186,11 @@ std::optional<SeenInstead> look_for_kalibr(const std::vector<cv::Mat>& frames) {
   return std::nullopt;
 }
 
-/// A chessboard of any size, in squares.
+/// A chessboard of any size, in squares: as two frames agree, or the first that shows
+/// one.
 std::optional<cv::Size> chess_squares(const std::vector<cv::Mat>& frames) {
   constexpr double kSide = 900.0;
+  std::vector<cv::Size> seen;
   for (const cv::Mat& frame : frames) {
     const double scale = std::min(1.0, kSide / std::max(frame.cols, frame.rows));
     cv::Mat small;
@@ -187,9 +203,17 @@ std::optional<cv::Size> chess_squares(const std::vector<cv::Mat>& frames) {
         corners,
         cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_LARGER | cv::CALIB_CB_EXHAUSTIVE,
         layout);
-    if (found) return cv::Size(layout.cols + 1, layout.rows + 1);
+    if (!found) continue;
+    const cv::Size squares(layout.cols + 1, layout.rows + 1);
+    // Part of a board passes for one, and which end of it is the left one is chance.
+    const cv::Size turned(squares.height, squares.width);
+    for (const cv::Size& earlier : seen) {
+      if (earlier == squares || earlier == turned) return earlier;
+    }
+    seen.push_back(squares);
   }
-  return std::nullopt;
+  if (seen.empty()) return std::nullopt;
+  return seen.front();
 }
 
 std::optional<SeenInstead> look_for_chessboard(const std::vector<cv::Mat>& frames) {
@@ -205,19 +229,32 @@ std::optional<SeenInstead> look_for_chessboard(const std::vector<cv::Mat>& frame
 
 }  // namespace
 
-std::optional<SeenInstead> look_for_boards(const std::filesystem::path& path,
-                                           const CalibrationTarget& target) {
+std::optional<SeenInstead> look_at_frames(const std::vector<cv::Mat>& frames,
+                                          const CalibrationTarget& target,
+                                          std::span<const TagFamilyUse> worn) {
   try {
-    const std::vector<cv::Mat> frames = sample(path);
     if (const auto* charuco = std::get_if<CharucoBoard>(&target)) {
       if (auto seen = look_for_own(frames, *charuco)) return seen;
     }
-    if (auto seen = look_for_markers(frames)) return seen;
+    if (auto seen = look_for_markers(frames, ids_of(worn))) return seen;
     if (auto seen = look_for_kalibr(frames)) return seen;
+    if (auto seen = look_for_mirrored_tags(frames)) return seen;
     return look_for_chessboard(frames);
   } catch (const cv::Exception&) {
     return std::nullopt;
   }
+}
+
+std::optional<SeenInstead> look_for_boards(const std::filesystem::path& path,
+                                           const CalibrationTarget& target,
+                                           std::span<const TagFamilyUse> worn) {
+  constexpr int kFrames = 8;
+  std::vector<cv::Mat> frames;
+  sample_frames(path, std::nullopt, kFrames, [&](const GrayFrame& frame) {
+    frames.push_back(matrix_of(frame).clone());
+    return true;
+  });
+  return look_at_frames(frames, target, worn);
 }
 
 }  // namespace marey::capture

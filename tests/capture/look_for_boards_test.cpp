@@ -109,6 +109,61 @@ TEST(LookForBoards, SeesNothingInAnEmptyPicture) {
   EXPECT_FALSE(look_for_boards(folder / "nothing", charuco()));
 }
 
+CameraInput input_of(const ScratchFolder& folder) {
+  CameraInput input;
+  input.path = folder.path() / "*.png";
+  return input;
+}
+
+TEST(GlanceForOtherBoard, TellsWhatIsThereInsteadOfTheTarget) {
+  const ScratchFolder first;
+  const ScratchFolder second;
+  ASSERT_TRUE(cv::imwrite((first / "0.png").string(),
+                          cv::Mat(480, 640, CV_8UC1, cv::Scalar(90))));
+  record(second, charuco());
+  CharucoBoard wanted = charuco();
+  wanted.dictionary = "DICT_4X4_50";
+  const std::array inputs{input_of(first), input_of(second)};
+  const auto other = glance_for_other_board(inputs, wanted);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->input, 1U);
+  EXPECT_EQ(other->frames, 3);
+  EXPECT_NE(other->seen.what.find("of DICT_5X5_50"), std::string::npos);
+}
+
+TEST(GlanceForOtherBoard, IsContentWithOneCameraThatSeesTheTarget) {
+  const ScratchFolder first;
+  const ScratchFolder second;
+  record(first, Chessboard{.rows = 6, .columns = 9, .square_size_m = 0.03});
+  record(second, charuco());
+  const std::array inputs{input_of(first), input_of(second)};
+  EXPECT_FALSE(glance_for_other_board(inputs, charuco()));
+}
+
+TEST(GlanceForOtherBoard, TakesWornTagsForNoBoard) {
+  const ScratchFolder folder;
+  CharucoBoard tags = charuco();
+  tags.dictionary = "DICT_APRILTAG_36h11";
+  record(folder, tags);
+  const std::array inputs{input_of(folder)};
+  const Chessboard wanted{.rows = 6, .columns = 9, .square_size_m = 0.03};
+  const auto shows_tags = [](const std::optional<OtherBoard>& other) {
+    return other && other->seen.what.find("APRILTAG_36h11") != std::string::npos;
+  };
+  EXPECT_TRUE(shows_tags(glance_for_other_board(inputs, wanted)));
+  TagFamilyUse worn;
+  for (int id = 0; id < tags.marker_count(); ++id) worn.ids.push_back(TagId{id});
+  // What is left of it are its squares.
+  EXPECT_FALSE(shows_tags(glance_for_other_board(inputs, wanted, std::array{worn})));
+}
+
+TEST(GlanceForOtherBoard, SaysNothingWhereNothingIsSeen) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(cv::imwrite((folder / "0.png").string(),
+                          cv::Mat(480, 640, CV_8UC1, cv::Scalar(90))));
+  EXPECT_FALSE(glance_for_other_board(std::array{input_of(folder)}, charuco()));
+}
+
 TEST(DetectVideos, FindsTheTargetsPointsInEveryFrame) {
   const ScratchFolder folder;
   record(folder, charuco());
