@@ -37,11 +37,13 @@ struct PlanReport {
 /// What plan.json holds (docs/formats.md).
 [[nodiscard]] nlohmann::ordered_json plan_figures(const PlanReport& report);
 
-/// The table of heights for a terminal, lines of at most 90 columns.
+/// The tables of heights and of the body's joints for a terminal, lines of at most 90
+/// columns.
 [[nodiscard]] std::string plan_table(const PlanReport& report);
 
-/// plan.html: the table, and for every height the floor from above, with the cameras,
-/// where tags are seen by two, and how well. One file, nothing fetched.
+/// plan.html: the body's joints and how well it is known where it stands; then the table
+/// of heights, and for every height the floor from above, with the cameras, where single
+/// tags are seen by two, and how well. One file, nothing fetched.
 [[nodiscard]] std::string plan_page(const PlanReport& report);
 
 }  // namespace marey::app

@@ -138,12 +138,18 @@ std::string body(const Camera& camera, double size_m, const Frame& frame) {
 
 std::string metres(const Frame& frame) {
   const glm::dvec2 end = frame.least + frame.extent;
+  // Counted whole: far from the origin, adding 1 to a double may change nothing.
+  const auto lines = [](double from, double to) {
+    return static_cast<int>(std::floor(to - std::ceil(from))) + 1;
+  };
   std::string out;
-  for (double x = std::ceil(frame.least.x); x <= end.x; x += 1.0) {
+  for (int i = 0; i < lines(frame.least.x, end.x); ++i) {
+    const double x = std::ceil(frame.least.x) + i;
     out += text_of("<line class=\"metre\" x1=\"%.3f\" x2=\"%.3f\" ", x, x) +
            text_of("y1=\"%.3f\" y2=\"%.3f\"/>", frame.least.y, end.y);
   }
-  for (double z = std::ceil(frame.least.y); z <= end.y; z += 1.0) {
+  for (int i = 0; i < lines(frame.least.y, end.y); ++i) {
+    const double z = std::ceil(frame.least.y) + i;
     out +=
         text_of("<line class=\"metre\" x1=\"%.3f\" x2=\"%.3f\" ", frame.least.x, end.x) +
         text_of("y1=\"%.3f\" y2=\"%.3f\"/>", z, z);

@@ -36,8 +36,8 @@ struct RigidTarget {
   std::vector<Piece> pieces;
   bool stays = false;  ///< It does not move, nor is its pose solved for.
   bool bends = false;  ///< Its warp is solved for.
-  /// How far the middle of a board rises out of its plane, along x, y and across [m]
-  /// (board_warp()).
+  /// How far a board rises out of its plane towards its edges along x and y, and its
+  /// corners across [m]; its middle stays (board_warp()).
   std::array<double, 3> warp_m{};
   /// The earlier target that is the same board: they bend alike.
   std::optional<std::size_t> same_board_as;

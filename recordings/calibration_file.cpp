@@ -166,9 +166,18 @@ RigidTransform read_pose(TomlReader& in) {
   RigidTransform camera_from_world;
   camera_from_world.rotation = read_rotation(in);
   camera_from_world.translation = {t[0], t[1], t[2]};
-  if (in.has("rotation_wxyz")) {
+  // marey's own files are in metres, but somebody may have changed them since.
+  constexpr double kFarthestOfOurs_m = 1000.0;
+  const bool is_ours = in.has("rotation_wxyz");
+  const double distance_m = glm::length(camera_from_world.translation);
+  if (is_ours) {
     camera_from_world.rotation = read_quaternion(in, camera_from_world.rotation);
-  } else if (glm::length(camera_from_world.translation) > kFarthest) {
+  }
+  if (is_ours && distance_m > kFarthestOfOurs_m) {
+    in.fail("translation",
+            "the camera stands more than a kilometre from the world's origin",
+            "correct it, or run marey calibrate again");
+  } else if (!is_ours && distance_m > kFarthest) {
     in.fail("translation",
             "the camera stands more than 100 m from the world's origin",
             "give places in metres: divide them by 1000 if they are millimetres");

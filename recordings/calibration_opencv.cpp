@@ -66,11 +66,12 @@ void read_size(TomlReader& in, Intrinsics& k) {
   constexpr Limits kSide{1, 1e5, "px"};
   if (in.has("image_size")) {
     const std::vector<double> size = in.numbers("image_size", 2);
+    if (!(size[0] >= 1 && size[0] <= 1e5 && size[1] >= 1 && size[1] <= 1e5)) {
+      in.fail("image_size", "\"image_size\" is no size of a picture", "correct it");
+      return;
+    }
     k.width_px = static_cast<int>(size[0]);
     k.height_px = static_cast<int>(size[1]);
-    if (in.ok() && !(size[0] >= 1 && size[0] <= 1e5 && size[1] >= 1 && size[1] <= 1e5)) {
-      in.fail("image_size", "\"image_size\" is no size of a picture", "correct it");
-    }
   } else if (in.has("image_Width") && in.has("image_Height")) {
     k.width_px = in.integer("image_Width", kSide);
     k.height_px = in.integer("image_Height", kSide);

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include <glm/common.hpp>
+
+#include "core/quantile.h"
 
 namespace marey::recordings {
 namespace {
@@ -38,13 +41,6 @@ constexpr double kClear = 2.0;
 constexpr double kBelow = 5.0;
 // Arms held out make bodies wider than high, by less than this.
 constexpr double kWidest = 1.6;
-
-/// Of a list that is not empty, which is sorted here.
-double quantile_of(std::vector<double>& values, double share) {
-  std::sort(values.begin(), values.end());
-  const double at = share * static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(std::lround(at))];
-}
 
 }  // namespace
 
@@ -176,11 +172,11 @@ std::optional<AxisFinder::Stance> AxisFinder::stance(FileAxis axis) const {
     extent.push_back(box.greatest[i] - box.least[i]);
   }
   Stance found;
-  found.extent = quantile_of(extent, 0.5);
+  found.extent = median(extent);
   if (!(found.extent > 0.0)) return std::nullopt;
-  const double spread = quantile_of(low, 0.9) - quantile_of(low, 0.1);
+  const double spread = quantile(low, 0.9) - quantile(low, 0.1);
   // Jumps and stairs lead above the floor; nothing is far below it.
-  const double lowest = quantile_of(low, 0.5);
+  const double lowest = median(low);
   found.floor =
       (lowest < 0.0 ? -kBelow * lowest : lowest) / found.extent + spread / found.extent;
   return found;
@@ -231,7 +227,7 @@ std::optional<std::string> AxisFinder::unit() const {
     extents.push_back(std::max({extent.x, extent.y, extent.z}));
   }
   // A hand spans 15 cm, bodies and what they play with a few metres.
-  const double extent = quantile_of(extents, 0.5);
+  const double extent = median(std::move(extents));
   if (extent >= 0.15 && extent < 15.0) return "m";
   if (extent >= 15.0 && extent < 200.0) return "cm";
   if (extent >= 200.0 && extent < 15000.0) return "mm";

@@ -24,18 +24,37 @@ constexpr Limits kFieldOfView{1.0, 170.0, "degrees"};
 constexpr Limits kTag{0.005, 1.0, "m"};
 constexpr Limits kStature{0.3, 10.0, "m"};
 constexpr Limits kStep{0.01, 10.0, "m"};
-constexpr double kMostPlaces = 40000.0;  // A second or so for every height.
+constexpr double kMostPlaces = 40000.0;  // Some seconds; plan.html is 35 MB then.
 
-glm::dvec3 read_place(TomlReader& in, std::string_view key) {
-  const std::vector<double> v = in.numbers(key, 3);
+/// `count` coordinates, none of them far from the world's origin.
+std::vector<double> read_near(TomlReader& in,
+                              std::string_view key,
+                              std::size_t count,
+                              const char* next) {
+  std::vector<double> v = in.numbers(key, count);
   constexpr double kFarthest_m = 1000.0;
   for (const double x : v) {
     if (std::abs(x) <= kFarthest_m) continue;
-    in.fail(key,
-            in_quotes(key) + " is more than a kilometre from the origin",
-            "give metres: [x, y, z], y being the height");
+    in.fail(key, in_quotes(key) + " is more than a kilometre from the origin", next);
   }
+  return v;
+}
+
+glm::dvec3 read_place(TomlReader& in, std::string_view key) {
+  const auto v = read_near(in, key, 3, "give metres: [x, y, z], y being the height");
   return {v[0], v[1], v[2]};
+}
+
+glm::dvec2 read_corner(TomlReader& in, std::string_view key) {
+  const auto v = read_near(in, key, 2, "give metres: [x, z] on the floor");
+  return {v[0], v[1]};
+}
+
+/// Places along one side of a volume, both ends counted where they fall on one, as
+/// calib::ErrorMapGrid counts them. In double: this is asked before it is known to be
+/// few.
+double places_along(double extent_m, double step_m) {
+  return std::floor(extent_m / step_m + 1e-9) + 1.0;
 }
 
 /// The lens, by its angle or by its focal length.
@@ -112,10 +131,8 @@ TagOnSegment read_tag(TomlReader& in, int id, const std::optional<double>& usual
 PlannedVolume read_volume(TomlReader in) {
   in.allow({"least_m", "greatest_m", "step_m"});
   PlannedVolume volume;
-  const std::vector<double> least = in.numbers("least_m", 2);
-  const std::vector<double> greatest = in.numbers("greatest_m", 2);
-  volume.least_m = {least[0], least[1]};
-  volume.greatest_m = {greatest[0], greatest[1]};
+  volume.least_m = read_corner(in, "least_m");
+  volume.greatest_m = read_corner(in, "greatest_m");
   if (in.has("step_m")) volume.step_m = in.number("step_m", kStep);
   if (!in.ok()) return volume;
   const glm::dvec2 extent = volume.greatest_m - volume.least_m;
@@ -123,7 +140,9 @@ PlannedVolume read_volume(TomlReader in) {
     in.fail("greatest_m",
             "\"greatest_m\" must be more than \"least_m\", along x and along z",
             "give two opposite corners of the floor as [x, z]");
-  } else if (extent.x / volume.step_m * (extent.y / volume.step_m) > kMostPlaces) {
+  } else if (places_along(extent.x, volume.step_m) *
+                 places_along(extent.y, volume.step_m) >
+             kMostPlaces) {
     in.fail(in.has("step_m") ? "step_m" : "greatest_m",
             "the volume has more than 40000 places",
             "make step_m larger");

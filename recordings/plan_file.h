@@ -41,7 +41,7 @@ struct CapturePlan {
 /// Errors (kBadInput), with the line: not TOML; a key unknown, missing, of the wrong type
 /// or out of range; a name twice; a camera that looks at itself or straight up or down;
 /// both field_of_view_deg and focal_px; a tag on no segment; a volume without extent, or
-/// of more than 40 000 places.
+/// of more than 40 000 places; a place or a corner beyond a kilometre from the origin.
 [[nodiscard]] Result<CapturePlan> parse_plan(std::string_view text,
                                              const std::string& file);
 

@@ -180,7 +180,7 @@ function checksSection(figures) {
   out.push(...clocksPart(figures));
   if (figures.warp_mm !== null) {
     const [x, y, twist] = figures.warp_mm;
-    out.push(el('p', {}, `The board is bent: its middle rises ${fixed(x, 2)} mm along x and ` +
+    out.push(el('p', {}, `The board is bent: its edges rise by ${fixed(x, 2)} mm along x and ` +
       `${fixed(y, 2)} mm along y, and it is twisted by ${fixed(twist, 2)} mm. This was ` +
       'taken into account.'));
   }

@@ -164,6 +164,18 @@ TEST(CalibrationFile, RefusesAMatrixThatIsNotThePose) {
   EXPECT_TRUE(mistake(text).starts_with("c.toml:13: \"world_from_camera\" is not the"));
 }
 
+TEST(CalibrationFile, RefusesCamerasThatStandNowhereNear) {
+  Calibration ours = two_cameras();
+  const auto moved_to = [&](double x_m) {
+    ours.cameras[0].camera_from_world.translation = {x_m, 0.0, 0.0};
+    return mistake(calibration_text(ours));
+  };
+  EXPECT_EQ(moved_to(900.0), "");
+  EXPECT_EQ(moved_to(1e17),
+            "c.toml:11: the camera stands more than a kilometre from the world's origin. "
+            "Next: correct it, or run marey calibrate again.");
+}
+
 TEST(CalibrationFile, NamesTheLineOfAMissingKey) {
   const std::string text =
       with(std::string(kPose2Sim), "rotation = [ 1.2, 0.9, -0.8]\n", "");

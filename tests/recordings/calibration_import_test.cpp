@@ -255,6 +255,12 @@ TEST_F(CalibrationImport, RefusesBrokenOpenCvFilesWithTheirLine) {
   EXPECT_EQ(mistake("a.yml", with(kPair, "image_width: 640\n", "")),
             "a.yml:2: the file does not say how large the pictures are. Next: add the "
             "keys image_width and image_height, in pixels.");
+  for (const char* size : {"[ 1e+30, 480 ]", "[ 640, 0 ]", "[ -1e+300, 480 ]"}) {
+    EXPECT_EQ(
+        mistake("a.yml",
+                with(kPair, "image_width: 640", std::string("image_size: ") + size)),
+        "a.yml:2: \"image_size\" is no size of a picture. Next: correct it.");
+  }
   EXPECT_EQ(mistake("a.yml", with(kPair, "5.6e+02", "five")),
             "a.yml:8: \"data\" must be an array of 9 numbers. Next: write it as "
             "docs/formats.md shows.");

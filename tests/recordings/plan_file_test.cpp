@@ -106,6 +106,35 @@ TEST(PlanFile, MaySayWhichTagsAreWorn) {
             std::string::npos);
 }
 
+TEST(PlanFile, BoundsTheVolumeBeforeAnybodyCountsIt) {
+  const auto refusal = [](const char* least, const char* greatest) {
+    return mistake_of(
+        with(with(plan_text(), "[-2.0, -1.5]", least), "[2.0, 1.5]", greatest));
+  };
+  const std::string far = "is more than a kilometre from the origin. Next: give metres: ";
+  EXPECT_EQ(refusal("[0.0, 0.0]", "[1e5, 0.001]"),
+            "plan.toml:7: \"greatest_m\" " + far + "[x, z] on the floor.");
+  EXPECT_EQ(refusal("[1e17, 0.0]", "[1.0000000000000002e17, 1.0]"),
+            "plan.toml:6: \"least_m\" " + far + "[x, z] on the floor.");
+  EXPECT_NE(refusal("[0.0, 0.0]", "[1e10, 1e-7]").find(far), std::string::npos);
+  // A strip of 4001 by 1 places is few, of 40001 many: its width holds one row.
+  const auto strip = [&](const char* step) {
+    return with(with(with(plan_text(), "[-2.0, -1.5]", "[0.0, 0.0]"),
+                     "[2.0, 1.5]",
+                     "[1000, 1e-3]"),
+                "step_m = 0.25",
+                step);
+  };
+  EXPECT_EQ(mistake_of(strip("step_m = 0.25")), "none");
+  EXPECT_NE(mistake_of(strip("step_m = 0.025")).find("more than 40000 places"),
+            std::string::npos);
+  // Both ends of a side are places: 200 by 200 steps are 201 by 201 places.
+  const std::string square =
+      with(with(plan_text(), "[-2.0, -1.5]", "[0.0, 0.0]"), "[2.0, 1.5]", "[50.0, 50.0]");
+  EXPECT_NE(mistake_of(square).find("more than 40000 places"), std::string::npos);
+  EXPECT_EQ(mistake_of(with(square, "[50.0, 50.0]", "[49.75, 49.75]")), "none");
+}
+
 TEST(PlanFile, NamesTheMistakeAndItsLine) {
   EXPECT_EQ(
       mistake_of(with(plan_text(), "looks_at_m", "look_at_m")),
