@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: frames that move with markers.
+
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/transform.h"
+
+namespace marey::reconstruct {
+
+/// b_from_a that brings `p_in_a` nearest to `p_in_b`: least squares of the distances with
+/// `weights` (Horn 1987, "Closed-form solution of absolute orientation using unit
+/// quaternions"). Of points on a line, one of the best turns about it. Preconditions: as
+/// many of each, at least one; the weights' sum above 0.
+[[nodiscard]] RigidTransform align(std::span<const glm::dvec3> p_in_a,
+                                   std::span<const glm::dvec3> p_in_b,
+                                   std::span<const double> weights);
+
+/// The mean shape of points that move together: `frames` holds shape after shape, each of
+/// weights.size() points. Its frame is the first one's world, near enough. Some rounds of
+/// align() and averaging. Precondition: whole shapes, at least one.
+[[nodiscard]] std::vector<glm::dvec3> mean_shape(std::span<const glm::dvec3> frames,
+                                                 std::span<const double> weights);
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,476 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/joint_between_clusters.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+#include <ceres/ceres.h>
+#include <ceres/rotation.h>
+#include <glm/geometric.hpp>
+
+#include "core/assert.h"
+#include "core/transform.h"
+#include "reconstruct/cluster_frame.h"
+#include "reconstruct/find_joint_centres.h"
+
+namespace marey::reconstruct {
+namespace {
+
+constexpr std::size_t kLeastFrames = 20;
+constexpr std::size_t kLeastMarkers = 3;
+constexpr double kCauchy = 3.0;  // [sigma]
+// Holds the shapes' frames, which the markers leave free; far looser than what they know.
+constexpr double kShapeSigma_m = 0.02;
+// Soft tissue is never known to be absent: this much per radian is always possible.
+constexpr double kLeastSoft_m = 0.0005;
+constexpr int kShapeRounds = 5;
+
+/// One frame's unknowns: place of the first segment, the turn that is added to what it
+/// was started with, and the joint's rotation, as a rotation vector from b to a.
+using FrameBlock = std::array<double, 9>;
+
+struct Instant {
+  std::size_t frame = 0;
+  glm::dquat world_from_a{1.0, 0.0, 0.0, 0.0};  ///< Started with.
+  FrameBlock unknown{};
+};
+
+using Shape = std::vector<std::array<double, 3>>;
+using Softness = std::vector<std::array<double, 9>>;  ///< [m/rad], row by row.
+
+template <class T>
+void carry(const T* shape, const T* soft, const T* turn, T* p) {
+  for (int i = 0; i < 3; ++i) {
+    p[i] = shape[i] + soft[3 * i] * turn[0] + soft[3 * i + 1] * turn[1] +
+           soft[3 * i + 2] * turn[2];
+  }
+}
+
+struct Seen {
+  glm::dvec3 p_in_world;
+  glm::dquat world_from_a;
+  double sigma_m;
+
+  template <class T>
+  void compare(const T* frame, const T* p_in_a, T* residual) const {
+    const T q[4] = {
+        T(world_from_a.w), T(world_from_a.x), T(world_from_a.y), T(world_from_a.z)};
+    T turned[3];
+    ceres::UnitQuaternionRotatePoint(q, p_in_a, turned);
+    T p[3];
+    ceres::AngleAxisRotatePoint(frame + 3, turned, p);
+    for (int i = 0; i < 3; ++i) {
+      residual[i] = (p[i] + frame[i] - p_in_world[i]) / sigma_m;
+    }
+  }
+};
+
+struct SeenOnA : Seen {
+  template <class T>
+  bool operator()(const T* frame, const T* shape, const T* soft, T* residual) const {
+    T p_in_a[3];
+    carry(shape, soft, frame + 6, p_in_a);
+    compare(frame, p_in_a, residual);
+    return true;
+  }
+};
+
+struct SeenOnB : Seen {
+  template <class T>
+  bool operator()(const T* frame,
+                  const T* shape,
+                  const T* soft,
+                  const T* joint_in_a,
+                  const T* joint_in_b,
+                  T* residual) const {
+    T p_in_b[3];
+    carry(shape, soft, frame + 6, p_in_b);
+    for (int i = 0; i < 3; ++i) p_in_b[i] -= joint_in_b[i];
+    T p_in_a[3];
+    ceres::AngleAxisRotatePoint(frame + 6, p_in_b, p_in_a);
+    for (int i = 0; i < 3; ++i) p_in_a[i] += joint_in_a[i];
+    compare(frame, p_in_a, residual);
+    return true;
+  }
+};
+
+template <int kSize>
+struct Near {
+  std::array<double, kSize> expected{};
+  double sigma = 1.0;
+
+  template <class T>
+  bool operator()(const T* value, T* residual) const {
+    for (int i = 0; i < kSize; ++i) {
+      residual[i] = (value[i] - expected[static_cast<std::size_t>(i)]) / sigma;
+    }
+    return true;
+  }
+};
+
+std::vector<std::size_t> seen_markers(const MarkerCluster& cluster, std::size_t frame) {
+  std::vector<std::size_t> seen;
+  for (std::size_t m = 0; m < cluster.markers; ++m) {
+    if (cluster.p_in_world[frame * cluster.markers + m]) seen.push_back(m);
+  }
+  return seen;
+}
+
+/// cluster_from_world of one frame by the markers that are there.
+RigidTransform locate(const MarkerCluster& cluster,
+                      const std::vector<glm::dvec3>& shape,
+                      std::size_t frame) {
+  std::vector<glm::dvec3> world;
+  std::vector<glm::dvec3> own;
+  for (const std::size_t m : seen_markers(cluster, frame)) {
+    world.push_back(*cluster.p_in_world[frame * cluster.markers + m]);
+    own.push_back(shape[m]);
+  }
+  return align(world, own, std::vector<double>(world.size(), 1.0));
+}
+
+/// The mean shape, about its middle; nullopt when the markers are on a line, or one is
+/// never seen.
+std::optional<std::vector<glm::dvec3>> find_shape(const MarkerCluster& cluster,
+                                                  std::span<const std::size_t> frames) {
+  // Begins with the frame that shows most; markers it lacks join as others show them.
+  std::size_t best = frames.front();
+  for (const std::size_t f : frames) {
+    if (seen_markers(cluster, f).size() > seen_markers(cluster, best).size()) best = f;
+  }
+  std::vector<glm::dvec3> shape(cluster.markers, glm::dvec3(0.0));
+  std::vector<bool> known(cluster.markers, false);
+  for (const std::size_t m : seen_markers(cluster, best)) {
+    shape[m] = *cluster.p_in_world[best * cluster.markers + m];
+    known[m] = true;
+  }
+  for (int round = 0; round < kShapeRounds; ++round) {
+    std::vector<glm::dvec3> sum(cluster.markers, glm::dvec3(0.0));
+    std::vector<int> count(cluster.markers, 0);
+    for (const std::size_t f : frames) {
+      std::vector<glm::dvec3> world;
+      std::vector<glm::dvec3> own;
+      for (const std::size_t m : seen_markers(cluster, f)) {
+        if (!known[m]) continue;
+        world.push_back(*cluster.p_in_world[f * cluster.markers + m]);
+        own.push_back(shape[m]);
+      }
+      if (world.size() < kLeastMarkers) continue;
+      const RigidTransform own_from_world =
+          align(world, own, std::vector<double>(world.size(), 1.0));
+      for (const std::size_t m : seen_markers(cluster, f)) {
+        sum[m] += own_from_world * *cluster.p_in_world[f * cluster.markers + m];
+        ++count[m];
+      }
+    }
+    for (std::size_t m = 0; m < cluster.markers; ++m) {
+      if (count[m] == 0) continue;
+      shape[m] = sum[m] / static_cast<double>(count[m]);
+      known[m] = true;
+    }
+  }
+  if (std::find(known.begin(), known.end(), false) != known.end()) return std::nullopt;
+  glm::dvec3 middle(0.0);
+  for (const glm::dvec3& p : shape) middle += p / static_cast<double>(shape.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (glm::dvec3& p : shape) {
+    p -= middle;
+    const Eigen::Vector3d v(p.x, p.y, p.z);
+    spread += v * v.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  if (axes.eigenvalues()[1] < 1e-3 * axes.eigenvalues()[2]) return std::nullopt;
+  return shape;
+}
+
+/// How far per radian markers are to be expected to slide, by what they are seen to do
+/// against each other: regression of what a rigid shape leaves on the joint's rotation.
+double expected_softness(const MarkerCluster& cluster,
+                         const std::vector<glm::dvec3>& shape,
+                         std::span<const Instant> instants,
+                         double noise_m) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Instant& i : instants)
+    mean += Eigen::Map<const Eigen::Vector3d>(&i.unknown[6]);
+  mean /= static_cast<double>(instants.size());
+  double seen_m2 = 0.0;
+  double turned_rad2 = 0.0;
+  double chance_m2 = 0.0;
+  for (std::size_t m = 0; m < cluster.markers; ++m) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Identity() * 1e-9;
+    Eigen::Matrix3d right = Eigen::Matrix3d::Zero();
+    for (const Instant& i : instants) {
+      const auto& p = cluster.p_in_world[i.frame * cluster.markers + m];
+      if (!p) continue;
+      const glm::dvec3 off = locate(cluster, shape, i.frame) * *p - shape[m];
+      const Eigen::Vector3d turn =
+          Eigen::Map<const Eigen::Vector3d>(&i.unknown[6]) - mean;
+      normal += turn * turn.transpose();
+      right += turn * Eigen::Vector3d(off.x, off.y, off.z).transpose();
+    }
+    const Eigen::Matrix3d soft = normal.ldlt().solve(right);
+    seen_m2 += (soft.transpose() * normal * soft).trace();
+    chance_m2 += 9.0 * noise_m * noise_m;
+    turned_rad2 += normal.trace();
+  }
+  // A rigid fit hides six of the shape's freedoms.
+  const auto freedoms = static_cast<double>(3 * cluster.markers);
+  const double hidden = freedoms / std::max(3.0, freedoms - 6.0);
+  const double variance =
+      hidden * std::max(0.0, seen_m2 - 1.5 * chance_m2) / (3.0 * turned_rad2);
+  return std::sqrt(variance + kLeastSoft_m * kLeastSoft_m);
+}
+
+class ClusterJointProblem {
+ public:
+  ClusterJointProblem(const MarkerCluster& a,
+                      const MarkerCluster& b,
+                      const ClusterJointOptions& options,
+                      std::vector<glm::dvec3> shape_a,
+                      std::vector<glm::dvec3> shape_b)
+      : a_(a),
+        b_(b),
+        noise_m_(options.noise_m),
+        start_a_(std::move(shape_a)),
+        start_b_(std::move(shape_b)) {}
+
+  bool start(std::span<const std::size_t> frames) {
+    std::vector<SegmentPair> pairs;
+    for (const std::size_t f : frames) {
+      pairs.push_back(
+          {inverse(locate(a_, start_a_, f)), inverse(locate(b_, start_b_, f))});
+    }
+    const auto centre = find_joint_centre(pairs, glm::dvec3(0.0), glm::dvec3(0.0));
+    if (!centre) return false;
+    joint_in_a_ = {centre->p_in_a.x, centre->p_in_a.y, centre->p_in_a.z};
+    joint_in_b_ = {centre->p_in_b.x, centre->p_in_b.y, centre->p_in_b.z};
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      Instant instant;
+      instant.frame = frames[i];
+      instant.world_from_a = pairs[i].world_from_a.rotation;
+      const glm::dvec3& t = pairs[i].world_from_a.translation;
+      const glm::dvec3 turn =
+          rotation_vector(glm::conjugate(pairs[i].world_from_a.rotation) *
+                          pairs[i].world_from_b.rotation);
+      instant.unknown = {t.x, t.y, t.z, 0.0, 0.0, 0.0, turn.x, turn.y, turn.z};
+      instants_.push_back(instant);
+    }
+    soft_sigma_a_ = expected_softness(a_, start_a_, instants_, noise_m_);
+    soft_sigma_b_ = expected_softness(b_, start_b_, instants_, noise_m_);
+    shape_a_ = blocks(start_a_);
+    shape_b_ = blocks(start_b_);
+    soft_a_.assign(shape_a_.size(), {});
+    soft_b_.assign(shape_b_.size(), {});
+    return true;
+  }
+
+  std::optional<ClusterJoint> solve() {
+    ceres::Problem problem;
+    add_sights(problem);
+    add_expectations(problem);
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_SCHUR;
+    options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    for (Instant& i : instants_) {
+      options.linear_solver_ordering->AddElementToGroup(i.unknown.data(), 0);
+    }
+    for (auto* shape : {&shape_a_, &shape_b_}) {
+      for (auto& p : *shape)
+        options.linear_solver_ordering->AddElementToGroup(p.data(), 1);
+    }
+    for (auto* soft : {&soft_a_, &soft_b_}) {
+      for (auto& s : *soft)
+        options.linear_solver_ordering->AddElementToGroup(s.data(), 1);
+    }
+    options.linear_solver_ordering->AddElementToGroup(joint_in_a_.data(), 1);
+    options.linear_solver_ordering->AddElementToGroup(joint_in_b_.data(), 1);
+    options.max_num_iterations = 50;
+    options.function_tolerance = 1e-9;
+    options.num_threads = 1;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    if (!summary.IsSolutionUsable()) return std::nullopt;
+    return describe(problem);
+  }
+
+ private:
+  static Shape blocks(const std::vector<glm::dvec3>& points) {
+    Shape shape;
+    for (const glm::dvec3& p : points) shape.push_back({p.x, p.y, p.z});
+    return shape;
+  }
+
+  void add_sights(ceres::Problem& problem) {
+    for (Instant& i : instants_) {
+      for (const std::size_t m : seen_markers(a_, i.frame)) {
+        auto* cost = new SeenOnA{
+            {*a_.p_in_world[i.frame * a_.markers + m], i.world_from_a, noise_m_}};
+        problem.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<SeenOnA, 3, 9, 3, 9>(cost),
+            new ceres::CauchyLoss(kCauchy),
+            i.unknown.data(),
+            shape_a_[m].data(),
+            soft_a_[m].data());
+      }
+      for (const std::size_t m : seen_markers(b_, i.frame)) {
+        auto* cost = new SeenOnB{
+            {*b_.p_in_world[i.frame * b_.markers + m], i.world_from_a, noise_m_}};
+        problem.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<SeenOnB, 3, 9, 3, 9, 3, 3>(cost),
+            new ceres::CauchyLoss(kCauchy),
+            i.unknown.data(),
+            shape_b_[m].data(),
+            soft_b_[m].data(),
+            joint_in_a_.data(),
+            joint_in_b_.data());
+      }
+    }
+  }
+
+  void add_expectations(ceres::Problem& problem) {
+    const auto expect = [&](Shape& shape, Softness& soft, double soft_sigma) {
+      for (std::size_t m = 0; m < shape.size(); ++m) {
+        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Near<3>, 3, 3>(
+                                     new Near<3>{shape[m], kShapeSigma_m}),
+                                 nullptr,
+                                 shape[m].data());
+        problem.AddResidualBlock(
+            new ceres::AutoDiffCostFunction<Near<9>, 9, 9>(new Near<9>{{}, soft_sigma}),
+            nullptr,
+            soft[m].data());
+      }
+    };
+    expect(shape_a_, soft_a_, soft_sigma_a_);
+    expect(shape_b_, soft_b_, soft_sigma_b_);
+  }
+
+  /// Root mean square, per marker, of how far soft tissue carried it about its mean.
+  double soft_tissue_m(const Softness& soft) const {
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const Instant& i : instants_) {
+      const Eigen::Map<const Eigen::Vector3d> turn(&i.unknown[6]);
+      second += turn * turn.transpose();
+      mean += turn;
+    }
+    const auto count = static_cast<double>(instants_.size());
+    second = second / count - mean / count * (mean / count).transpose();
+    double sum = 0.0;
+    for (const auto& block : soft) {
+      const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> s(
+          block.data());
+      sum += (s * second * s.transpose()).trace();
+    }
+    return std::sqrt(sum / static_cast<double>(soft.size()));
+  }
+
+  std::optional<ClusterJoint> describe(ceres::Problem& problem) {
+    ClusterJoint found;
+    // The shapes' frames moved a little with everything: told in those of the start.
+    const auto settle = [](const Shape& shape,
+                           const std::vector<glm::dvec3>& start,
+                           const std::array<double, 3>& joint,
+                           std::vector<glm::dvec3>& shape_out) {
+      for (const auto& p : shape) shape_out.emplace_back(p[0], p[1], p[2]);
+      const RigidTransform start_from_shape =
+          align(shape_out, start, std::vector<double>(start.size(), 1.0));
+      for (glm::dvec3& p : shape_out) p = start_from_shape * p;
+      return start_from_shape * glm::dvec3(joint[0], joint[1], joint[2]);
+    };
+    found.p_in_a = settle(shape_a_, start_a_, joint_in_a_, found.shape_a);
+    found.p_in_b = settle(shape_b_, start_b_, joint_in_b_, found.shape_b);
+    found.soft_tissue_a_m = soft_tissue_m(soft_a_);
+    found.soft_tissue_b_m = soft_tissue_m(soft_b_);
+    ceres::Problem::EvaluateOptions evaluate;
+    evaluate.apply_loss_function = false;
+    std::vector<double> residuals;
+    problem.Evaluate(evaluate, nullptr, &residuals, nullptr, nullptr);
+    const std::size_t priors = 12 * (shape_a_.size() + shape_b_.size());
+    double sum = 0.0;
+    for (std::size_t i = 0; i + priors < residuals.size(); ++i) {
+      sum += residuals[i] * residuals[i];
+    }
+    found.rms_m =
+        noise_m_ * std::sqrt(sum / static_cast<double>(residuals.size() - priors));
+    const auto covariance = joint_covariance(problem);
+    if (!covariance) return std::nullopt;
+    const double factor = std::max(1.0, found.rms_m / noise_m_);
+    found.sigma_a_m = factor * std::sqrt(covariance->block<3, 3>(0, 0).trace() / 3.0);
+    found.sigma_b_m = factor * std::sqrt(covariance->block<3, 3>(3, 3).trace() / 3.0);
+    return found;
+  }
+
+  /// Of the joint in a, then in b, everything else being free. [m^2]
+  std::optional<Eigen::Matrix<double, 6, 6>> joint_covariance(ceres::Problem& problem) {
+    ceres::Problem::EvaluateOptions evaluate;
+    for (Instant& i : instants_) evaluate.parameter_blocks.push_back(i.unknown.data());
+    for (auto* shape : {&shape_a_, &shape_b_}) {
+      for (auto& p : *shape) evaluate.parameter_blocks.push_back(p.data());
+    }
+    for (auto* soft : {&soft_a_, &soft_b_}) {
+      for (auto& s : *soft) evaluate.parameter_blocks.push_back(s.data());
+    }
+    evaluate.parameter_blocks.push_back(joint_in_a_.data());
+    evaluate.parameter_blocks.push_back(joint_in_b_.data());
+    ceres::CRSMatrix rows;
+    problem.Evaluate(evaluate, nullptr, nullptr, nullptr, &rows);
+    const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> jacobian(
+        rows.num_rows,
+        rows.num_cols,
+        static_cast<Eigen::Index>(rows.values.size()),
+        rows.rows.data(),
+        rows.cols.data(),
+        rows.values.data());
+    const Eigen::SparseMatrix<double> normal = jacobian.transpose() * jacobian;
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt(normal);
+    if (ldlt.info() != Eigen::Success) return std::nullopt;
+    Eigen::MatrixXd wanted = Eigen::MatrixXd::Zero(rows.num_cols, 6);
+    wanted.bottomRows<6>().setIdentity();
+    return Eigen::Matrix<double, 6, 6>(ldlt.solve(wanted).bottomRows<6>());
+  }
+
+  const MarkerCluster& a_;
+  const MarkerCluster& b_;
+  double noise_m_;
+  std::vector<glm::dvec3> start_a_;
+  std::vector<glm::dvec3> start_b_;
+  std::vector<Instant> instants_;
+  Shape shape_a_;
+  Shape shape_b_;
+  Softness soft_a_;
+  Softness soft_b_;
+  double soft_sigma_a_ = 0.0;
+  double soft_sigma_b_ = 0.0;
+  std::array<double, 3> joint_in_a_{};
+  std::array<double, 3> joint_in_b_{};
+};
+
+}  // namespace
+
+std::optional<ClusterJoint> joint_between_clusters(const MarkerCluster& a,
+                                                   const MarkerCluster& b,
+                                                   const ClusterJointOptions& options) {
+  if (a.markers < kLeastMarkers || b.markers < kLeastMarkers) return std::nullopt;
+  const std::size_t frames = a.p_in_world.size() / a.markers;
+  MAREY_ASSERT(frames * b.markers == b.p_in_world.size());
+  std::vector<std::size_t> usable;
+  for (std::size_t f = 0; f < frames; ++f) {
+    if (seen_markers(a, f).size() < kLeastMarkers) continue;
+    if (seen_markers(b, f).size() < kLeastMarkers) continue;
+    usable.push_back(f);
+  }
+  if (usable.size() < kLeastFrames) return std::nullopt;
+  auto shape_a = find_shape(a, usable);
+  auto shape_b = find_shape(b, usable);
+  if (!shape_a || !shape_b) return std::nullopt;
+  ClusterJointProblem problem(a, b, options, std::move(*shape_a), std::move(*shape_b));
+  if (!problem.start(usable)) return std::nullopt;
+  return problem.solve();
+}
+
+}  // namespace marey::reconstruct
