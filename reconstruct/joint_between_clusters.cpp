@@ -23,10 +23,8 @@ namespace {
 constexpr std::size_t kLeastFrames = 20;
 constexpr std::size_t kLeastMarkers = 3;
 constexpr double kCauchy = 3.0;  // [sigma]
-// Holds the shapes' frames, which the markers leave free; far looser than what they know.
-constexpr double kShapeSigma_m = 0.02;
 // Soft tissue is never known to be absent: this much per radian is always possible.
-constexpr double kLeastSoft_m = 0.0005;
+constexpr double kLeastSoft_m = 0.0001;
 constexpr int kShapeRounds = 5;
 
 /// One frame's unknowns: place of the first segment, the turn that is added to what it
@@ -42,18 +40,20 @@ struct Instant {
 using Shape = std::vector<std::array<double, 3>>;
 using Softness = std::vector<std::array<double, 9>>;  ///< [m/rad], row by row.
 
-template <class T>
-void carry(const T* shape, const T* soft, const T* turn, T* p) {
-  for (int i = 0; i < 3; ++i) {
-    p[i] = shape[i] + soft[3 * i] * turn[0] + soft[3 * i + 1] * turn[1] +
-           soft[3 * i + 2] * turn[2];
-  }
-}
-
 struct Seen {
   glm::dvec3 p_in_world;
   glm::dquat world_from_a;
+  Eigen::Vector3d mean_turn;
   double sigma_m;
+
+  /// Where the marker is on its segment, whose shape is that at the mean turn.
+  template <class T>
+  void carry(const T* shape, const T* soft, const T* turn, T* p) const {
+    for (int i = 0; i < 3; ++i) {
+      p[i] = shape[i];
+      for (int j = 0; j < 3; ++j) p[i] += soft[3 * i + j] * (turn[j] - mean_turn[j]);
+    }
+  }
 
   template <class T>
   void compare(const T* frame, const T* p_in_a, T* residual) const {
@@ -98,16 +98,12 @@ struct SeenOnB : Seen {
   }
 };
 
-template <int kSize>
-struct Near {
-  std::array<double, kSize> expected{};
-  double sigma = 1.0;
+struct FirmTissue {
+  double sigma_m_per_rad = 1.0;
 
   template <class T>
-  bool operator()(const T* value, T* residual) const {
-    for (int i = 0; i < kSize; ++i) {
-      residual[i] = (value[i] - expected[static_cast<std::size_t>(i)]) / sigma;
-    }
+  bool operator()(const T* soft, T* residual) const {
+    for (int i = 0; i < 9; ++i) residual[i] = soft[i] / sigma_m_per_rad;
     return true;
   }
 };
@@ -192,11 +188,8 @@ std::optional<std::vector<glm::dvec3>> find_shape(const MarkerCluster& cluster,
 double expected_softness(const MarkerCluster& cluster,
                          const std::vector<glm::dvec3>& shape,
                          std::span<const Instant> instants,
+                         const Eigen::Vector3d& mean,
                          double noise_m) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Instant& i : instants)
-    mean += Eigen::Map<const Eigen::Vector3d>(&i.unknown[6]);
-  mean /= static_cast<double>(instants.size());
   double seen_m2 = 0.0;
   double turned_rad2 = 0.0;
   double chance_m2 = 0.0;
@@ -259,8 +252,12 @@ class ClusterJointProblem {
       instant.unknown = {t.x, t.y, t.z, 0.0, 0.0, 0.0, turn.x, turn.y, turn.z};
       instants_.push_back(instant);
     }
-    soft_sigma_a_ = expected_softness(a_, start_a_, instants_, noise_m_);
-    soft_sigma_b_ = expected_softness(b_, start_b_, instants_, noise_m_);
+    for (const Instant& i : instants_) {
+      mean_turn_ += Eigen::Map<const Eigen::Vector3d>(&i.unknown[6]) /
+                    static_cast<double>(instants_.size());
+    }
+    soft_sigma_a_ = expected_softness(a_, start_a_, instants_, mean_turn_, noise_m_);
+    soft_sigma_b_ = expected_softness(b_, start_b_, instants_, mean_turn_, noise_m_);
     shape_a_ = blocks(start_a_);
     shape_b_ = blocks(start_b_);
     soft_a_.assign(shape_a_.size(), {});
@@ -272,6 +269,8 @@ class ClusterJointProblem {
     ceres::Problem problem;
     add_sights(problem);
     add_expectations(problem);
+    hold_frame(problem, start_a_, shape_a_);
+    hold_frame(problem, start_b_, shape_b_);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_SCHUR;
     options.linear_solver_ordering = std::make_shared<ceres::ParameterBlockOrdering>();
@@ -308,8 +307,10 @@ class ClusterJointProblem {
   void add_sights(ceres::Problem& problem) {
     for (Instant& i : instants_) {
       for (const std::size_t m : seen_markers(a_, i.frame)) {
-        auto* cost = new SeenOnA{
-            {*a_.p_in_world[i.frame * a_.markers + m], i.world_from_a, noise_m_}};
+        auto* cost = new SeenOnA{{*a_.p_in_world[i.frame * a_.markers + m],
+                                  i.world_from_a,
+                                  mean_turn_,
+                                  noise_m_}};
         problem.AddResidualBlock(
             new ceres::AutoDiffCostFunction<SeenOnA, 3, 9, 3, 9>(cost),
             new ceres::CauchyLoss(kCauchy),
@@ -318,8 +319,10 @@ class ClusterJointProblem {
             soft_a_[m].data());
       }
       for (const std::size_t m : seen_markers(b_, i.frame)) {
-        auto* cost = new SeenOnB{
-            {*b_.p_in_world[i.frame * b_.markers + m], i.world_from_a, noise_m_}};
+        auto* cost = new SeenOnB{{*b_.p_in_world[i.frame * b_.markers + m],
+                                  i.world_from_a,
+                                  mean_turn_,
+                                  noise_m_}};
         problem.AddResidualBlock(
             new ceres::AutoDiffCostFunction<SeenOnB, 3, 9, 3, 9, 3, 3>(cost),
             new ceres::CauchyLoss(kCauchy),
@@ -332,34 +335,60 @@ class ClusterJointProblem {
     }
   }
 
+  /// Takes the freedom that a shape's frame has from three of its markers: one stays, one
+  /// moves along one axis alone, one along two.
+  static void hold_frame(ceres::Problem& problem,
+                         const std::vector<glm::dvec3>& start,
+                         Shape& shape) {
+    const auto longest = [](const glm::dvec3& v) {
+      const glm::dvec3 size = glm::abs(v);
+      return size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
+    };
+    // The second is the one furthest from the first, the third furthest from their line.
+    std::size_t second = 1;
+    for (std::size_t m = 2; m < start.size(); ++m) {
+      if (glm::distance(start[m], start[0]) > glm::distance(start[second], start[0])) {
+        second = m;
+      }
+    }
+    const glm::dvec3 along = start[second] - start[0];
+    std::size_t third = 0;
+    glm::dvec3 across(0.0);
+    for (std::size_t m = 1; m < start.size(); ++m) {
+      const glm::dvec3 normal = glm::cross(along, start[m] - start[0]);
+      if (glm::length(normal) <= glm::length(across)) continue;
+      third = m;
+      across = normal;
+    }
+    problem.SetParameterBlockConstant(shape[0].data());
+    const int free = longest(along);
+    problem.SetManifold(shape[second].data(),
+                        new ceres::SubsetManifold(3, {(free + 1) % 3, (free + 2) % 3}));
+    problem.SetManifold(shape[third].data(),
+                        new ceres::SubsetManifold(3, {longest(across)}));
+  }
+
   void add_expectations(ceres::Problem& problem) {
-    const auto expect = [&](Shape& shape, Softness& soft, double soft_sigma) {
-      for (std::size_t m = 0; m < shape.size(); ++m) {
-        problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Near<3>, 3, 3>(
-                                     new Near<3>{shape[m], kShapeSigma_m}),
-                                 nullptr,
-                                 shape[m].data());
+    const auto expect = [&](Softness& soft, double soft_sigma) {
+      for (std::size_t m = 0; m < soft.size(); ++m) {
         problem.AddResidualBlock(
-            new ceres::AutoDiffCostFunction<Near<9>, 9, 9>(new Near<9>{{}, soft_sigma}),
+            new ceres::AutoDiffCostFunction<FirmTissue, 9, 9>(new FirmTissue{soft_sigma}),
             nullptr,
             soft[m].data());
       }
     };
-    expect(shape_a_, soft_a_, soft_sigma_a_);
-    expect(shape_b_, soft_b_, soft_sigma_b_);
+    expect(soft_a_, soft_sigma_a_);
+    expect(soft_b_, soft_sigma_b_);
   }
 
   /// Root mean square, per marker, of how far soft tissue carried it about its mean.
   double soft_tissue_m(const Softness& soft) const {
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const Instant& i : instants_) {
-      const Eigen::Map<const Eigen::Vector3d> turn(&i.unknown[6]);
-      second += turn * turn.transpose();
-      mean += turn;
+      const Eigen::Vector3d turn =
+          Eigen::Map<const Eigen::Vector3d>(&i.unknown[6]) - mean_turn_;
+      second += turn * turn.transpose() / static_cast<double>(instants_.size());
     }
-    const auto count = static_cast<double>(instants_.size());
-    second = second / count - mean / count * (mean / count).transpose();
     double sum = 0.0;
     for (const auto& block : soft) {
       const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> s(
@@ -390,7 +419,7 @@ class ClusterJointProblem {
     evaluate.apply_loss_function = false;
     std::vector<double> residuals;
     problem.Evaluate(evaluate, nullptr, &residuals, nullptr, nullptr);
-    const std::size_t priors = 12 * (shape_a_.size() + shape_b_.size());
+    const std::size_t priors = 9 * (shape_a_.size() + shape_b_.size());
     double sum = 0.0;
     for (std::size_t i = 0; i + priors < residuals.size(); ++i) {
       sum += residuals[i] * residuals[i];
@@ -410,7 +439,10 @@ class ClusterJointProblem {
     ceres::Problem::EvaluateOptions evaluate;
     for (Instant& i : instants_) evaluate.parameter_blocks.push_back(i.unknown.data());
     for (auto* shape : {&shape_a_, &shape_b_}) {
-      for (auto& p : *shape) evaluate.parameter_blocks.push_back(p.data());
+      // The first is held.
+      for (std::size_t m = 1; m < shape->size(); ++m) {
+        evaluate.parameter_blocks.push_back((*shape)[m].data());
+      }
     }
     for (auto* soft : {&soft_a_, &soft_b_}) {
       for (auto& s : *soft) evaluate.parameter_blocks.push_back(s.data());
@@ -440,6 +472,7 @@ class ClusterJointProblem {
   std::vector<glm::dvec3> start_a_;
   std::vector<glm::dvec3> start_b_;
   std::vector<Instant> instants_;
+  Eigen::Vector3d mean_turn_ = Eigen::Vector3d::Zero();
   Shape shape_a_;
   Shape shape_b_;
   Softness soft_a_;
