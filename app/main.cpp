@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/plan_commands.h"
 #include "app/print_commands.h"
+#include "app/repair_commands.h"
 #include "app/version.h"
 #include "recordings/atomic_file.h"
 
@@ -42,6 +43,7 @@ struct Arguments {
   recordings::MannequinStyle style;
   PrintArguments print;
   PlanArguments plan;
+  RepairArguments repair;
 
   [[nodiscard]] ProgressStyle style_of_progress() const {
     if (progress == "json") return ProgressStyle::kJson;
@@ -231,6 +233,7 @@ int run(int argc, char** argv) {
   add_mannequin(app, args, chosen);
   add_print_commands(app, args.print, chosen);
   add_plan_command(app, args.plan, chosen);
+  add_repair_command(app, args.repair, chosen);
   add_small_commands(app, args, chosen);
   try {
     app.parse(argc, argv);
