@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to reconstruct: frames that move with markers.
-
 #include <span>
 #include <vector>
 

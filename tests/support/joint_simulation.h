@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "reconstruct/joint_between_clusters.h"
+
+namespace marey::testing {
+
+struct JointSimulationOptions {
+  double cone_rad = 0.35;  ///< Furthest that the joint is turned.
+  int frames = 300;
+  double noise_m = 0.001;      ///< Standard deviation of a marker's coordinate.
+  double soft_tissue_m = 0.0;  ///< Root mean square, on the second cluster's markers.
+  double dropouts = 0.0;       ///< Share of samples that are not there.
+  std::uint64_t seed = 1;
+};
+
+/// Two clusters of four markers, the corners of a tetrahedron of +-50 mm, each 150 mm
+/// from the ball joint between them. The joint turns about axes across the clusters,
+/// evenly over the cone; the first segment moves about freely. Soft tissue carries each
+/// marker of the second cluster in proportion to the joint's rotation vector, by a random
+/// matrix of its own.
+struct JointSimulation {
+  reconstruct::MarkerCluster a;
+  reconstruct::MarkerCluster b;
+  std::vector<glm::dvec3> shape_in_a;  ///< True, and so for b. [m]
+  std::vector<glm::dvec3> shape_in_b;
+  glm::dvec3 joint_in_a{0.0};
+  glm::dvec3 joint_in_b{0.0};
+};
+
+[[nodiscard]] JointSimulation simulate_joint(const JointSimulationOptions& options);
+
+/// The found centre in the frame of the true shape of the first cluster.
+[[nodiscard]] glm::dvec3 found_in_a(const JointSimulation& truth,
+                                    const reconstruct::ClusterJoint& found);
+
+}  // namespace marey::testing
