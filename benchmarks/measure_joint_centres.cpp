@@ -68,7 +68,7 @@ glm::dvec3 score(const testing::JointSimulation& s) {
   return {found[0], found[1], found[2]};
 }
 
-void measure(bool hard, double cone_deg, int runs) {
+void measure(bool hard, bool around_rim, double cone_deg, int runs) {
   double score_m2 = 0.0;
   double ours_m2 = 0.0;
   double in_sigmas2 = 0.0;
@@ -76,6 +76,7 @@ void measure(bool hard, double cone_deg, int runs) {
   for (int run = 0; run < runs; ++run) {
     testing::JointSimulationOptions options;
     options.cone_rad = cone_deg * std::numbers::pi / 180.0;
+    options.around_rim = around_rim;
     options.soft_tissue_m = hard ? 0.010 : 0.0;
     options.dropouts = hard ? 0.2 : 0.0;
     options.seed = static_cast<std::uint64_t>(run) + 1;
@@ -93,9 +94,10 @@ void measure(bool hard, double cone_deg, int runs) {
   }
   const double counted = runs - declined;
   std::printf(
-      "%-6s cone %2.0f: SCoRE %6.2f mm, marey %5.2f mm RMS (in its own sigmas "
+      "%-6s %-8s cone %2.0f: SCoRE %6.2f mm, marey %5.2f mm RMS (in its own sigmas "
       "%.2f), %d of %d declined\n",
       hard ? "hard" : "clean",
+      around_rim ? "its rim" : "all over",
       cone_deg,
       1e3 * std::sqrt(score_m2 / runs),
       1e3 * std::sqrt(ours_m2 / counted),
@@ -114,7 +116,11 @@ int main(int argc, char** argv) {
     return 2;
   }
   for (const bool hard : {false, true}) {
-    for (const double cone_deg : {20.0, 45.0, 90.0}) marey::measure(hard, cone_deg, runs);
+    for (const bool around_rim : {true, false}) {
+      for (const double cone_deg : {20.0, 45.0, 90.0}) {
+        marey::measure(hard, around_rim, cone_deg, runs);
+      }
+    }
   }
   return 0;
 }

@@ -18,7 +18,7 @@ using testing::simulate_joint;
 
 TEST(JointBetweenClusters, IsExactWithoutNoise) {
   const JointSimulation s =
-      simulate_joint({.cone_rad = 0.8, .frames = 100, .noise_m = 0.0});
+      simulate_joint({.cone_rad = 1.6, .frames = 100, .noise_m = 0.0});
   const auto found = joint_between_clusters(s.a, s.b);
   ASSERT_TRUE(found);
   EXPECT_LT(glm::distance(found_in_a(s, *found), s.joint_in_a), 1e-6);
@@ -31,7 +31,7 @@ TEST(JointBetweenClusters, ErrorsAreAsLargeAsTheirSigmas) {
   for (int run = 0; run < kRuns; ++run) {
     const auto seed = static_cast<std::uint64_t>(100 + run);
     const JointSimulation s =
-        simulate_joint({.cone_rad = 0.5, .frames = 120, .seed = seed});
+        simulate_joint({.cone_rad = 1.0, .frames = 120, .seed = seed});
     const auto found = joint_between_clusters(s.a, s.b);
     ASSERT_TRUE(found);
     const double off_m = glm::distance(found_in_a(s, *found), s.joint_in_a);
@@ -43,7 +43,7 @@ TEST(JointBetweenClusters, ErrorsAreAsLargeAsTheirSigmas) {
 }
 
 TEST(JointBetweenClusters, SoftTissueAndDropoutsAreSeenThrough) {
-  const JointSimulation s = simulate_joint({.cone_rad = 0.8,
+  const JointSimulation s = simulate_joint({.cone_rad = 1.6,
                                             .frames = 200,
                                             .soft_tissue_m = 0.010,
                                             .dropouts = 0.2,
@@ -57,7 +57,7 @@ TEST(JointBetweenClusters, SoftTissueAndDropoutsAreSeenThrough) {
 }
 
 TEST(JointBetweenClusters, WhatDoesNotTurnIsKnownBadly) {
-  const JointSimulation s = simulate_joint({.cone_rad = 0.01, .frames = 60, .seed = 3});
+  const JointSimulation s = simulate_joint({.cone_rad = 0.02, .frames = 60, .seed = 3});
   const auto found = joint_between_clusters(s.a, s.b);
   if (found) EXPECT_GT(found->sigma_a_m, 0.005);
 }

@@ -39,7 +39,8 @@ class Dice {
 std::vector<glm::dvec3> random_turns(const JointSimulationOptions& options, Dice& dice) {
   std::vector<glm::dvec3> turns;
   for (int f = 0; f < options.frames; ++f) {
-    const double angle = options.cone_rad * std::sqrt(dice.even());
+    const double angle =
+        0.5 * options.cone_rad * (options.around_rim ? 1.0 : std::sqrt(dice.even()));
     const double way = 2.0 * std::numbers::pi * dice.even();
     turns.push_back(angle * glm::dvec3(std::cos(way), 0.0, std::sin(way)));
   }

@@ -12,7 +12,8 @@
 namespace marey::testing {
 
 struct JointSimulationOptions {
-  double cone_rad = 0.35;  ///< Furthest that the joint is turned.
+  double cone_rad = 0.7;    ///< From side to side: the joint is turned by up to half.
+  bool around_rim = false;  ///< Round the cone's rim; else evenly all over the cone.
   int frames = 300;
   double noise_m = 0.001;      ///< Standard deviation of a marker's coordinate.
   double soft_tissue_m = 0.0;  ///< Root mean square, on the second cluster's markers.
@@ -22,7 +23,7 @@ struct JointSimulationOptions {
 
 /// Two clusters of four markers, the corners of a tetrahedron of +-50 mm, each 150 mm
 /// from the ball joint between them. The joint turns about axes across the clusters,
-/// evenly over the cone; the first segment moves about freely. Soft tissue carries each
+/// within the cone; the first segment moves about freely. Soft tissue carries each
 /// marker of the second cluster in proportion to the joint's rotation vector, by a random
 /// matrix of its own.
 struct JointSimulation {
