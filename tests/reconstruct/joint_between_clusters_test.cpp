@@ -59,7 +59,9 @@ TEST(JointBetweenClusters, SoftTissueAndDropoutsAreSeenThrough) {
 TEST(JointBetweenClusters, WhatDoesNotTurnIsKnownBadly) {
   const JointSimulation s = simulate_joint({.cone_rad = 0.02, .frames = 60, .seed = 3});
   const auto found = joint_between_clusters(s.a, s.b);
-  if (found) EXPECT_GT(found->sigma_a_m, 0.005);
+  if (found) {
+    EXPECT_GT(found->sigma_a_m, 0.005);
+  }
 }
 
 TEST(JointBetweenClusters, DeclinesTooLittle) {

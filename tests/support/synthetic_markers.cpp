@@ -41,7 +41,7 @@ MarkerTracks synthetic_markers(std::size_t frames, double noise_m) {
   MarkerTracks tracks;
   tracks.rate.hz = 100.0;
   for (std::size_t m = 0; m < kSyntheticParts * kMarkersOfPart; ++m) {
-    tracks.labels.push_back("M" + std::to_string(m));
+    tracks.labels.push_back(std::string("M").append(std::to_string(m)));
   }
   std::mt19937_64 generator(7);
   std::normal_distribution<double> noise(0.0, 1.0);
