@@ -126,10 +126,7 @@ void tell_findings(const recordings::Session& session,
              : ""));
   }
   if (!delays.empty()) notes.push_back("from one row to the next: " + delays);
-  if (!session.calibration.lens && std::holds_alternative<Wand>(session.target)) {
-    notes.push_back(
-        "a wand does not tell which lens serves best: brown-conrady is taken");
-  } else if (!session.calibration.lens) {
+  if (!session.calibration.lens) {
     notes.push_back("the lens that predicts best: " +
                     name_of(rig.cameras.front().intrinsics.lens));
   }
@@ -161,7 +158,14 @@ Result<calib::CalibratedRig> solve(const recordings::Session& session,
   }
   calib::WandOptions wand_options;
   wand_options.lens = options.lens;
+  wand_options.choose_lens = options.choose_lens;
   wand_options.lenses = options.lenses;
+  wand_options.choose_clocks = options.choose_clocks;
+  wand_options.solve_offsets = options.solve_offsets;
+  wand_options.solve_drifts = options.solve_drifts;
+  wand_options.solve_line_delays = options.solve_line_delays;
+  wand_options.most_offset_s = options.most_offset_s;
+  wand_options.cross_validate = options.cross_validate;
   auto calibrated =
       calib::calibrate_wand(session.cameras, sights.waved, *wand, wand_options);
   if (!calibrated) return calibrated.error();
@@ -185,6 +189,7 @@ Result<SessionRig> calibrate_session(const recordings::Session& session,
     if (!note) return note.error();
     out.notes.push_back(*note);
   }
+  out.has_floor = !sights.floor.empty() || !sights.standing.empty();
   return out;
 }
 

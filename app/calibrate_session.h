@@ -22,6 +22,7 @@ struct CalibrationSights {
 
 struct SessionRig {
   calib::CalibratedRig rig;
+  bool has_floor = false;  ///< The world's ground is the floor, by whatever told it.
   /// What was found out or decided, a sentence each.
   std::vector<std::string> notes;
 };

@@ -106,6 +106,8 @@ struct CalibrationSource {
   const CalibrationTarget* target = nullptr;
   double stature_m = 0.0;  ///< 0: of nobody in particular.
   double rate_hz = 0.0;    ///< Of the first camera's frames.
+  /// The world's ground is the floor. A board that lay on it says so by itself.
+  bool has_floor = false;
 };
 
 /// Everything about a rig that its page shows, findings too. Some 0.1 s for four cameras.

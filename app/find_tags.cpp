@@ -249,8 +249,7 @@ Status check_rates(const recordings::Session& session,
     }
     if (std::abs(camera.rate.hz / first.rate.hz - 1.0) < 1e-3) continue;
     if (trial.kind == recordings::TrialKind::kCalibration &&
-        session.calibration.clocks != recordings::ClockChoice::kShared &&
-        !std::holds_alternative<Wand>(session.target)) {
+        session.calibration.clocks != recordings::ClockChoice::kShared) {
       continue;
     }
     std::array<char, 120> text{};

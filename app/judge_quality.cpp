@@ -65,11 +65,11 @@ std::vector<Error> judge_quality(const Report& report) {
   std::vector<Error> found;
   if (!report.cameras_are_judged && report.calibration_rms_px > kPoorCalibrationPx) {
     found.push_back(poor("calibration.toml",
-                         text("the cameras are %.1f px away from what they saw of the "
-                              "board (good: under 0.5)",
+                         text("the cameras are %.1f px away from what they saw when they "
+                              "were calibrated (good: under 0.5)",
                               report.calibration_rms_px),
-                         "record the calibration again, with a flat board and short "
-                         "exposure"));
+                         "record the calibration again, with a flat board or a stiff "
+                         "wand, and short exposure"));
   }
   if (report.subject_rms_px > kPoorSubjectPx) {
     found.push_back(poor("subject.toml",

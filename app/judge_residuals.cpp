@@ -82,10 +82,12 @@ void judge_outliers(FindingList& list, std::size_t c) {
              "moved",
              list.camera(c),
              camera.astray_from
-                 ? worded("from frame %d on it does not see the board where it should",
-                          *camera.astray_from)
-                 : worded("up to frame %d it does not see the board where it should",
-                          *camera.astray_until),
+                 ? worded("from frame %d on it does not see the %s where it should",
+                          *camera.astray_from,
+                          list.target())
+                 : worded("up to frame %d it does not see the %s where it should",
+                          *camera.astray_until,
+                          list.target()),
              "fix it firmly: it was touched or refocused, or its video skips frames; "
              "then record the calibration again");
     return;
@@ -123,11 +125,14 @@ void judge_frames(FindingList& list) {
   constexpr int kWorthSaying = 10;
   for (const auto& [frame, count] : left_out) {
     if (count < kWorthSaying || 2 * count < all || cameras.at(frame).size() < 2) continue;
-    list.add(Severity::kNote,
-             "outlier-frame",
-             frame == calib::kFloorInstant ? "floor" : worded("frame %d", frame),
-             worded("%d of all %d sightings that were left out are in it", count, all),
-             "they do no harm; if it recurs, turn the board more slowly");
+    list.add(
+        Severity::kNote,
+        "outlier-frame",
+        frame != calib::kFloorInstant ? worded("frame %d", frame)
+        : list.report.extent          ? "floor"
+                                      : "scenery",
+        worded("%d of all %d sightings that were left out are in it", count, all),
+        worded("they do no harm; if it recurs, turn the %s more slowly", list.target()));
   }
 }
 
@@ -166,9 +171,10 @@ void judge_pattern(FindingList& list, std::size_t c) {
   list.add(Severity::kFair,
            "lens",
            list.camera(c),
-           worded("%.2f px of its errors point the same way wherever the board was: the "
+           worded("%.2f px of its errors point the same way wherever the %s was: the "
                   "lens bends the picture in a way that its model does not have",
-                  camera.pattern_px),
+                  camera.pattern_px,
+                  list.target()),
            "choose another lens model in session.toml, and switch off the camera's own "
            "correction or stabilisation");
 }
@@ -178,6 +184,18 @@ void judge_floor(FindingList& list, std::size_t c) {
   const double scale = pixel_scale(list.report.rig.cameras[c]);
   if (!camera.floor_median_px || *camera.floor_median_px < 1.5 * scale ||
       *camera.floor_median_px < 3.0 * camera.inlier_rms_px) {
+    return;
+  }
+  if (!list.report.extent) {
+    list.add(graver(*camera.floor_median_px, 5.0 * scale),
+             "scenery",
+             list.camera(c),
+             worded("tags that stay are %.1f px from where they should be, the wand's "
+                    "%.2f px",
+                    *camera.floor_median_px,
+                    camera.inlier_rms_px),
+             "the camera or those tags were touched while the wand was carried about: "
+             "record the calibration again without touching anything");
     return;
   }
   list.add(graver(*camera.floor_median_px, 5.0 * scale),

@@ -157,12 +157,14 @@ void judge_held_out(FindingList& list) {
       list.add(graver(*px, 6.0 * scale),
                "held-out",
                list.camera(c),
-               worded("%.1f px off when the other cameras say where the board was, "
+               worded("%.1f px off when the other cameras say where the %s was, "
                       "against %.2f px with its own word",
                       *px,
+                      list.target(),
                       list.report.cameras[c].median_px),
-               "check its video's start, and that it was not moved; hold the board where "
-               "it and two others see it");
+               worded("check its video's start, and that it was not moved; hold the %s "
+                      "where it and two others see it",
+                      list.target()));
     }
     judge_halves(list, c, check->centre_apart_m[c]);
   }

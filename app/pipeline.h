@@ -90,7 +90,7 @@ class Pipeline {
       const recordings::Trial& trial);
   [[nodiscard]] Result<std::vector<CameraDetections>> unshrunk_detections_of(
       const recordings::Trial& trial);
-  [[nodiscard]] Status show_cameras(calib::CalibratedRig rig, double rate_hz);
+  [[nodiscard]] Status show_cameras(SessionRig found, double rate_hz);
   [[nodiscard]] Status need_cameras();
   [[nodiscard]] Status need_body();
   [[nodiscard]] Status check_trials();

@@ -81,14 +81,18 @@ Status Pipeline::calibrate() {
   const Status written =
       recordings::write_calibration(options_.out / "calibration.toml", calibration);
   if (!written) return written;
-  const Status shown = show_cameras(std::move(found->rig), sights->waved.front().rate.hz);
+  const Status shown = show_cameras(std::move(*found), sights->waved.front().rate.hz);
   return shown ? need_cameras() : shown;
 }
 
-Status Pipeline::show_cameras(calib::CalibratedRig rig, double rate_hz) {
-  const CalibrationReport report = report_calibration(
-      {session_.name, kVersion, &session_.target, session_.subject.stature_m, rate_hz},
-      std::move(rig));
+Status Pipeline::show_cameras(SessionRig found, double rate_hz) {
+  const CalibrationReport report = report_calibration({session_.name,
+                                                       kVersion,
+                                                       &session_.target,
+                                                       session_.subject.stature_m,
+                                                       rate_hz,
+                                                       found.has_floor},
+                                                      std::move(found.rig));
   for (Error& poor : poor_of(report)) {
     report_.warnings.push_back(poor.message());
     failures_.push_back(std::move(poor));

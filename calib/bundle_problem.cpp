@@ -99,11 +99,9 @@ void BundleProblem::add_sighting(const RigModel& model,
   }
   if (parts.spline) parameters.push_back(camera.clock.data());
   if (parts.shrinks) parameters.push_back(camera.shrinkage.data());
-  if (parts.piece) parameters.push_back(blocks.pieces[sighting.piece].data());
-  if (parts.warp) {
-    const std::size_t board = target.same_board_as.value_or(sighting.target);
-    parameters.push_back(targets_[board].warp.data());
-  }
+  const std::size_t same = target.same_board_as.value_or(sighting.target);
+  if (parts.piece) parameters.push_back(targets_[same].pieces[sighting.piece].data());
+  if (parts.warp) parameters.push_back(targets_[same].warp.data());
   // The norm of a tag's eight residuals is near 2.8 when all is well, of a point's 1.4.
   // A tag's corners err together (a shadow, a fold of the paper): a loss that trusts no
   // tag too much stays on.
@@ -272,12 +270,13 @@ void BundleProblem::write_back(RigModel& model) const {
     for (const auto& [instant, pose] : targets_[t].poses) {
       target.world_from_target[instant] = to_transform(pose);
     }
+    const TargetBlock& same = targets_[target.same_board_as.value_or(t)];
     for (std::size_t i = 0; i < target.pieces.size(); ++i) {
-      const PieceBlock& block = targets_[t].pieces[i];
+      const PieceBlock& block = same.pieces[i];
       target.pieces[i].target_from_piece = to_transform(block);
       if (!target.pieces[i].is_size_known) target.pieces[i].size_m = std::exp(block[7]);
     }
-    target.warp_m = targets_[target.same_board_as.value_or(t)].warp;
+    target.warp_m = same.warp;
   }
 }
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "calib/apparent_clocks.h"
 #include "calib/board_model.h"
 #include "calib/board_views.h"
 #include "calib/check_rig.h"
+#include "calib/choose_model.h"
 #include "calib/coarse_clocks.h"
 #include "calib/cross_validate.h"
 #include "calib/estimate_intrinsics.h"
@@ -113,88 +113,31 @@ Result<RigModel> first_model(Work& work, LensModel lens) {
       work.views, *intrinsics, *guess, *work.board, work.waved, work.offsets_s);
 }
 
-/// Of all lenses, the one that does best on frames it did not see; the simpler one unless
-/// it is beaten by two percent: five terms before four of another kind, before eight.
-LensModel choose_lens(Work& work) {
-  LensModel best = LensModel::kBrownConrady;
-  double least = 0.0;
-  for (const LensModel lens :
-       {LensModel::kBrownConrady, LensModel::kFisheye, LensModel::kRational}) {
-    auto model = first_model(work, lens);
-    if (!model) continue;
-    RefineOptions refine = refine_options(work, *model);
-    refine.covariance = false;
-    RigModel even = half_of(*model, 0);
-    if (!refine_rig(even, refine)) continue;
-    const auto rms_px = held_out_rms_px(even, half_of(*model, 1));
-    if (rms_px && (least == 0.0 || *rms_px < 0.98 * least)) {
-      least = *rms_px;
-      best = lens;
-    }
-  }
-  return best;
-}
-
-/// Cameras as the bundle leaves them, not judged yet.
-struct Solved {
-  RigModel model;
-  RefineOptions refine;
-  /// nullopt: there is no minimum.
-  std::optional<RigDoubt> doubt;
-};
-
-Result<Solved> solve(Work& work) {
-  const LensModel lens = work.options.choose_lens ? choose_lens(work) : work.options.lens;
+Result<SolvedRig> first_rig(Work& work, LensModel lens) {
   auto model = first_model(work, lens);
   if (!model) return model.error();
-  Solved solved{std::move(*model), {}, {}};
-  solved.refine = refine_options(work, solved.model);
-  solved.doubt = refine_rig(solved.model, solved.refine);
-  if (solved.doubt && work.options.find_warp && find_warp(solved.model, solved.refine)) {
-    solved.doubt = refine_rig(solved.model, solved.refine);
+  SolvedRig first{std::move(*model), {}, {}};
+  first.refine = refine_options(work, first.model);
+  return first;
+}
+
+Result<SolvedRig> solve(Work& work) {
+  const auto of_lens = [&](LensModel lens) { return first_rig(work, lens); };
+  auto solved =
+      of_lens(work.options.choose_lens ? choose_lens(of_lens) : work.options.lens);
+  if (!solved) return solved;
+  solved->doubt = refine_rig(solved->model, solved->refine);
+  if (solved->doubt && work.options.find_warp &&
+      find_warp(solved->model, solved->refine)) {
+    solved->doubt = refine_rig(solved->model, solved->refine);
   }
   return solved;
 }
 
-bool of_one_rate(std::span<const CameraDetections> waved) {
-  return std::all_of(waved.begin(), waved.end(), [&](const CameraDetections& camera) {
-    return std::abs(camera.rate.hz / waved.front().rate.hz - 1.0) < 1e-3;
-  });
-}
-
-/// Whether cameras that were taken for simultaneous are.
-bool go_together(const Work& work, const Solved& shared) {
-  const CalibratedRig rig = judge_rig(work.names, shared.model, {});
-  // Of frames that do not go together, those in which the board rests remain.
-  const bool most_fit = rig.outliers < 0.2 * rig.sightings;
-  return !is_hopeless(rig) && most_fit &&
-         !run_apart(apparent_clocks(shared.model, work.waved.front().rate.hz));
-}
-
-/// With clocks where they are needed, as far as the cameras' pictures tell.
-Result<Solved> solve_choosing_clocks(Work& work) {
-  std::optional<Result<Solved>> shared;
-  if (of_one_rate(work.waved)) {
-    shared = solve(work);
-    // What is wrong before anything is fitted has nothing to do with clocks.
-    if (!*shared || ((**shared).doubt && go_together(work, **shared))) return *shared;
-  }
-  Work apart = work;
-  apart.options.solve_offsets = true;
-  // Within seconds no clock drifts by what could be seen.
-  constexpr double kLong_s = 20.0;
-  const CameraDetections& first = work.waved.front();
-  apart.options.solve_drifts =
-      static_cast<double>(first.frames.size()) / first.rate.hz > kLong_s;
-  auto solved = solve(apart);
-  if (!shared) return solved;
-  if (!solved || !solved->doubt) return *shared;
-  // Of a wrong board, say, clocks make nothing better.
-  const double shared_px = judge_rig(work.names, (**shared).model, {}).inlier_rms_px;
-  const CalibratedRig rig = judge_rig(work.names, solved->model, {});
-  const bool is_better =
-      !is_hopeless(rig) && (!(**shared).doubt || rig.inlier_rms_px < shared_px);
-  return is_better ? std::move(solved) : std::move(*shared);
+Result<SolvedRig> solve_with(Work work, const Clocks& clocks) {
+  work.options.solve_offsets = clocks.offsets;
+  work.options.solve_drifts = clocks.drifts;
+  return solve(work);
 }
 
 }  // namespace
@@ -207,7 +150,13 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
   MAREY_ASSERT(names.size() == waved.size());
   MAREY_ASSERT(!std::holds_alternative<Wand>(board));
   Work work{names, waved, floor, &board, options, board_views(waved, floor, board), {}};
-  auto solved = options.choose_clocks ? solve_choosing_clocks(work) : solve(work);
+  auto solved = options.choose_clocks
+                    ? solve_choosing_clocks(
+                          names,
+                          waved,
+                          false,
+                          [&](const Clocks& clocks) { return solve_with(work, clocks); })
+                    : solve(work);
   if (!solved) return solved.error();
   if (!solved->doubt) {
     return bad_input("",

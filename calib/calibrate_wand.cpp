@@ -5,87 +5,32 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
+#include <utility>
 
+#include "calib/check_rig.h"
+#include "calib/choose_model.h"
+#include "calib/coarse_clocks.h"
+#include "calib/cross_validate.h"
 #include "calib/judge_rig.h"
 #include "calib/place_cameras.h"
 #include "calib/place_tags.h"
+#include "calib/planar_pose.h"
 #include "calib/refine_rig.h"
 #include "calib/rig_model.h"
-#include "calib/scenery.h"
+#include "calib/wand_model.h"
 #include "core/assert.h"
 #include "core/quantile.h"
 
 namespace marey::calib {
 namespace {
 
-constexpr double kHopelessMedianPx = 2.5;
-constexpr std::size_t kWand = 0;
-constexpr std::size_t kScenery = 1;
-
-/// The frames that are taken: those that show the wand to most cameras, evenly thinned.
-std::set<int> chosen_frames(std::span<const CameraDetections> waved,
-                            const Wand& wand,
-                            int most) {
-  std::map<int, int> views;
-  for (const CameraDetections& camera : waved) {
-    for (const FrameDetections& frame : camera.frames) {
-      const bool shows = std::any_of(frame.tags.begin(), frame.tags.end(), [&](auto& t) {
-        return std::any_of(
-            wand.tags.begin(), wand.tags.end(), [&](auto& w) { return w.id == t.id; });
-      });
-      if (shows) ++views[frame.frame];
-    }
-  }
-  std::vector<int> frames;
-  for (const int fewest : {2, 1}) {
-    frames.clear();
-    for (const auto& [frame, count] : views) {
-      if (count >= fewest) frames.push_back(frame);
-    }
-    if (static_cast<int>(frames.size()) >= most) break;
-  }
-  std::set<int> chosen;
-  const auto count = std::min(frames.size(), static_cast<std::size_t>(most));
-  for (std::size_t i = 0; i < count; ++i)
-    chosen.insert(frames[i * frames.size() / count]);
-  return chosen;
-}
-
-RigModel model_of(std::span<const CameraDetections> waved,
-                  const Wand& wand,
-                  const WandOptions& options) {
-  RigModel model;
-  model.targets.resize(1);
-  std::map<TagId, std::size_t> piece_of;
-  for (const Wand::Tag& tag : wand.tags) {
-    piece_of[tag.id] = model.targets[kWand].pieces.size();
-    model.targets[kWand].pieces.push_back({tag.id, {}, tag.size_m, true, true});
-  }
-  const std::set<int> frames = chosen_frames(waved, wand, options.most_instants);
-  for (std::size_t c = 0; c < waved.size(); ++c) {
-    RigCamera camera;
-    camera.intrinsics.lens = options.lens;
-    camera.intrinsics.width_px = waved[c].width_px;
-    camera.intrinsics.height_px = waved[c].height_px;
-    model.cameras.push_back(camera);
-    for (const FrameDetections& frame : waved[c].frames) {
-      if (!frames.contains(frame.frame)) continue;
-      for (const TagDetection& tag : frame.tags) {
-        const auto piece = piece_of.find(tag.id);
-        if (piece == piece_of.end()) continue;
-        Sighting sighting = sighting_of(tag);
-        sighting.camera = c;
-        sighting.target = kWand;
-        sighting.instant = sighting.frame = frame.frame;
-        sighting.piece = piece->second;
-        model.sightings.push_back(sighting);
-      }
-    }
-  }
-  if (options.use_scenery) add_scenery(waved, wand, model);
-  return model;
-}
+/// What the recording says, and what is asked of it.
+struct Work {
+  std::span<const std::string> names;
+  std::span<const CameraDetections> waved;
+  const Wand* wand = nullptr;
+  WandOptions options;
+};
 
 bool has_lens(const WandOptions& options, std::size_t camera) {
   return camera < options.lenses.size() && options.lenses[camera].has_value();
@@ -156,26 +101,44 @@ WandCalibration to_calibration(std::span<const std::string> names,
   for (const Piece& piece : model.targets[kWand].pieces) {
     if (piece.is_placed) out.wand_from_tag[piece.id] = piece.target_from_piece;
   }
-  out.world_from_wand = model.targets[kWand].world_from_target;
-  if (model.targets.size() > kScenery) {
-    for (const Piece& piece : model.targets[kScenery].pieces) {
+  for (const RigidTarget& target : model.targets) {
+    if (!target.stays) continue;
+    for (const Piece& piece : target.pieces) {
       if (piece.is_placed) out.scenery_sizes_m[piece.id] = piece.size_m;
     }
+  }
+  if (model.targets[kWand].knot_spacing_s <= 0.0) {
+    out.world_from_wand = model.targets[kWand].world_from_target;
   }
   return out;
 }
 
-}  // namespace
+/// Each tag by itself where each camera saw it, of the two places that suit the better.
+std::vector<SeenTrack> tracks_of(const RigModel& model) {
+  std::vector<SeenTrack> tracks(model.cameras.size());
+  const auto& pieces = model.targets[kWand].pieces;
+  for (const Sighting& s : model.sightings) {
+    if (s.target != kWand) continue;
+    std::array<glm::dvec3, 4> corners{};
+    std::array<glm::dvec2, 4> pixels_px{};
+    for (std::size_t i = 0; i < 4; ++i) {
+      corners[i] = pieces[s.piece].size_m * s.corners[i].p_in_board;
+      pixels_px[i] = s.corners[i].pixel_px;
+    }
+    const auto placed =
+        place_plane(model.cameras[s.camera].intrinsics, corners, pixels_px);
+    if (placed.empty()) continue;
+    tracks[s.camera][{s.piece, s.frame}] = placed.front().camera_from_plane;
+  }
+  return tracks;
+}
 
-Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
-                                       std::span<const CameraDetections> waved,
-                                       const Wand& wand,
-                                       const WandOptions& options) {
-  MAREY_ASSERT(names.size() == waved.size() && !wand.tags.empty());
-  RigModel model = model_of(waved, wand, options);
-  if (std::none_of(model.sightings.begin(), model.sightings.end(), [](const Sighting& s) {
-        return s.target == kWand;
-      })) {
+/// Cameras and the wand as a first guess has them.
+Result<SolvedRig> first_rig(const Work& work, LensModel lens) {
+  WandOptions options = work.options;
+  options.lens = lens;
+  RigModel model = wand_at_instants(work.waved, *work.wand, options, {});
+  if (model.targets[kWand].pieces.empty()) {
     return bad_input("",
                      "no tag of the wand is seen by any camera",
                      "check the ids of the wand's tags and the tag family in "
@@ -187,37 +150,92 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
                      "record the calibration again: carry the wand through the whole "
                      "volume, near and far, and turn it");
   }
+  const bool is_moving =
+      options.solve_offsets || options.solve_drifts || options.solve_line_delays;
+  std::vector<double> offsets_s(work.waved.size(), 0.0);
+  if (options.solve_offsets) {
+    offsets_s = coarse_offsets_s(tracks_of(model), work.waved, options.most_offset_s);
+  }
+  if (is_moving) {
+    RigModel by_time = wand_at_instants(work.waved, *work.wand, options, offsets_s);
+    for (std::size_t c = 0; c < model.cameras.size(); ++c) {
+      by_time.cameras[c].intrinsics = model.cameras[c].intrinsics;
+    }
+    model = std::move(by_time);
+  }
   const std::vector<bool> placed = place_by_tags(model);
   if (std::find(placed.begin(), placed.end(), false) != placed.end()) {
-    return not_connected(names, placed);
+    return not_connected(work.names, placed);
   }
-  RefineOptions refine;
-  refine.fixed_camera = 0;
-  for (std::size_t c = 0; c < waved.size(); ++c) {
-    refine.held_lenses.push_back(has_lens(options, c));
+  if (is_moving) model = wand_in_motion(std::move(model), work.waved, offsets_s);
+  SolvedRig first{std::move(model), {}, {}};
+  first.refine.fixed_camera = 0;
+  first.refine.offsets = options.solve_offsets;
+  first.refine.drifts = options.solve_drifts;
+  first.refine.line_delays = options.solve_line_delays;
+  for (std::size_t c = 0; c < work.waved.size(); ++c) {
+    first.refine.held_lenses.push_back(has_lens(options, c));
   }
-  auto doubt = refine_rig(model, refine);
-  if (!doubt) {
+  return first;
+}
+
+Result<SolvedRig> solve(const Work& work) {
+  const auto of_lens = [&](LensModel lens) { return first_rig(work, lens); };
+  auto solved =
+      of_lens(work.options.choose_lens ? choose_lens(of_lens) : work.options.lens);
+  if (solved) solved->doubt = refine_rig(solved->model, solved->refine);
+  return solved;
+}
+
+Result<SolvedRig> solve_with(Work work, const Clocks& clocks) {
+  work.options.solve_offsets = clocks.offsets;
+  work.options.solve_drifts = clocks.drifts;
+  return solve(work);
+}
+
+Error too_far_off(const CalibratedRig& rig) {
+  std::array<char, 120> text{};
+  std::snprintf(
+      text.data(),
+      text.size(),
+      "calibration ends %.1f px away from what the cameras saw (good: under 0.5)",
+      rig.median_px);
+  return bad_input("",
+                   text.data(),
+                   "check the wand's tag sizes against the print, that no tag moved on "
+                   "it, and, with clocks = \"shared\", that all videos start together");
+}
+
+}  // namespace
+
+Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
+                                       std::span<const CameraDetections> waved,
+                                       const Wand& wand,
+                                       const WandOptions& options) {
+  MAREY_ASSERT(names.size() == waved.size() && !wand.tags.empty());
+  const Work work{names, waved, &wand, options};
+  auto solved = options.choose_clocks
+                    ? solve_choosing_clocks(
+                          names,
+                          waved,
+                          true,
+                          [&](const Clocks& clocks) { return solve_with(work, clocks); })
+                    : solve(work);
+  if (!solved) return solved.error();
+  if (!solved->doubt) {
     return bad_input("",
                      "the bundle adjustment of the cameras does not converge",
                      "record the calibration again: carry the wand through the whole "
                      "volume and turn it");
   }
+  RigModel& model = solved->model;
   move_world(world_from_upright_camera() * inverse(model.cameras[0].world_from_camera),
              model,
-             *doubt);
-  WandCalibration out = to_calibration(names, model, *doubt);
-  if (out.rig.median_px > kHopelessMedianPx) {
-    std::array<char, 120> text{};
-    std::snprintf(text.data(),
-                  text.size(),
-                  "calibration ends %.1f px away from what the cameras saw (good: under "
-                  "0.5)",
-                  out.rig.median_px);
-    return bad_input("",
-                     text.data(),
-                     "check the wand's tag sizes against the print, that no tag moved on "
-                     "it, and that all videos start together");
+             *solved->doubt);
+  WandCalibration out = to_calibration(names, model, *solved->doubt);
+  if (is_hopeless(out.rig)) return too_far_off(out.rig);
+  if (options.cross_validate) {
+    out.rig.cross_validation = cross_validate(model, solved->refine);
   }
   return out;
 }

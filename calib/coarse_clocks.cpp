@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "calib/agree.h"
 #include "calib/estimate_intrinsics.h"
@@ -12,8 +13,8 @@
 namespace marey::calib {
 namespace {
 
-/// camera_from_board by step of time.
-using Track = std::map<int, RigidTransform>;
+/// A SeenTrack by steps of time in place of frames.
+using Track = SeenTrack;
 
 constexpr std::size_t kMostPoses = 120;
 
@@ -21,9 +22,9 @@ Track thinned(const Track& track) {
   if (track.size() <= kMostPoses) return track;
   Track out;
   std::size_t i = 0;
-  for (const auto& [step, pose] : track) {
+  for (const auto& [key, pose] : track) {
     if (i * kMostPoses / track.size() != (i + 1) * kMostPoses / track.size()) {
-      out[step] = pose;
+      out[key] = pose;
     }
     ++i;
   }
@@ -40,10 +41,10 @@ Fit best_lag(const Track& a, const Track& b, int most) {
   const Track few = thinned(a);
   for (int lag = -most; lag <= most; ++lag) {
     std::vector<RigidTransform> proposals;
-    for (const auto& [step, a_from_board] : few) {
-      const auto other = b.find(step - lag);
+    for (const auto& [key, a_from_thing] : few) {
+      const auto other = b.find({key.first, key.second - lag});
       if (other == b.end()) continue;
-      proposals.push_back(a_from_board * inverse(other->second));
+      proposals.push_back(a_from_thing * inverse(other->second));
     }
     if (proposals.size() < 4) continue;
     const Link link = agree_on(0, 1, proposals);
@@ -60,8 +61,7 @@ Fit best_lag(const Track& a, const Track& b, int most) {
 
 }  // namespace
 
-std::vector<double> coarse_offsets_s(std::span<const BoardView> views,
-                                     std::span<const Intrinsics> intrinsics,
+std::vector<double> coarse_offsets_s(std::span<const SeenTrack> seen,
                                      std::span<const CameraDetections> waved,
                                      double most_s) {
   const std::size_t count = waved.size();
@@ -70,13 +70,11 @@ std::vector<double> coarse_offsets_s(std::span<const BoardView> views,
     step_s = std::max(step_s, 1.0 / camera.rate.hz);
   }
   std::vector<Track> tracks(count);
-  for (const BoardView& view : views) {
-    if (view.instant == kFloorInstant) continue;
-    const std::size_t c = index(view.camera);
-    const auto pose = camera_from_board(intrinsics[c], view);
-    if (!pose) continue;
-    const double time_s = view.instant / waved[c].rate.hz;
-    tracks[c][static_cast<int>(std::lround(time_s / step_s))] = *pose;
+  for (std::size_t c = 0; c < count; ++c) {
+    for (const auto& [key, pose] : seen[c]) {
+      const double time_s = key.second / waved[c].rate.hz;
+      tracks[c][{key.first, static_cast<int>(std::lround(time_s / step_s))}] = pose;
+    }
   }
   const int most = static_cast<int>(std::lround(most_s / step_s));
   std::vector<std::optional<double>> offset_s(count);
@@ -110,6 +108,20 @@ std::vector<double> coarse_offsets_s(std::span<const BoardView> views,
   std::vector<double> out;
   for (const auto& offset : offset_s) out.push_back(offset.value_or(0.0));
   return out;
+}
+
+std::vector<double> coarse_offsets_s(std::span<const BoardView> views,
+                                     std::span<const Intrinsics> intrinsics,
+                                     std::span<const CameraDetections> waved,
+                                     double most_s) {
+  std::vector<SeenTrack> tracks(waved.size());
+  for (const BoardView& view : views) {
+    if (view.instant == kFloorInstant) continue;
+    const std::size_t c = index(view.camera);
+    const auto pose = camera_from_board(intrinsics[c], view);
+    if (pose) tracks[c][{0, view.instant}] = *pose;
+  }
+  return coarse_offsets_s(tracks, waved, most_s);
 }
 
 }  // namespace marey::calib

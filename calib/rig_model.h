@@ -39,7 +39,8 @@ struct RigidTarget {
   /// How far a board rises out of its plane towards its edges along x and y, and its
   /// corners across [m]; its middle stays (board_warp()).
   std::array<double, 3> warp_m{};
-  /// The earlier target that is the same board: they bend alike.
+  /// The earlier target that is the same board or wand: they bend alike, and their
+  /// pieces, which are the same in number and order, sit alike.
   std::optional<std::size_t> same_board_as;
   glm::dvec3 middle_in_target{0.0};  ///< Of a board that bends.
   glm::dvec3 half_extent_m{1.0};     ///< Likewise.

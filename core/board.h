@@ -95,7 +95,7 @@ struct Chessboard {
 };
 
 /// A rigid body that carries tags of known size; where each sits is found when it is
-/// used. Its frame is that of the tag with the lowest id.
+/// used. Its frame is that of the tag with the lowest id of those that are seen.
 struct Wand {
   struct Tag {
     TagId id{};

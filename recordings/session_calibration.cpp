@@ -47,16 +47,9 @@ void read_flag(TomlReader& reader, std::string_view key, bool& value) {
 
 /// What only boards tell must not look as if it had been done.
 void refuse_for_wand(TomlReader& reader, const CalibrationChoices& choices) {
-  const bool has_clocks =
-      choices.clocks == ClockChoice::kOffsets || choices.clocks == ClockChoice::kDrifts;
-  std::string key;
-  if (!choices.lens) key = "lens";
-  if (has_clocks) key = "clocks";
-  if (choices.line_delays) key = "line_delays";
-  if (choices.warp) key = "warp";
-  if (key.empty()) return;
-  reader.fail(key,
-              "a wand does not tell what \"" + key + "\" asks for",
+  if (!choices.warp) return;
+  reader.fail("warp",
+              "a wand does not tell what \"warp\" asks for",
               "calibrate with a board, or leave it out");
 }
 

@@ -78,6 +78,7 @@ class SessionReader {
     if (!only_cameras || root_.has("tags")) read_usual_family();
     session_.target = read_target(root_, usual_family_, session_);
     if (!only_cameras || root_.has("tags")) read_tags();
+    read_wand_segment(root_, session_);
     session_.calibration = read_calibration_choices(root_, session_.file.parent_path());
     read_cameras();
     read_trials();

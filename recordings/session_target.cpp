@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/humanoid.h"
 #include "recordings/nearest_word.h"
 #include "recordings/number_text.h"
 
@@ -181,12 +182,22 @@ CalibrationTarget read_board(TomlReader& reader,
 }
 
 Wand read_wand(TomlReader& wand, const KnownFamily& usual_family, Session& session) {
-  wand.allow({"family", "tag"});
+  wand.allow({"family", "tag", "segment"});
   const KnownFamily usual = read_family(wand, usual_family);
   Wand body;
+  if (wand.has("segment")) {
+    if (wand.has("tag") || wand.has("family")) {
+      wand.fail("segment",
+                "the wand has tags of its own and is a segment of the body",
+                "keep one: the tags of a segment are those of [[tags.tag]]");
+    }
+    return body;
+  }
   if (!wand.has("tag")) {
-    wand.fail(
-        "", "no tag is on the wand", "add a [[wand.tag]] with id and size_m for each");
+    wand.fail("",
+              "no tag is on the wand",
+              "add a [[wand.tag]] with id and size_m for each, or "
+              "name the segment of the body that serves as one");
   }
   for (TomlReader& reader : wand.tables("tag")) {
     reader.allow({"id", "size_m", "family"});
@@ -225,6 +236,32 @@ CalibrationTarget read_target(TomlReader& root,
   }
   TomlReader board = root.table("board");
   return read_board(board, usual_family, session);
+}
+
+void read_wand_segment(TomlReader& root, Session& session) {
+  auto* body = std::get_if<Wand>(&session.target);
+  if (body == nullptr || !root.has("wand")) return;
+  TomlReader reader = root.table("wand");
+  if (!reader.has("segment")) return;
+  const std::string segment = reader.text("segment");
+  if (!reader.ok()) return;
+  const std::optional<HumanBone> bone = human_bone(segment);
+  if (!bone) {
+    reader.fail(
+        "segment", "unknown segment " + in_quotes(segment), bone_suggestion(segment));
+    return;
+  }
+  for (const TagOnSegment& tag : session.tags) {
+    if (tag.segment == *bone) body->tags.push_back({tag.id, tag.size_m});
+  }
+  if (body->tags.empty()) {
+    reader.fail("segment",
+                "no tag is on the segment " + in_quotes(segment),
+                "add a [[tags.tag]] with id, segment and size_m for each of its tags");
+  }
+  std::sort(body->tags.begin(), body->tags.end(), [](const auto& a, const auto& b) {
+    return a.id < b.id;
+  });
 }
 
 std::optional<std::string> place_on_target(const CalibrationTarget& target,

@@ -39,17 +39,20 @@ RigidTransform world_from_wand(double share) {
            0.7 * std::cos(round)}};
 }
 
+/// Camera c takes its frames `late[c]` frames after the first; by default none does.
 std::vector<CameraDetections> wave_wand(const std::vector<Camera>& cameras,
                                         int frames,
-                                        double noise_px) {
+                                        double noise_px,
+                                        const std::vector<double>& late = {}) {
   auto out = marey::testing::unseeing(cameras, frames, 10.0, "wand");
   marey::testing::Dice dice(5);
   for (int f = 0; f < frames; ++f) {
     for (std::size_t c = 0; c < cameras.size(); ++c) {
+      const double at = f + (late.empty() ? 0.0 : late[c]);
       for (int side = 0; side < 4; ++side) {
         const auto tag = marey::testing::see_tag(
             cameras[c],
-            world_from_wand(f / static_cast<double>(frames)) * wand_from_tag(side),
+            world_from_wand(at / static_cast<double>(frames)) * wand_from_tag(side),
             TagId{side},
             kSize_m);
         if (!tag) continue;
@@ -100,6 +103,49 @@ TEST(CalibrateWand, StaysNearUnderNoise) {
   // A few hundred tags of 45 px: a fifth of a pixel is half a percent of each.
   EXPECT_LT(worst_distance_m(found->rig, cameras), 0.03);
   EXPECT_NEAR(found->rig.inlier_rms_px, 0.28, 0.05);
+}
+
+// Ten frames a second: as far apart as half a second and more.
+TEST(CalibrateWand, FindsOutThatCamerasStartedApart) {
+  const auto cameras = ring_of_cameras();
+  const std::vector<double> late{0.0, 6.3, -3.6, 0.4};
+  WandOptions options;
+  options.choose_clocks = true;
+  const auto found = calibrate_wand(
+      names_of(cameras), wave_wand(cameras, 120, 0.2, late), kWand, options);
+  ASSERT_TRUE(found) << found.error().message();
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const SolvedClock& clock = found->rig.clocks[c];
+    EXPECT_NEAR(clock.offset_s, 0.1 * late[c], 0.002) << c;
+    EXPECT_EQ(clock.offset_sigma_s > 0.0, c > 0);
+  }
+  EXPECT_LT(worst_distance_m(found->rig, cameras), 0.03);
+  EXPECT_EQ(found->wand_from_tag.size(), 4U);
+  EXPECT_TRUE(found->world_from_wand.empty());
+}
+
+TEST(CalibrateWand, LeavesCamerasOfOneClockAlone) {
+  const auto cameras = ring_of_cameras();
+  WandOptions options;
+  options.choose_clocks = true;
+  const auto found =
+      calibrate_wand(names_of(cameras), wave_wand(cameras, 60, 0.2), kWand, options);
+  ASSERT_TRUE(found) << found.error().message();
+  for (const SolvedClock& clock : found->rig.clocks) {
+    EXPECT_EQ(clock.offset_s, 0.0);
+    EXPECT_EQ(clock.offset_sigma_s, 0.0);
+  }
+  EXPECT_FALSE(found->world_from_wand.empty());
+}
+
+TEST(CalibrateWand, FindsTheSimplestLensThatServes) {
+  const auto cameras = ring_of_cameras();
+  WandOptions options;
+  options.choose_lens = true;
+  const auto found =
+      calibrate_wand(names_of(cameras), wave_wand(cameras, 60, 0.2), kWand, options);
+  ASSERT_TRUE(found) << found.error().message();
+  EXPECT_EQ(found->rig.cameras[0].intrinsics.lens, LensModel::kBrownConrady);
 }
 
 TEST(CalibrateWand, PutsTheFirstCameraUprightAtTheOrigin) {

@@ -67,12 +67,14 @@ TEST(SessionCalibration, DeclinesWhatAWandDoesNotTell) {
       "[board]\ntype = \"aprilgrid\"\nrows = 6\ncolumns = 5\ntag_size_m = 0.1\n"
       "gap_m = 0.03\nfirst_id = 0\nthickness_m = 0.005\n";
   const std::string wand = "[[wand.tag]]\nid = 3\nsize_m = 0.1\n[calibration]\n";
-  EXPECT_TRUE(read(with(board, wand + "lens = \"rational\"\n")));
-  EXPECT_NE(mistake(with(board, wand + "lens = \"auto\"\n"))
-                .find("a wand does not tell what \"lens\" asks for"),
-            std::string::npos);
-  EXPECT_NE(mistake(with(board, wand + "clocks = \"offsets\"\n"))
-                .find("a wand does not tell what \"clocks\" asks for"),
+  for (const char* choice : {"lens = \"rational\"\n",
+                             "lens = \"auto\"\n",
+                             "clocks = \"offsets\"\n",
+                             "clocks = \"drifts\"\nline_delays = true\n"}) {
+    EXPECT_TRUE(read(with(board, wand + choice))) << choice;
+  }
+  EXPECT_NE(mistake(with(board, wand + "warp = true\n"))
+                .find("a wand does not tell what \"warp\" asks for"),
             std::string::npos);
 }
 

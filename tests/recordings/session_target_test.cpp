@@ -97,6 +97,27 @@ TEST(SessionTarget, MayBeAWand) {
   EXPECT_EQ(session->family_of(TagId{9}), "tag25h9");
 }
 
+// kSession has tag 41 on the hips.
+TEST(SessionTarget, MayBeASegmentOfTheBody) {
+  const auto session = read(with_target("[wand]\nsegment = \"hips\"\n"));
+  ASSERT_TRUE(session) << session.error().message();
+  const auto& wand = std::get<Wand>(session->target);
+  ASSERT_EQ(wand.tags.size(), 1U);
+  EXPECT_EQ(wand.tags[0].id, TagId{41});
+  EXPECT_EQ(wand.tags[0].size_m, session->tags[0].size_m);
+}
+
+TEST(SessionTarget, IsNoSegmentWithoutTags) {
+  EXPECT_TRUE(mistake(with_target("[wand]\nsegment = \"leftFoot\"\n"))
+                  .starts_with("session.toml:19: no tag is on the segment \"leftFoot\""));
+  EXPECT_TRUE(mistake(with_target("[wand]\nsegment = \"leftFood\"\n"))
+                  .starts_with("session.toml:19: unknown segment \"leftFood\""));
+  EXPECT_TRUE(
+      mistake(with_target(std::string("[wand]\nsegment = \"hips\"\n") +
+                          "[[wand.tag]]\nid = 7\nsize_m = 0.1\n"))
+          .starts_with("session.toml:19: the wand has tags of its own and is a segment"));
+}
+
 TEST(SessionTarget, OfAnUnknownTypeIsDeclinedWithTheNearest) {
   EXPECT_EQ(mistake(target_with(kCharuco, "\"charuco\"", "\"charucoo\"")),
             "session.toml:19: unknown board type \"charucoo\". Next: perhaps you mean "
@@ -104,9 +125,10 @@ TEST(SessionTarget, OfAnUnknownTypeIsDeclinedWithTheNearest) {
 }
 
 TEST(SessionTarget, OfAnUnknownDictionaryIsDeclinedWithTheNearest) {
-  EXPECT_EQ(mistake(target_with(kCharuco, "DICT_4X4_1000", "dict_4x4_1000")),
-            "session.toml:24: unknown dictionary \"dict_4x4_1000\". Next: perhaps you mean "
-            "\"DICT_4X4_1000\".");
+  EXPECT_EQ(
+      mistake(target_with(kCharuco, "DICT_4X4_1000", "dict_4x4_1000")),
+      "session.toml:24: unknown dictionary \"dict_4x4_1000\". Next: perhaps you mean "
+      "\"DICT_4X4_1000\".");
 }
 
 TEST(SessionTarget, HasTheKeysOfItsTypeAlone) {
