@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/painted_tags.h"
+#include "tests/app/painted_tags.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 constexpr float kWall = 0.35F;
 constexpr float kInk = 0.02F;
 constexpr float kPaper = 0.72F;
-constexpr int kFiner = 4;  // Rays per pixel and axis.
+constexpr int kFiner = 3;  // Rays per pixel and axis.
 
 TagPattern pattern_of(TagId id) {
   const auto patterns = capture::tag_patterns("tag36h11", std::array{id});
