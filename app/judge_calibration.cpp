@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/finding_list.h"
+#include "app/judge_print.h"
 
 namespace marey::app {
 namespace {
@@ -50,6 +51,7 @@ std::vector<Finding> told_once(std::vector<SharedFinding> found) {
 
 std::vector<Finding> judge_calibration(const CalibrationReport& report) {
   FindingList list{report, {}};
+  judge_print(list);
   judge_trust(list);
   judge_residuals(list);
   judge_views(list);

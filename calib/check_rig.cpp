@@ -15,9 +15,9 @@ namespace {
 
 // The median: a few tags read from another place do not make a calibration wrong.
 constexpr double kHopelessMedianPx = 2.5;
-// Lenses and detectors take one to three percent off a tag. More is another print: a
-// wrong gap looks exactly like tags that are too small.
-constexpr double kMostShrinkage = 0.05;
+// Lenses and light take a percent or so off a tag. More is another print: a wrong gap
+// looks exactly like tags that are too small.
+constexpr double kMostShrinkage = 0.03;
 
 Error too_few_tags(const CameraDetections& camera, const AprilGrid& board) {
   int tags_seen = 0;

@@ -227,5 +227,21 @@ TEST(JudgeCalibration, MakesErrorsOfWhatIsPoorAndWarningsOfTheRest) {
   ASSERT_EQ(warnings_of(report).size(), 1U);
 }
 
+TEST(JudgeCalibration, SquaresThatDoNotGoWithTheirGapsAreToldOfAllCamerasTogether) {
+  CalibrationReport report = decent();
+  // One camera's glare is no matter of the print.
+  report.rig.cameras[0].tag_shrinkage.slope = 0.02;
+  EXPECT_TRUE(judge_calibration(report).empty());
+  for (Camera& camera : report.rig.cameras) camera.tag_shrinkage.slope = -0.023;
+  const Finding swollen = only(report);
+  EXPECT_EQ(swollen.kind, std::string("print"));
+  EXPECT_EQ(swollen.severity, Severity::kPoor);
+  EXPECT_NE(swollen.cause.find("2.3 % larger"), std::string::npos) << swollen.cause;
+  for (Camera& camera : report.rig.cameras) camera.tag_shrinkage.slope = 0.01;
+  const Finding shrunk = only(report);
+  EXPECT_EQ(shrunk.severity, Severity::kFair);
+  EXPECT_NE(shrunk.cause.find("1.0 % smaller"), std::string::npos) << shrunk.cause;
+}
+
 }  // namespace
 }  // namespace marey::app
