@@ -11,6 +11,7 @@
 
 #include "app/align_frames.h"
 #include "core/assert.h"
+#include "recordings/frame_stamps.h"
 #include "recordings/take_file.h"
 #include "recordings/video_times.h"
 
@@ -83,9 +84,10 @@ std::size_t usable_frames(const Take& take,
 
 const TakeCamera* find_camera(const Take& take, const TrialVideo& video) {
   const std::string file = video.path.filename().string();
-  const auto found = std::find_if(take.cameras.begin(),
-                                  take.cameras.end(),
-                                  [&](const TakeCamera& c) { return c.file == file; });
+  const auto found =
+      std::find_if(take.cameras.begin(), take.cameras.end(), [&](const TakeCamera& c) {
+        return c.file == file || c.file == video.path.string();
+      });
   return found == take.cameras.end() ? nullptr : &*found;
 }
 
@@ -174,11 +176,44 @@ Status check_range(const Trial& trial,
                    "correct the trial's range of frames");
 }
 
+/// The table that the session names, as a take that has those times.
+Result<Take> read_stamped(const Trial& trial,
+                          const std::vector<CameraDetections>& found) {
+  std::vector<std::string> videos;
+  for (const TrialVideo& video : trial.videos) {
+    videos.push_back(video.path.stem().string());
+  }
+  const auto stamps = recordings::read_frame_stamps(*trial.timestamps, videos);
+  if (!stamps) return stamps.error();
+  Take take;
+  take.trial = trial.name;
+  take.finished = true;
+  for (std::size_t i = 0; i < trial.videos.size(); ++i) {
+    const TrialVideo& video = trial.videos[i];
+    const CameraDetections& camera = found[index(video.camera)];
+    const std::vector<Timestamp>& times = (*stamps)[i];
+    if (!camera.frames.empty() && !camera.broken_off &&
+        camera.frames.size() != times.size()) {
+      return bad_input(trial.timestamps->string(),
+                       "it has " + std::to_string(times.size()) + " times of " +
+                           camera.source + ", whose frames are " +
+                           std::to_string(camera.frames.size()),
+                       "name the table that was written with this video");
+    }
+    TakeCamera& one = take.cameras.emplace_back();
+    one.file = video.path.string();
+    for (const Timestamp time : times) one.frames.emplace_back().time = time;
+  }
+  return take;
+}
+
 Status match_take(const Trial& trial,
                   std::vector<CameraDetections>& found,
                   RecordingTroubles& troubles) {
-  const auto file = take_beside(trial.videos.front());
-  const Result<Take> take = recordings::read_take(file);
+  const auto file =
+      trial.timestamps ? *trial.timestamps : take_beside(trial.videos.front());
+  const Result<Take> take =
+      trial.timestamps ? read_stamped(trial, found) : recordings::read_take(file);
   if (!take) return take.error();
   if (!take->finished) {
     troubles.warnings.push_back(file.string() +
@@ -291,7 +326,7 @@ bool has_take(const Trial& trial) {
   const auto file = take_beside(trial.videos.front());
   const auto is_beside = [&](const TrialVideo& v) { return take_beside(v) == file; };
   std::error_code ignored;
-  return trial.is_recorded ||
+  return trial.is_recorded || trial.timestamps ||
          (std::all_of(trial.videos.begin(), trial.videos.end(), is_beside) &&
           std::filesystem::exists(file, ignored));
 }

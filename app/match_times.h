@@ -22,6 +22,7 @@ struct RecordingTroubles {
 /// videos' own are not to be trusted, so that equal numbers mean equal times:
 /// - of a take, by the times in its file, with each camera's constant lag as its offset,
 ///   and cut to the trial's range of frames, which counts instants;
+/// - of a trial whose session names a table of times, by these, likewise;
 /// - of videos whose own time stamps are uneven, by these, each video for itself.
 /// Of steady videos nothing changes, nor of uneven ones whose trial gives an fps: it is
 /// believed, with a warning.
@@ -35,8 +36,8 @@ struct RecordingTroubles {
                                  RecordingTroubles& troubles);
 
 /// Whether match_times() will renumber frames by a take's file: the trial was recorded,
-/// or all its videos lie in one folder with such a file. Then all frames of its videos
-/// are wanted.
+/// or all its videos lie in one folder with such a file, or the session names another
+/// table of times. Then all frames of its videos are wanted.
 [[nodiscard]] bool has_take(const recordings::Trial& trial);
 
 }  // namespace marey::app

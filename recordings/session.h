@@ -68,6 +68,9 @@ struct Trial {
   std::optional<FrameRate> rate;     ///< nullopt: as the video says.
   std::optional<FrameRange> frames;  ///< nullopt: all.
   std::vector<TrialVideo> videos;    ///< At least one; ascending cameras, each once.
+  /// The table of when their frames were taken (recordings/frame_stamps.h), where the
+  /// session names one; as the videos' paths.
+  std::optional<std::filesystem::path> timestamps;
   /// The session names no videos: they are what `marey record` makes, if it has.
   bool is_recorded = false;
   int line = 0;  ///< In session.toml, for messages.

@@ -261,7 +261,8 @@ Trial SessionReader::read_trial(TomlReader& reader) {
   // What the program writes beside the trials' folders.
   constexpr std::array<std::string_view, 4> kReserved{
       "calibration.toml", "subject.toml", "report.json", "report.html"};
-  reader.allow({"name", "kind", "fps", "frames", "videos", "time_offset_s"});
+  reader.allow(
+      {"name", "kind", "fps", "frames", "videos", "timestamps", "time_offset_s"});
   std::vector<std::string> taken;
   for (const Trial& earlier : session_.trials) taken.push_back(earlier.name);
   Trial trial;
@@ -271,6 +272,9 @@ Trial SessionReader::read_trial(TomlReader& reader) {
   if (reader.has("fps")) trial.rate = FrameRate{reader.number("fps", kRate)};
   if (reader.has("frames")) trial.frames = read_frames(reader);
   read_videos(reader, trial);
+  if (reader.has("timestamps")) {
+    trial.timestamps = (media_ / reader.text("timestamps")).lexically_normal();
+  }
   if (reader.has("time_offset_s")) read_offsets(reader, trial);
   return trial;
 }
