@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/lens_words.h"
 #include "app/stand_on_floor.h"
 #include "calib/calibrate_cameras.h"
 #include "calib/calibrate_wand.h"
@@ -87,15 +88,22 @@ std::string text(const char* pattern, Values... values) {
   return buffer.data();
 }
 
-std::string name_of(LensModel lens) {
-  for (const auto& [word, model] : recordings::kLensWords) {
-    if (model == lens) return std::string(word);
-  }
-  return {};
+/// Of the cameras whose lens was not given, should there be any.
+void tell_lens(const recordings::Session& session,
+               const Lenses& given,
+               const calib::CalibratedRig& rig,
+               std::vector<std::string>& notes) {
+  if (session.calibration.lens) return;
+  const auto found = std::find(given.begin(), given.end(), std::nullopt);
+  if (found == given.end()) return;
+  const auto c = static_cast<std::size_t>(found - given.begin());
+  notes.push_back("the lens that predicts best: " +
+                  std::string(lens_word(rig.cameras[c].intrinsics.lens)));
 }
 
 /// What was solved for beside the cameras.
 void tell_findings(const recordings::Session& session,
+                   const Lenses& given,
                    const calib::CalibratedRig& rig,
                    std::vector<std::string>& notes) {
   std::string clocks;
@@ -126,10 +134,7 @@ void tell_findings(const recordings::Session& session,
              : ""));
   }
   if (!delays.empty()) notes.push_back("from one row to the next: " + delays);
-  if (!session.calibration.lens) {
-    notes.push_back("the lens that predicts best: " +
-                    name_of(rig.cameras.front().intrinsics.lens));
-  }
+  tell_lens(session, given, rig, notes);
   if (session.calibration.warp) {
     notes.push_back(rig.warp_m ? text("the board is bent: its edges rise by %.1f mm "
                                       "along x, %.1f mm along y, %.1f mm across",
@@ -144,6 +149,10 @@ void tell_findings(const recordings::Session& session,
              "saw %.2f px",
              rig.cross_validation->held_out_rms_px,
              rig.cross_validation->seen_rms_px));
+  } else if (session.calibration.cross_validate) {
+    notes.push_back(
+        "a half of its frames says too little for cameras of its own: how it does on "
+        "frames that it did not see is not known");
   }
 }
 
@@ -179,10 +188,10 @@ Result<SessionRig> calibrate_session(const recordings::Session& session,
   SessionRig out;
   auto lenses = given_lenses(session, sights.waved, out.notes);
   if (!lenses) return lenses.error();
-  auto rig = solve(session, sights, std::move(*lenses));
+  auto rig = solve(session, sights, *lenses);
   if (!rig) return rig.error();
   out.rig = std::move(*rig);
-  tell_findings(session, out.rig, out.notes);
+  tell_findings(session, *lenses, out.rig, out.notes);
   const bool is_wand = std::holds_alternative<Wand>(session.target);
   if (is_wand || sights.floor.empty()) {
     const auto note = stand_on_floor(session, sights.floor, sights.standing, out.rig);

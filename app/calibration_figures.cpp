@@ -6,9 +6,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/calibration_limits.h"
 #include "app/calibration_report.h"
-#include "app/finding_list.h"
 #include "app/judge_calibration.h"
+#include "app/lens_words.h"
 #include "app/report_figures.h"
 #include "core/quantile.h"
 
@@ -46,18 +47,6 @@ const char* name_of_severity(Severity severity) {
       break;
   }
   return "note";
-}
-
-const char* name_of_lens(LensModel lens) {
-  switch (lens) {
-    case LensModel::kRational:
-      return "rational";
-    case LensModel::kFisheye:
-      return "fisheye";
-    case LensModel::kBrownConrady:
-      break;
-  }
-  return "brown-conrady";
 }
 
 Json finding_figures(const CalibrationReport& report) {
@@ -168,7 +157,7 @@ Json camera_figures(const CalibrationReport& report, std::size_t c) {
   return {{"name", camera.name},
           {"width_px", k.width_px},
           {"height_px", k.height_px},
-          {"lens", name_of_lens(k.lens)},
+          {"lens", lens_word(k.lens)},
           {"focal_px", {px(k.focal_px.x), px(k.focal_px.y)}},
           {"focal_sigma_px", px(quality.focal_sigma_px)},
           {"centre_px", {px(k.centre_px.x), px(k.centre_px.y)}},
@@ -296,33 +285,35 @@ Json calibration_figures(const CalibrationReport& report) {
     warp = {mm((*rig.warp_m)[0]), mm((*rig.warp_m)[1]), mm((*rig.warp_m)[2])};
   }
   const CalibrationLimits limits = limits_of(report);
-  return {{"session", report.session},
-          {"marey_version", report.version},
-          {"target", report.target},
-          {"verdict", verdict_of(report)},
-          {"findings", finding_figures(report)},
-          {"limits",
-           {{"error_mm", {mm(limits.error_m[0]), mm(limits.error_m[1])}},
-            {"residual_px", limits.residual_px},
-            {"coverage_percent",
-             {percent(limits.coverage[0]), percent(limits.coverage[1])}}}},
-          {"middle_error_mm", mm(report.map.middle_error_m)},
-          {"middle_in_world_m", metres(report.map.middle_in_world)},
-          {"distance_m", rounded(report.map.distance_m, 3)},
-          {"has_floor", report.has_floor},
-          {"rms_px", px(rig.rms_px)},
-          {"median_px", px(rig.median_px)},
-          {"inlier_rms_px", px(rig.inlier_rms_px)},
-          {"corner_sigma_px", px(report.corner_sigma_px)},
-          {"sigma_factor", rounded(rig.sigma_factor, 3)},
-          {"sightings", rig.sightings},
-          {"outliers", rig.outliers},
-          {"warp_mm", warp},
-          {"shared_views", shared_figures(report)},
-          {"cameras", cameras},
-          {"cross_validation", cross_validation_figures(report)},
-          {"outlier_frames", outlier_figures(report)},
-          {"error_map", map_figures(report.map)}};
+  return {
+      {"session", report.session},
+      {"marey_version", report.version},
+      {"target", report.target},
+      {"verdict", verdict_of(report)},
+      {"findings", finding_figures(report)},
+      {"limits",
+       {{"error_mm", {mm(limits.error_m[0]), mm(limits.error_m[1])}},
+        {"residual_px", limits.residual_px},
+        {"coverage_percent", {percent(limits.coverage[0]), percent(limits.coverage[1])}},
+        {"shared_instants", limits.shared_instants}}},
+      {"middle_error_mm", mm(report.map.middle_error_m)},
+      {"middle_in_world_m", metres(report.map.middle_in_world)},
+      {"distance_m", rounded(report.map.distance_m, 3)},
+      {"has_floor", report.has_floor},
+      {"board_on_floor", report.board_on_floor},
+      {"rms_px", px(rig.rms_px)},
+      {"median_px", px(rig.median_px)},
+      {"inlier_rms_px", px(rig.inlier_rms_px)},
+      {"corner_sigma_px", px(report.corner_sigma_px)},
+      {"sigma_factor", rounded(rig.sigma_factor, 3)},
+      {"sightings", rig.sightings},
+      {"outliers", rig.outliers},
+      {"warp_mm", warp},
+      {"shared_views", shared_figures(report)},
+      {"cameras", cameras},
+      {"cross_validation", cross_validation_figures(report)},
+      {"outlier_frames", outlier_figures(report)},
+      {"error_map", map_figures(report.map)}};
 }
 
 std::string calibration_json(const CalibrationReport& report) {

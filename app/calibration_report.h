@@ -66,7 +66,7 @@ struct CameraMeasures {
   /// does not account for them: what the lens model leaves. [px]
   double pattern_px = 0.0;
   std::optional<CameraLag> lag;           ///< Where clocks are taken for one.
-  std::optional<double> floor_median_px;  ///< On the floor, when it sees the board there.
+  std::optional<double> floor_median_px;  ///< Of the board on the floor, or scenery.
   std::optional<int> astray_from;         ///< From that frame on hardly anything fits.
   std::optional<int> astray_until;        ///< Likewise up to there.
 };
@@ -89,9 +89,10 @@ struct CalibrationReport {
   std::string target;                        ///< name_of() what was shown to the cameras.
   std::optional<calib::BoardExtent> extent;  ///< Of a board; nullopt for a wand.
   double stature_m = 1.75;
-  double rate_hz = 0.0;     ///< Of the first camera.
-  bool has_floor = false;   ///< The world's ground is the floor.
-  bool has_clocks = false;  ///< Clocks were solved for.
+  double rate_hz = 0.0;         ///< Of the first camera.
+  bool has_floor = false;       ///< The world's ground, y = 0, is the floor.
+  bool board_on_floor = false;  ///< The board was seen lying there.
+  bool has_clocks = false;      ///< Clocks were solved for.
   calib::CalibratedRig rig;
   double corner_sigma_px = 0.0;  ///< Per coordinate, as the calibration left corners.
   std::vector<CameraMeasures> cameras;

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/calibration_report.h"
+#include "core/assert.h"
 
 namespace marey::app {
 
@@ -55,49 +55,19 @@ struct FindingList {
   [[nodiscard]] const char* target() const { return report.extent ? "board" : "wand"; }
 };
 
-/// printf() of numbers.
-template <class... Numbers>
-[[nodiscard]] std::string worded(const char* format, Numbers... numbers) {
-  std::array<char, 400> text{};
-  std::snprintf(text.data(), text.size(), format, numbers...);
-  return text.data();
+/// printf() of numbers and words, however long.
+template <class... Values>
+[[nodiscard]] std::string worded(const char* format, Values... values) {
+  const int length = std::snprintf(nullptr, 0, format, values...);
+  MAREY_ASSERT(length >= 0);
+  std::string text(static_cast<std::size_t>(length), '\0');
+  std::snprintf(text.data(), text.size() + 1, format, values...);
+  return text;
 }
-
-/// What figures are measured against. The first of a pair is the end of good, the second
-/// of what can be used.
-struct CalibrationLimits {
-  std::array<double, 2> error_m;
-  std::array<double, 2> residual_px;
-  std::array<double, 2> coverage;
-};
-/// Webcams in focus end at 0.1 to 0.5 px; a pixel is blur, a bent print or clocks that
-/// are a frame apart; three are another board, another video, or a camera that moved.
-inline constexpr std::array<double, 2> kResidualLimitsPx{0.5, 3.0};
-/// A board that was waved through all of the volume fills a third to a half of a picture.
-/// Seen in less than a sixteenth of it, a lens is a guess everywhere else.
-inline constexpr std::array<double, 2> kCoverageLimits{0.3, 0.0625};
-[[nodiscard]] CalibrationLimits limits_of(const CalibrationReport& report);
 
 /// The graver one when `value` goes beyond its limit.
 [[nodiscard]] inline Severity graver(double value, double poor_above) {
   return value > poor_above ? Severity::kPoor : Severity::kFair;
 }
-
-/// By how much pixel limits are larger for this camera: they are for pictures up to
-/// 1920 px wide, and the same lens and hand blur more pixels of a larger one.
-[[nodiscard]] inline double pixel_scale(const Camera& camera) {
-  const double width_px = camera.intrinsics.width_px;
-  return width_px > 1920.0 ? width_px / 1920.0 : 1.0;
-}
-
-/// Whether a camera's errors clearly follow the board's movement.
-[[nodiscard]] bool is_late(const CameraMeasures& camera);
-
-/// What was shown to each camera: coverage, tilt, views, views in common.
-void judge_views(FindingList& list);
-/// What is left of what they saw: residuals, outliers, lags, lens, floor.
-void judge_residuals(FindingList& list);
-/// What follows for points: expected errors, frames and cameras held out.
-void judge_trust(FindingList& list);
 
 }  // namespace marey::app

@@ -6,6 +6,9 @@
 
 #include "app/finding_list.h"
 #include "app/judge_print.h"
+#include "app/judge_residuals.h"
+#include "app/judge_trust.h"
+#include "app/judge_views.h"
 
 namespace marey::app {
 namespace {

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include "app/judge_residuals.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
 
-#include "app/finding_list.h"
+#include "app/calibration_limits.h"
 #include "core/quantile.h"
 
 namespace marey::app {
@@ -77,7 +79,7 @@ void judge_outliers(FindingList& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   const double share = share_of_outliers(list.report, c);
   // A camera that is out of step loses whole stretches too: where the board was fast.
-  if ((camera.astray_from || camera.astray_until) && !is_late(camera)) {
+  if ((camera.astray_from || camera.astray_until) && !is_late(list.report, c)) {
     list.add(Severity::kPoor,
              "moved",
              list.camera(c),
@@ -138,8 +140,7 @@ void judge_frames(FindingList& list) {
 
 void judge_lag(FindingList& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
-  const double scale = pixel_scale(list.report.rig.cameras[c]);
-  if (!is_late(camera) || camera.lag->explained_px < kFairPatternPx * scale) return;
+  if (!is_late(list.report, c)) return;
   const double ms =
       list.report.rate_hz > 0.0 ? 1e3 * camera.lag->frames / list.report.rate_hz : 0.0;
   const char* way = camera.lag->frames > 0.0 ? "later" : "earlier";
@@ -227,12 +228,12 @@ void judge_warp(FindingList& list) {
 
 }  // namespace
 
-bool is_late(const CameraMeasures& camera) {
+bool is_late(const CalibrationReport& report, std::size_t c) {
+  const std::optional<CameraLag>& lag = report.cameras[c].lag;
   // Views next to each other share their errors: four sigmas of independent ones are few.
   constexpr double kSureLag = 6.0;
-  return camera.lag &&
-         std::abs(camera.lag->frames) > kSureLag * camera.lag->sigma_frames &&
-         camera.lag->explained_px > kFairPatternPx;
+  return lag && std::abs(lag->frames) > kSureLag * lag->sigma_frames &&
+         lag->explained_px > kFairPatternPx * pixel_scale(report.rig.cameras[c]);
 }
 
 void judge_residuals(FindingList& list) {

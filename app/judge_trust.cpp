@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include "app/judge_trust.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "app/finding_list.h"
+#include "app/calibration_limits.h"
+#include "app/judge_residuals.h"
 
 namespace marey::app {
 namespace {
@@ -36,8 +39,10 @@ void judge_middle(FindingList& list) {
     return;
   }
   if (*map.middle_error_m <= fair_error_m(list.report)) return;
-  const auto& cameras = list.report.cameras;
-  const bool any_late = std::any_of(cameras.begin(), cameras.end(), is_late);
+  bool any_late = false;
+  for (std::size_t c = 0; c < list.report.cameras.size(); ++c) {
+    any_late = any_late || is_late(list.report, c);
+  }
   list.add(graver(*map.middle_error_m, poor_error_m(list.report)),
            "error",
            "all cameras",
@@ -171,18 +176,6 @@ void judge_held_out(FindingList& list) {
 }
 
 }  // namespace
-
-CalibrationLimits limits_of(const CalibrationReport& report) {
-  // A joint is known to some 10 mm at best (skin moves over it): cameras that err by less
-  // hardly show, and beyond twice that nothing else matters. That is for a person, three
-  // metres away; what is smaller and nearer is looked at more closely, and the other way
-  // round.
-  constexpr double kFair_m = 0.008;
-  constexpr double kPoor_m = 0.020;
-  constexpr double kUsualDistance_m = 3.0;
-  const double scale = std::max(0.1, report.map.distance_m / kUsualDistance_m);
-  return {{kFair_m * scale, kPoor_m * scale}, kResidualLimitsPx, kCoverageLimits};
-}
 
 void judge_trust(FindingList& list) {
   judge_middle(list);

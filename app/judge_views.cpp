@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include "app/judge_views.h"
+
 #include <algorithm>
 #include <array>
 #include <numbers>
 
-#include "app/finding_list.h"
+#include "app/calibration_limits.h"
 
 namespace marey::app {
 namespace {
@@ -23,8 +25,6 @@ constexpr double kShownHalf = 0.4;
 // A board square on to the camera tells focal length and distance apart not at all: from
 // 15 degrees on its perspective does (Sturm and Maybank 1999 for the degenerate case).
 constexpr double kFairTilt_rad = 15.0 / kDegrees;
-// Two cameras joined by that many instants: one slip of the board moves them.
-constexpr int kFairShared = 8;
 
 void judge_coverage(FindingList& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];

@@ -153,7 +153,7 @@ CameraMeasures measure(const CalibrationReport& report, std::size_t c) {
   const Camera& camera = report.rig.cameras[c];
   CameraMeasures out;
   std::vector<double> errors_px;
-  std::vector<double> floor_px;
+  std::vector<double> staying_px;  // The board on the floor, or scenery.
   double squares = 0.0;
   std::set<int> coarse;
   std::map<int, Area> areas;
@@ -168,9 +168,12 @@ CameraMeasures measure(const CalibrationReport& report, std::size_t c) {
     for (const SeenCorner& corner : view.corners) {
       const Intrinsics& k = camera.intrinsics;
       const double error_px = glm::length(corner.error_px);
+      if (view.frame == calib::kFloorInstant) staying_px.push_back(error_px);
+      // As the camera's quality has it: scenery was not shown to it.
+      if (view.stays && !report.extent) continue;
       errors_px.push_back(error_px);
-      if (view.frame == calib::kFloorInstant) floor_px.push_back(error_px);
-      coarse.insert(cell_of(k, corner.seen_px, 8, 6));
+      const int area = cell_of(k, corner.seen_px, 8, 6);
+      coarse.insert(area);
       const int cell = cell_of(k, corner.seen_px, kCoverageColumns, kCoverageRows);
       ++out.cells[static_cast<std::size_t>(cell)];
       if (corner.is_outlier) {
@@ -178,7 +181,6 @@ CameraMeasures measure(const CalibrationReport& report, std::size_t c) {
         continue;
       }
       squares += error_px * error_px;
-      const int area = cell_of(k, corner.seen_px, 8, 6);
       areas[area].sum_px += glm::dvec2(corner.error_px);
       areas[area].squares += error_px * error_px;
       areas[area].frames.insert(view.frame);
@@ -192,7 +194,7 @@ CameraMeasures measure(const CalibrationReport& report, std::size_t c) {
   const auto inliers = static_cast<double>(errors_px.size()) - out.outlier_corners;
   out.inlier_rms_px = inliers > 0.0 ? std::sqrt(squares / inliers) : 0.0;
   if (!errors_px.empty()) out.median_px = median(std::move(errors_px));
-  if (!floor_px.empty()) out.floor_median_px = median(std::move(floor_px));
+  if (!staying_px.empty()) out.floor_median_px = median(std::move(staying_px));
   out.pattern_px = pattern_px(areas, area_corners);
   for (const auto& [target, views] : moving) {
     if (!report.has_clocks && !out.lag) out.lag = lag_of(report, camera, views);

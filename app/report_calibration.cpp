@@ -26,11 +26,11 @@ CalibrationReport report_calibration(const CalibrationSource& source,
   report.rate_hz = source.rate_hz;
   report.rig = std::move(rig);
   const auto& views = report.rig.views;
-  const bool lies_on_it =
+  report.board_on_floor =
       !is_wand && std::any_of(views.begin(), views.end(), [](const auto& view) {
         return view.frame == calib::kFloorInstant;
       });
-  report.has_floor = source.has_floor || lies_on_it;
+  report.has_floor = source.has_floor || report.board_on_floor;
   const auto& clocks = report.rig.clocks;
   report.has_clocks = std::any_of(clocks.begin(), clocks.end(), [](const auto& clock) {
     return clock.offset_sigma_s > 0.0 || clock.drift_sigma > 0.0 ||

@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "app/inspect_markers.h"
+#include "app/lens_words.h"
 #include "core/extension.h"
 #include "recordings/bvh.h"
 #include "recordings/calibration_file.h"
@@ -57,18 +58,6 @@ Result<Json> inspect_session(const std::filesystem::path& file) {
               {"trials", trials}};
 }
 
-const char* lens_name(LensModel lens) {
-  switch (lens) {
-    case LensModel::kBrownConrady:
-      return "brown-conrady";
-    case LensModel::kRational:
-      return "rational";
-    case LensModel::kFisheye:
-      return "fisheye";
-  }
-  return "";
-}
-
 Result<Json> inspect_calibration(const std::filesystem::path& file) {
   const auto calibration = recordings::read_calibration(file);
   if (!calibration) return calibration.error();
@@ -80,7 +69,7 @@ Result<Json> inspect_calibration(const std::filesystem::path& file) {
         {{"name", camera.name},
          {"size_px", {camera.intrinsics.width_px, camera.intrinsics.height_px}},
          {"focal_px", {camera.intrinsics.focal_px.x, camera.intrinsics.focal_px.y}},
-         {"lens", lens_name(camera.intrinsics.lens)},
+         {"lens", lens_word(camera.intrinsics.lens)},
          {"centre_in_world_m", {centre.x, centre.y, centre.z}},
          {"rms_px", calibration->quality[c].rms_px}});
   }

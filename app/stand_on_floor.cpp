@@ -96,9 +96,10 @@ Result<std::string> stand_on_floor(const recordings::Session& session,
       return bad_input("",
                        trial_of(session, TrialKind::kFloor) +
                            " shows no floor: two cameras must see two tags or more that "
-                           "lie flat on it, and none elsewhere",
+                           "lie flat on it, and none elsewhere; all cameras must be "
+                           "above them, the first one not straight above",
                        "lay tags apart from each other on the floor where cameras see "
-                       "them, or leave the trial out");
+                       "them, aside from the first camera, or leave the trial out");
     }
     calib::move_world(*moved, rig);
     return "the floor is where the tags of " + trial_of(session, TrialKind::kFloor) +
@@ -115,7 +116,8 @@ Result<std::string> stand_on_floor(const recordings::Session& session,
                      trial +
                          " does not tell where the floor is: cameras that look from "
                          "different sides must see three tags or more of the "
-                         "subject, from above the lowest of them",
+                         "subject, from above the lowest of them, the first camera not "
+                         "from straight above",
                      "record a trial of the kind \"floor\", the board lying on it");
   }
   moved->translation.y += session.calibration.lowest_corner_m;

@@ -18,7 +18,6 @@ double disagreement(const RigidTransform& x, const RigidTransform& y) {
 
 Link agree_on(std::size_t a, std::size_t b, std::span<const RigidTransform> a_from_b) {
   MAREY_ASSERT(!a_from_b.empty());
-  constexpr double kFar = 0.3;
   constexpr std::size_t kMost = 400;
   const std::size_t stride = (a_from_b.size() + kMost - 1) / kMost;
   double best_cost = std::numeric_limits<double>::infinity();
@@ -29,8 +28,8 @@ Link agree_on(std::size_t a, std::size_t b, std::span<const RigidTransform> a_fr
     int support = 0;
     for (std::size_t j = 0; j < a_from_b.size(); j += stride) {
       const double d = disagreement(a_from_b[i], a_from_b[j]);
-      cost += std::min(d, kFar);
-      if (d >= kFar) continue;
+      cost += std::min(d, kFarApart);
+      if (d >= kFarApart) continue;
       ++support;
       near += d;
     }

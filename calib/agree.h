@@ -26,6 +26,9 @@ struct Link {
 /// volume a few metres away.
 [[nodiscard]] double disagreement(const RigidTransform& x, const RigidTransform& y);
 
+/// Proposals that disagree by this or more do not support each other. [m and rad]
+inline constexpr double kFarApart = 0.3;
+
 /// The proposal that most others are near (a medoid under a bounded distance). Of many, a
 /// few hundred evenly chosen. Precondition: not empty.
 [[nodiscard]] Link agree_on(std::size_t a,

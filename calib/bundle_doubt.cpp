@@ -40,6 +40,33 @@ std::optional<Eigen::MatrixXd> leading_covariance(const Sparse& normal, int shar
   return scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal();
 }
 
+Sparse sparse_of(const ceres::CRSMatrix& crs) {
+  return Eigen::Map<const RowSparse>(crs.num_rows,
+                                     crs.num_cols,
+                                     static_cast<Eigen::Index>(crs.values.size()),
+                                     crs.rows.data(),
+                                     crs.cols.data(),
+                                     crs.values.data());
+}
+
+/// In the order of RigCovariance; `columns` are a camera's numbers in `covariance`, -1
+/// for those that were held.
+RigCovariance scattered(const Eigen::MatrixXd& covariance,
+                        const std::vector<int>& columns,
+                        std::size_t cameras) {
+  RigCovariance out;
+  out.cameras = cameras;
+  const std::size_t size = out.size();
+  out.values.assign(size * size, 0.0);
+  for (std::size_t row = 0; row < size; ++row) {
+    for (std::size_t column = 0; column < size; ++column) {
+      if (columns[row] < 0 || columns[column] < 0) continue;
+      out.values[row * size + column] = covariance(columns[row], columns[column]);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<double*> BundleProblem::shared_blocks() {
@@ -69,6 +96,48 @@ std::vector<double*> BundleProblem::pose_blocks() {
   return blocks;
 }
 
+std::vector<int> BundleProblem::columns_of_cameras(
+    const std::map<const double*, int>& first) const {
+  std::vector<int> columns(RigCovariance::kPerCamera * cameras_.size(), -1);
+  for (std::size_t c = 0; c < cameras_.size(); ++c) {
+    const std::size_t at = RigCovariance::kPerCamera * c;
+    const auto lens = first.find(cameras_[c].lens.data());
+    const auto pose = first.find(cameras_[c].pose.data());
+    for (int i = 0; i < kLens && lens != first.end(); ++i) {
+      columns[at + static_cast<std::size_t>(i)] = lens->second + i;
+    }
+    for (int i = 0; i < 6 && pose != first.end(); ++i) {
+      columns[at + static_cast<std::size_t>(kLens + i)] = pose->second + i;
+    }
+  }
+  return columns;
+}
+
+ClockSigma BundleProblem::clock_sigma(std::size_t c,
+                                      int first,
+                                      const Eigen::MatrixXd& covariance) const {
+  const double* clock = cameras_[c].clock.data();
+  const int count = problem_.ParameterBlockTangentSize(clock);
+  Eigen::MatrixXd plus = Eigen::MatrixXd::Identity(3, count);
+  if (const ceres::Manifold* manifold = problem_.GetManifold(clock)) {
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> p(3, count);
+    manifold->PlusJacobian(clock, p.data());
+    plus = p;
+  }
+  const Eigen::Matrix3d full =
+      plus * covariance.block(first, first, count, count) * plus.transpose();
+  return {std::sqrt(full(0, 0)), std::sqrt(full(1, 1)), std::sqrt(full(2, 2))};
+}
+
+double BundleProblem::sigma_factor(double cost, int numbers) const {
+  double factor = 1.0;
+  const int freedom = residuals_ - numbers;
+  if (freedom > 0) factor = std::max(1.0, std::sqrt(2.0 * cost / freedom));
+  // What a lens, a print and a detector do alike to all corners does not average out.
+  const double corners = 0.5 * residuals_ / static_cast<double>(cameras_.size());
+  return factor * std::sqrt(1.0 + kCommonShare * kCommonShare * corners);
+}
+
 std::optional<RigDoubt> BundleProblem::doubt() {
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = shared_blocks();
@@ -84,68 +153,19 @@ std::optional<RigDoubt> BundleProblem::doubt() {
   ceres::CRSMatrix crs;
   double cost = 0.0;
   if (!problem_.Evaluate(options, &cost, nullptr, nullptr, &crs)) return std::nullopt;
-  const Eigen::Map<const RowSparse> jacobian(crs.num_rows,
-                                             crs.num_cols,
-                                             static_cast<Eigen::Index>(crs.values.size()),
-                                             crs.rows.data(),
-                                             crs.cols.data(),
-                                             crs.values.data());
-  const Sparse columns = jacobian;
+  const Sparse columns = sparse_of(crs);
   const Sparse normal = Sparse(columns.transpose()) * columns;
-  const auto covariance = leading_covariance(normal, shared);
+  auto covariance = leading_covariance(normal, shared);
   if (!covariance) return std::nullopt;
 
   RigDoubt doubt;
-  const int freedom = residuals_ - crs.num_cols;
-  if (freedom > 0) {
-    doubt.sigma_factor = std::max(1.0, std::sqrt(2.0 * cost / freedom));
-  }
-  // What a lens, a print and a detector do alike to all corners does not average out.
-  const double corners = 0.5 * residuals_ / static_cast<double>(cameras_.size());
-  doubt.sigma_factor *= std::sqrt(1.0 + kCommonShare * kCommonShare * corners);
-  const double scale = doubt.sigma_factor * doubt.sigma_factor;
-  doubt.covariance.cameras = cameras_.size();
-  const std::size_t size = doubt.covariance.size();
-  doubt.covariance.values.assign(size * size, 0.0);
-  std::vector<int> place(size, -1);  // Column of each number of a camera.
+  doubt.sigma_factor = sigma_factor(cost, crs.num_cols);
+  *covariance *= doubt.sigma_factor * doubt.sigma_factor;
+  doubt.covariance = scattered(*covariance, columns_of_cameras(first), cameras_.size());
   for (std::size_t c = 0; c < cameras_.size(); ++c) {
-    const std::size_t at = RigCovariance::kPerCamera * c;
-    const auto lens = first.find(cameras_[c].lens.data());
-    const auto pose = first.find(cameras_[c].pose.data());
-    for (int i = 0; i < kLens && lens != first.end(); ++i) {
-      place[at + static_cast<std::size_t>(i)] = lens->second + i;
-    }
-    for (int i = 0; i < 6 && pose != first.end(); ++i) {
-      place[at + static_cast<std::size_t>(kLens + i)] = pose->second + i;
-    }
-    ClockSigma clock;
-    const auto found = first.find(cameras_[c].clock.data());
-    if (found != first.end()) {
-      std::array<double*, 3> out{&clock.offset_s, &clock.drift, &clock.line_delay_s};
-      const ceres::Manifold* manifold = problem_.GetManifold(cameras_[c].clock.data());
-      const int count = problem_.ParameterBlockTangentSize(cameras_[c].clock.data());
-      Eigen::MatrixXd plus = Eigen::MatrixXd::Identity(3, count);
-      if (manifold) {
-        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> p(3,
-                                                                                 count);
-        manifold->PlusJacobian(cameras_[c].clock.data(), p.data());
-        plus = p;
-      }
-      const Eigen::Matrix3d full =
-          plus * covariance->block(found->second, found->second, count, count) *
-          plus.transpose();
-      for (int i = 0; i < 3; ++i) {
-        *out[static_cast<std::size_t>(i)] = std::sqrt(scale * full(i, i));
-      }
-    }
-    doubt.clocks.push_back(clock);
-  }
-  for (std::size_t row = 0; row < size; ++row) {
-    for (std::size_t column = 0; column < size; ++column) {
-      if (place[row] < 0 || place[column] < 0) continue;
-      doubt.covariance.values[row * size + column] =
-          scale * (*covariance)(place[row], place[column]);
-    }
+    const auto clock = first.find(cameras_[c].clock.data());
+    doubt.clocks.push_back(
+        clock != first.end() ? clock_sigma(c, clock->second, *covariance) : ClockSigma{});
   }
   return doubt;
 }

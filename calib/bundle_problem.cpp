@@ -3,10 +3,8 @@
 #include "calib/bundle_problem.h"
 
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Dense>
-#include <Eigen/Sparse>
 
 #include "calib/bundle_priors.h"
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Dense>
 #include <ceres/ceres.h>
 
 #include "calib/refine_rig.h"
@@ -41,11 +42,6 @@ class BundleProblem {
     std::vector<PieceBlock> pieces;
     std::array<double, 3> warp{};
   };
-  struct Column {
-    double* block = nullptr;
-    int first = 0;
-    int count = 0;
-  };
 
   void add_sighting(const RigModel& model, const Sighting& sighting, bool robust);
   void add_motion_priors(const RigModel& model, const RefineOptions& options);
@@ -55,6 +51,16 @@ class BundleProblem {
   [[nodiscard]] bool moves(const double* block) const;
   [[nodiscard]] std::vector<double*> shared_blocks();
   [[nodiscard]] std::vector<double*> pose_blocks();
+  /// Of each number of RigCovariance, its column; -1 where it is held. `first`: the
+  /// columns at which blocks begin.
+  [[nodiscard]] std::vector<int> columns_of_cameras(
+      const std::map<const double*, int>& first) const;
+  /// Of camera `c`, whose clock begins at that column.
+  [[nodiscard]] ClockSigma clock_sigma(std::size_t c,
+                                       int first,
+                                       const Eigen::MatrixXd& covariance) const;
+  /// RigDoubt's: from the cost of that many numbers.
+  [[nodiscard]] double sigma_factor(double cost, int numbers) const;
 
   std::vector<CameraBlock> cameras_;
   std::vector<TargetBlock> targets_;

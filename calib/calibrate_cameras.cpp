@@ -41,6 +41,16 @@ bool moves(const CalibrateOptions& options) {
   return options.solve_offsets || options.solve_drifts || options.solve_line_delays;
 }
 
+/// What calibrate_cameras() takes for granted of a camera.
+bool is_fit(const Work& work, std::size_t c) {
+  const CameraDetections& camera = work.waved[c];
+  const bool needs_rate = work.options.choose_clocks || moves(work.options);
+  if (needs_rate && !(camera.rate.hz > 0.0)) return false;
+  if (!has_lens(work, c)) return true;
+  const Intrinsics& k = *work.options.lenses[c];
+  return k.width_px == camera.width_px && k.height_px == camera.height_px;
+}
+
 Result<std::vector<Intrinsics>> first_intrinsics(const Work& work, LensModel lens) {
   std::vector<Intrinsics> intrinsics;
   for (std::size_t c = 0; c < work.waved.size(); ++c) {
@@ -123,8 +133,12 @@ Result<SolvedRig> first_rig(Work& work, LensModel lens) {
 
 Result<SolvedRig> solve(Work& work) {
   const auto of_lens = [&](LensModel lens) { return first_rig(work, lens); };
-  auto solved =
-      of_lens(work.options.choose_lens ? choose_lens(of_lens) : work.options.lens);
+  bool all_given = true;
+  for (std::size_t c = 0; c < work.waved.size(); ++c) {
+    all_given = all_given && has_lens(work, c);
+  }
+  const bool chooses = work.options.choose_lens && !all_given;
+  auto solved = of_lens(chooses ? choose_lens(of_lens) : work.options.lens);
   if (!solved) return solved;
   solved->doubt = refine_rig(solved->model, solved->refine);
   if (solved->doubt && work.options.find_warp &&
@@ -150,6 +164,7 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
   MAREY_ASSERT(names.size() == waved.size());
   MAREY_ASSERT(!std::holds_alternative<Wand>(board));
   Work work{names, waved, floor, &board, options, board_views(waved, floor, board), {}};
+  for (std::size_t c = 0; c < waved.size(); ++c) MAREY_ASSERT(is_fit(work, c));
   auto solved = options.choose_clocks
                     ? solve_choosing_clocks(
                           names,

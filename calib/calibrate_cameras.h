@@ -18,17 +18,18 @@ namespace marey::calib {
 struct CalibrateOptions {
   LensModel lens = LensModel::kBrownConrady;
   /// Instead of `lens`, the one that does best on odd frames after seeing the even ones.
+  /// Of cameras whose lenses are not given; costs nothing when all are.
   bool choose_lens = false;
   /// Per camera: its lens, when it is known already; it is held. Empty: none is known.
   std::vector<std::optional<Intrinsics>> lenses{};
   /// Cameras started on their own: their clocks' offsets against the first camera's are
   /// found from the board's motion, and perhaps by how much they drift, and how long a
-  /// sensor takes from one row to the next. Needs `rate` of the detections.
+  /// sensor takes from one row to the next. Need rates above zero of the detections.
   bool solve_offsets = false;
   bool solve_drifts = false;
   bool solve_line_delays = false;
   /// Instead of solve_offsets and solve_drifts: they are solved for when the cameras turn
-  /// out not to run on one clock. Cameras of different rates never do.
+  /// out not to run on one clock. Cameras of different rates never do. Needs rates too.
   bool choose_clocks = false;
   double most_offset_s = 5.0;  ///< Offsets are looked for up to this, either way.
   /// Asks whether the board is bent (CalibratedRig::warp_m): twice the time.
@@ -56,7 +57,7 @@ struct CalibrateOptions {
 /// px off (wrong board geometry); tags whose size does not go with the gaps between them.
 /// Cost: a few seconds for four cameras and a hundred frames. Precondition: the board is
 /// no wand (calibrate_wand()); lenses that are given are of pictures of the cameras'
-/// sizes.
+/// sizes; rates are above zero where clocks are solved for or chosen.
 [[nodiscard]] Result<CalibratedRig> calibrate_cameras(
     std::span<const std::string> names,
     std::span<const CameraDetections> waved,

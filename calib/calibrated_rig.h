@@ -85,7 +85,8 @@ struct CalibratedRig {
   /// small part of their error is common to all that a camera sees. At least 1.
   double sigma_factor = 1.0;
   std::vector<SolvedClock> clocks;  ///< Per camera; zeros where they were not solved for.
-  std::optional<CrossValidation> cross_validation;  ///< When it was asked for.
+  /// When it was asked for, and both halves of the recording say enough.
+  std::optional<CrossValidation> cross_validation;
   /// How far the board's plate rises out of its plane towards its edges along x and y,
   /// and twists [m]; nullopt when the data do not tell.
   std::optional<std::array<double, 3>> warp_m;

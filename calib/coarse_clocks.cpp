@@ -48,8 +48,7 @@ Fit best_lag(const Track& a, const Track& b, int most) {
     }
     if (proposals.size() < 4) continue;
     const Link link = agree_on(0, 1, proposals);
-    constexpr double kFar = 0.3;  // As agree_on()'s.
-    const double score = link.support * (kFar - link.spread);
+    const double score = link.support * (kFarApart - link.spread);
     // Of equals, the smaller lag: a board at rest agrees with every one.
     const bool better =
         score > 1.001 * best.score ||

@@ -23,7 +23,7 @@ namespace marey::calib {
                                                     const RigModel& held_out);
 
 /// Refines both halves of a refined model anew, and leaves out each camera in turn.
-/// nullopt where a half says too little.
+/// nullopt where a half says too little or its bundle does not converge.
 [[nodiscard]] std::optional<CrossValidation> cross_validate(const RigModel& model,
                                                             const RefineOptions& options);
 

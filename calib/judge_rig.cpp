@@ -25,7 +25,7 @@ double root_mean_square(const std::vector<double>& values) {
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// What a camera saw, gathered.
+/// What a camera saw of the board or the wand, gathered.
 struct Gathered {
   std::vector<double> errors_px;
   std::set<int> cells;
@@ -36,6 +36,7 @@ void gather(const RigModel& model,
             const Sighting& sighting,
             const std::vector<double>& errors,
             Gathered& out) {
+  if (!is_shown(model.targets[sighting.target])) return;
   const Camera camera = camera_of(model.cameras[sighting.camera]);
   std::array<glm::dvec2, 4> seen{};
   for (std::size_t i = 0; i < 4; ++i) seen[i] = sighting.corners[i].pixel_px;

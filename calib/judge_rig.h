@@ -14,7 +14,8 @@
 namespace marey::calib {
 
 /// Cameras, errors over all sightings (outliers too), coverage and sigmas. The world
-/// stays as it is in the model. Sightings that have no place count for nothing.
+/// stays as it is in the model. Sightings that have no place count for nothing; scenery
+/// counts for the rig as a whole, and not for the quality of a camera.
 [[nodiscard]] CalibratedRig judge_rig(std::span<const std::string> names,
                                       const RigModel& model,
                                       const RigDoubt& doubt);

@@ -25,16 +25,18 @@ namespace marey::calib {
 /// floor; the origin is below the middle of all, and Z points from there to the first
 /// camera.
 ///
-/// nullopt when cameras are all alike turned, fewer than three tags are placed, or a
-/// camera would stand below the floor. Precondition: one detections entry per camera.
+/// nullopt when cameras are all alike turned, fewer than three tags are placed, a camera
+/// would stand below the floor, or the first straight above the origin. Precondition: one
+/// detections entry per camera.
 [[nodiscard]] std::optional<RigidTransform> level_by_tags(
     std::span<const Camera> cameras,
     std::span<const CameraDetections> standing,
     const std::map<TagId, double>& sizes_m = {});
 
 /// Likewise by tags that lie on the floor: it is the plane through their corners, up is
-/// where the cameras are. nullopt when fewer than two tags are placed by two cameras, or
-/// any is more than two centimetres off the plane. Precondition: as level_by_tags()'s.
+/// where the cameras are. nullopt when fewer than two tags are placed by two cameras, any
+/// is more than two centimetres off the plane, there are cameras on both sides of it, or
+/// the first stands straight above the origin. Precondition: as level_by_tags()'s.
 [[nodiscard]] std::optional<RigidTransform> level_by_lying_tags(
     std::span<const Camera> cameras, std::span<const CameraDetections> lying);
 

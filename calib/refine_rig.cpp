@@ -64,7 +64,6 @@ void mark_outliers(RigModel& model) {
 }
 
 bool solve_once(RigModel& model, const RefineOptions& options, bool robust) {
-  const std::vector<RigCamera> before = model.cameras;
   BundleProblem problem(model, options, robust);
   if (!problem.solve()) return false;
   problem.write_back(model);

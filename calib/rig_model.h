@@ -51,6 +51,11 @@ struct RigidTarget {
   double knot_spacing_s = 0.0;
 };
 
+/// Whether it is what the cameras are calibrated with, and not the scenery about it.
+[[nodiscard]] inline bool is_shown(const RigidTarget& target) {
+  return !target.stays || target.pieces.empty();
+}
+
 /// What one frame of one camera shows of one tag (four corners) or one point (one).
 struct Sighting {
   std::size_t camera = 0;

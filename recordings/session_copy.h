@@ -14,7 +14,7 @@ namespace marey::recordings {
 /// are. A file that is there already is left alone.
 ///
 /// Errors (kBadInput): the session there does not have the trial as one to record; its
-/// own videos are relative and cannot be named from there; the disk.
+/// own videos, or its `lenses`, are relative and cannot be named from there; the disk.
 [[nodiscard]] Status copy_session(const Session& session,
                                   const std::filesystem::path& folder,
                                   const Trial& trial);

@@ -93,17 +93,18 @@ function headSection(figures) {
 
 function togetherSection(figures) {
   const shared = figures.shared_views;
+  const enough = figures.limits.shared_instants;
   if (shared.length === 0) return [el('p', {}, 'Nothing is known of this.')];
   const rows = figures.cameras.map((camera, i) => ({camera, i}));
   // Opposite cameras need not meet; one that nothing joins to the rest should.
   const best = (i) => Math.max(...shared[i].filter((_, k) => k !== i));
   const cell = (i, k) => el('span', {class: i === k ? 'own'
-    : best(i) < 8 || best(k) < 8 ? 'weak' : null}, String(shared[i][k]));
+    : best(i) < enough || best(k) < enough ? 'weak' : null}, String(shared[i][k]));
   const made = table([
     {title: 'Camera', cell: ({camera}) => camera.name},
     ...figures.cameras.map((camera, k) => ({title: camera.name, number: true,
       cell: ({i}) => cell(i, k)})),
-  ], rows, 'Instants at which two cameras saw the board together');
+  ], rows, `Instants at which two cameras saw the ${shownTarget(figures)} together`);
   made.classList.add('matrix');
   return [
     el('p', {class: 'lead'}, 'At how many instants two cameras saw it together: these hold ' +
@@ -139,6 +140,7 @@ function clocksPart({cameras}) {
 
 function checksSection(figures) {
   const check = figures.cross_validation;
+  const target = shownTarget(figures);
   const out = [];
   if (check === null) {
     out.push(el('p', {class: 'lead'}, 'The calibration was not checked against frames that ' +
@@ -148,7 +150,7 @@ function checksSection(figures) {
       `are ${fixed(check.seen_rms_px, 2)} px off in these and ` +
       `${fixed(check.held_out_rms_px, 2)} px in the odd ones, which they had not seen: the ` +
       'nearer the better. Below, how far even and odd frames put each camera apart, and ' +
-      'how far off it is when the others alone say where the board was.'),
+      `how far off it is when the others alone say where the ${target} was.`),
     table([
       {title: 'Camera', cell: (camera) => camera.name},
       {title: 'Place apart', number: true, cell: (c) => `${fixed(c.centre_apart_mm, 1)} mm`},
@@ -163,11 +165,11 @@ function checksSection(figures) {
   const slow = lags.filter(({clock_lag: lag}) => lag.explained_px > 0.05);
   if (lags.length > 0 && slow.length === 0) {
     out.push(el('p', {}, 'All cameras started together: their errors do not follow the ' +
-      'board’s movement.'));
+      `${target}’s movement.`));
   } else if (lags.length > 0) {
     out.push(el('h3', {}, 'Whether all started together'),
-      el('p', {class: 'lead'}, 'Errors that follow the board’s movement show a camera that ' +
-        'is late (positive) or early against the others. Since the board’s place is found ' +
+      el('p', {class: 'lead'}, `Errors that follow the ${target}’s movement show a camera that ` +
+        `is late (positive) or early against the others. Since the ${target}’s place is found ` +
         'from all of them, the true figure is larger.'),
       table([
         {title: 'Camera', cell: (camera) => camera.name},
@@ -235,7 +237,8 @@ function outliersSection(figures) {
   const made = (rows) => table([
     {title: 'Camera', cell: (row) => row.camera},
     {title: 'Frame', number: true, cell: (row) =>
-      (row.frame === null ? 'floor' : String(row.frame))},
+      (row.frame !== null ? String(row.frame)
+        : shownTarget(figures) === 'wand' ? 'scenery' : 'floor')},
     {title: 'Left out', number: true, cell: (row) => `${row.left_out} of ${row.of}`},
     {title: 'Median error', number: true, cell: (row) => `${fixed(row.median_error_px, 1)} px`},
   ], rows, 'Frames with outliers');

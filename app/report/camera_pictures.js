@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What each camera saw of the board: where in its picture, how far off, how tilted.
+// What each camera saw of the board or wand: where in its picture, how far off, how tilted.
 
 function coveragePicture(camera) {
   const columns = camera.coverage_columns;
@@ -94,8 +94,9 @@ function seenWords(camera) {
 function picturesSection(figures, cameras) {
   return [
     el('p', {class: 'lead'}, 'Good is a picture filled to its edges, arrows that are short ' +
-      'and point anywhere, and a board that was tilted to all sides. Arrows that agree with ' +
-      'their neighbours show what the lens model misses.'),
+      `and point anywhere, and a ${shownTarget(figures)} that was ` +
+      `${shownTarget(figures) === 'wand' ? 'turned' : 'tilted'} to all sides. Arrows that ` +
+      'agree with their neighbours show what the lens model misses.'),
     ...figures.cameras.map((camera, i) => el('article', {class: 'seen'},
       el('h3', {}, camera.name), el('p', {class: 'about'}, seenWords(camera)),
       el('div', {class: 'seen-figures'}, coveragePicture(camera),

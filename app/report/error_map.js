@@ -138,11 +138,12 @@ function errorsSection(figures) {
   const top = mapScale(map);
   const ground = figures.has_floor
     ? 'Heights are above the floor: where ankles, hips and shoulders are.'
-    : 'Without a floor trial the world has no ground: heights are those at which the ' +
-      'board was held, from the first camera’s.';
+    : 'As nothing showed the floor the world has no ground: heights are those at which ' +
+      `the ${shownTarget(figures)} was held, from the first camera’s.`;
   return [
     el('p', {class: 'lead'}, 'How far a point would be from the truth (root mean square) ' +
-      'if every camera that sees it found it as well as it found the board. Cameras’ own ' +
+      'if every camera that sees it found it as well as it found the ' +
+      `${shownTarget(figures)}. Cameras’ own ` +
       `doubts are counted, bodies in the way are not. ${ground}`),
     mapKey(top),
     el('div', {class: 'maps'}, ...map.heights.map((height) =>

@@ -24,6 +24,11 @@ function sigmaCircles(covariance, scale) {
   }));
 }
 
+/** What was shown to the cameras, in a word. */
+function shownTarget(figures) {
+  return figures.target.startsWith('wand') ? 'wand' : 'board';
+}
+
 class RigStage {
   constructor(data) {
     this.cameras = data.figures.cameras;
@@ -165,9 +170,10 @@ class RigStage {
 class RigViewer {
   constructor(data, linesOnly) {
     this.stage = new RigStage(data);
+    const target = shownTarget(data.figures);
     this.options = {places: true, doubt: true};
     this.canvas = el('canvas', {tabindex: 0, role: 'img', 'aria-label':
-      'Cameras and boards in three dimensions. Drag turns, plus and minus zoom.',
+      `Cameras and the ${target} in three dimensions. Drag turns, plus and minus zoom.`,
     onkeydown: (event) => this.#key(event)});
     this.labels = el('div', {class: 'labels', 'aria-hidden': 'true'},
       ...this.stage.cameras.map((camera) => el('span', {}, camera.name)));
@@ -183,7 +189,9 @@ class RigViewer {
     };
     this.root = el('div', {class: 'viewer rig'},
       el('div', {class: 'stage'}, this.canvas, this.labels),
-      el('div', {class: 'controls'}, toggle('places', 'Board'), toggle('doubt', 'Doubt'),
+      el('div', {class: 'controls'},
+        toggle('places', target === 'wand' ? 'Wand' : 'Board'),
+        toggle('doubt', 'Doubt'),
         el('button', {type: 'button', onclick: () => this.#frame()}, 'Reset view'),
         el('span', {class: 'clock'}, 'Drag turns, shift drag moves, the wheel zooms ' +
           'once the picture was clicked.')));
@@ -244,13 +252,14 @@ class RigViewer {
 }
 
 function layoutSection(figures, viewer) {
-  const floor = figures.has_floor
+  const floor = figures.board_on_floor
     ? ' The green one, crossed out, is the board on the floor.'
-    : ' There was no floor trial: the grid is only a help to the eye.';
+    : figures.has_floor ? ' The grid is the floor.'
+      : ' Nothing showed the floor: the grid is only a help to the eye.';
   const {sigmaScale: scale} = viewer.stage;
   return [
     el('p', {class: 'lead'}, 'Check that every camera stands and looks as in the room. ' +
-      `Orange outlines are where the ${figures.target.startsWith('wand') ? 'wand' : 'board'} ` +
+      `Orange outlines are where the ${shownTarget(figures)} ` +
       `was.${floor} Rings around a camera are the doubt of its place (one sigma), ` +
       (scale > 1 ? `drawn ${scale} times too large.` : 'as large as it is.')),
     viewer.root,

@@ -151,6 +151,47 @@ TEST(JudgeCalibration, NamesACameraThatIsOutOfStepAndBlamesNothingElse) {
   expect(only(report), Severity::kFair, "clock", "camera middle", "20 ms or more later");
 }
 
+// On 4K half a pixel of lag is no lag: whole stretches that do not fit have another
+// cause.
+TEST(JudgeCalibration, ExcusesNoMovedCameraByALagThatItDoesNotTell) {
+  CalibrationReport report = decent();
+  report.rig.cameras[1].intrinsics.width_px = 3840;
+  report.cameras[1].lag = CameraLag{0.2, 0.01, 0.5};
+  report.cameras[1].astray_from = 71;
+  expect(only(report), Severity::kPoor, "moved", "camera middle", "frame 71");
+}
+
+TEST(JudgeCalibration, SpeaksOfAWandWhereThereIsNoBoard) {
+  CalibrationReport report = decent();
+  report.extent.reset();
+  for (auto& camera : report.cameras) {
+    camera.tilts.clear();
+    camera.floor_median_px.reset();
+  }
+  report.cameras[0].astray_from = 71;
+  report.cameras[1].pattern_px = 0.32;
+  report.cameras[1].lag = CameraLag{0.6, 0.02, 1.5};
+  report.rig.quality[2].coverage = 0.2;
+  report.rig.outlier_frames = {{CameraId{0}, calib::kFloorInstant, 9, 10, 9.0},
+                               {CameraId{1}, calib::kFloorInstant, 9, 10, 9.0}};
+  report.rig.cross_validation = calib::CrossValidation{0.3,
+                                                       0.32,
+                                                       {0.002, 0.002, 0.002},
+                                                       {0.0, 0.0, 0.0},
+                                                       {0.0, 0.0, 0.0},
+                                                       {0.3, 0.3, 7.0}};
+  const auto found = judge_calibration(report);
+  EXPECT_EQ(found.size(), 6U);
+  for (const Finding& finding : found) {
+    EXPECT_EQ((finding.where + finding.cause + finding.next).find("board"),
+              std::string::npos)
+        << finding.where << ": " << finding.cause << ": " << finding.next;
+    if (finding.kind == "outlier-frame") {
+      EXPECT_EQ(finding.where, "scenery");
+    }
+  }
+}
+
 TEST(JudgeCalibration, CountsOutliers) {
   CalibrationReport report = decent();
   report.cameras[0].outlier_corners = 600;

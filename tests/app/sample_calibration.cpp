@@ -30,7 +30,7 @@ const CalibrationReport& sample_calibration() {
                                         options);
     if (!rig) throw std::runtime_error(rig.error().message());
     const CalibrationTarget target = kSampleBoard;
-    return report_calibration({"sample", "1.0", &target, 1.75, 30.0}, std::move(*rig));
+    return report_calibration({"sample", "1.0", &target, 1.75, 30.0, true}, std::move(*rig));
   }();
   return report;
 }
