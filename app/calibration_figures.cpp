@@ -194,9 +194,7 @@ Json camera_figures(const CalibrationReport& report, std::size_t c) {
 }
 
 Json map_figures(const CalibrationMap& map) {
-  const glm::dvec3 extent = map.grid.greatest_in_world - map.grid.least_in_world;
-  const auto columns =
-      static_cast<std::size_t>(std::floor(extent.x / map.grid.step_m + 1e-9)) + 1;
+  const auto columns = static_cast<std::size_t>(map.grid.columns());
   const std::size_t count = map.places.size() / map.grid.heights_m.size();
   Json heights = Json::array();
   for (std::size_t h = 0; h < map.grid.heights_m.size(); ++h) {

@@ -3,6 +3,7 @@
 #include "calib/expected_error.h"
 
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Dense>
 #include <ceres/jet.h>
@@ -15,7 +16,30 @@ namespace {
 
 constexpr int kPerCamera = static_cast<int>(RigCovariance::kPerCamera);
 
+struct Counts {
+  int columns;
+  int rows;
+};
+
+Counts counts_of(const ErrorMapGrid& grid) {
+  MAREY_ASSERT(grid.step_m > 0.0);
+  const glm::dvec3 extent = grid.greatest_in_world - grid.least_in_world;
+  const double columns = std::floor(extent.x / grid.step_m + 1e-9) + 1.0;
+  const double rows = std::floor(extent.z / grid.step_m + 1e-9) + 1.0;
+  MAREY_ASSERT(columns >= 1.0 && rows >= 1.0);
+  MAREY_ASSERT(columns * rows <= std::numeric_limits<int>::max());
+  return {static_cast<int>(columns), static_cast<int>(rows)};
+}
+
 }  // namespace
+
+int ErrorMapGrid::columns() const {
+  return counts_of(*this).columns;
+}
+
+int ErrorMapGrid::rows() const {
+  return counts_of(*this).rows;
+}
 
 std::vector<CameraId> cameras_that_see(std::span<const Camera> cameras,
                                        const glm::dvec3& p_in_world,
@@ -91,10 +115,7 @@ std::vector<ErrorMapPlace> error_map(std::span<const Camera> cameras,
                                      const RigCovariance* covariance,
                                      const ErrorMapGrid& grid,
                                      double sigma_px) {
-  MAREY_ASSERT(grid.step_m > 0.0);
-  const glm::dvec3 extent = grid.greatest_in_world - grid.least_in_world;
-  const int columns = static_cast<int>(std::floor(extent.x / grid.step_m + 1e-9)) + 1;
-  const int rows = static_cast<int>(std::floor(extent.z / grid.step_m + 1e-9)) + 1;
+  const auto [columns, rows] = counts_of(grid);
   std::vector<ErrorMapPlace> map;
   for (const double height_m : grid.heights_m) {
     for (int row = 0; row < rows; ++row) {

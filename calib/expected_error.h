@@ -63,6 +63,12 @@ struct ErrorMapGrid {
   glm::dvec3 greatest_in_world{2.0, 0.0, 2.0};   ///< Likewise.
   double step_m = 0.1;                           ///< Along x and z.
   std::vector<double> heights_m{0.1, 0.9, 1.5};  ///< Ankle, hip, shoulder.
+
+  /// Places along x and along z, both ends of a side counted where steps reach them.
+  /// Preconditions: step_m > 0, greatest not below least, and no more places at one
+  /// height than an int holds.
+  [[nodiscard]] int columns() const;
+  [[nodiscard]] int rows() const;
 };
 
 struct ErrorMapPlace {
@@ -72,7 +78,7 @@ struct ErrorMapPlace {
 };
 
 /// expected_error_m() for a point at every place of a grid, from all cameras that see it:
-/// by height, then z, then x. Preconditions: step_m > 0; as of point_covariance().
+/// by height, then z, then x. Preconditions: as of columns() and point_covariance().
 [[nodiscard]] std::vector<ErrorMapPlace> error_map(std::span<const Camera> cameras,
                                                    const RigCovariance* covariance,
                                                    const ErrorMapGrid& grid,

@@ -20,10 +20,15 @@
 namespace marey::calib {
 namespace {
 
-constexpr int kStrideFrames = 36;
-constexpr int kRunUp = 6;  ///< Frames at either end that have too few neighbours.
 constexpr double kSpeed_m_s = 1.2;
-constexpr double kStepsPerTurn_m = 1.35;  ///< Way of two steps.
+constexpr double kStride_m = 1.35;  ///< Way of two steps.
+constexpr double kWalk_s = 1.2;     ///< A stride and a little more.
+constexpr double kRunUp_s = 0.2;    ///< At either end: its frames have few neighbours.
+
+/// Even, as solve_chain() wants it.
+int frames_of_a_walk(double rate_hz) {
+  return 2 * std::max(1, static_cast<int>(std::lround(0.5 * kWalk_s * rate_hz)));
+}
 
 /// The joints whose truth rendered recordings know.
 std::vector<HumanBone> limb_joints() {
@@ -75,17 +80,19 @@ class BodyPlanner {
     std::vector<SeenBody> frames;
     std::vector<FrameInformation> information;
     const glm::dvec2 way{std::sin(heading_rad), std::cos(heading_rad)};
-    for (int f = 0; f < kStrideFrames; ++f) {
+    const int count_of_frames = frames_of_a_walk(options_.rate_hz);
+    for (int f = 0; f < count_of_frames; ++f) {
       const double gone_m =
-          (f - 0.5 * (kStrideFrames - 1)) * kSpeed_m_s / options_.rate_hz;
-      const double phase =
-          2.0 * std::numbers::pi * gone_m / kStepsPerTurn_m + heading_rad;
+          (f - 0.5 * (count_of_frames - 1)) * kSpeed_m_s / options_.rate_hz;
+      const double phase = 2.0 * std::numbers::pi * gone_m / kStride_m + heading_rad;
       frames.push_back(
           see(walking_body(body_, middle_m + gone_m * way, heading_rad, phase)));
       information.push_back(std::move(frames.back().information));
     }
     const auto doubts = solve_chain(information, step_prior(options_.rate_hz));
-    for (std::size_t f = kRunUp; f + kRunUp < frames.size(); ++f) {
+    const auto run_up =
+        static_cast<std::size_t>(std::lround(kRunUp_s * options_.rate_hz));
+    for (std::size_t f = run_up; f + run_up < frames.size(); ++f) {
       count(frames[f], doubts[f]);
     }
   }
@@ -121,12 +128,14 @@ class BodyPlanner {
     out.found_share = found_ / all;
     out.views_share = seen_ / tags;
     out.twice_share = seen_twice_ / tags;
+    for (const int measured : measured_) {
+      out.measured_share += measured / all / static_cast<double>(joints_.size());
+    }
     if (found_ == 0) return out;
     std::vector<double> pooled;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const double share = measured_[j] / all;
-      out.joints.push_back({joints_[j], share, spread(errors_[j]), median(lasting_[j])});
-      out.measured_share += share / static_cast<double>(joints_.size());
+      out.joints.push_back(
+          {joints_[j], measured_[j] / all, spread(errors_[j]), median(lasting_[j])});
       pooled.insert(pooled.end(), errors_[j].begin(), errors_[j].end());
     }
     out.error_m = spread(pooled);
@@ -274,9 +283,10 @@ BodyPlan plan_body(std::span<const Camera> cameras,
     }
   }
   BodyPlan out = planner.plan();
-  const int columns = static_cast<int>(std::floor(extent.x / options.step_m + 1e-9)) + 1;
-  const int rows = static_cast<int>(std::floor(extent.y / options.step_m + 1e-9)) + 1;
-  for (int at = 0; at < rows * columns; ++at) {
+  ErrorMapGrid stands = grid;
+  stands.step_m = options.step_m;
+  const int columns = stands.columns();
+  for (int at = 0; at < stands.rows() * columns; ++at) {
     const glm::dvec2 place{at % columns, at / columns};
     out.stands.push_back(planner.stand(least + options.step_m * place));
   }

@@ -49,18 +49,24 @@ struct BodyPlan {
   std::vector<PlannedStand> stands;  ///< By z, then x.
 };
 
-/// What marey would make of a body that walks through the volume: one least-squares
-/// solution over whole strides of all corners that cameras see, tags behind the body's
-/// own flesh left out, with the habits and steps that marey's solver knows. The body's
-/// lengths and tags are known as well as a bundle over 90 frames of moving every joint in
-/// the middle of the volume, and 5 of standing still, would tell; cameras as `covariance`
-/// says (null: exactly); where the collar bones start is known to 12 mm. All to first
-/// order. Errors are quantiles of the distance that comes of these covariances.
+/// What marey would make of a body that walks through the volume: for every way a
+/// least-squares solution over 1.2 s, a stride and a little more, of all corners that
+/// cameras see, tags behind the body's own flesh left out, with the habits and steps that
+/// marey's solver knows. The 0.8 s in its middle count: frames at either end have few
+/// neighbours. The middle of a way lies in the volume; its ends may lie 0.7 m outside,
+/// and those of the part that counts 0.5 m.
+///
+/// The body's lengths and tags are known as well as a bundle over 90 frames of moving
+/// every joint in the middle of the volume, and 5 of standing still, would tell; cameras
+/// as `covariance` says (null: exactly); where the collar bones start is known to 12 mm.
+/// All to first order. Errors are quantiles of distances drawn from these covariances,
+/// four for each joint and frame; the same every time.
 ///
 /// Not in it: skin that moves on the bone, clocks that are apart, tags that are missed
-/// though they should be seen. Cost: some seconds, with the number of frames (headings x
-/// strides x 36). Preconditions: a camera; step_m > 0, rate_hz > 0, headings > 0, strides
-/// > 0; the covariance is of as many cameras.
+/// though they should be seen. Cost: some seconds, with the number of frames (1.2 s of
+/// headings x strides ways, and headings at every stand). Preconditions: a camera; step_m
+/// > 0, rate_hz > 0, headings > 0, strides > 0; those of the grid's columns(), with this
+/// step_m; the covariance is of as many cameras.
 [[nodiscard]] BodyPlan plan_body(std::span<const Camera> cameras,
                                  const RigCovariance* covariance,
                                  const PlannedBody& body,

@@ -124,6 +124,23 @@ void see_board(std::span<const Camera> cameras,
   }
 }
 
+/// What to do about a board that does not calibrate these cameras.
+std::string next_of(std::span<const CameraDetections> in_hand) {
+  // As many tags and frames as estimate_intrinsics() wants.
+  constexpr std::size_t kFewestTags = 6;
+  constexpr int kFewestFrames = 4;
+  for (const CameraDetections& camera : in_hand) {
+    int frames = 0;
+    for (const FrameDetections& frame : camera.frames) {
+      frames += frame.tags.size() >= kFewestTags ? 1 : 0;
+    }
+    if (frames >= kFewestFrames) continue;
+    return "bring camera " + camera.source +
+           " nearer to the volume, turn it there, or give it more pixels";
+  }
+  return "let the cameras' pictures overlap";
+}
+
 }  // namespace
 
 Result<RigCovariance> plan_calibration(std::span<const Camera> cameras,
@@ -131,6 +148,7 @@ Result<RigCovariance> plan_calibration(std::span<const Camera> cameras,
                                        const AprilGrid& board,
                                        const CornerSigma& corner_sigma,
                                        const PlanOptions& options) {
+  MAREY_ASSERT(!cameras.empty());
   const glm::dvec3 middle = 0.5 * (grid.least_in_world + grid.greatest_in_world);
   const std::vector<double> headings = headings_of(cameras, middle);
   std::vector<CameraDetections> in_hand = unseeing(cameras, kWavedFrames);
@@ -155,11 +173,32 @@ Result<RigCovariance> plan_calibration(std::span<const Camera> cameras,
   auto rig = calibrate_cameras(names, in_hand, floor, board);
   // Low cameras do not read what lies flat: then the first camera is the world's place.
   if (!rig) rig = calibrate_cameras(names, in_hand, {}, board);
-  if (!rig) return rig.error();
+  if (!rig) {
+    Error error = rig.error();
+    error.next = next_of(in_hand);
+    return error;
+  }
   turn_covariance(glm::conjugate(cameras[0].camera_from_world.rotation) *
                       rig->cameras[0].camera_from_world.rotation,
                   rig->covariance);
   return std::move(rig->covariance);
+}
+
+RigCovariance covariance_of_quality(std::span<const CameraQuality> quality) {
+  RigCovariance out;
+  out.cameras = quality.size();
+  out.values.assign(out.size() * out.size(), 0.0);
+  for (std::size_t c = 0; c < quality.size(); ++c) {
+    const std::size_t first = RigCovariance::kPerCamera * c;
+    const auto set = [&](std::size_t i, double sigma) {
+      out.values[(first + i) * out.size() + first + i] = sigma * sigma;
+    };
+    for (std::size_t i = 0; i < 2; ++i) set(i, quality[c].focal_sigma_px);
+    for (std::size_t i = 1; i <= 3; ++i) {
+      set(RigCovariance::kPerCamera - i, quality[c].centre_sigma_m);
+    }
+  }
+  return out;
 }
 
 double centre_sigma_m(const RigCovariance& covariance, std::size_t camera) {

@@ -16,6 +16,7 @@
 #include "calib/see_point.h"
 #include "calib/see_tag.h"
 #include "core/assert.h"
+#include "core/quantile.h"
 
 namespace marey::calib {
 namespace {
@@ -85,18 +86,9 @@ RigidTransform upright_tag(const glm::dvec3& p_in_world, double angle_rad) {
           p_in_world};
 }
 
-/// Precondition: not empty.
-double quantile(std::vector<double>& values, double share) {
-  const auto at = static_cast<std::size_t>(
-      std::lround(share * static_cast<double>(values.size() - 1)));
-  std::nth_element(
-      values.begin(), values.begin() + static_cast<std::ptrdiff_t>(at), values.end());
-  return values[at];
-}
-
-std::optional<MedianAndP95> spread(std::vector<double>& values) {
+std::optional<MedianAndP95> spread(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  return MedianAndP95{quantile(values, 0.5), quantile(values, 0.95)};
+  return MedianAndP95{median(values), quantile(values, 0.95)};
 }
 
 /// Tags of one place or one height, as they are added.
@@ -137,12 +129,12 @@ PlannedPlace place_of(const glm::dvec3& p_in_world, const Tally& tally) {
   return out;
 }
 
-PlannedHeight height_of(double height_m, Tally& tally) {
+PlannedHeight height_of(double height_m, const Tally& tally) {
   PlannedHeight out;
   out.height_m = height_m;
   out.seen_share = tally.share(tally.sides_px);
   out.measured_share = tally.share(tally.centre_m);
-  if (!tally.sides_px.empty()) out.side_px = quantile(tally.sides_px, 0.5);
+  if (!tally.sides_px.empty()) out.side_px = median(tally.sides_px);
   out.centre_error_m = spread(tally.centre_m);
   out.joint_error_m = spread(tally.joint_m);
   return out;
@@ -187,10 +179,9 @@ RigPlan plan_rig(std::span<const Camera> cameras,
                  const ErrorMapGrid& grid,
                  const CornerSigma& corner_sigma,
                  const PlanOptions& options) {
-  MAREY_ASSERT(grid.step_m > 0.0 && options.directions > 0);
-  const glm::dvec3 extent = grid.greatest_in_world - grid.least_in_world;
-  const int columns = static_cast<int>(std::floor(extent.x / grid.step_m + 1e-9)) + 1;
-  const int rows = static_cast<int>(std::floor(extent.z / grid.step_m + 1e-9)) + 1;
+  MAREY_ASSERT(options.directions > 0);
+  const int columns = grid.columns();
+  const int rows = grid.rows();
   RigPlan plan;
   for (const double height_m : grid.heights_m) {
     Tally of_height;

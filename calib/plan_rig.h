@@ -83,8 +83,8 @@ struct RigPlan {
 };
 
 /// expect_tag() for upright tags at every place of a grid, facing all level directions,
-/// as those of a standing body do. Preconditions: step_m > 0, directions > 0, and those
-/// of expect_tag().
+/// as those of a standing body do. Preconditions: directions > 0; those of the grid's
+/// columns() and of expect_tag().
 [[nodiscard]] RigPlan plan_rig(std::span<const Camera> cameras,
                                const RigCovariance* covariance,
                                const ErrorMapGrid& grid,

@@ -93,5 +93,13 @@ TEST(ErrorMap, IsSmallAmidTheCameras) {
   }
 }
 
+TEST(ErrorMapGrid, CountsBothEndsOfASide) {
+  // 0.3 / 0.1 is less than 3 in doubles.
+  const ErrorMapGrid grid{{0.0, 0.0, 1.0}, {0.3, 0.0, 1.95}, 0.1, {1.0}};
+  EXPECT_EQ(grid.columns(), 4);
+  EXPECT_EQ(grid.rows(), 10);
+  EXPECT_EQ(error_map({}, nullptr, grid, 0.1).size(), 40U);
+}
+
 }  // namespace
 }  // namespace marey::calib
