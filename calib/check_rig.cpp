@@ -19,72 +19,6 @@ constexpr double kHopelessMedianPx = 2.5;
 // looks exactly like tags that are too small.
 constexpr double kMostShrinkage = 0.03;
 
-Error too_few_tags(const CameraDetections& camera, const AprilGrid& board) {
-  int tags_seen = 0;
-  int frames_seen = 0;
-  for (const FrameDetections& frame : camera.frames) {
-    int here = 0;
-    for (const TagDetection& tag : frame.tags) here += board.contains(tag.id);
-    tags_seen += here;
-    frames_seen += here >= 6;
-  }
-  if (tags_seen == 0) {
-    return bad_input(camera.source,
-                     "no tag of the calibration board (ids " +
-                         std::to_string(board.first_id) + " to " +
-                         std::to_string(board.first_id + board.tag_count() - 1) +
-                         ") is seen in any frame",
-                     "check that this is the calibration video, that [board] in "
-                     "session.toml names the printed ids and [tags] the family, and that "
-                     "the picture is sharp");
-  }
-  if (frames_seen >= 4) {
-    return bad_input(camera.source,
-                     "no lens makes the board look as it does in the " +
-                         std::to_string(frames_seen) +
-                         " frames that show six tags or more: it never tilts, or is not "
-                         "as [board] says",
-                     "tilt the board while it is filmed, and check [board] in "
-                     "session.toml (rows, columns, sizes, first_id) against the print");
-  }
-  return bad_input(camera.source,
-                   "the board is seen too little to calibrate this camera: " +
-                       std::to_string(frames_seen) + " frames show six tags or more",
-                   "record the calibration again: tilt the board, bring it close to this "
-                   "camera and into the corners of its picture");
-}
-
-Error too_few_points(const CameraDetections& camera) {
-  int points_seen = 0;
-  int frames_seen = 0;
-  for (const FrameDetections& frame : camera.frames) {
-    points_seen += static_cast<int>(frame.points.size());
-    frames_seen += frame.points.size() >= 12;
-  }
-  if (points_seen == 0) {
-    return bad_input(camera.source,
-                     "no corner of the calibration board is seen in any frame",
-                     "check that this is the calibration video, that [board] in "
-                     "session.toml has the board's kind, rows, columns and dictionary, "
-                     "and that the picture is sharp");
-  }
-  if (frames_seen >= 4) {
-    return bad_input(camera.source,
-                     "no lens makes the board look as it does in the " +
-                         std::to_string(frames_seen) +
-                         " frames that show twelve corners or more: it never tilts, or "
-                         "is not as [board] says",
-                     "tilt the board while it is filmed, and check [board] in "
-                     "session.toml (rows, columns) against the print");
-  }
-  return bad_input(camera.source,
-                   "the board is seen too little to calibrate this camera: " +
-                       std::to_string(frames_seen) +
-                       " frames show twelve corners or more",
-                   "record the calibration again: tilt the board, bring it close to this "
-                   "camera and into the corners of its picture");
-}
-
 std::string text(const char* format, double value) {
   std::array<char, 200> buffer{};
   std::snprintf(buffer.data(), buffer.size(), format, value);
@@ -106,13 +40,6 @@ Status check_print(const CalibratedRig& rig) {
 }
 
 }  // namespace
-
-Error too_few_views(const CameraDetections& camera, const CalibrationTarget& board) {
-  if (const auto* grid = std::get_if<AprilGrid>(&board)) {
-    return too_few_tags(camera, *grid);
-  }
-  return too_few_points(camera);
-}
 
 Status check_mirrored(std::span<const BoardView> views,
                       std::span<const Intrinsics> intrinsics) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -159,18 +160,70 @@ TEST(CalibrateCameras, NoticesAWrongGap) {
       << error.next;
 }
 
-TEST(CalibrateCameras, DeclinesABoardOfOtherColumns) {
-  // Every view is of a shape that no flat board has: no camera fits even one of them.
+// Every view is of a shape that no flat board has: no camera fits even one of them.
+TEST(CalibrateCameras, TellsHowTheTagsLieWhereTheBoardIsDeclaredOtherwise) {
   const auto cameras = ring_of_cameras();
-  const BoardRecording recording = wave_board(cameras, kBoard, kFrames);
-  AprilGrid declared = kBoard;
-  declared.rows = 4;
-  declared.columns = 9;
-  const Error error = error_of(cameras, recording, declared);
-  EXPECT_EQ(error.code, Errc::kBadInput);
-  EXPECT_TRUE(contains(error.cause, "no lens makes the board look as it does"))
-      << error.cause;
-  EXPECT_TRUE(contains(error.next, "check [board] in session.toml")) << error.next;
+  marey::testing::Disturbance noise;
+  noise.noise_px = 0.3;
+  const BoardRecording recording = wave_board(cameras, kBoard, kFrames, noise);
+  struct Case {
+    int columns, rows, first_id;
+    const char* changes;
+  };
+  for (const Case& wrong : {Case{5, 5, 0, ": columns = 6, rows = 6"},
+                            Case{9, 4, 0, ": columns = 6, rows = 6"},
+                            Case{10, 10, 0, ": columns = 6, rows = 6"},
+                            Case{6, 6, 100, ": first_id = 0"},
+                            Case{6, 6, 1, ": first_id = 0"}}) {
+    AprilGrid declared = kBoard;
+    declared.columns = wrong.columns;
+    declared.rows = wrong.rows;
+    declared.first_id = wrong.first_id;
+    const Error error = error_of(cameras, recording, declared);
+    EXPECT_EQ(error.code, Errc::kBadInput);
+    EXPECT_TRUE(contains(error.cause, "lie as on a board of 6 x 6 that begins with id 0"))
+        << error.cause;
+    EXPECT_TRUE(contains(error.next, wrong.changes)) << error.next;
+  }
+}
+
+/// Frames of a board that is held square on to a camera, its lower left corner there.
+std::vector<FrameDetections> square_on(const std::vector<glm::dvec2>& places_px) {
+  constexpr double kPxPerMetre = 400.0;
+  std::vector<FrameDetections> frames;
+  for (const glm::dvec2& place : places_px) {
+    FrameDetections frame;
+    frame.frame = static_cast<int>(frames.size());
+    for (int id = 0; id < kBoard.tag_count(); ++id) {
+      TagDetection tag;
+      tag.id = TagId{id};
+      for (int corner = 0; corner < 4; ++corner) {
+        const glm::dvec3 p = *kBoard.corner_in_board(tag.id, corner);
+        tag.corners_px[static_cast<std::size_t>(corner)] =
+            place + kPxPerMetre * glm::dvec2(p.x, -p.y);
+      }
+      frame.tags.push_back(tag);
+    }
+    frames.push_back(std::move(frame));
+  }
+  return frames;
+}
+
+TEST(CalibrateCameras, TellsABoardThatLiesStillFromOneThatNeverTilts) {
+  const auto cameras = ring_of_cameras();
+  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  recording.waved[0].frames =
+      square_on(std::vector<glm::dvec2>(kFrames, glm::dvec2(500.0, 600.0)));
+  const Error still = error_of(cameras, recording);
+  EXPECT_TRUE(contains(still.cause, "the board lies still in the 40 frames"))
+      << still.cause;
+  std::vector<glm::dvec2> places;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    places.emplace_back(100.0 + 20.0 * frame, 400.0 + 5.0 * frame);
+  }
+  recording.waved[0].frames = square_on(places);
+  const Error flat = error_of(cameras, recording);
+  EXPECT_TRUE(contains(flat.cause, "never tilted enough in the 40 frames")) << flat.cause;
 }
 
 }  // namespace
