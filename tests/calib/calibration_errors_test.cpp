@@ -170,11 +170,11 @@ TEST(CalibrateCameras, TellsHowTheTagsLieWhereTheBoardIsDeclaredOtherwise) {
     int columns, rows, first_id;
     const char* changes;
   };
-  for (const Case& wrong : {Case{5, 5, 0, ": columns = 6, rows = 6"},
-                            Case{9, 4, 0, ": columns = 6, rows = 6"},
-                            Case{10, 10, 0, ": columns = 6, rows = 6"},
-                            Case{6, 6, 100, ": first_id = 0"},
-                            Case{6, 6, 1, ": first_id = 0"}}) {
+  for (const Case& wrong : {Case{5, 5, 0, " columns = 6, rows = 6"},
+                            Case{9, 4, 0, " columns = 6, rows = 6"},
+                            Case{10, 10, 0, " columns = 6, rows = 6"},
+                            Case{6, 6, 100, " first_id = 0"},
+                            Case{6, 6, 1, " first_id = 0"}}) {
     AprilGrid declared = kBoard;
     declared.columns = wrong.columns;
     declared.rows = wrong.rows;
@@ -212,6 +212,8 @@ std::vector<FrameDetections> square_on(const std::vector<glm::dvec2>& places_px)
 TEST(CalibrateCameras, TellsABoardThatLiesStillFromOneThatNeverTilts) {
   const auto cameras = ring_of_cameras();
   BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  // The floor shows a board that is tilted.
+  for (FrameDetections& frame : recording.floor[0].frames) frame.tags.clear();
   recording.waved[0].frames =
       square_on(std::vector<glm::dvec2>(kFrames, glm::dvec2(500.0, 600.0)));
   const Error still = error_of(cameras, recording);
