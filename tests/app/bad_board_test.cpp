@@ -175,7 +175,9 @@ TEST(BadBoard, OfOtherRowsAndColumnsIsTold) {
                                "columns = 4",
                                "columns = 3"));
   grid.film(painted_april_grid());
-  EXPECT_TRUE(declines(grid, {"no lens makes the board look as it does", "[board]"}));
+  EXPECT_TRUE(declines(
+      grid,
+      {"lie as on a board of 4 x 3", "[board]", "Next: ", "columns = 4, rows = 3"}));
 }
 
 TEST(BadBoard, OfOtherTagsIsTold) {
