@@ -46,6 +46,13 @@ struct CameraLag {
   double explained_px = 0.0;  ///< Root mean square of the errors it accounts for.
 };
 
+/// A camera that goes out of step on its way: its video skips frames, or has some twice.
+struct CameraSlip {
+  int from_frame = 0;
+  double frames = 0.0;    ///< By so much it is later (further on) from there.
+  double moved_px = 0.0;  ///< What the board moves in that time, root mean square.
+};
+
 inline constexpr int kCoverageColumns = 16;
 inline constexpr int kCoverageRows = 12;
 
@@ -66,6 +73,7 @@ struct CameraMeasures {
   /// does not account for them: what the lens model leaves. [px]
   double pattern_px = 0.0;
   std::optional<CameraLag> lag;           ///< Where clocks are taken for one.
+  std::optional<CameraSlip> slip;         ///< Where its lag clearly changes.
   std::optional<double> floor_median_px;  ///< Of the board on the floor, or scenery.
   std::optional<int> astray_from;         ///< From that frame on hardly anything fits.
   std::optional<int> astray_until;        ///< Likewise up to there.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/finding_list.h"
+#include "app/judge_clocks.h"
 #include "app/judge_print.h"
 #include "app/judge_residuals.h"
 #include "app/judge_trust.h"
@@ -56,6 +57,7 @@ std::vector<Finding> judge_calibration(const CalibrationReport& report) {
   FindingList list{report, {}};
   judge_print(list);
   judge_trust(list);
+  judge_clocks(list);
   judge_residuals(list);
   judge_views(list);
   std::vector<Finding> out = told_once(std::move(list.found));

@@ -90,8 +90,12 @@ void judge_outliers(FindingList& list, std::size_t c) {
                  : worded("up to frame %d it does not see the %s where it should",
                           *camera.astray_until,
                           list.target()),
-             "fix it firmly: it was touched or refocused, or its video skips frames; "
-             "then record the calibration again");
+             list.report.has_clocks
+                 ? "fix it firmly: it was touched or refocused, or its video skips "
+                   "frames; then record the calibration again"
+                 : "if its video starts at another time, set clocks = \"offsets\" under "
+                   "[calibration] in session.toml; else it was touched or refocused, or "
+                   "skips frames: fix it firmly and record the calibration again");
     return;
   }
   if (share <= kFairOutliers) return;

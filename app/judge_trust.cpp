@@ -167,8 +167,13 @@ void judge_held_out(FindingList& list) {
                       *px,
                       list.target(),
                       list.report.cameras[c].median_px),
-               worded("check its video's start, and that it was not moved; hold the %s "
-                      "where it and two others see it",
+               worded(list.report.has_clocks
+                          ? "check that its video skips no frames, and that it was not "
+                            "moved; hold the %s where it and two others see it"
+                          : "if its video starts at another time, set clocks = "
+                            "\"offsets\" under [calibration] in session.toml; check that "
+                            "it was not moved, and hold the %s where it and two others "
+                            "see it",
                       list.target()));
     }
     judge_halves(list, c, check->centre_apart_m[c]);

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/measure_lag.h"
 #include "core/quantile.h"
 
 namespace marey::app {
@@ -66,57 +67,6 @@ std::optional<ViewTilt> tilt_of(const CalibrationReport& report,
   return ViewTilt{std::acos(std::clamp(-normal.z, -1.0, 1.0)),
                   std::atan2(normal.y, normal.x),
                   glm::length(middle)};
-}
-
-/// Errors of a camera's views against the board's movement in its picture, as a straight
-/// line through zero: e = lag * velocity.
-std::optional<CameraLag> lag_of(const CalibrationReport& report,
-                                const Camera& camera,
-                                const std::vector<const TargetView*>& views) {
-  constexpr int kFurthest = 3;  // Frames between neighbours that tell a velocity.
-  constexpr std::size_t kFewest = 10;
-  const glm::dvec3 middle = report.extent
-                                ? 0.5 * (report.extent->least + report.extent->greatest)
-                                : glm::dvec3(0.0);
-  std::vector<std::pair<glm::dvec2, glm::dvec2>> pairs;  // Velocity and error.
-  for (std::size_t i = 1; i + 1 < views.size(); ++i) {
-    const TargetView& before = *views[i - 1];
-    const TargetView& after = *views[i + 1];
-    if (views[i]->frame - before.frame > kFurthest ||
-        after.frame - views[i]->frame > kFurthest) {
-      continue;
-    }
-    const auto from = project(camera, before.world_from_target * middle);
-    const auto to = project(camera, after.world_from_target * middle);
-    if (!from || !to) continue;
-    std::vector<double> xs;
-    std::vector<double> ys;
-    for (const SeenCorner& corner : views[i]->corners) {
-      xs.push_back(corner.error_px.x);
-      ys.push_back(corner.error_px.y);
-    }
-    pairs.push_back({(*to - *from) / static_cast<double>(after.frame - before.frame),
-                     {median(std::move(xs)), median(std::move(ys))}});
-  }
-  double squares = 0.0;
-  double products = 0.0;
-  for (const auto& [velocity, error] : pairs) {
-    squares += glm::dot(velocity, velocity);
-    products += glm::dot(velocity, error);
-  }
-  if (pairs.size() < kFewest || !(squares > 0.0)) return std::nullopt;
-  CameraLag lag;
-  // Seen less expected: a camera that is late sees the board further along.
-  lag.frames = products / squares;
-  double left = 0.0;
-  for (const auto& [velocity, error] : pairs) {
-    const glm::dvec2 rest = error - lag.frames * velocity;
-    left += glm::dot(rest, rest);
-  }
-  const auto n = static_cast<double>(pairs.size());
-  lag.sigma_frames = std::sqrt(left / (2.0 * n - 1.0) / squares);
-  lag.explained_px = std::abs(lag.frames) * std::sqrt(squares / n);
-  return lag;
 }
 
 /// The frame at which a camera stops (or starts) to fit: most of what it sees on one side
@@ -197,7 +147,9 @@ CameraMeasures measure(const CalibrationReport& report, std::size_t c) {
   if (!staying_px.empty()) out.floor_median_px = median(std::move(staying_px));
   out.pattern_px = pattern_px(areas, area_corners);
   for (const auto& [target, views] : moving) {
-    if (!report.has_clocks && !out.lag) out.lag = lag_of(report, camera, views);
+    const std::vector<PassingView> passing = passing_views(report, camera, views);
+    if (!report.has_clocks && !out.lag) out.lag = lag_of(passing);
+    if (!out.slip) out.slip = slip_of(passing);
     find_astray(views, out);
   }
   std::vector<double> tilts_rad;

@@ -81,13 +81,13 @@ class SizePrior final : public ceres::SizedCostFunction<1, 8> {
   double log_size_;
 };
 
-/// Clocks drift by parts in ten thousand at most, and rows of webcams follow each other
+/// Clocks drift by a part in ten thousand or two, and rows of webcams follow each other
 /// within some fifty microseconds.
 struct ClockPrior {
   template <class T>
   bool operator()(const T* clock, T* residual) const {
     residual[0] = clock[0] / 10.0;
-    residual[1] = clock[1] / 1e-3;
+    residual[1] = clock[1] / 3e-4;
     residual[2] = clock[2] / 5e-5;
     return true;
   }

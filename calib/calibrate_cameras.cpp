@@ -151,6 +151,7 @@ Result<SolvedRig> solve(Work& work) {
 Result<SolvedRig> solve_with(Work work, const Clocks& clocks) {
   work.options.solve_offsets = clocks.offsets;
   work.options.solve_drifts = clocks.drifts;
+  work.options.solve_line_delays = clocks.line_delays;
   return solve(work);
 }
 
@@ -170,6 +171,7 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
                           names,
                           waved,
                           false,
+                          options.solve_line_delays,
                           [&](const Clocks& clocks) { return solve_with(work, clocks); })
                     : solve(work);
   if (!solved) return solved.error();
@@ -184,7 +186,8 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
   if (model.targets.size() > 1 && model.targets[1].bends) {
     rig.warp_m = model.targets[1].warp_m;
   }
-  if (const Status ok = check_rig(rig, work.views, floor, board); !ok) return ok.error();
+  if (const Status ok = check_rig(rig, work.views, waved, floor, board); !ok)
+    return ok.error();
   if (options.cross_validate) {
     rig.cross_validation = cross_validate(model, solved->refine);
   }

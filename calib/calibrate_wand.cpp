@@ -190,6 +190,7 @@ Result<SolvedRig> solve(const Work& work) {
 Result<SolvedRig> solve_with(Work work, const Clocks& clocks) {
   work.options.solve_offsets = clocks.offsets;
   work.options.solve_drifts = clocks.drifts;
+  work.options.solve_line_delays = clocks.line_delays;
   return solve(work);
 }
 
@@ -219,6 +220,7 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
                           names,
                           waved,
                           true,
+                          options.solve_line_delays,
                           [&](const Clocks& clocks) { return solve_with(work, clocks); })
                     : solve(work);
   if (!solved) return solved.error();

@@ -5,6 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "calib/check_floor.h"
 #include "calib/estimate_intrinsics.h"
@@ -39,6 +43,37 @@ Status check_print(const CalibratedRig& rig) {
                    "metres) and correct tag_size_m or gap_m of [board] in session.toml");
 }
 
+/// Errors of the camera that agrees least with the others on where the moving board was,
+/// when it mostly does not: what it says of the floor tells nothing then.
+Status check_steps(const CalibratedRig& rig, std::span<const CameraDetections> waved) {
+  constexpr double kDisagreesPx = 5.0;
+  double worst_px = 0.0;
+  std::size_t worst = 0;
+  for (std::size_t c = 0; c < waved.size(); ++c) {
+    std::vector<double> errors_px;
+    for (const TargetView& view : rig.views) {
+      if (view.stays || index(view.camera) != c) continue;
+      for (const SeenCorner& corner : view.corners) {
+        errors_px.push_back(double{glm::length(corner.error_px)});
+      }
+    }
+    if (errors_px.empty()) continue;
+    const double px = median(std::move(errors_px));
+    if (px <= worst_px) continue;
+    worst_px = px;
+    worst = c;
+  }
+  if (worst_px < kDisagreesPx) return Done{};
+  return bad_input(
+      waved[worst].source,
+      text("most of its pictures of the moving board do not go with the "
+           "other cameras' (%.0f px off): it does not keep step with them",
+           worst_px),
+      "check whether it skips frames or has another rate than it says "
+      "(record at a rate that the camera keeps, with a fixed exposure), that "
+      "it is of the same trial, and that the camera was not moved");
+}
+
 }  // namespace
 
 Status check_mirrored(std::span<const BoardView> views,
@@ -63,6 +98,7 @@ bool is_hopeless(const CalibratedRig& rig) {
 
 Status check_rig(const CalibratedRig& rig,
                  std::span<const BoardView> views,
+                 std::span<const CameraDetections> waved,
                  std::span<const CameraDetections> floor,
                  const CalibrationTarget& board) {
   if (is_hopeless(rig)) {
@@ -82,7 +118,10 @@ Status check_rig(const CalibratedRig& rig,
   for (const BoardView& view : views) {
     if (view.instant == kFloorInstant) floor_views.push_back(&view);
   }
-  if (Status ok = check_floor(rig.cameras, floor_views, floor); !ok) return ok;
+  if (Status ok = check_floor(rig.cameras, floor_views, floor); !ok) {
+    const Status steps = check_steps(rig, waved);
+    return steps ? ok : steps;
+  }
   for (const BoardView* view : floor_views) {
     const std::size_t c = index(view->camera);
     if (centre_in_world(rig.cameras[c]).y > 0.0) continue;

@@ -27,9 +27,11 @@ namespace marey::calib {
 [[nodiscard]] bool is_hopeless(const CalibratedRig& rig);
 
 /// Whether the refined rig is one: errors of hopeless corners, of a board whose squares
-/// do not go with their gaps, of a floor that disagrees or is seen from below.
+/// do not go with their gaps, of a floor that disagrees or is seen from below, or of a
+/// camera of which that is so because its pictures are of other times than the others'.
 [[nodiscard]] Status check_rig(const CalibratedRig& rig,
                                std::span<const BoardView> views,
+                               std::span<const CameraDetections> waved,
                                std::span<const CameraDetections> floor,
                                const CalibrationTarget& board);
 

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "calib/apparent_clocks.h"
 #include "calib/check_rig.h"
@@ -20,22 +23,46 @@ bool of_one_rate(std::span<const CameraDetections> waved) {
   });
 }
 
-/// Whether cameras that were taken for simultaneous are.
-bool go_together(std::span<const std::string> names,
-                 std::span<const CameraDetections> waved,
-                 const SolvedRig& shared) {
-  const CalibratedRig rig = judge_rig(names, shared.model, {});
-  // Of frames that do not go together, those in which the board rests remain.
-  const bool most_fit = rig.outliers < 0.2 * rig.sightings;
-  return !is_hopeless(rig) && most_fit &&
-         !run_apart(apparent_clocks(shared.model, waved.front().rate.hz));
+/// How badly corners fit, as a Cauchy loss at half a pixel: figures of solutions that
+/// call different sightings outliers can be compared.
+double misfit(const CalibratedRig& rig) {
+  constexpr double kUsualPx = 0.5;
+  double sum = 0.0;
+  double count = 0.0;
+  for (const TargetView& view : rig.views) {
+    for (const SeenCorner& corner : view.corners) {
+      const double e = double{glm::length(corner.error_px)} / kUsualPx;
+      sum += std::log1p(e * e);
+      count += 1.0;
+    }
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+/// Whether a camera's sightings do not go with the rest by more than wrong tags explain:
+/// its frames may be of other times, and where the board rested some fit all the same.
+bool any_astray(const CalibratedRig& rig) {
+  constexpr double kMostOutliers = 0.1;
+  std::vector<double> out(rig.cameras.size(), 0.0);
+  std::vector<double> all(rig.cameras.size(), 0.0);
+  for (const TargetView& view : rig.views) {
+    if (view.stays) continue;
+    for (const SeenCorner& corner : view.corners) {
+      out[index(view.camera)] += corner.is_outlier ? 1.0 : 0.0;
+      all[index(view.camera)] += 1.0;
+    }
+  }
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (out[c] > kMostOutliers * all[c]) return true;
+  }
+  return false;
 }
 
 }  // namespace
 
 LensModel choose_lens(const FirstModel& first_model) {
-  LensModel best = LensModel::kBrownConrady;
-  double least = 0.0;
+  std::optional<RigModel> best;
+  LensModel chosen = LensModel::kBrownConrady;
   for (const LensModel lens :
        {LensModel::kBrownConrady, LensModel::kFisheye, LensModel::kRational}) {
     auto first = first_model(lens);
@@ -44,41 +71,55 @@ LensModel choose_lens(const FirstModel& first_model) {
     refine.covariance = false;
     RigModel even = half_of(first->model, 0);
     if (!refine_rig(even, refine)) continue;
-    const auto rms_px = held_out_rms_px(even, half_of(first->model, 1));
-    if (rms_px && (least == 0.0 || *rms_px < 0.98 * least)) {
-      least = *rms_px;
-      best = lens;
-    }
+    auto judged = held_out_model(even, half_of(first->model, 1));
+    if (!judged || (best && !predicts_better(*judged, *best))) continue;
+    best = std::move(judged);
+    chosen = lens;
   }
-  return best;
+  return chosen;
 }
 
 Result<SolvedRig> solve_choosing_clocks(
     std::span<const std::string> names,
     std::span<const CameraDetections> waved,
     bool clocks_may_unplace,
+    bool line_delays,
     const std::function<Result<SolvedRig>(const Clocks&)>& solve) {
   std::optional<Result<SolvedRig>> shared;
+  bool surely_apart = true;
+  CalibratedRig shared_rig;
+  // Clocks are judged without line delays: these would take up a part of an offset.
+  const auto solve_shared = [&]() {
+    return line_delays ? solve({false, false, true}) : std::move(*shared);
+  };
   if (of_one_rate(waved)) {
     shared = solve({});
     if (!*shared && !clocks_may_unplace) return *shared;
-    if (*shared && (**shared).doubt && go_together(names, waved, **shared)) {
-      return *shared;
+    if (*shared) {
+      const SolvedRig& found = **shared;
+      shared_rig = judge_rig(names, found.model, {});
+      surely_apart =
+          !found.doubt || run_apart(apparent_clocks(found.model, waved.front().rate.hz));
+      if (!surely_apart && !is_hopeless(shared_rig) && !any_astray(shared_rig)) {
+        return solve_shared();
+      }
     }
   }
   // Within seconds no clock drifts by what could be seen.
   constexpr double kLong_s = 20.0;
   const CameraDetections& first = waved.front();
   const bool is_long = static_cast<double>(first.frames.size()) / first.rate.hz > kLong_s;
-  auto solved = solve({true, is_long});
+  auto solved = solve({true, is_long, line_delays});
   if (!shared) return solved;
-  if (!solved || !solved->doubt) return *shared;
+  if (!solved || !solved->doubt) return solve_shared();
   const CalibratedRig rig = judge_rig(names, solved->model, {});
-  if (is_hopeless(rig)) return *shared;
+  if (is_hopeless(rig)) return solve_shared();
   if (!*shared || !(**shared).doubt) return solved;
-  // Of a wrong board, say, clocks make nothing better.
-  const double shared_px = judge_rig(names, (**shared).model, {}).inlier_rms_px;
-  return rig.inlier_rms_px < shared_px ? std::move(solved) : std::move(*shared);
+  // Of a wrong board, say, clocks make nothing better; and more unknowns always fit a
+  // little better.
+  const double most = (surely_apart ? 1.0 : 0.7) * misfit(shared_rig);
+  const bool is_better = misfit(rig) < most && rig.sightings > 0.7 * shared_rig.sightings;
+  return is_better ? std::move(solved) : solve_shared();
 }
 
 }  // namespace marey::calib

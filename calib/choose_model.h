@@ -29,23 +29,28 @@ struct SolvedRig {
 using FirstModel = std::function<Result<SolvedRig>(LensModel)>;
 
 /// Of all lenses, the one that does best on frames it did not see; the simpler one unless
-/// it is beaten by two percent: five terms before four of another kind, before eight.
+/// it is clearly beaten (predicts_better()): five terms before four of another kind,
+/// before eight.
 [[nodiscard]] LensModel choose_lens(const FirstModel& first_model);
 
 /// What clocks are solved for.
 struct Clocks {
   bool offsets = false;
   bool drifts = false;
+  bool line_delays = false;
 };
 
 /// With clocks where they are needed, as far as the cameras' pictures tell: when the
-/// cameras run at several rates, when they fit badly as one, or when their errors follow
-/// what moves. `clocks_may_unplace`: that nothing joins cameras may be their clocks'
-/// doing too, and is not yet an error.
+/// cameras run at several rates, when their errors follow what moves, or when they fit
+/// badly as one (many sightings of a camera do not go with the rest) and clearly better
+/// with clocks. `clocks_may_unplace`: that nothing joins cameras may be their clocks'
+/// doing too, and is not yet an error. `line_delays`: they are solved for, once it is
+/// settled whether clocks are.
 [[nodiscard]] Result<SolvedRig> solve_choosing_clocks(
     std::span<const std::string> names,
     std::span<const CameraDetections> waved,
     bool clocks_may_unplace,
+    bool line_delays,
     const std::function<Result<SolvedRig>(const Clocks&)>& solve);
 
 }  // namespace marey::calib

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -13,6 +14,9 @@
 
 namespace marey::calib {
 namespace {
+
+// What an error has to fall to before more unknowns are worth it.
+constexpr double kClearly = 0.97;
 
 double inlier_rms_px(const RigModel& model) {
   double sum = 0.0;
@@ -25,6 +29,24 @@ double inlier_rms_px(const RigModel& model) {
     }
   }
   return count > 0 ? std::sqrt(sum / count) : 0.0;
+}
+
+/// Mean square of inliers by camera and frame.
+std::map<std::pair<std::size_t, int>, double> frame_errors(const RigModel& model) {
+  std::map<std::pair<std::size_t, int>, std::pair<double, int>> sums;
+  for (const Sighting& sighting : model.sightings) {
+    if (sighting.is_outlier || model.targets[sighting.target].stays) continue;
+    auto& [sum, count] = sums[{sighting.camera, sighting.frame}];
+    for (const double e : errors_px(model, sighting)) {
+      sum += e * e;
+      ++count;
+    }
+  }
+  std::map<std::pair<std::size_t, int>, double> means;
+  for (const auto& [frame, of] : sums) {
+    if (of.second > 0) means[frame] = of.first / of.second;
+  }
+  return means;
 }
 
 RefineOptions places_only() {
@@ -63,7 +85,7 @@ RigModel half_of(const RigModel& model, int parity) {
   return half;
 }
 
-std::optional<double> held_out_rms_px(const RigModel& solved, const RigModel& held_out) {
+std::optional<RigModel> held_out_model(const RigModel& solved, const RigModel& held_out) {
   RigModel judged = held_out;
   judged.cameras = solved.cameras;
   for (std::size_t t = 0; t < judged.targets.size(); ++t) {
@@ -71,7 +93,28 @@ std::optional<double> held_out_rms_px(const RigModel& solved, const RigModel& he
     judged.targets[t].bends = solved.targets[t].bends;
   }
   if (!refine_rig(judged, places_only())) return std::nullopt;
-  return inlier_rms_px(judged);
+  return judged;
+}
+
+bool predicts_better(const RigModel& model, const RigModel& simpler) {
+  const auto ours = frame_errors(model);
+  const auto theirs = frame_errors(simpler);
+  std::vector<double> falls;  // Of a frame's mean square, by how much.
+  double sum_ours = 0.0;
+  double sum_theirs = 0.0;
+  for (const auto& [frame, squares] : theirs) {
+    const auto found = ours.find(frame);
+    if (found == ours.end()) continue;
+    falls.push_back(squares - found->second);
+    sum_ours += found->second;
+    sum_theirs += squares;
+  }
+  const auto n = static_cast<double>(falls.size());
+  if (n < 2.0 || sum_ours >= kClearly * kClearly * sum_theirs) return false;
+  const double mean = (sum_theirs - sum_ours) / n;
+  double spread = 0.0;
+  for (const double fall : falls) spread += (fall - mean) * (fall - mean);
+  return mean > 2.0 * std::sqrt(spread / (n - 1.0) / n);
 }
 
 std::optional<CrossValidation> cross_validate(const RigModel& model,
@@ -81,11 +124,11 @@ std::optional<CrossValidation> cross_validate(const RigModel& model,
   RigModel even = half_of(model, 0);
   RigModel odd = half_of(model, 1);
   if (!refine_rig(even, quick) || !refine_rig(odd, quick)) return std::nullopt;
-  const auto held_out = held_out_rms_px(even, half_of(model, 1));
+  const auto held_out = held_out_model(even, half_of(model, 1));
   if (!held_out) return std::nullopt;
   CrossValidation out;
   out.seen_rms_px = inlier_rms_px(even);
-  out.held_out_rms_px = *held_out;
+  out.held_out_rms_px = inlier_rms_px(*held_out);
   for (std::size_t c = 0; c < model.cameras.size(); ++c) {
     const RigCamera& a = even.cameras[c];
     const RigCamera& b = odd.cameras[c];

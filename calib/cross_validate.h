@@ -16,11 +16,15 @@ namespace marey::calib {
 /// both.
 [[nodiscard]] RigModel half_of(const RigModel& model, int parity);
 
-/// Root mean square error [px] of the sightings of `held_out`, outliers left out, when
-/// seen by the cameras of `solved`: targets find their places, cameras stay. nullopt
-/// where they do not.
-[[nodiscard]] std::optional<double> held_out_rms_px(const RigModel& solved,
-                                                    const RigModel& held_out);
+/// `held_out` as the cameras of `solved` have it: targets find their places, cameras
+/// stay. nullopt where they do not.
+[[nodiscard]] std::optional<RigModel> held_out_model(const RigModel& solved,
+                                                     const RigModel& held_out);
+
+/// Whether errors in frames that neither saw (held_out_model()) are clearly smaller than
+/// those of a model of fewer terms: by three percent, and by more than twice what chance
+/// makes of the frames' differences. Outliers left out.
+[[nodiscard]] bool predicts_better(const RigModel& model, const RigModel& simpler);
 
 /// Refines both halves of a refined model anew, and leaves out each camera in turn.
 /// nullopt where a half says too little or its bundle does not converge.

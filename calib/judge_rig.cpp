@@ -29,7 +29,7 @@ double root_mean_square(const std::vector<double>& values) {
 struct Gathered {
   std::vector<double> errors_px;
   std::set<int> cells;
-  std::set<std::pair<std::size_t, int>> views;  ///< Targets and instants.
+  std::set<std::pair<std::size_t, int>> views;  ///< Targets and instants, or frames.
 };
 
 void gather(const RigModel& model,
@@ -47,7 +47,9 @@ void gather(const RigModel& model,
     out.cells.insert(8 * std::clamp(row, 0, 5) + std::clamp(column, 0, 7));
     out.errors_px.push_back(errors[i]);
   }
-  out.views.insert({sighting.target, sighting.instant});
+  // Instants say nothing of a target that moves smoothly.
+  const bool is_smooth = model.targets[sighting.target].knot_spacing_s > 0.0;
+  out.views.insert({sighting.target, is_smooth ? sighting.frame : sighting.instant});
 }
 
 CameraQuality quality_of(Gathered gathered, const RigDoubt& doubt, std::size_t c) {

@@ -85,6 +85,26 @@ bool solve(RigModel& model, const RefineOptions& options, bool robust) {
   return true;
 }
 
+/// A clock is no surer than what was left out of it allows: that it drifts, and that rows
+/// follow each other. Both are as their priors have them, and as the data.
+void doubt_clocks(const RigModel& model, const RefineOptions& options, RigDoubt& doubt) {
+  RefineOptions all = options;
+  all.drifts = true;
+  all.line_delays = true;
+  if (options.drifts && options.line_delays) return;
+  const auto wide = BundleProblem(model, all, false).doubt();
+  if (!wide) return;
+  for (std::size_t c = 0; c < doubt.clocks.size(); ++c) {
+    ClockSigma& clock = doubt.clocks[c];
+    const ClockSigma& other = wide->clocks[c];
+    clock.offset_s = std::max(clock.offset_s, other.offset_s);
+    if (options.drifts) clock.drift = std::max(clock.drift, other.drift);
+    if (options.line_delays) {
+      clock.line_delay_s = std::max(clock.line_delay_s, other.line_delay_s);
+    }
+  }
+}
+
 }  // namespace
 
 std::optional<RigDoubt> refine_rig(RigModel& model, const RefineOptions& options) {
@@ -93,7 +113,9 @@ std::optional<RigDoubt> refine_rig(RigModel& model, const RefineOptions& options
   mark_outliers(model);
   if (!solve(model, options, false)) return std::nullopt;
   if (!options.covariance) return RigDoubt{};
-  return BundleProblem(model, options, false).doubt();
+  auto doubt = BundleProblem(model, options, false).doubt();
+  if (doubt && options.offsets) doubt_clocks(model, options, *doubt);
+  return doubt;
 }
 
 }  // namespace marey::calib

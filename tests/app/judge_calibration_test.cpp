@@ -192,6 +192,29 @@ TEST(JudgeCalibration, SpeaksOfAWandWhereThereIsNoBoard) {
   }
 }
 
+TEST(JudgeCalibration, NamesACameraThatGoesOutOfStepOnItsWay) {
+  CalibrationReport report = decent();
+  report.cameras[1].slip = CameraSlip{40, 0.9, 5.0};
+  expect(only(report), Severity::kPoor, "slip", "camera middle", "from frame 40 on");
+  report.cameras[1].slip->moved_px = 0.1;
+  EXPECT_TRUE(judge_calibration(report).empty());
+}
+
+TEST(JudgeCalibration, DoubtsRowsAndClocksThatNoCameraHas) {
+  CalibrationReport report = decent();
+  report.rig.clocks.resize(3);
+  report.rig.clocks[1] = {0.0, 1e-4, 2e-4, 1e-5, 40e-6, 1e-6};
+  EXPECT_TRUE(judge_calibration(report).empty());
+  // 720 rows of 200 us each, 30 times a second.
+  report.rig.clocks[1].line_delay_s = 200e-6;
+  expect(only(report), Severity::kPoor, "line-delay", "camera middle", "144 ms");
+  report.rig.clocks[1].line_delay_s = -20e-6;
+  expect(only(report), Severity::kFair, "line-delay", "camera middle", "-20 us");
+  report.rig.clocks[1].line_delay_s = 0.0;
+  report.rig.clocks[1].drift = 3e-3;
+  expect(only(report), Severity::kPoor, "drift", "camera middle", "3000 ppm");
+}
+
 TEST(JudgeCalibration, CountsOutliers) {
   CalibrationReport report = decent();
   report.cameras[0].outlier_corners = 600;

@@ -40,6 +40,7 @@ struct Scene {
   bool mirrored = false;
   std::array<double, 3> late_s{};  ///< Per camera.
   double seconds = 6.0;
+  double rest_s = 0.0;  ///< Before the board begins to swing.
 };
 
 /// The board faces the cameras and swings about.
@@ -64,7 +65,8 @@ std::vector<CameraDetections> film(const std::vector<Camera>& cameras,
   const int across = b.columns - 1;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     for (int f = 0; f < frames; ++f) {
-      const RigidTransform pose = world_from_board(f / kHz + scene.late_s[c]);
+      const RigidTransform pose =
+          world_from_board(std::max(0.0, f / kHz + scene.late_s[c] - scene.rest_s));
       for (int point = 0; point < across * (b.rows - 1); ++point) {
         const int shown =
             scene.mirrored ? point - point % across + across - 1 - point % across : point;
@@ -223,6 +225,41 @@ TEST(CalibratePoints, LeaveClocksAloneThatRunTogether) {
   ASSERT_TRUE(rig && shared);
   EXPECT_EQ(rig->clocks[1].offset_sigma_s, 0.0);
   EXPECT_EQ(centre_in_world(rig->cameras[1]), centre_in_world(shared->cameras[1]));
+}
+
+TEST(CalibratePoints, FindClocksOfManyFramesInALongRest) {
+  // A third of the time the board rests: there, frames of any times go together.
+  const auto cameras = three_cameras();
+  const auto rig = calibrate(
+      cameras,
+      {.noise_px = 0.1, .late_s = {0.0, 0.0, 1.2}, .seconds = 9.0, .rest_s = 3.0},
+      {.choose_clocks = true, .most_offset_s = 2.0});
+  ASSERT_TRUE(rig) << rig.error().message();
+  EXPECT_NEAR(rig->clocks[1].offset_s, 0.0, 1e-3);
+  EXPECT_NEAR(rig->clocks[2].offset_s, 1.2, 1e-3);
+  EXPECT_LT(rig->rms_px, 0.2);
+  EXPECT_LT(worst_distance_m(*rig, cameras), 4e-3);
+}
+
+// Rows that follow each other are no reason to take clocks for apart, nor the other way
+// round.
+TEST(CalibratePoints, ChooseClocksWithLineDelays) {
+  const auto cameras = three_cameras();
+  for (const double late_s : {0.0, 0.1613}) {
+    const auto rig = calibrate(
+        cameras,
+        {.noise_px = 0.1, .late_s = {0.0, late_s, 0.0}, .seconds = 3.0},
+        {.solve_line_delays = true, .choose_clocks = true, .most_offset_s = 0.3});
+    ASSERT_TRUE(rig) << rig.error().message();
+    EXPECT_NEAR(rig->clocks[1].offset_s, late_s, 1e-3);
+    EXPECT_EQ(rig->clocks[1].offset_sigma_s > 0.0, late_s > 0.0);
+    for (const SolvedClock& clock : rig->clocks) {
+      EXPECT_NEAR(clock.line_delay_s, 0.0, 3e-6);
+      EXPECT_GT(clock.line_delay_sigma_s, 0.0);
+    }
+    // Frames of a board that moves all the time.
+    EXPECT_EQ(rig->quality[1].views, 45);
+  }
 }
 
 TEST(CalibratePoints, HoldLensesThatAreGiven) {
