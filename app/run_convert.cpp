@@ -48,12 +48,18 @@ Exit run_convert(const ConvertArguments& arguments, bool json, Console& console)
                          options.axes->per_metre == markers->axes.per_metre;
   const bool both_c3d = kind_by_extension(arguments.in) == ".c3d" &&
                         kind_by_extension(arguments.out) == ".c3d";
-  // What else is in a C3D lies in its own axes, and is kept with them.
-  if (both_c3d && same_axes) options.source = arguments.in;
-  if (both_c3d && !same_axes) {
+  // What else is in a C3D lies in its own axes, and is kept with them, as it says them:
+  // where they were told better, the copy would go on saying the old ones.
+  const auto as_said = [](recordings::Evidence who) {
+    return who == recordings::Evidence::kFile || who == recordings::Evidence::kHabit;
+  };
+  const bool copy =
+      same_axes && as_said(markers->axes.up_from) && as_said(markers->axes.unit_from);
+  if (both_c3d && copy) options.source = arguments.in;
+  if (both_c3d && !copy) {
     console.warn(arguments.out.string() +
-                 ": in other axes or units markers and events alone are written, not "
-                 "analog channels and force plates");
+                 ": in other axes or units than the file says, markers and events alone "
+                 "are written, not analog channels and force plates");
   }
   const Status written = recordings::write_markers(arguments.out, *markers, options);
   if (!written) return console.fail(written.error());

@@ -189,7 +189,8 @@ std::vector<MarkerEvent> events_of(const C3dInfo& info) {
   if (const C3dParameter* p = find_parameter(info.groups, "EVENT", "USED")) {
     const std::vector<double> count = numbers(*p, true);
     if (!count.empty() && count[0] >= 0.0) {
-      used = std::min(used, static_cast<std::size_t>(count[0]));
+      // Compared as it is: a real that is too large for an integer may not become one.
+      if (count[0] < static_cast<double>(used)) used = static_cast<std::size_t>(count[0]);
     }
   }
   for (std::size_t i = 0; i < used; ++i) {

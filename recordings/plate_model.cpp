@@ -97,7 +97,10 @@ std::vector<PlateModel> plate_models(const C3dInfo& info,
     };
     PlateModel model;
     model.number = plate + 1;
-    model.type = plate < types.size() ? static_cast<int>(types[plate]) : 0;
+    // Of a real that is no type of any plate, 0: it may be too large for an integer.
+    const bool has_type =
+        plate < types.size() && types[plate] >= 0.0 && types[plate] < 256.0;
+    model.type = has_type ? static_cast<int>(types[plate]) : 0;
     if (model.type < 1 || model.type > 4) {
       leave_out("its type is " + std::to_string(model.type) + ", and 1 to 4 are read");
       continue;
@@ -105,7 +108,7 @@ std::vector<PlateModel> plate_models(const C3dInfo& info,
     for (std::size_t i = 0; i < channels_of(model.type); ++i) {
       const std::size_t at = rows * plate + i;
       const double number = at < channels.size() && i < rows ? channels[at] : 0.0;
-      if (number < 1.0 || number > info.analog_channels) break;
+      if (!(number >= 1.0 && number <= info.analog_channels)) break;  // a NaN too
       model.channels.push_back(static_cast<std::size_t>(number) - 1);
     }
     if (model.channels.size() < channels_of(model.type)) {

@@ -88,6 +88,21 @@ TEST(Convert, WritesInTheUnitAndAxesThatAreAskedFor) {
   EXPECT_NEAR(read->tracks.at(0, 3)->p_in_world.y, 1.7, 1e-6);
 }
 
+TEST(Convert, AFileThatWasToldBetterSaysSoFromThenOn) {
+  const ScratchFolder folder;
+  write_standing(folder / "a.c3d");
+  const ProgramRun run = marey({"convert",
+                                (folder / "a.c3d").string(),
+                                (folder / "b.c3d").string(),
+                                "--unit",
+                                "cm"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto read = recordings::read_markers(folder / "b.c3d");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->axes.unit, "cm");
+  EXPECT_NEAR(read->tracks.at(0, 3)->p_in_world.y, 17.0, 1e-5);
+}
+
 TEST(Convert, OfWhatIsNoMarkerFileEndsWith3) {
   const ScratchFolder folder;
   write_standing(folder / "a.c3d");
