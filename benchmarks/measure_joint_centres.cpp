@@ -26,10 +26,12 @@ namespace {
 
 constexpr std::size_t kLeastMarkers = 3;
 
-std::optional<RigidTransform> world_from_cluster(
-    const reconstruct::MarkerCluster& cluster,
-    const std::vector<glm::dvec3>& shape,
-    std::size_t frame) {
+using reconstruct::MarkerCluster;
+using testing::JointSimulation;
+
+std::optional<RigidTransform> world_from_cluster(const MarkerCluster& cluster,
+                                                 const std::vector<glm::dvec3>& shape,
+                                                 std::size_t frame) {
   std::vector<glm::dvec3> own;
   std::vector<glm::dvec3> world;
   for (std::size_t m = 0; m < cluster.markers; ++m) {
@@ -43,13 +45,15 @@ std::optional<RigidTransform> world_from_cluster(
 }
 
 /// Least squares of R_a c_a + t_a = R_b c_b + t_b, eq. 5 of the paper. c_a.
-glm::dvec3 score(const testing::JointSimulation& s) {
+glm::dvec3 score(const JointSimulation& s,
+                 const MarkerCluster& in_a,
+                 const MarkerCluster& in_b) {
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
-  const std::size_t frames = s.a.p_in_world.size() / s.a.markers;
+  const std::size_t frames = s.a_in_world.size() / JointSimulation::kMarkers;
   for (std::size_t f = 0; f < frames; ++f) {
-    const auto a = world_from_cluster(s.a, s.shape_in_a, f);
-    const auto b = world_from_cluster(s.b, s.shape_in_b, f);
+    const auto a = world_from_cluster(in_a, s.shape_in_a, f);
+    const auto b = world_from_cluster(in_b, s.shape_in_b, f);
     if (!a || !b) continue;
     Eigen::Matrix<double, 3, 6> row;
     const glm::dmat3 turn_a = glm::mat3_cast(a->rotation);
@@ -81,14 +85,19 @@ void measure(bool hard, bool around_rim, double cone_deg, int runs) {
     options.dropouts = hard ? 0.2 : 0.0;
     options.seed = static_cast<std::uint64_t>(run) + 1;
     const auto s = testing::simulate_joint(options);
-    const glm::dvec3 off = score(s) - s.joint_in_a;
+    const MarkerCluster in_a{JointSimulation::kMarkers, s.a_in_world};
+    const MarkerCluster in_b{JointSimulation::kMarkers, s.b_in_world};
+    const glm::dvec3 off = score(s, in_a, in_b) - s.joint_in_a;
     score_m2 += glm::dot(off, off);
-    const auto found = reconstruct::joint_between_clusters(s.a, s.b);
+    const auto found = reconstruct::joint_between_clusters(in_a, in_b);
     if (!found) {
       ++declined;
       continue;
     }
-    const glm::dvec3 error = testing::found_in_a(s, *found) - s.joint_in_a;
+    const std::vector<double> even(JointSimulation::kMarkers, 1.0);
+    const RigidTransform true_from_found =
+        reconstruct::align(found->shape_a, s.shape_in_a, even);
+    const glm::dvec3 error = true_from_found * found->p_in_a - s.joint_in_a;
     ours_m2 += glm::dot(error, error);
     in_sigmas2 += glm::dot(error, error) / (3.0 * found->sigma_a_m * found->sigma_a_m);
   }

@@ -9,23 +9,22 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <ceres/ceres.h>
-#include <ceres/rotation.h>
 #include <glm/geometric.hpp>
 
 #include "core/assert.h"
 #include "core/transform.h"
 #include "reconstruct/cluster_frame.h"
+#include "reconstruct/cluster_shape.h"
 #include "reconstruct/find_joint_centres.h"
+#include "reconstruct/joint_residuals.h"
 
 namespace marey::reconstruct {
 namespace {
 
 constexpr std::size_t kLeastFrames = 20;
-constexpr std::size_t kLeastMarkers = 3;
 constexpr double kCauchy = 3.0;  // [sigma]
 // Soft tissue is never known to be absent: this much per radian is always possible.
 constexpr double kLeastSoft_m = 0.0001;
-constexpr int kShapeRounds = 5;
 
 /// One frame's unknowns: place of the first segment, the turn that is added to what it
 /// was started with, and the joint's rotation, as a rotation vector from b to a.
@@ -39,149 +38,6 @@ struct Instant {
 
 using Shape = std::vector<std::array<double, 3>>;
 using Softness = std::vector<std::array<double, 9>>;  ///< [m/rad], row by row.
-
-struct Seen {
-  glm::dvec3 p_in_world;
-  glm::dquat world_from_a;
-  Eigen::Vector3d mean_turn;
-  double sigma_m;
-
-  /// Where the marker is on its segment, whose shape is that at the mean turn.
-  template <class T>
-  void carry(const T* shape, const T* soft, const T* turn, T* p) const {
-    for (int i = 0; i < 3; ++i) {
-      p[i] = shape[i];
-      for (int j = 0; j < 3; ++j) p[i] += soft[3 * i + j] * (turn[j] - mean_turn[j]);
-    }
-  }
-
-  template <class T>
-  void compare(const T* frame, const T* p_in_a, T* residual) const {
-    const T q[4] = {
-        T(world_from_a.w), T(world_from_a.x), T(world_from_a.y), T(world_from_a.z)};
-    T turned[3];
-    ceres::UnitQuaternionRotatePoint(q, p_in_a, turned);
-    T p[3];
-    ceres::AngleAxisRotatePoint(frame + 3, turned, p);
-    for (int i = 0; i < 3; ++i) {
-      residual[i] = (p[i] + frame[i] - p_in_world[i]) / sigma_m;
-    }
-  }
-};
-
-struct SeenOnA : Seen {
-  template <class T>
-  bool operator()(const T* frame, const T* shape, const T* soft, T* residual) const {
-    T p_in_a[3];
-    carry(shape, soft, frame + 6, p_in_a);
-    compare(frame, p_in_a, residual);
-    return true;
-  }
-};
-
-struct SeenOnB : Seen {
-  template <class T>
-  bool operator()(const T* frame,
-                  const T* shape,
-                  const T* soft,
-                  const T* joint_in_a,
-                  const T* joint_in_b,
-                  T* residual) const {
-    T p_in_b[3];
-    carry(shape, soft, frame + 6, p_in_b);
-    for (int i = 0; i < 3; ++i) p_in_b[i] -= joint_in_b[i];
-    T p_in_a[3];
-    ceres::AngleAxisRotatePoint(frame + 6, p_in_b, p_in_a);
-    for (int i = 0; i < 3; ++i) p_in_a[i] += joint_in_a[i];
-    compare(frame, p_in_a, residual);
-    return true;
-  }
-};
-
-struct FirmTissue {
-  double sigma_m_per_rad = 1.0;
-
-  template <class T>
-  bool operator()(const T* soft, T* residual) const {
-    for (int i = 0; i < 9; ++i) residual[i] = soft[i] / sigma_m_per_rad;
-    return true;
-  }
-};
-
-std::vector<std::size_t> seen_markers(const MarkerCluster& cluster, std::size_t frame) {
-  std::vector<std::size_t> seen;
-  for (std::size_t m = 0; m < cluster.markers; ++m) {
-    if (cluster.p_in_world[frame * cluster.markers + m]) seen.push_back(m);
-  }
-  return seen;
-}
-
-/// cluster_from_world of one frame by the markers that are there.
-RigidTransform locate(const MarkerCluster& cluster,
-                      const std::vector<glm::dvec3>& shape,
-                      std::size_t frame) {
-  std::vector<glm::dvec3> world;
-  std::vector<glm::dvec3> own;
-  for (const std::size_t m : seen_markers(cluster, frame)) {
-    world.push_back(*cluster.p_in_world[frame * cluster.markers + m]);
-    own.push_back(shape[m]);
-  }
-  return align(world, own, std::vector<double>(world.size(), 1.0));
-}
-
-/// The mean shape, about its middle; nullopt when the markers are on a line, or one is
-/// never seen.
-std::optional<std::vector<glm::dvec3>> find_shape(const MarkerCluster& cluster,
-                                                  std::span<const std::size_t> frames) {
-  // Begins with the frame that shows most; markers it lacks join as others show them.
-  std::size_t best = frames.front();
-  for (const std::size_t f : frames) {
-    if (seen_markers(cluster, f).size() > seen_markers(cluster, best).size()) best = f;
-  }
-  std::vector<glm::dvec3> shape(cluster.markers, glm::dvec3(0.0));
-  std::vector<bool> known(cluster.markers, false);
-  for (const std::size_t m : seen_markers(cluster, best)) {
-    shape[m] = *cluster.p_in_world[best * cluster.markers + m];
-    known[m] = true;
-  }
-  for (int round = 0; round < kShapeRounds; ++round) {
-    std::vector<glm::dvec3> sum(cluster.markers, glm::dvec3(0.0));
-    std::vector<int> count(cluster.markers, 0);
-    for (const std::size_t f : frames) {
-      std::vector<glm::dvec3> world;
-      std::vector<glm::dvec3> own;
-      for (const std::size_t m : seen_markers(cluster, f)) {
-        if (!known[m]) continue;
-        world.push_back(*cluster.p_in_world[f * cluster.markers + m]);
-        own.push_back(shape[m]);
-      }
-      if (world.size() < kLeastMarkers) continue;
-      const RigidTransform own_from_world =
-          align(world, own, std::vector<double>(world.size(), 1.0));
-      for (const std::size_t m : seen_markers(cluster, f)) {
-        sum[m] += own_from_world * *cluster.p_in_world[f * cluster.markers + m];
-        ++count[m];
-      }
-    }
-    for (std::size_t m = 0; m < cluster.markers; ++m) {
-      if (count[m] == 0) continue;
-      shape[m] = sum[m] / static_cast<double>(count[m]);
-      known[m] = true;
-    }
-  }
-  if (std::find(known.begin(), known.end(), false) != known.end()) return std::nullopt;
-  glm::dvec3 middle(0.0);
-  for (const glm::dvec3& p : shape) middle += p / static_cast<double>(shape.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (glm::dvec3& p : shape) {
-    p -= middle;
-    const Eigen::Vector3d v(p.x, p.y, p.z);
-    spread += v * v.transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
-  if (axes.eigenvalues()[1] < 1e-3 * axes.eigenvalues()[2]) return std::nullopt;
-  return shape;
-}
 
 /// How far per radian markers are to be expected to slide, by what they are seen to do
 /// against each other: regression of what a rigid shape leaves on the joint's rotation.
@@ -488,13 +344,13 @@ class ClusterJointProblem {
 std::optional<ClusterJoint> joint_between_clusters(const MarkerCluster& a,
                                                    const MarkerCluster& b,
                                                    const ClusterJointOptions& options) {
-  if (a.markers < kLeastMarkers || b.markers < kLeastMarkers) return std::nullopt;
+  if (a.markers < kLeastOfCluster || b.markers < kLeastOfCluster) return std::nullopt;
   const std::size_t frames = a.p_in_world.size() / a.markers;
   MAREY_ASSERT(frames * b.markers == b.p_in_world.size());
   std::vector<std::size_t> usable;
   for (std::size_t f = 0; f < frames; ++f) {
-    if (seen_markers(a, f).size() < kLeastMarkers) continue;
-    if (seen_markers(b, f).size() < kLeastMarkers) continue;
+    if (seen_markers(a, f).size() < kLeastOfCluster) continue;
+    if (seen_markers(b, f).size() < kLeastOfCluster) continue;
     usable.push_back(f);
   }
   if (usable.size() < kLeastFrames) return std::nullopt;

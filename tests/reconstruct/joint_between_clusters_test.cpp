@@ -7,19 +7,30 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "reconstruct/cluster_frame.h"
 #include "tests/support/joint_simulation.h"
 
 namespace marey::reconstruct {
 namespace {
 
-using testing::found_in_a;
 using testing::JointSimulation;
 using testing::simulate_joint;
+
+std::optional<ClusterJoint> find(const JointSimulation& s) {
+  return joint_between_clusters({JointSimulation::kMarkers, s.a_in_world},
+                                {JointSimulation::kMarkers, s.b_in_world});
+}
+
+/// The found centre in the frame of the true shape of the first cluster.
+glm::dvec3 found_in_a(const JointSimulation& truth, const ClusterJoint& found) {
+  const std::vector<double> even(truth.shape_in_a.size(), 1.0);
+  return align(found.shape_a, truth.shape_in_a, even) * found.p_in_a;
+}
 
 TEST(JointBetweenClusters, IsExactWithoutNoise) {
   const JointSimulation s =
       simulate_joint({.cone_rad = 1.6, .frames = 100, .noise_m = 0.0});
-  const auto found = joint_between_clusters(s.a, s.b);
+  const auto found = find(s);
   ASSERT_TRUE(found);
   EXPECT_LT(glm::distance(found_in_a(s, *found), s.joint_in_a), 1e-6);
   EXPECT_LT(found->rms_m, 1e-6);
@@ -32,7 +43,7 @@ TEST(JointBetweenClusters, ErrorsAreAsLargeAsTheirSigmas) {
     const auto seed = static_cast<std::uint64_t>(100 + run);
     const JointSimulation s =
         simulate_joint({.cone_rad = 1.0, .frames = 120, .seed = seed});
-    const auto found = joint_between_clusters(s.a, s.b);
+    const auto found = find(s);
     ASSERT_TRUE(found);
     const double off_m = glm::distance(found_in_a(s, *found), s.joint_in_a);
     in_sigmas2 += off_m * off_m / (3.0 * found->sigma_a_m * found->sigma_a_m);
@@ -48,7 +59,7 @@ TEST(JointBetweenClusters, SoftTissueAndDropoutsAreSeenThrough) {
                                             .soft_tissue_m = 0.010,
                                             .dropouts = 0.2,
                                             .seed = 5});
-  const auto found = joint_between_clusters(s.a, s.b);
+  const auto found = find(s);
   ASSERT_TRUE(found);
   // Rigid clusters would put it some 10 mm off.
   EXPECT_LT(glm::distance(found_in_a(s, *found), s.joint_in_a), 0.005);
@@ -58,7 +69,7 @@ TEST(JointBetweenClusters, SoftTissueAndDropoutsAreSeenThrough) {
 
 TEST(JointBetweenClusters, WhatDoesNotTurnIsKnownBadly) {
   const JointSimulation s = simulate_joint({.cone_rad = 0.02, .frames = 60, .seed = 3});
-  const auto found = joint_between_clusters(s.a, s.b);
+  const auto found = find(s);
   if (found) {
     EXPECT_GT(found->sigma_a_m, 0.005);
   }
@@ -66,23 +77,23 @@ TEST(JointBetweenClusters, WhatDoesNotTurnIsKnownBadly) {
 
 TEST(JointBetweenClusters, DeclinesTooLittle) {
   JointSimulation s = simulate_joint({.frames = 15});
-  EXPECT_FALSE(joint_between_clusters(s.a, s.b));  // frames
+  EXPECT_FALSE(find(s));  // frames
   s = simulate_joint({.frames = 100});
-  for (std::size_t i = 0; i < s.b.p_in_world.size(); ++i) {
-    if (i % s.b.markers > 1) s.b.p_in_world[i].reset();
+  for (std::size_t i = 0; i < s.b_in_world.size(); ++i) {
+    if (i % JointSimulation::kMarkers > 1) s.b_in_world[i].reset();
   }
-  EXPECT_FALSE(joint_between_clusters(s.a, s.b));  // two markers
+  EXPECT_FALSE(find(s));  // two markers
 }
 
 TEST(JointBetweenClusters, DeclinesMarkersOnALine) {
   JointSimulation s = simulate_joint({.frames = 100, .noise_m = 0.0});
-  for (std::size_t i = 0; i < s.a.p_in_world.size(); i += s.a.markers) {
-    const glm::dvec3 first = *s.a.p_in_world[i];
-    const glm::dvec3 along = *s.a.p_in_world[i + 1] - first;
-    s.a.p_in_world[i + 2] = first + 0.3 * along;
-    s.a.p_in_world[i + 3] = first + 0.7 * along;
+  for (std::size_t i = 0; i < s.a_in_world.size(); i += JointSimulation::kMarkers) {
+    const glm::dvec3 first = *s.a_in_world[i];
+    const glm::dvec3 along = *s.a_in_world[i + 1] - first;
+    s.a_in_world[i + 2] = first + 0.3 * along;
+    s.a_in_world[i + 3] = first + 0.7 * along;
   }
-  EXPECT_FALSE(joint_between_clusters(s.a, s.b));
+  EXPECT_FALSE(find(s));
 }
 
 }  // namespace

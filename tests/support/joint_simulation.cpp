@@ -11,7 +11,6 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/transform.h"
-#include "reconstruct/cluster_frame.h"
 
 namespace marey::testing {
 namespace {
@@ -79,33 +78,27 @@ JointSimulation simulate_joint(const JointSimulationOptions& options) {
   s.shape_in_b = s.shape_in_a;
   s.joint_in_a = {0.0, -kAway_m, 0.0};
   s.joint_in_b = {0.0, kAway_m, 0.0};
-  s.a.markers = s.shape_in_a.size();
-  s.b.markers = s.shape_in_b.size();
   const auto turns = random_turns(options, dice);
-  const auto tissue = random_tissue(options, turns, s.b.markers, dice);
-  const auto see = [&](const glm::dvec3& p, reconstruct::MarkerCluster& cluster) {
+  const auto tissue = random_tissue(options, turns, JointSimulation::kMarkers, dice);
+  const auto see = [&](const glm::dvec3& p,
+                       std::vector<std::optional<glm::dvec3>>& cluster) {
     const glm::dvec3 seen = p + options.noise_m * dice.vector();
     const bool dropped = dice.even() < options.dropouts;
-    cluster.p_in_world.push_back(dropped ? std::nullopt : std::optional(seen));
+    cluster.push_back(dropped ? std::nullopt : std::optional(seen));
   };
   for (const glm::dvec3& turn : turns) {
     const glm::dvec3 attitude = 0.3 * dice.vector();
     const RigidTransform world_from_a{rotation_from_vector(attitude),
                                       0.2 * dice.vector()};
     const glm::dquat a_from_b = rotation_from_vector(turn);
-    for (const glm::dvec3& p : s.shape_in_a) see(world_from_a * p, s.a);
-    for (std::size_t m = 0; m < s.b.markers; ++m) {
+    for (const glm::dvec3& p : s.shape_in_a) see(world_from_a * p, s.a_in_world);
+    for (std::size_t m = 0; m < JointSimulation::kMarkers; ++m) {
       const glm::dvec3 p_in_b = s.shape_in_b[m] + tissue[m] * turn;
-      see(world_from_a * (s.joint_in_a + a_from_b * (p_in_b - s.joint_in_b)), s.b);
+      see(world_from_a * (s.joint_in_a + a_from_b * (p_in_b - s.joint_in_b)),
+          s.b_in_world);
     }
   }
   return s;
-}
-
-glm::dvec3 found_in_a(const JointSimulation& truth,
-                      const reconstruct::ClusterJoint& found) {
-  const std::vector<double> even(truth.shape_in_a.size(), 1.0);
-  return reconstruct::align(found.shape_a, truth.shape_in_a, even) * found.p_in_a;
 }
 
 }  // namespace marey::testing

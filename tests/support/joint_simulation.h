@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
-
-#include "reconstruct/joint_between_clusters.h"
 
 namespace marey::testing {
 
@@ -27,8 +27,10 @@ struct JointSimulationOptions {
 /// marker of the second cluster in proportion to the joint's rotation vector, by a random
 /// matrix of its own.
 struct JointSimulation {
-  reconstruct::MarkerCluster a;
-  reconstruct::MarkerCluster b;
+  static constexpr std::size_t kMarkers = 4;  ///< Of each cluster.
+  /// Frame after frame, kMarkers of them each. [m]
+  std::vector<std::optional<glm::dvec3>> a_in_world;
+  std::vector<std::optional<glm::dvec3>> b_in_world;
   std::vector<glm::dvec3> shape_in_a;  ///< True, and so for b. [m]
   std::vector<glm::dvec3> shape_in_b;
   glm::dvec3 joint_in_a{0.0};
@@ -36,9 +38,5 @@ struct JointSimulation {
 };
 
 [[nodiscard]] JointSimulation simulate_joint(const JointSimulationOptions& options);
-
-/// The found centre in the frame of the true shape of the first cluster.
-[[nodiscard]] glm::dvec3 found_in_a(const JointSimulation& truth,
-                                    const reconstruct::ClusterJoint& found);
 
 }  // namespace marey::testing
