@@ -3,6 +3,7 @@
 #include "app/plan_commands.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -21,7 +22,9 @@
 namespace marey::app {
 namespace {
 
-/// How well the cameras are known, or will be; says in the report which.
+/// How well the cameras are known, or will be; says in the report which. A calibration
+/// tells each camera's doubt and not what they have in common: that is taken from the
+/// plan of one, where there is any.
 std::optional<calib::RigCovariance> doubt_of(const recordings::CapturePlan& plan,
                                              PlanReport& report) {
   auto doubt = calib::plan_calibration(report.cameras,
@@ -29,15 +32,17 @@ std::optional<calib::RigCovariance> doubt_of(const recordings::CapturePlan& plan
                                        AprilGrid{},
                                        capture::expected_corner_sigma_px,
                                        report.options);
-  if (!doubt) {
-    report.not_calibrated = doubt.error().cause;
-    return std::nullopt;
-  }
   report.is_calibrated = std::any_of(
       plan.quality.begin(), plan.quality.end(), [](const CameraQuality& quality) {
         return quality.centre_sigma_m > 0.0;
       });
-  if (report.is_calibrated) calib::fit_to_quality(plan.quality, *doubt);
+  if (!doubt) {
+    report.not_calibrated = doubt.error();
+    if (!report.is_calibrated) return std::nullopt;
+    doubt = calib::covariance_of_quality(plan.quality);
+  } else if (report.is_calibrated) {
+    calib::fit_to_quality(plan.quality, *doubt);
+  }
   for (std::size_t c = 0; c < report.cameras.size(); ++c) {
     report.centre_sigma_m.push_back(calib::centre_sigma_m(*doubt, c));
   }
@@ -48,9 +53,8 @@ PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
   PlanReport report;
   report.name = args.plan.filename().string();
   report.cameras = std::move(plan.cameras);
-  constexpr double kUsualTag_m = 0.08;
   report.options.tag_size_m =
-      args.tag_size_m.value_or(plan.tag_size_m.value_or(kUsualTag_m));
+      args.tag_size_m.value_or(plan.tag_size_m.value_or(recordings::kUsualPlannedTag_m));
   report.stature_m = args.stature_m.value_or(plan.stature_m.value_or(kUsualStature_m));
   report.grid = calib::grid_before(report.cameras);
   if (plan.volume) {
@@ -89,6 +93,22 @@ PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
   return report;
 }
 
+void warn(const PlanReport& report, Console& console) {
+  if (report.cameras.size() < 2) {
+    console.warn(report.name +
+                 ": one camera alone places no tag. Next: plan two or more");
+  } else if (report.not_calibrated) {
+    const Error& error = *report.not_calibrated;
+    console.warn(report.name +
+                 ": a board waved in this volume would not calibrate the cameras (" +
+                 (error.where.empty() ? "" : error.where + ": ") + error.cause + "): " +
+                 (report.is_calibrated
+                      ? "each is taken to err by itself, as far as its calibration says"
+                      : "they are taken as known exactly") +
+                 ". Next: " + error.next);
+  }
+}
+
 }  // namespace
 
 Exit run_plan(const PlanArguments& args, Console& console) {
@@ -105,16 +125,7 @@ Exit run_plan(const PlanArguments& args, Console& console) {
     return console.fail(ok.error());
   }
   std::fputs(args.json ? json.c_str() : plan_table(report).c_str(), stdout);
-  if (report.cameras.size() < 2) {
-    console.warn(report.name +
-                 ": one camera alone places no tag. Next: plan two or more");
-  }
-  if (report.cameras.size() >= 2 && !report.not_calibrated.empty()) {
-    console.warn(report.name +
-                 ": a board waved in this volume would not calibrate the cameras (" +
-                 report.not_calibrated +
-                 "): they are taken as known exactly. Next: let their pictures overlap");
-  }
+  warn(report, console);
   console.say((args.out / "plan.html").string() + " shows it from above");
   return Exit::kOk;
 }
@@ -138,7 +149,8 @@ void add_plan_command(CLI::App& app,
             }
             args.tag_size_m = *size_m;
           },
-          "Edge of a tag's square, with its unit; default the plan's, or 80mm")
+          "Edge of a tag's square, with its unit; default the plan's, or " +
+              std::to_string(std::lround(1e3 * recordings::kUsualPlannedTag_m)) + "mm")
       ->type_name("LENGTH");
   command
       ->add_option("--height", args.stature_m, "Stature [m]; default the plan's, or 1.75")

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 
 #include "calib/plan_body.h"
 #include "calib/plan_rig.h"
+#include "core/result.h"
 
 namespace marey::app {
 
@@ -28,7 +30,8 @@ struct PlanReport {
   /// Of each camera's centre; empty when they are taken as known exactly.
   std::vector<double> centre_sigma_m;
   bool is_calibrated = false;  ///< These sigmas are of a calibration, not planned.
-  std::string not_calibrated;  ///< Why a board would not calibrate the cameras.
+  /// Why a board would not calibrate the cameras, when it would not.
+  std::optional<Error> not_calibrated;
 };
 
 /// "left shoulder", "right ankle": the joint at a limb bone's near end.

@@ -115,7 +115,8 @@ Camera read_camera(TomlReader& in, const std::vector<Camera>& before) {
 
 TagOnSegment read_tag(TomlReader& in, int id, const std::optional<double>& usual_size_m) {
   in.allow({"segment", "size_m"});
-  TagOnSegment tag{TagId{id}, HumanBone::kHips, usual_size_m.value_or(0.08)};
+  TagOnSegment tag{
+      TagId{id}, HumanBone::kHips, usual_size_m.value_or(kUsualPlannedTag_m)};
   const std::string segment = in.text("segment");
   if (const auto bone = human_bone(segment)) {
     tag.segment = *bone;

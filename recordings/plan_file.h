@@ -24,6 +24,9 @@ struct PlannedVolume {
   double step_m = 0.25;
 };
 
+/// Edge of a tag's black square where neither plan nor user say.
+inline constexpr double kUsualPlannedTag_m = 0.08;
+
 /// plan.toml: cameras as somebody would set them up. What is absent was not given.
 struct CapturePlan {
   std::vector<Camera> cameras;  ///< At least one; names differ.
