@@ -10,6 +10,7 @@
 #include <string>
 #include <variant>
 
+#include "app/board_elsewhere.h"
 #include "capture/detect_videos.h"
 #include "capture/look_for_boards.h"
 #include "core/assert.h"
@@ -174,9 +175,10 @@ Error no_board(const CameraDetections& camera,
             "in session.toml: rows and columns count squares");
 }
 
-Status check_seen(const CameraDetections& camera,
-                  const Wanted& wanted,
-                  const std::vector<TagFamilyUse>& worn) {
+Status check_seen(const recordings::Session& session,
+                  const Trial& trial,
+                  const CameraDetections& camera,
+                  const Wanted& wanted) {
   const auto in_any = [&](const auto& shows) {
     return std::any_of(camera.frames.begin(), camera.frames.end(), shows);
   };
@@ -188,7 +190,10 @@ Status check_seen(const CameraDetections& camera,
     });
   });
   if (sees_it) return Done{};
-  if (wanted.target) return no_board(camera, *wanted.target, worn);
+  if (wanted.target || wanted.shows_grid) {
+    if (const auto other = board_elsewhere(session, trial, camera)) return *other;
+  }
+  if (wanted.target) return no_board(camera, *wanted.target, worn_tags(session));
   if (wanted.grid && sees_tags) {
     // Who holds the board wears tags. Other tags than the declared are told later.
     const auto seen = capture::look_for_boards(camera.source, AprilGrid{});
@@ -338,7 +343,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
     camera.source = video.path.string();
     camera.offset = video.offset;
     if (trial.rate) camera.rate = *trial.rate;
-    if (const Status ok = check_seen(camera, wanted, worn_tags(session)); !ok)
+    if (const Status ok = check_seen(session, trial, camera, wanted); !ok)
       return ok.error();
     if (const Status ok = check_offset(session, video, camera.rate); !ok) {
       return ok.error();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/earlier_calibration.h"
 #include "app/judge_quality.h"
 
 namespace marey::app {
@@ -73,12 +74,26 @@ Exit run_session(Stage stage,
                  const PipelineOptions& options,
                  bool json,
                  Console& console) {
+  const EarlierCalibration earlier = find_calibration(options.out);
+  // Results of an earlier run stay: who changes a session may want to go back.
+  const auto tell_kept = [&] {
+    if (stage != Stage::kCalibrate && stage != Stage::kProcess) return;
+    if (const std::string kept = kept_words(earlier); !kept.empty()) console.warn(kept);
+  };
   auto pipeline = Pipeline::open(stage, options, console);
-  if (!pipeline) return console.fail(pipeline.error());
+  if (!pipeline) {
+    tell_kept();
+    return console.fail(pipeline.error());
+  }
+  if (stage == Stage::kSolve) {
+    const std::string used = used_words(earlier, options.session);
+    if (!used.empty()) console.say(used);
+  }
   if (const Status ok = run_stages(stage, *pipeline); !ok) {
     for (const Error& failure : pipeline->failures()) {
       if (failure.message() != ok.error().message()) console.warn(failure.message());
     }
+    tell_kept();
     return console.fail(ok.error());
   }
   std::vector<Error> failures = pipeline->failures();

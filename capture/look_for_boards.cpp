@@ -121,6 +121,14 @@ std::string smallest_with(std::string_view dictionary, const std::set<int>& ids)
   return std::string(dictionary);
 }
 
+/// Boards number their markers one after the other. Noise, and what is printed in other
+/// codes, pass for markers from all over a dictionary of a thousand.
+bool are_of_a_board(const std::set<int>& ids) {
+  constexpr std::size_t kMostApart = 4;
+  return !ids.empty() &&
+         static_cast<std::size_t>(*ids.rbegin() - *ids.begin()) < kMostApart * ids.size();
+}
+
 /// Markers of any other dictionary: that of which one frame shows most.
 std::optional<SeenInstead> look_for_markers(const std::vector<cv::Mat>& frames,
                                             const WornIds& worn) {
@@ -142,7 +150,7 @@ std::optional<SeenInstead> look_for_markers(const std::vector<cv::Mat>& frames,
     for (const bool inverted : {false, true}) {
       if (best.size() >= kPlenty) break;
       std::set<int> ids = best_ids(frames, name, {inverted, false}, worn);
-      if (ids.size() <= best.size()) continue;
+      if (ids.size() <= best.size() || !are_of_a_board(ids)) continue;
       best = std::move(ids);
       dictionary = name;
       best_look.inverted = inverted;

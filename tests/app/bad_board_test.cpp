@@ -194,7 +194,7 @@ TEST(BadBoard, ThatIsMirroredIsTold) {
   PaintedSession grid(april_grid_table());
   grid.film(painted_april_grid());
   grid.change_all(mirror);
-  EXPECT_TRUE(declines(grid, {"mirrored", "Next: record without mirroring"}));
+  EXPECT_TRUE(declines(grid, {"mirrored", "Next: switch off mirroring"}));
 }
 
 // --- Too little of it
