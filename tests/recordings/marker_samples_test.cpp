@@ -17,6 +17,7 @@
 #include "core/extension.h"
 #include "recordings/c3d.h"
 #include "recordings/marker_file.h"
+#include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
@@ -235,14 +236,13 @@ TEST_P(MarkerSamples, AreKeptByWriting) {
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto read = read_markers(path);
   ASSERT_TRUE(read);
-  const fs::path folder = ::testing::TempDir();
+  const testing::ScratchFolder folder;
   const MarkerReadOptions same{.up = read->axes.up, .unit = read->axes.unit};
   for (const char* name : {"marey_again.c3d", "marey_again.trc"}) {
     const Status written = write_markers(folder / name, *read);
     ASSERT_TRUE(written) << written.error().message();
     const auto again = read_markers(folder / name, same);
     ASSERT_TRUE(again) << again.error().message();
-    fs::remove(folder / name);
     EXPECT_EQ(again->tracks.labels, read->tracks.labels);
     ASSERT_EQ(again->tracks.samples.size(), read->tracks.samples.size());
     double largest_m = 0.0;
