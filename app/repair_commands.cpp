@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/repair_figures.h"
+#include "core/extension.h"
 #include "recordings/atomic_file.h"
 #include "recordings/marker_file.h"
 
@@ -93,17 +94,24 @@ Exit run_repair(const RepairArguments& args, Console& console) {
       reconstruct::repair_gaps(repair.checked.tracks, options, console.stage("gaps"));
   read->tracks = repair.repaired.tracks;
   recordings::MarkerWriteOptions write;
-  if (args.in.extension() == ".c3d" || args.in.extension() == ".C3D")
-    write.source = args.in;
+  const bool both_c3d =
+      kind_by_extension(args.in) == ".c3d" && kind_by_extension(args.out) == ".c3d";
+  if (both_c3d) write.source = args.in;
+  if (kind_by_extension(args.in) == ".c3d" && kind_by_extension(args.out) == ".trc") {
+    // A TRC cannot say which way is up, and is taken for Y up.
+    write.axes = read->axes;
+    write.axes->up = recordings::FileAxis::kPlusY;
+  }
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
   const std::string json = repair_figures(repair).dump(1, ' ', false, kReplace) + "\n";
+  // The markers first: where they cannot be written, nothing is left beside them.
+  if (const Status ok = recordings::write_markers(args.out, *read, write); !ok) {
+    return console.fail(ok.error());
+  }
   for (const auto& [suffix, text] : {std::pair(".repair.json", json),
                                      std::pair(".repair.csv", repair_table(repair))}) {
     const Status ok = recordings::write_file(args.out.string() + suffix, text);
     if (!ok) return console.fail(ok.error());
-  }
-  if (const Status ok = recordings::write_markers(args.out, *read, write); !ok) {
-    return console.fail(ok.error());
   }
   tell(repair, args.out, console);
   if (args.json) std::fputs(json.c_str(), stdout);
