@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// fuzz_seeds FOLDER: writes small sound files into FOLDER/c3d and FOLDER/trc, from which
-// fuzzing starts.
+// fuzz_seeds FOLDER: writes small sound files into FOLDER/c3d, FOLDER/trc and FOLDER/mot,
+// from which fuzzing starts.
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -93,7 +93,17 @@ bool write_all(const std::filesystem::path& folder) {
       "  60.0\t\t60.0\t2\t2\tm\r\n"
       "Frame#\tTimes\t\tA\t\t\tA\t\t\r\n\t\t\tX1\tY1\tZ1\r\n\t\r\n"
       "3\t0,033\t1.5e-1\tNaN\t0.2\t0\t0\t0\r\n5\t0.067\t1\t2\t-3\t1.#QNAN\r\n";
-  return ok && write_file(folder / "trc/odd.trc", odd).has_value();
+  const std::string opensim =
+      "Coordinates\nversion=1\nnRows=2\nnColumns=3\ninDegrees=yes\n\n"
+      "Units are S.I. units\n\nendheader\ntime\tknee_angle_r\t/a/hip_flexion_l/value\n"
+      "      0.004\t     62.623\t     -0.37e2\n      0.008\t     NaN\t     1.#QNAN\n";
+  const std::string simm =
+      "first trial\t\t\r\nname a\t\t\r\ndatacolumns 3\r\ndatarows 1\r\notherdata 1\r\n"
+      "range 0.4 1.6\r\n# x\r\nendheader \r\n\r\npelvis_tx Time pelvis_tilt\r\n1 0.4 "
+      "-9\r\n";
+  return ok && write_file(folder / "trc/odd.trc", odd).has_value() &&
+         write_file(folder / "mot/opensim.mot", opensim).has_value() &&
+         write_file(folder / "mot/simm.mot", simm).has_value();
 }
 
 }  // namespace
