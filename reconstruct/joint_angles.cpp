@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "core/assert.h"
 #include "core/pose.h"
@@ -34,20 +35,20 @@ constexpr std::array<std::string_view, kCoordinateCount> kNames{
     "wrist_dev_l"};
 
 // Rajagopal2016's axes of right joints, in the parent's frame. Left ones are mirrored.
-const glm::dvec3 kAnkleAxis =
-    glm::normalize(glm::dvec3(-0.10501355, -0.17402245, 0.97912632));
-const glm::dvec3 kSubtalarAxis =
-    glm::normalize(glm::dvec3(0.78717961, 0.60474746, -0.12094949));
-const glm::dvec3 kToesAxis = glm::normalize(glm::dvec3(0.58095440, 0.0, -0.81393611));
+constexpr glm::dvec3 kAnkleAxis{
+    -0.1050135495114587, -0.1740224491904174, 0.9791263154449344};
+constexpr glm::dvec3 kSubtalarAxis{
+    0.7871796068877029, 0.6047474576089907, -0.1209494895217982};
+constexpr glm::dvec3 kToesAxis{0.5809543982451424, 0.0, -0.8139361075413872};
 /// Of the elbow's axis (0.226, 0.022, 0.974) about the upper arm, from straight to the
 /// side towards the front. The 1.3 degrees by which it leans along the arm are left out.
-const double kElbowYaw_rad = std::atan2(0.22604696, 0.97386183);
-/// From the middle of the hip centres to the pelvis' origin, in hip widths.
-const glm::dvec3 kPelvisOrigin = glm::dvec3(0.056276, 0.07849, 0.0) / (2.0 * 0.07726);
+constexpr double kElbowYawRad = 0.2280752418775282;
+/// The right hip centre in the pelvis. [m]
+constexpr glm::dvec3 kHipInPelvis{-0.056276, -0.07849, 0.07726};
 
 /// The three angles of a ball joint whose ranges the model has. Bits of locked frames.
 struct Triple {
-  C first;
+  C first = C::kPelvisTilt;
   std::array<AngleRange, 3> usual;
 };
 constexpr std::array<Triple, 8> kTriples{{
@@ -102,9 +103,12 @@ glm::dquat about(int axis, double angle_rad) {
 // What an arm in OpenSim's zero pose has turned from the T-pose, the right one's, in
 // OpenSim's axes: down, and then, the upper arm so that its hinge is the model's elbow
 // axis, forearm and hand so that the palm faces forward.
-const glm::dquat kArmDown = about(0, kPi / 2);
-const glm::dquat kUpperArmAtZero = about(1, kElbowYaw_rad) * kArmDown;
-const glm::dquat kHandAtZero = about(1, -kPi / 2) * kArmDown;
+constexpr double kHalfRoot = std::numbers::sqrt2 / 2;
+constexpr glm::dquat kArmDown{kHalfRoot, kHalfRoot, 0.0, 0.0};
+constexpr glm::dquat kHandAtZero{0.5, 0.5, -0.5, 0.5};
+glm::dquat upper_arm_at_zero() {
+  return about(1, kElbowYawRad) * kArmDown;
+}
 
 /// Where the bones of a motion are, and one frame of them in OpenSim's axes.
 class Frame {
@@ -177,7 +181,8 @@ void put_pelvis(const Frame& frame, double ground_yaw_rad, Row& row) {
   const glm::dvec3 left = frame.world_from(B::kLeftUpperLeg).translation;
   const glm::dvec3 p_in_ground =
       ground_from_world * (0.5 * (left + right)) +
-      ground_from_pelvis * (kPelvisOrigin * glm::distance(left, right));
+      ground_from_pelvis * glm::dvec3(-kHipInPelvis.x, -kHipInPelvis.y, 0.0) *
+          (glm::distance(left, right) / (2.0 * kHipInPelvis.z));
   row[C::kPelvisTx] = p_in_ground.x;
   row[C::kPelvisTy] = p_in_ground.y;
   row[C::kPelvisTz] = p_in_ground.z;
@@ -197,7 +202,7 @@ void put_leg(const Frame& frame, const Side& side, Row& row) {
 
 void put_arm(const Frame& frame, const Side& side, Row& row) {
   const auto arm = frame.turn(B::kUpperChest, side.upper_arm, side.left);
-  row.put(side.arm, cardan_angles(arm * glm::conjugate(kUpperArmAtZero), kZxy));
+  row.put(side.arm, cardan_angles(arm * glm::conjugate(upper_arm_at_zero()), kZxy));
   // Seen from an upper arm that hangs with its hinge straight to the side.
   const auto forearm = frame.turn(side.upper_arm, side.lower_arm, side.left);
   const auto elbow = cardan_angles(kArmDown * forearm * glm::conjugate(kArmDown), kZxy);
@@ -210,7 +215,7 @@ void put_arm(const Frame& frame, const Side& side, Row& row) {
   Cardan wrist = cardan_angles(glm::conjugate(forearm_without_twist) * kArmDown * hand *
                                    glm::conjugate(kHandAtZero),
                                kYzx);
-  wrist.angle_rad[0] += kElbowYaw_rad;
+  wrist.angle_rad[0] += kElbowYawRad;
   row.put(C{static_cast<int>(side.arm) + 4}, wrist);
 }
 
