@@ -89,12 +89,14 @@ struct JointAngleOptions {
 /// a model's joint cannot do, and this skeleton's can, is left out: see docs/formats.md.
 ///
 /// Angles are continuous: they go on beyond 180 degrees rather than jump. The rotation of
-/// pelvis, hip, trunk, shoulder or forearm and wrist can be told by two triples of
-/// angles; of all ways through the motion, that with the smallest steps is taken, and of
-/// equal ones the one nearest to what the model's joints allow. Where the middle angle is
-/// 90 degrees to within 1e-6 (gimbal lock; the shoulder's in a T-pose) the other two are
-/// not known apart: the first then keeps its last value. Near there both are as little
-/// known, and a jump of up to 180 degrees in both, between two frames, can be the truth.
+/// pelvis, hip, trunk, shoulder or wrist can be told by two triples of angles; of all
+/// ways through the motion, that with the smallest steps is taken, and where they do not
+/// decide the one nearest to what the model's joints allow. (Some thousand frames far
+/// outside count as much as a jump of half a turn, which is then made where it is
+/// smallest.) Where the middle angle is 90 degrees to within 1e-6 (gimbal lock; the
+/// shoulder's in a T-pose) the other two are not known apart: the first then keeps its
+/// last value, or has its next. Near there both are as little known, and a swing of up to
+/// 180 degrees in both, between two frames, can be the truth.
 ///
 /// Linear in frames; a few allocations for all of them.
 /// Precondition: the skeleton has all 22 bones and identity rest rotations, as
