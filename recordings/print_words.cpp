@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "recordings/nearest_word.h"
+#include "core/nearest_word.h"
 
 namespace marey::recordings {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "recordings/nearest_word.h"
+#include "core/nearest_word.h"
 
 namespace marey::recordings {
 namespace {

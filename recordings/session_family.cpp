@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "recordings/nearest_word.h"
+#include "core/nearest_word.h"
 
 namespace marey::recordings {
 

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "core/humanoid.h"
+#include "core/nearest_word.h"
 #include "recordings/atomic_file.h"
-#include "recordings/nearest_word.h"
 #include "recordings/number_text.h"
 #include "recordings/session.h"
 #include "recordings/session_calibration.h"

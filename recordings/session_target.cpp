@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/humanoid.h"
-#include "recordings/nearest_word.h"
+#include "core/nearest_word.h"
 #include "recordings/number_text.h"
 
 namespace marey::recordings {

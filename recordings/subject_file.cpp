@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/humanoid.h"
+#include "core/nearest_word.h"
 #include "recordings/atomic_file.h"
-#include "recordings/nearest_word.h"
 #include "recordings/toml_reader.h"
 #include "recordings/toml_writer.h"
 

@@ -8,7 +8,7 @@
 
 #include <toml++/toml.h>
 
-#include "recordings/nearest_word.h"
+#include "core/nearest_word.h"
 #include "recordings/number_text.h"
 
 namespace marey::recordings {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/nearest_word.h"
+#include "core/nearest_word.h"
 
 #include <array>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
-namespace marey::recordings {
+namespace marey {
 namespace {
 
 constexpr std::array<std::string_view, 3> kWords{"rows", "columns", "first_id"};
@@ -30,9 +30,17 @@ TEST(Suggestion, NamesTheFirstOfEquals) {
   EXPECT_EQ(suggestion("cam2", kTwins), "perhaps you mean \"cam0\"");
 }
 
+TEST(NearestWords, AreInOrderOfNearness) {
+  const auto near = nearest_words("colums", kWords, 2);
+  ASSERT_EQ(near.size(), 2U);
+  EXPECT_EQ(near[0], "columns");
+  EXPECT_EQ(near[1], "rows");
+  EXPECT_EQ(nearest_words("rows", kWords, 9).size(), kWords.size());
+}
+
 TEST(Suggestion, OfABoneKnowsTheForearm) {
   EXPECT_EQ(bone_suggestion("left_lower_arm"), "perhaps you mean \"leftLowerArm\"");
 }
 
 }  // namespace
-}  // namespace marey::recordings
+}  // namespace marey

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/nearest_word.h"
+#include "core/nearest_word.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -9,7 +9,7 @@
 #include "core/assert.h"
 #include "core/humanoid.h"
 
-namespace marey::recordings {
+namespace marey {
 namespace {
 
 char lower(char c) {
@@ -18,6 +18,8 @@ char lower(char c) {
 
 // All costs are times four, so that a change of case can cost a quarter of a letter.
 constexpr std::size_t kLetter = 4;
+
+constexpr std::size_t kLongestWord = 64;  // No key is longer; keeps the search cheap.
 
 std::size_t cost_of_change(char a, char b) {
   if (a == b) return 0;
@@ -43,7 +45,6 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 std::string suggestion(std::string_view wrong, std::span<const std::string_view> words) {
   MAREY_ASSERT(!words.empty());
-  constexpr std::size_t kLongestWord = 64;  // No key is longer; keeps the search cheap.
   wrong = wrong.substr(0, kLongestWord);
   const std::string_view* nearest =
       &*std::min_element(words.begin(), words.end(), [&](auto a, auto b) {
@@ -60,10 +61,22 @@ std::string suggestion(std::string_view wrong, std::span<const std::string_view>
   return text;
 }
 
+std::vector<std::string_view> nearest_words(std::string_view wrong,
+                                            std::span<const std::string_view> words,
+                                            std::size_t count) {
+  wrong = wrong.substr(0, kLongestWord);
+  std::vector<std::string_view> nearest(words.begin(), words.end());
+  std::stable_sort(nearest.begin(), nearest.end(), [&](auto a, auto b) {
+    return distance(wrong, a) < distance(wrong, b);
+  });
+  if (nearest.size() > count) nearest.resize(count);
+  return nearest;
+}
+
 std::string bone_suggestion(std::string_view wrong) {
   std::vector<std::string_view> names;
   for (const HumanBone bone : human_bones()) names.push_back(name(bone));
   return suggestion(wrong, names);
 }
 
-}  // namespace marey::recordings
+}  // namespace marey
