@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/extension.h"
+#include "reconstruct/name_markers.h"
 #include "recordings/c3d.h"
 #include "recordings/force_plates.h"
 #include "recordings/marker_file.h"
@@ -104,9 +105,13 @@ Result<Json> inspect_markers(const std::filesystem::path& file) {
     if (tracks.samples[i]->source != Source::kMeasured) ++repaired;
   }
   const double samples = static_cast<double>(tracks.samples.size());
+  const reconstruct::MarkerNames names = reconstruct::name_markers(tracks.labels);
   Json markers = Json::array();
   for (std::size_t m = 0; m < tracks.markers(); ++m) {
-    markers.push_back({{"label", tracks.labels[m]}, {"seen_frames", seen[m]}});
+    const reconstruct::Landmark* landmark = names.landmarks[m];
+    markers.push_back({{"label", tracks.labels[m]},
+                       {"landmark", landmark ? Json(landmark->name) : Json()},
+                       {"seen_frames", seen[m]}});
   }
   const bool is_c3d = kind_by_extension(file) == ".c3d";
   Json notes = read->notes;
@@ -123,6 +128,7 @@ Result<Json> inspect_markers(const std::filesystem::path& file) {
            {"seen_percent",
             samples == 0.0 ? 0.0 : 100.0 * static_cast<double>(all_seen) / samples},
            {"repaired_samples", repaired},
+           {"label_set", names.set.empty() ? Json() : Json(names.set)},
            {"markers", markers},
            {"events", events_json(read->events)}};
   if (is_c3d) {

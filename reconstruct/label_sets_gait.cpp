@@ -12,7 +12,8 @@ namespace {
 using Row = LabelRow;
 
 // clang-format off
-/// Vicon's, with the additions of its Conventional Gait Model 2 and medial markers. What
+/// Vicon's, with the additions of its Conventional Gait Model 2, of the Oxford Foot Model,
+/// and medial markers. What
 /// the model computes is told apart; so is the device that aligns the knee's axis.
 constexpr std::array kPlugInGait{
     Row{"?fhd", "?front_head"}, Row{"?bhd", "?back_head"}, Row{"c7", "c7"},
@@ -42,10 +43,15 @@ constexpr std::array kPlugInGait{
     Row{"?toe", "?metatarsal_2_head"}, Row{"?mt5", "?metatarsal_5_head"},
     Row{"?mt1", "?metatarsal_1_head"}, Row{"?fmh", "?metatarsal_1_head"},
     Row{"?smh", "?metatarsal_2_head"}, Row{"?vmh", "?metatarsal_5_head"},
-    Row{"?latfoot", "?lateral_midfoot"}, Row{"?hlx", "?big_toe"}, Row{"pelvis1", "hips"},
-    Row{"pelvis2", "hips"}, Row{"pelvis3", "hips"}, Row{"pel%", ""}, Row{"?fe%", ""},
-    Row{"?ti%", ""}, Row{"?fo%", ""}, Row{"?to%", ""}, Row{"?cl%", ""}, Row{"?hu%", ""},
-    Row{"?ra%", ""}, Row{"?hn%", ""}, Row{"he%", ""}, Row{"hed%", ""}, Row{"trx%", ""},
+    Row{"?latfoot", "?lateral_midfoot"}, Row{"?hlx", "?big_toe"},
+    Row{"?hfb", "?fibula_head"}, Row{"?tub", "?tibial_tuberosity"},
+    Row{"?mma", "?medial_malleolus"}, Row{"?cpg", ""}, Row{"?lca", "?lateral_calcaneus"},
+    Row{"?stl", "?medial_calcaneus"}, Row{"?p5m", "?metatarsal_5_base"},
+    Row{"?d5m", "?metatarsal_5_head"}, Row{"?p1m", "?metatarsal_1_base"},
+    Row{"?d1m", "?metatarsal_1_head"}, Row{"pelvis1", "hips"}, Row{"pelvis2", "hips"},
+    Row{"pelvis3", "hips"}, Row{"pel%", ""}, Row{"?fe%", ""}, Row{"?ti%", ""},
+    Row{"?fo%", ""}, Row{"?to%", ""}, Row{"?cl%", ""}, Row{"?hu%", ""}, Row{"?ra%", ""},
+    Row{"?hn%", ""}, Row{"he%", ""}, Row{"hed%", ""}, Row{"trx%", ""},
 };
 
 /// Of the CMU Graphics Lab's database, which a Vicon 8 recorded.

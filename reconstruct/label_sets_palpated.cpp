@@ -66,6 +66,21 @@ constexpr std::array kBmcLab{
     Row{"?mt5", "?metatarsal_5_head"},
 };
 
+/// Of Visual3D's examples.
+constexpr std::array kVisual3D{
+    Row{"?asis", "?asis"}, Row{"?psis", "?psis"}, Row{"?ias", "?asis"},
+    Row{"?ips", "?psis"}, Row{"?ic", "?iliac_crest"}, Row{"?gt", "?greater_trochanter"},
+    Row{"?lk", "?lateral_epicondyle_femur"}, Row{"?mk", "?medial_epicondyle_femur"},
+    Row{"?la", "?lateral_malleolus"}, Row{"?ma", "?medial_malleolus"},
+    Row{"?he", "?heel"}, Row{"?heel", "?heel"}, Row{"?mh1", "?metatarsal_1_head"},
+    Row{"?mh2", "?metatarsal_2_head"}, Row{"?mh5", "?metatarsal_5_head"},
+    Row{"?th1", "?thigh"}, Row{"?th2", "?thigh"}, Row{"?th3", "?thigh"},
+    Row{"?th4", "?thigh"}, Row{"?sk1", "?shank"}, Row{"?sk2", "?shank"},
+    Row{"?sk3", "?shank"}, Row{"?sk4", "?shank"}, Row{"?sh1", "?shank"},
+    Row{"?sh2", "?shank"}, Row{"?sh3", "?shank"}, Row{"?sh4", "?shank"},
+    Row{"?ft1", "?foot"}, Row{"?ft2", "?foot"}, Row{"?ft3", "?foot"},
+};
+
 /// Clusters of plates alone.
 constexpr std::array kClusters{
     Row{"pv1", "hips"}, Row{"pv2", "hips"}, Row{"pv3", "hips"}, Row{"pv4", "hips"},
@@ -130,7 +145,8 @@ constexpr std::array kWords{
 
 constexpr std::array kSets{
     LabelSet{"anatomical (van Sint Jan)", kPalpated}, LabelSet{"BMC lab", kBmcLab},
-    LabelSet{"clusters", kClusters}, LabelSet{"", kWords},
+    LabelSet{"Visual3D", kVisual3D, true}, LabelSet{"clusters", kClusters},
+    LabelSet{"", kWords},
 };
 // clang-format on
 

@@ -133,6 +133,8 @@ TEST(InspectMarkers, TellsWhatAC3dHolds) {
   EXPECT_EQ(found.at("processor"), "intel");
   EXPECT_EQ(found.at("markers")[3].at("label"), "HEAD");
   EXPECT_EQ(found.at("markers")[3].at("seen_frames"), 2);
+  EXPECT_EQ(found.at("markers")[0].at("landmark"), "left_heel");
+  EXPECT_TRUE(found.at("label_set").is_null());  // Four labels are in many sets.
   EXPECT_EQ(found.at("events")[0].at("context"), "Left");
   EXPECT_TRUE(found.at("force_plates").empty());
   EXPECT_TRUE(found.at("notes").empty());

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/landmarks.h"
 
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -122,6 +124,24 @@ TEST(Landmarks, AreAsFarApartAsOnAdults) {
   EXPECT_NEAR(
       apart("left_lateral_epicondyle_femur", "left_lateral_malleolus"), 0.25, 0.02);
   EXPECT_NEAR(apart("left_asis", "left_lateral_epicondyle_femur"), 0.29, 0.03);
+}
+
+TEST(Landmarks, AreListedInTheDocumentation) {
+  std::ifstream file(std::string(MAREY_SOURCE_DIR) + "/docs/formats.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t start = page.find("## Marker names");
+  ASSERT_NE(start, std::string::npos);
+  const std::string section = page.substr(start, page.find("\n## ", start + 1) - start);
+  for (const Landmark& landmark : landmarks()) {
+    std::string_view name = landmark.name;
+    if (name.starts_with("right_")) continue;
+    if (name.starts_with("left_")) name.remove_prefix(5);
+    std::string quoted = std::string("`").append(name).append("`");
+    if (landmark.sigma_per_stature >= kSomewhereSigma) {
+      quoted = std::string("*").append(quoted).append("*");
+    }
+    EXPECT_NE(section.find(quoted), std::string::npos) << quoted;
+  }
 }
 
 TEST(Landmarks, AreAboveTheFloorAndBelowTheCrown) {
