@@ -76,8 +76,8 @@ constexpr std::array kKit{
 };
 
 constexpr std::array kSets{
-    LabelSet{"Qualisys animation", kQualisys, true}, LabelSet{"OptiTrack", kOptiTrack, true},
-    LabelSet{"KIT", kKit},
+    LabelSet{"Qualisys animation", kQualisys, true},
+    LabelSet{"OptiTrack", kOptiTrack, true}, LabelSet{"KIT", kKit, true},
 };
 // clang-format on
 

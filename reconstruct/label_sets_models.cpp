@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sets that came with musculoskeletal models of OpenSim.
+// Sets that came with musculoskeletal models of OpenSim, and programs that feed them.
 #include <array>
 
 #include "reconstruct/label_sets.h"
@@ -102,12 +102,42 @@ constexpr std::array kRunning{
     Row{"?p5mt", "?metatarsal_5_head"}, Row{"?toe", "?toe_tip"},
 };
 
+/// Of OpenCap: markers as Lai and Arnold's that it computes from keypoints, which are in
+/// its files as well.
+constexpr std::array kOpenCap{
+    Row{"c7study", "c7"}, Row{"?shoulderstudy", "?acromion"}, Row{"?asisstudy", "?asis"},
+    Row{"?psisstudy", "?psis"}, Row{"?lelbowstudy", "?lateral_epicondyle_humerus"},
+    Row{"?melbowstudy", "?medial_epicondyle_humerus"},
+    Row{"?lwriststudy", "?radial_styloid"}, Row{"?mwriststudy", "?ulnar_styloid"},
+    Row{"?thigh1study", "?thigh"}, Row{"?thigh2study", "?thigh"},
+    Row{"?thigh3study", "?thigh"}, Row{"?thigh4study", "?thigh"},
+    Row{"?kneestudy", "?lateral_epicondyle_femur"},
+    Row{"?mkneestudy", "?medial_epicondyle_femur"}, Row{"?sh1study", "?shank"},
+    Row{"?sh2study", "?shank"}, Row{"?sh3study", "?shank"}, Row{"?sh4study", "?shank"},
+    Row{"?anklestudy", "?lateral_malleolus"}, Row{"?manklestudy", "?medial_malleolus"},
+    Row{"?calcstudy", "?heel"}, Row{"?5metastudy", "?metatarsal_5_head"},
+    Row{"?toestudy", "?metatarsal_1_head"}, Row{"?hjcstudy", ""}, Row{"neck", ""},
+    Row{"nose", ""}, Row{"midhip", ""}, Row{"hip", ""}, Row{"?hip", ""}, Row{"?knee", ""},
+    Row{"?ankle", ""}, Row{"?shoulder", ""}, Row{"?elbow", ""}, Row{"?wrist", ""},
+    Row{"?bigtoe", ""}, Row{"?smalltoe", ""}, Row{"?heel", ""}, Row{"?eye", ""},
+    Row{"?ear", ""}, Row{"head", ""},
+};
+
+/// Of programs that need no markers (OpenPose's BODY_25, HALPE_26): joint centres.
+constexpr std::array kKeypoints{
+    Row{"neck", ""}, Row{"nose", ""}, Row{"midhip", ""}, Row{"hip", ""}, Row{"?hip", ""},
+    Row{"?knee", ""}, Row{"?ankle", ""}, Row{"?shoulder", ""}, Row{"?elbow", ""},
+    Row{"?wrist", ""}, Row{"?bigtoe", ""}, Row{"?smalltoe", ""}, Row{"?heel", ""},
+    Row{"?eye", ""}, Row{"?ear", ""}, Row{"head", ""},
+};
+
 constexpr std::array kSets{
     LabelSet{"gait2354 (OpenSim)", kGait2354},
     LabelSet{"Rajagopal running (OpenSim)", kRajagopal},
     LabelSet{"Rajagopal walking (OpenSim)", kRajagopalWalking},
     LabelSet{"Lai-Arnold (OpenSim)", kLaiArnold},
     LabelSet{"running with clusters", kRunning, true},
+    LabelSet{"keypoints", kKeypoints, true}, LabelSet{"OpenCap", kOpenCap, true},
 };
 // clang-format on
 

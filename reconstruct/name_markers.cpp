@@ -100,6 +100,9 @@ bool is_vertebra(std::string_view plain) {
          plain.find_first_not_of("0123456789", 1) == std::string_view::npos;
 }
 
+/// So many labels must be known before they say anything: three may agree by chance.
+constexpr std::size_t kFewest = 4;
+
 /// The labels of one subject, without what stands before them.
 class LabelGroup {
  public:
@@ -149,7 +152,6 @@ class LabelGroup {
   }
 
   void choose_set() {
-    constexpr std::size_t kFewest = 4;  // Three may agree by chance.
     for (std::size_t s = 0; s < label_sets().size(); ++s) {
       if (label_sets()[s].name.empty()) continue;
       std::size_t covered = 0;
@@ -266,12 +268,12 @@ MarkerNames name_markers(std::span<const std::string> labels) {
   best.landmarks.assign(labels.size(), nullptr);
   std::size_t most = 0;
   std::size_t with_names = 0;
-  const std::vector<Subject> subjects = subjects_of(labels);
-  for (const Subject& subject : subjects) {
+  for (const Subject& subject : subjects_of(labels)) {
     const MarkerNames names = name_subject(subject.labels);
     const std::size_t named = count_named(names.landmarks);
-    if (named >= 4) ++with_names;
-    if (named <= most) continue;
+    if (named >= kFewest) ++with_names;
+    const bool is_first_known = best.set.empty() && most == 0 && !names.set.empty();
+    if (named <= most && !is_first_known) continue;
     most = named;
     best.set = names.set;
     best.prefix = subject.prefix + names.prefix;
@@ -283,6 +285,10 @@ MarkerNames name_markers(std::span<const std::string> labels) {
   if (with_names > 1) {
     best.notes.push_back("of several subjects, the markers of \"" + best.prefix +
                          "\" are named");
+  }
+  if (most == 0 && !best.set.empty()) {
+    best.notes.push_back("these are the labels of " + best.set +
+                         ", computed points and no markers on the body");
   }
   return best;
 }

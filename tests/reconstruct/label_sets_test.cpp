@@ -205,6 +205,36 @@ TEST(NameMarkers, KnowsLaiAndArnold) {
                 {"r_mknee", "right_medial_epicondyle_femur"}});
 }
 
+TEST(NameMarkers, KnowsOpenCapsMarkersFromItsKeypoints) {
+  const auto labels = words(
+      "Neck RShoulder RElbow RWrist midHip RHip RKnee RAnkle LKnee RHeel r.ASIS_study "
+      "L.PSIS_study r_knee_study L_mknee_study r_calc_study L_toe_study r_5meta_study "
+      "C7_study r_lwrist_study L_thigh2_study RHJC_study r_shoulder_study");
+  EXPECT_EQ(unnamed(labels),
+            words("Neck RShoulder RElbow RWrist midHip RHip RKnee RAnkle LKnee RHeel "
+                  "RHJC_study"));
+  expect_names(labels,
+               "OpenCap",
+               {{"r.ASIS_study", "right_asis"},
+                {"L_mknee_study", "left_medial_epicondyle_femur"},
+                {"r_lwrist_study", "right_radial_styloid"},
+                {"L_thigh2_study", "left_thigh"}});
+}
+
+// A knee's keypoint is its centre; Helen Hayes's marker is on its outer side.
+TEST(NameMarkers, NamesNoKeypoints) {
+  const auto labels = words(
+      "Hip RHip RKnee RAnkle RBigToe RSmallToe RHeel LHip LKnee LAnkle LBigToe LSmallToe "
+      "LHeel Neck Head Nose RShoulder RElbow RWrist LShoulder LElbow LWrist");
+  EXPECT_EQ(unnamed(labels), labels);
+  const MarkerNames names = name_markers(labels);
+  EXPECT_EQ(names.set, "keypoints");
+  ASSERT_EQ(names.notes.size(), 1U);
+  EXPECT_EQ(
+      names.notes[0],
+      "these are the labels of keypoints, computed points and no markers on the body");
+}
+
 // ezc3d/Qualisys.c3d.
 TEST(NameMarkers, KnowsPalpatedLandmarks) {
   const auto labels = words(
