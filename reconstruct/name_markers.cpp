@@ -226,6 +226,7 @@ MarkerNames name_subject(const std::vector<std::string>& labels) {
   std::optional<MarkerNames> best;
   for (const std::size_t length : prefix_lengths(labels)) {
     std::vector<std::string> rest;
+    rest.reserve(labels.size());
     for (const std::string& label : labels) rest.push_back(label.substr(length));
     const LabelGroup group(std::move(rest));
     MarkerNames names{
