@@ -37,56 +37,6 @@ struct ExtremityPrior {
   }
 };
 
-struct SlotAcceleration {
-  Slot slot;
-  double sigma;  ///< [m/s^2] or [rad/s^2], at 30 frames per second.
-};
-
-// What quick everyday movement reaches (a jump's landing is a few times more, for a frame
-// or two, which the measurements then carry).
-constexpr std::array<SlotAcceleration, kSlotCount> kAccelerations{{
-    {Slot::kHipsPosition, 10.0},
-    {Slot::kHips, 30.0},
-    {Slot::kAbdomenEnd, 30.0},
-    {Slot::kThorax, 30.0},
-    {Slot::kNeck, 40.0},
-    {Slot::kHead, 50.0},
-    {Slot::kLeftShoulder, 30.0},
-    {Slot::kRightShoulder, 30.0},
-    {Slot::kLeftArm, 70.0},
-    {Slot::kRightArm, 70.0},
-    {Slot::kLeftLeg, 60.0},
-    {Slot::kRightLeg, 60.0},
-    {Slot::kLeftHand, 110.0},
-    {Slot::kRightHand, 110.0},
-    {Slot::kLeftFoot, 90.0},
-    {Slot::kRightFoot, 90.0},
-    {Slot::kLeftElbow, 80.0},
-    {Slot::kRightElbow, 80.0},
-    {Slot::kLeftKnee, 80.0},
-    {Slot::kRightKnee, 80.0},
-    {Slot::kLeftForearmTwist, 60.0},
-    {Slot::kRightForearmTwist, 60.0},
-    {Slot::kLeftShankTwist, 30.0},
-    {Slot::kRightShankTwist, 30.0},
-    {Slot::kLeftUpperArmTwist, 40.0},
-    {Slot::kRightUpperArmTwist, 40.0},
-    {Slot::kLeftThighTwist, 30.0},
-    {Slot::kRightThighTwist, 30.0},
-}};
-
-struct Process {
-  double sigma;  ///< Of the change of a step from one frame to the next.
-  double keeps;  ///< Share of a step that the next one inherits.
-};
-
-Process process_of(const SlotAcceleration& row, FrameRate rate) {
-  const double dt = 1.0 / rate.hz;
-  const double memory_s = row.slot == Slot::kHipsPosition ? 1.0 : 0.25;
-  // Variance of a second difference of integrated white noise grows with the cube of dt.
-  return {row.sigma * std::sqrt(dt * dt * dt / 30.0), std::exp(-dt / memory_s)};
-}
-
 void add_relative(Posture& posture,
                   Slot parent,
                   Slot child,
@@ -160,34 +110,26 @@ std::vector<double*> blocks_of(Posture& posture, HumanBone bone) {
 void add_habits(Posture& posture,
                 const Lengths& lengths,
                 ceres::Problem& problem,
-                double arm_twist_rad) {
-  const glm::dquat none(1, 0, 0, 0);
-  add_halfway(posture, Slot::kHips, Slot::kAbdomenEnd, Slot::kThorax, 0.12, problem);
-  add_halfway(posture, Slot::kThorax, Slot::kNeck, Slot::kHead, 0.15, problem);
-  add_relative(posture, Slot::kHips, Slot::kThorax, none, glm::dvec3(0.7), problem);
-  add_relative(posture, Slot::kThorax, Slot::kHead, none, glm::dvec3(0.7), problem);
-  for (const Slot shoulder : {Slot::kLeftShoulder, Slot::kRightShoulder}) {
-    // About its own axis nothing moves but skin.
-    add_relative(
-        posture, Slot::kThorax, shoulder, none, glm::dvec3(0.1, 0.25, 0.25), problem);
+                const TwistHabits& twists) {
+  for (const HalfwayHabit& row : kHalfwayHabits) {
+    add_halfway(posture, row.lower, row.middle, row.upper, row.sigma_rad, problem);
   }
-  const auto hanging = [](double side) {
-    return rotation_from_vector({0.0, 0.0, -side * glm::radians(70.0)});
-  };
-  const glm::dvec3 anywhere(1.0);
-  add_relative(posture, Slot::kThorax, Slot::kLeftArm, hanging(1), anywhere, problem);
-  add_relative(posture, Slot::kThorax, Slot::kRightArm, hanging(-1), anywhere, problem);
-  add_relative(posture, Slot::kHips, Slot::kLeftLeg, none, glm::dvec3(0.8), problem);
-  add_relative(posture, Slot::kHips, Slot::kRightLeg, none, glm::dvec3(0.8), problem);
+  for (const RelativeHabit& row : kRelativeHabits) {
+    const glm::dquat usual = rotation_from_vector(row.usual_rad);
+    add_relative(posture, row.parent, row.child, usual, row.sigma_rad, problem);
+  }
   for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
     const LimbSlots& s = kLimbSlots[limb];
     const bool arm = limb < 2;
-    add_extremity(posture, limb, lengths, arm ? 0.5 : 0.35, problem);
-    add_scalar(posture.block(s.upper_twist), 0.0, arm ? arm_twist_rad : 0.08, problem);
-    add_scalar(posture.block(s.lower_twist), 0.0, arm ? arm_twist_rad : 0.08, problem);
-    add_scalar(posture.block(s.flexion), 0.3, 1.0, problem);
+    add_extremity(posture, limb, lengths, extremity_sigma_rad(limb), problem);
+    const double upper_rad = arm ? twists.upper_arm : twists.leg;
+    const double lower_rad = arm ? twists.forearm : twists.leg;
+    add_scalar(posture.block(s.upper_twist), 0.0, upper_rad, problem);
+    add_scalar(posture.block(s.lower_twist), 0.0, lower_rad, problem);
+    add_scalar(posture.block(s.flexion), kUsualFlexion_rad, kFlexionSigma_rad, problem);
     problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<FlexionLimit, 1, 1>(new FlexionLimit{-0.05, 0.1}),
+        new ceres::AutoDiffCostFunction<FlexionLimit, 1, 1>(
+            new FlexionLimit{kLeastFlexion_rad, kLeastFlexionSigma_rad}),
         nullptr,
         posture.block(s.flexion));
   }
@@ -219,7 +161,7 @@ void add_smoothness(Posture& before,
                     FrameRate rate,
                     ceres::Problem& problem) {
   for (const SlotAcceleration& row : kAccelerations) {
-    const Process process = process_of(row, rate);
+    const StepProcess process = process_of(row, rate);
     ceres::CostFunction* cost = nullptr;
     if (is_rotation(row.slot)) {
       cost = new ceres::AutoDiffCostFunction<RotationAcceleration, 3, 4, 4, 4>(
@@ -244,7 +186,7 @@ void add_first_speed(Posture& first,
                      FrameRate rate,
                      ceres::Problem& problem) {
   for (const SlotAcceleration& row : kAccelerations) {
-    const Process process = process_of(row, rate);
+    const StepProcess process = process_of(row, rate);
     // The stationary spread of x' = keeps x + noise.
     const double sigma = process.sigma / std::sqrt(1.0 - process.keeps * process.keeps);
     ceres::CostFunction* cost = nullptr;

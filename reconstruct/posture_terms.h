@@ -8,6 +8,7 @@
 #include <ceres/ceres.h>
 
 #include "core/time.h"
+#include "reconstruct/posture_habits.h"
 #include "reconstruct/posture_residuals.h"
 #include "reconstruct/sightings.h"
 
@@ -22,11 +23,10 @@ namespace marey::reconstruct {
 /// Human limits and habits: a spine bends evenly, collar bones, hands and feet do not
 /// turn far, elbows and knees do not bend backward. Wide next to any measurement; they
 /// decide only what no camera sees.
-/// `arm_twist_rad` is how far the skin of an arm turns about its bone.
 void add_habits(Posture& posture,
                 const Lengths& lengths,
                 ceres::Problem& problem,
-                double arm_twist_rad = 0.4);
+                const TwistHabits& twists = {});
 
 /// A person standing still and upright, feet flat, hands in line with the forearms: what
 /// gives a static trial's bones their directions.

@@ -17,8 +17,8 @@ namespace marey::reconstruct {
 namespace {
 
 // Over a range-of-motion trial, elbows bend about one axis of the arm's skin; what turns
-// about the bone would otherwise hide where along that axis the elbow lies. [rad]
-constexpr double kArmTwistRad = 0.1;
+// about the bone would otherwise hide where along that axis the elbow lies.
+constexpr TwistHabits kTrialTwists{0.1, 0.1, 0.08};
 
 // The median length of a two-dimensional error whose coordinates have unit sigma.
 constexpr double kMedianOfUnitNoise = 1.177;
@@ -230,7 +230,7 @@ bool adjust(SubjectBundle& bundle,
   ceres::Problem problem;
   for (BundleFrame& frame : bundle.frames) {
     add_sightings(bundle, frame, cameras, problem);
-    add_habits(frame.posture, bundle.model.lengths, problem, kArmTwistRad);
+    add_habits(frame.posture, bundle.model.lengths, problem, kTrialTwists);
     if (frame.standing) add_standing(frame.posture, bundle.model.lengths, problem);
     set_manifolds(frame.posture, problem);
   }

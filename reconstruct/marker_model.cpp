@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/marker_model.h"
+
+#include <cmath>
+#include <utility>
+
+namespace marey::reconstruct {
+
+const UnfoldedPosture& MarkerFrameSolver::unfold(const Posture& posture) {
+  unfolded_.unfold(posture, model_->lengths, model_->body);
+  return unfolded_;
+}
+
+void MarkerFrameSolver::evaluate(std::span<const SeenMarker> seen,
+                                 const PosturePrior* prior,
+                                 const Posture& posture,
+                                 double sigma_scale,
+                                 PostureEquations& out) {
+  constexpr double kC2 = kDoubtfulSigmas * kDoubtfulSigmas;
+  unfold(posture);
+  out.clear();
+  for (const SeenMarker& sample : seen) {
+    const ModelMarker& marker = model_->markers[sample.marker];
+    const Eigen::Vector3d p = unfolded_.point(marker.bone, marker.p_in_bone);
+    const Eigen::Vector3d off = p - sample.p_in_world;
+    const double information =
+        1.0 / (sigma_scale * sigma_scale *
+               (marker.sigma_m * marker.sigma_m + sample.sigma_m * sample.sigma_m));
+    const double squared = information * off.squaredNorm();
+    out.cost += 0.5 * kC2 * std::log1p(squared / kC2);
+    unfolded_.derivative(marker.bone, p, derivative_);
+    out.add(derivative_, off, information / (1.0 + squared / kC2));
+  }
+  out.add_habits(posture, unfolded_, model_->twists);
+  if (prior) out.add_prior(posture, *prior);
+}
+
+double MarkerFrameSolver::solve(std::span<const SeenMarker> seen,
+                                const PosturePrior* prior,
+                                Posture& posture,
+                                const FrameLimits& limits) {
+  evaluate(seen, prior, posture, limits.sigma_scale, now_);
+  double damping = 0.0;
+  PostureVector step;
+  for (iterations_ = 1; iterations_ <= limits.iterations; ++iterations_) {
+    if (!factor_.factor(now_.hessian, damping)) {
+      damping = std::max(1e-6, 10.0 * damping);
+      continue;
+    }
+    factor_.step(now_.gradient, step);
+    const double largest = step.cwiseAbs().maxCoeff();
+    Posture moved = posture;
+    move(moved, step);
+    if (largest < limits.last_step) {
+      // So near the least cost that the quadratic it was computed from is right.
+      now_.cost += 0.5 * now_.gradient.dot(step);
+      posture = moved;
+      break;
+    }
+    evaluate(seen, prior, moved, limits.sigma_scale, next_);
+    if (next_.cost < now_.cost) {
+      posture = moved;
+      std::swap(now_, next_);
+      damping = damping < 1e-5 ? 0.0 : 0.1 * damping;
+    } else {
+      damping = std::max(1e-3, 10.0 * damping);
+      if (damping > 1e8) break;
+    }
+  }
+  return now_.cost;
+}
+
+}  // namespace marey::reconstruct

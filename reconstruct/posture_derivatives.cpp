@@ -1,0 +1,387 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/posture_derivatives.h"
+
+#include <cmath>
+
+#include "core/assert.h"
+
+namespace marey::reconstruct {
+namespace {
+
+using B = HumanBone;
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+Quaterniond quaternion(const Posture& posture, Slot slot) {
+  const double* q = posture.block(slot);
+  return {q[3], q[0], q[1], q[2]};
+}
+
+Vector3d eigen(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+Quaterniond turn_by(const Vector3d& v) {
+  const double angle = v.norm();
+  if (angle < 1e-12) return Quaterniond(1.0, 0.5 * v.x(), 0.5 * v.y(), 0.5 * v.z());
+  return Quaterniond(Eigen::AngleAxisd(angle, v / angle));
+}
+
+Vector3d log_of(Quaterniond q) {
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  const double sine = q.vec().norm();
+  if (sine < 1e-12) return 2.0 * q.vec();
+  return q.vec() * (2.0 * std::atan2(sine, q.w()) / sine);
+}
+
+/// Of a limb's bone which one it is: 0 upper, 1 lower, 2 hand or foot. Nullopt elsewhere.
+struct InLimb {
+  std::size_t limb = 4;  ///< 4: in none.
+  int place = 0;
+};
+
+constexpr InLimb in_limb(B bone) {
+  switch (bone) {
+    case B::kLeftUpperArm:
+      return {0, 0};
+    case B::kLeftLowerArm:
+      return {0, 1};
+    case B::kLeftHand:
+      return {0, 2};
+    case B::kRightUpperArm:
+      return {1, 0};
+    case B::kRightLowerArm:
+      return {1, 1};
+    case B::kRightHand:
+      return {1, 2};
+    case B::kLeftUpperLeg:
+      return {2, 0};
+    case B::kLeftLowerLeg:
+      return {2, 1};
+    case B::kLeftFoot:
+    case B::kLeftToes:
+      return {2, 2};
+    case B::kRightUpperLeg:
+      return {3, 0};
+    case B::kRightLowerLeg:
+      return {3, 1};
+    case B::kRightFoot:
+    case B::kRightToes:
+      return {3, 2};
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+void move(Posture& posture, const PostureVector& step) {
+  for (const Slot slot : kAllSlots) {
+    const int column = column_of(slot);
+    double* block = posture.block(slot);
+    if (!is_rotation(slot)) {
+      for (int i = 0; i < block_size(slot); ++i) block[i] += step[column + i];
+      continue;
+    }
+    const Quaterniond q =
+        (turn_by(step.segment<3>(column)) * quaternion(posture, slot)).normalized();
+    Eigen::Map<Eigen::Vector4d>(block, 4) = q.coeffs();
+  }
+}
+
+PostureVector step_between(const Posture& from, const Posture& to) {
+  PostureVector step;
+  for (const Slot slot : kAllSlots) {
+    const int column = column_of(slot);
+    if (is_rotation(slot)) {
+      step.segment<3>(column) =
+          log_of(quaternion(to, slot) * quaternion(from, slot).conjugate());
+      continue;
+    }
+    for (int i = 0; i < block_size(slot); ++i) {
+      step[column + i] = to.block(slot)[i] - from.block(slot)[i];
+    }
+  }
+  return step;
+}
+
+void SparseDerivative::add(int first_column, const Matrix3d& block) {
+  MAREY_ASSERT(columns + 3 <= kMost);
+  for (int i = 0; i < 3; ++i) {
+    column[static_cast<std::size_t>(columns + i)] = first_column + i;
+    value.col(columns + i) = block.col(i);
+  }
+  columns += 3;
+}
+
+void SparseDerivative::add(int at_column, const Vector3d& block) {
+  MAREY_ASSERT(columns < kMost);
+  column[static_cast<std::size_t>(columns)] = at_column;
+  value.col(columns) = block;
+  columns += 1;
+}
+
+Matrix3d inverse_left_jacobian(const Vector3d& r) {
+  const double angle2 = r.squaredNorm();
+  const Matrix3d k = cross_matrix(r);
+  // 1/a^2 - (1 + cos a) / (2 a sin a), whose series starts with 1/12 + a^2/720.
+  double c = 1.0 / 12.0 + angle2 / 720.0;
+  if (angle2 > 1e-4) {
+    const double a = std::sqrt(angle2);
+    const double sine = std::sin(a);
+    // Half a turn has no logarithm's derivative; next to it, the largest that is finite.
+    c = std::abs(sine) < 1e-6 ? 1.0 / angle2
+                              : 1.0 / angle2 - (1.0 + std::cos(a)) / (2.0 * a * sine);
+  }
+  return Matrix3d::Identity() - 0.5 * k + c * k * k;
+}
+
+HalfwayDerivative halfway_derivative(const Quaterniond& lower, const Quaterniond& upper) {
+  const Quaterniond half = detail::halfway<double>(lower, upper);
+  const Matrix3d h = lower.toRotationMatrix();
+  // half = lower s with s s = lower^-1 upper, so that (1 + S) ds = d(lower^-1 upper).
+  const Matrix3d s = (lower.conjugate() * half).toRotationMatrix();
+  const Matrix3d by_upper = h * (Matrix3d::Identity() + s).inverse() * h.transpose();
+  return {Matrix3d::Identity() - by_upper, by_upper};
+}
+
+void UnfoldedPosture::unfold(const Posture& posture,
+                             const Lengths& lengths,
+                             const BodyFrame& body) {
+  unfold_trunk(posture, lengths, body);
+  const Bone& hips = bones_[index(B::kHips)];
+  const Bone& thorax = bones_[index(B::kUpperChest)];
+  for (std::size_t limb = 0; limb < 4; ++limb) {
+    const double side = limb % 2 == 0 ? 1.0 : -1.0;
+    if (limb >= 2) {
+      const Vector3d hip(side * lengths[index(Length::kHalfHipWidth)],
+                         -body.hips_above_hip_centres_m,
+                         0.0);
+      unfold_limb(limb, hips.origin + hips.rotation * hip, posture, lengths);
+      continue;
+    }
+    Bone& shoulder = bones_[index(limb == 0 ? B::kLeftShoulder : B::kRightShoulder)];
+    const glm::dvec3 base = body.left_shoulder_in_thorax * glm::dvec3(side, 1.0, 1.0);
+    shoulder.origin = thorax.origin + thorax.rotation * eigen(base);
+    shoulder.rotation =
+        quaternion(posture, limb == 0 ? Slot::kLeftShoulder : Slot::kRightShoulder)
+            .toRotationMatrix();
+    const double clavicle =
+        lengths[index(limb == 0 ? Length::kLeftShoulder : Length::kRightShoulder)];
+    const Vector3d root = shoulder.origin + side * clavicle * shoulder.rotation.col(0);
+    unfold_limb(limb, root, posture, lengths);
+  }
+}
+
+void UnfoldedPosture::unfold_trunk(const Posture& posture,
+                                   const Lengths& lengths,
+                                   const BodyFrame& /*body*/) {
+  const auto length = [&](Length which) { return lengths[index(which)]; };
+  const auto set = [&](B bone, const Matrix3d& rotation, const Vector3d& origin) {
+    bones_[index(bone)] = {rotation, origin};
+  };
+  const Quaterniond q_hips = quaternion(posture, Slot::kHips);
+  const Quaterniond q_abdomen = quaternion(posture, Slot::kAbdomenEnd);
+  const Matrix3d hips = q_hips.toRotationMatrix();
+  const Matrix3d spine = detail::halfway<double>(q_hips, q_abdomen).toRotationMatrix();
+  const Matrix3d chest = q_abdomen.toRotationMatrix();
+  const Matrix3d thorax = quaternion(posture, Slot::kThorax).toRotationMatrix();
+  const Matrix3d neck = quaternion(posture, Slot::kNeck).toRotationMatrix();
+  const Vector3d p_hips =
+      Eigen::Map<const Vector3d>(posture.block(Slot::kHipsPosition));
+  const Vector3d to_spine = length(Length::kSpine) * hips.col(1);
+  const Vector3d to_chest = length(Length::kChest) * spine.col(1);
+  const Vector3d to_thorax = length(Length::kUpperChest) * chest.col(1);
+  set(B::kHips, hips, p_hips);
+  set(B::kSpine, spine, p_hips + to_spine);
+  set(B::kChest, chest, p_hips + to_spine + to_chest);
+  const Vector3d p_thorax = p_hips + to_spine + to_chest + to_thorax;
+  set(B::kUpperChest, thorax, p_thorax);
+  const Vector3d p_neck = p_thorax + length(Length::kNeck) * thorax.col(1);
+  set(B::kNeck, neck, p_neck);
+  set(B::kHead,
+      quaternion(posture, Slot::kHead).toRotationMatrix(),
+      p_neck + length(Length::kHead) * neck.col(1));
+
+  const HalfwayDerivative half = halfway_derivative(q_hips, q_abdomen);
+  spine_by_hips_ = half.by_lower;
+  spine_by_abdomen_ = half.by_upper;
+  chest_by_hips_ = -cross_matrix(to_spine) - cross_matrix(to_chest) * half.by_lower;
+  chest_by_abdomen_ = -cross_matrix(to_chest) * half.by_upper;
+  thorax_by_hips_ = chest_by_hips_;
+  thorax_by_abdomen_ = chest_by_abdomen_ - cross_matrix(to_thorax);
+}
+
+void UnfoldedPosture::unfold_limb(std::size_t limb,
+                                  const Vector3d& root,
+                                  const Posture& posture,
+                                  const Lengths& lengths) {
+  const LimbSlots& s = kLimbSlots[limb];
+  const HumanLimb& bones = human_limbs()[limb];
+  const glm::dvec3 along = limb_axis(limb);
+  const double flexion = *posture.block(s.flexion);
+  const double l1 = lengths[index(s.upper)];
+  const double l2 = lengths[index(s.lower)];
+  const double sine = std::sin(flexion);
+  const double cosine = std::cos(flexion);
+  const double alpha = std::atan2(l2 * sine, l1 + l2 * cosine);
+  const double reach2 = l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * cosine;
+  const Quaterniond frame = quaternion(posture, s.frame);
+  const Matrix3d upper =
+      (frame * detail::about_axis(bones.hinge_axis, -alpha)).toRotationMatrix();
+  const Matrix3d lower =
+      (frame * detail::about_axis(bones.hinge_axis, flexion - alpha)).toRotationMatrix();
+  Limb& own = limbs_[limb];
+  own.hinge_in_world = frame * eigen(bones.hinge_axis);
+  own.upper_axis_in_world = upper * eigen(along);
+  own.lower_axis_in_world = lower * eigen(along);
+  own.lean_rate = reach2 > 1e-12 ? l2 * (l2 + l1 * cosine) / reach2 : 0.5;
+  const Vector3d p_mid = root + l1 * own.upper_axis_in_world;
+  const auto twist = [&](Slot slot) {
+    return detail::about_axis(along, *posture.block(slot)).toRotationMatrix();
+  };
+  bones_[index(bones.upper)] = {upper * twist(s.upper_twist), root};
+  bones_[index(bones.lower)] = {lower * twist(s.lower_twist), p_mid};
+  bones_[index(bones.end)] = {quaternion(posture, s.extremity).toRotationMatrix(),
+                              p_mid + l2 * own.lower_axis_in_world};
+  if (bones.end == B::kLeftFoot || bones.end == B::kRightFoot) {
+    // Toes move with their foot.
+    bones_[index(bones.end == B::kLeftFoot ? B::kLeftToes : B::kRightToes)] =
+        bones_[index(bones.end)];
+  }
+}
+
+void UnfoldedPosture::thorax_base(SparseDerivative& out) const {
+  out.add(column_of(Slot::kHipsPosition), Matrix3d(Matrix3d::Identity()));
+  out.add(column_of(Slot::kHips), thorax_by_hips_);
+  out.add(column_of(Slot::kAbdomenEnd), thorax_by_abdomen_);
+}
+
+void UnfoldedPosture::limb_derivative(std::size_t limb,
+                                      int place,
+                                      const Vector3d& p,
+                                      SparseDerivative& out) const {
+  const LimbSlots& s = kLimbSlots[limb];
+  const HumanLimb& bones = human_limbs()[limb];
+  const Limb& own = limbs_[limb];
+  const Vector3d& root = origin(bones.upper);
+  const Vector3d& mid = origin(bones.lower);
+  const Vector3d& end = origin(bones.end);
+  // What turns with the limb's frame, and of that what its lower bone carries.
+  const Vector3d carried = place == 2 ? end : p;
+  out.add(column_of(s.frame), Matrix3d(-cross_matrix(carried - root)));
+  const Vector3d by_upper = place == 0 ? Vector3d(p - root) : Vector3d(mid - root);
+  const Vector3d by_lower = place == 0 ? Vector3d::Zero() : Vector3d(carried - mid);
+  out.add(column_of(s.flexion),
+          Vector3d(own.hinge_in_world.cross((1.0 - own.lean_rate) * by_lower -
+                                            own.lean_rate * by_upper)));
+  if (place == 0) {
+    out.add(column_of(s.upper_twist), Vector3d(own.upper_axis_in_world.cross(p - root)));
+  } else if (place == 1) {
+    out.add(column_of(s.lower_twist), Vector3d(own.lower_axis_in_world.cross(p - mid)));
+  } else {
+    out.add(column_of(s.extremity), Matrix3d(-cross_matrix(p - end)));
+  }
+}
+
+void UnfoldedPosture::derivative(HumanBone bone,
+                                 const Vector3d& p,
+                                 SparseDerivative& out) const {
+  out.clear();
+  const Matrix3d identity = Matrix3d::Identity();
+  const Vector3d& p_hips = origin(B::kHips);
+  const InLimb where = in_limb(bone);
+  if (where.limb == 2 || where.limb == 3) {
+    const Vector3d& root = origin(human_limbs()[where.limb].upper);
+    out.add(column_of(Slot::kHipsPosition), identity);
+    out.add(column_of(Slot::kHips), Matrix3d(-cross_matrix(root - p_hips)));
+    limb_derivative(where.limb, where.place, p, out);
+    return;
+  }
+  if (bone == B::kHips) {
+    out.add(column_of(Slot::kHipsPosition), identity);
+    out.add(column_of(Slot::kHips), Matrix3d(-cross_matrix(p - p_hips)));
+    return;
+  }
+  if (bone == B::kSpine) {
+    const Matrix3d turned = cross_matrix(p - origin(bone));
+    out.add(column_of(Slot::kHipsPosition), identity);
+    out.add(column_of(Slot::kHips),
+            Matrix3d(-cross_matrix(origin(bone) - p_hips) - turned * spine_by_hips_));
+    out.add(column_of(Slot::kAbdomenEnd), Matrix3d(-turned * spine_by_abdomen_));
+    return;
+  }
+  if (bone == B::kChest) {
+    out.add(column_of(Slot::kHipsPosition), identity);
+    out.add(column_of(Slot::kHips), chest_by_hips_);
+    out.add(column_of(Slot::kAbdomenEnd),
+            Matrix3d(chest_by_abdomen_ - cross_matrix(p - origin(bone))));
+    return;
+  }
+  thorax_base(out);
+  const Vector3d& p_thorax = origin(B::kUpperChest);
+  const auto carried_by_thorax = [&](const Vector3d& what) {
+    out.add(column_of(Slot::kThorax), Matrix3d(-cross_matrix(what - p_thorax)));
+  };
+  if (bone == B::kUpperChest) return carried_by_thorax(p);
+  if (bone == B::kNeck || bone == B::kHead) {
+    const Vector3d& p_neck = origin(B::kNeck);
+    carried_by_thorax(p_neck);
+    const Vector3d& by_neck = bone == B::kNeck ? p : origin(B::kHead);
+    out.add(column_of(Slot::kNeck), Matrix3d(-cross_matrix(by_neck - p_neck)));
+    if (bone == B::kHead) {
+      out.add(column_of(Slot::kHead), Matrix3d(-cross_matrix(p - origin(B::kHead))));
+    }
+    return;
+  }
+  const bool left = bone == B::kLeftShoulder || where.limb == 0;
+  const Vector3d& p_shoulder = origin(left ? B::kLeftShoulder : B::kRightShoulder);
+  carried_by_thorax(p_shoulder);
+  const Vector3d& by_shoulder =
+      where.limb == 4 ? p : origin(human_limbs()[where.limb].upper);
+  out.add(column_of(left ? Slot::kLeftShoulder : Slot::kRightShoulder),
+          Matrix3d(-cross_matrix(by_shoulder - p_shoulder)));
+  if (where.limb < 2) limb_derivative(where.limb, where.place, p, out);
+}
+
+void UnfoldedPosture::turn_derivative(HumanBone bone, SparseDerivative& out) const {
+  out.clear();
+  const Matrix3d identity = Matrix3d::Identity();
+  const InLimb where = in_limb(bone);
+  if (where.limb < 4) {
+    const LimbSlots& s = kLimbSlots[where.limb];
+    if (where.place == 2) return out.add(column_of(s.extremity), identity);
+    const Limb& own = limbs_[where.limb];
+    const bool upper = where.place == 0;
+    out.add(column_of(s.frame), identity);
+    out.add(column_of(s.flexion),
+            Vector3d((upper ? -own.lean_rate : 1.0 - own.lean_rate) *
+                     own.hinge_in_world));
+    out.add(column_of(upper ? s.upper_twist : s.lower_twist),
+            upper ? own.upper_axis_in_world : own.lower_axis_in_world);
+    return;
+  }
+  switch (bone) {
+    case B::kHips:
+      return out.add(column_of(Slot::kHips), identity);
+    case B::kSpine:
+      out.add(column_of(Slot::kHips), spine_by_hips_);
+      return out.add(column_of(Slot::kAbdomenEnd), spine_by_abdomen_);
+    case B::kChest:
+      return out.add(column_of(Slot::kAbdomenEnd), identity);
+    case B::kUpperChest:
+      return out.add(column_of(Slot::kThorax), identity);
+    case B::kNeck:
+      return out.add(column_of(Slot::kNeck), identity);
+    case B::kHead:
+      return out.add(column_of(Slot::kHead), identity);
+    case B::kLeftShoulder:
+      return out.add(column_of(Slot::kLeftShoulder), identity);
+    default:
+      return out.add(column_of(Slot::kRightShoulder), identity);
+  }
+}
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: where every point of a body is, and how that changes with the
+// posture's unknowns, written out. For solvers that have no time for automatic
+// derivatives or allocations.
+
+#include <array>
+#include <cstddef>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "reconstruct/posture.h"
+
+namespace marey::reconstruct {
+
+/// The unknowns of a posture in the order in which their equations are solved: limb after
+/// limb, the trunk last, since limbs meet nowhere else. A rotation's three are the
+/// rotation vector of a small turn in the world, applied last.
+inline constexpr int kTrunkFreedom = 18;
+inline constexpr std::array<int, 4> kLimbFreedom{12, 12, 9, 9};
+inline constexpr std::array<int, 4> kLimbColumn{0, 12, 24, 33};
+inline constexpr int kTrunkColumn = 42;
+static_assert(kTrunkColumn + kTrunkFreedom == kPostureFreedom);
+
+/// First column of a slot.
+[[nodiscard]] constexpr int column_of(Slot slot) {
+  constexpr std::array<int, kSlotCount> columns{
+      kTrunkColumn,       // hips' position
+      kTrunkColumn + 3,   // hips
+      kTrunkColumn + 6,   // abdomen's end
+      kTrunkColumn + 9,   // thorax
+      kTrunkColumn + 12,  // neck
+      kTrunkColumn + 15,  // head
+      0,   12,            // shoulders
+      3,   15,  24, 33,   // limbs' frames
+      6,   18,  27, 36,   // hands, feet
+      9,   21,  30, 39,   // flexions
+      10,  22,  31, 40,   // twists of the lower bones
+      11,  23,  32, 41,   // twists of the upper bones
+  };
+  return columns[index(slot)];
+}
+
+using PostureVector = Eigen::Matrix<double, kPostureFreedom, 1>;
+using PostureMatrix = Eigen::Matrix<double, kPostureFreedom, kPostureFreedom>;
+
+/// Moves a posture by a step in its unknowns.
+void move(Posture& posture, const PostureVector& step);
+
+/// The step that takes `from` to `to`: move()'s inverse, rotations by the shorter way.
+[[nodiscard]] PostureVector step_between(const Posture& from, const Posture& to);
+
+/// A derivative of three coordinates that most unknowns do not move.
+struct SparseDerivative {
+  static constexpr int kMost = 24;
+  int columns = 0;
+  std::array<int, kMost> column{};           ///< Of the posture's unknowns.
+  Eigen::Matrix<double, 3, kMost> value;     ///< The first `columns` count.
+  void clear() { columns = 0; }
+  void add(int first_column, const Eigen::Matrix3d& block);
+  void add(int at_column, const Eigen::Vector3d& block);
+};
+
+/// A posture unfolded: every bone's frame in the world, and what derivatives need.
+class UnfoldedPosture {
+ public:
+  /// Some 2 microseconds. No allocation.
+  void unfold(const Posture& posture, const Lengths& lengths, const BodyFrame& body);
+
+  [[nodiscard]] const Eigen::Matrix3d& rotation(HumanBone bone) const {
+    return bones_[index(bone)].rotation;
+  }
+  [[nodiscard]] const Eigen::Vector3d& origin(HumanBone bone) const {
+    return bones_[index(bone)].origin;
+  }
+  [[nodiscard]] Eigen::Vector3d point(HumanBone bone,
+                                      const Eigen::Vector3d& p_in_bone) const {
+    return rotation(bone) * p_in_bone + origin(bone);
+  }
+
+  /// How a point that moves with `bone`, now at `p_in_world`, follows the unknowns.
+  void derivative(HumanBone bone,
+                  const Eigen::Vector3d& p_in_world,
+                  SparseDerivative& out) const;
+
+  /// How the bone's rotation does: as a rotation vector in the world.
+  void turn_derivative(HumanBone bone, SparseDerivative& out) const;
+
+ private:
+  struct Bone {
+    Eigen::Matrix3d rotation;
+    Eigen::Vector3d origin;
+  };
+  struct Limb {
+    Eigen::Vector3d hinge_in_world;
+    Eigen::Vector3d upper_axis_in_world;
+    Eigen::Vector3d lower_axis_in_world;
+    double lean_rate = 0.0;  ///< Of the upper bone, by flexion.
+  };
+
+  void unfold_trunk(const Posture& posture, const Lengths& lengths, const BodyFrame& body);
+  void unfold_limb(std::size_t limb,
+                   const Eigen::Vector3d& root,
+                   const Posture& posture,
+                   const Lengths& lengths);
+  void limb_derivative(std::size_t limb,
+                       int place,
+                       const Eigen::Vector3d& p_in_world,
+                       SparseDerivative& out) const;
+  void thorax_base(SparseDerivative& out) const;
+
+  std::array<Bone, kHumanBoneCount> bones_;
+  std::array<Limb, 4> limbs_;
+  /// How the turn of the spine bone, half way between, follows hips and abdomen's end.
+  Eigen::Matrix3d spine_by_hips_;
+  Eigen::Matrix3d spine_by_abdomen_;
+  /// How chest and thorax origin follow them.
+  Eigen::Matrix3d chest_by_hips_;
+  Eigen::Matrix3d chest_by_abdomen_;
+  Eigen::Matrix3d thorax_by_hips_;
+  Eigen::Matrix3d thorax_by_abdomen_;
+};
+
+/// How the turn half way between two follows each: the halves at small angles.
+struct HalfwayDerivative {
+  Eigen::Matrix3d by_lower;
+  Eigen::Matrix3d by_upper;
+};
+[[nodiscard]] HalfwayDerivative halfway_derivative(const Eigen::Quaterniond& lower,
+                                                   const Eigen::Quaterniond& upper);
+
+/// d log(exp(x) R) / dx at x = 0, for r = log(R): the inverse of the left Jacobian of
+/// SO(3) (Sola, Deray & Atchuthan 2018, eq. 146).
+[[nodiscard]] Eigen::Matrix3d inverse_left_jacobian(const Eigen::Vector3d& r);
+
+[[nodiscard]] inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+}  // namespace marey::reconstruct

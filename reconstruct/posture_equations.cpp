@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/posture_equations.h"
+
+#include <cmath>
+
+namespace marey::reconstruct {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+Quaterniond quaternion(const Posture& posture, Slot slot) {
+  const double* q = posture.block(slot);
+  return {q[3], q[0], q[1], q[2]};
+}
+
+/// Rotation vector of a unit quaternion, by the shorter way.
+Vector3d log_of(Quaterniond q) {
+  if (q.w() < 0.0) q.coeffs() *= -1.0;
+  const double sine = q.vec().norm();
+  if (sine < 1e-12) return 2.0 * q.vec();
+  return q.vec() * (2.0 * std::atan2(sine, q.w()) / sine);
+}
+
+Quaterniond from_vector(const glm::dvec3& v) {
+  const glm::dquat q = rotation_from_vector(v);
+  return {q.w, q.x, q.y, q.z};
+}
+
+}  // namespace
+
+void PostureEquations::clear() {
+  hessian.setZero();
+  gradient.setZero();
+  cost = 0.0;
+}
+
+void PostureEquations::add(const SparseDerivative& d,
+                           const Vector3d& residual,
+                           double weight) {
+  for (int i = 0; i < d.columns; ++i) {
+    const int row = d.column[static_cast<std::size_t>(i)];
+    const Vector3d weighted = weight * d.value.col(i);
+    gradient[row] += weighted.dot(residual);
+    for (int j = 0; j <= i; ++j) {
+      const int column = d.column[static_cast<std::size_t>(j)];
+      const double product = weighted.dot(d.value.col(j));
+      // Columns do not come in rising order; the lower triangle holds both halves.
+      if (row >= column) {
+        hessian(row, column) += product;
+      } else {
+        hessian(column, row) += product;
+      }
+    }
+  }
+}
+
+void PostureEquations::add_scalar(int column, double off, double sigma) {
+  const double weight = 1.0 / (sigma * sigma);
+  hessian(column, column) += weight;
+  gradient[column] += weight * off;
+  cost += 0.5 * weight * off * off;
+}
+
+/// `residual` in the frame in which `sigma_rad` is; `turn` is its derivative there.
+void PostureEquations::add_rotation(const Vector3d& residual,
+                                    const Vector3d& sigma_rad,
+                                    SparseDerivative& turn) {
+  const Vector3d scale = sigma_rad.cwiseInverse();
+  const Matrix3d jacobian =
+      scale.asDiagonal() * inverse_left_jacobian(residual).transpose();
+  for (int i = 0; i < turn.columns; ++i) {
+    turn.value.col(i) = jacobian * turn.value.col(i);
+  }
+  const Vector3d scaled = scale.cwiseProduct(residual);
+  add(turn, scaled, 1.0);
+  cost += 0.5 * scaled.squaredNorm();
+}
+
+void PostureEquations::add_habits(const Posture& posture,
+                                  const UnfoldedPosture& unfolded,
+                                  const TwistHabits& twists) {
+  // A residual log(E^-1 C), C the part and E where it is expected, both turning in the
+  // world, changes by the inverse right Jacobian times C^T (dC - dE); the right one is the
+  // left one's transpose.
+  SparseDerivative turn;
+  for (const HalfwayHabit& row : kHalfwayHabits) {
+    const Quaterniond lower = quaternion(posture, row.lower);
+    const Quaterniond middle = quaternion(posture, row.middle);
+    const Quaterniond upper = quaternion(posture, row.upper);
+    const Vector3d off =
+        log_of(detail::halfway<double>(lower, upper).conjugate() * middle);
+    const HalfwayDerivative half = halfway_derivative(lower, upper);
+    const Matrix3d to_own = middle.toRotationMatrix().transpose();
+    turn.clear();
+    turn.add(column_of(row.middle), to_own);
+    turn.add(column_of(row.lower), Matrix3d(-to_own * half.by_lower));
+    turn.add(column_of(row.upper), Matrix3d(-to_own * half.by_upper));
+    add_rotation(off, Vector3d::Constant(row.sigma_rad), turn);
+  }
+  for (const RelativeHabit& row : kRelativeHabits) {
+    const Quaterniond child = quaternion(posture, row.child);
+    const Quaterniond expected =
+        quaternion(posture, row.parent) * from_vector(row.usual_rad);
+    const Matrix3d to_own = child.toRotationMatrix().transpose();
+    turn.clear();
+    turn.add(column_of(row.child), to_own);
+    turn.add(column_of(row.parent), Matrix3d(-to_own));
+    add_rotation(log_of(expected.conjugate() * child),
+                 {row.sigma_rad.x, row.sigma_rad.y, row.sigma_rad.z},
+                 turn);
+  }
+  for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
+    const LimbSlots& s = kLimbSlots[limb];
+    const bool arm = limb < 2;
+    const Quaterniond end = quaternion(posture, s.extremity);
+    const Matrix3d to_own = end.toRotationMatrix().transpose();
+    const Quaterniond lower(unfolded.rotation(human_limbs()[limb].lower));
+    unfolded.turn_derivative(human_limbs()[limb].lower, turn);
+    for (int i = 0; i < turn.columns; ++i) {
+      turn.value.col(i) = -to_own * turn.value.col(i);
+    }
+    turn.add(column_of(s.extremity), to_own);
+    add_rotation(log_of(lower.conjugate() * end),
+                 Vector3d::Constant(extremity_sigma_rad(limb)),
+                 turn);
+    const double flexion = *posture.block(s.flexion);
+    const int column = column_of(s.flexion);
+    add_scalar(column, flexion - kUsualFlexion_rad, kFlexionSigma_rad);
+    if (flexion < kLeastFlexion_rad) {
+      add_scalar(column, flexion - kLeastFlexion_rad, kLeastFlexionSigma_rad);
+    }
+    add_scalar(column_of(s.upper_twist),
+               *posture.block(s.upper_twist),
+               arm ? twists.upper_arm : twists.leg);
+    add_scalar(column_of(s.lower_twist),
+               *posture.block(s.lower_twist),
+               arm ? twists.forearm : twists.leg);
+  }
+}
+
+void PostureEquations::add_prior(const Posture& posture, const PosturePrior& prior) {
+  for (const Slot slot : kAllSlots) {
+    const Matrix3d& information = prior.information[index(slot)];
+    const int column = column_of(slot);
+    const double* now = posture.block(slot);
+    const double* expected = prior.expected.block(slot);
+    if (tangent_size(slot) == 1) {
+      const double off = now[0] - expected[0];
+      hessian(column, column) += information(0, 0);
+      gradient[column] += information(0, 0) * off;
+      cost += 0.5 * information(0, 0) * off * off;
+      continue;
+    }
+    Vector3d off(0.0, 0.0, 0.0);
+    Matrix3d jacobian = Matrix3d::Identity();
+    if (is_rotation(slot)) {
+      off = log_of(quaternion(posture, slot) *
+                   quaternion(prior.expected, slot).conjugate());
+      jacobian = inverse_left_jacobian(off);
+    } else {
+      off = {now[0] - expected[0], now[1] - expected[1], now[2] - expected[2]};
+    }
+    const Matrix3d weighted = information * jacobian;
+    hessian.block<3, 3>(column, column).noalias() += jacobian.transpose() * weighted;
+    gradient.segment<3>(column).noalias() += weighted.transpose() * off;
+    cost += 0.5 * off.dot(information * off);
+  }
+}
+
+Matrix3d PostureCovariance::of(const SparseDerivative& d) const {
+  Matrix3d sum = Matrix3d::Zero();
+  for (int i = 0; i < d.columns; ++i) {
+    Vector3d row = Vector3d::Zero();
+    for (int j = 0; j < d.columns; ++j) {
+      row += full(d.column[static_cast<std::size_t>(i)],
+                  d.column[static_cast<std::size_t>(j)]) *
+             d.value.col(j);
+    }
+    sum.noalias() += d.value.col(i) * row.transpose();
+  }
+  return sum;
+}
+
+bool ArrowFactor::factor(const PostureMatrix& hessian, double damping) {
+  Eigen::Matrix<double, kTrunkFreedom, kTrunkFreedom> trunk =
+      hessian.block<kTrunkFreedom, kTrunkFreedom>(kTrunkColumn, kTrunkColumn);
+  trunk.diagonal() *= 1.0 + damping;
+  for (std::size_t limb = 0; limb < 4; ++limb) {
+    const int size = kLimbFreedom[limb];
+    const int at = kLimbColumn[limb];
+    LimbMatrix own = hessian.block(at, at, size, size);
+    own.diagonal() *= 1.0 + damping;
+    limbs_[limb].own.compute(own);
+    if (limbs_[limb].own.info() != Eigen::Success) return false;
+    // The trunk's columns come last: in the lower triangle they are the rows below.
+    const LimbByTrunk cross =
+        hessian.block(kTrunkColumn, at, kTrunkFreedom, size).transpose();
+    limbs_[limb].by_trunk = limbs_[limb].own.solve(cross);
+    trunk.noalias() -= cross.transpose().lazyProduct(limbs_[limb].by_trunk);
+  }
+  trunk_.compute(trunk);
+  return trunk_.info() == Eigen::Success;
+}
+
+void ArrowFactor::step(const PostureVector& gradient, PostureVector& out) const {
+  Eigen::Matrix<double, kTrunkFreedom, 1> trunk =
+      -gradient.segment<kTrunkFreedom>(kTrunkColumn);
+  for (std::size_t limb = 0; limb < 4; ++limb) {
+    trunk.noalias() += limbs_[limb].by_trunk.transpose().lazyProduct(
+        gradient.segment(kLimbColumn[limb], kLimbFreedom[limb]));
+  }
+  trunk_.solveInPlace(trunk);
+  out.segment<kTrunkFreedom>(kTrunkColumn) = trunk;
+  for (std::size_t limb = 0; limb < 4; ++limb) {
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1> own =
+        -gradient.segment(kLimbColumn[limb], kLimbFreedom[limb]);
+    limbs_[limb].own.solveInPlace(own);
+    own.noalias() -= limbs_[limb].by_trunk.lazyProduct(trunk);
+    out.segment(kLimbColumn[limb], kLimbFreedom[limb]) = own;
+  }
+}
+
+void ArrowFactor::covariance(PostureCovariance& out) const {
+  using Trunk = Eigen::Matrix<double, kTrunkFreedom, kTrunkFreedom>;
+  const Trunk trunk = trunk_.solve(Trunk::Identity());
+  out.full.setZero();
+  out.full.block<kTrunkFreedom, kTrunkFreedom>(kTrunkColumn, kTrunkColumn) = trunk;
+  for (std::size_t limb = 0; limb < 4; ++limb) {
+    const int size = kLimbFreedom[limb];
+    const int at = kLimbColumn[limb];
+    const LimbByTrunk cross = -limbs_[limb].by_trunk.lazyProduct(trunk);
+    const LimbMatrix own =
+        limbs_[limb].own.solve(LimbMatrix::Identity(size, size)) -
+        cross.lazyProduct(limbs_[limb].by_trunk.transpose()).eval();
+    out.full.block(at, at, size, size) = own;
+    out.full.block(at, kTrunkColumn, size, kTrunkFreedom) = cross;
+    out.full.block(kTrunkColumn, at, kTrunkFreedom, size) = cross.transpose();
+  }
+}
+
+}  // namespace marey::reconstruct
