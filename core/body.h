@@ -29,7 +29,17 @@ struct PlacedTag {
   int sightings = 0;       ///< Frames times cameras that support it.
 };
 
-/// One person: lengths, joint centres and where the tags sit, each with its doubt.
+/// A marker glued to a segment of the body, or to the skin over it.
+struct PlacedMarker {
+  std::string label;
+  HumanBone segment{};
+  glm::dvec3 p_in_segment{0.0};  ///< [m]
+  double sigma_m = 0.0;          ///< Of that place, per coordinate.
+  double stray_m = 0.0;  ///< How far it strays from there with skin and noise, likewise.
+  int frames = 0;        ///< Of the fit, in which it was seen.
+};
+
+/// One person: lengths, joint centres and where tags and markers sit, each with its doubt.
 struct Body {
   std::string name;
   double stature_m = 0.0;
@@ -38,6 +48,7 @@ struct Body {
   /// Standard deviation of each bone's origin in its parent's frame, per coordinate. [m]
   std::array<double, kHumanBoneCount> joint_centre_sigma_m{};
   std::vector<PlacedTag> tags;
+  std::vector<PlacedMarker> markers;  ///< Labels all different.
 };
 
 }  // namespace marey

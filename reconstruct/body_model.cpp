@@ -123,9 +123,9 @@ void add_sighting(const BodyModel& model,
   ceres::CostFunction* cost = nullptr;
   if (offset_s) {
     blocks.push_back(offset_s);
-    cost = tag_cost<1>(std::make_unique<LateTagResidual>(LateTagResidual{known}));
+    cost = bone_cost<8, 1>(std::make_unique<LateTagResidual>(LateTagResidual{known}));
   } else {
-    cost = tag_cost<>(std::make_unique<KnownTagResidual>(std::move(known)));
+    cost = bone_cost<8>(std::make_unique<KnownTagResidual>(std::move(known)));
   }
   problem.AddResidualBlock(cost, tag_loss(), blocks);
 }

@@ -139,6 +139,13 @@ Lengths lengths_of(const Proportions& proportions) {
   return lengths;
 }
 
+std::optional<Length> length_of(HumanBone bone) {
+  for (const LengthRow& row : length_rows()) {
+    if (row.bone == bone) return row.length;
+  }
+  return std::nullopt;
+}
+
 BodyFrame frame_of(const Proportions& proportions) {
   return {proportions[B::kLeftShoulder], -proportions[B::kLeftUpperLeg].y};
 }

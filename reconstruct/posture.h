@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -193,6 +194,9 @@ struct BodyFrame {
                                          const BodyFrame& frame,
                                          const Proportions& like);
 [[nodiscard]] Lengths lengths_of(const Proportions& proportions);
+/// Which length is how far a bone's joint lies from its parent's; nullopt of the hips,
+/// and of what the fit does not move.
+[[nodiscard]] std::optional<Length> length_of(HumanBone bone);
 [[nodiscard]] BodyFrame frame_of(const Proportions& proportions);
 
 /// A bone's frame in the world, on whatever scalar the solver uses.

@@ -189,8 +189,7 @@ void UnfoldedPosture::unfold_trunk(const Posture& posture,
   const Matrix3d chest = q_abdomen.toRotationMatrix();
   const Matrix3d thorax = quaternion(posture, Slot::kThorax).toRotationMatrix();
   const Matrix3d neck = quaternion(posture, Slot::kNeck).toRotationMatrix();
-  const Vector3d p_hips =
-      Eigen::Map<const Vector3d>(posture.block(Slot::kHipsPosition));
+  const Vector3d p_hips = Eigen::Map<const Vector3d>(posture.block(Slot::kHipsPosition));
   const Vector3d to_spine = length(Length::kSpine) * hips.col(1);
   const Vector3d to_chest = length(Length::kChest) * spine.col(1);
   const Vector3d to_thorax = length(Length::kUpperChest) * chest.col(1);
@@ -356,9 +355,9 @@ void UnfoldedPosture::turn_derivative(HumanBone bone, SparseDerivative& out) con
     const Limb& own = limbs_[where.limb];
     const bool upper = where.place == 0;
     out.add(column_of(s.frame), identity);
-    out.add(column_of(s.flexion),
-            Vector3d((upper ? -own.lean_rate : 1.0 - own.lean_rate) *
-                     own.hinge_in_world));
+    out.add(
+        column_of(s.flexion),
+        Vector3d((upper ? -own.lean_rate : 1.0 - own.lean_rate) * own.hinge_in_world));
     out.add(column_of(upper ? s.upper_twist : s.lower_twist),
             upper ? own.upper_axis_in_world : own.lower_axis_in_world);
     return;

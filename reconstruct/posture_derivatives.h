@@ -34,12 +34,28 @@ static_assert(kTrunkColumn + kTrunkFreedom == kPostureFreedom);
       kTrunkColumn + 9,   // thorax
       kTrunkColumn + 12,  // neck
       kTrunkColumn + 15,  // head
-      0,   12,            // shoulders
-      3,   15,  24, 33,   // limbs' frames
-      6,   18,  27, 36,   // hands, feet
-      9,   21,  30, 39,   // flexions
-      10,  22,  31, 40,   // twists of the lower bones
-      11,  23,  32, 41,   // twists of the upper bones
+      0,
+      12,  // shoulders
+      3,
+      15,
+      24,
+      33,  // limbs' frames
+      6,
+      18,
+      27,
+      36,  // hands, feet
+      9,
+      21,
+      30,
+      39,  // flexions
+      10,
+      22,
+      31,
+      40,  // twists of the lower bones
+      11,
+      23,
+      32,
+      41,  // twists of the upper bones
   };
   return columns[index(slot)];
 }
@@ -57,8 +73,8 @@ void move(Posture& posture, const PostureVector& step);
 struct SparseDerivative {
   static constexpr int kMost = 24;
   int columns = 0;
-  std::array<int, kMost> column{};           ///< Of the posture's unknowns.
-  Eigen::Matrix<double, 3, kMost> value;     ///< The first `columns` count.
+  std::array<int, kMost> column{};        ///< Of the posture's unknowns.
+  Eigen::Matrix<double, 3, kMost> value;  ///< The first `columns` count.
   void clear() { columns = 0; }
   void add(int first_column, const Eigen::Matrix3d& block);
   void add(int at_column, const Eigen::Vector3d& block);
@@ -101,7 +117,9 @@ class UnfoldedPosture {
     double lean_rate = 0.0;  ///< Of the upper bone, by flexion.
   };
 
-  void unfold_trunk(const Posture& posture, const Lengths& lengths, const BodyFrame& body);
+  void unfold_trunk(const Posture& posture,
+                    const Lengths& lengths,
+                    const BodyFrame& body);
   void unfold_limb(std::size_t limb,
                    const Eigen::Vector3d& root,
                    const Posture& posture,

@@ -83,8 +83,8 @@ void PostureEquations::add_habits(const Posture& posture,
                                   const UnfoldedPosture& unfolded,
                                   const TwistHabits& twists) {
   // A residual log(E^-1 C), C the part and E where it is expected, both turning in the
-  // world, changes by the inverse right Jacobian times C^T (dC - dE); the right one is the
-  // left one's transpose.
+  // world, changes by the inverse right Jacobian times C^T (dC - dE); the right one is
+  // the left one's transpose.
   SparseDerivative turn;
   for (const HalfwayHabit& row : kHalfwayHabits) {
     const Quaterniond lower = quaternion(posture, row.lower);
@@ -232,9 +232,8 @@ void ArrowFactor::covariance(PostureCovariance& out) const {
     const int size = kLimbFreedom[limb];
     const int at = kLimbColumn[limb];
     const LimbByTrunk cross = -limbs_[limb].by_trunk.lazyProduct(trunk);
-    const LimbMatrix own =
-        limbs_[limb].own.solve(LimbMatrix::Identity(size, size)) -
-        cross.lazyProduct(limbs_[limb].by_trunk.transpose()).eval();
+    const LimbMatrix own = limbs_[limb].own.solve(LimbMatrix::Identity(size, size)) -
+                           cross.lazyProduct(limbs_[limb].by_trunk.transpose()).eval();
     out.full.block(at, at, size, size) = own;
     out.full.block(at, kTrunkColumn, size, kTrunkFreedom) = cross;
     out.full.block(kTrunkColumn, at, kTrunkFreedom, size) = cross.transpose();

@@ -159,44 +159,48 @@ struct UnknownTagResidual {
 
 /// Blocks of `residual` are slots_of(bone), then `Extra...`. Each kind of bone has its
 /// own list of block sizes, which Ceres wants at compile time.
-template <int... Extra, class Functor>
-ceres::CostFunction* tag_cost(std::unique_ptr<Functor> functor) {
+template <int Residuals, int... Extra, class Functor>
+ceres::CostFunction* bone_cost(std::unique_ptr<Functor> functor) {
   using B = HumanBone;
   Functor* f = functor.release();
   switch (f->bone) {
     case B::kHips:
-      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, Extra...>(f);
+      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, Extra...>(f);
     case B::kSpine:
     case B::kChest:
-      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, Extra...>(f);
+      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, Extra...>(f);
     case B::kUpperChest:
-      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, Extra...>(f);
+      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, Extra...>(f);
     case B::kNeck:
     case B::kLeftShoulder:
     case B::kRightShoulder:
-      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, Extra...>(f);
+      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 4, Extra...>(
+          f);
     case B::kHead:
-      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, Extra...>(f);
+      return new ceres::
+          AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 4, 4, Extra...>(f);
     case B::kLeftUpperArm:
     case B::kRightUpperArm:
     case B::kLeftLowerArm:
     case B::kRightLowerArm:
       return new ceres::
-          AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, 1, 1, Extra...>(f);
+          AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 4, 4, 1, 1, Extra...>(f);
     case B::kLeftHand:
     case B::kRightHand:
       return new ceres::
-          AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 4, 4, 4, 1, Extra...>(f);
+          AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 4, 4, 4, 1, Extra...>(f);
     case B::kLeftUpperLeg:
     case B::kRightUpperLeg:
     case B::kLeftLowerLeg:
     case B::kRightLowerLeg:
-      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 1, 1, Extra...>(f);
+      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 1, 1, Extra...>(
+          f);
     case B::kLeftFoot:
     case B::kRightFoot:
     case B::kLeftToes:
     case B::kRightToes:
-      return new ceres::AutoDiffCostFunction<Functor, 8, 3, 4, 4, 4, 1, Extra...>(f);
+      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 1, Extra...>(
+          f);
   }
   return nullptr;
 }

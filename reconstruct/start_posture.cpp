@@ -16,11 +16,11 @@ namespace {
 constexpr double kMisfitSigmas = 4.0;
 
 struct Attitude {
-  double arm_down;       ///< From the T-pose. [rad]
-  double arm_forward;    ///< [rad]
-  double elbow;          ///< [rad]
-  double leg_forward;    ///< [rad]
-  double knee;           ///< [rad]
+  double arm_down;     ///< From the T-pose. [rad]
+  double arm_forward;  ///< [rad]
+  double elbow;        ///< [rad]
+  double leg_forward;  ///< [rad]
+  double knee;         ///< [rad]
 };
 constexpr std::array<Attitude, 4> kAttitudes{{
     {1.2, 0.0, 0.3, 0.0, 0.1},
@@ -29,7 +29,8 @@ constexpr std::array<Attitude, 4> kAttitudes{{
     {1.0, 0.5, 1.5, 0.4, 0.8},
 }};
 
-/// Of one limb: its frame in the trunk as a rotation vector on the left side, and flexion.
+/// Of one limb: its frame in the trunk as a rotation vector on the left side, and
+/// flexion.
 struct LimbAttitude {
   glm::dvec3 rad;
   double flexion;
@@ -92,6 +93,28 @@ FoundPosture PostureFinder::find(std::span<const SeenMarker> seen) {
   }
   retry_limbs(seen, best);
   return best;
+}
+
+FoundPosture PostureFinder::find_near(const Posture& near,
+                                      std::span<const SeenMarker> seen) {
+  FoundPosture found;
+  found.posture = near;
+  found.cost = anneal(seen, 10.0, found.posture);
+  if (!misfits(seen, found.posture)) return found;
+  const FoundPosture anew = find(seen);
+  return anew.cost < found.cost ? anew : found;
+}
+
+bool PostureFinder::misfits(std::span<const SeenMarker> seen, const Posture& posture) {
+  const UnfoldedPosture& unfolded = solver_.unfold(posture);
+  std::size_t off = 0;
+  for (const SeenMarker& sample : seen) {
+    const ModelMarker& marker = model_->markers[sample.marker];
+    const double distance =
+        (unfolded.point(marker.bone, marker.p_in_bone) - sample.p_in_world).norm();
+    off += distance > kMisfitSigmas * std::hypot(marker.sigma_m, sample.sigma_m);
+  }
+  return 4 * off > seen.size();
 }
 
 Posture PostureFinder::laid_on(const Posture& attitude,
@@ -160,8 +183,7 @@ void PostureFinder::retry_limbs(std::span<const SeenMarker> seen, FoundPosture& 
     const glm::dquat trunk = start.rotation(limb < 2 ? Slot::kThorax : Slot::kHips);
     for (const LimbAttitude& attitude : attitudes) {
       Posture posture = start;
-      const glm::dquat frame =
-          glm::normalize(trunk * mirrored_turn(attitude.rad, left));
+      const glm::dquat frame = glm::normalize(trunk * mirrored_turn(attitude.rad, left));
       posture.set_rotation(s.frame, frame);
       posture.set_rotation(s.extremity, frame);
       *posture.block(s.flexion) = attitude.flexion;

@@ -28,9 +28,15 @@ class PostureFinder {
   /// Some 10 ms with 50 markers. Precondition: three markers or more.
   [[nodiscard]] FoundPosture find(std::span<const SeenMarker> seen);
 
+  /// The same from a posture that should be near, and from nothing where it is not.
+  [[nodiscard]] FoundPosture find_near(const Posture& near,
+                                       std::span<const SeenMarker> seen);
+
  private:
-  [[nodiscard]] Posture laid_on(const Posture& attitude, std::span<const SeenMarker> seen);
+  [[nodiscard]] Posture laid_on(const Posture& attitude,
+                                std::span<const SeenMarker> seen);
   void retry_limbs(std::span<const SeenMarker> seen, FoundPosture& best);
+  [[nodiscard]] bool misfits(std::span<const SeenMarker> seen, const Posture& posture);
   [[nodiscard]] bool limb_misfits(std::size_t limb,
                                   std::span<const SeenMarker> seen,
                                   const Posture& posture);

@@ -10,6 +10,7 @@
 
 #include "core/assert.h"
 #include "core/quantile.h"
+#include "reconstruct/length_terms.h"
 #include "reconstruct/normal_matrix.h"
 #include "reconstruct/posture_terms.h"
 
@@ -22,31 +23,6 @@ constexpr TwistHabits kTrialTwists{0.1, 0.1, 0.08};
 
 // The median length of a two-dimensional error whose coordinates have unit sigma.
 constexpr double kMedianOfUnitNoise = 1.177;
-
-struct LengthDifference {
-  Length a;
-  Length b;
-  double sigma_m;
-
-  template <class T>
-  bool operator()(const T* lengths, T* residual) const {
-    residual[0] = (lengths[index(a)] - lengths[index(b)]) / sigma_m;
-    return true;
-  }
-};
-
-struct UsualLengths {
-  Lengths usual;
-
-  template <class T>
-  bool operator()(const T* lengths, T* residual) const {
-    for (std::size_t i = 0; i < usual.size(); ++i) {
-      // People differ by a tenth; small parts are known no better than to a centimetre.
-      residual[i] = (lengths[i] - usual[i]) / std::max(0.012, 0.10 * usual[i]);
-    }
-    return true;
-  }
-};
 
 /// A tag on a limb faces away from its bone: the line through its middle and along its
 /// normal passes the bone's axis nearby. Without this an elbow that only bends could lie
@@ -85,22 +61,6 @@ void add_tag_priors(SubjectBundle& bundle, ceres::Problem& problem) {
   }
 }
 
-void add_length_priors(SubjectBundle& bundle, ceres::Problem& problem) {
-  problem.AddResidualBlock(
-      new ceres::AutoDiffCostFunction<UsualLengths, kLengthCount, kLengthCount>(
-          new UsualLengths{bundle.usual}),
-      nullptr,
-      bundle.model.lengths.data());
-  for (int left = static_cast<int>(Length::kLeftShoulder); left < kLengthCount;
-       left += 2) {
-    problem.AddResidualBlock(
-        new ceres::AutoDiffCostFunction<LengthDifference, 1, kLengthCount>(
-            new LengthDifference{Length{left}, Length{left + 1}, 0.008}),
-        nullptr,
-        bundle.model.lengths.data());
-  }
-}
-
 void add_sightings(SubjectBundle& bundle,
                    BundleFrame& frame,
                    std::span<const Camera> cameras,
@@ -121,7 +81,7 @@ void add_sightings(SubjectBundle& bundle,
     blocks.push_back(&placed->second.rotation.x);
     blocks.push_back(&placed->second.translation.x);
     problem.AddResidualBlock(
-        tag_cost<kLengthCount, 4, 3>(std::move(residual)), tag_loss(), blocks);
+        bone_cost<8, kLengthCount, 4, 3>(std::move(residual)), tag_loss(), blocks);
   }
 }
 
@@ -238,7 +198,7 @@ bool adjust(SubjectBundle& bundle,
     MAREY_ASSERT(problem.HasParameterBlock(&pose.rotation.x));
     problem.SetManifold(&pose.rotation.x, new ceres::EigenQuaternionManifold);
   }
-  add_length_priors(bundle, problem);
+  add_length_habits(bundle.usual, bundle.model.lengths, problem);
   add_tag_priors(bundle, problem);
   ceres::Solver::Summary summary;
   ceres::Solver::Options options = solver_options(max_iterations);

@@ -1,0 +1,480 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/fit_markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/quantile.h"
+#include "reconstruct/length_terms.h"
+#include "reconstruct/marker_instants.h"
+#include "reconstruct/sightings.h"
+
+namespace marey::reconstruct {
+namespace {
+
+using Eigen::Vector3d;
+
+// How many frames are looked at, and how many of them the bundle sees at once: its cost
+// grows with their number, its gain with their variety.
+constexpr std::size_t kSnapshots = 240;
+constexpr std::size_t kFirstInstants = 24;
+constexpr std::size_t kInstants = 60;
+// How far a marker strays with skin before anything is measured, and the least it is
+// believed to. [m]
+constexpr double kUsualStray_m = 0.010;
+constexpr double kLeastStray_m = 0.002;
+// As many samples as that belief counts for.
+constexpr double kBeliefSamples = 10.0;
+// A marker that strays farther from where it should be moves with another segment.
+constexpr double kOffSegment_m = 0.035;
+// One that strays less from another is sure to move with that.
+constexpr double kSureSegment_m = 0.02;
+constexpr double kFoundPlaceSigma_m = 0.05;
+constexpr std::size_t kFewestLabels = 6;
+constexpr std::size_t kFewestSightings = 3;
+// A joint that turned so far, and whose place is then known so much better than from an
+// average person's, was found by its movement.
+constexpr double kEnoughRange_rad = 0.35;
+constexpr double kTellingShare = 0.5;
+
+/// A label on its way into the body.
+struct Candidate {
+  std::size_t label = 0;  ///< Position in the list given.
+  HumanBone bone{};
+  PlaceBelief belief;
+  bool somewhere = false;  ///< Its landmark says which bone, not where.
+  LabelUse use = LabelUse::kNamed;
+};
+
+Vector3d eigen(const glm::dvec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+/// Median of positions, coordinate by coordinate, and how far they stray from it, root
+/// mean square over coordinates of the nearer nine tenths.
+struct Place {
+  Vector3d middle{0.0, 0.0, 0.0};
+  double stray_m = 0.0;
+};
+
+Place place_of(const std::vector<Vector3d>& points) {
+  Place place;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const Vector3d& p : points) values.push_back(p[axis]);
+    place.middle[axis] = median(std::move(values));
+  }
+  std::vector<double> squares;
+  for (const Vector3d& p : points) squares.push_back((p - place.middle).squaredNorm());
+  std::sort(squares.begin(), squares.end());
+  const std::size_t count = std::max<std::size_t>(1, squares.size() * 9 / 10);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < count; ++i) sum += squares[i];
+  place.stray_m = std::sqrt(sum / (3.0 * static_cast<double>(count)));
+  return place;
+}
+
+/// The fit as it goes on.
+class Fit {
+ public:
+  Fit(const MarkerSubject& subject,
+      std::span<const MarkerTracks> trials,
+      std::span<const NamedMarker> labels)
+      : subject_(&subject), trials_(trials), labels_(labels) {}
+
+  [[nodiscard]] Result<MarkersFit> run(const Progress& progress);
+
+ private:
+  [[nodiscard]] Status check();
+  void begin();
+  void use(const Candidate& candidate, const Vector3d& p_in_bone, double stray_m);
+  [[nodiscard]] bool bundle(std::size_t instants, int iterations, bool sigmas);
+  void place_candidates();
+  [[nodiscard]] std::optional<std::pair<HumanBone, Place>> best_segment(
+      std::size_t label) const;
+  [[nodiscard]] std::vector<Vector3d> places_in(std::size_t label, HumanBone bone) const;
+  void measure_stray();
+  void move_misplaced();
+  [[nodiscard]] MarkersFit result();
+  [[nodiscard]] std::vector<JointEvidence> evidence() const;
+  [[nodiscard]] double range_of(HumanBone bone, HumanBone up) const;
+
+  const MarkerSubject* subject_;
+  std::span<const MarkerTracks> trials_;
+  std::span<const NamedMarker> labels_;
+  StatureEstimate stature_;
+  Proportions average_;
+  std::vector<Snapshot> snapshots_;
+  MarkerBundle bundle_;
+  ModelLabels model_labels_;        ///< Per marker of the bundle.
+  std::vector<Candidate> used_;     ///< Likewise.
+  std::vector<Candidate> waiting_;  ///< Named for a segment, no place yet.
+  std::vector<LabelVerdict> verdicts_;
+  double rms_m_ = 0.0;
+};
+
+Status Fit::check() {
+  std::size_t named = 0;
+  bool trunk = false;
+  for (const NamedMarker& marker : labels_) {
+    if (!marker.landmark) continue;
+    ++named;
+    const HumanBone bone = marker.landmark->segment;
+    trunk = trunk || bone == HumanBone::kHips || bone == HumanBone::kUpperChest ||
+            bone == HumanBone::kChest || bone == HumanBone::kSpine;
+  }
+  if (named >= kFewestLabels && trunk) return Done{};
+  return bad_input(
+      "",
+      named < kFewestLabels
+          ? std::string("only ")
+                .append(std::to_string(named))
+                .append(" labels say where on the body their markers are")
+          : std::string("no label is known to be on the hips or the trunk"),
+      "say what the labels mean in a marker map (--markers MAP.toml, docs/formats.md)");
+}
+
+void Fit::use(const Candidate& candidate, const Vector3d& p_in_bone, double stray_m) {
+  used_.push_back(candidate);
+  model_labels_.push_back(candidate.label);
+  bundle_.places.push_back(candidate.belief);
+  bundle_.model.markers.push_back({candidate.bone, p_in_bone, stray_m});
+}
+
+/// The average person of this stature, with the markers whose places their names tell.
+void Fit::begin() {
+  const auto estimate = estimate_stature(trials_, labels_);
+  stature_ = estimate.value_or(StatureEstimate{1.70, 0});
+  if (subject_->stature_m) stature_.stature_m = *subject_->stature_m;
+  average_ = average_proportions(stature_.stature_m);
+  bundle_.usual = lengths_of(average_);
+  bundle_.model.lengths = bundle_.usual;
+  bundle_.model.body = frame_of(average_);
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    verdicts_.push_back({labels_[i].label, LabelUse::kLeftOut, HumanBone::kHips, 0.0});
+    const Landmark* landmark = labels_[i].landmark;
+    if (!landmark) continue;
+    Candidate candidate;
+    candidate.label = i;
+    candidate.bone = solved_segment(landmark->segment);
+    Vector3d p = eigen(landmark->p_in_segment_per_stature);
+    if (candidate.bone != landmark->segment) {
+      // Toes move with their foot.
+      p += eigen(average_[landmark->segment] / stature_.stature_m);
+    }
+    candidate.belief = {stature_.stature_m * p,
+                        stature_.stature_m * landmark->sigma_per_stature};
+    candidate.somewhere = landmark->sigma_per_stature >= kSomewhereSigma;
+    if (candidate.somewhere) {
+      waiting_.push_back(candidate);
+    } else {
+      use(candidate, candidate.belief.p_in_bone, std::hypot(kUsualStray_m, 0.010));
+    }
+  }
+  if (used_.size() >= kFewestLabels) return;
+  // Sets of clusters alone: their rough places have to do.
+  for (const Candidate& candidate : waiting_) {
+    use(candidate, candidate.belief.p_in_bone, 0.04);
+  }
+  waiting_.clear();
+}
+
+bool Fit::bundle(std::size_t instants, int iterations, bool sigmas) {
+  pose_snapshots(bundle_.model, model_labels_, snapshots_);
+  const std::vector<std::size_t> chosen = choose_instants(snapshots_, instants);
+  if (chosen.empty()) return false;
+  bundle_.instants.clear();
+  for (const std::size_t i : chosen) {
+    bundle_.instants.push_back(
+        {snapshots_[i].posture, seen_in(snapshots_[i], model_labels_)});
+  }
+  if (!adjust(bundle_, iterations, sigmas)) return false;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    snapshots_[chosen[i]].posture = bundle_.instants[i].posture;
+  }
+  return true;
+}
+
+/// Where a label's marker is in a bone's frame, over the snapshots that show it.
+std::vector<Vector3d> Fit::places_in(std::size_t label, HumanBone bone) const {
+  std::vector<Vector3d> places;
+  UnfoldedPosture unfolded;
+  for (const Snapshot& snapshot : snapshots_) {
+    if (!snapshot.solved || !snapshot.p_in_world[label]) continue;
+    unfolded.unfold(snapshot.posture, bundle_.model.lengths, bundle_.model.body);
+    places.push_back(unfolded.rotation(bone).transpose() *
+                     (*snapshot.p_in_world[label] - unfolded.origin(bone)));
+  }
+  return places;
+}
+
+/// The segment in whose frame a label's marker keeps its place best.
+std::optional<std::pair<HumanBone, Place>> Fit::best_segment(std::size_t label) const {
+  std::optional<std::pair<HumanBone, Place>> best;
+  for (const HumanBone bone : human_bones()) {
+    if (solved_segment(bone) != bone) continue;
+    const std::vector<Vector3d> places = places_in(label, bone);
+    if (places.size() < kFewestSightings) return std::nullopt;
+    const Place place = place_of(places);
+    if (!best || place.stray_m < best->second.stray_m) best = {bone, place};
+  }
+  return best;
+}
+
+/// Markers of which only the segment is known, or nothing, find their place on a body
+/// that the others have posed.
+void Fit::place_candidates() {
+  for (const Candidate& candidate : waiting_) {
+    const std::vector<Vector3d> places = places_in(candidate.label, candidate.bone);
+    if (places.size() < kFewestSightings) continue;
+    const Place place = place_of(places);
+    use(candidate, place.middle, std::max(kUsualStray_m, place.stray_m));
+  }
+  waiting_.clear();
+  for (std::size_t i = 0; i < labels_.size(); ++i) {
+    if (labels_[i].landmark) continue;
+    const auto best = best_segment(i);
+    if (!best || best->second.stray_m > kOffSegment_m) continue;
+    Candidate candidate;
+    candidate.label = i;
+    candidate.bone = best->first;
+    candidate.somewhere = true;
+    candidate.use = LabelUse::kFound;
+    candidate.belief = {best->second.middle, kFoundPlaceSigma_m};
+    use(candidate, best->second.middle, std::max(kUsualStray_m, best->second.stray_m));
+  }
+}
+
+/// How far every marker strays from its place, over all snapshots that are solved.
+void Fit::measure_stray() {
+  double sum = 0.0;
+  double count = 0.0;
+  UnfoldedPosture unfolded;
+  std::vector<std::vector<double>> squares(used_.size());
+  for (const Snapshot& snapshot : snapshots_) {
+    if (!snapshot.solved) continue;
+    unfolded.unfold(snapshot.posture, bundle_.model.lengths, bundle_.model.body);
+    for (std::size_t m = 0; m < used_.size(); ++m) {
+      const auto& p = snapshot.p_in_world[model_labels_[m]];
+      if (!p) continue;
+      const ModelMarker& marker = bundle_.model.markers[m];
+      squares[m].push_back(
+          (unfolded.point(marker.bone, marker.p_in_bone) - *p).squaredNorm());
+      sum += squares[m].back();
+      count += 1.0;
+    }
+  }
+  rms_m_ = count > 0.0 ? std::sqrt(sum / count) : 0.0;
+  for (std::size_t m = 0; m < used_.size(); ++m) {
+    std::sort(squares[m].begin(), squares[m].end());
+    const std::size_t most = squares[m].size() - squares[m].size() / 20;
+    double own = 0.0;
+    for (std::size_t i = 0; i < most; ++i) own += squares[m][i];
+    const double samples = static_cast<double>(most);
+    const double belief = 3.0 * kUsualStray_m * kUsualStray_m;
+    const double variance =
+        (own + kBeliefSamples * belief) / (3.0 * (samples + kBeliefSamples));
+    bundle_.model.markers[m].sigma_m = std::max(kLeastStray_m, std::sqrt(variance));
+  }
+}
+
+/// Markers that do not move with the segment of their name are given to the one they move
+/// with, or left out.
+void Fit::move_misplaced() {
+  const std::vector<ModelMarker> markers = std::move(bundle_.model.markers);
+  const std::vector<Candidate> used = std::move(used_);
+  bundle_.model.markers.clear();
+  bundle_.places.clear();
+  used_.clear();
+  model_labels_.clear();
+  for (std::size_t m = 0; m < used.size(); ++m) {
+    if (markers[m].sigma_m < kOffSegment_m) {
+      use(used[m], markers[m].p_in_bone, markers[m].sigma_m);
+      continue;
+    }
+    const auto best = best_segment(used[m].label);
+    if (!best || best->second.stray_m > kSureSegment_m) continue;
+    Candidate moved = used[m];
+    if (moved.bone != best->first) moved.use = LabelUse::kMoved;
+    moved.bone = best->first;
+    moved.somewhere = true;
+    moved.belief = {best->second.middle, kFoundPlaceSigma_m};
+    use(moved, best->second.middle, std::max(kUsualStray_m, best->second.stray_m));
+  }
+}
+
+std::vector<JointEvidence> Fit::evidence() const {
+  std::vector<JointEvidence> joints;
+  for (const HumanBone bone : human_bones()) {
+    if (bone == HumanBone::kHips) continue;
+    JointEvidence joint;
+    joint.joint = bone;
+    const HumanBone up = *parent(bone);
+    const auto length = length_of(bone);
+    const double usual_m =
+        length ? bundle_.usual[index(*length)] : glm::length(average_[bone]);
+    const double prior_m = usual_length_sigma_m(usual_m);
+    // Of a joint whose length is not moved, the average is all there is.
+    joint.sigma_m = length ? bundle_.length_sigma_m[index(*length)] : prior_m;
+    joint.range_rad = range_of(bone, up);
+    const bool landmarks = std::any_of(
+        bundle_.model.markers.begin(), bundle_.model.markers.end(), [&](const auto& m) {
+          const std::size_t at =
+              static_cast<std::size_t>(&m - bundle_.model.markers.data());
+          return !used_[at].somewhere && (m.bone == bone || m.bone == up);
+        });
+    if (length && joint.range_rad > kEnoughRange_rad &&
+        joint.sigma_m < kTellingShare * prior_m) {
+      joint.origin = JointOrigin::kMovement;
+    } else if (length && landmarks && joint.sigma_m < kTellingShare * 2.0 * prior_m) {
+      joint.origin = JointOrigin::kLandmarks;
+    } else {
+      joint.origin = JointOrigin::kProportions;
+    }
+    joints.push_back(joint);
+  }
+  return joints;
+}
+
+/// How far a bone was turned against its parent, from its middle attitude: between the
+/// 5th and the 95th percent along the axis about which it turned most. [rad]
+double Fit::range_of(HumanBone bone, HumanBone up) const {
+  std::vector<Vector3d> turns;
+  UnfoldedPosture unfolded;
+  for (const Snapshot& snapshot : snapshots_) {
+    if (!snapshot.solved) continue;
+    unfolded.unfold(snapshot.posture, bundle_.model.lengths, bundle_.model.body);
+    const Eigen::Matrix3d turn =
+        unfolded.rotation(up).transpose() * unfolded.rotation(bone);
+    const Eigen::AngleAxisd angle_axis(turn);
+    turns.push_back(angle_axis.angle() * angle_axis.axis());
+  }
+  double widest = 0.0;
+  for (int axis = 0; axis < 3 && !turns.empty(); ++axis) {
+    std::vector<double> values;
+    for (const Vector3d& turn : turns) values.push_back(turn[axis]);
+    std::sort(values.begin(), values.end());
+    const std::size_t tail = values.size() / 20;
+    widest = std::max(widest, values[values.size() - 1 - tail] - values[tail]);
+  }
+  return widest;
+}
+
+MarkersFit Fit::result() {
+  MarkersFit fit;
+  Body& body = fit.body;
+  body.name = subject_->name;
+  body.stature_m = stature_.stature_m;
+  body.mass_kg = subject_->mass_kg;
+  body.proportions = to_proportions(bundle_.model.lengths, bundle_.model.body, average_);
+  // Soles stay as thick as the average's: the hips are as high as the legs are long.
+  const auto legs = [](const Proportions& p) {
+    return p[HumanBone::kLeftUpperLeg].y +
+           0.5 * (p[HumanBone::kLeftLowerLeg].y + p[HumanBone::kRightLowerLeg].y +
+                  p[HumanBone::kLeftFoot].y + p[HumanBone::kRightFoot].y);
+  };
+  body.proportions[HumanBone::kHips].y += legs(average_) - legs(body.proportions);
+  fit.joints = evidence();
+  for (const JointEvidence& joint : fit.joints) {
+    body.joint_centre_sigma_m[index(joint.joint)] = joint.sigma_m;
+  }
+  for (std::size_t m = 0; m < used_.size(); ++m) {
+    const ModelMarker& marker = bundle_.model.markers[m];
+    const std::size_t label = model_labels_[m];
+    const auto frames = std::count_if(
+        snapshots_.begin(), snapshots_.end(), [&](const Snapshot& snapshot) {
+          return snapshot.solved && snapshot.p_in_world[label];
+        });
+    body.markers.push_back(
+        {labels_[label].label,
+         marker.bone,
+         {marker.p_in_bone.x(), marker.p_in_bone.y(), marker.p_in_bone.z()},
+         bundle_.place_sigma_m[m],
+         marker.sigma_m,
+         static_cast<int>(frames)});
+    verdicts_[label] = {labels_[label].label, used_[m].use, marker.bone, marker.sigma_m};
+  }
+  fit.labels = verdicts_;
+  fit.rms_m = rms_m_;
+  fit.stature_pairs = stature_.pairs;
+  return fit;
+}
+
+Result<MarkersFit> Fit::run(const Progress& progress) {
+  const auto tell = [&](int done) {
+    if (progress) progress(done, 4);
+  };
+  const auto no_body = [] {
+    return bad_input(
+        "",
+        "no body explains these markers",
+        "see that labels mean what their names say (--markers MAP.toml), and "
+        "that left is left");
+  };
+  if (const Status ok = check(); !ok) return ok.error();
+  begin();
+  std::vector<std::string> names;
+  for (const NamedMarker& marker : labels_) names.push_back(marker.label);
+  snapshots_ = take_snapshots(trials_, names, kSnapshots);
+  if (!bundle(kFirstInstants, 15, false)) {
+    return bad_input("",
+                     "no frame shows six markers whose places are known",
+                     "see the labels in `marey inspect FILE`");
+  }
+  tell(1);
+  pose_snapshots(bundle_.model, model_labels_, snapshots_);
+  place_candidates();
+  measure_stray();
+  if (!bundle(kInstants, 15, false)) return no_body();
+  tell(2);
+  pose_snapshots(bundle_.model, model_labels_, snapshots_);
+  measure_stray();
+  move_misplaced();
+  if (used_.size() < kFewestLabels || !bundle(kInstants, 15, false)) return no_body();
+  tell(3);
+  pose_snapshots(bundle_.model, model_labels_, snapshots_);
+  measure_stray();
+  if (!bundle(kInstants, 20, true)) return no_body();
+  pose_snapshots(bundle_.model, model_labels_, snapshots_);
+  measure_stray();
+  tell(4);
+  return result();
+}
+
+}  // namespace
+
+std::string_view name(LabelUse use) {
+  switch (use) {
+    case LabelUse::kNamed:
+      return "named";
+    case LabelUse::kFound:
+      return "found";
+    case LabelUse::kMoved:
+      return "moved";
+    case LabelUse::kLeftOut:
+      return "left-out";
+  }
+  return "left-out";
+}
+
+std::string_view name(JointOrigin origin) {
+  switch (origin) {
+    case JointOrigin::kMovement:
+      return "movement";
+    case JointOrigin::kLandmarks:
+      return "landmarks";
+    case JointOrigin::kProportions:
+      return "proportions";
+  }
+  return "proportions";
+}
+
+Result<MarkersFit> fit_markers(const MarkerSubject& subject,
+                               std::span<const MarkerTracks> trials,
+                               std::span<const NamedMarker> labels,
+                               const Progress& progress) {
+  return Fit(subject, trials, labels).run(progress);
+}
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/length_terms.h"
+
+#include <algorithm>
+
+namespace marey::reconstruct {
+namespace {
+
+struct LengthDifference {
+  Length a;
+  Length b;
+  double sigma_m;
+
+  template <class T>
+  bool operator()(const T* lengths, T* residual) const {
+    residual[0] = (lengths[index(a)] - lengths[index(b)]) / sigma_m;
+    return true;
+  }
+};
+
+struct UsualLengths {
+  Lengths usual;
+
+  template <class T>
+  bool operator()(const T* lengths, T* residual) const {
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+      residual[i] = (lengths[i] - usual[i]) / usual_length_sigma_m(usual[i]);
+    }
+    return true;
+  }
+};
+
+}  // namespace
+
+double usual_length_sigma_m(double usual_m) {
+  return std::max(0.012, 0.10 * usual_m);
+}
+
+void add_length_habits(const Lengths& usual, Lengths& lengths, ceres::Problem& problem) {
+  problem.AddResidualBlock(
+      new ceres::AutoDiffCostFunction<UsualLengths, kLengthCount, kLengthCount>(
+          new UsualLengths{usual}),
+      nullptr,
+      lengths.data());
+  for (int left = static_cast<int>(Length::kLeftShoulder); left < kLengthCount;
+       left += 2) {
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<LengthDifference, 1, kLengthCount>(
+            new LengthDifference{Length{left}, Length{left + 1}, 0.008}),
+        nullptr,
+        lengths.data());
+  }
+}
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: what is known of a body's lengths before it is measured.
+
+#include <ceres/ceres.h>
+
+#include "reconstruct/posture.h"
+
+namespace marey::reconstruct {
+
+/// People's lengths differ by a tenth; small parts are known no better than to a
+/// centimetre. [m]
+[[nodiscard]] double usual_length_sigma_m(double usual_m);
+
+/// Lengths are near those of an average person, and both sides alike.
+void add_length_habits(const Lengths& usual, Lengths& lengths, ceres::Problem& problem);
+
+}  // namespace marey::reconstruct

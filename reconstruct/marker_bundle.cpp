@@ -1,0 +1,148 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/marker_bundle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "core/assert.h"
+#include "reconstruct/length_terms.h"
+#include "reconstruct/normal_matrix.h"
+#include "reconstruct/posture_terms.h"
+
+namespace marey::reconstruct {
+namespace {
+
+/// A marker of a body that is being measured: blocks are its bone's slots, the lengths,
+/// and its place on the bone.
+struct MarkerResidual {
+  HumanBone bone;
+  std::vector<Slot> slots;
+  BodyFrame body;
+  Eigen::Vector3d p_in_world;
+  double sigma_m;
+
+  template <class... A>
+  bool operator()(A... arguments) const {
+    auto in = unpack(slots, arguments...);
+    using T = std::remove_pointer_t<decltype(in.residual)>;
+    const BoneFrame<T> frame = bone_frame<T, T>(
+        bone, std::span<const T* const, kSlotCount>(in.blocks), in.extra[0], body);
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> place(in.extra[1]);
+    const Eigen::Matrix<T, 3, 1> p = frame.rotation * place + frame.origin;
+    for (int i = 0; i < 3; ++i) in.residual[i] = (p[i] - p_in_world[i]) / sigma_m;
+    return true;
+  }
+};
+
+/// The place should be where it is believed to be, give or take.
+struct PlaceResidual {
+  PlaceBelief belief;
+
+  template <class T>
+  bool operator()(const T* place, T* residual) const {
+    for (int i = 0; i < 3; ++i) {
+      residual[i] = (place[i] - belief.p_in_bone[i]) / belief.sigma_m;
+    }
+    return true;
+  }
+};
+
+void add_markers(MarkerBundle& bundle, MarkerInstant& instant, ceres::Problem& problem) {
+  for (const SeenMarker& seen : instant.seen) {
+    ModelMarker& marker = bundle.model.markers[seen.marker];
+    auto residual = std::make_unique<MarkerResidual>(
+        MarkerResidual{marker.bone,
+                       slots_of(marker.bone),
+                       bundle.model.body,
+                       seen.p_in_world,
+                       std::hypot(marker.sigma_m, seen.sigma_m)});
+    std::vector<double*> blocks = blocks_of(instant.posture, marker.bone);
+    blocks.push_back(bundle.model.lengths.data());
+    blocks.push_back(marker.p_in_bone.data());
+    problem.AddResidualBlock(bone_cost<3, kLengthCount, 3>(std::move(residual)),
+                             new ceres::CauchyLoss(kDoubtfulSigmas),
+                             blocks);
+  }
+}
+
+/// Covariance of the lengths and places: instants share nothing but these, so they are
+/// eliminated one by one (Schur complement).
+std::optional<Eigen::MatrixXd> subject_covariance(MarkerBundle& bundle,
+                                                  ceres::Problem& problem) {
+  std::vector<double*> blocks;
+  std::vector<int> sizes;
+  for (MarkerInstant& instant : bundle.instants) {
+    int size = 0;
+    for (const Slot slot : kAllSlots) {
+      if (!problem.HasParameterBlock(instant.posture.block(slot))) continue;
+      blocks.push_back(instant.posture.block(slot));
+      size += tangent_size(slot);
+    }
+    sizes.push_back(size);
+  }
+  blocks.push_back(bundle.model.lengths.data());
+  for (ModelMarker& marker : bundle.model.markers) {
+    blocks.push_back(marker.p_in_bone.data());
+  }
+  const int shared = kLengthCount + 3 * static_cast<int>(bundle.model.markers.size());
+  const auto normal = normal_matrix(problem, std::move(blocks));
+  if (!normal) return std::nullopt;
+  const int first_shared = static_cast<int>(normal->cols()) - shared;
+  Eigen::MatrixXd information = normal->block(first_shared, first_shared, shared, shared);
+  int start = 0;
+  for (const int size : sizes) {
+    Eigen::MatrixXd own = normal->block(start, start, size, size);
+    own.diagonal().array() += 1e-9;
+    const Eigen::MatrixXd cross = normal->block(start, first_shared, size, shared);
+    information -= cross.transpose() * own.ldlt().solve(cross);
+    start += size;
+  }
+  information.diagonal().array() += 1e-9;
+  return information.ldlt().solve(Eigen::MatrixXd::Identity(shared, shared));
+}
+
+bool fill_sigmas(MarkerBundle& bundle, ceres::Problem& problem) {
+  const auto covariance = subject_covariance(bundle, problem);
+  if (!covariance) return false;
+  const auto variance = [&](int i) { return std::max(0.0, (*covariance)(i, i)); };
+  for (int i = 0; i < kLengthCount; ++i) {
+    bundle.length_sigma_m[static_cast<std::size_t>(i)] = std::sqrt(variance(i));
+  }
+  bundle.place_sigma_m.clear();
+  for (std::size_t m = 0; m < bundle.model.markers.size(); ++m) {
+    const int at = kLengthCount + 3 * static_cast<int>(m);
+    bundle.place_sigma_m.push_back(
+        std::sqrt((variance(at) + variance(at + 1) + variance(at + 2)) / 3.0));
+  }
+  return true;
+}
+
+}  // namespace
+
+bool adjust(MarkerBundle& bundle, int max_iterations, bool sigmas) {
+  MAREY_ASSERT(bundle.places.size() == bundle.model.markers.size());
+  ceres::Problem problem;
+  for (MarkerInstant& instant : bundle.instants) {
+    add_markers(bundle, instant, problem);
+    add_habits(instant.posture, bundle.model.lengths, problem, bundle.model.twists);
+    set_manifolds(instant.posture, problem);
+  }
+  add_length_habits(bundle.usual, bundle.model.lengths, problem);
+  for (std::size_t m = 0; m < bundle.places.size(); ++m) {
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PlaceResidual, 3, 3>(
+                                 new PlaceResidual{bundle.places[m]}),
+                             nullptr,
+                             bundle.model.markers[m].p_in_bone.data());
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solver::Options options = solver_options(max_iterations);
+  options.function_tolerance = 1e-4;
+  ceres::Solve(options, &problem, &summary);
+  if (!summary.IsSolutionUsable()) return false;
+  return !sigmas || fill_sigmas(bundle, problem);
+}
+
+}  // namespace marey::reconstruct

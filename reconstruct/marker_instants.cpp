@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/marker_instants.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "reconstruct/start_posture.h"
+
+namespace marey::reconstruct {
+namespace {
+
+// Frames with fewer markers than this share of the best have little to say.
+constexpr double kFullEnough = 0.7;
+// Of those that fit worst, so many are not looked at: half-found postures.
+constexpr double kWorstShare = 0.1;
+
+/// A posture without its place and heading: what makes two of them different.
+PostureVector attitude(const Posture& posture) {
+  PostureVector all = PostureVector::Zero();
+  const glm::dquat hips = posture.rotation(Slot::kHips);
+  for (const Slot slot : kAllSlots) {
+    const int column = column_of(slot);
+    if (slot == Slot::kHipsPosition || slot == Slot::kHips) continue;
+    if (is_rotation(slot)) {
+      const glm::dvec3 turn =
+          rotation_vector(glm::conjugate(hips) * posture.rotation(slot));
+      for (int i = 0; i < 3; ++i) all[column + i] = turn[i];
+    } else {
+      all[column] = *posture.block(slot);
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Snapshot> take_snapshots(std::span<const MarkerTracks> trials,
+                                     std::span<const std::string> labels,
+                                     std::size_t most) {
+  std::size_t frames = 0;
+  for (const MarkerTracks& tracks : trials) frames += tracks.frames();
+  const std::size_t step = std::max<std::size_t>(1, (frames + most - 1) / most);
+  std::vector<Snapshot> snapshots;
+  for (const MarkerTracks& tracks : trials) {
+    std::vector<std::optional<std::size_t>> columns;
+    for (const std::string& label : labels) {
+      const auto it = std::find(tracks.labels.begin(), tracks.labels.end(), label);
+      columns.push_back(
+          it == tracks.labels.end()
+              ? std::nullopt
+              : std::optional(static_cast<std::size_t>(it - tracks.labels.begin())));
+    }
+    for (std::size_t f = step / 2; f < tracks.frames(); f += step) {
+      Snapshot snapshot;
+      for (const auto& column : columns) {
+        snapshot.p_in_world.emplace_back();
+        if (!column || !tracks.at(f, *column)) continue;
+        const MarkerSample& sample = *tracks.at(f, *column);
+        if (sample.source != Source::kMeasured) continue;
+        const glm::dvec3& p = sample.p_in_world;
+        snapshot.p_in_world.back() = Eigen::Vector3d(p.x, p.y, p.z);
+      }
+      snapshots.push_back(std::move(snapshot));
+    }
+    // A trial shorter than the step still has its say.
+    if (tracks.frames() > 0 && tracks.frames() <= step / 2) {
+      std::vector<Snapshot> one = take_snapshots(std::span(&tracks, 1), labels, 1);
+      std::move(one.begin(), one.end(), std::back_inserter(snapshots));
+    }
+  }
+  return snapshots;
+}
+
+std::vector<SeenMarker> seen_in(const Snapshot& snapshot, const ModelLabels& labels) {
+  std::vector<SeenMarker> seen;
+  for (std::size_t m = 0; m < labels.size(); ++m) {
+    if (const auto& p = snapshot.p_in_world[labels[m]]) seen.push_back({m, *p, 0.0});
+  }
+  return seen;
+}
+
+void pose_snapshots(const MarkerModel& model,
+                    const ModelLabels& labels,
+                    std::vector<Snapshot>& snapshots) {
+  std::size_t most = 0;
+  for (const Snapshot& snapshot : snapshots) {
+    most = std::max(most, seen_in(snapshot, labels).size());
+  }
+  PostureFinder finder(model);
+  const Snapshot* before = nullptr;
+  for (Snapshot& snapshot : snapshots) {
+    const std::vector<SeenMarker> seen = seen_in(snapshot, labels);
+    const bool enough = seen.size() >= 6 && static_cast<double>(seen.size()) >=
+                                                kFullEnough * static_cast<double>(most);
+    if (!enough) {
+      snapshot.solved = false;
+      continue;
+    }
+    FoundPosture found = snapshot.solved ? finder.find_near(snapshot.posture, seen)
+                         : before        ? finder.find_near(before->posture, seen)
+                                         : finder.find(seen);
+    snapshot.posture = found.posture;
+    snapshot.misfit = found.cost / static_cast<double>(seen.size());
+    snapshot.solved = true;
+    before = &snapshot;
+  }
+}
+
+std::vector<std::size_t> choose_instants(std::span<const Snapshot> snapshots,
+                                         std::size_t most) {
+  std::vector<std::size_t> by_misfit;
+  for (std::size_t i = 0; i < snapshots.size(); ++i) {
+    if (snapshots[i].solved) by_misfit.push_back(i);
+  }
+  std::stable_sort(by_misfit.begin(), by_misfit.end(), [&](std::size_t a, std::size_t b) {
+    return snapshots[a].misfit < snapshots[b].misfit;
+  });
+  if (by_misfit.size() > most) {
+    by_misfit.resize(std::max(
+        most,
+        by_misfit.size() - static_cast<std::size_t>(
+                               kWorstShare * static_cast<double>(by_misfit.size()))));
+  }
+  if (by_misfit.size() <= most) return by_misfit;
+  // The farthest from all that were chosen, time and again, from the best fitting on.
+  std::vector<PostureVector> attitudes;
+  for (const std::size_t i : by_misfit) {
+    attitudes.push_back(attitude(snapshots[i].posture));
+  }
+  std::vector<double> distance(by_misfit.size(), std::numeric_limits<double>::infinity());
+  std::vector<std::size_t> chosen;
+  std::size_t next = 0;
+  while (chosen.size() < most) {
+    chosen.push_back(by_misfit[next]);
+    for (std::size_t i = 0; i < attitudes.size(); ++i) {
+      distance[i] = std::min(distance[i], (attitudes[i] - attitudes[next]).squaredNorm());
+    }
+    next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
+                                    distance.begin());
+  }
+  return chosen;
+}
+
+}  // namespace marey::reconstruct

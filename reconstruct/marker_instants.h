@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: the instants of trials that a body is measured from.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/marker_tracks.h"
+#include "reconstruct/marker_bundle.h"
+
+namespace marey::reconstruct {
+
+/// A frame of one of the trials, every label of the fit: nullopt where it was not seen.
+struct Snapshot {
+  std::vector<std::optional<Eigen::Vector3d>> p_in_world;
+  Posture posture;
+  double misfit = 0.0;  ///< Cost per marker that was seen.
+  bool solved = false;
+};
+
+/// Frames spread evenly over the trials, `most` of them at the most.
+[[nodiscard]] std::vector<Snapshot> take_snapshots(std::span<const MarkerTracks> trials,
+                                                   std::span<const std::string> labels,
+                                                   std::size_t most);
+
+/// Which label each marker of the model is.
+using ModelLabels = std::vector<std::size_t>;
+
+/// The model's markers of a snapshot.
+[[nodiscard]] std::vector<SeenMarker> seen_in(const Snapshot& snapshot,
+                                              const ModelLabels& labels);
+
+/// Finds every snapshot's posture, each from its neighbour's or from nothing.
+void pose_snapshots(const MarkerModel& model,
+                    const ModelLabels& labels,
+                    std::vector<Snapshot>& snapshots);
+
+/// Snapshots as different from each other as they come, those left out that fit worst.
+[[nodiscard]] std::vector<std::size_t> choose_instants(
+    std::span<const Snapshot> snapshots, std::size_t most);
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,276 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/solve_markers.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/assert.h"
+#include "reconstruct/marker_filter.h"
+#include "reconstruct/posture_output.h"
+
+namespace marey::reconstruct {
+namespace {
+
+// Frames that are smoothed at once, and how long they wait for what comes after them:
+// several memories of the process, which forgets in a quarter of a second.
+constexpr std::size_t kWindowFrames = 256;
+constexpr double kLookAhead_s = 1.0;
+
+// From which the first posture is looked for, where markers come late. [s]
+constexpr double kStart_s = 2.0;
+
+struct FilteredFrame {
+  PostureBelief predicted;
+  PostureBelief filtered;
+};
+
+using Frame = std::span<const std::optional<MarkerSample>>;
+
+Frame frame_of(const MarkerTracks& tracks, std::size_t frame) {
+  return Frame(tracks.samples).subspan(frame * tracks.markers(), tracks.markers());
+}
+
+/// One take through the filter, window by window, and back.
+class Batch {
+ public:
+  Batch(const Body& body, const MarkerTracks& tracks)
+      : body_(&body),
+        tracks_(&tracks),
+        model_(to_marker_model(body)),
+        columns_(find_columns(body, tracks.labels)),
+        filter_(model_, tracks.rate) {
+    seen_.reserve(model_.markers.size());
+  }
+
+  [[nodiscard]] bool start();
+  void solve(const Progress& progress, SolvedMarkers& out);
+
+ private:
+  void emit(std::size_t frame, const FilteredFrame& here, SolvedMarkers& out);
+  void measure(std::size_t frame, SolvedMarkers& out);
+
+  const Body* body_;
+  const MarkerTracks* tracks_;
+  MarkerModel model_;
+  MarkerColumns columns_;
+  MarkerFilter filter_;
+  std::vector<SeenMarker> seen_;
+  PostureBelief smoothed_;
+  PostureBelief next_smoothed_;
+  PosturePrior prior_;
+  PostureCovariance covariance_;
+};
+
+bool Batch::start() {
+  const auto first_seconds = static_cast<std::size_t>(kStart_s * tracks_->rate.hz) + 1;
+  std::size_t best = 0;
+  std::size_t most = 0;
+  for (std::size_t f = 0; f < tracks_->frames(); ++f) {
+    // Late starters are looked for as long as it takes.
+    if (f >= first_seconds && most >= 6) break;
+    collect(frame_of(*tracks_, f), columns_, seen_);
+    if (seen_.size() > most) {
+      most = seen_.size();
+      best = f;
+    }
+  }
+  if (most < 6) return false;
+  collect(frame_of(*tracks_, best), columns_, seen_);
+  filter_.start(PostureFinder(model_).find(seen_).posture);
+  return true;
+}
+
+void Batch::measure(std::size_t frame, SolvedMarkers& out) {
+  const UnfoldedPosture& unfolded = filter_.solver().unfold(smoothed_.posture);
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t m = 0; m < model_.markers.size(); ++m) {
+    const Eigen::Vector3d p =
+        unfolded.point(model_.markers[m].bone, model_.markers[m].p_in_bone);
+    glm::dvec3& modelled = out.modelled_in_world[frame * model_.markers.size() + m];
+    modelled = {p.x(), p.y(), p.z()};
+    if (!columns_[m]) continue;
+    const auto& sample = tracks_->at(frame, *columns_[m]);
+    if (!sample || sample->source != Source::kMeasured) continue;
+    const double off = glm::length(sample->p_in_world - modelled);
+    MarkerFit& fit = out.markers[m];
+    fit.rms_m += off * off;
+    fit.worst_m = std::max(fit.worst_m, off);
+    fit.frames += 1;
+    sum += off * off;
+    count += 1;
+  }
+  out.frame_rms_m[frame] = count > 0 ? std::sqrt(sum / count) : 0.0;
+}
+
+void Batch::emit(std::size_t frame, const FilteredFrame& here, SolvedMarkers& out) {
+  SlotProcess::from_others(here.predicted, here.filtered, smoothed_, prior_);
+  collect(frame_of(*tracks_, frame), columns_, seen_);
+  Posture posture = smoothed_.posture;
+  (void)filter_.solver().solve(seen_, &prior_, posture, {6, 3e-3, 1.0});
+  filter_.solver().factor().covariance(covariance_);
+  smoothed_.posture = posture;
+  measure(frame, out);
+  const UnfoldedPosture& unfolded = filter_.solver().unfold(posture);
+  to_pose(unfolded, out.estimate.motion.skeleton, out.estimate.motion.poses[frame]);
+  std::array<double, kHumanBoneCount> sigmas{};
+  joint_sigmas(unfolded, *body_, covariance_, sigmas);
+  const BoneSources sources = sources_of(model_, frame_of(*tracks_, frame), columns_);
+  for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
+    out.estimate.doubt[frame][b] = {sigmas[b], sources[b]};
+  }
+}
+
+void Batch::solve(const Progress& progress, SolvedMarkers& out) {
+  const std::size_t frames = tracks_->frames();
+  const auto ahead = std::max<std::size_t>(
+      16, static_cast<std::size_t>(std::lround(kLookAhead_s * tracks_->rate.hz)));
+  std::vector<FilteredFrame> window(kWindowFrames + ahead);
+  std::size_t first = 0;  // The frame that window[0] is of.
+  std::size_t held = 0;   // Frames that have been filtered from there on.
+  while (first < frames) {
+    while (held < window.size() && first + held < frames) {
+      collect(frame_of(*tracks_, first + held), columns_, seen_);
+      filter_.step(seen_);
+      window[held] = {filter_.predicted(), filter_.filtered()};
+      ++held;
+    }
+    const bool last = first + held == frames;
+    const std::size_t final_frames = last ? held : held - ahead;
+    // Back through the window; what is final is solved once more on the way.
+    for (std::size_t i = held; i-- > 0;) {
+      if (i + 1 == held) {
+        next_smoothed_ = window[i].filtered;
+      } else {
+        filter_.process().smooth(
+            window[i].filtered, window[i + 1].predicted, next_smoothed_, smoothed_);
+        std::swap(smoothed_, next_smoothed_);
+      }
+      if (i >= final_frames) continue;
+      smoothed_ = next_smoothed_;
+      emit(first + i, window[i], out);
+    }
+    std::move(window.begin() + static_cast<std::ptrdiff_t>(final_frames),
+              window.begin() + static_cast<std::ptrdiff_t>(held),
+              window.begin());
+    first += final_frames;
+    held -= final_frames;
+    if (progress) progress(static_cast<int>(first), static_cast<int>(frames));
+  }
+}
+
+/// Short stretches without markers of a bone's own, between such that have some, count as
+/// repaired.
+void bridge(double longest_repair_s, EstimatedMotion& estimate) {
+  const auto longest =
+      static_cast<std::size_t>(std::lround(longest_repair_s * estimate.motion.rate.hz));
+  for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
+    for (std::size_t f = 0; f < estimate.doubt.size();) {
+      std::size_t end = f;
+      while (end < estimate.doubt.size() &&
+             estimate.doubt[end][b].source == Source::kInferred) {
+        ++end;
+      }
+      if (end > f && f > 0 && end < estimate.doubt.size() && end - f <= longest) {
+        for (std::size_t i = f; i < end; ++i) {
+          estimate.doubt[i][b].source = Source::kRepaired;
+        }
+      }
+      f = end + 1;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<SolvedMarkers> solve_markers(const Body& body,
+                                           const MarkerTracks& tracks,
+                                           const SolveMarkersOptions& options,
+                                           const Progress& progress) {
+  MAREY_ASSERT(tracks.rate.hz > 0.0);
+  Batch batch(body, tracks);
+  if (!batch.start()) return std::nullopt;
+  const std::size_t frames = tracks.frames();
+  SolvedMarkers out;
+  Motion& motion = out.estimate.motion;
+  motion.skeleton = make_humanoid(body.proportions);
+  motion.rate = tracks.rate;
+  motion.first_frame = tracks.first_frame;
+  motion.poses.resize(frames);
+  out.estimate.doubt.assign(frames, std::vector<JointDoubt>(kHumanBoneCount));
+  out.markers.resize(body.markers.size());
+  out.frame_rms_m.resize(frames);
+  out.modelled_in_world.resize(frames * body.markers.size());
+  batch.solve(progress, out);
+  bridge(options.longest_repair_s, out.estimate);
+
+  double sum = 0.0;
+  int count = 0;
+  for (MarkerFit& fit : out.markers) {
+    sum += fit.rms_m;
+    count += fit.frames;
+    fit.rms_m = fit.frames > 0 ? std::sqrt(fit.rms_m / fit.frames) : 0.0;
+  }
+  out.rms_m = count > 0 ? std::sqrt(sum / count) : 0.0;
+  for (const auto& doubts : out.estimate.doubt) {
+    const auto known = [&](HumanBone bone) {
+      return doubts[index(bone)].source != Source::kInferred;
+    };
+    out.frames_solved += known(HumanBone::kHips) || known(HumanBone::kUpperChest);
+  }
+  return out;
+}
+
+struct MarkerTracker::Inside {
+  Inside(const Body& whose, std::span<const std::string> labels, FrameRate rate)
+      : body(whose),
+        model(to_marker_model(body)),
+        columns(find_columns(body, labels)),
+        skeleton(make_humanoid(body.proportions)),
+        filter(model, rate) {
+    seen.reserve(model.markers.size());
+  }
+  Body body;
+  MarkerModel model;
+  MarkerColumns columns;
+  Skeleton skeleton;
+  MarkerFilter filter;
+  std::vector<SeenMarker> seen;
+};
+
+MarkerTracker::MarkerTracker(const Body& body,
+                             std::span<const std::string> labels,
+                             FrameRate rate)
+    : inside_(std::make_unique<Inside>(body, labels, rate)) {
+  MAREY_ASSERT(rate.hz > 0.0);
+}
+MarkerTracker::~MarkerTracker() = default;
+MarkerTracker::MarkerTracker(MarkerTracker&&) noexcept = default;
+MarkerTracker& MarkerTracker::operator=(MarkerTracker&&) noexcept = default;
+
+const Skeleton& MarkerTracker::skeleton() const {
+  return inside_->skeleton;
+}
+
+bool MarkerTracker::step(std::span<const std::optional<MarkerSample>> frame,
+                         Pose& pose,
+                         std::vector<JointDoubt>& doubt) {
+  Inside& in = *inside_;
+  collect(frame, in.columns, in.seen);
+  in.filter.step(in.seen);
+  if (!in.filter.started()) return false;
+  const UnfoldedPosture& unfolded =
+      in.filter.solver().unfold(in.filter.filtered().posture);
+  to_pose(unfolded, in.skeleton, pose);
+  std::array<double, kHumanBoneCount> sigmas{};
+  joint_sigmas(unfolded, in.body, in.filter.covariance(), sigmas);
+  const BoneSources sources = sources_of(in.model, frame, in.columns);
+  doubt.resize(kHumanBoneCount);
+  for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
+    doubt[b] = {sigmas[b], sources[b]};
+  }
+  return true;
+}
+
+}  // namespace marey::reconstruct
