@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/pose.h"
 #include "core/quantile.h"
 #include "reconstruct/fit_markers.h"
 
