@@ -42,7 +42,8 @@ std::vector<Snapshot> take_snapshots(std::span<const MarkerTracks> trials,
   for (const MarkerTracks& tracks : trials) frames += tracks.frames();
   const std::size_t step = std::max<std::size_t>(1, (frames + most - 1) / most);
   std::vector<Snapshot> snapshots;
-  for (const MarkerTracks& tracks : trials) {
+  for (std::size_t trial = 0; trial < trials.size(); ++trial) {
+    const MarkerTracks& tracks = trials[trial];
     std::vector<std::optional<std::size_t>> columns;
     for (const std::string& label : labels) {
       const auto it = std::find(tracks.labels.begin(), tracks.labels.end(), label);
@@ -51,8 +52,11 @@ std::vector<Snapshot> take_snapshots(std::span<const MarkerTracks> trials,
               ? std::nullopt
               : std::optional(static_cast<std::size_t>(it - tracks.labels.begin())));
     }
-    for (std::size_t f = step / 2; f < tracks.frames(); f += step) {
+    // A trial shorter than the step still has its say.
+    const std::size_t begin = std::min(step, tracks.frames()) / 2;
+    for (std::size_t f = begin; f < tracks.frames(); f += step) {
       Snapshot snapshot;
+      snapshot.trial = trial;
       for (const auto& column : columns) {
         snapshot.p_in_world.emplace_back();
         if (!column || !tracks.at(f, *column)) continue;
@@ -62,11 +66,6 @@ std::vector<Snapshot> take_snapshots(std::span<const MarkerTracks> trials,
         snapshot.p_in_world.back() = Eigen::Vector3d(p.x, p.y, p.z);
       }
       snapshots.push_back(std::move(snapshot));
-    }
-    // A trial shorter than the step still has its say.
-    if (tracks.frames() > 0 && tracks.frames() <= step / 2) {
-      std::vector<Snapshot> one = take_snapshots(std::span(&tracks, 1), labels, 1);
-      std::move(one.begin(), one.end(), std::back_inserter(snapshots));
     }
   }
   return snapshots;
@@ -83,16 +82,19 @@ std::vector<SeenMarker> seen_in(const Snapshot& snapshot, const ModelLabels& lab
 void pose_snapshots(const MarkerModel& model,
                     const ModelLabels& labels,
                     std::vector<Snapshot>& snapshots) {
-  std::size_t most = 0;
+  // Trials differ in what is glued on: markers inside of knees are taken off to walk.
+  std::vector<std::size_t> most;
   for (const Snapshot& snapshot : snapshots) {
-    most = std::max(most, seen_in(snapshot, labels).size());
+    most.resize(std::max(most.size(), snapshot.trial + 1));
+    most[snapshot.trial] =
+        std::max(most[snapshot.trial], seen_in(snapshot, labels).size());
   }
   PostureFinder finder(model);
   const Snapshot* before = nullptr;
   for (Snapshot& snapshot : snapshots) {
     const std::vector<SeenMarker> seen = seen_in(snapshot, labels);
     const bool enough = seen.size() >= 6 && static_cast<double>(seen.size()) >=
-                                                kFullEnough * static_cast<double>(most);
+                                                kFullEnough * static_cast<double>(most[snapshot.trial]);
     if (!enough) {
       snapshot.solved = false;
       continue;

@@ -16,6 +16,7 @@ namespace marey::reconstruct {
 /// A frame of one of the trials, every label of the fit: nullopt where it was not seen.
 struct Snapshot {
   std::vector<std::optional<Eigen::Vector3d>> p_in_world;
+  std::size_t trial = 0;
   Posture posture;
   double misfit = 0.0;  ///< Cost per marker that was seen.
   bool solved = false;
