@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/quantile.h"
+#include "reconstruct/hip_regression.h"
 #include "reconstruct/length_terms.h"
 #include "reconstruct/marker_instants.h"
 #include "reconstruct/sightings.h"
@@ -37,6 +38,7 @@ constexpr std::size_t kFewestSightings = 3;
 // average person's, was found by its movement.
 constexpr double kEnoughRange_rad = 0.35;
 constexpr double kTellingShare = 0.5;
+constexpr double kTrunkSigma_m = 0.03;
 
 /// A label on its way into the body.
 struct Candidate {
@@ -87,6 +89,9 @@ class Fit {
 
  private:
   [[nodiscard]] Status check();
+  void believe_lengths();
+  [[nodiscard]] std::optional<PlaceBelief> on_measured_pelvis(
+      const Landmark& landmark) const;
   void begin();
   void use(const Candidate& candidate, const Vector3d& p_in_bone, double stray_m);
   [[nodiscard]] bool bundle(std::size_t instants, int iterations, bool sigmas);
@@ -105,6 +110,7 @@ class Fit {
   std::span<const NamedMarker> labels_;
   StatureEstimate stature_;
   Proportions average_;
+  std::optional<HipRegression> hips_;
   std::vector<Snapshot> snapshots_;
   MarkerBundle bundle_;
   ModelLabels model_labels_;        ///< Per marker of the bundle.
@@ -142,6 +148,40 @@ void Fit::use(const Candidate& candidate, const Vector3d& p_in_bone, double stra
   bundle_.model.markers.push_back({candidate.bone, p_in_bone, stray_m});
 }
 
+/// What is known of the lengths before they are measured. Hips vary less than limbs do,
+/// and trunks more: how their length is shared out is the model's own.
+void Fit::believe_lengths() {
+  bundle_.usual_sigma_m = usual_length_sigmas_m(bundle_.usual);
+  for (const Length trunk :
+       {Length::kSpine, Length::kChest, Length::kUpperChest, Length::kNeck}) {
+    bundle_.usual_sigma_m[index(trunk)] = kTrunkSigma_m;
+  }
+  bundle_.usual_sigma_m[index(Length::kHalfHipWidth)] = kHipRegressionSigma_m;
+  hips_ = hips_from_markers(trials_, labels_);
+  if (hips_) bundle_.usual[index(Length::kHalfHipWidth)] = hips_->half_hip_width_m;
+  bundle_.model.lengths = bundle_.usual;
+}
+
+/// Where the spines of the pelvis are, if it was measured across them.
+std::optional<PlaceBelief> Fit::on_measured_pelvis(const Landmark& landmark) const {
+  if (!hips_) return std::nullopt;
+  const double side = landmark.p_in_segment_per_stature.x > 0.0   ? 1.0
+                      : landmark.p_in_segment_per_stature.x < 0.0 ? -1.0
+                                                                  : 0.0;
+  glm::dvec3 p(0.0);
+  if (landmark.name.ends_with("_asis")) {
+    p = hips_->anterior_in_hips;
+    p.x = side * hips_->half_anterior_width_m;
+  } else if (landmark.name.ends_with("_psis") || landmark.name == "sacrum") {
+    p = hips_->posterior_in_hips;
+    p.x = stature_.stature_m * landmark.p_in_segment_per_stature.x;
+  } else {
+    return std::nullopt;
+  }
+  p.y -= bundle_.model.body.hips_above_hip_centres_m;
+  return PlaceBelief{eigen(p), kHipRegressionSigma_m};
+}
+
 /// The average person of this stature, with the markers whose places their names tell.
 void Fit::begin() {
   const auto estimate = estimate_stature(trials_, labels_);
@@ -149,8 +189,8 @@ void Fit::begin() {
   if (subject_->stature_m) stature_.stature_m = *subject_->stature_m;
   average_ = average_proportions(stature_.stature_m);
   bundle_.usual = lengths_of(average_);
-  bundle_.model.lengths = bundle_.usual;
   bundle_.model.body = frame_of(average_);
+  believe_lengths();
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     verdicts_.push_back({labels_[i].label, LabelUse::kLeftOut, HumanBone::kHips, 0.0});
     const Landmark* landmark = labels_[i].landmark;
@@ -165,6 +205,7 @@ void Fit::begin() {
     }
     candidate.belief = {stature_.stature_m * p,
                         stature_.stature_m * landmark->sigma_per_stature};
+    if (const auto measured = on_measured_pelvis(*landmark)) candidate.belief = *measured;
     candidate.somewhere = landmark->sigma_per_stature >= kSomewhereSigma;
     if (candidate.somewhere) {
       waiting_.push_back(candidate);
@@ -312,9 +353,8 @@ std::vector<JointEvidence> Fit::evidence() const {
     joint.joint = bone;
     const HumanBone up = *parent(bone);
     const auto length = length_of(bone);
-    const double usual_m =
-        length ? bundle_.usual[index(*length)] : glm::length(average_[bone]);
-    const double prior_m = usual_length_sigma_m(usual_m);
+    const double prior_m = length ? bundle_.usual_sigma_m[index(*length)]
+                                  : usual_length_sigma_m(glm::length(average_[bone]));
     // Of a joint whose length is not moved, the average is all there is.
     joint.sigma_m = length ? bundle_.length_sigma_m[index(*length)] : prior_m;
     joint.range_rad = range_of(bone, up);

@@ -21,11 +21,12 @@ struct LengthDifference {
 
 struct UsualLengths {
   Lengths usual;
+  Lengths sigma_m;
 
   template <class T>
   bool operator()(const T* lengths, T* residual) const {
     for (std::size_t i = 0; i < usual.size(); ++i) {
-      residual[i] = (lengths[i] - usual[i]) / usual_length_sigma_m(usual[i]);
+      residual[i] = (lengths[i] - usual[i]) / sigma_m[i];
     }
     return true;
   }
@@ -37,10 +38,21 @@ double usual_length_sigma_m(double usual_m) {
   return std::max(0.012, 0.10 * usual_m);
 }
 
-void add_length_habits(const Lengths& usual, Lengths& lengths, ceres::Problem& problem) {
+Lengths usual_length_sigmas_m(const Lengths& usual) {
+  Lengths sigmas_m{};
+  for (std::size_t i = 0; i < usual.size(); ++i) {
+    sigmas_m[i] = usual_length_sigma_m(usual[i]);
+  }
+  return sigmas_m;
+}
+
+void add_length_habits(const Lengths& usual,
+                       const Lengths& sigma_m,
+                       Lengths& lengths,
+                       ceres::Problem& problem) {
   problem.AddResidualBlock(
       new ceres::AutoDiffCostFunction<UsualLengths, kLengthCount, kLengthCount>(
-          new UsualLengths{usual}),
+          new UsualLengths{usual, sigma_m}),
       nullptr,
       lengths.data());
   for (int left = static_cast<int>(Length::kLeftShoulder); left < kLengthCount;

@@ -14,7 +14,14 @@ namespace marey::reconstruct {
 /// centimetre. [m]
 [[nodiscard]] double usual_length_sigma_m(double usual_m);
 
-/// Lengths are near those of an average person, and both sides alike.
-void add_length_habits(const Lengths& usual, Lengths& lengths, ceres::Problem& problem);
+/// usual_length_sigma_m() of all.
+[[nodiscard]] Lengths usual_length_sigmas_m(const Lengths& usual);
+
+/// Lengths are near those of an average person, give or take `sigma_m`, and both sides
+/// alike.
+void add_length_habits(const Lengths& usual,
+                       const Lengths& sigma_m,
+                       Lengths& lengths,
+                       ceres::Problem& problem);
 
 }  // namespace marey::reconstruct

@@ -58,7 +58,7 @@ void add_markers(MarkerBundle& bundle, MarkerInstant& instant, ceres::Problem& p
                        slots_of(marker.bone),
                        bundle.model.body,
                        seen.p_in_world,
-                       std::hypot(marker.sigma_m, seen.sigma_m)});
+                       std::hypot(marker.sigma_m, seen.sigma_m, kSkinBias_m)});
     std::vector<double*> blocks = blocks_of(instant.posture, marker.bone);
     blocks.push_back(bundle.model.lengths.data());
     blocks.push_back(marker.p_in_bone.data());
@@ -130,7 +130,8 @@ bool adjust(MarkerBundle& bundle, int max_iterations, bool sigmas) {
     add_habits(instant.posture, bundle.model.lengths, problem, bundle.model.twists);
     set_manifolds(instant.posture, problem);
   }
-  add_length_habits(bundle.usual, bundle.model.lengths, problem);
+  add_length_habits(
+      bundle.usual, bundle.usual_sigma_m, bundle.model.lengths, problem);
   for (std::size_t m = 0; m < bundle.places.size(); ++m) {
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PlaceResidual, 3, 3>(
                                  new PlaceResidual{bundle.places[m]}),

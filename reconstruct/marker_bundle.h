@@ -25,13 +25,18 @@ struct MarkerInstant {
 struct MarkerBundle {
   MarkerModel model;
   std::vector<PlaceBelief> places;  ///< One per marker of the model: the prior.
-  Lengths usual{};                  ///< Of an average person: the prior.
+  Lengths usual{};          ///< Of an average person: the prior.
+  Lengths usual_sigma_m{};  ///< How far people differ from it.
   std::vector<MarkerInstant> instants;
 
   // Filled by adjust() with sigmas.
   Lengths length_sigma_m{};
   std::vector<double> place_sigma_m;  ///< Per marker and coordinate, root mean square.
 };
+
+/// How far a marker on skin strays in ways that repeat with the posture, so that more
+/// frames do not average it out: added to what single markers are seen to stray. [m]
+inline constexpr double kSkinBias_m = 0.006;
 
 /// Moves lengths, places and postures to the least distance of the markers seen from
 /// where they should be (Ceres; Cauchy's loss), with proportions, left and right alike,

@@ -40,35 +40,37 @@ double MarkerFrameSolver::solve(std::span<const SeenMarker> seen,
                                 const PosturePrior* prior,
                                 Posture& posture,
                                 const FrameLimits& limits) {
-  evaluate(seen, prior, posture, limits.sigma_scale, now_);
+  PostureEquations* now = &equations_[0];
+  PostureEquations* next = &equations_[1];
+  evaluate(seen, prior, posture, limits.sigma_scale, *now);
   double damping = 0.0;
   PostureVector step;
   for (iterations_ = 1; iterations_ <= limits.iterations; ++iterations_) {
-    if (!factor_.factor(now_.hessian, damping)) {
+    if (!factor_.factor(now->hessian, damping)) {
       damping = std::max(1e-6, 10.0 * damping);
       continue;
     }
-    factor_.step(now_.gradient, step);
+    factor_.step(now->gradient, step);
     const double largest = step.cwiseAbs().maxCoeff();
     Posture moved = posture;
     move(moved, step);
     if (largest < limits.last_step) {
       // So near the least cost that the quadratic it was computed from is right.
-      now_.cost += 0.5 * now_.gradient.dot(step);
+      now->cost += 0.5 * now->gradient.dot(step);
       posture = moved;
       break;
     }
-    evaluate(seen, prior, moved, limits.sigma_scale, next_);
-    if (next_.cost < now_.cost) {
+    evaluate(seen, prior, moved, limits.sigma_scale, *next);
+    if (next->cost < now->cost) {
       posture = moved;
-      std::swap(now_, next_);
+      std::swap(now, next);
       damping = damping < 1e-5 ? 0.0 : 0.1 * damping;
     } else {
       damping = std::max(1e-3, 10.0 * damping);
       if (damping > 1e8) break;
     }
   }
-  return now_.cost;
+  return now->cost;
 }
 
 }  // namespace marey::reconstruct

@@ -4,6 +4,7 @@
 
 // Private to reconstruct: a body with markers, and the posture of one frame of it.
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -80,8 +81,8 @@ class MarkerFrameSolver {
   const MarkerModel* model_;
   UnfoldedPosture unfolded_;
   SparseDerivative derivative_;
-  PostureEquations now_;
-  PostureEquations next_;
+  /// At the posture and at the one it may move to; which is which changes.
+  std::array<PostureEquations, 2> equations_;
   ArrowFactor factor_;
   int iterations_ = 0;
 };

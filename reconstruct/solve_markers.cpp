@@ -47,8 +47,11 @@ class Batch {
   void solve(const Progress& progress, SolvedMarkers& out);
 
  private:
-  void emit(std::size_t frame, const FilteredFrame& here, SolvedMarkers& out);
-  void measure(std::size_t frame, SolvedMarkers& out);
+  void emit(std::size_t frame,
+            const FilteredFrame& here,
+            const PostureBelief& smoothed,
+            SolvedMarkers& out);
+  void measure(std::size_t frame, const UnfoldedPosture& unfolded, SolvedMarkers& out);
 
   const Body* body_;
   const MarkerTracks* tracks_;
@@ -56,8 +59,7 @@ class Batch {
   MarkerColumns columns_;
   MarkerFilter filter_;
   std::vector<SeenMarker> seen_;
-  PostureBelief smoothed_;
-  PostureBelief next_smoothed_;
+  std::array<PostureBelief, 2> beliefs_;
   PosturePrior prior_;
   PostureCovariance covariance_;
 };
@@ -81,8 +83,9 @@ bool Batch::start() {
   return true;
 }
 
-void Batch::measure(std::size_t frame, SolvedMarkers& out) {
-  const UnfoldedPosture& unfolded = filter_.solver().unfold(smoothed_.posture);
+void Batch::measure(std::size_t frame,
+                    const UnfoldedPosture& unfolded,
+                    SolvedMarkers& out) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t m = 0; m < model_.markers.size(); ++m) {
@@ -104,15 +107,17 @@ void Batch::measure(std::size_t frame, SolvedMarkers& out) {
   out.frame_rms_m[frame] = count > 0 ? std::sqrt(sum / count) : 0.0;
 }
 
-void Batch::emit(std::size_t frame, const FilteredFrame& here, SolvedMarkers& out) {
-  SlotProcess::from_others(here.predicted, here.filtered, smoothed_, prior_);
+void Batch::emit(std::size_t frame,
+                 const FilteredFrame& here,
+                 const PostureBelief& smoothed,
+                 SolvedMarkers& out) {
+  SlotProcess::from_others(here.predicted, here.filtered, smoothed, prior_);
   collect(frame_of(*tracks_, frame), columns_, seen_);
-  Posture posture = smoothed_.posture;
+  Posture posture = smoothed.posture;
   (void)filter_.solver().solve(seen_, &prior_, posture, {6, 3e-3, 1.0});
   filter_.solver().factor().covariance(covariance_);
-  smoothed_.posture = posture;
-  measure(frame, out);
   const UnfoldedPosture& unfolded = filter_.solver().unfold(posture);
+  measure(frame, unfolded, out);
   to_pose(unfolded, out.estimate.motion.skeleton, out.estimate.motion.poses[frame]);
   std::array<double, kHumanBoneCount> sigmas{};
   joint_sigmas(unfolded, *body_, covariance_, sigmas);
@@ -133,23 +138,24 @@ void Batch::solve(const Progress& progress, SolvedMarkers& out) {
     while (held < window.size() && first + held < frames) {
       collect(frame_of(*tracks_, first + held), columns_, seen_);
       filter_.step(seen_);
-      window[held] = {filter_.predicted(), filter_.filtered()};
+      window[held].predicted = filter_.predicted();
+      window[held].filtered = filter_.filtered();
       ++held;
     }
     const bool last = first + held == frames;
     const std::size_t final_frames = last ? held : held - ahead;
     // Back through the window; what is final is solved once more on the way.
+    PostureBelief* later = &beliefs_[0];
+    PostureBelief* here = &beliefs_[1];
     for (std::size_t i = held; i-- > 0;) {
       if (i + 1 == held) {
-        next_smoothed_ = window[i].filtered;
+        *here = window[i].filtered;
       } else {
         filter_.process().smooth(
-            window[i].filtered, window[i + 1].predicted, next_smoothed_, smoothed_);
-        std::swap(smoothed_, next_smoothed_);
+            window[i].filtered, window[i + 1].predicted, *later, *here);
       }
-      if (i >= final_frames) continue;
-      smoothed_ = next_smoothed_;
-      emit(first + i, window[i], out);
+      if (i < final_frames) emit(first + i, window[i], *here, out);
+      std::swap(later, here);
     }
     std::move(window.begin() + static_cast<std::ptrdiff_t>(final_frames),
               window.begin() + static_cast<std::ptrdiff_t>(held),

@@ -198,7 +198,10 @@ bool adjust(SubjectBundle& bundle,
     MAREY_ASSERT(problem.HasParameterBlock(&pose.rotation.x));
     problem.SetManifold(&pose.rotation.x, new ceres::EigenQuaternionManifold);
   }
-  add_length_habits(bundle.usual, bundle.model.lengths, problem);
+  add_length_habits(bundle.usual,
+                    usual_length_sigmas_m(bundle.usual),
+                    bundle.model.lengths,
+                    problem);
   add_tag_priors(bundle, problem);
   ceres::Solver::Summary summary;
   ceres::Solver::Options options = solver_options(max_iterations);
