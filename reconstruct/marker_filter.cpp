@@ -17,7 +17,13 @@ constexpr std::size_t kFewestToStart = 6;
 }  // namespace
 
 MarkerFilter::MarkerFilter(const MarkerModel& model, FrameRate rate)
-    : model_(&model), process_(rate), solver_(model), finder_(model) {}
+    : model_(&model), process_(model.lengths, rate), solver_(model), finder_(model) {}
+
+FrameLimits MarkerFilter::limits() const {
+  FrameLimits limits;
+  limits.habit_share = process_.habit_share();
+  return limits;
+}
 
 void MarkerFilter::start(const Posture& posture) {
   filtered_ = process_.start(posture);
@@ -51,7 +57,7 @@ void MarkerFilter::look_anew(std::span<const SeenMarker> seen, Posture& posture)
   // What was expected was wrong.
   predicted_ = process_.start(posture);
   SlotProcess::to_prior(predicted_, prior_);
-  (void)solver_.solve(seen, &prior_, posture);
+  (void)solver_.solve(seen, &prior_, posture, limits());
   until_next_look_ = 0;
 }
 
@@ -65,10 +71,10 @@ void MarkerFilter::step(std::span<const SeenMarker> seen) {
   }
   SlotProcess::to_prior(predicted_, prior_);
   Posture posture = predicted_.posture;
-  (void)solver_.solve(seen, &prior_, posture);
+  (void)solver_.solve(seen, &prior_, posture, limits());
   if (is_lost(seen, posture)) look_anew(seen, posture);
   solver_.factor().covariance(covariance_);
-  SlotProcess::update(predicted_, posture, covariance_, filtered_);
+  process_.update(predicted_, posture, covariance_, filtered_);
 }
 
 }  // namespace marey::reconstruct

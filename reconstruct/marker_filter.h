@@ -35,6 +35,8 @@ class MarkerFilter {
 
   [[nodiscard]] const SlotProcess& process() const { return process_; }
   [[nodiscard]] MarkerFrameSolver& solver() { return solver_; }
+  /// Of a frame among others.
+  [[nodiscard]] FrameLimits limits() const;
 
  private:
   [[nodiscard]] bool is_lost(std::span<const SeenMarker> seen, const Posture& posture);

@@ -15,7 +15,7 @@ const UnfoldedPosture& MarkerFrameSolver::unfold(const Posture& posture) {
 void MarkerFrameSolver::evaluate(std::span<const SeenMarker> seen,
                                  const PosturePrior* prior,
                                  const Posture& posture,
-                                 double sigma_scale,
+                                 const FrameLimits& limits,
                                  PostureEquations& out) {
   constexpr double kC2 = kDoubtfulSigmas * kDoubtfulSigmas;
   unfold(posture);
@@ -25,15 +25,15 @@ void MarkerFrameSolver::evaluate(std::span<const SeenMarker> seen,
     const Eigen::Vector3d p = unfolded_.point(marker.bone, marker.p_in_bone);
     const Eigen::Vector3d off = p - sample.p_in_world;
     const double information =
-        1.0 / (sigma_scale * sigma_scale *
+        1.0 / (limits.sigma_scale * limits.sigma_scale *
                (marker.sigma_m * marker.sigma_m + sample.sigma_m * sample.sigma_m));
     const double squared = information * off.squaredNorm();
     out.cost += 0.5 * kC2 * std::log1p(squared / kC2);
     unfolded_.derivative(marker.bone, p, derivative_);
     out.add(derivative_, off, information / (1.0 + squared / kC2));
   }
-  out.add_habits(posture, unfolded_, model_->twists);
-  if (prior) out.add_prior(posture, *prior);
+  out.add_habits(posture, unfolded_, model_->twists, limits.habit_share);
+  if (prior) out.add_prior(posture, model_->lengths, *prior);
 }
 
 double MarkerFrameSolver::solve(std::span<const SeenMarker> seen,
@@ -42,7 +42,7 @@ double MarkerFrameSolver::solve(std::span<const SeenMarker> seen,
                                 const FrameLimits& limits) {
   PostureEquations* now = &equations_[0];
   PostureEquations* next = &equations_[1];
-  evaluate(seen, prior, posture, limits.sigma_scale, *now);
+  evaluate(seen, prior, posture, limits, *now);
   double damping = 0.0;
   PostureVector step;
   for (iterations_ = 1; iterations_ <= limits.iterations; ++iterations_) {
@@ -60,7 +60,7 @@ double MarkerFrameSolver::solve(std::span<const SeenMarker> seen,
       posture = moved;
       break;
     }
-    evaluate(seen, prior, moved, limits.sigma_scale, *next);
+    evaluate(seen, prior, moved, limits, *next);
     if (next->cost < now->cost) {
       posture = moved;
       std::swap(now, next);

@@ -49,6 +49,8 @@ struct FrameLimits {
   /// Markers stray this many times farther than the model says: a start that is far off
   /// has to be brought near before any marker can be told from a wrong one.
   double sigma_scale = 1.0;
+  /// Of the habits' weight.
+  double habit_share = 1.0;
 };
 
 /// Levenberg and Marquardt's method on one frame: markers, habits, and what is known
@@ -75,7 +77,7 @@ class MarkerFrameSolver {
   void evaluate(std::span<const SeenMarker> seen,
                 const PosturePrior* prior,
                 const Posture& posture,
-                double sigma_scale,
+                const FrameLimits& limits,
                 PostureEquations& out);
 
   const MarkerModel* model_;

@@ -107,6 +107,72 @@ PostureVector step_between(const Posture& from, const Posture& to) {
   return step;
 }
 
+namespace {
+
+/// How far a limb's upper bone leans back from its frame, and how that follows flexion.
+struct Lean {
+  double rad = 0.0;
+  double rate = 0.5;
+};
+
+Lean lean_of(std::size_t limb, double flexion, const Lengths& lengths) {
+  const double l1 = lengths[index(kLimbSlots[limb].upper)];
+  const double l2 = lengths[index(kLimbSlots[limb].lower)];
+  const double cosine = std::cos(flexion);
+  const double reach2 = l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * cosine;
+  Lean lean;
+  lean.rad = std::atan2(l2 * std::sin(flexion), l1 + l2 * cosine);
+  // Folded to nothing, a limb of two like bones has no direction.
+  if (reach2 > 1e-12) lean.rate = l2 * (l2 + l1 * cosine) / reach2;
+  return lean;
+}
+
+Quaterniond upper_of(const Posture& posture, std::size_t limb, const Lengths& lengths) {
+  const double flexion = *posture.block(kLimbSlots[limb].flexion);
+  return quaternion(posture, kLimbSlots[limb].frame) *
+         detail::about_axis(human_limbs()[limb].hinge_axis,
+                            -lean_of(limb, flexion, lengths).rad);
+}
+
+}  // namespace
+
+void move_bones(Posture& posture, const PostureVector& step, const Lengths& lengths) {
+  std::array<Quaterniond, 4> upper;
+  for (std::size_t limb = 0; limb < 4; ++limb) {
+    upper[limb] = upper_of(posture, limb, lengths);
+  }
+  move(posture, step);
+  for (std::size_t limb = 0; limb < 4; ++limb) {
+    const LimbSlots& s = kLimbSlots[limb];
+    const double flexion = *posture.block(s.flexion);
+    const Quaterniond frame =
+        (turn_by(step.segment<3>(column_of(s.frame))) * upper[limb] *
+         detail::about_axis(human_limbs()[limb].hinge_axis,
+                            lean_of(limb, flexion, lengths).rad))
+            .normalized();
+    Eigen::Map<Eigen::Vector4d>(posture.block(s.frame), 4) = frame.coeffs();
+  }
+}
+
+PostureVector bone_step_between(const Posture& from,
+                                const Posture& to,
+                                const Lengths& lengths) {
+  PostureVector step = step_between(from, to);
+  for (std::size_t limb = 0; limb < 4; ++limb) {
+    step.segment<3>(column_of(kLimbSlots[limb].frame)) =
+        log_of(upper_of(to, limb, lengths) * upper_of(from, limb, lengths).conjugate());
+  }
+  return step;
+}
+
+Vector3d upper_by_flexion(const Posture& posture,
+                          std::size_t limb,
+                          const Lengths& lengths) {
+  const LimbSlots& s = kLimbSlots[limb];
+  const double rate = lean_of(limb, *posture.block(s.flexion), lengths).rate;
+  return -rate * (quaternion(posture, s.frame) * eigen(human_limbs()[limb].hinge_axis));
+}
+
 void SparseDerivative::add(int first_column, const Matrix3d& block) {
   MAREY_ASSERT(columns + 3 <= kMost);
   for (int i = 0; i < 3; ++i) {
@@ -223,10 +289,7 @@ void UnfoldedPosture::unfold_limb(std::size_t limb,
   const double flexion = *posture.block(s.flexion);
   const double l1 = lengths[index(s.upper)];
   const double l2 = lengths[index(s.lower)];
-  const double sine = std::sin(flexion);
-  const double cosine = std::cos(flexion);
-  const double alpha = std::atan2(l2 * sine, l1 + l2 * cosine);
-  const double reach2 = l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * cosine;
+  const auto [alpha, lean_rate] = lean_of(limb, flexion, lengths);
   const Quaterniond frame = quaternion(posture, s.frame);
   const Matrix3d upper =
       (frame * detail::about_axis(bones.hinge_axis, -alpha)).toRotationMatrix();
@@ -236,7 +299,7 @@ void UnfoldedPosture::unfold_limb(std::size_t limb,
   own.hinge_in_world = frame * eigen(bones.hinge_axis);
   own.upper_axis_in_world = upper * eigen(along);
   own.lower_axis_in_world = lower * eigen(along);
-  own.lean_rate = reach2 > 1e-12 ? l2 * (l2 + l1 * cosine) / reach2 : 0.5;
+  own.lean_rate = lean_rate;
   const Vector3d p_mid = root + l1 * own.upper_axis_in_world;
   const auto twist = [&](Slot slot) {
     return detail::about_axis(along, *posture.block(slot)).toRotationMatrix();

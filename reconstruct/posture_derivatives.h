@@ -69,6 +69,19 @@ void move(Posture& posture, const PostureVector& step);
 /// The step that takes `from` to `to`: move()'s inverse, rotations by the shorter way.
 [[nodiscard]] PostureVector step_between(const Posture& from, const Posture& to);
 
+/// The same with the turn of each limb's upper bone in place of its frame's. What is seen
+/// of an upper bone alone then says nothing of the limb's flexion, as it should where a
+/// prior knows each slot by itself.
+void move_bones(Posture& posture, const PostureVector& step, const Lengths& lengths);
+[[nodiscard]] PostureVector bone_step_between(const Posture& from,
+                                              const Posture& to,
+                                              const Lengths& lengths);
+
+/// How the turn of a limb's upper bone, its twist aside, follows the limb's flexion.
+[[nodiscard]] Eigen::Vector3d upper_by_flexion(const Posture& posture,
+                                               std::size_t limb,
+                                               const Lengths& lengths);
+
 /// A derivative of three coordinates that most unknowns do not move.
 struct SparseDerivative {
   static constexpr int kMost = 24;

@@ -3,6 +3,7 @@
 #include "reconstruct/posture_equations.h"
 
 #include <cmath>
+#include <optional>
 
 namespace marey::reconstruct {
 namespace {
@@ -22,6 +23,13 @@ Vector3d log_of(Quaterniond q) {
   const double sine = q.vec().norm();
   if (sine < 1e-12) return 2.0 * q.vec();
   return q.vec() * (2.0 * std::atan2(sine, q.w()) / sine);
+}
+
+constexpr std::optional<std::size_t> limb_of_frame(Slot slot) {
+  for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
+    if (kLimbSlots[limb].frame == slot) return limb;
+  }
+  return std::nullopt;
 }
 
 Quaterniond from_vector(const glm::dvec3& v) {
@@ -67,6 +75,7 @@ void PostureEquations::add_scalar(int column, double off, double sigma) {
 /// `residual` in the frame in which `sigma_rad` is; `turn` is its derivative there.
 void PostureEquations::add_rotation(const Vector3d& residual,
                                     const Vector3d& sigma_rad,
+                                    double share,
                                     SparseDerivative& turn) {
   const Vector3d scale = sigma_rad.cwiseInverse();
   const Matrix3d jacobian =
@@ -75,13 +84,14 @@ void PostureEquations::add_rotation(const Vector3d& residual,
     turn.value.col(i) = jacobian * turn.value.col(i);
   }
   const Vector3d scaled = scale.cwiseProduct(residual);
-  add(turn, scaled, 1.0);
-  cost += 0.5 * scaled.squaredNorm();
+  add(turn, scaled, share);
+  cost += 0.5 * share * scaled.squaredNorm();
 }
 
 void PostureEquations::add_habits(const Posture& posture,
                                   const UnfoldedPosture& unfolded,
-                                  const TwistHabits& twists) {
+                                  const TwistHabits& twists,
+                                  double share) {
   // A residual log(E^-1 C), C the part and E where it is expected, both turning in the
   // world, changes by the inverse right Jacobian times C^T (dC - dE); the right one is
   // the left one's transpose.
@@ -98,7 +108,7 @@ void PostureEquations::add_habits(const Posture& posture,
     turn.add(column_of(row.middle), to_own);
     turn.add(column_of(row.lower), Matrix3d(-to_own * half.by_lower));
     turn.add(column_of(row.upper), Matrix3d(-to_own * half.by_upper));
-    add_rotation(off, Vector3d::Constant(row.sigma_rad), turn);
+    add_rotation(off, Vector3d::Constant(row.sigma_rad), 1.0, turn);
   }
   for (const RelativeHabit& row : kRelativeHabits) {
     const Quaterniond child = quaternion(posture, row.child);
@@ -110,6 +120,7 @@ void PostureEquations::add_habits(const Posture& posture,
     turn.add(column_of(row.parent), Matrix3d(-to_own));
     add_rotation(log_of(expected.conjugate() * child),
                  {row.sigma_rad.x, row.sigma_rad.y, row.sigma_rad.z},
+                 row.anatomy ? 1.0 : share,
                  turn);
   }
   for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
@@ -125,10 +136,14 @@ void PostureEquations::add_habits(const Posture& posture,
     turn.add(column_of(s.extremity), to_own);
     add_rotation(log_of(lower.conjugate() * end),
                  Vector3d::Constant(extremity_sigma_rad(limb)),
+                 share,
                  turn);
     const double flexion = *posture.block(s.flexion);
     const int column = column_of(s.flexion);
-    add_scalar(column, flexion - kUsualFlexion_rad, kFlexionSigma_rad);
+    // A weight's share is a sigma's inverse root.
+    const double wider = 1.0 / std::sqrt(share);
+    add_scalar(column, flexion - kUsualFlexion_rad, wider * kFlexionSigma_rad);
+    // Limits hold in every frame.
     if (flexion < kLeastFlexion_rad) {
       add_scalar(column, flexion - kLeastFlexion_rad, kLeastFlexionSigma_rad);
     }
@@ -137,36 +152,42 @@ void PostureEquations::add_habits(const Posture& posture,
                arm ? twists.upper_arm : twists.leg);
     add_scalar(column_of(s.lower_twist),
                *posture.block(s.lower_twist),
-               arm ? twists.forearm : twists.leg);
+               arm ? wider * twists.forearm : twists.leg);
   }
 }
 
-void PostureEquations::add_prior(const Posture& posture, const PosturePrior& prior) {
+void PostureEquations::add_prior(const Posture& posture,
+                                 const Lengths& lengths,
+                                 const PosturePrior& prior) {
+  const PostureVector off = bone_step_between(prior.expected, posture, lengths);
   for (const Slot slot : kAllSlots) {
     const Matrix3d& information = prior.information[index(slot)];
     const int column = column_of(slot);
-    const double* now = posture.block(slot);
-    const double* expected = prior.expected.block(slot);
     if (tangent_size(slot) == 1) {
-      const double off = now[0] - expected[0];
       hessian(column, column) += information(0, 0);
-      gradient[column] += information(0, 0) * off;
-      cost += 0.5 * information(0, 0) * off * off;
+      gradient[column] += information(0, 0) * off[column];
+      cost += 0.5 * information(0, 0) * off[column] * off[column];
       continue;
     }
-    Vector3d off(0.0, 0.0, 0.0);
-    Matrix3d jacobian = Matrix3d::Identity();
-    if (is_rotation(slot)) {
-      off = log_of(quaternion(posture, slot) *
-                   quaternion(prior.expected, slot).conjugate());
-      jacobian = inverse_left_jacobian(off);
-    } else {
-      off = {now[0] - expected[0], now[1] - expected[1], now[2] - expected[2]};
-    }
+    const Vector3d own = off.segment<3>(column);
+    const Matrix3d jacobian =
+        is_rotation(slot) ? inverse_left_jacobian(own) : Matrix3d(Matrix3d::Identity());
     const Matrix3d weighted = information * jacobian;
-    hessian.block<3, 3>(column, column).noalias() += jacobian.transpose() * weighted;
-    gradient.segment<3>(column).noalias() += weighted.transpose() * off;
-    cost += 0.5 * off.dot(information * off);
+    const Matrix3d normal = jacobian.transpose() * weighted;
+    const Vector3d pull = weighted.transpose() * own;
+    hessian.block<3, 3>(column, column) += normal;
+    gradient.segment<3>(column) += pull;
+    cost += 0.5 * own.dot(information * own);
+    if (const auto limb = limb_of_frame(slot)) {
+      // The upper bone turns with the limb's flexion, too.
+      const Vector3d by_flexion = upper_by_flexion(posture, *limb, lengths);
+      const int flexion = column_of(kLimbSlots[*limb].flexion);
+      const Vector3d across = normal * by_flexion;
+      // Flexions' columns come after their frames': the lower triangle.
+      hessian.block<1, 3>(flexion, column) += across.transpose();
+      hessian(flexion, flexion) += by_flexion.dot(across);
+      gradient[flexion] += by_flexion.dot(pull);
+    }
   }
 }
 

@@ -17,7 +17,8 @@ namespace marey::reconstruct {
 /// What a slot is expected to be, by what is known beside this frame's markers.
 struct PosturePrior {
   Posture expected;
-  /// Inverse covariance of each slot's unknowns; of scalars the first entry.
+  /// Inverse covariance of each slot's unknowns, as in move_bones(); of scalars the first
+  /// entry.
   std::array<Eigen::Matrix3d, kSlotCount> information{};
 };
 
@@ -34,14 +35,20 @@ struct PostureEquations {
            const Eigen::Vector3d& residual,
            double weight);
   /// Habits of human bodies (posture_habits.h). Some 3 microseconds.
+  /// What people do, unlike how they are built, counts with `share` of its weight: of
+  /// frames that follow each other it says the same again.
   void add_habits(const Posture& posture,
                   const UnfoldedPosture& unfolded,
-                  const TwistHabits& twists);
-  void add_prior(const Posture& posture, const PosturePrior& prior);
+                  const TwistHabits& twists,
+                  double share = 1.0);
+  void add_prior(const Posture& posture,
+                 const Lengths& lengths,
+                 const PosturePrior& prior);
 
  private:
   void add_rotation(const Eigen::Vector3d& residual,
                     const Eigen::Vector3d& sigma_rad,
+                    double share,
                     SparseDerivative& turn);
   void add_scalar(int column, double off, double sigma);
 };

@@ -15,7 +15,7 @@
 
 namespace marey::reconstruct {
 
-/// A part of the spine bends evenly: `middle` is half way between its ends.
+/// A part of the spine bends evenly: `middle` is half way between its ends. Anatomy.
 struct HalfwayHabit {
   Slot lower;
   Slot middle;
@@ -33,6 +33,8 @@ struct RelativeHabit {
   Slot child;
   glm::dvec3 usual_rad;
   glm::dvec3 sigma_rad;  ///< About the child's own axes.
+  /// How joints are built rather than what people do with them: holds in every frame.
+  bool anatomy = false;
 };
 /// How far arms hang down from the T-pose: usually.
 inline constexpr double kHangingArm_rad = 1.2217304763960306;  // 70 degrees
@@ -40,8 +42,8 @@ inline constexpr std::array<RelativeHabit, 8> kRelativeHabits{{
     {Slot::kHips, Slot::kThorax, {0, 0, 0}, {0.7, 0.7, 0.7}},
     {Slot::kThorax, Slot::kHead, {0, 0, 0}, {0.7, 0.7, 0.7}},
     // About its own axis nothing of a collar bone moves but skin.
-    {Slot::kThorax, Slot::kLeftShoulder, {0, 0, 0}, {0.1, 0.25, 0.25}},
-    {Slot::kThorax, Slot::kRightShoulder, {0, 0, 0}, {0.1, 0.25, 0.25}},
+    {Slot::kThorax, Slot::kLeftShoulder, {0, 0, 0}, {0.1, 0.25, 0.25}, true},
+    {Slot::kThorax, Slot::kRightShoulder, {0, 0, 0}, {0.1, 0.25, 0.25}, true},
     {Slot::kThorax, Slot::kLeftArm, {0, 0, -kHangingArm_rad}, {1, 1, 1}},
     {Slot::kThorax, Slot::kRightArm, {0, 0, kHangingArm_rad}, {1, 1, 1}},
     {Slot::kHips, Slot::kLeftLeg, {0, 0, 0}, {0.8, 0.8, 0.8}},

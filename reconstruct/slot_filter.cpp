@@ -16,6 +16,10 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // Of a posture that was just found from nothing. [rad], [m]
 constexpr double kFirstSigma = 0.3;
+// After which people have changed what they do, and habits speak anew. [s]
+constexpr double kHabitMemory_s = 0.5;
+// Athletes are brisker than the everyday movement of the accelerations; markers tell.
+constexpr double kBriskness = 5.0;
 
 template <int N>
 using Square = Eigen::Matrix<double, N, N>;
@@ -43,9 +47,11 @@ auto both(const Matrix6d& covariance) {
 
 }  // namespace
 
-SlotProcess::SlotProcess(FrameRate rate) {
+SlotProcess::SlotProcess(const Lengths& lengths, FrameRate rate)
+    : lengths_(lengths), habit_share_(std::min(1.0, 1.0 / (kHabitMemory_s * rate.hz))) {
   for (const SlotAcceleration& row : kAccelerations) {
     process_[index(row.slot)] = process_of(row, rate);
+    process_[index(row.slot)].sigma *= kBriskness;
   }
 }
 
@@ -87,7 +93,7 @@ void SlotProcess::predict(const PostureBelief& now, PostureBelief& next) const {
     out.block<kN, kN>(kN, kN) = next_vv;
   });
   next.posture = now.posture;
-  move(next.posture, next.step);
+  move_bones(next.posture, next.step, lengths_);
 }
 
 void SlotProcess::to_prior(const PostureBelief& predicted, PosturePrior& prior) {
@@ -100,18 +106,36 @@ void SlotProcess::to_prior(const PostureBelief& predicted, PosturePrior& prior) 
   });
 }
 
+/// A limb's upper bone turns with its frame and with its flexion: its covariance from
+/// theirs.
+void SlotProcess::add_flexion(Slot slot,
+                              const Posture& posture,
+                              const PostureCovariance& covariance,
+                              Matrix3d& found) const {
+  for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
+    if (kLimbSlots[limb].frame != slot) continue;
+    const int frame = column_of(slot);
+    const int flexion = column_of(kLimbSlots[limb].flexion);
+    const Eigen::Vector3d by = upper_by_flexion(posture, limb, lengths_);
+    const Eigen::Vector3d shared = covariance.full.block<3, 1>(frame, flexion);
+    found += shared * by.transpose() + by * shared.transpose() +
+             covariance.full(flexion, flexion) * by * by.transpose();
+  }
+}
+
 void SlotProcess::update(const PostureBelief& predicted,
                          const Posture& solved,
                          const PostureCovariance& covariance,
-                         PostureBelief& updated) {
-  const PostureVector moved = step_between(predicted.posture, solved);
+                         PostureBelief& updated) const {
+  const PostureVector moved = bone_step_between(predicted.posture, solved, lengths_);
   updated.posture = solved;
   each_slot([&](Slot slot, auto size) {
     constexpr int kN = decltype(size)::value;
     const int column = column_of(slot);
     const Matrix6d& c = predicted.covariance[index(slot)];
     const Square<kN> xx = c.topLeftCorner<kN, kN>();
-    const Square<kN> found = covariance.full.block<kN, kN>(column, column);
+    Square<kN> found = covariance.full.block<kN, kN>(column, column);
+    if constexpr (kN == 3) add_flexion(slot, solved, covariance, found);
     // What the value's change says of the step.
     const Square<kN> gain = c.block<kN, kN>(kN, 0) * xx.inverse();
     updated.step.segment<kN>(column) =
@@ -130,7 +154,8 @@ void SlotProcess::smooth(const PostureBelief& filtered,
                          const PostureBelief& predicted,
                          const PostureBelief& later,
                          PostureBelief& smoothed) const {
-  const PostureVector moved = step_between(predicted.posture, later.posture);
+  const PostureVector moved =
+      bone_step_between(predicted.posture, later.posture, lengths_);
   PostureVector back;
   each_slot([&](Slot slot, auto size) {
     constexpr int kN = decltype(size)::value;
@@ -155,16 +180,18 @@ void SlotProcess::smooth(const PostureBelief& filtered,
     both<kN>(smoothed.covariance[index(slot)]) = 0.5 * (sum + sum.transpose());
   });
   smoothed.posture = filtered.posture;
-  move(smoothed.posture, back);
+  move_bones(smoothed.posture, back, lengths_);
 }
 
 void SlotProcess::from_others(const PostureBelief& predicted,
                               const PostureBelief& filtered,
                               const PostureBelief& smoothed,
-                              PosturePrior& prior) {
+                              PosturePrior& prior) const {
   // Information adds up: all = others + own, and own = filtered - predicted.
-  const PostureVector to_smoothed = step_between(filtered.posture, smoothed.posture);
-  const PostureVector to_predicted = step_between(filtered.posture, predicted.posture);
+  const PostureVector to_smoothed =
+      bone_step_between(filtered.posture, smoothed.posture, lengths_);
+  const PostureVector to_predicted =
+      bone_step_between(filtered.posture, predicted.posture, lengths_);
   PostureVector expected;
   each_slot([&](Slot slot, auto size) {
     constexpr int kN = decltype(size)::value;
@@ -189,7 +216,7 @@ void SlotProcess::from_others(const PostureBelief& predicted,
     prior.information[index(slot)].topLeftCorner<kN, kN>() = others;
   });
   prior.expected = filtered.posture;
-  move(prior.expected, expected);
+  move_bones(prior.expected, expected, lengths_);
 }
 
 }  // namespace marey::reconstruct

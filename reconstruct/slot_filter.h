@@ -20,7 +20,8 @@
 
 namespace marey::reconstruct {
 
-/// What is believed of a posture and its speed. Steps are those of move(), per frame.
+/// What is believed of a posture and its speed. Steps are those of move_bones(), per
+/// frame.
 struct PostureBelief {
   Posture posture;
   PostureVector step;
@@ -31,7 +32,7 @@ struct PostureBelief {
 /// The filter's constants at a frame rate.
 class SlotProcess {
  public:
-  explicit SlotProcess(FrameRate rate);
+  SlotProcess(const Lengths& lengths, FrameRate rate);
 
   /// A posture of which nothing is known but where `posture` has it, give or take: speeds
   /// are those that the process has on average.
@@ -45,10 +46,10 @@ class SlotProcess {
 
   /// What is believed after a frame: `solved` is where the posture was found from
   /// `predicted` and markers, with this covariance.
-  static void update(const PostureBelief& predicted,
-                     const Posture& solved,
-                     const PostureCovariance& covariance,
-                     PostureBelief& updated);
+  void update(const PostureBelief& predicted,
+              const Posture& solved,
+              const PostureCovariance& covariance,
+              PostureBelief& updated) const;
 
   /// Carries what is known later back: `later` the smoothed belief of the next frame,
   /// `predicted` what was predicted of it from `filtered`. Rauch, Tung & Striebel 1965.
@@ -59,13 +60,24 @@ class SlotProcess {
 
   /// What all other frames say of this one: `smoothed` without what the frame's own
   /// markers made of `predicted` (which gave `filtered`).
-  static void from_others(const PostureBelief& predicted,
-                          const PostureBelief& filtered,
-                          const PostureBelief& smoothed,
-                          PosturePrior& prior);
+  void from_others(const PostureBelief& predicted,
+                   const PostureBelief& filtered,
+                   const PostureBelief& smoothed,
+                   PosturePrior& prior) const;
+
+  /// What share of habits' weight a frame has: said over and over again, they count once
+  /// in the time in which people change what they do.
+  [[nodiscard]] double habit_share() const { return habit_share_; }
 
  private:
+  void add_flexion(Slot slot,
+                   const Posture& posture,
+                   const PostureCovariance& covariance,
+                   Eigen::Matrix3d& found) const;
+
   std::array<StepProcess, kSlotCount> process_;
+  Lengths lengths_;
+  double habit_share_;
 };
 
 }  // namespace marey::reconstruct

@@ -111,10 +111,10 @@ void Batch::emit(std::size_t frame,
                  const FilteredFrame& here,
                  const PostureBelief& smoothed,
                  SolvedMarkers& out) {
-  SlotProcess::from_others(here.predicted, here.filtered, smoothed, prior_);
+  filter_.process().from_others(here.predicted, here.filtered, smoothed, prior_);
   collect(frame_of(*tracks_, frame), columns_, seen_);
   Posture posture = smoothed.posture;
-  (void)filter_.solver().solve(seen_, &prior_, posture, {6, 3e-3, 1.0});
+  (void)filter_.solver().solve(seen_, &prior_, posture, filter_.limits());
   filter_.solver().factor().covariance(covariance_);
   const UnfoldedPosture& unfolded = filter_.solver().unfold(posture);
   measure(frame, unfolded, out);

@@ -98,7 +98,7 @@ TEST(FitMarkers, IsContentWithAStaticTrial) {
   for (const HumanBone bone : kLongBones) {
     EXPECT_NEAR(glm::length(fit->body.proportions[bone]),
                 glm::length(moving.body.proportions[bone]),
-                0.02)
+                0.025)
         << name(bone);
   }
 }

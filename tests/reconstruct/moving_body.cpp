@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <random>
 #include <string_view>
 
 #include "reconstruct/posture_derivatives.h"
@@ -36,7 +35,7 @@ constexpr std::array<std::string_view, 19> kSided{"asis",
                                                   "metatarsal_1_head",
                                                   "metatarsal_5_head"};
 constexpr std::array<std::string_view, 4> kMiddle{
-    "c7", "t10", "jugular_notch", "xiphoid"};
+    "c7", "t10", "suprasternal_notch", "xiphoid"};
 
 /// A wave of its own for every number: slow, and never two alike.
 double wave(double time_s, int which) {
@@ -103,8 +102,7 @@ std::vector<const reconstruct::Landmark*> worn() {
 
 MovingBody moving_body(const MovingBodyOptions& options) {
   constexpr double kStature_m = 1.75;
-  std::mt19937 random(options.seed);
-  std::normal_distribution<double> normal;
+  Dice dice(options.seed);
   MovingBody moving;
   const Proportions average = average_proportions(kStature_m);
   reconstruct::Lengths lengths = reconstruct::lengths_of(average);
@@ -112,7 +110,7 @@ MovingBody moving_body(const MovingBodyOptions& options) {
     // Pairs of limbs come one after the other, and are alike.
     const bool right = i > 5 && i % 2 == 1;
     lengths[i] = right ? lengths[i - 1]
-                       : lengths[i] * (1.0 + options.length_share * normal(random));
+                       : lengths[i] * (1.0 + options.length_share * dice.noise(1.0));
   }
   const reconstruct::BodyFrame frame = reconstruct::frame_of(average);
   Body& body = moving.body;
@@ -126,7 +124,7 @@ MovingBody moving_body(const MovingBodyOptions& options) {
       p += average[bone];
       bone = *parent(bone);
     }
-    for (int i = 0; i < 3; ++i) p[i] += options.place_m * normal(random);
+    for (int i = 0; i < 3; ++i) p[i] += options.place_m * dice.noise(1.0);
     body.markers.push_back({std::string(landmark->name), bone, p, 0.001, 0.002, 0});
     moving.labels.push_back({std::string(landmark->name), landmark});
     moving.tracks.labels.emplace_back(landmark->name);
@@ -147,7 +145,7 @@ MovingBody moving_body(const MovingBodyOptions& options) {
           {marker.p_in_segment.x, marker.p_in_segment.y, marker.p_in_segment.z});
       MarkerSample sample;
       for (int i = 0; i < 3; ++i) {
-        sample.p_in_world[i] = p[i] + options.noise_m * normal(random);
+        sample.p_in_world[i] = p[i] + options.noise_m * dice.noise(1.0);
       }
       moving.tracks.samples.emplace_back(sample);
     }
