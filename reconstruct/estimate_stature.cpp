@@ -16,6 +16,8 @@ namespace {
 // pairs nearer to each other than this say more of the hand that glued them.
 constexpr double kNearJoint = 0.045;
 constexpr double kLongEnough = 0.10;
+// How far people of one stature differ in the length of a part.
+constexpr double kBuildSigma = 0.045;
 constexpr std::size_t kMostFrames = 200;
 
 struct Point {
@@ -90,7 +92,8 @@ std::optional<StatureEstimate> estimate_stature(std::span<const MarkerTracks> tr
       const auto distance = median_distance(trials, labels[i].label, labels[j].label);
       if (!distance) continue;
       // Two uncertain ends make a ratio the better the farther they are apart.
-      const double sigma = std::hypot(a->sigma_per_stature, b->sigma_per_stature) / apart;
+      const double sigma = std::hypot(
+          std::hypot(a->sigma_per_stature, b->sigma_per_stature) / apart, kBuildSigma);
       statures.emplace_back(*distance / apart, 1.0 / (sigma * sigma));
       sum += statures.back().second;
     }

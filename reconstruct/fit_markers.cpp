@@ -7,8 +7,10 @@
 
 #include "core/quantile.h"
 #include "reconstruct/hip_regression.h"
+#include "reconstruct/joint_evidence.h"
 #include "reconstruct/length_terms.h"
 #include "reconstruct/marker_instants.h"
+#include "reconstruct/marker_places.h"
 #include "reconstruct/sightings.h"
 
 namespace marey::reconstruct {
@@ -33,11 +35,6 @@ constexpr double kOffSegment_m = 0.035;
 constexpr double kSureSegment_m = 0.02;
 constexpr double kFoundPlaceSigma_m = 0.05;
 constexpr std::size_t kFewestLabels = 6;
-constexpr std::size_t kFewestSightings = 3;
-// A joint that turned so far, and whose place is then known so much better than from an
-// average person's, was found by its movement.
-constexpr double kEnoughRange_rad = 0.35;
-constexpr double kTellingShare = 0.5;
 constexpr double kTrunkSigma_m = 0.03;
 
 /// A label on its way into the body.
@@ -48,34 +45,6 @@ struct Candidate {
   bool somewhere = false;  ///< Its landmark says which bone, not where.
   LabelUse use = LabelUse::kNamed;
 };
-
-Vector3d eigen(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-/// Median of positions, coordinate by coordinate, and how far they stray from it, root
-/// mean square over coordinates of the nearer nine tenths.
-struct Place {
-  Vector3d middle{0.0, 0.0, 0.0};
-  double stray_m = 0.0;
-};
-
-Place place_of(const std::vector<Vector3d>& points) {
-  Place place;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> values;
-    for (const Vector3d& p : points) values.push_back(p[axis]);
-    place.middle[axis] = median(std::move(values));
-  }
-  std::vector<double> squares;
-  for (const Vector3d& p : points) squares.push_back((p - place.middle).squaredNorm());
-  std::sort(squares.begin(), squares.end());
-  const std::size_t count = std::max<std::size_t>(1, squares.size() * 9 / 10);
-  double sum = 0.0;
-  for (std::size_t i = 0; i < count; ++i) sum += squares[i];
-  place.stray_m = std::sqrt(sum / (3.0 * static_cast<double>(count)));
-  return place;
-}
 
 /// The fit as it goes on.
 class Fit {
@@ -96,14 +65,9 @@ class Fit {
   void use(const Candidate& candidate, const Vector3d& p_in_bone, double stray_m);
   [[nodiscard]] bool bundle(std::size_t instants, int iterations, bool sigmas);
   void place_candidates();
-  [[nodiscard]] std::optional<std::pair<HumanBone, Place>> best_segment(
-      std::size_t label) const;
-  [[nodiscard]] std::vector<Vector3d> places_in(std::size_t label, HumanBone bone) const;
   void measure_stray();
   void move_misplaced();
   [[nodiscard]] MarkersFit result();
-  [[nodiscard]] std::vector<JointEvidence> evidence() const;
-  [[nodiscard]] double range_of(HumanBone bone, HumanBone up) const;
 
   const MarkerSubject* subject_;
   std::span<const MarkerTracks> trials_;
@@ -237,53 +201,27 @@ bool Fit::bundle(std::size_t instants, int iterations, bool sigmas) {
   return true;
 }
 
-/// Where a label's marker is in a bone's frame, over the snapshots that show it.
-std::vector<Vector3d> Fit::places_in(std::size_t label, HumanBone bone) const {
-  std::vector<Vector3d> places;
-  UnfoldedPosture unfolded;
-  for (const Snapshot& snapshot : snapshots_) {
-    if (!snapshot.solved || !snapshot.p_in_world[label]) continue;
-    unfolded.unfold(snapshot.posture, bundle_.model.lengths, bundle_.model.body);
-    places.push_back(unfolded.rotation(bone).transpose() *
-                     (*snapshot.p_in_world[label] - unfolded.origin(bone)));
-  }
-  return places;
-}
-
-/// The segment in whose frame a label's marker keeps its place best.
-std::optional<std::pair<HumanBone, Place>> Fit::best_segment(std::size_t label) const {
-  std::optional<std::pair<HumanBone, Place>> best;
-  for (const HumanBone bone : human_bones()) {
-    if (solved_segment(bone) != bone) continue;
-    const std::vector<Vector3d> places = places_in(label, bone);
-    if (places.size() < kFewestSightings) return std::nullopt;
-    const Place place = place_of(places);
-    if (!best || place.stray_m < best->second.stray_m) best = {bone, place};
-  }
-  return best;
-}
-
 /// Markers of which only the segment is known, or nothing, find their place on a body
 /// that the others have posed.
 void Fit::place_candidates() {
   for (const Candidate& candidate : waiting_) {
-    const std::vector<Vector3d> places = places_in(candidate.label, candidate.bone);
-    if (places.size() < kFewestSightings) continue;
-    const Place place = place_of(places);
-    use(candidate, place.middle, std::max(kUsualStray_m, place.stray_m));
+    const auto place =
+        place_on(snapshots_, bundle_.model, candidate.label, candidate.bone);
+    if (!place) continue;
+    use(candidate, place->p_in_bone, std::max(kUsualStray_m, place->stray_m));
   }
   waiting_.clear();
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     if (labels_[i].landmark) continue;
-    const auto best = best_segment(i);
-    if (!best || best->second.stray_m > kOffSegment_m) continue;
+    const auto best = best_segment(snapshots_, bundle_.model, i);
+    if (!best || best->stray_m > kOffSegment_m) continue;
     Candidate candidate;
     candidate.label = i;
-    candidate.bone = best->first;
+    candidate.bone = best->bone;
     candidate.somewhere = true;
     candidate.use = LabelUse::kFound;
-    candidate.belief = {best->second.middle, kFoundPlaceSigma_m};
-    use(candidate, best->second.middle, std::max(kUsualStray_m, best->second.stray_m));
+    candidate.belief = {best->p_in_bone, kFoundPlaceSigma_m};
+    use(candidate, best->p_in_bone, std::max(kUsualStray_m, best->stray_m));
   }
 }
 
@@ -334,71 +272,15 @@ void Fit::move_misplaced() {
       use(used[m], markers[m].p_in_bone, markers[m].sigma_m);
       continue;
     }
-    const auto best = best_segment(used[m].label);
-    if (!best || best->second.stray_m > kSureSegment_m) continue;
+    const auto best = best_segment(snapshots_, bundle_.model, used[m].label);
+    if (!best || best->stray_m > kSureSegment_m) continue;
     Candidate moved = used[m];
-    if (moved.bone != best->first) moved.use = LabelUse::kMoved;
-    moved.bone = best->first;
+    if (moved.bone != best->bone) moved.use = LabelUse::kMoved;
+    moved.bone = best->bone;
     moved.somewhere = true;
-    moved.belief = {best->second.middle, kFoundPlaceSigma_m};
-    use(moved, best->second.middle, std::max(kUsualStray_m, best->second.stray_m));
+    moved.belief = {best->p_in_bone, kFoundPlaceSigma_m};
+    use(moved, best->p_in_bone, std::max(kUsualStray_m, best->stray_m));
   }
-}
-
-std::vector<JointEvidence> Fit::evidence() const {
-  std::vector<JointEvidence> joints;
-  for (const HumanBone bone : human_bones()) {
-    if (bone == HumanBone::kHips) continue;
-    JointEvidence joint;
-    joint.joint = bone;
-    const HumanBone up = *parent(bone);
-    const auto length = length_of(bone);
-    const double prior_m = length ? bundle_.usual_sigma_m[index(*length)]
-                                  : usual_length_sigma_m(glm::length(average_[bone]));
-    // Of a joint whose length is not moved, the average is all there is.
-    joint.sigma_m = length ? bundle_.length_sigma_m[index(*length)] : prior_m;
-    joint.range_rad = range_of(bone, up);
-    const bool landmarks = std::any_of(
-        bundle_.model.markers.begin(), bundle_.model.markers.end(), [&](const auto& m) {
-          const std::size_t at =
-              static_cast<std::size_t>(&m - bundle_.model.markers.data());
-          return !used_[at].somewhere && (m.bone == bone || m.bone == up);
-        });
-    if (length && joint.range_rad > kEnoughRange_rad &&
-        joint.sigma_m < kTellingShare * prior_m) {
-      joint.origin = JointOrigin::kMovement;
-    } else if (length && landmarks && joint.sigma_m < kTellingShare * 2.0 * prior_m) {
-      joint.origin = JointOrigin::kLandmarks;
-    } else {
-      joint.origin = JointOrigin::kProportions;
-    }
-    joints.push_back(joint);
-  }
-  return joints;
-}
-
-/// How far a bone was turned against its parent, from its middle attitude: between the
-/// 5th and the 95th percent along the axis about which it turned most. [rad]
-double Fit::range_of(HumanBone bone, HumanBone up) const {
-  std::vector<Vector3d> turns;
-  UnfoldedPosture unfolded;
-  for (const Snapshot& snapshot : snapshots_) {
-    if (!snapshot.solved) continue;
-    unfolded.unfold(snapshot.posture, bundle_.model.lengths, bundle_.model.body);
-    const Eigen::Matrix3d turn =
-        unfolded.rotation(up).transpose() * unfolded.rotation(bone);
-    const Eigen::AngleAxisd angle_axis(turn);
-    turns.push_back(angle_axis.angle() * angle_axis.axis());
-  }
-  double widest = 0.0;
-  for (int axis = 0; axis < 3 && !turns.empty(); ++axis) {
-    std::vector<double> values;
-    for (const Vector3d& turn : turns) values.push_back(turn[axis]);
-    std::sort(values.begin(), values.end());
-    const std::size_t tail = values.size() / 20;
-    widest = std::max(widest, values[values.size() - 1 - tail] - values[tail]);
-  }
-  return widest;
 }
 
 MarkersFit Fit::result() {
@@ -415,7 +297,9 @@ MarkersFit Fit::result() {
                   p[HumanBone::kLeftFoot].y + p[HumanBone::kRightFoot].y);
   };
   body.proportions[HumanBone::kHips].y += legs(average_) - legs(body.proportions);
-  fit.joints = evidence();
+  std::vector<bool> exact;
+  for (const Candidate& candidate : used_) exact.push_back(!candidate.somewhere);
+  fit.joints = joint_evidence(bundle_, snapshots_, average_, exact);
   for (const JointEvidence& joint : fit.joints) {
     body.joint_centre_sigma_m[index(joint.joint)] = joint.sigma_m;
   }
@@ -496,18 +380,6 @@ std::string_view name(LabelUse use) {
       return "left-out";
   }
   return "left-out";
-}
-
-std::string_view name(JointOrigin origin) {
-  switch (origin) {
-    case JointOrigin::kMovement:
-      return "movement";
-    case JointOrigin::kLandmarks:
-      return "landmarks";
-    case JointOrigin::kProportions:
-      return "proportions";
-  }
-  return "proportions";
 }
 
 Result<MarkersFit> fit_markers(const MarkerSubject& subject,

@@ -14,28 +14,6 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-Quaterniond quaternion(const Posture& posture, Slot slot) {
-  const double* q = posture.block(slot);
-  return {q[3], q[0], q[1], q[2]};
-}
-
-Vector3d eigen(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-Quaterniond turn_by(const Vector3d& v) {
-  const double angle = v.norm();
-  if (angle < 1e-12) return Quaterniond(1.0, 0.5 * v.x(), 0.5 * v.y(), 0.5 * v.z());
-  return Quaterniond(Eigen::AngleAxisd(angle, v / angle));
-}
-
-Vector3d log_of(Quaterniond q) {
-  if (q.w() < 0.0) q.coeffs() *= -1.0;
-  const double sine = q.vec().norm();
-  if (sine < 1e-12) return 2.0 * q.vec();
-  return q.vec() * (2.0 * std::atan2(sine, q.w()) / sine);
-}
-
 /// Of a limb's bone which one it is: 0 upper, 1 lower, 2 hand or foot. Nullopt elsewhere.
 struct InLimb {
   std::size_t limb = 4;  ///< 4: in none.
@@ -76,102 +54,6 @@ constexpr InLimb in_limb(B bone) {
 }
 
 }  // namespace
-
-void move(Posture& posture, const PostureVector& step) {
-  for (const Slot slot : kAllSlots) {
-    const int column = column_of(slot);
-    double* block = posture.block(slot);
-    if (!is_rotation(slot)) {
-      for (int i = 0; i < block_size(slot); ++i) block[i] += step[column + i];
-      continue;
-    }
-    const Quaterniond q =
-        (turn_by(step.segment<3>(column)) * quaternion(posture, slot)).normalized();
-    Eigen::Map<Eigen::Vector4d>(block, 4) = q.coeffs();
-  }
-}
-
-PostureVector step_between(const Posture& from, const Posture& to) {
-  PostureVector step;
-  for (const Slot slot : kAllSlots) {
-    const int column = column_of(slot);
-    if (is_rotation(slot)) {
-      step.segment<3>(column) =
-          log_of(quaternion(to, slot) * quaternion(from, slot).conjugate());
-      continue;
-    }
-    for (int i = 0; i < block_size(slot); ++i) {
-      step[column + i] = to.block(slot)[i] - from.block(slot)[i];
-    }
-  }
-  return step;
-}
-
-namespace {
-
-/// How far a limb's upper bone leans back from its frame, and how that follows flexion.
-struct Lean {
-  double rad = 0.0;
-  double rate = 0.5;
-};
-
-Lean lean_of(std::size_t limb, double flexion, const Lengths& lengths) {
-  const double l1 = lengths[index(kLimbSlots[limb].upper)];
-  const double l2 = lengths[index(kLimbSlots[limb].lower)];
-  const double cosine = std::cos(flexion);
-  const double reach2 = l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * cosine;
-  Lean lean;
-  lean.rad = std::atan2(l2 * std::sin(flexion), l1 + l2 * cosine);
-  // Folded to nothing, a limb of two like bones has no direction.
-  if (reach2 > 1e-12) lean.rate = l2 * (l2 + l1 * cosine) / reach2;
-  return lean;
-}
-
-Quaterniond upper_of(const Posture& posture, std::size_t limb, const Lengths& lengths) {
-  const double flexion = *posture.block(kLimbSlots[limb].flexion);
-  return quaternion(posture, kLimbSlots[limb].frame) *
-         detail::about_axis(human_limbs()[limb].hinge_axis,
-                            -lean_of(limb, flexion, lengths).rad);
-}
-
-}  // namespace
-
-void move_bones(Posture& posture, const PostureVector& step, const Lengths& lengths) {
-  std::array<Quaterniond, 4> upper;
-  for (std::size_t limb = 0; limb < 4; ++limb) {
-    upper[limb] = upper_of(posture, limb, lengths);
-  }
-  move(posture, step);
-  for (std::size_t limb = 0; limb < 4; ++limb) {
-    const LimbSlots& s = kLimbSlots[limb];
-    const double flexion = *posture.block(s.flexion);
-    const Quaterniond frame =
-        (turn_by(step.segment<3>(column_of(s.frame))) * upper[limb] *
-         detail::about_axis(human_limbs()[limb].hinge_axis,
-                            lean_of(limb, flexion, lengths).rad))
-            .normalized();
-    Eigen::Map<Eigen::Vector4d>(posture.block(s.frame), 4) = frame.coeffs();
-  }
-}
-
-PostureVector bone_step_between(const Posture& from,
-                                const Posture& to,
-                                const Lengths& lengths) {
-  PostureVector step = step_between(from, to);
-  for (std::size_t limb = 0; limb < 4; ++limb) {
-    step.segment<3>(column_of(kLimbSlots[limb].frame)) =
-        log_of(upper_of(to, limb, lengths) * upper_of(from, limb, lengths).conjugate());
-  }
-  return step;
-}
-
-Vector3d upper_by_flexion(const Posture& posture,
-                          std::size_t limb,
-                          const Lengths& lengths) {
-  const LimbSlots& s = kLimbSlots[limb];
-  const double rate = lean_of(limb, *posture.block(s.flexion), lengths).rate;
-  return -rate * (quaternion(posture, s.frame) * eigen(human_limbs()[limb].hinge_axis));
-}
 
 void SparseDerivative::add(int first_column, const Matrix3d& block) {
   MAREY_ASSERT(columns + 3 <= kMost);

@@ -12,75 +12,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "reconstruct/posture.h"
+#include "reconstruct/posture_steps.h"
 
 namespace marey::reconstruct {
-
-/// The unknowns of a posture in the order in which their equations are solved: limb after
-/// limb, the trunk last, since limbs meet nowhere else. A rotation's three are the
-/// rotation vector of a small turn in the world, applied last.
-inline constexpr int kTrunkFreedom = 18;
-inline constexpr std::array<int, 4> kLimbFreedom{12, 12, 9, 9};
-inline constexpr std::array<int, 4> kLimbColumn{0, 12, 24, 33};
-inline constexpr int kTrunkColumn = 42;
-static_assert(kTrunkColumn + kTrunkFreedom == kPostureFreedom);
-
-/// First column of a slot.
-[[nodiscard]] constexpr int column_of(Slot slot) {
-  constexpr std::array<int, kSlotCount> columns{
-      kTrunkColumn,       // hips' position
-      kTrunkColumn + 3,   // hips
-      kTrunkColumn + 6,   // abdomen's end
-      kTrunkColumn + 9,   // thorax
-      kTrunkColumn + 12,  // neck
-      kTrunkColumn + 15,  // head
-      0,
-      12,  // shoulders
-      3,
-      15,
-      24,
-      33,  // limbs' frames
-      6,
-      18,
-      27,
-      36,  // hands, feet
-      9,
-      21,
-      30,
-      39,  // flexions
-      10,
-      22,
-      31,
-      40,  // twists of the lower bones
-      11,
-      23,
-      32,
-      41,  // twists of the upper bones
-  };
-  return columns[index(slot)];
-}
-
-using PostureVector = Eigen::Matrix<double, kPostureFreedom, 1>;
-using PostureMatrix = Eigen::Matrix<double, kPostureFreedom, kPostureFreedom>;
-
-/// Moves a posture by a step in its unknowns.
-void move(Posture& posture, const PostureVector& step);
-
-/// The step that takes `from` to `to`: move()'s inverse, rotations by the shorter way.
-[[nodiscard]] PostureVector step_between(const Posture& from, const Posture& to);
-
-/// The same with the turn of each limb's upper bone in place of its frame's. What is seen
-/// of an upper bone alone then says nothing of the limb's flexion, as it should where a
-/// prior knows each slot by itself.
-void move_bones(Posture& posture, const PostureVector& step, const Lengths& lengths);
-[[nodiscard]] PostureVector bone_step_between(const Posture& from,
-                                              const Posture& to,
-                                              const Lengths& lengths);
-
-/// How the turn of a limb's upper bone, its twist aside, follows the limb's flexion.
-[[nodiscard]] Eigen::Vector3d upper_by_flexion(const Posture& posture,
-                                               std::size_t limb,
-                                               const Lengths& lengths);
 
 /// A derivative of three coordinates that most unknowns do not move.
 struct SparseDerivative {

@@ -12,19 +12,6 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-Quaterniond quaternion(const Posture& posture, Slot slot) {
-  const double* q = posture.block(slot);
-  return {q[3], q[0], q[1], q[2]};
-}
-
-/// Rotation vector of a unit quaternion, by the shorter way.
-Vector3d log_of(Quaterniond q) {
-  if (q.w() < 0.0) q.coeffs() *= -1.0;
-  const double sine = q.vec().norm();
-  if (sine < 1e-12) return 2.0 * q.vec();
-  return q.vec() * (2.0 * std::atan2(sine, q.w()) / sine);
-}
-
 constexpr std::optional<std::size_t> limb_of_frame(Slot slot) {
   for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
     if (kLimbSlots[limb].frame == slot) return limb;

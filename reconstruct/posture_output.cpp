@@ -13,10 +13,6 @@ namespace {
 // A marker that was never measured to stray less is not trusted to do so. [m]
 constexpr double kLeastStray_m = 0.001;
 
-Eigen::Vector3d eigen(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
 }  // namespace
 
 MarkerModel to_marker_model(const Body& body) {
