@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-// How far results are from the truth of a rendered recording, in millimetres:
+// How far results are from the truth of a rendered recording, in millimetres and degrees,
+// and whether sigmas say so:
 //
 //   measure_accuracy OUT TRUTH TRIAL...
 //
-// OUT is what `marey process` wrote; TRUTH holds TRIAL/truth/joints.csv and
-// TRIAL/truth/cameras.json (see the recording's README). The truth's world is Z up;
-// nothing else is aligned.
+// OUT is what `marey process` wrote; TRUTH holds joints.csv, segments.csv and
+// cameras.json in TRIAL/truth (see the recording's README). The truth's world is Z up;
+// nothing else is aligned but each segment's axes (accuracy_parts.h).
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "benchmarks/accuracy_parts.h"
 #include <glm/geometric.hpp>
 
 #include "core/humanoid.h"
@@ -70,7 +71,6 @@ bool measure_trial(const fs::path& out, const fs::path& truth, const std::string
   }
   std::map<std::string, std::vector<double>> by_joint;
   std::vector<double> all;
-  std::vector<double> in_sigmas;
   for (const auto& row : *rows) {
     const auto bone = marey::human_bone(row.joint);
     if (!bone) continue;
@@ -79,21 +79,17 @@ bool measure_trial(const fs::path& out, const fs::path& truth, const std::string
     const double error_mm = 1e3 * glm::distance(row.p_in_world, place->second);
     by_joint[row.joint].push_back(error_mm);
     all.push_back(error_mm);
-    in_sigmas.push_back(error_mm / (1e3 * std::sqrt(3.0) * row.sigma_m));
   }
   if (all.empty()) {
     std::fprintf(stderr, "%s: no frame in common with its truth\n", trial.c_str());
     return false;
   }
-  std::printf(
-      "%s: %zu joint centres, off by median %.1f, p95 %.1f, max %.1f mm; "
-      "median error / sigma %.2f\n",
-      trial.c_str(),
-      all.size(),
-      quantile(all, 0.5),
-      quantile(all, 0.95),
-      quantile(all, 1.0),
-      quantile(in_sigmas, 0.5));
+  std::printf("%s: %zu joint centres, off by median %.1f, p95 %.1f, max %.1f mm\n",
+              trial.c_str(),
+              all.size(),
+              quantile(all, 0.5),
+              quantile(all, 0.95),
+              quantile(all, 1.0));
   for (const auto& [joint, errors] : by_joint) {
     std::printf("  %-14s median %5.1f  p95 %5.1f  max %5.1f mm\n",
                 joint.c_str(),
@@ -115,5 +111,8 @@ int main(int argc, char** argv) {
   const fs::path truth = argv[2];
   bool ok = measure_cameras(out, truth / argv[3] / "truth");
   for (int i = 3; i < argc; ++i) ok = measure_trial(out, truth, argv[i]) && ok;
+  const marey::benchmarks::AccuracyCase a{out, truth, {argv + 3, argv + argc}};
+  ok = measure_segments(a) && ok;
+  ok = measure_honesty(a) && ok;
   return ok ? 0 : 1;
 }

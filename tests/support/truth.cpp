@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/support/truth.h"
 
+#include <cmath>
 #include <exception>
 #include <fstream>
 #include <sstream>
@@ -31,25 +32,78 @@ const std::map<std::string, HumanBone>& limb_joints() {
   return joints;
 }
 
+const std::map<std::string, HumanBone>& tagged_segments() {
+  static const std::map<std::string, HumanBone> segments{
+      {"pelvis", B::kHips},
+      {"chest", B::kUpperChest},
+      {"head", B::kHead},
+      {"upperarm_l", B::kLeftUpperArm},
+      {"forearm_l", B::kLeftLowerArm},
+      {"hand_l", B::kLeftHand},
+      {"thigh_l", B::kLeftUpperLeg},
+      {"shank_l", B::kLeftLowerLeg},
+      {"foot_l", B::kLeftFoot},
+      {"upperarm_r", B::kRightUpperArm},
+      {"forearm_r", B::kRightLowerArm},
+      {"hand_r", B::kRightHand},
+      {"thigh_r", B::kRightUpperLeg},
+      {"shank_r", B::kRightLowerLeg},
+      {"foot_r", B::kRightFoot},
+  };
+  return segments;
+}
+
 glm::dvec3 y_up(double x, double y, double z) {
   return {x, z, -y};
+}
+
+/// The rows of a table below `header`, by cell; nullopt under another header.
+std::optional<std::vector<std::vector<std::string>>> table(
+    const std::filesystem::path& csv, const std::string& header) {
+  std::ifstream file(csv);
+  std::string line;
+  if (!std::getline(file, line) || line != header) return std::nullopt;
+  std::vector<std::vector<std::string>> rows;
+  while (std::getline(file, line)) {
+    std::istringstream row(line);
+    rows.emplace_back();
+    for (std::string cell; std::getline(row, cell, ',');) rows.back().push_back(cell);
+  }
+  return rows;
 }
 
 }  // namespace
 
 std::optional<TruthJoints> truth_joints(const std::filesystem::path& csv) try {
-  std::ifstream file(csv);
-  std::string line;
-  if (!std::getline(file, line) || line != "frame,t,joint,x,y,z") return std::nullopt;
+  const auto rows = table(csv, "frame,t,joint,x,y,z");
+  if (!rows) return std::nullopt;
   TruthJoints truth;
-  while (std::getline(file, line)) {
-    std::istringstream row(line);
-    std::vector<std::string> cells;
-    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+  for (const std::vector<std::string>& cells : *rows) {
     const auto joint = limb_joints().find(cells.at(2));
     if (joint == limb_joints().end()) continue;
     truth[{std::stoi(cells[0]), joint->second}] =
         y_up(std::stod(cells.at(3)), std::stod(cells.at(4)), std::stod(cells.at(5)));
+  }
+  return truth;
+} catch (const std::exception&) {
+  return std::nullopt;
+}
+
+std::optional<TruthRotations> truth_rotations(const std::filesystem::path& csv) try {
+  const auto rows = table(csv, "frame,t,segment,px,py,pz,qw,qx,qy,qz");
+  if (!rows) return std::nullopt;
+  const double half = std::sqrt(0.5);
+  const glm::dquat y_up_from_z_up(half, -half, 0.0, 0.0);
+  TruthRotations truth;
+  for (const std::vector<std::string>& cells : *rows) {
+    const auto segment = tagged_segments().find(cells.at(2));
+    if (segment == tagged_segments().end()) continue;
+    const glm::dquat z_up_from_segment(std::stod(cells.at(6)),
+                                       std::stod(cells.at(7)),
+                                       std::stod(cells.at(8)),
+                                       std::stod(cells.at(9)));
+    truth[{std::stoi(cells[0]), segment->second}] =
+        glm::normalize(y_up_from_z_up * z_up_from_segment);
   }
   return truth;
 } catch (const std::exception&) {

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -24,6 +25,17 @@ using TruthJoints = std::map<std::pair<int, HumanBone>, glm::dvec3>;
 /// Joints of other names are passed over. nullopt when the file is not there or not such
 /// a table.
 [[nodiscard]] std::optional<TruthJoints> truth_joints(const std::filesystem::path& csv);
+
+/// How a segment of the body was really turned, by frame: from the segment's axes to a
+/// world that is Y up.
+using TruthRotations = std::map<std::pair<int, HumanBone>, glm::dquat>;
+
+/// The fifteen segments that wear tags (hips, chest, head, and three of each limb) of a
+/// rendered recording, from its truth/segments.csv. The axes are the recording's own: in
+/// its zero pose, which is not quite marey's T-pose, those of the world. Other segments
+/// are passed over. nullopt when the file is not there or not such a table.
+[[nodiscard]] std::optional<TruthRotations> truth_rotations(
+    const std::filesystem::path& csv);
 
 /// A camera of a rendered recording.
 struct TruthCamera {
