@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include "app/commands.h"
+#include "app/fit_commands.h"
+#include "app/option_checks.h"
 #include "app/plan_commands.h"
 #include "app/print_commands.h"
 #include "app/repair_commands.h"
@@ -44,6 +46,7 @@ struct Arguments {
   PrintArguments print;
   PlanArguments plan;
   RepairArguments repair;
+  FitArguments fit;
 
   [[nodiscard]] ProgressStyle style_of_progress() const {
     if (progress == "json") return ProgressStyle::kJson;
@@ -91,17 +94,6 @@ void add_session_command(CLI::App& app,
       return run_session(stage, args.pipeline, args.json, console);
     };
   });
-}
-
-/// CLI::Range, which lets pass what is no number.
-CLI::Validator between(double low, double high) {
-  const CLI::Range range(low, high);
-  return CLI::Validator(
-      [range](std::string& word) {
-        const bool is_nan = CLI::detail::to_lower(word).find("nan") != std::string::npos;
-        return is_nan ? "Value " + word + " is no number" : range(word);
-      },
-      range.get_description());
 }
 
 void add_record(CLI::App& app, Arguments& args, Command& chosen) {
@@ -234,6 +226,7 @@ int run(int argc, char** argv) {
   add_print_commands(app, args.print, chosen);
   add_plan_command(app, args.plan, chosen);
   add_repair_command(app, args.repair, chosen);
+  add_fit_command(app, args.fit, chosen);
   add_small_commands(app, args, chosen);
   try {
     app.parse(argc, argv);

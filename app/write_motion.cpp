@@ -11,12 +11,15 @@ namespace marey::app {
 
 Status write_motion(const std::filesystem::path& folder,
                     const EstimatedMotion& estimate,
-                    const Proportions& proportions) {
-  if (const Status ok = recordings::write_joints_csv(folder / "joints.csv", estimate);
+                    const Proportions& proportions,
+                    std::optional<double> start_s) {
+  if (const Status ok =
+          recordings::write_joints_csv(folder / "joints.csv", estimate, start_s);
       !ok) {
     return ok;
   }
-  if (const Status ok = recordings::write_segments_csv(folder / "segments.csv", estimate);
+  if (const Status ok =
+          recordings::write_segments_csv(folder / "segments.csv", estimate, start_s);
       !ok) {
     return ok;
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "core/body.h"
 #include "core/motion.h"
@@ -12,9 +13,10 @@ namespace marey::app {
 
 /// The files of one solved motion: joints.csv, segments.csv, motion.bvh, and motion.glb
 /// with a mannequin of the subject's proportions. Each appears whole or not at all.
-/// Errors: the disk.
+/// `start_s` as write_joints_csv() has it. Errors: the disk.
 [[nodiscard]] Status write_motion(const std::filesystem::path& folder,
                                   const EstimatedMotion& estimate,
-                                  const Proportions& proportions);
+                                  const Proportions& proportions,
+                                  std::optional<double> start_s = {});
 
 }  // namespace marey::app

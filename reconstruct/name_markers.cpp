@@ -230,7 +230,7 @@ MarkerNames name_subject(const std::vector<std::string>& labels) {
     for (const std::string& label : labels) rest.push_back(label.substr(length));
     const LabelGroup group(std::move(rest));
     MarkerNames names{
-        std::string(group.set()), labels[0].substr(0, length), group.landmarks(), {}};
+        std::string(group.set()), labels[0].substr(0, length), group.landmarks(), {}, {}};
     if (best && count_named(names.landmarks) <= count_named(best->landmarks)) continue;
     best = std::move(names);
   }

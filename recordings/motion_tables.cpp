@@ -50,6 +50,7 @@ template <class FinishRow>
 Status write_table(const std::filesystem::path& path,
                    std::string_view header,
                    const EstimatedMotion& estimated,
+                   std::optional<double> start_s,
                    const FinishRow& finish_row) {
   const Motion& motion = estimated.motion;
   const std::vector<Joint>& joints = motion.skeleton.joints;
@@ -67,7 +68,9 @@ Status write_table(const std::filesystem::path& path,
     const int frame = motion.first_frame + static_cast<int>(i);
     std::string start;
     append_exact(start, frame);
-    append_cell(start, seconds(frame_time(frame, motion.rate)));
+    append_cell(start,
+                start_s ? *start_s + static_cast<double>(i) / motion.rate.hz
+                        : seconds(frame_time(frame, motion.rate)));
     for (std::size_t j = 0; j < joints.size(); ++j) {
       lines.append(start).append(",").append(joints[j].name);
       append_cells(lines, world_from_joint[j].translation);
@@ -146,21 +149,25 @@ Result<std::vector<Row>> parse_table(std::string_view text,
 }  // namespace
 
 Status write_joints_csv(const std::filesystem::path& path,
-                        const EstimatedMotion& estimated) {
+                        const EstimatedMotion& estimated,
+                        std::optional<double> start_s) {
   return write_table(path,
                      kJointsHeader,
                      estimated,
+                     start_s,
                      [](std::string& line, const glm::dquat&, const JointDoubt& doubt) {
                        append_cell(line, doubt.sigma_m);
                      });
 }
 
 Status write_segments_csv(const std::filesystem::path& path,
-                          const EstimatedMotion& estimated) {
+                          const EstimatedMotion& estimated,
+                          std::optional<double> start_s) {
   return write_table(
       path,
       kSegmentsHeader,
       estimated,
+      start_s,
       [](std::string& line, const glm::dquat& rotation, const JointDoubt& doubt) {
         const glm::dquat q = rotation.w < 0.0 ? -rotation : rotation;
         append_cell(line, q.w);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,14 +39,18 @@ struct SegmentRow {
 /// in world metres, six decimals. At once or not at all. Memory does not grow with
 /// frames. Errors: the disk; a joint name that a table cannot hold (comma, quote or line
 /// end). Precondition: one doubt per joint and frame; every number finite.
+/// `start_s`: the time of the first frame, on a clock of the recording's own; without it
+/// that is first_frame / rate.
 [[nodiscard]] Status write_joints_csv(const std::filesystem::path& path,
-                                      const EstimatedMotion& estimated);
+                                      const EstimatedMotion& estimated,
+                                      std::optional<double> start_s = {});
 
 /// Writes segments.csv: `frame,time,segment,x,y,z,qw,qx,qy,qz,source`, the place and the
 /// rotation of every joint's frame in the world, six decimals, qw >= 0; otherwise as
 /// write_joints_csv().
 [[nodiscard]] Status write_segments_csv(const std::filesystem::path& path,
-                                        const EstimatedMotion& estimated);
+                                        const EstimatedMotion& estimated,
+                                        std::optional<double> start_s = {});
 
 // Readers. `file` is what error messages call the text. Errors (kBadInput), with the
 // line: another header; a row with a field too few or too many, or that is not a number.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -67,6 +68,16 @@ void write_tag(TomlWriter& out, const PlacedTag& placed) {
   out.number("sigma_m", placed.sigma_m);
   out.number("sigma_rad", placed.sigma_rad);
   out.integer("sightings", placed.sightings);
+}
+
+void write_marker(TomlWriter& out, const PlacedMarker& placed) {
+  out.array_table("marker");
+  out.text("label", placed.label);
+  out.text("segment", name(placed.segment));
+  write_vector(out, "p_in_segment_m", placed.p_in_segment);
+  out.number("sigma_m", placed.sigma_m);
+  out.number("stray_m", placed.stray_m);
+  out.integer("frames", placed.frames);
 }
 
 void read_joint(TomlReader& in, HumanBone bone, Body& body) {
@@ -134,6 +145,29 @@ void read_tag(TomlReader& in, Body& body) {
   body.tags.push_back(placed);
 }
 
+void read_marker(TomlReader& in, Body& body) {
+  in.allow({"label", "segment", "p_in_segment_m", "sigma_m", "stray_m", "frames"});
+  PlacedMarker placed;
+  placed.label = in.text("label");
+  const std::string segment = in.text("segment");
+  placed.p_in_segment = read_vector(in, "p_in_segment_m");
+  placed.sigma_m = in.number("sigma_m", kLength);
+  placed.stray_m = in.number("stray_m", kLength);
+  placed.frames = in.integer("frames", kCount);
+  const std::optional<HumanBone> bone = human_bone(segment);
+  if (!bone) {
+    in.fail("segment", "unknown segment " + in_quotes(segment), bone_suggestion(segment));
+    return;
+  }
+  placed.segment = *bone;
+  if (placed.label.empty()) in.fail("label", "the label is empty", "name the marker");
+  for (const PlacedMarker& other : body.markers) {
+    if (other.label != placed.label) continue;
+    in.fail("label", "this marker is listed twice", "remove one, or correct its label");
+  }
+  body.markers.push_back(std::move(placed));
+}
+
 void read_joints(TomlReader root, Body& body) {
   TomlReader joints = root.table("joint");
   for (const std::string& key : joints.keys()) {
@@ -162,6 +196,7 @@ std::string subject_text(const Body& body) {
   }
   for (const HumanBone bone : human_bones()) write_joint(out, body, bone);
   for (const PlacedTag& placed : body.tags) write_tag(out, placed);
+  for (const PlacedMarker& placed : body.markers) write_marker(out, placed);
   return out.str();
 }
 
@@ -173,7 +208,8 @@ Result<Body> parse_subject(std::string_view text, const std::string& file) {
   Result<TomlDocument> document = parse_toml(text, file);
   if (!document) return document.error();
   TomlReader root(*document);
-  root.allow({"format", "name", "stature_m", "mass_kg", "tips", "joint", "tag"});
+  root.allow(
+      {"format", "name", "stature_m", "mass_kg", "tips", "joint", "tag", "marker"});
   (void)root.integer("format", {1, 1});
   Body body;
   body.name = root.text("name");
@@ -189,6 +225,7 @@ Result<Body> parse_subject(std::string_view text, const std::string& file) {
   }
   read_joints(root, body);
   for (TomlReader& tag : root.tables("tag")) read_tag(tag, body);
+  for (TomlReader& marker : root.tables("marker")) read_marker(marker, body);
   if (document->mistake) return *document->mistake;
   return body;
 }

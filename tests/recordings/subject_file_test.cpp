@@ -32,6 +32,13 @@ Body a_body() {
   PlacedTag unplaced;
   unplaced.tag = {TagId{73}, HumanBone::kHead, 0.075};
   body.tags.push_back(unplaced);
+  body.markers.push_back({"LASI \"2\"",
+                          HumanBone::kHips,
+                          {0.1 / 3.0, 1e-9 / 7.0, -0.2},
+                          0.004 / 3.0,
+                          0.009 / 7.0,
+                          4321});
+  body.markers.push_back({"RTOE", HumanBone::kRightFoot});
   return body;
 }
 
@@ -78,6 +85,23 @@ TEST(SubjectFile, GivesBackEveryDoubleOfTheTags) {
   EXPECT_EQ(a.sightings, b.sightings);
 }
 
+TEST(SubjectFile, GivesBackEveryDoubleOfTheMarkers) {
+  const Body written = a_body();
+  const Result<Body> read = parse_subject(subject_text(written), "s.toml");
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->markers.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PlacedMarker& a = written.markers[i];
+    const PlacedMarker& b = read->markers[i];
+    EXPECT_EQ(a.label, b.label);
+    EXPECT_EQ(a.segment, b.segment);
+    EXPECT_EQ(a.p_in_segment, b.p_in_segment);
+    EXPECT_EQ(a.sigma_m, b.sigma_m);
+    EXPECT_EQ(a.stray_m, b.stray_m);
+    EXPECT_EQ(a.frames, b.frames);
+  }
+}
+
 TEST(SubjectFile, KeepsAMassThatIsNotKnownUnknown) {
   Body body = a_body();
   body.mass_kg.reset();
@@ -119,6 +143,14 @@ TEST(SubjectFile, RefusesALengthThatIsNotTheOffsets) {
 
 TEST(SubjectFile, RefusesATagTwice) {
   EXPECT_NE(mistake("id = 73", "id = 41").find("this tag is listed twice"),
+            std::string::npos);
+}
+
+TEST(SubjectFile, RefusesAMarkerTwiceOrWithoutALabel) {
+  EXPECT_NE(mistake("label = \"RTOE\"", "label = \"LASI \\\"2\\\"\"")
+                .find("this marker is listed twice"),
+            std::string::npos);
+  EXPECT_NE(mistake("label = \"RTOE\"", "label = \"\"").find("the label is empty"),
             std::string::npos);
 }
 

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/fit_labels.h"
+#include "app/marker_trials.h"
+#include "core/result.h"
+
+namespace marey::app {
+
+/// Whether the body shows what the markers did. Empty when all is well. Each is kQuality
+/// with the trial's file: left and right exchanged, markers far off the body, frames in
+/// which it is not known; or
+/// kBadInput: a trial without enough markers of the body's.
+/// `subject` may be null: an earlier fit was used.
+[[nodiscard]] std::vector<Error> judge_fit(std::span<const MarkerTrial> trials,
+                                           const SubjectFit* subject);
+
+/// The share of the frames that show any marker in which the body is known; 0 of a trial
+/// that is not solved.
+[[nodiscard]] double share_solved(const MarkerTrial& trial);
+
+/// Whether the head is below the feet all the time: a capture that is upside down.
+[[nodiscard]] bool is_upside_down(const MarkerTrial& trial);
+
+}  // namespace marey::app
