@@ -24,16 +24,17 @@ std::string with_number(const char* format, double value) {
 }
 
 Error far_off(const MarkerTrial& trial, const SubjectFit* subject) {
-  Error error{Errc::kQuality,
-              trial.path.string(),
-              with_number("its markers are %.0f mm away from the body (RMS)",
-                          1e3 * trial.solved->rms_m),
-              "see which in fit.json; are left and right mixed up, or labels wrong "
-              "(--markers MAP.toml), or the unit (--unit)?"};
+  Error error{
+      Errc::kQuality,
+      trial.path.string(),
+      with_number("its markers are %.0f mm away from the body (RMS)",
+                  1e3 * trial.solved->rms_m),
+      "see which in fit.json: labels may be wrong or moved (--markers MAP.toml), or "
+      "the unit (--unit)"};
   if (subject == nullptr) {
     error.next =
-        "see which in fit.json: is this the subject of --subject, with its "
-        "markers where they were?";
+        "see which in fit.json, and whether this is the subject of --subject with its "
+        "markers where they were";
   }
   return error;
 }

@@ -170,7 +170,7 @@ TEST(FitProgram, TellsWhenAnotherSubjectIsGiven) {
                               (folder / "out").string()});
   EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_NE(run.err.find("away from the body (RMS)"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("is this the subject of --subject"), std::string::npos)
+  EXPECT_NE(run.err.find("whether this is the subject of --subject"), std::string::npos)
       << run.err;
   // What there is can be looked at.
   EXPECT_TRUE(fs::exists(folder / "out/pose/motion.bvh"));
