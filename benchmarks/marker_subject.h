@@ -64,5 +64,8 @@ class Distances {
 int measure_running(const std::filesystem::path& mocap);
 int measure_flexion(const std::filesystem::path& mocap);
 int measure_studio(const std::filesystem::path& mocap);
+int measure_dropouts(const std::filesystem::path& mocap);
+int measure_speed(const std::filesystem::path& mocap);
+int measure_flight(const std::filesystem::path& mocap);
 
 }  // namespace marey

@@ -9,6 +9,9 @@
 // running   distance of markers from the body, and of markers that were held out
 // flexion   knees, hips and ankles against OpenSim's inverse kinematics
 // studio    joints against the skeleton that CMU's studio solved
+// dropouts  joints from tracks with gaps, swaps, noise and spikes against clean ones
+// speed     time and memory, batch and live
+// flight    take-off and landing of a jump against force plates
 //
 // The person is fitted from the tracks alone every time: nothing is given.
 #include <array>
@@ -25,11 +28,15 @@ int main(int argc, char** argv) {
       Question{"running", marey::measure_running},
       Question{"flexion", marey::measure_flexion},
       Question{"studio", marey::measure_studio},
+      Question{"dropouts", marey::measure_dropouts},
+      Question{"speed", marey::measure_speed},
+      Question{"flight", marey::measure_flight},
   };
   if (argc == 3) {
     for (const Question& question : questions) {
       if (question.name == argv[1]) return question.measure(argv[2]);
     }
   }
-  marey::stop("usage: measure_markers running|flexion|studio MOCAP");
+  marey::stop(
+      "usage: measure_markers running|flexion|studio|dropouts|speed|flight MOCAP");
 }
