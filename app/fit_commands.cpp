@@ -30,10 +30,11 @@ std::string all_inputs(const FitArguments& args) {
 }
 
 /// Who the recording says it is: "Bob" of "Bob:LASI".
-std::string name_of_subject(const FitArguments& args, const FitLabels& labels) {
+std::string name_of_subject(const FitArguments& args,
+                            std::span<const MarkerTrial> trials) {
   if (!args.name.empty()) return args.name;
-  std::string name = labels.names.prefix;
-  while (!name.empty() && (name.back() == ':' || name.back() == '_')) name.pop_back();
+  std::string name = trials.front().prefix;
+  while (!name.empty() && name.back() == ':') name.pop_back();
   return name.empty() ? "subject" : name;
 }
 
@@ -55,7 +56,7 @@ Status find_subject(const FitArguments& args,
                     const Progress& progress,
                     FitRun& run) {
   reconstruct::MarkerSubject subject;
-  subject.name = name_of_subject(args, run.labels);
+  subject.name = name_of_subject(args, run.trials);
   subject.stature_m = args.stature_m;
   subject.mass_kg = args.mass_kg;
   auto fit = fit_subject_to(subject, checked, run.labels, progress);
@@ -102,7 +103,9 @@ Status solve_all(const FitArguments& args,
   std::vector<MarkerTracks> checked = repair_trials(run.trials, console.stage("repair"));
   run.times.repair_s = repairing.seconds();
   const Stopwatch fitting;
-  auto labels = name_labels(checked, map);
+  std::vector<std::string> prefixes;
+  for (const MarkerTrial& trial : run.trials) prefixes.push_back(trial.prefix);
+  auto labels = name_labels(checked, prefixes, map);
   if (labels) {
     run.labels = std::move(*labels);
   } else if (args.subject.empty()) {

@@ -80,7 +80,7 @@ Json marker_figures(const Body& body, const reconstruct::SolvedMarkers& solved) 
 }
 
 Json trial_figures(const Body& body, const MarkerTrial& trial) {
-  Json out{{"trial", trial.name}};
+  Json out{{"trial", trial.name}, {"prefix", trial.prefix}};
   out.update(repair_figures(trial.repair));
   out["samples_predicted"] = trial.samples_predicted;
   out["samples_left_empty"] = trial.samples_empty;
@@ -97,6 +97,7 @@ Json trial_figures(const Body& body, const MarkerTrial& trial) {
 std::string why_unused(const FitLabels& labels, std::size_t label) {
   const auto& ignored = labels.names.is_ignored;
   if (!ignored.empty() && ignored[label]) return "is to be ignored";
+  if (labels.names.is_computed[label]) return "is a computed point or a device";
   if (labels.samples[label] == 0) return "is never seen";
   if (labels.names.landmarks[label] == nullptr) {
     return "is not known, and moves with no segment or is seen too rarely";
@@ -116,8 +117,7 @@ Json fit_figures(const FitRun& run) {
   Json out{{"format", 1},
            {"subject", run.body.name},
            {"stature_m", rounded(run.body.stature_m, 4)},
-           {"label_set", run.labels.names.set},
-           {"prefix", run.labels.names.prefix}};
+           {"label_set", run.labels.names.set}};
   if (run.subject) {
     const SubjectFit& subject = *run.subject;
     out["stature_pairs"] = subject.fit.stature_pairs;

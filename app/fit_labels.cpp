@@ -56,7 +56,7 @@ std::vector<NamedMarker> used_labels(const FitLabels& labels) {
   std::vector<NamedMarker> used;
   for (std::size_t i = 0; i < labels.labels.size(); ++i) {
     const auto& ignored = labels.names.is_ignored;
-    if (!ignored.empty() && ignored[i]) continue;
+    if ((!ignored.empty() && ignored[i]) || labels.names.is_computed[i]) continue;
     used.push_back({labels.labels[i], labels.names.landmarks[i]});
   }
   return used;
@@ -94,6 +94,20 @@ Error exchanged_error() {
       "call left what is left, in the recording or with --markers MAP.toml");
 }
 
+/// What stands before labels in a file may stand before them in its map.
+void leave_out(std::span<const std::string> prefixes,
+               std::span<const std::string> labels,
+               MarkerMapEntry& entry) {
+  if (std::find(labels.begin(), labels.end(), entry.label) != labels.end()) return;
+  for (const std::string& prefix : prefixes) {
+    if (!entry.label.starts_with(prefix)) continue;
+    const std::string rest = entry.label.substr(prefix.size());
+    if (std::find(labels.begin(), labels.end(), rest) == labels.end()) continue;
+    entry.label = rest;
+    return;
+  }
+}
+
 Status check_size(std::span<const MarkerTracks> trials,
                   std::span<const NamedMarker> markers) {
   const auto estimate = reconstruct::estimate_stature(trials, markers);
@@ -114,6 +128,7 @@ Status check_size(std::span<const MarkerTracks> trials,
 }  // namespace
 
 Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
+                              std::span<const std::string> prefixes,
                               const std::optional<MarkerMap>& map) {
   FitLabels out;
   std::map<std::string, std::size_t> places;
@@ -130,8 +145,11 @@ Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
     }
   }
   out.names = reconstruct::name_markers(out.labels);
+  out.names.notes.clear();  // Told of every file.
   if (map) {
-    auto names = reconstruct::apply_map(*map, out.labels, std::move(out.names));
+    MarkerMap bare = *map;
+    for (MarkerMapEntry& entry : bare.entries) leave_out(prefixes, out.labels, entry);
+    auto names = reconstruct::apply_map(bare, out.labels, std::move(out.names));
     if (!names) return names.error();
     out.names = std::move(*names);
   }

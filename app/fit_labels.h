@@ -23,9 +23,11 @@ struct FitLabels {
   std::vector<std::size_t> samples;  ///< Per label: how often it was seen.
 };
 
-/// Names the labels of `trials`; what `map` says goes before what they seem to say.
+/// Names the labels of `trials`, which have none of `prefixes` before them; what `map`
+/// says, with or without these, goes before what they seem to say.
 /// Errors (kBadInput): apply_map()'s; none of the labels is known.
 [[nodiscard]] Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
+                                            std::span<const std::string> prefixes,
                                             const std::optional<MarkerMap>& map);
 
 /// A subject, and what speaks against the labels.

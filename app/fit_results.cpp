@@ -41,6 +41,7 @@ Status write_marker_files(const fs::path& folder,
                           MarkerTracks tracks,
                           MarkerTrial& trial) {
   trial.file.tracks = std::move(tracks);
+  trial.file.tracks.labels = trial.repair.as_read.labels;
   // What else is in a C3D is kept, in the axes that it says: where the user told others,
   // the copy would go on saying the old ones.
   const FileAxes& axes = trial.file.axes;

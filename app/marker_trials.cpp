@@ -9,6 +9,7 @@
 
 #include "core/parallel.h"
 #include "reconstruct/check_tracks.h"
+#include "reconstruct/name_markers.h"
 #include "reconstruct/repair_gaps.h"
 
 namespace marey::app {
@@ -82,6 +83,24 @@ Status check_paths(std::span<const fs::path> paths,
   return Done{};
 }
 
+/// Recordings of one subject may call it otherwise: "Bob_static:LASI", "Bob:LASI".
+void leave_out_subject(MarkerTrial& trial, Console& console) {
+  const std::vector<std::string>& labels = trial.repair.as_read.labels;
+  const reconstruct::MarkerNames names = reconstruct::name_markers(labels);
+  for (const std::string& note : names.notes) {
+    console.warn(trial.path.string() + ": " + note);
+  }
+  // What else all labels begin with is the same in all of its recordings.
+  trial.prefix = names.prefix.substr(0, names.prefix.rfind(':') + 1);
+  trial.labels = labels;
+  std::set<std::string> taken(labels.begin(), labels.end());
+  for (std::string& label : trial.labels) {
+    if (!label.starts_with(trial.prefix)) continue;
+    std::string rest = label.substr(trial.prefix.size());
+    if (!rest.empty() && taken.insert(rest).second) label = std::move(rest);
+  }
+}
+
 bool is_any_seen(const MarkerTracks& tracks) {
   return std::any_of(tracks.samples.begin(), tracks.samples.end(), [](const auto& s) {
     return s.has_value();
@@ -118,6 +137,7 @@ Result<std::vector<MarkerTrial>> read_trials(std::span<const fs::path> paths,
     trial.repair.name = paths[i].filename().string();
     trial.repair.as_read = std::move(read->tracks);
     read->tracks = {};
+    leave_out_subject(trial, console);
     trial.file = std::move(*read);
   }
   return trials;
@@ -136,6 +156,7 @@ std::vector<MarkerTracks> repair_trials(std::vector<MarkerTrial>& trials,
     repair.repaired = reconstruct::repair_gaps(
         repair.checked.tracks, options, alone ? progress : Progress{});
     checked[i] = std::move(repair.checked.tracks);
+    checked[i].labels = repair.repaired.tracks.labels = trials[i].labels;
     repair.checked.tracks = {};
     if (!alone) all.add(1);
   });

@@ -21,6 +21,10 @@ struct MarkerTrial {
   std::string name;  ///< Of its folder among the results.
   std::filesystem::path path;
   recordings::MarkerFile file;  ///< Without its tracks, which are in `repair`.
+  std::string prefix;           ///< What stands before the subject's labels: "Bob:".
+  /// The labels without it: by these a marker is the same in several trials. They are
+  /// those of repair.repaired, too; repair.as_read has the file's.
+  std::vector<std::string> labels;
   Repair repair;
   std::optional<reconstruct::SolvedMarkers> solved;  ///< None: too few markers.
   std::vector<std::string> avatars;                  ///< Files of other bodies.
@@ -40,7 +44,7 @@ struct MarkerTrial {
     Console& console);
 
 /// Takes out or puts right wrong samples and fills gaps, trials side by side. Gives the
-/// checked tracks without what was filled, trial by trial.
+/// checked tracks without what was filled, trial by trial, with MarkerTrial::labels.
 [[nodiscard]] std::vector<MarkerTracks> repair_trials(std::vector<MarkerTrial>& trials,
                                                       const Progress& progress);
 

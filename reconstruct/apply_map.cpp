@@ -50,6 +50,7 @@ Result<MarkerNames> apply_map(const MarkerMap& map,
                               std::span<const std::string> labels,
                               MarkerNames names) {
   MAREY_ASSERT(names.landmarks.size() == labels.size());
+  names.is_computed.resize(labels.size());
   names.is_ignored.resize(labels.size());
   bool is_any_found = map.entries.empty();
   for (const MarkerMapEntry& entry : map.entries) {
@@ -59,6 +60,7 @@ Result<MarkerNames> apply_map(const MarkerMap& map,
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (!is_meant(labels[i], entry.label, names.prefix)) continue;
       names.landmarks[i] = landmark;
+      names.is_computed[i] = false;
       names.is_ignored[i] = landmark == nullptr;
       is_found = true;
     }

@@ -134,6 +134,16 @@ class LabelGroup {
     return found;
   }
 
+  /// Which are known to be no markers on the body.
+  [[nodiscard]] std::vector<bool> computed() const {
+    std::vector<bool> found;
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      const Meaning* known = known_meaning(i);
+      found.push_back(known != nullptr && known->landmark == nullptr);
+    }
+    return found;
+  }
+
  private:
   [[nodiscard]] const Meaning* meaning(std::size_t label, std::size_t set) const {
     const Meanings& meanings = all_meanings()[set];
@@ -165,16 +175,23 @@ class LabelGroup {
     }
   }
 
-  [[nodiscard]] const Landmark* landmark(std::size_t label) const {
+  /// By the sets; nullptr where none knows the label.
+  [[nodiscard]] const Meaning* known_meaning(std::size_t label) const {
     if (set_) {
-      if (const Meaning* known = meaning(label, *set_)) return known->landmark;
+      if (const Meaning* known = meaning(label, *set_)) return known;
     }
     if (is_second(labels_[label], given_)) return nullptr;
     for (std::size_t s = 0; s < label_sets().size(); ++s) {
       if (label_sets()[s].alone) continue;
       if (is_vertebra(plain_[label]) && !knows_the_spine()) continue;
-      if (const Meaning* known = meaning(label, s)) return known->landmark;
+      if (const Meaning* known = meaning(label, s)) return known;
     }
+    return nullptr;
+  }
+
+  [[nodiscard]] const Landmark* landmark(std::size_t label) const {
+    if (const Meaning* known = known_meaning(label)) return known->landmark;
+    if (is_second(labels_[label], given_)) return nullptr;
     return segment_of_words(labels_[label]);
   }
 
@@ -229,8 +246,11 @@ MarkerNames name_subject(const std::vector<std::string>& labels) {
     rest.reserve(labels.size());
     for (const std::string& label : labels) rest.push_back(label.substr(length));
     const LabelGroup group(std::move(rest));
-    MarkerNames names{
-        std::string(group.set()), labels[0].substr(0, length), group.landmarks(), {}, {}};
+    MarkerNames names;
+    names.set = group.set();
+    names.prefix = labels[0].substr(0, length);
+    names.landmarks = group.landmarks();
+    names.is_computed = group.computed();
     if (best && count_named(names.landmarks) <= count_named(best->landmarks)) continue;
     best = std::move(names);
   }
@@ -267,6 +287,7 @@ std::vector<Subject> subjects_of(std::span<const std::string> labels) {
 MarkerNames name_markers(std::span<const std::string> labels) {
   MarkerNames best;
   best.landmarks.assign(labels.size(), nullptr);
+  best.is_computed.assign(labels.size(), false);
   std::size_t most = 0;
   std::size_t with_names = 0;
   for (const Subject& subject : subjects_of(labels)) {
@@ -279,8 +300,10 @@ MarkerNames name_markers(std::span<const std::string> labels) {
     best.set = names.set;
     best.prefix = subject.prefix + names.prefix;
     best.landmarks.assign(labels.size(), nullptr);
+    best.is_computed.assign(labels.size(), false);
     for (std::size_t i = 0; i < subject.markers.size(); ++i) {
       best.landmarks[subject.markers[i]] = names.landmarks[i];
+      best.is_computed[subject.markers[i]] = names.is_computed[i];
     }
   }
   if (with_names > 1) {

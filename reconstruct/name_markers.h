@@ -21,6 +21,8 @@ struct MarkerNames {
   std::string prefix;
   /// Per label; nullptr where it means nothing that is known, or no place on the body.
   std::vector<const Landmark*> landmarks;
+  /// Per label: a set knows it for a computed point or a device, no marker on the body.
+  std::vector<bool> is_computed;
   /// Per label: somebody said that it is not to be used. Empty when nobody said anything.
   std::vector<bool> is_ignored;
   /// What the user may want to know. Sentences without a full stop.

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "recordings/atomic_file.h"
+#include "recordings/marker_file.h"
 #include "recordings/subject_file.h"
 #include "tests/app/labelled_session.h"
 #include "tests/support/worn_markers.h"
@@ -70,6 +71,29 @@ TEST(FitProgram, CallsTrialsOfOneNameApart) {
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("would be written over this file"), std::string::npos)
       << run.err;
+}
+
+TEST(FitProgram, UnitesTheLabelsOfASubjectOfManyNames) {
+  const ScratchFolder folder;
+  const Body person = labelled_person();
+  std::vector<std::string> arguments;
+  for (const std::string subject : {"Ann_static", "Ann"}) {
+    MarkerTracks tracks = film_markers(person, standing(person), {20, 100.0, 3e-4});
+    for (std::string& label : tracks.labels) label = subject + ":" + label;
+    write_tracks(folder / (subject + ".c3d"), tracks);
+    arguments.push_back((folder / (subject + ".c3d")).string());
+  }
+  arguments.insert(arguments.end(), {"--json", "--out", (folder / "out").string()});
+  const ProgramRun run = fit(arguments);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json figures = Json::parse(run.out);
+  EXPECT_EQ(figures["subject"], "Ann_static");
+  EXPECT_EQ(figures["labels"].size(), person.markers.size());
+  EXPECT_EQ(figures["trials"][1]["prefix"], "Ann:");
+  EXPECT_EQ(figures["trials"][1]["frames_solved"], 20);
+  const auto read = recordings::read_markers(folder / "out/Ann/markers.c3d");
+  ASSERT_TRUE(read) << read.error().message();
+  EXPECT_TRUE(read->tracks.labels[0].starts_with("Ann:"));
 }
 
 TEST(FitProgram, SolvesOneFrame) {

@@ -85,6 +85,14 @@ TEST(NameMarkers, NamesOneOfSeveralSubjects) {
   EXPECT_EQ(names.notes[0], "of several subjects, the markers of \"Bob:\" are named");
 }
 
+TEST(NameMarkers, TellsComputedPointsFromUnknownOnes) {
+  const auto labels =
+      words("LASI RASI LPSI RPSI LKNE RKNE LANK RANK LHEE RHEE LTOE RTOE PELO LFEP foo");
+  std::vector<bool> expected(labels.size(), false);
+  expected[12] = expected[13] = true;
+  EXPECT_EQ(name_markers(labels).is_computed, expected);
+}
+
 TEST(NameMarkers, DoesNotMindHowASideIsWritten) {
   expect_names(
       words("Left_Knee knee_r Knee-Left RightHeel heel.l LEFT.ANKLE.LAT asisl ASISr"),
