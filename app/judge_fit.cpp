@@ -82,7 +82,8 @@ std::vector<Error> judge_fit(std::span<const MarkerTrial> trials,
              with_number(" %.1f times as far from their landmarks as on others,",
                          subject->places_off) +
              with_number(" and %.1f times in the mirror", *subject->mirrored_places_off),
-         "call left what is left, in the recording or with --markers MAP.toml"});
+         "call left what is left, in the recording or with --markers MAP.toml, or see "
+         "whether the file's axes are left-handed"});
   }
   for (const MarkerTrial& trial : trials) {
     if (!trial.solved) {
