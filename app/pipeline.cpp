@@ -3,6 +3,7 @@
 #include "app/pipeline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -39,6 +40,16 @@ void leave_out_unrecorded(recordings::Session& session, Console& console) {
     if (left_out) console.warn("trial " + trial.name + " is not recorded yet");
     return left_out;
   });
+}
+
+/// How well a place that all cameras see is known because of where they are themselves:
+/// what is wrong with each of them counts by its share.
+double common_sigma_m(const std::vector<ReportCamera>& cameras) {
+  double sum_m2 = 0.0;
+  for (const ReportCamera& camera : cameras) {
+    sum_m2 += camera.quality.centre_sigma_m * camera.quality.centre_sigma_m;
+  }
+  return cameras.empty() ? 0.0 : std::sqrt(sum_m2) / static_cast<double>(cameras.size());
 }
 
 /// What a stage, and those before it, must find in the session.
@@ -226,7 +237,10 @@ Result<reconstruct::SolvedTrial> Pipeline::solve_trial(const Trial& trial,
   const auto detections = unshrunk_detections_of(trial);
   if (!detections) return detections.error();
   // A camera without a video in this trial keeps its place, and stays silent.
-  auto solved = reconstruct::solve_motion(*body_, cameras_, *detections, {}, progress);
+  reconstruct::SolveMotionOptions options;
+  options.camera_sigma_m = common_sigma_m(report_.cameras);
+  auto solved =
+      reconstruct::solve_motion(*body_, cameras_, *detections, options, progress);
   if (!solved) return in_session(solved.error());
   return solved;
 }

@@ -4,8 +4,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/assert.h"
 #include "reconstruct/locate_rigid.h"
 #include "reconstruct/posture_terms.h"
+#include "reconstruct/tag_slip.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -76,6 +78,26 @@ std::vector<glm::dquat> readings_of(const BodyModel& model,
   return readings;
 }
 
+/// Precondition: the tag has a place.
+KnownTagResidual known_tag(const BodyModel& model,
+                           const TagSighting& sighting,
+                           std::span<const Camera> cameras) {
+  const RigidTransform* segment_from_tag = model.place(sighting.tag);
+  MAREY_ASSERT(segment_from_tag);
+  const HumanBone bone = model.bone(sighting.tag);
+  KnownTagResidual known{bone,
+                         slots_of(bone),
+                         model.lengths,
+                         model.body,
+                         tag_image(cameras[index(sighting.camera)], *sighting.detection),
+                         {}};
+  for (int c = 0; c < 4; ++c) {
+    known.corners_in_segment[static_cast<std::size_t>(c)] =
+        *segment_from_tag * corner_in_tag(c, model.tags[sighting.tag].size_m);
+  }
+  return known;
+}
+
 }  // namespace
 
 const RigidTransform* BodyModel::place(std::size_t tag) const {
@@ -102,32 +124,30 @@ void add_sighting(const BodyModel& model,
                   const TagSighting& sighting,
                   std::span<const Camera> cameras,
                   Posture& posture,
-                  ceres::Problem& problem,
-                  double* offset_s,
-                  const std::array<glm::dvec2, 4>& velocity_px_s) {
-  const RigidTransform* segment_from_tag = model.place(sighting.tag);
-  if (!segment_from_tag) return;
-  const HumanBone bone = model.bone(sighting.tag);
-  KnownTagResidual known{bone,
-                         slots_of(bone),
-                         model.lengths,
-                         model.body,
-                         tag_image(cameras[index(sighting.camera)], *sighting.detection),
-                         {}};
-  known.image.velocity_px_s = velocity_px_s;
-  for (int c = 0; c < 4; ++c) {
-    known.corners_in_segment[static_cast<std::size_t>(c)] =
-        *segment_from_tag * corner_in_tag(c, model.tags[sighting.tag].size_m);
-  }
-  std::vector<double*> blocks = blocks_of(posture, bone);
-  ceres::CostFunction* cost = nullptr;
-  if (offset_s) {
-    blocks.push_back(offset_s);
-    cost = bone_cost<8, 1>(std::make_unique<LateTagResidual>(LateTagResidual{known}));
-  } else {
-    cost = bone_cost<8>(std::make_unique<KnownTagResidual>(std::move(known)));
-  }
-  problem.AddResidualBlock(cost, tag_loss(), blocks);
+                  ceres::Problem& problem) {
+  if (!model.place(sighting.tag)) return;
+  const KnownTagResidual known = known_tag(model, sighting, cameras);
+  problem.AddResidualBlock(bone_cost<8>(std::make_unique<KnownTagResidual>(known)),
+                           tag_loss(),
+                           blocks_of(posture, known.bone));
+}
+
+ceres::ResidualBlockId add_late_sighting(const BodyModel& model,
+                                         const TagSighting& sighting,
+                                         std::span<const Camera> cameras,
+                                         Posture& posture,
+                                         ceres::Problem& problem,
+                                         double* offset_s,
+                                         const std::array<glm::dvec2, 4>& velocity_px_s,
+                                         const TagSlip& slip) {
+  LateTagResidual late{known_tag(model, sighting, cameras)};
+  late.image.velocity_px_s = velocity_px_s;
+  late.slip_directions = slip.directions;
+  late.slip_shrink = 1.0 - slip.stretch().inverse();
+  std::vector<double*> blocks = blocks_of(posture, late.bone);
+  blocks.push_back(offset_s);
+  return problem.AddResidualBlock(
+      bone_cost<8, 1>(std::make_unique<LateTagResidual>(late)), tag_loss(), blocks);
 }
 
 std::optional<std::array<glm::dvec2, 4>> predicted_corners_px(

@@ -39,16 +39,25 @@ struct BodyModel {
 /// Robust loss of a tag's eight residuals, whose norm is near 2.8 when all is well.
 [[nodiscard]] ceres::LossFunction* tag_loss();
 
-/// Adds the reprojection of one sighting to a problem in which the body is known. With
-/// `offset_s`, that block is the time by which the camera is late, and the corners move
-/// at `velocity_px_s` meanwhile.
+/// Adds the reprojection of one sighting to a problem in which the body is known.
 void add_sighting(const BodyModel& model,
                   const TagSighting& sighting,
                   std::span<const Camera> cameras,
                   Posture& posture,
-                  ceres::Problem& problem,
-                  double* offset_s = nullptr,
-                  const std::array<glm::dvec2, 4>& velocity_px_s = {});
+                  ceres::Problem& problem);
+
+struct TagSlip;  // tag_slip.h
+
+/// The same of a camera that is late by the block `offset_s`, while the corners move at
+/// `velocity_px_s`, and of a tag that slips. Precondition: the tag has a place.
+ceres::ResidualBlockId add_late_sighting(const BodyModel& model,
+                                         const TagSighting& sighting,
+                                         std::span<const Camera> cameras,
+                                         Posture& posture,
+                                         ceres::Problem& problem,
+                                         double* offset_s,
+                                         const std::array<glm::dvec2, 4>& velocity_px_s,
+                                         const TagSlip& slip);
 
 /// Where the sighting's corners should be in its image; nullopt behind the camera or for
 /// a tag without a place. [px]

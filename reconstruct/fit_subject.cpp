@@ -221,21 +221,14 @@ Proportions finish(const SubjectBundle& bundle, const Proportions& average) {
 }
 
 std::array<double, kHumanBoneCount> centre_sigmas(const SubjectBundle& bundle) {
-  // A joint centre is known as well as the tags of its own bone are placed about it;
-  // where a bone has none, as well as its length.
+  // Where neither a joint's bone nor its parent has tags, its centre is known no better
+  // than any length.
   const double unknown_m =
       *std::max_element(bundle.length_sigma_m.begin(), bundle.length_sigma_m.end());
   std::array<double, kHumanBoneCount> sigmas{};
   sigmas.fill(unknown_m);
-  std::array<double, kHumanBoneCount> sums{};
-  std::array<int, kHumanBoneCount> counts{};
-  for (const auto& [tag, sigma] : bundle.tag_sigma) {
-    const std::size_t bone = index(bundle.model.bone(tag));
-    sums[bone] += sigma.m * sigma.m;
-    ++counts[bone];
-  }
   for (std::size_t b = 0; b < sigmas.size(); ++b) {
-    if (counts[b] > 0) sigmas[b] = std::sqrt(sums[b] / counts[b]);
+    sigmas[b] = bundle.centre_sigma_m[b].value_or(unknown_m);
   }
   return sigmas;
 }
@@ -256,7 +249,7 @@ bool refine(SubjectBundle& bundle, std::span<const Camera> cameras) {
           bundle.model, frame.sightings, cameras, nullptr, frame.posture);
     }
     const bool last = changed == 0 || round + 1 == kRounds;
-    if (!adjust(bundle, cameras, 25, last)) return false;
+    if (!adjust(bundle, cameras, last ? 100 : 25, last)) return false;
     if (last) break;
   }
   return true;

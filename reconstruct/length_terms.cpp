@@ -43,6 +43,13 @@ Lengths usual_length_sigmas_m(const Lengths& usual) {
   for (std::size_t i = 0; i < usual.size(); ++i) {
     sigmas_m[i] = usual_length_sigma_m(usual[i]);
   }
+  constexpr double kHeld_m = 1e-4;
+  for (const Length length : {Length::kShoulderOut,
+                              Length::kShoulderUp,
+                              Length::kShoulderForward,
+                              Length::kNeckForward}) {
+    sigmas_m[index(length)] = kHeld_m;
+  }
   return sigmas_m;
 }
 

@@ -14,7 +14,8 @@ namespace marey::reconstruct {
 /// centimetre. [m]
 [[nodiscard]] double usual_length_sigma_m(double usual_m);
 
-/// usual_length_sigma_m() of all.
+/// usual_length_sigma_m() of all, but where clavicles and the neck start is held: who has
+/// data that tell it loosens them.
 [[nodiscard]] Lengths usual_length_sigmas_m(const Lengths& usual);
 
 /// Lengths are near those of an average person, give or take `sigma_m`, and both sides

@@ -15,8 +15,11 @@ struct LengthRow {
   glm::dvec3 direction;
 };
 
-const std::array<LengthRow, kLengthCount + 1>& length_rows() {
-  static const std::array<LengthRow, kLengthCount + 1> rows{{
+// Lengths that both sides share have two rows.
+constexpr std::size_t kLengthRows = kLengthCount + 4;
+
+const std::array<LengthRow, kLengthRows>& length_rows() {
+  static const std::array<LengthRow, kLengthRows> rows{{
       {Length::kSpine, B::kSpine, {0, 1, 0}},
       {Length::kChest, B::kChest, {0, 1, 0}},
       {Length::kUpperChest, B::kUpperChest, {0, 1, 0}},
@@ -24,6 +27,13 @@ const std::array<LengthRow, kLengthCount + 1>& length_rows() {
       {Length::kHead, B::kHead, {0, 1, 0}},
       {Length::kHalfHipWidth, B::kLeftUpperLeg, {1, 0, 0}},
       {Length::kHalfHipWidth, B::kRightUpperLeg, {-1, 0, 0}},
+      {Length::kShoulderOut, B::kLeftShoulder, {1, 0, 0}},
+      {Length::kShoulderOut, B::kRightShoulder, {-1, 0, 0}},
+      {Length::kShoulderUp, B::kLeftShoulder, {0, 1, 0}},
+      {Length::kShoulderUp, B::kRightShoulder, {0, 1, 0}},
+      {Length::kShoulderForward, B::kLeftShoulder, {0, 0, 1}},
+      {Length::kShoulderForward, B::kRightShoulder, {0, 0, 1}},
+      {Length::kNeckForward, B::kNeck, {0, 0, 1}},
       {Length::kLeftShoulder, B::kLeftUpperArm, {1, 0, 0}},
       {Length::kRightShoulder, B::kRightUpperArm, {-1, 0, 0}},
       {Length::kLeftUpperArm, B::kLeftLowerArm, {1, 0, 0}},
@@ -120,14 +130,13 @@ Proportions to_proportions(const Lengths& lengths,
                            const BodyFrame& frame,
                            const Proportions& like) {
   Proportions p = like;
+  for (const LengthRow& row : length_rows()) p[row.bone] = glm::dvec3(0.0);
   for (const LengthRow& row : length_rows()) {
-    p[row.bone] = lengths[index(row.length)] * row.direction;
+    p[row.bone] += lengths[index(row.length)] * row.direction;
   }
   const double drop = -frame.hips_above_hip_centres_m;
   p[B::kLeftUpperLeg].y = drop;
   p[B::kRightUpperLeg].y = drop;
-  p[B::kLeftShoulder] = frame.left_shoulder_in_thorax;
-  p[B::kRightShoulder] = frame.left_shoulder_in_thorax * glm::dvec3(-1, 1, 1);
   return p;
 }
 
@@ -147,7 +156,7 @@ std::optional<Length> length_of(HumanBone bone) {
 }
 
 BodyFrame frame_of(const Proportions& proportions) {
-  return {proportions[B::kLeftShoulder], -proportions[B::kLeftUpperLeg].y};
+  return {-proportions[B::kLeftUpperLeg].y};
 }
 
 RigidTransform world_from_bone(HumanBone bone,

@@ -113,6 +113,10 @@ enum class Length : int {
   kNeck,
   kHead,
   kHalfHipWidth,  ///< The hips' X axis runs through both hip centres by definition.
+  kShoulderOut,   ///< Where the left clavicle turns, in the rib cage's frame; the right
+  kShoulderUp,    ///< one mirrors it.
+  kShoulderForward,
+  kNeckForward,
   kLeftShoulder,  ///< Inner to outer end of the clavicle.
   kRightShoulder,
   kLeftUpperArm,
@@ -124,7 +128,7 @@ enum class Length : int {
   kLeftLowerLeg,
   kRightLowerLeg,
 };
-inline constexpr int kLengthCount = 16;
+inline constexpr int kLengthCount = 20;
 using Lengths = std::array<double, kLengthCount>;
 
 [[nodiscard]] constexpr std::size_t index(Length length) {
@@ -182,10 +186,9 @@ inline constexpr std::array<LimbSlots, 4> kLimbSlots{{
 /// The slots that a bone's frame in the world depends on, in slot order.
 [[nodiscard]] std::vector<Slot> slots_of(HumanBone bone);
 
-/// What stays fixed while lengths and postures move: where the clavicles start, how high
-/// the hips' own joint lies above the hip centres.
+/// What stays fixed while lengths and postures move: how high the hips' own joint lies
+/// above the hip centres.
 struct BodyFrame {
-  glm::dvec3 left_shoulder_in_thorax{0.0};  ///< The other side mirrors it. [m]
   double hips_above_hip_centres_m = 0.0;
 };
 
@@ -337,7 +340,9 @@ BoneFrame<T> bone_frame(HumanBone bone,
   const Quaternion thorax = rotation(Slot::kThorax);
   if (bone == B::kUpperChest) return {thorax, p_thorax};
   if (bone == B::kNeck || bone == B::kHead) {
-    const Vec3<T> p_neck = p_thorax + thorax * up(Length::kNeck);
+    const Vec3<T> p_neck =
+        p_thorax +
+        thorax * Vec3<T>(T(0), length(Length::kNeck), length(Length::kNeckForward));
     const Quaternion neck = rotation(Slot::kNeck);
     if (bone == B::kNeck) return {neck, p_neck};
     return {rotation(Slot::kHead), p_neck + neck * up(Length::kHead)};
@@ -346,8 +351,10 @@ BoneFrame<T> bone_frame(HumanBone bone,
   const bool left = bone == B::kLeftShoulder || bone == B::kLeftUpperArm ||
                     bone == B::kLeftLowerArm || bone == B::kLeftHand;
   const double side = left ? 1.0 : -1.0;
-  const glm::dvec3 base = body.left_shoulder_in_thorax * glm::dvec3(side, 1.0, 1.0);
-  const Vec3<T> p_shoulder = p_thorax + thorax * detail::vec<T>(base);
+  const Vec3<T> base(T(side) * length(Length::kShoulderOut),
+                     length(Length::kShoulderUp),
+                     length(Length::kShoulderForward));
+  const Vec3<T> p_shoulder = p_thorax + thorax * base;
   const Quaternion shoulder = rotation(left ? Slot::kLeftShoulder : Slot::kRightShoulder);
   if (bone == B::kLeftShoulder || bone == B::kRightShoulder) {
     return {shoulder, p_shoulder};

@@ -111,8 +111,10 @@ void UnfoldedPosture::unfold(const Posture& posture,
       continue;
     }
     Bone& shoulder = bones_[index(limb == 0 ? B::kLeftShoulder : B::kRightShoulder)];
-    const glm::dvec3 base = body.left_shoulder_in_thorax * glm::dvec3(side, 1.0, 1.0);
-    shoulder.origin = thorax.origin + thorax.rotation * eigen(base);
+    const Vector3d base(side * lengths[index(Length::kShoulderOut)],
+                        lengths[index(Length::kShoulderUp)],
+                        lengths[index(Length::kShoulderForward)]);
+    shoulder.origin = thorax.origin + thorax.rotation * base;
     shoulder.rotation =
         quaternion(posture, limb == 0 ? Slot::kLeftShoulder : Slot::kRightShoulder)
             .toRotationMatrix();
@@ -146,7 +148,8 @@ void UnfoldedPosture::unfold_trunk(const Posture& posture,
   set(B::kChest, chest, p_hips + to_spine + to_chest);
   const Vector3d p_thorax = p_hips + to_spine + to_chest + to_thorax;
   set(B::kUpperChest, thorax, p_thorax);
-  const Vector3d p_neck = p_thorax + length(Length::kNeck) * thorax.col(1);
+  const Vector3d p_neck = p_thorax + length(Length::kNeck) * thorax.col(1) +
+                          length(Length::kNeckForward) * thorax.col(2);
   set(B::kNeck, neck, p_neck);
   set(B::kHead,
       quaternion(posture, Slot::kHead).toRotationMatrix(),

@@ -88,9 +88,8 @@ Eigen::Matrix<double, 3 * kHumanBoneCount, kN> origin_jacobian(const BodyModel& 
 
 }  // namespace
 
-std::optional<std::vector<BoneSigmas>> bone_sigmas(const BodyModel& model,
-                                                   std::span<Posture> postures,
-                                                   ceres::Problem& problem) {
+std::optional<std::vector<Dense>> posture_covariances(std::span<Posture> postures,
+                                                      ceres::Problem& problem) {
   std::vector<double*> blocks;
   for (Posture& posture : postures) {
     for (const Slot slot : kAllSlots) blocks.push_back(posture.block(slot));
@@ -98,16 +97,23 @@ std::optional<std::vector<BoneSigmas>> bone_sigmas(const BodyModel& model,
   const auto normal = normal_matrix(problem, std::move(blocks));
   if (!normal) return std::nullopt;
   const std::vector<Dense> pairs = inverse_diagonal(*normal, 2 * kN);
-  std::vector<BoneSigmas> sigmas(postures.size());
+  std::vector<Dense> covariances;
   for (std::size_t f = 0; f < postures.size(); ++f) {
     const int within = static_cast<int>(f % 2) * kN;
-    const Dense covariance = pairs[f / 2].block(within, within, kN, kN);
-    const auto jacobian = origin_jacobian(model, postures[f]);
-    for (const HumanBone bone : human_bones()) {
-      const auto rows = jacobian.middleRows<3>(3 * static_cast<int>(bone));
-      const double trace = (rows * covariance * rows.transpose()).trace();
-      sigmas[f][index(bone)] = std::sqrt(std::max(0.0, trace) / 3.0);
-    }
+    covariances.emplace_back(pairs[f / 2].block(within, within, kN, kN));
+  }
+  return covariances;
+}
+
+BoneSigmas bone_sigmas(const BodyModel& model,
+                       const Posture& posture,
+                       const Dense& covariance) {
+  BoneSigmas sigmas{};
+  const auto jacobian = origin_jacobian(model, posture);
+  for (const HumanBone bone : human_bones()) {
+    const auto rows = jacobian.middleRows<3>(3 * static_cast<int>(bone));
+    const double trace = (rows * covariance * rows.transpose()).trace();
+    sigmas[index(bone)] = std::sqrt(std::max(0.0, trace) / 3.0);
   }
   return sigmas;
 }

@@ -18,12 +18,17 @@ namespace marey::reconstruct {
 /// Standard deviation of every bone's origin (root mean square over coordinates). [m]
 using BoneSigmas = std::array<double, kHumanBoneCount>;
 
-/// For each posture that the problem moves, from the diagonal blocks of the inverse of
-/// the problem's normal matrix. That matrix is block pentadiagonal in time, so it is
-/// inverted by blocks of two frames in one forward and one backward pass (Takahashi's
-/// equations). `postures` are the moving ones, in time order. nullopt when Ceres
-/// cannot evaluate.
-[[nodiscard]] std::optional<std::vector<BoneSigmas>> bone_sigmas(
-    const BodyModel& model, std::span<Posture> postures, ceres::Problem& problem);
+/// Covariance of each posture that the problem moves, over its tangent, Ceres' own: the
+/// diagonal blocks of the inverse of the problem's normal matrix. That matrix is block
+/// pentadiagonal in time, so it is inverted by blocks of two frames in one forward and
+/// one backward pass (Takahashi's equations). `postures` are the moving ones, in time
+/// order. nullopt when Ceres cannot evaluate.
+[[nodiscard]] std::optional<std::vector<Eigen::MatrixXd>> posture_covariances(
+    std::span<Posture> postures, ceres::Problem& problem);
+
+/// Of one posture with this covariance.
+[[nodiscard]] BoneSigmas bone_sigmas(const BodyModel& model,
+                                     const Posture& posture,
+                                     const Eigen::MatrixXd& covariance);
 
 }  // namespace marey::reconstruct

@@ -117,6 +117,11 @@ struct KnownTagResidual {
 /// KnownTagResidual for a camera whose clock is off by an unknown time: a further block
 /// holds the offset [s], and what the camera saw is where the corner was that much later.
 struct LateTagResidual : KnownTagResidual {
+  /// What tags slip by along these directions is no error of their corners: residuals
+  /// along them shrink by these shares, so that all have unit variance (tag_slip.h).
+  Eigen::Matrix<double, 8, 3> slip_directions = Eigen::Matrix<double, 8, 3>::Zero();
+  Eigen::Vector3d slip_shrink = Eigen::Vector3d::Zero();
+
   template <class... A>
   bool operator()(A... arguments) const {
     auto in = unpack(slots, arguments...);
@@ -125,6 +130,15 @@ struct LateTagResidual : KnownTagResidual {
       in.residual[2 * i] += in.extra[0][0] * (image.velocity_px_s[i].x / image.sigma_px);
       in.residual[2 * i + 1] +=
           in.extra[0][0] * (image.velocity_px_s[i].y / image.sigma_px);
+    }
+    using T = std::remove_pointer_t<decltype(in.residual)>;
+    Eigen::Map<Eigen::Matrix<T, 8, 1>> residual(in.residual);
+    for (int k = 0; k < 3; ++k) {
+      if (slip_shrink[k] == 0.0) continue;
+      T along(0.0);
+      for (int i = 0; i < 8; ++i) along += slip_directions(i, k) * residual[i];
+      along *= slip_shrink[k];
+      for (int i = 0; i < 8; ++i) residual[i] -= slip_directions(i, k) * along;
     }
     return true;
   }

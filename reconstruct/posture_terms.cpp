@@ -110,13 +110,18 @@ std::vector<double*> blocks_of(Posture& posture, HumanBone bone) {
 void add_habits(Posture& posture,
                 const Lengths& lengths,
                 ceres::Problem& problem,
-                const TwistHabits& twists) {
+                const TwistHabits& twists,
+                double shoulders_wider) {
   for (const HalfwayHabit& row : kHalfwayHabits) {
     add_halfway(posture, row.lower, row.middle, row.upper, row.sigma_rad, problem);
   }
   for (const RelativeHabit& row : kRelativeHabits) {
     const glm::dquat usual = rotation_from_vector(row.usual_rad);
-    add_relative(posture, row.parent, row.child, usual, row.sigma_rad, problem);
+    glm::dvec3 sigma_rad = row.sigma_rad;
+    if (row.child == Slot::kLeftShoulder || row.child == Slot::kRightShoulder) {
+      sigma_rad *= glm::dvec3(1.0, shoulders_wider, shoulders_wider);
+    }
+    add_relative(posture, row.parent, row.child, usual, sigma_rad, problem);
   }
   for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
     const LimbSlots& s = kLimbSlots[limb];

@@ -23,10 +23,13 @@ namespace marey::reconstruct {
 /// Human limits and habits: a spine bends evenly, collar bones, hands and feet do not
 /// turn far, elbows and knees do not bend backward. Wide next to any measurement; they
 /// decide only what no camera sees.
+/// `shoulders_wider` is by how much more than usual collar bones may be from lying level
+/// and sideways.
 void add_habits(Posture& posture,
                 const Lengths& lengths,
                 ceres::Problem& problem,
-                const TwistHabits& twists = {});
+                const TwistHabits& twists = {},
+                double shoulders_wider = 1.0);
 
 /// A person standing still and upright, feet flat, hands in line with the forearms: what
 /// gives a static trial's bones their directions.

@@ -176,7 +176,10 @@ class FrameFinder {
     const glm::dvec3 right = centres_[1].root_in_trunk;
     const glm::dvec3 up = glm::conjugate(world.rotation) * glm::dvec3(0, 1, 0);
     const glm::dquat turn = align(left - right, up, {1, 0, 0}, {0, 1, 0});
-    const glm::dvec3 base = out_.body.left_shoulder_in_thorax;
+    const auto usual_m = [&](Length length) { return out_.lengths[index(length)]; };
+    const glm::dvec3 base(usual_m(Length::kShoulderOut),
+                          usual_m(Length::kShoulderUp),
+                          usual_m(Length::kShoulderForward));
     const glm::dvec3 origin =
         turn * (0.5 * (left + right)) - glm::dvec3(0, base.y, base.z);
     out_.segment_from_cluster[B::kUpperChest] = {turn, -origin};

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "core/assert.h"
+#include "core/pose.h"
 #include "core/quantile.h"
 #include "reconstruct/frame_solver.h"
 #include "reconstruct/window_solver.h"
@@ -100,37 +103,57 @@ std::vector<Source> sources_of(const BodyModel& model,
   return sources;
 }
 
-/// Residuals larger than their sigmas say that the sigmas are too small.
-double sigma_scale(const Sightings& sightings, double median_px) {
+/// Of a moment that all cameras see, each with its own clock.
+double common_clock_sigma_s(const WindowSolver& windows) {
+  const std::vector<double>& sigmas_s = windows.clock_sigmas_s();
   double sum = 0.0;
-  int count = 0;
-  for (const auto& frame : sightings.frames) {
-    for (const TagSighting& s : frame) {
-      sum += s.detection->sigma_px;
-      ++count;
+  for (const double s : sigmas_s) sum += s * s;
+  return std::sqrt(sum) / static_cast<double>(sigmas_s.size());
+}
+
+/// Speed of every bone's origin, root mean square over coordinates. [m/s]
+std::vector<BoneSigmas> bone_speeds(const Motion& motion) {
+  std::vector<std::vector<RigidTransform>> worlds;
+  for (const Pose& pose : motion.poses) {
+    worlds.push_back(world_from_joints(motion.skeleton, pose));
+  }
+  std::vector<BoneSigmas> speeds(worlds.size(), BoneSigmas{});
+  for (std::size_t f = 0; f < worlds.size(); ++f) {
+    const std::size_t before = f > 0 ? f - 1 : 0;
+    const std::size_t after = std::min(f + 1, worlds.size() - 1);
+    if (after == before) continue;
+    const double rate_hz = motion.rate.hz / static_cast<double>(after - before);
+    for (std::size_t b = 0; b < speeds[f].size(); ++b) {
+      speeds[f][b] =
+          rate_hz / std::sqrt(3.0) *
+          glm::distance(worlds[after][b].translation, worlds[before][b].translation);
     }
   }
-  // The median length of a two-dimensional error of unit sigma is 1.177.
-  return count == 0 ? 1.0 : std::max(1.0, median_px * count / (1.177 * sum));
+  return speeds;
 }
 
 void fill_doubts(const Body& body,
                  const BodyModel& model,
                  const Sightings& sightings,
-                 const std::vector<BoneSigmas>& sigmas,
-                 double longest_repair_s,
+                 const WindowSolver& windows,
+                 const SolveMotionOptions& options,
                  SolvedTrial& trial) {
-  const int longest = static_cast<int>(std::lround(longest_repair_s * sightings.rate.hz));
+  const std::vector<BoneSigmas>& sigmas = windows.sigmas();
+  const int longest =
+      static_cast<int>(std::lround(options.longest_repair_s * sightings.rate.hz));
+  const double clock_s = common_clock_sigma_s(windows);
+  const std::vector<BoneSigmas> speeds = bone_speeds(trial.estimate.motion);
   std::array<std::vector<Source>, kHumanBoneCount> sources;
   for (const HumanBone bone : human_bones()) {
     sources[index(bone)] = sources_of(model, sightings, bone, longest, trial.gaps);
   }
-  const double scale = sigma_scale(sightings, trial.median_px);
   for (std::size_t f = 0; f < sigmas.size(); ++f) {
     std::vector<JointDoubt> doubts(kHumanBoneCount);
     for (std::size_t b = 0; b < doubts.size(); ++b) {
       doubts[b].source = sources[b][f];
-      doubts[b].sigma_m = std::hypot(scale * sigmas[f][b], body.joint_centre_sigma_m[b]);
+      doubts[b].sigma_m =
+          std::hypot(std::hypot(sigmas[f][b], body.joint_centre_sigma_m[b]),
+                     std::hypot(options.camera_sigma_m, clock_s * speeds[f][b]));
     }
     const auto known = [&](HumanBone bone) {
       return doubts[index(bone)].source != Source::kInferred;
@@ -201,7 +224,7 @@ Result<SolvedTrial> solve_motion(const Body& body,
   for (const Posture& posture : *postures) {
     motion.poses.push_back(to_pose(posture, motion.skeleton, model.lengths, model.body));
   }
-  fill_doubts(body, model, sightings, windows.sigmas(), options.longest_repair_s, trial);
+  fill_doubts(body, model, sightings, windows, options, trial);
   return trial;
 }
 

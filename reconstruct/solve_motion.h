@@ -22,6 +22,9 @@ struct SolveMotionOptions {
   int overlap_frames = 30;
   /// A segment unseen for longer than this is inferred, not repaired. [s]
   double longest_repair_s = 1.0;
+  /// How well cameras know where things are, per coordinate. [m] What they have in common
+  /// is not seen in their tags.
+  double camera_sigma_m = 0.0;
   /// Solve for the time offsets of cameras that have none given. The first camera's clock
   /// is the trial's.
   bool estimate_offsets = true;
@@ -61,13 +64,14 @@ struct SolvedTrial {
 ///
 /// First each frame on its own, starting from the one before and from the tags' own
 /// poses; then overlapping windows in which all frames move together (Ceres, sparse).
-/// Sigmas are the windows' covariance, scaled by the residuals, with the body's own doubt
-/// added.
+/// How far the tags of each segment slip on it is found from what they leave unexplained
+/// (tag_slip.h), and the windows are solved with that. Sigmas are the windows'
+/// covariance, with the doubt of the body, of the cameras and of their clocks added.
 ///
 /// `detections` holds one entry per camera of `cameras`, in order; an entry with an
 /// offset keeps it. Deterministic. Errors (kBadInput, `where` the first video):
 /// no body tag seen in any frame; the body never found in the trial; no motion that
-/// explains the tags. Cost: about 50 ms a frame and core; memory grows only by the poses.
+/// explains the tags. Cost: about 60 ms a frame and core; memory grows only by the poses.
 [[nodiscard]] Result<SolvedTrial> solve_motion(
     const Body& body,
     std::span<const Camera> cameras,

@@ -21,6 +21,16 @@ namespace {
 // about the bone would otherwise hide where along that axis the elbow lies.
 constexpr TwistHabits kTrialTwists{0.1, 0.1, 0.08};
 
+// A clavicle turns about one end, and its scapula slides on the rib cage: the point that
+// a shoulder moves about as a whole may be anywhere between.
+constexpr double kShoulderBase_m = 0.05;
+constexpr double kNeckForward_m = 0.012;
+
+// Share of the variance of a corner's error that is the same in all pictures that one
+// camera takes of the tag: lens, print and light. A choice: rendered tags that move show
+// up to a seventh (docs/measurements.md).
+constexpr double kCommonShare = 0.03;
+
 // The median length of a two-dimensional error whose coordinates have unit sigma.
 constexpr double kMedianOfUnitNoise = 1.177;
 
@@ -103,19 +113,26 @@ void measure(SubjectBundle& bundle, std::span<const Camera> cameras) {
   bundle.median_px = median(std::move(errors));
 }
 
-/// Residuals larger than their sigmas say that the sigmas are too small: by how much.
+/// By how much sigmas are too small: residuals may be larger than expected, and many
+/// sightings of one tag by one camera are not as many independent ones.
 double sigma_scale(const SubjectBundle& bundle) {
   double sum_px = 0.0;
-  int count = 0;
+  double count = 0.0;
+  std::map<std::pair<std::size_t, CameraId>, double> repeated;
   for (const BundleFrame& frame : bundle.frames) {
     for (const TagSighting& s : frame.sightings) {
       sum_px += s.detection->sigma_px;
-      ++count;
+      count += 1.0;
+      repeated[{s.tag, s.camera}] += 1.0;
     }
   }
-  return count == 0
-             ? 1.0
-             : std::max(1.0, bundle.median_px * count / (kMedianOfUnitNoise * sum_px));
+  if (count == 0.0) return 1.0;
+  // The design effect of cluster sampling (Kish 1965, 5.4).
+  double squares = 0.0;
+  for (const auto& [pair, times] : repeated) squares += times * times;
+  const double effect = 1.0 + (squares / count - 1.0) * kCommonShare;
+  return std::sqrt(effect) *
+         std::max(1.0, bundle.median_px * count / (kMedianOfUnitNoise * sum_px));
 }
 
 /// Information on the subject's own blocks: frames share nothing but the subject, so they
@@ -158,6 +175,67 @@ std::optional<Eigen::MatrixXd> subject_information(SubjectBundle& bundle,
   return subject;
 }
 
+/// How a joint centre moves against the tags of `side`, over the subject's unknowns: the
+/// mean over these tags, in the bone's axes. `offset` is the joint's place on the bone.
+/// nullopt without tags.
+std::optional<Eigen::MatrixXd> centre_jacobian(const SubjectBundle& bundle,
+                                               HumanBone side,
+                                               const glm::dvec3& offset,
+                                               const Eigen::MatrixXd& offset_jacobian) {
+  Eigen::MatrixXd jacobian =
+      Eigen::MatrixXd::Zero(offset_jacobian.rows(), offset_jacobian.cols());
+  int tags = 0;
+  int column = kLengthCount;
+  for (const auto& [tag, pose] : bundle.model.segment_from_tag) {
+    if (bundle.model.bone(tag) == side) {
+      const glm::dvec3 arm = offset - pose.translation;
+      Eigen::Matrix3d cross;
+      cross << 0.0, -arm.z, arm.y, arm.z, 0.0, -arm.x, -arm.y, arm.x, 0.0;
+      jacobian += offset_jacobian;
+      // Ceres' quaternion tangent is half the rotation vector; -turn x arm = arm x turn.
+      jacobian.middleCols<3>(column) += 2.0 * cross;
+      jacobian.middleCols<3>(column + 3) -= Eigen::Matrix3d::Identity();
+      ++tags;
+    }
+    column += 6;
+  }
+  if (tags == 0) return std::nullopt;
+  return jacobian / tags;
+}
+
+void fill_centre_sigmas(const Eigen::MatrixXd& covariance,
+                        double scale,
+                        SubjectBundle& bundle) {
+  const Lengths& lengths = bundle.model.lengths;
+  const auto offset_of = [&](const Lengths& some, HumanBone bone) {
+    return to_proportions(some, bundle.model.body, Proportions{})[bone];
+  };
+  const auto columns = covariance.cols();
+  for (const HumanBone bone : human_bones()) {
+    std::optional<double>& least = bundle.centre_sigma_m[index(bone)];
+    const auto look = [&](HumanBone side,
+                          const glm::dvec3& offset,
+                          const Eigen::MatrixXd& offset_jacobian) {
+      const auto j = centre_jacobian(bundle, side, offset, offset_jacobian);
+      if (!j) return;
+      const double trace = (*j * covariance * j->transpose()).trace();
+      const double sigma_m = scale * std::sqrt(std::max(0.0, trace) / 3.0);
+      if (!least || sigma_m < *least) least = sigma_m;
+    };
+    look(bone, glm::dvec3(0.0), Eigen::MatrixXd::Zero(3, columns));
+    if (bone == HumanBone::kHips) continue;
+    // Offsets are linear in lengths.
+    Eigen::MatrixXd offset_jacobian = Eigen::MatrixXd::Zero(3, columns);
+    for (int i = 0; i < kLengthCount; ++i) {
+      Lengths longer = lengths;
+      longer[static_cast<std::size_t>(i)] += 1.0;
+      const glm::dvec3 d = offset_of(longer, bone) - offset_of(lengths, bone);
+      offset_jacobian.col(i) = Eigen::Vector3d(d.x, d.y, d.z);
+    }
+    look(*parent(bone), offset_of(lengths, bone), offset_jacobian);
+  }
+}
+
 bool fill_sigmas(SubjectBundle& bundle, ceres::Problem& problem) {
   const auto information = subject_information(bundle, problem);
   if (!information) return false;
@@ -178,6 +256,7 @@ bool fill_sigmas(SubjectBundle& bundle, ceres::Problem& problem) {
     bundle.tag_sigma[tag] = {rms(column + 3), 2.0 * rms(column)};
     column += 6;
   }
+  fill_centre_sigmas(covariance, scale, bundle);
   return true;
 }
 
@@ -188,9 +267,15 @@ bool adjust(SubjectBundle& bundle,
             int max_iterations,
             bool sigmas) {
   ceres::Problem problem;
+  // A collar bone of this person's may well rest otherwise than usual, in all frames
+  // alike: together they count as one, or they would move the shoulders' centres.
   for (BundleFrame& frame : bundle.frames) {
     add_sightings(bundle, frame, cameras, problem);
-    add_habits(frame.posture, bundle.model.lengths, problem, kTrialTwists);
+    add_habits(frame.posture,
+               bundle.model.lengths,
+               problem,
+               kTrialTwists,
+               std::sqrt(static_cast<double>(bundle.frames.size())));
     if (frame.standing) add_standing(frame.posture, bundle.model.lengths, problem);
     set_manifolds(frame.posture, problem);
   }
@@ -198,14 +283,19 @@ bool adjust(SubjectBundle& bundle,
     MAREY_ASSERT(problem.HasParameterBlock(&pose.rotation.x));
     problem.SetManifold(&pose.rotation.x, new ceres::EigenQuaternionManifold);
   }
-  add_length_habits(bundle.usual,
-                    usual_length_sigmas_m(bundle.usual),
-                    bundle.model.lengths,
-                    problem);
+  Lengths sigmas_m = usual_length_sigmas_m(bundle.usual);
+  for (const Length length :
+       {Length::kShoulderOut, Length::kShoulderUp, Length::kShoulderForward}) {
+    sigmas_m[index(length)] = kShoulderBase_m;
+  }
+  sigmas_m[index(Length::kNeckForward)] = kNeckForward_m;
+  add_length_habits(bundle.usual, sigmas_m, bundle.model.lengths, problem);
   add_tag_priors(bundle, problem);
   ceres::Solver::Summary summary;
   ceres::Solver::Options options = solver_options(max_iterations);
-  options.function_tolerance = 1e-5;
+  // Where a limb's middle joint lies along it hardly changes the cost, and converges
+  // last.
+  options.function_tolerance = sigmas ? 1e-7 : 1e-5;
   ceres::Solve(options, &problem, &summary);
   if (!summary.IsSolutionUsable()) return false;
   measure(bundle, cameras);

@@ -3,9 +3,12 @@
 #include "reconstruct/window_solver.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include <Eigen/SparseCholesky>
 #include <glm/geometric.hpp>
 
+#include "reconstruct/normal_matrix.h"
 #include "reconstruct/posture_terms.h"
 
 namespace marey::reconstruct {
@@ -17,6 +20,9 @@ constexpr double kOffsetSigmaS = 0.02;
 constexpr std::size_t kOffsetFrames = 60;
 // After this many the joints move by less than a tenth of a millimetre.
 constexpr int kWindowIterations = 10;
+// Slips are guessed, and found in passes over all windows; each may triple a guess.
+constexpr double kUsualSlipM = 0.0005;
+constexpr int kPasses = 3;
 
 }  // namespace
 
@@ -33,6 +39,8 @@ WindowSolver::WindowSolver(const BodyModel& model,
       given_(std::move(given)),
       postures_(&postures),
       sigmas_(postures.size()) {
+  slips_m_.fill(kUsualSlipM);
+  clock_sigmas_s_.assign(offsets_s_.size(), 0.0);
   find_velocities();
 }
 
@@ -55,22 +63,36 @@ void WindowSolver::find_velocities() {
   }
 }
 
-/// A window's problem. The first `held` postures are the past: they do not move.
+/// A window's problem, and what weighed_ says of it. The first `held` postures are the
+/// past: they do not move.
 void WindowSolver::build(std::size_t first,
                          std::size_t count,
                          std::size_t held,
                          ceres::Problem& problem) {
   std::vector<Posture>& postures = *postures_;
+  weighed_.assign(count, {});
   for (std::size_t f = first; f < first + count; ++f) {
-    for (std::size_t i = 0; i < sightings_->frames[f].size(); ++i) {
-      const TagSighting& s = sightings_->frames[f][i];
-      add_sighting(*model_,
-                   s,
-                   cameras_,
-                   postures[f],
-                   problem,
-                   &offsets_s_[index(s.camera)],
-                   velocities_[f][i]);
+    const std::vector<TagSighting>& seen = sightings_->frames[f];
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      const TagSighting& s = seen[i];
+      const HumanBone bone = model_->bone(s.tag);
+      const auto cameras = std::count_if(
+          seen.begin(), seen.end(), [&](const TagSighting& t) { return t.tag == s.tag; });
+      const TagSlip slip = tag_slip(*model_,
+                                    s,
+                                    cameras_,
+                                    postures[f],
+                                    slips_m_[index(bone)],
+                                    static_cast<double>(cameras));
+      const ceres::ResidualBlockId id = add_late_sighting(*model_,
+                                                          s,
+                                                          cameras_,
+                                                          postures[f],
+                                                          problem,
+                                                          &offsets_s_[index(s.camera)],
+                                                          velocities_[f][i],
+                                                          slip);
+      weighed_[f - first].push_back({id, slip, bone});
     }
     add_habits(postures[f], model_->lengths, problem);
     if (f >= first + 2) {
@@ -128,10 +150,65 @@ void WindowSolver::estimate_offsets() {
   solver.function_tolerance = 1e-4;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
+  find_clock_sigmas(std::span(*postures_).subspan(first, count), problem);
   find_velocities();
 }
 
+/// Schur complement of the clocks that are solved for.
+void WindowSolver::find_clock_sigmas(std::span<Posture> postures,
+                                     ceres::Problem& problem) {
+  using Sparse = Eigen::SparseMatrix<double>;
+  std::vector<double*> blocks;
+  for (Posture& posture : postures) {
+    for (const Slot slot : kAllSlots) blocks.push_back(posture.block(slot));
+  }
+  std::vector<std::size_t> solved;
+  for (std::size_t c = 0; c < offsets_s_.size(); ++c) {
+    if (given_[c] || !problem.HasParameterBlock(&offsets_s_[c])) continue;
+    blocks.push_back(&offsets_s_[c]);
+    solved.push_back(c);
+  }
+  if (solved.empty()) return;
+  const auto normal = normal_matrix(problem, std::move(blocks));
+  if (!normal) return;
+  const Sparse all(*normal);
+  const Eigen::Index clocks = static_cast<Eigen::Index>(solved.size());
+  const Eigen::Index rest = all.cols() - clocks;
+  const Eigen::SimplicialLDLT<Sparse> of_postures(all.block(0, 0, rest, rest));
+  if (of_postures.info() != Eigen::Success) return;
+  const Eigen::MatrixXd cross = all.block(0, rest, rest, clocks);
+  const Eigen::MatrixXd information =
+      Eigen::MatrixXd(all.block(rest, rest, clocks, clocks)) -
+      cross.transpose() * of_postures.solve(cross);
+  const Eigen::MatrixXd covariance =
+      information.ldlt().solve(Eigen::MatrixXd::Identity(clocks, clocks));
+  for (std::size_t i = 0; i < solved.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    clock_sigmas_s_[solved[i]] = std::sqrt(std::max(0.0, covariance(at, at)));
+  }
+}
+
 bool WindowSolver::solve(const WindowSize& size, const Progress& progress) {
+  const int frames = static_cast<int>(postures_->size());
+  double scale = 1.0;
+  for (int i = 0; i < kPasses; ++i) {
+    SlipEstimate estimate;
+    const auto tell = [&](int done, int /*total*/) {
+      if (progress) progress((i * frames + done) / kPasses, frames);
+    };
+    if (!pass(size, estimate, tell)) return false;
+    if (i + 1 < kPasses) slips_m_ = estimate.improved(slips_m_);
+    scale = estimate.scale();
+  }
+  for (BoneSigmas& sigmas : sigmas_) {
+    for (double& sigma_m : sigmas) sigma_m *= scale;
+  }
+  return true;
+}
+
+bool WindowSolver::pass(const WindowSize& size,
+                        SlipEstimate& estimate,
+                        const Progress& progress) {
   const std::size_t frames = postures_->size();
   std::size_t first = 0;  // The first frame that is not yet final.
   while (first < frames) {
@@ -149,12 +226,57 @@ bool WindowSolver::solve(const WindowSize& size, const Progress& progress) {
     if (!summary.IsSolutionUsable()) return false;
     const bool last = first + count == frames;
     const std::size_t done = last ? count : count - size.overlap;
-    const auto sigmas =
-        bone_sigmas(*model_, std::span(*postures_).subspan(first, count), problem);
-    if (!sigmas) return false;
-    for (std::size_t i = 0; i < done; ++i) sigmas_[first + i] = (*sigmas)[i];
+    const std::span<Posture> moved = std::span(*postures_).subspan(first, count);
+    const auto covariances = posture_covariances(moved, problem);
+    if (!covariances) return false;
+    for (std::size_t i = 0; i < done; ++i) {
+      sigmas_[first + i] = bone_sigmas(*model_, moved[i], (*covariances)[i]);
+    }
+    weighed_.erase(weighed_.begin(),
+                   weighed_.begin() + static_cast<std::ptrdiff_t>(held));
+    if (!weigh(first, std::span(*covariances).first(done), problem, estimate)) {
+      return false;
+    }
     first += done;
-    if (progress) progress(static_cast<int>(first), static_cast<int>(frames));
+    progress(static_cast<int>(first), static_cast<int>(frames));
+  }
+  return true;
+}
+
+/// What the final frames' sightings say of slips.
+bool WindowSolver::weigh(std::size_t first,
+                         std::span<const Eigen::MatrixXd> covariances,
+                         ceres::Problem& problem,
+                         SlipEstimate& estimate) {
+  ceres::Problem::EvaluateOptions options;
+  options.apply_loss_function = false;
+  for (std::size_t f = 0; f < covariances.size(); ++f) {
+    for (const Slot slot : kAllSlots) {
+      options.parameter_blocks.push_back((*postures_)[first + f].block(slot));
+    }
+    for (const Weighed& w : weighed_[f]) options.residual_blocks.push_back(w.id);
+  }
+  if (options.residual_blocks.empty()) return true;
+  std::vector<double> residuals;
+  ceres::CRSMatrix crs;
+  if (!problem.Evaluate(options, nullptr, &residuals, nullptr, &crs)) return false;
+  int row = 0;
+  for (std::size_t f = 0; f < covariances.size(); ++f) {
+    const int before = static_cast<int>(f) * kPostureFreedom;
+    for (const Weighed& w : weighed_[f]) {
+      Eigen::Matrix<double, 8, Eigen::Dynamic> jacobian =
+          Eigen::Matrix<double, 8, Eigen::Dynamic>::Zero(8, kPostureFreedom);
+      for (int i = 0; i < 8; ++i) {
+        const auto from = static_cast<std::size_t>(row + i);
+        for (int k = crs.rows[from]; k < crs.rows[from + 1]; ++k) {
+          const auto at = static_cast<std::size_t>(k);
+          jacobian(i, crs.cols[at] - before) = crs.values[at];
+        }
+      }
+      const Eigen::Map<const Eigen::Matrix<double, 8, 1>> left(residuals.data() + row);
+      estimate.add(w.bone, w.slip, left, jacobian, covariances[f]);
+      row += 8;
+    }
   }
   return true;
 }

@@ -10,6 +10,7 @@
 #include "core/progress.h"
 #include "reconstruct/body_model.h"
 #include "reconstruct/posture_doubt.h"
+#include "reconstruct/tag_slip.h"
 
 namespace marey::reconstruct {
 
@@ -35,7 +36,8 @@ class WindowSolver {
   void estimate_offsets();
 
   /// All windows in turn: a window's first frames continue the one before, which is final
-  /// by then. `progress` counts frames. False when a window has no usable minimum.
+  /// by then. Then again, with what was found of how tags slip. `progress` counts frames.
+  /// False when a window has no usable minimum.
   [[nodiscard]] bool solve(const WindowSize& size, const Progress& progress);
 
   /// Distance from where the camera saw each corner of a sighting to where it should have
@@ -44,13 +46,27 @@ class WindowSolver {
                                               std::size_t sighting) const;
 
   [[nodiscard]] const std::vector<double>& offsets_s() const { return offsets_s_; }
+  /// 0 where the offset is given.
+  [[nodiscard]] const std::vector<double>& clock_sigmas_s() const {
+    return clock_sigmas_s_;
+  }
   [[nodiscard]] const std::vector<bool>& offset_given() const { return given_; }
-  /// Per frame, of the windows' covariance; after solve().
+  /// Per frame, of the windows' covariance, scaled by what is left; after solve().
   [[nodiscard]] const std::vector<BoneSigmas>& sigmas() const { return sigmas_; }
+  /// Of each segment's tags; after solve().
+  [[nodiscard]] const SlipSigmas& slips_m() const { return slips_m_; }
 
  private:
   void find_velocities();
+  void find_clock_sigmas(std::span<Posture> postures, ceres::Problem& problem);
   [[nodiscard]] std::size_t liveliest(std::size_t count) const;
+  [[nodiscard]] bool pass(const WindowSize& size,
+                          SlipEstimate& estimate,
+                          const Progress& progress);
+  [[nodiscard]] bool weigh(std::size_t first,
+                           std::span<const Eigen::MatrixXd> covariances,
+                           ceres::Problem& problem,
+                           SlipEstimate& estimate);
   void build(std::size_t first,
              std::size_t count,
              std::size_t held,
@@ -62,10 +78,19 @@ class WindowSolver {
   const Sightings* sightings_;
   std::vector<double> offsets_s_;
   std::vector<bool> given_;
+  std::vector<double> clock_sigmas_s_;
   std::vector<Posture>* postures_;
   /// How fast each corner of each sighting of each frame crosses its image. [px/s]
   std::vector<std::vector<std::array<glm::dvec2, 4>>> velocities_;
   std::vector<BoneSigmas> sigmas_;
+  SlipSigmas slips_m_{};
+  /// Of the sightings of a window, by its frame.
+  struct Weighed {
+    ceres::ResidualBlockId id = nullptr;
+    TagSlip slip;
+    HumanBone bone{};
+  };
+  std::vector<std::vector<Weighed>> weighed_;
 };
 
 }  // namespace marey::reconstruct
