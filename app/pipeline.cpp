@@ -262,10 +262,12 @@ Status Pipeline::solve() {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (!*results[i]) return results[i]->error();
     motions_.push_back({trials[i], std::move(**results[i]), {}});
-    const Status written = write_motion(options_.out / trials[i]->name,
-                                        motions_.back().solved.estimate,
-                                        body_->proportions);
+    const std::filesystem::path folder = options_.out / trials[i]->name;
+    const reconstruct::SolvedTrial& solved = motions_.back().solved;
+    const Status written = write_motion(folder, solved.estimate, body_->proportions);
     if (!written) return written;
+    const Status tags = write_tag_markers(folder, *body_, solved);
+    if (!tags) return tags;
   }
   time_stage("files", writing.seconds());
   return Done{};

@@ -60,7 +60,8 @@ class Pipeline {
   /// The subject: OUT/subject.toml. Reads calibration.toml. Checks first that in every
   /// trial the cameras agree on the tags.
   [[nodiscard]] Status fit();
-  /// Motion of every motion trial: joints.csv, segments.csv, motion.bvh, motion.glb.
+  /// Motion of every motion trial: joints.csv, segments.csv, motion.bvh, motion.glb,
+  /// markers.c3d, markers.trc.
   /// Reads calibration.toml and subject.toml.
   [[nodiscard]] Status solve();
   /// Every solved motion on every avatar: AVATAR.glb and AVATAR.bvh.

@@ -44,7 +44,12 @@ Result<ReportTrial> report_trial(const recordings::Trial& trial,
   if (!pictures) return pictures.error();
   out.pictures = std::move(*pictures);
   out.bodies.push_back({"subject", poses, solved.estimate.doubt, 0, 0, 0, {}});
-  for (const char* file : {"motion.bvh", "motion.glb", "joints.csv", "segments.csv"}) {
+  for (const char* file : {"motion.bvh",
+                           "motion.glb",
+                           "joints.csv",
+                           "segments.csv",
+                           "markers.c3d",
+                           "markers.trc"}) {
     out.bodies.front().files.push_back(trial.name + "/" + file);
   }
   return out;

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/write_motion.h"
 
+#include "reconstruct/tag_tracks.h"
 #include "recordings/bvh.h"
 #include "recordings/gltf.h"
 #include "recordings/mannequin.h"
+#include "recordings/marker_file.h"
 #include "recordings/motion_tables.h"
 
 namespace marey::app {
@@ -31,6 +33,18 @@ Status write_motion(const std::filesystem::path& folder,
                                      estimate.motion.skeleton,
                                      recordings::make_mannequin_mesh(proportions),
                                      &estimate.motion);
+}
+
+Status write_tag_markers(const std::filesystem::path& folder,
+                         const Body& body,
+                         const reconstruct::SolvedTrial& solved) {
+  recordings::MarkerFile markers;
+  markers.tracks = reconstruct::tag_tracks(body, solved);
+  markers.axes.up = recordings::FileAxis::kPlusZ;
+  const Status written = recordings::write_markers(folder / "markers.c3d", markers);
+  if (!written) return written;
+  markers.axes.up = recordings::FileAxis::kPlusY;
+  return recordings::write_markers(folder / "markers.trc", markers);
 }
 
 }  // namespace marey::app

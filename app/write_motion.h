@@ -8,6 +8,7 @@
 #include "core/body.h"
 #include "core/motion.h"
 #include "core/result.h"
+#include "reconstruct/solve_motion.h"
 
 namespace marey::app {
 
@@ -18,5 +19,13 @@ namespace marey::app {
                                   const EstimatedMotion& estimate,
                                   const Proportions& proportions,
                                   std::optional<double> start_s = {});
+
+/// The corners of a body's tags over a trial, where the motion carries them: markers.c3d
+/// (millimetres, Z up) and markers.trc (millimetres, Y up), as most programs that read
+/// such files expect them. Errors: the disk; more markers or frames than a C3D has room
+/// for.
+[[nodiscard]] Status write_tag_markers(const std::filesystem::path& folder,
+                                       const Body& body,
+                                       const reconstruct::SolvedTrial& solved);
 
 }  // namespace marey::app

@@ -48,42 +48,51 @@ std::vector<Dense> inverse_diagonal(const Sparse& matrix, int block) {
   return diagonal;
 }
 
-/// Origin of every bone over the posture's tangent, Ceres' own: 3 rows per bone.
-Eigen::Matrix<double, 3 * kHumanBoneCount, kN> origin_jacobian(const BodyModel& model,
-                                                               const Posture& posture) {
+/// A posture over its tangent, Ceres' own.
+class PostureJets {
+ public:
   using Jet = ceres::Jet<double, kN>;
-  std::array<Jet, kPostureStorage> values;
-  std::array<const Jet*, kSlotCount> blocks{};
-  const ceres::EigenQuaternionManifold manifold;
-  int column = 0;
-  for (const Slot slot : kAllSlots) {
-    const int offset = storage_offset(slot);
-    blocks[index(slot)] = &values[static_cast<std::size_t>(offset)];
-    Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
-    if (is_rotation(slot)) manifold.PlusJacobian(posture.block(slot), plus.data());
-    for (int i = 0; i < block_size(slot); ++i) {
-      Jet& value = values[static_cast<std::size_t>(offset + i)];
-      value = Jet(posture.block(slot)[i]);
-      if (is_rotation(slot)) {
-        value.v.segment<3>(column) = plus.row(i);
-      } else {
-        value.v[column + i] = 1.0;
+
+  explicit PostureJets(const Posture& posture) {
+    const ceres::EigenQuaternionManifold manifold;
+    int column = 0;
+    for (const Slot slot : kAllSlots) {
+      const int offset = storage_offset(slot);
+      blocks_[index(slot)] = &values_[static_cast<std::size_t>(offset)];
+      Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
+      if (is_rotation(slot)) manifold.PlusJacobian(posture.block(slot), plus.data());
+      for (int i = 0; i < block_size(slot); ++i) {
+        Jet& value = values_[static_cast<std::size_t>(offset + i)];
+        value = Jet(posture.block(slot)[i]);
+        if (is_rotation(slot)) {
+          value.v.segment<3>(column) = plus.row(i);
+        } else {
+          value.v[column + i] = 1.0;
+        }
       }
-    }
-    column += tangent_size(slot);
-  }
-  Eigen::Matrix<double, 3 * kHumanBoneCount, kN> jacobian;
-  for (const HumanBone bone : human_bones()) {
-    const BoneFrame<Jet> frame =
-        bone_frame<Jet, double>(solved_segment(bone),
-                                std::span<const Jet* const, kSlotCount>(blocks),
-                                model.lengths.data(),
-                                model.body);
-    for (int axis = 0; axis < 3; ++axis) {
-      jacobian.row(3 * static_cast<int>(bone) + axis) = frame.origin[axis].v;
+      column += tangent_size(slot);
     }
   }
-  return jacobian;
+  PostureJets(const PostureJets&) = delete;  // blocks_ points into values_.
+  PostureJets& operator=(const PostureJets&) = delete;
+
+  [[nodiscard]] BoneFrame<Jet> frame(const BodyModel& model, HumanBone bone) const {
+    return bone_frame<Jet, double>(solved_segment(bone),
+                                   std::span<const Jet* const, kSlotCount>(blocks_),
+                                   model.lengths.data(),
+                                   model.body);
+  }
+
+ private:
+  std::array<Jet, kPostureStorage> values_;
+  std::array<const Jet*, kSlotCount> blocks_{};
+};
+
+/// Of a point, root mean square over its coordinates. [m]
+double sigma_of(const Eigen::Matrix<PostureJets::Jet, 3, 1>& p, const Dense& covariance) {
+  double trace = 0.0;
+  for (int axis = 0; axis < 3; ++axis) trace += p[axis].v.dot(covariance * p[axis].v);
+  return std::sqrt(std::max(0.0, trace) / 3.0);
 }
 
 }  // namespace
@@ -108,12 +117,25 @@ std::optional<std::vector<Dense>> posture_covariances(std::span<Posture> posture
 BoneSigmas bone_sigmas(const BodyModel& model,
                        const Posture& posture,
                        const Dense& covariance) {
+  const PostureJets jets(posture);
   BoneSigmas sigmas{};
-  const auto jacobian = origin_jacobian(model, posture);
   for (const HumanBone bone : human_bones()) {
-    const auto rows = jacobian.middleRows<3>(3 * static_cast<int>(bone));
-    const double trace = (rows * covariance * rows.transpose()).trace();
-    sigmas[index(bone)] = std::sqrt(std::max(0.0, trace) / 3.0);
+    sigmas[index(bone)] = sigma_of(jets.frame(model, bone).origin, covariance);
+  }
+  return sigmas;
+}
+
+TagSigmas tag_sigmas(const BodyModel& model,
+                     const Posture& posture,
+                     const Dense& covariance) {
+  const PostureJets jets(posture);
+  TagSigmas sigmas(model.tags.size(), 0.0);
+  for (const auto& [tag, segment_from_tag] : model.segment_from_tag) {
+    const auto frame = jets.frame(model, model.bone(tag));
+    const Eigen::Matrix<PostureJets::Jet, 3, 1> centre =
+        frame.origin +
+        frame.rotation * detail::vec<PostureJets::Jet>(segment_from_tag.translation);
+    sigmas[tag] = sigma_of(centre, covariance);
   }
   return sigmas;
 }

@@ -18,6 +18,9 @@ namespace marey::reconstruct {
 /// Standard deviation of every bone's origin (root mean square over coordinates). [m]
 using BoneSigmas = std::array<double, kHumanBoneCount>;
 
+/// Of every tag's centre, likewise, by position in BodyModel::tags. [m]
+using TagSigmas = std::vector<double>;
+
 /// Covariance of each posture that the problem moves, over its tangent, Ceres' own: the
 /// diagonal blocks of the inverse of the problem's normal matrix. That matrix is block
 /// pentadiagonal in time, so it is inverted by blocks of two frames in one forward and
@@ -26,9 +29,12 @@ using BoneSigmas = std::array<double, kHumanBoneCount>;
 [[nodiscard]] std::optional<std::vector<Eigen::MatrixXd>> posture_covariances(
     std::span<Posture> postures, ceres::Problem& problem);
 
-/// Of one posture with this covariance.
+/// Of one posture with this covariance. The body itself is taken as known.
 [[nodiscard]] BoneSigmas bone_sigmas(const BodyModel& model,
                                      const Posture& posture,
                                      const Eigen::MatrixXd& covariance);
+[[nodiscard]] TagSigmas tag_sigmas(const BodyModel& model,
+                                   const Posture& posture,
+                                   const Eigen::MatrixXd& covariance);
 
 }  // namespace marey::reconstruct

@@ -163,6 +163,32 @@ void fill_doubts(const Body& body,
   }
 }
 
+void fill_tags(const BodyModel& model,
+               const Sightings& sightings,
+               const WindowSolver& windows,
+               const SolveMotionOptions& options,
+               SolvedTrial& trial) {
+  constexpr std::size_t kCamerasInFiles = 7;
+  const double clock_s = common_clock_sigma_s(windows);
+  const std::vector<BoneSigmas> speeds = bone_speeds(trial.estimate.motion);
+  for (std::size_t f = 0; f < sightings.frames.size(); ++f) {
+    std::vector<TagDoubt> tags(model.tags.size());
+    for (const TagSighting& s : sightings.frames[f]) {
+      tags[s.tag].seen = true;
+      const std::size_t camera = index(s.camera);
+      if (camera >= kCamerasInFiles) continue;
+      tags[s.tag].cameras = static_cast<std::uint8_t>(tags[s.tag].cameras | 1U << camera);
+    }
+    for (std::size_t t = 0; t < tags.size(); ++t) {
+      const std::size_t bone = index(model.bone(t));
+      tags[t].sigma_m = static_cast<float>(
+          std::hypot(std::hypot(windows.tag_sigmas()[f][t], windows.slips_m()[bone]),
+                     std::hypot(options.camera_sigma_m, clock_s * speeds[f][bone])));
+    }
+    trial.tags.push_back(std::move(tags));
+  }
+}
+
 Error not_found(std::span<const CameraDetections> detections, const char* cause) {
   return bad_input(detections.front().source,
                    cause,
@@ -225,6 +251,7 @@ Result<SolvedTrial> solve_motion(const Body& body,
     motion.poses.push_back(to_pose(posture, motion.skeleton, model.lengths, model.body));
   }
   fill_doubts(body, model, sightings, windows, options, trial);
+  fill_tags(model, sightings, windows, options, trial);
   return trial;
 }
 

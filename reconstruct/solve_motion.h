@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -47,8 +48,18 @@ struct CameraFit {
   ClockSource clock = ClockSource::kEstimated;
 };
 
+/// How well one tag of the body is known in one frame.
+struct TagDoubt {
+  /// Standard deviation of its centre, root mean square over coordinates, its slip on the
+  /// segment included. [m]
+  float sigma_m = 0.0F;
+  std::uint8_t cameras = 0;  ///< Bit i: camera i saw it; of the first seven cameras.
+  bool seen = false;         ///< By any camera.
+};
+
 struct SolvedTrial {
   EstimatedMotion estimate;
+  std::vector<std::vector<TagDoubt>> tags;  ///< [frame][tag of the body]
   std::vector<CameraFit> cameras;
   std::vector<double> frame_rms_px;  ///< Per frame; 0 where no tag was seen.
   std::vector<int> tags_seen;        ///< Per frame: sightings over all cameras.

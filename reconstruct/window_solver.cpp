@@ -38,7 +38,8 @@ WindowSolver::WindowSolver(const BodyModel& model,
       offsets_s_(std::move(offsets_s)),
       given_(std::move(given)),
       postures_(&postures),
-      sigmas_(postures.size()) {
+      sigmas_(postures.size()),
+      tag_sigmas_(postures.size()) {
   slips_m_.fill(kUsualSlipM);
   clock_sigmas_s_.assign(offsets_s_.size(), 0.0);
   find_velocities();
@@ -203,6 +204,9 @@ bool WindowSolver::solve(const WindowSize& size, const Progress& progress) {
   for (BoneSigmas& sigmas : sigmas_) {
     for (double& sigma_m : sigmas) sigma_m *= scale;
   }
+  for (TagSigmas& sigmas : tag_sigmas_) {
+    for (double& sigma_m : sigmas) sigma_m *= scale;
+  }
   return true;
 }
 
@@ -231,6 +235,8 @@ bool WindowSolver::pass(const WindowSize& size,
     if (!covariances) return false;
     for (std::size_t i = 0; i < done; ++i) {
       sigmas_[first + i] = bone_sigmas(*model_, moved[i], (*covariances)[i]);
+      tag_sigmas_[first + i] =
+          reconstruct::tag_sigmas(*model_, moved[i], (*covariances)[i]);
     }
     weighed_.erase(weighed_.begin(),
                    weighed_.begin() + static_cast<std::ptrdiff_t>(held));

@@ -53,6 +53,8 @@ class WindowSolver {
   [[nodiscard]] const std::vector<bool>& offset_given() const { return given_; }
   /// Per frame, of the windows' covariance, scaled by what is left; after solve().
   [[nodiscard]] const std::vector<BoneSigmas>& sigmas() const { return sigmas_; }
+  /// Likewise of the tags where the posture carries them, without their slip.
+  [[nodiscard]] const std::vector<TagSigmas>& tag_sigmas() const { return tag_sigmas_; }
   /// Of each segment's tags; after solve().
   [[nodiscard]] const SlipSigmas& slips_m() const { return slips_m_; }
 
@@ -83,6 +85,7 @@ class WindowSolver {
   /// How fast each corner of each sighting of each frame crosses its image. [px/s]
   std::vector<std::vector<std::array<glm::dvec2, 4>>> velocities_;
   std::vector<BoneSigmas> sigmas_;
+  std::vector<TagSigmas> tag_sigmas_;
   SlipSigmas slips_m_{};
   /// Of the sightings of a window, by its frame.
   struct Weighed {

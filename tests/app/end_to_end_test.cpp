@@ -147,6 +147,8 @@ TEST(FirstLight, WritesEveryFileOfTheContract) {
                            "report.html",
                            "walk/joints.csv",
                            "walk/segments.csv",
+                           "walk/markers.c3d",
+                           "walk/markers.trc",
                            "walk/motion.bvh",
                            "walk/motion.glb",
                            "walk/child.glb",
@@ -289,6 +291,8 @@ TEST(Stages, OneByOneMakeWhatProcessMakes) {
                            "subject.toml",
                            "walk/joints.csv",
                            "walk/segments.csv",
+                           "walk/markers.c3d",
+                           "walk/markers.trc",
                            "walk/motion.bvh",
                            "walk/child.bvh"}) {
     EXPECT_TRUE(text_of(kRuns / "once" / name) == text_of(kRuns / "stages" / name))
