@@ -149,6 +149,8 @@ Lengths lengths_of(const Proportions& proportions) {
 }
 
 std::optional<Length> length_of(HumanBone bone) {
+  // Where a clavicle starts is three numbers, none of them its length.
+  if (bone == B::kLeftShoulder || bone == B::kRightShoulder) return std::nullopt;
   for (const LengthRow& row : length_rows()) {
     if (row.bone == bone) return row.length;
   }
