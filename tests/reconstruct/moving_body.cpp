@@ -108,7 +108,8 @@ MovingBody moving_body(const MovingBodyOptions& options) {
   reconstruct::Lengths lengths = reconstruct::lengths_of(average);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     // Pairs of limbs come one after the other, and are alike.
-    const bool right = i > 5 && i % 2 == 1;
+    const bool right =
+        i > reconstruct::index(reconstruct::Length::kLeftShoulder) && i % 2 == 1;
     lengths[i] = right ? lengths[i - 1]
                        : lengths[i] * (1.0 + options.length_share * dice.noise(1.0));
   }
