@@ -127,7 +127,12 @@ bool adjust(MarkerBundle& bundle, int max_iterations, bool sigmas) {
   ceres::Problem problem;
   for (MarkerInstant& instant : bundle.instants) {
     add_markers(bundle, instant, problem);
-    add_habits(instant.posture, bundle.model.lengths, problem, bundle.model.twists);
+    add_habits(instant.posture,
+               bundle.model.lengths,
+               problem,
+               bundle.model.twists,
+               1.0,
+               1.0 / static_cast<double>(bundle.instants.size()));
     set_manifolds(instant.posture, problem);
   }
   add_length_habits(

@@ -111,7 +111,10 @@ void add_habits(Posture& posture,
                 const Lengths& lengths,
                 ceres::Problem& problem,
                 const TwistHabits& twists,
-                double shoulders_wider) {
+                double shoulders_wider,
+                double habit_share) {
+  // A weight's share is a sigma's inverse root.
+  const double wider = 1.0 / std::sqrt(habit_share);
   for (const HalfwayHabit& row : kHalfwayHabits) {
     add_halfway(posture, row.lower, row.middle, row.upper, row.sigma_rad, problem);
   }
@@ -121,17 +124,19 @@ void add_habits(Posture& posture,
     if (row.child == Slot::kLeftShoulder || row.child == Slot::kRightShoulder) {
       sigma_rad *= glm::dvec3(1.0, shoulders_wider, shoulders_wider);
     }
+    if (!row.anatomy) sigma_rad *= wider;
     add_relative(posture, row.parent, row.child, usual, sigma_rad, problem);
   }
   for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
     const LimbSlots& s = kLimbSlots[limb];
     const bool arm = limb < 2;
-    add_extremity(posture, limb, lengths, extremity_sigma_rad(limb), problem);
+    add_extremity(posture, limb, lengths, wider * extremity_sigma_rad(limb), problem);
     const double upper_rad = arm ? twists.upper_arm : twists.leg;
-    const double lower_rad = arm ? twists.forearm : twists.leg;
+    const double lower_rad = arm ? wider * twists.forearm : twists.leg;
     add_scalar(posture.block(s.upper_twist), 0.0, upper_rad, problem);
     add_scalar(posture.block(s.lower_twist), 0.0, lower_rad, problem);
-    add_scalar(posture.block(s.flexion), kUsualFlexion_rad, kFlexionSigma_rad, problem);
+    add_scalar(
+        posture.block(s.flexion), kUsualFlexion_rad, wider * kFlexionSigma_rad, problem);
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<FlexionLimit, 1, 1>(
             new FlexionLimit{kLeastFlexion_rad, kLeastFlexionSigma_rad}),

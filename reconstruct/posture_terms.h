@@ -24,12 +24,14 @@ namespace marey::reconstruct {
 /// turn far, elbows and knees do not bend backward. Wide next to any measurement; they
 /// decide only what no camera sees.
 /// `shoulders_wider` is by how much more than usual collar bones may be from lying level
-/// and sideways.
+/// and sideways. What people do, unlike how they are built, counts with `habit_share` of
+/// its weight: over many instants of one trial it says the same again.
 void add_habits(Posture& posture,
                 const Lengths& lengths,
                 ceres::Problem& problem,
                 const TwistHabits& twists = {},
-                double shoulders_wider = 1.0);
+                double shoulders_wider = 1.0,
+                double habit_share = 1.0);
 
 /// A person standing still and upright, feet flat, hands in line with the forearms: what
 /// gives a static trial's bones their directions.
