@@ -12,6 +12,7 @@
 #include "app/fit_results.h"
 #include "app/fit_words.h"
 #include "app/judge_fit.h"
+#include "app/marker_report.h"
 #include "app/option_checks.h"
 #include "app/stopwatch.h"
 #include "recordings/atomic_file.h"
@@ -141,6 +142,8 @@ Status write_all(const FitArguments& args, FitRun& run, std::string& json) {
   run.times.write_s = watch.seconds();
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
   json = fit_figures(run).dump(1, ' ', false, kReplace) + "\n";
+  const Status ok = recordings::write_file(args.out / "fit.html", fit_page(run));
+  if (!ok) return ok;
   return recordings::write_file(args.out / "fit.json", json);
 }
 

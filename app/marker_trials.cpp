@@ -43,7 +43,7 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
 /// A folder's name for every trial, no two alike.
 std::vector<std::string> names_of(std::span<const fs::path> paths) {
   // What else is in the folder of results.
-  std::set<std::string> taken{"subject.toml", "fit.json"};
+  std::set<std::string> taken{"subject.toml", "fit.json", "fit.html"};
   std::vector<std::string> names;
   for (const fs::path& path : paths) {
     std::string stem = path.stem().string();

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/marker_report.h"
 #include "app/repair_figures.h"
 #include "core/extension.h"
 #include "recordings/atomic_file.h"
@@ -56,7 +57,7 @@ void tell(const Repair& repair, const std::filesystem::path& out, Console& conso
     console.warn(counted(empty, "gap is", "gaps are") +
                  " left empty: what is in them cannot be known. Next: "
                  "see which in " +
-                 out.filename().string() + ".repair.json");
+                 out.filename().string() + ".repair.html");
   }
 }
 
@@ -108,8 +109,10 @@ Exit run_repair(const RepairArguments& args, Console& console) {
   if (const Status ok = recordings::write_markers(args.out, *read, write); !ok) {
     return console.fail(ok.error());
   }
-  for (const auto& [suffix, text] : {std::pair(".repair.json", json),
-                                     std::pair(".repair.csv", repair_table(repair))}) {
+  for (const auto& [suffix, text] :
+       {std::pair(".repair.json", json),
+        std::pair(".repair.csv", repair_table(repair)),
+        std::pair(".repair.html", repair_page(repair, read->notes))}) {
     const Status ok = recordings::write_file(args.out.string() + suffix, text);
     if (!ok) return console.fail(ok.error());
   }

@@ -23,4 +23,9 @@ namespace marey::app {
 [[nodiscard]] std::string_view calibration_style();
 [[nodiscard]] std::string_view calibration_script();
 
+// And for the pages of labelled markers: markers.html, markers.css after report.css.
+[[nodiscard]] std::string_view markers_page();
+[[nodiscard]] std::string_view markers_style();
+[[nodiscard]] std::string_view markers_script();
+
 }  // namespace marey::app

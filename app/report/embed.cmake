@@ -3,6 +3,7 @@
 #
 # cmake -D OUT=<page.cpp> -D PAGE=<html> -D STYLE=<css> -D SCRIPT=<js|js|...>
 #       -D CALIBRATION_PAGE=... -D CALIBRATION_STYLE=... -D CALIBRATION_SCRIPT=...
+#       -D MARKERS_PAGE=... -D MARKERS_STYLE=... -D MARKERS_SCRIPT=...
 #       -P embed.cmake
 #
 # Writes the definitions of app/report_page.h. The same files give the same bytes.
@@ -35,5 +36,8 @@ add_text(report_script "${SCRIPT}")
 add_text(calibration_page "${CALIBRATION_PAGE}")
 add_text(calibration_style "${CALIBRATION_STYLE}")
 add_text(calibration_script "${CALIBRATION_SCRIPT}")
+add_text(markers_page "${MARKERS_PAGE}")
+add_text(markers_style "${MARKERS_STYLE}")
+add_text(markers_script "${MARKERS_SCRIPT}")
 string(APPEND text "\n}  // namespace marey::app\n")
 file(WRITE ${OUT} "${text}")
