@@ -139,6 +139,8 @@ function curvesSection(trial, figure, fates) {
     {x1: 1, x2: 27, y1: 5, y2: 5, 'stroke-width': 2.5, ...style})), ` ${words}`);
   const used = fates.filter((fate, k) => k > 0 && fate !== 'left-empty' &&
     trial.curves.some((curve) => curve.fates.includes(k)));
+  const isAnyWrong = trial.curves.some((curve) => curve.removed.includes(1) ||
+    curve.fates.includes(fates.indexOf('swapped')));
   return [
     el('p', {class: 'lead'}, 'The longest and the least sure fills, and the wrong samples ' +
       'that were furthest off, one of each marker: millimetres in the world, y up. Pale is ' +
@@ -146,8 +148,8 @@ function curvesSection(trial, figure, fates) {
       'the picture is drawn on its edge.'),
     el('ul', {class: 'legend'}, line({style: 'stroke: var(--measured)'}, 'measured'),
       ...used.map((fate) => line({style: `stroke: var(--fate-${fate})`}, fate)),
-      line({style: 'stroke: var(--quiet)', 'stroke-dasharray': '3 2'},
-        'as read, and wrong')),
+      isAnyWrong ? line({style: 'stroke: var(--quiet)', 'stroke-dasharray': '3 2'},
+        'as read, and wrong') : null),
     el('div', {class: 'curves'},
       ...trial.curves.map((curve) => curveCard(curve, trial, figure, fates))),
   ];

@@ -73,7 +73,7 @@ function stillView(still, data, view, size, left, titles) {
     parts.push(svg('circle', {cx, cy, r: radius.toFixed(1), ...look},
       svg('title', {}, words)));
   }
-  const letters = 5.5 * radius;
+  const letters = 4.5 * radius;
   parts.push(svg('text', {x: size.across / 2, y: 1.3 * letters, 'font-size': letters},
     view.words));
   return svg('svg', {x: left, y: 0, width: size.across, height: size.up,
