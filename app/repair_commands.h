@@ -21,7 +21,8 @@ struct RepairArguments {
 
 /// `marey repair IN --out OUT`: OUT is IN with wrong samples taken out or put right and
 /// gaps filled; beside it OUT's name with `.repair.csv` tells of every sample that was
-/// changed, with `.repair.json` of every fault and gap, and with `.repair.html` shows them.
+/// changed, with `.repair.json` of every fault and gap, and with `.repair.html` shows
+/// them.
 [[nodiscard]] Exit run_repair(const RepairArguments& args, Console& console);
 
 /// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
