@@ -149,7 +149,7 @@ function curvesSection(trial, figure, fates) {
     el('ul', {class: 'legend'}, line({style: 'stroke: var(--measured)'}, 'measured'),
       ...used.map((fate) => line({style: `stroke: var(--fate-${fate})`}, fate)),
       isAnyWrong ? line({style: 'stroke: var(--quiet)', 'stroke-dasharray': '3 2'},
-        'as read, and wrong') : null),
+        'as read, and wrong; ticks where taken out') : null),
     el('div', {class: 'curves'},
       ...trial.curves.map((curve) => curveCard(curve, trial, figure, fates))),
   ];
