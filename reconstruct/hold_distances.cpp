@@ -15,11 +15,12 @@ constexpr double kStable_m = 0.005;
 constexpr int kLeastShared = 60;
 constexpr double kNoise_m = 0.001;
 constexpr int kSweeps = 5;
+constexpr double kMostSigmas = 1.5;
 
 struct Bone {
   std::size_t other = 0;
   double length_m = 0.0;
-  double precision = 0.0;  // 1 / variance
+  double variance_m2 = 0.0;
 };
 
 std::vector<std::vector<Bone>> stable_bones(const MarkerTracks& tracks,
@@ -30,8 +31,7 @@ std::vector<std::vector<Bone>> stable_bones(const MarkerTracks& tracks,
       const auto& pair = distances.between(m, other);
       if (pair.variance_m2 > kStable_m * kStable_m) break;
       if (pair.shared < kLeastShared || pair.mean_m < kStable_m) continue;
-      bones[m].push_back(
-          {other, pair.mean_m, 1.0 / (pair.variance_m2 + kNoise_m * kNoise_m)});
+      bones[m].push_back({other, pair.mean_m, pair.variance_m2 + kNoise_m * kNoise_m});
     }
   }
   return bones;
@@ -56,11 +56,18 @@ glm::dvec3 pull(const MarkerSample& marker,
     const double apart_m = glm::length(way);
     if (apart_m < 1e-6) continue;
     const glm::dvec3 unit = way / apart_m;
-    const double precision = share * bone.precision;
+    // A fellow that is itself filled in is no better a hold than it is known.
+    const double other_sigma_m = static_cast<double>(other->sigma_m);
+    const double precision = share / (bone.variance_m2 + other_sigma_m * other_sigma_m);
     hessian += precision * glm::outerProduct(unit, unit);
     gradient += precision * (apart_m - bone.length_m) * unit;
   }
-  return marker.p_in_world - glm::inverse(hessian) * gradient;
+  // Bones that pull nearly one way and disagree would throw it far across: no further
+  // than its doubt goes.
+  const glm::dvec3 moved = marker.p_in_world - glm::inverse(hessian) * gradient - from;
+  const double far_m = glm::length(moved);
+  const double most_m = kMostSigmas * sigma_m;
+  return far_m > most_m ? from + (most_m / far_m) * moved : from + moved;
 }
 
 }  // namespace

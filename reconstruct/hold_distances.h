@@ -11,7 +11,8 @@ namespace marey::reconstruct {
 
 /// Moves samples of `repaired` that are not in `measured` so that markers at stable
 /// distances keep them: in every frame the least sum of squares of the moves, in their
-/// sigmas, and of the distances' changes, in their own. Sigmas stay, since distances were
+/// sigmas, and of the distances' changes, in their own; none by more than one and a half of
+/// its sigmas. Sigmas stay, since distances were
 /// known to those who made them. Linear in frames and stable pairs.
 void hold_distances(const MarkerTracks& measured,
                     const MarkerDistances& distances,
