@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -63,9 +64,10 @@ std::vector<NamedMarker> used_labels(const FitLabels& labels) {
 }
 
 /// How far markers are from where their landmarks are on others, over how far these
-/// differ between people: the median over markers whose landmark is a place.
-double places_off(const reconstruct::MarkersFit& fit,
-                  std::span<const NamedMarker> labels) {
+/// differ between people: the median over markers whose landmark is a place. nullopt
+/// where there is none.
+std::optional<double> places_off(const reconstruct::MarkersFit& fit,
+                                 std::span<const NamedMarker> labels) {
   std::vector<double> off;
   for (const PlacedMarker& marker : fit.body.markers) {
     for (const NamedMarker& label : labels) {
@@ -81,7 +83,7 @@ double places_off(const reconstruct::MarkersFit& fit,
                     (std::sqrt(3.0) * stature_m * landmark->sigma_per_stature));
     }
   }
-  if (off.empty()) return 0.0;
+  if (off.empty()) return std::nullopt;
   std::sort(off.begin(), off.end());
   return off[off.size() / 2];
 }
@@ -173,20 +175,21 @@ Result<SubjectFit> fit_subject_to(const reconstruct::MarkerSubject& subject,
   auto fit = reconstruct::fit_markers(subject, trials, markers, progress);
   SubjectFit out;
   if (fit) {
-    out.places_off = places_off(*fit, markers);
+    const auto off = places_off(*fit, markers);
+    out.places_off = off.value_or(0.0);
     out.fit = std::move(*fit);
-    if (out.places_off < kUsualPlacesOff) return out;
+    if (!off || *off < kUsualPlacesOff) return out;
   }
   for (NamedMarker& marker : markers) marker.landmark = mirrored(marker.landmark);
   const auto mirror = reconstruct::fit_markers(subject, trials, markers);
-  const double mirror_off = mirror ? places_off(*mirror, markers) : 0.0;
+  const auto mirror_off = mirror ? places_off(*mirror, markers) : std::optional<double>();
   if (!fit) {
-    if (mirror && mirror_off < kUsualPlacesOff) return exchanged_error();
+    if (mirror_off && *mirror_off < kUsualPlacesOff) return exchanged_error();
     return fit.error();
   }
-  if (mirror && mirror_off < kFarBetter * out.places_off &&
+  if (mirror_off && *mirror_off < kFarBetter * out.places_off &&
       mirror->rms_m < out.fit.rms_m) {
-    out.mirrored_places_off = mirror_off;
+    out.mirrored_places_off = *mirror_off;
   }
   return out;
 }

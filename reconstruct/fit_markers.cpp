@@ -27,6 +27,11 @@ constexpr std::size_t kInstants = 60;
 // believed to. [m]
 constexpr double kUsualStray_m = 0.010;
 constexpr double kLeastStray_m = 0.002;
+// Before the bundle has moved anything: of markers named exactly, and of rough ones.
+constexpr double kFirstStray_m = 0.014;
+constexpr double kRoughStray_m = 0.04;
+// Where landmarks say nothing of it.
+constexpr double kAverageStature_m = 1.70;
 // As many samples as that belief counts for.
 constexpr double kBeliefSamples = 10.0;
 // A marker that strays farther from where it should be moves with another segment.
@@ -149,7 +154,7 @@ std::optional<PlaceBelief> Fit::on_measured_pelvis(const Landmark& landmark) con
 /// The average person of this stature, with the markers whose places their names tell.
 void Fit::begin() {
   const auto estimate = estimate_stature(trials_, labels_);
-  stature_ = estimate.value_or(StatureEstimate{1.70, 0});
+  stature_ = estimate.value_or(StatureEstimate{kAverageStature_m, 0});
   if (subject_->stature_m) stature_.stature_m = *subject_->stature_m;
   average_ = average_proportions(stature_.stature_m);
   bundle_.usual = lengths_of(average_);
@@ -174,13 +179,13 @@ void Fit::begin() {
     if (candidate.somewhere) {
       waiting_.push_back(candidate);
     } else {
-      use(candidate, candidate.belief.p_in_bone, std::hypot(kUsualStray_m, 0.010));
+      use(candidate, candidate.belief.p_in_bone, kFirstStray_m);
     }
   }
   if (used_.size() >= kFewestLabels) return;
   // Sets of clusters alone: their rough places have to do.
   for (const Candidate& candidate : waiting_) {
-    use(candidate, candidate.belief.p_in_bone, 0.04);
+    use(candidate, candidate.belief.p_in_bone, kRoughStray_m);
   }
   waiting_.clear();
 }

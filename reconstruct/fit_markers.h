@@ -87,7 +87,8 @@ struct MarkersFit {
 /// move with another segment than the one they are named for are moved there; those that
 /// move with none are left out.
 ///
-/// Deterministic. Cost: some seconds, whatever the trials' lengths. Errors (kBadInput,
+/// Deterministic. Cost: some seconds, whatever the trials' lengths, and more
+/// with hundreds of trials. Errors (kBadInput,
 /// `where` empty): fewer than six labels have landmarks, none of them the hips' or the
 /// trunk's; never six of them seen at once; no body that explains them.
 [[nodiscard]] Result<MarkersFit> fit_markers(const MarkerSubject& subject,

@@ -31,7 +31,7 @@ inline constexpr double kHipRegressionSigma_m = 0.007;
 /// centre in adults, children, and patients with cerebral palsy based on magnetic
 /// resonance imaging", J. Biomech. 40, table 3: from pelvic depth and width alone).
 /// `width_m` between the anterior spines' markers, `depth_m` from their middle to that of
-/// the posterior ones; both markers' centres lie some 10 mm off the bone in depth. The
+/// the posterior ones; both markers' centres lie 7.5 mm off the bone in depth. The
 /// pelvis is tilted as an average one that stands. Precondition: both above 0.
 [[nodiscard]] HipRegression hips_from_spines(double width_m, double depth_m);
 

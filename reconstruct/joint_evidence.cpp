@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 
 #include "reconstruct/length_terms.h"
@@ -17,6 +18,8 @@ using Eigen::Vector3d;
 // average person's, was found by its movement.
 constexpr double kEnoughRange_rad = 0.35;
 constexpr double kTellingShare = 0.5;
+// Landmarks next to it have told something of it.
+constexpr double kToldShare = 0.9;
 
 /// How far a bone was turned against its parent, from its middle attitude: between the
 /// 5th and the 95th percent along the axis about which it turned most. [rad]
@@ -24,25 +27,32 @@ double range_of(const MarkerBundle& bundle,
                 std::span<const Snapshot> snapshots,
                 HumanBone bone,
                 HumanBone up) {
-  std::vector<Vector3d> turns;
+  std::vector<Eigen::Quaterniond> turns;
+  Eigen::Matrix4d scatter = Eigen::Matrix4d::Zero();
   UnfoldedPosture unfolded;
   for (const Snapshot& snapshot : snapshots) {
     if (!snapshot.solved) continue;
     unfolded.unfold(snapshot.posture, bundle.model.lengths, bundle.model.body);
-    const Eigen::Matrix3d turn =
-        unfolded.rotation(up).transpose() * unfolded.rotation(bone);
-    const Eigen::AngleAxisd angle_axis(turn);
-    turns.push_back(angle_axis.angle() * angle_axis.axis());
+    turns.emplace_back(unfolded.rotation(up).transpose() * unfolded.rotation(bone));
+    scatter += turns.back().coeffs() * turns.back().coeffs().transpose();
   }
-  double widest = 0.0;
-  for (int axis = 0; axis < 3 && !turns.empty(); ++axis) {
-    std::vector<double> values;
-    for (const Vector3d& turn : turns) values.push_back(turn[axis]);
-    std::sort(values.begin(), values.end());
-    const std::size_t tail = values.size() / 20;
-    widest = std::max(widest, values[values.size() - 1 - tail] - values[tail]);
+  if (turns.empty()) return 0.0;
+  // The middle attitude: the mean quaternion (Markley et al. 2007).
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> means(scatter);
+  const Eigen::Quaterniond middle(Eigen::Vector4d(means.eigenvectors().col(3)));
+  std::vector<Vector3d> off;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Eigen::Quaterniond& turn : turns) {
+    off.push_back(log_of(middle.conjugate() * turn));
+    spread += off.back() * off.back().transpose();
   }
-  return widest;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  const Vector3d axis = axes.eigenvectors().col(2);
+  std::vector<double> angles;
+  for (const Vector3d& turn : off) angles.push_back(axis.dot(turn));
+  std::sort(angles.begin(), angles.end());
+  const std::size_t tail = angles.size() / 20;
+  return angles[angles.size() - 1 - tail] - angles[tail];
 }
 
 }  // namespace
@@ -72,7 +82,7 @@ std::vector<JointEvidence> joint_evidence(const MarkerBundle& bundle,
     if (length && joint.range_rad > kEnoughRange_rad &&
         joint.sigma_m < kTellingShare * prior_m) {
       joint.origin = JointOrigin::kMovement;
-    } else if (length && landmarks && joint.sigma_m < kTellingShare * 2.0 * prior_m) {
+    } else if (length && landmarks && joint.sigma_m < kToldShare * prior_m) {
       joint.origin = JointOrigin::kLandmarks;
     } else {
       joint.origin = JointOrigin::kProportions;

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/marker_bundle.h"
 
-#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 #include <Eigen/Dense>
 
@@ -101,13 +102,20 @@ std::optional<Eigen::MatrixXd> subject_covariance(MarkerBundle& bundle,
     start += size;
   }
   information.diagonal().array() += 1e-9;
-  return information.ldlt().solve(Eigen::MatrixXd::Identity(shared, shared));
+  const Eigen::LDLT<Eigen::MatrixXd> factor(information);
+  if (factor.info() != Eigen::Success || !factor.isPositive()) return std::nullopt;
+  Eigen::MatrixXd covariance = factor.solve(Eigen::MatrixXd::Identity(shared, shared));
+  // What is not finite or positive is no knowledge, least of all a perfect one.
+  if (!covariance.allFinite() || covariance.diagonal().minCoeff() <= 0.0) {
+    return std::nullopt;
+  }
+  return covariance;
 }
 
 bool fill_sigmas(MarkerBundle& bundle, ceres::Problem& problem) {
   const auto covariance = subject_covariance(bundle, problem);
   if (!covariance) return false;
-  const auto variance = [&](int i) { return std::max(0.0, (*covariance)(i, i)); };
+  const auto variance = [&](int i) { return (*covariance)(i, i); };
   for (int i = 0; i < kLengthCount; ++i) {
     bundle.length_sigma_m[static_cast<std::size_t>(i)] = std::sqrt(variance(i));
   }
@@ -135,8 +143,7 @@ bool adjust(MarkerBundle& bundle, int max_iterations, bool sigmas) {
                1.0 / static_cast<double>(bundle.instants.size()));
     set_manifolds(instant.posture, problem);
   }
-  add_length_habits(
-      bundle.usual, bundle.usual_sigma_m, bundle.model.lengths, problem);
+  add_length_habits(bundle.usual, bundle.usual_sigma_m, bundle.model.lengths, problem);
   for (std::size_t m = 0; m < bundle.places.size(); ++m) {
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PlaceResidual, 3, 3>(
                                  new PlaceResidual{bundle.places[m]}),

@@ -25,8 +25,8 @@ struct MarkerInstant {
 struct MarkerBundle {
   MarkerModel model;
   std::vector<PlaceBelief> places;  ///< One per marker of the model: the prior.
-  Lengths usual{};          ///< Of an average person: the prior.
-  Lengths usual_sigma_m{};  ///< How far people differ from it.
+  Lengths usual{};                  ///< Of an average person: the prior.
+  Lengths usual_sigma_m{};          ///< How far people differ from it.
   std::vector<MarkerInstant> instants;
 
   // Filled by adjust() with sigmas.

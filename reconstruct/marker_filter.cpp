@@ -17,7 +17,11 @@ constexpr std::size_t kFewestToStart = 6;
 }  // namespace
 
 MarkerFilter::MarkerFilter(const MarkerModel& model, FrameRate rate)
-    : model_(&model), process_(model.lengths, rate), solver_(model), finder_(model) {}
+    : model_(&model),
+      process_(model.lengths, rate),
+      solver_(model),
+      judge_(model),
+      finder_(model) {}
 
 FrameLimits MarkerFilter::limits() const {
   FrameLimits limits;
@@ -50,7 +54,7 @@ void MarkerFilter::look_anew(std::span<const SeenMarker> seen, Posture& posture)
   }
   until_next_look_ = kFramesBetweenLooks;
   Posture as_it_is = posture;
-  const double cost = solver_.solve(seen, nullptr, as_it_is);
+  const double cost = judge_.solve(seen, nullptr, as_it_is);
   const FoundPosture found = finder_.find(seen);
   if (found.cost >= cost) return;
   posture = found.posture;
@@ -59,9 +63,11 @@ void MarkerFilter::look_anew(std::span<const SeenMarker> seen, Posture& posture)
   SlotProcess::to_prior(predicted_, prior_);
   (void)solver_.solve(seen, &prior_, posture, limits());
   until_next_look_ = 0;
+  found_anew_ = true;
 }
 
 void MarkerFilter::step(std::span<const SeenMarker> seen) {
+  found_anew_ = false;
   if (!started_) {
     if (seen.size() < kFewestToStart) return;
     start(finder_.find(seen).posture);

@@ -28,10 +28,14 @@ class MarkerFilter {
   /// looked for anew.
   void step(std::span<const SeenMarker> seen);
 
-  /// Of the last step: before and after its markers. Preconditions: started().
+  /// Of the last step: before and after its markers. Precondition: a step() since the
+  /// body was found.
   [[nodiscard]] const PostureBelief& predicted() const { return predicted_; }
   [[nodiscard]] const PostureBelief& filtered() const { return filtered_; }
   [[nodiscard]] const PostureCovariance& covariance() const { return covariance_; }
+  /// The last step lost the body and found it anew: what was predicted() is then no
+  /// consequence of the frames before.
+  [[nodiscard]] bool found_anew() const { return found_anew_; }
 
   [[nodiscard]] const SlotProcess& process() const { return process_; }
   [[nodiscard]] MarkerFrameSolver& solver() { return solver_; }
@@ -45,12 +49,14 @@ class MarkerFilter {
   const MarkerModel* model_;
   SlotProcess process_;
   MarkerFrameSolver solver_;
+  MarkerFrameSolver judge_;  ///< Whose equations are nobody's belief.
   PostureFinder finder_;
   PostureBelief predicted_;
   PostureBelief filtered_;
   PosturePrior prior_;
   PostureCovariance covariance_;
   bool started_ = false;
+  bool found_anew_ = false;
   int until_next_look_ = 0;
 };
 

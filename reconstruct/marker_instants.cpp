@@ -93,8 +93,9 @@ void pose_snapshots(const MarkerModel& model,
   const Snapshot* before = nullptr;
   for (Snapshot& snapshot : snapshots) {
     const std::vector<SeenMarker> seen = seen_in(snapshot, labels);
-    const bool enough = seen.size() >= 6 && static_cast<double>(seen.size()) >=
-                                                kFullEnough * static_cast<double>(most[snapshot.trial]);
+    const bool enough =
+        seen.size() >= 6 && static_cast<double>(seen.size()) >=
+                                kFullEnough * static_cast<double>(most[snapshot.trial]);
     if (!enough) {
       snapshot.solved = false;
       continue;
@@ -140,6 +141,7 @@ std::vector<std::size_t> choose_instants(std::span<const Snapshot> snapshots,
     }
     next = static_cast<std::size_t>(std::max_element(distance.begin(), distance.end()) -
                                     distance.begin());
+    if (distance[next] <= 0.0) break;  // The rest are the same again.
   }
   return chosen;
 }

@@ -4,6 +4,7 @@
 
 // Private to reconstruct: the instants of trials that a body is measured from.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ struct Snapshot {
   bool solved = false;
 };
 
-/// Frames spread evenly over the trials, `most` of them at the most.
+/// Frames spread evenly over the trials, some `most` of them; of every trial one.
 [[nodiscard]] std::vector<Snapshot> take_snapshots(std::span<const MarkerTracks> trials,
                                                    std::span<const std::string> labels,
                                                    std::size_t most);

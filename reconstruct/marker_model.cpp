@@ -2,10 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/marker_model.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace marey::reconstruct {
+namespace {
+
+// Of the damping: so little does not hold a step back.
+constexpr double kNearlyFree = 1e-3;
+
+}  // namespace
 
 const UnfoldedPosture& MarkerFrameSolver::unfold(const Posture& posture) {
   unfolded_.unfold(posture, model_->lengths, model_->body);
@@ -54,7 +61,8 @@ double MarkerFrameSolver::solve(std::span<const SeenMarker> seen,
     const double largest = step.cwiseAbs().maxCoeff();
     Posture moved = posture;
     move(moved, step);
-    if (largest < limits.last_step) {
+    // A damped step is small because it is held back.
+    if (largest < limits.last_step && damping < kNearlyFree) {
       // So near the least cost that the quadratic it was computed from is right.
       now->cost += 0.5 * now->gradient.dot(step);
       posture = moved;
@@ -69,6 +77,11 @@ double MarkerFrameSolver::solve(std::span<const SeenMarker> seen,
       damping = std::max(1e-3, 10.0 * damping);
       if (damping > 1e8) break;
     }
+  }
+  iterations_ = std::min(iterations_, limits.iterations);
+  // What is known of the posture is told by the equations alone.
+  if (damping > 0.0 && !factor_.factor(now->hessian, 0.0)) {
+    (void)factor_.factor(now->hessian, damping);
   }
   return now->cost;
 }

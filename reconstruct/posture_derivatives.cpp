@@ -79,7 +79,7 @@ Matrix3d inverse_left_jacobian(const Vector3d& r) {
   if (angle2 > 1e-4) {
     const double a = std::sqrt(angle2);
     const double sine = std::sin(a);
-    // Half a turn has no logarithm's derivative; next to it, the largest that is finite.
+    // 0 / 0 at half a turn, where it goes to 1 / pi^2.
     c = std::abs(sine) < 1e-6 ? 1.0 / angle2
                               : 1.0 / angle2 - (1.0 + std::cos(a)) / (2.0 * a * sine);
   }

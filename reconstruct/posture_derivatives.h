@@ -27,7 +27,8 @@ struct SparseDerivative {
   void add(int at_column, const Eigen::Vector3d& block);
 };
 
-/// A posture unfolded: every bone's frame in the world, and what derivatives need.
+/// A posture unfolded: every bone's frame in the world, and what derivatives need. Toes
+/// have their foot's frame, with which they move.
 class UnfoldedPosture {
  public:
   /// Some 2 microseconds. No allocation.

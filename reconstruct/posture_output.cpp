@@ -11,7 +11,13 @@ namespace marey::reconstruct {
 namespace {
 
 // A marker that was never measured to stray less is not trusted to do so. [m]
-constexpr double kLeastStray_m = 0.001;
+constexpr double kLeastKnownStray_m = 0.001;
+
+bool is_finite(const MarkerSample& sample) {
+  const glm::dvec3& p = sample.p_in_world;
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) &&
+         std::isfinite(sample.sigma_m);
+}
 
 }  // namespace
 
@@ -20,9 +26,12 @@ MarkerModel to_marker_model(const Body& body) {
   model.lengths = lengths_of(body.proportions);
   model.body = frame_of(body.proportions);
   for (const PlacedMarker& marker : body.markers) {
-    model.markers.push_back({solved_segment(marker.segment),
-                             eigen(marker.p_in_segment),
-                             std::max(kLeastStray_m, marker.stray_m)});
+    const HumanBone bone = solved_segment(marker.segment);
+    glm::dvec3 p = marker.p_in_segment;
+    // Toes move with their foot, in whose frame theirs begins farther on.
+    if (bone != marker.segment) p += body.proportions[marker.segment];
+    model.markers.push_back(
+        {bone, eigen(p), std::max(kLeastKnownStray_m, marker.stray_m)});
   }
   return model;
 }
@@ -45,6 +54,7 @@ void collect(std::span<const std::optional<MarkerSample>> frame,
   for (std::size_t m = 0; m < columns.size(); ++m) {
     if (!columns[m] || !frame[*columns[m]]) continue;
     const MarkerSample& sample = *frame[*columns[m]];
+    if (!is_finite(sample)) continue;
     out.push_back({m, eigen(sample.p_in_world), static_cast<double>(sample.sigma_m)});
   }
 }
@@ -84,7 +94,10 @@ void joint_sigmas(const UnfoldedPosture& unfolded,
                   std::array<double, kHumanBoneCount>& out) {
   SparseDerivative derivative;
   for (const HumanBone bone : human_bones()) {
-    unfolded.derivative(bone, unfolded.origin(bone), derivative);
+    const HumanBone mover = solved_segment(bone);
+    Eigen::Vector3d origin = unfolded.origin(mover);
+    if (mover != bone) origin = unfolded.point(mover, eigen(body.proportions[bone]));
+    unfolded.derivative(mover, origin, derivative);
     const double variance = covariance.of(derivative).trace() / 3.0;
     out[index(bone)] = std::hypot(std::sqrt(std::max(0.0, variance)),
                                   body.joint_centre_sigma_m[index(bone)]);

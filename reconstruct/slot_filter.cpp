@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/slot_filter.h"
 
+#include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -13,7 +13,7 @@ namespace marey::reconstruct {
 namespace {
 
 // Frames that are smoothed at once, and how long they wait for what comes after them:
-// several memories of the process, which forgets in a quarter of a second.
+// several memories of how joints turn, one of how the hips travel.
 constexpr std::size_t kWindowFrames = 256;
 constexpr double kLookAhead_s = 1.0;
 
@@ -23,6 +23,7 @@ constexpr double kStart_s = 2.0;
 struct FilteredFrame {
   PostureBelief predicted;
   PostureBelief filtered;
+  bool found_anew = false;
 };
 
 using Frame = std::span<const std::optional<MarkerSample>>;
@@ -131,7 +132,8 @@ void Batch::solve(const Progress& progress, SolvedMarkers& out) {
   const std::size_t frames = tracks_->frames();
   const auto ahead = std::max<std::size_t>(
       16, static_cast<std::size_t>(std::lround(kLookAhead_s * tracks_->rate.hz)));
-  std::vector<FilteredFrame> window(kWindowFrames + ahead);
+  std::vector<FilteredFrame> window(
+      std::min(frames, std::max(kWindowFrames, ahead) + ahead));
   std::size_t first = 0;  // The frame that window[0] is of.
   std::size_t held = 0;   // Frames that have been filtered from there on.
   while (first < frames) {
@@ -140,6 +142,7 @@ void Batch::solve(const Progress& progress, SolvedMarkers& out) {
       filter_.step(seen_);
       window[held].predicted = filter_.predicted();
       window[held].filtered = filter_.filtered();
+      window[held].found_anew = filter_.found_anew();
       ++held;
     }
     const bool last = first + held == frames;
@@ -148,7 +151,8 @@ void Batch::solve(const Progress& progress, SolvedMarkers& out) {
     PostureBelief* later = &beliefs_[0];
     PostureBelief* here = &beliefs_[1];
     for (std::size_t i = held; i-- > 0;) {
-      if (i + 1 == held) {
+      // What comes after a body was lost and found says nothing of what was before.
+      if (i + 1 == held || window[i + 1].found_anew) {
         *here = window[i].filtered;
       } else {
         filter_.process().smooth(
@@ -234,6 +238,7 @@ struct MarkerTracker::Inside {
         model(to_marker_model(body)),
         columns(find_columns(body, labels)),
         skeleton(make_humanoid(body.proportions)),
+        label_count(labels.size()),
         filter(model, rate) {
     seen.reserve(model.markers.size());
   }
@@ -241,6 +246,7 @@ struct MarkerTracker::Inside {
   MarkerModel model;
   MarkerColumns columns;
   Skeleton skeleton;
+  std::size_t label_count;
   MarkerFilter filter;
   std::vector<SeenMarker> seen;
 };
@@ -263,6 +269,7 @@ bool MarkerTracker::step(std::span<const std::optional<MarkerSample>> frame,
                          Pose& pose,
                          std::vector<JointDoubt>& doubt) {
   Inside& in = *inside_;
+  MAREY_ASSERT(frame.size() == in.label_count);
   collect(frame, in.columns, in.seen);
   in.filter.step(in.seen);
   if (!in.filter.started()) return false;

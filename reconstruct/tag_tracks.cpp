@@ -17,6 +17,7 @@ constexpr int kCorners = 4;
 std::vector<bool> seen_tags(const SolvedTrial& trial, std::size_t tags) {
   std::vector<bool> seen(tags, false);
   for (const auto& frame : trial.tags) {
+    MAREY_ASSERT(frame.size() == tags);
     for (std::size_t t = 0; t < tags; ++t) {
       if (frame[t].seen) seen[t] = true;
     }
@@ -43,7 +44,6 @@ MarkerTracks tag_tracks(const Body& body, const SolvedTrial& trial) {
   tracks.samples.resize(tracks.labels.size() * motion.poses.size());
   const std::vector<bool> seen = seen_tags(trial, body.tags.size());
   for (std::size_t f = 0; f < motion.poses.size(); ++f) {
-    MAREY_ASSERT(trial.tags[f].size() == body.tags.size());
     const auto world = world_from_joints(motion.skeleton, motion.poses[f]);
     for (std::size_t t = 0; t < body.tags.size(); ++t) {
       const PlacedTag& placed = body.tags[t];

@@ -49,6 +49,7 @@ TEST(FitMarkers, MeasuresSomebodyWhoMoves) {
     EXPECT_LT(std::abs(found - real), 4.0 * fit->body.joint_centre_sigma_m[index(bone)])
         << name(bone);
   }
+  ASSERT_EQ(fit->joints.size(), 21U);
   for (const JointEvidence& joint : fit->joints) {
     if (joint.joint == HumanBone::kLeftLowerLeg) {
       EXPECT_EQ(joint.origin, JointOrigin::kMovement);

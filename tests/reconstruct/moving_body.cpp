@@ -80,6 +80,8 @@ Posture posture_at(double time_s) {
         turn(which, limb < 2 ? glm::dvec3(0.3, 0.7, 0.5) : glm::dvec3(0.6, 0.2, 0.25));
     posture.set_rotation(s.frame, frame);
     *posture.block(s.flexion) = 0.7 + 0.55 * wave(time_s, which + 1);
+    *posture.block(s.lower_twist) = (limb < 2 ? 0.5 : 0.05) * wave(time_s, which + 2);
+    *posture.block(s.upper_twist) = (limb < 2 ? 0.1 : 0.05) * wave(time_s, which + 4);
     posture.set_rotation(s.extremity, frame * turn(which + 3, {0.25, 0.15, 0.15}));
   }
   return posture;
