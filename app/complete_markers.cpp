@@ -9,6 +9,12 @@
 #include "core/assert.h"
 
 namespace marey::app {
+namespace {
+
+// What is known no better is not known: as `marey repair` has it.
+constexpr double kMostSigma_m = 0.1;
+
+}  // namespace
 
 CompletedMarkers complete_markers(const Body& body,
                                   const reconstruct::SolvedMarkers& solved,
@@ -33,6 +39,7 @@ CompletedMarkers complete_markers(const Body& body,
       const JointDoubt& doubt = solved.estimate.doubt[f][index(found->segment)];
       if (doubt.source == Source::kInferred) continue;
       const double sigma_m = std::hypot(found->stray_m, found->sigma_m, doubt.sigma_m);
+      if (sigma_m > kMostSigma_m) continue;
       sample = MarkerSample{solved.modelled_in_world[f * placed + at],
                             static_cast<float>(sigma_m),
                             0,

@@ -20,7 +20,8 @@ struct CompletedMarkers {
 /// Puts markers that are still missing where the solved body has them, source kInferred,
 /// with the doubts of the joint, of the marker's place and of its straying added up. Only
 /// where the marker's segment is measured or repaired: where a segment is itself a guess,
-/// markers stay empty. Those that are there stay as they are.
+/// markers stay empty, and so do those known
+/// no better than to 0.1 m. Those that are there stay as they are.
 ///
 /// Cost: linear in samples. Precondition: `solved` is of this body and these tracks.
 [[nodiscard]] CompletedMarkers complete_markers(const Body& body,

@@ -13,6 +13,14 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
+/// Text of strangers' files on one line, whatever is in it.
+std::string on_one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+  }
+  return text;
+}
+
 std::string bar(const std::string& label, int done, int total, double elapsed_s) {
   std::array<char, 200> text{};
   const double rate = elapsed_s > 0.0 ? done / elapsed_s : 0.0;
@@ -113,7 +121,7 @@ void Console::say(const std::string& text) {
   if (style_ == ProgressStyle::kJson) {
     print_json({{"message", text}});
   } else {
-    std::fprintf(stderr, "%s\n", text.c_str());
+    std::fprintf(stderr, "%s\n", on_one_line(text).c_str());
   }
 }
 
@@ -123,7 +131,7 @@ void Console::warn(const std::string& text) {
   if (style_ == ProgressStyle::kJson) {
     print_json({{"warning", text}});
   } else {
-    std::fprintf(stderr, "warning: %s\n", text.c_str());
+    std::fprintf(stderr, "warning: %s\n", on_one_line(text).c_str());
   }
 }
 
@@ -133,7 +141,7 @@ Exit Console::fail(const Error& error) {
   if (style_ == ProgressStyle::kJson) {
     print_json({{"error", error.message()}, {"exit_code", exit_for(error.code)}});
   } else {
-    std::fprintf(stderr, "error: %s\n", error.message().c_str());
+    std::fprintf(stderr, "error: %s\n", on_one_line(error.message()).c_str());
   }
   return exit_for(error.code);
 }

@@ -79,6 +79,8 @@ void add_fit_words(const SubjectFit& subject,
   if (!found.empty()) lines.push_back("found by how they move: " + listed(found));
   lines.push_back(
       formatted("subject: %.3f m tall", body.stature_m) +
+      (subject.fit.stature_pairs == 0 ? " (as given, or average: no distances tell)"
+                                      : "") +
       formatted(", markers %.1f mm from the body (RMS)", 1e3 * subject.fit.rms_m));
   std::vector<std::string> average;
   for (const auto& joint : subject.fit.joints) {

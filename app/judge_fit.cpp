@@ -14,6 +14,8 @@ namespace {
 // Skin, and landmarks that are not where they are on others, leave 5 to 20 mm. [m]
 constexpr double kFarOff_m = 0.030;
 constexpr double kMostFrames = 0.8;
+// Of right labels places_off is 0.6 to 1.4 (fit_labels.cpp).
+constexpr double kNobodysPlaces = 2.0;
 // Somersaults are shorter.
 constexpr double kNearlyAlways = 0.9;
 
@@ -37,6 +39,21 @@ Error far_off(const MarkerTrial& trial, const SubjectFit* subject) {
         "markers where they were";
   }
   return error;
+}
+
+/// Labels that were moved to a segment that is no neighbour of the one they are named
+/// for.
+std::vector<std::string> on_far_segments(const reconstruct::MarkersFit& fit) {
+  std::vector<std::string> labels;
+  for (const reconstruct::LabelVerdict& verdict : fit.labels) {
+    if (verdict.use != reconstruct::LabelUse::kMoved || !verdict.named) continue;
+    const HumanBone bone = verdict.segment;
+    const HumanBone named = *verdict.named;
+    const bool near = parent(bone) == named || parent(named) == bone ||
+                      (parent(bone) && parent(bone) == parent(named));
+    if (!near) labels.push_back(verdict.label);
+  }
+  return labels;
 }
 
 }  // namespace
@@ -84,6 +101,27 @@ std::vector<Error> judge_fit(std::span<const MarkerTrial> trials,
              with_number(" and %.1f times in the mirror", *subject->mirrored_places_off),
          "call left what is left, in the recording or with --markers MAP.toml, or see "
          "whether the file's axes are left-handed"});
+  }
+  if (subject != nullptr && poor.empty()) {
+    const std::vector<std::string> strayed = on_far_segments(subject->fit);
+    if (strayed.size() > 1) {
+      poor.push_back({Errc::kQuality,
+                      trials.size() == 1 ? trials[0].path.string() : "",
+                      "markers move with segments far from those they are named for: \"" +
+                          strayed[0] + "\", \"" + strayed[1] + "\"" +
+                          (strayed.size() > 2 ? " and more" : ""),
+                      "see whether labels, or left and right, are exchanged "
+                      "(--markers MAP.toml)"});
+    } else if (subject->places_off > kNobodysPlaces) {
+      poor.push_back(
+          {Errc::kQuality,
+           trials.size() == 1 ? trials[0].path.string() : "",
+           with_number("markers sit %.1f times as far from their landmarks as "
+                       "on others",
+                       subject->places_off),
+           "see whether labels mean what their names say (--markers MAP.toml), "
+           "and the unit (--unit)"});
+    }
   }
   for (const MarkerTrial& trial : trials) {
     if (!trial.solved) {

@@ -27,7 +27,7 @@ constexpr std::size_t kInstants = 60;
 // believed to. [m]
 constexpr double kUsualStray_m = 0.010;
 constexpr double kLeastStray_m = 0.002;
-// Before the bundle has moved anything: of markers named exactly, and of rough ones.
+// Before the bundle: of markers named exactly, and of rough ones.
 constexpr double kFirstStray_m = 0.014;
 constexpr double kRoughStray_m = 0.04;
 // Where landmarks say nothing of it.
@@ -36,8 +36,7 @@ constexpr double kAverageStature_m = 1.70;
 constexpr double kBeliefSamples = 10.0;
 // A marker that strays farther from where it should be moves with another segment.
 constexpr double kOffSegment_m = 0.035;
-// One that strays less from another is sure to move with that.
-constexpr double kSureSegment_m = 0.02;
+constexpr double kSureSegment_m = 0.02;  // Less is sure to move with that one.
 constexpr double kFoundPlaceSigma_m = 0.05;
 constexpr std::size_t kFewestLabels = 6;
 constexpr double kTrunkSigma_m = 0.03;
@@ -161,9 +160,11 @@ void Fit::begin() {
   bundle_.model.body = frame_of(average_);
   believe_lengths();
   for (std::size_t i = 0; i < labels_.size(); ++i) {
-    verdicts_.push_back({labels_[i].label, LabelUse::kLeftOut, HumanBone::kHips, 0.0});
+    verdicts_.push_back(
+        {labels_[i].label, LabelUse::kLeftOut, HumanBone::kHips, 0.0, {}});
     const Landmark* landmark = labels_[i].landmark;
     if (!landmark) continue;
+    verdicts_.back().named = solved_segment(landmark->segment);
     Candidate candidate;
     candidate.label = i;
     candidate.bone = solved_segment(landmark->segment);
@@ -219,7 +220,7 @@ void Fit::place_candidates() {
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     if (labels_[i].landmark) continue;
     const auto best = best_segment(snapshots_, bundle_.model, i);
-    if (!best || best->stray_m > kOffSegment_m) continue;
+    if (!best || best->stray_m > kOffSegment_m || !within_reach(*best)) continue;
     Candidate candidate;
     candidate.label = i;
     candidate.bone = best->bone;
@@ -278,7 +279,7 @@ void Fit::move_misplaced() {
       continue;
     }
     const auto best = best_segment(snapshots_, bundle_.model, used[m].label);
-    if (!best || best->stray_m > kSureSegment_m) continue;
+    if (!best || best->stray_m > kSureSegment_m || !within_reach(*best)) continue;
     Candidate moved = used[m];
     if (moved.bone != best->bone) moved.use = LabelUse::kMoved;
     moved.bone = best->bone;
@@ -322,7 +323,9 @@ MarkersFit Fit::result() {
          bundle_.place_sigma_m[m],
          marker.sigma_m,
          static_cast<int>(frames)});
-    verdicts_[label] = {labels_[label].label, used_[m].use, marker.bone, marker.sigma_m};
+    verdicts_[label].use = used_[m].use;
+    verdicts_[label].segment = marker.bone;
+    verdicts_[label].stray_m = marker.sigma_m;
   }
   fit.labels = verdicts_;
   fit.rms_m = rms_m_;

@@ -46,6 +46,8 @@ struct LabelVerdict {
   LabelUse use{};
   HumanBone segment{};   ///< Of what is used.
   double stray_m = 0.0;  ///< From its place there, per coordinate; 0 of what is unused.
+  /// The segment that its name says, if it says any.
+  std::optional<HumanBone> named;
 };
 
 /// What a joint centre was found from.

@@ -21,6 +21,13 @@ struct MarkerPlace {
   double stray_m = 0.0;
 };
 
+/// What moves with a segment but lies farther from it than a limb is long is on somebody
+/// else, or on the floor.
+[[nodiscard]] inline bool within_reach(const MarkerPlace& place) {
+  constexpr double kReach_m = 0.6;
+  return place.p_in_bone.norm() < kReach_m;
+}
+
 /// Of a label's marker on a bone; nullopt where fewer than three solved snapshots show
 /// it.
 [[nodiscard]] std::optional<MarkerPlace> place_on(std::span<const Snapshot> snapshots,

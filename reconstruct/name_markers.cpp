@@ -307,6 +307,11 @@ MarkerNames name_markers(std::span<const std::string> labels) {
     }
   }
   if (with_names > 1) {
+    // Nobody wears another's markers.
+    best.is_ignored.assign(labels.size(), false);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      best.is_ignored[i] = !labels[i].starts_with(best.prefix);
+    }
     best.notes.push_back("of several subjects, the markers of \"" + best.prefix +
                          "\" are named");
   }

@@ -222,8 +222,14 @@ Result<TrcFrames> place_trc_rows(const TrcHeader& header,
     frames.rate_hz = *header.rate_hz;
     if (timed && !is_rate_of(*header.rate_hz, numbers, times_s)) {
       frames.rate_hz = *timed;
-      notes.push_back("DataRate says " + hz_text(*header.rate_hz) + ", the times " +
-                      hz_text(*timed) + "; these are taken");
+      if (hz_text(*header.rate_hz) == hz_text(*timed)) {
+        notes.push_back(
+            "the times are not even: frames are taken to follow each other at " +
+            hz_text(*timed) + " all along");
+      } else {
+        notes.push_back("DataRate says " + hz_text(*header.rate_hz) + ", the times " +
+                        hz_text(*timed) + "; these are taken");
+      }
     }
   } else if (timed) {
     frames.rate_hz = *timed;
