@@ -98,7 +98,7 @@ HalfwayDerivative halfway_derivative(const Quaterniond& lower, const Quaterniond
 void UnfoldedPosture::unfold(const Posture& posture,
                              const Lengths& lengths,
                              const BodyFrame& body) {
-  unfold_trunk(posture, lengths, body);
+  unfold_trunk(posture, lengths);
   const Bone& hips = bones_[index(B::kHips)];
   const Bone& thorax = bones_[index(B::kUpperChest)];
   for (std::size_t limb = 0; limb < 4; ++limb) {
@@ -125,9 +125,7 @@ void UnfoldedPosture::unfold(const Posture& posture,
   }
 }
 
-void UnfoldedPosture::unfold_trunk(const Posture& posture,
-                                   const Lengths& lengths,
-                                   const BodyFrame& /*body*/) {
+void UnfoldedPosture::unfold_trunk(const Posture& posture, const Lengths& lengths) {
   const auto length = [&](Length which) { return lengths[index(which)]; };
   const auto set = [&](B bone, const Matrix3d& rotation, const Vector3d& origin) {
     bones_[index(bone)] = {rotation, origin};

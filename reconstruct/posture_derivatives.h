@@ -65,9 +65,7 @@ class UnfoldedPosture {
     double lean_rate = 0.0;  ///< Of the upper bone, by flexion.
   };
 
-  void unfold_trunk(const Posture& posture,
-                    const Lengths& lengths,
-                    const BodyFrame& body);
+  void unfold_trunk(const Posture& posture, const Lengths& lengths);
   void unfold_limb(std::size_t limb,
                    const Eigen::Vector3d& root,
                    const Posture& posture,
