@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/ids.h"
+#include "core/skeleton.h"
+
+namespace marey {
+
+/// How the joints of one part of a body move together (Kulpa 2005, 1.1.2).
+enum class PartKind {
+  kLimb,     ///< Upper bone, lower bone, extremity: solved as one, analytically.
+  kSection,  ///< A run of vertebrae, low to high, that bends as a whole.
+  kSegment,  ///< One rigid bone: clavicle, neck, head, hand, foot.
+};
+
+/// One part of a group. Joints are named by where they stand in the skeleton: a kLimb has
+/// exactly three (shoulder, elbow, wrist), a kSection one or more, a kSegment one.
+struct BodyPart {
+  PartKind kind = PartKind::kSegment;
+  std::vector<JointIndex> joints;
+  /// Of a kLimb: unit axis in the upper joint's frame, about which a positive turn of the
+  /// lower joint bends the limb the natural way. Used when the limb is straight.
+  glm::dvec3 hinge_in_upper{0.0};
+};
+
+/// What adaptation moves together, and in which order (Kulpa 2005, 4.1, figures 4.3 and
+/// 4.4). Groups are data: another creature is another table.
+struct BodyGroup {
+  std::string name;  ///< "left arm"
+  /// 1 is the root, 2 hangs from it, 3 from a group of level 2.
+  int level = 2;
+  std::optional<int> parent;  ///< Position of the group that carries this one.
+  bool can_support = false;   ///< Its limb may stand on the floor.
+  /// Adapts the centre of mass unless told otherwise. The head is off: it is too light to
+  /// help and bends absurdly (Kulpa 2005, 5.5).
+  bool balances = true;
+  std::vector<BodyPart> parts;  ///< In the order in which kinematics adapts them.
+};
+
+/// How far a joint turns from its rest pose: each axis of the joint's rotation, seen in
+/// the T-pose's axes, on its own. [rad]
+struct JointLimit {
+  JointIndex joint{};
+  /// T-pose axes from the joint's frame at rest.
+  glm::dquat t_pose_from_joint{1.0, 0.0, 0.0, 0.0};
+  glm::dvec3 min_rad{-3.14159265358979323846};
+  glm::dvec3 max_rad{3.14159265358979323846};
+};
+
+/// A mass that moves with a joint. Segments of the body and what it carries are alike.
+struct PointMass {
+  JointIndex joint{};
+  glm::dvec3 p_in_joint{0.0};  ///< Centre of mass, in the joint's frame. [m]
+  double mass_kg = 0.0;
+};
+
+/// A mass carried for a while: a bag in a hand. Named, so that it can come and go.
+struct Load {
+  std::string name;
+  PointMass mass;
+};
+
+/// Muscles that span two joints (Kulpa 2005, 4.2.3): with a straight leg the trunk bends
+/// towards the thigh no further than this.
+struct Flexibility {
+  double least_trunk_thigh_angle_rad = 0.0;  ///< 0: no limit. Upright is pi.
+  double straight_knee_rad = 0.17;  ///< A knee bent less than this is a straight leg.
+};
+
+/// A body as adaptation sees it: structure (skeleton), groups, and what is its own
+/// (Kulpa 2005, 4.1).
+struct Character {
+  std::string name;
+  Skeleton skeleton;
+  /// In the order of kinematic adaptation, light to heavy; the root's group is last.
+  std::vector<BodyGroup> groups;
+  std::vector<JointLimit> limits;  ///< Joints without one turn freely.
+  Flexibility flexibility;
+  std::vector<PointMass> masses;  ///< One or more per joint that weighs anything.
+  std::vector<Load> loads;        ///< On top of `masses`.
+};
+
+}  // namespace marey

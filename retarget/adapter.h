@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/character.h"
+#include "core/constraint.h"
+#include "core/pose.h"
+#include "core/result.h"
+#include "core/transform.h"
+
+namespace marey::retarget {
+
+/// Which algorithm looks for the posture.
+enum class Method {
+  /// Limbs analytically while they suffice, the whole body by damped Gauss-Newton steps
+  /// in
+  /// dual form as they do not; supports above the centre of mass above constraints.
+  kStrict,
+  /// Kulpa 2005, chapters 4 and 5: cyclic descent by groups, with analytic limbs, merged
+  /// with the kinetic loop ("push-pull").
+  kThesis,
+};
+
+/// What the importance of constraints means.
+enum class Control {
+  kPriority,  ///< The more important first, never undone by the less important.
+  kBlend,     ///< A weighted compromise.
+};
+
+/// Where the centre of mass is wanted: CnMode of the thesis.
+enum class BalanceMode {
+  kOff,
+  kHorizontal,  ///< Above the wanted place: quasi-static balance.
+  k3d,          ///< At the wanted place: flight.
+};
+
+struct AdaptOptions {
+  Method method = Method::kStrict;
+  Control control = Control::kPriority;
+  BalanceMode balance = BalanceMode::kOff;
+  /// Share of its travel that the root is willing to spend on constraints (CmRoot) and on
+  /// balance (CnRoot), 0 to 1.
+  double root_for_constraints = 1.0;
+  double root_for_balance = 1.0;
+  /// Stop when the weighted mean error of the constraints changes by less (CmThreshold),
+  double constraint_threshold_m = 1e-4;
+  /// and that of the centre of mass by less (CnThreshold).
+  double balance_threshold_m = 1e-5;
+  double balance_precision_m = 1e-4;  ///< CnErrorMax: nearer is good enough.
+  int max_iterations = 50;
+  /// Hands and feet that are not constrained keep their orientation in the world (the
+  /// thesis) instead of following forearm and shank.
+  bool extremities_keep_orientation = false;
+};
+
+/// What became of one constraint.
+struct ConstraintOutcome {
+  double activation = 0.0;  ///< 0 to 1.
+  double error_m = 0.0;     ///< From its point to its target, as far as it is active.
+};
+
+struct AdaptReport {
+  int iterations = 0;             ///< Of the whole-body loop; 0: limbs sufficed.
+  double constraint_error_m = 0;  ///< Weighted mean (eq. 4.2).
+  double worst_error_m = 0;       ///< Of the active constraints, supports included.
+  double balance_error_m = 0;     ///< Of the centre of mass, as `balance` measures it.
+};
+
+/// Adapts postures of one character to constraints that may move while it runs.
+///
+///     auto adapter = Adapter::make(character, constraints, {});
+///     adapter->constraint("ctrParade")->set_target(ankle_in_world);
+///     adapter->adapt(reference, time_s, posture);
+///
+/// Every posture is adapted from its own reference alone: same reference, constraints and
+/// time, same answer, to the bit. Costs and accuracy: docs/measurements.md. Nothing is
+/// allocated after make().
+class Adapter {
+ public:
+  /// One constraint of a running adapter. Valid as long as the adapter.
+  class Handle {
+   public:
+    /// The place that a DistanceToPoint keeps its distance from, or a support's
+    /// footprint. Should move continuously: so does then the posture. Precondition:
+    /// finite, and the goal has such a place.
+    void set_target(const glm::dvec3& p_in_world);
+    /// Precondition: a SegmentOrientation or Support; unit.
+    void set_orientation(const glm::dquat& world_from_t_pose);
+    /// Precondition: an AllowedSpace or ForbiddenSpace; finite, min <= max.
+    void set_space(const glm::dvec3& min_in_world, const glm::dvec3& max_in_world);
+    /// Moves the constrained point on its segment. Precondition: finite.
+    void set_offset(const glm::dvec3& offset_in_t_pose);
+    /// Fades the constraint in or out from `time_s` on, over its own durations.
+    void start(double time_s);
+    void stop(double time_s);
+    [[nodiscard]] const ConstraintOutcome& outcome() const;  ///< Of the last adapt().
+
+   private:
+    friend class Adapter;
+    Handle(Adapter& adapter, int constraint)
+        : adapter_(&adapter), constraint_(constraint) {}
+    Adapter* adapter_;
+    int constraint_;
+  };
+
+  /// Errors (bad input, naming the element): whatever check_character() and
+  /// check_constraints() refuse; options out of range.
+  [[nodiscard]] static Result<Adapter> make(const Character& character,
+                                            const ConstraintSet& constraints,
+                                            const AdaptOptions& options);
+  Adapter(Adapter&&) noexcept;
+  Adapter& operator=(Adapter&&) noexcept;
+  ~Adapter();
+
+  /// nullopt: there is no constraint of this id.
+  [[nodiscard]] std::optional<Handle> constraint(std::string_view id);
+
+  /// Where the centre of mass is wanted; nullopt: where the reference posture has it.
+  void set_balance_target(const std::optional<glm::dvec3>& com_in_world);
+  /// Takes a load of the character's up, or puts it down. False: it has none of that
+  /// name.
+  bool carry(std::string_view load, bool carried);
+  /// May change from one posture to the next. Precondition: in range.
+  void set_options(const AdaptOptions& options);
+
+  /// Precondition: `reference` is a posture of the character's skeleton, finite, with
+  /// unit rotations; `out` has room for as many joints (it is resized once).
+  AdaptReport adapt(const Pose& reference, double time_s, Pose& out);
+
+  /// Joints in the world after the last adapt(), one per joint.
+  [[nodiscard]] std::span<const RigidTransform> world_from_joint() const;
+  /// Of the last adapt(). [m]
+  [[nodiscard]] glm::dvec3 centre_of_mass_in_world() const;
+
+ private:
+  struct State;
+  explicit Adapter(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace marey::retarget
