@@ -11,12 +11,13 @@
 #include <gtest/gtest.h>
 
 #include "recordings/atomic_file.h"
+#include "tests/recordings/constraint_text.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
 
-const std::string kAnnex = MAREY_SOURCE_DIR "/tests/data/annex_a_constraints.xml";
+using namespace testing;
 
 /// One of every type, no two numbers alike, and nothing that is short in decimals.
 ConstraintSet one_of_each() {
@@ -55,24 +56,6 @@ ConstraintFile read(const std::string& text) {
   const auto file = parse_constraints(text, "c.xml");
   EXPECT_TRUE(file) << file.error().message();
   return file ? *file : ConstraintFile{};
-}
-
-std::string refusal(const std::string& text) {
-  const auto file = parse_constraints(text, "c.xml");
-  return file ? "no refusal" : file.error().message();
-}
-
-std::string annex() {
-  const Result<std::string> text = read_file(kAnnex);
-  EXPECT_TRUE(text);
-  return text ? *text : "";
-}
-
-std::string annex_with(const std::string& from, const std::string& to) {
-  std::string text = annex();
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 TEST(ConstraintsFile, ReadsTheExampleOfTheThesis) {
@@ -245,89 +228,6 @@ TEST(ConstraintsFile, TakesS4DMakersNamesForVrms) {
   EXPECT_EQ(segment("pelvis"), "hips");
   EXPECT_EQ(segment("leftLowerArm"), "leftLowerArm");
   EXPECT_EQ(segment("tail_03"), "tail_03");
-}
-
-TEST(ConstraintsFile, RefusesWithLineCauseAndNextStep) {
-  EXPECT_EQ(refusal(annex_with("0.13", "0,13")),
-            "c.xml:17: <Z> is \"0,13\", which is no number. Next: write a number, with a "
-            "decimal point.");
-  EXPECT_EQ(refusal(annex_with("0.13", "nan")),
-            "c.xml:17: <Z> is \"nan\", which is no number. Next: write a number, with a "
-            "decimal point.");
-  EXPECT_EQ(
-      refusal(annex_with("0.04", "40000")),
-      "c.xml:16: <Y> is 40000, not between -10000 and 10000 m. Next: give it in m.");
-  EXPECT_EQ(refusal(annex_with("<range>6", "<range>2.5")),
-            "c.xml:11: <range> is no whole number. Next: correct the number.");
-  EXPECT_EQ(refusal(annex_with("<priority>3", "<priority>-3")),
-            "c.xml:5: <priority> is -3, not between 1e-06 and 1e+06. Next: correct the "
-            "number.");
-  EXPECT_EQ(refusal(annex_with("<name>ctrParade</name>", "")),
-            "c.xml:3: <Distance> has no <name>. Next: add it.");
-  EXPECT_EQ(refusal(annex_with("ctrParade", " ")),
-            "c.xml:4: <name> is empty. Next: give it a value.");
-  EXPECT_EQ(refusal(annex_with("ctrParade", "ctr&#10;Parade")),
-            "c.xml:4: <name> is not one line of text. Next: correct it.");
-  EXPECT_EQ(refusal(annex_with("<range>6</range>", "<name>again</name>")),
-            "c.xml:11: <name> is there twice, first on line 4. Next: remove one.");
-  EXPECT_EQ(
-      refusal(annex_with("<segment>", "<segment><a/>")),
-      "c.xml:13: <segment> holds <a> where a value should be. Next: write the value "
-      "alone.");
-  EXPECT_EQ(
-      refusal(annex_with("<localOffset>", "here <localOffset>")),
-      "c.xml:12: <bodyPoint> holds text between its elements. Next: remove the text, "
-      "or put it into an element.");
-  std::string without_point = annex();
-  const std::size_t from = without_point.find("    <bodyPoint>");
-  const std::size_t to = without_point.find("    <specif>");
-  EXPECT_EQ(refusal(without_point.erase(from, to - from)),
-            "c.xml:3: <Distance> has no <bodyPoint>. Next: add it.");
-}
-
-TEST(ConstraintsFile, RefusesAnotherFileAndABrokenOne) {
-  EXPECT_EQ(refusal("<COLLADA/>"),
-            "c.xml:1: this is a file of <COLLADA>, not of <ConstraintsSet>. Next: name "
-            "another file.");
-  EXPECT_EQ(
-      refusal("<ConstraintsSet/>\n<ConstraintsSet/>"),
-      "c.xml:2: <ConstraintsSet> stands after the end of <ConstraintsSet>. Next: move "
-      "it inside, or remove it.");
-  EXPECT_EQ(
-      refusal(annex().substr(0, 300)),
-      "c.xml:9: the file ends before its elements do. Next: copy the file again, or "
-      "close what is open.");
-  EXPECT_EQ(
-      refusal(annex_with("</start_time>", "</start>")),
-      "c.xml:7: not valid XML: Start-end tags mismatch. Next: mend this line, or copy "
-      "the file again.");
-  EXPECT_EQ(refusal(""),
-            "c.xml:1: not valid XML: No document element found. Next: mend this line, or "
-            "copy the file again.");
-  EXPECT_EQ(refusal(std::string("<\0C", 3)),
-            "c.xml:1: this is no text in UTF-8. Next: name an XML file, or save it as "
-            "UTF-8.");
-  EXPECT_EQ(refusal(annex_with("ctrParade", "par\xe9")),
-            "c.xml:1: this is no text in UTF-8. Next: name an XML file, or save it as "
-            "UTF-8.");
-  EXPECT_EQ(
-      refusal(annex_with("xmlns", "up=\"X\" xmlns")),
-      "c.xml:2: up is \"X\" and may be \"Y\" or \"Z\". Next: say which axis is up.");
-  EXPECT_EQ(
-      refusal(std::string((std::size_t{16} << 20) + 1, ' ')),
-      "c.xml: the file has more than 16 MiB, which constraints never need. Next: name "
-      "a file of constraints, or split it.");
-}
-
-TEST(ConstraintsFile, RefusesTwoConstraintsOfOneName) {
-  std::string text = annex();
-  const std::size_t begin = text.find("  <Distance>");
-  const std::size_t end = text.find("</ConstraintsSet>");
-  text.insert(end, text.substr(begin, end - begin));
-  EXPECT_EQ(
-      refusal(text),
-      "c.xml:29: a constraint named \"ctrParade\" is on line 3 already. Next: give it "
-      "another name, or remove it.");
 }
 
 TEST(ConstraintsFile, RefusesAnOrientationThatIsNoneAndMendsARoundedOne) {

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "recordings/atomic_file.h"
+#include "recordings/constraints_file.h"
+
+namespace marey::recordings::testing {
+
+inline const std::string kAnnex = MAREY_SOURCE_DIR "/tests/data/annex_a_constraints.xml";
+
+inline std::string refusal(const std::string& text) {
+  const auto file = parse_constraints(text, "c.xml");
+  return file ? "no refusal" : file.error().message();
+}
+
+inline std::string annex() {
+  const Result<std::string> text = read_file(kAnnex);
+  EXPECT_TRUE(text);
+  return text ? *text : "";
+}
+
+inline std::string annex_with(const std::string& from, const std::string& to) {
+  std::string text = annex();
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace marey::recordings::testing
