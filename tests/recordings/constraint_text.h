@@ -9,17 +9,17 @@
 #include "recordings/atomic_file.h"
 #include "recordings/constraints_file.h"
 
-namespace marey::recordings::testing {
+namespace marey::testing {
 
 inline const std::string kAnnex = MAREY_SOURCE_DIR "/tests/data/annex_a_constraints.xml";
 
 inline std::string refusal(const std::string& text) {
-  const auto file = parse_constraints(text, "c.xml");
+  const auto file = recordings::parse_constraints(text, "c.xml");
   return file ? "no refusal" : file.error().message();
 }
 
 inline std::string annex() {
-  const Result<std::string> text = read_file(kAnnex);
+  const Result<std::string> text = recordings::read_file(kAnnex);
   EXPECT_TRUE(text);
   return text ? *text : "";
 }
@@ -31,4 +31,4 @@ inline std::string annex_with(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
-}  // namespace marey::recordings::testing
+}  // namespace marey::testing
