@@ -45,11 +45,12 @@ struct BodyGroup {
   std::vector<BodyPart> parts;  ///< In the order in which kinematics adapts them.
 };
 
-/// How far a joint turns from its rest pose: each axis of the joint's rotation, seen in
-/// the T-pose's axes, on its own. [rad]
+/// How far a joint turns from the T-pose (Character::t_pose_from_joint; an avatar may
+/// rest otherwise): each axis of the joint's rotation in its parent, seen in the T-pose's
+/// axes, on its own. [rad]
 struct JointLimit {
   JointIndex joint{};
-  /// T-pose axes from the joint's frame at rest.
+  /// T-pose axes from the joint's frame in the T-pose.
   glm::dquat t_pose_from_joint{1.0, 0.0, 0.0, 0.0};
   glm::dvec3 min_rad{-3.14159265358979323846};
   glm::dvec3 max_rad{3.14159265358979323846};
@@ -80,6 +81,9 @@ struct Flexibility {
 struct Character {
   std::string name;
   Skeleton skeleton;
+  /// Rotation of each joint's frame in the canonical T-pose, in world axes: what gives
+  /// BodyPoint::offset_in_t_pose its meaning. One per joint; empty: the rest pose is one.
+  std::vector<glm::dquat> t_pose_from_joint;
   /// In the order of kinematic adaptation, light to heavy; the root's group is last.
   std::vector<BodyGroup> groups;
   std::vector<JointLimit> limits;  ///< Joints without one turn freely.
