@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// fuzz_seeds FOLDER: writes small sound files into FOLDER/c3d, FOLDER/trc and FOLDER/mot,
-// from which fuzzing starts.
+// fuzz_seeds FOLDER: writes small sound files into FOLDER/c3d, FOLDER/trc, FOLDER/mot and
+// FOLDER/constraints, from which fuzzing starts.
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +10,7 @@
 
 #include "recordings/atomic_file.h"
 #include "recordings/c3d.h"
+#include "recordings/constraints_file.h"
 #include "recordings/marker_file.h"
 #include "recordings/trc.h"
 
@@ -75,6 +76,33 @@ bool write_c3d(const std::filesystem::path& path, const C3dInfo& info) {
   return writer->commit().has_value();
 }
 
+/// One constraint of every type, with all that it may say.
+bool write_constraint_sets(const std::filesystem::path& folder) {
+  const glm::dvec3 p(0.1, 1.2, -0.3);
+  const glm::dquat turned(0.6, 0.0, 0.8, 0.0);
+  ConstraintSet set;
+  for (const Goal& goal : {Goal(DistanceToPoint{0.1, p}),
+                           Goal(DistanceToBody{0.1, {"head", p}}),
+                           Goal(DistanceToConstraint{0.1, "c0"}),
+                           Goal(AllowedSpace{-p, p}),
+                           Goal(ForbiddenSpace{-p, p}),
+                           Goal(SegmentOrientation{turned}),
+                           Goal(Support{p, turned})}) {
+    Constraint& c = set.constraints.emplace_back();
+    c.id = "c" + std::to_string(set.constraints.size() - 1);
+    c.point = {"leftFoot", p};
+    c.goal = goal;
+    c.range = 3;
+    c.activation = {0.5, 1.5, 0.1, 0.2};
+    c.unknown_xml = {"<a x='>'><!-- > --><![CDATA[</a>]]></a>"};
+  }
+  const std::string z_up =
+      "<ConstraintsSet up=\"Z\"><Gaze/><Support><name>a&amp;&#233;</name><bodyPoint>"
+      "<segment>leftAnkle</segment></bodyPoint></Support></ConstraintsSet>";
+  return write_constraints(folder / "all.xml", set).has_value() &&
+         write_file(folder / "z_up.xml", z_up).has_value();
+}
+
 bool write_all(const std::filesystem::path& folder) {
   const MarkerFile markers = two_markers();
   bool ok = write_markers(folder / "c3d/markers.c3d", markers).has_value() &&
@@ -101,7 +129,8 @@ bool write_all(const std::filesystem::path& folder) {
       "first trial\t\t\r\nname a\t\t\r\ndatacolumns 3\r\ndatarows 1\r\notherdata 1\r\n"
       "range 0.4 1.6\r\n# x\r\nendheader \r\n\r\npelvis_tx Time pelvis_tilt\r\n1 0.4 "
       "-9\r\n";
-  return ok && write_file(folder / "trc/odd.trc", odd).has_value() &&
+  return ok && write_constraint_sets(folder / "constraints") &&
+         write_file(folder / "trc/odd.trc", odd).has_value() &&
          write_file(folder / "mot/opensim.mot", opensim).has_value() &&
          write_file(folder / "mot/simm.mot", simm).has_value();
 }
