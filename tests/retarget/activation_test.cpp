@@ -90,5 +90,77 @@ TEST(Activation, RisesAndThenFallsOnceWhileRampsOverlap) {
   EXPECT_EQ(turns, 1);
 }
 
+TEST(LiveActivation, IsThePlannedOneWithoutChanges) {
+  for (const Activation& when : {Activation{},
+                                 between(0.0, 0.4, 1.0, 1.0),
+                                 between(0.5, 2.0, 0.0, 0.5),
+                                 Activation{std::nullopt, 1.0, 0.0, 0.5},
+                                 Activation{1.0, std::nullopt, 0.5, 0.0}}) {
+    const LiveActivation live(when);
+    for (double t = -0.5; t < 3.0; t += 0.01) {
+      EXPECT_NEAR(live.at(t), activation(when, t), 1e-15 /* one rounding */) << t;
+    }
+  }
+}
+
+// As above: every change adds a factor whose derivatives, at most 1.875, 5.7735 and 60 by
+// d = 1 s, multiply by Leibniz. Of the six here that bounds the third derivative by
+// 6 * 60 + 3 * 30 * 5.7735 * 1.875 + 120 * 1.875^3 = 2125 /s^3.
+TEST(LiveActivation, GoesOnSmoothlyWheneverItIsStartedAndStopped) {
+  LiveActivation live({std::nullopt, std::nullopt, 1.0, 1.0});
+  for (const double t : {0.0, 0.7, 1.3}) {
+    live.stop(t);
+    live.start(t + 0.35);
+  }
+  const double h = 1e-3;
+  const auto second = [&](double t) {
+    return (live.at(t - h) - 2 * live.at(t) + live.at(t + h)) / (h * h);
+  };
+  double least = 1.0;
+  for (double t = -0.1; t < 3.0; t += h) {
+    EXPECT_LT(std::abs(second(t + h) - second(t)), 2125 * h) << t;
+    least = std::min(least, live.at(t));
+  }
+  EXPECT_LT(least, 0.9);
+  EXPECT_EQ(live.at(-0.1), 1.0);
+  EXPECT_EQ(live.at(3.0), 1.0);
+}
+
+TEST(LiveActivation, HeedsNeitherASecondStartNorASecondStop) {
+  LiveActivation live({0.0, std::nullopt, 1.0, 1.0});
+  const double risen = live.at(0.6);
+  live.start(0.6);
+  EXPECT_EQ(live.at(0.6), risen);
+  live.stop(2.0);
+  const double fallen = live.at(2.5);
+  live.stop(2.5);
+  EXPECT_EQ(live.at(2.5), fallen);
+}
+
+TEST(LiveActivation, ForgetsWhatWasPlannedForLater) {
+  LiveActivation live(between(1.0, 2.0, 0.5, 0.5));
+  live.start(0.0);
+  EXPECT_EQ(live.at(0.5), 1.0);
+  EXPECT_EQ(live.at(9.0), 1.0);
+}
+
+// With more changes than it keeps, all within one ramp, the step that forgetting the
+// oldest makes stays below a hundredth: sixteen others have been multiplied with it.
+TEST(LiveActivation, SurvivesAHandThatTrembles) {
+  LiveActivation live({0.0, std::nullopt, 1.0, 1.0});
+  double last = live.at(2.0);
+  for (int i = 0; i < 400; ++i) {
+    const double t = 2.0 + 0.04 * i;
+    const double before = live.at(t);
+    i % 2 == 0 ? live.stop(t) : live.start(t);
+    EXPECT_LT(std::abs(live.at(t) - before), 0.01) << i;
+    // 1.875 per second is as fast as a ramp gets; eight of them and as many against.
+    EXPECT_LT(std::abs(before - last), 8 * 1.875 * 0.04) << i;
+    last = live.at(t);
+    EXPECT_GE(last, 0.0);
+    EXPECT_LE(last, 1.0);
+  }
+}
+
 }  // namespace
 }  // namespace marey::retarget
