@@ -55,6 +55,8 @@ struct Support {
   std::optional<glm::dvec3> footprint_in_world;
   /// nullopt: as the reference posture has it.
   std::optional<glm::dquat> world_from_t_pose;
+  /// The foot bears on its point alone (heel, ball, tip of a toe) and may turn about it.
+  bool turns = false;
 };
 
 using Goal = std::variant<DistanceToPoint,

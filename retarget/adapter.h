@@ -83,9 +83,12 @@ struct AdaptReport {
 ///     adapter->adapt(reference, time_s, posture);
 ///
 /// Every posture is adapted from its own reference alone: same reference, constraints and
-/// time, same answer, to the bit. Costs and accuracy: docs/measurements.md. Nothing is
-/// allocated after make().
+/// time, same answer, to the bit. (A support without a footprint is the exception: it
+/// stands where the reference had it when it began.) Costs and accuracy:
+/// docs/measurements.md. Nothing is allocated after make().
 class Adapter {
+  struct State;
+
  public:
   /// One constraint of a running adapter. Valid as long as the adapter.
   class Handle {
@@ -107,10 +110,10 @@ class Adapter {
 
    private:
     friend class Adapter;
-    Handle(Adapter& adapter, int constraint)
-        : adapter_(&adapter), constraint_(constraint) {}
-    Adapter* adapter_;
-    int constraint_;
+    Handle(State& state, std::size_t constraint)
+        : state_(&state), constraint_(constraint) {}
+    State* state_;
+    std::size_t constraint_;
   };
 
   /// Errors (bad input, naming the element): whatever check_character() and
@@ -143,7 +146,6 @@ class Adapter {
   [[nodiscard]] glm::dvec3 centre_of_mass_in_world() const;
 
  private:
-  struct State;
   explicit Adapter(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

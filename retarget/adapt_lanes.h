@@ -1,0 +1,157 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "retarget/adapt_plan.h"
+#include "retarget/lanes.h"
+
+namespace marey::retarget {
+
+/// Numbers of one body, in its own unit of length.
+///
+/// All lengths inside the solver are over `unit_m`, the length of a leg (of a limb; else
+/// of the longest chain), so that thresholds mean the same for a child and a giant, and
+/// single precision is used where it is finest.
+struct BodyNumbers {
+  double unit_m = 1.0;
+  std::vector<Vec3<float>> offset;         ///< Of each joint in its parent's frame.
+  std::vector<Vec3<float>> hinge;          ///< Of each limb, in its upper joint's frame.
+  std::vector<float> mass;                 ///< Share of the whole, as Plan::masses.
+  std::vector<Vec3<float>> mass_in_joint;  ///< Likewise, its place.
+  std::vector<Quat<float>> limit_from_joint;  ///< As Character::limits.
+  std::vector<Quat<float>> rest_from_joint;   ///< Likewise.
+  std::vector<Vec3<float>> limit_min;         ///< Tangents of a quarter of the angle.
+  std::vector<Vec3<float>> limit_max;
+  float least_trunk_thigh_cos = -1.0F;  ///< Flexibility; above 1: no limit.
+  float straight_knee_cos = 1.0F;
+};
+
+/// What a lane's goal is made from; the meaning depends on GoalKind. Lengths in units, in
+/// the lane's own frame (the root of the reference posture is its origin).
+template <class F>
+struct LaneGoal {
+  Vec3<F> a;         ///< Place; low corner; unused.
+  Vec3<F> b;         ///< High corner; the other point, in its joint's frame.
+  Quat<F> rotation;  ///< World from joint, of an orientation or a support.
+  F distance{};
+};
+
+template <class F>
+struct LanePoint {
+  Vec3<F> in_joint;  ///< The constrained point.
+  LaneGoal<F> goal;
+  F active{};  ///< 1 or 0.
+  F weight{};  ///< Of blending: importance over the largest; 1 otherwise.
+  F precision{};
+  Vec3<F> place;  ///< In the world, at this moment.
+  Vec3<F> target;
+  Vec3<F> error;  ///< Target minus place; of an orientation, a rotation vector.
+  Vec3<F> held;   ///< Where it is kept once its level is done.
+};
+
+/// The state of as many bodies as F has lanes, all of one plan.
+template <class F>
+struct Lanes {
+  // Bodies.
+  std::vector<Vec3<F>> offset;
+  std::vector<Vec3<F>> hinge;
+  std::vector<F> carried_mass;  ///< Per joint, of all that hangs rigidly from it.
+  std::vector<Vec3<F>> carried_in_joint;  ///< Its centre.
+  std::vector<Quat<F>> limit_from_joint;
+  std::vector<Vec3<F>> limit_min;
+  std::vector<Vec3<F>> limit_max;
+  std::vector<Quat<F>> rest_from_joint;  ///< Of limited joints: local rotation at rest.
+  F least_trunk_thigh_cos{};
+  F straight_knee_cos{};
+  // Postures: rotations and places in the world.
+  std::vector<Quat<F>> reference_rotation;
+  std::vector<Vec3<F>> reference_place;
+  std::vector<Quat<F>> rotation;
+  std::vector<Vec3<F>> place;
+  std::vector<Quat<F>> best_rotation;
+  std::vector<Vec3<F>> best_place;
+  std::vector<Quat<F>> turn;  ///< Since the step's begin, accumulated from the root.
+  // Wishes.
+  std::vector<LanePoint<F>> points;
+  Vec3<F> com;
+  Vec3<F> com_target;
+  F balance{};   ///< 1: the centre of mass is wanted somewhere.
+  F vertical{};  ///< 1: in height, too.
+  F balance_precision{};
+  F root_weight{};  ///< Vertical, and along the floor without balance.
+  F root_weight_on_floor{};
+  // Workspace of the whole-body step.
+  std::vector<F> run_weight;             ///< Sums over joints from the root: of weights,
+  std::vector<Vec3<F>> run_place;        ///< of weighted places,
+  std::vector<F> run_square;             ///< and of their products: xx xy xz yy yz zz.
+  std::vector<Vec3<F>> run_lever;        ///< Of levers of the centre of mass,
+  std::vector<F> run_lever_place;        ///< and of their products with places, 9 each.
+  std::vector<Quat<F>> reference_local;  ///< Of joints in their parents.
+  std::vector<Vec3<F>> strayed;  ///< How each joint has turned from there, in the world.
+  std::vector<Vec3<F>> lever;    ///< Of each joint over the centre of mass.
+  std::vector<F> below_mass;
+  std::vector<Vec3<F>> below_moment;
+  std::vector<Vec3<F>> axis;   ///< Of each limb's hinge, in the world.
+  std::vector<F> blocks;       ///< Of the normal equations, 9 each.
+  std::vector<Vec3<F>> right;  ///< Right-hand side, then its solution.
+
+  explicit Lanes(const Plan& plan);
+};
+
+/// One lane of a number.
+template <class F>
+[[nodiscard]] inline Scalar<F>& lane_of(F& x, int lane) {
+  return reinterpret_cast<Scalar<F>*>(&x)[lane];
+}
+template <class F>
+inline void set_lane(Vec3<F>& v, int lane, const Vec3<Scalar<F>>& from) {
+  lane_of(v.x, lane) = from.x;
+  lane_of(v.y, lane) = from.y;
+  lane_of(v.z, lane) = from.z;
+}
+template <class F>
+inline void set_lane(Quat<F>& q, int lane, const Quat<Scalar<F>>& from) {
+  lane_of(q.w, lane) = from.w;
+  lane_of(q.x, lane) = from.x;
+  lane_of(q.y, lane) = from.y;
+  lane_of(q.z, lane) = from.z;
+}
+
+template <class F>
+Lanes<F>::Lanes(const Plan& plan) {
+  const std::size_t n = plan.parent.size();
+  const std::size_t blocks_per_side = plan.points.size() + 1;
+  offset.resize(n);
+  hinge.resize(plan.limbs.size());
+  carried_mass.resize(n);
+  carried_in_joint.resize(n);
+  limit_from_joint.resize(n, identity<F>());
+  limit_min.resize(n);
+  limit_max.resize(n);
+  rest_from_joint.resize(n, identity<F>());
+  reference_rotation.resize(n, identity<F>());
+  reference_place.resize(n);
+  rotation.resize(n, identity<F>());
+  place.resize(n);
+  best_rotation.resize(n, identity<F>());
+  best_place.resize(n);
+  turn.resize(n, identity<F>());
+  points.resize(plan.points.size());
+  run_weight.resize(n);
+  run_place.resize(n);
+  run_square.resize(6 * n);
+  run_lever.resize(n);
+  run_lever_place.resize(9 * n);
+  reference_local.resize(n, identity<F>());
+  strayed.resize(n);
+  lever.resize(n);
+  below_mass.resize(n);
+  below_moment.resize(n);
+  axis.resize(plan.limbs.size());
+  blocks.resize(9 * blocks_per_side * blocks_per_side);
+  right.resize(blocks_per_side);
+}
+
+}  // namespace marey::retarget

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "retarget/adapt_lanes.h"
+#include "retarget/conversions.h"
+
+namespace marey::retarget {
+
+/// Where joint `j` is, from where its parent is and how that is turned.
+template <class F>
+inline void place_joint(const Plan& plan, Lanes<F>& s, int j) {
+  const auto p = static_cast<std::size_t>(plan.parent[static_cast<std::size_t>(j)]);
+  const auto i = static_cast<std::size_t>(j);
+  s.place[i] = s.place[p] + rotate(s.rotation[p], s.offset[i]);
+}
+
+/// Live joints' places from their rotations and the root's place.
+template <class F>
+inline void place_live_joints(const Plan& plan, Lanes<F>& s) {
+  for (const int j : plan.live) {
+    if (j != 0) place_joint(plan, s, j);
+  }
+}
+
+/// The rotation vector that is left to turn, in world axes; its length is twice the sine
+/// of half the angle.
+template <class F>
+[[nodiscard]] inline Vec3<F> turn_left(const Quat<F>& now, const Quat<F>& wanted) {
+  const Quat<F> q = wanted * conjugate(now);
+  const F two = select(q.w < num<F>(0), num<F>(-2), num<F>(2));
+  return two * vector_part(q);
+}
+
+/// Places, targets and errors of all wishes (thesis 3.3: one conversion per type).
+template <class F>
+void measure_points(const Plan& plan, Lanes<F>& s, const F& level) {
+  const F zero = num<F>(0);
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const PointPlan& point = plan.points[k];
+    LanePoint<F>& p = s.points[k];
+    const auto j = static_cast<std::size_t>(point.joint);
+    p.place = s.place[j] + rotate(s.rotation[j], p.in_joint);
+    switch (point.goal) {
+      case GoalKind::kSupport:
+        p.target = p.goal.a;
+        break;
+      case GoalKind::kDistanceToPoint:
+        p.target = at_distance(p.place, p.goal.a, p.goal.distance);
+        break;
+      case GoalKind::kDistanceToOther: {
+        const auto o = static_cast<std::size_t>(point.other_joint);
+        p.target = at_distance(
+            p.place, s.place[o] + rotate(s.rotation[o], p.goal.b), p.goal.distance);
+        break;
+      }
+      case GoalKind::kAllowedSpace:
+        p.target = inside(p.place, p.goal.a, p.goal.b);
+        break;
+      case GoalKind::kForbiddenSpace:
+        p.target = outside(p.place, p.goal.a, p.goal.b);
+        break;
+      case GoalKind::kOrientation:
+        p.target = p.place + turn_left(s.rotation[j], p.goal.rotation);
+        break;
+    }
+    if (!point.turns_only() && point.level > 0) {
+      p.target = select(num<F>(point.level) < level, p.held, p.target);
+    }
+    const Mask<F> asked = (p.active > zero) & (num<F>(point.level) <= level);
+    const Vec3<F> none{zero, zero, zero};
+    p.error = select(asked, p.target - p.place, none);
+  }
+}
+
+/// The centre of mass, and of each live joint the mass and moment of all that it carries.
+template <class F>
+void measure_balance(const Plan& plan, Lanes<F>& s) {
+  for (const int j : plan.live) {
+    const auto i = static_cast<std::size_t>(j);
+    s.below_mass[i] = s.carried_mass[i];
+    s.below_moment[i] =
+        s.carried_mass[i] * (s.place[i] + rotate(s.rotation[i], s.carried_in_joint[i]));
+  }
+  for (std::size_t n = plan.live.size(); n-- > 1;) {
+    const auto i = static_cast<std::size_t>(plan.live[n]);
+    const auto p = static_cast<std::size_t>(plan.parent[i]);
+    s.below_mass[p] = s.below_mass[p] + s.below_mass[i];
+    s.below_moment[p] += s.below_moment[i];
+  }
+  s.com = (num<F>(1) / max(s.below_mass[0], num<F>(1e-9))) * s.below_moment[0];
+}
+
+/// What the centre of mass lacks; zero without balance, and in height unless wanted.
+template <class F>
+[[nodiscard]] inline Vec3<F> balance_error(const Lanes<F>& s) {
+  const Vec3<F> e = s.com_target - s.com;
+  return {s.balance * e.x, s.balance * s.vertical * e.y, s.balance * e.z};
+}
+
+}  // namespace marey::retarget

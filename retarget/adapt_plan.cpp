@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/adapt_plan.h"
+
+#include <algorithm>
+#include <functional>
+
+#include "core/assert.h"
+#include "retarget/check_constraints.h"
+
+namespace marey::retarget {
+namespace {
+
+int number(JointIndex joint) {
+  return static_cast<int>(index(joint));
+}
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+int joint_named(const Character& character, std::string_view segment) {
+  const auto joint = resolve_segment(character.skeleton, segment);
+  MAREY_ASSERT(joint.has_value());
+  return number(*joint);
+}
+
+GoalKind kind_of(const Goal& goal) {
+  struct Kind {
+    GoalKind operator()(const DistanceToPoint&) { return GoalKind::kDistanceToPoint; }
+    GoalKind operator()(const DistanceToBody&) { return GoalKind::kDistanceToOther; }
+    GoalKind operator()(const DistanceToConstraint&) {
+      return GoalKind::kDistanceToOther;
+    }
+    GoalKind operator()(const AllowedSpace&) { return GoalKind::kAllowedSpace; }
+    GoalKind operator()(const ForbiddenSpace&) { return GoalKind::kForbiddenSpace; }
+    GoalKind operator()(const SegmentOrientation&) { return GoalKind::kOrientation; }
+    GoalKind operator()(const Support&) { return GoalKind::kSupport; }
+  };
+  return std::visit(Kind{}, goal);
+}
+
+void add_groups(const Character& character, Plan& plan) {
+  for (std::size_t g = 0; g < character.groups.size(); ++g) {
+    const BodyGroup& group = character.groups[g];
+    GroupPlan out;
+    out.level = group.level;
+    out.parent = group.parent.value_or(-1);
+    out.balances = group.balances;
+    for (const BodyPart& part : group.parts) {
+      for (const JointIndex j : part.joints) out.joints.push_back(number(j));
+      if (part.kind == PartKind::kLimb) {
+        LimbPlan limb;
+        limb.upper = number(part.joints[0]);
+        limb.lower = number(part.joints[1]);
+        limb.end = number(part.joints[2]);
+        limb.group = static_cast<int>(g);
+        limb.can_support = group.can_support;
+        out.limb = static_cast<int>(plan.limbs.size());
+        plan.limb_of_hinge[at(limb.lower)] = out.limb;
+        plan.limbs.push_back(std::move(limb));
+      } else if (part.kind == PartKind::kSection) {
+        std::vector<int> vertebrae;
+        for (const JointIndex j : part.joints) vertebrae.push_back(number(j));
+        out.sections.push_back(static_cast<int>(plan.sections.size()));
+        plan.sections.push_back(std::move(vertebrae));
+      } else {
+        for (const JointIndex j : part.joints) out.segments.push_back(number(j));
+      }
+    }
+    plan.groups.push_back(std::move(out));
+  }
+}
+
+bool is_at_or_below(const Plan& plan, int joint, int ancestor) {
+  while (joint > ancestor) joint = plan.parent[at(joint)];
+  return joint == ancestor;
+}
+
+void place_on_limb(Plan& plan, PointPlan& point) {
+  for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
+    const LimbPlan& limb = plan.limbs[l];
+    if (!is_at_or_below(plan, point.joint, limb.upper)) continue;
+    if (!is_at_or_below(plan, limb.upper, point.top)) continue;
+    point.limb = static_cast<int>(l);
+    point.place = LimbPlace::kUpper;
+    if (is_at_or_below(plan, point.joint, limb.lower)) point.place = LimbPlace::kLower;
+    if (is_at_or_below(plan, point.joint, limb.end)) point.place = LimbPlace::kExtremity;
+  }
+}
+
+// Whether a joint belongs to a part of the table: others (fingers, twist bones) are
+// rigid.
+std::vector<char> joints_of_groups(const Plan& plan) {
+  std::vector<char> in_group(at(plan.joint_count), 0);
+  for (const GroupPlan& group : plan.groups) {
+    for (const int j : group.joints) in_group[at(j)] = 1;
+  }
+  in_group[0] = 1;
+  return in_group;
+}
+
+void add_points(const Character& character,
+                const ConstraintSet& constraints,
+                Plan& plan) {
+  const std::vector<char> in_group = joints_of_groups(plan);
+  std::vector<double> ranks;
+  for (const Constraint& c : constraints.constraints) {
+    if (!std::holds_alternative<Support>(c.goal)) ranks.push_back(c.importance);
+  }
+  std::sort(ranks.begin(), ranks.end(), std::greater<>());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  plan.level_count = static_cast<int>(ranks.size());
+
+  for (std::size_t i = 0; i < constraints.constraints.size(); ++i) {
+    const Constraint& c = constraints.constraints[i];
+    PointPlan point;
+    point.constraint = static_cast<int>(i);
+    point.joint = joint_named(character, c.point.segment);
+    point.goal = kind_of(c.goal);
+    if (const auto* body = std::get_if<DistanceToBody>(&c.goal)) {
+      point.other_joint = joint_named(character, body->other.segment);
+    } else if (const auto* other = std::get_if<DistanceToConstraint>(&c.goal)) {
+      point.other_joint = joint_of_segment(
+          character.skeleton, constraints.find(other->other_id)->point.segment);
+    }
+    const bool support = point.goal == GoalKind::kSupport;
+    point.stands_flat = support && !std::get<Support>(c.goal).turns;
+    if (!support) {
+      const auto rank = std::find(ranks.begin(), ranks.end(), c.importance);
+      point.level = 1 + static_cast<int>(rank - ranks.begin());
+    }
+    int left = support ? plan.joint_count : c.range.value_or(plan.joint_count);
+    point.moves_root = false;
+    for (int j = point.joint; j >= 0 && left > 0; j = plan.parent[at(j)]) {
+      if (!in_group[at(j)] && j != point.joint) continue;
+      --left;
+      point.top = j;
+      if (in_group[at(j)]) point.chain.push_back(j);
+      if (j == 0) point.moves_root = true;
+    }
+    place_on_limb(plan, point);
+    point.direct = point.turns_only() && point.limb >= 0 &&
+                   point.joint == plan.limbs[at(point.limb)].end;
+    plan.points.push_back(std::move(point));
+  }
+  std::stable_sort(
+      plan.points.begin(), plan.points.end(), [](const PointPlan& a, const PointPlan& b) {
+        return a.level < b.level;
+      });
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const PointPlan& point = plan.points[k];
+    if (point.limb >= 0) {
+      LimbPlan& limb = plan.limbs[at(point.limb)];
+      if (!point.turns_only()) limb.points.push_back(static_cast<int>(k));
+      if (point.direct || point.stands_flat) {
+        limb.orientations.push_back(static_cast<int>(k));
+      }
+    }
+    for (GroupPlan& group : plan.groups) {
+      if (std::find(group.joints.begin(), group.joints.end(), point.joint) !=
+          group.joints.end()) {
+        group.constrained = true;
+      }
+    }
+  }
+}
+
+// A point at its joint's own place is moved by no turn of that joint.
+void drop_idle_turns(const ConstraintSet& constraints, Plan& plan) {
+  for (PointPlan& point : plan.points) {
+    const Constraint& c = constraints.constraints[at(point.constraint)];
+    const glm::dvec3& o = c.point.offset_in_t_pose;
+    const bool at_joint = o.x == 0.0 && o.y == 0.0 && o.z == 0.0;
+    if (!at_joint || point.turns_only() || point.chain.size() < 2) continue;
+    if (point.chain.front() == point.joint) point.chain.erase(point.chain.begin());
+  }
+}
+
+void set_turning(Plan& plan, bool balance) {
+  plan.turning.assign(at(plan.joint_count), Turning::kRigid);
+  for (const PointPlan& point : plan.points) {
+    for (const int j : point.chain) {
+      plan.turning[at(j)] =
+          plan.limb_of_hinge[at(j)] >= 0 ? Turning::kHinge : Turning::kBall;
+    }
+  }
+  for (const GroupPlan& group : plan.groups) {
+    if (!balance || !group.balances) continue;
+    const bool whole = group.limb >= 0 || !group.sections.empty() || group.level == 1;
+    if (!whole) continue;
+    for (const int j : group.joints) {
+      const bool last =
+          group.limb >= 0 && is_at_or_below(plan, j, plan.limbs[at(group.limb)].end);
+      if (last || plan.turning[at(j)] != Turning::kRigid) continue;
+      plan.turning[at(j)] =
+          plan.limb_of_hinge[at(j)] >= 0 ? Turning::kHinge : Turning::kBall;
+    }
+  }
+  plan.turning[0] = Turning::kBall;
+}
+
+void set_live(Plan& plan) {
+  plan.is_live.assign(at(plan.joint_count), 0);
+  const auto touch = [&](int j) {
+    for (; j >= 0 && !plan.is_live[at(j)]; j = plan.parent[at(j)]) {
+      plan.is_live[at(j)] = 1;
+    }
+  };
+  touch(0);
+  for (int j = 0; j < plan.joint_count; ++j) {
+    if (plan.turning[at(j)] != Turning::kRigid) touch(j);
+  }
+  for (const PointPlan& point : plan.points) {
+    touch(point.joint);
+    if (point.other_joint >= 0) touch(point.other_joint);
+  }
+  for (const LimbPlan& limb : plan.limbs) touch(limb.end);
+  for (int j = 0; j < plan.joint_count; ++j) {
+    (plan.is_live[at(j)] ? plan.live : plan.rest).push_back(j);
+  }
+  for (LimbPlan& limb : plan.limbs) {
+    for (const int j : plan.live) {
+      if (j > limb.upper && j < limb.lower && is_at_or_below(plan, limb.lower, j) &&
+          is_at_or_below(plan, j, limb.upper)) {
+        limb.between_upper.push_back(j);
+      }
+      if (j > limb.lower && j < limb.end && is_at_or_below(plan, limb.end, j) &&
+          is_at_or_below(plan, j, limb.lower)) {
+        limb.between_lower.push_back(j);
+      }
+      if (j != limb.end && is_at_or_below(plan, j, limb.end)) limb.beyond.push_back(j);
+    }
+  }
+}
+
+void set_shared(Plan& plan) {
+  const int n = static_cast<int>(plan.points.size());
+  plan.shared.assign(at(n * n), {});
+  for (int a = 0; a < n; ++a) {
+    for (int b = 0; b <= a; ++b) {
+      const PointPlan& pa = plan.points[at(a)];
+      const PointPlan& pb = plan.points[at(b)];
+      SharedChain& shared = plan.shared[at(a * n + b)];
+      shared.root = pa.moves_root && pb.moves_root;
+      // Parents come first, so the first common member is the lowest.
+      for (const int j : pa.chain) {
+        if (std::find(pb.chain.begin(), pb.chain.end(), j) == pb.chain.end()) continue;
+        if (shared.lowest < 0) shared.lowest = j;
+        shared.above = plan.parent[at(j)];
+      }
+    }
+  }
+}
+
+void set_through(Plan& plan) {
+  for (int j = 0; j < plan.joint_count; ++j) {
+    plan.through_begin.push_back(static_cast<int>(plan.through.size()));
+    for (std::size_t k = 0; k < plan.points.size(); ++k) {
+      const std::vector<int>& chain = plan.points[k].chain;
+      if (std::find(chain.begin(), chain.end(), j) != chain.end()) {
+        plan.through.push_back(static_cast<int>(k));
+      }
+    }
+  }
+  plan.through_begin.push_back(static_cast<int>(plan.through.size()));
+}
+
+void add_masses(const Character& character, Plan& plan) {
+  const auto add = [&](const PointMass& mass) {
+    int carrier = number(mass.joint);
+    while (!plan.is_live[at(carrier)]) carrier = plan.parent[at(carrier)];
+    plan.masses.push_back({number(mass.joint), carrier});
+  };
+  for (const PointMass& mass : character.masses) add(mass);
+  for (const Load& load : character.loads) add(load.mass);
+}
+
+}  // namespace
+
+Plan make_plan(const Character& character,
+               const ConstraintSet& constraints,
+               bool balance) {
+  Plan plan;
+  plan.joint_count = static_cast<int>(character.skeleton.joints.size());
+  for (const Joint& joint : character.skeleton.joints) {
+    plan.parent.push_back(joint.parent ? number(*joint.parent) : -1);
+  }
+  plan.limb_of_hinge.assign(at(plan.joint_count), -1);
+  add_groups(character, plan);
+  add_points(character, constraints, plan);
+  drop_idle_turns(constraints, plan);
+  set_turning(plan, balance);
+  set_live(plan);
+  set_shared(plan);
+  set_through(plan);
+  add_masses(character, plan);
+  plan.limit_of.assign(at(plan.joint_count), -1);
+  for (std::size_t i = 0; i < character.limits.size(); ++i) {
+    plan.limit_of[index(character.limits[i].joint)] = static_cast<int>(i);
+    plan.has_limits = true;
+  }
+  return plan;
+}
+
+}  // namespace marey::retarget

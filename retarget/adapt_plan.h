@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "core/character.h"
+#include "core/constraint.h"
+
+namespace marey::retarget {
+
+/// How a joint turns in whole-body steps.
+enum class Turning : unsigned char {
+  kRigid,  ///< Not at all: it keeps its rotation in its parent.
+  kBall,
+  kHinge,  ///< The middle of a limb: about the limb's own axis.
+};
+
+/// Where a constrained point sits on a limb (Kulpa 2005, annex B).
+enum class LimbPlace : unsigned char {
+  kUpper,      ///< B.2: a rotation of the whole limb.
+  kLower,      ///< B.3: bend, swing, and the elbow nearest to the reference's.
+  kExtremity,  ///< B.1: bend and swing, the half-plane kept.
+};
+
+/// What the target of a point is made from.
+enum class GoalKind : unsigned char {
+  kDistanceToPoint,
+  kDistanceToOther,  ///< A point of the body: a constraint's, or a place of its own.
+  kAllowedSpace,
+  kForbiddenSpace,
+  kOrientation,
+  kSupport,
+};
+
+/// One wish of a plan: 3 rows of the whole-body step.
+struct PointPlan {
+  int constraint = 0;  ///< Position in the constraint set.
+  int joint = 0;
+  GoalKind goal = GoalKind::kDistanceToPoint;
+  int other_joint = -1;  ///< Of kDistanceToOther.
+  int level = 0;         ///< 0 is a support; others from 1, the most important first.
+  int top = 0;           ///< The last joint up the chain that turns for it.
+  bool moves_root = true;
+  int limb = -1;  ///< Whose point it is, if the range covers the limb.
+  LimbPlace place = LimbPlace::kExtremity;
+  /// An orientation of a limb's extremity: set as it is asked, by no step of the body.
+  bool direct = false;
+  bool stands_flat = false;  ///< A support that has its foot's orientation, too.
+  std::vector<int> chain;    ///< Joints that turn for it, from its own to `top`.
+  [[nodiscard]] bool turns_only() const { return goal == GoalKind::kOrientation; }
+};
+
+struct LimbPlan {
+  int upper = 0;
+  int lower = 0;
+  int end = 0;
+  int group = 0;
+  bool can_support = false;
+  std::vector<int> points;  ///< Wishes for places on this limb, most important first.
+  std::vector<int> orientations;  ///< Wishes for its extremity's, likewise.
+  /// Joints that are only on the way (twist bones): they turn with the bone above them.
+  std::vector<int> between_upper;
+  std::vector<int> between_lower;
+  std::vector<int> beyond;  ///< Joints past `end`, parents first.
+};
+
+/// What two wishes have in common: joints from `lowest` up to, but without, `above`.
+struct SharedChain {
+  int lowest = -1;  ///< -1: no joint turns for both.
+  int above = -1;   ///< -1: up to the root.
+  bool root = false;
+};
+
+struct MassPlan {
+  int joint = 0;
+  int carried_by = 0;  ///< The nearest joint that is `live`.
+};
+
+struct GroupPlan {
+  int level = 2;
+  int parent = -1;
+  bool balances = true;
+  bool constrained = false;   ///< Some constraint's own segment is in it.
+  int limb = -1;              ///< Of an arm or leg.
+  std::vector<int> sections;  ///< Positions in Plan::sections.
+  std::vector<int> segments;  ///< Joints.
+  std::vector<int> joints;    ///< All of it.
+};
+
+/// What is the same for all bodies that are adapted side by side: how the skeleton hangs
+/// together and what is asked, without lengths, postures or targets. Joints are those of
+/// the skeleton, parents first.
+struct Plan {
+  int joint_count = 0;
+  std::vector<int> parent;
+  std::vector<Turning> turning;
+  std::vector<int> limb_of_hinge;  ///< Per joint; -1.
+  /// Joints that whole-body steps must follow: they turn, carry a point, or lead to one
+  /// that does. The others hang rigidly from those.
+  std::vector<int> live;
+  std::vector<int> rest;  ///< The joints that are not live, parents first.
+  std::vector<char> is_live;
+  std::vector<LimbPlan> limbs;
+  std::vector<std::vector<int>> sections;  ///< Vertebrae, low to high.
+  std::vector<GroupPlan> groups;           ///< As in the character.
+  std::vector<PointPlan> points;           ///< Supports first, then by importance.
+  int level_count = 0;                     ///< Levels of points that are no supports.
+  std::vector<SharedChain> shared;         ///< [a * points + b], b <= a.
+  /// Points whose chain has this joint: positions begin[j]..begin[j + 1] of `through`.
+  std::vector<int> through_begin;
+  std::vector<int> through;
+  std::vector<MassPlan> masses;  ///< The character's masses, then its loads.
+  std::vector<int> limit_of;     ///< Per joint: position in Character::limits, or -1.
+  bool has_limits = false;
+};
+
+/// What makes two bodies fit for the same batch is an equal plan.
+/// Precondition: check_character() and check_constraints() found nothing.
+/// `balance`: the groups that balance turn too, without a constraint.
+[[nodiscard]] Plan make_plan(const Character& character,
+                             const ConstraintSet& constraints,
+                             bool balance);
+
+}  // namespace marey::retarget

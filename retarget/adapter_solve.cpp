@@ -1,0 +1,284 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include "core/assert.h"
+#include "retarget/activation.h"
+#include "retarget/adapter_state.h"
+
+namespace marey::retarget {
+namespace {
+
+glm::dvec3 plain(const Vec3<float>& v) {
+  return {v.x, v.y, v.z};
+}
+
+glm::dquat plain(const Quat<float>& q) {
+  const glm::dquat out(q.w, q.x, q.y, q.z);
+  return glm::normalize(out);
+}
+
+}  // namespace
+
+Adapter::State::State(const Character& character_in,
+                      const ConstraintSet& constraints_in,
+                      const AdaptOptions& options_in)
+    : character(character_in),
+      constraints(constraints_in),
+      options(options_in),
+      plan(make_plan(character, constraints, options.balance != BalanceMode::kOff)),
+      lanes(plan) {
+  set_up();
+}
+
+void Adapter::State::set_up() {
+  plan = make_plan(character, constraints, options.balance != BalanceMode::kOff);
+  const std::vector<float> masses = std::move(body.mass);
+  body = body_numbers(character, plan);
+  // What is carried stays carried when the options change.
+  if (masses.size() == body.mass.size()) body.mass = masses;
+  t_pose_from_joint = t_pose_rotations(character);
+  lanes = Lanes<float>(plan);
+  load_body(plan, body, 0, lanes);
+  solve = {};
+  solve.alone_rotation.assign(plan.parent.size(), identity<float>());
+  mixed_rotation.assign(plan.parent.size(), identity<float>());
+  wishes.assign(plan.points.size(), {});
+  activations.assign(plan.points.size(), 0.0);
+  ramps.clear();
+  ramps.reserve(plan.points.size() + 1);
+  outcomes.assign(constraints.constraints.size(), {});
+  begun_in_world.resize(constraints.constraints.size());
+  begun_rotation.resize(constraints.constraints.size());
+  world_from_joint.resize(plan.parent.size());
+}
+
+Shape Adapter::State::shape() const {
+  Shape out;
+  out.rows.balance = options.balance != BalanceMode::kOff;
+  for (const PointPlan& point : plan.points) {
+    if (point.goal == GoalKind::kSupport) ++out.rows.supports;
+  }
+  const bool levels = options.control == Control::kPriority;
+  out.last_level = levels ? std::max(1, plan.level_count) : 1.0;
+  return out;
+}
+
+SolveSettings Adapter::State::settings() const {
+  SolveSettings out;
+  out.blend = options.control == Control::kBlend;
+  out.keeps_orientation = options.extremities_keep_orientation;
+  out.max_iterations = options.max_iterations;
+  out.threshold = options.constraint_threshold_m / body.unit_m;
+  out.balance_threshold = options.balance_threshold_m / body.unit_m;
+  return out;
+}
+
+BalanceNumbers Adapter::State::balance() const {
+  BalanceNumbers out;
+  out.wanted = options.balance != BalanceMode::kOff;
+  out.vertical = options.balance == BalanceMode::k3d;
+  out.precision_m = options.balance_precision_m;
+  out.from_reference = !com_in_world;
+  out.com_in_world = com_in_world.value_or(glm::dvec3(0.0));
+  // The root belongs to balance along the axes that it uses (thesis 5.3.2).
+  out.root_weight =
+      out.vertical ? options.root_for_balance : options.root_for_constraints;
+  out.root_weight_on_floor =
+      out.wanted ? options.root_for_balance : options.root_for_constraints;
+  return out;
+}
+
+void Adapter::State::read_wish(std::size_t k, double activation) {
+  const PointPlan& point = plan.points[k];
+  const auto c = static_cast<std::size_t>(point.constraint);
+  const Constraint& constraint = constraints.constraints[c];
+  const auto j = static_cast<std::size_t>(point.joint);
+  const glm::dquat& t_pose = t_pose_from_joint[j];
+  WishNumbers& wish = wishes[k];
+  wish.in_joint = glm::conjugate(t_pose) * constraint.point.offset_in_t_pose;
+  wish.precision_m = constraint.precision_m;
+  wish.weight = constraint.importance;
+  wish.active = activation > 0.0;
+  const Goal& goal = constraint.goal;
+  const auto other = [&](const BodyPoint& body_point) {
+    const auto o = static_cast<std::size_t>(point.other_joint);
+    return glm::conjugate(t_pose_from_joint[o]) * body_point.offset_in_t_pose;
+  };
+  if (const auto* to_point = std::get_if<DistanceToPoint>(&goal)) {
+    wish.a_in_world = to_point->p_in_world;
+    wish.distance_m = to_point->distance_m;
+  } else if (const auto* to_body = std::get_if<DistanceToBody>(&goal)) {
+    wish.b = other(to_body->other);
+    wish.distance_m = to_body->distance_m;
+  } else if (const auto* to_other = std::get_if<DistanceToConstraint>(&goal)) {
+    wish.b = other(constraints.find(to_other->other_id)->point);
+    wish.distance_m = to_other->distance_m;
+  } else if (const auto* allowed = std::get_if<AllowedSpace>(&goal)) {
+    wish.a_in_world = allowed->min_in_world;
+    wish.b = allowed->max_in_world;
+  } else if (const auto* forbidden = std::get_if<ForbiddenSpace>(&goal)) {
+    wish.a_in_world = forbidden->min_in_world;
+    wish.b = forbidden->max_in_world;
+  } else if (const auto* orientation = std::get_if<SegmentOrientation>(&goal)) {
+    wish.world_from_joint = orientation->world_from_t_pose * t_pose;
+  } else {
+    const auto& support = std::get<Support>(goal);
+    if (!wish.active) {
+      begun_in_world[c].reset();
+      begun_rotation[c].reset();
+    } else if (!begun_in_world[c]) {
+      const Vec3<float> at =
+          posture.place[j] + rotate(posture.rotation[j],
+                                    retarget::lanes<float>(wish.in_joint / body.unit_m));
+      begun_in_world[c] = posture.origin_in_world + plain(at) * body.unit_m;
+      begun_rotation[c] = plain(posture.rotation[j]);
+    }
+    wish.a_in_world = support.footprint_in_world.value_or(
+        begun_in_world[c].value_or(posture.origin_in_world));
+    const glm::dquat begun = begun_rotation[c].value_or(glm::dquat(1, 0, 0, 0));
+    wish.world_from_joint =
+        support.world_from_t_pose ? *support.world_from_t_pose * t_pose : begun;
+  }
+}
+
+void Adapter::State::read_wishes(double time_s) {
+  double most = 0.0;
+  ramps.clear();
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const auto c = static_cast<std::size_t>(plan.points[k].constraint);
+    activations[k] = activation(constraints.constraints[c].activation, time_s);
+    outcomes[c].activation = activations[k];
+    read_wish(k, activations[k]);
+    if (activations[k] > 0.0 && plan.points[k].level > 0) {
+      most = std::max(most, wishes[k].weight);
+    }
+    const bool fades = activations[k] > 0.0 && activations[k] < 1.0;
+    if (fades && std::find(ramps.begin(), ramps.end(), activations[k]) == ramps.end()) {
+      ramps.push_back(activations[k]);
+    }
+  }
+  std::sort(ramps.begin(), ramps.end(), [](double a, double b) { return a > b; });
+  const bool blends = options.control == Control::kBlend;
+  for (std::size_t k = 0; k < wishes.size(); ++k) {
+    const bool weighs = blends && plan.points[k].level > 0 && most > 0.0;
+    wishes[k].weight = weighs ? wishes[k].weight / most : 1.0;
+  }
+}
+
+Errors<float> Adapter::State::solve_for(double least, double& iterations) {
+  for (std::size_t k = 0; k < wishes.size(); ++k) {
+    wishes[k].active = activations[k] >= least && activations[k] > 0.0;
+  }
+  load_wishes(plan, body, posture.origin_in_world, wishes, 0, lanes);
+  const Shape form = shape();
+  const SolveSettings told = settings();
+  begin_lanes(plan, form, told, true, lanes, solve);
+  if (solve.whole_body > 0.0F) {
+    while (!advance_lanes(plan, form, told, lanes, solve)) {
+    }
+  }
+  iterations += static_cast<double>(solve.progress.iterations);
+  return finish_lanes(plan, form, told, true, lanes, solve);
+}
+
+// Constraints fade between the postures without and with them. With activations
+// 1 = a0 > a1 > ... > an > an+1 = 0 and posture Si for all constraints of at least ai,
+// the answer is the mean of the Si with weights ai - ai+1: continuous in every
+// activation, also as they pass each other, and exact where nothing fades (the Lovasz
+// extension of the map from sets of constraints to postures). What is fully active is
+// then closed again from that mean.
+Errors<float> Adapter::State::solve_faded(double& iterations) {
+  for (Quat<float>& q : mixed_rotation) q = {0.0F, 0.0F, 0.0F, 0.0F};
+  mixed_root = {0.0F, 0.0F, 0.0F};
+  double above = 1.0;
+  for (std::size_t n = 0; n <= ramps.size(); ++n) {
+    const double next = n < ramps.size() ? ramps[n] : 0.0;
+    const auto share = static_cast<float>(above - next);
+    static_cast<void>(solve_for(n == 0 ? 1.0 : ramps[n - 1], iterations));
+    for (const int j : plan.live) {
+      const auto i = static_cast<std::size_t>(j);
+      const Quat<float>& q = lanes.rotation[i];
+      Quat<float>& sum = mixed_rotation[i];
+      const Quat<float>& like = posture.rotation[i];
+      const float sign = q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z < 0.0F
+                             ? -share
+                             : share;
+      sum = {
+          sum.w + sign * q.w, sum.x + sign * q.x, sum.y + sign * q.y, sum.z + sign * q.z};
+    }
+    mixed_root += share * lanes.place[0];
+    above = next;
+  }
+  for (std::size_t k = 0; k < wishes.size(); ++k) {
+    wishes[k].active = activations[k] >= 1.0;
+  }
+  load_wishes(plan, body, posture.origin_in_world, wishes, 0, lanes);
+  for (const int j : plan.live) {
+    const auto i = static_cast<std::size_t>(j);
+    lanes.rotation[i] = normalized(mixed_rotation[i]);
+  }
+  lanes.place[0] = mixed_root;
+  place_live_joints(plan, lanes);
+  const auto last = static_cast<float>(shape().last_level);
+  static_cast<void>(measure(plan, shape().rows.balance, last, lanes));
+  close_limbs(plan, settings(), last, true, lanes);
+  return measure(plan, shape().rows.balance, last, lanes);
+}
+
+void Adapter::State::write(Pose& out) {
+  const std::size_t n = plan.parent.size();
+  out.parent_from_joint.resize(n);
+  for (const int j : plan.rest) {
+    const auto i = static_cast<std::size_t>(j);
+    const auto p = static_cast<std::size_t>(plan.parent[i]);
+    lanes.rotation[i] = lanes.rotation[p] * posture.parent_from_joint[i];
+    place_joint(plan, lanes, j);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    RigidTransform& world = world_from_joint[i];
+    world.rotation = plain(lanes.rotation[i]);
+    world.translation = posture.origin_in_world + plain(lanes.place[i]) * body.unit_m;
+    out.parent_from_joint[i] =
+        plan.parent[i] < 0
+            ? world.rotation
+            : glm::conjugate(
+                  world_from_joint[static_cast<std::size_t>(plan.parent[i])].rotation) *
+                  world.rotation;
+  }
+  out.root_in_world = world_from_joint[0].translation;
+}
+
+void Adapter::State::report_outcomes() {
+  for (ConstraintOutcome& outcome : outcomes) outcome.error_m = 0.0;
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const auto c = static_cast<std::size_t>(plan.points[k].constraint);
+    outcomes[c].error_m =
+        static_cast<double>(length(lanes.points[k].error)) * body.unit_m;
+  }
+}
+
+AdaptReport Adapter::State::adapt(const Pose& reference, double time_s, Pose& out) {
+  const bool balanced = options.balance != BalanceMode::kOff;
+  read_posture(plan, body, reference, balanced, posture);
+  load_posture(plan, posture, balanced, 0, lanes);
+  load_balance(body, posture, balance(), 0, lanes);
+  read_wishes(time_s);
+  double iterations = 0.0;
+  const Errors<float> errors =
+      ramps.empty() ? solve_for(1.0, iterations) : solve_faded(iterations);
+  write(out);
+  report_outcomes();
+  AdaptReport report;
+  report.iterations = static_cast<int>(iterations);
+  report.constraint_error_m = static_cast<double>(errors.mean) * body.unit_m;
+  report.worst_error_m = static_cast<double>(errors.worst) * body.unit_m;
+  report.balance_error_m = static_cast<double>(errors.balance) * body.unit_m;
+  if (balanced) {
+    com_now_in_world = posture.origin_in_world + plain(lanes.com) * body.unit_m;
+  }
+  return report;
+}
+
+}  // namespace marey::retarget

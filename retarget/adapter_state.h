@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "retarget/adapt_numbers.h"
+#include "retarget/adapter.h"
+
+namespace marey::retarget {
+
+struct Adapter::State {
+  Character character;
+  ConstraintSet constraints;
+  AdaptOptions options;
+  Plan plan;
+  BodyNumbers body;
+  std::vector<glm::dquat> t_pose_from_joint;
+  std::vector<char> carried;  ///< Of each load.
+  std::optional<glm::dvec3> com_in_world;
+
+  // Of one posture.
+  PostureNumbers posture;
+  std::vector<WishNumbers> wishes;  ///< As plan.points.
+  std::vector<double> activations;  ///< Likewise.
+  std::vector<double> ramps;        ///< Different activations below 1, descending.
+  std::vector<char> constraint_active;
+  Lanes<float> lanes;
+  Solve<float> solve;
+  std::vector<Quat<float>> mixed_rotation;  ///< While constraints fade in or out.
+  Vec3<float> mixed_root;
+  std::vector<ConstraintOutcome> outcomes;  ///< As the constraints.
+  /// Where supports without a footprint stand, since they began.
+  std::vector<std::optional<glm::dvec3>> begun_in_world;
+  std::vector<std::optional<glm::dquat>> begun_rotation;
+  std::vector<RigidTransform> world_from_joint;
+  glm::dvec3 com_now_in_world{0.0};
+
+  State(const Character& character_in,
+        const ConstraintSet& constraints_in,
+        const AdaptOptions& options_in);
+
+  void set_up();
+  AdaptReport adapt(const Pose& reference, double time_s, Pose& out);
+
+ private:
+  void read_wishes(double time_s);
+  void read_wish(std::size_t k, double activation);
+  [[nodiscard]] BalanceNumbers balance() const;
+  [[nodiscard]] Shape shape() const;
+  [[nodiscard]] SolveSettings settings() const;
+  /// Solves for the wishes whose activation is at least `least`.
+  Errors<float> solve_for(double least, double& iterations);
+  Errors<float> solve_faded(double& iterations);
+  void write(Pose& out);
+  void report_outcomes();
+};
+
+}  // namespace marey::retarget

@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "retarget/limb_closure.h"
+
+namespace marey::retarget {
+
+/// What the whole solve is told, the same for all lanes.
+struct SolveSettings {
+  bool blend = false;              ///< Control::kBlend.
+  bool keeps_orientation = false;  ///< Of extremities.
+  int max_iterations = 50;
+  double threshold = 1e-4;          ///< Of changes of error, in units.
+  double balance_threshold = 1e-5;  ///< Likewise, of the centre of mass.
+};
+
+template <class F>
+[[nodiscard]] inline Mask<F> is_asked(const PointPlan& point,
+                                      const LanePoint<F>& p,
+                                      const F& level) {
+  return (p.active > num<F>(0)) & (num<F>(point.level) <= level);
+}
+
+/// Where a point has to go for the limb to bring it there: a point on an extremity that
+/// has an orientation of its own asks the wrist or ankle to stand off by as much.
+template <class F>
+struct LimbWish {
+  Vec3<F> place;
+  Vec3<F> target;
+};
+
+template <class F>
+[[nodiscard]] LimbWish<F> wish_of(const LimbPlan& limb,
+                                  const PointPlan& point,
+                                  const LanePoint<F>& p,
+                                  const Extremity<F>& extremity,
+                                  const Lanes<F>& s) {
+  if (point.place != LimbPlace::kExtremity || point.joint != limb.end) {
+    return {p.place, p.target};
+  }
+  const Vec3<F>& end = s.place[static_cast<std::size_t>(limb.end)];
+  return {
+      select(extremity.is_set, end, p.place),
+      select(
+          extremity.is_set, p.target - rotate(extremity.rotation, p.in_joint), p.target)};
+}
+
+template <class F>
+void measure_place(const PointPlan& point, Lanes<F>& s, LanePoint<F>& p) {
+  const auto j = static_cast<std::size_t>(point.joint);
+  p.place = s.place[j] + rotate(s.rotation[j], p.in_joint);
+}
+
+/// Halfway between two postures of one limb, by the weights of what each is for.
+template <class F>
+void mix_limb(const Plan& plan,
+              const LimbPlan& limb,
+              const Quat<F> (&other)[3],
+              const F& share,
+              const Mask<F>& mask,
+              const Extremity<F>& extremity,
+              Lanes<F>& s) {
+  const int joints[3] = {limb.upper, limb.lower, limb.end};
+  Quat<F> turn[3];
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Quat<F>& now = s.rotation[static_cast<std::size_t>(joints[n])];
+    const Quat<F>& o = other[n];
+    const F sign =
+        select(now.w * o.w + now.x * o.x + now.y * o.y + now.z * o.z < num<F>(0),
+               num<F>(-1),
+               num<F>(1));
+    const F a = num<F>(1) - share;
+    const F b = sign * share;
+    const Quat<F> mixed = normalized(Quat<F>{a * now.w + b * o.w,
+                                             a * now.x + b * o.x,
+                                             a * now.y + b * o.y,
+                                             a * now.z + b * o.z});
+    turn[n] = mixed * conjugate(now);
+  }
+  turn_limb(plan, limb, {turn[0], turn[1]}, mask, extremity, s);
+}
+
+/// Brings the active wishes of one limb to their targets: the first exactly or optimally,
+/// the second with what the first leaves; or both by their weights (thesis 4.2.2).
+template <class F>
+void close_limb(const Plan& plan,
+                int number,
+                const SolveSettings& settings,
+                const F& level,
+                const Mask<F>& mask,
+                Lanes<F>& s) {
+  const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(number)];
+  const Extremity<F> extremity = extremity_of(limb, settings.keeps_orientation, s);
+  Mask<F> taken = num<F>(0) > num<F>(1);
+  Vec3<F> first_place{};
+  F first_weight = num<F>(1);
+  for (const int k : limb.points) {
+    const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
+    LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
+    const Mask<F> asked = mask & is_asked(point, p, level);
+    if (!any(asked)) continue;
+    measure_place(point, s, p);
+    const LimbWish<F> wish = wish_of(limb, point, p, extremity, s);
+    if (any(asked & !taken)) {
+      close_limb_on(
+          plan, number, point, wish.place, wish.target, asked & !taken, extremity, s);
+    }
+    if (any(asked & taken)) {
+      const Quat<F> before[3] = {s.rotation[static_cast<std::size_t>(limb.upper)],
+                                 s.rotation[static_cast<std::size_t>(limb.lower)],
+                                 s.rotation[static_cast<std::size_t>(limb.end)]};
+      if (settings.blend) {
+        close_limb_on(
+            plan, number, point, wish.place, wish.target, asked & taken, extremity, s);
+        const F share = first_weight / (first_weight + p.weight);
+        mix_limb(plan, limb, before, share, asked & taken, extremity, s);
+      } else {
+        spin_limb_on(plan,
+                     number,
+                     first_place,
+                     wish.place,
+                     wish.target,
+                     asked & taken,
+                     extremity,
+                     s);
+      }
+    }
+    measure_place(point, s, p);
+    first_place = select(taken, first_place, p.place);
+    first_weight = select(taken, first_weight, p.weight);
+    taken = taken | asked;
+  }
+  // An extremity without a wish for its place may still have one for its orientation.
+  const Mask<F> only_turned = mask & extremity.is_set & !taken;
+  if (any(only_turned)) {
+    turn_limb(plan, limb, {identity<F>(), identity<F>()}, only_turned, extremity, s);
+  }
+}
+
+/// Moves the root by the least that brings every support within its leg's reach, if one
+/// place does (alternating projections). Thesis 4.2.4: supports are always satisfied.
+template <class F>
+void reach_supports(const Plan& plan,
+                    const SolveSettings& settings,
+                    const Mask<F>& mask,
+                    Lanes<F>& s) {
+  const F zero = num<F>(0);
+  Vec3<F> shift{zero, zero, zero};
+  for (int round = 0; round < 8; ++round) {
+    Mask<F> moved = num<F>(0) > num<F>(1);
+    for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
+      const LimbPlan& limb = plan.limbs[l];
+      for (const int k : limb.points) {
+        const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
+        if (point.goal != GoalKind::kSupport) continue;
+        const LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
+        const Extremity<F> extremity = extremity_of(limb, settings.keeps_orientation, s);
+        const LimbWish<F> wish = wish_of(limb, point, p, extremity, s);
+        const Vec3<F> root = s.place[static_cast<std::size_t>(limb.upper)];
+        const Vec3<F> middle = s.place[static_cast<std::size_t>(limb.lower)];
+        // A hair less than straight: rounding must not put the foot beyond.
+        const F reach =
+            num<F>(0.999999) * (length(middle - root) + length(wish.place - middle));
+        const Vec3<F> gap = wish.target - (root + shift);
+        const F distance = length(gap);
+        const F excess =
+            select(mask & (p.active > zero), max(distance - reach, zero), zero);
+        shift += (excess / max(distance, num<F>(1e-6))) * gap;
+        moved = moved | (excess > num<F>(1e-7));
+      }
+    }
+    if (!any(moved)) break;
+  }
+  for (const int j : plan.live) {
+    const auto i = static_cast<std::size_t>(j);
+    if (j == 0) s.place[0] += shift;
+    if (j != 0) place_joint(plan, s, j);
+    static_cast<void>(i);
+  }
+}
+
+/// Supports first, then every other limb, in the lanes of `mask`.
+template <class F>
+void close_limbs(const Plan& plan,
+                 const SolveSettings& settings,
+                 const F& level,
+                 const Mask<F>& mask,
+                 Lanes<F>& s) {
+  reach_supports(plan, settings, mask, s);
+  for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
+    const LimbPlan& limb = plan.limbs[l];
+    if (limb.points.empty() && limb.orientations.empty() && !settings.keeps_orientation) {
+      continue;
+    }
+    close_limb(plan, static_cast<int>(l), settings, level, mask, s);
+  }
+}
+
+}  // namespace marey::retarget

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "retarget/adapt_limits.h"
+#include "retarget/adapt_measure.h"
+
+namespace marey::retarget {
+
+/// 10 x^3 - 15 x^4 + 6 x^5 over 0..1, constant outside (retarget/smooth_step.h).
+template <class F>
+[[nodiscard]] inline F smooth(const F& wish) {
+  const F x = clamp(wish, num<F>(0), num<F>(1));
+  return x * x * x * (num<F>(10) + x * (num<F>(6) * x - num<F>(15)));
+}
+
+/// A limb's bending axis in the world: unit, perpendicular to the upper bone. Where the
+/// limb is bent it comes from where the joints are, as it straightens from the upper
+/// bone's own hinge (see NormalizedLimb): so it is continuous through the straight limb.
+template <class F>
+[[nodiscard]] Vec3<F> limb_axis(const LimbPlan& limb, const Lanes<F>& s, int number) {
+  const auto u = static_cast<std::size_t>(limb.upper);
+  const auto l = static_cast<std::size_t>(limb.lower);
+  const auto e = static_cast<std::size_t>(limb.end);
+  const Vec3<F> upper = s.place[l] - s.place[u];
+  const Vec3<F> lower = s.place[e] - s.place[l];
+  const F upper2 = length2(upper);
+  const F lower2 = length2(lower);
+  const Vec3<F> hinge = rotate(s.rotation[u], s.hinge[static_cast<std::size_t>(number)]);
+  const Vec3<F> seen = cross(upper, lower);
+  // Sine of the bend: 0.07 (4 degrees) says nothing of the plane, 0.21 (12) all.
+  const F sine = safe_sqrt(length2(seen) / max(upper2 * lower2, num<F>(1e-12)));
+  const F bent = smooth((sine - num<F>(0.07)) * num<F>(1.0 / 0.14));
+  const Vec3<F> own =
+      unit_or(hinge - (dot(hinge, upper) / max(upper2, num<F>(1e-12))) * upper,
+              hinge,
+              num<F>(1e-6));
+  const Vec3<F> mixed =
+      (num<F>(1) - bent) * own + bent * unit_or(seen, own, num<F>(1e-6));
+  return unit_or(mixed, own, num<F>(1e-3));
+}
+
+/// How a limb's bones turn, in the world.
+template <class F>
+struct LimbTurn {
+  Quat<F> upper;
+  Quat<F> lower;
+};
+
+/// What a limb's extremity does while the limb turns: it follows the lower bone, or has
+/// an orientation of its own in the world.
+template <class F>
+struct Extremity {
+  Mask<F> is_set;
+  Quat<F> rotation;
+};
+
+/// The extremity of a limb: as the first of its active orientations wants it; as in the
+/// reference when all extremities keep their orientation.
+template <class F>
+[[nodiscard]] Extremity<F> extremity_of(const LimbPlan& limb,
+                                        bool keeps_orientation,
+                                        const Lanes<F>& s) {
+  const auto e = static_cast<std::size_t>(limb.end);
+  Extremity<F> out{num<F>(keeps_orientation ? 1 : 0) > num<F>(0.5),
+                   s.reference_rotation[e]};
+  for (std::size_t n = limb.orientations.size(); n-- > 0;) {
+    const LanePoint<F>& p = s.points[static_cast<std::size_t>(limb.orientations[n])];
+    const Mask<F> active = p.active > num<F>(0);
+    out.is_set = out.is_set | active;
+    out.rotation = select(active, p.goal.rotation, out.rotation);
+  }
+  return out;
+}
+
+/// `rotation` of joint `j` in the world, as far as its limits allow on a parent that is
+/// turned by `parent`.
+template <class F>
+[[nodiscard]] inline Quat<F> limited(const Plan& plan,
+                                     const Lanes<F>& s,
+                                     int j,
+                                     const Quat<F>& parent,
+                                     const Quat<F>& rotation) {
+  const auto i = static_cast<std::size_t>(j);
+  if (plan.limit_of[i] < 0 || j == 0) return rotation;
+  return parent * within_limits(s, i, conjugate(parent) * rotation);
+}
+
+/// Puts a limb's joints where `turn` takes them and their limits allow, in the lanes of
+/// `mask`; the others are not touched, not even by rounding.
+template <class F>
+void turn_limb(const Plan& plan,
+               const LimbPlan& limb,
+               const LimbTurn<F>& turn,
+               const Mask<F>& mask,
+               const Extremity<F>& extremity,
+               Lanes<F>& s) {
+  const auto u = static_cast<std::size_t>(limb.upper);
+  const auto l = static_cast<std::size_t>(limb.lower);
+  const auto e = static_cast<std::size_t>(limb.end);
+  Quat<F> upper = turn.upper * s.rotation[u];
+  Quat<F> lower = turn.lower * s.rotation[l];
+  Quat<F> end = select(extremity.is_set, extremity.rotation, turn.lower * s.rotation[e]);
+  if (plan.has_limits) {
+    // What holds the upper bone back holds back all that hangs from it.
+    const auto p = plan.parent[u] < 0 ? u : static_cast<std::size_t>(plan.parent[u]);
+    const Quat<F> kept_upper = limited(plan, s, limb.upper, s.rotation[p], upper);
+    const Quat<F> back = kept_upper * conjugate(upper);
+    const auto above = static_cast<std::size_t>(plan.parent[l]);
+    const Quat<F> under = above == u
+                              ? kept_upper
+                              : kept_upper * conjugate(s.rotation[u]) * s.rotation[above];
+    const Quat<F> kept_lower = limited(plan, s, limb.lower, under, back * lower);
+    const Quat<F> followed = kept_lower * conjugate(lower) * end;
+    upper = kept_upper;
+    lower = kept_lower;
+    end = limited(plan, s, limb.end, lower, select(extremity.is_set, end, followed));
+  }
+  const Quat<F> end_turn = end * conjugate(s.rotation[e]);
+  const auto carry = [&](const std::vector<int>& joints, const Quat<F>& carried) {
+    for (const int j : joints) {
+      const auto i = static_cast<std::size_t>(j);
+      s.rotation[i] = select(mask, carried * s.rotation[i], s.rotation[i]);
+      place_joint(plan, s, j);
+    }
+  };
+  const Quat<F> upper_turn = upper * conjugate(s.rotation[u]);
+  const Quat<F> lower_turn = lower * conjugate(s.rotation[l]);
+  s.rotation[u] = select(mask, upper, s.rotation[u]);
+  carry(limb.between_upper, upper_turn);
+  s.rotation[l] = select(mask, lower, s.rotation[l]);
+  place_joint(plan, s, limb.lower);
+  carry(limb.between_lower, lower_turn);
+  s.rotation[e] = select(mask, end, s.rotation[e]);
+  place_joint(plan, s, limb.end);
+  carry(limb.beyond, end_turn);
+}
+
+/// The turn about the unit `axis` that brings the bend of a limb from what it is to where
+/// `point` is `wanted` away from the limb's root, or as near to that as the limb gets.
+/// `to_root` and `to_point` lead from the middle joint. Annex B, with any point.
+template <class F>
+[[nodiscard]] Quat<F> bend_to(const Vec3<F>& axis,
+                              const Vec3<F>& to_root,
+                              const Vec3<F>& to_point,
+                              const F& wanted) {
+  const F zero = num<F>(0);
+  const F one = num<F>(1);
+  const F tiny = num<F>(1e-12);
+  const F root_along = dot(to_root, axis);
+  const F point_along = dot(to_point, axis);
+  const Vec3<F> root = to_root - root_along * axis;
+  const Vec3<F> point = to_point - point_along * axis;
+  const F a2 = length2(root);
+  const F b2 = length2(point);
+  const F ab = sqrt(max(a2 * b2, tiny));
+  const F c0 = dot(root, point) / ab;
+  const F s0 = dot(axis, cross(root, point)) / ab;
+  const F apart = root_along - point_along;
+  const F c1 = clamp((a2 + b2 + apart * apart - wanted * wanted) / (ab + ab), -one, one);
+  // The natural side: turning on about the axis bends further.
+  const F s1 = -safe_sqrt(one - c1 * c1);
+  const F c = c1 * c0 + s1 * s0;
+  const F sine = s1 * c0 - c1 * s0;
+  // Half of the angle: (1 + cos, sin) normalised; a half turn at the worst.
+  const F w = max(one + c, zero);
+  const F n2 = w * w + sine * sine;
+  const Mask<F> half_turn = n2 < num<F>(1e-9);
+  const F scale = one / sqrt(select(half_turn, one, n2));
+  const F v = select(half_turn, one, scale * sine);
+  return {select(half_turn, zero, scale * w), v * axis.x, v * axis.y, v * axis.z};
+}
+
+/// Brings the point at `place`, which moves with the limb, to `target` or as near as the
+/// limb reaches: exact at once or optimal (annex B). Lanes out of `mask` stay.
+template <class F>
+void close_limb_on(const Plan& plan,
+                   int limb_number,
+                   const PointPlan& point,
+                   const Vec3<F>& place,
+                   const Vec3<F>& target,
+                   const Mask<F>& mask,
+                   const Extremity<F>& extremity,
+                   Lanes<F>& s) {
+  const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(limb_number)];
+  const Vec3<F> root = s.place[static_cast<std::size_t>(limb.upper)];
+  const Vec3<F> middle = s.place[static_cast<std::size_t>(limb.lower)];
+  const Vec3<F> axis = limb_axis(limb, s, limb_number);
+  const Vec3<F> to_target = target - root;
+  const F least = num<F>(1e-5);
+  if (point.place == LimbPlace::kUpper) {
+    const Vec3<F> from = place - root;
+    const Mask<F> can =
+        mask & (length2(to_target) > least * least) & (length2(from) > least * least);
+    const Quat<F> swing =
+        rotation_onto(select(can, from, axis), select(can, to_target, axis), axis);
+    turn_limb(plan, limb, {swing, swing}, can, extremity, s);
+    return;
+  }
+  const F distance = length(to_target);
+  const Quat<F> bend = bend_to(axis, root - middle, place - middle, distance);
+  const Vec3<F> from = middle + rotate(bend, place - middle) - root;
+  const Mask<F> can = (distance > least) & (length2(from) > least * least);
+  Quat<F> swing =
+      rotation_onto(select(can, from, axis), select(can, to_target, axis), axis);
+  if (point.place == LimbPlace::kLower) {
+    // The elbow has a circle to choose from: nearest to where it was (B.3).
+    const Vec3<F> along = unit_or(to_target, axis, least);
+    const Vec3<F> was = middle - root;
+    const Vec3<F> is = rotate(swing, was);
+    const Vec3<F> is_off = is - dot(is, along) * along;
+    const Vec3<F> was_off = was - dot(was, along) * along;
+    // An elbow that was on the axis has no side: then it stays where the swing left it.
+    const F reach2 = length2(was);
+    const F sure = smooth(
+        (length2(was_off) / max(reach2, num<F>(1e-12)) - num<F>(0.0025)) * num<F>(20));
+    const Vec3<F> wish = is_off + sure * (was_off - is_off);
+    const Mask<F> known = (length2(is_off) > num<F>(1e-6) * reach2) &
+                          (length2(wish) > num<F>(1e-6) * reach2);
+    const Quat<F> spin =
+        rotation_onto(select(known, is_off, axis), select(known, wish, axis), along);
+    swing = spin * swing;
+  }
+  turn_limb(plan, limb, {swing, swing * bend}, mask, extremity, s);
+}
+
+/// The second wish on a limb whose first is met (thesis 4.2.2.1): what is left is to spin
+/// about the line through the limb's root and the first point.
+template <class F>
+void spin_limb_on(const Plan& plan,
+                  int limb_number,
+                  const Vec3<F>& first_place,
+                  const Vec3<F>& place,
+                  const Vec3<F>& target,
+                  const Mask<F>& mask,
+                  const Extremity<F>& extremity,
+                  Lanes<F>& s) {
+  const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(limb_number)];
+  const Vec3<F> root = s.place[static_cast<std::size_t>(limb.upper)];
+  const Vec3<F> axis =
+      unit_or(first_place - root, limb_axis(limb, s, limb_number), num<F>(1e-5));
+  const Vec3<F> from = place - root;
+  const Vec3<F> to = target - root;
+  const Vec3<F> from_off = from - dot(from, axis) * axis;
+  const Vec3<F> to_off = to - dot(to, axis) * axis;
+  const F tiny = num<F>(1e-8);
+  const Mask<F> can = mask & (length2(from_off) > tiny) & (length2(to_off) > tiny);
+  const Vec3<F> x{num<F>(1), num<F>(0), num<F>(0)};
+  const Quat<F> spin =
+      rotation_onto(select(can, from_off, x), select(can, to_off, x), axis);
+  turn_limb(plan, limb, {spin, spin}, can, extremity, s);
+}
+
+}  // namespace marey::retarget

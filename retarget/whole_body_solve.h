@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "retarget/whole_body_step.h"
+
+namespace marey::retarget {
+
+/// What a loop knows of each lane.
+template <class F>
+struct Progress {
+  F iterations{};  ///< Whole-body steps so far.
+  F merit{};       ///< The best posture's.
+  F stalled{};     ///< Steps that hardly helped, in a row.
+  F damping{};
+  F homing{};  ///< Share of its straying from the reference that a step takes back.
+  F level{};  ///< Wishes up to this level are asked.
+};
+
+/// Rows of supports and balance are met exactly; this much keeps their pivots sound.
+inline constexpr double kExactDamping = 1e-5;
+/// An error enters a step as if it were at most this long, in units.
+inline constexpr double kLongestError = 0.4;
+
+/// How far each turning joint has turned from its reference, as a vector in world axes.
+template <class F>
+void measure_straying(const Plan& plan, const F& share, Lanes<F>& s) {
+  for (const int j : plan.live) {
+    const auto i = static_cast<std::size_t>(j);
+    if (plan.turning[i] == Turning::kRigid) continue;
+    const Quat<F> unturned =
+        j == 0
+            ? s.reference_local[i]
+            : s.rotation[static_cast<std::size_t>(plan.parent[i])] * s.reference_local[i];
+    Vec3<F> turned = -turn_left(s.rotation[i], unturned);
+    if (plan.turning[i] == Turning::kHinge) {
+      const Vec3<F>& axis = s.axis[static_cast<std::size_t>(plan.limb_of_hinge[i])];
+      turned = dot(axis, turned) * axis;
+    }
+    s.strayed[i] = share * turned;
+  }
+}
+
+/// By how much a wish's point would go back if every joint did.
+template <class F>
+[[nodiscard]] Vec3<F> strayed_of(const PointPlan& point,
+                                 const LanePoint<F>& p,
+                                 const Vec3<F>& travelled,
+                                 const Lanes<F>& s) {
+  Vec3<F> out{num<F>(0), num<F>(0), num<F>(0)};
+  if (point.moves_root && !point.turns_only()) out = travelled;
+  for (const int j : point.chain) {
+    const auto i = static_cast<std::size_t>(j);
+    out += point.turns_only() ? s.strayed[i] : cross(s.strayed[i], p.place - s.place[i]);
+  }
+  return out;
+}
+
+template <class F>
+void form_system(const Plan& plan,
+                 const RowOrder& rows,
+                 int side,
+                 const Progress<F>& progress,
+                 Lanes<F>& s) {
+  const F zero = num<F>(0);
+  const F one = num<F>(1);
+  sum_runs(plan, rows.balance, s);
+  form_point_blocks(plan, rows, side, s);
+  if (rows.balance) form_balance_blocks(plan, rows, side, s);
+  add_hinges(plan, rows, side, s);
+  measure_straying(plan, progress.homing, s);
+  const Vec3<F> travelled = progress.homing * (s.place[0] - s.reference_place[0]);
+  // Rows that nobody asks for are taken out: an identity of their own.
+  const auto block = [&](int i, int j) {
+    return &s.blocks[static_cast<std::size_t>(9 * (i * side + j))];
+  };
+  const auto use = [&](int row, const Vec3<F>& asked, const F& damping) {
+    const F keep[3] = {asked.x, asked.y, asked.z};
+    for (int j = 0; j < row; ++j) {
+      F* b = block(row, j);
+      for (std::size_t e = 0; e < 9; ++e) b[e] = b[e] * keep[e / 3];
+    }
+    for (int i = row + 1; i < side; ++i) {
+      F* b = block(i, row);
+      for (std::size_t e = 0; e < 9; ++e) b[e] = b[e] * keep[e % 3];
+    }
+    F* d = block(row, row);
+    for (std::size_t e = 0; e < 9; ++e) d[e] = d[e] * keep[e / 3] * keep[e % 3];
+    for (std::size_t e = 0; e < 3; ++e) d[4 * e] = d[4 * e] + damping + (one - keep[e]);
+  };
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const PointPlan& point = plan.points[k];
+    LanePoint<F>& p = s.points[k];
+    const F level = num<F>(point.level);
+    const F asked = select((p.active > zero) & (level <= progress.level), one, zero);
+    const F damping = select(level < progress.level,
+                             num<F>(kExactDamping),
+                             progress.damping / max(p.weight, num<F>(1e-6)));
+    const int row = rows.row_of(static_cast<int>(k));
+    const F long_enough = num<F>(kLongestError);
+    const F scale = long_enough / max(length(p.error), long_enough);
+    s.right[static_cast<std::size_t>(row)] =
+        scale * p.error + strayed_of(point, p, travelled, s);
+    use(row, {asked, asked, asked}, damping);
+    Vec3<F>& right = s.right[static_cast<std::size_t>(row)];
+    right = asked * right;
+  }
+  if (rows.balance) {
+    const Vec3<F> error = balance_error(s);
+    const F long_enough = num<F>(0.5 * kLongestError);
+    const F scale = long_enough / max(length(error), long_enough);
+    Vec3<F> back = travelled;
+    for (const int j : plan.live) {
+      const auto i = static_cast<std::size_t>(j);
+      if (plan.turning[i] == Turning::kRigid) continue;
+      back += cross(s.strayed[i], s.lever[i]);
+    }
+    s.right[static_cast<std::size_t>(rows.supports)] = scale * error + back;
+    use(rows.supports,
+        {s.balance, s.balance * s.vertical, s.balance},
+        num<F>(kExactDamping));
+    Vec3<F>& right = s.right[static_cast<std::size_t>(rows.supports)];
+    right = {s.balance * right.x, s.balance * s.vertical * right.y, s.balance * right.z};
+  }
+}
+
+/// By how much joint `j` turns for the solved multipliers, in world axes. [rad]
+template <class F>
+[[nodiscard]] Vec3<F> turn_of(const Plan& plan,
+                              const RowOrder& rows,
+                              int j,
+                              const Lanes<F>& s) {
+  const auto i = static_cast<std::size_t>(j);
+  Vec3<F> turn{num<F>(0), num<F>(0), num<F>(0)};
+  for (int n = plan.through_begin[i]; n < plan.through_begin[i + 1]; ++n) {
+    const int k = plan.through[static_cast<std::size_t>(n)];
+    const auto ik = static_cast<std::size_t>(k);
+    const Vec3<F>& lambda = s.right[static_cast<std::size_t>(rows.row_of(k))];
+    turn += plan.points[ik].turns_only() ? lambda
+                                         : cross(s.points[ik].place - s.place[i], lambda);
+  }
+  if (rows.balance) {
+    turn += cross(s.lever[i], s.right[static_cast<std::size_t>(rows.supports)]);
+  }
+  if (plan.turning[i] == Turning::kHinge) {
+    const Vec3<F>& axis = s.axis[static_cast<std::size_t>(plan.limb_of_hinge[i])];
+    turn = dot(axis, turn) * axis;
+  }
+  return turn;
+}
+
+/// Turns the joints by what the multipliers say, and moves the root.
+template <class F>
+void apply_step(const Plan& plan,
+                const RowOrder& rows,
+                const F& homing,
+                Lanes<F>& s) {
+  const F zero = num<F>(0);
+  Vec3<F> travel{zero, zero, zero};
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    if (!plan.points[k].moves_root || plan.points[k].turns_only()) continue;
+    travel += s.right[static_cast<std::size_t>(rows.row_of(static_cast<int>(k)))];
+  }
+  if (rows.balance) travel += s.right[static_cast<std::size_t>(rows.supports)];
+  // All turns are seen in the posture before the step: taken before any is made.
+  for (const int j : plan.live) {
+    const auto i = static_cast<std::size_t>(j);
+    if (plan.turning[i] == Turning::kRigid) continue;
+    s.turn[i] = rotation_by(turn_of(plan, rows, j, s) - s.strayed[i]);
+  }
+  const Vec3<F> from_reference = s.place[0] - s.reference_place[0];
+  s.place[0] = s.reference_place[0] + (num<F>(1) - homing) * from_reference +
+               Vec3<F>{s.root_weight_on_floor * travel.x,
+                       s.root_weight * travel.y,
+                       s.root_weight_on_floor * travel.z};
+  for (const int j : plan.live) {
+    const auto i = static_cast<std::size_t>(j);
+    const bool turns = plan.turning[i] != Turning::kRigid;
+    if (j == 0) {
+      s.rotation[0] = s.turn[0] * s.rotation[0];
+      continue;
+    }
+    const auto p = static_cast<std::size_t>(plan.parent[i]);
+    s.turn[i] = turns ? s.turn[p] * s.turn[i] : s.turn[p];
+    place_joint(plan, s, j);
+    const Quat<F> before = s.rotation[i];
+    s.rotation[i] = s.turn[i] * before;
+    if (turns && plan.limit_of[i] >= 0) {
+      s.rotation[i] =
+          s.rotation[p] * within_limits(s, i, conjugate(s.rotation[p]) * s.rotation[i]);
+      s.turn[i] = s.rotation[i] * conjugate(before);
+    }
+  }
+}
+
+/// One step for all wishes up to each lane's level. Leaves the measures of the new
+/// posture. About 3,500 operations for 21 joints and four wishes.
+template <class F>
+void step_whole_body(const Plan& plan,
+                     const RowOrder& rows,
+                     const Progress<F>& progress,
+                     Lanes<F>& s) {
+  const int side = static_cast<int>(plan.points.size()) + (rows.balance ? 1 : 0);
+  form_system(plan, rows, side, progress, s);
+  solve_blocks(side, num<F>(kExactDamping), s.blocks.data(), s.right.data());
+  apply_step(plan, rows, progress.homing, s);
+}
+
+}  // namespace marey::retarget
