@@ -121,8 +121,8 @@ void add_points(const Character& character,
     if (const auto* body = std::get_if<DistanceToBody>(&c.goal)) {
       point.other_joint = joint_named(character, body->other.segment);
     } else if (const auto* other = std::get_if<DistanceToConstraint>(&c.goal)) {
-      point.other_joint = joint_of_segment(
-          character.skeleton, constraints.find(other->other_id)->point.segment);
+      point.other_joint =
+          joint_named(character, constraints.find(other->other_id)->point.segment);
     }
     const bool support = point.goal == GoalKind::kSupport;
     point.stands_flat = support && !std::get<Support>(c.goal).turns;
