@@ -37,9 +37,11 @@ struct Places {
 class PointTargets {
  public:
   void add(const PointTarget& target) { targets_[count_++] = target; }
-  [[nodiscard]] std::span<const PointTarget> all() const {
+  /// Valid as long as this.
+  [[nodiscard]] std::span<const PointTarget> all() const& {
     return {targets_.data(), count_};
   }
+  void all() const&& = delete;
 
  private:
   std::array<PointTarget, 3> targets_;

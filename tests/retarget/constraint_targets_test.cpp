@@ -143,7 +143,8 @@ TEST(ConstraintTargets, OfAnOrientationThatIsMetAreWhereTheLeversAre) {
   Places places;
   places.world_from_segment = some_segment();
   const Goal goal = SegmentOrientation{places.world_from_segment.rotation};
-  for (const PointTarget& t : targets_of(goal, places).all()) {
+  const PointTargets found = targets_of(goal, places);
+  for (const PointTarget& t : found.all()) {
     EXPECT_EQ(t.p_in_world, t.target_in_world);
   }
 }
