@@ -9,7 +9,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/character_spec.h"
 #include "core/humanoid.h"
+#include "core/transform.h"
+#include "retarget/body_map.h"
+#include "retarget/make_character.h"
 
 namespace marey {
 namespace {
@@ -42,6 +46,8 @@ Error broken(const std::filesystem::path& file) {
 Result<CaseBody> read_body(const std::filesystem::path& file) {
   std::ifstream in(file);
   CaseBody body;
+  Skeleton skeleton;
+  std::vector<PointMass> masses;
   int count = 0;
   in >> count;
   for (int i = 0; i < count && in; ++i) {
@@ -54,8 +60,8 @@ Result<CaseBody> read_body(const std::filesystem::path& file) {
     if (parent >= 0) joint.parent = JointIndex{parent};
     joint.bone = bone_of(joint.name);
     mass.joint = JointIndex{i};
-    body.skeleton.joints.push_back(std::move(joint));
-    body.masses.push_back(mass);
+    skeleton.joints.push_back(std::move(joint));
+    masses.push_back(mass);
   }
   for (JointIndex& point : body.points) {
     int joint = -1;
@@ -63,10 +69,26 @@ Result<CaseBody> read_body(const std::filesystem::path& file) {
     if (!in || joint < 0 || joint >= count) return broken(file);
     point = JointIndex{joint};
   }
+  const auto map = retarget::map_body(skeleton);
+  if (!map) return map.error();
+  CharacterTraits free;
+  free.has_limits = false;
+  auto character = retarget::make_character("cases", std::move(skeleton), *map, free);
+  if (!character) return character.error();
+  body.character = *std::move(character);
+  body.character.masses = std::move(masses);
   return body;
 }
 
 }  // namespace
+
+std::vector<PointGoal> case_goals(const CaseBody& body) {
+  std::vector<PointGoal> goals;
+  for (std::size_t k = 0; k < kCasePoints; ++k) {
+    goals.push_back({body.points[k], k == kPlantedPoint});
+  }
+  return goals;
+}
 
 Result<CaseSet> read_cases(const std::filesystem::path& folder) {
   auto body = read_body(folder / "model.txt");
@@ -89,12 +111,11 @@ Result<CaseSet> read_cases(const std::filesystem::path& folder) {
 }
 
 bool is_for_limbs_alone(const CaseBody& body, const AdaptCase& asked) {
-  const auto& joints = body.skeleton.joints;
-  const auto world_from_joint =
-      world_from_joints(body.skeleton, rest_pose(body.skeleton));
+  const Skeleton& skeleton = body.character.skeleton;
+  const auto world_from_joint = world_from_joints(skeleton, rest_pose(skeleton));
   for (std::size_t k = 0; k < kCasePoints; ++k) {
-    const Joint& end = body.skeleton[body.points[k]];
-    const Joint& lower = joints[index(*end.parent)];
+    const Joint& end = skeleton[body.points[k]];
+    const Joint& lower = skeleton[*end.parent];
     const double upper_m = glm::length(lower.parent_from_joint.translation);
     const double lower_m = glm::length(end.parent_from_joint.translation);
     const glm::dvec3 root_in_world = world_from_joint[index(*lower.parent)].translation;

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/gauss_newton_baseline.h"
 #include <glm/vec3.hpp>
 
 #include "core/character.h"
 #include "core/ids.h"
 #include "core/pose.h"
 #include "core/result.h"
-#include "core/skeleton.h"
 
 namespace marey {
 
@@ -24,8 +24,7 @@ inline constexpr std::size_t kPlantedPoint = 3;
 
 /// A body in a guard stance, which is its skeleton's rest pose.
 struct CaseBody {
-  Skeleton skeleton;
-  std::vector<PointMass> masses;  ///< Sum is 1.
+  Character character;  ///< Its joints turn freely. The masses' sum is 1.
   std::array<JointIndex, kCasePoints> points{};
 };
 
@@ -42,13 +41,16 @@ struct AdaptCase {
   glm::dvec3 com_target_in_world{0.0};
 };
 
+/// The four points, the last one planted.
+[[nodiscard]] std::vector<PointGoal> case_goals(const CaseBody& body);
+
 struct CaseSet {
   CaseBody body;
   std::vector<AdaptCase> cases;
 };
 
 /// Reads `folder`/model.txt and targets.txt (their README says how). Errors (bad input):
-/// a file is missing, cut short or names no body.
+/// a file is missing, cut short or describes no human.
 [[nodiscard]] Result<CaseSet> read_cases(const std::filesystem::path& folder);
 
 /// Whether every target is within its limb's reach, to 5 mm, from where hip or shoulder

@@ -41,14 +41,6 @@ struct Class {
   std::vector<const AdaptCase*> cases;
 };
 
-std::vector<PointGoal> goals_of(const CaseBody& body) {
-  std::vector<PointGoal> goals;
-  for (std::size_t k = 0; k < kCasePoints; ++k) {
-    goals.push_back({body.points[k], k == kPlantedPoint});
-  }
-  return goals;
-}
-
 std::vector<Class> classes_of(const CaseSet& set) {
   std::vector<Class> classes{{"near", "near", {}},
                              {"far", "far", {}},
@@ -100,8 +92,7 @@ void judge(const CaseBody& body,
     column.solver->load(task);
     column.iterations.push_back(column.solver->solve(task));
     column.solver->store(found);
-    column.found.push_back(measure_posture(body.skeleton,
-                                           body.masses,
+    column.found.push_back(measure_posture(body.character,
                                            goals,
                                            task.targets_in_world,
                                            task.com_in_world,
@@ -145,9 +136,8 @@ std::vector<TableCell> row_of(const Column& c) {
 }
 
 ResultTable measure_class(const CaseSet& set, const Class& cases, bool with_balance) {
-  const Pose reference = rest_pose(set.body.skeleton);
-  const PostureProblem problem{
-      &set.body.skeleton, &set.body.masses, goals_of(set.body), with_balance};
+  const Pose reference = rest_pose(set.body.character.skeleton);
+  const PostureProblem problem{&set.body.character, case_goals(set.body), with_balance};
   std::vector<Column> columns;
   auto kinds = baseline_solvers();
   for (SolverKind& kind : marey_solvers()) kinds.push_back(std::move(kind));

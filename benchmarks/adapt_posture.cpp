@@ -6,9 +6,11 @@
 //
 //   adapt_posture [--data FOLDER] [--json FILE] [QUESTION]...
 //
-// QUESTIONs: classes. All of them when none is named. FOLDER is that of the shared data
-// (default: as configured), of which adapt/ is read. Everything that is told of a posture
-// is computed here, from the posture, in double.
+// QUESTIONs: classes, crowd, thesis, captured. All of them when none is named. FOLDER is
+// that of the shared data (default: as configured), of which adapt/ and mocap/ are read.
+// Everything that is told of a posture is computed here, from the posture, in double.
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -27,6 +29,9 @@
 
 namespace marey {
 namespace {
+
+constexpr std::array<std::string_view, 4> kQuestions{
+    "classes", "crowd", "thesis", "captured"};
 
 struct Arguments {
   std::filesystem::path data = MAREY_SHARED_DATA;
@@ -48,7 +53,9 @@ struct Arguments {
 }
 
 Arguments read_arguments(int argc, char** argv) {
-  const char* usage = "usage: adapt_posture [--data FOLDER] [--json FILE] [classes]...";
+  const char* usage =
+      "usage: adapt_posture [--data FOLDER] [--json FILE] "
+      "[classes|crowd|thesis|captured]...";
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
@@ -56,7 +63,8 @@ Arguments read_arguments(int argc, char** argv) {
       if (++i == argc) stop(usage);
       if (word == "--data") arguments.data = argv[i];
       if (word == "--json") arguments.json = argv[i];
-    } else if (word == "classes") {
+    } else if (std::find(kQuestions.begin(), kQuestions.end(), word) !=
+               kQuestions.end()) {
       arguments.questions.emplace_back(word);
     } else {
       stop(usage);
@@ -73,6 +81,13 @@ int measure(const Arguments& arguments) {
     tables.insert(tables.end(), more.begin(), more.end());
   };
   if (arguments.asks("classes")) keep(measure_classes(*cases));
+  if (arguments.asks("crowd")) keep(measure_crowd(*cases));
+  if (arguments.asks("thesis")) keep(measure_thesis());
+  if (arguments.asks("captured")) {
+    const auto clips = read_clips(arguments.data / "mocap");
+    if (!clips) stop(clips.error().message());
+    keep(measure_captured(*clips));
+  }
   if (!arguments.json) return 0;
   const Status written = write_tables(*arguments.json, tables);
   if (!written) stop(written.error().message());

@@ -2,15 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
 #include <vector>
 
 #include "benchmarks/adapt_cases.h"
+#include "benchmarks/captured_clips.h"
 #include "benchmarks/result_table.h"
 
 namespace marey {
 
 /// How long and how near a posture takes, by class of cases, with and without balance.
 [[nodiscard]] std::vector<ResultTable> measure_classes(const CaseSet& cases);
+
+/// How many bodies a core moves, no two alike.
+[[nodiscard]] std::vector<ResultTable> measure_crowd(const CaseSet& cases);
+
+/// The thesis' tables 4.1 to 4.3, 5.2 and 5.3, printed beside ours.
+[[nodiscard]] std::vector<ResultTable> measure_thesis();
+
+/// How far adapted postures are from captured ones that did the same.
+[[nodiscard]] std::vector<ResultTable> measure_captured(
+    const std::vector<CapturedClip>& clips);
 
 }  // namespace marey

@@ -26,13 +26,13 @@ glm::dvec3 centre_of(const std::vector<PointMass>& masses,
 
 }  // namespace
 
-PostureMeasure measure_posture(const Skeleton& skeleton,
-                               const std::vector<PointMass>& masses,
+PostureMeasure measure_posture(const Character& character,
                                std::span<const PointGoal> goals,
                                std::span<const glm::dvec3> targets_in_world,
                                const glm::dvec3& com_in_world,
                                const Pose& reference,
                                const Pose& found) {
+  const Skeleton& skeleton = character.skeleton;
   const auto world_from_joint = world_from_joints(skeleton, found);
   PostureMeasure m;
   int free_goals = 0;
@@ -48,7 +48,7 @@ PostureMeasure measure_posture(const Skeleton& skeleton,
     }
   }
   m.mean_point_m /= std::max(free_goals, 1);
-  const glm::dvec3 off = centre_of(masses, world_from_joint) - com_in_world;
+  const glm::dvec3 off = centre_of(character.masses, world_from_joint) - com_in_world;
   m.com_m = std::hypot(off.x, off.z);
   double squares = 0.0;
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
@@ -71,10 +71,8 @@ double mean_joint_distance_m(const Skeleton& skeleton, const Pose& a, const Pose
   return sum_m / static_cast<double>(world_from_a.size());
 }
 
-glm::dvec3 centre_of_mass(const Skeleton& skeleton,
-                          const std::vector<PointMass>& masses,
-                          const Pose& pose) {
-  return centre_of(masses, world_from_joints(skeleton, pose));
+glm::dvec3 centre_of_mass(const Character& character, const Pose& pose) {
+  return centre_of(character.masses, world_from_joints(character.skeleton, pose));
 }
 
 double now_us() {

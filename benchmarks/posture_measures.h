@@ -26,8 +26,7 @@ struct PostureMeasure {
   double displacement_m = 0.0;  ///< From the reference: mean over joints.
 };
 
-[[nodiscard]] PostureMeasure measure_posture(const Skeleton& skeleton,
-                                             const std::vector<PointMass>& masses,
+[[nodiscard]] PostureMeasure measure_posture(const Character& character,
                                              std::span<const PointGoal> goals,
                                              std::span<const glm::dvec3> targets_in_world,
                                              const glm::dvec3& com_in_world,
@@ -40,9 +39,7 @@ struct PostureMeasure {
                                            const Pose& b);
 
 /// The centre of mass. Precondition: the masses' sum is positive.
-[[nodiscard]] glm::dvec3 centre_of_mass(const Skeleton& skeleton,
-                                        const std::vector<PointMass>& masses,
-                                        const Pose& pose);
+[[nodiscard]] glm::dvec3 centre_of_mass(const Character& character, const Pose& pose);
 
 /// Microseconds of a clock that never goes back.
 [[nodiscard]] double now_us();

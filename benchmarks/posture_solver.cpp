@@ -23,8 +23,11 @@ class Baseline final : public PostureSolver {
 
 template <BaselineKind kind>
 std::unique_ptr<PostureSolver> make_baseline(const PostureProblem& problem) {
-  return std::make_unique<Baseline>(GaussNewtonBaseline::make(
-      kind, *problem.skeleton, *problem.masses, problem.goals, problem.with_balance));
+  return std::make_unique<Baseline>(GaussNewtonBaseline::make(kind,
+                                                              problem.character->skeleton,
+                                                              problem.character->masses,
+                                                              problem.goals,
+                                                              problem.with_balance));
 }
 
 }  // namespace
@@ -33,10 +36,6 @@ std::vector<SolverKind> baseline_solvers() {
   return {{"GN dual float", make_baseline<BaselineKind::kDualFloat>},
           {"GN dual double", make_baseline<BaselineKind::kDualDouble>},
           {"GN strict double", make_baseline<BaselineKind::kStrictDouble>}};
-}
-
-std::vector<SolverKind> marey_solvers() {
-  return {};
 }
 
 }  // namespace marey

@@ -37,8 +37,7 @@ class PostureSolver {
 
 /// What a solver is made for.
 struct PostureProblem {
-  const Skeleton* skeleton = nullptr;
-  const std::vector<PointMass>* masses = nullptr;
+  const Character* character = nullptr;  ///< The caller's.
   std::vector<PointGoal> goals;
   bool with_balance = false;  ///< Horizontally.
 };
