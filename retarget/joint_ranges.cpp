@@ -35,21 +35,24 @@ const std::array<Range, 10>& ranges() {
       {B::kHead, {-60, -80, -45}, {50, 80, 45}},
       // Axial turn; retraction and protraction; elevation and depression.
       {B::kLeftShoulder, {-35, -30, -10}, {10, 30, 45}},
-      // External and internal rotation; horizontal adduction and abduction; adduction to
-      // 45 past the side, and raised straight up.
-      {B::kLeftUpperArm, {-90, -135, -135}, {70, 45, 90}},
+      // External and internal rotation, 90 and 70 in the T-pose and 20 more elsewhere
+      // (what they are counted from turns with the arm); horizontal adduction and
+      // abduction; adduction to 45 past the side, and raised straight up.
+      {B::kLeftUpperArm, {-110, -135, -135}, {90, 45, 90}},
       // Supination and pronation; flexion; the carrying angle, free.
       {B::kLeftLowerArm, {-105, -150, -kFree}, {105, 5, kFree}, true},
       // The forearm's turn once more, for skeletons that have it here; radial and ulnar
-      // deviation; flexion and extension.
-      {B::kLeftHand, {-80, -20, -80}, {80, 30, 70}},
+      // deviation, 20 and 30, and 20 more for what bending and that turn make of each
+      // other; flexion and extension.
+      {B::kLeftHand, {-80, -40, -80}, {80, 50, 70}},
       // Flexion and extension; internal and external rotation; adduction, abduction.
       {B::kLeftUpperLeg, {-120, -45, -30}, {30, 45, 45}},
       // Flexion; turn of the shank; sideways, which is what a turn of the bent knee
       // becomes.
       {B::kLeftLowerLeg, {-5, -60, -60}, {150, 60, 60}, true},
-      // Dorsal and plantar flexion; adduction and abduction; inversion, eversion.
-      {B::kLeftFoot, {-20, -20, -35}, {50, 20, 15}},
+      // Dorsal and plantar flexion, dorsal to 35 under the body's weight (20 without);
+      // adduction and abduction; inversion, eversion.
+      {B::kLeftFoot, {-35, -20, -35}, {50, 20, 15}},
       {B::kLeftToes, {-70, -5, -5}, {45, 5, 5}},
   }};
   return list;

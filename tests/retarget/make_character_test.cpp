@@ -3,6 +3,7 @@
 #include "retarget/make_character.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "retarget/joint_ranges.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
+#include "tests/support/truth_motion.h"
 
 namespace marey::retarget {
 namespace {
@@ -190,6 +192,36 @@ TEST(MakeCharacter, LimitsElbowsAndKneesToTheirHinges) {
     }
   }
   EXPECT_EQ(found, 4);
+}
+
+// Walking, jumping, reaching, and every joint to its end (rom): nobody's joints are held
+// back. The axes one by one, as adaptation clamps them: tangents of a quarter of the
+// angle.
+TEST(MakeCharacter, LimitsNothingThatCapturedPeopleDo) {
+  for (const char* trial : {"walk", "jump", "reach", "rom"}) {
+    const auto motion = testing::truth_motion(
+        std::string(MAREY_SHARED_DATA) + "/blender/dev/" + trial + "/truth/segments.csv");
+    if (!motion) GTEST_SKIP() << "the recordings with truth are not there";
+    const Character character = made(motion->skeleton);
+    double worst_rad = 0.0;
+    std::string whose;
+    for (const JointLimit& limit : character.limits) {
+      for (const Pose& pose : motion->poses) {
+        const glm::dvec3 v = turned(character, pose, limit);
+        const double angle = glm::length(v);
+        if (angle < 1e-9) continue;
+        for (const int axis : {0, 1, 2}) {
+          const double about = 4.0 * std::atan(std::tan(angle / 4.0) * v[axis] / angle);
+          const double over =
+              std::max(limit.min_rad[axis] - about, about - limit.max_rad[axis]);
+          if (over <= worst_rad) continue;
+          worst_rad = over;
+          whose = character.skeleton[limit.joint].name + " " + "XYZ"[axis];
+        }
+      }
+    }
+    EXPECT_EQ(worst_rad, 0.0) << trial << ": " << whose;
+  }
 }
 
 TEST(MakeCharacter, SharesTheSpinesRangeOutOverItsVertebrae) {
