@@ -21,20 +21,6 @@ Error unknown_kind(const std::filesystem::path& path) {
                    "convert it to one of these");
 }
 
-Result<Skeleton> read_skeleton(const std::filesystem::path& path) {
-  if (is_gltf(path)) {
-    auto character = recordings::read_character(path);
-    if (!character) return character.error();
-    return std::move(character->skeleton);
-  }
-  if (kind_by_extension(path) == ".bvh") {
-    auto bvh = recordings::read_bvh(path);
-    if (!bvh) return bvh.error();
-    return std::move(bvh->motion.skeleton);
-  }
-  return unknown_kind(path);
-}
-
 Result<RetargetedFiles> retarget_only(const Motion& motion,
                                       const std::filesystem::path& avatar) {
   const auto skeleton = read_skeleton(avatar);
@@ -104,6 +90,20 @@ Status check_avatar(const std::filesystem::path& avatar) {
   Error error = map.error();
   error.where = avatar.string();
   return error;
+}
+
+Result<Skeleton> read_skeleton(const std::filesystem::path& path) {
+  if (is_gltf(path)) {
+    auto character = recordings::read_character(path);
+    if (!character) return character.error();
+    return std::move(character->skeleton);
+  }
+  if (kind_by_extension(path) == ".bvh") {
+    auto bvh = recordings::read_bvh(path);
+    if (!bvh) return bvh.error();
+    return std::move(bvh->motion.skeleton);
+  }
+  return unknown_kind(path);
 }
 
 Result<ReadMotion> read_motion(const std::filesystem::path& path) {

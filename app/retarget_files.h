@@ -7,6 +7,7 @@
 
 #include "core/motion.h"
 #include "core/result.h"
+#include "core/skeleton.h"
 #include "retarget/retarget_motion.h"
 
 namespace marey::app {
@@ -34,6 +35,10 @@ struct RetargetedFiles {
 /// Whether a motion can be put on this body: it can be read and has the bones. Costs what
 /// reading does. Errors: those of retarget_to_files() that are the avatar's.
 [[nodiscard]] Status check_avatar(const std::filesystem::path& avatar);
+
+/// The skeleton in a .bvh, .glb, .gltf, .vrm or .vrma file.
+/// Errors: unreadable; another kind of file.
+[[nodiscard]] Result<Skeleton> read_skeleton(const std::filesystem::path& path);
 
 struct ReadMotion {
   Motion motion;
