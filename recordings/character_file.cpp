@@ -101,6 +101,7 @@ void read_masses(TomlReader& in, MassSpec& mass) {
   if (in.has("mass_table")) {
     const std::string word = in.text("mass_table");
     std::vector<std::string_view> words;
+    words.reserve(kTables.size());
     bool known = false;
     for (const TableWord& table : kTables) {
       words.push_back(table.word);
@@ -115,6 +116,7 @@ void read_masses(TomlReader& in, MassSpec& mass) {
   if (!in.has("segment_mass_kg")) return;
   TomlReader segments = in.table("segment_mass_kg");
   std::vector<std::string_view> names;
+  names.reserve(kMassSegments.size());
   for (const MassSegment& segment : kMassSegments) names.push_back(segment.name);
   segments.allow(names);
   for (const MassSegment& segment : kMassSegments) {

@@ -127,7 +127,7 @@ Status check_masses(const CharacterCheck& check) {
   for (const PointMass& mass : check.character.masses) {
     std::string called = "mass";
     if (check.has(mass.joint)) called += " of " + check.called(mass.joint);
-    if (const Status good = check_mass(check, called, mass); !good) return good;
+    if (Status good = check_mass(check, called, mass); !good) return good;
     total_kg += mass.mass_kg;
   }
   if (!(total_kg > 0.0)) {
@@ -143,7 +143,7 @@ Status check_masses(const CharacterCheck& check) {
       if (loads[other].name != loads[i].name) continue;
       return check.refuse(called, "there are two of this name", "rename one");
     }
-    if (const Status good = check_mass(check, called, loads[i].mass); !good) return good;
+    if (Status good = check_mass(check, called, loads[i].mass); !good) return good;
   }
   return Done{};
 }
@@ -152,12 +152,12 @@ Status check_masses(const CharacterCheck& check) {
 
 Status check_character(const Character& character) {
   CharacterCheck check{character, {}, {}};
-  if (const Status skeleton = check_skeleton(check); !skeleton) return skeleton;
+  if (Status skeleton = check_skeleton(check); !skeleton) return skeleton;
   check.world_from_joint =
       world_from_joints(character.skeleton, rest_pose(character.skeleton));
   check.group_of.assign(character.skeleton.joints.size(), -1);
-  if (const Status groups = check_groups(check); !groups) return groups;
-  if (const Status limits = check_limits(check); !limits) return limits;
+  if (Status groups = check_groups(check); !groups) return groups;
+  if (Status limits = check_limits(check); !limits) return limits;
   return check_masses(check);
 }
 

@@ -145,10 +145,10 @@ Status check_parts(const CharacterCheck& check, const BodyGroup& group) {
     if (n == 0) {
       return check.refuse(called, "a section has no joints", "leave it out");
     }
-    const Status chained = check_chain(check, called, part.joints);
+    Status chained = check_chain(check, called, part.joints);
     if (!chained) return chained;
     if (part.kind != PartKind::kLimb) continue;
-    if (const Status limb = check_limb(check, called, part); !limb) return limb;
+    if (Status limb = check_limb(check, called, part); !limb) return limb;
   }
   return Done{};
 }
@@ -224,15 +224,15 @@ std::string CharacterCheck::called(JointIndex joint) const {
 }
 
 Status check_groups(CharacterCheck& check) {
-  if (const Status names = check_names(check); !names) return names;
-  if (const Status order = check_hierarchy(check); !order) return order;
+  if (Status names = check_names(check); !names) return names;
+  if (Status order = check_hierarchy(check); !order) return order;
   const auto& groups = check.character.groups;
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    const Status claimed = claim_joints(check, static_cast<int>(g));
+    Status claimed = claim_joints(check, static_cast<int>(g));
     if (!claimed) return claimed;
   }
   for (const BodyGroup& group : groups) {
-    if (const Status parts = check_parts(check, group); !parts) return parts;
+    if (Status parts = check_parts(check, group); !parts) return parts;
   }
   return Done{};
 }
