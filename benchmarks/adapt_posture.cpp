@@ -6,9 +6,10 @@
 //
 //   adapt_posture [--data FOLDER] [--json FILE] [QUESTION]...
 //
-// QUESTIONs: classes, crowd, thesis, captured. All of them when none is named. FOLDER is
-// that of the shared data (default: as configured), of which adapt/ and mocap/ are read.
-// Everything that is told of a posture is computed here, from the posture, in double.
+// QUESTIONs: classes, crowd, reach, thesis, captured. All of them when none is named.
+// FOLDER is that of the shared data (default: as configured), of which adapt/ and mocap/
+// are read. Everything that is told of a posture is computed here, from the posture, in
+// double.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -30,8 +31,8 @@
 namespace marey {
 namespace {
 
-constexpr std::array<std::string_view, 4> kQuestions{
-    "classes", "crowd", "thesis", "captured"};
+constexpr std::array<std::string_view, 5> kQuestions{
+    "classes", "crowd", "reach", "thesis", "captured"};
 
 struct Arguments {
   std::filesystem::path data = MAREY_SHARED_DATA;
@@ -55,7 +56,7 @@ struct Arguments {
 Arguments read_arguments(int argc, char** argv) {
   const char* usage =
       "usage: adapt_posture [--data FOLDER] [--json FILE] "
-      "[classes|crowd|thesis|captured]...";
+      "[classes|crowd|reach|thesis|captured]...";
   Arguments arguments;
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
@@ -82,6 +83,7 @@ int measure(const Arguments& arguments) {
   };
   if (arguments.asks("classes")) keep(measure_classes(*cases));
   if (arguments.asks("crowd")) keep(measure_crowd(*cases));
+  if (arguments.asks("reach")) keep(measure_reach());
   if (arguments.asks("thesis")) keep(measure_thesis());
   if (arguments.asks("captured")) {
     const auto clips = read_clips(arguments.data / "mocap");

@@ -16,6 +16,9 @@ namespace marey {
 /// How many bodies a core moves, no two alike.
 [[nodiscard]] std::vector<ResultTable> measure_crowd(const CaseSet& cases);
 
+/// Whether a person with joint limits reaches what another posture of it reaches.
+[[nodiscard]] std::vector<ResultTable> measure_reach();
+
 /// The thesis' tables 4.1 to 4.3, 5.2 and 5.3, printed beside ours.
 [[nodiscard]] std::vector<ResultTable> measure_thesis();
 
