@@ -23,9 +23,10 @@ inline constexpr double kComfortableReach = 0.88;
 /// Limbs close errors shorter than this, in units.
 inline constexpr double kCloseBelow = 0.008;
 inline constexpr double kCloseBelowBalanced = 0.03;
-inline constexpr double kStartDamping = 1e-4;
+inline constexpr double kStartDamping = kLeastDamping;
+inline constexpr double kStalledSteps = 2.5;
 inline constexpr double kStartHoming = 1.0;
-inline constexpr double kHomingFades = 0.7;
+inline constexpr double kHomingFades = 0.85;
 
 template <class F>
 struct Solve {
@@ -60,6 +61,7 @@ struct Errors {
   F worst_over_precision;
   F worst;
   F mean;
+  F square;  ///< Weighted mean of squares.
   F balance;
 };
 
@@ -70,7 +72,7 @@ template <class F>
                                 Lanes<F>& s) {
   const F zero = num<F>(0);
   measure_points(plan, s, level);
-  Errors<F> out{zero, zero, zero, zero};
+  Errors<F> out{zero, zero, zero, zero, zero};
   F weights = zero;
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const LanePoint<F>& p = s.points[k];
@@ -79,9 +81,11 @@ template <class F>
     if (!plan.points[k].direct) out.worst = max(out.worst, error);
     const F weight = select(is_asked(plan.points[k], p, level), p.weight, zero);
     out.mean = out.mean + weight * error;
+    out.square = out.square + weight * error * error;
     weights = weights + weight;
   }
   out.mean = out.mean / max(weights, num<F>(1e-6));
+  out.square = out.square / max(weights, num<F>(1e-6));
   if (balance) {
     measure_balance(plan, s);
     out.balance = length(balance_error(s));
@@ -156,6 +160,7 @@ void begin_lanes(const Plan& plan,
   take_posture(s.reference_rotation, s.reference_place, plan, loops, s);
   Progress<F>& p = solve.progress;
   p.iterations = select(mask, zero, p.iterations);
+  p.square = select(mask, zero, p.square);
   p.merit = select(mask, num<F>(1e9), p.merit);
   p.stalled = select(mask, zero, p.stalled);
   p.damping = select(mask, num<F>(kStartDamping), p.damping);
@@ -184,7 +189,7 @@ template <class F>
   }
   p.iterations = p.iterations + one;
 
-  const F merit = errors.mean + num<F>(2) * errors.balance;
+  const F merit = sqrt(errors.square) + num<F>(2) * errors.balance;
   const Mask<F> better = merit < p.merit;
   const F gain = p.merit - merit;
   for (const int j : plan.live) {
@@ -202,11 +207,12 @@ template <class F>
     static_cast<void>(measure(plan, balance, p.level, s));
   }
   p.damping = select(worse, num<F>(8) * p.damping, p.damping);
+  p.square = select(better, errors.square, p.square);
   p.homing = select(worse, zero, num<F>(kHomingFades) * p.homing);
   const Mask<F> idle = gain < max(num<F>(settings.threshold), num<F>(0.002) * p.merit);
   p.stalled = select(idle, p.stalled + one, zero);
-  const Mask<F> ended =
-      met | (p.stalled > num<F>(1.5)) | (p.iterations >= num<F>(settings.max_iterations));
+  const Mask<F> ended = met | (p.stalled > num<F>(kStalledSteps)) |
+                        (p.iterations >= num<F>(settings.max_iterations));
 
   const Mask<F> goes_on = ended & (p.level < num<F>(shape.last_level)) &
                           (p.iterations < num<F>(settings.max_iterations));

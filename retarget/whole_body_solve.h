@@ -13,14 +13,24 @@ struct Progress {
   F merit{};       ///< The best posture's.
   F stalled{};     ///< Steps that hardly helped, in a row.
   F damping{};
+  F square{};  ///< Of the best posture's errors: long ones are damped more (Sugihara
+               ///< 2011).
   F homing{};  ///< Share of its straying from the reference that a step takes back.
-  F level{};  ///< Wishes up to this level are asked.
+  F level{};   ///< Wishes up to this level are asked.
 };
+
+/// A posture far from its targets has other things to do than to go home.
+template <class F>
+[[nodiscard]] inline F homing_of(const Progress<F>& progress) {
+  return progress.homing / (num<F>(1) + num<F>(4) * progress.square);
+}
 
 /// Rows of supports and balance are met exactly; this much keeps their pivots sound.
 inline constexpr double kExactDamping = 1e-5;
+inline constexpr double kLeastDamping = 1e-4;
+inline constexpr double kDampingPerSquare = 0.03;
 /// An error enters a step as if it were at most this long, in units.
-inline constexpr double kLongestError = 0.4;
+inline constexpr double kLongestError = 0.5;
 
 /// How far each turning joint has turned from its reference, as a vector in world axes.
 template <class F>
@@ -68,8 +78,9 @@ void form_system(const Plan& plan,
   form_point_blocks(plan, rows, side, s);
   if (rows.balance) form_balance_blocks(plan, rows, side, s);
   add_hinges(plan, rows, side, s);
-  measure_straying(plan, progress.homing, s);
-  const Vec3<F> travelled = progress.homing * (s.place[0] - s.reference_place[0]);
+  const F homing = homing_of(progress);
+  measure_straying(plan, homing, s);
+  const Vec3<F> travelled = homing * (s.place[0] - s.reference_place[0]);
   // Rows that nobody asks for are taken out: an identity of their own.
   const auto block = [&](int i, int j) {
     return &s.blocks[static_cast<std::size_t>(9 * (i * side + j))];
@@ -93,9 +104,12 @@ void form_system(const Plan& plan,
     LanePoint<F>& p = s.points[k];
     const F level = num<F>(point.level);
     const F asked = select((p.active > zero) & (level <= progress.level), one, zero);
-    const F damping = select(level < progress.level,
-                             num<F>(kExactDamping),
-                             progress.damping / max(p.weight, num<F>(1e-6)));
+    const F damping =
+        select(level < progress.level,
+               num<F>(kExactDamping),
+               progress.damping *
+                   (one + num<F>(kDampingPerSquare / kLeastDamping) * progress.square) /
+                   max(p.weight, num<F>(1e-6)));
     const int row = rows.row_of(static_cast<int>(k));
     const F long_enough = num<F>(kLongestError);
     const F scale = long_enough / max(length(p.error), long_enough);
@@ -151,10 +165,7 @@ template <class F>
 
 /// Turns the joints by what the multipliers say, and moves the root.
 template <class F>
-void apply_step(const Plan& plan,
-                const RowOrder& rows,
-                const F& homing,
-                Lanes<F>& s) {
+void apply_step(const Plan& plan, const RowOrder& rows, const F& homing, Lanes<F>& s) {
   const F zero = num<F>(0);
   Vec3<F> travel{zero, zero, zero};
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
@@ -203,7 +214,7 @@ void step_whole_body(const Plan& plan,
   const int side = static_cast<int>(plan.points.size()) + (rows.balance ? 1 : 0);
   form_system(plan, rows, side, progress, s);
   solve_blocks(side, num<F>(kExactDamping), s.blocks.data(), s.right.data());
-  apply_step(plan, rows, progress.homing, s);
+  apply_step(plan, rows, homing_of(progress), s);
 }
 
 }  // namespace marey::retarget
