@@ -42,10 +42,11 @@ template <class F>
 struct LanePoint {
   Vec3<F> in_joint;  ///< The constrained point.
   LaneGoal<F> goal;
-  F active{};  ///< 1 or 0.
-  F weight{};  ///< Of blending: importance over the largest; 1 otherwise.
-  F precision{};
-  Vec3<F> place;  ///< In the world, at this moment.
+  F active{};                ///< 1 or 0.
+  F weight{};                ///< Of blending: importance over the largest; 1 otherwise.
+  F per_precision{};         ///< One over the precision.
+  bool at_distance = false;  ///< Some lane keeps a distance above 0.
+  Vec3<F> place;             ///< In the world, at this moment.
   Vec3<F> target;
   Vec3<F> error;  ///< Target minus place; of an orientation, a rotation vector.
   Vec3<F> held;   ///< Where it is kept once its level is done.
@@ -93,7 +94,10 @@ struct Lanes {
   std::vector<Vec3<F>> lever;    ///< Of each joint over the centre of mass.
   std::vector<F> below_mass;
   std::vector<Vec3<F>> below_moment;
-  std::vector<Vec3<F>> axis;   ///< Of each limb's hinge, in the world.
+  /// Of each limb's hinge in its lower joint's frame, from the reference posture, and in
+  /// the world.
+  std::vector<Vec3<F>> axis_in_lower;
+  std::vector<Vec3<F>> axis;
   std::vector<F> blocks;       ///< Of the normal equations, 9 each.
   std::vector<Vec3<F>> right;  ///< Right-hand side, then its solution.
 
@@ -149,6 +153,7 @@ Lanes<F>::Lanes(const Plan& plan) {
   lever.resize(n);
   below_mass.resize(n);
   below_moment.resize(n);
+  axis_in_lower.resize(plan.limbs.size());
   axis.resize(plan.limbs.size());
   blocks.resize(9 * blocks_per_side * blocks_per_side);
   right.resize(blocks_per_side);

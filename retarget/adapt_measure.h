@@ -46,7 +46,8 @@ void measure_points(const Plan& plan, Lanes<F>& s, const F& level) {
         p.target = p.goal.a;
         break;
       case GoalKind::kDistanceToPoint:
-        p.target = at_distance(p.place, p.goal.a, p.goal.distance);
+        p.target =
+            p.at_distance ? at_distance(p.place, p.goal.a, p.goal.distance) : p.goal.a;
         break;
       case GoalKind::kDistanceToOther: {
         const auto o = static_cast<std::size_t>(point.other_joint);

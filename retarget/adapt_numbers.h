@@ -121,8 +121,9 @@ void load_wishes(const Plan& plan,
     lane_of(p.active, lane) = static_cast<Scalar<F>>(wish.active ? 1 : 0);
     lane_of(p.weight, lane) = static_cast<Scalar<F>>(wish.weight);
     // Finer than single precision resolves is never reached.
-    lane_of(p.precision, lane) =
-        static_cast<Scalar<F>>(std::max(wish.precision_m * per_unit, 2e-6));
+    lane_of(p.per_precision, lane) =
+        static_cast<Scalar<F>>(1.0 / std::max(wish.precision_m * per_unit, 2e-6));
+    p.at_distance = p.at_distance || wish.distance_m > 0.0;
   }
 }
 

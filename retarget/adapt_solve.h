@@ -32,6 +32,7 @@ template <class F>
 struct Solve {
   Progress<F> progress;
   F whole_body{};  ///< Share of the whole body's answer, 0..1.
+  F closed{};      ///< 1: the best posture is closed by its limbs already.
   std::vector<Quat<F>> alone_rotation;
   Vec3<F> alone_root;
   bool keeps_alone = false;
@@ -77,7 +78,7 @@ template <class F>
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const LanePoint<F>& p = s.points[k];
     const F error = length(p.error);
-    out.worst_over_precision = max(out.worst_over_precision, error / p.precision);
+    out.worst_over_precision = max(out.worst_over_precision, error * p.per_precision);
     if (!plan.points[k].direct) out.worst = max(out.worst, error);
     const F weight = select(is_asked(plan.points[k], p, level), p.weight, zero);
     out.mean = out.mean + weight * error;
@@ -131,6 +132,17 @@ template <class F>
   return share;
 }
 
+/// The axes about which limbs bend, from the reference posture.
+template <class F>
+void set_axes(const Plan& plan, const Mask<F>& mask, Lanes<F>& s) {
+  for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
+    const auto lower = static_cast<std::size_t>(plan.limbs[l].lower);
+    const Vec3<F> axis = reference_axis(plan.limbs[l], s, static_cast<int>(l));
+    const Vec3<F> in_lower = rotate(conjugate(s.reference_rotation[lower]), axis);
+    s.axis_in_lower[l] = select(mask, in_lower, s.axis_in_lower[l]);
+  }
+}
+
 /// Starts lanes from their reference: places are those of the reference posture.
 template <class F>
 void begin_lanes(const Plan& plan,
@@ -142,22 +154,23 @@ void begin_lanes(const Plan& plan,
   const F zero = num<F>(0);
   const F last = num<F>(shape.last_level);
   take_posture(s.reference_rotation, s.reference_place, plan, mask, s);
+  set_axes(plan, mask, s);
   measure_points(plan, s, last);
   F share = num<F>(1);
-  if (!shape.rows.balance) {
-    share = help_needed(plan, settings, last, s);
-    close_limbs(plan, settings, last, mask, s);
+  if (!shape.rows.balance) share = help_needed(plan, settings, last, s);
+  const Mask<F> tries = mask & (share < num<F>(1));
+  if (any(tries)) {
+    close_limbs(plan, settings, last, tries, s);
     const Errors<F> errors = measure(plan, false, last, s);
-    share = select(errors.worst_over_precision > num<F>(1), max(share, num<F>(1)), share);
+    share = select(errors.worst_over_precision > num<F>(1), num<F>(1), share);
     for (const int j : plan.live) {
       const auto i = static_cast<std::size_t>(j);
-      solve.alone_rotation[i] = select(mask, s.rotation[i], solve.alone_rotation[i]);
+      solve.alone_rotation[i] = select(tries, s.rotation[i], solve.alone_rotation[i]);
     }
-    solve.alone_root = select(mask, s.place[0], solve.alone_root);
+    solve.alone_root = select(tries, s.place[0], solve.alone_root);
   }
   solve.whole_body = select(mask, share, solve.whole_body);
   const Mask<F> loops = mask & (share > zero);
-  take_posture(s.reference_rotation, s.reference_place, plan, loops, s);
   Progress<F>& p = solve.progress;
   p.iterations = select(mask, zero, p.iterations);
   p.square = select(mask, zero, p.square);
@@ -166,7 +179,10 @@ void begin_lanes(const Plan& plan,
   p.damping = select(mask, num<F>(kStartDamping), p.damping);
   p.homing = select(mask, num<F>(kStartHoming), p.homing);
   p.level = select(mask, min(num<F>(1), last), p.level);
-  if (any(loops)) static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
+  if (any(loops)) {
+    take_posture(s.reference_rotation, s.reference_place, plan, loops, s);
+    static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
+  }
 }
 
 /// One turn of the loop for all lanes; those of the answer are done.
@@ -198,6 +214,7 @@ template <class F>
     s.best_place[i] = select(better, s.place[i], s.best_place[i]);
   }
   p.merit = select(better, merit, p.merit);
+  solve.closed = select(better, select(near, one, zero), solve.closed);
   const Mask<F> met =
       (errors.worst_over_precision <= one) & (errors.balance <= s.balance_precision);
   // A step that made things worse is taken back and tried again, more carefully.
@@ -248,30 +265,24 @@ template <class F>
   const F one = num<F>(1);
   const F last = num<F>(shape.last_level);
   const Mask<F> looped = mask & (solve.whole_body > zero);
-  if (any(looped)) {
-    take_posture(s.best_rotation, s.best_place, plan, looped, s);
-    const F share = solve.whole_body;
-    const Mask<F> mixes = looped & (share < one);
-    if (any(mixes)) {
-      for (const int j : plan.live) {
-        const auto i = static_cast<std::size_t>(j);
-        const Quat<F>& a = solve.alone_rotation[i];
-        const Quat<F>& b = s.rotation[i];
-        const F sign =
-            select(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < zero, -one, one);
-        const F wa = sign * (one - share);
-        const Quat<F> mixed = normalized(Quat<F>{wa * a.w + share * b.w,
-                                                 wa * a.x + share * b.x,
-                                                 wa * a.y + share * b.y,
-                                                 wa * a.z + share * b.z});
-        s.rotation[i] = select(mixes, mixed, s.rotation[i]);
-      }
-      s.place[0] = select(
-          mixes, solve.alone_root + share * (s.place[0] - solve.alone_root), s.place[0]);
-      place_live_joints(plan, s);
+  if (!any(looped)) return measure(plan, shape.rows.balance, last, s);
+  take_posture(s.best_rotation, s.best_place, plan, looped, s);
+  const F share = solve.whole_body;
+  const Mask<F> mixes = looped & (share < one);
+  if (any(mixes)) {
+    for (const int j : plan.live) {
+      const auto i = static_cast<std::size_t>(j);
+      s.rotation[i] = select(
+          mixes, between(solve.alone_rotation[i], s.rotation[i], share), s.rotation[i]);
     }
+    s.place[0] = select(
+        mixes, solve.alone_root + share * (s.place[0] - solve.alone_root), s.place[0]);
+    place_live_joints(plan, s);
+  }
+  const Mask<F> open = looped & (mixes | (solve.closed < num<F>(0.5)));
+  if (any(open)) {
     static_cast<void>(measure(plan, false, last, s));
-    close_limbs(plan, settings, last, looped, s);
+    close_limbs(plan, settings, last, open, s);
   }
   return measure(plan, shape.rows.balance, last, s);
 }

@@ -14,9 +14,14 @@ glm::dvec3 plain(const Vec3<float>& v) {
   return {v.x, v.y, v.z};
 }
 
+// Unit to double precision: one Newton step from single precision's, without a root.
 glm::dquat plain(const Quat<float>& q) {
-  const glm::dquat out(q.w, q.x, q.y, q.z);
-  return glm::normalize(out);
+  const double w = q.w;
+  const double x = q.x;
+  const double y = q.y;
+  const double z = q.z;
+  const double s = 1.5 - 0.5 * (w * w + x * x + y * y + z * z);
+  return {s * w, s * x, s * y, s * z};
 }
 
 }  // namespace
@@ -171,6 +176,7 @@ Errors<float> Adapter::State::solve_for(double least, double& iterations) {
   for (std::size_t k = 0; k < wishes.size(); ++k) {
     wishes[k].active = activations[k] >= least && activations[k] > 0.0;
   }
+  for (LanePoint<float>& p : lanes.points) p.at_distance = false;
   load_wishes(plan, body, posture.origin_in_world, wishes, 0, lanes);
   const Shape form = shape();
   const SolveSettings told = settings();

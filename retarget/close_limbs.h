@@ -65,17 +65,7 @@ void mix_limb(const Plan& plan,
   Quat<F> turn[3];
   for (std::size_t n = 0; n < 3; ++n) {
     const Quat<F>& now = s.rotation[static_cast<std::size_t>(joints[n])];
-    const Quat<F>& o = other[n];
-    const F sign =
-        select(now.w * o.w + now.x * o.x + now.y * o.y + now.z * o.z < num<F>(0),
-               num<F>(-1),
-               num<F>(1));
-    const F a = num<F>(1) - share;
-    const F b = sign * share;
-    const Quat<F> mixed = normalized(Quat<F>{a * now.w + b * o.w,
-                                             a * now.x + b * o.x,
-                                             a * now.y + b * o.y,
-                                             a * now.z + b * o.z});
+    const Quat<F> mixed = between(now, other[n], share);
     turn[n] = mixed * conjugate(now);
   }
   turn_limb(plan, limb, {turn[0], turn[1]}, mask, extremity, s);

@@ -228,6 +228,20 @@ template <class F>
                 Quat<F>{s * w, s * axis.x, s * axis.y, s * axis.z});
 }
 
+/// The rotation at `share` of the way from `a` to `b`, the shorter way round; 0 is `a`.
+/// Along the chord, not the arc: as steady, not as even.
+template <class F>
+[[nodiscard]] inline Quat<F> between(const Quat<F>& a, const Quat<F>& b, const F& share) {
+  const F zero = num<F>(0);
+  const F one = num<F>(1);
+  const F sign = select(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < zero, -one, one);
+  const F u = sign * (one - share);
+  return normalized(Quat<F>{u * a.w + share * b.w,
+                            u * a.x + share * b.x,
+                            u * a.y + share * b.y,
+                            u * a.z + share * b.z});
+}
+
 /// From plain vectors into every lane.
 template <class F>
 [[nodiscard]] inline Vec3<F> lanes(const glm::dvec3& v) {

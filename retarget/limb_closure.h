@@ -14,19 +14,23 @@ template <class F>
   return x * x * x * (num<F>(10) + x * (num<F>(6) * x - num<F>(15)));
 }
 
-/// A limb's bending axis in the world: unit, perpendicular to the upper bone. Where the
+/// A limb's bending axis in the reference posture, in the world: unit, perpendicular to
+/// the upper bone. Where the
 /// limb is bent it comes from where the joints are, as it straightens from the upper
 /// bone's own hinge (see NormalizedLimb): so it is continuous through the straight limb.
 template <class F>
-[[nodiscard]] Vec3<F> limb_axis(const LimbPlan& limb, const Lanes<F>& s, int number) {
+[[nodiscard]] Vec3<F> reference_axis(const LimbPlan& limb,
+                                     const Lanes<F>& s,
+                                     int number) {
   const auto u = static_cast<std::size_t>(limb.upper);
   const auto l = static_cast<std::size_t>(limb.lower);
   const auto e = static_cast<std::size_t>(limb.end);
-  const Vec3<F> upper = s.place[l] - s.place[u];
-  const Vec3<F> lower = s.place[e] - s.place[l];
+  const Vec3<F> upper = s.reference_place[l] - s.reference_place[u];
+  const Vec3<F> lower = s.reference_place[e] - s.reference_place[l];
   const F upper2 = length2(upper);
   const F lower2 = length2(lower);
-  const Vec3<F> hinge = rotate(s.rotation[u], s.hinge[static_cast<std::size_t>(number)]);
+  const Vec3<F> hinge =
+      rotate(s.reference_rotation[u], s.hinge[static_cast<std::size_t>(number)]);
   const Vec3<F> seen = cross(upper, lower);
   // Sine of the bend: 0.07 (4 degrees) says nothing of the plane, 0.21 (12) all.
   const F sine = safe_sqrt(length2(seen) / max(upper2 * lower2, num<F>(1e-12)));
@@ -38,6 +42,16 @@ template <class F>
   const Vec3<F> mixed =
       (num<F>(1) - bent) * own + bent * unit_or(seen, own, num<F>(1e-6));
   return unit_or(mixed, own, num<F>(1e-3));
+}
+
+/// The same axis in the posture at hand. A limb bends about nothing else, so it is fixed
+/// in both of its bones.
+template <class F>
+[[nodiscard]] inline Vec3<F> limb_axis(const LimbPlan& limb,
+                                       const Lanes<F>& s,
+                                       int number) {
+  return rotate(s.rotation[static_cast<std::size_t>(limb.lower)],
+                s.axis_in_lower[static_cast<std::size_t>(number)]);
 }
 
 /// How a limb's bones turn, in the world.

@@ -22,7 +22,9 @@ struct Progress {
 /// A posture far from its targets has other things to do than to go home.
 template <class F>
 [[nodiscard]] inline F homing_of(const Progress<F>& progress) {
-  return progress.homing / (num<F>(1) + num<F>(4) * progress.square);
+  const F homing = progress.homing / (num<F>(1) + num<F>(4) * progress.square);
+  // The first step is at home: exactly nothing to take back, not rounding's.
+  return select(progress.iterations > num<F>(0), homing, num<F>(0));
 }
 
 /// Rows of supports and balance are met exactly; this much keeps their pivots sound.
@@ -79,13 +81,24 @@ void form_system(const Plan& plan,
   if (rows.balance) form_balance_blocks(plan, rows, side, s);
   add_hinges(plan, rows, side, s);
   const F homing = homing_of(progress);
-  measure_straying(plan, homing, s);
+  const bool strays = any(progress.iterations > zero);
+  if (strays) {
+    measure_straying(plan, homing, s);
+  } else {
+    for (const int j : plan.live)
+      s.strayed[static_cast<std::size_t>(j)] = {zero, zero, zero};
+  }
   const Vec3<F> travelled = homing * (s.place[0] - s.reference_place[0]);
   // Rows that nobody asks for are taken out: an identity of their own.
   const auto block = [&](int i, int j) {
     return &s.blocks[static_cast<std::size_t>(9 * (i * side + j))];
   };
   const auto use = [&](int row, const Vec3<F>& asked, const F& damping) {
+    F* diagonal = block(row, row);
+    if (!any((asked.x < one) | (asked.y < one) | (asked.z < one))) {
+      for (std::size_t e = 0; e < 3; ++e) diagonal[4 * e] = diagonal[4 * e] + damping;
+      return;
+    }
     const F keep[3] = {asked.x, asked.y, asked.z};
     for (int j = 0; j < row; ++j) {
       F* b = block(row, j);
@@ -95,9 +108,12 @@ void form_system(const Plan& plan,
       F* b = block(i, row);
       for (std::size_t e = 0; e < 9; ++e) b[e] = b[e] * keep[e % 3];
     }
-    F* d = block(row, row);
-    for (std::size_t e = 0; e < 9; ++e) d[e] = d[e] * keep[e / 3] * keep[e % 3];
-    for (std::size_t e = 0; e < 3; ++e) d[4 * e] = d[4 * e] + damping + (one - keep[e]);
+    for (std::size_t e = 0; e < 9; ++e) {
+      diagonal[e] = diagonal[e] * keep[e / 3] * keep[e % 3];
+    }
+    for (std::size_t e = 0; e < 3; ++e) {
+      diagonal[4 * e] = diagonal[4 * e] + damping + (one - keep[e]);
+    }
   };
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const PointPlan& point = plan.points[k];
@@ -113,8 +129,10 @@ void form_system(const Plan& plan,
     const int row = rows.row_of(static_cast<int>(k));
     const F long_enough = num<F>(kLongestError);
     const F scale = long_enough / max(length(p.error), long_enough);
-    s.right[static_cast<std::size_t>(row)] =
-        scale * p.error + strayed_of(point, p, travelled, s);
+    s.right[static_cast<std::size_t>(row)] = scale * p.error;
+    if (strays) {
+      s.right[static_cast<std::size_t>(row)] += strayed_of(point, p, travelled, s);
+    }
     use(row, {asked, asked, asked}, damping);
     Vec3<F>& right = s.right[static_cast<std::size_t>(row)];
     right = asked * right;
@@ -126,7 +144,7 @@ void form_system(const Plan& plan,
     Vec3<F> back = travelled;
     for (const int j : plan.live) {
       const auto i = static_cast<std::size_t>(j);
-      if (plan.turning[i] == Turning::kRigid) continue;
+      if (!strays || plan.turning[i] == Turning::kRigid) continue;
       back += cross(s.strayed[i], s.lever[i]);
     }
     s.right[static_cast<std::size_t>(rows.supports)] = scale * error + back;
