@@ -40,6 +40,11 @@ GoalKind kind_of(const Goal& goal) {
   return std::visit(Kind{}, goal);
 }
 
+bool is_at_joint(const Constraint& c) {
+  const glm::dvec3& o = c.point.offset_in_t_pose;
+  return o.x == 0.0 && o.y == 0.0 && o.z == 0.0;
+}
+
 void add_groups(const Character& character, Plan& plan) {
   for (std::size_t g = 0; g < character.groups.size(); ++g) {
     const BodyGroup& group = character.groups[g];
@@ -77,14 +82,19 @@ bool is_at_or_below(const Plan& plan, int joint, int ancestor) {
   return joint == ancestor;
 }
 
-void place_on_limb(Plan& plan, PointPlan& point) {
+// `at_joint`: the point is its joint's own place.
+void place_on_limb(Plan& plan, bool at_joint, PointPlan& point) {
   for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
     const LimbPlan& limb = plan.limbs[l];
     if (!is_at_or_below(plan, point.joint, limb.upper)) continue;
     if (!is_at_or_below(plan, limb.upper, point.top)) continue;
     point.limb = static_cast<int>(l);
     point.place = LimbPlace::kUpper;
-    if (is_at_or_below(plan, point.joint, limb.lower)) point.place = LimbPlace::kLower;
+    // The elbow itself is the upper bone's.
+    const bool elbow = point.joint == limb.lower && at_joint;
+    if (is_at_or_below(plan, point.joint, limb.lower) && !elbow) {
+      point.place = LimbPlace::kLower;
+    }
     if (is_at_or_below(plan, point.joint, limb.end)) point.place = LimbPlace::kExtremity;
   }
 }
@@ -139,7 +149,7 @@ void add_points(const Character& character,
       if (in_group[at(j)]) point.chain.push_back(j);
       if (j == 0) point.moves_root = true;
     }
-    place_on_limb(plan, point);
+    place_on_limb(plan, is_at_joint(c), point);
     point.direct = point.turns_only() && point.limb >= 0 &&
                    point.joint == plan.limbs[at(point.limb)].end;
     plan.points.push_back(std::move(point));
@@ -170,9 +180,7 @@ void add_points(const Character& character,
 void drop_idle_turns(const ConstraintSet& constraints, Plan& plan) {
   for (PointPlan& point : plan.points) {
     const Constraint& c = constraints.constraints[at(point.constraint)];
-    const glm::dvec3& o = c.point.offset_in_t_pose;
-    const bool at_joint = o.x == 0.0 && o.y == 0.0 && o.z == 0.0;
-    if (!at_joint || point.turns_only() || point.chain.size() < 2) continue;
+    if (!is_at_joint(c) || point.turns_only() || point.chain.size() < 2) continue;
     if (point.chain.front() == point.joint) point.chain.erase(point.chain.begin());
   }
 }

@@ -108,6 +108,8 @@ template <class F>
     const LanePoint<F>& p = s.points[k];
     const Mask<F> asked = is_asked(point, p, level);
     if (point.direct) continue;
+    // The distance of a point on the upper bone is what it is.
+    if (point.limb >= 0 && point.place == LimbPlace::kUpper) continue;
     if (point.limb < 0) {
       share = select(asked & (length(p.error) > num<F>(1e-6)), one, share);
       continue;
@@ -129,7 +131,8 @@ template <class F>
     const F folded = smooth((fold - wanted) / max(fold - least, num<F>(0.002)));
     share = select(asked, max(share, max(stretch, folded)), share);
   }
-  return share;
+  // Less than this is rounding's.
+  return select(share < num<F>(1e-5), num<F>(0), share);
 }
 
 /// The axes about which limbs bend, from the reference posture.

@@ -145,7 +145,12 @@ void Adapter::Handle::set_space(const glm::dvec3& min_in_world,
 
 void Adapter::Handle::set_offset(const glm::dvec3& offset_in_t_pose) {
   MAREY_ASSERT(is_finite(offset_in_t_pose));
-  state_->constraints.constraints[constraint_].point.offset_in_t_pose = offset_in_t_pose;
+  glm::dvec3& offset =
+      state_->constraints.constraints[constraint_].point.offset_in_t_pose;
+  const bool was_at_joint = offset == glm::dvec3(0.0);
+  offset = offset_in_t_pose;
+  // A joint's own place moves with the bone above it, every other with its own.
+  if (was_at_joint != (offset == glm::dvec3(0.0))) state_->set_up();
 }
 
 void Adapter::Handle::start(double time_s) {

@@ -101,7 +101,8 @@ class Adapter {
     void set_orientation(const glm::dquat& world_from_t_pose);
     /// Precondition: an AllowedSpace or ForbiddenSpace; finite, min <= max.
     void set_space(const glm::dvec3& min_in_world, const glm::dvec3& max_in_world);
-    /// Moves the constrained point on its segment. Precondition: finite.
+    /// Moves the constrained point on its segment; onto or off its joint's own place is
+    /// costly and allocates. Precondition: finite.
     void set_offset(const glm::dvec3& offset_in_t_pose);
     /// Fades the constraint in or out from `time_s` on, over its own durations.
     void start(double time_s);

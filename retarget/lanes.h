@@ -199,6 +199,14 @@ template <class F>
   return {s * q.w, s * q.x, s * q.y, s * q.z};
 }
 
+/// A quaternion that rounding took a little off unit, back on it: one step of Newton's.
+template <class F>
+[[nodiscard]] inline Quat<F> trued(const Quat<F>& q) {
+  const F square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
+  const F s = num<F>(1.5) - num<F>(0.5) * square;
+  return {s * q.w, s * q.x, s * q.y, s * q.z};
+}
+
 /// A unit quaternion about w's direction. By Cayley's map: the angle is 2 atan(|w| / 2),
 /// |w| to third order, and never reaches half a turn.
 template <class F>

@@ -97,7 +97,7 @@ template <class F>
                                      const Quat<F>& rotation) {
   const auto i = static_cast<std::size_t>(j);
   if (plan.limit_of[i] < 0 || j == 0) return rotation;
-  return parent * within_limits(s, i, conjugate(parent) * rotation);
+  return trued(parent * within_limits(s, i, conjugate(parent) * rotation));
 }
 
 /// Puts a limb's joints where `turn` takes them and their limits allow, in the lanes of
@@ -112,9 +112,11 @@ void turn_limb(const Plan& plan,
   const auto u = static_cast<std::size_t>(limb.upper);
   const auto l = static_cast<std::size_t>(limb.lower);
   const auto e = static_cast<std::size_t>(limb.end);
-  Quat<F> upper = turn.upper * s.rotation[u];
-  Quat<F> lower = turn.lower * s.rotation[l];
-  Quat<F> end = select(extremity.is_set, extremity.rotation, turn.lower * s.rotation[e]);
+  // Conjugates below stand for inverses, which they are of unit rotations alone.
+  Quat<F> upper = trued(turn.upper * s.rotation[u]);
+  Quat<F> lower = trued(turn.lower * s.rotation[l]);
+  Quat<F> end =
+      trued(select(extremity.is_set, extremity.rotation, turn.lower * s.rotation[e]));
   if (plan.has_limits) {
     // What holds the upper bone back holds back all that hangs from it.
     const auto p = plan.parent[u] < 0 ? u : static_cast<std::size_t>(plan.parent[u]);

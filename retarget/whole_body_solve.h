@@ -206,17 +206,17 @@ void apply_step(const Plan& plan, const RowOrder& rows, const F& homing, Lanes<F
     const auto i = static_cast<std::size_t>(j);
     const bool turns = plan.turning[i] != Turning::kRigid;
     if (j == 0) {
-      s.rotation[0] = s.turn[0] * s.rotation[0];
+      s.rotation[0] = trued(s.turn[0] * s.rotation[0]);
       continue;
     }
     const auto p = static_cast<std::size_t>(plan.parent[i]);
     s.turn[i] = turns ? s.turn[p] * s.turn[i] : s.turn[p];
     place_joint(plan, s, j);
     const Quat<F> before = s.rotation[i];
-    s.rotation[i] = s.turn[i] * before;
+    s.rotation[i] = trued(s.turn[i] * before);
     if (turns && plan.limit_of[i] >= 0) {
-      s.rotation[i] =
-          s.rotation[p] * within_limits(s, i, conjugate(s.rotation[p]) * s.rotation[i]);
+      s.rotation[i] = trued(
+          s.rotation[p] * within_limits(s, i, conjugate(s.rotation[p]) * s.rotation[i]));
       s.turn[i] = s.rotation[i] * conjugate(before);
     }
   }
