@@ -239,6 +239,48 @@ TEST(PlaceMasses, PutsLimbsOnTheLineBetweenTheirJoints) {
   }
 }
 
+// The ends of the body, with the end points of each table, on an average adult at rest.
+TEST(PlaceMasses, PutsHeadHandsAndFeetWhereTheTablesHaveThem) {
+  const Skeleton body = adult();
+  const BodyMap map = mapped(body);
+  const auto frames = at_rest(body);
+  const auto place = [&](B bone) { return frames[index(*body.find(bone))].translation; };
+  const auto tip = [&](B bone) {
+    const JointIndex joint = *body.find(bone);
+    return frames[index(joint)] * *body[joint].tip_in_joint;
+  };
+  for (const MassTable table : kTables) {
+    const bool dempster = table == MassTable::kDempster;
+    const SegmentTable& t = segment_table(table);
+    const auto masses = masses_of(body, weighing(table, 70.0));
+    const auto com = [&](B bone) {
+      const PointMass& mass = of(masses, *body.find(bone));
+      return frames[index(mass.joint)] * mass.p_in_joint;
+    };
+    // Dempster's to the knuckles, which are at 0.459 of de Leva's way to the finger tip.
+    const double hand_at = t.hand.com_at * (dempster ? 0.459 : 1.0);
+    EXPECT_LT(glm::distance(com(B::kRightHand),
+                            glm::mix(place(B::kRightHand), tip(B::kRightHand), hand_at)),
+              1e-12);
+    // At the ear, or half way from the neck's base to the vertex.
+    const double up =
+        (com(B::kHead).y - place(B::kNeck).y) / (tip(B::kHead).y - place(B::kNeck).y);
+    EXPECT_NEAR(up, dempster ? 0.55 : t.head.com_at, 0.01);
+    // Between ankle and ball, or in front of the heel, which is behind the ankle: by both
+    // a little in front of it, and half as high.
+    const glm::dvec3 foot = com(B::kLeftFoot);
+    EXPECT_NEAR(foot.x, place(B::kLeftFoot).x, 1e-9);
+    EXPECT_NEAR(foot.y, 0.5 * place(B::kLeftFoot).y, dempster ? 0.015 : 1e-9);
+    EXPECT_GT(foot.z, place(B::kLeftFoot).z + 0.2 * 0.16 * 1.75 * 0.5);
+    EXPECT_LT(foot.z, place(B::kLeftToes).z * 0.51);
+    if (!dempster) {
+      const double length_m = 0.152 * 1.75;  // Winter's; its end is the toes' tip.
+      const double heel = tip(B::kLeftToes).z - length_m;
+      EXPECT_NEAR((foot.z - heel) / length_m, t.foot.com_at, 0.002);
+    }
+  }
+}
+
 // Measured with arms at the sides: 0.54 to 0.58 of the stature (Winter, chapter 4). The
 // arms of a T-pose are 10 % of the mass and 0.15 to 0.2 of the stature higher.
 TEST(PlaceMasses, PutsTheWholeBodysCentreWhereItIsMeasured) {
