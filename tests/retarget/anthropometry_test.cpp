@@ -152,6 +152,14 @@ TEST(WeighSegments, RefusesSegmentsThatDoNotAddUp) {
             std::string::npos);
   some.total_kg = 4.0;
   EXPECT_NE(refusal(some).find("do not add up"), std::string::npos);
+  MassSpec all;
+  for (const MassSegment& segment : kMassSegments) {
+    all.segment_kg[index(segment.bone)] = 5.0;
+  }
+  all.total_kg = 70.0;
+  EXPECT_EQ(refusal(all), "");
+  all.total_kg = 71.0;
+  EXPECT_NE(refusal(all).find("do not add up"), std::string::npos);
 }
 
 TEST(PlaceMasses, KeepsTheTotalOnEveryBody) {
