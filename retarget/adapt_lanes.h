@@ -9,25 +9,6 @@
 
 namespace marey::retarget {
 
-/// Numbers of one body, in its own unit of length.
-///
-/// All lengths inside the solver are over `unit_m`, the length of a leg (of a limb; else
-/// of the longest chain), so that thresholds mean the same for a child and a giant, and
-/// single precision is used where it is finest.
-struct BodyNumbers {
-  double unit_m = 1.0;
-  std::vector<Vec3<float>> offset;         ///< Of each joint in its parent's frame.
-  std::vector<Vec3<float>> hinge;          ///< Of each limb, in its upper joint's frame.
-  std::vector<float> mass;                 ///< Share of the whole, as Plan::masses.
-  std::vector<Vec3<float>> mass_in_joint;  ///< Likewise, its place.
-  std::vector<Quat<float>> limit_from_joint;  ///< As Character::limits.
-  std::vector<Quat<float>> rest_from_joint;   ///< Likewise.
-  std::vector<Vec3<float>> limit_min;         ///< Tangents of a quarter of the angle.
-  std::vector<Vec3<float>> limit_max;
-  float least_trunk_thigh_cos = -1.0F;  ///< Flexibility; above 1: no limit.
-  float straight_knee_cos = 1.0F;
-};
-
 /// What a lane's goal is made from; the meaning depends on GoalKind. Lengths in units, in
 /// the lane's own frame (the root of the reference posture is its origin).
 template <class F>
@@ -58,12 +39,14 @@ struct Lanes {
   // Bodies.
   std::vector<Vec3<F>> offset;
   std::vector<Vec3<F>> hinge;
-  std::vector<F> carried_mass;  ///< Per joint, of all that hangs rigidly from it.
+  std::vector<F> mass;                 ///< As Plan::masses, any unit.
+  std::vector<Vec3<F>> mass_in_joint;  ///< Likewise.
+  std::vector<F> carried_mass;         ///< Per joint, of all that hangs rigidly from it.
   std::vector<Vec3<F>> carried_in_joint;  ///< Its centre.
   std::vector<Quat<F>> limit_from_joint;
   std::vector<Vec3<F>> limit_min;
   std::vector<Vec3<F>> limit_max;
-  std::vector<Quat<F>> rest_from_joint;  ///< Of limited joints: local rotation at rest.
+  std::vector<Quat<F>> rest_from_joint;  ///< Of limited joints: local in the T-pose.
   F least_trunk_thigh_cos{};
   F straight_knee_cos{};
   // Postures: rotations and places in the world.
@@ -73,9 +56,11 @@ struct Lanes {
   std::vector<Vec3<F>> place;
   std::vector<Quat<F>> best_rotation;
   std::vector<Vec3<F>> best_place;
-  std::vector<Quat<F>> turn;  ///< Since the step's begin, accumulated from the root.
+  std::vector<Quat<F>> local;  ///< Of each joint in its parent, once it is done.
+  std::vector<Quat<F>> turn;   ///< Since the step's begin, accumulated from the root.
   // Wishes.
   std::vector<LanePoint<F>> points;
+  F com_from_reference{};  ///< 1: the wanted place is the reference's own.
   Vec3<F> com;
   Vec3<F> com_target;
   F balance{};   ///< 1: the centre of mass is wanted somewhere.
@@ -110,25 +95,13 @@ template <class F>
   return reinterpret_cast<Scalar<F>*>(&x)[lane];
 }
 template <class F>
-inline void set_lane(Vec3<F>& v, int lane, const Vec3<Scalar<F>>& from) {
-  lane_of(v.x, lane) = from.x;
-  lane_of(v.y, lane) = from.y;
-  lane_of(v.z, lane) = from.z;
-}
-template <class F>
-inline void set_lane(Quat<F>& q, int lane, const Quat<Scalar<F>>& from) {
-  lane_of(q.w, lane) = from.w;
-  lane_of(q.x, lane) = from.x;
-  lane_of(q.y, lane) = from.y;
-  lane_of(q.z, lane) = from.z;
-}
-
-template <class F>
 Lanes<F>::Lanes(const Plan& plan) {
   const std::size_t n = plan.parent.size();
   const std::size_t blocks_per_side = plan.points.size() + 1;
   offset.resize(n);
   hinge.resize(plan.limbs.size());
+  mass.resize(plan.masses.size());
+  mass_in_joint.resize(plan.masses.size());
   carried_mass.resize(n);
   carried_in_joint.resize(n);
   limit_from_joint.resize(n, identity<F>());
@@ -141,6 +114,7 @@ Lanes<F>::Lanes(const Plan& plan) {
   place.resize(n);
   best_rotation.resize(n, identity<F>());
   best_place.resize(n);
+  local.resize(n, identity<F>());
   turn.resize(n, identity<F>());
   points.resize(plan.points.size());
   run_weight.resize(n);

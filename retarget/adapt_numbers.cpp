@@ -20,7 +20,6 @@ double length_of_limb(const Skeleton& skeleton, const LimbPlan& limb) {
   return bone(limb.lower) + bone(limb.end);
 }
 
-// A leg's length, else any limb's, else the longest way from the root.
 double unit_of(const Skeleton& skeleton, const Plan& plan) {
   double legs = 0.0;
   double limbs = 0.0;
@@ -45,9 +44,33 @@ double unit_of(const Skeleton& skeleton, const Plan& plan) {
 }
 
 // Quarter angles: a half turn is 1, and a little more is as good as no limit.
-float quarter_tangent(double angle_rad) {
-  return static_cast<float>(std::tan(std::clamp(angle_rad, -3.2, 3.2) / 4.0));
+double quarter_tangent(double angle_rad) {
+  return std::tan(std::clamp(angle_rad, -3.2, 3.2) / 4.0);
 }
+
+/// Writes numbers one after the other.
+class Packer {
+ public:
+  explicit Packer(std::span<float> out) : out_(out) {}
+  void put(double x) { out_[next_++] = static_cast<float>(x); }
+  void put(const glm::dvec3& v) {
+    put(v.x);
+    put(v.y);
+    put(v.z);
+  }
+  void put(const glm::dquat& q) {
+    put(q.w);
+    put(q.x);
+    put(q.y);
+    put(q.z);
+  }
+  void put(bool flag) { put(flag ? 1.0 : 0.0); }
+  [[nodiscard]] std::size_t count() const { return next_; }
+
+ private:
+  std::span<float> out_;
+  std::size_t next_ = 0;
+};
 
 }  // namespace
 
@@ -65,89 +88,87 @@ BodyNumbers body_numbers(const Character& character, const Plan& plan) {
   BodyNumbers body;
   body.unit_m = unit_of(character.skeleton, plan);
   const double per_unit = 1.0 / body.unit_m;
+  body.packed.resize(3 * plan.parent.size() + 3 * plan.limbs.size() +
+                     14 * character.limits.size() + 4 * plan.masses.size() + 2);
+  const std::vector<glm::dquat> t_pose = t_pose_rotations(character);
+  Packer pack(body.packed);
   for (const Joint& joint : character.skeleton.joints) {
-    body.offset.push_back(lanes<float>(joint.parent_from_joint.translation * per_unit));
+    pack.put(joint.parent_from_joint.translation * per_unit);
   }
   for (const BodyGroup& group : character.groups) {
     for (const BodyPart& part : group.parts) {
-      if (part.kind != PartKind::kLimb) continue;
-      body.hinge.push_back(lanes<float>(part.hinge_in_upper));
+      if (part.kind == PartKind::kLimb) pack.put(part.hinge_in_upper);
     }
   }
-  const auto add_mass = [&](const PointMass& mass, bool counts) {
-    body.mass.push_back(counts ? static_cast<float>(mass.mass_kg) : 0.0F);
-    body.mass_in_joint.push_back(lanes<float>(mass.p_in_joint * per_unit));
-  };
-  for (const PointMass& mass : character.masses) add_mass(mass, true);
-  for (const Load& load : character.loads) add_mass(load.mass, true);
   for (const JointLimit& limit : character.limits) {
-    body.limit_from_joint.push_back(lanes<float>(limit.t_pose_from_joint));
-    body.rest_from_joint.push_back(
-        lanes<float>(character.skeleton[limit.joint].parent_from_joint.rotation));
-    body.limit_min.push_back({quarter_tangent(limit.min_rad.x),
-                              quarter_tangent(limit.min_rad.y),
-                              quarter_tangent(limit.min_rad.z)});
-    body.limit_max.push_back({quarter_tangent(limit.max_rad.x),
-                              quarter_tangent(limit.max_rad.y),
-                              quarter_tangent(limit.max_rad.z)});
+    const std::optional<JointIndex> parent = character.skeleton[limit.joint].parent;
+    const glm::dquat& own = t_pose[index(limit.joint)];
+    pack.put(limit.t_pose_from_joint);
+    pack.put(parent ? glm::conjugate(t_pose[index(*parent)]) * own : own);
+    for (int a = 0; a < 3; ++a) pack.put(quarter_tangent(limit.min_rad[a]));
+    for (int a = 0; a < 3; ++a) pack.put(quarter_tangent(limit.max_rad[a]));
   }
   const Flexibility& flexibility = character.flexibility;
-  body.least_trunk_thigh_cos =
-      flexibility.least_trunk_thigh_angle_rad > 0.0
-          ? static_cast<float>(std::cos(flexibility.least_trunk_thigh_angle_rad))
-          : 2.0F;
-  body.straight_knee_cos = static_cast<float>(std::cos(flexibility.straight_knee_rad));
+  const double least = flexibility.least_trunk_thigh_angle_rad;
+  pack.put(least > 0.0 ? std::cos(least) : 2.0);
+  pack.put(std::cos(flexibility.straight_knee_rad));
+  body.masses_at = pack.count();
+  const auto add_mass = [&](const PointMass& mass) {
+    pack.put(mass.mass_kg);
+    pack.put(mass.p_in_joint * per_unit);
+  };
+  for (const PointMass& mass : character.masses) add_mass(mass);
+  for (const Load& load : character.loads) add_mass(load.mass);
+  MAREY_ASSERT(pack.count() == body.packed.size());
   return body;
 }
 
-void read_posture(const Plan& plan,
-                  const BodyNumbers& body,
-                  const Pose& pose,
-                  bool balance,
-                  PostureNumbers& out) {
-  const std::size_t n = plan.parent.size();
-  MAREY_ASSERT(pose.parent_from_joint.size() == n);
-  out.parent_from_joint.resize(n);
-  out.rotation.resize(n);
-  out.place.resize(n);
-  out.carried_mass.resize(n);
-  out.carried_in_joint.resize(n);
-  out.origin_in_world = pose.root_in_world;
-  for (std::size_t j = 0; j < n; ++j) {
-    const Quat<float> local = lanes<float>(pose.parent_from_joint[j]);
-    out.parent_from_joint[j] = local;
-    if (plan.parent[j] < 0) {
-      out.rotation[j] = local;
-      out.place[j] = {0.0F, 0.0F, 0.0F};
-      continue;
-    }
-    const auto p = static_cast<std::size_t>(plan.parent[j]);
-    out.rotation[j] = out.rotation[p] * local;
-    out.place[j] = out.place[p] + rotate(out.rotation[p], body.offset[j]);
+void set_mass(BodyNumbers& body, std::size_t index, double mass_kg) {
+  body.packed[body.masses_at + 4 * index] = static_cast<float>(mass_kg);
+}
+
+void pack_posture(const Pose& pose, std::span<float> out) {
+  MAREY_ASSERT(out.size() == 4 * pose.parent_from_joint.size());
+  Packer pack(out);
+  for (const glm::dquat& q : pose.parent_from_joint) pack.put(q);
+}
+
+void pack_wishes(const Plan& plan,
+                 const BodyNumbers& body,
+                 const glm::dvec3& origin_in_world,
+                 std::span<const WishNumbers> wishes,
+                 std::span<float> out) {
+  MAREY_ASSERT(out.size() == kNumbersPerWish * wishes.size());
+  const double per_unit = 1.0 / body.unit_m;
+  Packer pack(out);
+  for (std::size_t k = 0; k < wishes.size(); ++k) {
+    const WishNumbers& wish = wishes[k];
+    const bool other = plan.points[k].goal == GoalKind::kDistanceToOther;
+    pack.put(wish.in_joint * per_unit);
+    pack.put((wish.a_in_world - origin_in_world) * per_unit);
+    pack.put((other ? wish.b : wish.b - origin_in_world) * per_unit);
+    pack.put(wish.world_from_joint);
+    pack.put(wish.distance_m * per_unit);
+    pack.put(wish.active);
+    pack.put(wish.weight);
+    // Finer than single precision resolves is never reached.
+    pack.put(1.0 / std::max(wish.precision_m * per_unit, 2e-6));
   }
-  if (!balance) return;
-  for (std::size_t j = 0; j < n; ++j) {
-    out.carried_mass[j] = 0.0F;
-    out.carried_in_joint[j] = {0.0F, 0.0F, 0.0F};
-  }
-  float total = 0.0F;
-  for (std::size_t m = 0; m < plan.masses.size(); ++m) {
-    const auto j = static_cast<std::size_t>(plan.masses[m].joint);
-    const auto c = static_cast<std::size_t>(plan.masses[m].carried_by);
-    Vec3<float> in_carrier = body.mass_in_joint[m];
-    if (c != j) {
-      const Vec3<float> at = out.place[j] + rotate(out.rotation[j], in_carrier);
-      in_carrier = rotate(conjugate(out.rotation[c]), at - out.place[c]);
-    }
-    out.carried_mass[c] += body.mass[m];
-    out.carried_in_joint[c] += body.mass[m] * in_carrier;
-    total += body.mass[m];
-  }
-  for (std::size_t j = 0; j < n; ++j) {
-    if (out.carried_mass[j] <= 0.0F) continue;
-    out.carried_in_joint[j] = (1.0F / out.carried_mass[j]) * out.carried_in_joint[j];
-    out.carried_mass[j] /= total;
-  }
+}
+
+void pack_balance(const BodyNumbers& body,
+                  const glm::dvec3& origin_in_world,
+                  const BalanceNumbers& balance,
+                  std::span<float> out) {
+  MAREY_ASSERT(out.size() == kBalanceNumbers);
+  Packer pack(out);
+  pack.put(balance.wanted);
+  pack.put(balance.vertical);
+  pack.put(std::max(balance.precision_m / body.unit_m, 2e-6));
+  pack.put(balance.root_weight);
+  pack.put(balance.root_weight_on_floor);
+  pack.put(balance.from_reference);
+  pack.put((balance.com_in_world - origin_in_world) / body.unit_m);
 }
 
 }  // namespace marey::retarget

@@ -6,16 +6,34 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "retarget/adapt_lanes.h"
-#include "retarget/adapt_solve.h"
+#include "retarget/adapt_plan.h"
 
+/// What goes into a lane, as plain single precision in the order in which it is loaded
+/// (retarget/adapt_load.h). Lengths are over the body's own unit, places from the root of
+/// the reference posture: so that thresholds mean the same for a child and a giant, and
+/// single precision is used where it is finest.
 namespace marey::retarget {
 
-/// The numbers of a body, in its own unit. Precondition: as make_plan().
+/// What never changes of a body.
+struct BodyNumbers {
+  double unit_m = 1.0;  ///< A leg's length, else a limb's, else the longest chain's.
+  std::vector<float> packed;
+  /// Where the masses begin in `packed`: they alone change, when a load is taken up.
+  std::size_t masses_at = 0;
+};
+
+/// Precondition: as make_plan().
 [[nodiscard]] BodyNumbers body_numbers(const Character& character, const Plan& plan);
+
+/// Mass `index` of Plan::masses becomes this.
+void set_mass(BodyNumbers& body, std::size_t index, double mass_kg);
 
 /// World rotation of each joint's frame in the T-pose (Character::t_pose_from_joint).
 [[nodiscard]] std::vector<glm::dquat> t_pose_rotations(const Character& character);
+
+/// A reference posture: every joint's rotation in its parent. `out` has 4 numbers per
+/// joint. Precondition: finite, unit rotations.
+void pack_posture(const Pose& pose, std::span<float> out);
 
 /// One wish at one moment, in world metres.
 struct WishNumbers {
@@ -30,132 +48,31 @@ struct WishNumbers {
   double precision_m = 0.001;
 };
 
+inline constexpr std::size_t kNumbersPerWish = 17;
+
+/// `wishes` are as Plan::points.
+void pack_wishes(const Plan& plan,
+                 const BodyNumbers& body,
+                 const glm::dvec3& origin_in_world,
+                 std::span<const WishNumbers> wishes,
+                 std::span<float> out);
+
 struct BalanceNumbers {
   bool wanted = false;
   bool vertical = false;
   double precision_m = 1e-4;
+  /// Where the centre of mass is wanted.
   glm::dvec3 com_in_world{0.0};
-  /// Nothing given: where the reference has it.
-  bool from_reference = true;
-  double root_weight = 1.0;  ///< Vertical, and along the floor without balance.
+  bool from_reference = true;  ///< Where the reference has it, instead.
+  double root_weight = 1.0;    ///< Vertical,
   double root_weight_on_floor = 1.0;
 };
 
-/// A reference posture in single precision, in the body's unit, its root at the origin.
-struct PostureNumbers {
-  glm::dvec3 origin_in_world{0.0};
-  std::vector<Quat<float>> parent_from_joint;
-  std::vector<Quat<float>> rotation;  ///< World from joint.
-  std::vector<Vec3<float>> place;
-  std::vector<float> carried_mass;
-  std::vector<Vec3<float>> carried_in_joint;
-};
+inline constexpr std::size_t kBalanceNumbers = 9;
 
-/// Forward kinematics of a posture, and what each live joint carries. `out` keeps its
-/// memory. Precondition: finite, unit rotations.
-void read_posture(const Plan& plan,
-                  const BodyNumbers& body,
-                  const Pose& pose,
-                  bool balance,
-                  PostureNumbers& out);
-
-/// What never changes of a body goes into lane `lane`.
-template <class F>
-void load_body(const Plan& plan, const BodyNumbers& body, int lane, Lanes<F>& s) {
-  for (std::size_t j = 0; j < body.offset.size(); ++j) {
-    set_lane(s.offset[j], lane, body.offset[j]);
-    const int limit = plan.limit_of[j];
-    if (limit < 0) continue;
-    const auto i = static_cast<std::size_t>(limit);
-    set_lane(s.limit_from_joint[j], lane, body.limit_from_joint[i]);
-    set_lane(s.rest_from_joint[j], lane, body.rest_from_joint[i]);
-    set_lane(s.limit_min[j], lane, body.limit_min[i]);
-    set_lane(s.limit_max[j], lane, body.limit_max[i]);
-  }
-  for (std::size_t l = 0; l < body.hinge.size(); ++l) {
-    set_lane(s.hinge[l], lane, body.hinge[l]);
-  }
-  lane_of(s.least_trunk_thigh_cos, lane) = body.least_trunk_thigh_cos;
-  lane_of(s.straight_knee_cos, lane) = body.straight_knee_cos;
-}
-
-template <class F>
-void load_posture(const Plan& plan,
-                  const PostureNumbers& posture,
-                  bool balance,
-                  int lane,
-                  Lanes<F>& s) {
-  for (const int j : plan.live) {
-    const auto i = static_cast<std::size_t>(j);
-    set_lane(s.reference_rotation[i], lane, posture.rotation[i]);
-    set_lane(s.reference_place[i], lane, posture.place[i]);
-    set_lane(s.reference_local[i], lane, posture.parent_from_joint[i]);
-    if (!balance) continue;
-    lane_of(s.carried_mass[i], lane) = posture.carried_mass[i];
-    set_lane(s.carried_in_joint[i], lane, posture.carried_in_joint[i]);
-  }
-}
-
-/// `wishes` are as Plan::points.
-template <class F>
-void load_wishes(const Plan& plan,
-                 const BodyNumbers& body,
-                 const glm::dvec3& origin_in_world,
-                 std::span<const WishNumbers> wishes,
-                 int lane,
-                 Lanes<F>& s) {
-  const double per_unit = 1.0 / body.unit_m;
-  const auto place = [&](const glm::dvec3& p_in_world) {
-    return lanes<Scalar<F>>((p_in_world - origin_in_world) * per_unit);
-  };
-  const auto length = [&](double m) { return static_cast<Scalar<F>>(m * per_unit); };
-  for (std::size_t k = 0; k < wishes.size(); ++k) {
-    const WishNumbers& wish = wishes[k];
-    LanePoint<F>& p = s.points[k];
-    set_lane(p.in_joint, lane, lanes<Scalar<F>>(wish.in_joint * per_unit));
-    set_lane(p.goal.a, lane, place(wish.a_in_world));
-    const bool other = plan.points[k].goal == GoalKind::kDistanceToOther;
-    set_lane(p.goal.b, lane, other ? lanes<Scalar<F>>(wish.b * per_unit) : place(wish.b));
-    set_lane(p.goal.rotation, lane, lanes<Scalar<F>>(wish.world_from_joint));
-    lane_of(p.goal.distance, lane) = length(wish.distance_m);
-    lane_of(p.active, lane) = static_cast<Scalar<F>>(wish.active ? 1 : 0);
-    lane_of(p.weight, lane) = static_cast<Scalar<F>>(wish.weight);
-    // Finer than single precision resolves is never reached.
-    lane_of(p.per_precision, lane) =
-        static_cast<Scalar<F>>(1.0 / std::max(wish.precision_m * per_unit, 2e-6));
-    p.at_distance = p.at_distance || wish.distance_m > 0.0;
-  }
-}
-
-template <class F>
-void load_balance(const BodyNumbers& body,
-                  const PostureNumbers& posture,
+void pack_balance(const BodyNumbers& body,
+                  const glm::dvec3& origin_in_world,
                   const BalanceNumbers& balance,
-                  int lane,
-                  Lanes<F>& s) {
-  const auto flag = [](bool on) { return static_cast<Scalar<F>>(on ? 1 : 0); };
-  lane_of(s.balance, lane) = flag(balance.wanted);
-  lane_of(s.vertical, lane) = flag(balance.vertical);
-  lane_of(s.balance_precision, lane) =
-      static_cast<Scalar<F>>(std::max(balance.precision_m / body.unit_m, 2e-6));
-  lane_of(s.root_weight, lane) = static_cast<Scalar<F>>(balance.root_weight);
-  lane_of(s.root_weight_on_floor, lane) =
-      static_cast<Scalar<F>>(balance.root_weight_on_floor);
-  if (!balance.wanted) return;
-  glm::dvec3 target = (balance.com_in_world - posture.origin_in_world) / body.unit_m;
-  if (balance.from_reference) {
-    glm::dvec3 moment(0.0);
-    double mass = 0.0;
-    for (std::size_t j = 0; j < posture.carried_mass.size(); ++j) {
-      const Vec3<float> at =
-          posture.place[j] + rotate(posture.rotation[j], posture.carried_in_joint[j]);
-      mass += posture.carried_mass[j];
-      moment +=
-          static_cast<double>(posture.carried_mass[j]) * glm::dvec3(at.x, at.y, at.z);
-    }
-    target = moment / std::max(mass, 1e-9);
-  }
-  set_lane(s.com_target, lane, lanes<Scalar<F>>(target));
-}
+                  std::span<float> out);
 
 }  // namespace marey::retarget

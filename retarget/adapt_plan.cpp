@@ -306,6 +306,7 @@ Plan make_plan(const Character& character,
   plan.limit_of.assign(at(plan.joint_count), -1);
   for (std::size_t i = 0; i < character.limits.size(); ++i) {
     plan.limit_of[index(character.limits[i].joint)] = static_cast<int>(i);
+    plan.limited.push_back(number(character.limits[i].joint));
     plan.has_limits = true;
   }
   return plan;

@@ -111,6 +111,7 @@ struct Plan {
   std::vector<int> through_begin;
   std::vector<int> through;
   std::vector<MassPlan> masses;  ///< The character's masses, then its loads.
+  std::vector<int> limited;      ///< Joints of Character::limits.
   std::vector<int> limit_of;     ///< Per joint: position in Character::limits, or -1.
   bool has_limits = false;
 };

@@ -77,8 +77,8 @@ bool Adapter::carry(std::string_view load, bool carried) {
   const std::size_t own = state_->character.masses.size();
   for (std::size_t i = 0; i < loads.size(); ++i) {
     if (loads[i].name != load) continue;
-    state_->body.mass[own + i] =
-        carried ? static_cast<float>(loads[i].mass.mass_kg) : 0.0F;
+    state_->carried[i] = carried ? 1 : 0;
+    set_mass(state_->body, own + i, carried ? loads[i].mass.mass_kg : 0.0);
     return true;
   }
   return false;

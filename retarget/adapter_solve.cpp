@@ -33,22 +33,24 @@ Adapter::State::State(const Character& character_in,
       constraints(constraints_in),
       options(options_in),
       plan(make_plan(character, constraints, options.balance != BalanceMode::kOff)),
+      carried(character.loads.size(), 1),
       lanes(plan) {
   set_up();
 }
 
 void Adapter::State::set_up() {
   plan = make_plan(character, constraints, options.balance != BalanceMode::kOff);
-  const std::vector<float> masses = std::move(body.mass);
   body = body_numbers(character, plan);
-  // What is carried stays carried when the options change.
-  if (masses.size() == body.mass.size()) body.mass = masses;
+  for (std::size_t i = 0; i < carried.size(); ++i) {
+    if (!carried[i]) set_mass(body, character.masses.size() + i, 0.0);
+  }
   t_pose_from_joint = t_pose_rotations(character);
   lanes = Lanes<float>(plan);
-  load_body(plan, body, 0, lanes);
   solve = {};
   solve.alone_rotation.assign(plan.parent.size(), identity<float>());
   mixed_rotation.assign(plan.parent.size(), identity<float>());
+  packed_posture.assign(4 * plan.parent.size(), 0.0F);
+  packed_wishes.assign(kNumbersPerWish * plan.points.size(), 0.0F);
   wishes.assign(plan.points.size(), {});
   activations.assign(plan.points.size(), 0.0);
   ramps.clear();
@@ -135,13 +137,14 @@ void Adapter::State::read_wish(std::size_t k, double activation) {
       begun_rotation[c].reset();
     } else if (!begun_in_world[c]) {
       const Vec3<float> at =
-          posture.place[j] + rotate(posture.rotation[j],
-                                    retarget::lanes<float>(wish.in_joint / body.unit_m));
-      begun_in_world[c] = posture.origin_in_world + plain(at) * body.unit_m;
-      begun_rotation[c] = plain(posture.rotation[j]);
+          lanes.reference_place[j] +
+          rotate(lanes.reference_rotation[j],
+                 marey::retarget::lanes<float>(wish.in_joint / body.unit_m));
+      begun_in_world[c] = origin_in_world + plain(at) * body.unit_m;
+      begun_rotation[c] = plain(lanes.reference_rotation[j]);
     }
-    wish.a_in_world = support.footprint_in_world.value_or(
-        begun_in_world[c].value_or(posture.origin_in_world));
+    wish.a_in_world =
+        support.footprint_in_world.value_or(begun_in_world[c].value_or(origin_in_world));
     const glm::dquat begun = begun_rotation[c].value_or(glm::dquat(1, 0, 0, 0));
     wish.world_from_joint =
         support.world_from_t_pose ? *support.world_from_t_pose * t_pose : begun;
@@ -177,7 +180,8 @@ Errors<float> Adapter::State::solve_for(double least, double& iterations) {
     wishes[k].active = activations[k] >= least && activations[k] > 0.0;
   }
   for (LanePoint<float>& p : lanes.points) p.at_distance = false;
-  load_wishes(plan, body, posture.origin_in_world, wishes, 0, lanes);
+  pack_wishes(plan, body, origin_in_world, wishes, packed_wishes);
+  load_wishes(plan, packed_wishes.data(), 0, lanes);
   const Shape form = shape();
   const SolveSettings told = settings();
   begin_lanes(plan, form, told, true, lanes, solve);
@@ -207,7 +211,7 @@ Errors<float> Adapter::State::solve_faded(double& iterations) {
       const auto i = static_cast<std::size_t>(j);
       const Quat<float>& q = lanes.rotation[i];
       Quat<float>& sum = mixed_rotation[i];
-      const Quat<float>& like = posture.rotation[i];
+      const Quat<float>& like = lanes.reference_rotation[i];
       const float sign = q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z < 0.0F
                              ? -share
                              : share;
@@ -220,7 +224,8 @@ Errors<float> Adapter::State::solve_faded(double& iterations) {
   for (std::size_t k = 0; k < wishes.size(); ++k) {
     wishes[k].active = activations[k] >= 1.0;
   }
-  load_wishes(plan, body, posture.origin_in_world, wishes, 0, lanes);
+  pack_wishes(plan, body, origin_in_world, wishes, packed_wishes);
+  load_wishes(plan, packed_wishes.data(), 0, lanes);
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
     lanes.rotation[i] = normalized(mixed_rotation[i]);
@@ -236,22 +241,11 @@ Errors<float> Adapter::State::solve_faded(double& iterations) {
 void Adapter::State::write(Pose& out) {
   const std::size_t n = plan.parent.size();
   out.parent_from_joint.resize(n);
-  for (const int j : plan.rest) {
-    const auto i = static_cast<std::size_t>(j);
-    const auto p = static_cast<std::size_t>(plan.parent[i]);
-    lanes.rotation[i] = lanes.rotation[p] * posture.parent_from_joint[i];
-    place_joint(plan, lanes, j);
-  }
+  spread_posture(plan, lanes);
   for (std::size_t i = 0; i < n; ++i) {
-    RigidTransform& world = world_from_joint[i];
-    world.rotation = plain(lanes.rotation[i]);
-    world.translation = posture.origin_in_world + plain(lanes.place[i]) * body.unit_m;
-    out.parent_from_joint[i] =
-        plan.parent[i] < 0
-            ? world.rotation
-            : glm::conjugate(
-                  world_from_joint[static_cast<std::size_t>(plan.parent[i])].rotation) *
-                  world.rotation;
+    world_from_joint[i] = {plain(lanes.rotation[i]),
+                           origin_in_world + plain(lanes.place[i]) * body.unit_m};
+    out.parent_from_joint[i] = plain(lanes.local[i]);
   }
   out.root_in_world = world_from_joint[0].translation;
 }
@@ -267,9 +261,13 @@ void Adapter::State::report_outcomes() {
 
 AdaptReport Adapter::State::adapt(const Pose& reference, double time_s, Pose& out) {
   const bool balanced = options.balance != BalanceMode::kOff;
-  read_posture(plan, body, reference, balanced, posture);
-  load_posture(plan, posture, balanced, 0, lanes);
-  load_balance(body, posture, balance(), 0, lanes);
+  origin_in_world = reference.root_in_world;
+  pack_posture(reference, packed_posture);
+  pack_balance(body, origin_in_world, balance(), packed_balance);
+  load_body(plan, body.packed.data(), 0, lanes);
+  load_posture(plan, packed_posture.data(), 0, lanes);
+  load_balance(packed_balance.data(), 0, lanes);
+  stand_reference(plan, balanced, true, lanes);
   read_wishes(time_s);
   double iterations = 0.0;
   const Errors<float> errors =
@@ -282,7 +280,7 @@ AdaptReport Adapter::State::adapt(const Pose& reference, double time_s, Pose& ou
   report.worst_error_m = static_cast<double>(errors.worst) * body.unit_m;
   report.balance_error_m = static_cast<double>(errors.balance) * body.unit_m;
   if (balanced) {
-    com_now_in_world = posture.origin_in_world + plain(lanes.com) * body.unit_m;
+    com_now_in_world = origin_in_world + plain(lanes.com) * body.unit_m;
   }
   return report;
 }

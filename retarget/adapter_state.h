@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
+#include "retarget/adapt_load.h"
 #include "retarget/adapt_numbers.h"
+#include "retarget/adapt_solve.h"
 #include "retarget/adapter.h"
 
 namespace marey::retarget {
@@ -21,7 +24,10 @@ struct Adapter::State {
   std::optional<glm::dvec3> com_in_world;
 
   // Of one posture.
-  PostureNumbers posture;
+  glm::dvec3 origin_in_world{0.0};
+  std::vector<float> packed_posture;
+  std::vector<float> packed_wishes;
+  std::array<float, kBalanceNumbers> packed_balance{};
   std::vector<WishNumbers> wishes;  ///< As plan.points.
   std::vector<double> activations;  ///< Likewise.
   std::vector<double> ramps;        ///< Different activations below 1, descending.
