@@ -132,7 +132,7 @@ std::vector<Member> make_crowd(const CaseSet& set) {
 class CrowdMover {
  public:
   virtual ~CrowdMover() = default;
-  /// Adapts everybody: what is timed.
+  /// Adapts everybody, in this thread: what is timed.
   virtual void move(const std::vector<Member>& crowd, std::vector<Pose>& out) = 0;
 };
 
@@ -220,9 +220,10 @@ ResultTable move_crowd(const std::vector<Member>& crowd,
   for (Column& c : columns) c.mover->move(crowd, c.found);
   for (int round = 0; round < kRounds; ++round) {
     for (Column& c : columns) {
-      const double start_us = now_us();
+      const double start_us = processor_us();
       c.mover->move(crowd, c.found);
-      c.us_each.push_back((now_us() - start_us) / static_cast<double>(crowd.size()));
+      c.us_each.push_back((processor_us() - start_us) /
+                          static_cast<double>(crowd.size()));
     }
   }
   ResultTable table{with_balance ? "crowd_com" : "crowd",

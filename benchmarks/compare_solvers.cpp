@@ -41,9 +41,10 @@ void time_round(const std::vector<PostureTask>& tasks, Record& record) {
     }
     best_us.push_back(least_us);
   }
-  const double start_us = now_us();
+  const double start_us = processor_us();
   for (const PostureTask& task : tasks) solver.solve(task);
-  record.in_a_row_us.push_back((now_us() - start_us) / static_cast<double>(tasks.size()));
+  record.in_a_row_us.push_back((processor_us() - start_us) /
+                               static_cast<double>(tasks.size()));
   record.median_us.push_back(median(best_us));
   record.p95_us.push_back(quantile(best_us, 0.95));
 }

@@ -32,8 +32,9 @@ struct Contest {
 ///
 /// Solvers take turns, five rounds, so that a processor that changes its pace changes it
 /// for all. Of each task the fastest of five runs counts ("us", "p95 us": median and 95 %
-/// of the tasks); "in a row us" is all tasks once, one after the other, by their number.
-/// Of the rounds always the median. Precondition: there are tasks.
+/// of the tasks); "in a row us" is all tasks once, one after the other, by their number,
+/// in time of the processor. Of the rounds always the median. Precondition: there are
+/// tasks.
 [[nodiscard]] ResultTable compare_solvers(const Contest& contest,
                                           std::vector<Contender> contenders);
 

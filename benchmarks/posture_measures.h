@@ -44,6 +44,10 @@ struct PostureMeasure {
 /// Microseconds of a clock that never goes back.
 [[nodiscard]] double now_us();
 
+/// Microseconds that this thread has had of its processor: for what takes long enough to
+/// be interrupted by other programs. Reading it takes a good part of a microsecond.
+[[nodiscard]] double processor_us();
+
 /// Arithmetic mean; 0 of nothing.
 [[nodiscard]] double mean(std::span<const double> values);
 
