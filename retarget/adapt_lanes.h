@@ -49,7 +49,11 @@ struct Lanes {
   std::vector<Quat<F>> rest_from_joint;  ///< Of limited joints: local in the T-pose.
   F least_trunk_thigh_cos{};
   F straight_knee_cos{};
-  // Postures: rotations and places in the world.
+  // Postures: rotations and places in the world. With supports the reference is what
+  // stands on the footprints, made from what was given (retarget/adapt_ground.h).
+  std::vector<Quat<F>> given_rotation;
+  std::vector<Vec3<F>> given_place;
+  std::vector<Quat<F>> given_local;
   std::vector<Quat<F>> reference_rotation;
   std::vector<Vec3<F>> reference_place;
   std::vector<Quat<F>> rotation;
@@ -63,8 +67,9 @@ struct Lanes {
   F com_from_reference{};  ///< 1: the wanted place is the reference's own.
   Vec3<F> com;
   Vec3<F> com_target;
-  F balance{};   ///< 1: the centre of mass is wanted somewhere.
-  F vertical{};  ///< 1: in height, too.
+  Vec3<F> given_com_target;
+  F balance{};      ///< 1: the centre of mass is wanted somewhere.
+  F vertical{};     ///< 1: in height, too.
   F balance_precision{};
   F root_weight{};  ///< Vertical, and along the floor without balance.
   F root_weight_on_floor{};
@@ -108,6 +113,11 @@ Lanes<F>::Lanes(const Plan& plan) {
   limit_min.resize(n);
   limit_max.resize(n);
   rest_from_joint.resize(n, identity<F>());
+  if (plan.has_supports) {
+    given_rotation.resize(n, identity<F>());
+    given_place.resize(n);
+    given_local.resize(n, identity<F>());
+  }
   reference_rotation.resize(n, identity<F>());
   reference_place.resize(n);
   rotation.resize(n, identity<F>());

@@ -103,8 +103,15 @@ void stand_reference(const Plan& plan, bool balance, const Mask<F>& mask, Lanes<
     }
     s.reference_rotation[j] = select(mask, rotation, s.reference_rotation[j]);
     s.reference_place[j] = select(mask, place, s.reference_place[j]);
+    if (!plan.has_supports) continue;
+    s.given_rotation[j] = select(mask, rotation, s.given_rotation[j]);
+    s.given_place[j] = select(mask, place, s.given_place[j]);
+    s.given_local[j] = select(mask, s.reference_local[j], s.given_local[j]);
   }
   if (!balance) return;
+  const auto& given_rotation =
+      plan.has_supports ? s.given_rotation : s.reference_rotation;
+  const auto& given_place = plan.has_supports ? s.given_place : s.reference_place;
   // All of it is recomputed from the lane's own numbers, hence the same for who is not in
   // the mask.
   F total = zero;
@@ -117,9 +124,8 @@ void stand_reference(const Plan& plan, bool balance, const Mask<F>& mask, Lanes<
     const auto c = static_cast<std::size_t>(plan.masses[m].carried_by);
     Vec3<F> in_carrier = s.mass_in_joint[m];
     if (c != j) {
-      const Vec3<F> at =
-          s.reference_place[j] + rotate(s.reference_rotation[j], in_carrier);
-      in_carrier = rotate(conjugate(s.reference_rotation[c]), at - s.reference_place[c]);
+      const Vec3<F> at = given_place[j] + rotate(given_rotation[j], in_carrier);
+      in_carrier = rotate(conjugate(given_rotation[c]), at - given_place[c]);
     }
     s.carried_mass[c] = s.carried_mass[c] + s.mass[m];
     s.carried_in_joint[c] += s.mass[m] * in_carrier;
@@ -132,10 +138,11 @@ void stand_reference(const Plan& plan, bool balance, const Mask<F>& mask, Lanes<
     s.carried_in_joint[j] =
         (num<F>(1) / max(s.carried_mass[j], num<F>(1e-9))) * s.carried_in_joint[j];
     s.carried_mass[j] = per_total * s.carried_mass[j];
-    com += s.carried_mass[j] * (s.reference_place[j] +
-                                rotate(s.reference_rotation[j], s.carried_in_joint[j]));
+    com += s.carried_mass[j] *
+           (given_place[j] + rotate(given_rotation[j], s.carried_in_joint[j]));
   }
   s.com_target = select(mask & (s.com_from_reference > num<F>(0.5)), com, s.com_target);
+  s.given_com_target = select(mask, s.com_target, s.given_com_target);
 }
 
 /// Every joint of a posture whose live joints are done: those that hang rigidly take

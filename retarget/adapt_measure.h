@@ -32,39 +32,51 @@ template <class F>
   return two * vector_part(q);
 }
 
-/// Places, targets and errors of all wishes (thesis 3.3: one conversion per type).
+/// Where a wish's point is now.
+template <class F>
+[[nodiscard]] inline Vec3<F> place_of(const PointPlan& point,
+                                      const LanePoint<F>& p,
+                                      const Lanes<F>& s) {
+  const auto j = static_cast<std::size_t>(point.joint);
+  return s.place[j] + rotate(s.rotation[j], p.in_joint);
+}
+
+/// Where a wish wants its point, which is at `p.place` (thesis 3.3: one conversion per
+/// type).
+template <class F>
+[[nodiscard]] inline Vec3<F> target_of(const PointPlan& point,
+                                       const LanePoint<F>& p,
+                                       const Lanes<F>& s) {
+  switch (point.goal) {
+    case GoalKind::kSupport:
+      break;
+    case GoalKind::kDistanceToPoint:
+      return p.at_distance ? at_distance(p.place, p.goal.a, p.goal.distance) : p.goal.a;
+    case GoalKind::kDistanceToOther: {
+      const auto o = static_cast<std::size_t>(point.other_joint);
+      return at_distance(
+          p.place, s.place[o] + rotate(s.rotation[o], p.goal.b), p.goal.distance);
+    }
+    case GoalKind::kAllowedSpace:
+      return inside(p.place, p.goal.a, p.goal.b);
+    case GoalKind::kForbiddenSpace:
+      return outside(p.place, p.goal.a, p.goal.b);
+    case GoalKind::kOrientation:
+      return p.place + turn_left(s.rotation[static_cast<std::size_t>(point.joint)],
+                                 p.goal.rotation);
+  }
+  return p.goal.a;
+}
+
+/// Places, targets and errors of all wishes.
 template <class F>
 void measure_points(const Plan& plan, Lanes<F>& s, const F& level) {
   const F zero = num<F>(0);
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const PointPlan& point = plan.points[k];
     LanePoint<F>& p = s.points[k];
-    const auto j = static_cast<std::size_t>(point.joint);
-    p.place = s.place[j] + rotate(s.rotation[j], p.in_joint);
-    switch (point.goal) {
-      case GoalKind::kSupport:
-        p.target = p.goal.a;
-        break;
-      case GoalKind::kDistanceToPoint:
-        p.target =
-            p.at_distance ? at_distance(p.place, p.goal.a, p.goal.distance) : p.goal.a;
-        break;
-      case GoalKind::kDistanceToOther: {
-        const auto o = static_cast<std::size_t>(point.other_joint);
-        p.target = at_distance(
-            p.place, s.place[o] + rotate(s.rotation[o], p.goal.b), p.goal.distance);
-        break;
-      }
-      case GoalKind::kAllowedSpace:
-        p.target = inside(p.place, p.goal.a, p.goal.b);
-        break;
-      case GoalKind::kForbiddenSpace:
-        p.target = outside(p.place, p.goal.a, p.goal.b);
-        break;
-      case GoalKind::kOrientation:
-        p.target = p.place + turn_left(s.rotation[j], p.goal.rotation);
-        break;
-    }
+    p.place = place_of(point, p, s);
+    p.target = target_of(point, p, s);
     if (!point.turns_only() && point.level > 0) {
       p.target = select(num<F>(point.level) < level, p.held, p.target);
     }

@@ -62,15 +62,20 @@ void add_groups(const Character& character, Plan& plan) {
         limb.group = static_cast<int>(g);
         limb.can_support = group.can_support;
         out.limb = static_cast<int>(plan.limbs.size());
+        out.parts.push_back({part.kind, out.limb});
         plan.limb_of_hinge[at(limb.lower)] = out.limb;
         plan.limbs.push_back(std::move(limb));
       } else if (part.kind == PartKind::kSection) {
         std::vector<int> vertebrae;
         for (const JointIndex j : part.joints) vertebrae.push_back(number(j));
         out.sections.push_back(static_cast<int>(plan.sections.size()));
+        out.parts.push_back({part.kind, out.sections.back()});
         plan.sections.push_back(std::move(vertebrae));
       } else {
-        for (const JointIndex j : part.joints) out.segments.push_back(number(j));
+        for (const JointIndex j : part.joints) {
+          out.segments.push_back(number(j));
+          out.parts.push_back({part.kind, number(j)});
+        }
       }
     }
     plan.groups.push_back(std::move(out));
@@ -195,8 +200,6 @@ void set_turning(Plan& plan, bool balance) {
   }
   for (const GroupPlan& group : plan.groups) {
     if (!balance || !group.balances) continue;
-    const bool whole = group.limb >= 0 || !group.sections.empty() || group.level == 1;
-    if (!whole) continue;
     for (const int j : group.joints) {
       const bool last =
           group.limb >= 0 && is_at_or_below(plan, j, plan.limbs[at(group.limb)].end);
@@ -224,6 +227,7 @@ void set_live(Plan& plan) {
     if (point.other_joint >= 0) touch(point.other_joint);
   }
   for (const LimbPlan& limb : plan.limbs) touch(limb.end);
+  if (plan.has_hamstrings()) touch(plan.abdomen_high);
   for (int j = 0; j < plan.joint_count; ++j) {
     (plan.is_live[at(j)] ? plan.live : plan.rest).push_back(j);
   }
@@ -239,6 +243,23 @@ void set_live(Plan& plan) {
       }
       if (j != limb.end && is_at_or_below(plan, j, limb.end)) limb.beyond.push_back(j);
     }
+  }
+}
+
+// The trunk's lower section, from its first vertebra to where the next one begins; of a
+// trunk in one section to its last vertebra.
+void find_abdomen(const Character& character, Plan& plan) {
+  if (character.flexibility.least_trunk_thigh_angle_rad <= 0.0) return;
+  for (const GroupPlan& group : plan.groups) {
+    if (group.level != 2 || group.sections.empty()) continue;
+    const std::vector<int>& low = plan.sections[at(group.sections.front())];
+    const int high = group.sections.size() > 1
+                         ? plan.sections[at(group.sections[1])].front()
+                         : low.back();
+    if (high == low.front()) continue;
+    plan.abdomen_low = low.front();
+    plan.abdomen_high = high;
+    return;
   }
 }
 
@@ -298,6 +319,10 @@ Plan make_plan(const Character& character,
   add_groups(character, plan);
   add_points(character, constraints, plan);
   drop_idle_turns(constraints, plan);
+  for (const PointPlan& point : plan.points) {
+    plan.has_supports = plan.has_supports || point.goal == GoalKind::kSupport;
+  }
+  find_abdomen(character, plan);
   set_turning(plan, balance);
   set_live(plan);
   set_shared(plan);

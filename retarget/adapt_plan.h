@@ -77,15 +77,22 @@ struct MassPlan {
   int carried_by = 0;  ///< The nearest joint that is `live`.
 };
 
+/// One part of a group: limb, section or segment.
+struct PartPlan {
+  PartKind kind = PartKind::kSegment;
+  int index = 0;  ///< Position in Plan::limbs or Plan::sections; the segment's joint.
+};
+
 struct GroupPlan {
   int level = 2;
   int parent = -1;
   bool balances = true;
-  bool constrained = false;   ///< Some constraint's own segment is in it.
-  int limb = -1;              ///< Of an arm or leg.
-  std::vector<int> sections;  ///< Positions in Plan::sections.
-  std::vector<int> segments;  ///< Joints.
-  std::vector<int> joints;    ///< All of it.
+  bool constrained = false;     ///< Some constraint's own segment is in it.
+  int limb = -1;                ///< Of an arm or leg.
+  std::vector<int> sections;    ///< Positions in Plan::sections.
+  std::vector<int> segments;    ///< Joints.
+  std::vector<int> joints;      ///< All of it.
+  std::vector<PartPlan> parts;  ///< In the order in which kinematics adapts them.
 };
 
 /// What is the same for all bodies that are adapted side by side: how the skeleton hangs
@@ -114,6 +121,12 @@ struct Plan {
   std::vector<int> limited;      ///< Joints of Character::limits.
   std::vector<int> limit_of;     ///< Per joint: position in Character::limits, or -1.
   bool has_limits = false;
+  bool has_supports = false;  ///< Some point is one.
+  /// The abdomen of a body whose flexibility is limited: from which joint to which. -1:
+  /// it is not.
+  int abdomen_low = -1;
+  int abdomen_high = -1;
+  [[nodiscard]] bool has_hamstrings() const { return abdomen_high >= 0; }
 };
 
 /// What makes two bodies fit for the same batch is an equal plan.

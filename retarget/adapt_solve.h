@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "retarget/adapt_ground.h"
 #include "retarget/close_limbs.h"
 #include "retarget/whole_body_solve.h"
 
@@ -135,17 +136,6 @@ template <class F>
   return select(share < num<F>(1e-5), num<F>(0), share);
 }
 
-/// The axes about which limbs bend, from the reference posture.
-template <class F>
-void set_axes(const Plan& plan, const Mask<F>& mask, Lanes<F>& s) {
-  for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
-    const auto lower = static_cast<std::size_t>(plan.limbs[l].lower);
-    const Vec3<F> axis = reference_axis(plan.limbs[l], s, static_cast<int>(l));
-    const Vec3<F> in_lower = rotate(conjugate(s.reference_rotation[lower]), axis);
-    s.axis_in_lower[l] = select(mask, in_lower, s.axis_in_lower[l]);
-  }
-}
-
 /// Starts lanes from their reference: places are those of the reference posture.
 template <class F>
 void begin_lanes(const Plan& plan,
@@ -156,8 +146,8 @@ void begin_lanes(const Plan& plan,
                  Solve<F>& solve) {
   const F zero = num<F>(0);
   const F last = num<F>(shape.last_level);
+  ground_reference(plan, settings, shape.rows.balance, mask, s);
   take_posture(s.reference_rotation, s.reference_place, plan, mask, s);
-  set_axes(plan, mask, s);
   measure_points(plan, s, last);
   F share = num<F>(1);
   if (!shape.rows.balance) share = help_needed(plan, settings, last, s);
@@ -200,6 +190,7 @@ template <class F>
   Progress<F>& p = solve.progress;
   const bool balance = shape.rows.balance;
   step_whole_body(plan, shape.rows, p, s);
+  if (plan.has_hamstrings()) spare_hamstrings(plan, settings, p.level > zero, s);
   Errors<F> errors = measure(plan, balance, p.level, s);
   const Mask<F> near = errors.worst < num<F>(balance ? kCloseBelowBalanced : kCloseBelow);
   if (any(near)) {
@@ -285,6 +276,7 @@ template <class F>
   const Mask<F> open = looped & (mixes | (solve.closed < num<F>(0.5)));
   if (any(open)) {
     static_cast<void>(measure(plan, false, last, s));
+    spare_hamstrings(plan, settings, open, s);
     close_limbs(plan, settings, last, open, s);
   }
   return measure(plan, shape.rows.balance, last, s);

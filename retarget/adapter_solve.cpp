@@ -46,6 +46,7 @@ void Adapter::State::set_up() {
   }
   t_pose_from_joint = t_pose_rotations(character);
   lanes = Lanes<float>(plan);
+  thesis = {make_thesis_plan(plan), options.balance != BalanceMode::kOff};
   solve = {};
   solve.alone_rotation.assign(plan.parent.size(), identity<float>());
   mixed_rotation.assign(plan.parent.size(), identity<float>());
@@ -168,7 +169,9 @@ void Adapter::State::read_wishes(double time_s) {
     }
   }
   std::sort(ramps.begin(), ramps.end(), [](double a, double b) { return a > b; });
-  const bool blends = options.control == Control::kBlend;
+  // The thesis weights errors by importance in both modes (equation 4.2).
+  const bool blends =
+      options.control == Control::kBlend || options.method == Method::kThesis;
   for (std::size_t k = 0; k < wishes.size(); ++k) {
     const bool weighs = blends && plan.points[k].level > 0 && most > 0.0;
     wishes[k].weight = weighs ? wishes[k].weight / most : 1.0;
@@ -184,6 +187,13 @@ Errors<float> Adapter::State::solve_for(double least, double& iterations) {
   load_wishes(plan, packed_wishes.data(), 0, lanes);
   const Shape form = shape();
   const SolveSettings told = settings();
+  if (options.method == Method::kThesis) {
+    begin_thesis(plan, thesis, told, true, lanes, solve);
+    while (!advance_thesis(plan, thesis, told, lanes, solve)) {
+    }
+    iterations += static_cast<double>(solve.progress.iterations);
+    return finish_thesis(plan, thesis, true, lanes);
+  }
   begin_lanes(plan, form, told, true, lanes, solve);
   if (solve.whole_body > 0.0F) {
     while (!advance_lanes(plan, form, told, lanes, solve)) {

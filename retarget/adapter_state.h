@@ -10,6 +10,7 @@
 #include "retarget/adapt_numbers.h"
 #include "retarget/adapt_solve.h"
 #include "retarget/adapter.h"
+#include "retarget/thesis_solve.h"
 
 namespace marey::retarget {
 
@@ -34,6 +35,7 @@ struct Adapter::State {
   std::vector<char> constraint_active;
   Lanes<float> lanes;
   Solve<float> solve;
+  ThesisShape thesis;
   std::vector<Quat<float>> mixed_rotation;  ///< While constraints fade in or out.
   Vec3<float> mixed_root;
   std::vector<ConstraintOutcome> outcomes;  ///< As the constraints.

@@ -44,6 +44,17 @@ template <class F>
   return unit_or(mixed, own, num<F>(1e-3));
 }
 
+/// The axes about which limbs bend, from the reference posture.
+template <class F>
+void set_axes(const Plan& plan, const Mask<F>& mask, Lanes<F>& s) {
+  for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
+    const auto lower = static_cast<std::size_t>(plan.limbs[l].lower);
+    const Vec3<F> axis = reference_axis(plan.limbs[l], s, static_cast<int>(l));
+    const Vec3<F> in_lower = rotate(conjugate(s.reference_rotation[lower]), axis);
+    s.axis_in_lower[l] = select(mask, in_lower, s.axis_in_lower[l]);
+  }
+}
+
 /// The same axis in the posture at hand. A limb bends about nothing else, so it is fixed
 /// in both of its bones.
 template <class F>

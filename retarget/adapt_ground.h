@@ -1,0 +1,342 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "retarget/close_limbs.h"
+
+/// Postures on the floor (Kulpa 2005, 4.2.4) and within what muscles allow (4.2.3), over
+/// lanes. Both methods begin with the complete adaptation, and the loop of the thesis
+/// calls the fast one after every move of the root. Where nothing is wrong nothing
+/// changes, to the bit.
+namespace marey::retarget {
+
+/// Footprints nearer than this to where the foot is are where it is, in units: a few
+/// roundings.
+inline constexpr double kOnFootprint = 1e-6;
+/// The root is not carried farther from above a footprint than this share of the leg,
+/// unless the reference is: from there its height would drop ever faster.
+inline constexpr double kLongestStride = 0.8;
+/// Hips sink no lower above a footprint than this share of the leg.
+inline constexpr double kLeastHeight = 0.45;
+
+/// Moves the root, and all that hangs on it. A zero shift changes nothing.
+template <class F>
+void shift_root(const Plan& plan, const Vec3<F>& shift, Lanes<F>& s) {
+  const F zero = num<F>(0);
+  const Mask<F> moves = length2(shift) > zero;
+  s.place[0] = select(moves, s.place[0] + shift, s.place[0]);
+  place_live_joints(plan, s);
+}
+
+/// A leg under its support: what fast ground adaptation asks of it.
+template <class F>
+struct Stand {
+  Mask<F> active;
+  Vec3<F> hip;
+  Vec3<F> ankle;  ///< Where the support wants the end of the leg's reach.
+  F reach;        ///< Of the straight leg.
+};
+
+template <class F>
+[[nodiscard]] Stand<F> stand_of(const LimbPlan& limb,
+                                const PointPlan& point,
+                                const SolveSettings& settings,
+                                const LanePoint<F>& p,
+                                const Lanes<F>& s) {
+  const Extremity<F> extremity = extremity_of(limb, settings.keeps_orientation, s);
+  const LimbWish<F> wish = wish_of(limb, point, p, extremity, s);
+  const Vec3<F>& hip = s.place[static_cast<std::size_t>(limb.upper)];
+  const Vec3<F>& knee = s.place[static_cast<std::size_t>(limb.lower)];
+  return {p.active > num<F>(0),
+          hip,
+          wish.target,
+          length(knee - hip) + length(wish.place - knee)};
+}
+
+/// Calls `visit(limb, stand, point's number)` for each support on a limb.
+template <class F, class Visit>
+void for_each_stand(const Plan& plan,
+                    const SolveSettings& settings,
+                    Lanes<F>& s,
+                    const Visit& visit) {
+  for (const LimbPlan& limb : plan.limbs) {
+    for (const int k : limb.points) {
+      const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
+      if (point.goal != GoalKind::kSupport) continue;
+      LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
+      p.place = place_of(point, p, s);
+      visit(limb, stand_of(limb, point, settings, p, s), p);
+    }
+  }
+}
+
+/// How long a leg may be for its hamstrings, as a share of its reach; 1 where they do not
+/// pull.
+///
+/// The muscle spans hip and knee. With a straight knee the trunk closes towards the thigh
+/// to `least_trunk_thigh_angle` and no further; a knee bent by f lets it go f further
+/// (taken one to one: what the knee gives the hip gets). Then a trunk that is d too far
+/// down needs f = 2 d, half of which the tilting thigh eats, and the leg's chord becomes
+/// cos(d) of its length: the pelvis sinks, the trunk need not rise. Only for legs that
+/// are straight in the reference (thesis 4.2.3), smoothly up to twice that bend.
+template <class F>
+[[nodiscard]] F hamstring_share(const Plan& plan,
+                                const LimbPlan& limb,
+                                const Vec3<F>& leg,
+                                const Lanes<F>& s) {
+  const F one = num<F>(1);
+  const F tiny = num<F>(1e-9);
+  const auto at = [](int j) { return static_cast<std::size_t>(j); };
+  const Vec3<F> trunk = s.place[at(plan.abdomen_high)] - s.place[at(plan.abdomen_low)];
+  const F cosine = dot(trunk, leg) / sqrt(max(length2(trunk) * length2(leg), tiny));
+  const F& least = s.least_trunk_thigh_cos;
+  // cos(limit - angle), of two angles known by their cosines.
+  const F cos_deficit =
+      least * cosine + safe_sqrt(one - least * least) * safe_sqrt(one - cosine * cosine);
+  const Vec3<F> thigh = s.given_place[at(limb.lower)] - s.given_place[at(limb.upper)];
+  const Vec3<F> shank = s.given_place[at(limb.end)] - s.given_place[at(limb.lower)];
+  const F knee = dot(thigh, shank) / sqrt(max(length2(thigh) * length2(shank), tiny));
+  const F& straight = s.straight_knee_cos;
+  const F bent = num<F>(2) * straight * straight - one;
+  const F was_straight = smooth((knee - bent) / max(straight - bent, num<F>(1e-4)));
+  const F share = one - was_straight * (one - max(cos_deficit, num<F>(0)));
+  return select((cosine > least) & (least < one), share, one);
+}
+
+/// By how much the root has to sink for every supporting leg to reach its footprint, and
+/// for its hamstrings; 0 in lanes that need not. `legs`: whether reach counts, or
+/// hamstrings alone.
+template <class F>
+[[nodiscard]] F needed_drop(const Plan& plan,
+                            const SolveSettings& settings,
+                            bool legs,
+                            Lanes<F>& s) {
+  const F zero = num<F>(0);
+  F drop = zero;
+  for_each_stand<F>(
+      plan, settings, s, [&](const LimbPlan& limb, const auto& stand, auto&) {
+        const Vec3<F> leg = stand.ankle - stand.hip;
+        const F across2 = leg.x * leg.x + leg.z * leg.z;
+        const F straight = safe_sqrt(stand.reach * stand.reach - across2);
+        F height = straight;
+        F share = num<F>(1);
+        if (plan.has_hamstrings()) {
+          share = hamstring_share(plan, limb, leg, s);
+          const F allowed = share * stand.reach;
+          height = max(safe_sqrt(allowed * allowed - across2),
+                       min(straight, num<F>(kLeastHeight) * stand.reach));
+        }
+        const F excess = (stand.hip.y - stand.ankle.y) - height;
+        const F least = num<F>(kOnFootprint) * stand.reach;
+        const Mask<F> counts = stand.active & (excess > least) &
+                               ((num<F>(legs ? 1 : 0) > zero) | (share < num<F>(1)));
+        drop = select(counts, max(drop, excess), drop);
+      });
+  return drop;
+}
+
+/// How far, along the floor, the root has to go back towards its footprints.
+template <class F>
+[[nodiscard]] Vec3<F> stride_excess(const Plan& plan,
+                                    const SolveSettings& settings,
+                                    Lanes<F>& s) {
+  const F zero = num<F>(0);
+  Vec3<F> shift{zero, zero, zero};
+  for (int round = 0; round < 4; ++round) {
+    Mask<F> moved = zero > num<F>(1);
+    for_each_stand<F>(
+        plan, settings, s, [&](const LimbPlan& limb, const auto& stand, auto&) {
+          const Vec3<F> was = s.reference_place[static_cast<std::size_t>(limb.end)] -
+                              s.reference_place[static_cast<std::size_t>(limb.upper)];
+          const F stride = sqrt(was.x * was.x + was.z * was.z);
+          const F longest = max(num<F>(kLongestStride) * stand.reach,
+                                min(stride, num<F>(0.999) * stand.reach));
+          const Vec3<F> leg = stand.ankle - (stand.hip + shift);
+          const F across = sqrt(leg.x * leg.x + leg.z * leg.z);
+          const Mask<F> far =
+              stand.active & (across > longest + num<F>(kOnFootprint) * stand.reach);
+          const F back =
+              select(far, (across - longest) / max(across, num<F>(1e-6)), zero);
+          shift += Vec3<F>{back * leg.x, zero, back * leg.z};
+          moved = moved | far;
+        });
+    if (!any(moved)) break;
+  }
+  return shift;
+}
+
+/// Whether a support's point or its foot is not where and how it should be.
+template <class F>
+[[nodiscard]] Mask<F> is_off(const PointPlan& point,
+                             const LanePoint<F>& p,
+                             const Lanes<F>& s) {
+  const F least = num<F>(kOnFootprint);
+  Mask<F> off = length2(p.target - place_of(point, p, s)) > least * least;
+  if (point.stands_flat) {
+    const Vec3<F> turn =
+        turn_left(s.rotation[static_cast<std::size_t>(point.joint)], p.goal.rotation);
+    off = off | (length2(turn) > least * least);
+  }
+  return off & (p.active > num<F>(0));
+}
+
+/// Legs that support follow to their footprints, analytically; other lanes of `mask` and
+/// feet that stand where they should are not touched.
+template <class F>
+void close_supports(const Plan& plan,
+                    const SolveSettings& settings,
+                    const Mask<F>& mask,
+                    Lanes<F>& s) {
+  for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
+    Mask<F> off = num<F>(0) > num<F>(1);
+    bool supports = false;
+    for (const int k : plan.limbs[l].points) {
+      const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
+      if (point.goal != GoalKind::kSupport) continue;
+      supports = true;
+      off = off | is_off(point, s.points[static_cast<std::size_t>(k)], s);
+    }
+    if (!supports || !any(mask & off)) continue;
+    close_limb(plan, static_cast<int>(l), settings, num<F>(0), mask & off, s);
+  }
+}
+
+/// Fast ground adaptation (Ménardais 2003; thesis 4.2.4.1), in the lanes of `mask`: the
+/// root keeps its height unless a supporting leg would not reach its footprint, then it
+/// sinks to the least of the heights at which each is straight (as straight as its
+/// hamstrings let it be); legs follow. Whom no height helps because the footprint is too
+/// far along the floor, the root comes nearer; after that every support is exact that one
+/// place of the root can serve. Precondition: measured targets of supports.
+template <class F>
+void adapt_to_supports(const Plan& plan,
+                       const SolveSettings& settings,
+                       const Mask<F>& mask,
+                       Lanes<F>& s) {
+  if (!plan.has_supports) return;
+  const F zero = num<F>(0);
+  const Vec3<F> none{zero, zero, zero};
+  const Vec3<F> back = select(mask, stride_excess(plan, settings, s), none);
+  if (any(length2(back) > zero)) shift_root(plan, back, s);
+  const F drop = select(mask, needed_drop(plan, settings, true, s), zero);
+  if (any(drop > zero)) shift_root(plan, {zero, -drop, zero}, s);
+  Mask<F> off = zero > num<F>(1);
+  for_each_stand<F>(plan, settings, s, [&](const LimbPlan&, const auto& stand, auto&) {
+    const F far = stand.reach * num<F>(1 + kOnFootprint);
+    off = off | (stand.active & (length2(stand.ankle - stand.hip) > far * far));
+  });
+  if (any(mask & off)) reach_supports(plan, settings, mask & off, s);
+  close_supports(plan, settings, mask, s);
+}
+
+/// The rule of the hamstrings alone (thesis 4.2.3): lowers the pelvis of lanes in `mask`
+/// whose trunk bends over a straight supporting leg further than the body can. Legs do
+/// not follow yet.
+template <class F>
+void spare_hamstrings(const Plan& plan,
+                      const SolveSettings& settings,
+                      const Mask<F>& mask,
+                      Lanes<F>& s) {
+  if (!plan.has_hamstrings() || !plan.has_supports) return;
+  const F zero = num<F>(0);
+  const F drop = select(mask, needed_drop(plan, settings, false, s), zero);
+  if (any(drop > zero)) shift_root(plan, {zero, -drop, zero}, s);
+}
+
+/// Mean of what the footprints of both feet (of all limbs that stand) are displaced.
+/// While a support fades the answers with and without it are mixed (adapter_solve.cpp),
+/// so that the body anticipates by as much as the support is active.
+template <class F>
+[[nodiscard]] Vec3<F> mean_displacement(const Plan& plan,
+                                        const Mask<F>& mask,
+                                        const Lanes<F>& s) {
+  const F zero = num<F>(0);
+  const F one = num<F>(1);
+  Vec3<F> sum{zero, zero, zero};
+  F feet = zero;
+  for (const LimbPlan& limb : plan.limbs) {
+    Vec3<F> moved{zero, zero, zero};
+    F count = zero;
+    for (const int k : limb.points) {
+      const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
+      if (point.goal != GoalKind::kSupport) continue;
+      const LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
+      const Mask<F> active = mask & (p.active > zero);
+      const Vec3<F> by = p.target - place_of(point, p, s);
+      // Roundings do not count, and nothing jumps where they end.
+      const F far = length(by);
+      const F share =
+          max(far - num<F>(kOnFootprint), zero) / max(far, num<F>(kOnFootprint));
+      moved += select(active, share, zero) * by;
+      count = count + select(active, one, zero);
+    }
+    sum += (one / max(count, one)) * moved;
+    feet = feet + min(count, one);
+  }
+  return (one / max(feet, one)) * sum;
+}
+
+/// Complete ground adaptation (thesis 4.2.4.2) of the reference itself, in the lanes of
+/// `mask`, and the axes of its limbs: the root goes by the mean displacement of the
+/// footprints, then the fast adaptation. Makes `reference_*` of what was given, and where
+/// the centre of mass is wanted when that is the reference's own. Leaves it as the
+/// posture.
+template <class F>
+void ground_reference(const Plan& plan,
+                      const SolveSettings& settings,
+                      bool balance,
+                      const Mask<F>& mask,
+                      Lanes<F>& s) {
+  const F zero = num<F>(0);
+  if (!plan.has_supports) {
+    set_axes(plan, mask, s);
+    return;
+  }
+  for (const int j : plan.live) {
+    const auto i = static_cast<std::size_t>(j);
+    s.rotation[i] = select(mask, s.given_rotation[i], s.rotation[i]);
+    s.place[i] = select(mask, s.given_place[i], s.place[i]);
+    s.reference_rotation[i] = select(mask, s.given_rotation[i], s.reference_rotation[i]);
+    s.reference_place[i] = select(mask, s.given_place[i], s.reference_place[i]);
+    s.reference_local[i] = select(mask, s.given_local[i], s.reference_local[i]);
+  }
+  set_axes(plan, mask, s);
+  s.com_target = select(mask, s.given_com_target, s.com_target);
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const PointPlan& point = plan.points[k];
+    if (point.goal != GoalKind::kSupport) continue;
+    s.points[k].place = place_of(point, s.points[k], s);
+    s.points[k].target = target_of(point, s.points[k], s);
+  }
+  const Vec3<F> moved = mean_displacement(plan, mask, s);
+  if (any(length2(moved) > zero)) shift_root(plan, moved, s);
+  adapt_to_supports(plan, settings, mask, s);
+  const Vec3<F> root = s.place[0] - s.given_place[0];
+  Mask<F> changed = length2(root) > zero;
+  for (const LimbPlan& limb : plan.limbs) {
+    const int joints[3] = {limb.upper, limb.lower, limb.end};
+    for (const int j : joints) {
+      const auto i = static_cast<std::size_t>(j);
+      const Quat<F>& a = s.rotation[i];
+      const Quat<F>& b = s.given_rotation[i];
+      const Mask<F> same = (a.w == b.w) & (a.x == b.x) & (a.y == b.y) & (a.z == b.z);
+      changed = changed | !same;
+    }
+  }
+  changed = changed & mask;
+  if (!any(changed)) return;
+  for (const int j : plan.live) {
+    const auto i = static_cast<std::size_t>(j);
+    s.reference_rotation[i] = select(changed, s.rotation[i], s.reference_rotation[i]);
+    s.reference_place[i] = select(changed, s.place[i], s.reference_place[i]);
+    if (j == 0) continue;
+    const auto p = static_cast<std::size_t>(plan.parent[i]);
+    s.reference_local[i] =
+        select(changed, conjugate(s.rotation[p]) * s.rotation[i], s.reference_local[i]);
+  }
+  if (!balance) return;
+  measure_balance(plan, s);
+  s.com_target =
+      select(changed & (s.com_from_reference > num<F>(0.5)), s.com, s.com_target);
+}
+
+}  // namespace marey::retarget
