@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include "app/adapt_commands.h"
 #include "app/commands.h"
 #include "app/fit_commands.h"
 #include "app/option_checks.h"
@@ -47,6 +48,7 @@ struct Arguments {
   PlanArguments plan;
   RepairArguments repair;
   FitArguments fit;
+  AdaptArguments adapt;
 
   [[nodiscard]] ProgressStyle style_of_progress() const {
     if (progress == "json") return ProgressStyle::kJson;
@@ -221,6 +223,7 @@ int run(int argc, char** argv) {
                       chosen);
   add_record(app, args, chosen);
   add_retarget(app, args, chosen);
+  add_adapt_command(app, args.adapt, chosen);
   add_convert(app, args, chosen);
   add_mannequin(app, args, chosen);
   add_print_commands(app, args.print, chosen);

@@ -10,17 +10,6 @@
 namespace marey::app {
 namespace {
 
-bool is_gltf(const std::filesystem::path& path) {
-  const std::string kind = kind_by_extension(path);
-  return kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma";
-}
-
-Error unknown_kind(const std::filesystem::path& path) {
-  return bad_input(path.string(),
-                   "is not a .bvh, .glb, .gltf, .vrm or .vrma file",
-                   "convert it to one of these");
-}
-
 Result<RetargetedFiles> retarget_only(const Motion& motion,
                                       const std::filesystem::path& avatar) {
   const auto skeleton = read_skeleton(avatar);
@@ -45,6 +34,17 @@ Status write(RetargetedFiles& result,
 }
 
 }  // namespace
+
+bool is_gltf(const std::filesystem::path& path) {
+  const std::string kind = kind_by_extension(path);
+  return kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma";
+}
+
+Error unknown_kind(const std::filesystem::path& path) {
+  return bad_input(path.string(),
+                   "is not a .bvh, .glb, .gltf, .vrm or .vrma file",
+                   "convert it to one of these");
+}
 
 Result<RetargetedFiles> retarget_to_files(const Motion& motion,
                                           const std::filesystem::path& avatar,

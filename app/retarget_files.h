@@ -40,6 +40,9 @@ struct RetargetedFiles {
 /// Errors: unreadable; another kind of file.
 [[nodiscard]] Result<Skeleton> read_skeleton(const std::filesystem::path& path);
 
+/// Whether the file is a .glb, .gltf, .vrm or .vrma by its name.
+[[nodiscard]] bool is_gltf(const std::filesystem::path& path);
+
 struct ReadMotion {
   Motion motion;
   /// The largest movement of a bone against its parent that was left out. [m]

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "app/console.h"
+#include "retarget/adapter.h"
+
+namespace marey::app {
+
+/// Which feet stand, and who says when.
+enum class SupportsFrom {
+  kAuto,  ///< The file; feet that it says nothing of: where the motion has them standing.
+  kFile,  ///< The constraints file alone.
+  kNone,  ///< None at all; those of the file are left out.
+};
+
+/// What `marey adapt` was asked for.
+struct AdaptArguments {
+  std::filesystem::path motion;
+  std::filesystem::path character;    ///< character.toml; empty: the motion's own body.
+  std::filesystem::path constraints;  ///< Empty: none.
+  std::filesystem::path out;          ///< .bvh or .glb
+  /// nullopt: the file's when it has any, else as kAuto.
+  std::optional<SupportsFrom> supports;
+  retarget::AdaptOptions options;
+  std::vector<std::string> balance_groups;  ///< Empty: the character's own.
+  std::vector<std::string> loads;           ///< Carried from the beginning.
+  std::optional<double> floor_height_m;
+  bool json = false;
+};
+
+/// `marey adapt MOTION --out OUT`: every posture of a motion brought to constraints, its
+/// feet on their footprints, its centre of mass kept (docs/formats.md).
+[[nodiscard]] Exit run_adapt(const AdaptArguments& args, Console& console);
+
+/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+void add_adapt_command(CLI::App& app,
+                       AdaptArguments& args,
+                       std::function<Exit(Console&)>& chosen);
+
+}  // namespace marey::app

@@ -1,0 +1,210 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/adapt_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+namespace marey::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using retarget::KeptConstraint;
+
+constexpr double kFirmFoot_m = 1e-3;
+
+template <class... Values>
+std::string text_of(const char* format, Values... values) {
+  std::array<char, 320> text{};
+  std::snprintf(text.data(), text.size(), format, values...);
+  return text.data();
+}
+
+double time_of(const AdaptRun& run, int frame) {
+  const Motion& motion = run.adapted.motion;
+  return (motion.first_frame + frame) / motion.rate.hz;
+}
+
+bool is_missed(const KeptConstraint& kept) {
+  return kept.met_frames < kept.active_frames;
+}
+
+Json figures_of(const KeptConstraint& kept, const AdaptRun& run) {
+  Json out{{"id", kept.id},
+           {"support", kept.is_support},
+           {"active_frames", kept.active_frames},
+           {"met_frames", kept.met_frames}};
+  if (kept.active_frames == 0) return out;
+  out["mean_error_mm"] = 1e3 * kept.mean_error_m;
+  out["worst_error_mm"] = 1e3 * kept.worst_error_m;
+  out["worst_frame"] = kept.worst_frame;
+  out["worst_time_s"] = time_of(run, kept.worst_frame);
+  return out;
+}
+
+Json all_figures_of(const std::vector<KeptConstraint>& kept, const AdaptRun& run) {
+  Json out = Json::array();
+  for (const KeptConstraint& one : kept) out.push_back(figures_of(one, run));
+  return out;
+}
+
+template <class Counts>
+double worst_m(const AdaptRun& run, const Counts& counts) {
+  double worst = 0.0;
+  for (const auto* all : {&run.adapted.constraints, &run.adapted.supports}) {
+    for (const KeptConstraint& kept : *all) {
+      if (counts(kept)) worst = std::max(worst, kept.worst_error_m);
+    }
+  }
+  return worst;
+}
+
+bool is_support(const KeptConstraint& kept) {
+  return kept.is_support;
+}
+
+/// What stands in the way of a constraint, most likely first.
+std::string advice_for(const KeptConstraint& kept,
+                       const AdaptArguments& args,
+                       const AdaptRun& run) {
+  const Constraint* own = run.constraints.find(kept.id);
+  if (kept.ran_out) return "allow more with --max-iterations";
+  if (own != nullptr && own->range) {
+    return "let more segments turn for it: a greater <range>, or none";
+  }
+  const retarget::AdaptOptions& options = args.options;
+  if (options.root_for_constraints < 1.0) return "let the root help: --root-share 1";
+  if (options.control == retarget::Control::kBlend &&
+      run.constraints.constraints.size() > 1) {
+    return "raise its importance against the others', or use --control priority";
+  }
+  if (own != nullptr) {
+    for (const Constraint& other : run.constraints.constraints) {
+      if (other.importance > own->importance) {
+        return "\"" + other.id +
+               "\" comes before it: exchange their importance, or move "
+               "one of the two";
+      }
+    }
+  }
+  if (options.balance != retarget::BalanceMode::kOff) {
+    return "move its target nearer, or do without --balance";
+  }
+  return "move its target nearer to the body, or let a foot go";
+}
+
+std::string miss_of(const KeptConstraint& kept, const AdaptRun& run) {
+  return text_of("missed in %d of %d frames, by up to %.1f mm (at %.2f s)",
+                 kept.active_frames - kept.met_frames,
+                 kept.active_frames,
+                 1e3 * kept.worst_error_m,
+                 time_of(run, kept.worst_frame));
+}
+
+}  // namespace
+
+Json adapt_figures(const AdaptArguments& args, const AdaptRun& run) {
+  const retarget::AdaptedMotion& adapted = run.adapted;
+  const std::size_t frames = adapted.motion.poses.size();
+  Json out{{"out", args.out.string()},
+           {"character", run.character},
+           {"frames", frames},
+           {"rate_hz", adapted.motion.rate.hz},
+           {"floor_height_m", run.floor_height_m},
+           {"constraints", all_figures_of(adapted.constraints, run)},
+           {"supports", all_figures_of(adapted.supports, run)},
+           {"worst_support_mm", 1e3 * worst_m(run, is_support)}};
+  if (args.options.balance != retarget::BalanceMode::kOff) {
+    out["balance"] = {{"mean_error_mm", 1e3 * adapted.mean_balance_error_m},
+                      {"worst_error_mm", 1e3 * adapted.worst_balance_error_m}};
+  }
+  out["iterations"] = {{"mean", adapted.mean_iterations},
+                       {"most", adapted.most_iterations},
+                       {"frames_at_cap", adapted.capped_frames}};
+  out["us_per_frame"] =
+      frames > 0 ? 1e6 * run.adapt_s / static_cast<double>(frames) : 0.0;
+  return out;
+}
+
+std::string adapt_summary(const AdaptArguments& args, const AdaptRun& run) {
+  const retarget::AdaptedMotion& adapted = run.adapted;
+  const std::size_t frames = adapted.motion.poses.size();
+  std::size_t met = 0;
+  std::size_t wishes = 0;
+  for (const KeptConstraint& kept : adapted.constraints) {
+    if (kept.is_support || kept.active_frames == 0) continue;
+    ++wishes;
+    if (!is_missed(kept)) ++met;
+  }
+  std::string text = args.out.string() + ": " + std::to_string(frames) + " frames";
+  if (wishes > 0) {
+    text += text_of(", %zu of %zu constraints met", met, wishes);
+    if (met < wishes) {
+      const auto is_wish = [](const KeptConstraint& kept) { return !kept.is_support; };
+      text += text_of(" (worst %.1f mm off)", 1e3 * worst_m(run, is_wish));
+    }
+  }
+  text += text_of(", supports within %.2f mm", 1e3 * worst_m(run, is_support));
+  if (args.options.balance != retarget::BalanceMode::kOff) {
+    text += text_of(", balance within %.1f mm", 1e3 * adapted.worst_balance_error_m);
+  }
+  return text +
+         text_of(", %.0f us a frame",
+                 frames > 0 ? 1e6 * run.adapt_s / static_cast<double>(frames) : 0.0);
+}
+
+std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptRun& run) {
+  std::vector<std::string> out;
+  const std::string file = args.constraints.string();
+  for (const KeptConstraint& kept : run.adapted.constraints) {
+    const std::string who = file + ": constraint \"" + kept.id + "\": ";
+    if (kept.active_frames == 0) {
+      const int last = static_cast<int>(run.adapted.motion.poses.size()) - 1;
+      out.push_back(who +
+                    text_of("is fully active in no frame of the motion, which lasts "
+                            "from %.2f s to %.2f s. Next: check its times",
+                            time_of(run, 0),
+                            time_of(run, last)));
+    } else if (is_missed(kept)) {
+      out.push_back(who + miss_of(kept, run) + ". Next: " + advice_for(kept, args, run));
+    }
+  }
+  for (const KeptConstraint& kept : run.adapted.supports) {
+    if (kept.active_frames > 0 && kept.worst_error_m > kFirmFoot_m) {
+      out.push_back(args.motion.string() + ": " + kept.id + ": " + miss_of(kept, run));
+    }
+  }
+  return out;
+}
+
+Status judge_adapted(const AdaptArguments& args, const AdaptRun& run) {
+  for (const auto* all : {&run.adapted.constraints, &run.adapted.supports}) {
+    for (const KeptConstraint& kept : *all) {
+      if (!kept.is_support || kept.worst_error_m <= kFirmFoot_m) continue;
+      return Error{Errc::kQuality,
+                   args.out.string(),
+                   text_of("support \"%s\" is %.1f mm off its footprint at %.2f s",
+                           kept.id.c_str(),
+                           1e3 * kept.worst_error_m,
+                           time_of(run, kept.worst_frame)),
+                   "the foot does not reach it: move the footprint, or lower the body's "
+                   "other wishes"};
+    }
+  }
+  // A blend is a compromise: nobody was promised anything.
+  if (args.options.control == retarget::Control::kBlend) return Done{};
+  for (const KeptConstraint& kept : run.adapted.constraints) {
+    const int missed = kept.active_frames - kept.met_frames;
+    if (kept.is_support || 2 * missed <= kept.active_frames) continue;
+    return Error{Errc::kQuality,
+                 args.out.string(),
+                 "constraint \"" + kept.id + "\" is " + miss_of(kept, run),
+                 advice_for(kept, args, run)};
+  }
+  return Done{};
+}
+
+}  // namespace marey::app

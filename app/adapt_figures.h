@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/adapt_commands.h"
+#include "core/constraint.h"
+#include "core/result.h"
+#include "retarget/adapt_motion.h"
+
+namespace marey::app {
+
+/// All that is told of one run of `marey adapt`.
+struct AdaptRun {
+  std::string character;
+  ConstraintSet constraints;  ///< As they were asked of the adapter.
+  retarget::AdaptedMotion adapted;
+  double floor_height_m = 0.0;
+  double adapt_s = 0.0;  ///< Wall clock, of the postures alone.
+};
+
+/// The report (docs/formats.md, "What marey adapt writes").
+[[nodiscard]] nlohmann::ordered_json adapt_figures(const AdaptArguments& args,
+                                                   const AdaptRun& run);
+
+/// One line a person reads first.
+[[nodiscard]] std::string adapt_summary(const AdaptArguments& args, const AdaptRun& run);
+
+/// What was not kept, each with when, by how much and what would help; and constraints
+/// that never were active.
+[[nodiscard]] std::vector<std::string> adapt_warnings(const AdaptArguments& args,
+                                                      const AdaptRun& run);
+
+/// Whether the result can be trusted to do what was asked. Errors (kQuality): a support
+/// is off its footprint by more than 1 mm; by priority, a constraint was missed in more
+/// than half of the frames in which it is fully active.
+[[nodiscard]] Status judge_adapted(const AdaptArguments& args, const AdaptRun& run);
+
+}  // namespace marey::app

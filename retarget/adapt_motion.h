@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/character.h"
+#include "core/constraint.h"
+#include "core/motion.h"
+#include "core/progress.h"
+#include "core/result.h"
+#include "retarget/adapter.h"
+#include "retarget/plan_supports.h"
+
+namespace marey::retarget {
+
+struct AdaptMotionOptions {
+  AdaptOptions adapt;
+  /// Loads of the character that it carries from the beginning on; it has no others.
+  std::vector<std::string> carried;
+};
+
+/// How well one constraint was kept, in frames in which it is fully active.
+struct KeptConstraint {
+  std::string id;
+  bool is_support = false;
+  int active_frames = 0;
+  int met_frames = 0;  ///< Within its precision (supports: 0.1 mm), and kMeasured_m.
+  double mean_error_m = 0.0;
+  double worst_error_m = 0.0;
+  int worst_frame = -1;  ///< Of the motion's poses; -1 when it never was fully active.
+  /// Iterations were used up in a frame in which it was not met.
+  bool ran_out = false;
+};
+
+/// An error is as good as none below this: what single precision leaves of a body that
+/// is some metres from the world's origin, and six decimals of a file. [m]
+inline constexpr double kMeasured_m = 2e-5;
+
+struct AdaptedMotion {
+  Motion motion;
+  std::vector<KeptConstraint> constraints;  ///< As the set's, supports of it included.
+  std::vector<KeptConstraint> supports;     ///< As the tracks.
+  double mean_iterations = 0.0;
+  int most_iterations = 0;
+  int capped_frames = 0;  ///< In which all iterations were used.
+  double mean_balance_error_m = 0.0;
+  double worst_balance_error_m = 0.0;
+};
+
+/// Adapts every posture of a motion (Kulpa 2005, 4 and 5) to constraints and to the
+/// supports of its feet. Frame, rate and names are the motion's; frame i is at time
+/// (first_frame + i) / rate. Same input, same bytes. Errors are measured by forward
+/// kinematics on the answer (retarget/measure_constraint.h). Costs one Adapter::adapt()
+/// a frame.
+///
+/// Errors (bad input): Adapter::make()'s; a load that the character does not have.
+/// Precondition: the motion is of the character's skeleton; the rate is positive; tracks
+/// have its frames.
+[[nodiscard]] Result<AdaptedMotion> adapt_motion(const Motion& motion,
+                                                 const Character& character,
+                                                 const ConstraintSet& constraints,
+                                                 std::span<const SupportTrack> supports,
+                                                 const AdaptMotionOptions& options = {},
+                                                 const Progress& progress = {});
+
+}  // namespace marey::retarget
