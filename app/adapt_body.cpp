@@ -89,10 +89,8 @@ Status place_motion(const Motion& source,
     body.contacts = std::move(retargeted->report.contacts);
     if (is_own) lift(body.reference, body.floor_height_m);
   }
-  if (options.floor_height_m) {
-    lift(body.reference, *options.floor_height_m - body.floor_height_m);
-    body.floor_height_m = *options.floor_height_m;
-  }
+  lift(body.reference, options.raise_m);
+  body.floor_height_m += options.raise_m;
   return Done{};
 }
 

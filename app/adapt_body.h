@@ -3,7 +3,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
 #include "core/character.h"
 #include "core/motion.h"
@@ -29,7 +28,7 @@ struct AdaptBodyOptions {
   std::filesystem::path character;  ///< Of a character.toml; empty: the motion's own.
   /// The reference's feet stand still, and the root comes down where they do not reach.
   bool plant_feet = true;
-  std::optional<double> floor_height_m;  ///< nullopt: as it is.
+  double raise_m = 0.0;  ///< By how much the floor and all that stands on it.
 };
 
 /// Reads the character and puts the motion on its body: retargeted when the body is

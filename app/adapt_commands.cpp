@@ -128,7 +128,7 @@ Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
   options.motion = args.motion;
   options.character = args.character;
   options.plant_feet = supports == SupportsFrom::kAuto;
-  options.floor_height_m = args.floor_height_m;
+  options.raise_m = args.floor_height_m;
   auto body = make_adapt_body(source->motion, options);
   if (!body) return body.error();
   if (const Status ok = check_adapted_out(*body, args.out); !ok) return ok;
@@ -263,7 +263,7 @@ void add_adapt_command(CLI::App& app,
   command
       ->add_option("--floor-height",
                    args.floor_height_m,
-                   "Height at which the motion's feet stand [m]; default where they are")
+                   "Raises the floor, and the motion with it [m]")
       ->check(between(-1e4, 1e4));
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback(

@@ -10,6 +10,12 @@
 namespace marey::app {
 namespace {
 
+Error unknown_kind(const std::filesystem::path& path) {
+  return bad_input(path.string(),
+                   "is not a .bvh, .glb, .gltf, .vrm or .vrma file",
+                   "convert it to one of these");
+}
+
 Result<RetargetedFiles> retarget_only(const Motion& motion,
                                       const std::filesystem::path& avatar) {
   const auto skeleton = read_skeleton(avatar);
@@ -38,12 +44,6 @@ Status write(RetargetedFiles& result,
 bool is_gltf(const std::filesystem::path& path) {
   const std::string kind = kind_by_extension(path);
   return kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma";
-}
-
-Error unknown_kind(const std::filesystem::path& path) {
-  return bad_input(path.string(),
-                   "is not a .bvh, .glb, .gltf, .vrm or .vrma file",
-                   "convert it to one of these");
 }
 
 Result<RetargetedFiles> retarget_to_files(const Motion& motion,

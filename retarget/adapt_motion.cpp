@@ -126,6 +126,18 @@ Status take_loads(const Character& character,
   return Done{};
 }
 
+/// Centre of mass of the body itself, without what it carries.
+glm::dvec3 com_of(const Character& character,
+                  std::span<const RigidTransform> world_from_joint) {
+  glm::dvec3 sum(0.0);
+  double mass_kg = 0.0;
+  for (const PointMass& mass : character.masses) {
+    sum += mass.mass_kg * (world_from_joint[index(mass.joint)] * mass.p_in_joint);
+    mass_kg += mass.mass_kg;
+  }
+  return sum / mass_kg;
+}
+
 void add_report(const AdaptReport& report, int cap, AdaptedMotion& out) {
   out.mean_iterations += report.iterations;
   out.most_iterations = std::max(out.most_iterations, report.iterations);
@@ -173,6 +185,10 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
   std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     for (TrackDriver& driver : drivers) driver.at(t);
+    if (!options.carried.empty()) {
+      world_from_joints(motion.skeleton, motion.poses[t], world_from_joint);
+      adapter->set_balance_target(com_of(character, world_from_joint));
+    }
     const double time_s = (motion.first_frame + static_cast<double>(t)) / motion.rate.hz;
     const AdaptReport report =
         adapter->adapt(motion.poses[t], time_s, out.motion.poses[t]);

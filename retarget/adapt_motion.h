@@ -19,7 +19,8 @@ namespace marey::retarget {
 
 struct AdaptMotionOptions {
   AdaptOptions adapt;
-  /// Loads of the character that it carries from the beginning on; it has no others.
+  /// Loads of the character that it carries from the beginning on; it has no others. The
+  /// centre of mass, load included, is wanted where the motion has the body's own.
   std::vector<std::string> carried;
 };
 
