@@ -70,10 +70,27 @@ std::vector<FrameInterval> common(const std::vector<FrameInterval>& a,
 // Never by itself: whoever drives the track starts it.
 constexpr double kNever_s = 1e8;
 
-bool are_same(const std::vector<FrameInterval>& a, const std::vector<FrameInterval>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](auto x, auto y) {
-    return x.first == y.first && x.last == y.last;
-  });
+// Where a joint bears alone, and the frames of the flat foot beside it: there both hold,
+// so that one may fade while the other does.
+std::vector<FrameInterval> alone(const std::vector<FrameInterval>& runs,
+                                 const std::vector<FrameInterval>& flat) {
+  const auto is_in = [](const std::vector<FrameInterval>& all, int frame) {
+    return std::any_of(all.begin(), all.end(), [frame](const FrameInterval& run) {
+      return run.first <= frame && frame <= run.last;
+    });
+  };
+  std::vector<FrameInterval> out;
+  for (const FrameInterval& run : runs) {
+    bool goes_on = false;
+    for (int t = run.first; t <= run.last; ++t) {
+      const bool counts = !is_in(flat, t) || (t > run.first && !is_in(flat, t - 1)) ||
+                          (t < run.last && !is_in(flat, t + 1));
+      if (counts && !goes_on) out.push_back({t, t});
+      if (counts) out.back().last = t;
+      goes_on = counts;
+    }
+  }
+  return out;
 }
 
 struct Bearing {
@@ -105,13 +122,12 @@ std::vector<SupportTrack> plan_supports(const Motion& reference,
     for (FootPlace& place : plan) place.ankle_in_world.y += options.floor_height_m;
     const glm::dvec3 ball = foot.ball_from_ankle_in_t_pose;
     // The flat foot first: of several supports of one limb the first is closed exactly.
+    const std::vector<FrameInterval> flat = common(bears.heel, bears.ball);
     const std::array<Bearing, 3> ways{
-        {{"flat", common(bears.heel, bears.ball), glm::dvec3(0.0), false},
-         {"heel", bears.heel, glm::dvec3(0.0), true},
-         {"ball", bears.ball, ball, true}}};
+        {{"flat", flat, glm::dvec3(0.0), false},
+         {"heel", alone(bears.heel, flat), glm::dvec3(0.0), true},
+         {"ball", alone(bears.ball, flat), ball, true}}};
     for (const Bearing& way : ways) {
-      // A foot that only ever stands flat needs no more.
-      if (way.turns && are_same(way.runs, ways.front().runs)) continue;
       SupportTrack track;
       track.bears = merged(way.runs, 2.0 * options.ramp_s * reference.rate.hz + 1.0);
       if (track.bears.empty()) continue;

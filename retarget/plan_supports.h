@@ -37,9 +37,11 @@ struct PlanSupportsOptions {
 };
 
 /// The supports of the feet of a motion (Kulpa 2005, 3.1.1.1 and 4.2.4), each stance with
-/// one footprint: plan_foot()'s. Runs of one point that are nearer to each other than two
+/// one footprint: plan_foot()'s. Heel and ball have tracks for when they bear alone: the
+/// flat foot needs no other. Runs of one point that are nearer to each other than two
 /// ramps are one: between them the foot keeps to the planned way, too. Points that never
-/// bear have no track. Linear in frames.
+/// bear have no track. Linear in
+/// frames, quadratic in a foot's stances.
 /// Precondition: `map` was made from the motion's skeleton; `contacts` has its frames.
 [[nodiscard]] std::vector<SupportTrack> plan_supports(
     const Motion& reference,
