@@ -40,8 +40,7 @@ struct PlanSupportsOptions {
 /// one footprint: plan_foot()'s. Heel and ball have tracks for when they bear alone: the
 /// flat foot needs no other. Runs of one point that are nearer to each other than two
 /// ramps are one: between them the foot keeps to the planned way, too. Points that never
-/// bear have no track. Linear in
-/// frames, quadratic in a foot's stances.
+/// bear have no track. Costs frames times stances.
 /// Precondition: `map` was made from the motion's skeleton; `contacts` has its frames.
 [[nodiscard]] std::vector<SupportTrack> plan_supports(
     const Motion& reference,

@@ -47,8 +47,8 @@ std::string hand_at(const glm::dvec3& p_in_world,
                     const std::string& segment) {
   const auto number = [](double x) { return std::to_string(x); };
   return "<Distance><name>hand</name>"
-         "<start_time>0.8</start_time><start_duration>0.2</start_duration>"
-         "<stop_time>1.4</stop_time><stop_duration>0.2</stop_duration>" +
+         "<start_time>0.79</start_time><start_duration>0.2</start_duration>"
+         "<stop_time>1.41</stop_time><stop_duration>0.2</stop_duration>" +
          more + "<bodyPoint><segment>" + segment +
          "</segment></bodyPoint><specif><distance>0</distance><position><X>" +
          number(p_in_world.x) + "</X><Y>" + number(p_in_world.y) + "</Y><Z>" +

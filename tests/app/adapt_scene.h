@@ -39,7 +39,7 @@ class AdaptScene {
   SyntheticWalk walk_;
 };
 
-/// A Distance constraint of the left hand, fully active from 1 s to 1.4 s.
+/// A Distance constraint of the left hand, fully active from 0.99 s to 1.41 s.
 [[nodiscard]] std::string hand_at(const glm::dvec3& p_in_world,
                                   const std::string& more = "",
                                   const std::string& segment = "leftHand");
