@@ -192,7 +192,7 @@ Errors<float> Adapter::State::solve_for(double least, double& iterations) {
     while (!advance_thesis(plan, thesis, told, lanes, solve)) {
     }
     iterations += static_cast<double>(solve.progress.iterations);
-    return finish_thesis(plan, thesis, true, lanes);
+    return finish_thesis(plan, thesis, told, true, lanes);
   }
   begin_lanes(plan, form, told, true, lanes, solve);
   if (solve.whole_body > 0.0F) {

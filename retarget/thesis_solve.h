@@ -3,7 +3,7 @@
 #pragma once
 
 #include "retarget/adapt_solve.h"
-#include "retarget/thesis_kinematics.h"
+#include "retarget/thesis_kinetics.h"
 
 /// The thesis' method (Kulpa 2005, chapters 4 and 5), over lanes: groups from light to
 /// heavy towards the constraints, root, ground.
@@ -52,6 +52,36 @@ template <class F>
   return out;
 }
 
+/// What a posture is worth: constraints, and twice what balance lacks beyond its
+/// precision (CnErrorMax).
+template <class F>
+[[nodiscard]] F merit_of(const Errors<F>& errors, const Lanes<F>& s) {
+  return errors.mean + num<F>(2) * max(errors.balance - s.balance_precision, num<F>(0));
+}
+
+/// Limbs, and with balance what their masses undo: the root by what is left, and limbs
+/// again. A round leaves about a tenth.
+template <class F>
+[[nodiscard]] Errors<F> close_and_settle(const Plan& plan,
+                                         const ThesisShape& shape,
+                                         const SolveSettings& settings,
+                                         int rounds,
+                                         const Mask<F>& mask,
+                                         Lanes<F>& s) {
+  const F one = num<F>(1);
+  adapt_groups(plan, shape.groups, false, settings, one, mask, s);
+  Errors<F> errors = measure_wishes(plan, shape.balance, s);
+  if (!shape.balance) return errors;
+  for (int round = 0; round < rounds; ++round) {
+    const Mask<F> off = mask & is_unbalanced(s);
+    if (!any(off)) break;
+    balance_with_root(plan, settings, {one, one, one}, off, s);
+    adapt_groups(plan, shape.groups, false, settings, one, off, s);
+    errors = measure_wishes(plan, shape.balance, s);
+  }
+  return errors;
+}
+
 /// Starts lanes from their reference, on the ground and with their limbs closed: the
 /// thesis' first half of an iteration.
 template <class F>
@@ -83,12 +113,13 @@ void begin_thesis(const Plan& plan,
       (errors.worst_over_precision <= one) & (errors.balance <= s.balance_precision);
   solve.whole_body = select(mask, select(idle | met, zero, one), solve.whole_body);
   p.iterations = select(mask, select(idle, zero, one), p.iterations);
-  p.merit = select(mask, errors.mean, p.merit);
+  p.merit = select(mask, merit_of(errors, s), p.merit);
+  p.square = select(mask, errors.balance, p.square);
   p.stalled = select(mask, zero, p.stalled);
   p.damping = select(mask, one, p.damping);
 }
 
-/// One turn of the loop for all lanes; those of the answer are done.
+/// One turn of the merged loop (5.3.3) for all lanes; those of the answer are done.
 template <class F>
 [[nodiscard]] Mask<F> advance_thesis(const Plan& plan,
                                      const ThesisShape& shape,
@@ -105,38 +136,50 @@ template <class F>
   const Vec3<F> wish = root_wish(plan, shape.groups, s);
   shift_root(plan, select(mask, p.damping * wish, Vec3<F>{zero, zero, zero}), s);
   adapt_to_supports(plan, settings, mask, s);
-  adapt_groups(plan, shape.groups, false, settings, one, mask, s);
-  const Errors<F> errors = measure_wishes(plan, shape.balance, s);
+  if (shape.balance) adapt_balance(plan, shape.groups, settings, mask, s);
+  const Errors<F> errors = close_and_settle(plan, shape, settings, 2, mask, s);
 
   p.iterations = select(mask, p.iterations + one, p.iterations);
-  const Mask<F> better = mask & (errors.mean < p.merit);
+  const F merit = merit_of(errors, s);
+  const Mask<F> better = mask & (merit < p.merit);
   const Mask<F> worse = mask & !better;
-  const F gain = p.merit - errors.mean;
+  const F gain = p.merit - merit;
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
     s.best_rotation[i] = select(better, s.rotation[i], s.best_rotation[i]);
     s.best_place[i] = select(better, s.place[i], s.best_place[i]);
   }
-  p.merit = select(better, errors.mean, p.merit);
+  const Mask<F> balanced = errors.balance <= s.balance_precision;
+  const Mask<F> settled =
+      (gain < num<F>(settings.threshold)) &
+      (balanced | (abs(p.square - errors.balance) < num<F>(settings.balance_threshold)));
+  p.merit = select(better, merit, p.merit);
+  p.square = select(better, errors.balance, p.square);
   if (any(worse)) take_posture(s.best_rotation, s.best_place, plan, worse, s);
   p.stalled = select(worse, p.stalled + one, select(better, zero, p.stalled));
   p.damping = select(worse, num<F>(0.5) * p.damping, p.damping);
-  const Mask<F> met = errors.worst_over_precision <= one;
-  const Mask<F> settled = gain < num<F>(settings.threshold);
+  const Mask<F> met = (errors.worst_over_precision <= one) & balanced;
   const Mask<F> done =
       mask & ((better & (met | settled)) | (p.stalled > num<F>(kMostRetries - 0.5)));
   solve.whole_body = select(done, zero, solve.whole_body);
   return !((solve.whole_body > zero) & (p.iterations < cap));
 }
 
-/// The final posture of lanes that are done. Leaves its measures.
+/// The final posture of lanes that are done: balance has the last word. Leaves its
+/// measures.
 template <class F>
 [[nodiscard]] Errors<F> finish_thesis(const Plan& plan,
                                       const ThesisShape& shape,
+                                      const SolveSettings& settings,
                                       const Mask<F>& mask,
                                       Lanes<F>& s) {
   take_posture(s.best_rotation, s.best_place, plan, mask, s);
-  return measure_wishes(plan, shape.balance, s);
+  Errors<F> errors = measure_wishes(plan, shape.balance, s);
+  const Mask<F> off = mask & (errors.balance > s.balance_precision);
+  if (shape.balance && any(off)) {
+    errors = close_and_settle(plan, shape, settings, 8, off, s);
+  }
+  return errors;
 }
 
 }  // namespace marey::retarget
