@@ -15,7 +15,7 @@ namespace marey::retarget {
 inline constexpr double kOnFootprint = 1e-6;
 /// The root is not carried farther from above a footprint than this share of the leg,
 /// unless the reference is: from there its height would drop ever faster.
-inline constexpr double kLongestStride = 0.8;
+inline constexpr double kLongestStride = 0.95;
 /// Hips sink no lower above a footprint than this share of the leg.
 inline constexpr double kLeastHeight = 0.45;
 
