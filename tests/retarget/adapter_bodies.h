@@ -1,0 +1,113 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/character.h"
+#include "core/constraint.h"
+#include "core/pose.h"
+#include "retarget/adapter.h"
+#include "tests/support/random_bodies.h"
+
+/// Bodies, postures and measures for tests of the adapter. All measures are taken here
+/// anew, in double, from postures alone: what the adapter says of itself is not believed.
+namespace marey::retarget {
+
+using testing::Dice;
+
+/// What every method owes. Suites that derive from it are instantiated with
+/// strict_method() or, once it satisfies them too, with more.
+class EveryMethod : public ::testing::TestWithParam<Method> {
+ protected:
+  [[nodiscard]] static AdaptOptions options() {
+    AdaptOptions out;
+    out.method = GetParam();
+    return out;
+  }
+};
+[[nodiscard]] inline auto strict_method() {
+  return ::testing::Values(Method::kStrict);
+}
+[[nodiscard]] inline std::string name_of(const ::testing::TestParamInfo<Method>& info) {
+  return info.param == Method::kStrict ? "strict" : "thesis";
+}
+
+/// make_humanoid() of average proportions as adaptation sees it; with a bag of 10 kg that
+/// the left hand may carry, called "bag".
+[[nodiscard]] Character human(bool with_limits, double stature_m = 1.75);
+/// make_character() of any skeleton that is a human's.
+[[nodiscard]] Character human_of(const Skeleton& skeleton, bool with_limits);
+
+struct Limb {
+  std::size_t upper = 0;
+  std::size_t lower = 0;
+  std::size_t end = 0;
+  glm::dvec3 hinge_in_upper{0.0};
+};
+/// The limb that has this joint, which must be one of its three or hang on its end.
+[[nodiscard]] Limb limb_of(const Character& character, std::size_t joint);
+
+[[nodiscard]] std::size_t joint_at(const Character& character, std::string_view segment);
+
+/// Knees, elbows and hips a little bent, arms hanging, as one stands waiting.
+[[nodiscard]] Pose waiting(const Character& character);
+/// From the rest pose: ball joints turned by up to `most_rad`, limbs bent their natural
+/// way by 0.15 to 1.7 rad, the root moved and turned; within the limits.
+[[nodiscard]] Pose random_posture(const Character& character,
+                                  Dice& dice,
+                                  double most_rad);
+
+[[nodiscard]] Constraint contact(const std::string& id,
+                                 const std::string& segment,
+                                 const glm::dvec3& p_in_world,
+                                 const glm::dvec3& offset_in_t_pose = glm::dvec3(0.0),
+                                 double importance = 1.0);
+[[nodiscard]] Constraint standing(const std::string& id, const std::string& segment);
+
+/// Limits and all: a human without, a human with, a quadruped.
+[[nodiscard]] std::vector<Character> bodies();
+
+/// Fails the test when it cannot be made.
+[[nodiscard]] Adapter make_adapter(const Character& character,
+                                   const ConstraintSet& constraints,
+                                   const AdaptOptions& options = {});
+
+struct Adapted {
+  Pose pose;
+  AdaptReport report;
+};
+/// With an adapter of its own, long after all has begun.
+[[nodiscard]] Adapted adapted(const Character& character,
+                              const ConstraintSet& constraints,
+                              const Pose& reference,
+                              const AdaptOptions& options = {});
+
+/// Of a character whose skeleton rests in its T-pose with the world's axes.
+[[nodiscard]] glm::dvec3 place_of(const Character& character,
+                                  const Pose& pose,
+                                  const BodyPoint& point);
+/// Rotation of a segment in the world, from the T-pose.
+[[nodiscard]] glm::dquat rotation_of(const Character& character,
+                                     const Pose& pose,
+                                     std::string_view segment);
+/// Its masses, and its loads if so wished.
+[[nodiscard]] glm::dvec3 centre_of_mass(const Character& character,
+                                        const Pose& pose,
+                                        bool loaded = false);
+
+/// The furthest that any joint of `a` is from where it is in `b`. [m]
+[[nodiscard]] double furthest_m(const Character& character, const Pose& a, const Pose& b);
+/// The most that any joint is turned in its parent from how it is in `b`. [rad]
+[[nodiscard]] double most_turned_rad(const Pose& a, const Pose& b);
+[[nodiscard]] double angle_between_rad(const glm::dquat& a, const glm::dquat& b);
+/// By how much the worst joint is beyond its limits. [rad]
+[[nodiscard]] double beyond_limits_rad(const Character& character, const Pose& pose);
+[[nodiscard]] bool is_finite(const Pose& pose);
+[[nodiscard]] bool same_bits(const Pose& a, const Pose& b);
+
+}  // namespace marey::retarget

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/retarget/adapter_bodies.h"
+#include "tests/support/count_allocations.h"
+
+/// The same question has the same answer, whatever was asked before.
+namespace marey::retarget {
+namespace {
+
+constexpr double kLater_s = 10.0;
+
+ConstraintSet many_wishes(const Character& body, const Pose& reference) {
+  const auto near = [&](const char* segment, const glm::dvec3& by, double importance) {
+    return contact(
+        segment, segment, place_of(body, reference, {segment}) + by, {}, importance);
+  };
+  Constraint fading = near("head", {0.1, 0.0, 0.1}, 1.0);
+  fading.activation.start_s = kLater_s - 0.3;
+  fading.activation.start_duration_s = 1.0;
+  return {{standing("left", "leftFoot"),
+           near("leftHand", {0.2, 0.5, 0.4}, 3.0),
+           near("rightHand", {-0.1, 0.1, 0.2}, 2.0),
+           fading},
+          {}};
+}
+
+class AdapterDeterminism : public EveryMethod {};
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterDeterminism, strict_method(), name_of);
+
+TEST_P(AdapterDeterminism, GivesTheSameBitsForTheSameQuestion) {
+  const Character body = human(true);
+  const Pose reference = waiting(body);
+  for (const Control control : {Control::kPriority, Control::kBlend}) {
+    AdaptOptions wanted = options();
+    wanted.control = control;
+    wanted.balance = BalanceMode::kHorizontal;
+    const ConstraintSet wishes = many_wishes(body, reference);
+    Adapter one = make_adapter(body, wishes, wanted);
+    Adapter other = make_adapter(body, wishes, wanted);
+    Pose first;
+    Pose second;
+    static_cast<void>(one.adapt(reference, kLater_s, first));
+    static_cast<void>(other.adapt(reference, kLater_s, second));
+    EXPECT_TRUE(same_bits(first, second));
+    static_cast<void>(one.adapt(reference, kLater_s, second));
+    EXPECT_TRUE(same_bits(first, second));
+  }
+}
+
+TEST_P(AdapterDeterminism, AllocatesNothingAfterTheFirstPosture) {
+  for (const Character& body : bodies()) {
+    const std::string end = body.skeleton.joints.back().name;
+    Dice dice(9);
+    Constraint fading = contact("fading", end, {0.3, 1.0, 0.2});
+    fading.activation.start_s = 0.0;
+    fading.activation.start_duration_s = 0.5;
+    AdaptOptions wanted = options();
+    wanted.balance = BalanceMode::kHorizontal;
+    Adapter adapter =
+        make_adapter(body, {{fading, contact("end", end, {}, {}, 2.0)}, {}}, wanted);
+    const Pose reference = random_posture(body, dice, 0.4);
+    auto handle = *adapter.constraint("end");
+    Pose out;
+    static_cast<void>(adapter.adapt(reference, 0.0, out));
+
+    const long before = testing::allocations();
+    for (int i = 0; i < 100; ++i) {
+      handle.set_target({0.3, 0.01 * i, 0.5});
+      static_cast<void>(adapter.adapt(reference, 0.01 * i, out));
+    }
+    EXPECT_EQ(testing::allocations() - before, 0);
+  }
+}
+
+}  // namespace
+}  // namespace marey::retarget

@@ -1,0 +1,173 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/retarget/adapter_bodies.h"
+
+/// Limbs: exact at once when they reach, as near as can be when they do not.
+namespace marey::retarget {
+namespace {
+
+constexpr double kExact_m = 1e-5;
+
+const std::vector<BodyPoint>& points_on_limbs() {
+  static const std::vector<BodyPoint> list{
+      {"leftUpperArm", {0.12, 0.0, 0.0}},
+      {"leftUpperArm", {0.25, 0.03, -0.02}},
+      {"leftLowerArm", {0.0, 0.0, 0.0}},
+      {"leftLowerArm", {0.12, 0.0, 0.0}},
+      {"leftLowerArm", {0.15, 0.03, 0.02}},
+      {"rightLowerArm", {-0.1, -0.04, 0.03}},
+      {"leftHand", {0.0, 0.0, 0.0}},
+      {"rightHand", {-0.1, -0.02, 0.03}},
+      {"rightUpperLeg", {0.02, -0.3, 0.05}},
+      {"rightLowerLeg", {0.0, -0.2, 0.05}},
+      {"leftFoot", {0.0, 0.0, 0.0}},
+      {"rightFoot", {0.0, -0.05, 0.1}},
+      {"leftToes", {0.0, 0.0, 0.03}},
+  };
+  return list;
+}
+
+struct Reach {
+  double wanted = 0.0;  ///< Over both bones', as the limb's root sees the point.
+  double least = 0.0;
+};
+
+Reach reach_of(const Character& body, const Pose& pose, const BodyPoint& point) {
+  const Limb limb = limb_of(body, joint_at(body, point.segment));
+  const auto frames = world_from_joints(body.skeleton, pose);
+  const glm::dvec3 p = place_of(body, pose, point);
+  const double near_m =
+      glm::distance(frames[limb.upper].translation, frames[limb.lower].translation);
+  const double far_m = glm::distance(frames[limb.lower].translation, p);
+  const double both_m = near_m + far_m;
+  return {glm::distance(frames[limb.upper].translation, p) / both_m,
+          std::abs(near_m - far_m) / both_m};
+}
+
+// The reference with only the limb moved, its middle bent by `bend_rad`.
+Pose with_limb_moved(const Character& body,
+                     const Pose& reference,
+                     const Limb& limb,
+                     Dice& dice,
+                     double bend_rad) {
+  Pose pose = reference;
+  pose.parent_from_joint[limb.upper] =
+      reference.parent_from_joint[limb.upper] * dice.turn(0.6);
+  pose.parent_from_joint[limb.lower] = glm::angleAxis(bend_rad, limb.hinge_in_upper);
+  return beyond_limits_rad(body, pose) > 0.0 ? reference : pose;
+}
+
+class AdapterLimbs : public EveryMethod {};
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLimbs, strict_method(), name_of);
+
+TEST_P(AdapterLimbs, BringAnyOfTheirPointsToWhatTheyReachAtOnce) {
+  const Character body = human(false);
+  for (const BodyPoint& point : points_on_limbs()) {
+    const Limb limb = limb_of(body, joint_at(body, point.segment));
+    Dice dice(5);
+    int at_once = 0;
+    for (int i = 0; i < 100; ++i) {
+      const Pose reference = random_posture(body, dice, 0.5);
+      const Pose truth =
+          with_limb_moved(body, reference, limb, dice, dice.between(0.35, 2.0));
+      const Reach reach = reach_of(body, truth, point);
+      // Beyond, the body begins to help (adapt_solve.h), and this is another test's.
+      const bool upper =
+          joint_at(body, point.segment) == limb.upper || reach.least > 0.999;
+      if (!upper && (reach.wanted > 0.87 || reach.wanted < reach.least + 0.13)) continue;
+      ++at_once;
+      const glm::dvec3 target = place_of(body, truth, point);
+      Constraint wish = contact("point", point.segment, target);
+      wish.point = point;
+      const Adapted out = adapted(body, {{wish}, {}}, reference, options());
+      ASSERT_LT(glm::distance(place_of(body, out.pose, point), target), kExact_m)
+          << point.segment << " " << i;
+      ASSERT_EQ(out.report.iterations, 0) << point.segment << " " << i;
+      // The body has not moved: only the limb has.
+      const std::size_t above = index(*body.skeleton.joints[limb.upper].parent);
+      ASSERT_LT(
+          glm::distance(world_from_joints(body.skeleton, out.pose)[above].translation,
+                        world_from_joints(body.skeleton, reference)[above].translation),
+          1e-6);
+    }
+    EXPECT_GT(at_once, 10) << point.segment;
+  }
+}
+
+TEST_P(AdapterLimbs, BringTheirPointsToWhatTheyHardlyReach) {
+  const Character body = human(false);
+  for (const BodyPoint& point : points_on_limbs()) {
+    const Limb limb = limb_of(body, joint_at(body, point.segment));
+    Dice dice(6);
+    for (int i = 0; i < 60; ++i) {
+      const Pose reference = random_posture(body, dice, 0.5);
+      const Pose truth =
+          with_limb_moved(body, reference, limb, dice, dice.between(0.05, 2.6));
+      const glm::dvec3 target = place_of(body, truth, point);
+      Constraint wish = contact("point", point.segment, target);
+      wish.point = point;
+      const Adapted out = adapted(body, {{wish}, {}}, reference, options());
+      // Nearly straight or folded, single precision in the cosine of the bend shows: its
+      // square root, 3e-4 rad, times what the distance changes with the bend there.
+      ASSERT_LT(glm::distance(place_of(body, out.pose, point), target), 2e-5)
+          << point.segment << " " << i;
+    }
+  }
+}
+
+// Over all directions of the upper bone and bends of the middle: a point that turns about
+// the limb's root gets as near as its distance from there can be chosen.
+double nearest_m(const Character& body,
+                 const Pose& reference,
+                 const Limb& limb,
+                 const BodyPoint& point,
+                 const glm::dvec3& target) {
+  Pose pose = reference;
+  double nearest = 1e9;
+  for (double bend_rad = 0.0; bend_rad < 3.1416; bend_rad += 0.002) {
+    pose.parent_from_joint[limb.lower] = glm::angleAxis(bend_rad, limb.hinge_in_upper);
+    const auto frames = world_from_joints(body.skeleton, pose);
+    const glm::dvec3 root = frames[limb.upper].translation;
+    const double distance = glm::distance(
+        root, frames[joint_at(body, point.segment)] * point.offset_in_t_pose);
+    nearest = std::min(nearest, std::abs(glm::distance(root, target) - distance));
+  }
+  return nearest;
+}
+
+TEST_P(AdapterLimbs, AreAsNearAsTheyCanToWhatTheyDoNotReach) {
+  const Character body = human(false);
+  for (const auto& [point, range] :
+       {std::pair(BodyPoint{"leftUpperArm", {0.2, 0.03, 0.0}}, 1),
+        std::pair(BodyPoint{"leftLowerArm", {0.15, 0.03, 0.02}}, 2),
+        std::pair(BodyPoint{"leftHand", {0.0, 0.0, 0.0}}, 3),
+        std::pair(BodyPoint{"rightLowerLeg", {0.0, -0.2, 0.04}}, 2),
+        std::pair(BodyPoint{"rightFoot", {0.0, 0.0, 0.0}}, 3)}) {
+    const Limb limb = limb_of(body, joint_at(body, point.segment));
+    Dice dice(7);
+    for (int i = 0; i < 60; ++i) {
+      const Pose reference = random_posture(body, dice, 0.5);
+      const glm::dvec3 root =
+          world_from_joints(body.skeleton, reference)[limb.upper].translation;
+      const glm::dvec3 target = root + dice.between(0.0, 1.5) * dice.direction();
+      Constraint wish = contact("point", point.segment, target);
+      wish.point = point;
+      wish.range = range;
+      const Adapted out = adapted(body, {{wish}, {}}, reference, options());
+      const double error_m = glm::distance(place_of(body, out.pose, point), target);
+      // The samples are 1 mrad apart at most; the distance changes by 0.5 m per rad.
+      ASSERT_LT(error_m, nearest_m(body, reference, limb, point, target) + 2e-5)
+          << point.segment << " " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace marey::retarget

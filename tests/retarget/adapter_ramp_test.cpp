@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/retarget/adapter_bodies.h"
+
+/// Constraints come and go without a jump.
+namespace marey::retarget {
+namespace {
+
+constexpr double kFrame_s = 1e-3;
+
+class AdapterRamps : public EveryMethod {};
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterRamps, strict_method(), name_of);
+
+// A quintic ramp of 0.7 s is 2.7 per s at its steepest, and the postures it leads between
+// differ by up to 2 rad in a joint: 5.4 mrad per ms; three may ramp at once.
+constexpr double kFastest_rad = 0.0162;
+
+double fastest_rad(Adapter& adapter, const Pose& reference, double until_s) {
+  Pose now;
+  Pose before;
+  double fastest = 0.0;
+  static_cast<void>(adapter.adapt(reference, 0.0, before));
+  for (double t = kFrame_s; t < until_s; t += kFrame_s) {
+    static_cast<void>(adapter.adapt(reference, t, now));
+    fastest = std::max(fastest, most_turned_rad(now, before));
+    std::swap(now, before);
+  }
+  return fastest;
+}
+
+TEST_P(AdapterRamps, LetASupportComeAndGo) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  Constraint foot = standing("stands", "leftFoot");
+  foot.goal =
+      Support{place_of(body, reference, {"leftFoot"}) + glm::dvec3(0.05, 0.1, 0.2),
+              std::nullopt,
+              false};
+  foot.activation = {0.1, 1.0, 0.7, 0.8};
+  const Constraint hand =
+      contact("hand",
+              "rightHand",
+              place_of(body, reference, {"rightHand"}) + glm::dvec3(0.0, 0.3, 0.3));
+  Adapter adapter = make_adapter(body, {{foot, hand}, {}}, options());
+  EXPECT_LT(fastest_rad(adapter, reference, 2.0), kFastest_rad);
+}
+
+}  // namespace
+}  // namespace marey::retarget

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <array>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/retarget/adapter_bodies.h"
+
+/// Neither side, size nor place is special.
+namespace marey::retarget {
+namespace {
+
+struct Question {
+  ConstraintSet set;
+  AdaptOptions options;
+  Pose reference;
+};
+
+// Within reach of the whole body, or hardly.
+Question any_question(const Character& body, const AdaptOptions& options, Dice& dice) {
+  constexpr std::array<const char*, 8> kSegments{"leftHand",
+                                                 "rightHand",
+                                                 "leftFoot",
+                                                 "head",
+                                                 "leftLowerArm",
+                                                 "chest",
+                                                 "rightUpperArm",
+                                                 "rightToes"};
+  Question out{{}, options, random_posture(body, dice, 0.3)};
+  if (dice.between(0, 1) < 0.5) {
+    out.set.constraints.push_back(standing("stands", "rightFoot"));
+  }
+  const int count = static_cast<int>(dice.between(1, 4));
+  for (int k = 0; k < count; ++k) {
+    const std::string segment =
+        kSegments[static_cast<std::size_t>(dice.between(0, 7.999))];
+    const glm::dvec3 offset = k % 2 == 0 ? glm::dvec3(0.0) : 0.1 * dice.direction();
+    const glm::dvec3 target = place_of(body, out.reference, {segment, offset}) +
+                              dice.between(0, 0.5) * dice.direction();
+    out.set.constraints.push_back(
+        contact("wish " + std::to_string(k), segment, target, offset, k + 1.0));
+  }
+  const double control = dice.between(0, 1);
+  out.options.control = control < 0.4 ? Control::kBlend : Control::kPriority;
+  const double balance = dice.between(0, 1);
+  if (balance < 0.5) out.options.balance = BalanceMode::kHorizontal;
+  if (balance < 0.2) out.options.balance = BalanceMode::k3d;
+  return out;
+}
+
+template <class Move>
+void move_targets(ConstraintSet& set, const Move& move) {
+  for (Constraint& c : set.constraints) {
+    if (auto* to = std::get_if<DistanceToPoint>(&c.goal))
+      to->p_in_world = move(to->p_in_world);
+  }
+}
+
+Character without_loads(bool with_limits) {
+  Character body = human(with_limits);
+  body.loads.clear();  // In one hand only.
+  return body;
+}
+
+class AdapterSymmetry : public EveryMethod {};
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterSymmetry, strict_method(), name_of);
+
+// Single precision, through as many steps as it takes.
+constexpr double kSame_m = 1e-4;
+
+TEST_P(AdapterSymmetry, AGiantDoesWhatAChildDoes) {
+  constexpr double kTimes = 2.3;
+  for (const bool with_limits : {false, true}) {
+    const Character body = without_loads(with_limits);
+    Character giant = body;
+    for (Joint& joint : giant.skeleton.joints)
+      joint.parent_from_joint.translation *= kTimes;
+    for (PointMass& mass : giant.masses) mass.p_in_joint *= kTimes;
+    Dice dice(23);
+    for (int i = 0; i < 150; ++i) {
+      const Question asked = any_question(body, options(), dice);
+      Question other = asked;
+      other.reference.root_in_world *= kTimes;
+      move_targets(other.set, [](const glm::dvec3& p) { return kTimes * p; });
+      for (Constraint& c : other.set.constraints) {
+        c.point.offset_in_t_pose *= kTimes;
+        c.precision_m *= kTimes;
+      }
+      other.options.constraint_threshold_m *= kTimes;
+      other.options.balance_threshold_m *= kTimes;
+      other.options.balance_precision_m *= kTimes;
+      Pose here = adapted(body, asked.set, asked.reference, asked.options).pose;
+      here.root_in_world *= kTimes;
+      const Adapted there = adapted(giant, other.set, other.reference, other.options);
+      ASSERT_LT(furthest_m(giant, here, there.pose), kSame_m) << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace marey::retarget
