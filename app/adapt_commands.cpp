@@ -159,15 +159,13 @@ void add_choice(CLI::App& command,
                 Value& value,
                 const std::map<std::string, Value>& words,
                 const std::string& help) {
-  std::string all;
-  for (const auto& [word, meaning] : words) all += (all.empty() ? "" : "|") + word;
   command
       .add_option_function<std::string>(
           option,
           [&value, words](const std::string& word) { value = words.at(word); },
           help)
       ->check(CLI::IsMember(words))
-      ->type_name(all);
+      ->type_name("WORD");
 }
 
 void add_solve_options(CLI::App& command, retarget::AdaptOptions& options) {

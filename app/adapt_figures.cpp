@@ -156,55 +156,63 @@ std::string adapt_summary(const AdaptArguments& args, const AdaptRun& run) {
                  frames > 0 ? 1e6 * run.adapt_s / static_cast<double>(frames) : 0.0);
 }
 
-std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptRun& run) {
-  std::vector<std::string> out;
-  const std::string file = args.constraints.string();
+const KeptConstraint* find_failure(const AdaptArguments& args, const AdaptRun& run) {
+  for (const auto* all : {&run.adapted.constraints, &run.adapted.supports}) {
+    for (const KeptConstraint& kept : *all) {
+      if (kept.is_support && kept.worst_error_m > kFirmFoot_m) return &kept;
+    }
+  }
+  if (args.options.control == retarget::Control::kBlend) return nullptr;
   for (const KeptConstraint& kept : run.adapted.constraints) {
-    const std::string who = file + ": constraint \"" + kept.id + "\": ";
-    if (kept.active_frames == 0) {
-      const int last = static_cast<int>(run.adapted.motion.poses.size()) - 1;
-      out.push_back(who +
-                    text_of("is fully active in no frame of the motion, which lasts "
-                            "from %.2f s to %.2f s. Next: check its times",
-                            time_of(run, 0),
-                            time_of(run, last)));
-    } else if (is_missed(kept)) {
-      out.push_back(who + miss_of(kept, run) + ". Next: " + advice_for(kept, args, run));
-    }
+    const int missed = kept.active_frames - kept.met_frames;
+    if (!kept.is_support && 2 * missed > kept.active_frames) return &kept;
   }
-  for (const KeptConstraint& kept : run.adapted.supports) {
-    if (kept.active_frames > 0 && kept.worst_error_m > kFirmFoot_m) {
-      out.push_back(args.motion.string() + ": " + kept.id + ": " + miss_of(kept, run));
-    }
-  }
-  return out;
+  return nullptr;
 }
 
 Status judge_adapted(const AdaptArguments& args, const AdaptRun& run) {
-  for (const auto* all : {&run.adapted.constraints, &run.adapted.supports}) {
-    for (const KeptConstraint& kept : *all) {
-      if (!kept.is_support || kept.worst_error_m <= kFirmFoot_m) continue;
-      return Error{Errc::kQuality,
-                   args.out.string(),
-                   text_of("support \"%s\" is %.1f mm off its footprint at %.2f s",
-                           kept.id.c_str(),
-                           1e3 * kept.worst_error_m,
-                           time_of(run, kept.worst_frame)),
-                   "the foot does not reach it: move the footprint, or lower the body's "
-                   "other wishes"};
+  const KeptConstraint* failure = find_failure(args, run);
+  if (failure == nullptr) return Done{};
+  return Error{Errc::kQuality,
+               args.out.string(),
+               (failure->is_support ? "support \"" : "constraint \"") + failure->id +
+                   "\": " + miss_of(*failure, run),
+               failure->is_support ? "move its footprint into the leg's reach"
+                                   : advice_for(*failure, args, run)};
+}
+
+std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptRun& run) {
+  std::vector<std::string> out;
+  const retarget::AdaptedMotion& adapted = run.adapted;
+  const KeptConstraint* failure = find_failure(args, run);
+  for (const KeptConstraint& kept : adapted.constraints) {
+    const std::string who =
+        args.constraints.string() + ": constraint \"" + kept.id + "\": ";
+    if (kept.active_frames == 0) {
+      const int last = static_cast<int>(adapted.motion.poses.size()) - 1;
+      out.push_back(who + text_of("fully active in no frame of the motion, which lasts "
+                                  "from %.2f s to %.2f s. Next: check its times",
+                                  time_of(run, 0),
+                                  time_of(run, last)));
+    } else if (is_missed(kept) && &kept != failure) {
+      out.push_back(who + miss_of(kept, run) + ". Next: " + advice_for(kept, args, run));
     }
   }
-  // A blend is a compromise: nobody was promised anything.
-  if (args.options.control == retarget::Control::kBlend) return Done{};
-  for (const KeptConstraint& kept : run.adapted.constraints) {
-    const int missed = kept.active_frames - kept.met_frames;
-    if (kept.is_support || 2 * missed <= kept.active_frames) continue;
-    return Error{Errc::kQuality,
-                 args.out.string(),
-                 "constraint \"" + kept.id + "\" is " + miss_of(kept, run),
-                 advice_for(kept, args, run)};
+  for (const KeptConstraint& kept : adapted.supports) {
+    if (kept.worst_error_m <= kFirmFoot_m || &kept == failure) continue;
+    out.push_back(args.motion.string() + ": support \"" + kept.id +
+                  "\": " + miss_of(kept, run));
   }
-  return Done{};
+  constexpr double kOffBalance_m = 0.01;
+  if (adapted.worst_balance_error_m > kOffBalance_m) {
+    out.push_back(args.out.string() +
+                  text_of(": the centre of mass is up to %.1f mm from where it is wanted "
+                          "(at %.2f s). Next: move targets nearer, or allow more with "
+                          "--max-iterations",
+                          1e3 * adapted.worst_balance_error_m,
+                          time_of(run, adapted.worst_balance_frame)));
+  }
+  return out;
 }
 
 }  // namespace marey::app

@@ -32,14 +32,18 @@ struct AdaptRun {
 /// One line a person reads first.
 [[nodiscard]] std::string adapt_summary(const AdaptArguments& args, const AdaptRun& run);
 
-/// What was not kept, each with when, by how much and what would help; and constraints
-/// that never were active.
+/// What the result fails by, if anything: a support that is off its footprint by more
+/// than 1 mm; by priority, a constraint that was missed in more than half of the frames
+/// in which it is fully active (a blend is a compromise, and promises nothing).
+[[nodiscard]] const retarget::KeptConstraint* find_failure(const AdaptArguments& args,
+                                                           const AdaptRun& run);
+
+/// The same as an error (kQuality), or done.
+[[nodiscard]] Status judge_adapted(const AdaptArguments& args, const AdaptRun& run);
+
+/// What else was not kept, each with when, by how much and what would help; and
+/// constraints that never were active.
 [[nodiscard]] std::vector<std::string> adapt_warnings(const AdaptArguments& args,
                                                       const AdaptRun& run);
-
-/// Whether the result can be trusted to do what was asked. Errors (kQuality): a support
-/// is off its footprint by more than 1 mm; by priority, a constraint was missed in more
-/// than half of the frames in which it is fully active.
-[[nodiscard]] Status judge_adapted(const AdaptArguments& args, const AdaptRun& run);
 
 }  // namespace marey::app

@@ -138,12 +138,14 @@ glm::dvec3 com_of(const Character& character,
   return sum / mass_kg;
 }
 
-void add_report(const AdaptReport& report, int cap, AdaptedMotion& out) {
+void add_report(const AdaptReport& report, int frame, int cap, AdaptedMotion& out) {
   out.mean_iterations += report.iterations;
   out.most_iterations = std::max(out.most_iterations, report.iterations);
   if (report.iterations >= cap) ++out.capped_frames;
   out.mean_balance_error_m += report.balance_error_m;
-  out.worst_balance_error_m = std::max(out.worst_balance_error_m, report.balance_error_m);
+  if (report.balance_error_m <= out.worst_balance_error_m) return;
+  out.worst_balance_error_m = report.balance_error_m;
+  out.worst_balance_frame = frame;
 }
 
 }  // namespace
@@ -192,7 +194,7 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
     const double time_s = (motion.first_frame + static_cast<double>(t)) / motion.rate.hz;
     const AdaptReport report =
         adapter->adapt(motion.poses[t], time_s, out.motion.poses[t]);
-    add_report(report, options.adapt.max_iterations, out);
+    add_report(report, static_cast<int>(t), options.adapt.max_iterations, out);
     world_from_joints(motion.skeleton, out.motion.poses[t], world_from_joint);
     for (std::size_t i = 0; i < judges.size(); ++i) {
       judges[i].look(t,

@@ -50,6 +50,7 @@ struct AdaptedMotion {
   int capped_frames = 0;  ///< In which all iterations were used.
   double mean_balance_error_m = 0.0;
   double worst_balance_error_m = 0.0;
+  int worst_balance_frame = 0;  ///< Of the motion's poses.
 };
 
 /// Adapts every posture of a motion (Kulpa 2005, 4 and 5) to constraints and to the

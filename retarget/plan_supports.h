@@ -31,7 +31,7 @@ struct SupportTrack {
 
 struct PlanSupportsOptions {
   /// How long a support takes to fade in before its foot bears, and out after. [s]
-  double ramp_s = 0.12;
+  double ramp_s = 0.15;
   double floor_height_m = 0.0;           ///< World Y on which the feet stand.
   std::array<bool, 2> feet{true, true};  ///< Left, right: which are wanted.
 };

@@ -248,7 +248,8 @@ TEST(Adapt, TellsWhatItCouldNotReach) {
   const std::string set = scene.constraints(hand_at({0.0, 5.0, 1.0}));
   const ProgramRun run = scene.adapt({"--constraints", set});
   EXPECT_EQ(run.exit_code, 4);
-  for (const char* part : {"c.xml: constraint \"hand\"", "mm (at 1.", "Next: "}) {
+  for (const char* part :
+       {"out.bvh: constraint \"hand\": missed in 13 of 13 frames", "mm (at ", "Next: "}) {
     EXPECT_NE(run.err.find(part), std::string::npos) << part << " in " << run.err;
   }
   const Motion motion = scene.motion();
@@ -257,7 +258,26 @@ TEST(Adapt, TellsWhatItCouldNotReach) {
   // A blend promises nothing, and says what it came to.
   const ProgramRun blend = scene.adapt({"--constraints", set, "--control", "blend"});
   EXPECT_EQ(blend.exit_code, 0) << blend.err;
-  EXPECT_NE(blend.err.find("warning: "), std::string::npos);
+  EXPECT_NE(blend.err.find("c.xml: constraint \"hand\": missed in 13 of 13 frames"),
+            std::string::npos)
+      << blend.err;
+}
+
+TEST(Adapt, TellsOfAFootprintOutOfReach) {
+  const AdaptScene scene;
+  const ProgramRun run = scene.adapt(
+      {"--root-share",
+       "0",
+       "--constraints",
+       scene.constraints(
+           "<Support><name>far</name><bodyPoint><segment>leftFoot</segment></bodyPoint>"
+           "<specif><position><X>0.1</X><Y>0.1</Y><Z>0</Z></position></specif></Support>"
+           "<Support><name>further</name><bodyPoint><segment>rightFoot</segment>"
+           "</bodyPoint><specif><position><X>-4</X><Y>0.1</Y><Z>0</Z></position></specif>"
+           "</Support>")});
+  EXPECT_EQ(run.exit_code, 4);
+  EXPECT_NE(run.err.find("error: "), std::string::npos);
+  EXPECT_NE(run.err.find("support \"f"), std::string::npos) << run.err;
 }
 
 TEST(Adapt, TellsOfConstraintsThatNeverHold) {
