@@ -1,0 +1,84 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/measure_constraint.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/pose.h"
+#include "retarget/make_character.h"
+#include "tests/retarget/mapped.h"
+
+namespace marey::retarget {
+namespace {
+
+// An average adult in its T-pose: every place is known from its proportions.
+class MeasureConstraint : public ::testing::Test {
+ protected:
+  [[nodiscard]] double error_m(const Goal& goal, const BodyPoint& point) {
+    set_.constraints.push_back({.id = "asked", .point = point, .goal = goal});
+    const ConstraintMeasure measure(body_, set_.constraints.back(), set_);
+    return measure.error_m(world_, glm::dvec3(0.0));
+  }
+  [[nodiscard]] glm::dvec3 at(HumanBone bone) const {
+    return world_[index(*body_.skeleton.find(bone))].translation;
+  }
+
+  ConstraintSet set_;
+  Skeleton skeleton_ = make_humanoid(average_proportions(1.75));
+  Character body_ = *make_character("adult", skeleton_, mapped(skeleton_));
+  std::vector<RigidTransform> world_ = world_from_joints(skeleton_, rest_pose(skeleton_));
+};
+
+const BodyPoint kPalm{"leftHand", {0.1, 0.0, 0.02}};
+
+TEST_F(MeasureConstraint, DistancesAreOffByHowMuchTheyAreWrong) {
+  const glm::dvec3 palm = at(HumanBone::kLeftHand) + kPalm.offset_in_t_pose;
+  EXPECT_NEAR(
+      error_m(DistanceToPoint{0.0, palm + glm::dvec3(0, 0.3, 0.4)}, kPalm), 0.5, 1e-12);
+  EXPECT_NEAR(
+      error_m(DistanceToPoint{0.2, palm + glm::dvec3(0, 0.3, 0.4)}, kPalm), 0.3, 1e-12);
+  const double span = 2.0 * at(HumanBone::kLeftHand).x;
+  EXPECT_NEAR(error_m(DistanceToBody{1.0, {"rightHand", {}}}, {"leftHand", {}}),
+              span - 1.0,
+              1e-12);
+  set_.constraints.push_back({.id = "other", .point = {"rightHand", {}}, .goal = {}});
+  EXPECT_NEAR(
+      error_m(DistanceToConstraint{0.5, "other"}, {"leftHand", {}}), span - 0.5, 1e-12);
+}
+
+TEST_F(MeasureConstraint, SpacesAreOffByTheWayToTheirFaces) {
+  const glm::dvec3 hand = at(HumanBone::kLeftHand);
+  const BodyPoint point{"leftHand", {}};
+  const auto box = [&](double from, double to) {
+    return std::pair(hand + glm::dvec3(from, -1, -1), hand + glm::dvec3(to, 1, 1));
+  };
+  const auto [low, high] = box(0.25, 2.0);
+  EXPECT_NEAR(error_m(AllowedSpace{low, high}, point), 0.25, 1e-12);
+  EXPECT_NEAR(error_m(ForbiddenSpace{low, high}, point), 0.0, 1e-12);
+  const auto [left, right] = box(-0.125, 2.0);
+  EXPECT_NEAR(error_m(AllowedSpace{left, right}, point), 0.0, 1e-12);
+  EXPECT_NEAR(error_m(ForbiddenSpace{left, right}, point), 0.125, 1e-12);
+}
+
+TEST_F(MeasureConstraint, OrientationsAreOffByTheChordOfTheirLever) {
+  const double angle_rad = 0.5;
+  const glm::dquat turned = glm::angleAxis(angle_rad, glm::dvec3(0, 0, 1));
+  EXPECT_NEAR(error_m(SegmentOrientation{turned}, {"head", {}}),
+              2.0 * 0.1 * std::sin(angle_rad / 2.0),
+              1e-12);
+}
+
+TEST_F(MeasureConstraint, SupportsAreOffByTheirPoint) {
+  const glm::dvec3 ankle = at(HumanBone::kLeftFoot);
+  EXPECT_NEAR(
+      error_m(Support{ankle + glm::dvec3(0.1, 0, 0), {}, false}, {"leftFoot", {}}),
+      0.1,
+      1e-12);
+  EXPECT_NEAR(error_m(Support{}, {"leftFoot", {}}), glm::length(ankle), 1e-12)
+      << "its place is the caller's to know";
+}
+
+}  // namespace
+}  // namespace marey::retarget
