@@ -124,6 +124,9 @@ Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
     return bad_input(
         args.motion.string(), "holds no frames", "give a file with a motion");
   }
+  if (const auto note = left_out(*source)) {
+    console.warn(args.motion.string() + ": " + *note);
+  }
   AdaptBodyOptions options;
   options.motion = args.motion;
   options.character = args.character;

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/retarget_files.h"
 
+#include <array>
+#include <cstdio>
+
 #include "core/extension.h"
 #include "recordings/bvh.h"
 #include "recordings/gltf.h"
@@ -104,6 +107,18 @@ Result<Skeleton> read_skeleton(const std::filesystem::path& path) {
     return std::move(bvh->motion.skeleton);
   }
   return unknown_kind(path);
+}
+
+std::optional<std::string> left_out(const ReadMotion& read) {
+  constexpr double kVisible_m = 1e-3;
+  if (read.ignored_translation_m <= kVisible_m) return std::nullopt;
+  std::array<char, 200> text{};
+  std::snprintf(text.data(),
+                text.size(),
+                "bones move up to %.0f mm against their parents; bones of a body keep "
+                "their lengths, so that this is left out",
+                1000.0 * read.ignored_translation_m);
+  return text.data();
 }
 
 Result<ReadMotion> read_motion(const std::filesystem::path& path) {

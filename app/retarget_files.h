@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/motion.h"
@@ -48,6 +50,9 @@ struct ReadMotion {
   /// The largest movement of a bone against its parent that was left out. [m]
   double ignored_translation_m = 0.0;
 };
+
+/// What a user should know of movement that was left out, if it can be seen.
+[[nodiscard]] std::optional<std::string> left_out(const ReadMotion& read);
 
 /// The motion in a .bvh, .glb, .gltf, .vrm or .vrma file.
 /// Errors: unreadable; another kind of file; a file without a motion.

@@ -19,16 +19,7 @@ Exit run_retarget(const std::filesystem::path& motion,
                   Console& console) {
   const auto source = read_motion(motion);
   if (!source) return console.fail(source.error());
-  constexpr double kVisible_m = 1e-3;
-  if (source->ignored_translation_m > kVisible_m) {
-    std::array<char, 200> text{};
-    std::snprintf(text.data(),
-                  text.size(),
-                  ": bones move up to %.0f mm against their parents; bones of a body "
-                  "keep their lengths, so that this is left out",
-                  1000.0 * source->ignored_translation_m);
-    console.warn(motion.string() + text.data());
-  }
+  if (const auto note = left_out(*source)) console.warn(motion.string() + ": " + *note);
   const auto result = retarget_to_file(source->motion, avatar, out);
   if (!result) return console.fail(result.error());
   const retarget::RetargetReport& report = result->retargeted.report;

@@ -3,6 +3,7 @@
 #include "retarget/measure_constraint.h"
 
 #include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -17,9 +18,16 @@ namespace {
 class MeasureConstraint : public ::testing::Test {
  protected:
   [[nodiscard]] double error_m(const Goal& goal, const BodyPoint& point) {
-    set_.constraints.push_back({.id = "asked", .point = point, .goal = goal});
+    add("asked", point, goal);
     const ConstraintMeasure measure(body_, set_.constraints.back(), set_);
     return measure.error_m(world_, glm::dvec3(0.0));
+  }
+  void add(const std::string& id, const BodyPoint& point, const Goal& goal) {
+    Constraint constraint;
+    constraint.id = id;
+    constraint.point = point;
+    constraint.goal = goal;
+    set_.constraints.push_back(constraint);
   }
   [[nodiscard]] glm::dvec3 at(HumanBone bone) const {
     return world_[index(*body_.skeleton.find(bone))].translation;
@@ -43,7 +51,7 @@ TEST_F(MeasureConstraint, DistancesAreOffByHowMuchTheyAreWrong) {
   EXPECT_NEAR(error_m(DistanceToBody{1.0, {"rightHand", {}}}, {"leftHand", {}}),
               span - 1.0,
               1e-12);
-  set_.constraints.push_back({.id = "other", .point = {"rightHand", {}}, .goal = {}});
+  add("other", {"rightHand", {}}, {});
   EXPECT_NEAR(
       error_m(DistanceToConstraint{0.5, "other"}, {"leftHand", {}}), span - 0.5, 1e-12);
 }
