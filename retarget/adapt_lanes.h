@@ -23,14 +23,14 @@ template <class F>
 struct LanePoint {
   Vec3<F> in_joint;  ///< The constrained point.
   LaneGoal<F> goal;
-  F active{};                ///< 1 or 0.
-  F weight{};                ///< Of blending: importance over the largest; 1 otherwise.
-  F per_precision{};         ///< One over the precision.
-  bool at_distance = false;  ///< Some lane keeps a distance above 0.
-  Vec3<F> place;             ///< In the world, at this moment.
+  F active{};         ///< 1 or 0.
+  F weight{};         ///< Of blending: importance over the largest; 1 otherwise.
+  F per_precision{};  ///< One over the precision.
+  Vec3<F> place;      ///< In the world, at this moment.
   Vec3<F> target;
   Vec3<F> error;  ///< Target minus place; of an orientation, a rotation vector.
-  Vec3<F> held;   ///< Where it is kept once its level is done.
+  Vec3<F> held;   ///< Where it is kept once its level is done,
+  F holds{};      ///< then 1.
 };
 
 /// The state of as many bodies as F has lanes, all of one plan.
@@ -68,9 +68,10 @@ struct Lanes {
   Vec3<F> com;
   Vec3<F> com_target;
   Vec3<F> given_com_target;
-  F balance{};      ///< 1: the centre of mass is wanted somewhere.
-  F vertical{};     ///< 1: in height, too.
+  F balance{};   ///< 1: the centre of mass is wanted somewhere.
+  F vertical{};  ///< 1: in height, too.
   F balance_precision{};
+  F mobility{};     ///< Of all joints that are in no limb, and of the root: 0 to 1.
   F root_weight{};  ///< Vertical, and along the floor without balance.
   F root_weight_on_floor{};
   // Workspace of the whole-body step.

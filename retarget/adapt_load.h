@@ -133,15 +133,21 @@ void stand_reference(const Plan& plan, bool balance, const Mask<F>& mask, Lanes<
     total = total + s.mass[m];
   }
   const F per_total = num<F>(1) / max(total, num<F>(1e-9));
-  Vec3<F> com = origin;
   for (const int joint : plan.live) {
     const auto j = static_cast<std::size_t>(joint);
     s.carried_in_joint[j] =
         (num<F>(1) / max(s.carried_mass[j], num<F>(1e-9))) * s.carried_in_joint[j];
     s.carried_mass[j] = per_total * s.carried_mass[j];
-    com += s.carried_mass[j] *
-           (given_place[j] + rotate(given_rotation[j], s.carried_in_joint[j]));
   }
+  // The reference balances its own body: what it carries is on top (thesis 7.2.1).
+  Vec3<F> com = origin;
+  F own = zero;
+  for (std::size_t m = 0; m < plan.own_masses; ++m) {
+    const auto j = static_cast<std::size_t>(plan.masses[m].joint);
+    com += s.mass[m] * (given_place[j] + rotate(given_rotation[j], s.mass_in_joint[m]));
+    own = own + s.mass[m];
+  }
+  com = (num<F>(1) / max(own, num<F>(1e-9))) * com;
   s.com_target = select(mask & (s.com_from_reference > num<F>(0.5)), com, s.com_target);
   s.given_com_target = select(mask, s.com_target, s.given_com_target);
 }

@@ -51,7 +51,8 @@ template <class F>
     case GoalKind::kSupport:
       break;
     case GoalKind::kDistanceToPoint:
-      return p.at_distance ? at_distance(p.place, p.goal.a, p.goal.distance) : p.goal.a;
+      return point.at_distance ? at_distance(p.place, p.goal.a, p.goal.distance)
+                               : p.goal.a;
     case GoalKind::kDistanceToOther: {
       const auto o = static_cast<std::size_t>(point.other_joint);
       return at_distance(
@@ -78,7 +79,7 @@ void measure_points(const Plan& plan, Lanes<F>& s, const F& level) {
     p.place = place_of(point, p, s);
     p.target = target_of(point, p, s);
     if (!point.turns_only() && point.level > 0) {
-      p.target = select(num<F>(point.level) < level, p.held, p.target);
+      p.target = select(p.holds > zero, p.held, p.target);
     }
     const Mask<F> asked = (p.active > zero) & (num<F>(point.level) <= level);
     const Vec3<F> none{zero, zero, zero};

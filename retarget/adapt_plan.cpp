@@ -87,6 +87,14 @@ bool is_at_or_below(const Plan& plan, int joint, int ancestor) {
   return joint == ancestor;
 }
 
+// What carries both points changes nothing of the distance between them.
+void leave_shared_out(const Plan& plan, PointPlan& point) {
+  std::erase_if(point.chain,
+                [&](int j) { return is_at_or_below(plan, point.other_joint, j); });
+  point.moves_root = false;
+  if (!point.chain.empty()) point.top = point.chain.back();
+}
+
 // `at_joint`: the point is its joint's own place.
 void place_on_limb(Plan& plan, bool at_joint, PointPlan& point) {
   for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
@@ -139,6 +147,9 @@ void add_points(const Character& character,
       point.other_joint =
           joint_named(character, constraints.find(other->other_id)->point.segment);
     }
+    if (const auto* to_point = std::get_if<DistanceToPoint>(&c.goal)) {
+      point.at_distance = to_point->distance_m > 0.0;
+    }
     const bool support = point.goal == GoalKind::kSupport;
     point.stands_flat = support && !std::get<Support>(c.goal).turns;
     if (!support) {
@@ -154,6 +165,7 @@ void add_points(const Character& character,
       if (in_group[at(j)]) point.chain.push_back(j);
       if (j == 0) point.moves_root = true;
     }
+    if (point.other_joint >= 0) leave_shared_out(plan, point);
     place_on_limb(plan, is_at_joint(c), point);
     point.direct = point.turns_only() && point.limb >= 0 &&
                    point.joint == plan.limbs[at(point.limb)].end;
@@ -231,8 +243,15 @@ void set_live(Plan& plan) {
   for (int j = 0; j < plan.joint_count; ++j) {
     (plan.is_live[at(j)] ? plan.live : plan.rest).push_back(j);
   }
+  plan.in_limb.assign(at(plan.joint_count), 0);
   for (LimbPlan& limb : plan.limbs) {
     for (const int j : plan.live) {
+      const bool on_the_way = is_at_or_below(plan, limb.end, j);
+      const bool past = is_at_or_below(plan, j, limb.end);
+      if (is_at_or_below(plan, j, limb.upper) && (on_the_way || past)) {
+        limb.own.push_back(j);
+        plan.in_limb[at(j)] = 1;
+      }
       if (j > limb.upper && j < limb.lower && is_at_or_below(plan, limb.lower, j) &&
           is_at_or_below(plan, j, limb.upper)) {
         limb.between_upper.push_back(j);
@@ -302,6 +321,7 @@ void add_masses(const Character& character, Plan& plan) {
     plan.masses.push_back({number(mass.joint), carrier});
   };
   for (const PointMass& mass : character.masses) add(mass);
+  plan.own_masses = plan.masses.size();
   for (const Load& load : character.loads) add(load.mass);
 }
 

@@ -38,9 +38,10 @@ struct PointPlan {
   int constraint = 0;  ///< Position in the constraint set.
   int joint = 0;
   GoalKind goal = GoalKind::kDistanceToPoint;
-  int other_joint = -1;  ///< Of kDistanceToOther.
-  int level = 0;         ///< 0 is a support; others from 1, the most important first.
-  int top = 0;           ///< The last joint up the chain that turns for it.
+  int other_joint = -1;      ///< Of kDistanceToOther.
+  bool at_distance = false;  ///< Of a distance above 0.
+  int level = 0;             ///< 0 is a support; others from 1, the most important first.
+  int top = 0;               ///< The last joint up the chain that turns for it.
   bool moves_root = true;
   int limb = -1;  ///< Whose point it is, if the range covers the limb.
   LimbPlace place = LimbPlace::kExtremity;
@@ -63,6 +64,7 @@ struct LimbPlan {
   std::vector<int> between_upper;
   std::vector<int> between_lower;
   std::vector<int> beyond;  ///< Joints past `end`, parents first.
+  std::vector<int> own;     ///< All of these, parents first.
 };
 
 /// What two wishes have in common: joints from `lowest` up to, but without, `above`.
@@ -108,6 +110,7 @@ struct Plan {
   std::vector<int> live;
   std::vector<int> rest;  ///< The joints that are not live, parents first.
   std::vector<char> is_live;
+  std::vector<char> in_limb;  ///< Per joint.
   std::vector<LimbPlan> limbs;
   std::vector<std::vector<int>> sections;  ///< Vertebrae, low to high.
   std::vector<GroupPlan> groups;           ///< As in the character.
@@ -118,6 +121,7 @@ struct Plan {
   std::vector<int> through_begin;
   std::vector<int> through;
   std::vector<MassPlan> masses;  ///< The character's masses, then its loads.
+  std::size_t own_masses = 0;    ///< How many of them are no loads.
   std::vector<int> limited;      ///< Joints of Character::limits.
   std::vector<int> limit_of;     ///< Per joint: position in Character::limits, or -1.
   bool has_limits = false;

@@ -9,34 +9,39 @@
 /// The strict method, over lanes.
 ///
 /// 1. Limbs alone: every limb takes its wish analytically. While all are within
-/// comfortable
-///    reach that is the answer (the thesis: the trunk moves only when limbs do not
-///    suffice), and no loop runs.
-/// 2. The whole body: damped Gauss-Newton steps from the reference posture; as soon as
-/// the
-///    errors are small the limbs close them exactly.
-/// 3. Between 88 and 100 % of a limb's reach the first passes smoothly over into the
-///    second, so that the trunk starts to help before an arm is straight, and a target
-///    that moves continuously moves the posture continuously.
+///    comfortable reach that is the answer (the thesis: the trunk moves only when limbs
+///    do not suffice), and no loop runs.
+/// 2. The whole body: damped Gauss-Newton steps say how the trunk moves; after each the
+///    limbs take their wishes again, analytically, from where the reference has them.
+///    The first kHomingSteps also turn every joint back towards the reference, so that
+///    the posture is near the nearest one; there are always as many, and each later step
+///    is in proportion to what is still missing. So the answer is a continuous function
+///    of the targets although the number of steps is not.
+/// 3. Between the comfortable and the whole reach of a limb the trunk's mobility fades
+/// in:
+///    it starts to help before an arm is straight, and by nothing at first.
+///
+/// Levels of importance are solved one after the other: what the higher have reached is
+/// held, and a step that takes some of it away does not count. Supports are closed last
+/// and exactly; then the centre of mass; then constraints.
 namespace marey::retarget {
 
-inline constexpr double kComfortableReach = 0.88;
-/// Limbs close errors shorter than this, in units.
-inline constexpr double kCloseBelow = 0.008;
-inline constexpr double kCloseBelowBalanced = 0.03;
-inline constexpr double kStartDamping = kLeastDamping;
+inline constexpr double kComfortableReach = 0.96;
+/// A wish this far, in reaches of its limb, has all of the trunk's mobility.
+inline constexpr double kFullHelp = 1.2;
+inline constexpr int kHomingSteps = 4;
 inline constexpr double kStalledSteps = 2.5;
-inline constexpr double kStartHoming = 1.0;
-inline constexpr double kHomingFades = 0.85;
+/// Held points may give way by this much, in units: rounding's.
+inline constexpr double kHeldSlack = 2e-5;
+/// Steps for supports and balance alone, after constraints took balance away.
+inline constexpr int kBalanceSteps = 10;
+inline constexpr double kLeastMobility = 0.02;
 
 template <class F>
 struct Solve {
   Progress<F> progress;
-  F whole_body{};  ///< Share of the whole body's answer, 0..1.
-  F closed{};      ///< 1: the best posture is closed by its limbs already.
-  std::vector<Quat<F>> alone_rotation;
-  Vec3<F> alone_root;
-  bool keeps_alone = false;
+  F needs_body{};  ///< 0: limbs were enough.
+  F held_error{};  ///< Of held points, when their level was done.
 };
 
 struct Shape {
@@ -57,14 +62,15 @@ void take_posture(const std::vector<Quat<F>>& rotation,
   }
 }
 
-/// The largest error of what is asked, over its precision; and the mean, in units.
+/// Errors of what is asked, in units.
 template <class F>
 struct Errors {
   F worst_over_precision;
   F worst;
-  F mean;
-  F square;  ///< Weighted mean of squares.
-  F balance;
+  F mean;     ///< Weighted (eq. 4.2).
+  F square;   ///< Weighted mean of squares.
+  F balance;  ///< Of the centre of mass.
+  F held;     ///< The worst of supports and of what higher levels reached.
 };
 
 template <class F>
@@ -74,20 +80,25 @@ template <class F>
                                 Lanes<F>& s) {
   const F zero = num<F>(0);
   measure_points(plan, s, level);
-  Errors<F> out{zero, zero, zero, zero, zero};
+  Errors<F> out{zero, zero, zero, zero, zero, zero};
   F weights = zero;
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const PointPlan& point = plan.points[k];
     const LanePoint<F>& p = s.points[k];
     const F error = length(p.error);
+    const Mask<F> asked = is_asked(point, p, level);
+    const Mask<F> held = asked & ((p.holds > zero) | (num<F>(point.level) < num<F>(1)));
     out.worst_over_precision = max(out.worst_over_precision, error * p.per_precision);
-    if (!plan.points[k].direct) out.worst = max(out.worst, error);
-    const F weight = select(is_asked(plan.points[k], p, level), p.weight, zero);
+    out.worst = max(out.worst, error);
+    out.held = select(held, max(out.held, error), out.held);
+    const F weight = select(asked, p.weight, zero);
     out.mean = out.mean + weight * error;
     out.square = out.square + weight * error * error;
     weights = weights + weight;
   }
-  out.mean = out.mean / max(weights, num<F>(1e-6));
-  out.square = out.square / max(weights, num<F>(1e-6));
+  const F per_weight = num<F>(1) / max(weights, num<F>(1e-6));
+  out.mean = out.mean * per_weight;
+  out.square = out.square * per_weight;
   if (balance) {
     measure_balance(plan, s);
     out.balance = length(balance_error(s));
@@ -95,8 +106,9 @@ template <class F>
   return out;
 }
 
-/// How much the whole body has to help: 0 while every limb stays in comfortable reach of
-/// its first wish, or no further stretched or folded than in the reference; 1 beyond.
+/// How much the trunk has to help, before limbs moved: 0 while every limb stays in
+/// comfortable reach of its wish, or no further stretched or folded than in the
+/// reference; 1 beyond.
 template <class F>
 [[nodiscard]] F help_needed(const Plan& plan,
                             const SolveSettings& settings,
@@ -108,9 +120,8 @@ template <class F>
     const PointPlan& point = plan.points[k];
     const LanePoint<F>& p = s.points[k];
     const Mask<F> asked = is_asked(point, p, level);
-    if (point.direct) continue;
     // The distance of a point on the upper bone is what it is.
-    if (point.limb >= 0 && point.place == LimbPlace::kUpper) continue;
+    if (point.direct || (point.limb >= 0 && point.place == LimbPlace::kUpper)) continue;
     if (point.limb < 0) {
       share = select(asked & (length(p.error) > num<F>(1e-6)), one, share);
       continue;
@@ -126,7 +137,7 @@ template <class F>
     const F wanted = length(wish.target - root) * over_reach;
     const F now = length(wish.place - root) * over_reach;
     const F begin = min(max(now, num<F>(kComfortableReach)), num<F>(0.998));
-    const F stretch = smooth((wanted - begin) / (one - begin));
+    const F stretch = smooth((wanted - begin) / (num<F>(kFullHelp) - begin));
     const F least = abs(near_bone - far_bone) * over_reach;
     const F fold = min(now, least + num<F>(0.12));
     const F folded = smooth((fold - wanted) / max(fold - least, num<F>(0.002)));
@@ -134,6 +145,26 @@ template <class F>
   }
   // Less than this is rounding's.
   return select(share < num<F>(1e-5), num<F>(0), share);
+}
+
+/// Puts limbs that have a wish back as the reference has them, on the trunk as it is.
+template <class F>
+void rest_limbs(const Plan& plan, const F& level, const Mask<F>& mask, Lanes<F>& s) {
+  for (const LimbPlan& limb : plan.limbs) {
+    Mask<F> wished = num<F>(0) > num<F>(1);
+    for (const int k : limb.points) {
+      const auto i = static_cast<std::size_t>(k);
+      wished = wished | is_asked(plan.points[i], s.points[i], level);
+    }
+    wished = wished & mask;
+    for (const int j : limb.own) {
+      const auto i = static_cast<std::size_t>(j);
+      const auto p = static_cast<std::size_t>(plan.parent[i] < 0 ? 0 : plan.parent[i]);
+      s.rotation[i] =
+          select(wished, trued(s.rotation[p] * s.reference_local[i]), s.rotation[i]);
+      if (j != 0) place_joint(plan, s, j);
+    }
+  }
 }
 
 /// Starts lanes from their reference: places are those of the reference posture.
@@ -145,37 +176,70 @@ void begin_lanes(const Plan& plan,
                  Lanes<F>& s,
                  Solve<F>& solve) {
   const F zero = num<F>(0);
+  const F one = num<F>(1);
   const F last = num<F>(shape.last_level);
   ground_reference(plan, settings, shape.rows.balance, mask, s);
   take_posture(s.reference_rotation, s.reference_place, plan, mask, s);
-  measure_points(plan, s, last);
-  F share = num<F>(1);
-  if (!shape.rows.balance) share = help_needed(plan, settings, last, s);
-  const Mask<F> tries = mask & (share < num<F>(1));
-  if (any(tries)) {
-    close_limbs(plan, settings, last, tries, s);
-    const Errors<F> errors = measure(plan, false, last, s);
-    share = select(errors.worst_over_precision > num<F>(1), num<F>(1), share);
-    for (const int j : plan.live) {
-      const auto i = static_cast<std::size_t>(j);
-      solve.alone_rotation[i] = select(tries, s.rotation[i], solve.alone_rotation[i]);
-    }
-    solve.alone_root = select(tries, s.place[0], solve.alone_root);
-  }
-  solve.whole_body = select(mask, share, solve.whole_body);
-  const Mask<F> loops = mask & (share > zero);
+  for (LanePoint<F>& p : s.points) p.holds = select(mask, zero, p.holds);
   Progress<F>& p = solve.progress;
+  measure_points(plan, s, last);
+  F share = one;
+  if (!shape.rows.balance) {
+    share = help_needed(plan, settings, last, s);
+    close_limbs(plan, settings, last, mask & (share < one), s);
+    const Errors<F> errors = measure(plan, false, last, s);
+    // What limbs leave, the trunk has to do, in proportion at first.
+    const F missing =
+        select(errors.worst_over_precision > one,
+               clamp(num<F>(10) * errors.worst, num<F>(kLeastMobility), one),
+               zero);
+    share = max(share, missing);
+  }
+  solve.needs_body = select(mask, select(share > zero, one, zero), solve.needs_body);
+  s.mobility = select(mask, max(share, num<F>(kLeastMobility)), s.mobility);
   p.iterations = select(mask, zero, p.iterations);
   p.square = select(mask, zero, p.square);
   p.merit = select(mask, num<F>(1e9), p.merit);
   p.stalled = select(mask, zero, p.stalled);
-  p.damping = select(mask, num<F>(kStartDamping), p.damping);
-  p.homing = select(mask, num<F>(kStartHoming), p.homing);
-  p.level = select(mask, min(num<F>(1), last), p.level);
+  p.damping = select(mask, num<F>(kLeastDamping), p.damping);
+  p.homing = select(mask, one, p.homing);
+  p.level = select(mask, min(one, last), p.level);
+  solve.held_error = select(mask, num<F>(1e9), solve.held_error);
+  const Mask<F> loops = mask & (share > zero);
   if (any(loops)) {
     take_posture(s.reference_rotation, s.reference_place, plan, loops, s);
     static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
   }
+}
+
+/// Closes a level: what it reached is held from now on, and the next begins from there.
+template <class F>
+void next_level(const Plan& plan,
+                const Shape& shape,
+                const Mask<F>& mask,
+                Lanes<F>& s,
+                Solve<F>& solve) {
+  Progress<F>& p = solve.progress;
+  take_posture(s.best_rotation, s.best_place, plan, mask, s);
+  static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const F level = num<F>(plan.points[k].level);
+    LanePoint<F>& point = s.points[k];
+    const Mask<F> held =
+        mask & (level > num<F>(0)) & (level <= p.level) & (point.holds < num<F>(0.5));
+    point.held = select(held, point.place, point.held);
+    point.holds = select(held, num<F>(1), point.holds);
+  }
+  p.level = select(mask, p.level + num<F>(1), p.level);
+  const Errors<F> errors = measure(plan, shape.rows.balance, p.level, s);
+  // Doing nothing for the next level is the first answer.
+  p.merit = select(mask, sqrt(errors.square), p.merit);
+  p.square = select(mask, errors.square, p.square);
+  solve.held_error = select(mask, errors.held + num<F>(kHeldSlack), solve.held_error);
+  p.stalled = select(mask, num<F>(0), p.stalled);
+  p.damping = select(mask, num<F>(kLeastDamping), p.damping);
+  p.homing = select(mask, num<F>(0), p.homing);
+  s.mobility = select(mask, num<F>(1), s.mobility);
 }
 
 /// One turn of the loop for all lanes; those of the answer are done.
@@ -189,18 +253,28 @@ template <class F>
   const F one = num<F>(1);
   Progress<F>& p = solve.progress;
   const bool balance = shape.rows.balance;
+  const Mask<F> was_homing = p.homing > zero;
   step_whole_body(plan, shape.rows, p, s);
-  if (plan.has_hamstrings()) spare_hamstrings(plan, settings, p.level > zero, s);
-  Errors<F> errors = measure(plan, balance, p.level, s);
-  const Mask<F> near = errors.worst < num<F>(balance ? kCloseBelowBalanced : kCloseBelow);
-  if (any(near)) {
-    close_limbs(plan, settings, p.level, near, s);
-    errors = measure(plan, balance, p.level, s);
-  }
+  spare_hamstrings(plan, settings, zero < one, s);
   p.iterations = p.iterations + one;
+  p.homing = select(p.iterations < num<F>(kHomingSteps), p.homing, zero);
+  const Mask<F> closes = p.homing <= zero;
+  if (any(closes)) {
+    // On a trunk that hardly moved limbs do what they would do alone.
+    const Mask<F> first = closes & was_homing;
+    if (!balance && any(first)) rest_limbs(plan, p.level, first, s);
+    measure_points(plan, s, p.level);
+    close_limbs(plan, settings, p.level, closes, s);
+  }
+  const Errors<F> errors = measure(plan, balance, p.level, s);
 
-  const F merit = sqrt(errors.square) + num<F>(2) * errors.balance;
-  const Mask<F> better = merit < p.merit;
+  const F merit = sqrt(errors.square) + num<F>(4) * errors.balance;
+  const Mask<F> homes = p.homing > zero;
+  const Mask<F> met = (errors.worst_over_precision <= one) &
+                      (errors.balance <= s.balance_precision) &
+                      (errors.held <= solve.held_error);
+  // Of postures that are all good enough the last counts.
+  const Mask<F> better = met | ((merit < p.merit) & (errors.held <= solve.held_error));
   const F gain = p.merit - merit;
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
@@ -208,46 +282,54 @@ template <class F>
     s.best_place[i] = select(better, s.place[i], s.best_place[i]);
   }
   p.merit = select(better, merit, p.merit);
-  solve.closed = select(better, select(near, one, zero), solve.closed);
-  const Mask<F> met =
-      (errors.worst_over_precision <= one) & (errors.balance <= s.balance_precision);
-  // A step that made things worse is taken back and tried again, more carefully.
-  const Mask<F> worse = !better & !met;
+  p.square = select(better, errors.square, p.square);
+  // A step that made things worse is taken back and tried again, more carefully; not
+  // while steps home: those may cost a little at first.
+  const Mask<F> worse = !better & !homes;
   if (any(worse)) {
     take_posture(s.best_rotation, s.best_place, plan, worse, s);
     static_cast<void>(measure(plan, balance, p.level, s));
   }
   p.damping = select(worse, num<F>(8) * p.damping, p.damping);
-  p.square = select(better, errors.square, p.square);
-  p.homing = select(worse, zero, num<F>(kHomingFades) * p.homing);
   const Mask<F> idle = gain < max(num<F>(settings.threshold), num<F>(0.002) * p.merit);
-  p.stalled = select(idle, p.stalled + one, zero);
-  const Mask<F> ended = met | (p.stalled > num<F>(kStalledSteps)) |
-                        (p.iterations >= num<F>(settings.max_iterations));
-
-  const Mask<F> goes_on = ended & (p.level < num<F>(shape.last_level)) &
-                          (p.iterations < num<F>(settings.max_iterations));
-  if (any(goes_on)) {
-    take_posture(s.best_rotation, s.best_place, plan, goes_on, s);
-    close_limbs(plan, settings, p.level, goes_on, s);
-    static_cast<void>(measure(plan, balance, p.level, s));
-    for (std::size_t k = 0; k < plan.points.size(); ++k) {
-      const Mask<F> held = goes_on & (num<F>(plan.points[k].level) <= p.level) &
-                           (p.level < num<F>(plan.points[k].level + 1));
-      s.points[k].held = select(held, s.points[k].place, s.points[k].held);
-    }
-    p.level = select(goes_on, p.level + one, p.level);
-    p.merit = select(goes_on, num<F>(1e9), p.merit);
-    p.stalled = select(goes_on, zero, p.stalled);
-    p.damping = select(goes_on, num<F>(kStartDamping), p.damping);
-    p.homing = select(goes_on, zero, p.homing);
-    static_cast<void>(measure(plan, balance, p.level, s));
-  }
+  p.stalled = select(idle & !homes, p.stalled + one, zero);
+  const Mask<F> capped = p.iterations >= num<F>(settings.max_iterations);
+  const Mask<F> ended =
+      (met & !(p.homing > zero)) | (p.stalled > num<F>(kStalledSteps)) | capped;
+  const Mask<F> goes_on = ended & (p.level < num<F>(shape.last_level)) & !capped;
+  if (any(goes_on)) next_level(plan, shape, goes_on, s, solve);
   return ended & !goes_on;
 }
 
-/// The final posture of lanes that are done: the best, closed by its limbs, mixed with
-/// what limbs alone would do. Leaves its measures.
+/// Brings the centre of mass where it has to be, for supports alone: constraints that
+/// cannot be reached must not take balance away. Lanes in balance stay as they are.
+template <class F>
+void settle_balance(const Plan& plan,
+                    const Shape& shape,
+                    const SolveSettings& settings,
+                    const Mask<F>& mask,
+                    Lanes<F>& s) {
+  const F zero = num<F>(0);
+  Progress<F> alone{};
+  alone.damping = num<F>(kLeastDamping);
+  s.mobility = num<F>(1);
+  for (int round = 0; round < kBalanceSteps; ++round) {
+    const Errors<F> errors = measure(plan, true, zero, s);
+    const Mask<F> off = mask & (errors.balance > s.balance_precision);
+    if (!any(off)) return;
+    for (const int j : plan.live) {
+      const auto i = static_cast<std::size_t>(j);
+      s.best_rotation[i] = s.rotation[i];
+      s.best_place[i] = s.place[i];
+    }
+    step_whole_body(plan, shape.rows, alone, s);
+    measure_points(plan, s, zero);
+    close_limbs(plan, settings, zero, off, s);
+    take_posture(s.best_rotation, s.best_place, plan, !off, s);
+  }
+}
+
+/// The final posture of lanes that are done. Leaves its measures.
 template <class F>
 [[nodiscard]] Errors<F> finish_lanes(const Plan& plan,
                                      const Shape& shape,
@@ -255,30 +337,11 @@ template <class F>
                                      const Mask<F>& mask,
                                      Lanes<F>& s,
                                      Solve<F>& solve) {
-  const F zero = num<F>(0);
-  const F one = num<F>(1);
   const F last = num<F>(shape.last_level);
-  const Mask<F> looped = mask & (solve.whole_body > zero);
-  if (!any(looped)) return measure(plan, shape.rows.balance, last, s);
+  const Mask<F> looped = mask & (solve.needs_body > num<F>(0));
   take_posture(s.best_rotation, s.best_place, plan, looped, s);
-  const F share = solve.whole_body;
-  const Mask<F> mixes = looped & (share < one);
-  if (any(mixes)) {
-    for (const int j : plan.live) {
-      const auto i = static_cast<std::size_t>(j);
-      s.rotation[i] = select(
-          mixes, between(solve.alone_rotation[i], s.rotation[i], share), s.rotation[i]);
-    }
-    s.place[0] = select(
-        mixes, solve.alone_root + share * (s.place[0] - solve.alone_root), s.place[0]);
-    place_live_joints(plan, s);
-  }
-  const Mask<F> open = looped & (mixes | (solve.closed < num<F>(0.5)));
-  if (any(open)) {
-    static_cast<void>(measure(plan, false, last, s));
-    spare_hamstrings(plan, settings, open, s);
-    close_limbs(plan, settings, last, open, s);
-  }
+  if (shape.rows.balance) settle_balance(plan, shape, settings, looped, s);
+  for (LanePoint<F>& p : s.points) p.holds = select(mask, num<F>(0), p.holds);
   return measure(plan, shape.rows.balance, last, s);
 }
 

@@ -129,7 +129,8 @@ class Adapter {
   /// nullopt: there is no constraint of this id.
   [[nodiscard]] std::optional<Handle> constraint(std::string_view id);
 
-  /// Where the centre of mass is wanted; nullopt: where the reference posture has it.
+  /// Where the centre of mass is wanted; nullopt: where the reference posture has that of
+  /// the body alone, without loads.
   void set_balance_target(const std::optional<glm::dvec3>& com_in_world);
   /// Takes a load of the character's up, or puts it down. False: it has none of that
   /// name.

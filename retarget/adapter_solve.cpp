@@ -6,9 +6,13 @@
 #include "core/assert.h"
 #include "retarget/activation.h"
 #include "retarget/adapter_state.h"
+#include "retarget/smooth_step.h"
 
 namespace marey::retarget {
 namespace {
+
+// Constraints are closed on a mean of postures from this activation on, wholly at 1.
+constexpr double kFirm = 0.8;
 
 glm::dvec3 plain(const Vec3<float>& v) {
   return {v.x, v.y, v.z};
@@ -48,7 +52,6 @@ void Adapter::State::set_up() {
   lanes = Lanes<float>(plan);
   thesis = {make_thesis_plan(plan), options.balance != BalanceMode::kOff};
   solve = {};
-  solve.alone_rotation.assign(plan.parent.size(), identity<float>());
   mixed_rotation.assign(plan.parent.size(), identity<float>());
   packed_posture.assign(4 * plan.parent.size(), 0.0F);
   packed_wishes.assign(kNumbersPerWish * plan.points.size(), 0.0F);
@@ -182,7 +185,6 @@ Errors<float> Adapter::State::solve_for(double least, double& iterations) {
   for (std::size_t k = 0; k < wishes.size(); ++k) {
     wishes[k].active = activations[k] >= least && activations[k] > 0.0;
   }
-  for (LanePoint<float>& p : lanes.points) p.at_distance = false;
   pack_wishes(plan, body, origin_in_world, wishes, packed_wishes);
   load_wishes(plan, packed_wishes.data(), 0, lanes);
   const Shape form = shape();
@@ -195,7 +197,7 @@ Errors<float> Adapter::State::solve_for(double least, double& iterations) {
     return finish_thesis(plan, thesis, told, true, lanes);
   }
   begin_lanes(plan, form, told, true, lanes, solve);
-  if (solve.whole_body > 0.0F) {
+  if (solve.needs_body > 0.0F) {
     while (!advance_lanes(plan, form, told, lanes, solve)) {
     }
   }
@@ -232,18 +234,29 @@ Errors<float> Adapter::State::solve_faded(double& iterations) {
     above = next;
   }
   for (std::size_t k = 0; k < wishes.size(); ++k) {
-    wishes[k].active = activations[k] >= 1.0;
+    wishes[k].active = activations[k] > kFirm;
   }
   pack_wishes(plan, body, origin_in_world, wishes, packed_wishes);
   load_wishes(plan, packed_wishes.data(), 0, lanes);
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
     lanes.rotation[i] = normalized(mixed_rotation[i]);
+    // Between two postures that keep a limit may be one that does not.
+    if (j > 0) {
+      const auto p = static_cast<std::size_t>(plan.parent[i]);
+      lanes.rotation[i] = limited(plan, lanes, j, lanes.rotation[p], lanes.rotation[i]);
+    }
   }
   lanes.place[0] = mixed_root;
   place_live_joints(plan, lanes);
   const auto last = static_cast<float>(shape().last_level);
   static_cast<void>(measure(plan, shape().rows.balance, last, lanes));
+  for (std::size_t k = 0; k < wishes.size(); ++k) {
+    LanePoint<float>& p = lanes.points[k];
+    const auto share =
+        static_cast<float>(smooth_step((activations[k] - kFirm) / (1.0 - kFirm)));
+    p.target = p.place + share * (p.target - p.place);
+  }
   close_limbs(plan, settings(), last, true, lanes);
   return measure(plan, shape().rows.balance, last, lanes);
 }

@@ -68,7 +68,7 @@ void mix_limb(const Plan& plan,
     const Quat<F> mixed = between(now, other[n], share);
     turn[n] = mixed * conjugate(now);
   }
-  turn_limb(plan, limb, {turn[0], turn[1]}, mask, extremity, s);
+  turn_limb(plan, limb, {turn[0], turn[1]}, mask, extremity, true, s);
 }
 
 /// Brings the active wishes of one limb to their targets: the first exactly or optimally,
@@ -114,6 +114,21 @@ void close_limb(const Plan& plan,
                      asked & taken,
                      extremity,
                      s);
+        // A limit may have held the spin up and moved the first point.
+        if (plan.has_limits) {
+          const auto f = static_cast<std::size_t>(limb.points.front());
+          LanePoint<F>& first = s.points[f];
+          measure_place(plan.points[f], s, first);
+          const LimbWish<F> again = wish_of(limb, plan.points[f], first, extremity, s);
+          close_limb_on(plan,
+                        number,
+                        plan.points[f],
+                        again.place,
+                        again.target,
+                        asked & taken & is_asked(plan.points[f], first, level),
+                        extremity,
+                        s);
+        }
       }
     }
     measure_place(point, s, p);
@@ -124,7 +139,8 @@ void close_limb(const Plan& plan,
   // An extremity without a wish for its place may still have one for its orientation.
   const Mask<F> only_turned = mask & extremity.is_set & !taken;
   if (any(only_turned)) {
-    turn_limb(plan, limb, {identity<F>(), identity<F>()}, only_turned, extremity, s);
+    turn_limb(
+        plan, limb, {identity<F>(), identity<F>()}, only_turned, extremity, true, s);
   }
 }
 

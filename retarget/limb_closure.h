@@ -111,14 +111,15 @@ template <class F>
   return trued(parent * within_limits(s, i, conjugate(parent) * rotation));
 }
 
-/// Puts a limb's joints where `turn` takes them and their limits allow, in the lanes of
-/// `mask`; the others are not touched, not even by rounding.
+/// Puts a limb's joints where `turn` takes them and, if `limits`, their limits allow, in
+/// the lanes of `mask`; the others are not touched, not even by rounding.
 template <class F>
 void turn_limb(const Plan& plan,
                const LimbPlan& limb,
                const LimbTurn<F>& turn,
                const Mask<F>& mask,
                const Extremity<F>& extremity,
+               bool limits,
                Lanes<F>& s) {
   const auto u = static_cast<std::size_t>(limb.upper);
   const auto l = static_cast<std::size_t>(limb.lower);
@@ -128,7 +129,7 @@ void turn_limb(const Plan& plan,
   Quat<F> lower = trued(turn.lower * s.rotation[l]);
   Quat<F> end =
       trued(select(extremity.is_set, extremity.rotation, turn.lower * s.rotation[e]));
-  if (plan.has_limits) {
+  if (plan.has_limits && limits) {
     // What holds the upper bone back holds back all that hangs from it.
     const auto p = plan.parent[u] < 0 ? u : static_cast<std::size_t>(plan.parent[u]);
     const Quat<F> kept_upper = limited(plan, s, limb.upper, s.rotation[p], upper);
@@ -165,10 +166,13 @@ void turn_limb(const Plan& plan,
 
 /// The turn about the unit `axis` that brings the bend of a limb from what it is to where
 /// `point` is `wanted` away from the limb's root, or as near to that as the limb gets.
-/// `to_root` and `to_point` lead from the middle joint. Annex B, with any point.
+/// `to_root`, `to_end` and `to_point` lead from the middle joint. Annex B, with any
+/// point. Of the two bends that do, the one on the point's own side of straight, unless
+/// only the other bends the limb the natural way.
 template <class F>
 [[nodiscard]] Quat<F> bend_to(const Vec3<F>& axis,
                               const Vec3<F>& to_root,
+                              const Vec3<F>& to_end,
                               const Vec3<F>& to_point,
                               const F& wanted) {
   const F zero = num<F>(0);
@@ -185,8 +189,16 @@ template <class F>
   const F s0 = dot(axis, cross(root, point)) / ab;
   const F apart = root_along - point_along;
   const F c1 = clamp((a2 + b2 + apart * apart - wanted * wanted) / (ab + ab), -one, one);
-  // The natural side: turning on about the axis bends further.
-  const F s1 = -safe_sqrt(one - c1 * c1);
+  const F size = safe_sqrt(one - c1 * c1);
+  // The bone's end runs behind the point by an angle that no bend changes; a natural bend
+  // has it on the axis' far side of the line to the root.
+  const F end_sine = dot(axis, cross(to_end, point));
+  const F end_cosine = dot(to_end, point);
+  const F own = select(s0 > zero, size, -size);
+  const F natural = end_sine * c1 - end_cosine * own;
+  const F other = end_sine * c1 + end_cosine * own;
+  const F least = num<F>(-1e-4) * sqrt(max(b2 * length2(to_end), tiny));
+  const F s1 = select((natural < least) & (other >= least), -own, own);
   const F c = c1 * c0 + s1 * s0;
   const F sine = s1 * c0 - c1 * s0;
   // Half of the angle: (1 + cos, sin) normalised; a half turn at the worst.
@@ -221,11 +233,17 @@ void close_limb_on(const Plan& plan,
         mask & (length2(to_target) > least * least) & (length2(from) > least * least);
     const Quat<F> swing =
         rotation_onto(select(can, from, axis), select(can, to_target, axis), axis);
-    turn_limb(plan, limb, {swing, swing}, can, extremity, s);
+    turn_limb(plan, limb, {swing, swing}, can, extremity, true, s);
     return;
   }
+  // Supports are always satisfied (thesis 3.1.1.1), limits or not.
+  const bool limits = point.goal != GoalKind::kSupport;
   const F distance = length(to_target);
-  const Quat<F> bend = bend_to(axis, root - middle, place - middle, distance);
+  const Quat<F> bend = bend_to(axis,
+                               root - middle,
+                               s.place[static_cast<std::size_t>(limb.end)] - middle,
+                               place - middle,
+                               distance);
   const Vec3<F> from = middle + rotate(bend, place - middle) - root;
   const Mask<F> can = (distance > least) & (length2(from) > least * least);
   Quat<F> swing =
@@ -248,7 +266,7 @@ void close_limb_on(const Plan& plan,
         rotation_onto(select(known, is_off, axis), select(known, wish, axis), along);
     swing = spin * swing;
   }
-  turn_limb(plan, limb, {swing, swing * bend}, mask, extremity, s);
+  turn_limb(plan, limb, {swing, swing * bend}, mask, extremity, limits, s);
 }
 
 /// The second wish on a limb whose first is met (thesis 4.2.2.1): what is left is to spin
@@ -270,12 +288,18 @@ void spin_limb_on(const Plan& plan,
   const Vec3<F> to = target - root;
   const Vec3<F> from_off = from - dot(from, axis) * axis;
   const Vec3<F> to_off = to - dot(to, axis) * axis;
+  // Near the axis neither has a side: the spin fades out towards it.
+  const F from2 = length2(from_off);
+  const F to2 = length2(to_off);
   const F tiny = num<F>(1e-8);
-  const Mask<F> can = mask & (length2(from_off) > tiny) & (length2(to_off) > tiny);
+  const F sure = smooth(num<F>(400) * min(from2, to2));
+  const F like = sqrt(from2 / max(to2, tiny));
+  const Vec3<F> wish = from_off + sure * (like * to_off - from_off);
+  const Mask<F> can = mask & (from2 > tiny) & (length2(wish) > tiny);
   const Vec3<F> x{num<F>(1), num<F>(0), num<F>(0)};
   const Quat<F> spin =
-      rotation_onto(select(can, from_off, x), select(can, to_off, x), axis);
-  turn_limb(plan, limb, {spin, spin}, can, extremity, s);
+      rotation_onto(select(can, from_off, x), select(can, wish, x), axis);
+  turn_limb(plan, limb, {spin, spin}, can, extremity, true, s);
 }
 
 }  // namespace marey::retarget

@@ -298,6 +298,7 @@ void adapt_limb(const Plan& plan,
               {turn, turn},
               turns,
               extremity_of(limb, settings.keeps_orientation, s),
+              true,
               s);
     free = free & !turns;
   }

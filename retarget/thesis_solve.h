@@ -27,7 +27,7 @@ inline constexpr double kMostRetries = 3;
 template <class F>
 [[nodiscard]] Errors<F> measure_wishes(const Plan& plan, bool balance, Lanes<F>& s) {
   const F zero = num<F>(0);
-  Errors<F> out{zero, zero, zero, zero, zero};
+  Errors<F> out{zero, zero, zero, zero, zero, zero};
   F weights = zero;
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const PointPlan& point = plan.points[k];
@@ -111,7 +111,7 @@ void begin_thesis(const Plan& plan,
   }
   const Mask<F> met =
       (errors.worst_over_precision <= one) & (errors.balance <= s.balance_precision);
-  solve.whole_body = select(mask, select(idle | met, zero, one), solve.whole_body);
+  solve.needs_body = select(mask, select(idle | met, zero, one), solve.needs_body);
   p.iterations = select(mask, select(idle, zero, one), p.iterations);
   p.merit = select(mask, merit_of(errors, s), p.merit);
   p.square = select(mask, errors.balance, p.square);
@@ -130,7 +130,7 @@ template <class F>
   const F one = num<F>(1);
   Progress<F>& p = solve.progress;
   const F cap = num<F>(settings.max_iterations);
-  const Mask<F> mask = (solve.whole_body > zero) & (p.iterations < cap);
+  const Mask<F> mask = (solve.needs_body > zero) & (p.iterations < cap);
   if (!any(mask)) return !mask;
   adapt_groups(plan, shape.groups, true, settings, p.damping, mask, s);
   const Vec3<F> wish = root_wish(plan, shape.groups, s);
@@ -161,8 +161,8 @@ template <class F>
   const Mask<F> met = (errors.worst_over_precision <= one) & balanced;
   const Mask<F> done =
       mask & ((better & (met | settled)) | (p.stalled > num<F>(kMostRetries - 0.5)));
-  solve.whole_body = select(done, zero, solve.whole_body);
-  return !((solve.whole_body > zero) & (p.iterations < cap));
+  solve.needs_body = select(done, zero, solve.needs_body);
+  return !((solve.needs_body > zero) & (p.iterations < cap));
 }
 
 /// The final posture of lanes that are done: balance has the last word. Leaves its

@@ -120,12 +120,11 @@ void form_system(const Plan& plan,
     LanePoint<F>& p = s.points[k];
     const F level = num<F>(point.level);
     const F asked = select((p.active > zero) & (level <= progress.level), one, zero);
-    const F damping =
-        select(level < progress.level,
-               num<F>(kExactDamping),
-               progress.damping *
+    const F soft = progress.damping *
                    (one + num<F>(kDampingPerSquare / kLeastDamping) * progress.square) /
-                   max(p.weight, num<F>(1e-6)));
+                   max(p.weight, num<F>(1e-6));
+    const F damping =
+        select((p.holds > zero) | (level < one), num<F>(kExactDamping), soft);
     const int row = rows.row_of(static_cast<int>(k));
     const F long_enough = num<F>(kLongestError);
     const F scale = long_enough / max(length(p.error), long_enough);
@@ -195,13 +194,15 @@ void apply_step(const Plan& plan, const RowOrder& rows, const F& homing, Lanes<F
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
     if (plan.turning[i] == Turning::kRigid) continue;
-    s.turn[i] = rotation_by(turn_of(plan, rows, j, s) - s.strayed[i]);
+    s.turn[i] = rotation_by((plan.in_limb[i] ? num<F>(1) : s.mobility) *
+                                turn_of(plan, rows, j, s) -
+                            s.strayed[i]);
   }
   const Vec3<F> from_reference = s.place[0] - s.reference_place[0];
   s.place[0] = s.reference_place[0] + (num<F>(1) - homing) * from_reference +
-               Vec3<F>{s.root_weight_on_floor * travel.x,
-                       s.root_weight * travel.y,
-                       s.root_weight_on_floor * travel.z};
+               s.mobility * Vec3<F>{s.root_weight_on_floor * travel.x,
+                                    s.root_weight * travel.y,
+                                    s.root_weight_on_floor * travel.z};
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
     const bool turns = plan.turning[i] != Turning::kRigid;

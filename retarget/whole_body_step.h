@@ -40,15 +40,17 @@ void sum_runs(const Plan& plan, bool balance, Lanes<F>& s) {
       for (std::size_t n = 0; n < 6; ++n) square[n] = s.run_square[6 * p + n];
     }
     const Vec3<F>& at = s.place[i];
+    const F own = plan.in_limb[i] ? one : s.mobility;
     if (turns) {
-      weight = weight + one;
-      place += at;
-      square[0] = square[0] + at.x * at.x;
-      square[1] = square[1] + at.x * at.y;
-      square[2] = square[2] + at.x * at.z;
-      square[3] = square[3] + at.y * at.y;
-      square[4] = square[4] + at.y * at.z;
-      square[5] = square[5] + at.z * at.z;
+      const Vec3<F> weighted = own * at;
+      weight = weight + own;
+      place += weighted;
+      square[0] = square[0] + weighted.x * at.x;
+      square[1] = square[1] + weighted.x * at.y;
+      square[2] = square[2] + weighted.x * at.z;
+      square[3] = square[3] + weighted.y * at.y;
+      square[4] = square[4] + weighted.y * at.z;
+      square[5] = square[5] + weighted.z * at.z;
     }
     s.run_weight[i] = weight;
     s.run_place[i] = place;
@@ -59,17 +61,18 @@ void sum_runs(const Plan& plan, bool balance, Lanes<F>& s) {
     s.lever[i] = lever;
     const auto p = joint > 0 ? static_cast<std::size_t>(plan.parent[i]) : 0;
     Vec3<F> run = joint > 0 ? s.run_lever[p] : Vec3<F>{zero, zero, zero};
-    if (turns) run += lever;
+    const Vec3<F> weighted = own * lever;
+    if (turns) run += weighted;
     s.run_lever[i] = run;
-    const F outer[9] = {lever.x * at.x,
-                        lever.x * at.y,
-                        lever.x * at.z,
-                        lever.y * at.x,
-                        lever.y * at.y,
-                        lever.y * at.z,
-                        lever.z * at.x,
-                        lever.z * at.y,
-                        lever.z * at.z};
+    const F outer[9] = {weighted.x * at.x,
+                        weighted.x * at.y,
+                        weighted.x * at.z,
+                        weighted.y * at.x,
+                        weighted.y * at.y,
+                        weighted.y * at.z,
+                        weighted.z * at.x,
+                        weighted.z * at.y,
+                        weighted.z * at.z};
     for (std::size_t n = 0; n < 9; ++n) {
       const F before = joint > 0 ? s.run_lever_place[9 * p + n] : zero;
       s.run_lever_place[9 * i + n] = turns ? before + outer[n] : before;
@@ -200,9 +203,9 @@ void form_point_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes<F
         for (F& x : block) x = num<F>(0);
       }
       if (run.root && !plan.points[ia].turns_only() && !plan.points[ib].turns_only()) {
-        block[0] = block[0] + s.root_weight_on_floor;
-        block[4] = block[4] + s.root_weight;
-        block[8] = block[8] + s.root_weight_on_floor;
+        block[0] = block[0] + s.mobility * s.root_weight_on_floor;
+        block[4] = block[4] + s.mobility * s.root_weight;
+        block[8] = block[8] + s.mobility * s.root_weight_on_floor;
       }
       F* out = &s.blocks[static_cast<std::size_t>(
           9 * (rows.row_of(a) * side + rows.row_of(b)))];
@@ -221,17 +224,18 @@ void form_balance_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes
     const auto i = static_cast<std::size_t>(j);
     if (plan.turning[i] != Turning::kBall) continue;
     const Vec3<F>& v = s.lever[i];
-    const F square = length2(v);
+    const Vec3<F> weighted = (plan.in_limb[i] ? num<F>(1) : s.mobility) * v;
+    const F square = dot(weighted, v);
     F outer[9] = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
-    add_outer(v, v, outer);
+    add_outer(weighted, v, outer);
     for (std::size_t e = 0; e < 9; ++e) own[e] = own[e] - outer[e];
     own[0] = own[0] + square;
     own[4] = own[4] + square;
     own[8] = own[8] + square;
   }
-  own[0] = own[0] + s.root_weight_on_floor;
-  own[4] = own[4] + s.root_weight;
-  own[8] = own[8] + s.root_weight_on_floor;
+  own[0] = own[0] + s.mobility * s.root_weight_on_floor;
+  own[4] = own[4] + s.mobility * s.root_weight;
+  own[8] = own[8] + s.mobility * s.root_weight_on_floor;
   F* out = &s.blocks[static_cast<std::size_t>(9 * (row * side + row))];
   for (std::size_t e = 0; e < 9; ++e) out[e] = own[e];
 
@@ -275,9 +279,9 @@ void form_balance_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes
       block[4] = block[4] + dots;
       block[8] = block[8] + dots;
       if (point.moves_root) {
-        block[0] = block[0] + s.root_weight_on_floor;
-        block[4] = block[4] + s.root_weight;
-        block[8] = block[8] + s.root_weight_on_floor;
+        block[0] = block[0] + s.mobility * s.root_weight_on_floor;
+        block[4] = block[4] + s.mobility * s.root_weight;
+        block[8] = block[8] + s.mobility * s.root_weight_on_floor;
       }
     }
     // The lower triangle wants the later row first.
