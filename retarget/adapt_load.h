@@ -69,7 +69,6 @@ void load_wishes(const Plan& plan, const float* packed, int lane, Lanes<F>& s) {
     from.get(p.goal.b);
     from.get(p.goal.rotation);
     from.get(p.goal.distance);
-    p.at_distance = p.at_distance || lane_of(p.goal.distance, lane) > 0;
     from.get(p.active);
     from.get(p.weight);
     from.get(p.per_precision);

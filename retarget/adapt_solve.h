@@ -340,7 +340,13 @@ template <class F>
   const F last = num<F>(shape.last_level);
   const Mask<F> looped = mask & (solve.needs_body > num<F>(0));
   take_posture(s.best_rotation, s.best_place, plan, looped, s);
-  if (shape.rows.balance) settle_balance(plan, shape, settings, looped, s);
+  if (any(looped)) {
+    // A second time: the first left single precision's error in the bend of a limb that
+    // went far.
+    measure_points(plan, s, last);
+    close_limbs(plan, settings, last, looped, s);
+    if (shape.rows.balance) settle_balance(plan, shape, settings, looped, s);
+  }
   for (LanePoint<F>& p : s.points) p.holds = select(mask, num<F>(0), p.holds);
   return measure(plan, shape.rows.balance, last, s);
 }

@@ -37,7 +37,7 @@ Adapter::State::State(const Character& character_in,
       constraints(constraints_in),
       options(options_in),
       plan(make_plan(character, constraints, options.balance != BalanceMode::kOff)),
-      carried(character.loads.size(), 1),
+      carried(character.loads.size(), 0),
       lanes(plan) {
   set_up();
 }

@@ -292,7 +292,7 @@ void spin_limb_on(const Plan& plan,
   const F from2 = length2(from_off);
   const F to2 = length2(to_off);
   const F tiny = num<F>(1e-8);
-  const F sure = smooth(num<F>(400) * min(from2, to2));
+  const F sure = smooth(num<F>(2500) * min(from2, to2));
   const F like = sqrt(from2 / max(to2, tiny));
   const Vec3<F> wish = from_off + sure * (like * to_off - from_off);
   const Mask<F> can = mask & (from2 > tiny) & (length2(wish) > tiny);

@@ -120,15 +120,18 @@ void balance_with_limb(const Plan& plan,
   const Vec3<F> com = centre + from_centre;
   const Vec3<F> wanted =
       com - root + (num<F>(1) / max(share, num<F>(1e-4))) * balance_error(s);
-  const Quat<F> bend =
-      bend_to(limb_axis(limb, s, group.limb), root - centre, from_centre, length(wanted));
+  const Quat<F> bend = bend_to(limb_axis(limb, s, group.limb),
+                               root - centre,
+                               s.place[e] - middle,
+                               from_centre,
+                               length(wanted));
   const Vec3<F> from = centre + rotate(bend, from_centre) - root;
   const Vec3<F> to = reached_by_turning(from, wanted, s.vertical);
   const F least2 = num<F>(1e-8);
   const Mask<F> can = weighs & (length2(from) > least2) & (length2(to) > least2);
   if (!any(can)) return;
   const Quat<F> swing = turn_or_stay(from, to, can);
-  turn_limb(plan, limb, {swing, swing * bend}, can, extremity, s);
+  turn_limb(plan, limb, {swing, swing * bend}, can, extremity, true, s);
 }
 
 /// Lanes in which a group is free for balance (5.3.1): no active wish uses it, by its own
