@@ -121,6 +121,10 @@ Json adapt_figures(const AdaptArguments& args, const AdaptRun& run) {
     out["balance"] = {{"mean_error_mm", 1e3 * adapted.mean_balance_error_m},
                       {"worst_error_mm", 1e3 * adapted.worst_balance_error_m}};
   }
+  const retarget::AddedAcceleration& added = adapted.added;
+  out["added_acceleration"] = {{"m_per_s2", added.m_per_s2},
+                               {"joint", adapted.motion.skeleton[added.joint].name},
+                               {"time_s", time_of(run, added.frame)}};
   out["iterations"] = {{"mean", adapted.mean_iterations},
                        {"most", adapted.most_iterations},
                        {"frames_at_cap", adapted.capped_frames}};
@@ -211,6 +215,16 @@ std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptR
                           "--max-iterations",
                           1e3 * adapted.worst_balance_error_m,
                           time_of(run, adapted.worst_balance_frame)));
+  }
+  constexpr double kJump_m_per_s2 = 100.0;
+  if (adapted.added.m_per_s2 > kJump_m_per_s2) {
+    out.push_back(
+        args.out.string() +
+        text_of(": %s is thrown off its way at %.2f s, by %.0f m/s2. Next: give "
+                "constraints longer start and stop durations, or nearer targets",
+                adapted.motion.skeleton[adapted.added.joint].name.c_str(),
+                time_of(run, adapted.added.frame),
+                adapted.added.m_per_s2));
   }
   return out;
 }

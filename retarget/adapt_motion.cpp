@@ -108,6 +108,35 @@ class Judge {
   std::optional<glm::dvec3> footprint_in_world_;  ///< Since it is fully active.
 };
 
+/// Looks at how joints go away from their motion, one frame after the other.
+class AwayWatch {
+ public:
+  AwayWatch(std::size_t joints, FrameRate rate)
+      : before_(joints), last_(joints), rate_(rate) {}
+
+  void look(int frame,
+            std::span<const RigidTransform> was,
+            std::span<const RigidTransform> is) {
+    for (std::size_t j = 0; j < last_.size(); ++j) {
+      const glm::dvec3 away = is[j].translation - was[j].translation;
+      const double bend_m = glm::length(away - 2.0 * last_[j] + before_[j]);
+      const double m_per_s2 = bend_m * rate_.hz * rate_.hz;
+      if (frame >= 2 && m_per_s2 > added_.m_per_s2) {
+        added_ = {m_per_s2, static_cast<JointIndex>(j), frame - 1};
+      }
+      before_[j] = last_[j];
+      last_[j] = away;
+    }
+  }
+  [[nodiscard]] const AddedAcceleration& added() const { return added_; }
+
+ private:
+  std::vector<glm::dvec3> before_;
+  std::vector<glm::dvec3> last_;
+  FrameRate rate_;
+  AddedAcceleration added_;
+};
+
 Status take_loads(const Character& character,
                   const std::vector<std::string>& carried,
                   Adapter& adapter) {
@@ -185,17 +214,20 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
   out.motion.poses.resize(motion.poses.size());
   const int count = static_cast<int>(motion.poses.size());
   std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
+  std::vector<RigidTransform> reference(world_from_joint.size());
+  AwayWatch watch(world_from_joint.size(), motion.rate);
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     for (TrackDriver& driver : drivers) driver.at(t);
+    world_from_joints(motion.skeleton, motion.poses[t], reference);
     if (!options.carried.empty()) {
-      world_from_joints(motion.skeleton, motion.poses[t], world_from_joint);
-      adapter->set_balance_target(com_of(character, world_from_joint));
+      adapter->set_balance_target(com_of(character, reference));
     }
     const double time_s = (motion.first_frame + static_cast<double>(t)) / motion.rate.hz;
     const AdaptReport report =
         adapter->adapt(motion.poses[t], time_s, out.motion.poses[t]);
     add_report(report, static_cast<int>(t), options.adapt.max_iterations, out);
     world_from_joints(motion.skeleton, out.motion.poses[t], world_from_joint);
+    watch.look(static_cast<int>(t), reference, world_from_joint);
     for (std::size_t i = 0; i < judges.size(); ++i) {
       judges[i].look(t,
                      handles[i].outcome().activation,
@@ -204,6 +236,7 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
     }
     if (progress) progress(static_cast<int>(t) + 1, count);
   }
+  out.added = watch.added();
   const double share = count > 0 ? 1.0 / count : 0.0;
   out.mean_iterations *= share;
   out.mean_balance_error_m *= share;

@@ -9,6 +9,7 @@
 
 #include "core/character.h"
 #include "core/constraint.h"
+#include "core/ids.h"
 #include "core/motion.h"
 #include "core/progress.h"
 #include "core/result.h"
@@ -41,6 +42,15 @@ struct KeptConstraint {
 /// is some metres from the world's origin, and six decimals of a file. [m]
 inline constexpr double kMeasured_m = 2e-5;
 
+/// The hardest jerk that adaptation put into a motion: the greatest acceleration of a
+/// joint's way from where the motion has it. Fading over T seconds over a way of s metres
+/// takes 5.8 s / T^2; much more than that is a posture that jumped.
+struct AddedAcceleration {
+  double m_per_s2 = 0.0;
+  JointIndex joint{};
+  int frame = 0;  ///< Of the motion's poses.
+};
+
 struct AdaptedMotion {
   Motion motion;
   std::vector<KeptConstraint> constraints;  ///< As the set's, supports of it included.
@@ -51,6 +61,7 @@ struct AdaptedMotion {
   double mean_balance_error_m = 0.0;
   double worst_balance_error_m = 0.0;
   int worst_balance_frame = 0;  ///< Of the motion's poses.
+  AddedAcceleration added;
 };
 
 /// Adapts every posture of a motion (Kulpa 2005, 4 and 5) to constraints and to the

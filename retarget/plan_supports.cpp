@@ -121,12 +121,13 @@ std::vector<SupportTrack> plan_supports(const Motion& reference,
                   reference.rate);
     for (FootPlace& place : plan) place.ankle_in_world.y += options.floor_height_m;
     const glm::dvec3 ball = foot.ball_from_ankle_in_t_pose;
-    // The flat foot first: of several supports of one limb the first is closed exactly.
+    // Heel and ball first: of several supports of one limb the first is closed exactly,
+    // and they hold while the flat foot fades in or out beside them.
     const std::vector<FrameInterval> flat = common(bears.heel, bears.ball);
     const std::array<Bearing, 3> ways{
-        {{"flat", flat, glm::dvec3(0.0), false},
-         {"heel", alone(bears.heel, flat), glm::dvec3(0.0), true},
-         {"ball", alone(bears.ball, flat), ball, true}}};
+        {{"heel", alone(bears.heel, flat), glm::dvec3(0.0), true},
+         {"ball", alone(bears.ball, flat), ball, true},
+         {"flat", flat, glm::dvec3(0.0), false}}};
     for (const Bearing& way : ways) {
       SupportTrack track;
       track.bears = merged(way.runs, 2.0 * options.ramp_s * reference.rate.hz + 1.0);
