@@ -34,7 +34,7 @@ class TrackDriver {
            (next_ == 0 ||
             time_s(frame) >= stop_s(track_.bears[next_ - 1]) + when.stop_duration_s)) {
       const FrameInterval& run = track_.bears[next_++];
-      handle_.start(time_s(run.first) - when.start_duration_s);
+      handle_.start(time_s(run.first) - when.start_duration_s - slack_s());
       handle_.stop(stop_s(run));
     }
   }
@@ -44,9 +44,10 @@ class TrackDriver {
   [[nodiscard]] double time_s(Frame frame) const {
     return (motion_.first_frame + static_cast<double>(frame)) / motion_.rate.hz;
   }
-  /// A little after the last frame that bears, which must be fully active.
+  /// The first and the last frame that bear must be fully active, whatever rounding does.
+  [[nodiscard]] double slack_s() const { return 0.01 / motion_.rate.hz; }
   [[nodiscard]] double stop_s(const FrameInterval& run) const {
-    return time_s(run.last) + 0.01 / motion_.rate.hz;
+    return time_s(run.last) + slack_s();
   }
 
   const SupportTrack& track_;

@@ -70,35 +70,52 @@ std::vector<FrameInterval> common(const std::vector<FrameInterval>& a,
 // Never by itself: whoever drives the track starts it.
 constexpr double kNever_s = 1e8;
 
-// Where a joint bears alone, and the frames of the flat foot beside it: there both hold,
-// so that one may fade while the other does.
-std::vector<FrameInterval> alone(const std::vector<FrameInterval>& runs,
-                                 const std::vector<FrameInterval>& flat) {
-  const auto is_in = [](const std::vector<FrameInterval>& all, int frame) {
-    return std::any_of(all.begin(), all.end(), [frame](const FrameInterval& run) {
-      return run.first <= frame && frame <= run.last;
-    });
-  };
-  std::vector<FrameInterval> out;
-  for (const FrameInterval& run : runs) {
-    bool goes_on = false;
-    for (int t = run.first; t <= run.last; ++t) {
-      const bool counts = !is_in(flat, t) || (t > run.first && !is_in(flat, t - 1)) ||
-                          (t < run.last && !is_in(flat, t + 1));
-      if (counts && !goes_on) out.push_back({t, t});
-      if (counts) out.back().last = t;
-      goes_on = counts;
-    }
-  }
-  return out;
-}
-
+// Runs of one point that begin and end alike.
 struct Bearing {
   const char* name;
-  std::vector<FrameInterval> runs;
   glm::dvec3 offset_in_t_pose;
   bool turns;
+  bool fades_in = true;
+  bool fades_out = true;
+  std::vector<FrameInterval> runs{};
 };
+
+// Where a joint bears alone, and the frames of the flat foot beside it. There both hold,
+// so that one takes over from the other at once: fading is for feet in the air.
+void add_alone(const std::vector<FrameInterval>& runs,
+               const std::vector<FrameInterval>& flat,
+               const Bearing& point,
+               std::vector<Bearing>& ways) {
+  std::array<Bearing, 4> kinds{point, point, point, point};
+  const auto add = [&](int first, int last, bool from_flat, bool to_flat) {
+    if (from_flat && to_flat && last - first < 2) return;
+    Bearing& kind = kinds[(from_flat ? 2U : 0U) + (to_flat ? 1U : 0U)];
+    kind.fades_in = !from_flat;
+    kind.fades_out = !to_flat;
+    kind.runs.push_back({first, last});
+  };
+  for (const FrameInterval& run : runs) {
+    int from = run.first;
+    bool from_flat = false;
+    for (const FrameInterval& both : flat) {
+      if (both.first < run.first || both.last > run.last) continue;
+      if (both.first > from) add(from, both.first, from_flat, true);
+      from = both.last;
+      from_flat = true;
+    }
+    if (from < run.last || !from_flat) add(from, run.last, from_flat, false);
+  }
+  for (Bearing& kind : kinds) {
+    if (!kind.runs.empty()) ways.push_back(std::move(kind));
+  }
+}
+
+std::string id_of(const std::string& segment, const Bearing& way) {
+  std::string id = "found " + segment + " " + way.name;
+  if (!way.turns || (way.fades_in && way.fades_out)) return id;
+  if (way.fades_in) return id + " before flat";
+  return id + (way.fades_out ? " after flat" : " between flat");
+}
 
 }  // namespace
 
@@ -124,20 +141,21 @@ std::vector<SupportTrack> plan_supports(const Motion& reference,
     // Heel and ball first: of several supports of one limb the first is closed exactly,
     // and they hold while the flat foot fades in or out beside them.
     const std::vector<FrameInterval> flat = common(bears.heel, bears.ball);
-    const std::array<Bearing, 3> ways{
-        {{"heel", alone(bears.heel, flat), glm::dvec3(0.0), true},
-         {"ball", alone(bears.ball, flat), ball, true},
-         {"flat", flat, glm::dvec3(0.0), false}}};
+    std::vector<Bearing> ways;
+    add_alone(bears.heel, flat, {"heel", glm::dvec3(0.0), true}, ways);
+    add_alone(bears.ball, flat, {"ball", ball, true}, ways);
+    ways.push_back({"flat", glm::dvec3(0.0), false, true, true, flat});
     for (const Bearing& way : ways) {
       SupportTrack track;
-      track.bears = merged(way.runs, 2.0 * options.ramp_s * reference.rate.hz + 1.0);
+      const double in_s = way.fades_in ? options.ramp_s : 0.0;
+      const double out_s = way.fades_out ? options.ramp_s : 0.0;
+      track.bears = merged(way.runs, (in_s + out_s) * reference.rate.hz + 1.0);
       if (track.bears.empty()) continue;
       const std::string segment(name(kFeet[side]));
-      track.constraint.id = "found " + segment + " " + way.name;
+      track.constraint.id = id_of(segment, way);
       track.constraint.point = {segment, way.offset_in_t_pose};
       track.constraint.goal = Support{glm::dvec3(0.0), std::nullopt, way.turns};
-      track.constraint.activation = {
-          kNever_s, std::nullopt, options.ramp_s, options.ramp_s};
+      track.constraint.activation = {kNever_s, std::nullopt, in_s, out_s};
       for (const FootPlace& place : plan) {
         track.p_in_world.push_back(place.ankle_in_world +
                                    place.foot * way.offset_in_t_pose);

@@ -18,7 +18,8 @@ namespace marey::retarget {
 /// One way in which one foot bears over a motion: flat, on its heel or on its ball.
 struct SupportTrack {
   /// A Support that does not begin by itself; its durations are the ramps. On the heel or
-  /// the ball alone the foot may turn about that joint.
+  /// the ball alone the foot may turn about that joint; where the flat foot takes over or
+  /// is taken over from, with a frame in common, there is no ramp.
   Constraint constraint;
   /// When it bears, ascending, further apart than the ramps between them.
   std::vector<FrameInterval> bears;
@@ -38,8 +39,8 @@ struct PlanSupportsOptions {
 
 /// The supports of the feet of a motion (Kulpa 2005, 3.1.1.1 and 4.2.4), each stance with
 /// one footprint: plan_foot()'s. Heel and ball have tracks for when they bear alone: the
-/// flat foot needs no other. Runs of one point that are nearer to each other than two
-/// ramps are one: between them the foot keeps to the planned way, too. Points that never
+/// flat foot needs no other. Runs that are nearer to each other than their ramps
+/// are one: between them the foot keeps to the planned way, too. Points that never
 /// bear have no track. Costs frames times stances.
 /// Precondition: `map` was made from the motion's skeleton; `contacts` has its frames.
 [[nodiscard]] std::vector<SupportTrack> plan_supports(
