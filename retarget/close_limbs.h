@@ -71,6 +71,31 @@ void mix_limb(const Plan& plan,
   turn_limb(plan, limb, {turn[0], turn[1]}, mask, extremity, true, s);
 }
 
+/// Brings the first active wish of a limb back to its target, in lanes of `mask`, when
+/// the wish `later` has moved it.
+template <class F>
+void close_first_again(const Plan& plan,
+                       int number,
+                       int later,
+                       const F& level,
+                       const Mask<F>& mask,
+                       const Extremity<F>& extremity,
+                       Lanes<F>& s) {
+  const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(number)];
+  Mask<F> left = mask;
+  for (const int k : limb.points) {
+    if (k == later) return;
+    const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
+    LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
+    const Mask<F> first = left & is_asked(point, p, level);
+    if (!any(first)) continue;
+    measure_place(point, s, p);
+    const LimbWish<F> wish = wish_of(limb, point, p, extremity, s);
+    close_limb_on(plan, number, point, wish.place, wish.target, first, extremity, s);
+    left = left & !first;
+  }
+}
+
 /// Brings the active wishes of one limb to their targets: the first exactly or optimally,
 /// the second with what the first leaves; or both by their weights (thesis 4.2.2).
 template <class F>
@@ -116,23 +141,14 @@ void close_limb(const Plan& plan,
                      s);
         // A limit may have held the spin up and moved the first point.
         if (plan.has_limits) {
-          const auto f = static_cast<std::size_t>(limb.points.front());
-          LanePoint<F>& first = s.points[f];
-          measure_place(plan.points[f], s, first);
-          const LimbWish<F> again = wish_of(limb, plan.points[f], first, extremity, s);
-          close_limb_on(plan,
-                        number,
-                        plan.points[f],
-                        again.place,
-                        again.target,
-                        asked & taken & is_asked(plan.points[f], first, level),
-                        extremity,
-                        s);
+          close_first_again(plan, number, k, level, asked & taken, extremity, s);
         }
       }
     }
     measure_place(point, s, p);
-    first_place = select(taken, first_place, p.place);
+    // What later wishes spin about is what the limb itself brought to its place: of a
+    // foot with an orientation of its own, the ankle.
+    first_place = select(taken, first_place, wish_of(limb, point, p, extremity, s).place);
     first_weight = select(taken, first_weight, p.weight);
     taken = taken | asked;
   }
