@@ -275,6 +275,25 @@ template <class F>
   return (one / max(feet, one)) * sum;
 }
 
+/// The centre of mass of a posture's own body, without what it carries, as
+/// stand_reference() has it of the reference that was given.
+template <class F>
+[[nodiscard]] Vec3<F> own_centre(const Plan& plan, const Lanes<F>& s) {
+  Vec3<F> moment{num<F>(0), num<F>(0), num<F>(0)};
+  F mass = num<F>(0);
+  for (std::size_t m = 0; m < plan.own_masses; ++m) {
+    const auto j = static_cast<std::size_t>(plan.masses[m].joint);
+    const auto c = static_cast<std::size_t>(plan.masses[m].carried_by);
+    const Vec3<F> given =
+        s.given_place[j] + rotate(s.given_rotation[j], s.mass_in_joint[m]);
+    const Vec3<F> in_carrier =
+        rotate(conjugate(s.given_rotation[c]), given - s.given_place[c]);
+    moment += s.mass[m] * (s.place[c] + rotate(s.rotation[c], in_carrier));
+    mass = mass + s.mass[m];
+  }
+  return (num<F>(1) / max(mass, num<F>(1e-9))) * moment;
+}
+
 /// Complete ground adaptation (thesis 4.2.4.2) of the reference itself, in the lanes of
 /// `mask`, and the axes of its limbs: the root goes by the mean displacement of the
 /// footprints, then the fast adaptation. Makes `reference_*` of what was given, and where
@@ -334,9 +353,8 @@ void ground_reference(const Plan& plan,
         select(changed, conjugate(s.rotation[p]) * s.rotation[i], s.reference_local[i]);
   }
   if (!balance) return;
-  measure_balance(plan, s);
-  s.com_target =
-      select(changed & (s.com_from_reference > num<F>(0.5)), s.com, s.com_target);
+  const Mask<F> follows = changed & (s.com_from_reference > num<F>(0.5));
+  s.com_target = select(follows, own_centre(plan, s), s.com_target);
 }
 
 }  // namespace marey::retarget

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
+#include <span>
 
 #include "retarget/adapt_ground.h"
 #include "retarget/thesis_plan.h"
