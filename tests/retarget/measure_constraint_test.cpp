@@ -78,6 +78,22 @@ TEST_F(MeasureConstraint, OrientationsAreOffByTheChordOfTheirLever) {
               1e-12);
 }
 
+// A head that rests turned: what counts is how it is turned from the T-pose, and that
+// offsets lie along the T-pose's axes.
+TEST_F(MeasureConstraint, EverythingCountsFromTheTPose) {
+  const double angle_rad = 0.5;
+  body_.t_pose_from_joint.assign(skeleton_.joints.size(), glm::dquat(1, 0, 0, 0));
+  body_.t_pose_from_joint[index(*skeleton_.find(HumanBone::kHead))] =
+      glm::angleAxis(angle_rad, glm::dvec3(0, 0, 1));
+  const double chord = 2.0 * std::sin(angle_rad / 2.0);
+  EXPECT_NEAR(error_m(SegmentOrientation{}, {"head", {}}), 0.1 * chord, 1e-12);
+  const glm::dvec3 crown(0.0, 0.2, 0.0);
+  EXPECT_NEAR(
+      error_m(DistanceToPoint{0.0, at(HumanBone::kHead) + crown}, {"head", crown}),
+      0.2 * chord,
+      1e-12);
+}
+
 TEST_F(MeasureConstraint, SupportsAreOffByTheirPoint) {
   const glm::dvec3 ankle = at(HumanBone::kLeftFoot);
   EXPECT_NEAR(
