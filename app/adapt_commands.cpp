@@ -134,8 +134,9 @@ Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
   options.raise_m = args.floor_height_m;
   auto body = make_adapt_body(source->motion, options);
   if (!body) return body.error();
-  if (const Status ok = check_adapted_out(*body, args.out); !ok) return ok;
-  if (const Status ok = choose_balance_groups(args, body->character); !ok) return ok;
+  if (const Status ok = check_adapted_out(*body, args.out); !ok) return ok.error();
+  if (const Status ok = choose_balance_groups(args, body->character); !ok)
+    return ok.error();
   if (const Status ok = retarget::check_constraints(run.constraints, body->character);
       !ok) {
     Error error = ok.error();
@@ -152,7 +153,8 @@ Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
     plan.feet = free_feet(run.constraints, *body);
     tracks = retarget::plan_supports(body->reference, body->map, body->contacts, plan);
   }
-  if (const Status ok = adapt_all(args, *body, tracks, console, run); !ok) return ok;
+  if (const Status ok = adapt_all(args, *body, tracks, console, run); !ok)
+    return ok.error();
   return write_adapted(*body, run.adapted.motion, args.out);
 }
 
