@@ -30,7 +30,8 @@ Character made(const Skeleton& skeleton, bool with_limits, bool with_bag) {
   return *std::move(character);
 }
 
-// Each axis as JointLimit has it: tangents of quarter angles (see adapt_limits.h).
+// Each axis as JointLimit has it: tangents of quarter angles (see
+// adapt_limits.h).
 glm::dvec3 axis_angles(const JointLimit& limit,
                        const glm::dquat& rest,
                        const glm::dquat& parent_from_joint) {
@@ -244,9 +245,12 @@ double most_turned_rad(const Pose& a, const Pose& b) {
   return most;
 }
 
-double beyond_limits_rad(const Character& character, const Pose& pose) {
+double beyond_limits_rad(const Character& character,
+                         const Pose& pose,
+                         const std::vector<std::size_t>& free) {
   double most = 0.0;
   for (const JointLimit& limit : character.limits) {
+    if (std::find(free.begin(), free.end(), index(limit.joint)) != free.end()) continue;
     const glm::dvec3 angles =
         axis_angles(limit,
                     character.skeleton[limit.joint].parent_from_joint.rotation,

@@ -14,14 +14,15 @@
 #include "retarget/adapter.h"
 #include "tests/support/random_bodies.h"
 
-/// Bodies, postures and measures for tests of the adapter. All measures are taken here
-/// anew, in double, from postures alone: what the adapter says of itself is not believed.
+/// Bodies, postures and measures for tests of the adapter. All measures are
+/// taken here anew, in double, from postures alone: what the adapter says of
+/// itself is not believed.
 namespace marey::retarget {
 
 using testing::Dice;
 
-/// What every method owes. Suites that derive from it are instantiated with
-/// strict_method() or, once it satisfies them too, with more.
+/// What a method owes. Suites that derive from it are instantiated with those
+/// that do.
 class EveryMethod : public ::testing::TestWithParam<Method> {
  protected:
   [[nodiscard]] static AdaptOptions options() {
@@ -33,12 +34,18 @@ class EveryMethod : public ::testing::TestWithParam<Method> {
 [[nodiscard]] inline auto strict_method() {
   return ::testing::Values(Method::kStrict);
 }
+[[nodiscard]] inline auto thesis_method() {
+  return ::testing::Values(Method::kThesis);
+}
+[[nodiscard]] inline auto both_methods() {
+  return ::testing::Values(Method::kStrict, Method::kThesis);
+}
 [[nodiscard]] inline std::string name_of(const ::testing::TestParamInfo<Method>& info) {
   return info.param == Method::kStrict ? "strict" : "thesis";
 }
 
-/// make_humanoid() of average proportions as adaptation sees it; with a bag of 10 kg that
-/// the left hand may carry, called "bag".
+/// make_humanoid() of average proportions as adaptation sees it; with a bag of
+/// 10 kg that the left hand may carry, called "bag".
 [[nodiscard]] Character human(bool with_limits, double stature_m = 1.75);
 /// make_character() of any skeleton that is a human's.
 [[nodiscard]] Character human_of(const Skeleton& skeleton, bool with_limits);
@@ -49,15 +56,17 @@ struct Limb {
   std::size_t end = 0;
   glm::dvec3 hinge_in_upper{0.0};
 };
-/// The limb that has this joint, which must be one of its three or hang on its end.
+/// The limb that has this joint, which must be one of its three or hang on its
+/// end.
 [[nodiscard]] Limb limb_of(const Character& character, std::size_t joint);
 
 [[nodiscard]] std::size_t joint_at(const Character& character, std::string_view segment);
 
 /// Knees, elbows and hips a little bent, arms hanging, as one stands waiting.
 [[nodiscard]] Pose waiting(const Character& character);
-/// From the rest pose: ball joints turned by up to `most_rad`, limbs bent their natural
-/// way by 0.15 to 1.7 rad, the root moved and turned; within the limits.
+/// From the rest pose: ball joints turned by up to `most_rad`, limbs bent their
+/// natural way by 0.15 to 1.7 rad, the root moved and turned; within the
+/// limits.
 [[nodiscard]] Pose random_posture(const Character& character,
                                   Dice& dice,
                                   double most_rad);
@@ -105,8 +114,11 @@ struct Adapted {
 /// The most that any joint is turned in its parent from how it is in `b`. [rad]
 [[nodiscard]] double most_turned_rad(const Pose& a, const Pose& b);
 [[nodiscard]] double angle_between_rad(const glm::dquat& a, const glm::dquat& b);
-/// By how much the worst joint is beyond its limits. [rad]
-[[nodiscard]] double beyond_limits_rad(const Character& character, const Pose& pose);
+/// By how much the worst joint is beyond its limits, but for those of `free`.
+/// [rad]
+[[nodiscard]] double beyond_limits_rad(const Character& character,
+                                       const Pose& pose,
+                                       const std::vector<std::size_t>& free = {});
 [[nodiscard]] bool is_finite(const Pose& pose);
 [[nodiscard]] bool same_bits(const Pose& a, const Pose& b);
 

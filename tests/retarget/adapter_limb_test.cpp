@@ -65,7 +65,10 @@ Pose with_limb_moved(const Character& body,
 }
 
 class AdapterLimbs : public EveryMethod {};
-INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLimbs, strict_method(), name_of);
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLimbs, both_methods(), name_of);
+/// What the thesis' method does not promise.
+class AdapterLimbsStrict : public EveryMethod {};
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLimbsStrict, strict_method(), name_of);
 
 TEST_P(AdapterLimbs, BringAnyOfTheirPointsToWhatTheyReachAtOnce) {
   const Character body = human(false);
@@ -78,7 +81,8 @@ TEST_P(AdapterLimbs, BringAnyOfTheirPointsToWhatTheyReachAtOnce) {
       const Pose truth =
           with_limb_moved(body, reference, limb, dice, dice.between(0.35, 2.0));
       const Reach reach = reach_of(body, truth, point);
-      // Beyond, the body begins to help (adapt_solve.h), and this is another test's.
+      // Beyond, the body begins to help (adapt_solve.h), and this is another
+      // test's.
       const bool upper =
           joint_at(body, point.segment) == limb.upper || reach.least > 0.999;
       if (!upper && (reach.wanted > 0.87 || reach.wanted < reach.least + 0.13)) continue;
@@ -89,7 +93,9 @@ TEST_P(AdapterLimbs, BringAnyOfTheirPointsToWhatTheyReachAtOnce) {
       const Adapted out = adapted(body, {{wish}, {}}, reference, options());
       ASSERT_LT(glm::distance(place_of(body, out.pose, point), target), kExact_m)
           << point.segment << " " << i;
-      ASSERT_EQ(out.report.iterations, 0) << point.segment << " " << i;
+      // The thesis' loop looks once whether anything is left to do.
+      ASSERT_LE(out.report.iterations, GetParam() == Method::kStrict ? 0 : 1)
+          << point.segment << " " << i;
       // The body has not moved: only the limb has.
       const std::size_t above = index(*body.skeleton.joints[limb.upper].parent);
       ASSERT_LT(
@@ -101,7 +107,7 @@ TEST_P(AdapterLimbs, BringAnyOfTheirPointsToWhatTheyReachAtOnce) {
   }
 }
 
-TEST_P(AdapterLimbs, BringTheirPointsToWhatTheyHardlyReach) {
+TEST_P(AdapterLimbsStrict, BringTheirPointsToWhatTheyHardlyReach) {
   const Character body = human(false);
   for (const BodyPoint& point : points_on_limbs()) {
     const Limb limb = limb_of(body, joint_at(body, point.segment));
@@ -114,16 +120,18 @@ TEST_P(AdapterLimbs, BringTheirPointsToWhatTheyHardlyReach) {
       Constraint wish = contact("point", point.segment, target);
       wish.point = point;
       const Adapted out = adapted(body, {{wish}, {}}, reference, options());
-      // Nearly straight or folded, single precision in the cosine of the bend shows: its
-      // square root, 3e-4 rad, times what the distance changes with the bend there.
+      // Nearly straight or folded, single precision in the cosine of the bend
+      // shows: its square root, 3e-4 rad, times what the distance changes with
+      // the bend there.
       ASSERT_LT(glm::distance(place_of(body, out.pose, point), target), 2e-5)
           << point.segment << " " << i;
     }
   }
 }
 
-// Over all directions of the upper bone and bends of the middle: a point that turns about
-// the limb's root gets as near as its distance from there can be chosen.
+// Over all directions of the upper bone and bends of the middle: a point that
+// turns about the limb's root gets as near as its distance from there can be
+// chosen.
 double nearest_m(const Character& body,
                  const Pose& reference,
                  const Limb& limb,
@@ -162,7 +170,8 @@ TEST_P(AdapterLimbs, AreAsNearAsTheyCanToWhatTheyDoNotReach) {
       wish.range = range;
       const Adapted out = adapted(body, {{wish}, {}}, reference, options());
       const double error_m = glm::distance(place_of(body, out.pose, point), target);
-      // The samples are 1 mrad apart at most; the distance changes by 0.5 m per rad.
+      // The samples are 1 mrad apart at most; the distance changes by 0.5 m per
+      // rad.
       ASSERT_LT(error_m, nearest_m(body, reference, limb, point, target) + 2e-5)
           << point.segment << " " << i;
     }

@@ -20,7 +20,7 @@ constexpr std::array<const char*, 4> kPaws{
 const BodyPoint kNose{"head", {0.0, -0.04, 0.2}};
 
 class AdapterQuadruped : public EveryMethod {};
-INSTANTIATE_TEST_SUITE_P(Adapter, AdapterQuadruped, strict_method(), name_of);
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterQuadruped, both_methods(), name_of);
 
 TEST_P(AdapterQuadruped, LiftsOnePawAndStandsOnThree) {
   const Character animal = testing::make_quadruped();

@@ -28,9 +28,12 @@ constexpr std::array<Pair, 5> kPairs{{{"leftHand", "rightHand", 0.05, 0.8},
                                       {"rightHand", "rightFoot", 0.45, 0.9}}};
 
 class AdapterRelations : public EveryMethod {};
-INSTANTIATE_TEST_SUITE_P(Adapter, AdapterRelations, strict_method(), name_of);
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterRelations, both_methods(), name_of);
+/// What the thesis' method does not promise.
+class AdapterRelationsStrict : public EveryMethod {};
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterRelationsStrict, strict_method(), name_of);
 
-TEST_P(AdapterRelations, KeepADistanceToAnotherConstraint) {
+TEST_P(AdapterRelationsStrict, KeepADistanceToAnotherConstraint) {
   const Character body = human(false);
   for (const Pair& pair : kPairs) {
     Dice dice(42);
@@ -108,7 +111,8 @@ TEST_P(AdapterRelations, TurnSegmentsAsTheyAreAsked) {
   }
 }
 
-// The first as if it were alone, and the second as near as turning about the first gets.
+// The first as if it were alone, and the second as near as turning about the
+// first gets.
 void expect_first_exact_second_near(const Character& body, const AdaptOptions& options) {
   Dice dice(45);
   for (int i = 0; i < 100; ++i) {
@@ -156,7 +160,7 @@ TEST_P(AdapterRelations, OfTwoOnALimbTheFirstIsMetAndTheSecondAsNearAsItGets) {
   expect_first_exact_second_near(human(false), options());
 }
 
-TEST_P(AdapterRelations, OfTwoBlendedOnALimbNeitherIsWorseOffThanWithoutIt) {
+TEST_P(AdapterRelationsStrict, OfTwoBlendedOnALimbNeitherIsWorseOffThanWithoutIt) {
   for (const bool with_limits : {false, true}) {
     const Character body = human(with_limits);
     AdaptOptions blended = options();

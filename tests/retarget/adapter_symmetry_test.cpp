@@ -64,7 +64,7 @@ Character without_loads(bool with_limits) {
 }
 
 class AdapterSymmetry : public EveryMethod {};
-INSTANTIATE_TEST_SUITE_P(Adapter, AdapterSymmetry, strict_method(), name_of);
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterSymmetry, both_methods(), name_of);
 
 // Single precision, through as many steps as it takes.
 constexpr double kSame_m = 1e-4;
