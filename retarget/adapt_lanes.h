@@ -60,6 +60,8 @@ struct Lanes {
   std::vector<Vec3<F>> place;
   std::vector<Quat<F>> best_rotation;
   std::vector<Vec3<F>> best_place;
+  std::vector<Quat<F>> kept_rotation;  ///< While balance settles.
+  std::vector<Vec3<F>> kept_place;
   std::vector<Quat<F>> local;  ///< Of each joint in its parent, once it is done.
   std::vector<Quat<F>> turn;   ///< Since the step's begin, accumulated from the root.
   // Wishes.
@@ -71,6 +73,8 @@ struct Lanes {
   F balance{};   ///< 1: the centre of mass is wanted somewhere.
   F vertical{};  ///< 1: in height, too.
   F balance_precision{};
+  F threshold{};  ///< Of changes of error.
+  F balance_threshold{};
   F mobility{};     ///< Of all joints that are in no limb, and of the root: 0 to 1.
   F root_weight{};  ///< Vertical, and along the floor without balance.
   F root_weight_on_floor{};
@@ -125,6 +129,8 @@ Lanes<F>::Lanes(const Plan& plan) {
   place.resize(n);
   best_rotation.resize(n, identity<F>());
   best_place.resize(n);
+  kept_rotation.resize(n, identity<F>());
+  kept_place.resize(n);
   local.resize(n, identity<F>());
   turn.resize(n, identity<F>());
   points.resize(plan.points.size());

@@ -85,6 +85,8 @@ void load_balance(const float* packed, int lane, Lanes<F>& s) {
   from.get(s.root_weight_on_floor);
   from.get(s.com_from_reference);
   from.get(s.com_target);
+  from.get(s.threshold);
+  from.get(s.balance_threshold);
 }
 
 /// The reference postures of the lanes in `mask`: places, and what each live joint

@@ -169,6 +169,8 @@ void pack_balance(const BodyNumbers& body,
   pack.put(balance.root_weight_on_floor);
   pack.put(balance.from_reference);
   pack.put((balance.com_in_world - origin_in_world) / body.unit_m);
+  pack.put(balance.constraint_threshold_m / body.unit_m);
+  pack.put(balance.balance_threshold_m / body.unit_m);
 }
 
 }  // namespace marey::retarget

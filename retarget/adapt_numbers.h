@@ -66,9 +66,12 @@ struct BalanceNumbers {
   bool from_reference = true;  ///< Where the reference has it, instead.
   double root_weight = 1.0;    ///< Vertical,
   double root_weight_on_floor = 1.0;
+  /// Of changes of error from step to step: less is no progress.
+  double constraint_threshold_m = 1e-4;
+  double balance_threshold_m = 1e-5;
 };
 
-inline constexpr std::size_t kBalanceNumbers = 9;
+inline constexpr std::size_t kBalanceNumbers = 11;
 
 void pack_balance(const BodyNumbers& body,
                   const glm::dvec3& origin_in_world,

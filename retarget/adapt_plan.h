@@ -50,6 +50,7 @@ struct PointPlan {
   bool stands_flat = false;  ///< A support that has its foot's orientation, too.
   std::vector<int> chain;    ///< Joints that turn for it, from its own to `top`.
   [[nodiscard]] bool turns_only() const { return goal == GoalKind::kOrientation; }
+  bool operator==(const PointPlan&) const = default;
 };
 
 struct LimbPlan {
@@ -65,6 +66,7 @@ struct LimbPlan {
   std::vector<int> between_lower;
   std::vector<int> beyond;  ///< Joints past `end`, parents first.
   std::vector<int> own;     ///< All of these, parents first.
+  bool operator==(const LimbPlan&) const = default;
 };
 
 /// What two wishes have in common: joints from `lowest` up to, but without, `above`.
@@ -72,17 +74,20 @@ struct SharedChain {
   int lowest = -1;  ///< -1: no joint turns for both.
   int above = -1;   ///< -1: up to the root.
   bool root = false;
+  bool operator==(const SharedChain&) const = default;
 };
 
 struct MassPlan {
   int joint = 0;
   int carried_by = 0;  ///< The nearest joint that is `live`.
+  bool operator==(const MassPlan&) const = default;
 };
 
 /// One part of a group: limb, section or segment.
 struct PartPlan {
   PartKind kind = PartKind::kSegment;
   int index = 0;  ///< Position in Plan::limbs or Plan::sections; the segment's joint.
+  bool operator==(const PartPlan&) const = default;
 };
 
 struct GroupPlan {
@@ -95,6 +100,7 @@ struct GroupPlan {
   std::vector<int> segments;    ///< Joints.
   std::vector<int> joints;      ///< All of it.
   std::vector<PartPlan> parts;  ///< In the order in which kinematics adapts them.
+  bool operator==(const GroupPlan&) const = default;
 };
 
 /// What is the same for all bodies that are adapted side by side: how the skeleton hangs
@@ -131,6 +137,7 @@ struct Plan {
   int abdomen_low = -1;
   int abdomen_high = -1;
   [[nodiscard]] bool has_hamstrings() const { return abdomen_high >= 0; }
+  bool operator==(const Plan&) const = default;
 };
 
 /// What makes two bodies fit for the same batch is an equal plan.

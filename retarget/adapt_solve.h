@@ -285,13 +285,13 @@ template <class F>
   p.square = select(better, errors.square, p.square);
   // A step that made things worse is taken back and tried again, more carefully; not
   // while steps home: those may cost a little at first.
-  const Mask<F> worse = !better & !homes;
+  const Mask<F> worse = !(better | homes);
   if (any(worse)) {
     take_posture(s.best_rotation, s.best_place, plan, worse, s);
     static_cast<void>(measure(plan, balance, p.level, s));
   }
   p.damping = select(worse, num<F>(8) * p.damping, p.damping);
-  const Mask<F> idle = gain < max(num<F>(settings.threshold), num<F>(0.002) * p.merit);
+  const Mask<F> idle = gain < max(s.threshold, num<F>(0.002) * p.merit);
   p.stalled = select(idle & !homes, p.stalled + one, zero);
   const Mask<F> capped = p.iterations >= num<F>(settings.max_iterations);
   const Mask<F> ended =
@@ -312,20 +312,22 @@ void settle_balance(const Plan& plan,
   const F zero = num<F>(0);
   Progress<F> alone{};
   alone.damping = num<F>(kLeastDamping);
-  s.mobility = num<F>(1);
+  const F mobility = s.mobility;
   for (int round = 0; round < kBalanceSteps; ++round) {
     const Errors<F> errors = measure(plan, true, zero, s);
     const Mask<F> off = mask & (errors.balance > s.balance_precision);
-    if (!any(off)) return;
+    if (!any(off)) break;
     for (const int j : plan.live) {
       const auto i = static_cast<std::size_t>(j);
-      s.best_rotation[i] = s.rotation[i];
-      s.best_place[i] = s.place[i];
+      s.kept_rotation[i] = s.rotation[i];
+      s.kept_place[i] = s.place[i];
     }
+    s.mobility = num<F>(1);
     step_whole_body(plan, shape.rows, alone, s);
     measure_points(plan, s, zero);
     close_limbs(plan, settings, zero, off, s);
-    take_posture(s.best_rotation, s.best_place, plan, !off, s);
+    take_posture(s.kept_rotation, s.kept_place, plan, !off, s);
+    s.mobility = mobility;
   }
 }
 

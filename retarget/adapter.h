@@ -148,6 +148,7 @@ class Adapter {
   [[nodiscard]] glm::dvec3 centre_of_mass_in_world() const;
 
  private:
+  friend class Crowd;
   explicit Adapter(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };

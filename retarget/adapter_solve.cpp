@@ -11,6 +11,30 @@
 namespace marey::retarget {
 namespace {
 
+/// Reads what store_result() wrote.
+class ResultReader {
+ public:
+  explicit ResultReader(const float* from) : from_(from) {}
+  double number() { return static_cast<double>(*from_++); }
+  glm::dvec3 vector() {
+    const double x = number();
+    const double y = number();
+    return {x, y, number()};
+  }
+  // Unit to double precision: one Newton step from single precision's, without a root.
+  glm::dquat rotation() {
+    const double w = number();
+    const double x = number();
+    const double y = number();
+    const double z = number();
+    const double s = 1.5 - 0.5 * (w * w + x * x + y * y + z * z);
+    return {s * w, s * x, s * y, s * z};
+  }
+
+ private:
+  const float* from_;
+};
+
 // Constraints are closed on a mean of postures from this activation on, wholly at 1.
 constexpr double kFirm = 0.8;
 
@@ -63,6 +87,7 @@ void Adapter::State::set_up() {
   begun_in_world.resize(constraints.constraints.size());
   begun_rotation.resize(constraints.constraints.size());
   world_from_joint.resize(plan.parent.size());
+  result.assign(result_size(plan), 0.0F);
 }
 
 Shape Adapter::State::shape() const {
@@ -81,8 +106,6 @@ SolveSettings Adapter::State::settings() const {
   out.blend = options.control == Control::kBlend;
   out.keeps_orientation = options.extremities_keep_orientation;
   out.max_iterations = options.max_iterations;
-  out.threshold = options.constraint_threshold_m / body.unit_m;
-  out.balance_threshold = options.balance_threshold_m / body.unit_m;
   return out;
 }
 
@@ -91,6 +114,8 @@ BalanceNumbers Adapter::State::balance() const {
   out.wanted = options.balance != BalanceMode::kOff;
   out.vertical = options.balance == BalanceMode::k3d;
   out.precision_m = options.balance_precision_m;
+  out.constraint_threshold_m = options.constraint_threshold_m;
+  out.balance_threshold_m = options.balance_threshold_m;
   out.from_reference = !com_in_world;
   out.com_in_world = com_in_world.value_or(glm::dvec3(0.0));
   // The root belongs to balance along the axes that it uses (thesis 5.3.2).
@@ -140,6 +165,7 @@ void Adapter::State::read_wish(std::size_t k, double activation) {
       begun_in_world[c].reset();
       begun_rotation[c].reset();
     } else if (!begun_in_world[c]) {
+      stand();
       const Vec3<float> at =
           lanes.reference_place[j] +
           rotate(lanes.reference_rotation[j],
@@ -181,11 +207,25 @@ void Adapter::State::read_wishes(double time_s) {
   }
 }
 
-Errors<float> Adapter::State::solve_for(double least, double& iterations) {
+// The reference into the adapter's own lane, once a posture.
+void Adapter::State::stand() {
+  if (is_standing) return;
+  is_standing = true;
+  load_body(plan, body.packed.data(), 0, lanes);
+  load_posture(plan, packed_posture.data(), 0, lanes);
+  load_balance(packed_balance.data(), 0, lanes);
+  stand_reference(plan, options.balance != BalanceMode::kOff, true, lanes);
+}
+
+void Adapter::State::ask_for(double least) {
   for (std::size_t k = 0; k < wishes.size(); ++k) {
     wishes[k].active = activations[k] >= least && activations[k] > 0.0;
   }
   pack_wishes(plan, body, origin_in_world, wishes, packed_wishes);
+}
+
+Errors<float> Adapter::State::solve_for(double least, double& iterations) {
+  ask_for(least);
   load_wishes(plan, packed_wishes.data(), 0, lanes);
   const Shape form = shape();
   const SolveSettings told = settings();
@@ -261,50 +301,48 @@ Errors<float> Adapter::State::solve_faded(double& iterations) {
   return measure(plan, shape().rows.balance, last, lanes);
 }
 
-void Adapter::State::write(Pose& out) {
+void Adapter::State::write(const float* numbers, Pose& out) {
   const std::size_t n = plan.parent.size();
   out.parent_from_joint.resize(n);
-  spread_posture(plan, lanes);
+  ResultReader from(numbers);
+  for (std::size_t i = 0; i < n; ++i) out.parent_from_joint[i] = from.rotation();
+  for (std::size_t i = 0; i < n; ++i) world_from_joint[i].rotation = from.rotation();
   for (std::size_t i = 0; i < n; ++i) {
-    world_from_joint[i] = {plain(lanes.rotation[i]),
-                           origin_in_world + plain(lanes.place[i]) * body.unit_m};
-    out.parent_from_joint[i] = plain(lanes.local[i]);
+    world_from_joint[i].translation = origin_in_world + from.vector() * body.unit_m;
   }
+  for (ConstraintOutcome& outcome : outcomes) outcome.error_m = 0.0;
+  for (const PointPlan& point : plan.points) {
+    outcomes[static_cast<std::size_t>(point.constraint)].error_m =
+        from.number() * body.unit_m;
+  }
+  com_now_in_world = origin_in_world + from.vector() * body.unit_m;
+  report.iterations = static_cast<int>(from.number());
+  report.constraint_error_m = from.number() * body.unit_m;
+  report.worst_error_m = from.number() * body.unit_m;
+  report.balance_error_m = from.number() * body.unit_m;
   out.root_in_world = world_from_joint[0].translation;
 }
 
-void Adapter::State::report_outcomes() {
-  for (ConstraintOutcome& outcome : outcomes) outcome.error_m = 0.0;
-  for (std::size_t k = 0; k < plan.points.size(); ++k) {
-    const auto c = static_cast<std::size_t>(plan.points[k].constraint);
-    outcomes[c].error_m =
-        static_cast<double>(length(lanes.points[k].error)) * body.unit_m;
-  }
-}
-
-AdaptReport Adapter::State::adapt(const Pose& reference, double time_s, Pose& out) {
-  const bool balanced = options.balance != BalanceMode::kOff;
+bool Adapter::State::prepare(const Pose& reference, double time_s) {
   origin_in_world = reference.root_in_world;
   pack_posture(reference, packed_posture);
   pack_balance(body, origin_in_world, balance(), packed_balance);
-  load_body(plan, body.packed.data(), 0, lanes);
-  load_posture(plan, packed_posture.data(), 0, lanes);
-  load_balance(packed_balance.data(), 0, lanes);
-  stand_reference(plan, balanced, true, lanes);
+  is_standing = false;
   read_wishes(time_s);
+  if (!ramps.empty()) return false;
+  ask_for(1.0);
+  return true;
+}
+
+AdaptReport Adapter::State::adapt(const Pose& reference, double time_s, Pose& out) {
+  const bool plain_set = prepare(reference, time_s);
+  stand();
   double iterations = 0.0;
   const Errors<float> errors =
-      ramps.empty() ? solve_for(1.0, iterations) : solve_faded(iterations);
-  write(out);
-  report_outcomes();
-  AdaptReport report;
-  report.iterations = static_cast<int>(iterations);
-  report.constraint_error_m = static_cast<double>(errors.mean) * body.unit_m;
-  report.worst_error_m = static_cast<double>(errors.worst) * body.unit_m;
-  report.balance_error_m = static_cast<double>(errors.balance) * body.unit_m;
-  if (balanced) {
-    com_now_in_world = origin_in_world + plain(lanes.com) * body.unit_m;
-  }
+      plain_set ? solve_for(1.0, iterations) : solve_faded(iterations);
+  spread_posture(plan, lanes);
+  store_result(plan, errors, static_cast<float>(iterations), 0, lanes, result.data());
+  write(result.data(), out);
   return report;
 }
 

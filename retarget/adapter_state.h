@@ -10,6 +10,7 @@
 #include "retarget/adapt_numbers.h"
 #include "retarget/adapt_solve.h"
 #include "retarget/adapter.h"
+#include "retarget/lane_result.h"
 #include "retarget/thesis_solve.h"
 
 namespace marey::retarget {
@@ -32,7 +33,7 @@ struct Adapter::State {
   std::vector<WishNumbers> wishes;  ///< As plan.points.
   std::vector<double> activations;  ///< Likewise.
   std::vector<double> ramps;        ///< Different activations below 1, descending.
-  std::vector<char> constraint_active;
+  bool is_standing = false;         ///< The reference is in `lanes`.
   Lanes<float> lanes;
   Solve<float> solve;
   ThesisShape thesis;
@@ -51,18 +52,27 @@ struct Adapter::State {
 
   void set_up();
   AdaptReport adapt(const Pose& reference, double time_s, Pose& out);
+  /// Packs all that a solve needs. False: constraints fade, and more solves than one are
+  /// needed.
+  [[nodiscard]] bool prepare(const Pose& reference, double time_s);
+  /// The answer out of packed numbers (store_result()): into `out`, and what the adapter
+  /// tells.
+  void write(const float* numbers, Pose& out);
+  [[nodiscard]] Shape shape() const;
+  [[nodiscard]] SolveSettings settings() const;
+
+  std::vector<float> result;
+  AdaptReport report;
 
  private:
   void read_wishes(double time_s);
   void read_wish(std::size_t k, double activation);
   [[nodiscard]] BalanceNumbers balance() const;
-  [[nodiscard]] Shape shape() const;
-  [[nodiscard]] SolveSettings settings() const;
+  void stand();
+  void ask_for(double least);
   /// Solves for the wishes whose activation is at least `least`.
   Errors<float> solve_for(double least, double& iterations);
   Errors<float> solve_faded(double& iterations);
-  void write(Pose& out);
-  void report_outcomes();
 };
 
 }  // namespace marey::retarget

@@ -11,8 +11,6 @@ struct SolveSettings {
   bool blend = false;              ///< Control::kBlend.
   bool keeps_orientation = false;  ///< Of extremities.
   int max_iterations = 50;
-  double threshold = 1e-4;          ///< Of changes of error, in units.
-  double balance_threshold = 1e-5;  ///< Likewise, of the centre of mass.
 };
 
 template <class F>

@@ -61,12 +61,12 @@ requires std::is_floating_point_v<F>
 template <class F>
 requires std::is_floating_point_v<F>
 [[nodiscard]] inline F min(F a, F b) {
-  return b < a ? b : a;
+  return a < b ? a : b;  // As SIMD does, to the sign of a zero.
 }
 template <class F>
 requires std::is_floating_point_v<F>
 [[nodiscard]] inline F max(F a, F b) {
-  return a < b ? b : a;
+  return a > b ? a : b;
 }
 [[nodiscard]] inline bool any(bool mask) {
   return mask;

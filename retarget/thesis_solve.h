@@ -151,8 +151,8 @@ template <class F>
   }
   const Mask<F> balanced = errors.balance <= s.balance_precision;
   const Mask<F> settled =
-      (gain < num<F>(settings.threshold)) &
-      (balanced | (abs(p.square - errors.balance) < num<F>(settings.balance_threshold)));
+      (gain < s.threshold) &
+      (balanced | (abs(p.square - errors.balance) < s.balance_threshold));
   p.merit = select(better, merit, p.merit);
   p.square = select(better, errors.balance, p.square);
   if (any(worse)) take_posture(s.best_rotation, s.best_place, plan, worse, s);
