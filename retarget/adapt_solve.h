@@ -35,6 +35,7 @@ inline constexpr double kStalledSteps = 2.5;
 inline constexpr double kHeldSlack = 2e-5;
 /// Steps for supports and balance alone, after constraints took balance away.
 inline constexpr int kBalanceSteps = 10;
+/// Of a trunk that has to do what limbs cannot.
 inline constexpr double kLeastMobility = 0.02;
 
 template <class F>
@@ -196,7 +197,7 @@ void begin_lanes(const Plan& plan,
     share = max(share, missing);
   }
   solve.needs_body = select(mask, select(share > zero, one, zero), solve.needs_body);
-  s.mobility = select(mask, max(share, num<F>(kLeastMobility)), s.mobility);
+  s.mobility = select(mask, share, s.mobility);
   p.iterations = select(mask, zero, p.iterations);
   p.square = select(mask, zero, p.square);
   p.merit = select(mask, num<F>(1e9), p.merit);
@@ -274,7 +275,8 @@ template <class F>
                       (errors.balance <= s.balance_precision) &
                       (errors.held <= solve.held_error);
   // Of postures that are all good enough the last counts.
-  const Mask<F> better = met | ((merit < p.merit) & (errors.held <= solve.held_error));
+  const Mask<F> better =
+      (met | ((merit < p.merit) & (errors.held <= solve.held_error))) & !homes;
   const F gain = p.merit - merit;
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
@@ -282,7 +284,7 @@ template <class F>
     s.best_place[i] = select(better, s.place[i], s.best_place[i]);
   }
   p.merit = select(better, merit, p.merit);
-  p.square = select(better, errors.square, p.square);
+  p.square = select(better | homes, errors.square, p.square);
   // A step that made things worse is taken back and tried again, more carefully; not
   // while steps home: those may cost a little at first.
   const Mask<F> worse = !(better | homes);
@@ -293,7 +295,8 @@ template <class F>
   p.damping = select(worse, num<F>(8) * p.damping, p.damping);
   const Mask<F> idle = gain < max(s.threshold, num<F>(0.002) * p.merit);
   p.stalled = select(idle & !homes, p.stalled + one, zero);
-  const Mask<F> capped = p.iterations >= num<F>(settings.max_iterations);
+  // Homing is never cut short: a posture on its way is nobody's answer.
+  const Mask<F> capped = (p.iterations >= num<F>(settings.max_iterations)) & !homes;
   const Mask<F> ended =
       (met & !(p.homing > zero)) | (p.stalled > num<F>(kStalledSteps)) | capped;
   const Mask<F> goes_on = ended & (p.level < num<F>(shape.last_level)) & !capped;
