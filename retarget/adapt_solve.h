@@ -28,7 +28,7 @@ namespace marey::retarget {
 
 inline constexpr double kComfortableReach = 0.96;
 /// A wish this far, in reaches of its limb, has all of the trunk's mobility.
-inline constexpr double kFullHelp = 1.2;
+inline constexpr double kFullHelp = 1.08;
 inline constexpr int kHomingSteps = 4;
 inline constexpr double kStalledSteps = 2.5;
 /// Held points may give way by this much, in units: rounding's.
@@ -192,7 +192,7 @@ void begin_lanes(const Plan& plan,
     // What limbs leave, the trunk has to do, in proportion at first.
     const F missing =
         select(errors.worst_over_precision > one,
-               clamp(num<F>(10) * errors.worst, num<F>(kLeastMobility), one),
+               clamp(num<F>(2) * errors.worst, num<F>(kLeastMobility), one),
                zero);
     share = max(share, missing);
   }
