@@ -43,6 +43,7 @@ struct Solve {
   Progress<F> progress;
   F needs_body{};  ///< 0: limbs were enough.
   F held_error{};  ///< Of held points, when their level was done.
+  F by_level{};    ///< 1: all levels at once did not do.
 };
 
 struct Shape {
@@ -190,21 +191,22 @@ void begin_lanes(const Plan& plan,
     close_limbs(plan, settings, last, mask & (share < one), s);
     const Errors<F> errors = measure(plan, false, last, s);
     // What limbs leave, the trunk has to do, in proportion at first.
-    const F missing =
-        select(errors.worst_over_precision > one,
-               clamp(num<F>(2) * errors.worst, num<F>(kLeastMobility), one),
-               zero);
+    const F missing = select(errors.worst_over_precision > one,
+                             clamp(num<F>(2) * errors.worst, num<F>(kLeastMobility), one),
+                             zero);
     share = max(share, missing);
   }
   solve.needs_body = select(mask, select(share > zero, one, zero), solve.needs_body);
   s.mobility = select(mask, share, s.mobility);
   p.iterations = select(mask, zero, p.iterations);
+  p.steps = select(mask, zero, p.steps);
   p.square = select(mask, zero, p.square);
   p.merit = select(mask, num<F>(1e9), p.merit);
   p.stalled = select(mask, zero, p.stalled);
   p.damping = select(mask, num<F>(kLeastDamping), p.damping);
   p.homing = select(mask, one, p.homing);
-  p.level = select(mask, min(one, last), p.level);
+  p.level = select(mask, last, p.level);
+  solve.by_level = select(mask, zero, solve.by_level);
   solve.held_error = select(mask, num<F>(1e9), solve.held_error);
   const Mask<F> loops = mask & (share > zero);
   if (any(loops)) {
@@ -243,6 +245,26 @@ void next_level(const Plan& plan,
   s.mobility = select(mask, num<F>(1), s.mobility);
 }
 
+/// All levels at once could not be met: from the reference again, one after the other.
+template <class F>
+void begin_levels(const Plan& plan,
+                  const Shape& shape,
+                  const Mask<F>& mask,
+                  Lanes<F>& s,
+                  Solve<F>& solve) {
+  const F one = num<F>(1);
+  Progress<F>& p = solve.progress;
+  take_posture(s.reference_rotation, s.reference_place, plan, mask, s);
+  solve.by_level = select(mask, one, solve.by_level);
+  p.level = select(mask, one, p.level);
+  p.steps = select(mask, num<F>(0), p.steps);
+  p.merit = select(mask, num<F>(1e9), p.merit);
+  p.stalled = select(mask, num<F>(0), p.stalled);
+  p.damping = select(mask, num<F>(kLeastDamping), p.damping);
+  p.homing = select(mask, one, p.homing);
+  static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
+}
+
 /// One turn of the loop for all lanes; those of the answer are done.
 template <class F>
 [[nodiscard]] Mask<F> advance_lanes(const Plan& plan,
@@ -258,7 +280,8 @@ template <class F>
   step_whole_body(plan, shape.rows, p, s);
   spare_hamstrings(plan, settings, zero < one, s);
   p.iterations = p.iterations + one;
-  p.homing = select(p.iterations < num<F>(kHomingSteps), p.homing, zero);
+  p.steps = p.steps + one;
+  p.homing = select(p.steps < num<F>(kHomingSteps), p.homing, zero);
   const Mask<F> closes = p.homing <= zero;
   if (any(closes)) {
     // On a trunk that hardly moved limbs do what they would do alone.
@@ -299,9 +322,13 @@ template <class F>
   const Mask<F> capped = (p.iterations >= num<F>(settings.max_iterations)) & !homes;
   const Mask<F> ended =
       (met & !(p.homing > zero)) | (p.stalled > num<F>(kStalledSteps)) | capped;
-  const Mask<F> goes_on = ended & (p.level < num<F>(shape.last_level)) & !capped;
-  if (any(goes_on)) next_level(plan, shape, goes_on, s, solve);
-  return ended & !goes_on;
+  const F levels = num<F>(shape.last_level);
+  const Mask<F> could = ended & !capped & (levels > one);
+  const Mask<F> splits = could & (solve.by_level < num<F>(0.5)) & !met;
+  const Mask<F> next = could & (solve.by_level > num<F>(0.5)) & (p.level < levels);
+  if (any(next)) next_level(plan, shape, next, s, solve);
+  if (any(splits)) begin_levels(plan, shape, splits, s, solve);
+  return ended & !(next | splits);
 }
 
 /// Brings the centre of mass where it has to be, for supports alone: constraints that

@@ -10,6 +10,7 @@ namespace marey::retarget {
 template <class F>
 struct Progress {
   F iterations{};  ///< Whole-body steps so far.
+  F steps{};       ///< Of them, since the reference.
   F merit{};       ///< The best posture's.
   F stalled{};     ///< Steps that hardly helped, in a row.
   F damping{};
@@ -24,7 +25,7 @@ template <class F>
 [[nodiscard]] inline F homing_of(const Progress<F>& progress) {
   const F homing = progress.homing / (num<F>(1) + num<F>(4) * progress.square);
   // The first step is at home: exactly nothing to take back, not rounding's.
-  return select(progress.iterations > num<F>(0), homing, num<F>(0));
+  return select(progress.steps > num<F>(0), homing, num<F>(0));
 }
 
 /// Rows of supports and balance are met exactly; this much keeps their pivots sound.
@@ -81,7 +82,7 @@ void form_system(const Plan& plan,
   if (rows.balance) form_balance_blocks(plan, rows, side, s);
   add_hinges(plan, rows, side, s);
   const F homing = homing_of(progress);
-  const bool strays = any(progress.iterations > zero);
+  const bool strays = any(progress.steps > zero);
   if (strays) {
     measure_straying(plan, homing, s);
   } else {
