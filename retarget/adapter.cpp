@@ -155,14 +155,12 @@ void Adapter::Handle::set_offset(const glm::dvec3& offset_in_t_pose) {
 
 void Adapter::Handle::start(double time_s) {
   MAREY_ASSERT(std::isfinite(time_s));
-  Activation& when = state_->constraints.constraints[constraint_].activation;
-  when.start_s = time_s;
-  when.stop_s.reset();
+  state_->live[constraint_].start(time_s);
 }
 
 void Adapter::Handle::stop(double time_s) {
   MAREY_ASSERT(std::isfinite(time_s));
-  state_->constraints.constraints[constraint_].activation.stop_s = time_s;
+  state_->live[constraint_].stop(time_s);
 }
 
 const ConstraintOutcome& Adapter::Handle::outcome() const {

@@ -63,6 +63,7 @@ Adapter::State::State(const Character& character_in,
       plan(make_plan(character, constraints, options.balance != BalanceMode::kOff)),
       carried(character.loads.size(), 0),
       lanes(plan) {
+  for (const Constraint& c : constraints.constraints) live.emplace_back(c.activation);
   set_up();
 }
 
@@ -186,7 +187,7 @@ void Adapter::State::read_wishes(double time_s) {
   ramps.clear();
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const auto c = static_cast<std::size_t>(plan.points[k].constraint);
-    activations[k] = activation(constraints.constraints[c].activation, time_s);
+    activations[k] = live[c].at(time_s);
     outcomes[c].activation = activations[k];
     read_wish(k, activations[k]);
     if (activations[k] > 0.0 && plan.points[k].level > 0) {

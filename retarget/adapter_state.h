@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "retarget/activation.h"
 #include "retarget/adapt_load.h"
 #include "retarget/adapt_numbers.h"
 #include "retarget/adapt_solve.h"
@@ -30,10 +31,11 @@ struct Adapter::State {
   std::vector<float> packed_posture;
   std::vector<float> packed_wishes;
   std::array<float, kBalanceNumbers> packed_balance{};
-  std::vector<WishNumbers> wishes;  ///< As plan.points.
-  std::vector<double> activations;  ///< Likewise.
-  std::vector<double> ramps;        ///< Different activations below 1, descending.
-  bool is_standing = false;         ///< The reference is in `lanes`.
+  std::vector<WishNumbers> wishes;   ///< As plan.points.
+  std::vector<LiveActivation> live;  ///< Of each constraint.
+  std::vector<double> activations;   ///< As plan.points.
+  std::vector<double> ramps;         ///< Different activations below 1, descending.
+  bool is_standing = false;          ///< The reference is in `lanes`.
   Lanes<float> lanes;
   Solve<float> solve;
   ThesisShape thesis;
