@@ -9,7 +9,7 @@ namespace marey::retarget {
 
 /// Where joint `j` is, from where its parent is and how that is turned.
 template <class F>
-inline void place_joint(const Plan& plan, Lanes<F>& s, int j) {
+[[gnu::always_inline]] inline void place_joint(const Plan& plan, Lanes<F>& s, int j) {
   const auto p = static_cast<std::size_t>(plan.parent[static_cast<std::size_t>(j)]);
   const auto i = static_cast<std::size_t>(j);
   s.place[i] = s.place[p] + rotate(s.rotation[p], s.offset[i]);

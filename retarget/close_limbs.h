@@ -192,12 +192,9 @@ void reach_supports(const Plan& plan,
     }
     if (!any(moved)) break;
   }
-  for (const int j : plan.live) {
-    const auto i = static_cast<std::size_t>(j);
-    if (j == 0) s.place[0] += shift;
-    if (j != 0) place_joint(plan, s, j);
-    static_cast<void>(i);
-  }
+  if (!any(length2(shift) > zero)) return;
+  s.place[0] += shift;
+  place_live_joints(plan, s);
 }
 
 /// Supports first, then every other limb, in the lanes of `mask`.

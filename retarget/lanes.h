@@ -15,7 +15,8 @@
 /// over F never branches on values: it computes both sides and selects, so that a lane's
 /// result does not depend on its neighbours. Only + - * / and sqrt are used, which IEEE
 /// 754 rounds exactly: every width gives the same bits (no fused multiplication:
-/// -ffp-contract=off).
+/// -ffp-contract=off). All of it is inlined: a call costs more than most of these do, and
+/// a function that a program has once must not be made of one kernel's instructions.
 namespace marey::retarget {
 
 /// What a comparison of F's yields.
@@ -45,48 +46,48 @@ using Scalar = typename ScalarOf<F>::type;
 // What batches bring along, for plain numbers.
 template <class F>
 requires std::is_floating_point_v<F>
-[[nodiscard]] inline F select(bool mask, F if_true, F if_false) {
+[[nodiscard, gnu::always_inline]] inline F select(bool mask, F if_true, F if_false) {
   return mask ? if_true : if_false;
 }
 template <class F>
 requires std::is_floating_point_v<F>
-[[nodiscard]] inline F sqrt(F x) {
+[[nodiscard, gnu::always_inline]] inline F sqrt(F x) {
   return std::sqrt(x);
 }
 template <class F>
 requires std::is_floating_point_v<F>
-[[nodiscard]] inline F abs(F x) {
+[[nodiscard, gnu::always_inline]] inline F abs(F x) {
   return std::fabs(x);
 }
 template <class F>
 requires std::is_floating_point_v<F>
-[[nodiscard]] inline F min(F a, F b) {
+[[nodiscard, gnu::always_inline]] inline F min(F a, F b) {
   return a < b ? a : b;  // As SIMD does, to the sign of a zero.
 }
 template <class F>
 requires std::is_floating_point_v<F>
-[[nodiscard]] inline F max(F a, F b) {
+[[nodiscard, gnu::always_inline]] inline F max(F a, F b) {
   return a > b ? a : b;
 }
-[[nodiscard]] inline bool any(bool mask) {
+[[nodiscard, gnu::always_inline]] inline bool any(bool mask) {
   return mask;
 }
-[[nodiscard]] inline bool all(bool mask) {
+[[nodiscard, gnu::always_inline]] inline bool all(bool mask) {
   return mask;
 }
 
 /// The same number in every lane.
 template <class F>
-[[nodiscard]] inline F num(double x) {
+[[nodiscard, gnu::always_inline]] inline F num(double x) {
   return F(static_cast<Scalar<F>>(x));
 }
 template <class F>
-[[nodiscard]] inline F clamp(F x, F low, F high) {
+[[nodiscard, gnu::always_inline]] inline F clamp(F x, F low, F high) {
   return min(max(x, low), high);
 }
 /// Square root of what rounding may have pushed below zero.
 template <class F>
-[[nodiscard]] inline F safe_sqrt(F x) {
+[[nodiscard, gnu::always_inline]] inline F safe_sqrt(F x) {
   return sqrt(max(x, num<F>(0)));
 }
 
@@ -96,58 +97,59 @@ struct Vec3 {
 };
 
 template <class F>
-inline Vec3<F> operator+(const Vec3<F>& a, const Vec3<F>& b) {
+[[gnu::always_inline]] inline Vec3<F> operator+(const Vec3<F>& a, const Vec3<F>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class F>
-inline Vec3<F> operator-(const Vec3<F>& a, const Vec3<F>& b) {
+[[gnu::always_inline]] inline Vec3<F> operator-(const Vec3<F>& a, const Vec3<F>& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class F>
-inline Vec3<F> operator-(const Vec3<F>& a) {
+[[gnu::always_inline]] inline Vec3<F> operator-(const Vec3<F>& a) {
   return {-a.x, -a.y, -a.z};
 }
 template <class F>
-inline Vec3<F> operator*(const F& s, const Vec3<F>& a) {
+[[gnu::always_inline]] inline Vec3<F> operator*(const F& s, const Vec3<F>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 template <class F>
-inline void operator+=(Vec3<F>& a, const Vec3<F>& b) {
+[[gnu::always_inline]] inline void operator+=(Vec3<F>& a, const Vec3<F>& b) {
   a = a + b;
 }
 template <class F>
-inline void operator-=(Vec3<F>& a, const Vec3<F>& b) {
+[[gnu::always_inline]] inline void operator-=(Vec3<F>& a, const Vec3<F>& b) {
   a = a - b;
 }
 template <class F>
-[[nodiscard]] inline F dot(const Vec3<F>& a, const Vec3<F>& b) {
+[[nodiscard, gnu::always_inline]] inline F dot(const Vec3<F>& a, const Vec3<F>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 template <class F>
-[[nodiscard]] inline Vec3<F> cross(const Vec3<F>& a, const Vec3<F>& b) {
+[[nodiscard, gnu::always_inline]] inline Vec3<F> cross(const Vec3<F>& a,
+                                                       const Vec3<F>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class F>
-[[nodiscard]] inline F length2(const Vec3<F>& a) {
+[[nodiscard, gnu::always_inline]] inline F length2(const Vec3<F>& a) {
   return dot(a, a);
 }
 template <class F>
-[[nodiscard]] inline F length(const Vec3<F>& a) {
+[[nodiscard, gnu::always_inline]] inline F length(const Vec3<F>& a) {
   return sqrt(dot(a, a));
 }
 template <class F>
-[[nodiscard]] inline Vec3<F> select(const Mask<F>& mask,
-                                    const Vec3<F>& if_true,
-                                    const Vec3<F>& if_false) {
+[[nodiscard, gnu::always_inline]] inline Vec3<F> select(const Mask<F>& mask,
+                                                        const Vec3<F>& if_true,
+                                                        const Vec3<F>& if_false) {
   return {select(mask, if_true.x, if_false.x),
           select(mask, if_true.y, if_false.y),
           select(mask, if_true.z, if_false.z)};
 }
 /// `a` over its length; `otherwise` when it is shorter than `least`.
 template <class F>
-[[nodiscard]] inline Vec3<F> unit_or(const Vec3<F>& a,
-                                     const Vec3<F>& otherwise,
-                                     F least) {
+[[nodiscard, gnu::always_inline]] inline Vec3<F> unit_or(const Vec3<F>& a,
+                                                         const Vec3<F>& otherwise,
+                                                         F least) {
   const F n = length(a);
   return select(n > least, (num<F>(1) / max(n, least)) * a, otherwise);
 }
@@ -159,49 +161,50 @@ struct Quat {
 };
 
 template <class F>
-[[nodiscard]] inline Quat<F> identity() {
+[[nodiscard, gnu::always_inline]] inline Quat<F> identity() {
   return {num<F>(1), num<F>(0), num<F>(0), num<F>(0)};
 }
 template <class F>
-[[nodiscard]] inline Quat<F> conjugate(const Quat<F>& q) {
+[[nodiscard, gnu::always_inline]] inline Quat<F> conjugate(const Quat<F>& q) {
   return {q.w, -q.x, -q.y, -q.z};
 }
 template <class F>
-[[nodiscard]] inline Vec3<F> vector_part(const Quat<F>& q) {
+[[nodiscard, gnu::always_inline]] inline Vec3<F> vector_part(const Quat<F>& q) {
   return {q.x, q.y, q.z};
 }
 template <class F>
-inline Quat<F> operator*(const Quat<F>& a, const Quat<F>& b) {
+[[gnu::always_inline]] inline Quat<F> operator*(const Quat<F>& a, const Quat<F>& b) {
   return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
           a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
           a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
           a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 template <class F>
-[[nodiscard]] inline Vec3<F> rotate(const Quat<F>& q, const Vec3<F>& v) {
+[[nodiscard, gnu::always_inline]] inline Vec3<F> rotate(const Quat<F>& q,
+                                                        const Vec3<F>& v) {
   const Vec3<F> u = vector_part(q);
   const Vec3<F> t = cross(u, v);
   const Vec3<F> twice = t + t;
   return v + q.w * twice + cross(u, twice);
 }
 template <class F>
-[[nodiscard]] inline Quat<F> select(const Mask<F>& mask,
-                                    const Quat<F>& if_true,
-                                    const Quat<F>& if_false) {
+[[nodiscard, gnu::always_inline]] inline Quat<F> select(const Mask<F>& mask,
+                                                        const Quat<F>& if_true,
+                                                        const Quat<F>& if_false) {
   return {select(mask, if_true.w, if_false.w),
           select(mask, if_true.x, if_false.x),
           select(mask, if_true.y, if_false.y),
           select(mask, if_true.z, if_false.z)};
 }
 template <class F>
-[[nodiscard]] inline Quat<F> normalized(const Quat<F>& q) {
+[[nodiscard, gnu::always_inline]] inline Quat<F> normalized(const Quat<F>& q) {
   const F s = num<F>(1) / sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return {s * q.w, s * q.x, s * q.y, s * q.z};
 }
 
 /// A quaternion that rounding took a little off unit, back on it: one step of Newton's.
 template <class F>
-[[nodiscard]] inline Quat<F> trued(const Quat<F>& q) {
+[[nodiscard, gnu::always_inline]] inline Quat<F> trued(const Quat<F>& q) {
   const F square = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
   const F s = num<F>(1.5) - num<F>(0.5) * square;
   return {s * q.w, s * q.x, s * q.y, s * q.z};
@@ -210,7 +213,7 @@ template <class F>
 /// A unit quaternion about w's direction. By Cayley's map: the angle is 2 atan(|w| / 2),
 /// |w| to third order, and never reaches half a turn.
 template <class F>
-[[nodiscard]] inline Quat<F> rotation_by(const Vec3<F>& w_rad) {
+[[nodiscard, gnu::always_inline]] inline Quat<F> rotation_by(const Vec3<F>& w_rad) {
   const F half = num<F>(0.5);
   const Vec3<F> h = half * w_rad;
   const F s = num<F>(1) / sqrt(num<F>(1) + length2(h));
@@ -221,9 +224,9 @@ template <class F>
 /// zero. Nearly opposite directions turn about the unit `spare` axis, which should be
 /// perpendicular to `from`.
 template <class F>
-[[nodiscard]] inline Quat<F> rotation_onto(const Vec3<F>& from,
-                                           const Vec3<F>& to,
-                                           const Vec3<F>& spare) {
+[[nodiscard, gnu::always_inline]] inline Quat<F> rotation_onto(const Vec3<F>& from,
+                                                               const Vec3<F>& to,
+                                                               const Vec3<F>& spare) {
   // Half-angle algebra: (|a||b| + a.b, a x b) is the rotation, not yet unit.
   const F product = sqrt(length2(from) * length2(to));
   const F w = product + dot(from, to);
@@ -239,7 +242,9 @@ template <class F>
 /// The rotation at `share` of the way from `a` to `b`, the shorter way round; 0 is `a`.
 /// Along the chord, not the arc: as steady, not as even.
 template <class F>
-[[nodiscard]] inline Quat<F> between(const Quat<F>& a, const Quat<F>& b, const F& share) {
+[[nodiscard, gnu::always_inline]] inline Quat<F> between(const Quat<F>& a,
+                                                         const Quat<F>& b,
+                                                         const F& share) {
   const F zero = num<F>(0);
   const F one = num<F>(1);
   const F sign = select(a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z < zero, -one, one);
@@ -252,11 +257,11 @@ template <class F>
 
 /// From plain vectors into every lane.
 template <class F>
-[[nodiscard]] inline Vec3<F> lanes(const glm::dvec3& v) {
+[[nodiscard, gnu::always_inline]] inline Vec3<F> lanes(const glm::dvec3& v) {
   return {num<F>(v.x), num<F>(v.y), num<F>(v.z)};
 }
 template <class F>
-[[nodiscard]] inline Quat<F> lanes(const glm::dquat& q) {
+[[nodiscard, gnu::always_inline]] inline Quat<F> lanes(const glm::dquat& q) {
   return {num<F>(q.w), num<F>(q.x), num<F>(q.y), num<F>(q.z)};
 }
 
