@@ -106,6 +106,7 @@ void close_limb(const Plan& plan,
   const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(number)];
   const Extremity<F> extremity = extremity_of(limb, settings.keeps_orientation, s);
   Mask<F> taken = num<F>(0) > num<F>(1);
+  Mask<F> firm = taken;  // By a support.
   Vec3<F> first_place{};
   F first_weight = num<F>(1);
   for (const int k : limb.points) {
@@ -119,28 +120,24 @@ void close_limb(const Plan& plan,
       close_limb_on(
           plan, number, point, wish.place, wish.target, asked & !taken, extremity, s);
     }
-    if (any(asked & taken)) {
+    // Nothing is a compromise with a support.
+    const Mask<F> blends =
+        asked & taken & !firm & (num<F>(settings.blend ? 1 : 0) > num<F>(0.5));
+    const Mask<F> spins = asked & taken & !blends;
+    if (any(blends)) {
       const Quat<F> before[3] = {s.rotation[static_cast<std::size_t>(limb.upper)],
                                  s.rotation[static_cast<std::size_t>(limb.lower)],
                                  s.rotation[static_cast<std::size_t>(limb.end)]};
-      if (settings.blend) {
-        close_limb_on(
-            plan, number, point, wish.place, wish.target, asked & taken, extremity, s);
-        const F share = first_weight / (first_weight + p.weight);
-        mix_limb(plan, limb, before, share, asked & taken, extremity, s);
-      } else {
-        spin_limb_on(plan,
-                     number,
-                     first_place,
-                     wish.place,
-                     wish.target,
-                     asked & taken,
-                     extremity,
-                     s);
-        // A limit may have held the spin up and moved the first point.
-        if (plan.has_limits) {
-          close_first_again(plan, number, k, level, asked & taken, extremity, s);
-        }
+      close_limb_on(plan, number, point, wish.place, wish.target, blends, extremity, s);
+      const F share = first_weight / (first_weight + p.weight);
+      mix_limb(plan, limb, before, share, blends, extremity, s);
+    }
+    if (any(spins)) {
+      spin_limb_on(
+          plan, number, first_place, wish.place, wish.target, spins, extremity, s);
+      // A limit may have held the spin up and moved the first point.
+      if (plan.has_limits) {
+        close_first_again(plan, number, k, level, spins, extremity, s);
       }
     }
     measure_place(point, s, p);
@@ -148,6 +145,7 @@ void close_limb(const Plan& plan,
     // foot with an orientation of its own, the ankle.
     first_place = select(taken, first_place, wish_of(limb, point, p, extremity, s).place);
     first_weight = select(taken, first_weight, p.weight);
+    if (point.goal == GoalKind::kSupport) firm = firm | asked;
     taken = taken | asked;
   }
   // An extremity without a wish for its place may still have one for its orientation.
