@@ -184,20 +184,23 @@ void ask_segment(const Plan& plan,
   Vec3<F> sum{zero, zero, zero};
   F weights = zero;
   F count = zero;
+  F most = zero;
   Vec3<F> line{zero, zero, zero};
   Mask<F> spun = zero > one;
   for (const int k : points) {
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
     LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
     measure_wish(plan, k, s);
-    // The thesis prints "<": a slip.
-    const Mask<F> asks =
-        mask & (p.active > zero) & (length(p.error) * p.per_precision > one);
+    // The thesis prints "<": a slip. Between the precision and twice that a wish comes in
+    // by degrees: a posture must not jump because a target moved by a hair.
+    const F urgency = clamp(length(p.error) * p.per_precision - one, zero, one);
+    const Mask<F> asks = mask & (p.active > zero) & (urgency > zero);
     if (!any(asks)) continue;
     const Mask<F> turns = asks & out.free;
     if (any(turns)) {
       const Vec3<F> own = rotation_vector(turn_towards(point, p, pivot, s));
-      const F weight = select(turns, p.weight, zero);
+      const F weight = select(turns, urgency * p.weight, zero);
+      most = select(turns, max(most, urgency), most);
       sum += weight * own;
       weights = weights + weight;
       // An orientation leaves nothing to spin about.
@@ -213,7 +216,7 @@ void ask_segment(const Plan& plan,
     }
   }
   const Mask<F> turned = out.free & (count > zero);
-  const Quat<F> mean = rotation_of((one / max(weights, num<F>(1e-6))) * sum);
+  const Quat<F> mean = rotation_of((most / max(weights, num<F>(1e-9))) * sum);
   out.turn = select(turned, mean, out.turn);
   out.axis =
       select(turned, unit_or(rotate(mean, line), out.axis, num<F>(1e-5)), out.axis);
