@@ -21,7 +21,7 @@ struct ThesisShape {
 };
 
 /// A step that made things worse is taken back and tried with half of its turns; after
-/// this many in a row the posture is the best there is.
+/// this many in a row the posture is the best there is. Steps that help grow again.
 inline constexpr double kMostRetries = 3;
 
 template <class F>
@@ -157,7 +157,9 @@ template <class F>
   p.square = select(better, errors.balance, p.square);
   if (any(worse)) take_posture(s.best_rotation, s.best_place, plan, worse, s);
   p.stalled = select(worse, p.stalled + one, select(better, zero, p.stalled));
-  p.damping = select(worse, num<F>(0.5) * p.damping, p.damping);
+  p.damping = select(worse,
+                     num<F>(0.5) * p.damping,
+                     select(better, min(one, num<F>(1.5) * p.damping), p.damping));
   const Mask<F> met = (errors.worst_over_precision <= one) & balanced;
   const Mask<F> done =
       mask & ((better & (met | settled)) | (p.stalled > num<F>(kMostRetries - 0.5)));
