@@ -94,6 +94,9 @@ TEST(GroundReference, LowersTheRootAsFarAsTheLowerFootNeeds) {
                          glm::distance(at("leftLowerLeg"), at("leftFoot"));
     EXPECT_NEAR(glm::distance(at("leftUpperLeg"), at("leftFoot")), leg_m, 1e-5);
     EXPECT_LT(out.root_in_world.y, reference.root_in_world.y - 0.15);
+    // Along the vertical alone.
+    EXPECT_NEAR(out.root_in_world.x, reference.root_in_world.x, kFloat_m);
+    EXPECT_NEAR(out.root_in_world.z, reference.root_in_world.z, kFloat_m);
     const auto& support = std::get<Support>(set.constraints[0].goal);
     EXPECT_LT(glm::distance(at("leftFoot"), *support.footprint_in_world), kFloat_m);
   }

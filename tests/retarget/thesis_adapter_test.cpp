@@ -78,6 +78,29 @@ TEST(ThesisAdapter, ReachesFarTargetsWithTrunkAndRoot) {
   EXPECT_LT(scene.worst_foot_m(out), kFloat_m);
 }
 
+// Thesis 4.2.1: a leg that stands is the ground's; once it is free it kneels.
+TEST(ThesisAdapter, LeavesLegsThatStandAlone) {
+  Standing scene;
+  const glm::dvec3 knee = scene.at(scene.reference, "leftLowerLeg");
+  scene.set.constraints[0] = contact_of("leftLowerLeg", knee + glm::dvec3(0.1, 0, 0));
+  scene.set.constraints[1].activation.start_s = 100.0;
+  AdaptOptions options = by_the_thesis();
+  options.root_for_constraints = 0.0;
+  for (const bool stands : {true, false}) {
+    scene.set.constraints[2].activation.stop_s.reset();
+    if (!stands) scene.set.constraints[2].activation.stop_s = -1.0;
+    Adapter adapter = adapter_of(scene.character, scene.set, options);
+    Pose out;
+    static_cast<void>(adapter.adapt(scene.reference, 0.0, out));
+    const double moved_m = glm::distance(scene.at(out, "leftLowerLeg"), knee);
+    if (stands) {
+      EXPECT_LT(moved_m, kFloat_m);
+    } else {
+      EXPECT_GT(moved_m, 0.05);
+    }
+  }
+}
+
 // Thesis 4.2.5: whatever the iteration it is stopped at.
 TEST(ThesisAdapter, NeverMakesAnErrorLargerByIteratingOn) {
   Standing scene;
