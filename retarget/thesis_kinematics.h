@@ -191,9 +191,10 @@ void ask_segment(const Plan& plan,
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
     LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
     measure_wish(plan, k, s);
-    // The thesis prints "<": a slip. Between the precision and twice that a wish comes in
-    // by degrees: a posture must not jump because a target moved by a hair.
-    const F urgency = clamp(length(p.error) * p.per_precision - one, zero, one);
+    // The thesis prints "<": a slip. Below its precision a wish goes by degrees, and is
+    // gone at half of it: a posture must not jump because a target moved by a hair.
+    const F urgency =
+        clamp(num<F>(2) * length(p.error) * p.per_precision - one, zero, one);
     const Mask<F> asks = mask & (p.active > zero) & (urgency > zero);
     if (!any(asks)) continue;
     const Mask<F> turns = asks & out.free;
