@@ -165,6 +165,7 @@ void reach_supports(const Plan& plan,
                     Lanes<F>& s) {
   const F zero = num<F>(0);
   Vec3<F> shift{zero, zero, zero};
+  Mask<F> left = mask;
   for (int round = 0; round < 8; ++round) {
     Mask<F> moved = num<F>(0) > num<F>(1);
     for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
@@ -183,12 +184,14 @@ void reach_supports(const Plan& plan,
         const Vec3<F> gap = wish.target - (root + shift);
         const F distance = length(gap);
         const F excess =
-            select(mask & (p.active > zero), max(distance - reach, zero), zero);
+            select(left & (p.active > zero), max(distance - reach, zero), zero);
         shift += (excess / max(distance, num<F>(1e-6))) * gap;
         moved = moved | (excess > num<F>(1e-7));
       }
     }
     if (!any(moved)) break;
+    // Who is near enough stays there, however many rounds others take.
+    left = left & moved;
   }
   if (!any(length2(shift) > zero)) return;
   s.place[0] += shift;
