@@ -3,8 +3,9 @@
 #include "tests/retarget/adapter_bodies.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -275,13 +276,16 @@ bool is_finite(const Pose& pose) {
 }
 
 bool same_bits(const Pose& a, const Pose& b) {
-  const auto bytes = [](const Pose& p) {
-    return p.parent_from_joint.size() * sizeof(glm::dquat);
+  const auto same = [](double x, double y) {
+    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
   };
-  return a.parent_from_joint.size() == b.parent_from_joint.size() &&
-         std::memcmp(&a.root_in_world, &b.root_in_world, sizeof(glm::dvec3)) == 0 &&
-         std::memcmp(a.parent_from_joint.data(), b.parent_from_joint.data(), bytes(a)) ==
-             0;
+  bool all = a.parent_from_joint.size() == b.parent_from_joint.size();
+  for (int i = 0; i < 3; ++i) all = all && same(a.root_in_world[i], b.root_in_world[i]);
+  for (std::size_t j = 0; all && j < a.parent_from_joint.size(); ++j) {
+    const glm::dquat& p = a.parent_from_joint[j];
+    const glm::dquat& q = b.parent_from_joint[j];
+    all = same(p.w, q.w) && same(p.x, q.x) && same(p.y, q.y) && same(p.z, q.z);
+  }
+  return all;
 }
-
 }  // namespace marey::retarget

@@ -105,5 +105,21 @@ TEST_P(AdapterFeasibleStrict, ReachesWithItsCentreOfMassInPlace) {
   expect_reached(human(false), wanted, true);
 }
 
+// Nothing holds the body: it can be anywhere.
+TEST_P(AdapterFeasible, ReachesAnythingWhenItStandsOnNothing) {
+  for (const Character& body : bodies()) {
+    const std::string end = body.skeleton.joints.back().name;
+    Dice dice(92);
+    for (int i = 0; i < 100; ++i) {
+      const Pose reference = random_posture(body, dice, 0.4);
+      const glm::dvec3 target =
+          place_of(body, reference, {end}) + dice.between(0, 3) * dice.direction();
+      const Adapted out =
+          adapted(body, {{contact("end", end, target)}, {}}, reference, options());
+      ASSERT_LT(glm::distance(place_of(body, out.pose, {end}), target), 1e-3 + 1e-5) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace marey::retarget

@@ -110,7 +110,7 @@ bool has_numbers(const AdaptReport& report) {
 }
 
 class AdapterFuzz : public EveryMethod {};
-INSTANTIATE_TEST_SUITE_P(Adapter, AdapterFuzz, thesis_method(), name_of);
+INSTANTIATE_TEST_SUITE_P(Adapter, AdapterFuzz, both_methods(), name_of);
 
 TEST_P(AdapterFuzz, GivesPosturesWithinTheLimitsWhateverIsAsked) {
   constexpr int kQuestions = 700;

@@ -139,7 +139,8 @@ double nearest_m(const Character& body,
                  const glm::dvec3& target) {
   Pose pose = reference;
   double nearest = 1e9;
-  for (double bend_rad = 0.0; bend_rad < 3.1416; bend_rad += 0.002) {
+  for (int step = 0; step <= 1571; ++step) {
+    const double bend_rad = 0.002 * step;
     pose.parent_from_joint[limb.lower] = glm::angleAxis(bend_rad, limb.hinge_in_upper);
     const auto frames = world_from_joints(body.skeleton, pose);
     const glm::dvec3 root = frames[limb.upper].translation;

@@ -17,7 +17,9 @@ namespace {
 constexpr double kStands_m = 1e-5;
 constexpr std::array<const char*, 4> kPaws{
     "front left paw", "front right paw", "hind left paw", "hind right paw"};
-const BodyPoint kNose{"head", {0.0, -0.04, 0.2}};
+BodyPoint nose() {
+  return {"head", {0.0, -0.04, 0.2}};
+}
 
 class AdapterQuadruped : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterQuadruped, both_methods(), name_of);
@@ -58,8 +60,8 @@ TEST_P(AdapterQuadruped, SniffsAtWhatIsNearOnFourPaws) {
   Dice dice(52);
   for (int i = 0; i < 100; ++i) {
     const glm::dvec3 target =
-        place_of(animal, reference, kNose) + dice.between(0, 0.15) * dice.direction();
-    ConstraintSet asked{{contact("nose", "head", target, kNose.offset_in_t_pose)}, {}};
+        place_of(animal, reference, nose()) + dice.between(0, 0.15) * dice.direction();
+    ConstraintSet asked{{contact("nose", "head", target, nose().offset_in_t_pose)}, {}};
     for (const char* paw : kPaws) asked.constraints.push_back(standing(paw, paw));
     const Adapted out = adapted(animal, asked, reference, options());
     for (const char* paw : kPaws) {
@@ -68,7 +70,7 @@ TEST_P(AdapterQuadruped, SniffsAtWhatIsNearOnFourPaws) {
                 kStands_m)
           << i;
     }
-    ASSERT_LT(glm::distance(place_of(animal, out.pose, kNose), target), 1.001e-3) << i;
+    ASSERT_LT(glm::distance(place_of(animal, out.pose, nose()), target), 1.001e-3) << i;
     ASSERT_LT(beyond_limits_rad(animal, out.pose), 1e-4) << i;
   }
 }

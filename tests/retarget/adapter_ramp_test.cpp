@@ -29,8 +29,8 @@ double fastest_rad(Adapter& adapter, const Pose& reference, double until_s) {
   Pose before;
   double fastest = 0.0;
   static_cast<void>(adapter.adapt(reference, 0.0, before));
-  for (double t = kFrame_s; t < until_s; t += kFrame_s) {
-    static_cast<void>(adapter.adapt(reference, t, now));
+  for (int frame = 1; frame * kFrame_s < until_s; ++frame) {
+    static_cast<void>(adapter.adapt(reference, frame * kFrame_s, now));
     fastest = std::max(fastest, most_turned_rad(now, before));
     std::swap(now, before);
   }
@@ -52,6 +52,29 @@ TEST_P(AdapterRamps, LetASupportComeAndGo) {
               place_of(body, reference, {"rightHand"}) + glm::dvec3(0.0, 0.3, 0.3));
   Adapter adapter = make_adapter(body, {{foot, hand}, {}}, options());
   EXPECT_LT(fastest_rad(adapter, reference, 2.0), kFastest_rad);
+}
+
+TEST_P(AdapterRamps, MayBeStartedAndStoppedWhileTheyRun) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  Constraint hand =
+      contact("hand",
+              "leftHand",
+              place_of(body, reference, {"leftHand"}) + glm::dvec3(0.1, 0.2, 0.2));
+  hand.activation = {std::nullopt, 0.0, 0.7, 0.7};
+  Adapter adapter = make_adapter(body, {{hand}, {}}, options());
+  Pose now;
+  Pose before;
+  static_cast<void>(adapter.adapt(reference, 1.0, before));
+  for (int frame = 1; frame < 2500; ++frame) {
+    const double t = 1.0 + kFrame_s * frame;
+    // In the middle of ramps, too.
+    if (frame == 100 || frame == 900) adapter.constraint("hand")->start(t);
+    if (frame == 500 || frame == 1900) adapter.constraint("hand")->stop(t);
+    static_cast<void>(adapter.adapt(reference, t, now));
+    ASSERT_LT(most_turned_rad(now, before), kFastest_rad) << frame;
+    std::swap(now, before);
+  }
 }
 
 }  // namespace

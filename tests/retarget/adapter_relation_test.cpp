@@ -140,7 +140,8 @@ void expect_first_exact_second_near(const Character& body, const AdaptOptions& o
         glm::normalize(place_of(body, both.pose, {"leftHand"}) - shoulder);
     const glm::dvec3 elbow = place_of(body, both.pose, second.point) - shoulder;
     double best_m = 1e9;
-    for (double spin_rad = -3.14; spin_rad < 3.15; spin_rad += 0.01) {
+    for (int step = -314; step <= 314; ++step) {
+      const double spin_rad = 0.01 * step;
       Pose spun = both.pose;
       const std::size_t upper = joint_at(body, "leftUpperArm");
       const glm::dquat parent = rotation_of(body, both.pose, "leftShoulder");

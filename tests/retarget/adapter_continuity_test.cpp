@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "tests/retarget/adapter_bodies.h"
+
+/// What moves continuously makes the body move continuously: no jump, no
+/// zig-zag.
+namespace marey::retarget {
+namespace {
+
+constexpr double kStep_m = 5e-4;
+
+/// A closed smooth curve about a point.
+struct Path {
+  glm::dvec3 centre_in_world{0.0};
+  std::array<glm::dvec3, 3> waves_m{};
+  std::array<double, 3> phases_rad{};
+
+  [[nodiscard]] glm::dvec3 at(double u) const {
+    glm::dvec3 p = centre_in_world;
+    for (std::size_t i = 0; i < 3; ++i) {
+      p += waves_m[i] * std::sin(static_cast<double>(i + 1) * u + phases_rad[i]);
+    }
+    return p;
+  }
+};
+
+Path any_path(const glm::dvec3& centre_in_world, double radius_m, Dice& dice) {
+  Path path{centre_in_world, {}, {}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    path.waves_m[i] = radius_m / static_cast<double>(i + 1) * dice.direction();
+    path.phases_rad[i] = dice.between(0, 6.28);
+  }
+  return path;
+}
+
+/// The fastest that a posture follows.
+struct Pace {
+  double joints_rad_per_m = 0.0;
+  double root_m_per_m = 0.0;
+  /// Of second differences: how suddenly it starts to.
+  double jerks_rad_per_m = 0.0;
+};
+
+struct Follower {
+  Adapter adapter;
+  Pose reference;
+  Pose now;
+  Pose before;
+  Pose long_before;
+  int steps = 0;
+  Pace pace;
+
+  void step() {
+    long_before = before;
+    before = now;
+    static_cast<void>(adapter.adapt(reference, 1e3, now));
+    ++steps;
+    if (steps < 2) return;
+    pace.joints_rad_per_m =
+        std::max(pace.joints_rad_per_m, most_turned_rad(now, before) / kStep_m);
+    pace.root_m_per_m =
+        std::max(pace.root_m_per_m,
+                 glm::distance(now.root_in_world, before.root_in_world) / kStep_m);
+    if (steps < 3) return;
+    for (std::size_t j = 0; j < now.parent_from_joint.size(); ++j) {
+      const auto turned = [j](const Pose& a, const Pose& b) {
+        return rotation_vector(glm::normalize(glm::conjugate(a.parent_from_joint[j]) *
+                                              b.parent_from_joint[j]));
+      };
+      pace.jerks_rad_per_m = std::max(
+          pace.jerks_rad_per_m,
+          glm::length(turned(before, now) - turned(long_before, before)) / kStep_m);
+    }
+  }
+};
+
+Follower follower(const Character& body,
+                  const ConstraintSet& asked,
+                  const AdaptOptions& options) {
+  return {make_adapter(body, asked, options), waiting(body), {}, {}, {}, 0, {}};
+}
+
+// Follows `paths` (ids "0", "1", ...) once about, the fastest by kStep_m at a
+// time.
+void follow(Follower& body, const std::vector<Path>& paths) {
+  double u = 0.0;
+  while (u < 3.1) {
+    double speed = 0.05;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
+      const auto handle = body.adapter.constraint(std::to_string(i));
+      auto moved = *handle;
+      moved.set_target(paths[i].at(u));
+      speed =
+          std::max(speed, glm::distance(paths[i].at(u + 1e-4), paths[i].at(u)) / 1e-4);
+    }
+    body.step();
+    u += kStep_m / speed;
+  }
+}
+
+struct Case {
+  std::string name;
+  std::vector<BodyPoint> points;
+  double radius_m = 0.4;
+  bool stands = false;
+  bool with_limits = false;
+  BalanceMode balance = BalanceMode::kOff;
+  Control control = Control::kPriority;
+  Method method = Method::kStrict;
+};
+
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.name;
+}
+
+class AdapterFollows : public ::testing::TestWithParam<Case> {};
+
+// Why bounds exist at all: a bone of length l that points at a target at
+// distance d turns by 1/d rad per m, and the target passes the shoulder at no
+// less than some 3 cm here: 33. An elbow opens by 1 / (l sin(bend/2)): 35 for
+// 0.29 m of forearm at 0.2 rad, and limbs hand over to the body before they are
+// straighter. Where two joints of one chain both do, their rates add.
+constexpr double kFastest_rad_per_m = 80.0;
+constexpr double kFastestRoot_m_per_m = 16.0;
+
+TEST_P(AdapterFollows, WithoutJumps) {
+  const Case& asked = GetParam();
+  const Character body = human(asked.with_limits);
+  Dice dice(71);
+  for (int round = 0; round < 4; ++round) {
+    ConstraintSet set;
+    std::vector<Path> paths;
+    if (asked.stands) {
+      set.constraints.push_back(standing("left", "leftFoot"));
+      set.constraints.push_back(standing("right", "rightFoot"));
+    }
+    for (std::size_t i = 0; i < asked.points.size(); ++i) {
+      const BodyPoint& point = asked.points[i];
+      const glm::dvec3 here = place_of(body, waiting(body), point);
+      paths.push_back(
+          any_path(here + 0.5 * asked.radius_m * dice.direction(), asked.radius_m, dice));
+      Constraint wish = contact(std::to_string(i),
+                                point.segment,
+                                here,
+                                point.offset_in_t_pose,
+                                3.0 - static_cast<double>(i));
+      set.constraints.push_back(wish);
+    }
+    AdaptOptions options;
+    options.balance = asked.balance;
+    options.control = asked.control;
+    options.method = asked.method;
+    Follower out = follower(body, set, options);
+    follow(out, paths);
+    EXPECT_LT(out.pace.joints_rad_per_m, kFastest_rad_per_m) << "round " << round;
+    EXPECT_LT(out.pace.root_m_per_m, kFastestRoot_m_per_m) << "round " << round;
+    EXPECT_LT(out.pace.jerks_rad_per_m, 0.5 * kFastest_rad_per_m) << "round " << round;
+  }
+}
+
+std::vector<Case> cases() {
+  const BodyPoint hand{"leftHand", {}};
+  const BodyPoint brow{"head", {0.0, 0.1, 0.1}};
+  return {
+      {"hand_near", {hand}, 0.25},
+      {"hand_near_within_limits", {hand}, 0.25, false, true},
+      {"hand", {hand}, 0.6},
+      {"hand_with_offset", {{"leftHand", {0.08, 0.0, 0.02}}}, 0.6},
+      {"head", {brow}, 0.3},
+      {"head_within_limits", {brow}, 0.3, false, true},
+  };
+}
+INSTANTIATE_TEST_SUITE_P(Adapter,
+                         AdapterFollows,
+                         ::testing::ValuesIn(cases()),
+                         [](const auto& each) { return each.param.name; });
+
+// Straight out through the limit of reach and beyond: the elbow never bends
+// again.
+}  // namespace
+}  // namespace marey::retarget
