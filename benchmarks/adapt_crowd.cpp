@@ -5,13 +5,12 @@
 // rest with far ones. Everything counts from a Pose to a Pose.
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <string>
 #include <utility>
 
 #include "benchmarks/adapt_questions.h"
+#include "benchmarks/crowd_movers.h"
 #include "benchmarks/posture_measures.h"
-#include "benchmarks/posture_solver.h"
 #include <glm/geometric.hpp>
 
 #include "core/quantile.h"
@@ -25,18 +24,6 @@ constexpr std::size_t kBodies = 1000;
 constexpr std::uint64_t kSeed = 2005;
 constexpr int kRounds = 7;
 constexpr double kTick_us = 40000.0;  // 25 Hz.
-
-struct Member {
-  Character character;
-  Pose reference;
-  CaseClass kind = CaseClass::kNear;
-  std::array<glm::dvec3, kCasePoints> targets_in_world{};
-  glm::dvec3 com_in_world{0.0};
-
-  [[nodiscard]] PostureTask task() const {
-    return {&reference, targets_in_world, com_in_world};
-  }
-};
 
 /// How much longer than the cases' body one is: arms, legs, trunk, and all of it.
 struct Build {
@@ -88,9 +75,11 @@ CaseBody built(const CaseBody& body, const Build& build) {
 
 /// Targets lie from where the body has its points as the case's lie from the case body's,
 /// larger as the body is.
-Member make_member(const CaseBody& body, const AdaptCase& asked, const Build& build) {
+CrowdMember make_member(const CaseBody& body,
+                        const AdaptCase& asked,
+                        const Build& build) {
   CaseBody own = built(body, build);
-  Member member;
+  CrowdMember member;
   member.kind = asked.kind;
   member.reference = rest_pose(own.character.skeleton);
   const Pose model = rest_pose(body.character.skeleton);
@@ -109,14 +98,14 @@ Member make_member(const CaseBody& body, const AdaptCase& asked, const Build& bu
   return member;
 }
 
-std::vector<Member> make_crowd(const CaseSet& set) {
+std::vector<CrowdMember> make_crowd(const CaseSet& set) {
   std::vector<const AdaptCase*> by_class[2];
   for (const AdaptCase& asked : set.cases) {
     if (asked.kind == CaseClass::kNear) by_class[0].push_back(&asked);
     if (asked.kind == CaseClass::kFar) by_class[1].push_back(&asked);
   }
   testing::Dice dice(kSeed);
-  std::vector<Member> crowd;
+  std::vector<CrowdMember> crowd;
   for (std::size_t i = 0; i < kBodies; ++i) {
     const Build build{dice.between(0.85, 1.15),
                       dice.between(0.85, 1.15),
@@ -128,46 +117,8 @@ std::vector<Member> make_crowd(const CaseSet& set) {
   return crowd;
 }
 
-/// A way to move a crowd. What handles many bodies at once is another of these.
-class CrowdMover {
- public:
-  virtual ~CrowdMover() = default;
-  /// Adapts everybody, in this thread: what is timed.
-  virtual void move(const std::vector<Member>& crowd, std::vector<Pose>& out) = 0;
-};
-
-class OneByOne final : public CrowdMover {
- public:
-  OneByOne(const SolverKind& kind,
-           const std::vector<Member>& crowd,
-           const std::vector<PointGoal>& goals,
-           bool with_balance) {
-    for (const Member& member : crowd) {
-      solvers_.push_back(kind.make({&member.character, goals, with_balance}));
-    }
-  }
-  void move(const std::vector<Member>& crowd, std::vector<Pose>& out) override {
-    for (std::size_t i = 0; i < crowd.size(); ++i) {
-      const PostureTask task = crowd[i].task();
-      solvers_[i]->load(task);
-      solvers_[i]->solve(task);
-      solvers_[i]->store(out[i]);
-    }
-  }
-
- private:
-  std::vector<std::unique_ptr<PostureSolver>> solvers_;
-};
-
-struct Column {
-  std::string name;
-  std::unique_ptr<CrowdMover> mover;
-  std::vector<Pose> found;
-  std::vector<double> us_each;  // One per round.
-};
-
-std::vector<TableCell> row_of(const Column& column,
-                              const std::vector<Member>& crowd,
+std::vector<TableCell> row_of(const CrowdColumn& column,
+                              const std::vector<CrowdMember>& crowd,
                               const std::vector<PointGoal>& goals) {
   std::vector<double> point_mm;
   std::vector<double> com_mm;
@@ -175,7 +126,7 @@ std::vector<TableCell> row_of(const Column& column,
   std::array<double, 2> reached{};
   std::array<double, 2> count{};
   for (std::size_t i = 0; i < crowd.size(); ++i) {
-    const Member& member = crowd[i];
+    const CrowdMember& member = crowd[i];
     const PostureMeasure m = measure_posture(member.character,
                                              goals,
                                              member.targets_in_world,
@@ -194,6 +145,7 @@ std::vector<TableCell> row_of(const Column& column,
           us,
           quantile(column.us_each, 0.0),
           kTick_us / us,
+          column.KiB_each,
           100.0 * reached[0] / count[0],
           100.0 * reached[1] / count[1],
           median(point_mm),
@@ -203,27 +155,18 @@ std::vector<TableCell> row_of(const Column& column,
           quantile(com_mm, 1.0)};
 }
 
-ResultTable move_crowd(const std::vector<Member>& crowd,
+ResultTable move_crowd(const std::vector<CrowdMember>& crowd,
                        const CaseSet& set,
                        bool with_balance) {
   const auto goals = case_goals(set.body);
-  std::vector<Column> columns;
-  auto kinds = baseline_solvers();
-  for (SolverKind& kind : marey_solvers()) kinds.push_back(std::move(kind));
-  for (const SolverKind& kind : kinds) {
-    columns.push_back({kind.name + ", one by one",
-                       std::make_unique<OneByOne>(kind, crowd, goals, with_balance),
-                       std::vector<Pose>(crowd.size()),
-                       {}});
-  }
-  // A batch solver (retarget/crowd.h) is a CrowdMover of its own, to be added here.
-  for (Column& c : columns) c.mover->move(crowd, c.found);
+  std::vector<CrowdColumn> columns = crowd_columns(crowd, goals, with_balance);
+  for (CrowdColumn& c : columns) c.mover->move(crowd, c.found);
   for (int round = 0; round < kRounds; ++round) {
-    for (Column& c : columns) {
-      const double start_us = processor_us();
+    for (CrowdColumn& c : columns) {
+      const auto clock_us = c.has_threads ? now_us : processor_us;
+      const double start_us = clock_us();
       c.mover->move(crowd, c.found);
-      c.us_each.push_back((processor_us() - start_us) /
-                          static_cast<double>(crowd.size()));
+      c.us_each.push_back((clock_us() - start_us) / static_cast<double>(crowd.size()));
     }
   }
   ResultTable table{with_balance ? "crowd_com" : "crowd",
@@ -234,6 +177,7 @@ ResultTable move_crowd(const std::vector<Member>& crowd,
                      {"us each"},
                      {"best us"},
                      {"characters at 25 Hz", 0},
+                     {"KiB each", 1},
                      {"near <= 1 mm %", 1},
                      {"far <= 1 mm %", 1},
                      {"error mm"},
@@ -243,7 +187,7 @@ ResultTable move_crowd(const std::vector<Member>& crowd,
                      {"worst COM mm"}},
                     {},
                     {}};
-  for (const Column& c : columns) table.rows.push_back(row_of(c, crowd, goals));
+  for (const CrowdColumn& c : columns) table.rows.push_back(row_of(c, crowd, goals));
   return table;
 }
 
