@@ -20,6 +20,8 @@
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
 #include "recordings/constraints_file.h"
+#include "recordings/floor_file.h"
+#include "retarget/carry_to_floor.h"
 #include "retarget/check_character.h"
 #include "retarget/check_constraints.h"
 
@@ -111,12 +113,45 @@ Status adapt_all(const AdaptArguments& args,
   return Done{};
 }
 
+Status read_floor(const AdaptArguments& args, SupportsFrom supports, AdaptRun& run) {
+  if (args.floor.empty()) return Done{};
+  if (supports != SupportsFrom::kAuto) {
+    return bad_input("--floor",
+                     "no foot is put on it: supports are not found in the motion",
+                     "use --supports auto, or leave --floor out");
+  }
+  auto floor = recordings::read_floor(args.floor);
+  if (!floor) return floor.error();
+  run.floor = std::move(*floor);
+  return Done{};
+}
+
+/// Where the feet of the motion stand. Takes the motion to the floor that was asked for.
+std::vector<retarget::SupportTrack> find_supports(const AdaptArguments& args,
+                                                  AdaptBody& body,
+                                                  const AdaptRun& run) {
+  retarget::PlanSupportsOptions plan;
+  plan.floor_height_m = body.floor_height_m;
+  plan.feet = free_feet(run.constraints, body);
+  if (!args.floor.empty()) plan.floor = &run.floor;
+  auto tracks = retarget::plan_supports(body.reference, body.map, body.contacts, plan);
+  if (plan.floor != nullptr) {
+    body.reference =
+        retarget::carry_to_floor(
+            body.reference, body.map, body.contacts, run.floor, body.floor_height_m)
+            .motion;
+  }
+  return tracks;
+}
+
 Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
   auto set = read_set(args, console);
   if (!set) return set.error();
   run.constraints = std::move(*set);
   const SupportsFrom supports = args.supports.value_or(
       has_supports(run.constraints) ? SupportsFrom::kFile : SupportsFrom::kAuto);
+
+  if (const Status ok = read_floor(args, supports, run); !ok) return ok.error();
 
   auto source = read_motion(args.motion);
   if (!source) return source.error();
@@ -147,14 +182,13 @@ Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
   run.floor_height_m = body->floor_height_m;
 
   std::vector<retarget::SupportTrack> tracks;
-  if (supports == SupportsFrom::kAuto) {
-    retarget::PlanSupportsOptions plan;
-    plan.floor_height_m = body->floor_height_m;
-    plan.feet = free_feet(run.constraints, *body);
-    tracks = retarget::plan_supports(body->reference, body->map, body->contacts, plan);
-  }
+  if (supports == SupportsFrom::kAuto) tracks = find_supports(args, *body, run);
   if (const Status ok = adapt_all(args, *body, tracks, console, run); !ok)
     return ok.error();
+  for (const retarget::SupportTrack& track : tracks) {
+    run.slides.push_back(
+        retarget::slides_of(track, run.adapted.motion, body->character, run.floor));
+  }
   return write_adapted(*body, run.adapted.motion, args.out);
 }
 
@@ -263,6 +297,8 @@ void add_adapt_command(CLI::App& app,
                    "Load of the character that it carries from the beginning; may be "
                    "repeated")
       ->allow_extra_args(false);
+  command->add_option(
+      "--floor", args.floor, "Steps, ramps and moving parts to stand on (.toml)");
   command
       ->add_option("--floor-height",
                    args.floor_height_m,

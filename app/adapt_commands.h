@@ -33,6 +33,7 @@ struct AdaptArguments {
   retarget::AdaptOptions options;
   std::vector<std::string> balance_groups;  ///< Empty: the character's own.
   std::vector<std::string> loads;           ///< Carried from the beginning.
+  std::filesystem::path floor;              ///< Uneven or moving; empty: level.
   double floor_height_m = 0.0;              ///< Of what is the floor Y = 0 in the motion.
   bool json = false;
 };

@@ -51,6 +51,35 @@ Json all_figures_of(const std::vector<KeptConstraint>& kept, const AdaptRun& run
   return out;
 }
 
+/// On what a support stands, when, and how far it slides there.
+Json stands_of(const std::vector<retarget::SupportSlide>& slides, const AdaptRun& run) {
+  Json out = Json::array();
+  for (const retarget::SupportSlide& slide : slides) {
+    const retarget::FloorStance& stance = slide.stance;
+    out.push_back({{"on", stance.part ? run.floor.parts[*stance.part].name : ""},
+                   {"from_s", time_of(run, stance.frames.first)},
+                   {"to_s", time_of(run, stance.frames.last)},
+                   {"slide_mm", 1e3 * slide.slide_m}});
+  }
+  return out;
+}
+
+Json found_supports_of(const AdaptRun& run) {
+  Json out = all_figures_of(run.adapted.supports, run);
+  for (std::size_t i = 0; i < run.slides.size(); ++i) {
+    out[i]["stands"] = stands_of(run.slides[i], run);
+  }
+  return out;
+}
+
+double worst_slide_m(const AdaptRun& run) {
+  double worst = 0.0;
+  for (const auto& slides : run.slides) {
+    for (const auto& slide : slides) worst = std::max(worst, slide.slide_m);
+  }
+  return worst;
+}
+
 template <class Counts>
 double worst_m(const AdaptRun& run, const Counts& counts) {
   double worst = 0.0;
@@ -115,8 +144,9 @@ Json adapt_figures(const AdaptArguments& args, const AdaptRun& run) {
            {"rate_hz", adapted.motion.rate.hz},
            {"floor_height_m", run.floor_height_m},
            {"constraints", all_figures_of(adapted.constraints, run)},
-           {"supports", all_figures_of(adapted.supports, run)},
-           {"worst_support_mm", 1e3 * worst_m(run, is_support)}};
+           {"supports", found_supports_of(run)},
+           {"worst_support_mm", 1e3 * worst_m(run, is_support)},
+           {"worst_slide_mm", 1e3 * worst_slide_m(run)}};
   if (args.options.balance != retarget::BalanceMode::kOff) {
     out["balance"] = {{"mean_error_mm", 1e3 * adapted.mean_balance_error_m},
                       {"worst_error_mm", 1e3 * adapted.worst_balance_error_m}};

@@ -11,8 +11,10 @@
 
 #include "app/adapt_commands.h"
 #include "core/constraint.h"
+#include "core/floor.h"
 #include "core/result.h"
 #include "retarget/adapt_motion.h"
+#include "retarget/support_slide.h"
 
 namespace marey::app {
 
@@ -22,6 +24,8 @@ struct AdaptRun {
   ConstraintSet constraints;  ///< As they were asked of the adapter.
   retarget::AdaptedMotion adapted;
   double floor_height_m = 0.0;
+  Floor floor;  ///< Heights from floor_height_m.
+  std::vector<std::vector<retarget::SupportSlide>> slides;  ///< As adapted.supports.
   double adapt_s = 0.0;  ///< Wall clock, of the postures alone.
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -133,44 +134,23 @@ double aim_leg(const glm::dvec3& hip,
   return std::max(distance - length_m, 0.0);
 }
 
-}  // namespace
-
-double standing_rise_m(const BodyMap& source,
-                       const Contacts& contacts,
-                       const BodyMap& avatar,
-                       double scale) {
-  double source_m = source.hip_drop_m;
-  double avatar_m = avatar.hip_drop_m;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const FootContacts& foot = contacts.feet[side];
-    source_m += 0.5 * (foot.stance.empty() ? source.feet[side].ankle_height_m
-                                           : foot.ankle_height_m);
-    avatar_m += 0.5 * avatar.feet[side].ankle_height_m;
-  }
-  return avatar_m - scale * source_m;
-}
-
-GroundReport adapt_to_ground(const Skeleton& body,
-                             const BodyMap& map,
-                             const Contacts& contacts,
-                             FrameRate rate,
-                             std::span<NormalizedPose> poses,
-                             const GroundOptions& options) {
-  MAREY_ASSERT(static_cast<int>(poses.size()) == contacts.frame_count);
+// Sinks the root where bearing legs do not reach, smoothly; legs follow.
+GroundReport settle(const BodyMap& map,
+                    const Contacts& contacts,
+                    FrameRate rate,
+                    std::span<NormalizedPose> poses,
+                    const std::array<LegPath, 2>& legs,
+                    const GroundOptions& options) {
   GroundReport report;
   if (poses.empty()) return report;
   const std::size_t count = poses.size();
   const double unit_m = root_unit_m(map, poses[0].root_normalization);
 
-  std::array<LegPath, 2> legs = reference_legs(body, map, poses);
   std::array<std::vector<char>, 2> bears;
   std::vector<double> needed(count, 0.0);
   for (std::size_t side = 0; side < 2; ++side) {
-    const FootContacts& foot = contacts.feet[side];
-    LegPath& leg = legs[side];
-    leg.foot =
-        plan_foot(leg.foot, foot, map.feet[side], map.leg_length_m, rate, options.feet);
-    bears[side] = bearing_frames(foot, count);
+    const LegPath& leg = legs[side];
+    bears[side] = bearing_frames(contacts.feet[side], count);
     const double full_m = map.leg(static_cast<int>(side)).length_m();
     for (std::size_t t = 0; t < count; ++t) {
       if (!bears[side][t]) continue;
@@ -203,6 +183,58 @@ GroundReport adapt_to_ground(const Skeleton& body,
     if (slipped) ++report.unreachable_frames;
   }
   return report;
+}
+
+}  // namespace
+
+double standing_rise_m(const BodyMap& source,
+                       const Contacts& contacts,
+                       const BodyMap& avatar,
+                       double scale) {
+  double source_m = source.hip_drop_m;
+  double avatar_m = avatar.hip_drop_m;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const FootContacts& foot = contacts.feet[side];
+    source_m += 0.5 * (foot.stance.empty() ? source.feet[side].ankle_height_m
+                                           : foot.ankle_height_m);
+    avatar_m += 0.5 * avatar.feet[side].ankle_height_m;
+  }
+  return avatar_m - scale * source_m;
+}
+
+GroundReport settle_on_feet(const Skeleton& body,
+                            const BodyMap& map,
+                            const Contacts& contacts,
+                            FrameRate rate,
+                            std::span<NormalizedPose> poses,
+                            std::array<std::vector<FootPlace>, 2> feet,
+                            const GroundOptions& options) {
+  std::array<LegPath, 2> legs = reference_legs(body, map, poses);
+  for (std::size_t side = 0; side < 2; ++side) {
+    MAREY_ASSERT(feet[side].size() == poses.size());
+    legs[side].foot = std::move(feet[side]);
+  }
+  return settle(map, contacts, rate, poses, legs, options);
+}
+
+GroundReport adapt_to_ground(const Skeleton& body,
+                             const BodyMap& map,
+                             const Contacts& contacts,
+                             FrameRate rate,
+                             std::span<NormalizedPose> poses,
+                             const GroundOptions& options) {
+  MAREY_ASSERT(static_cast<int>(poses.size()) == contacts.frame_count);
+  std::array<LegPath, 2> legs = reference_legs(body, map, poses);
+  for (std::size_t side = 0; side < 2; ++side) {
+    LegPath& leg = legs[side];
+    leg.foot = plan_foot(leg.foot,
+                         contacts.feet[side],
+                         map.feet[side],
+                         map.leg_length_m,
+                         rate,
+                         options.feet);
+  }
+  return settle(map, contacts, rate, poses, legs, options);
 }
 
 }  // namespace marey::retarget

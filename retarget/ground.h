@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
+#include <vector>
 
 #include "core/skeleton.h"
 #include "core/time.h"
@@ -52,5 +54,16 @@ GroundReport adapt_to_ground(const Skeleton& body,
                              FrameRate rate,
                              std::span<NormalizedPose> poses,
                              const GroundOptions& options = {});
+
+/// The same onto feet that were planned otherwise, above any floor: the root sinks where
+/// a bearing leg would not reach, legs, feet and toes follow. `feet` are left, right, one
+/// place a pose.
+GroundReport settle_on_feet(const Skeleton& body,
+                            const BodyMap& map,
+                            const Contacts& contacts,
+                            FrameRate rate,
+                            std::span<NormalizedPose> poses,
+                            std::array<std::vector<FootPlace>, 2> feet,
+                            const GroundOptions& options = {});
 
 }  // namespace marey::retarget

@@ -8,8 +8,7 @@
 
 #include "core/assert.h"
 #include "core/humanoid.h"
-#include "core/pose.h"
-#include "retarget/foot_plan.h"
+#include "retarget/plan_feet.h"
 
 namespace marey::retarget {
 namespace {
@@ -17,31 +16,6 @@ namespace {
 using B = HumanBone;
 
 constexpr std::array<B, 2> kFeet{B::kLeftFoot, B::kRightFoot};
-constexpr std::array<B, 2> kToes{B::kLeftToes, B::kRightToes};
-
-// The foot over the motion, above a floor at Y = 0.
-std::vector<FootPlace> places_of(const Motion& motion,
-                                 const BodyMap& map,
-                                 std::size_t side,
-                                 double floor_height_m) {
-  const auto turn = [&](const std::vector<RigidTransform>& world, JointIndex joint) {
-    return world[index(joint)].rotation *
-           glm::conjugate(map.joints[index(joint)].t_pose_from_joint);
-  };
-  const JointIndex ankle = map.leg(static_cast<int>(side)).end;
-  const auto toes = map.joint_of[index(kToes[side])];
-  std::vector<FootPlace> out;
-  std::vector<RigidTransform> world(motion.skeleton.joints.size());
-  for (const Pose& pose : motion.poses) {
-    world_from_joints(motion.skeleton, pose, world);
-    FootPlace place{world[index(ankle)].translation, turn(world, ankle), {}};
-    place.ankle_in_world.y -= floor_height_m;
-    place.toes = toes ? turn(world, *toes) : place.foot;
-    out.push_back(place);
-  }
-  return out;
-}
-
 // Runs that are nearer to each other than `gap` frames become one.
 std::vector<FrameInterval> merged(const std::vector<FrameInterval>& runs, double gap) {
   std::vector<FrameInterval> out;
@@ -62,6 +36,19 @@ std::vector<FrameInterval> common(const std::vector<FrameInterval>& a,
     for (const FrameInterval& y : b) {
       const FrameInterval both{std::max(x.first, y.first), std::min(x.last, y.last)};
       if (both.first <= both.last) out.push_back(both);
+    }
+  }
+  return out;
+}
+
+// The runs, each with what it stands on.
+std::vector<FloorStance> standing(const std::vector<FrameInterval>& runs,
+                                  const std::vector<FloorStance>& stances) {
+  std::vector<FloorStance> out;
+  for (const FrameInterval& run : runs) {
+    for (const FloorStance& stance : stances) {
+      if (run.first < stance.frames.first || run.last > stance.frames.last) continue;
+      out.push_back({run, stance.part});
     }
   }
   return out;
@@ -125,18 +112,14 @@ std::vector<SupportTrack> plan_supports(const Motion& reference,
                                         const PlanSupportsOptions& options) {
   MAREY_ASSERT(contacts.frame_count == static_cast<int>(reference.poses.size()));
   MAREY_ASSERT(options.ramp_s >= 0.0 && reference.rate.hz > 0.0);
+  const auto plans =
+      plan_feet(reference, map, contacts, options.floor_height_m, options.floor);
   std::vector<SupportTrack> tracks;
   for (std::size_t side = 0; side < 2; ++side) {
     if (!options.feet[side]) continue;
     const FootContacts& bears = contacts.feet[side];
     const FootMap& foot = map.feet[side];
-    std::vector<FootPlace> plan =
-        plan_foot(places_of(reference, map, side, options.floor_height_m),
-                  bears,
-                  foot,
-                  map.leg_length_m,
-                  reference.rate);
-    for (FootPlace& place : plan) place.ankle_in_world.y += options.floor_height_m;
+    const FloorFoot& plan = plans[side];
     const glm::dvec3 ball = foot.ball_from_ankle_in_t_pose;
     // Heel and ball first: of several supports of one limb the first is closed exactly,
     // and they hold while the flat foot fades in or out beside them.
@@ -151,12 +134,13 @@ std::vector<SupportTrack> plan_supports(const Motion& reference,
       const double out_s = way.fades_out ? options.ramp_s : 0.0;
       track.bears = merged(way.runs, (in_s + out_s) * reference.rate.hz + 1.0);
       if (track.bears.empty()) continue;
+      track.stands = standing(way.runs, plan.stances);
       const std::string segment(name(kFeet[side]));
       track.constraint.id = id_of(segment, way);
       track.constraint.point = {segment, way.offset_in_t_pose};
       track.constraint.goal = Support{glm::dvec3(0.0), std::nullopt, way.turns};
       track.constraint.activation = {kNever_s, std::nullopt, in_s, out_s};
-      for (const FootPlace& place : plan) {
+      for (const FootPlace& place : plan.places) {
         track.p_in_world.push_back(place.ankle_in_world +
                                    place.foot * way.offset_in_t_pose);
         track.world_from_t_pose.push_back(place.foot);

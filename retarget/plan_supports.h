@@ -9,9 +9,11 @@
 #include <glm/vec3.hpp>
 
 #include "core/constraint.h"
+#include "core/floor.h"
 #include "core/motion.h"
 #include "retarget/body_map.h"
 #include "retarget/detect_contacts.h"
+#include "retarget/floor_feet.h"
 
 namespace marey::retarget {
 
@@ -23,9 +25,11 @@ struct SupportTrack {
   Constraint constraint;
   /// When it bears, ascending, further apart than the ramps between them.
   std::vector<FrameInterval> bears;
+  /// The runs of single stances, and which part of the floor each stands on.
+  std::vector<FloorStance> stands;
   /// Where its point is to be, and how the foot is turned from the T-pose, frame by
-  /// frame: still while the point bears, on the reference's own way elsewhere, so that
-  /// what fades in or out does it beside a foot that moves.
+  /// frame: still on its floor while the point bears, on the reference's own way
+  /// elsewhere, so that what fades in or out does it beside a foot that moves.
   std::vector<glm::dvec3> p_in_world;
   std::vector<glm::dquat> world_from_t_pose;
 };
@@ -33,15 +37,17 @@ struct SupportTrack {
 struct PlanSupportsOptions {
   /// How long a support takes to fade in before its foot bears, and out after. [s]
   double ramp_s = 0.15;
-  double floor_height_m = 0.0;           ///< World Y on which the feet stand.
+  double floor_height_m = 0.0;           ///< World Y on which the reference stands.
   std::array<bool, 2> feet{true, true};  ///< Left, right: which are wanted.
+  /// What to stand on instead, its heights from `floor_height_m`; null: that level floor.
+  const Floor* floor = nullptr;
 };
 
 /// The supports of the feet of a motion (Kulpa 2005, 3.1.1.1 and 4.2.4), each stance with
-/// one footprint: plan_foot()'s. Heel and ball have tracks for when they bear alone: the
-/// flat foot needs no other. Runs that are nearer to each other than their ramps
-/// are one: between them the foot keeps to the planned way, too. Points that never
-/// bear have no track. Costs frames times stances.
+/// one footprint: plan_feet()'s. On a floor that moves, footprints do, too. Heel and ball
+/// have tracks for when they bear alone: the flat foot needs no other. Runs that are
+/// nearer to each other than their ramps are one: between them the foot keeps to the
+/// planned way, too. Points that never bear have no track. Costs frames times stances.
 /// Precondition: `map` was made from the motion's skeleton; `contacts` has its frames.
 [[nodiscard]] std::vector<SupportTrack> plan_supports(
     const Motion& reference,

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/carry_to_floor.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "core/assert.h"
+#include "core/pose.h"
+#include "retarget/plan_feet.h"
+
+namespace marey::retarget {
+namespace {
+
+bool is_carried(const FloorFoot& foot) {
+  return std::any_of(foot.carried_m.begin(),
+                     foot.carried_m.end(),
+                     [](const glm::dvec3& by_m) { return by_m != glm::dvec3(0.0); });
+}
+
+// Mean over the feet that stand at all.
+glm::dvec3 root_shift_m(const std::array<FloorFoot, 2>& feet, std::size_t t) {
+  glm::dvec3 sum_m(0.0);
+  int count = 0;
+  for (const FloorFoot& foot : feet) {
+    if (foot.stances.empty()) continue;
+    sum_m += foot.carried_m[t];
+    ++count;
+  }
+  return count > 0 ? sum_m / static_cast<double>(count) : feet[0].carried_m[t];
+}
+
+}  // namespace
+
+CarriedMotion carry_to_floor(const Motion& motion,
+                             const BodyMap& map,
+                             const Contacts& contacts,
+                             const Floor& floor,
+                             double floor_height_m,
+                             const CarryOptions& options) {
+  auto feet = plan_feet(motion, map, contacts, floor_height_m, &floor);
+  // A lift over an edge comes with a displacement, or the edge was in the way before.
+  if (!is_carried(feet[0]) && !is_carried(feet[1])) return {motion, {}};
+
+  std::vector<NormalizedPose> poses(motion.poses.size());
+  std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
+  for (std::size_t t = 0; t < poses.size(); ++t) {
+    world_from_joints(motion.skeleton, motion.poses[t], world_from_joint);
+    normalize(map, world_from_joint, poses[t]);
+    poses[t].root +=
+        root_shift_m(feet, t) / root_unit_m(map, poses[t].root_normalization);
+  }
+  CarriedMotion out{motion, {}};
+  out.ground = settle_on_feet(motion.skeleton,
+                              map,
+                              contacts,
+                              motion.rate,
+                              poses,
+                              {std::move(feet[0].places), std::move(feet[1].places)},
+                              options.ground);
+  for (std::size_t t = 0; t < poses.size(); ++t) {
+    expand(poses[t], motion.skeleton, map, world_from_joint, out.motion.poses[t]);
+  }
+  return out;
+}
+
+}  // namespace marey::retarget
