@@ -109,6 +109,17 @@ TEST(AdaptRefuses, AMotionWithoutLegs) {
   expect_refused(scene, {}, {"walk.bvh", "leftLowerLeg"});
 }
 
+TEST(AdaptRefuses, FloorsThatAreNone) {
+  const AdaptScene scene;
+  expect_refused(scene, {"--floor", (scene / "no.toml").string()}, {"no.toml"});
+  const std::string bad =
+      scene.file("floor.toml", "format = 1\n[[part]]\nname = \"a\"\nx_m = [1, 0]\n");
+  expect_refused(scene, {"--floor", bad}, {"floor.toml:4", "x_m"});
+  expect_refused(scene,
+                 {"--floor", scene.file("f.toml", "format = 1\n"), "--supports", "none"},
+                 {"--floor", "--supports auto"});
+}
+
 TEST(AdaptRefuses, OptionsOutOfRange) {
   const AdaptScene scene;
   for (const std::vector<std::string>& bad :

@@ -160,6 +160,49 @@ TEST(Adapt, StandsOnAFloorOfAnyHeight) {
   }
 }
 
+/// A lift of 0.1 m that the walk steps onto, higher and aside until 2.5 s.
+std::string lift_file(const AdaptScene& scene) {
+  return scene.file("floor.toml",
+                    "format = 1\n[[part]]\nname = \"lift\"\nx_m = [-2, 2]\n"
+                    "z_m = [0.8, 9]\ntop_m = 0.1\ntimes_s = [0.5, 1.5, 2.5]\n"
+                    "moved_m = [[0, 0, 0], [0.1, 0.1, 0], [0.2, 0.1, 0]]\n");
+}
+
+TEST(Adapt, StandsOnAMovingFloor) {
+  const AdaptScene scene;
+  ASSERT_EQ(scene.adapt({}).exit_code, 0);
+  const Motion level = scene.motion();
+  const ProgramRun run = scene.adapt({"--floor", lift_file(scene)});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json report = Json::parse(run.out);
+  EXPECT_LT(report.at("worst_slide_mm").get<double>(), 0.1);
+  EXPECT_LT(report.at("worst_support_mm").get<double>(), 0.1);
+  int on_lift = 0;
+  int on_base = 0;
+  for (const Json& support : report.at("supports")) {
+    for (const Json& stance : support.at("stands")) {
+      (stance.at("on") == "lift" ? on_lift : on_base) += 1;
+      EXPECT_LE(stance.at("from_s").get<double>(), stance.at("to_s").get<double>());
+      EXPECT_LT(stance.at("slide_mm").get<double>(), 0.1);
+    }
+  }
+  EXPECT_GE(on_lift, 3);
+  EXPECT_GE(on_base, 3);
+  const glm::dvec3 carried =
+      place_of(scene.motion(), 85, B::kHips) - place_of(level, 85, B::kHips);
+  EXPECT_NEAR(carried.y, 0.2, 0.01);
+  EXPECT_GT(carried.x, 0.02);
+}
+
+TEST(Adapt, ALevelFloorIsNoFloor) {
+  const AdaptScene scene;
+  ASSERT_EQ(scene.adapt({}).exit_code, 0);
+  const std::string without = *recordings::read_file(scene / "out.bvh");
+  ASSERT_EQ(scene.adapt({"--floor", scene.file("floor.toml", "format = 1\n")}).exit_code,
+            0);
+  EXPECT_EQ(*recordings::read_file(scene / "out.bvh"), without);
+}
+
 // A file's support holds a foot where it says, and no other is added.
 TEST(Adapt, TakesItsSupportsFromTheFileWhenItHasAny) {
   const AdaptScene scene;
