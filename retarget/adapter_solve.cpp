@@ -336,11 +336,15 @@ bool Adapter::State::prepare(const Pose& reference, double time_s) {
 }
 
 AdaptReport Adapter::State::adapt(const Pose& reference, double time_s, Pose& out) {
-  const bool plain_set = prepare(reference, time_s);
+  const bool fades = !prepare(reference, time_s);
+  return solve_prepared(fades, out);
+}
+
+AdaptReport Adapter::State::solve_prepared(bool fades, Pose& out) {
   stand();
   double iterations = 0.0;
   const Errors<float> errors =
-      plain_set ? solve_for(1.0, iterations) : solve_faded(iterations);
+      fades ? solve_faded(iterations) : solve_for(1.0, iterations);
   spread_posture(plan, lanes);
   store_result(plan, errors, static_cast<float>(iterations), 0, lanes, result.data());
   write(result.data(), out);

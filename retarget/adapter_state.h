@@ -57,13 +57,14 @@ struct Adapter::State {
   /// Packs all that a solve needs. False: constraints fade, and more solves than one are
   /// needed.
   [[nodiscard]] bool prepare(const Pose& reference, double time_s);
+  /// Solves what was prepared; `fades`: prepare() said false.
+  AdaptReport solve_prepared(bool fades, Pose& out);
   /// The answer out of packed numbers (store_result()): into `out`, and what the adapter
   /// tells.
   void write(const float* numbers, Pose& out);
   [[nodiscard]] Shape shape() const;
   [[nodiscard]] SolveSettings settings() const;
 
-  std::vector<float> result;
   AdaptReport report;
 
  private:
@@ -75,6 +76,8 @@ struct Adapter::State {
   /// Solves for the wishes whose activation is at least `least`.
   Errors<float> solve_for(double least, double& iterations);
   Errors<float> solve_faded(double& iterations);
+
+  std::vector<float> result;
 };
 
 }  // namespace marey::retarget

@@ -62,13 +62,90 @@ LaneWidth widest_lanes() {
   return LaneWidth::kOne;
 }
 
+/// The jobs of one thread: members from one place to another.
+class Crowd::Jobs final : public LaneJobs {
+ public:
+  /// What is asked of the whole crowd.
+  struct Question {
+    std::span<Adapter> members;
+    std::span<const Pose> references;
+    double time_s = 0.0;
+    std::span<Pose> out;
+    std::span<AdaptReport> reports;
+  };
+
+  explicit Jobs(std::size_t most) { postponed_.reserve(most); }
+
+  void begin(const Question& question, std::size_t first, std::size_t end) {
+    question_ = question;
+    next_ = first;
+    end_ = end;
+    postponed_.clear();
+    again_ = false;
+    handed_out_ = 0;
+  }
+
+  [[nodiscard]] bool next(LaneJob& job) override {
+    while (next_ < end_) {
+      const std::size_t i = next_++;
+      if (prepare(i)) {
+        job = job_of(i);
+        return true;
+      }
+    }
+    if (!again_ || handed_out_ == postponed_.size()) return false;
+    job = job_of(static_cast<std::size_t>(postponed_[handed_out_++]));
+    return true;
+  }
+
+  /// From now on next() hands out what was postponed.
+  void begin_again() { again_ = true; }
+
+  void answer(int number, const float* result) override {
+    const auto i = static_cast<std::size_t>(number);
+    Adapter::State& member = *question_.members[i].state_;
+    member.write(result, question_.out[i]);
+    if (!question_.reports.empty()) question_.reports[i] = member.report;
+  }
+
+  void postpone(int number) override { postponed_.push_back(number); }
+
+ private:
+  // False: constraints fade, and the member has had its answer.
+  [[nodiscard]] bool prepare(std::size_t i) {
+    Adapter::State& member = *question_.members[i].state_;
+    if (member.prepare(question_.references[i], question_.time_s)) return true;
+    member.solve_prepared(true, question_.out[i]);
+    if (!question_.reports.empty()) question_.reports[i] = member.report;
+    return false;
+  }
+
+  [[nodiscard]] LaneJob job_of(std::size_t i) const {
+    const Adapter::State& member = *question_.members[i].state_;
+    return {member.body.packed.data(),
+            member.packed_posture.data(),
+            member.packed_wishes.data(),
+            member.packed_balance.data(),
+            static_cast<int>(i)};
+  }
+
+  Question question_;
+  std::size_t next_ = 0;
+  std::size_t end_ = 0;
+  std::vector<int> postponed_;
+  bool again_ = false;
+  std::size_t handed_out_ = 0;  ///< Of those.
+};
+
+/// One per thread.
+struct Crowd::Worker {
+  std::unique_ptr<LaneKernel> kernel;
+  std::unique_ptr<Jobs> jobs;
+};
+
 struct Crowd::State {
   std::vector<Adapter> members;
-  /// One per thread.
-  std::vector<std::unique_ptr<LaneKernel>> kernels;
-  std::vector<LaneJob> jobs;         ///< Of members that do not fade, in order.
-  std::vector<std::size_t> job_of;   ///< Whose they are.
-  std::vector<std::size_t> by_self;  ///< Members that fade.
+  std::vector<Worker> workers;
 };
 
 Result<Crowd> Crowd::make(std::vector<Adapter> members, const CrowdOptions& options) {
@@ -97,16 +174,12 @@ Result<Crowd> Crowd::make(std::vector<Adapter> members, const CrowdOptions& opti
                      "make a crowd of its own for it");
   }
   auto state = std::make_unique<State>();
-  const std::size_t count = members.size();
   for (int t = 0; t < options.threads; ++t) {
     auto kernel = make_kernel(options.width, first.plan);
     MAREY_ASSERT(kernel != nullptr);
-    state->kernels.push_back(std::move(kernel));
+    state->workers.push_back({std::move(kernel), std::make_unique<Jobs>(members.size())});
   }
   state->members = std::move(members);
-  state->jobs.reserve(count);
-  state->job_of.reserve(count);
-  state->by_self.reserve(count);
   return Crowd(std::move(state));
 }
 
@@ -132,22 +205,6 @@ void Crowd::adapt(std::span<const Pose> references,
   const std::size_t count = s.members.size();
   MAREY_ASSERT(references.size() == count && out.size() == count);
   MAREY_ASSERT(reports.empty() || reports.size() == count);
-  s.jobs.clear();
-  s.job_of.clear();
-  s.by_self.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    Adapter::State& member = *s.members[i].state_;
-    if (!member.prepare(references[i], time_s)) {
-      s.by_self.push_back(i);
-      continue;
-    }
-    s.job_of.push_back(i);
-    s.jobs.push_back({member.body.packed.data(),
-                      member.packed_posture.data(),
-                      member.packed_wishes.data(),
-                      member.packed_balance.data(),
-                      member.result.data()});
-  }
   const Adapter::State& first = *s.members[0].state_;
   const LaneTask task{&first.plan,
                       first.shape(),
@@ -155,27 +212,21 @@ void Crowd::adapt(std::span<const Pose> references,
                       first.options.method == Method::kThesis,
                       &first.thesis};
   const auto work = [&](std::size_t t) {
-    const std::size_t threads = s.kernels.size();
-    const std::size_t begin = s.jobs.size() * t / threads;
-    const std::size_t end = s.jobs.size() * (t + 1) / threads;
-    s.kernels[t]->solve(task, std::span(s.jobs).subspan(begin, end - begin));
-    for (std::size_t n = begin; n < end; ++n) {
-      const std::size_t i = s.job_of[n];
-      Adapter::State& member = *s.members[i].state_;
-      member.write(member.result.data(), out[i]);
-      if (!reports.empty()) reports[i] = member.report;
-    }
+    const std::size_t threads = s.workers.size();
+    const Worker& worker = s.workers[t];
+    Jobs& jobs = *worker.jobs;
+    jobs.begin({s.members, references, time_s, out, reports},
+               count * t / threads,
+               count * (t + 1) / threads);
+    // Whom limbs suffice for are done first, so that lanes of whole-body steps are full.
+    // With balance nobody is.
+    if (!task.shape.rows.balance) worker.kernel->sift(task, jobs);
+    jobs.begin_again();
+    worker.kernel->solve(task, jobs);
   };
-  if (s.kernels.size() == 1) {
-    work(0);
-  } else {
-    std::vector<std::jthread> threads;
-    for (std::size_t t = 0; t < s.kernels.size(); ++t) threads.emplace_back(work, t);
-  }
-  for (const std::size_t i : s.by_self) {
-    const AdaptReport report = s.members[i].adapt(references[i], time_s, out[i]);
-    if (!reports.empty()) reports[i] = report;
-  }
+  std::vector<std::jthread> threads;
+  for (std::size_t t = 1; t < s.workers.size(); ++t) threads.emplace_back(work, t);
+  work(0);
 }
 
 }  // namespace marey::retarget

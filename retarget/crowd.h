@@ -52,6 +52,8 @@ class Crowd {
              std::span<AdaptReport> reports = {});
 
  private:
+  class Jobs;
+  struct Worker;
   struct State;
   explicit Crowd(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

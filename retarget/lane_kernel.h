@@ -3,7 +3,6 @@
 #pragma once
 
 #include <memory>
-#include <span>
 
 #include "retarget/adapt_plan.h"
 #include "retarget/adapt_solve.h"
@@ -11,14 +10,13 @@
 
 namespace marey::retarget {
 
-/// One body's question, as packed numbers (retarget/adapt_numbers.h), and where its
-/// answer goes (retarget/lane_result.h).
+/// One body's question, as packed numbers (retarget/adapt_numbers.h), and whose it is.
 struct LaneJob {
   const float* body = nullptr;
   const float* posture = nullptr;
   const float* wishes = nullptr;
   const float* balance = nullptr;
-  float* result = nullptr;
+  int number = -1;
 };
 
 /// What is the same for all jobs.
@@ -30,6 +28,22 @@ struct LaneTask {
   const ThesisShape* thesis = nullptr;
 };
 
+/// Where a kernel has its jobs from. They are packed when a lane is free for them and
+/// answered when it is done, so that what one needs is in the processor's caches once.
+class LaneJobs {
+ public:
+  LaneJobs() = default;
+  LaneJobs(const LaneJobs&) = delete;
+  LaneJobs& operator=(const LaneJobs&) = delete;
+  virtual ~LaneJobs() = default;
+  /// The next job; false: there are no more. Its numbers stay until the next call.
+  [[nodiscard]] virtual bool next(LaneJob& job) = 0;
+  /// The answer to a job, as store_result() has it; it stays until the next call.
+  virtual void answer(int number, const float* result) = 0;
+  /// A job is for later: next() of another round has it.
+  virtual void postpone(int number) = 0;
+};
+
 /// Solves jobs side by side, as many as it has lanes. The answer to a job does not depend
 /// on its lane, on its neighbours, or on the width: to the bit.
 class LaneKernel {
@@ -39,8 +53,11 @@ class LaneKernel {
   LaneKernel& operator=(const LaneKernel&) = delete;
   virtual ~LaneKernel() = default;
   [[nodiscard]] virtual int width() const = 0;
+  /// Begins all jobs and answers those that are done with that; postpones the others.
   /// Allocates nothing. Precondition: the task's plan is the one it was made for.
-  virtual void solve(const LaneTask& task, std::span<const LaneJob> jobs) = 0;
+  virtual void sift(const LaneTask& task, LaneJobs& jobs) = 0;
+  /// Answers all jobs. Otherwise like sift().
+  virtual void solve(const LaneTask& task, LaneJobs& jobs) = 0;
 };
 
 /// One body at a time; 4, 8 and 16 side by side. nullptr: not built for this processor's

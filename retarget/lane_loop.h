@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "retarget/adapt_load.h"
 #include "retarget/lane_kernel.h"
@@ -15,38 +16,59 @@ namespace marey::retarget {
 template <class F, int Width>
 class LaneLoop final : public LaneKernel {
  public:
-  explicit LaneLoop(const Plan& plan) : lanes_(plan) { job_.fill(-1); }
+  explicit LaneLoop(const Plan& plan) : lanes_(plan), result_(result_size(plan)) {
+    job_.fill(-1);
+  }
   [[nodiscard]] int width() const override { return Width; }
 
-  void solve(const LaneTask& task, std::span<const LaneJob> jobs) override {
-    next_ = 0;
-    running_ = 0;
-    const int count = static_cast<int>(jobs.size());
-    while (running_ > 0 || next_ < count) {
-      // Beginning costs the same for one lane as for all: a few wait for each other.
-      const bool fill = next_ < count && (running_ == 0 || Width - running_ >= kBatch);
-      if (fill) {
-        take(task, begin(task, jobs), jobs);
-        continue;
+  void sift(const LaneTask& task, LaneJobs& jobs) override {
+    more_ = true;
+    while (more_) {
+      const Mask<F> done = begin(task, jobs);
+      finish(task, done, jobs);
+      for (int& job : job_) {
+        if (job < 0) continue;
+        jobs.postpone(job);
+        job = -1;
       }
-      take(task, advance(task) & running_mask(), jobs);
+      empty();
+    }
+  }
+
+  void solve(const LaneTask& task, LaneJobs& jobs) override {
+    more_ = true;
+    while (running_ > 0 || more_) {
+      // Beginning costs the same for one lane as for all: a few wait for each other.
+      const bool fill = more_ && (running_ == 0 || Width - running_ >= kBatch);
+      const Mask<F> done = fill ? begin(task, jobs) : advance(task) & running_mask();
+      finish(task, done, jobs);
+      if ((fill || any(done)) && running_ > 0) go_on(task);
     }
   }
 
  private:
-  static constexpr int kBatch = Width >= 4 ? Width / 4 : 1;
+  // Of 1, 2, 4 ... lanes half of all is the fastest with balance, where every body takes
+  // steps; without, it makes no difference.
+  static constexpr int kBatch = Width >= 4 ? Width / 2 : 1;
 
   [[nodiscard]] Mask<F> running_mask() { return runs_ > num<F>(0.5); }
 
+  void empty() {
+    runs_ = num<F>(0);
+    running_ = 0;
+  }
+
   // Loads jobs into empty lanes. Those that are done at once.
-  Mask<F> begin(const LaneTask& task, std::span<const LaneJob> jobs) {
+  Mask<F> begin(const LaneTask& task, LaneJobs& jobs) {
     const Plan& plan = *task.plan;
     F fresh = num<F>(0);
-    for (int lane = 0; lane < Width && next_ < static_cast<int>(jobs.size()); ++lane) {
+    for (int lane = 0; lane < Width; ++lane) {
       int& job = job_[static_cast<std::size_t>(lane)];
       if (job >= 0) continue;
-      job = next_++;
-      const LaneJob& from = jobs[static_cast<std::size_t>(job)];
+      LaneJob from;
+      more_ = more_ && jobs.next(from);
+      if (!more_) break;
+      job = from.number;
       load_body(plan, from.body, lane, lanes_);
       load_posture(plan, from.posture, lane, lanes_);
       load_wishes(plan, from.wishes, lane, lanes_);
@@ -56,6 +78,7 @@ class LaneLoop final : public LaneKernel {
       ++running_;
     }
     const Mask<F> mask = fresh > num<F>(0.5);
+    if (!any(mask)) return mask;
     stand_reference(plan, task.shape.rows.balance, mask, lanes_);
     if (task.by_thesis) {
       begin_thesis(plan, *task.thesis, task.settings, mask, lanes_, solve_);
@@ -72,43 +95,42 @@ class LaneLoop final : public LaneKernel {
     return advance_lanes(*task.plan, task.shape, task.settings, lanes_, solve_);
   }
 
-  // Stores lanes that are done and empties them.
-  void take(const LaneTask& task, const Mask<F>& done, std::span<const LaneJob> jobs) {
+  // Answers lanes that are done and empties them.
+  void finish(const LaneTask& task, const Mask<F>& done, LaneJobs& jobs) {
+    if (!any(done)) return;
     const Plan& plan = *task.plan;
-    if (any(done)) {
-      const Errors<F> errors =
-          task.by_thesis
-              ? finish_thesis(plan, *task.thesis, task.settings, done, lanes_)
-              : finish_lanes(plan, task.shape, task.settings, done, lanes_, solve_);
-      spread_posture(plan, lanes_);
-      F is_done = select(done, num<F>(1), num<F>(0));
-      for (int lane = 0; lane < Width; ++lane) {
-        if (lane_of(is_done, lane) < 1) continue;
-        int& job = job_[static_cast<std::size_t>(lane)];
-        store_result(plan,
-                     errors,
-                     solve_.progress.iterations,
-                     lane,
-                     lanes_,
-                     jobs[static_cast<std::size_t>(job)].result);
-        job = -1;
-        lane_of(runs_, lane) = 0;
-        --running_;
-      }
+    const Errors<F> errors =
+        task.by_thesis
+            ? finish_thesis(plan, *task.thesis, task.settings, done, lanes_)
+            : finish_lanes(plan, task.shape, task.settings, done, lanes_, solve_);
+    spread_posture(plan, lanes_);
+    F is_done = select(done, num<F>(1), num<F>(0));
+    for (int lane = 0; lane < Width; ++lane) {
+      if (lane_of(is_done, lane) < 1) continue;
+      int& job = job_[static_cast<std::size_t>(lane)];
+      store_result(
+          plan, errors, solve_.progress.iterations, lane, lanes_, result_.data());
+      jobs.answer(job, result_.data());
+      job = -1;
+      lane_of(runs_, lane) = 0;
+      --running_;
     }
-    // Those that go on measure again: others were measured with them for all levels.
-    if (running_ > 0 && !task.by_thesis) {
-      static_cast<void>(
-          measure(plan, task.shape.rows.balance, solve_.progress.level, lanes_));
-    }
+  }
+
+  // Those that go on measure again: others were measured with them for all levels.
+  void go_on(const LaneTask& task) {
+    if (task.by_thesis) return;
+    static_cast<void>(
+        measure(*task.plan, task.shape.rows.balance, solve_.progress.level, lanes_));
   }
 
   Lanes<F> lanes_;
   Solve<F> solve_;
   F runs_ = num<F>(0);
+  std::vector<float> result_;
   std::array<int, Width> job_{};
-  int next_ = 0;
   int running_ = 0;
+  bool more_ = false;
 };
 
 }  // namespace marey::retarget
