@@ -48,11 +48,16 @@ double quarter_tangent(double angle_rad) {
   return std::tan(std::clamp(angle_rad, -3.2, 3.2) / 4.0);
 }
 
+// Farther than this is as good as infinitely far, and its square still a number.
+constexpr double kFarthest = 1e6;
+
 /// Writes numbers one after the other.
 class Packer {
  public:
   explicit Packer(std::span<float> out) : out_(out) {}
-  void put(double x) { out_[next_++] = static_cast<float>(x); }
+  void put(double x) {
+    out_[next_++] = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
+  }
   void put(const glm::dvec3& v) {
     put(v.x);
     put(v.y);

@@ -30,6 +30,9 @@ inline constexpr double kComfortableReach = 0.96;
 /// A wish this far, in reaches of its limb, has all of the trunk's mobility.
 inline constexpr double kFullHelp = 1.08;
 inline constexpr int kHomingSteps = 4;
+/// With balance fewer, that end more gently: the centre of mass has to be met, too.
+inline constexpr int kHomingStepsBalanced = 3;
+inline constexpr double kHomingFades = 0.5;
 inline constexpr double kStalledSteps = 2.5;
 /// Held points may give way by this much, in units: rounding's.
 inline constexpr double kHeldSlack = 2e-5;
@@ -49,6 +52,7 @@ struct Solve {
 struct Shape {
   RowOrder rows;
   double last_level = 1.0;
+  bool by_level = true;  ///< Control::kPriority.
 };
 
 template <class F>
@@ -210,6 +214,12 @@ void begin_lanes(const Plan& plan,
   solve.held_error = select(mask, num<F>(1e9), solve.held_error);
   const Mask<F> loops = mask & (share > zero);
   if (any(loops)) {
+    // Where no step is any good, what limbs did alone is the answer.
+    for (const int j : plan.live) {
+      const auto i = static_cast<std::size_t>(j);
+      s.best_rotation[i] = select(loops, s.rotation[i], s.best_rotation[i]);
+      s.best_place[i] = select(loops, s.place[i], s.best_place[i]);
+    }
     take_posture(s.reference_rotation, s.reference_place, plan, loops, s);
     static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
   }
@@ -281,14 +291,18 @@ template <class F>
   spare_hamstrings(plan, settings, zero < one, s);
   p.iterations = p.iterations + one;
   p.steps = p.steps + one;
-  p.homing = select(p.steps < num<F>(kHomingSteps), p.homing, zero);
+  const int homing_steps = balance ? kHomingStepsBalanced : kHomingSteps;
+  const F fades = num<F>(balance ? kHomingFades : 1.0);
+  p.homing = select(p.steps < num<F>(homing_steps), fades * p.homing, zero);
   const Mask<F> closes = p.homing <= zero;
   if (any(closes)) {
     // On a trunk that hardly moved limbs do what they would do alone.
     const Mask<F> first = closes & was_homing;
     if (!balance && any(first)) rest_limbs(plan, p.level, first, s);
     measure_points(plan, s, p.level);
-    close_limbs(plan, settings, p.level, closes, s);
+    SolveSettings told = settings;
+    told.mixes = false;
+    close_limbs(plan, told, p.level, closes, s);
   }
   const Errors<F> errors = measure(plan, balance, p.level, s);
 
@@ -324,7 +338,8 @@ template <class F>
       (met & !(p.homing > zero)) | (p.stalled > num<F>(kStalledSteps)) | capped;
   const F levels = num<F>(shape.last_level);
   const Mask<F> could = ended & !capped & (levels > one);
-  const Mask<F> splits = could & (solve.by_level < num<F>(0.5)) & !met;
+  const Mask<F> splits =
+      could & (solve.by_level < num<F>(shape.by_level ? 0.5 : -1.0)) & !met;
   const Mask<F> next = could & (solve.by_level > num<F>(0.5)) & (p.level < levels);
   if (any(next)) next_level(plan, shape, next, s, solve);
   if (any(splits)) begin_levels(plan, shape, splits, s, solve);
@@ -376,7 +391,9 @@ template <class F>
     // A second time: the first left single precision's error in the bend of a limb that
     // went far.
     measure_points(plan, s, last);
-    close_limbs(plan, settings, last, looped, s);
+    SolveSettings told = settings;
+    told.mixes = false;
+    close_limbs(plan, told, last, looped, s);
     if (shape.rows.balance) settle_balance(plan, shape, settings, looped, s);
   }
   for (LanePoint<F>& p : s.points) p.holds = select(mask, num<F>(0), p.holds);

@@ -31,10 +31,10 @@ Status check_options(const AdaptOptions& options) {
                      "0 keeps the root in place, 1 lets it go all the way");
   }
   if (!length(options.constraint_threshold_m) || !length(options.balance_threshold_m) ||
-      !length(options.balance_precision_m)) {
+      !length(options.balance_precision_m) || !length(options.control_change_s)) {
     return bad_input("adaptation",
-                     "a threshold is negative or not a number",
-                     "give lengths in metres, 0 or more");
+                     "a threshold or a duration is negative or not a number",
+                     "give metres and seconds, 0 or more");
   }
   if (options.max_iterations < 1) {
     return bad_input(
@@ -88,6 +88,10 @@ void Adapter::set_options(const AdaptOptions& options) {
   MAREY_ASSERT(check_options(options).has_value());
   const bool replan = (options.balance == BalanceMode::kOff) !=
                       (state_->options.balance == BalanceMode::kOff);
+  if (options.control != state_->options.control) {
+    state_->left_control = state_->options.control;
+    state_->left_since_s.reset();
+  }
   state_->options = options;
   if (replan) state_->set_up();
 }

@@ -47,6 +47,8 @@ enum class BalanceMode {
 struct AdaptOptions {
   Method method = Method::kStrict;
   Control control = Control::kPriority;
+  /// How long answers pass over when set_options() changes `control`. 0: at once.
+  double control_change_s = 0.0;
   BalanceMode balance = BalanceMode::kOff;
   /// Share of its travel that the root is willing to spend on constraints (CmRoot) and on
   /// balance (CnRoot), 0 to 1.
@@ -135,7 +137,9 @@ class Adapter {
   /// Takes a load of the character's up, or puts it down. False: it has none of that
   /// name.
   bool carry(std::string_view load, bool carried);
-  /// May change from one posture to the next. Precondition: in range.
+  /// May change from one posture to the next; a change of `control` begins with the next
+  /// posture's time and fades over. Switching balance on or off allocates. Precondition:
+  /// in range.
   void set_options(const AdaptOptions& options);
 
   /// Precondition: `reference` is a posture of the character's skeleton, finite, with

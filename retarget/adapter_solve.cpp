@@ -97,14 +97,15 @@ Shape Adapter::State::shape() const {
   for (const PointPlan& point : plan.points) {
     if (point.goal == GoalKind::kSupport) ++out.rows.supports;
   }
-  const bool levels = options.control == Control::kPriority;
-  out.last_level = levels ? std::max(1, plan.level_count) : 1.0;
+  // A blend asks all at once, by their weights.
+  out.by_level = control == Control::kPriority;
+  out.last_level = std::max(1, plan.level_count);
   return out;
 }
 
 SolveSettings Adapter::State::settings() const {
   SolveSettings out;
-  out.blend = options.control == Control::kBlend;
+  out.blend = control == Control::kBlend;
   out.keeps_orientation = options.extremities_keep_orientation;
   out.max_iterations = options.max_iterations;
   return out;
@@ -199,13 +200,7 @@ void Adapter::State::read_wishes(double time_s) {
     }
   }
   std::sort(ramps.begin(), ramps.end(), [](double a, double b) { return a > b; });
-  // The thesis weights errors by importance in both modes (equation 4.2).
-  const bool blends =
-      options.control == Control::kBlend || options.method == Method::kThesis;
-  for (std::size_t k = 0; k < wishes.size(); ++k) {
-    const bool weighs = blends && plan.points[k].level > 0 && most > 0.0;
-    wishes[k].weight = weighs ? wishes[k].weight / most : 1.0;
-  }
+  largest_weight = most;
 }
 
 // The reference into the adapter's own lane, once a posture.
@@ -219,7 +214,13 @@ void Adapter::State::stand() {
 }
 
 void Adapter::State::ask_for(double least) {
+  // The thesis weights errors by importance in both modes (equation 4.2).
+  const bool blends = control == Control::kBlend || options.method == Method::kThesis;
   for (std::size_t k = 0; k < wishes.size(); ++k) {
+    const auto c = static_cast<std::size_t>(plan.points[k].constraint);
+    const bool weighs = blends && plan.points[k].level > 0 && largest_weight > 0.0;
+    wishes[k].weight =
+        weighs ? constraints.constraints[c].importance / largest_weight : 1.0;
     wishes[k].active = activations[k] >= least && activations[k] > 0.0;
   }
   pack_wishes(plan, body, origin_in_world, wishes, packed_wishes);
@@ -246,6 +247,33 @@ Errors<float> Adapter::State::solve_for(double least, double& iterations) {
   return finish_lanes(plan, form, told, true, lanes, solve);
 }
 
+void Adapter::State::mix(float share) {
+  for (const int j : plan.live) {
+    const auto i = static_cast<std::size_t>(j);
+    const Quat<float>& q = lanes.rotation[i];
+    Quat<float>& sum = mixed_rotation[i];
+    const Quat<float>& like = lanes.reference_rotation[i];
+    const float sign =
+        q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z < 0.0F ? -share : share;
+    sum = {
+        sum.w + sign * q.w, sum.x + sign * q.x, sum.y + sign * q.y, sum.z + sign * q.z};
+  }
+  mixed_root += share * lanes.place[0];
+}
+
+// Where the passage from one control to the other is.
+void Adapter::State::pass_over(double time_s) {
+  control = options.control;
+  left_share = 0.0;
+  if (!left_control) return;
+  if (!left_since_s) left_since_s = time_s;
+  const double gone = time_s - *left_since_s;
+  left_share = options.control_change_s > 0.0
+                   ? 1.0 - smooth_step(gone / options.control_change_s)
+                   : 0.0;
+  if (left_share <= 0.0) left_control.reset();
+}
+
 // Constraints fade between the postures without and with them. With activations
 // 1 = a0 > a1 > ... > an > an+1 = 0 and posture Si for all constraints of at least ai,
 // the answer is the mean of the Si with weights ai - ai+1: continuous in every
@@ -255,25 +283,18 @@ Errors<float> Adapter::State::solve_for(double least, double& iterations) {
 Errors<float> Adapter::State::solve_faded(double& iterations) {
   for (Quat<float>& q : mixed_rotation) q = {0.0F, 0.0F, 0.0F, 0.0F};
   mixed_root = {0.0F, 0.0F, 0.0F};
-  double above = 1.0;
-  for (std::size_t n = 0; n <= ramps.size(); ++n) {
-    const double next = n < ramps.size() ? ramps[n] : 0.0;
-    const auto share = static_cast<float>(above - next);
-    static_cast<void>(solve_for(n == 0 ? 1.0 : ramps[n - 1], iterations));
-    for (const int j : plan.live) {
-      const auto i = static_cast<std::size_t>(j);
-      const Quat<float>& q = lanes.rotation[i];
-      Quat<float>& sum = mixed_rotation[i];
-      const Quat<float>& like = lanes.reference_rotation[i];
-      const float sign = q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z < 0.0F
-                             ? -share
-                             : share;
-      sum = {
-          sum.w + sign * q.w, sum.x + sign * q.x, sum.y + sign * q.y, sum.z + sign * q.z};
+  const auto add_all = [&](Control asked, double weight) {
+    control = asked;
+    double above = 1.0;
+    for (std::size_t n = 0; n <= ramps.size(); ++n) {
+      const double next = n < ramps.size() ? ramps[n] : 0.0;
+      static_cast<void>(solve_for(n == 0 ? 1.0 : ramps[n - 1], iterations));
+      mix(static_cast<float>(weight * (above - next)));
+      above = next;
     }
-    mixed_root += share * lanes.place[0];
-    above = next;
-  }
+  };
+  if (left_share > 0.0) add_all(*left_control, left_share);
+  add_all(options.control, 1.0 - left_share);
   for (std::size_t k = 0; k < wishes.size(); ++k) {
     wishes[k].active = activations[k] > kFirm;
   }
@@ -330,7 +351,8 @@ bool Adapter::State::prepare(const Pose& reference, double time_s) {
   pack_balance(body, origin_in_world, balance(), packed_balance);
   is_standing = false;
   read_wishes(time_s);
-  if (!ramps.empty()) return false;
+  pass_over(time_s);
+  if (!ramps.empty() || left_share > 0.0) return false;
   ask_for(1.0);
   return true;
 }

@@ -31,11 +31,17 @@ struct Adapter::State {
   std::vector<float> packed_posture;
   std::vector<float> packed_wishes;
   std::array<float, kBalanceNumbers> packed_balance{};
-  std::vector<WishNumbers> wishes;   ///< As plan.points.
-  std::vector<LiveActivation> live;  ///< Of each constraint.
-  std::vector<double> activations;   ///< As plan.points.
-  std::vector<double> ramps;         ///< Different activations below 1, descending.
-  bool is_standing = false;          ///< The reference is in `lanes`.
+  std::vector<WishNumbers> wishes;       ///< As plan.points.
+  std::vector<LiveActivation> live;      ///< Of each constraint.
+  std::vector<double> activations;       ///< As plan.points.
+  double largest_weight = 0.0;           ///< Of active constraints.
+  std::vector<double> ramps;             ///< Different activations below 1, descending.
+  Control control = Control::kPriority;  ///< Solved for at this moment.
+  /// The control that is being left, its share now, and since when.
+  std::optional<Control> left_control;
+  double left_share = 0.0;
+  std::optional<double> left_since_s;
+  bool is_standing = false;  ///< The reference is in `lanes`.
   Lanes<float> lanes;
   Solve<float> solve;
   ThesisShape thesis;
@@ -76,6 +82,9 @@ struct Adapter::State {
   /// Solves for the wishes whose activation is at least `least`.
   Errors<float> solve_for(double least, double& iterations);
   Errors<float> solve_faded(double& iterations);
+  /// Adds `share` of the posture that was just solved to the mixed one.
+  void mix(float share);
+  void pass_over(double time_s);
 
   std::vector<float> result;
 };

@@ -8,7 +8,10 @@ namespace marey::retarget {
 
 /// What the whole solve is told, the same for all lanes.
 struct SolveSettings {
-  bool blend = false;              ///< Control::kBlend.
+  bool blend = false;  ///< Control::kBlend.
+  /// Limbs with two wishes take the mean of what each asks. Off where steps of the whole
+  /// body find their compromise: closing would take it away.
+  bool mixes = true;
   bool keeps_orientation = false;  ///< Of extremities.
   int max_iterations = 50;
 };
@@ -101,10 +104,23 @@ void close_limb(const Plan& plan,
                 int number,
                 const SolveSettings& settings,
                 const F& level,
-                const Mask<F>& mask,
+                const Mask<F>& wanted,
                 Lanes<F>& s) {
   const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(number)];
   const Extremity<F> extremity = extremity_of(limb, settings.keeps_orientation, s);
+  Mask<F> mask = wanted;
+  if (settings.blend && !settings.mixes && limb.points.size() > 1) {
+    F wishes = num<F>(0);
+    for (const int k : limb.points) {
+      const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
+      const F counts = num<F>(point.goal == GoalKind::kSupport ? -9 : 1);
+      wishes =
+          wishes + select(is_asked(point, s.points[static_cast<std::size_t>(k)], level),
+                          counts,
+                          num<F>(0));
+    }
+    mask = mask & (wishes < num<F>(1.5));
+  }
   Mask<F> taken = num<F>(0) > num<F>(1);
   Mask<F> firm = taken;  // By a support.
   Vec3<F> first_place{};

@@ -248,7 +248,11 @@ void form_balance_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes
     Vec3<F> v = s.run_lever[low];
     F vp[9];
     for (std::size_t e = 0; e < 9; ++e) vp[e] = s.run_lever_place[9 * low + e];
-    if (above >= 0) {
+    // What no joint turns for has nothing in common with anything.
+    if (point.chain.empty()) {
+      v = {zero, zero, zero};
+      for (F& x : vp) x = zero;
+    } else if (above >= 0) {
       const auto up = static_cast<std::size_t>(above);
       v -= s.run_lever[up];
       for (std::size_t e = 0; e < 9; ++e) vp[e] = vp[e] - s.run_lever_place[9 * up + e];

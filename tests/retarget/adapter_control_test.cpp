@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/retarget/adapter_bodies.h"
+
+namespace marey::retarget {
+namespace {
+
+/// Two hands that cannot both have what they want, on a trunk that stands.
+ConstraintSet torn_apart() {
+  return {{contact("right", "rightHand", {-1.6, 1.2, 0.6}, glm::dvec3(0.0), 2.0),
+           contact("left", "leftHand", {1.6, 1.3, 0.5}, glm::dvec3(0.0), 1.0),
+           standing("foot", "leftFoot")},
+          {}};
+}
+
+AdaptOptions options(Control control, double change_s) {
+  AdaptOptions out;
+  out.control = control;
+  out.control_change_s = change_s;
+  return out;
+}
+
+TEST(AdapterControl, PassesOverFromPriorityToBlendWithoutAJump) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  Adapter changing = make_adapter(body, torn_apart(), options(Control::kPriority, 0.4));
+  Adapter blending = make_adapter(body, torn_apart(), options(Control::kBlend, 0.4));
+  Pose before;
+  Pose now;
+  Pose goal;
+  static_cast<void>(changing.adapt(reference, 0.0, before));
+  static_cast<void>(blending.adapt(reference, 0.0, goal));
+  // The two answers are far apart, else nothing is tested.
+  const double whole_way_rad = most_turned_rad(goal, before);
+  ASSERT_GT(whole_way_rad, 0.2);
+  changing.set_options(options(Control::kBlend, 0.4));
+  constexpr int kSteps = 400;
+  for (int i = 0; i <= kSteps; ++i) {
+    static_cast<void>(changing.adapt(reference, 0.001 * i, now));
+    // The ramp is steepest in its middle, 1.875 times its mean; chords instead of arcs
+    // and limbs that close on the mean take at most four times that.
+    ASSERT_LT(most_turned_rad(now, before), 4.0 * 1.875 * whole_way_rad / kSteps) << i;
+    before = now;
+  }
+  // Then the new control's answer is the answer, to the bit.
+  static_cast<void>(changing.adapt(reference, 1.0, now));
+  for (std::size_t j = 0; j < now.parent_from_joint.size(); ++j) {
+    ASSERT_EQ(now.parent_from_joint[j], goal.parent_from_joint[j]) << j;
+  }
+}
+
+TEST(AdapterControl, ChangesAtOnceWhenNoDurationIsGiven) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  Adapter changing = make_adapter(body, torn_apart(), options(Control::kPriority, 0.0));
+  Adapter blending = make_adapter(body, torn_apart(), options(Control::kBlend, 0.0));
+  Pose now;
+  Pose goal;
+  static_cast<void>(changing.adapt(reference, 0.0, now));
+  static_cast<void>(blending.adapt(reference, 0.0, goal));
+  changing.set_options(options(Control::kBlend, 0.0));
+  static_cast<void>(changing.adapt(reference, 0.1, now));
+  for (std::size_t j = 0; j < now.parent_from_joint.size(); ++j) {
+    ASSERT_EQ(now.parent_from_joint[j], goal.parent_from_joint[j]) << j;
+  }
+}
+
+}  // namespace
+}  // namespace marey::retarget
