@@ -93,6 +93,7 @@ void Adapter::set_options(const AdaptOptions& options) {
     state_->left_since_s.reset();
   }
   state_->options = options;
+  state_->control = options.control;
   if (replan) state_->set_up();
 }
 

@@ -68,6 +68,7 @@ Adapter::State::State(const Character& character_in,
 }
 
 void Adapter::State::set_up() {
+  control = options.control;
   plan = make_plan(character, constraints, options.balance != BalanceMode::kOff);
   body = body_numbers(character, plan);
   for (std::size_t i = 0; i < carried.size(); ++i) {
