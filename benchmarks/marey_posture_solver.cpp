@@ -60,7 +60,8 @@ ConstraintSet marey_constraints(const PostureProblem& problem, double precision_
     constraint.point.segment = problem.character->skeleton[goal.joint].name;
     constraint.precision_m = precision_m;
     if (goal.is_planted) {
-      constraint.goal = Support{};
+      // The same question as the baselines': the ankle's place, not the foot's turn.
+      constraint.goal = Support{std::nullopt, std::nullopt, true};
     } else {
       constraint.goal = DistanceToPoint{};
     }

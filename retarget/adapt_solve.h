@@ -153,26 +153,6 @@ template <class F>
   return select(share < num<F>(1e-5), num<F>(0), share);
 }
 
-/// Puts limbs that have a wish back as the reference has them, on the trunk as it is.
-template <class F>
-void rest_limbs(const Plan& plan, const F& level, const Mask<F>& mask, Lanes<F>& s) {
-  for (const LimbPlan& limb : plan.limbs) {
-    Mask<F> wished = num<F>(0) > num<F>(1);
-    for (const int k : limb.points) {
-      const auto i = static_cast<std::size_t>(k);
-      wished = wished | is_asked(plan.points[i], s.points[i], level);
-    }
-    wished = wished & mask;
-    for (const int j : limb.own) {
-      const auto i = static_cast<std::size_t>(j);
-      const auto p = static_cast<std::size_t>(plan.parent[i] < 0 ? 0 : plan.parent[i]);
-      s.rotation[i] =
-          select(wished, trued(s.rotation[p] * s.reference_local[i]), s.rotation[i]);
-      if (j != 0) place_joint(plan, s, j);
-    }
-  }
-}
-
 /// Starts lanes from their reference: places are those of the reference posture.
 template <class F>
 void begin_lanes(const Plan& plan,

@@ -172,6 +172,26 @@ void close_limb(const Plan& plan,
   }
 }
 
+/// Puts limbs that have a wish back as the reference has them, on the trunk as it is.
+template <class F>
+void rest_limbs(const Plan& plan, const F& level, const Mask<F>& mask, Lanes<F>& s) {
+  for (const LimbPlan& limb : plan.limbs) {
+    Mask<F> wished = num<F>(0) > num<F>(1);
+    for (const int k : limb.points) {
+      const auto i = static_cast<std::size_t>(k);
+      wished = wished | is_asked(plan.points[i], s.points[i], level);
+    }
+    wished = wished & mask;
+    for (const int j : limb.own) {
+      const auto i = static_cast<std::size_t>(j);
+      const auto p = static_cast<std::size_t>(plan.parent[i] < 0 ? 0 : plan.parent[i]);
+      s.rotation[i] =
+          select(wished, trued(s.rotation[p] * s.reference_local[i]), s.rotation[i]);
+      if (j != 0) place_joint(plan, s, j);
+    }
+  }
+}
+
 /// Moves the root by the least that brings every support within its leg's reach, if one
 /// place does (alternating projections). Thesis 4.2.4: supports are always satisfied.
 template <class F>
