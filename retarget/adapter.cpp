@@ -86,6 +86,7 @@ bool Adapter::carry(std::string_view load, bool carried) {
 
 void Adapter::set_options(const AdaptOptions& options) {
   MAREY_ASSERT(check_options(options).has_value());
+  MAREY_ASSERT(!state_->is_member);
   const bool replan = (options.balance == BalanceMode::kOff) !=
                       (state_->options.balance == BalanceMode::kOff);
   if (options.control != state_->options.control) {

@@ -23,8 +23,7 @@ namespace marey::retarget {
 /// Which algorithm looks for the posture.
 enum class Method {
   /// Limbs analytically while they suffice, the whole body by damped Gauss-Newton steps
-  /// in
-  /// dual form as they do not; supports above the centre of mass above constraints.
+  /// in dual form as they do not; supports above the centre of mass above constraints.
   kStrict,
   /// Kulpa 2005, chapters 4 and 5: cyclic descent by groups, with analytic limbs, merged
   /// with the kinetic loop ("push-pull").
@@ -54,11 +53,14 @@ struct AdaptOptions {
   /// balance (CnRoot), 0 to 1.
   double root_for_constraints = 1.0;
   double root_for_balance = 1.0;
-  /// Stop when the weighted mean error of the constraints changes by less (CmThreshold),
+  /// Stop when the weighted mean error of the constraints changes by less (CmThreshold;
+  /// the strict method: when steps in a row bring less),
   double constraint_threshold_m = 1e-4;
-  /// and that of the centre of mass by less (CnThreshold).
+  /// and that of the centre of mass by less (CnThreshold; the thesis' method alone).
   double balance_threshold_m = 1e-5;
   double balance_precision_m = 1e-4;  ///< CnErrorMax: nearer is good enough.
+  /// Of one solve. The strict method's first steps, which are always the same number, are
+  /// never cut short.
   int max_iterations = 50;
   /// Hands and feet that are not constrained keep their orientation in the world (the
   /// thesis) instead of following forearm and shank.
@@ -68,11 +70,16 @@ struct AdaptOptions {
 /// What became of one constraint.
 struct ConstraintOutcome {
   double activation = 0.0;  ///< 0 to 1.
-  double error_m = 0.0;     ///< From its point to its target, as far as it is active.
+  /// From its point to its target; 0 while the constraint is hardly active. Of an
+  /// orientation: what is left to turn, as a length at the body's own unit (a leg) from
+  /// the joint.
+  double error_m = 0.0;
 };
 
 struct AdaptReport {
-  int iterations = 0;             ///< Of the whole-body loop; 0: limbs sufficed.
+  /// Of the whole-body loop; while constraints fade, of all solves together. 0: limbs
+  /// sufficed (the thesis' method: nothing had to be done).
+  int iterations = 0;
   double constraint_error_m = 0;  ///< Weighted mean (eq. 4.2).
   double worst_error_m = 0;       ///< Of the active constraints, supports included.
   double balance_error_m = 0;     ///< Of the centre of mass, as `balance` measures it.
@@ -87,7 +94,7 @@ struct AdaptReport {
 /// Every posture is adapted from its own reference alone: same reference, constraints and
 /// time, same answer, to the bit. (A support without a footprint is the exception: it
 /// stands where the reference had it when it began.) Costs and accuracy:
-/// docs/measurements.md. Nothing is allocated after make().
+/// docs/measurements.md. Nothing is allocated after make(), unless a function says so.
 class Adapter {
   struct State;
 
@@ -104,7 +111,7 @@ class Adapter {
     /// Precondition: an AllowedSpace or ForbiddenSpace; finite, min <= max.
     void set_space(const glm::dvec3& min_in_world, const glm::dvec3& max_in_world);
     /// Moves the constrained point on its segment; onto or off its joint's own place is
-    /// costly and allocates. Precondition: finite.
+    /// costly, allocates, and is not for a crowd's member. Precondition: finite.
     void set_offset(const glm::dvec3& offset_in_t_pose);
     /// Fades the constraint in or out from `time_s` on, over its own durations.
     void start(double time_s);
@@ -134,12 +141,12 @@ class Adapter {
   /// Where the centre of mass is wanted; nullopt: where the reference posture has that of
   /// the body alone, without loads.
   void set_balance_target(const std::optional<glm::dvec3>& com_in_world);
-  /// Takes a load of the character's up, or puts it down. False: it has none of that
-  /// name.
+  /// Takes a load of the character's up, or puts it down; none is carried at first.
+  /// False: it has none of that name.
   bool carry(std::string_view load, bool carried);
   /// May change from one posture to the next; a change of `control` begins with the next
   /// posture's time and fades over. Switching balance on or off allocates. Precondition:
-  /// in range.
+  /// in range; not of a crowd's member.
   void set_options(const AdaptOptions& options);
 
   /// Precondition: `reference` is a posture of the character's skeleton, finite, with

@@ -11,6 +11,12 @@
 namespace marey::retarget {
 namespace {
 
+// Unit to double precision: one Newton step from single precision's, without a root.
+glm::dquat unit(double w, double x, double y, double z) {
+  const double s = 1.5 - 0.5 * (w * w + x * x + y * y + z * z);
+  return {s * w, s * x, s * y, s * z};
+}
+
 /// Reads what store_result() wrote.
 class ResultReader {
  public:
@@ -21,14 +27,11 @@ class ResultReader {
     const double y = number();
     return {x, y, number()};
   }
-  // Unit to double precision: one Newton step from single precision's, without a root.
   glm::dquat rotation() {
     const double w = number();
     const double x = number();
     const double y = number();
-    const double z = number();
-    const double s = 1.5 - 0.5 * (w * w + x * x + y * y + z * z);
-    return {s * w, s * x, s * y, s * z};
+    return unit(w, x, y, number());
   }
 
  private:
@@ -42,14 +45,8 @@ glm::dvec3 plain(const Vec3<float>& v) {
   return {v.x, v.y, v.z};
 }
 
-// Unit to double precision: one Newton step from single precision's, without a root.
 glm::dquat plain(const Quat<float>& q) {
-  const double w = q.w;
-  const double x = q.x;
-  const double y = q.y;
-  const double z = q.z;
-  const double s = 1.5 - 0.5 * (w * w + x * x + y * y + z * z);
-  return {s * w, s * x, s * y, s * z};
+  return unit(q.w, q.x, q.y, q.z);
 }
 
 }  // namespace
@@ -60,14 +57,14 @@ Adapter::State::State(const Character& character_in,
     : character(character_in),
       constraints(constraints_in),
       options(options_in),
-      plan(make_plan(character, constraints, options.balance != BalanceMode::kOff)),
       carried(character.loads.size(), 0),
-      lanes(plan) {
+      lanes(Plan{}) {
   for (const Constraint& c : constraints.constraints) live.emplace_back(c.activation);
   set_up();
 }
 
 void Adapter::State::set_up() {
+  MAREY_ASSERT(!is_member);
   control = options.control;
   plan = make_plan(character, constraints, options.balance != BalanceMode::kOff);
   body = body_numbers(character, plan);

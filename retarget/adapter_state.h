@@ -16,6 +16,8 @@
 
 namespace marey::retarget {
 
+/// An adapter from one posture to the next, and one lane to solve it in. A member of a
+/// crowd is one, too: it packs its questions, and solves those that fade.
 struct Adapter::State {
   Character character;
   ConstraintSet constraints;
@@ -25,6 +27,7 @@ struct Adapter::State {
   std::vector<glm::dquat> t_pose_from_joint;
   std::vector<char> carried;  ///< Of each load.
   std::optional<glm::dvec3> com_in_world;
+  bool is_member = false;  ///< Of a crowd: its plan and its options stay as they are.
 
   // Of one posture.
   glm::dvec3 origin_in_world{0.0};
@@ -58,6 +61,7 @@ struct Adapter::State {
         const ConstraintSet& constraints_in,
         const AdaptOptions& options_in);
 
+  /// Plans anew, after what the plan is made from has changed. Allocates.
   void set_up();
   AdaptReport adapt(const Pose& reference, double time_s, Pose& out);
   /// Packs all that a solve needs. False: constraints fade, and more solves than one are

@@ -180,6 +180,7 @@ Result<Crowd> Crowd::make(std::vector<Adapter> members, const CrowdOptions& opti
     state->workers.push_back({std::move(kernel), std::make_unique<Jobs>(members.size())});
   }
   state->members = std::move(members);
+  for (Adapter& member : state->members) member.state_->is_member = true;
   return Crowd(std::move(state));
 }
 

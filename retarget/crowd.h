@@ -27,7 +27,8 @@ struct CrowdOptions {
 /// Every member's answer is its adapter's own, to the bit, whatever the width, the number
 /// of threads and its neighbours. Members may differ in all but structure: lengths,
 /// masses, limits, targets. Those whose constraints fade are solved by themselves.
-/// Cost: docs/measurements.md. adapt() allocates nothing (threads apart).
+/// Cost: docs/measurements.md. adapt() allocates nothing (threads apart, which it starts
+/// anew each time).
 class Crowd {
  public:
   /// Errors (bad input): no members; one that differs from the first in its skeleton's
@@ -41,7 +42,9 @@ class Crowd {
   ~Crowd();
 
   [[nodiscard]] std::size_t size() const;
-  /// To move its targets, or to ask what became of them. Its options stay as they are.
+  /// To move its targets and loads, or to ask what became of them. Its options stay as
+  /// they are, and a point at its joint's own place stays one, as one elsewhere does.
+  /// Precondition: member < size(); not while adapt() runs.
   [[nodiscard]] Adapter& operator[](std::size_t member);
 
   /// As Adapter::adapt() of each. Precondition: one reference and one place in `out` per

@@ -152,5 +152,18 @@ TEST(CrowdRefusals, NotOfOtherNumbers) {
   EXPECT_EQ(refused(make_adapter(named(human(false, 1.2)), wishes, options)), "");
 }
 
+// Lanes go by one plan and by one set of options: nobody may change his own.
+TEST(CrowdRefusals, OfChangesThatWouldMakeAMemberAnotherKind) {
+  std::vector<Adapter> members;
+  members.push_back(make_adapter(human(false), one_hand()));
+  auto crowd = Crowd::make(std::move(members), {LaneWidth::kOne, 1});
+  ASSERT_TRUE(crowd);
+  Adapter& member = (*crowd)[0];
+  EXPECT_DEATH(member.set_options({}), "contract broken");
+  auto hand = member.constraint("hand");
+  ASSERT_TRUE(hand);
+  EXPECT_DEATH(hand->set_offset({0.0, 0.0, 0.1}), "contract broken");
+}
+
 }  // namespace
 }  // namespace marey::retarget
