@@ -46,8 +46,7 @@ bool is_at_joint(const Constraint& c) {
 }
 
 void add_groups(const Character& character, Plan& plan) {
-  for (std::size_t g = 0; g < character.groups.size(); ++g) {
-    const BodyGroup& group = character.groups[g];
+  for (const BodyGroup& group : character.groups) {
     GroupPlan out;
     out.level = group.level;
     out.parent = group.parent.value_or(-1);
@@ -59,7 +58,6 @@ void add_groups(const Character& character, Plan& plan) {
         limb.upper = number(part.joints[0]);
         limb.lower = number(part.joints[1]);
         limb.end = number(part.joints[2]);
-        limb.group = static_cast<int>(g);
         limb.can_support = group.can_support;
         out.limb = static_cast<int>(plan.limbs.size());
         out.parts.push_back({part.kind, out.limb});
@@ -73,7 +71,6 @@ void add_groups(const Character& character, Plan& plan) {
         plan.sections.push_back(std::move(vertebrae));
       } else {
         for (const JointIndex j : part.joints) {
-          out.segments.push_back(number(j));
           out.parts.push_back({part.kind, number(j)});
         }
       }
@@ -82,15 +79,10 @@ void add_groups(const Character& character, Plan& plan) {
   }
 }
 
-bool is_at_or_below(const Plan& plan, int joint, int ancestor) {
-  while (joint > ancestor) joint = plan.parent[at(joint)];
-  return joint == ancestor;
-}
-
 // What carries both points changes nothing of the distance between them.
 void leave_shared_out(const Plan& plan, PointPlan& point) {
   std::erase_if(point.chain,
-                [&](int j) { return is_at_or_below(plan, point.other_joint, j); });
+                [&](int j) { return plan.is_at_or_below(point.other_joint, j); });
   point.moves_root = false;
   if (!point.chain.empty()) point.top = point.chain.back();
 }
@@ -99,16 +91,16 @@ void leave_shared_out(const Plan& plan, PointPlan& point) {
 void place_on_limb(Plan& plan, bool at_joint, PointPlan& point) {
   for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
     const LimbPlan& limb = plan.limbs[l];
-    if (!is_at_or_below(plan, point.joint, limb.upper)) continue;
-    if (!is_at_or_below(plan, limb.upper, point.top)) continue;
+    if (!plan.is_at_or_below(point.joint, limb.upper)) continue;
+    if (!plan.is_at_or_below(limb.upper, point.top)) continue;
     point.limb = static_cast<int>(l);
     point.place = LimbPlace::kUpper;
     // The elbow itself is the upper bone's.
     const bool elbow = point.joint == limb.lower && at_joint;
-    if (is_at_or_below(plan, point.joint, limb.lower) && !elbow) {
+    if (plan.is_at_or_below(point.joint, limb.lower) && !elbow) {
       point.place = LimbPlace::kLower;
     }
-    if (is_at_or_below(plan, point.joint, limb.end)) point.place = LimbPlace::kExtremity;
+    if (plan.is_at_or_below(point.joint, limb.end)) point.place = LimbPlace::kExtremity;
   }
 }
 
@@ -184,12 +176,6 @@ void add_points(const Character& character,
         limb.orientations.push_back(static_cast<int>(k));
       }
     }
-    for (GroupPlan& group : plan.groups) {
-      if (std::find(group.joints.begin(), group.joints.end(), point.joint) !=
-          group.joints.end()) {
-        group.constrained = true;
-      }
-    }
   }
 }
 
@@ -214,7 +200,7 @@ void set_turning(Plan& plan, bool balance) {
     if (!balance || !group.balances) continue;
     for (const int j : group.joints) {
       const bool last =
-          group.limb >= 0 && is_at_or_below(plan, j, plan.limbs[at(group.limb)].end);
+          group.limb >= 0 && plan.is_at_or_below(j, plan.limbs[at(group.limb)].end);
       if (last || plan.turning[at(j)] != Turning::kRigid) continue;
       plan.turning[at(j)] =
           plan.limb_of_hinge[at(j)] >= 0 ? Turning::kHinge : Turning::kBall;
@@ -246,21 +232,21 @@ void set_live(Plan& plan) {
   plan.in_limb.assign(at(plan.joint_count), 0);
   for (LimbPlan& limb : plan.limbs) {
     for (const int j : plan.live) {
-      const bool on_the_way = is_at_or_below(plan, limb.end, j);
-      const bool past = is_at_or_below(plan, j, limb.end);
-      if (is_at_or_below(plan, j, limb.upper) && (on_the_way || past)) {
+      const bool on_the_way = plan.is_at_or_below(limb.end, j);
+      const bool past = plan.is_at_or_below(j, limb.end);
+      if (plan.is_at_or_below(j, limb.upper) && (on_the_way || past)) {
         limb.own.push_back(j);
         plan.in_limb[at(j)] = 1;
       }
-      if (j > limb.upper && j < limb.lower && is_at_or_below(plan, limb.lower, j) &&
-          is_at_or_below(plan, j, limb.upper)) {
+      if (j > limb.upper && j < limb.lower && plan.is_at_or_below(limb.lower, j) &&
+          plan.is_at_or_below(j, limb.upper)) {
         limb.between_upper.push_back(j);
       }
-      if (j > limb.lower && j < limb.end && is_at_or_below(plan, limb.end, j) &&
-          is_at_or_below(plan, j, limb.lower)) {
+      if (j > limb.lower && j < limb.end && plan.is_at_or_below(limb.end, j) &&
+          plan.is_at_or_below(j, limb.lower)) {
         limb.between_lower.push_back(j);
       }
-      if (j != limb.end && is_at_or_below(plan, j, limb.end)) limb.beyond.push_back(j);
+      if (j != limb.end && plan.is_at_or_below(j, limb.end)) limb.beyond.push_back(j);
     }
   }
 }

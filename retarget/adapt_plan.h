@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/character.h"
@@ -57,7 +58,6 @@ struct LimbPlan {
   int upper = 0;
   int lower = 0;
   int end = 0;
-  int group = 0;
   bool can_support = false;
   std::vector<int> points;  ///< Wishes for places on this limb, most important first.
   std::vector<int> orientations;  ///< Wishes for its extremity's, likewise.
@@ -94,10 +94,8 @@ struct GroupPlan {
   int level = 2;
   int parent = -1;
   bool balances = true;
-  bool constrained = false;     ///< Some constraint's own segment is in it.
   int limb = -1;                ///< Of an arm or leg.
   std::vector<int> sections;    ///< Positions in Plan::sections.
-  std::vector<int> segments;    ///< Joints.
   std::vector<int> joints;      ///< All of it.
   std::vector<PartPlan> parts;  ///< In the order in which kinematics adapts them.
   bool operator==(const GroupPlan&) const = default;
@@ -114,8 +112,8 @@ struct Plan {
   /// Joints that whole-body steps must follow: they turn, carry a point, or lead to one
   /// that does. The others hang rigidly from those.
   std::vector<int> live;
-  std::vector<int> rest;  ///< The joints that are not live, parents first.
-  std::vector<char> is_live;
+  std::vector<int> rest;      ///< The joints that are not live, parents first.
+  std::vector<char> is_live;  ///< Per joint.
   std::vector<char> in_limb;  ///< Per joint.
   std::vector<LimbPlan> limbs;
   std::vector<std::vector<int>> sections;  ///< Vertebrae, low to high.
@@ -137,6 +135,11 @@ struct Plan {
   int abdomen_low = -1;
   int abdomen_high = -1;
   [[nodiscard]] bool has_hamstrings() const { return abdomen_high >= 0; }
+  /// Whether `joint` is `ancestor` or hangs on it. Linear in the way up.
+  [[nodiscard]] bool is_at_or_below(int joint, int ancestor) const {
+    while (joint > ancestor) joint = parent[static_cast<std::size_t>(joint)];
+    return joint == ancestor;
+  }
   bool operator==(const Plan&) const = default;
 };
 

@@ -47,12 +47,6 @@ template <class F>
           extremity.is_set, p.target - rotate(extremity.rotation, p.in_joint), p.target)};
 }
 
-template <class F>
-void measure_place(const PointPlan& point, Lanes<F>& s, LanePoint<F>& p) {
-  const auto j = static_cast<std::size_t>(point.joint);
-  p.place = s.place[j] + rotate(s.rotation[j], p.in_joint);
-}
-
 /// Halfway between two postures of one limb, by the weights of what each is for.
 template <class F>
 void mix_limb(const Plan& plan,
@@ -90,7 +84,7 @@ void close_first_again(const Plan& plan,
     LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
     const Mask<F> first = left & is_asked(point, p, level);
     if (!any(first)) continue;
-    measure_place(point, s, p);
+    p.place = place_of(point, p, s);
     const LimbWish<F> wish = wish_of(limb, point, p, extremity, s);
     close_limb_on(plan, number, point, wish.place, wish.target, first, extremity, s);
     left = left & !first;
@@ -130,7 +124,7 @@ void close_limb(const Plan& plan,
     LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
     const Mask<F> asked = mask & is_asked(point, p, level);
     if (!any(asked)) continue;
-    measure_place(point, s, p);
+    p.place = place_of(point, p, s);
     const LimbWish<F> wish = wish_of(limb, point, p, extremity, s);
     if (any(asked & !taken)) {
       close_limb_on(
@@ -156,7 +150,7 @@ void close_limb(const Plan& plan,
         close_first_again(plan, number, k, level, spins, extremity, s);
       }
     }
-    measure_place(point, s, p);
+    p.place = place_of(point, p, s);
     // What later wishes spin about is what the limb itself brought to its place: of a
     // foot with an orientation of its own, the ankle.
     first_place = select(taken, first_place, wish_of(limb, point, p, extremity, s).place);

@@ -15,15 +15,10 @@ bool has(const std::vector<int>& list, int x) {
   return std::find(list.begin(), list.end(), x) != list.end();
 }
 
-bool is_below(const Plan& plan, int joint, int ancestor) {
-  while (joint > ancestor) joint = plan.parent[at(joint)];
-  return joint == ancestor;
-}
-
 std::vector<int> live_below(const Plan& plan, int joint) {
   std::vector<int> out;
   for (const int j : plan.live) {
-    if (is_below(plan, j, joint)) out.push_back(j);
+    if (plan.is_at_or_below(j, joint)) out.push_back(j);
   }
   return out;
 }
@@ -61,7 +56,7 @@ struct Builder {
     turn.joints = {joint};
     turn.points = points_through(plan, turn.joints);
     turn.support_limb = from.limb;
-    if (from.limb >= 0 && is_below(plan, joint, plan.limbs[at(from.limb)].end)) {
+    if (from.limb >= 0 && plan.is_at_or_below(joint, plan.limbs[at(from.limb)].end)) {
       turn.extremity_of = from.limb;
     }
     add_turn(group, std::move(turn));
@@ -149,7 +144,7 @@ struct Builder {
       std::sort(group.joints.begin(), group.joints.end());
       // One chain: what branches off follows.
       std::erase_if(group.joints,
-                    [&](int j) { return !is_below(plan, group.joints.back(), j); });
+                    [&](int j) { return !plan.is_at_or_below(group.joints.back(), j); });
       group.root = group.joints.front();
     }
     group.below = live_below(plan, group.root);
