@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "retarget/adapt_plan.h"
@@ -99,11 +100,15 @@ struct Lanes {
   explicit Lanes(const Plan& plan);
 };
 
-/// One lane of a number.
+/// One lane of a number. A batch is a register's worth of scalars and nothing else, and
+/// compilers declare register types so that they may alias them.
+/// Precondition: `lane` is below the number of lanes.
 template <class F>
 [[nodiscard]] inline Scalar<F>& lane_of(F& x, int lane) {
+  static_assert(sizeof(F) % sizeof(Scalar<F>) == 0);
   return reinterpret_cast<Scalar<F>*>(&x)[lane];
 }
+
 template <class F>
 Lanes<F>::Lanes(const Plan& plan) {
   const std::size_t n = plan.parent.size();

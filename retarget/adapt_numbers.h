@@ -39,8 +39,8 @@ void pack_posture(const Pose& pose, std::span<float> out);
 struct WishNumbers {
   glm::dvec3 in_joint{0.0};    ///< The point, in its joint's frame.
   glm::dvec3 a_in_world{0.0};  ///< Place; low corner; footprint.
-  glm::dvec3 b{
-      0.0};  ///< High corner, in the world; the other point, in its joint's frame.
+  /// High corner, in the world; the other point, in its joint's frame.
+  glm::dvec3 b{0.0};
   glm::dquat world_from_joint{1.0, 0.0, 0.0, 0.0};
   double distance_m = 0.0;
   bool active = false;

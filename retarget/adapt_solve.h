@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "retarget/adapt_errors.h"
 #include "retarget/adapt_ground.h"
 #include "retarget/close_limbs.h"
 #include "retarget/whole_body_solve.h"
@@ -17,15 +18,16 @@
 ///    the posture is near the nearest one; there are always as many, and each later step
 ///    is in proportion to what is still missing. So the answer is a continuous function
 ///    of the targets although the number of steps is not.
-/// 3. Between the comfortable and the whole reach of a limb the trunk's mobility fades
-/// in:
-///    it starts to help before an arm is straight, and by nothing at first.
+/// 3. Between a limb's comfortable reach and kFullHelp the trunk's mobility fades in: it
+///    starts to help before an arm is straight, and by nothing at first.
 ///
-/// Levels of importance are solved one after the other: what the higher have reached is
-/// held, and a step that takes some of it away does not count. Supports are closed last
-/// and exactly; then the centre of mass; then constraints.
+/// All levels of importance are tried at once. Where that does not meet every wish, and
+/// importance is priority, they are solved from the reference again, one after the other:
+/// what the higher have reached is held, and a step that takes some of it away does not
+/// count. Supports come before the centre of mass, and that before constraints.
 namespace marey::retarget {
 
+/// Up to here, in reaches of its limb, a wish is the limb's alone.
 inline constexpr double kComfortableReach = 0.96;
 /// A wish this far, in reaches of its limb, has all of the trunk's mobility.
 inline constexpr double kFullHelp = 1.08;
@@ -33,6 +35,7 @@ inline constexpr int kHomingSteps = 4;
 /// With balance fewer, that end more gently: the centre of mass has to be met, too.
 inline constexpr int kHomingStepsBalanced = 3;
 inline constexpr double kHomingFades = 0.5;
+/// The third step in a row that hardly helps ends the loop.
 inline constexpr double kStalledSteps = 2.5;
 /// Held points may give way by this much, in units: rounding's.
 inline constexpr double kHeldSlack = 2e-5;
@@ -41,6 +44,7 @@ inline constexpr int kBalanceSteps = 10;
 /// Of a trunk that has to do what limbs cannot.
 inline constexpr double kLeastMobility = 0.02;
 
+/// What is kept of a solve from one turn of its loop to the next.
 template <class F>
 struct Solve {
   Progress<F> progress;
@@ -49,12 +53,14 @@ struct Solve {
   F by_level{};    ///< 1: all levels at once did not do.
 };
 
+/// What of a plan the strict method goes by.
 struct Shape {
   RowOrder rows;
-  double last_level = 1.0;
-  bool by_level = true;  ///< Control::kPriority.
+  double last_level = 1.0;  ///< Of importance; 1 is the highest.
+  bool by_level = true;     ///< Control::kPriority.
 };
 
+/// Live joints as `rotation` and `place` have them, in the lanes of `mask`.
 template <class F>
 void take_posture(const std::vector<Quat<F>>& rotation,
                   const std::vector<Vec3<F>>& place,
@@ -66,50 +72,6 @@ void take_posture(const std::vector<Quat<F>>& rotation,
     s.rotation[i] = select(mask, rotation[i], s.rotation[i]);
     s.place[i] = select(mask, place[i], s.place[i]);
   }
-}
-
-/// Errors of what is asked, in units.
-template <class F>
-struct Errors {
-  F worst_over_precision;
-  F worst;
-  F mean;     ///< Weighted (eq. 4.2).
-  F square;   ///< Weighted mean of squares.
-  F balance;  ///< Of the centre of mass.
-  F held;     ///< The worst of supports and of what higher levels reached.
-};
-
-template <class F>
-[[nodiscard]] Errors<F> measure(const Plan& plan,
-                                bool balance,
-                                const F& level,
-                                Lanes<F>& s) {
-  const F zero = num<F>(0);
-  measure_points(plan, s, level);
-  Errors<F> out{zero, zero, zero, zero, zero, zero};
-  F weights = zero;
-  for (std::size_t k = 0; k < plan.points.size(); ++k) {
-    const PointPlan& point = plan.points[k];
-    const LanePoint<F>& p = s.points[k];
-    const F error = length(p.error);
-    const Mask<F> asked = is_asked(point, p, level);
-    const Mask<F> held = asked & ((p.holds > zero) | (num<F>(point.level) < num<F>(1)));
-    out.worst_over_precision = max(out.worst_over_precision, error * p.per_precision);
-    out.worst = max(out.worst, error);
-    out.held = select(held, max(out.held, error), out.held);
-    const F weight = select(asked, p.weight, zero);
-    out.mean = out.mean + weight * error;
-    out.square = out.square + weight * error * error;
-    weights = weights + weight;
-  }
-  const F per_weight = num<F>(1) / max(weights, num<F>(1e-6));
-  out.mean = out.mean * per_weight;
-  out.square = out.square * per_weight;
-  if (balance) {
-    measure_balance(plan, s);
-    out.balance = length(balance_error(s));
-  }
-  return out;
 }
 
 /// How much the trunk has to help, before limbs moved: 0 while every limb stays in

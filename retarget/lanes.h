@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -12,11 +13,13 @@
 /// Arithmetic that is written once for one body or for many side by side.
 ///
 /// F is float or double (one body), or a SIMD batch of either (one body per lane). Code
-/// over F never branches on values: it computes both sides and selects, so that a lane's
-/// result does not depend on its neighbours. Only + - * / and sqrt are used, which IEEE
-/// 754 rounds exactly: every width gives the same bits (no fused multiplication:
-/// -ffp-contract=off). All of it is inlined: a call costs more than most of these do, and
-/// a function that a program has once must not be made of one kernel's instructions.
+/// over F never branches on one lane's value: it computes both sides and selects, so that
+/// a lane's result does not depend on its neighbours. A branch on any(mask) only skips
+/// work that would leave all lanes the numbers that they have. Only + - * / and sqrt are
+/// used, which IEEE 754 rounds exactly: every width gives the same bits (no fused
+/// multiplication: -ffp-contract=off). All of it is inlined: a call costs more than most
+/// of these do, and a function that a program has once must not be made of one kernel's
+/// instructions.
 namespace marey::retarget {
 
 /// What a comparison of F's yields.

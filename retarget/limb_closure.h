@@ -9,15 +9,15 @@ namespace marey::retarget {
 
 /// 10 x^3 - 15 x^4 + 6 x^5 over 0..1, constant outside (retarget/smooth_step.h).
 template <class F>
-[[nodiscard]] inline F smooth(const F& wish) {
-  const F x = clamp(wish, num<F>(0), num<F>(1));
+[[nodiscard]] inline F smooth(const F& share) {
+  const F x = clamp(share, num<F>(0), num<F>(1));
   return x * x * x * (num<F>(10) + x * (num<F>(6) * x - num<F>(15)));
 }
 
 /// A limb's bending axis in the reference posture, in the world: unit, perpendicular to
-/// the upper bone. Where the
-/// limb is bent it comes from where the joints are, as it straightens from the upper
-/// bone's own hinge (see NormalizedLimb): so it is continuous through the straight limb.
+/// the upper bone. Where the limb is bent it comes from where the joints are, as it
+/// straightens from the upper bone's own hinge (see NormalizedLimb): so it is continuous
+/// through the straight limb.
 template <class F>
 [[nodiscard]] Vec3<F> reference_axis(const LimbPlan& limb,
                                      const Lanes<F>& s,

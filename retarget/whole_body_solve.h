@@ -6,7 +6,9 @@
 
 namespace marey::retarget {
 
-/// What a loop knows of each lane.
+/// What a loop knows of each lane. The thesis' loop (retarget/thesis_solve.h) uses five
+/// of them, two in its own way: `damping` is the share of a step that it dares, `square`
+/// what balance lacks.
 template <class F>
 struct Progress {
   F iterations{};  ///< Whole-body steps so far.
@@ -14,8 +16,8 @@ struct Progress {
   F merit{};       ///< The best posture's.
   F stalled{};     ///< Steps that hardly helped, in a row.
   F damping{};
-  F square{};  ///< Of the best posture's errors: long ones are damped more (Sugihara
-               ///< 2011).
+  /// Of the best posture's errors: long ones are damped more (Sugihara 2011).
+  F square{};
   F homing{};  ///< Share of its straying from the reference that a step takes back.
   F level{};   ///< Wishes up to this level are asked.
 };
@@ -69,6 +71,7 @@ template <class F>
   return out;
 }
 
+/// The system of one step: `blocks` and `right` of the lanes, and how far joints strayed.
 template <class F>
 void form_system(const Plan& plan,
                  const RowOrder& rows,
@@ -224,8 +227,9 @@ void apply_step(const Plan& plan, const RowOrder& rows, const F& homing, Lanes<F
   }
 }
 
-/// One step for all wishes up to each lane's level. Leaves the measures of the new
-/// posture. About 3,500 operations for 21 joints and four wishes.
+/// One step for all wishes up to each lane's level, in every lane. Precondition: the
+/// posture is measured (measure() in retarget/adapt_solve.h); the new one is not. About
+/// 3,500 operations for 21 joints and four wishes.
 template <class F>
 void step_whole_body(const Plan& plan,
                      const RowOrder& rows,

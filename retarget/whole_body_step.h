@@ -17,9 +17,9 @@
 /// P_i and P_i P_i' along it, which two places of a tree share. dq never exists as a
 /// vector: joint i turns by the sum of r_a x lambda_a.
 ///
-/// Priorities come from the damping D alone. Rows without it are met exactly whatever the
-/// others ask (the first block row of the system says so); damped rows share what is
-/// left.
+/// Priorities come from the damping D alone. Rows that have next to none (supports,
+/// balance, points held from higher levels) are met whatever the others ask (the first
+/// block row of the system says so); damped rows share what is left.
 namespace marey::retarget {
 
 /// Sums along the way from the root to each live joint, over joints that turn.

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "retarget/close_limbs.h"
+
+namespace marey::retarget {
+
+/// Errors of what is asked, in units.
+template <class F>
+struct Errors {
+  F worst_over_precision;
+  F worst;
+  F mean;     ///< Weighted (eq. 4.2); the strict method counts supports, too.
+  F square;   ///< Weighted mean of squares.
+  F balance;  ///< Of the centre of mass.
+  F held;     ///< The worst of supports and of what higher levels reached.
+};
+
+/// Places, targets and errors of all wishes, and with `balance` the centre of mass, in
+/// every lane; wishes beyond `level` count for nothing.
+template <class F>
+[[nodiscard]] Errors<F> measure(const Plan& plan,
+                                bool balance,
+                                const F& level,
+                                Lanes<F>& s) {
+  const F zero = num<F>(0);
+  measure_points(plan, s, level);
+  Errors<F> out{zero, zero, zero, zero, zero, zero};
+  F weights = zero;
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const PointPlan& point = plan.points[k];
+    const LanePoint<F>& p = s.points[k];
+    const F error = length(p.error);
+    const Mask<F> asked = is_asked(point, p, level);
+    const Mask<F> held = asked & ((p.holds > zero) | (num<F>(point.level) < num<F>(1)));
+    out.worst_over_precision = max(out.worst_over_precision, error * p.per_precision);
+    out.worst = max(out.worst, error);
+    out.held = select(held, max(out.held, error), out.held);
+    const F weight = select(asked, p.weight, zero);
+    out.mean = out.mean + weight * error;
+    out.square = out.square + weight * error * error;
+    weights = weights + weight;
+  }
+  const F per_weight = num<F>(1) / max(weights, num<F>(1e-6));
+  out.mean = out.mean * per_weight;
+  out.square = out.square * per_weight;
+  if (balance) {
+    measure_balance(plan, s);
+    out.balance = length(balance_error(s));
+  }
+  return out;
+}
+
+}  // namespace marey::retarget
