@@ -34,7 +34,7 @@ struct AdaptArguments {
   std::vector<std::string> balance_groups;  ///< Empty: the character's own.
   std::vector<std::string> loads;           ///< Carried from the beginning.
   std::filesystem::path floor;              ///< Uneven or moving; empty: level.
-  double floor_height_m = 0.0;              ///< Of what is the floor Y = 0 in the motion.
+  double floor_height_m = 0.0;  ///< By how much the motion and its floor are raised.
   bool json = false;
 };
 
