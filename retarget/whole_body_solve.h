@@ -228,7 +228,7 @@ void apply_step(const Plan& plan, const RowOrder& rows, const F& homing, Lanes<F
 }
 
 /// One step for all wishes up to each lane's level, in every lane. Precondition: the
-/// posture is measured (measure() in retarget/adapt_solve.h); the new one is not. About
+/// posture is measured (measure() in retarget/adapt_errors.h); the new one is not. About
 /// 3,500 operations for 21 joints and four wishes.
 template <class F>
 void step_whole_body(const Plan& plan,
