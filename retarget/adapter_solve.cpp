@@ -175,9 +175,15 @@ void Adapter::State::read_wish(std::size_t k, double activation) {
     }
     wish.a_in_world =
         support.footprint_in_world.value_or(begun_in_world[c].value_or(origin_in_world));
-    const glm::dquat begun = begun_rotation[c].value_or(glm::dquat(1, 0, 0, 0));
-    wish.world_from_joint =
-        support.world_from_t_pose ? *support.world_from_t_pose * t_pose : begun;
+    if (support.world_from_t_pose) {
+      wish.world_from_joint = *support.world_from_t_pose * t_pose;
+    } else if (support.footprint_in_world && !support.turns) {
+      // Placed by somebody, turned as the reference has it at this moment.
+      stand();
+      wish.world_from_joint = plain(lanes.reference_rotation[j]);
+    } else {
+      wish.world_from_joint = begun_rotation[c].value_or(glm::dquat(1, 0, 0, 0));
+    }
   }
 }
 
