@@ -54,8 +54,6 @@ PictureScene draw_control() {
                               {}};
     AdaptOptions options;
     options.control = c.control;
-    // Of the strict method importances that differ make no compromise yet.
-    if (c.control == Control::kBlend) options.method = retarget::Method::kThesis;
     const glm::dvec3 place = scene.to_the_right(2.4 * k++);
     const Adapted out = adapted(c.label, actor, reference, asked, options);
     scene.add_body(actor.skeleton, out.pose, place);
