@@ -49,13 +49,13 @@ class LiveActivation {
   void change(const Change& wanted);
   [[nodiscard]] double ramp_of(const Change& change, double time_s) const;
 
-  // Full only when somebody starts and stops within the durations again and again; then
-  // the oldest is taken for done, which it nearly is.
-  std::array<Change, 16> changes_{};
   std::size_t count_ = 0;
   bool was_active_ = false;  ///< Before all changes.
   double start_duration_s_;
   double stop_duration_s_;
+  // Full only when somebody starts and stops within the durations again and again; then
+  // the oldest is taken for done, which it nearly is.
+  std::array<Change, 16> changes_{};
 };
 
 }  // namespace marey::retarget

@@ -16,13 +16,33 @@
 
 namespace marey::retarget {
 
+/// What is asked of a body at one moment, packed: what goes into a lane beside the body's
+/// own numbers. Bodies of one plan may share one, one after the other, so that it stays
+/// in the nearest cache.
+struct PackedQuestion {
+  const Plan* plan = nullptr;  ///< Somebody else's; the body's own or an equal one.
+  std::vector<float> posture;
+  std::vector<float> wishes;
+  std::array<float, kBalanceNumbers> balance{};
+  std::vector<WishNumbers> numbers;  ///< As plan.points; `wishes` are made from them.
+  std::vector<double> activations;   ///< Likewise.
+  double largest_weight = 0.0;       ///< Of active constraints.
+  std::vector<double> ramps;         ///< Different activations below 1, descending.
+  explicit PackedQuestion(const Plan& shared);
+};
+
+/// Unit to double precision: one Newton step from single precision's, without a root.
+[[nodiscard]] inline glm::dquat unit_rotation(double w, double x, double y, double z) {
+  const double s = 1.5 - 0.5 * (w * w + x * x + y * y + z * z);
+  return {s * w, s * x, s * y, s * z};
+}
+
 /// An adapter from one posture to the next, and one lane to solve it in. A member of a
 /// crowd is one, too: it packs its questions, and solves those that fade.
 struct Adapter::State {
   Character character;
   ConstraintSet constraints;
   AdaptOptions options;
-  Plan plan;
   BodyNumbers body;
   std::vector<glm::dquat> t_pose_from_joint;
   std::vector<char> carried;  ///< Of each load.
@@ -31,25 +51,13 @@ struct Adapter::State {
 
   // Of one posture.
   glm::dvec3 origin_in_world{0.0};
-  std::vector<float> packed_posture;
-  std::vector<float> packed_wishes;
-  std::array<float, kBalanceNumbers> packed_balance{};
-  std::vector<WishNumbers> wishes;       ///< As plan.points.
   std::vector<LiveActivation> live;      ///< Of each constraint.
-  std::vector<double> activations;       ///< As plan.points.
-  double largest_weight = 0.0;           ///< Of active constraints.
-  std::vector<double> ramps;             ///< Different activations below 1, descending.
   Control control = Control::kPriority;  ///< Solved for at this moment.
   /// The control that is being left, its share now, and since when.
   std::optional<Control> left_control;
   double left_share = 0.0;
   std::optional<double> left_since_s;
-  bool is_standing = false;  ///< The reference is in `lanes`.
-  Lanes<float> lanes;
-  Solve<float> solve;
-  ThesisShape thesis;
-  std::vector<Quat<float>> mixed_rotation;  ///< While constraints fade in or out.
-  Vec3<float> mixed_root;
+  bool is_standing = false;                 ///< The reference is in `lanes`.
   std::vector<ConstraintOutcome> outcomes;  ///< As the constraints.
   /// Where supports without a footprint stand, since they began.
   std::vector<std::optional<glm::dvec3>> begun_in_world;
@@ -65,24 +73,36 @@ struct Adapter::State {
   void set_up();
   AdaptReport adapt(const Pose& reference, double time_s, Pose& out);
   /// Packs all that a solve needs. False: constraints fade, and more solves than one are
-  /// needed.
-  [[nodiscard]] bool prepare(const Pose& reference, double time_s);
-  /// Solves what was prepared; `fades`: prepare() said false.
-  AdaptReport solve_prepared(bool fades, Pose& out);
+  /// needed. Again with the same, the same.
+  [[nodiscard]] bool prepare(const Pose& reference, double time_s, PackedQuestion& asked);
+  /// Calls for the memory that prepare() and write() need, so that it is near when they
+  /// do. First for what says where the rest is, then for the rest. Changes nothing.
+  void call_for_state() const;
+  void call_for_numbers() const;
+  static void call_for_pose(const Pose& pose);
   /// The answer out of packed numbers (store_result()): into `out`, and what the adapter
   /// tells.
-  void write(const float* numbers, Pose& out);
+  void write(const Plan& shared, const float* numbers, Pose& out);
   [[nodiscard]] Shape shape() const;
   [[nodiscard]] SolveSettings settings() const;
 
   AdaptReport report;
 
+  // For solves by itself: behind what a crowd needs.
+  Plan plan;
+  PackedQuestion question;
+  Lanes<float> lanes;
+  Solve<float> solve;
+  ThesisShape thesis;
+  std::vector<Quat<float>> mixed_rotation;  ///< While constraints fade in or out.
+  Vec3<float> mixed_root;
+
  private:
-  void read_wishes(double time_s);
-  void read_wish(std::size_t k, double activation);
+  void read_wishes(double time_s, PackedQuestion& asked);
+  void read_wish(std::size_t k, double activation, PackedQuestion& asked);
   [[nodiscard]] BalanceNumbers balance() const;
-  void stand();
-  void ask_for(double least);
+  void stand(const PackedQuestion& asked);
+  void ask_for(double least, PackedQuestion& asked) const;
   /// Solves for the wishes whose activation is at least `least`.
   Errors<float> solve_for(double least, double& iterations);
   Errors<float> solve_faded(double& iterations);

@@ -74,7 +74,7 @@ class Crowd::Jobs final : public LaneJobs {
     std::span<AdaptReport> reports;
   };
 
-  explicit Jobs(std::size_t most) { postponed_.reserve(most); }
+  Jobs(const Plan& plan, std::size_t most) : packed_(plan) { postponed_.reserve(most); }
 
   void begin(const Question& question, std::size_t first, std::size_t end) {
     question_ = question;
@@ -88,14 +88,15 @@ class Crowd::Jobs final : public LaneJobs {
   [[nodiscard]] bool next(LaneJob& job) override {
     while (next_ < end_) {
       const std::size_t i = next_++;
-      if (prepare(i)) {
-        job = job_of(i);
-        return true;
-      }
+      call_ahead(i);
+      if (prepare(i, job)) return true;
+      // Constraints fade: it is solved by itself.
+      const AdaptReport report = question_.members[i].adapt(
+          question_.references[i], question_.time_s, question_.out[i]);
+      if (!question_.reports.empty()) question_.reports[i] = report;
     }
     if (!again_ || handed_out_ == postponed_.size()) return false;
-    job = job_of(static_cast<std::size_t>(postponed_[handed_out_++]));
-    return true;
+    return prepare(static_cast<std::size_t>(postponed_[handed_out_++]), job);
   }
 
   /// From now on next() hands out what was postponed.
@@ -104,32 +105,42 @@ class Crowd::Jobs final : public LaneJobs {
   void answer(int number, const float* result) override {
     const auto i = static_cast<std::size_t>(number);
     Adapter::State& member = *question_.members[i].state_;
-    member.write(result, question_.out[i]);
+    member.write(*packed_.plan, result, question_.out[i]);
     if (!question_.reports.empty()) question_.reports[i] = member.report;
   }
 
   void postpone(int number) override { postponed_.push_back(number); }
 
  private:
-  // False: constraints fade, and the member has had its answer.
-  [[nodiscard]] bool prepare(std::size_t i) {
-    Adapter::State& member = *question_.members[i].state_;
-    if (member.prepare(question_.references[i], question_.time_s)) return true;
-    member.solve_prepared(true, question_.out[i]);
-    if (!question_.reports.empty()) question_.reports[i] = member.report;
-    return false;
+  static constexpr std::size_t kStateAhead = 8;
+  static constexpr std::size_t kNumbersAhead = 4;
+
+  // Memory of members to come: first what says where it is, then itself.
+  void call_ahead(std::size_t i) const {
+    if (i + kNumbersAhead < end_) {
+      question_.members[i + kNumbersAhead].state_->call_for_numbers();
+      Adapter::State::call_for_pose(question_.references[i + kNumbersAhead]);
+      Adapter::State::call_for_pose(question_.out[i + kNumbersAhead]);
+    }
+    if (i + kStateAhead < end_) {
+      question_.members[i + kStateAhead].state_->call_for_state();
+    }
   }
 
-  [[nodiscard]] LaneJob job_of(std::size_t i) const {
-    const Adapter::State& member = *question_.members[i].state_;
-    return {member.body.packed.data(),
-            member.packed_posture.data(),
-            member.packed_wishes.data(),
-            member.packed_balance.data(),
-            static_cast<int>(i)};
+  // False: it fades.
+  [[nodiscard]] bool prepare(std::size_t i, LaneJob& job) {
+    Adapter::State& member = *question_.members[i].state_;
+    if (!member.prepare(question_.references[i], question_.time_s, packed_)) return false;
+    job = {member.body.packed.data(),
+           packed_.posture.data(),
+           packed_.wishes.data(),
+           packed_.balance.data(),
+           static_cast<int>(i)};
+    return true;
   }
 
   Question question_;
+  PackedQuestion packed_;
   std::size_t next_ = 0;
   std::size_t end_ = 0;
   std::vector<int> postponed_;
@@ -177,7 +188,8 @@ Result<Crowd> Crowd::make(std::vector<Adapter> members, const CrowdOptions& opti
   for (int t = 0; t < options.threads; ++t) {
     auto kernel = make_kernel(options.width, first.plan);
     MAREY_ASSERT(kernel != nullptr);
-    state->workers.push_back({std::move(kernel), std::make_unique<Jobs>(members.size())});
+    state->workers.push_back(
+        {std::move(kernel), std::make_unique<Jobs>(first.plan, members.size())});
   }
   state->members = std::move(members);
   for (Adapter& member : state->members) member.state_->is_member = true;
