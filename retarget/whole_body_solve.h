@@ -71,6 +71,36 @@ template <class F>
   return out;
 }
 
+/// Keeps of a wish's rows what is `asked` (1 or 0 each) and damps them. Rows that nobody
+/// asks for are taken out: an identity of their own.
+template <class F>
+void keep_rows(int side, int row, const Vec3<F>& asked, const F& damping, Lanes<F>& s) {
+  const F one = num<F>(1);
+  const auto block = [&](int i, int j) {
+    return &s.blocks[static_cast<std::size_t>(9 * (i * side + j))];
+  };
+  F* diagonal = block(row, row);
+  if (!any((asked.x < one) | (asked.y < one) | (asked.z < one))) {
+    for (std::size_t e = 0; e < 3; ++e) diagonal[4 * e] = diagonal[4 * e] + damping;
+    return;
+  }
+  const F keep[3] = {asked.x, asked.y, asked.z};
+  for (int j = 0; j < row; ++j) {
+    F* b = block(row, j);
+    for (std::size_t e = 0; e < 9; ++e) b[e] = b[e] * keep[e / 3];
+  }
+  for (int i = row + 1; i < side; ++i) {
+    F* b = block(i, row);
+    for (std::size_t e = 0; e < 9; ++e) b[e] = b[e] * keep[e % 3];
+  }
+  for (std::size_t e = 0; e < 9; ++e) {
+    diagonal[e] = diagonal[e] * keep[e / 3] * keep[e % 3];
+  }
+  for (std::size_t e = 0; e < 3; ++e) {
+    diagonal[4 * e] = diagonal[4 * e] + damping + (one - keep[e]);
+  }
+}
+
 /// The system of one step: `blocks` and `right` of the lanes, and how far joints strayed.
 template <class F>
 void form_system(const Plan& plan,
@@ -93,32 +123,6 @@ void form_system(const Plan& plan,
       s.strayed[static_cast<std::size_t>(j)] = {zero, zero, zero};
   }
   const Vec3<F> travelled = homing * (s.place[0] - s.reference_place[0]);
-  // Rows that nobody asks for are taken out: an identity of their own.
-  const auto block = [&](int i, int j) {
-    return &s.blocks[static_cast<std::size_t>(9 * (i * side + j))];
-  };
-  const auto use = [&](int row, const Vec3<F>& asked, const F& damping) {
-    F* diagonal = block(row, row);
-    if (!any((asked.x < one) | (asked.y < one) | (asked.z < one))) {
-      for (std::size_t e = 0; e < 3; ++e) diagonal[4 * e] = diagonal[4 * e] + damping;
-      return;
-    }
-    const F keep[3] = {asked.x, asked.y, asked.z};
-    for (int j = 0; j < row; ++j) {
-      F* b = block(row, j);
-      for (std::size_t e = 0; e < 9; ++e) b[e] = b[e] * keep[e / 3];
-    }
-    for (int i = row + 1; i < side; ++i) {
-      F* b = block(i, row);
-      for (std::size_t e = 0; e < 9; ++e) b[e] = b[e] * keep[e % 3];
-    }
-    for (std::size_t e = 0; e < 9; ++e) {
-      diagonal[e] = diagonal[e] * keep[e / 3] * keep[e % 3];
-    }
-    for (std::size_t e = 0; e < 3; ++e) {
-      diagonal[4 * e] = diagonal[4 * e] + damping + (one - keep[e]);
-    }
-  };
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const PointPlan& point = plan.points[k];
     LanePoint<F>& p = s.points[k];
@@ -136,7 +140,7 @@ void form_system(const Plan& plan,
     if (strays) {
       s.right[static_cast<std::size_t>(row)] += strayed_of(point, p, travelled, s);
     }
-    use(row, {asked, asked, asked}, damping);
+    keep_rows(side, row, Vec3<F>{asked, asked, asked}, damping, s);
     Vec3<F>& right = s.right[static_cast<std::size_t>(row)];
     right = asked * right;
   }
@@ -151,9 +155,11 @@ void form_system(const Plan& plan,
       back += cross(s.strayed[i], s.lever[i]);
     }
     s.right[static_cast<std::size_t>(rows.supports)] = scale * error + back;
-    use(rows.supports,
-        {s.balance, s.balance * s.vertical, s.balance},
-        num<F>(kExactDamping));
+    keep_rows(side,
+              rows.supports,
+              Vec3<F>{s.balance, s.balance * s.vertical, s.balance},
+              num<F>(kExactDamping),
+              s);
     Vec3<F>& right = s.right[static_cast<std::size_t>(rows.supports)];
     right = {s.balance * right.x, s.balance * s.vertical * right.y, s.balance * right.z};
   }

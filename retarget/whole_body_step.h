@@ -214,9 +214,12 @@ void form_point_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes<F
   }
 }
 
+/// Of the centre of mass with itself.
 template <class F>
-void form_balance_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes<F>& s) {
-  const int n = static_cast<int>(plan.points.size());
+void form_own_balance_block(const Plan& plan,
+                            const RowOrder& rows,
+                            int side,
+                            Lanes<F>& s) {
   const int row = rows.supports;
   const F zero = num<F>(0);
   F own[9] = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
@@ -238,7 +241,15 @@ void form_balance_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes
   own[8] = own[8] + s.mobility * s.root_weight_on_floor;
   F* out = &s.blocks[static_cast<std::size_t>(9 * (row * side + row))];
   for (std::size_t e = 0; e < 9; ++e) out[e] = own[e];
+}
 
+/// Of the centre of mass with itself and with every wish.
+template <class F>
+void form_balance_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes<F>& s) {
+  form_own_balance_block(plan, rows, side, s);
+  const int n = static_cast<int>(plan.points.size());
+  const int row = rows.supports;
+  const F zero = num<F>(0);
   for (int k = 0; k < n; ++k) {
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
     const Vec3<F>& p = s.points[static_cast<std::size_t>(k)].place;
