@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -16,6 +15,8 @@
 #include "core/pose.h"
 #include "recordings/atomic_file.h"
 #include "recordings/bvh.h"
+#include "recordings/floor_height.h"
+#include "recordings/meant_rate.h"
 #include "recordings/motion_limits.h"
 #include "recordings/text_reader.h"
 #include "recordings/travelling_joint.h"
@@ -185,9 +186,17 @@ class Parser {
   Status end_site(JointIndex joint) {
     (void)name();  // "Site", sometimes with a brace or a name behind it.
     if (Status s = open_brace(); !s) return s;
-    const auto tip = offset();
-    if (!tip) return tip.error();
-    file_.skeleton.joints[index(joint)].tip_in_joint = *tip;
+    if (lower(reader_.peek()) == "offset") {
+      const auto tip = offset();
+      if (!tip) return tip.error();
+      file_.skeleton.joints[index(joint)].tip_in_joint = *tip;
+    }
+    if (lower(reader_.peek()) == "channels") {
+      (void)reader_.word();
+      if (to_integer(reader_.word_on_line()) != 0) {
+        return fail("an End Site has channels");
+      }
+    }
     return expect("}");
   }
 
@@ -219,14 +228,34 @@ class Parser {
     return Done{};
   }
 
+  /// What a line says behind its label and a colon, with or without blanks between.
+  Result<std::string_view> labelled(std::string_view label) {
+    reader_.skip_blank();
+    std::string_view line = reader_.rest_of_line();
+    for (std::string_view rest = label; !rest.empty();) {
+      const std::string_view word = rest.substr(0, rest.find(' '));
+      rest.remove_prefix(std::min(word.size() + 1, rest.size()));
+      if (lower(line.substr(0, word.size())) != lower(word)) line = {};
+      line.remove_prefix(std::min(word.size(), line.size()));
+      line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    }
+    if (!line.starts_with(':')) {
+      return fail("expected " + shown(std::string(label) + ":"));
+    }
+    line.remove_prefix(1);
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    return line;
+  }
+
   Status motion_head() {
     if (lower(reader_.peek()) == "root") {
       (void)reader_.word();
       return fail("the file holds a second ROOT; marey reads one body per file");
     }
     if (Status s = expect("MOTION"); !s) return s;
-    if (Status s = expect("Frames:"); !s) return s;
-    const auto count = to_integer(reader_.word_on_line());
+    const auto frames_text = labelled("Frames");
+    if (!frames_text) return frames_text.error();
+    const auto count = to_integer(*frames_text);
     if (!count || *count < 0) return fail("expected the number of frames");
     frame_count_ = *count;
     const auto frames = static_cast<std::size_t>(*count);
@@ -234,10 +263,12 @@ class Parser {
             file_.skeleton.joints.size(), frames, frames * file_.values_per_frame)) {
       return fail("so many frames of so many joints do not fit into memory");
     }
-    if (Status s = expect("Frame"); !s) return s;
-    if (Status s = expect("Time:"); !s) return s;
-    const auto time = number("Frame Time");
-    if (!time) return time.error();
+    const auto time_text = labelled("Frame Time");
+    if (!time_text) return time_text.error();
+    const auto time = to_number(*time_text);
+    if (!time) {
+      return fail("expected a number for Frame Time, found " + shown(*time_text));
+    }
     if (!(*time >= 1.0 / kFastestRateHz && *time <= 1.0 / kSlowestRateHz)) {
       return fail("Frame Time must be 0.0005 to 10 seconds");
     }
@@ -308,18 +339,6 @@ RigidTransform local_transform(const Joint& joint,
   return local;
 }
 
-/// How high the first joint stands when the rest pose stands on the floor. [m]
-double standing_height(const Skeleton& skeleton) {
-  const auto world_from_joint = world_from_joints(skeleton, rest_pose(skeleton));
-  double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < world_from_joint.size(); ++i) {
-    const auto tip = skeleton.joints[i].tip_in_joint;
-    lowest = std::min(lowest, world_from_joint[i].translation.y);
-    if (tip) lowest = std::min(lowest, (world_from_joint[i] * *tip).y);
-  }
-  return world_from_joint[0].translation.y - lowest;
-}
-
 void to_metres(Skeleton& skeleton, double unit_m) {
   for (Joint& joint : skeleton.joints) {
     joint.parent_from_joint.translation *= unit_m;
@@ -329,17 +348,11 @@ void to_metres(Skeleton& skeleton, double unit_m) {
   if (root == glm::dvec3(0.0)) root.y = standing_height(skeleton);
 }
 
-FrameRate rate_of(double frame_time_s) {
-  const double hz = 1.0 / frame_time_s;
-  const double whole = std::round(hz);
-  return {whole > 0.0 && std::abs(hz - whole) < 1e-4 * hz ? whole : hz};
-}
-
 BvhMotion motion_of(BvhFile file, double unit_m) {
   BvhMotion result;
   to_metres(file.skeleton, unit_m);
   result.motion.skeleton = std::move(file.skeleton);
-  result.motion.rate = rate_of(file.frame_time_s);
+  result.motion.rate = FrameRate{meant_rate(1.0 / file.frame_time_s, 1e-9)};
   const auto& joints = result.motion.skeleton.joints;
   std::vector<RigidTransform> local(joints.size());
   const std::size_t count =

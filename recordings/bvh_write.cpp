@@ -13,6 +13,7 @@
 #include "core/pose.h"
 #include "recordings/atomic_file.h"
 #include "recordings/bvh.h"
+#include "recordings/bvh_names.h"
 #include "recordings/number_text.h"
 
 namespace marey::recordings {
@@ -25,7 +26,22 @@ constexpr std::array<char, 3> kAxisNames{'X', 'Y', 'Z'};
 using Axes = std::array<int, 3>;
 
 Axes axes_of(BvhOrder order) {
-  return order == BvhOrder::kZyx ? Axes{2, 1, 0} : Axes{2, 0, 1};
+  switch (order) {
+    case BvhOrder::kZxy:
+      return {2, 0, 1};
+    case BvhOrder::kZyx:
+      return {2, 1, 0};
+    case BvhOrder::kXyz:
+      return {0, 1, 2};
+    case BvhOrder::kXzy:
+      return {0, 2, 1};
+    case BvhOrder::kYxz:
+      return {1, 0, 2};
+    case BvhOrder::kYzx:
+      return {1, 2, 0};
+  }
+  MAREY_ASSERT(false);
+  return {};
 }
 
 double nearest_turn(double angle_rad, double to_rad) {
@@ -77,11 +93,13 @@ struct BvhBody {
   const Skeleton& skeleton;
   std::vector<RigidTransform> world_from_rest_joint;
   std::vector<std::vector<std::size_t>> children;
+  std::vector<std::string> names;
 
-  explicit BvhBody(const Skeleton& of)
+  BvhBody(const Skeleton& of, BvhNames as)
       : skeleton(of),
         world_from_rest_joint(world_from_joints(of, rest_pose(of))),
-        children(of.joints.size()) {
+        children(of.joints.size()),
+        names(bvh_names(of, as)) {
     for (std::size_t i = 1; i < of.joints.size(); ++i) {
       MAREY_ASSERT(of.joints[i].parent.has_value());
       children[index(*of.joints[i].parent)].push_back(i);
@@ -114,10 +132,8 @@ void append_joint(std::string& text,
                   std::vector<std::size_t>& order) {
   order.push_back(joint);
   const std::string indent(depth, '\t');
-  std::string name = body.skeleton.joints[joint].name;
-  for (char& c : name) c = static_cast<unsigned char>(c) <= ' ' ? '_' : c;
-  if (name.empty()) name = "joint" + std::to_string(joint);
-  text += indent + (depth == 0 ? "ROOT " : "JOINT ") + name + "\n" + indent + "{\n";
+  text += indent + (depth == 0 ? "ROOT " : "JOINT ") + body.names[joint] + "\n";
+  text += indent + "{\n";
   text += indent + "\tOFFSET";
   append_vector(text, body.offset(joint) / options.unit_m);
   text += "\n" + indent + "\tCHANNELS ";
@@ -152,17 +168,45 @@ std::vector<glm::dquat> rotations_since_rest(const BvhBody& body, const Pose& po
 
 }  // namespace
 
+BvhWriteOptions write_options(BvhDialect dialect) {
+  switch (dialect) {
+    case BvhDialect::kBlender:
+      return {BvhOrder::kZyx, 1.0, BvhNames::kOwn};
+    case BvhDialect::kMobu:
+      return {BvhOrder::kZyx, 0.01, BvhNames::kHumanIk};
+    case BvhDialect::kMaya:
+      return {BvhOrder::kZyx, 0.01, BvhNames::kHumanIk};
+    case BvhDialect::kUnity:
+      return {BvhOrder::kYxz, 1.0, BvhNames::kUnity};
+  }
+  MAREY_ASSERT(false);
+  return {};
+}
+
+std::string_view name(BvhDialect dialect) {
+  constexpr std::array<std::string_view, 4> kNames{"blender", "mobu", "maya", "unity"};
+  return kNames[static_cast<std::size_t>(dialect)];
+}
+
+std::optional<BvhDialect> bvh_dialect(std::string_view word) {
+  for (const BvhDialect dialect :
+       {BvhDialect::kBlender, BvhDialect::kMobu, BvhDialect::kMaya, BvhDialect::kUnity}) {
+    if (word == name(dialect)) return dialect;
+  }
+  return std::nullopt;
+}
+
 std::string bvh_text(const Motion& motion, const BvhWriteOptions& options) {
   MAREY_ASSERT(!motion.skeleton.joints.empty());
   MAREY_ASSERT(options.unit_m > 0.0);
   MAREY_ASSERT(motion.rate.hz > 0.0);
-  const BvhBody body(motion.skeleton);
+  const BvhBody body(motion.skeleton, options.names);
   std::string text = "HIERARCHY\n";
   std::vector<std::size_t> order;
   append_joint(text, body, options, 0, 0, order);
 
   text += "MOTION\nFrames: " + std::to_string(motion.poses.size()) + "\nFrame Time: ";
-  append_fixed(text, 1.0 / motion.rate.hz, 8);
+  append_exact(text, 1.0 / motion.rate.hz);
   text += "\n";
   const Axes axes = axes_of(options.order);
   std::vector<glm::dvec3> last(order.size(), glm::dvec3(0.0));

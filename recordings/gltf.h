@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string_view>
 
 #include "core/motion.h"
 #include "core/result.h"
@@ -43,24 +44,28 @@ struct Character {
 [[nodiscard]] Result<Character> read_character(const std::filesystem::path& path);
 
 /// Writes a GLB of the skeleton in its rest pose with its skinned mesh and, unless it is
-/// null, one animation of `motion`: linear keys at the motion's rate, the first at time
-/// 0. Nodes are named like the joints. glTF's own validator finds neither errors nor
-/// warnings. Replaces the file at once or not at all. Same input, same bytes. Errors as
+/// null, one animation of `motion`, called `clip`: linear keys at the motion's rate, the
+/// first at time 0; neighbouring quaternions on the same side; nothing is scaled. Nodes
+/// are named like the joints. glTF's own validator finds neither errors nor warnings.
+/// Replaces the file at once or not at all. Same input, same bytes. Errors as
 /// write_file()'s. Linear in vertices and frames.
 /// Precondition: the mesh is bound to `skeleton`, which has one root, its first joint;
 /// the motion's poses have as many joints.
 [[nodiscard]] Status write_character(const std::filesystem::path& path,
                                      const Skeleton& skeleton,
                                      const SkinnedMesh& mesh,
-                                     const Motion* motion = nullptr);
+                                     const Motion* motion = nullptr,
+                                     std::string_view clip = "motion");
 
-/// Writes the asset at `source` again as a GLB with `motion` as its only animation. All
+/// Writes the asset at `source` again as a GLB with `motion`, called `clip`, as its only
+/// animation. All
 /// else is kept as it is: meshes, materials, textures, extensions. Data of removed
 /// animations stay in the file unused. Buffers and images beside a .gltf are taken in.
 /// Fails as read_character() does, and when the motion is not of the skeleton that
 /// read_character(source) gives.
 [[nodiscard]] Status write_retargeted(const std::filesystem::path& source,
                                       const std::filesystem::path& path,
-                                      const Motion& motion);
+                                      const Motion& motion,
+                                      std::string_view clip = "motion");
 
 }  // namespace marey::recordings

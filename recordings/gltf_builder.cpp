@@ -123,7 +123,8 @@ std::string GltfBuilder::glb() const {
 Json make_animation(GltfBuilder& builder,
                     std::span<const NodeTrack> tracks,
                     std::size_t frames,
-                    FrameRate rate) {
+                    FrameRate rate,
+                    std::string_view name) {
   std::vector<float> times_s;
   for (std::size_t i = 0; i < frames; ++i) {
     times_s.push_back(static_cast<float>(static_cast<double>(i) / rate.hz));
@@ -156,7 +157,7 @@ Json make_animation(GltfBuilder& builder,
       add(track.node, "rotation", builder.add_floats(values, 4, "VEC4", false));
     }
   }
-  return {{"name", "motion"},
+  return {{"name", name},
           {"channels", std::move(channels)},
           {"samplers", std::move(samplers)}};
 }

@@ -4,6 +4,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -66,6 +67,7 @@ struct NodeTrack {
 [[nodiscard]] Json make_animation(GltfBuilder& builder,
                                   std::span<const NodeTrack> tracks,
                                   std::size_t frames,
-                                  FrameRate rate);
+                                  FrameRate rate,
+                                  std::string_view name);
 
 }  // namespace marey::recordings

@@ -7,6 +7,7 @@
 #include <tiny_gltf.h>
 
 #include "recordings/gltf_model.h"
+#include "recordings/meant_rate.h"
 #include "recordings/motion_limits.h"
 #include "recordings/travelling_joint.h"
 
@@ -52,6 +53,10 @@ glm::dvec4 sample(const Track& track, double time_s) {
   if (next == 0) return track.value(0, 1);
   if (next == times.size() || track.blend == Blend::kStep)
     return track.value(next - 1, 1);
+  // And one just before it: as near as a float can tell.
+  if (time_s - times[next - 1] <= 1.2e-7 * std::max(1.0, std::abs(time_s))) {
+    return track.value(next - 1, 1);
+  }
   const double span = times[next] - times[next - 1];
   const double t = std::max(0.0, (time_s - times[next - 1]) / span);
   const glm::dvec4 a = track.value(next - 1, 1);
@@ -130,8 +135,7 @@ double rate_of(const std::vector<Track>& tracks) {
   const double hz = 1.0 / step;
   if (hz < kSlowestKeysHz || hz > kFastestRateHz) return kUsualRateHz;
   // Times are floats, so the step is not quite what was meant.
-  const double whole = std::round(hz);
-  return std::abs(hz - whole) < 1e-4 * hz ? whole : hz;
+  return meant_rate(hz, 2e-7);
 }
 
 void apply(const Track& track, double time_s, NodePose& pose) {

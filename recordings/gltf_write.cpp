@@ -249,7 +249,9 @@ void take_in_images(Json& document,
   }
 }
 
-std::string retargeted_glb(const GltfSource& source, const Motion& motion) {
+std::string retargeted_glb(const GltfSource& source,
+                           const Motion& motion,
+                           std::string_view clip) {
   Json document = Json::parse(source.json);
   std::string buffer = merge_buffers(document, source.buffers);
   GltfBuilder builder(document, buffer);
@@ -260,8 +262,8 @@ std::string retargeted_glb(const GltfSource& source, const Motion& motion) {
     split_matrix(document["nodes"].at(static_cast<std::size_t>(track.node)));
   }
   if (!motion.poses.empty()) {
-    document["animations"] =
-        Json::array({make_animation(builder, tracks, motion.poses.size(), motion.rate)});
+    document["animations"] = Json::array(
+        {make_animation(builder, tracks, motion.poses.size(), motion.rate, clip)});
   }
   return builder.glb();
 }
@@ -271,7 +273,8 @@ std::string retargeted_glb(const GltfSource& source, const Motion& motion) {
 Status write_character(const std::filesystem::path& path,
                        const Skeleton& skeleton,
                        const SkinnedMesh& mesh,
-                       const Motion* motion) {
+                       const Motion* motion,
+                       std::string_view clip) {
   MAREY_ASSERT(!skeleton.joints.empty() && !mesh.p_in_world.empty());
   MAREY_ASSERT(mesh.skin.size() == mesh.p_in_world.size());
   MAREY_ASSERT(mesh.normal_in_world.size() == mesh.p_in_world.size());
@@ -289,14 +292,15 @@ Status write_character(const std::filesystem::path& path,
   if (motion != nullptr && !motion->poses.empty()) {
     MAREY_ASSERT(motion->skeleton.joints.size() == joints);
     document["animations"] = Json::array({make_animation(
-        builder, tracks_of(*motion), motion->poses.size(), motion->rate)});
+        builder, tracks_of(*motion), motion->poses.size(), motion->rate, clip)});
   }
   return write_file(path, builder.glb());
 }
 
 Status write_retargeted(const std::filesystem::path& source,
                         const std::filesystem::path& path,
-                        const Motion& motion) {
+                        const Motion& motion,
+                        std::string_view clip) {
   const Result<GltfSource> asset = read_gltf_source(source);
   if (!asset) return asset.error();
   if (Status s = check_body(source, asset->character.skeleton, motion.skeleton); !s) {
@@ -304,7 +308,7 @@ Status write_retargeted(const std::filesystem::path& source,
   }
   std::string bytes;
   try {
-    bytes = retargeted_glb(*asset, motion);
+    bytes = retargeted_glb(*asset, motion, clip);
   } catch (const std::exception& problem) {
     return bad_input(source.string(), problem.what(), "export the avatar again as .glb");
   }

@@ -20,6 +20,7 @@ namespace marey::recordings {
 namespace {
 
 constexpr std::string_view kJointsHeader = "frame,time,joint,x,y,z,sigma";
+constexpr std::string_view kPlacesHeader = "frame,time,joint,x,y,z";
 constexpr std::string_view kSegmentsHeader =
     "frame,time,segment,x,y,z,qw,qx,qy,qz,source";
 
@@ -45,16 +46,14 @@ Status check_names(const std::filesystem::path& path, const Skeleton& skeleton) 
 }
 
 /// Writes `header` and one row per frame and joint; `finish_row` appends the cells after
-/// the name.
+/// the place.
 template <class FinishRow>
-Status write_table(const std::filesystem::path& path,
-                   std::string_view header,
-                   const EstimatedMotion& estimated,
-                   std::optional<double> start_s,
-                   const FinishRow& finish_row) {
-  const Motion& motion = estimated.motion;
+Status write_rows(const std::filesystem::path& path,
+                  std::string_view header,
+                  const Motion& motion,
+                  std::optional<double> start_s,
+                  const FinishRow& finish_row) {
   const std::vector<Joint>& joints = motion.skeleton.joints;
-  MAREY_ASSERT(estimated.doubt.size() == motion.poses.size());
   if (Status names = check_names(path, motion.skeleton); !names) return names;
   Result<AtomicFile> file = AtomicFile::create(path);
   if (!file) return file.error();
@@ -63,7 +62,6 @@ Status write_table(const std::filesystem::path& path,
   lines += '\n';
   std::vector<RigidTransform> world_from_joint(joints.size());
   for (std::size_t i = 0; i < motion.poses.size(); ++i) {
-    MAREY_ASSERT(estimated.doubt[i].size() == joints.size());
     world_from_joints(motion.skeleton, motion.poses[i], world_from_joint);
     const int frame = motion.first_frame + static_cast<int>(i);
     std::string start;
@@ -74,7 +72,7 @@ Status write_table(const std::filesystem::path& path,
     for (std::size_t j = 0; j < joints.size(); ++j) {
       lines.append(start).append(",").append(joints[j].name);
       append_cells(lines, world_from_joint[j].translation);
-      finish_row(lines, world_from_joint[j].rotation, estimated.doubt[i][j]);
+      finish_row(lines, world_from_joint[j].rotation, i, j);
       lines += '\n';
     }
     file->append(lines);  // Frame by frame, so that memory does not grow.
@@ -82,6 +80,22 @@ Status write_table(const std::filesystem::path& path,
   }
   file->append(lines);
   return file->commit();
+}
+
+/// write_rows() with what is known of each joint.
+template <class FinishRow>
+Status write_table(const std::filesystem::path& path,
+                   std::string_view header,
+                   const EstimatedMotion& estimated,
+                   std::optional<double> start_s,
+                   const FinishRow& finish_row) {
+  MAREY_ASSERT(estimated.doubt.size() == estimated.motion.poses.size());
+  const auto finish =
+      [&](std::string& line, const glm::dquat& rotation, std::size_t i, std::size_t j) {
+        MAREY_ASSERT(j < estimated.doubt[i].size());
+        finish_row(line, rotation, estimated.doubt[i][j]);
+      };
+  return write_rows(path, header, estimated.motion, start_s, finish);
 }
 
 std::optional<Source> source_of(std::string_view word) {
@@ -158,6 +172,14 @@ Status write_joints_csv(const std::filesystem::path& path,
                      [](std::string& line, const glm::dquat&, const JointDoubt& doubt) {
                        append_cell(line, doubt.sigma_m);
                      });
+}
+
+Status write_places_csv(const std::filesystem::path& path, const Motion& motion) {
+  return write_rows(path,
+                    kPlacesHeader,
+                    motion,
+                    std::nullopt,
+                    [](std::string&, const glm::dquat&, std::size_t, std::size_t) {});
 }
 
 Status write_segments_csv(const std::filesystem::path& path,

@@ -45,6 +45,11 @@ struct SegmentRow {
                                       const EstimatedMotion& estimated,
                                       std::optional<double> start_s = {});
 
+/// Writes `frame,time,joint,x,y,z`: joints.csv of a motion of which no doubt is known.
+/// Otherwise as write_joints_csv().
+[[nodiscard]] Status write_places_csv(const std::filesystem::path& path,
+                                      const Motion& motion);
+
 /// Writes segments.csv: `frame,time,segment,x,y,z,qw,qx,qy,qz,source`, the place and the
 /// rotation of every joint's frame in the world, six decimals, qw >= 0; otherwise as
 /// write_joints_csv().

@@ -45,6 +45,17 @@ TEST(JointsCsv, IsWrittenAsPromised) {
             "4,0.133333,spine,0.250000,1.100000,0.000000,0.004000\n");
 }
 
+TEST(PlacesCsv, HasNoColumnForWhatIsNotKnown) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_places_csv(folder / "places.csv", a_motion().motion));
+  EXPECT_EQ(*read_file(folder / "places.csv"),
+            "frame,time,joint,x,y,z\n"
+            "3,0.100000,hips,0.250000,1.000000,0.000000\n"
+            "3,0.100000,spine,0.250000,1.100000,0.000000\n"
+            "4,0.133333,hips,0.250000,1.000000,0.000000\n"
+            "4,0.133333,spine,0.250000,1.100000,0.000000\n");
+}
+
 TEST(SegmentsCsv, IsWrittenAsPromisedWithPositiveW) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_segments_csv(folder / "segments.csv", a_motion()));

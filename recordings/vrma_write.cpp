@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/assert.h"
+#include "core/humanoid.h"
+#include "core/pose.h"
+#include "recordings/atomic_file.h"
+#include "recordings/gltf_builder.h"
+#include "recordings/vrma.h"
+
+namespace marey::recordings {
+namespace {
+
+constexpr std::array kRequired{HumanBone::kHips,
+                               HumanBone::kSpine,
+                               HumanBone::kHead,
+                               HumanBone::kLeftUpperArm,
+                               HumanBone::kLeftLowerArm,
+                               HumanBone::kLeftHand,
+                               HumanBone::kRightUpperArm,
+                               HumanBone::kRightLowerArm,
+                               HumanBone::kRightHand,
+                               HumanBone::kLeftUpperLeg,
+                               HumanBone::kLeftLowerLeg,
+                               HumanBone::kLeftFoot,
+                               HumanBone::kRightUpperLeg,
+                               HumanBone::kRightLowerLeg,
+                               HumanBone::kRightFoot};
+
+/// A bone of the file: whose joint it is, and which node before it is its parent.
+struct BoneNode {
+  HumanBone bone{};
+  std::size_t joint = 0;
+  std::optional<std::size_t> parent;
+};
+
+Error missing(std::string cause) {
+  return bad_input(
+      "",
+      std::move(cause),
+      "name the body's bones, or retarget the motion on a body that has them");
+}
+
+bool is_below(const Skeleton& skeleton, std::size_t joint, std::size_t above) {
+  for (auto at = skeleton.joints[joint].parent; at; at = skeleton[*at].parent) {
+    if (index(*at) == above) return true;
+  }
+  return false;
+}
+
+/// The bones that VRM lets be there, parents first: one without what it needs is left
+/// out.
+Result<std::vector<BoneNode>> bone_nodes(const Skeleton& skeleton) {
+  std::vector<BoneNode> nodes;
+  std::array<std::optional<std::size_t>, kHumanBoneCount> node_of{};
+  for (const HumanBone bone : human_bones()) {
+    const auto joint = skeleton.find(bone);
+    const bool required = std::ranges::find(kRequired, bone) != kRequired.end();
+    if (!joint) {
+      if (!required) continue;
+      return missing("no joint is the " + std::string(name(bone)) +
+                     ", which VRM requires");
+    }
+    BoneNode node{bone, index(*joint), std::nullopt};
+    for (auto above = parent(bone); above && !node.parent; above = parent(*above)) {
+      node.parent = node_of[index(*above)];
+    }
+    if (node.parent && !is_below(skeleton, node.joint, nodes[*node.parent].joint)) {
+      return missing("the " + std::string(name(bone)) + " does not lie below the " +
+                     std::string(name(nodes[*node.parent].bone)));
+    }
+    // VRM's upper chest wants a chest.
+    if (bone == HumanBone::kUpperChest && !node_of[index(HumanBone::kChest)]) continue;
+    node_of[index(bone)] = nodes.size();
+    nodes.push_back(node);
+  }
+  return nodes;
+}
+
+double lowest_m(const Skeleton& skeleton, std::span<const RigidTransform> joints) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    lowest = std::min(lowest, joints[i].translation.y);
+    const auto& tip = skeleton.joints[i].tip_in_joint;
+    if (tip) lowest = std::min(lowest, (joints[i] * *tip).y);
+  }
+  return lowest;
+}
+
+/// Every joint in the T-pose, as high above the floor as the rest pose stands.
+std::vector<RigidTransform> t_pose(const Skeleton& skeleton,
+                                   std::span<const glm::dquat> rotations) {
+  const Pose rest = rest_pose(skeleton);
+  const auto resting = world_from_joints(skeleton, rest);
+  if (rotations.empty()) return resting;
+  auto posed = world_from_joints(
+      skeleton, pose_from_world(skeleton, rest.root_in_world, rotations));
+  const double rise_m = lowest_m(skeleton, resting) - lowest_m(skeleton, posed);
+  for (RigidTransform& joint : posed) joint.translation.y += rise_m;
+  return posed;
+}
+
+Json array_of(const glm::dvec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+/// Nodes at rest, and which of them is which bone.
+void add_nodes(Json& document,
+               std::span<const BoneNode> nodes,
+               std::span<const RigidTransform> t_pose) {
+  Json list = Json::array();
+  Json bones = Json::object();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto& [bone, joint, parent] = nodes[i];
+    glm::dvec3 place = t_pose[joint].translation;
+    if (parent) place -= t_pose[nodes[*parent].joint].translation;
+    list.push_back({{"name", name(bone)}, {"translation", array_of(place)}});
+    if (parent) list[*parent]["children"].push_back(i);
+    bones[std::string(name(bone))] = {{"node", i}};
+  }
+  document["nodes"] = std::move(list);
+  document["extensionsUsed"] = Json::array({"VRMC_vrm_animation"});
+  document["extensions"] = {
+      {"VRMC_vrm_animation",
+       {{"specVersion", "1.0"}, {"humanoid", {{"humanBones", std::move(bones)}}}}}};
+}
+
+std::vector<NodeTrack> tracks_of(const Motion& motion,
+                                 std::span<const BoneNode> nodes,
+                                 std::span<const RigidTransform> t_pose) {
+  std::vector<NodeTrack> tracks(nodes.size());
+  for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i].node = static_cast<int>(i);
+  std::vector<RigidTransform> world_from_joint(t_pose.size());
+  std::vector<glm::dquat> turned(nodes.size());
+  for (const Pose& pose : motion.poses) {
+    world_from_joints(motion.skeleton, pose, world_from_joint);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto& [bone, joint, parent] = nodes[i];
+      turned[i] =
+          world_from_joint[joint].rotation * glm::conjugate(t_pose[joint].rotation);
+      tracks[i].rotations.push_back(parent ? glm::conjugate(turned[*parent]) * turned[i]
+                                           : turned[i]);
+    }
+    tracks[0].translations.push_back(world_from_joint[nodes[0].joint].translation);
+  }
+  return tracks;
+}
+
+}  // namespace
+
+Result<std::string> vrma_bytes(const Motion& motion, const VrmaOptions& options) {
+  const std::size_t joints = motion.skeleton.joints.size();
+  MAREY_ASSERT(joints > 0 && motion.rate.hz > 0.0);
+  MAREY_ASSERT(options.t_pose_from_joint.empty() ||
+               options.t_pose_from_joint.size() == joints);
+  const auto nodes = bone_nodes(motion.skeleton);
+  if (!nodes) return nodes.error();
+  const auto rest = t_pose(motion.skeleton, options.t_pose_from_joint);
+  Json document{{"asset", {{"version", "2.0"}, {"generator", "marey"}}},
+                {"scene", 0},
+                {"scenes", Json::array({Json{{"nodes", Json::array({0})}}})}};
+  std::string buffer;
+  GltfBuilder builder(document, buffer);
+  add_nodes(document, *nodes, rest);
+  if (!motion.poses.empty()) {
+    document["animations"] = Json::array({make_animation(builder,
+                                                         tracks_of(motion, *nodes, rest),
+                                                         motion.poses.size(),
+                                                         motion.rate,
+                                                         options.clip)});
+  }
+  return builder.glb();
+}
+
+Status write_vrma(const std::filesystem::path& path,
+                  const Motion& motion,
+                  const VrmaOptions& options) {
+  Result<std::string> bytes = vrma_bytes(motion, options);
+  if (bytes) return write_file(path, *bytes);
+  Error error = bytes.error();
+  error.where = path.string();
+  return error;
+}
+
+}  // namespace marey::recordings
