@@ -42,12 +42,8 @@ Result<Character> find_character(const Motion& source, const AdaptBodyOptions& o
 
 /// The file whose mesh the character has, if any.
 fs::path look_of(const AdaptBodyOptions& options) {
-  fs::path file = options.motion;
-  if (!options.character.empty()) {
-    const auto spec = recordings::read_character_spec(options.character);
-    const auto* avatar = spec ? std::get_if<AvatarBody>(&spec->body) : nullptr;
-    file = avatar == nullptr ? fs::path() : fs::path(avatar->path);
-  }
+  const fs::path file =
+      options.character.empty() ? options.motion : body_file_of(options.character);
   return is_gltf(file) ? file : fs::path();
 }
 
@@ -114,6 +110,14 @@ Result<AdaptBody> make_adapt_body(const Motion& source, const AdaptBodyOptions& 
   AdaptBody body{std::move(*character), std::move(*map), {}, {}, 0.0, look_of(options)};
   if (const Status ok = place_motion(source, options, body); !ok) return ok.error();
   return body;
+}
+
+fs::path body_file_of(const fs::path& character) {
+  const auto spec = recordings::read_character_spec(character);
+  if (!spec) return {};
+  if (const auto* avatar = std::get_if<AvatarBody>(&spec->body)) return avatar->path;
+  if (const auto* subject = std::get_if<SubjectBody>(&spec->body)) return subject->path;
+  return {};
 }
 
 Status check_adapted_out(const AdaptBody& body, const fs::path& out) {

@@ -38,6 +38,10 @@ struct AdaptBodyOptions {
 [[nodiscard]] Result<AdaptBody> make_adapt_body(const Motion& source,
                                                 const AdaptBodyOptions& options);
 
+/// The file that a character.toml has its body from; empty: from none, or it cannot be
+/// read.
+[[nodiscard]] std::filesystem::path body_file_of(const std::filesystem::path& character);
+
 /// Writes a motion of the body: .bvh, or .glb with the look of the character's own file,
 /// else of a mannequin when the skeleton is marey's. Whole or not at all.
 [[nodiscard]] Status write_adapted(const AdaptBody& body,

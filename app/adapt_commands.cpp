@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <map>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -28,6 +30,8 @@
 namespace marey::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 bool is_support(const Constraint& constraint) {
   return std::holds_alternative<Support>(constraint.goal);
 }
@@ -46,6 +50,25 @@ Result<ConstraintSet> read_set(const AdaptArguments& args, Console& console) {
 
 bool has_supports(const ConstraintSet& set) {
   return std::any_of(set.constraints.begin(), set.constraints.end(), is_support);
+}
+
+/// Nothing that is read is written over, whatever it is called there.
+Status check_out(const AdaptArguments& args) {
+  std::vector<std::pair<fs::path, const char*>> read{{args.motion, "the motion to adapt"},
+                                                     {args.constraints, "--constraints"},
+                                                     {args.character, "--character"},
+                                                     {args.floor, "--floor"}};
+  if (!args.character.empty()) {
+    read.emplace_back(body_file_of(args.character), "the character's body");
+  }
+  for (const auto& [file, role] : read) {
+    std::error_code absent;
+    if (!fs::equivalent(args.out, file, absent)) continue;
+    return bad_input(args.out.string(),
+                     std::string("that is ") + role + ", which it would replace",
+                     "give the result another name");
+  }
+  return Done{};
 }
 
 /// Feet whose supports nobody gave.
@@ -145,6 +168,7 @@ std::vector<retarget::SupportTrack> find_supports(const AdaptArguments& args,
 }
 
 Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
+  if (const Status ok = check_out(args); !ok) return ok.error();
   auto set = read_set(args, console);
   if (!set) return set.error();
   run.constraints = std::move(*set);
@@ -239,7 +263,10 @@ void add_solve_options(CLI::App& command, retarget::AdaptOptions& options) {
                   "How much of its way the root goes for balance; default 1")
       ->check(between(0.0, 1.0));
   command
-      .add_option("--max-iterations", options.max_iterations, "At most so many a frame")
+      .add_option("--max-iterations",
+                  options.max_iterations,
+                  "At most so many a solve, of which a frame while constraints fade has "
+                  "several; default 50. The strict method makes 4 at least")
       ->check(CLI::Range(1, 100000));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <numbers>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,7 @@ using Json = nlohmann::ordered_json;
 using retarget::KeptConstraint;
 
 constexpr double kFirmFoot_m = 1e-3;
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 template <class... Values>
 std::string text_of(const char* format, Values... values) {
@@ -38,8 +40,13 @@ Json figures_of(const KeptConstraint& kept, const AdaptRun& run) {
            {"active_frames", kept.active_frames},
            {"met_frames", kept.met_frames}};
   if (kept.active_frames == 0) return out;
-  out["mean_error_mm"] = 1e3 * kept.mean_error_m;
-  out["worst_error_mm"] = 1e3 * kept.worst_error_m;
+  if (kept.is_orientation) {
+    out["mean_error_deg"] = kDegrees * kept.mean_error_rad;
+    out["worst_error_deg"] = kDegrees * kept.worst_error_rad;
+  } else {
+    out["mean_error_mm"] = 1e3 * kept.mean_error_m;
+    out["worst_error_mm"] = 1e3 * kept.worst_error_m;
+  }
   out["worst_frame"] = kept.worst_frame;
   out["worst_time_s"] = time_of(run, kept.worst_frame);
   return out;
@@ -95,12 +102,33 @@ bool is_support(const KeptConstraint& kept) {
   return kept.is_support;
 }
 
+/// Of constraints that are no supports: "12.3 mm", "4.5 degrees", or both.
+std::string worst_miss_of(const retarget::AdaptedMotion& adapted) {
+  double worst_m = 0.0;
+  double worst_rad = 0.0;
+  for (const KeptConstraint& kept : adapted.constraints) {
+    if (kept.is_support || !is_missed(kept)) continue;
+    worst_m = std::max(worst_m, kept.worst_error_m);
+    worst_rad = std::max(worst_rad, kept.worst_error_rad);
+  }
+  std::string text;
+  if (worst_m > 0.0) text = text_of("%.1f mm", 1e3 * worst_m);
+  if (worst_m > 0.0 && worst_rad > 0.0) text += " and ";
+  if (worst_rad > 0.0) text += text_of("%.1f degrees", kDegrees * worst_rad);
+  return text;
+}
+
+std::string more_iterations(const AdaptArguments& args) {
+  return "allow more than " + std::to_string(args.options.max_iterations) +
+         " with --max-iterations";
+}
+
 /// What stands in the way of a constraint, most likely first.
 std::string advice_for(const KeptConstraint& kept,
                        const AdaptArguments& args,
                        const AdaptRun& run) {
   const Constraint* own = run.constraints.find(kept.id);
-  if (kept.ran_out) return "allow more with --max-iterations";
+  if (kept.ran_out) return more_iterations(args);
   if (own != nullptr && own->range) {
     return "let more segments turn for it: a greater <range>, or none";
   }
@@ -126,11 +154,23 @@ std::string advice_for(const KeptConstraint& kept,
 }
 
 std::string miss_of(const KeptConstraint& kept, const AdaptRun& run) {
-  return text_of("missed in %d of %d frames, by up to %.1f mm (at %.2f s)",
+  return text_of("missed in %d of %d frames, by up to %.1f %s (at %.2f s)",
                  kept.active_frames - kept.met_frames,
                  kept.active_frames,
-                 1e3 * kept.worst_error_m,
+                 kept.is_orientation ? kDegrees * kept.worst_error_rad
+                                     : 1e3 * kept.worst_error_m,
+                 kept.is_orientation ? "degrees" : "mm",
                  time_of(run, kept.worst_frame));
+}
+
+/// What brings a centre of mass back that is off.
+std::string balance_advice(const AdaptArguments& args, const AdaptRun& run) {
+  if (run.adapted.capped_frames > 0) return more_iterations(args);
+  if (args.options.root_for_balance < 1.0) {
+    return "let the root help: --balance-root-share 1";
+  }
+  if (!args.balance_groups.empty()) return "let more --balance-groups move for it";
+  return "move targets nearer, or carry less";
 }
 
 }  // namespace
@@ -177,8 +217,7 @@ std::string adapt_summary(const AdaptArguments& args, const AdaptRun& run) {
   if (wishes > 0) {
     text += text_of(", %zu of %zu constraints met", met, wishes);
     if (met < wishes) {
-      const auto is_wish = [](const KeptConstraint& kept) { return !kept.is_support; };
-      text += text_of(" (worst %.1f mm off)", 1e3 * worst_m(run, is_wish));
+      text += " (worst " + worst_miss_of(adapted) + " off)";
     }
   }
   text += text_of(", supports within %.2f mm", 1e3 * worst_m(run, is_support));
@@ -241,10 +280,10 @@ std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptR
   if (adapted.worst_balance_error_m > kOffBalance_m) {
     out.push_back(args.out.string() +
                   text_of(": the centre of mass is up to %.1f mm from where it is wanted "
-                          "(at %.2f s). Next: move targets nearer, or allow more with "
-                          "--max-iterations",
+                          "(at %.2f s). Next: ",
                           1e3 * adapted.worst_balance_error_m,
-                          time_of(run, adapted.worst_balance_frame)));
+                          time_of(run, adapted.worst_balance_frame)) +
+                  balance_advice(args, run));
   }
   constexpr double kJump_m_per_s2 = 100.0;
   if (adapted.added.m_per_s2 > kJump_m_per_s2) {

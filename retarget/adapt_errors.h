@@ -11,8 +11,8 @@ template <class F>
 struct Errors {
   F worst_over_precision;
   F worst;
-  F mean;     ///< Weighted (eq. 4.2); the strict method counts supports, too.
-  F square;   ///< Weighted mean of squares.
+  F mean;     ///< Weighted (eq. 4.2); the thesis' method alone goes by it.
+  F square;   ///< Weighted mean of squares; the strict method counts supports, too.
   F balance;  ///< Of the centre of mass.
   F held;     ///< The worst of supports and of what higher levels reached.
 };
@@ -38,13 +38,10 @@ template <class F>
     out.worst = max(out.worst, error);
     out.held = select(held, max(out.held, error), out.held);
     const F weight = select(asked, p.weight, zero);
-    out.mean = out.mean + weight * error;
     out.square = out.square + weight * error * error;
     weights = weights + weight;
   }
-  const F per_weight = num<F>(1) / max(weights, num<F>(1e-6));
-  out.mean = out.mean * per_weight;
-  out.square = out.square * per_weight;
+  out.square = out.square * (num<F>(1) / max(weights, num<F>(1e-6)));
   if (balance) {
     measure_balance(plan, s);
     out.balance = length(balance_error(s));

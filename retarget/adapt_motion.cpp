@@ -17,8 +17,6 @@
 namespace marey::retarget {
 namespace {
 
-constexpr double kSupportPrecision_m = 1e-4;
-
 /// Starts and stops the support of a track as its time comes, and moves it along.
 class TrackDriver {
  public:
@@ -63,11 +61,10 @@ class Judge {
         const Constraint& constraint,
         const ConstraintSet& set,
         const SupportTrack* track)
-      : measure_(character, constraint, set), track_(track) {
+      : constraint_(constraint), measure_(character, constraint, set), track_(track) {
     kept_.id = constraint.id;
     kept_.is_support = std::holds_alternative<Support>(constraint.goal);
-    precision_m_ =
-        kMeasured_m + (kept_.is_support ? kSupportPrecision_m : constraint.precision_m);
+    kept_.is_orientation = std::holds_alternative<SegmentOrientation>(constraint.goal);
   }
 
   void look(std::size_t frame,
@@ -80,32 +77,43 @@ class Judge {
     }
     if (!footprint_in_world_)
       footprint_in_world_ = measure_.point().in_world(world_from_joint);
-    const double error_m =
-        track_ == nullptr ? measure_.error_m(world_from_joint, *footprint_in_world_)
-                          : glm::distance(measure_.point().in_world(world_from_joint),
-                                          track_->p_in_world[frame]);
+    const Shortfall lacks = lacks_at(frame, world_from_joint);
     ++kept_.active_frames;
-    const bool met = error_m <= precision_m_;
+    const bool met = is_met(constraint_, lacks);
     if (met) ++kept_.met_frames;
     if (!met && capped) kept_.ran_out = true;
-    kept_.mean_error_m += error_m;
-    if (kept_.worst_frame < 0 || error_m > kept_.worst_error_m) {
-      kept_.worst_error_m = error_m;
+    kept_.mean_error_m += lacks.m;
+    kept_.mean_error_rad += lacks.rad;
+    // One of the two is always 0.
+    if (kept_.worst_frame < 0 || lacks.m > kept_.worst_error_m ||
+        lacks.rad > kept_.worst_error_rad) {
+      kept_.worst_error_m = lacks.m;
+      kept_.worst_error_rad = lacks.rad;
       kept_.worst_frame = static_cast<int>(frame);
     }
   }
 
   [[nodiscard]] KeptConstraint kept() const {
     KeptConstraint out = kept_;
-    if (out.active_frames > 0) out.mean_error_m /= out.active_frames;
+    if (out.active_frames == 0) return out;
+    out.mean_error_m /= out.active_frames;
+    out.mean_error_rad /= out.active_frames;
     return out;
   }
 
  private:
+  [[nodiscard]] Shortfall lacks_at(
+      std::size_t frame, std::span<const RigidTransform> world_from_joint) const {
+    if (track_ == nullptr) return measure_.lacks(world_from_joint, *footprint_in_world_);
+    return {glm::distance(measure_.point().in_world(world_from_joint),
+                          track_->p_in_world[frame]),
+            0.0};
+  }
+
+  const Constraint& constraint_;
   ConstraintMeasure measure_;
   const SupportTrack* track_;
   KeptConstraint kept_;
-  double precision_m_ = 0.0;
   std::optional<glm::dvec3> footprint_in_world_;  ///< Since it is fully active.
 };
 
@@ -156,22 +164,10 @@ Status take_loads(const Character& character,
   return Done{};
 }
 
-/// Centre of mass of the body itself, without what it carries.
-glm::dvec3 com_of(const Character& character,
-                  std::span<const RigidTransform> world_from_joint) {
-  glm::dvec3 sum(0.0);
-  double mass_kg = 0.0;
-  for (const PointMass& mass : character.masses) {
-    sum += mass.mass_kg * (world_from_joint[index(mass.joint)] * mass.p_in_joint);
-    mass_kg += mass.mass_kg;
-  }
-  return sum / mass_kg;
-}
-
-void add_report(const AdaptReport& report, int frame, int cap, AdaptedMotion& out) {
+void add_report(const AdaptReport& report, int frame, AdaptedMotion& out) {
   out.mean_iterations += report.iterations;
   out.most_iterations = std::max(out.most_iterations, report.iterations);
-  if (report.iterations >= cap) ++out.capped_frames;
+  if (report.capped) ++out.capped_frames;
   out.mean_balance_error_m += report.balance_error_m;
   if (report.balance_error_m <= out.worst_balance_error_m) return;
   out.worst_balance_error_m = report.balance_error_m;
@@ -220,19 +216,16 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     for (TrackDriver& driver : drivers) driver.at(t);
     world_from_joints(motion.skeleton, motion.poses[t], reference);
-    if (!options.carried.empty()) {
-      adapter->set_balance_target(com_of(character, reference));
-    }
     const double time_s = (motion.first_frame + static_cast<double>(t)) / motion.rate.hz;
     const AdaptReport report =
         adapter->adapt(motion.poses[t], time_s, out.motion.poses[t]);
-    add_report(report, static_cast<int>(t), options.adapt.max_iterations, out);
+    add_report(report, static_cast<int>(t), out);
     world_from_joints(motion.skeleton, out.motion.poses[t], world_from_joint);
     watch.look(static_cast<int>(t), reference, world_from_joint);
     for (std::size_t i = 0; i < judges.size(); ++i) {
       judges[i].look(t,
                      handles[i].outcome().activation,
-                     report.iterations >= options.adapt.max_iterations,
+                     report.capped,
                      world_from_joint);
     }
     if (progress) progress(static_cast<int>(t) + 1, count);

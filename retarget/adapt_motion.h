@@ -21,7 +21,8 @@ namespace marey::retarget {
 struct AdaptMotionOptions {
   AdaptOptions adapt;
   /// Loads of the character that it carries from the beginning on; it has no others. The
-  /// centre of mass, load included, is wanted where the motion has the body's own.
+  /// centre of mass, load included, is wanted where the motion has the body's own, or
+  /// where the supports have taken that (Adapter::set_balance_target()).
   std::vector<std::string> carried;
 };
 
@@ -30,17 +31,16 @@ struct KeptConstraint {
   std::string id;
   bool is_support = false;
   int active_frames = 0;
-  int met_frames = 0;  ///< Within its precision (supports: 0.1 mm), and kMeasured_m.
+  bool is_orientation = false;  ///< Its errors are angles, the lengths 0; else not.
+  int met_frames = 0;           ///< is_met() in retarget/measure_constraint.h.
   double mean_error_m = 0.0;
   double worst_error_m = 0.0;
+  double mean_error_rad = 0.0;
+  double worst_error_rad = 0.0;
   int worst_frame = -1;  ///< Of the motion's poses; -1 when it never was fully active.
-  /// Iterations were used up in a frame in which it was not met.
+  /// max_iterations ended a solve of a frame in which it was not met.
   bool ran_out = false;
 };
-
-/// An error is as good as none below this: what single precision leaves of a body that
-/// is some metres from the world's origin, and six decimals of a file. [m]
-inline constexpr double kMeasured_m = 2e-5;
 
 /// The hardest jerk that adaptation put into a motion: the greatest acceleration of a
 /// joint's way from where the motion has it. Fading over T seconds over a way of s metres
@@ -57,7 +57,7 @@ struct AdaptedMotion {
   std::vector<KeptConstraint> supports;     ///< As the tracks.
   double mean_iterations = 0.0;
   int most_iterations = 0;
-  int capped_frames = 0;  ///< In which all iterations were used.
+  int capped_frames = 0;  ///< AdaptReport::capped.
   double mean_balance_error_m = 0.0;
   double worst_balance_error_m = 0.0;
   int worst_balance_frame = 0;  ///< Of the motion's poses.

@@ -31,6 +31,7 @@ namespace marey::retarget {
 inline constexpr double kComfortableReach = 0.96;
 /// A wish this far, in reaches of its limb, has all of the trunk's mobility.
 inline constexpr double kFullHelp = 1.08;
+/// These two are promised to callers (retarget/adapter.h).
 inline constexpr int kHomingSteps = 4;
 /// With balance fewer, that end more gently: the centre of mass has to be met, too.
 inline constexpr int kHomingStepsBalanced = 3;
@@ -145,6 +146,7 @@ void begin_lanes(const Plan& plan,
   solve.needs_body = select(mask, select(share > zero, one, zero), solve.needs_body);
   s.mobility = select(mask, share, s.mobility);
   p.iterations = select(mask, zero, p.iterations);
+  p.capped = select(mask, zero, p.capped);
   p.steps = select(mask, zero, p.steps);
   p.square = select(mask, zero, p.square);
   p.merit = select(mask, num<F>(1e9), p.merit);
@@ -276,16 +278,20 @@ template <class F>
   p.stalled = select(idle & !homes, p.stalled + one, zero);
   // Homing is never cut short: a posture on its way is nobody's answer.
   const Mask<F> capped = (p.iterations >= num<F>(settings.max_iterations)) & !homes;
-  const Mask<F> ended =
-      (met & !(p.homing > zero)) | (p.stalled > num<F>(kStalledSteps)) | capped;
+  const Mask<F> is_done = (met & !homes) | (p.stalled > num<F>(kStalledSteps));
   const F levels = num<F>(shape.last_level);
-  const Mask<F> could = ended & !capped & (levels > one);
-  const Mask<F> splits =
-      could & (solve.by_level < num<F>(shape.by_level ? 0.5 : -1.0)) & !met;
-  const Mask<F> next = could & (solve.by_level > num<F>(0.5)) & (p.level < levels);
+  const Mask<F> has_levels = levels > one;
+  const Mask<F> wants_split =
+      has_levels & (solve.by_level < num<F>(shape.by_level ? 0.5 : -1.0)) & !met;
+  const Mask<F> wants_next =
+      has_levels & (solve.by_level > num<F>(0.5)) & (p.level < levels);
+  const Mask<F> splits = is_done & !capped & wants_split;
+  const Mask<F> next = is_done & !capped & wants_next;
+  const Mask<F> cut = capped & ((!is_done) | wants_split | wants_next);
+  p.capped = select(cut, one, zero);
   if (any(next)) next_level(plan, shape, next, s, solve);
   if (any(splits)) begin_levels(plan, shape, splits, s, solve);
-  return ended & !(next | splits);
+  return (is_done | capped) & !(next | splits);
 }
 
 /// Brings the centre of mass where it has to be, for supports alone: constraints that

@@ -107,7 +107,18 @@ std::span<const RigidTransform> Adapter::world_from_joint() const {
 }
 
 glm::dvec3 Adapter::centre_of_mass_in_world() const {
-  return state_->com_now_in_world;
+  const State& s = *state_;
+  glm::dvec3 moment(0.0);
+  double mass_kg = 0.0;
+  const auto add = [&](const PointMass& mass) {
+    moment += mass.mass_kg * (s.world_from_joint[index(mass.joint)] * mass.p_in_joint);
+    mass_kg += mass.mass_kg;
+  };
+  for (const PointMass& mass : s.character.masses) add(mass);
+  for (std::size_t i = 0; i < s.carried.size(); ++i) {
+    if (s.carried[i]) add(s.character.loads[i].mass);
+  }
+  return moment / mass_kg;
 }
 
 void Adapter::Handle::set_target(const glm::dvec3& p_in_world) {

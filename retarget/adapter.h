@@ -59,30 +59,45 @@ struct AdaptOptions {
   /// and that of the centre of mass by less (CnThreshold; the thesis' method alone).
   double balance_threshold_m = 1e-5;
   double balance_precision_m = 1e-4;  ///< CnErrorMax: nearer is good enough.
-  /// Of one solve. The strict method's first steps, which are always the same number, are
-  /// never cut short.
+  /// Of one solve. The strict method's first kFirstSteps (with balance
+  /// kFirstStepsBalanced) count, but are never cut short: less than that is the same as
+  /// that, and a solve may end that many beyond. What brings balance back at the very end
+  /// does not count.
   int max_iterations = 50;
   /// Hands and feet that are not constrained keep their orientation in the world (the
   /// thesis) instead of following forearm and shank.
   bool extremities_keep_orientation = false;
 };
 
-/// What became of one constraint.
+/// Steps that a strict solve of the whole body begins with, always as many: a posture on
+/// its way back towards the reference is nobody's answer.
+inline constexpr int kFirstSteps = 4;
+/// With balance fewer, that end more gently: the centre of mass has to be met, too.
+inline constexpr int kFirstStepsBalanced = 3;
+
+/// What became of one constraint. While it is hardly active it has no errors.
 struct ConstraintOutcome {
   double activation = 0.0;  ///< 0 to 1.
-  /// From its point to its target; 0 while the constraint is hardly active. Of an
-  /// orientation: what is left to turn, as a length at the body's own unit (a leg) from
-  /// the joint.
-  double error_m = 0.0;
+  double error_m = 0.0;     ///< From its point to its target; of an orientation 0.
+  double error_rad = 0.0;   ///< What is left to turn; of all but orientations 0.
+  /// Within its precision (is_met() in retarget/measure_constraint.h). False while the
+  /// constraint is hardly active.
+  bool met = false;
 };
 
+/// Means the same by both methods and all controls.
 struct AdaptReport {
   /// Of the whole-body loop; while constraints fade, of all solves together. 0: limbs
   /// sufficed (the thesis' method: nothing had to be done).
   int iterations = 0;
-  double constraint_error_m = 0;  ///< Weighted mean (eq. 4.2).
-  double worst_error_m = 0;       ///< Of the active constraints, supports included.
-  double balance_error_m = 0;     ///< Of the centre of mass, as `balance` measures it.
+  /// max_iterations ended a solve, any of those while constraints fade, that would have
+  /// gone on: with more the answer may be better.
+  bool capped = false;
+  /// Mean by importance (eq. 4.2): of what is no support and no orientation.
+  double constraint_error_m = 0;
+  double worst_error_m = 0;    ///< Of all but orientations, supports included.
+  double worst_error_rad = 0;  ///< Of orientations.
+  double balance_error_m = 0;  ///< Of the centre of mass, as `balance` measures it.
 };
 
 /// Adapts postures of one character to constraints that may move while it runs.
@@ -155,7 +170,8 @@ class Adapter {
 
   /// Joints in the world after the last adapt(), one per joint.
   [[nodiscard]] std::span<const RigidTransform> world_from_joint() const;
-  /// Of the last adapt(). [m]
+  /// Of the last adapt()'s posture, whatever `balance` is, with what is carried now.
+  /// Linear in the masses. Precondition: adapt() was called. [m]
   [[nodiscard]] glm::dvec3 centre_of_mass_in_world() const;
 
  private:

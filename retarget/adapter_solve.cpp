@@ -6,6 +6,7 @@
 #include "core/assert.h"
 #include "retarget/activation.h"
 #include "retarget/adapter_state.h"
+#include "retarget/measure_constraint.h"
 #include "retarget/smooth_step.h"
 
 namespace marey::retarget {
@@ -15,6 +16,7 @@ namespace {
 class ResultReader {
  public:
   explicit ResultReader(const float* from) : from_(from) {}
+  [[nodiscard]] const float* here() const { return from_; }
   double number() { return static_cast<double>(*from_++); }
   glm::dvec3 vector() {
     const double x = number();
@@ -31,6 +33,12 @@ class ResultReader {
  private:
   const float* from_;
 };
+
+static_assert(kHomingSteps == kFirstSteps && kHomingStepsBalanced == kFirstStepsBalanced);
+
+float dot(const Quat<float>& a, const Quat<float>& b) {
+  return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
+}
 
 // Constraints are closed on a mean of postures from this activation on, wholly at 1.
 constexpr double kFirm = 0.8;
@@ -91,25 +99,29 @@ SolveSettings Adapter::State::settings() const {
   return out;
 }
 
-Errors<float> Adapter::State::solve_for(double least, double& iterations) {
+void Adapter::State::solve_for(double least, LaneFigures<float>& figures) {
   ask_for(least, question);
   load_wishes(plan, question.wishes.data(), 0, lanes);
   const Shape form = shape();
   const SolveSettings told = settings();
+  const auto add = [&](const Errors<float>& errors) {
+    figures.iterations += solve.progress.iterations;
+    figures.capped = std::max(figures.capped, solve.progress.capped);
+    figures.balance = errors.balance;
+  };
   if (options.method == Method::kThesis) {
     begin_thesis(plan, thesis, told, true, lanes, solve);
     while (!advance_thesis(plan, thesis, told, lanes, solve)) {
     }
-    iterations += static_cast<double>(solve.progress.iterations);
-    return finish_thesis(plan, thesis, told, true, lanes);
+    add(finish_thesis(plan, thesis, told, true, lanes));
+    return;
   }
   begin_lanes(plan, form, told, true, lanes, solve);
   if (solve.needs_body > 0.0F) {
     while (!advance_lanes(plan, form, told, lanes, solve)) {
     }
   }
-  iterations += static_cast<double>(solve.progress.iterations);
-  return finish_lanes(plan, form, told, true, lanes, solve);
+  add(finish_lanes(plan, form, told, true, lanes, solve));
 }
 
 void Adapter::State::mix(float share) {
@@ -117,9 +129,12 @@ void Adapter::State::mix(float share) {
     const auto i = static_cast<std::size_t>(j);
     const Quat<float>& q = lanes.rotation[i];
     Quat<float>& sum = mixed_rotation[i];
-    const Quat<float>& like = lanes.reference_rotation[i];
-    const float sign =
-        q.w * like.w + q.x * like.x + q.y * like.y + q.z * like.z < 0.0F ? -share : share;
+    // Of the two quaternions of a rotation the one on the side of the sum so far: so two
+    // that are nearly the same never cancel, and the sum only grows. The first is on the
+    // reference's side.
+    const bool is_first = dot(sum, sum) <= 0.0F;
+    const Quat<float>& like = is_first ? lanes.reference_rotation[i] : sum;
+    const float sign = dot(q, like) < 0.0F ? -share : share;
     sum = {
         sum.w + sign * q.w, sum.x + sign * q.x, sum.y + sign * q.y, sum.z + sign * q.z};
   }
@@ -132,7 +147,7 @@ void Adapter::State::mix(float share) {
 // activation, also as they pass each other, and exact where nothing fades (the Lovasz
 // extension of the map from sets of constraints to postures). What is fully active is
 // then closed again from that mean.
-Errors<float> Adapter::State::solve_faded(double& iterations) {
+void Adapter::State::solve_faded(LaneFigures<float>& figures) {
   const std::vector<double>& activations = question.activations;
   const std::vector<double>& ramps = question.ramps;
   std::vector<WishNumbers>& wishes = question.numbers;
@@ -143,7 +158,7 @@ Errors<float> Adapter::State::solve_faded(double& iterations) {
     double above = 1.0;
     for (std::size_t n = 0; n <= ramps.size(); ++n) {
       const double next = n < ramps.size() ? ramps[n] : 0.0;
-      static_cast<void>(solve_for(n == 0 ? 1.0 : ramps[n - 1], iterations));
+      solve_for(n == 0 ? 1.0 : ramps[n - 1], figures);
       mix(static_cast<float>(weight * (above - next)));
       above = next;
     }
@@ -175,7 +190,35 @@ Errors<float> Adapter::State::solve_faded(double& iterations) {
     p.target = p.place + share * (p.target - p.place);
   }
   close_limbs(plan, settings(), last, true, lanes);
-  return measure(plan, shape().rows.balance, last, lanes);
+  figures.balance = measure(plan, shape().rows.balance, last, lanes).balance;
+}
+
+void Adapter::State::judge(const Plan& shared, const float* errors) {
+  report = {};
+  double weights = 0.0;
+  for (std::size_t k = 0; k < shared.points.size(); ++k) {
+    const PointPlan& point = shared.points[k];
+    const auto c = static_cast<std::size_t>(point.constraint);
+    const Constraint& constraint = constraints.constraints[c];
+    ConstraintOutcome& outcome = outcomes[c];
+    const auto error = static_cast<double>(errors[k]);
+    const bool counts = outcome.activation > kFirm;
+    outcome.error_m = 0.0;
+    outcome.error_rad = 0.0;
+    if (point.turns_only()) {
+      // turn_left() has twice the sine of half the angle.
+      outcome.error_rad = 2.0 * std::asin(std::min(1.0, 0.5 * error));
+    } else {
+      outcome.error_m = error * body.unit_m;
+    }
+    outcome.met = counts && is_met(constraint, {outcome.error_m, outcome.error_rad});
+    report.worst_error_m = std::max(report.worst_error_m, outcome.error_m);
+    report.worst_error_rad = std::max(report.worst_error_rad, outcome.error_rad);
+    if (!counts || point.turns_only() || point.level == 0) continue;
+    report.constraint_error_m += constraint.importance * outcome.error_m;
+    weights += constraint.importance;
+  }
+  if (weights > 0.0) report.constraint_error_m /= weights;
 }
 
 void Adapter::State::write(const Plan& shared, const float* numbers, Pose& out) {
@@ -187,15 +230,10 @@ void Adapter::State::write(const Plan& shared, const float* numbers, Pose& out) 
   for (std::size_t i = 0; i < n; ++i) {
     world_from_joint[i].translation = origin_in_world + from.vector() * body.unit_m;
   }
-  for (ConstraintOutcome& outcome : outcomes) outcome.error_m = 0.0;
-  for (const PointPlan& point : shared.points) {
-    outcomes[static_cast<std::size_t>(point.constraint)].error_m =
-        from.number() * body.unit_m;
-  }
-  com_now_in_world = origin_in_world + from.vector() * body.unit_m;
+  judge(shared, from.here());
+  for (std::size_t k = 0; k < shared.points.size(); ++k) from.number();
   report.iterations = static_cast<int>(from.number());
-  report.constraint_error_m = from.number() * body.unit_m;
-  report.worst_error_m = from.number() * body.unit_m;
+  report.capped = from.number() > 0.0;
   report.balance_error_m = from.number() * body.unit_m;
   out.root_in_world = world_from_joint[0].translation;
 }
@@ -203,11 +241,14 @@ void Adapter::State::write(const Plan& shared, const float* numbers, Pose& out) 
 AdaptReport Adapter::State::adapt(const Pose& reference, double time_s, Pose& out) {
   const bool fades = !prepare(reference, time_s, question);
   stand(question);
-  double iterations = 0.0;
-  const Errors<float> errors =
-      fades ? solve_faded(iterations) : solve_for(1.0, iterations);
+  LaneFigures<float> figures;
+  if (fades) {
+    solve_faded(figures);
+  } else {
+    solve_for(1.0, figures);
+  }
   spread_posture(plan, lanes);
-  store_result(plan, errors, static_cast<float>(iterations), 0, lanes, result.data());
+  store_result(plan, figures, 0, lanes, result.data());
   write(plan, result.data(), out);
   return report;
 }

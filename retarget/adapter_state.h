@@ -63,7 +63,6 @@ struct Adapter::State {
   std::vector<std::optional<glm::dvec3>> begun_in_world;
   std::vector<std::optional<glm::dquat>> begun_rotation;
   std::vector<RigidTransform> world_from_joint;
-  glm::dvec3 com_now_in_world{0.0};
 
   State(const Character& character_in,
         const ConstraintSet& constraints_in,
@@ -103,12 +102,14 @@ struct Adapter::State {
   [[nodiscard]] BalanceNumbers balance() const;
   void stand(const PackedQuestion& asked);
   void ask_for(double least, PackedQuestion& asked) const;
-  /// Solves for the wishes whose activation is at least `least`.
-  Errors<float> solve_for(double least, double& iterations);
-  Errors<float> solve_faded(double& iterations);
+  /// Solves for the wishes whose activation is at least `least`, and adds up.
+  void solve_for(double least, LaneFigures<float>& figures);
+  void solve_faded(LaneFigures<float>& figures);
   /// Adds `share` of the posture that was just solved to the mixed one.
   void mix(float share);
   void pass_over(double time_s);
+  /// Outcomes and report, from the errors of the plan's points.
+  void judge(const Plan& shared, const float* errors);
 
   std::vector<float> result;
 };

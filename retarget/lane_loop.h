@@ -103,13 +103,14 @@ class LaneLoop final : public LaneKernel {
         task.by_thesis
             ? finish_thesis(plan, *task.thesis, task.settings, done, lanes_)
             : finish_lanes(plan, task.shape, task.settings, done, lanes_, solve_);
+    const LaneFigures<F> figures{
+        solve_.progress.iterations, solve_.progress.capped, errors.balance};
     spread_posture(plan, lanes_);
     F is_done = select(done, num<F>(1), num<F>(0));
     for (int lane = 0; lane < Width; ++lane) {
       if (lane_of(is_done, lane) < 1) continue;
       int& job = job_[static_cast<std::size_t>(lane)];
-      store_result(
-          plan, errors, solve_.progress.iterations, lane, lanes_, result_.data());
+      store_result(plan, figures, lane, lanes_, result_.data());
       jobs.answer(job, result_.data());
       job = -1;
       lane_of(runs_, lane) = 0;

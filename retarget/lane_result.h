@@ -6,18 +6,25 @@
 
 namespace marey::retarget {
 
+/// What a solve tells beside its posture.
+template <class F>
+struct LaneFigures {
+  F iterations{};
+  F capped{};   ///< 1: max_iterations ended it.
+  F balance{};  ///< What the centre of mass lacks, in units.
+};
+
 /// Numbers that store_result() writes: rotations of all joints in their parents, then in
-/// the world (4 each), places (3), errors of the plan's points, the centre of mass (3),
-/// iterations, mean, worst and balance error. Lengths in the body's unit, places from the
-/// reference's root.
+/// the world (4 each), places (3), the lengths of the errors of the plan's points, and the
+/// figures. Lengths in the body's unit, places from the reference's root.
 [[nodiscard]] inline std::size_t result_size(const Plan& plan) {
-  return 11 * plan.parent.size() + plan.points.size() + 7;
+  return 11 * plan.parent.size() + plan.points.size() + 3;
 }
 
-/// Precondition: spread_posture(), and `errors` are the posture's.
+/// Precondition: spread_posture(), and errors and `figures` are the posture's.
 template <class F>
 void store_result(
-    const Plan& plan, Errors<F> errors, F iterations, int lane, Lanes<F>& s, float* to) {
+    const Plan& plan, LaneFigures<F> figures, int lane, Lanes<F>& s, float* to) {
   const auto put = [&](F& x) { *to++ = static_cast<float>(lane_of(x, lane)); };
   const auto put_rotations = [&](std::vector<Quat<F>>& rotations) {
     for (std::size_t j = 0; j < plan.parent.size(); ++j) {
@@ -38,13 +45,9 @@ void store_result(
     F error = length(p.error);
     put(error);
   }
-  put(s.com.x);
-  put(s.com.y);
-  put(s.com.z);
-  put(iterations);
-  put(errors.mean);
-  put(errors.worst);
-  put(errors.balance);
+  put(figures.iterations);
+  put(figures.capped);
+  put(figures.balance);
 }
 
 }  // namespace marey::retarget

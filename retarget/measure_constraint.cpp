@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/measure_constraint.h"
 
-#include <algorithm>
 #include <variant>
 
 #include <glm/geometric.hpp>
 
 #include "core/assert.h"
 #include "core/pose.h"
+#include "core/transform.h"
 #include "retarget/check_constraints.h"
 #include "retarget/constraint_targets.h"
 
@@ -40,24 +40,36 @@ ConstraintMeasure::ConstraintMeasure(const Character& character,
   }
 }
 
-double ConstraintMeasure::error_m(std::span<const RigidTransform> world_from_joint,
-                                  const glm::dvec3& footprint_in_world) const {
+bool is_met(const Constraint& constraint, const Shortfall& lacks) {
+  if (std::holds_alternative<SegmentOrientation>(constraint.goal)) {
+    return lacks.rad <= (constraint.precision_m + kMeasured_m) / kLever_m;
+  }
+  const bool support = std::holds_alternative<Support>(constraint.goal);
+  return lacks.m <=
+         (support ? kSupportPrecision_m : constraint.precision_m) + kMeasured_m;
+}
+
+Shortfall ConstraintMeasure::lacks(std::span<const RigidTransform> world_from_joint,
+                                   const glm::dvec3& footprint_in_world) const {
   const RigidTransform& segment = world_from_joint[index(point_.joint)];
   Places places;
   places.p_in_world = point_.in_world(world_from_joint);
   if (const auto* support = std::get_if<Support>(&goal_)) {
-    return glm::distance(places.p_in_world,
-                         support->footprint_in_world.value_or(footprint_in_world));
+    return {glm::distance(places.p_in_world,
+                          support->footprint_in_world.value_or(footprint_in_world)),
+            0.0};
   }
   places.world_from_segment = {
       segment.rotation * glm::conjugate(point_.t_pose_from_joint), segment.translation};
+  if (const auto* turned = std::get_if<SegmentOrientation>(&goal_)) {
+    const glm::dquat left = turned->world_from_t_pose *
+                            glm::conjugate(places.world_from_segment.rotation);
+    return {0.0, glm::length(rotation_vector(glm::normalize(left)))};
+  }
   if (other_) places.other_in_world = other_->in_world(world_from_joint);
   const PointTargets targets = targets_of(goal_, places);
-  double worst_m = 0.0;
-  for (const PointTarget& target : targets.all()) {
-    worst_m = std::max(worst_m, glm::distance(target.p_in_world, target.target_in_world));
-  }
-  return worst_m;
+  const PointTarget& only = targets.all().front();
+  return {glm::distance(only.p_in_world, only.target_in_world), 0.0};
 }
 
 }  // namespace marey::retarget

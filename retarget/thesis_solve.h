@@ -113,6 +113,7 @@ void begin_thesis(const Plan& plan,
       (errors.worst_over_precision <= one) & (errors.balance <= s.balance_precision);
   solve.needs_body = select(mask, select(idle | met, zero, one), solve.needs_body);
   p.iterations = select(mask, select(idle, zero, one), p.iterations);
+  p.capped = select(mask, zero, p.capped);
   p.merit = select(mask, merit_of(errors, s), p.merit);
   p.square = select(mask, errors.balance, p.square);
   p.stalled = select(mask, zero, p.stalled);
@@ -131,6 +132,7 @@ template <class F>
   Progress<F>& p = solve.progress;
   const F cap = num<F>(settings.max_iterations);
   const Mask<F> mask = (solve.needs_body > zero) & (p.iterations < cap);
+  p.capped = select((solve.needs_body > zero) & !mask, one, p.capped);
   if (!any(mask)) return !mask;
   adapt_groups(plan, shape.groups, true, settings, p.damping, mask, s);
   const Vec3<F> wish = root_wish(plan, shape.groups, s);
@@ -164,7 +166,9 @@ template <class F>
   const Mask<F> done =
       mask & ((better & (met | settled)) | (p.stalled > num<F>(kMostRetries - 0.5)));
   solve.needs_body = select(done, zero, solve.needs_body);
-  return !((solve.needs_body > zero) & (p.iterations < cap));
+  const Mask<F> left = solve.needs_body > zero;
+  p.capped = select(left & (p.iterations >= cap), one, p.capped);
+  return !(left & (p.iterations < cap));
 }
 
 /// The final posture of lanes that are done: balance has the last word. Leaves its

@@ -6,7 +6,7 @@
 
 namespace marey::retarget {
 
-/// What a loop knows of each lane. The thesis' loop (retarget/thesis_solve.h) uses five
+/// What a loop knows of each lane. The thesis' loop (retarget/thesis_solve.h) uses six
 /// of them, two in its own way: `damping` is the share of a step that it dares, `square`
 /// what balance lacks.
 template <class F>
@@ -20,6 +20,7 @@ struct Progress {
   F square{};
   F homing{};  ///< Share of its straying from the reference that a step takes back.
   F level{};   ///< Wishes up to this level are asked.
+  F capped{};  ///< 1: the cap on iterations ended it, and nothing else would have.
 };
 
 /// A posture far from its targets has other things to do than to go home.

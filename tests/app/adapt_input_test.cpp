@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "recordings/atomic_file.h"
 #include "recordings/bvh.h"
 #include "tests/app/adapt_scene.h"
 
@@ -96,6 +97,24 @@ TEST(AdaptRefuses, CharactersWithoutMassOrLoadOrGroup) {
   expect_refused(scene,
                  {"--balance-groups", "left arn"},
                  {"\"left arn\"", "perhaps you mean \"left arm\""});
+}
+
+// Whatever the input is called there.
+TEST(AdaptRefuses, ToWriteOverWhatItReads) {
+  const AdaptScene scene;
+  ASSERT_TRUE(recordings::write_bvh(scene / "body.bvh", scene.walk().motion));
+  const std::string who = scene.file(
+      "c.toml", "format = 1\nname = \"Ann\"\navatar = \"body.bvh\"\nmass_kg = 70.0\n");
+  fs::create_hard_link(scene / "walk.bvh", scene / "same.bvh");
+  const auto expect_kept = [&](const std::string& name, const std::string& role) {
+    const std::string before = *recordings::read_file(scene / name);
+    const std::string out = (scene / name).string();
+    expect_refused(scene, {"--character", who, "--out", out}, {out, role, "another name"});
+    EXPECT_EQ(*recordings::read_file(scene / name), before) << name;
+  };
+  expect_kept("walk.bvh", "the motion to adapt");
+  expect_kept("same.bvh", "the motion to adapt");
+  expect_kept("body.bvh", "the character's body");
 }
 
 // A body that has no leg to stand on.

@@ -153,6 +153,32 @@ TEST(AdaptMotion, ALoadIsBalancedAgainst) {
   EXPECT_LT(adapted->worst_balance_error_m, 0.005);
 }
 
+// Footprints take the centre of mass along, with a load as without.
+TEST(AdaptMotion, ALoadIsBalancedWhereFootprintsTakeTheBody) {
+  Scene scene;
+  for (SupportTrack& track : scene.supports) {
+    for (glm::dvec3& p : track.p_in_world) p.x += 0.3;
+  }
+  AdaptMotionOptions options;
+  options.adapt.balance = BalanceMode::kHorizontal;
+  const auto empty_handed =
+      adapt_motion(scene.walk.motion, scene.character, {}, scene.supports, options);
+  options.carried = {"bag"};
+  const auto loaded =
+      adapt_motion(scene.walk.motion, scene.character, {}, scene.supports, options);
+  ASSERT_TRUE(empty_handed && loaded);
+  double furthest_m = 0.0;
+  for (int t = 0; t < kFrames; t += 5) {
+    const glm::dvec3 without = scene.com(empty_handed->motion, t, false);
+    const glm::dvec3 with = scene.com(loaded->motion, t, true);
+    EXPECT_LT(glm::length(glm::dvec2(with.x - without.x, with.z - without.z)), 0.005)
+        << t;
+    furthest_m =
+        std::max(furthest_m, without.x - scene.com(scene.walk.motion, t, false).x);
+  }
+  EXPECT_GT(furthest_m, 0.25) << "footprints take nobody along";
+}
+
 // A wish that comes at once throws the hand by its whole way in a frame or two; one that
 // fades in over 0.2 s accelerates it by 5.8 / 0.04 of the way, a quintic's most, and by
 // half as much again as the way itself grows meanwhile.

@@ -255,13 +255,19 @@ std::string difference(const CrowdAnswer& a, const CrowdAnswer& b) {
   if (!same(a.report.constraint_error_m, b.report.constraint_error_m)) {
     return "mean errors";
   }
-  if (!same(a.report.worst_error_m, b.report.worst_error_m)) return "worst errors";
+  if (!same(a.report.worst_error_m, b.report.worst_error_m) ||
+      !same(a.report.worst_error_rad, b.report.worst_error_rad)) {
+    return "worst errors";
+  }
+  if (a.report.capped != b.report.capped) return "caps";
   if (!same(a.report.balance_error_m, b.report.balance_error_m)) {
     return "balance errors";
   }
   for (std::size_t k = 0; k < a.outcomes.size(); ++k) {
     if (!same(a.outcomes[k].activation, b.outcomes[k].activation) ||
-        !same(a.outcomes[k].error_m, b.outcomes[k].error_m)) {
+        !same(a.outcomes[k].error_m, b.outcomes[k].error_m) ||
+        !same(a.outcomes[k].error_rad, b.outcomes[k].error_rad) ||
+        a.outcomes[k].met != b.outcomes[k].met) {
       return "outcome " + std::to_string(k);
     }
   }

@@ -19,8 +19,19 @@ class MeasureConstraint : public ::testing::Test {
  protected:
   [[nodiscard]] double error_m(const Goal& goal, const BodyPoint& point) {
     add("asked", point, goal);
+    const Shortfall lacks = lacks_of();
+    EXPECT_EQ(lacks.rad, 0.0);
+    return lacks.m;
+  }
+  [[nodiscard]] double error_rad(const Goal& goal, const BodyPoint& point) {
+    add("asked", point, goal);
+    const Shortfall lacks = lacks_of();
+    EXPECT_EQ(lacks.m, 0.0);
+    return lacks.rad;
+  }
+  [[nodiscard]] Shortfall lacks_of() const {
     const ConstraintMeasure measure(body_, set_.constraints.back(), set_);
-    return measure.error_m(world_, glm::dvec3(0.0));
+    return measure.lacks(world_, glm::dvec3(0.0));
   }
   void add(const std::string& id, const BodyPoint& point, const Goal& goal) {
     Constraint constraint;
@@ -70,12 +81,31 @@ TEST_F(MeasureConstraint, SpacesAreOffByTheWayToTheirFaces) {
   EXPECT_NEAR(error_m(ForbiddenSpace{left, right}, point), 0.125, 1e-12);
 }
 
-TEST_F(MeasureConstraint, OrientationsAreOffByTheChordOfTheirLever) {
-  const double angle_rad = 0.5;
-  const glm::dquat turned = glm::angleAxis(angle_rad, glm::dvec3(0, 0, 1));
-  EXPECT_NEAR(error_m(SegmentOrientation{turned}, {"head", {}}),
-              2.0 * 0.1 * std::sin(angle_rad / 2.0),
-              1e-12);
+// About any axis, on either side of the quaternions' sphere.
+TEST_F(MeasureConstraint, OrientationsAreOffByTheirAngle) {
+  for (const double angle_rad : {0.5, 3.0}) {
+    for (const glm::dvec3& axis : {glm::dvec3(0, 0, 1), glm::dvec3(0.6, 0.0, 0.8)}) {
+      const glm::dquat turned = glm::angleAxis(angle_rad, axis);
+      for (const glm::dquat& q : {turned, -turned}) {
+        EXPECT_NEAR(error_rad(SegmentOrientation{q}, {"head", {}}), angle_rad, 1e-12);
+      }
+    }
+  }
+}
+
+// 10 mm at 100 mm from the joint are 0.1 rad.
+TEST_F(MeasureConstraint, IsMetWithinItsPrecision) {
+  Constraint asked;
+  asked.precision_m = 0.01;
+  asked.goal = DistanceToPoint{};
+  EXPECT_TRUE(is_met(asked, {0.009, 0.0}));
+  EXPECT_FALSE(is_met(asked, {0.011, 0.0}));
+  asked.goal = SegmentOrientation{};
+  EXPECT_TRUE(is_met(asked, {0.0, 0.09}));
+  EXPECT_FALSE(is_met(asked, {0.0, 0.11}));
+  asked.goal = Support{};
+  EXPECT_TRUE(is_met(asked, {0.5 * kSupportPrecision_m, 0.0}));
+  EXPECT_FALSE(is_met(asked, {0.005, 0.0})) << "supports are exact";
 }
 
 // A head that rests turned: what counts is how it is turned from the T-pose, and that
@@ -86,7 +116,7 @@ TEST_F(MeasureConstraint, EverythingCountsFromTheTPose) {
   body_.t_pose_from_joint[index(*skeleton_.find(HumanBone::kHead))] =
       glm::angleAxis(angle_rad, glm::dvec3(0, 0, 1));
   const double chord = 2.0 * std::sin(angle_rad / 2.0);
-  EXPECT_NEAR(error_m(SegmentOrientation{}, {"head", {}}), 0.1 * chord, 1e-12);
+  EXPECT_NEAR(error_rad(SegmentOrientation{}, {"head", {}}), angle_rad, 1e-12);
   const glm::dvec3 crown(0.0, 0.2, 0.0);
   EXPECT_NEAR(
       error_m(DistanceToPoint{0.0, at(HumanBone::kHead) + crown}, {"head", crown}),
