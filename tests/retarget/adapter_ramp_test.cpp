@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include <glm/geometric.hpp>
@@ -14,6 +16,7 @@ namespace marey::retarget {
 namespace {
 
 constexpr double kFrame_s = 1e-3;
+constexpr double kHalfTurn_rad = std::numbers::pi;
 
 class AdapterRamps : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterRamps, both_methods(), name_of);
@@ -75,6 +78,36 @@ TEST_P(AdapterRamps, MayBeStartedAndStoppedWhileTheyRun) {
     ASSERT_LT(most_turned_rad(now, before), kFastest_rad) << frame;
     std::swap(now, before);
   }
+}
+
+// Two that ask for nearly the same half turn, from either side of it: their quaternions
+// are nearly opposite, their mean is that half turn, not none.
+TEST_P(AdapterRamps, NearlyEqualHalfTurnsDoNotCancel) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  const glm::dquat hand = rotation_of(body, reference, "leftHand");
+  const auto turned = [&](const std::string& id, double angle_rad) {
+    Constraint out;
+    out.id = id;
+    out.point.segment = "leftHand";
+    out.goal = SegmentOrientation{glm::angleAxis(angle_rad, glm::dvec3(0, 1, 0)) * hand};
+    return out;
+  };
+  Constraint early = turned("early", kHalfTurn_rad - 0.01);
+  Constraint late = turned("late", kHalfTurn_rad + 0.01);
+  late.importance = 2.0;
+  early.activation = {0.0, {}, 1.0, 0.0};
+  late.activation = {0.1, {}, 1.0, 0.0};
+  Adapter adapter = make_adapter(body, {{early, late}, {}}, options());
+  Pose out;
+  static_cast<void>(adapter.adapt(reference, 0.6, out));
+  const double share = adapter.constraint("early")->outcome().activation;
+  ASSERT_LT(share, 0.8) << "nothing is closed on the mean";
+  ASSERT_NEAR(adapter.constraint("late")->outcome().activation, 0.5, 1e-9);
+  // The mean of the reference's quaternion and of one at a right angle to it.
+  EXPECT_NEAR(angle_between_rad(rotation_of(body, out, "leftHand"), hand),
+              2.0 * std::atan2(share, 1.0 - share),
+              0.02);
 }
 
 }  // namespace
