@@ -20,7 +20,7 @@ enum class Turning : unsigned char {
 /// Where a constrained point sits on a limb (Kulpa 2005, annex B).
 enum class LimbPlace : unsigned char {
   kUpper,      ///< B.2: a rotation of the whole limb.
-  kLower,      ///< B.3: bend, swing, and the elbow nearest to the reference's.
+  kLower,      ///< Bend and swing, too; B.3 also spins (see close_limb_on()).
   kExtremity,  ///< B.1: bend and swing, the half-plane kept.
 };
 

@@ -42,8 +42,9 @@ inline constexpr double kStalledSteps = 2.5;
 inline constexpr double kHeldSlack = 2e-5;
 /// Steps for supports and balance alone, after constraints took balance away.
 inline constexpr int kBalanceSteps = 10;
-/// Of a trunk that has to do what limbs cannot.
-inline constexpr double kLeastMobility = 0.02;
+/// Mobility per unit of an error that limbs cannot mend.
+inline constexpr double kHelpPerUnit = 10.0;
+inline constexpr double kHelpPerUnitMissing = 2.0;
 
 /// What is kept of a solve from one turn of its loop to the next.
 template <class F>
@@ -92,7 +93,9 @@ template <class F>
     // The distance of a point on the upper bone is what it is.
     if (point.direct || (point.limb >= 0 && point.place == LimbPlace::kUpper)) continue;
     if (point.limb < 0) {
-      share = select(asked & (length(p.error) > num<F>(1e-6)), one, share);
+      const F beyond = max(length(p.error) - num<F>(1e-6), num<F>(0));
+      const F whole = min(num<F>(kHelpPerUnit) * beyond, one);
+      share = select(asked, max(share, whole), share);
       continue;
     }
     const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(point.limb)];
@@ -109,11 +112,24 @@ template <class F>
     const F stretch = smooth((wanted - begin) / (num<F>(kFullHelp) - begin));
     const F least = abs(near_bone - far_bone) * over_reach;
     const F fold = min(now, least + num<F>(0.12));
-    const F folded = smooth((fold - wanted) / max(fold - least, num<F>(0.002)));
+    const F tight = min((fold - wanted) / max(fold - least, num<F>(0.002)), one);
+    // A folded limb has next to no lever: a thousandth of the trunk's mobility outdoes it.
+    const F folded = tight * tight * tight * smooth(tight);
     share = select(asked, max(share, max(stretch, folded)), share);
   }
   // Less than this is rounding's.
-  return select(share < num<F>(1e-5), num<F>(0), share);
+  return select(share < num<F>(1e-7), num<F>(0), share);
+}
+
+/// What limbs leave the trunk has to do: nothing up to half of the precision, and from
+/// there on in proportion, gently at first.
+template <class F>
+[[nodiscard]] F help_missing(const Errors<F>& errors) {
+  const F one = num<F>(1);
+  const F beyond = max(one - num<F>(0.5) / max(errors.worst_over_precision, num<F>(1e-6)),
+                       num<F>(0));
+  const F help = num<F>(kHelpPerUnitMissing) * errors.worst * beyond * beyond;
+  return min(select(help < num<F>(1e-7), num<F>(0), help), one);
 }
 
 /// Starts lanes from their reference: places are those of the reference posture.
@@ -137,11 +153,7 @@ void begin_lanes(const Plan& plan,
     share = help_needed(plan, settings, last, s);
     close_limbs(plan, settings, last, mask & (share < one), s);
     const Errors<F> errors = measure(plan, false, last, s);
-    // What limbs leave, the trunk has to do, in proportion at first.
-    const F missing = select(errors.worst_over_precision > one,
-                             clamp(num<F>(2) * errors.worst, num<F>(kLeastMobility), one),
-                             zero);
-    share = max(share, missing);
+    share = max(share, help_missing(errors));
   }
   solve.needs_body = select(mask, select(share > zero, one, zero), solve.needs_body);
   s.mobility = select(mask, share, s.mobility);

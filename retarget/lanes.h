@@ -223,6 +223,16 @@ template <class F>
   return {s, s * h.x, s * h.y, s * h.z};
 }
 
+/// Likewise, but never a quarter turn.
+template <class F>
+[[nodiscard, gnu::always_inline]] inline Quat<F> rotation_within(const Vec3<F>& w_rad) {
+  const F one = num<F>(1);
+  const Vec3<F> h = num<F>(0.5) * w_rad;
+  const F square = length2(h);
+  const F s = one / sqrt(one + square + square);
+  return {s * sqrt(one + square), s * h.x, s * h.y, s * h.z};
+}
+
 /// The smallest rotation from one direction to another; neither need be unit, and none is
 /// zero. Nearly opposite directions turn about the unit `spare` axis, which should be
 /// perpendicular to `from`.

@@ -212,6 +212,11 @@ template <class F>
 
 /// Brings the point at `place`, which moves with the limb, to `target` or as near as the
 /// limb reaches: exact at once or optimal (annex B). Lanes out of `mask` stay.
+///
+/// Wherever the point is on the limb, its half-plane is kept as it swings (B.1). For a
+/// point of the lower bone the thesis takes the elbow nearest to where it was (B.3); that
+/// has no answer for a target behind or beyond the elbow as the root sees it, and turns
+/// the limb by up to half a turn around there.
 template <class F>
 void close_limb_on(const Plan& plan,
                    int limb_number,
@@ -246,26 +251,8 @@ void close_limb_on(const Plan& plan,
                                distance);
   const Vec3<F> from = middle + rotate(bend, place - middle) - root;
   const Mask<F> can = (distance > least) & (length2(from) > least * least);
-  Quat<F> swing =
+  const Quat<F> swing =
       rotation_onto(select(can, from, axis), select(can, to_target, axis), axis);
-  if (point.place == LimbPlace::kLower) {
-    // The elbow has a circle to choose from: nearest to where it was (B.3).
-    const Vec3<F> along = unit_or(to_target, axis, least);
-    const Vec3<F> was = middle - root;
-    const Vec3<F> is = rotate(swing, was);
-    const Vec3<F> is_off = is - dot(is, along) * along;
-    const Vec3<F> was_off = was - dot(was, along) * along;
-    // An elbow that was on the axis has no side: then it stays where the swing left it.
-    const F reach2 = length2(was);
-    const F sure = smooth(
-        (length2(was_off) / max(reach2, num<F>(1e-12)) - num<F>(0.0025)) * num<F>(20));
-    const Vec3<F> wish = is_off + sure * (was_off - is_off);
-    const Mask<F> known = (length2(is_off) > num<F>(1e-6) * reach2) &
-                          (length2(wish) > num<F>(1e-6) * reach2);
-    const Quat<F> spin =
-        rotation_onto(select(known, is_off, axis), select(known, wish, axis), along);
-    swing = spin * swing;
-  }
   turn_limb(plan, limb, {swing, swing * bend}, mask, extremity, limits, s);
 }
 

@@ -48,7 +48,10 @@ void measure_straying(const Plan& plan, const F& share, Lanes<F>& s) {
         j == 0
             ? s.reference_local[i]
             : s.rotation[static_cast<std::size_t>(plan.parent[i])] * s.reference_local[i];
-    Vec3<F> turned = -turn_left(s.rotation[i], unturned);
+    const Quat<F> back = unturned * conjugate(s.rotation[i]);
+    // From half a turn away both ways home are as long: neither is taken.
+    const F sure = clamp(num<F>(-8) * back.w, num<F>(-2), num<F>(2));
+    Vec3<F> turned = sure * vector_part(back);
     if (plan.turning[i] == Turning::kHinge) {
       const Vec3<F>& axis = s.axis[static_cast<std::size_t>(plan.limb_of_hinge[i])];
       turned = dot(axis, turned) * axis;
@@ -205,9 +208,13 @@ void apply_step(const Plan& plan, const RowOrder& rows, const F& homing, Lanes<F
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
     if (plan.turning[i] == Turning::kRigid) continue;
-    s.turn[i] = rotation_by((plan.in_limb[i] ? num<F>(1) : s.mobility) *
-                                turn_of(plan, rows, j, s) -
-                            s.strayed[i]);
+    const Vec3<F> by =
+        (plan.in_limb[i] ? num<F>(1) : s.mobility) * turn_of(plan, rows, j, s) -
+        s.strayed[i];
+    // Elbows and knees that overturn land behind their limits, or beyond half a turn:
+    // they would come back the other way.
+    s.turn[i] =
+        plan.turning[i] == Turning::kHinge ? rotation_within(by) : rotation_by(by);
   }
   const Vec3<F> from_reference = s.place[0] - s.reference_place[0];
   s.place[0] = s.reference_place[0] + (num<F>(1) - homing) * from_reference +
