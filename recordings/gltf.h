@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "core/motion.h"
@@ -42,6 +43,11 @@ struct Character {
 /// a skin without joints; anything further than 10 km away; an animation of too many
 /// frames for memory. Cost: linear in vertices, and in frames times nodes.
 [[nodiscard]] Result<Character> read_character(const std::filesystem::path& path);
+
+/// read_character() of a file's bytes. `path` is what messages call it, and where a .gltf
+/// has its buffers.
+[[nodiscard]] Result<Character> parse_character(const std::string& bytes,
+                                                const std::filesystem::path& path);
 
 /// Writes a GLB of the skeleton in its rest pose with its skinned mesh and, unless it is
 /// null, one animation of `motion`, called `clip`: linear keys at the motion's rate, the

@@ -358,15 +358,20 @@ bool is_near(const PlacedNodes& placed, std::size_t node) {
 }
 
 Result<GltfSource> read_gltf_source(const std::filesystem::path& path) {
-  tinygltf::Model model;
-  const NamedModel file{model, path.string()};
   const Result<std::string> bytes = read_file(path);
   if (!bytes) return bytes.error();
+  return parse_gltf_source(*bytes, path);
+}
+
+Result<GltfSource> parse_gltf_source(const std::string& bytes,
+                                     const std::filesystem::path& path) {
+  tinygltf::Model model;
+  const NamedModel file{model, path.string()};
   GltfSource source;
-  auto json = json_of(file, *bytes);
+  auto json = json_of(file, bytes);
   if (!json) return json.error();
   source.json = *std::move(json);
-  if (Status s = load_model(file, path, *bytes, model, source); !s) {
+  if (Status s = load_model(file, path, bytes, model, source); !s) {
     return s.error();
   }
   if (Status s = fill_source(file, source); !s) return s.error();
@@ -375,6 +380,13 @@ Result<GltfSource> read_gltf_source(const std::filesystem::path& path) {
 
 Result<Character> read_character(const std::filesystem::path& path) {
   auto source = read_gltf_source(path);
+  if (!source) return source.error();
+  return std::move(source->character);
+}
+
+Result<Character> parse_character(const std::string& bytes,
+                                  const std::filesystem::path& path) {
+  auto source = parse_gltf_source(bytes, path);
   if (!source) return source.error();
   return std::move(source->character);
 }

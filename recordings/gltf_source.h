@@ -29,5 +29,8 @@ struct GltfSource {
 
 /// See read_character().
 [[nodiscard]] Result<GltfSource> read_gltf_source(const std::filesystem::path& path);
+/// See parse_character().
+[[nodiscard]] Result<GltfSource> parse_gltf_source(const std::string& bytes,
+                                                   const std::filesystem::path& path);
 
 }  // namespace marey::recordings

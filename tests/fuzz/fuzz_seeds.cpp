@@ -1,18 +1,23 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// fuzz_seeds FOLDER: writes small sound files into FOLDER/c3d, FOLDER/trc, FOLDER/mot and
-// FOLDER/constraints, from which fuzzing starts.
+// fuzz_seeds FOLDER: writes small sound files into FOLDER/c3d and so on, a folder for
+// each fuzzer, from which fuzzing starts.
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <string>
 
+#include "core/pose.h"
+#include "core/skeleton.h"
 #include "recordings/atomic_file.h"
+#include "recordings/bvh.h"
 #include "recordings/c3d.h"
 #include "recordings/constraints_file.h"
+#include "recordings/gltf.h"
 #include "recordings/marker_file.h"
 #include "recordings/trc.h"
+#include "recordings/vrma.h"
 
 namespace {
 
@@ -103,6 +108,63 @@ bool write_constraint_sets(const std::filesystem::path& folder) {
          write_file(folder / "z_up.xml", z_up).has_value();
 }
 
+/// Two frames of a small body, the second one turned.
+Motion small_motion() {
+  Motion motion;
+  motion.skeleton = make_humanoid(average_proportions(1.7));
+  motion.rate.hz = 29.97;
+  motion.poses = {rest_pose(motion.skeleton), rest_pose(motion.skeleton)};
+  motion.poses[1].parent_from_joint[0] = glm::dquat(0.6, 0.0, 0.8, 0.0);
+  return motion;
+}
+
+/// A triangle that hangs on three joints.
+SkinnedMesh triangle() {
+  SkinnedMesh mesh;
+  mesh.p_in_world = {{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {1.0, 1.0, 0.0}};
+  mesh.normal_in_world.assign(3, {0.0, 0.0, 1.0});
+  mesh.skin.resize(3);
+  for (int i = 0; i < 3; ++i) {
+    auto& skin = mesh.skin[static_cast<std::size_t>(i)];
+    skin.joints[0] = JointIndex{i};
+    skin.weights[0] = 1.0;
+  }
+  mesh.parts.resize(1);
+  mesh.parts[0].triangles = {0, 1, 2};
+  return mesh;
+}
+
+bool write_motions(const std::filesystem::path& folder) {
+  const Motion motion = small_motion();
+  const std::string max =
+      "HIERARCHY\r\nROOT Bip01 Pelvis\r\n{\r\n\tOFFSET 0.00 9.5e1 0\r\n"
+      "\tCHANNELS 6 Zposition Xposition Yposition Xrotation Yrotation Zrotation\r\n"
+      "\tJOINT a:b\r\n\t{\r\n\tOFFSET -1 .5 0\r\n\tCHANNELS 1 Xrotation\r\n"
+      "\tEnd Site\r\n\t{\r\n\tOFFSET 0 1 0\r\n\t}\r\n\t}\r\n}\r\nMotion\r\nFrames: 2\r\n"
+      "Frame Time:.04\r\n0 1 2 90 0 -45 1\r\n3 2 1 0 1 2 3\r\n";
+  const std::string acclaim =
+      "# x\n:version 1.10\n:name a\n:units\n  mass 1.0\n  length 0.45\n  angle deg\n"
+      ":documentation\n   words\n:root\n   order TX TY TZ RX RY RZ\n   axis XYZ\n"
+      "   position 0 0 0\n   orientation 0 0 0\n:bonedata\n  begin\n     id 1\n"
+      "     name hip\n     direction 1 0 0\n     length 2\n     axis 0 0 0 XYZ\n  end\n"
+      "  begin\n     id 2\n     name thigh\n     direction 0 -3 0\n     length 4\n"
+      "     axis 0 10 90 ZXY\n    dof rx tz l\n    limits (-160.0 20.0)\n"
+      "           (-70.0 70.0)\n           (0 1)\n  end\n:hierarchy\n  begin\n"
+      "    root hip\n    hip thigh\n  end\n@#x\n:FULLY-SPECIFIED\n:DEGREES\n"
+      ":SAMPLES-PER-SECOND 60\n1\nroot 1 2 3 40 50 60\nthigh 30 1 0.5\n2\n"
+      "root 1 2 3 40 50 60\nthigh -30 1e-3 0\n";
+  // Fuzzing is the faster the smaller its files are.
+  Motion trunk = motion;
+  trunk.skeleton.joints.resize(3);
+  for (Pose& pose : trunk.poses) pose.parent_from_joint.resize(3);
+  return write_bvh(folder / "bvh/blender.bvh", motion).has_value() &&
+         write_file(folder / "bvh/max.bvh", max).has_value() &&
+         write_file(folder / "asf/all", acclaim).has_value() &&
+         write_vrma(folder / "gltf/motion.vrma", motion).has_value() &&
+         write_character(folder / "gltf/mesh.glb", trunk.skeleton, triangle(), &trunk)
+             .has_value();
+}
+
 bool write_all(const std::filesystem::path& folder) {
   const MarkerFile markers = two_markers();
   bool ok = write_markers(folder / "c3d/markers.c3d", markers).has_value() &&
@@ -129,7 +191,7 @@ bool write_all(const std::filesystem::path& folder) {
       "first trial\t\t\r\nname a\t\t\r\ndatacolumns 3\r\ndatarows 1\r\notherdata 1\r\n"
       "range 0.4 1.6\r\n# x\r\nendheader \r\n\r\npelvis_tx Time pelvis_tilt\r\n1 0.4 "
       "-9\r\n";
-  return ok && write_constraint_sets(folder / "constraints") &&
+  return ok && write_constraint_sets(folder / "constraints") && write_motions(folder) &&
          write_file(folder / "trc/odd.trc", odd).has_value() &&
          write_file(folder / "mot/opensim.mot", opensim).has_value() &&
          write_file(folder / "mot/simm.mot", simm).has_value();
