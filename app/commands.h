@@ -38,16 +38,22 @@ struct RecordArguments {
                                 Console& console);
 
 struct ConvertArguments {
-  std::filesystem::path in;   ///< .c3d or .trc
-  std::filesystem::path out;  ///< .c3d or .trc
+  std::filesystem::path in;   ///< Markers: .c3d, .trc; motions: .bvh, .amc, .glb, .vrma.
+  std::filesystem::path out;  ///< Markers: .c3d, .trc; motions: .bvh, .vrma, .npz...
   // Axes ("+Z") and units ("mm"), checked; empty where the files decide.
   std::string up;
   std::string unit;
   std::string to_up;
   std::string to_unit;
+  // Of motions alone:
+  std::filesystem::path skeleton;  ///< The .asf of an .amc; empty: the one beside it.
+  std::optional<double> rate_hz;   ///< What IN's rate is, if not as it says.
+  std::optional<double> to_rate_hz;
+  std::string bvh_dialect;  ///< A BvhDialect's name, or empty.
 };
 
-/// `marey convert IN OUT`: labelled markers from one kind of file to another.
+/// `marey convert IN OUT`: labelled markers, or the motion of a skeleton, from one kind
+/// of file to another.
 [[nodiscard]] Exit run_convert(const ConvertArguments& arguments,
                                bool json,
                                Console& console);

@@ -7,11 +7,12 @@
 #include <string>
 #include <utility>
 
+#include "app/angle_table.h"
 #include "app/complete_markers.h"
 #include "app/retarget_files.h"
 #include "app/write_motion.h"
+#include "core/assert.h"
 #include "core/extension.h"
-#include "reconstruct/joint_angles.h"
 #include "recordings/mot.h"
 
 namespace marey::app {
@@ -22,19 +23,14 @@ using recordings::FileAxes;
 
 recordings::MotTable mot_table(const MarkerTrial& trial) {
   const MarkerTracks& tracks = trial.repair.repaired.tracks;
-  recordings::MotTable table;
-  table.name = trial.name;
-  for (std::size_t c = 0; c < reconstruct::kCoordinateCount; ++c) {
-    const auto coordinate = static_cast<reconstruct::Coordinate>(c);
-    table.columns.push_back(
-        {std::string(name(coordinate)), reconstruct::is_angle(coordinate)});
-  }
+  auto table = angle_table(trial.solved->estimate.motion, trial.name);
+  MAREY_ASSERT(table.has_value());
   // On the recording's clock, as its forces are.
+  table->time_s.clear();
   for (std::size_t f = 0; f < tracks.frames(); ++f) {
-    table.time_s.push_back(tracks.time_s(f));
+    table->time_s.push_back(tracks.time_s(f));
   }
-  table.values = reconstruct::joint_angles(trial.solved->estimate.motion).values;
-  return table;
+  return *std::move(table);
 }
 
 Status write_marker_files(const fs::path& folder,

@@ -152,17 +152,30 @@ void add_mannequin(CLI::App& app, Arguments& args, Command& chosen) {
 
 void add_convert(CLI::App& app, Arguments& args, Command& chosen) {
   CLI::App* command =
-      app.add_subcommand("convert", "Labelled markers as another kind of file");
+      app.add_subcommand("convert", "Markers or a motion as another kind of file");
   ConvertArguments& c = args.convert;
   const CLI::IsMember axis({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
   const CLI::IsMember unit({"mm", "cm", "m"});
-  command->add_option("in", c.in, ".c3d or .trc")->required();
-  command->add_option("out", c.out, "Result: .c3d or .trc")->required();
+  command->add_option("in", c.in, ".c3d or .trc; .bvh, .amc, .glb, .vrm or .vrma")
+      ->required();
+  command
+      ->add_option("out",
+                   c.out,
+                   "Result, of markers .c3d or .trc, of a motion .bvh, .vrma, .npz, .csv "
+                   "or .mot")
+      ->required();
   command->add_option("--up", c.up, "Axis of IN that is up, if not as found")
       ->check(axis);
   command->add_option("--unit", c.unit, "Unit of IN, if not as it says")->check(unit);
   command->add_option("--to-up", c.to_up, "Axis of OUT that is up")->check(axis);
   command->add_option("--to-unit", c.to_unit, "Unit of OUT")->check(unit);
+  command->add_option("--skeleton", c.skeleton, "The .asf of an .amc, if not beside it");
+  command->add_option("--rate", c.rate_hz, "Frames per second of IN, if not as it says")
+      ->check(between(0.1, 2000.0));
+  command->add_option("--to-rate", c.to_rate_hz, "Frames per second of OUT")
+      ->check(between(0.1, 2000.0));
+  command->add_option("--bvh-dialect", c.bvh_dialect, "For whom a .bvh is")
+      ->check(CLI::IsMember({"blender", "mobu", "maya", "unity"}));
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback([&] {
     chosen = [&args](Console& console) {

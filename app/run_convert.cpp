@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/convert_motion.h"
 #include "core/extension.h"
 #include "recordings/marker_file.h"
 
@@ -34,6 +35,14 @@ recordings::FileAxes target_axes(const ConvertArguments& arguments,
 }  // namespace
 
 Exit run_convert(const ConvertArguments& arguments, bool json, Console& console) {
+  if (is_motion(arguments.in)) return convert_motion(arguments, json, console);
+  if (arguments.rate_hz || arguments.to_rate_hz || !arguments.skeleton.empty() ||
+      !arguments.bvh_dialect.empty()) {
+    return console.fail(
+        bad_input(arguments.in.string(),
+                  "--rate, --to-rate, --skeleton and --bvh-dialect are for motions alone",
+                  "leave them out, or give a .bvh, .amc, .glb, .vrm or .vrma"));
+  }
   recordings::MarkerReadOptions read_as;
   if (!arguments.up.empty()) read_as.up = recordings::axis_of(arguments.up);
   if (!arguments.unit.empty()) read_as.unit = arguments.unit;

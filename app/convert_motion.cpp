@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/convert_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/angle_table.h"
+#include "app/retarget_files.h"
+#include "core/extension.h"
+#include "core/resample.h"
+#include "recordings/asf.h"
+#include "recordings/bvh.h"
+#include "recordings/file_axes.h"
+#include "recordings/mot.h"
+#include "recordings/motion_tables.h"
+#include "recordings/npz.h"
+#include "recordings/vrma.h"
+#include "retarget/body_map.h"
+
+namespace marey::app {
+namespace {
+
+/// A motion as its file has it, and what to tell of that.
+struct FileMotion {
+  Motion motion;
+  double ignored_translation_m = 0.0;
+  std::vector<std::string> notes;
+};
+
+std::optional<double> unit_m(const std::string& name) {
+  const auto per_metre = recordings::units_per_metre(name);
+  return per_metre ? std::optional(1.0 / *per_metre) : std::nullopt;
+}
+
+Result<FileMotion> read_bvh(const ConvertArguments& arguments) {
+  recordings::BvhReadOptions options;
+  options.unit_m = unit_m(arguments.unit).value_or(options.unit_m);
+  auto bvh = recordings::read_bvh(arguments.in, options);
+  if (!bvh) return bvh.error();
+  return FileMotion{std::move(bvh->motion), bvh->ignored_translation_m, {}};
+}
+
+Result<FileMotion> read_acclaim(const ConvertArguments& arguments) {
+  const auto path = arguments.skeleton.empty() ? recordings::skeleton_beside(arguments.in)
+                                               : std::optional(arguments.skeleton);
+  if (!path) {
+    return bad_input(arguments.in.string(),
+                     "the .asf file that goes with this motion is not beside it",
+                     "name it: --skeleton FILE.asf");
+  }
+  const auto skeleton = recordings::read_asf(*path, {.unit_m = unit_m(arguments.unit)});
+  if (!skeleton) return skeleton.error();
+  recordings::AmcReadOptions options;
+  if (arguments.rate_hz) options.rate = FrameRate{*arguments.rate_hz};
+  auto amc = recordings::read_amc(arguments.in, *skeleton, options);
+  if (!amc) return amc.error();
+  FileMotion read{std::move(amc->motion), amc->ignored_translation_m, {}};
+  if (amc->rate_is_guessed) {
+    read.notes.emplace_back(
+        "the file does not say its rate: it is taken for 120 Hz; --rate tells another");
+  }
+  return read;
+}
+
+Result<FileMotion> read(const ConvertArguments& arguments) {
+  const std::string kind = kind_by_extension(arguments.in);
+  if (kind == ".bvh") return read_bvh(arguments);
+  if (kind == ".amc") return read_acclaim(arguments);
+  if (!arguments.unit.empty()) {
+    return bad_input(
+        arguments.in.string(), "glTF is in metres always", "leave out --unit");
+  }
+  auto motion = read_motion({arguments.in});
+  if (!motion) return motion.error();
+  return FileMotion{std::move(motion->motion), motion->ignored_translation_m, {}};
+}
+
+Error cannot(const ConvertArguments& arguments, std::string cause, std::string next) {
+  return bad_input(arguments.out.string(), std::move(cause), std::move(next));
+}
+
+Status write_as_bvh(const ConvertArguments& arguments, const Motion& motion) {
+  recordings::BvhWriteOptions options;
+  if (const auto dialect = recordings::bvh_dialect(arguments.bvh_dialect)) {
+    options = recordings::write_options(*dialect);
+  }
+  options.unit_m = unit_m(arguments.to_unit).value_or(options.unit_m);
+  return recordings::write_bvh(arguments.out, motion, options);
+}
+
+/// World rotations of all joints in the T-pose: of those that carry none, as at rest.
+std::vector<glm::dquat> t_pose_of(const Skeleton& skeleton,
+                                  const retarget::BodyMap& map) {
+  std::vector<glm::dquat> world;
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    const Joint& joint = skeleton.joints[i];
+    if (map.joints[i].role != retarget::JointRole::kFree) {
+      world.push_back(map.joints[i].t_pose_from_joint);
+    } else if (joint.parent) {
+      world.push_back(world[index(*joint.parent)] * joint.parent_from_joint.rotation);
+    } else {
+      world.push_back(joint.parent_from_joint.rotation);
+    }
+  }
+  return world;
+}
+
+Status write_as_vrma(const ConvertArguments& arguments, const Motion& motion) {
+  const auto map = retarget::map_body(motion.skeleton);
+  if (!map) {
+    Error error = map.error();
+    error.where = arguments.in.string();
+    return error;
+  }
+  const std::vector<glm::dquat> t_pose = t_pose_of(motion.skeleton, *map);
+  return recordings::write_vrma(
+      arguments.out,
+      motion,
+      {.t_pose_from_joint = t_pose, .clip = arguments.out.stem().string()});
+}
+
+Status write_as_mot(const ConvertArguments& arguments, const Motion& motion) {
+  const auto table = angle_table(motion, arguments.out.stem().string());
+  if (table) return recordings::write_mot(arguments.out, *table);
+  return cannot(arguments,
+                "joint angles are of bodies as marey makes them: all 22 bones of VRM's "
+                "humanoid, at rest without rotations",
+                "put the motion on one first: marey retarget");
+}
+
+Status write(const ConvertArguments& arguments, const Motion& motion) {
+  const std::string kind = kind_by_extension(arguments.out);
+  if (kind != ".bvh" && !(arguments.bvh_dialect.empty() && arguments.to_unit.empty())) {
+    return cannot(arguments,
+                  "only a .bvh is written in a dialect or a unit",
+                  "leave out --bvh-dialect and --to-unit");
+  }
+  if (kind == ".bvh") return write_as_bvh(arguments, motion);
+  if (kind == ".vrma") return write_as_vrma(arguments, motion);
+  if (kind == ".npz") return recordings::write_npz(arguments.out, motion);
+  if (kind == ".csv") return recordings::write_places_csv(arguments.out, motion);
+  if (kind == ".mot") return write_as_mot(arguments, motion);
+  return cannot(arguments,
+                "cannot write a motion as \"" + kind + "\"",
+                "name the result .bvh, .vrma, .npz, .csv or .mot; marey retarget writes "
+                ".glb");
+}
+
+void tell(const ConvertArguments& arguments,
+          const FileMotion& read,
+          bool json,
+          Console& console) {
+  const auto& [skeleton, rate, first_frame, poses] = read.motion;
+  const auto bones = std::ranges::count_if(
+      skeleton.joints, [](const Joint& joint) { return joint.bone.has_value(); });
+  if (json) {
+    const nlohmann::ordered_json figures{{"out", arguments.out.string()},
+                                         {"joints", skeleton.joints.size()},
+                                         {"human_bones", bones},
+                                         {"frames", poses.size()},
+                                         {"rate_hz", rate.hz},
+                                         {"notes", read.notes}};
+    std::printf(
+        "%s\n",
+        figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+            .c_str());
+  }
+  std::array<char, 32> digits{};
+  std::snprintf(digits.data(), digits.size(), "%.6g", rate.hz);
+  console.say(arguments.out.string() + ": " + std::to_string(skeleton.joints.size()) +
+              " joints, " + std::to_string(poses.size()) + " frames at " + digits.data() +
+              " Hz");
+}
+
+}  // namespace
+
+bool is_motion(const std::filesystem::path& file) {
+  const std::string kind = kind_by_extension(file);
+  return kind == ".bvh" || kind == ".amc" || is_gltf(file);
+}
+
+Exit convert_motion(const ConvertArguments& arguments, bool json, Console& console) {
+  if (!arguments.up.empty() || !arguments.to_up.empty()) {
+    return console.fail(bad_input(arguments.in.string(),
+                                  "motions of skeletons are Y up always",
+                                  "leave out --up and --to-up"));
+  }
+  auto file = read(arguments);
+  if (!file) return console.fail(file.error());
+  if (const auto note = left_out({file->motion, file->ignored_translation_m})) {
+    file->notes.push_back(*note);
+  }
+  for (const std::string& note : file->notes) {
+    console.warn(arguments.in.string() + ": " + note);
+  }
+  Motion& motion = file->motion;
+  if (arguments.rate_hz) motion.rate = FrameRate{*arguments.rate_hz};
+  if (arguments.to_rate_hz) {
+    motion = resample(motion, FrameRate{*arguments.to_rate_hz});
+    if (motion.poses.empty()) {
+      return console.fail(bad_input(arguments.in.string(),
+                                    "the motion is shorter than a frame at that rate",
+                                    "give a higher --to-rate"));
+    }
+  }
+  const Status written = write(arguments, motion);
+  if (!written) return console.fail(written.error());
+  tell(arguments, *file, json, console);
+  return Exit::kOk;
+}
+
+}  // namespace marey::app

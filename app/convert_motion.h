@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "app/commands.h"
+
+namespace marey::app {
+
+/// Whether a file can hold the motion of a skeleton, by its name: .bvh, .amc, .glb,
+/// .gltf, .vrm or .vrma.
+[[nodiscard]] bool is_motion(const std::filesystem::path& file);
+
+/// `marey convert IN OUT` where IN is_motion().
+[[nodiscard]] Exit convert_motion(const ConvertArguments& arguments,
+                                  bool json,
+                                  Console& console);
+
+}  // namespace marey::app
