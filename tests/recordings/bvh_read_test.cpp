@@ -160,6 +160,39 @@ TEST(ReadBvh, ReadsRealFilesOfSeveralDialects) {
   }
 }
 
+// Six decimals of a centimetre, and of degrees over a body of 2 m.
+TEST(ReadBvh, ReadsRealMotionsAgainInEveryDialect) {
+  for (const char* file : {"bandai/dataset-1_walk_normal_001.bvh",
+                           "cmu_bvh_tmoco/05_06.bvh",
+                           "bvh_python/test_freebvh.bvh",
+                           "bvh_python/test_mocapbank.bvh"}) {
+    if (!exists(real_file(file))) GTEST_SKIP() << file << " is not here";
+    auto real = read_bvh(real_file(file));
+    ASSERT_TRUE(real) << real.error().message();
+    Motion& motion = real->motion;
+    motion.poses.resize(std::min<std::size_t>(motion.poses.size(), 30));
+    for (const BvhDialect dialect : {BvhDialect::kBlender,
+                                     BvhDialect::kMobu,
+                                     BvhDialect::kMaya,
+                                     BvhDialect::kUnity}) {
+      const BvhWriteOptions options = write_options(dialect);
+      const auto read =
+          parse_bvh(bvh_text(motion, options), file, {.unit_m = options.unit_m});
+      ASSERT_TRUE(read) << read.error().message();
+      EXPECT_EQ(read->motion.rate.hz, motion.rate.hz);
+      ASSERT_EQ(read->motion.skeleton.joints.size(), motion.skeleton.joints.size());
+      for (std::size_t i = 0; i < motion.poses.size(); ++i) {
+        const auto a = world_from_joints(motion.skeleton, motion.poses[i]);
+        const auto b = world_from_joints(read->motion.skeleton, read->motion.poses[i]);
+        for (std::size_t k = 0; k < a.size(); ++k) {
+          ASSERT_LT(glm::distance(a[k].translation, b[k].translation), 1e-5)
+              << file << " for " << name(dialect);
+        }
+      }
+    }
+  }
+}
+
 TEST(ReadBvh, NamesTheLineWithAMissingValue) {
   EXPECT_EQ(refusal(kTwoJoints + "0 0 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 0\n"),
             "walk.bvh:20: expected 9 values, found 8. Next: export the file again, or "

@@ -26,8 +26,7 @@ struct Glb {
   nlohmann::json json;
   std::string data;
 
-  explicit Glb(const std::filesystem::path& path) {
-    const std::string bytes = *read_file(path);
+  explicit Glb(const std::string& bytes) {
     std::uint32_t size = 0;
     std::memcpy(&size, bytes.data() + 12, sizeof size);
     json = nlohmann::json::parse(bytes.substr(20, size));
@@ -57,7 +56,9 @@ Motion a_motion() {
 }
 
 void expect_playable(const std::filesystem::path& path) {
-  const Glb glb(path);
+  const Result<std::string> bytes = read_file(path);
+  ASSERT_TRUE(bytes) << bytes.error().message();
+  const Glb glb(*bytes);
   ASSERT_EQ(glb.json["animations"].size(), 1U);
   const auto& animation = glb.json["animations"][0];
   EXPECT_EQ(animation["name"], "jump");

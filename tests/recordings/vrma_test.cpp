@@ -177,6 +177,33 @@ TEST(Vrma, HandsOnWhatOtherJointsTurn) {
   }
 }
 
+// A file of three-vrm's, of 51 bones: those that marey has stay where they were.
+TEST(Vrma, KeepsARealOneWhenWrittenAgain) {
+  const auto path =
+      std::filesystem::path(MAREY_SHARED_DATA) / "avatars/threevrm/test.vrma";
+  if (!exists(path)) GTEST_SKIP() << path << " is not here";
+  const ScratchFolder folder;
+  const auto real = read_character(path);
+  ASSERT_TRUE(real && real->motion);
+  const Motion& motion = *real->motion;
+  const Motion read = read_again(folder, motion);
+  EXPECT_EQ(read.rate.hz, motion.rate.hz);
+  ASSERT_EQ(read.poses.size(), motion.poses.size());
+  for (std::size_t i = 0; i < motion.poses.size(); ++i) {
+    const auto a = world_from_joints(motion.skeleton, motion.poses[i]);
+    const auto b = world_from_joints(read.skeleton, read.poses[i]);
+    for (const HumanBone bone : human_bones()) {
+      const auto in_a = motion.skeleton.find(bone);
+      const auto in_b = read.skeleton.find(bone);
+      ASSERT_EQ(in_a.has_value(), in_b.has_value()) << name(bone);
+      if (!in_a) continue;
+      EXPECT_LT(glm::distance(a[index(*in_a)].translation, b[index(*in_b)].translation),
+                1e-5)
+          << name(bone);
+    }
+  }
+}
+
 TEST(Vrma, RefusesABodyWithoutTheBonesThatVrmRequires) {
   Motion motion = wild_motion(uneven_body(), 1);
   motion.skeleton.joints[index(*motion.skeleton.find(HumanBone::kLeftHand))].bone.reset();
