@@ -154,13 +154,13 @@ std::string advice_for(const KeptConstraint& kept,
 }
 
 std::string miss_of(const KeptConstraint& kept, const AdaptRun& run) {
-  return text_of("missed in %d of %d frames, by up to %.1f %s (at %.2f s)",
-                 kept.active_frames - kept.met_frames,
-                 kept.active_frames,
-                 kept.is_orientation ? kDegrees * kept.worst_error_rad
-                                     : 1e3 * kept.worst_error_m,
-                 kept.is_orientation ? "degrees" : "mm",
-                 time_of(run, kept.worst_frame));
+  return text_of(
+      "missed in %d of %d frames, by up to %.1f %s (at %.2f s)",
+      kept.active_frames - kept.met_frames,
+      kept.active_frames,
+      kept.is_orientation ? kDegrees * kept.worst_error_rad : 1e3 * kept.worst_error_m,
+      kept.is_orientation ? "degrees" : "mm",
+      time_of(run, kept.worst_frame));
 }
 
 /// What brings a centre of mass back that is off.

@@ -223,10 +223,7 @@ Result<AdaptedMotion> adapt_motion(const Motion& motion,
     world_from_joints(motion.skeleton, out.motion.poses[t], world_from_joint);
     watch.look(static_cast<int>(t), reference, world_from_joint);
     for (std::size_t i = 0; i < judges.size(); ++i) {
-      judges[i].look(t,
-                     handles[i].outcome().activation,
-                     report.capped,
-                     world_from_joint);
+      judges[i].look(t, handles[i].outcome().activation, report.capped, world_from_joint);
     }
     if (progress) progress(static_cast<int>(t) + 1, count);
   }

@@ -36,6 +36,11 @@ class ResultReader {
 
 static_assert(kHomingSteps == kFirstSteps && kHomingStepsBalanced == kFirstStepsBalanced);
 
+// A joint of a mean of postures keeps its limits wholly where each of them keeps them to
+// single precision, and not at all where one of them is as far beyond as a degree or two.
+constexpr double kWithin_rad = 1e-4;
+constexpr double kBeyond_rad = 0.03;
+
 float dot(const Quat<float>& a, const Quat<float>& b) {
   return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -71,6 +76,7 @@ void Adapter::State::set_up() {
   thesis = {make_thesis_plan(plan), options.balance != BalanceMode::kOff};
   solve = {};
   mixed_rotation.assign(plan.parent.size(), identity<float>());
+  mixed_beyond.assign(plan.parent.size(), 0.0F);
   question = PackedQuestion(plan);
   outcomes.assign(constraints.constraints.size(), {});
   begun_in_world.resize(constraints.constraints.size());
@@ -137,6 +143,10 @@ void Adapter::State::mix(float share) {
     const float sign = dot(q, like) < 0.0F ? -share : share;
     sum = {
         sum.w + sign * q.w, sum.x + sign * q.x, sum.y + sign * q.y, sum.z + sign * q.z};
+    if (plan.limit_of[i] < 0 || j == 0) continue;
+    const auto p = static_cast<std::size_t>(plan.parent[i]);
+    const Quat<float> kept = limited(plan, lanes, j, lanes.rotation[p], q);
+    mixed_beyond[i] = std::max(mixed_beyond[i], length(turn_left(q, kept)));
   }
   mixed_root += share * lanes.place[0];
 }
@@ -152,6 +162,7 @@ void Adapter::State::solve_faded(LaneFigures<float>& figures) {
   const std::vector<double>& ramps = question.ramps;
   std::vector<WishNumbers>& wishes = question.numbers;
   for (Quat<float>& q : mixed_rotation) q = {0.0F, 0.0F, 0.0F, 0.0F};
+  for (float& beyond : mixed_beyond) beyond = 0.0F;
   mixed_root = {0.0F, 0.0F, 0.0F};
   const auto add_all = [&](Control asked, double weight) {
     control = asked;
@@ -173,11 +184,15 @@ void Adapter::State::solve_faded(LaneFigures<float>& figures) {
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
     lanes.rotation[i] = normalized(mixed_rotation[i]);
-    // Between two postures that keep a limit may be one that does not.
-    if (j > 0) {
-      const auto p = static_cast<std::size_t>(plan.parent[i]);
-      lanes.rotation[i] = limited(plan, lanes, j, lanes.rotation[p], lanes.rotation[i]);
-    }
+    if (plan.limit_of[i] < 0 || j == 0) continue;
+    // Between two postures that keep a limit may be one that does not. Where one of them
+    // does not either (supports and references may be beyond) the mean stays as it is.
+    const auto p = static_cast<std::size_t>(plan.parent[i]);
+    const Quat<float> kept =
+        limited(plan, lanes, j, lanes.rotation[p], lanes.rotation[i]);
+    const auto keeps = static_cast<float>(
+        smooth_step((kBeyond_rad - mixed_beyond[i]) / (kBeyond_rad - kWithin_rad)));
+    lanes.rotation[i] = between(lanes.rotation[i], kept, keeps);
   }
   lanes.place[0] = mixed_root;
   place_live_joints(plan, lanes);

@@ -95,6 +95,7 @@ struct Adapter::State {
   ThesisShape thesis;
   std::vector<Quat<float>> mixed_rotation;  ///< While constraints fade in or out.
   Vec3<float> mixed_root;
+  std::vector<float> mixed_beyond;  ///< By how much a joint is beyond its limits. [rad]
 
  private:
   void read_wishes(double time_s, PackedQuestion& asked);

@@ -15,8 +15,8 @@ struct LaneFigures {
 };
 
 /// Numbers that store_result() writes: rotations of all joints in their parents, then in
-/// the world (4 each), places (3), the lengths of the errors of the plan's points, and the
-/// figures. Lengths in the body's unit, places from the reference's root.
+/// the world (4 each), places (3), the lengths of the errors of the plan's points, and
+/// the figures. Lengths in the body's unit, places from the reference's root.
 [[nodiscard]] inline std::size_t result_size(const Plan& plan) {
   return 11 * plan.parent.size() + plan.points.size() + 3;
 }

@@ -62,8 +62,8 @@ Shortfall ConstraintMeasure::lacks(std::span<const RigidTransform> world_from_jo
   places.world_from_segment = {
       segment.rotation * glm::conjugate(point_.t_pose_from_joint), segment.translation};
   if (const auto* turned = std::get_if<SegmentOrientation>(&goal_)) {
-    const glm::dquat left = turned->world_from_t_pose *
-                            glm::conjugate(places.world_from_segment.rotation);
+    const glm::dquat left =
+        turned->world_from_t_pose * glm::conjugate(places.world_from_segment.rotation);
     return {0.0, glm::length(rotation_vector(glm::normalize(left)))};
   }
   if (other_) places.other_in_world = other_->in_world(world_from_joint);

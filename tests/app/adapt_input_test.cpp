@@ -109,7 +109,8 @@ TEST(AdaptRefuses, ToWriteOverWhatItReads) {
   const auto expect_kept = [&](const std::string& name, const std::string& role) {
     const std::string before = *recordings::read_file(scene / name);
     const std::string out = (scene / name).string();
-    expect_refused(scene, {"--character", who, "--out", out}, {out, role, "another name"});
+    expect_refused(
+        scene, {"--character", who, "--out", out}, {out, role, "another name"});
     EXPECT_EQ(*recordings::read_file(scene / name), before) << name;
   };
   expect_kept("walk.bvh", "the motion to adapt");

@@ -25,6 +25,10 @@ std::string AdaptScene::constraints(const std::string& elements) const {
   return file("c.xml", "<ConstraintsSet>\n" + elements + "\n</ConstraintsSet>\n");
 }
 
+std::string AdaptScene::character(const std::string& more) const {
+  return file("c.toml", "format = 1\nname = \"Ann\"\n" + more);
+}
+
 ProgramRun AdaptScene::adapt(const std::vector<std::string>& more) const {
   std::vector<std::string> arguments{"adapt", (folder_ / "walk.bvh").string(), "--json"};
   if (std::find(more.begin(), more.end(), "--out") == more.end()) {
@@ -53,6 +57,14 @@ std::string hand_at(const glm::dvec3& p_in_world,
          "</segment></bodyPoint><specif><distance>0</distance><position><X>" +
          number(p_in_world.x) + "</X><Y>" + number(p_in_world.y) + "</Y><Z>" +
          number(p_in_world.z) + "</Z></position></specif></Distance>";
+}
+
+const nlohmann::json& of_id(const nlohmann::json& all, const std::string& id) {
+  for (const nlohmann::json& one : all) {
+    if (one.at("id") == id) return one;
+  }
+  ADD_FAILURE() << "no " << id << " in " << all.dump();
+  return all;
 }
 
 glm::dvec3 place_of(const Motion& motion, int frame, HumanBone bone) {

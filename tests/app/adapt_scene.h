@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
 
 #include "core/motion.h"
 #include "tests/support/run_program.h"
@@ -29,6 +30,8 @@ class AdaptScene {
   std::string file(const std::string& name, const std::string& text) const;
   /// A set with these elements.
   std::string constraints(const std::string& elements) const;
+  /// A character.toml of "Ann", with more behind her name.
+  [[nodiscard]] std::string character(const std::string& more) const;
   /// `marey adapt walk.bvh --out out.bvh --json` and more, which may name another out.
   [[nodiscard]] ProgramRun adapt(const std::vector<std::string>& more) const;
   /// The motion of a file in the folder; the test fails when there is none.
@@ -43,6 +46,10 @@ class AdaptScene {
 [[nodiscard]] std::string hand_at(const glm::dvec3& p_in_world,
                                   const std::string& more = "",
                                   const std::string& segment = "leftHand");
+
+/// What `--json` tells of one constraint or support; the test fails when it is not there.
+[[nodiscard]] const nlohmann::json& of_id(const nlohmann::json& all,
+                                          const std::string& id);
 
 /// World place of a joint in one pose.
 [[nodiscard]] glm::dvec3 place_of(const Motion& motion, int frame, HumanBone bone);

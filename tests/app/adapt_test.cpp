@@ -77,14 +77,6 @@ double apart_m(const Motion& a, const Motion& b, int frame) {
   return worst;
 }
 
-const Json& of_id(const Json& all, const std::string& id) {
-  for (const Json& one : all) {
-    if (one.at("id") == id) return one;
-  }
-  ADD_FAILURE() << "no " << id << " in " << all.dump();
-  return all;
-}
-
 TEST(Adapt, KeepsAWristOnAPointAndTheFeetOnTheFloor) {
   const AdaptScene scene;
   const glm::dvec3 target = in_reach(scene);
@@ -230,17 +222,12 @@ TEST(Adapt, TakesItsSupportsFromTheFileWhenItHasAny) {
   }
 }
 
-std::string character_file(const AdaptScene& scene, const std::string& more) {
-  return scene.file("c.toml", "format = 1\nname = \"Ann\"\n" + more);
-}
-
 // A bag of 10 kg in the left hand: the centre of mass stays where it was without it.
 TEST(Adapt, ACarriedLoadMovesTheBodyAgainstIt) {
   const AdaptScene scene;
-  const std::string who =
-      character_file(scene,
-                     "avatar = \"walk.bvh\"\nmass_kg = 70.0\n[[load]]\nname = \"bag\"\n"
-                     "segment = \"leftHand\"\nmass_kg = 10.0\n");
+  const std::string who = scene.character(
+      "avatar = \"walk.bvh\"\nmass_kg = 70.0\n[[load]]\nname = \"bag\"\n"
+      "segment = \"leftHand\"\nmass_kg = 10.0\n");
   const std::vector<std::string> balanced{"--character", who, "--balance", "horizontal"};
   ASSERT_EQ(scene.adapt(balanced).exit_code, 0);
   const Motion empty_handed = scene.motion();
@@ -256,60 +243,9 @@ TEST(Adapt, ACarriedLoadMovesTheBodyAgainstIt) {
             place_of(empty_handed, 40, B::kHips).x - 0.005);
 }
 
-// A head cannot look back: by how much is an angle.
-TEST(Adapt, TellsWhatAnOrientationLacksInDegrees) {
-  const AdaptScene scene;
-  const ProgramRun run = scene.adapt(
-      {"--constraints",
-       scene.constraints("<Orientation><name>look</name><range>1</range><bodyPoint>"
-                         "<segment>head</segment></bodyPoint><specif><orientation>"
-                         "<W>0</W><X>0</X><Y>1</Y><Z>0</Z></orientation></specif>"
-                         "</Orientation>")});
-  EXPECT_EQ(run.exit_code, 4) << run.err;
-  EXPECT_NE(run.err.find(" degrees (at "), std::string::npos) << run.err;
-  EXPECT_EQ(run.err.find("mm (at"), std::string::npos) << run.err;
-  const Json report = Json::parse(run.out);
-  const Json& look = of_id(report.at("constraints"), "look");
-  EXPECT_EQ(look.at("met_frames"), 0);
-  // 180 are asked, 95 are a head's most, and the walk looks ahead.
-  EXPECT_GT(look.at("worst_error_deg").get<double>(), 70.0);
-  EXPECT_LE(look.at("worst_error_deg").get<double>(), 180.0);
-  EXPECT_FALSE(look.contains("worst_error_mm"));
-}
-
-// Who drags a ton at one foot has the centre of mass there, whatever else is done.
-TEST(Adapt, AdvisesMoreIterationsOnlyWhereTheyWereShort) {
-  const AdaptScene scene;
-  const std::string who =
-      character_file(scene,
-                     "avatar = \"walk.bvh\"\nmass_kg = 70.0\n[[load]]\nname = \"ball\"\n"
-                     "segment = \"leftFoot\"\nmass_kg = 1000.0\n");
-  const auto advice = [&](const std::string& most) {
-    const ProgramRun run = scene.adapt({"--character",
-                                        who,
-                                        "--load",
-                                        "ball",
-                                        "--balance",
-                                        "horizontal",
-                                        "--balance-root-share",
-                                        "0",
-                                        "--max-iterations",
-                                        most});
-    const bool capped = Json::parse(run.out).at("iterations").at("frames_at_cap") > 0;
-    EXPECT_EQ(capped, most == "5") << run.out;
-    const std::size_t at = run.err.find("the centre of mass is up to");
-    EXPECT_NE(at, std::string::npos) << run.err;
-    return run.err.substr(at, run.err.find('\n', at) - at);
-  };
-  EXPECT_NE(advice("5").find("more than 5 with --max-iterations"), std::string::npos);
-  const std::string patient = advice("2000");
-  EXPECT_EQ(patient.find("--max-iterations"), std::string::npos) << patient;
-  EXPECT_NE(patient.find("--balance-root-share 1"), std::string::npos) << patient;
-}
-
 TEST(Adapt, PutsTheMotionOnTheCharactersBodyFirst) {
   const AdaptScene scene;
-  const std::string who = character_file(scene, "stature_m = 1.2\n");
+  const std::string who = scene.character("stature_m = 1.2\n");
   const ProgramRun run = scene.adapt({"--character", who});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Motion motion = scene.motion();

@@ -119,7 +119,8 @@ TEST_P(AdapterReport, TellsWhetherTheCapEndedIt) {
   EXPECT_TRUE(adapted(body, far, reference, wanted).report.capped);
 }
 
-// Each of two solves may be under the cap and their sum above it, and the other way about.
+// Each of two solves may be under the cap and their sum above it, and the other way
+// about.
 TEST_P(AdapterReport, TellsWhetherTheCapEndedAnySolveWhileFading) {
   const Character body = human(false);
   const Pose reference = waiting(body);
