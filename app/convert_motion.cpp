@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/angle_table.h"
+#include "app/foot_contacts.h"
 #include "app/retarget_files.h"
 #include "core/extension.h"
 #include "core/resample.h"
@@ -145,7 +146,10 @@ Status write(const ConvertArguments& arguments, const Motion& motion) {
   }
   if (kind == ".bvh") return write_as_bvh(arguments, motion);
   if (kind == ".vrma") return write_as_vrma(arguments, motion);
-  if (kind == ".npz") return recordings::write_npz(arguments.out, motion);
+  if (kind == ".npz") {
+    const recordings::NpzExtras extras{{}, foot_contacts(motion), {}};
+    return recordings::write_npz(arguments.out, motion, extras);
+  }
   if (kind == ".csv") return recordings::write_places_csv(arguments.out, motion);
   if (kind == ".mot") return write_as_mot(arguments, motion);
   return cannot(arguments,

@@ -61,7 +61,7 @@ class Pipeline {
   /// trial the cameras agree on the tags.
   [[nodiscard]] Status fit();
   /// Motion of every motion trial: joints.csv, segments.csv, motion.bvh, motion.glb,
-  /// markers.c3d, markers.trc.
+  /// motion.npz, markers.c3d, markers.trc.
   /// Reads calibration.toml and subject.toml.
   [[nodiscard]] Status solve();
   /// Every solved motion on every avatar: AVATAR.glb and AVATAR.bvh.

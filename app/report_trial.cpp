@@ -46,6 +46,7 @@ Result<ReportTrial> report_trial(const recordings::Trial& trial,
   out.bodies.push_back({"subject", poses, solved.estimate.doubt, 0, 0, 0, {}});
   for (const char* file : {"motion.bvh",
                            "motion.glb",
+                           "motion.npz",
                            "joints.csv",
                            "segments.csv",
                            "markers.c3d",

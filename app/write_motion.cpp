@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/write_motion.h"
 
+#include "app/foot_contacts.h"
 #include "reconstruct/tag_tracks.h"
 #include "recordings/bvh.h"
 #include "recordings/gltf.h"
 #include "recordings/mannequin.h"
 #include "recordings/marker_file.h"
 #include "recordings/motion_tables.h"
+#include "recordings/npz.h"
 
 namespace marey::app {
 
@@ -26,6 +28,13 @@ Status write_motion(const std::filesystem::path& folder,
     return ok;
   }
   if (const Status ok = recordings::write_bvh(folder / "motion.bvh", estimate.motion);
+      !ok) {
+    return ok;
+  }
+  const recordings::NpzExtras extras{
+      estimate.doubt, foot_contacts(estimate.motion), start_s};
+  if (const Status ok =
+          recordings::write_npz(folder / "motion.npz", estimate.motion, extras);
       !ok) {
     return ok;
   }

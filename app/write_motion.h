@@ -12,8 +12,9 @@
 
 namespace marey::app {
 
-/// The files of one solved motion: joints.csv, segments.csv, motion.bvh, and motion.glb
-/// with a mannequin of the subject's proportions. Each appears whole or not at all.
+/// The files of one solved motion: joints.csv, segments.csv, motion.bvh, motion.npz with
+/// its doubt and foot contacts, and motion.glb with a mannequin of the subject's
+/// proportions. Each appears whole or not at all.
 /// `start_s` as write_joints_csv() has it. Errors: the disk.
 [[nodiscard]] Status write_motion(const std::filesystem::path& folder,
                                   const EstimatedMotion& estimate,

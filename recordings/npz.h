@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,13 +26,17 @@ struct NpzExtras {
   /// How well joints are known, [frame][joint]; empty: nothing is said. Borrowed.
   std::span<const std::vector<JointDoubt>> doubt;
   NpzContacts contacts;  ///< No names: nothing is said.
+  /// The time of the first frame, on a clock of the recording's own; without it that is
+  /// first_frame / rate.
+  std::optional<double> start_s;
 };
 
 /// The bytes of numpy's archive (.npz) of a motion of F frames and J joints, none of it
 /// compressed, so that numpy alone reads it, and can map it.
 ///
 ///   format                  () the number of this layout, 1
-///   rate_hz, first_frame    () frame i is at (first_frame + i) / rate_hz seconds
+///   rate_hz, first_frame    () frame i has the number first_frame + i
+///   time_s                  (F,) of frames
 ///   joint_names             (J,) text
 ///   human_bones             (J,) text: VRM's names, or ""
 ///   parents                 (J,) int32, -1 for the root; parents come first

@@ -206,6 +206,12 @@ Result<std::string> npz_bytes(const Motion& motion, const NpzExtras& extras) {
   arrays.add_number("format", kFormat);
   arrays.add_number("rate_hz", motion.rate.hz);
   arrays.add_number("first_frame", motion.first_frame);
+  const double start_s = extras.start_s.value_or(motion.first_frame / motion.rate.hz);
+  std::string times;
+  for (std::size_t i = 0; i < frames; ++i) {
+    append(times, start_s + static_cast<double>(i) / motion.rate.hz);
+  }
+  arrays.add("time_s", "<f8", {frames}, times);
   add_skeleton(arrays, motion.skeleton);
   add_poses(arrays, motion);
   if (!extras.doubt.empty()) {

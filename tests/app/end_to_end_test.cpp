@@ -151,6 +151,7 @@ TEST(FirstLight, WritesEveryFileOfTheContract) {
                            "walk/markers.trc",
                            "walk/motion.bvh",
                            "walk/motion.glb",
+                           "walk/motion.npz",
                            "walk/child.glb",
                            "walk/child.bvh",
                            "walk/giant.glb",
@@ -294,6 +295,7 @@ TEST(Stages, OneByOneMakeWhatProcessMakes) {
                            "walk/markers.c3d",
                            "walk/markers.trc",
                            "walk/motion.bvh",
+                           "walk/motion.npz",
                            "walk/child.bvh"}) {
     EXPECT_TRUE(text_of(kRuns / "once" / name) == text_of(kRuns / "stages" / name))
         << name << " differs";

@@ -118,6 +118,7 @@ TEST_F(FittedSession, WritesEveryFileOfEveryTrial) {
                              "motion.bvh",
                              "motion.glb",
                              "motion.mot",
+                             "motion.npz",
                              "markers.c3d",
                              "markers.trc"}) {
       EXPECT_TRUE(fs::exists(*folder / "out" / trial / name)) << trial << " " << name;

@@ -59,10 +59,11 @@ TEST(Npz, IsReadByNumpy) {
   const std::vector<std::vector<JointDoubt>> doubt{
       {{0.001, Source::kMeasured}, {0.002, Source::kRepaired}, {0.5, Source::kInferred}},
       {{0.001, Source::kMeasured}, {0.002, Source::kMeasured}, {0.5, Source::kMeasured}}};
-  const NpzExtras extras{doubt, {{"leftFoot", "rightFoot"}, {1, 0, 1, 1}}};
+  const NpzExtras extras{doubt, {{"leftFoot", "rightFoot"}, {1, 0, 1, 1}}, 0.25};
   ASSERT_TRUE(write_npz(folder / "a.npz", a_motion(), extras));
   expect_in_numpy(folder / "a.npz", R"(
 assert a['format'] == 1 and a['rate_hz'] == 29.97 and a['first_frame'] == 5
+assert np.abs(a['time_s'] - [.25, .25 + 1 / 29.97]).max() < 1e-15
 assert a['joint_names'].tolist() == ['hips', 'r\u00fccken', '\U0001f483\ufffd']
 assert a['human_bones'].tolist() == ['hips', '', '']
 assert a['parents'].tolist() == [-1, 0, 1] and a['parents'].dtype == np.int32
@@ -84,6 +85,7 @@ TEST(Npz, SaysNothingOfWhatIsNotKnown) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_npz(folder / "a.npz", a_motion()));
   expect_in_numpy(folder / "a.npz", R"(
+assert np.abs(a['time_s'] - np.array([5, 6]) / 29.97).max() < 1e-15
 for key in 'sigma_m source source_names valid contacts contact_names'.split():
     assert key not in a.files, key
 )");

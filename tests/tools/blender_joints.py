@@ -6,7 +6,8 @@
 #
 # Imports a motion with Blender and tells where Blender puts the joints, frame by frame:
 # `frame,time,joint,x,y,z,sigma` in metres, Y up, as marey writes joints.csv. With
-# --compare, prints the largest distance to such a file; exit 1 above 0.1 mm.
+# --compare, prints the largest distance to such a file; exit 1 above 0.1 mm, or when a BVH
+# has another rate.
 import argparse
 import builtins
 import csv
@@ -40,7 +41,7 @@ def import_motion(path, unit):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     if path.endswith(".bvh"):
         bpy.ops.import_anim.bvh(
-            filepath=path, global_scale=unit, use_fps_scale=False, update_scene_fps=False
+            filepath=path, global_scale=unit, use_fps_scale=False, update_scene_fps=True
         )
         first = 1
     else:
@@ -51,6 +52,19 @@ def import_motion(path, unit):
     if len(armatures) != 1 or armatures[0].animation_data is None:
         sys.exit(f"{path}: expected one animated armature, found {len(armatures)}")
     return armatures[0], first
+
+
+def same_rate(path):
+    """Whether Blender took a BVH's Frame Time for the rate of these joint places."""
+    with builtins.open(path, encoding="utf-8") as file:
+        times = sorted({float(row["time"]) for row in csv.DictReader(file)})
+    if len(times) < 2:
+        return True
+    ours = (len(times) - 1) / (times[-1] - times[0])
+    render = bpy.context.scene.render
+    theirs = render.fps / render.fps_base
+    print(f"rate {theirs:.6f} Hz of {ours:.6f} Hz")
+    return abs(theirs - ours) <= 1e-5 * ours
 
 
 def joint_rows(armature, first):
@@ -97,7 +111,10 @@ def main():
     rows = list(joint_rows(*import_motion(arguments.motion, arguments.unit)))
     if arguments.out:
         write_rows(rows, arguments.out)
-    sys.exit(compare(rows, arguments.compare) if arguments.compare else 0)
+    status = compare(rows, arguments.compare) if arguments.compare else 0
+    if arguments.compare and arguments.motion.endswith(".bvh"):
+        status = status or (0 if same_rate(arguments.compare) else 1)
+    sys.exit(status)
 
 
 main()

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/motion.h"
+#include "recordings/npz.h"
+
+namespace marey::app {
+
+/// When feet bear in a motion, by retarget::detect_contacts(): names are leftFoot,
+/// leftToes, rightFoot and rightToes, an ankle or a toe joint that rests. Nothing when
+/// the body's bones do not let it be told. Linear in frames.
+[[nodiscard]] recordings::NpzContacts foot_contacts(const Motion& motion);
+
+}  // namespace marey::app
