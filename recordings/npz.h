@@ -34,8 +34,9 @@ struct NpzExtras {
 /// The bytes of numpy's archive (.npz) of a motion of F frames and J joints, none of it
 /// compressed, so that numpy alone reads it, and can map it.
 ///
-///   format                  () the number of this layout, 1
-///   rate_hz, first_frame    () frame i has the number first_frame + i
+///   format                  () int64: the number of this layout, 1
+///   rate_hz                 () frames per second
+///   first_frame             () int64: frame i has the number first_frame + i
 ///   time_s                  (F,) of frames
 ///   joint_names             (J,) text
 ///   human_bones             (J,) text: VRM's names, or ""

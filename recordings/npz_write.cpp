@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <string_view>
 
@@ -16,7 +17,7 @@
 namespace marey::recordings {
 namespace {
 
-constexpr double kFormat = 1.0;
+constexpr std::int64_t kFormat = 1;
 
 // The format is little-endian here, and so is every machine that marey is built for.
 template <class T>
@@ -95,6 +96,12 @@ class Arrays {
     std::string data;
     append(data, value);
     add(name, "<f8", {}, data);
+  }
+
+  void add_integer(std::string_view name, std::int64_t value) {
+    std::string data;
+    append(data, value);
+    add(name, "<i8", {}, data);
   }
 
   /// Texts as numpy has them: four bytes for each letter, zeros behind the shorter ones.
@@ -203,9 +210,9 @@ Result<std::string> npz_bytes(const Motion& motion, const NpzExtras& extras) {
   const std::size_t frames = motion.poses.size();
   MAREY_ASSERT(!motion.skeleton.joints.empty());
   Arrays arrays;
-  arrays.add_number("format", kFormat);
+  arrays.add_integer("format", kFormat);
   arrays.add_number("rate_hz", motion.rate.hz);
-  arrays.add_number("first_frame", motion.first_frame);
+  arrays.add_integer("first_frame", motion.first_frame);
   const double start_s = extras.start_s.value_or(motion.first_frame / motion.rate.hz);
   std::string times;
   for (std::size_t i = 0; i < frames; ++i) {

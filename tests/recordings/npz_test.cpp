@@ -63,6 +63,7 @@ TEST(Npz, IsReadByNumpy) {
   ASSERT_TRUE(write_npz(folder / "a.npz", a_motion(), extras));
   expect_in_numpy(folder / "a.npz", R"(
 assert a['format'] == 1 and a['rate_hz'] == 29.97 and a['first_frame'] == 5
+assert a['first_frame'].dtype == np.int64
 assert np.abs(a['time_s'] - [.25, .25 + 1 / 29.97]).max() < 1e-15
 assert a['joint_names'].tolist() == ['hips', 'r\u00fccken', '\U0001f483\ufffd']
 assert a['human_bones'].tolist() == ['hips', '', '']
