@@ -158,7 +158,9 @@ Motion resting_in(const Motion& motion, std::size_t frame) {
 Result<CapturedClip> clip_of(std::string name, const Motion& motion) {
   const auto map = retarget::map_body(motion.skeleton);
   if (!map) return map.error();
-  auto character = retarget::make_character(name, motion.skeleton, *map);
+  CharacterTraits traits;
+  traits.mass.table = MassTable::kDempster;  // The thesis', whose figures stand beside.
+  auto character = retarget::make_character(name, motion.skeleton, *map, traits);
   if (!character) return character.error();
   return CapturedClip{
       std::move(name), *std::move(character), motion.rate.hz, motion.poses};

@@ -19,9 +19,10 @@ namespace marey {
 
 /// Where a human's masses come from when only the total is known.
 enum class MassTable {
-  kDempster,      ///< Dempster 1955, as in Kulpa 2005, table 5.1.
+  kDempster,  ///< Dempster 1955, as in Kulpa 2005, table 5.1: a trunk that is doubtful.
   kDeLevaFemale,  ///< de Leva 1996, table 4.
   kDeLevaMale,
+  kDeLeva,  ///< The mean of these two.
 };
 
 /// A segment that anthropometric tables know, by the bone that it begins with.
@@ -50,7 +51,7 @@ inline constexpr std::array<MassSegment, 14> kMassSegments{{
 /// What a body weighs: its total, each segment, or the total and some segments, whose
 /// rest then keeps the table's proportions.
 struct MassSpec {
-  MassTable table = MassTable::kDempster;
+  MassTable table = MassTable::kDeLeva;
   /// nullopt: the sum of the segments when all are given; 70 kg when none is, which says
   /// where the centre of mass is as well as any.
   std::optional<double> total_kg;

@@ -26,7 +26,8 @@ struct TableWord {
   MassTable table;
   std::string_view word;
 };
-constexpr std::array<TableWord, 3> kTables{{{MassTable::kDempster, "dempster"},
+constexpr std::array<TableWord, 4> kTables{{{MassTable::kDeLeva, "deleva"},
+                                            {MassTable::kDempster, "dempster"},
                                             {MassTable::kDeLevaFemale, "deleva-female"},
                                             {MassTable::kDeLevaMale, "deleva-male"}}};
 

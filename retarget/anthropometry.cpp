@@ -83,6 +83,27 @@ constexpr SegmentTable kDeLevaMale{{0.0694, 1.0 - 0.5002},
                                    (0.1117 + 0.1633) / 0.4346,
                                    (145.7 + 215.5) / 603.3};
 
+constexpr SegmentRow mean(const SegmentRow& a, const SegmentRow& b) {
+  return {0.5 * (a.mass_share + b.mass_share), 0.5 * (a.com_at + b.com_at)};
+}
+
+constexpr SegmentTable mean(const SegmentTable& a, const SegmentTable& b) {
+  return {mean(a.head, b.head),
+          mean(a.trunk, b.trunk),
+          mean(a.upper_arm, b.upper_arm),
+          mean(a.forearm, b.forearm),
+          mean(a.hand, b.hand),
+          mean(a.thigh, b.thigh),
+          mean(a.shank, b.shank),
+          mean(a.foot, b.foot),
+          0.5 * (a.lower_mass + b.lower_mass),
+          0.5 * (a.lower_height + b.lower_height),
+          0.5 * (a.middle_mass + b.middle_mass),
+          0.5 * (a.middle_height + b.middle_height)};
+}
+
+constexpr SegmentTable kDeLeva = mean(kDeLevaFemale, kDeLevaMale);
+
 }  // namespace
 
 const SegmentTable& segment_table(MassTable table) {
@@ -93,8 +114,10 @@ const SegmentTable& segment_table(MassTable table) {
       return kDeLevaFemale;
     case MassTable::kDeLevaMale:
       return kDeLevaMale;
+    case MassTable::kDeLeva:
+      return kDeLeva;
   }
-  return kDempster;
+  return kDeLeva;
 }
 
 Result<std::array<double, kHumanBoneCount>> weigh_segments(const MassSpec& spec) {

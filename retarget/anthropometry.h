@@ -20,13 +20,17 @@ struct SegmentRow {
 /// A table by segment; both sides are alike. The end points are those that a skeleton
 /// has: joint centres, the base of the neck, the ear canal or the vertex, the finger tip.
 ///
-/// Dempster 1955 as in Kulpa 2005, table 5.1. Its trunk runs from the hip centres to the
-/// shoulders' and has the 0.66 that Winter ("Biomechanics and Motor Control of Human
-/// Movement", table 4.1) gives for trunk, head and neck in one.
+/// Dempster 1955 as in Kulpa 2005, table 5.1, to the digit. Doubtful is its trunk, from the
+/// hip centres to the shoulders' with the centre at 0.66 of that: Winter ("Biomechanics
+/// and Motor Control of Human Movement", table 4.1) has trunk, head and neck together
+/// there, and the trunk alone at 0.5. With a head beside it, head and neck count twice: who
+/// stands has the centre of mass at 0.59 of the stature, where 0.55 to 0.57 are measured.
 ///
 /// de Leva 1996, "Adjustments to Zatsiorsky-Seluyanov's segment inertia parameters",
 /// J. Biomechanics 29(9), table 4, with the end points of its lower part where those are
-/// joint centres: MIDS-MIDH, WJC-DAC3, KJC-AJC, VERT-CERV.
+/// joint centres: MIDS-MIDH, WJC-DAC3, KJC-AJC, VERT-CERV. Of living people; who stands has
+/// the centre of mass at 0.56. The mean of its women and men is the default, since nobody
+/// says whose body it is.
 struct SegmentTable {
   SegmentRow head;   ///< Base of the neck to ear canal (Dempster) or vertex (de Leva).
   SegmentRow trunk;  ///< Between the hip centres to between the shoulder centres.

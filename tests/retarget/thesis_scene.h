@@ -24,6 +24,7 @@ inline Character thesis_human(double least_trunk_thigh_angle_rad = 0.0) {
   const Skeleton skeleton = make_humanoid(average_proportions(1.75));
   CharacterTraits traits;
   traits.has_limits = false;
+  traits.mass.table = MassTable::kDempster;  // Table 5.1, as all figures of the thesis.
   traits.flexibility.least_trunk_thigh_angle_rad = least_trunk_thigh_angle_rad;
   traits.loads.push_back({"bag", {"leftHand", glm::dvec3(0.0)}, 10.0});
   auto character = make_character("human", skeleton, mapped(skeleton), traits);
