@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include <glm/gtc/quaternion.hpp>
+
 #include "core/motion.h"
 #include "core/result.h"
 #include "core/skeleton.h"
@@ -33,15 +35,17 @@ struct Character {
 /// Reads a .glb, .vrm, .vrma or .gltf (2.0) file.
 ///
 /// Bones come from the humanoid of VRMC_vrm, VRMC_vrm_animation or VRM (0.x); without
-/// these extensions, joints named like VRM bones are those bones. The animation is
+/// these extensions, joints named like VRM bones are those bones. A node without a name
+/// gives a joint that is called by its number, "node_7". The animation is
 /// sampled at the rate of its keys when they are evenly spaced at 10 Hz or more, else at
 /// 30 Hz. Vertices keep their first four joints. Scaled nodes give scaled bone lengths;
 /// morph targets, textures and materials beyond the base colour are not read.
 ///
-/// Errors (kBadInput): as read_file()'s; not glTF 2.0, or cut short; compressed or sparse
-/// data; indices, accessors or buffers that do not fit together; nodes without one root;
-/// a skin without joints; anything further than 10 km away; an animation of too many
-/// frames for memory. Cost: linear in vertices, and in frames times nodes.
+/// Errors (kBadInput): as read_file()'s; not glTF 2.0, or cut short; a node that carries
+/// joints and mirrors them or scales them unevenly (by more than 1 %); compressed or
+/// sparse data; indices, accessors or buffers that do not fit together; nodes without one
+/// root; a skin without joints; anything further than 10 km away; an animation of too
+/// many frames for memory. Cost: linear in vertices, and in frames times nodes.
 [[nodiscard]] Result<Character> read_character(const std::filesystem::path& path);
 
 /// read_character() of a file's bytes. `path` is what messages call it, and where a .gltf
@@ -63,15 +67,23 @@ struct Character {
                                      const Motion* motion = nullptr,
                                      std::string_view clip = "motion");
 
+/// How a body was turned and scaled since read_character() gave it.
+struct ChangedFrame {
+  glm::dquat new_from_read{1.0, 0.0, 0.0, 0.0};
+  double scale = 1.0;
+};
+
 /// Writes the asset at `source` again as a GLB with `motion`, called `clip`, as its only
 /// animation. All
 /// else is kept as it is: meshes, materials, textures, extensions. Data of removed
 /// animations stay in the file unused. Buffers and images beside a .gltf are taken in.
+/// The motion is of the body as `changed` says; the file keeps its own frame and unit.
 /// Fails as read_character() does, and when the motion is not of the skeleton that
 /// read_character(source) gives.
 [[nodiscard]] Status write_retargeted(const std::filesystem::path& source,
                                       const std::filesystem::path& path,
                                       const Motion& motion,
-                                      std::string_view clip = "motion");
+                                      std::string_view clip = "motion",
+                                      const ChangedFrame& changed = {});
 
 }  // namespace marey::recordings

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -62,6 +63,17 @@ struct NamedModel {
 
   [[nodiscard]] Error fail(std::string cause) const;
 };
+
+/// Which bone each node is, by the first humanoid extension there is, else by name.
+/// `faces_back` becomes true for a VRM 0.x, whose bodies face -Z.
+[[nodiscard]] std::map<std::size_t, HumanBone> bones_of(const tinygltf::Model& model,
+                                                        bool& faces_back);
+
+/// See Character::skeleton and read_character()'s errors.
+[[nodiscard]] Result<NodeSkeleton> skeleton_of(
+    const NamedModel& file,
+    const NodeTree& tree,
+    const std::map<std::size_t, HumanBone>& bones);
 
 /// The numbers of an accessor, row after row, `components` each; normalized integers as
 /// fractions. Checks that they lie within their buffer.

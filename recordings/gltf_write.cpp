@@ -156,9 +156,30 @@ Error not_of_this_body(const std::filesystem::path& source, std::string cause) {
                    "retarget the motion on this very avatar before writing it");
 }
 
+/// A body that was turned or scaled without `changed` saying so would be written wrong.
+bool is_changed_so(const Skeleton& avatar,
+                   const Skeleton& motion,
+                   const ChangedFrame& changed) {
+  constexpr double kSame = 1e-5;
+  bool rests_alike = true;
+  for (std::size_t i = 1; i < avatar.joints.size(); ++i) {
+    const RigidTransform& read = avatar.joints[i].parent_from_joint;
+    const RigidTransform& now = motion.joints[i].parent_from_joint;
+    const glm::dvec3 apart = now.translation - changed.scale * read.translation;
+    if (glm::length(apart) > kSame * (1.0 + glm::length(now.translation))) return false;
+    const double same_turn = std::abs(glm::dot(read.rotation, now.rotation));
+    rests_alike = rests_alike && same_turn > 1.0 - kSame;
+  }
+  const glm::dquat root =
+      changed.new_from_read * avatar.joints[0].parent_from_joint.rotation;
+  const glm::dquat& now = motion.joints[0].parent_from_joint.rotation;
+  return !rests_alike || std::abs(glm::dot(root, now)) > 1.0 - kSame;
+}
+
 Status check_body(const std::filesystem::path& source,
                   const Skeleton& avatar,
-                  const Skeleton& motion) {
+                  const Skeleton& motion,
+                  const ChangedFrame& changed) {
   if (avatar.joints.size() != motion.joints.size()) {
     return not_of_this_body(source,
                             "the avatar has " + std::to_string(avatar.joints.size()) +
@@ -172,6 +193,10 @@ Status check_body(const std::filesystem::path& source,
                                   avatar.joints[i].name + "', the motion's '" +
                                   motion.joints[i].name + "'");
     }
+  }
+  if (!is_changed_so(avatar, motion, changed)) {
+    return not_of_this_body(
+        source, "the avatar and the body of the motion differ in size or direction");
   }
   return Done{};
 }
@@ -300,10 +325,18 @@ Status write_character(const std::filesystem::path& path,
 Status write_retargeted(const std::filesystem::path& source,
                         const std::filesystem::path& path,
                         const Motion& motion,
-                        std::string_view clip) {
-  const Result<GltfSource> asset = read_gltf_source(source);
+                        std::string_view clip,
+                        const ChangedFrame& changed) {
+  MAREY_ASSERT(changed.scale > 0.0);
+  Result<GltfSource> asset = read_gltf_source(source);
   if (!asset) return asset.error();
-  if (Status s = check_body(source, asset->character.skeleton, motion.skeleton); !s) {
+  glm::dmat4 new_from_read = glm::mat4_cast(changed.new_from_read);
+  for (int i = 0; i < 3; ++i) new_from_read[i] *= changed.scale;
+  asset->world_from_root_parent = new_from_read * asset->world_from_root_parent;
+  asset->world_from_root_parent_rotation =
+      changed.new_from_read * asset->world_from_root_parent_rotation;
+  if (Status s = check_body(source, asset->character.skeleton, motion.skeleton, changed);
+      !s) {
     return s;
   }
   std::string bytes;

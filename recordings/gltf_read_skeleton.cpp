@@ -1,0 +1,180 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include <glm/geometric.hpp>
+#include <tiny_gltf.h>
+
+#include "recordings/gltf_model.h"
+#include "recordings/text_reader.h"
+
+namespace marey::recordings {
+namespace {
+
+/// Nodes that must be joints, or all when no skin or humanoid asks for any.
+Result<std::vector<bool>> wanted_nodes(const NamedModel& file,
+                                       const std::map<std::size_t, HumanBone>& bones) {
+  const tinygltf::Model& model = file.model;
+  std::vector<bool> wanted(model.nodes.size(), false);
+  for (const tinygltf::Skin& skin : model.skins) {
+    for (const int joint : skin.joints) {
+      if (joint < 0 || static_cast<std::size_t>(joint) >= wanted.size()) {
+        return file.fail("a skin has a joint that does not exist");
+      }
+      wanted[static_cast<std::size_t>(joint)] = true;
+    }
+  }
+  for (const auto& [node, bone] : bones) wanted[node] = true;
+  if (std::ranges::find(wanted, true) == wanted.end()) wanted.assign(wanted.size(), true);
+  return wanted;
+}
+
+/// The deepest node above or at all wanted ones, and the count of wanted at or below
+/// each.
+std::optional<std::size_t> common_root(const NodeTree& tree,
+                                       const std::vector<bool>& wanted,
+                                       std::vector<std::size_t>& below) {
+  below.assign(wanted.size(), 0);
+  std::size_t total = 0;
+  std::optional<std::size_t> root;
+  for (auto it = tree.parents_first.rbegin(); it != tree.parents_first.rend(); ++it) {
+    if (wanted[*it]) ++below[*it], ++total;
+    if (tree.parent[*it]) below[*tree.parent[*it]] += below[*it];
+  }
+  for (const std::size_t node : tree.parents_first) {
+    if (total > 0 && below[node] == total) root = node;
+  }
+  return root;
+}
+
+std::string shown_name(const tinygltf::Model& model, std::size_t node) {
+  const std::string& name = model.nodes[node].name;
+  return name.empty() ? "number " + std::to_string(node)
+                      : in_quotes(std::string_view(name).substr(0, 40));
+}
+
+/// Two trees with joints in them, by name.
+Error apart(const NamedModel& file,
+            const NodeTree& tree,
+            const std::vector<std::size_t>& below) {
+  std::string roots;
+  int count = 0;
+  for (const std::size_t node : tree.parents_first) {
+    if (tree.parent[node] || below[node] == 0 || ++count > 2) continue;
+    roots += (count > 1 ? " and " : "") + shown_name(file.model, node);
+  }
+  const std::string where = count > 1 ? ": some are below the node " + roots : "";
+  return file.fail("the joints do not hang together under one root" + where);
+}
+
+/// Bones keep their lengths and turn as rigid ones: a node that carries others may be
+/// scaled, as much in all directions.
+Status check_scale(const NamedModel& file, const NodeTree& tree, std::size_t node) {
+  constexpr double kAlike = 0.01;
+  const glm::dvec3& scale = tree.rest[node].scale;
+  const double low = std::min({scale.x, scale.y, scale.z});
+  const double high = std::max({scale.x, scale.y, scale.z});
+  if (!(low > 0.0)) {
+    return file.fail("the node " + shown_name(file.model, node) +
+                     " of its skeleton has a negative scale or none: it is mirrored");
+  }
+  if (high - low <= kAlike * high) return Done{};
+  return file.fail("the node " + shown_name(file.model, node) +
+                   " of its skeleton is not scaled alike in all directions");
+}
+
+/// Of every node that carries one that is wanted, above the skeleton too.
+Status check_scales(const NamedModel& file,
+                    const NodeTree& tree,
+                    const std::vector<std::size_t>& below) {
+  for (const std::size_t node : tree.parents_first) {
+    if (below[node] == 0 || !tree.parent[node]) continue;
+    if (const Status ok = check_scale(file, tree, *tree.parent[node]); !ok) return ok;
+  }
+  return Done{};
+}
+
+}  // namespace
+
+std::map<std::size_t, HumanBone> bones_of(const tinygltf::Model& model,
+                                          bool& faces_back) {
+  std::map<std::size_t, HumanBone> bones;
+  const auto add = [&](std::string_view name, const tinygltf::Value& node) {
+    const auto bone = human_bone(name);
+    const int place = node.IsNumber() ? node.GetNumberAsInt() : -1;
+    if (bone && place >= 0 && static_cast<std::size_t>(place) < model.nodes.size()) {
+      bones.emplace(static_cast<std::size_t>(place), *bone);
+    }
+  };
+  for (const char* key : {"VRMC_vrm", "VRMC_vrm_animation"}) {
+    const auto extension = model.extensions.find(key);
+    if (extension == model.extensions.end()) continue;
+    const auto& humanoid = extension->second.Get("humanoid").Get("humanBones");
+    if (!humanoid.IsObject()) continue;
+    for (const std::string& name : humanoid.Keys()) {
+      add(name, humanoid.Get(name).Get("node"));
+    }
+    return bones;
+  }
+  if (const auto vrm0 = model.extensions.find("VRM"); vrm0 != model.extensions.end()) {
+    faces_back = true;
+    const auto& humanoid = vrm0->second.Get("humanoid").Get("humanBones");
+    for (std::size_t i = 0; humanoid.IsArray() && i < humanoid.ArrayLen(); ++i) {
+      const auto& entry = humanoid.Get(static_cast<int>(i));
+      const auto& name = entry.Get("bone");
+      if (name.IsString()) add(name.Get<std::string>(), entry.Get("node"));
+    }
+    return bones;
+  }
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (const auto bone = human_bone(model.nodes[i].name)) bones.emplace(i, *bone);
+  }
+  return bones;
+}
+
+Result<NodeSkeleton> skeleton_of(const NamedModel& file,
+                                 const NodeTree& tree,
+                                 const std::map<std::size_t, HumanBone>& bones) {
+  const auto wanted = wanted_nodes(file, bones);
+  if (!wanted) return wanted.error();
+  std::vector<std::size_t> below;
+  const auto root = common_root(tree, *wanted, below);
+  if (!root) return apart(file, tree, below);
+  const PlacedNodes placed = place_nodes(tree, tree.rest);
+  NodeSkeleton body;
+  body.joint_of_node.resize(tree.rest.size());
+  std::vector<bool> bone_seen(kHumanBoneCount, false);
+  for (const std::size_t node : tree.parents_first) {
+    const bool under_root = tree.parent[node] && body.joint_of_node[*tree.parent[node]];
+    if (node != *root && (!under_root || below[node] == 0)) continue;
+    if (!is_near(placed, node)) {
+      return file.fail("the node '" + file.model.nodes[node].name.substr(0, 40) +
+                       "' lies further than 10 km away");
+    }
+    Joint joint;
+    joint.name = file.model.nodes[node].name;
+    if (joint.name.empty()) joint.name = "node_" + std::to_string(node);
+    const glm::dvec3 place(placed.world_from_node[node][3]);
+    joint.parent_from_joint = {placed.rotation[node], place};
+    if (under_root) {
+      const std::size_t above = *tree.parent[node];
+      joint.parent = body.joint_of_node[above];
+      joint.parent_from_joint = inverse({placed.rotation[above],
+                                         glm::dvec3(placed.world_from_node[above][3])}) *
+                                joint.parent_from_joint;
+    }
+    if (const auto bone = bones.find(node); bone != bones.end()) {
+      if (!bone_seen[index(bone->second)]) joint.bone = bone->second;
+      bone_seen[index(bone->second)] = true;
+    }
+    body.joint_of_node[node] = JointIndex{static_cast<int>(body.node_of_joint.size())};
+    body.node_of_joint.push_back(node);
+    body.skeleton.joints.push_back(std::move(joint));
+  }
+  if (const Status ok = check_scales(file, tree, below); !ok) return ok.error();
+  return body;
+}
+
+}  // namespace marey::recordings
