@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "app/console.h"
+#include "app/inspect_body.h"
 #include "app/pipeline.h"
+#include "app/read_body.h"
 #include "recordings/mannequin.h"
 
 namespace marey::app {
@@ -31,8 +33,8 @@ struct RecordArguments {
 [[nodiscard]] Exit run_record(const RecordArguments& arguments, Console& console);
 
 /// `marey retarget MOTION --avatar A --out OUT`.
-[[nodiscard]] Exit run_retarget(const std::filesystem::path& motion,
-                                const std::filesystem::path& avatar,
+[[nodiscard]] Exit run_retarget(const BodyFile& motion,
+                                const BodyFile& avatar,
                                 const std::filesystem::path& out,
                                 bool json,
                                 Console& console);
@@ -60,6 +62,7 @@ struct ConvertArguments {
 
 /// `marey inspect FILE`: what a session, calibration, subject, motion or table holds.
 [[nodiscard]] Exit run_inspect(const std::filesystem::path& file,
+                               const InspectBodyOptions& options,
                                bool json,
                                Console& console);
 

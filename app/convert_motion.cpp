@@ -79,9 +79,13 @@ Result<FileMotion> read(const ConvertArguments& arguments) {
     return bad_input(
         arguments.in.string(), "glTF is in metres always", "leave out --unit");
   }
-  auto motion = read_motion({arguments.in});
-  if (!motion) return motion.error();
-  return FileMotion{std::move(motion->motion), motion->ignored_translation_m, {}};
+  auto raw = read_raw_body(arguments.in);
+  if (!raw) return raw.error();
+  if (!raw->has_motion) {
+    return bad_input(
+        arguments.in.string(), "holds no animation", "give a file with a motion");
+  }
+  return FileMotion{std::move(raw->motion), raw->ignored_translation_m, {}};
 }
 
 Error cannot(const ConvertArguments& arguments, std::string cause, std::string next) {

@@ -26,7 +26,7 @@ Result<LoadedBody> load_body(const std::filesystem::path& path, CharacterSpec& s
                       path.string()};
   }
   if (const auto* avatar = std::get_if<AvatarBody>(&spec.body)) {
-    auto skeleton = read_skeleton(avatar->path);
+    auto skeleton = read_skeleton(std::filesystem::path(avatar->path));
     if (!skeleton) return skeleton.error();
     return LoadedBody{*std::move(skeleton), avatar->path};
   }

@@ -39,6 +39,9 @@ struct Arguments {
   std::filesystem::path avatar;
   std::filesystem::path out;
   std::filesystem::path file;
+  InspectBodyOptions inspect_body;
+  std::optional<std::filesystem::path> bones;
+  std::optional<std::filesystem::path> motion_bones;
   std::filesystem::path sample = MAREY_SAMPLE;
   RecordArguments record;
   ConvertArguments convert;
@@ -117,10 +120,16 @@ void add_retarget(CLI::App& app, Arguments& args, Command& chosen) {
   command->add_option("motion", args.motion, ".bvh, .glb, .vrm or .vrma")->required();
   command->add_option("-a,--avatar", args.avatar, ".glb, .vrm or .bvh")->required();
   command->add_option("-o,--out", args.out, "Result: .glb or .bvh")->required();
+  command->add_option("--bones", args.bones, "Bone map of the avatar (TOML)");
+  command->add_option("--motion-bones", args.motion_bones, "Bone map of the motion");
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback([&] {
     chosen = [&args](Console& console) {
-      return run_retarget(args.motion, args.avatar, args.out, args.json, console);
+      return run_retarget({args.motion, args.motion_bones},
+                          {args.avatar, args.bones},
+                          args.out,
+                          args.json,
+                          console);
     };
   });
 }
@@ -188,9 +197,15 @@ void add_small_commands(CLI::App& app, Arguments& args, Command& chosen) {
   CLI::App* inspect = app.add_subcommand("inspect", "Say what a file holds");
   inspect->add_option("file", args.file, "A session, result, motion or body")->required();
   inspect->add_flag("--json", args.json, "As JSON");
+  inspect->add_option(
+      "--bones", args.inspect_body.bone_map, "Bone map of the body (TOML)");
+  inspect->add_flag(
+      "--write-map", args.inspect_body.write_map, "Store the bone map beside the body");
+  inspect->add_option(
+      "--picture", args.inspect_body.picture, "Draw the body's bones: .svg or .png");
   inspect->callback([&] {
     chosen = [&args](Console& console) {
-      return run_inspect(args.file, args.json, console);
+      return run_inspect(args.file, args.inspect_body, args.json, console);
     };
   });
   CLI::App* doctor = app.add_subcommand("doctor", "Check this machine");

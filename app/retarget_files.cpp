@@ -13,60 +13,55 @@
 namespace marey::app {
 namespace {
 
-Error unknown_kind(const std::filesystem::path& path) {
-  return bad_input(path.string(),
-                   "is not a .bvh, .glb, .gltf, .vrm or .vrma file",
-                   "convert it to one of these");
+Error of_file(const std::filesystem::path& path, Error error) {
+  error.where = path.string() + (error.where.empty() ? "" : ": " + error.where);
+  return error;
 }
 
-Result<RetargetedFiles> retarget_only(const Motion& motion,
-                                      const std::filesystem::path& avatar) {
-  const auto skeleton = read_skeleton(avatar);
-  if (!skeleton) return skeleton.error();
-  auto retargeted = retarget::retarget_motion(motion, *skeleton);
-  if (!retargeted) {
-    Error error = retargeted.error();
-    error.where = avatar.string() + (error.where.empty() ? "" : ": " + error.where);
-    return error;
-  }
-  return RetargetedFiles{std::move(*retargeted), {}};
+/// A motion on an avatar, and what its file has to know of it.
+struct Dressed {
+  RetargetedFiles result;
+  std::filesystem::path avatar;
+  recordings::ChangedFrame changed;
+};
+
+Result<Dressed> retarget_only(const Motion& motion, const BodyFile& avatar) {
+  const auto body = read_body(avatar);
+  if (!body) return body.error();
+  auto retargeted = retarget::retarget_motion(motion, body->skeleton());
+  if (!retargeted) return of_file(avatar.path, retargeted.error());
+  return Dressed{
+      {std::move(*retargeted), {}, body->remarks()}, avatar.path, body->changed()};
 }
 
-Status write(RetargetedFiles& result,
-             const std::filesystem::path& avatar,
-             const std::filesystem::path& out) {
-  const Motion& motion = result.retargeted.motion;
-  const Status ok = is_gltf(out) ? recordings::write_retargeted(avatar, out, motion)
-                                 : recordings::write_bvh(out, motion);
-  if (ok) result.files.push_back(out);
+Status write(Dressed& dressed, const std::filesystem::path& out) {
+  const Motion& motion = dressed.result.retargeted.motion;
+  const Status ok = is_gltf(out)
+                        ? recordings::write_retargeted(
+                              dressed.avatar, out, motion, "motion", dressed.changed)
+                        : recordings::write_bvh(out, motion);
+  if (ok) dressed.result.files.push_back(out);
   return ok;
 }
 
 }  // namespace
 
-bool is_gltf(const std::filesystem::path& path) {
-  const std::string kind = kind_by_extension(path);
-  return kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma";
-}
-
 Result<RetargetedFiles> retarget_to_files(const Motion& motion,
-                                          const std::filesystem::path& avatar,
+                                          const BodyFile& avatar,
                                           const std::filesystem::path& stem) {
-  auto result = retarget_only(motion, avatar);
-  if (!result) return result.error();
-  if (is_gltf(avatar)) {
-    if (const Status ok = write(*result, avatar, stem.string() + ".glb"); !ok) {
+  auto dressed = retarget_only(motion, avatar);
+  if (!dressed) return dressed.error();
+  if (is_gltf(avatar.path)) {
+    if (const Status ok = write(*dressed, stem.string() + ".glb"); !ok) {
       return ok.error();
     }
   }
-  if (const Status ok = write(*result, avatar, stem.string() + ".bvh"); !ok) {
-    return ok.error();
-  }
-  return result;
+  if (const Status ok = write(*dressed, stem.string() + ".bvh"); !ok) return ok.error();
+  return std::move(dressed->result);
 }
 
 Result<RetargetedFiles> retarget_to_file(const Motion& motion,
-                                         const std::filesystem::path& avatar,
+                                         const BodyFile& avatar,
                                          const std::filesystem::path& out) {
   const std::string kind = kind_by_extension(out);
   if (kind != ".bvh" && kind != ".glb") {
@@ -74,39 +69,29 @@ Result<RetargetedFiles> retarget_to_file(const Motion& motion,
                      "cannot write a \"" + kind + "\" file",
                      "name the result .glb or .bvh");
   }
-  if (kind == ".glb" && !is_gltf(avatar)) {
-    return bad_input(avatar.string(),
+  if (kind == ".glb" && !is_gltf(avatar.path)) {
+    return bad_input(avatar.path.string(),
                      "has no mesh to put into a .glb",
                      "give a GLB or VRM avatar, or name the result .bvh");
   }
-  auto result = retarget_only(motion, avatar);
-  if (!result) return result.error();
-  if (const Status ok = write(*result, avatar, out); !ok) return ok.error();
-  return result;
+  auto dressed = retarget_only(motion, avatar);
+  if (!dressed) return dressed.error();
+  if (const Status ok = write(*dressed, out); !ok) return ok.error();
+  return std::move(dressed->result);
 }
 
-Status check_avatar(const std::filesystem::path& avatar) {
+Status check_avatar(const BodyFile& avatar) {
   const auto skeleton = read_skeleton(avatar);
   if (!skeleton) return skeleton.error();
   const auto map = retarget::map_body(*skeleton);
   if (map) return Done{};
-  Error error = map.error();
-  error.where = avatar.string();
-  return error;
+  return of_file(avatar.path, map.error());
 }
 
-Result<Skeleton> read_skeleton(const std::filesystem::path& path) {
-  if (is_gltf(path)) {
-    auto character = recordings::read_character(path);
-    if (!character) return character.error();
-    return std::move(character->skeleton);
-  }
-  if (kind_by_extension(path) == ".bvh") {
-    auto bvh = recordings::read_bvh(path);
-    if (!bvh) return bvh.error();
-    return std::move(bvh->motion.skeleton);
-  }
-  return unknown_kind(path);
+Result<Skeleton> read_skeleton(const BodyFile& file) {
+  auto body = read_body(file);
+  if (!body) return body.error();
+  return std::move(body->raw.motion.skeleton);
 }
 
 std::optional<std::string> left_out(const ReadMotion& read) {
@@ -121,19 +106,18 @@ std::optional<std::string> left_out(const ReadMotion& read) {
   return text.data();
 }
 
-Result<ReadMotion> read_motion(const std::filesystem::path& path) {
-  if (kind_by_extension(path) == ".bvh") {
-    auto bvh = recordings::read_bvh(path);
-    if (!bvh) return bvh.error();
-    return ReadMotion{std::move(bvh->motion), bvh->ignored_translation_m};
+Result<ReadMotion> read_motion(const BodyFile& file) {
+  auto raw = read_raw_body(file.path);
+  if (!raw) return raw.error();
+  if (!raw->has_motion) {
+    return bad_input(
+        file.path.string(), "holds no animation", "give a file with a motion");
   }
-  if (!is_gltf(path)) return unknown_kind(path);
-  auto character = recordings::read_character(path);
-  if (!character) return character.error();
-  if (!character->motion) {
-    return bad_input(path.string(), "holds no animation", "give a file with a motion");
-  }
-  return ReadMotion{std::move(*character->motion), character->ignored_translation_m};
+  auto body = identify_body(*std::move(raw), file);
+  if (!body) return body.error();
+  std::vector<std::string> remarks = body->remarks();
+  return ReadMotion{
+      std::move(body->raw.motion), body->raw.ignored_translation_m, std::move(remarks)};
 }
 
 }  // namespace marey::app

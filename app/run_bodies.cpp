@@ -12,16 +12,23 @@
 
 namespace marey::app {
 
-Exit run_retarget(const std::filesystem::path& motion,
-                  const std::filesystem::path& avatar,
+Exit run_retarget(const BodyFile& motion,
+                  const BodyFile& avatar,
                   const std::filesystem::path& out,
                   bool json,
                   Console& console) {
   const auto source = read_motion(motion);
   if (!source) return console.fail(source.error());
-  if (const auto note = left_out(*source)) console.warn(motion.string() + ": " + *note);
+  if (const auto note = left_out(*source))
+    console.warn(motion.path.string() + ": " + *note);
+  for (const std::string& remark : source->remarks) {
+    console.warn(motion.path.string() + ": " + remark);
+  }
   const auto result = retarget_to_file(source->motion, avatar, out);
   if (!result) return console.fail(result.error());
+  for (const std::string& remark : result->remarks) {
+    console.warn(avatar.path.string() + ": " + remark);
+  }
   const retarget::RetargetReport& report = result->retargeted.report;
   if (json) {
     const nlohmann::ordered_json figures{

@@ -9,12 +9,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/inspect_body.h"
 #include "app/inspect_markers.h"
 #include "app/lens_words.h"
+#include "app/read_body.h"
 #include "core/extension.h"
-#include "recordings/bvh.h"
 #include "recordings/calibration_file.h"
-#include "recordings/gltf.h"
 #include "recordings/motion_tables.h"
 #include "recordings/subject_file.h"
 
@@ -22,22 +22,6 @@ namespace marey::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json describe(const Skeleton& skeleton) {
-  Json bones = Json::array();
-  for (const Joint& joint : skeleton.joints) {
-    if (joint.bone) bones.push_back(name(*joint.bone));
-  }
-  return {{"joints", skeleton.joints.size()}, {"human_bones", bones}};
-}
-
-Json describe(const Motion& motion, double ignored_translation_m) {
-  const double frames = static_cast<double>(motion.poses.size());
-  return {{"frames", motion.poses.size()},
-          {"rate_hz", motion.rate.hz},
-          {"duration_s", frames / motion.rate.hz},
-          {"ignored_translation_m", ignored_translation_m}};
-}
 
 Result<Json> inspect_session(const std::filesystem::path& file) {
   const auto session = recordings::read_session(file);
@@ -130,26 +114,14 @@ Result<Json> inspect_report(const std::filesystem::path& file) {
               {"warnings", report.value("warnings", Json::array())}};
 }
 
-Result<Json> inspect_bvh(const std::filesystem::path& file) {
-  const auto bvh = recordings::read_bvh(file);
-  if (!bvh) return bvh.error();
-  return Json{{"kind", "bvh"},
-              {"skeleton", describe(bvh->motion.skeleton)},
-              {"motion", describe(bvh->motion, bvh->ignored_translation_m)}};
+bool is_body(const std::filesystem::path& file) {
+  const std::string kind = kind_by_extension(file);
+  return is_gltf(file) || kind == ".bvh" || kind == ".amc";
 }
 
-Result<Json> inspect_character(const std::filesystem::path& file) {
-  const auto character = recordings::read_character(file);
-  if (!character) return character.error();
-  Json out{{"kind", "character"}, {"skeleton", describe(character->skeleton)}};
-  if (character->mesh) out["vertices"] = character->mesh->p_in_world.size();
-  if (character->motion) {
-    out["motion"] = describe(*character->motion, character->ignored_translation_m);
-  }
-  return out;
-}
-
-Result<Json> inspect(const std::filesystem::path& file) {
+Result<Json> inspect(const std::filesystem::path& file,
+                     const InspectBodyOptions& options,
+                     Console& console) {
   std::error_code ignored;
   const std::string kind = kind_by_extension(file);
   const std::string named = file.filename().string();
@@ -167,16 +139,14 @@ Result<Json> inspect(const std::filesystem::path& file) {
   if (named == "joints.csv") return inspect_joints(file);
   if (named == "segments.csv") return inspect_segments(file);
   if (named == "report.json") return inspect_report(file);
-  if (kind == ".bvh") return inspect_bvh(file);
+  if (is_body(file)) return inspect_body(file, options, console);
   if (kind == ".c3d" || kind == ".trc") return inspect_markers(file);
-  if (kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma") {
-    return inspect_character(file);
-  }
   return bad_input(
       file.string(),
       "is not a kind of file that marey knows",
       "give a session, a calibration (.toml, .yaml, .yml, .xml), subject.toml, "
-      "joints.csv, segments.csv, report.json, .c3d, .trc, .bvh, .glb, .gltf, .vrm or "
+      "joints.csv, segments.csv, report.json, .c3d, .trc, .bvh, .amc, .glb, .gltf, .vrm "
+      "or "
       ".vrma");
 }
 
@@ -205,13 +175,21 @@ void print(const Json& value, int depth) {
 
 }  // namespace
 
-Exit run_inspect(const std::filesystem::path& file, bool json, Console& console) {
-  const auto found = inspect(file);
+Exit run_inspect(const std::filesystem::path& file,
+                 const InspectBodyOptions& options,
+                 bool json,
+                 Console& console) {
+  if (options.asks() && !is_body(file)) {
+    return console.fail(bad_input(file.string(),
+                                  "is no body, which alone has a bone map and a picture",
+                                  "give a .bvh, .amc, .glb, .gltf, .vrm or .vrma file"));
+  }
+  const auto found = inspect(file, options, console);
   if (!found) return console.fail(found.error());
   if (json) {
     std::printf("%s\n", text(*found, 2).c_str());
   } else {
-    print(*found, 0);
+    print(bones_as_lines(*found), 0);
   }
   return Exit::kOk;
 }

@@ -11,6 +11,7 @@
 #include "recordings/atomic_file.h"
 #include "recordings/bvh.h"
 #include "tests/app/adapt_scene.h"
+#include "tests/support/random_bodies.h"
 
 namespace marey::testing {
 namespace {
@@ -122,8 +123,11 @@ TEST(AdaptRefuses, ToWriteOverWhatItReads) {
 TEST(AdaptRefuses, AMotionWithoutLegs) {
   const AdaptScene scene;
   Motion motion = scene.walk().motion;
-  for (Joint& joint : motion.skeleton.joints) {
-    if (joint.name == "leftLowerLeg") joint.name = "stump";
+  const auto knee = *motion.skeleton.find(HumanBone::kLeftLowerLeg);
+  motion.skeleton = testing::without(motion.skeleton, HumanBone::kLeftLowerLeg);
+  for (Pose& pose : motion.poses) {
+    pose.parent_from_joint.erase(pose.parent_from_joint.begin() +
+                                 static_cast<std::ptrdiff_t>(index(knee)));
   }
   ASSERT_TRUE(recordings::write_bvh(scene / "walk.bvh", motion));
   expect_refused(scene, {}, {"walk.bvh", "leftLowerLeg"});

@@ -101,7 +101,7 @@ TEST(LoadCharacter, NamesTheFileThatIsToBlame) {
                              "0\n"));
   spec.body = AvatarBody{"stub.bvh"};
   ASSERT_TRUE(recordings::write_character_spec(folder / "c.toml", spec));
-  EXPECT_NE(said(folder / "c.toml").find("stub.bvh: skeleton: no joint is marked"),
+  EXPECT_NE(said(folder / "c.toml").find("stub.bvh: skeleton: among its 1 joints is no body"),
             std::string::npos);
 }
 

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/inspect_body.h"
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "app/read_body.h"
+#include "core/bone_map.h"
+#include "core/extension.h"
+#include "recordings/atomic_file.h"
+#include "recordings/bone_map_file.h"
+#include "recordings/skeleton_picture.h"
+
+namespace marey::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json bones_of(const ReadBody& body) {
+  Json rows = Json::array();
+  for (const HumanBone bone : human_bones()) {
+    const auto& found = body.bones.bones[index(bone)];
+    if (!found) continue;
+    rows.push_back({{"bone", name(bone)},
+                    {"joint", body.skeleton()[found->joint].name},
+                    {"evidence", retarget::name(found->evidence)},
+                    {"confidence", found->confidence}});
+  }
+  return rows;
+}
+
+Json describe(const ReadBody& body) {
+  Json out{{"scheme", body.bones.scheme},
+           {"unit_m", body.frame.unit_m},
+           {"up", retarget::axis_word(body.frame.up_in_file)},
+           {"front", retarget::axis_word(body.frame.front_in_file)},
+           {"stature_m", body.frame.stature_m},
+           {"bone_map", body.bone_map ? Json(body.bone_map->string()) : Json()},
+           {"bones", bones_of(body)},
+           {"warnings", body.remarks()}};
+  return out;
+}
+
+/// What is known, to be corrected and added to.
+BoneMap map_of(const ReadBody& body) {
+  BoneMap map;
+  for (const HumanBone bone : human_bones()) {
+    map.bones[index(bone)] = {true, body.bones.joint(bone)};
+  }
+  map.unit_m = body.frame.unit_m;
+  map.up = body.frame.up_in_file;
+  map.front = body.frame.front_in_file;
+  return map;
+}
+
+/// All bones without a joint, to be filled in: a body that was declined.
+std::string empty_map_text(const Skeleton& skeleton) {
+  BoneMap map;
+  for (ToldBone& bone : map.bones) bone.told = true;
+  std::string text = recordings::bone_map_text(map, skeleton);
+  text += "\n# The joints:\n";
+  for (const Joint& joint : skeleton.joints) text += "# " + joint.name + "\n";
+  return text;
+}
+
+Status write_map(const std::filesystem::path& file,
+                 const Result<ReadBody>& body,
+                 const Skeleton& raw,
+                 Console& console) {
+  const std::filesystem::path out = recordings::bone_map_beside(file);
+  std::error_code ignored;
+  if (std::filesystem::exists(out, ignored)) {
+    return bad_input(out.string(), "is there already", "rename it, or edit it by hand");
+  }
+  const Status ok = body
+                        ? recordings::write_bone_map(out, map_of(*body), body->skeleton())
+                        : recordings::write_file(out, empty_map_text(raw));
+  if (ok) console.say("bone map: " + out.string());
+  return ok;
+}
+
+}  // namespace
+
+Result<Json> inspect_body(const std::filesystem::path& file,
+                          const InspectBodyOptions& options,
+                          Console& console) {
+  auto raw = read_raw_body(file);
+  if (!raw) return raw.error();
+  Json out{{"kind", is_gltf(file) ? "character" : kind_by_extension(file).substr(1)}};
+  const RawBody kept = *raw;
+  const Result<ReadBody> body =
+      identify_body(*std::move(raw), BodyFile(file, options.bone_map));
+  Json bones = Json::array();
+  for (const Joint& joint : (body ? body->raw : kept).motion.skeleton.joints) {
+    if (joint.bone) bones.push_back(name(*joint.bone));
+  }
+  out["skeleton"] = {{"joints", kept.motion.skeleton.joints.size()},
+                     {"human_bones", bones}};
+  if (kept.vertices > 0) out["vertices"] = kept.vertices;
+  if (kept.has_motion) {
+    const Motion& motion = kept.motion;
+    out["motion"] = {
+        {"frames", motion.poses.size()},
+        {"rate_hz", motion.rate.hz},
+        {"duration_s", static_cast<double>(motion.poses.size()) / motion.rate.hz},
+        {"ignored_translation_m", kept.ignored_translation_m}};
+  }
+  out["body"] = body ? describe(*body) : Json{{"declined", body.error().message()}};
+  if (options.write_map) {
+    if (const Status ok = write_map(file, body, kept.motion.skeleton, console); !ok) {
+      return ok.error();
+    }
+  }
+  // A body that is declined is drawn too, as it was read: the user has to see it.
+  if (!options.picture.empty()) {
+    const Skeleton& skeleton = (body ? body->raw : kept).motion.skeleton;
+    const Status ok = recordings::write_skeleton_picture(
+        options.picture, skeleton, file.filename().string());
+    if (!ok) return ok.error();
+    console.say("picture: " + options.picture.string());
+  }
+  return out;
+}
+
+Json bones_as_lines(Json inspected) {
+  if (!inspected.contains("body") || !inspected["body"].contains("bones")) {
+    return inspected;
+  }
+  Json lines = Json::object();
+  for (const Json& row : inspected["body"]["bones"]) {
+    std::array<char, 160> text{};
+    std::snprintf(text.data(),
+                  text.size(),
+                  "%-28s %-5s %.2f",
+                  row["joint"].get<std::string>().substr(0, 60).c_str(),
+                  row["evidence"].get<std::string>().c_str(),
+                  row["confidence"].get<double>());
+    lines[row["bone"].get<std::string>()] = text.data();
+  }
+  inspected["body"]["bones"] = std::move(lines);
+  return inspected;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/bone_map.h"
+#include "core/motion.h"
+#include "core/result.h"
+#include "recordings/gltf.h"
+#include "retarget/body_frame.h"
+#include "retarget/identify_bones.h"
+
+namespace marey::app {
+
+/// A body's file, and the bone map that counts for it. Without one given, the one that
+/// stands beside the file (man.bones.toml beside man.glb) counts, if there is one.
+struct BodyFile {
+  // Implicit on purpose: most bodies have no map but the one beside them.
+  // NOLINTNEXTLINE(google-explicit-constructor)
+  BodyFile(std::filesystem::path file,
+           std::optional<std::filesystem::path> map = std::nullopt)
+      : path(std::move(file)), bone_map(std::move(map)) {}
+
+  std::filesystem::path path;
+  std::optional<std::filesystem::path> bone_map;
+};
+
+/// What a .bvh, .amc (its .asf beside it), .glb, .gltf, .vrm or .vrma file holds, in its own frame.
+struct RawBody {
+  Motion motion;  ///< Without poses when the file holds no motion.
+  bool has_motion = false;
+  /// The largest movement of a bone against its parent that was left out. [m]
+  double ignored_translation_m = 0.0;
+  std::size_t vertices = 0;
+  retarget::FileUnit unit;
+};
+
+/// Errors: unreadable; another kind of file; an .amc without its .asf.
+[[nodiscard]] Result<RawBody> read_raw_body(const std::filesystem::path& path);
+
+/// A body that stands as marey's do: Y up, facing +Z, in metres, its bones marked.
+struct ReadBody {
+  RawBody raw;  ///< Its motion and skeleton in marey's frame.
+  retarget::FoundBones bones;
+  retarget::BodyFrame frame;
+  std::optional<std::filesystem::path> bone_map;  ///< That counted.
+  /// The rest is made of the motion's frames, the file's being no posture of a body.
+  bool rests_as_in_motion = false;
+
+  [[nodiscard]] const Skeleton& skeleton() const { return raw.motion.skeleton; }
+  /// What write_retargeted() has to know.
+  [[nodiscard]] recordings::ChangedFrame changed() const {
+    return {frame.marey_from_file, frame.scale};
+  }
+  /// What was assumed of it, and which bones a user should look at.
+  [[nodiscard]] std::vector<std::string> remarks() const;
+};
+
+/// Tells the bones of a body and how it stands, and puts it into marey's frame: the one
+/// place that does.
+/// Errors, naming the file: those of identify_bones() and find_body_frame(), of reading
+/// the bone map.
+[[nodiscard]] Result<ReadBody> identify_body(RawBody raw, const BodyFile& file);
+
+/// identify_body() of read_raw_body().
+[[nodiscard]] Result<ReadBody> read_body(const BodyFile& file);
+
+/// Whether the file is a .glb, .gltf, .vrm or .vrma by its name.
+[[nodiscard]] bool is_gltf(const std::filesystem::path& path);
+
+}  // namespace marey::app
