@@ -14,6 +14,7 @@
 
 #include "app/angle_table.h"
 #include "app/foot_contacts.h"
+#include "app/read_body.h"
 #include "app/retarget_files.h"
 #include "core/extension.h"
 #include "core/resample.h"
@@ -24,7 +25,9 @@
 #include "recordings/motion_tables.h"
 #include "recordings/npz.h"
 #include "recordings/vrma.h"
+#include "retarget/body_frame.h"
 #include "retarget/body_map.h"
+#include "retarget/identify_bones.h"
 
 namespace marey::app {
 namespace {
@@ -34,6 +37,7 @@ struct FileMotion {
   Motion motion;
   double ignored_translation_m = 0.0;
   std::vector<std::string> notes;
+  retarget::FileUnit unit;
 };
 
 std::optional<double> unit_m(const std::string& name) {
@@ -46,7 +50,14 @@ Result<FileMotion> read_bvh(const ConvertArguments& arguments) {
   options.unit_m = unit_m(arguments.unit).value_or(options.unit_m);
   auto bvh = recordings::read_bvh(arguments.in, options);
   if (!bvh) return bvh.error();
-  return FileMotion{std::move(bvh->motion), bvh->ignored_translation_m, {}};
+  // marey's own bodies are of any stature, and it writes what it reads.
+  const bool is_ours =
+      std::ranges::all_of(bvh->motion.skeleton.joints,
+                          [](const Joint& joint) { return joint.bone.has_value(); });
+  return FileMotion{std::move(bvh->motion),
+                    bvh->ignored_translation_m,
+                    {},
+                    {options.unit_m, is_ours || !arguments.unit.empty()}};
 }
 
 Result<FileMotion> read_acclaim(const ConvertArguments& arguments) {
@@ -63,7 +74,7 @@ Result<FileMotion> read_acclaim(const ConvertArguments& arguments) {
   if (arguments.rate_hz) options.rate = FrameRate{*arguments.rate_hz};
   auto amc = recordings::read_amc(arguments.in, *skeleton, options);
   if (!amc) return amc.error();
-  FileMotion read{std::move(amc->motion), amc->ignored_translation_m, {}};
+  FileMotion read{std::move(amc->motion), amc->ignored_translation_m, {}, {}};
   if (amc->rate_is_guessed) {
     read.notes.emplace_back(
         "the file does not say its rate: it is taken for 120 Hz; --rate tells another");
@@ -85,20 +96,33 @@ Result<FileMotion> read(const ConvertArguments& arguments) {
     return bad_input(
         arguments.in.string(), "holds no animation", "give a file with a motion");
   }
-  return FileMotion{std::move(raw->motion), raw->ignored_translation_m, {}};
+  return FileMotion{std::move(raw->motion), raw->ignored_translation_m, {}, raw->unit};
 }
 
 Error cannot(const ConvertArguments& arguments, std::string cause, std::string next) {
   return bad_input(arguments.out.string(), std::move(cause), std::move(next));
 }
 
-Status write_as_bvh(const ConvertArguments& arguments, const Motion& motion) {
+/// A name for every bone that can be told, where a dialect has names for them.
+Status write_as_bvh(const ConvertArguments& arguments,
+                    const Motion& motion,
+                    Console& console) {
   recordings::BvhWriteOptions options;
   if (const auto dialect = recordings::bvh_dialect(arguments.bvh_dialect)) {
     options = recordings::write_options(*dialect);
   }
   options.unit_m = unit_m(arguments.to_unit).value_or(options.unit_m);
-  return recordings::write_bvh(arguments.out, motion, options);
+  if (options.names == recordings::BvhNames::kOwn) {
+    return recordings::write_bvh(arguments.out, motion, options);
+  }
+  Motion named = motion;
+  if (const auto bones = retarget::identify_bones(motion.skeleton)) {
+    retarget::mark(*bones, named.skeleton);
+  } else {
+    console.warn(arguments.in.string() +
+                 ": joints keep their names: " + bones.error().message());
+  }
+  return recordings::write_bvh(arguments.out, named, options);
 }
 
 /// World rotations of all joints in the T-pose: of those that carry none, as at rest.
@@ -118,7 +142,20 @@ std::vector<glm::dquat> t_pose_of(const Skeleton& skeleton,
   return world;
 }
 
-Status write_as_vrma(const ConvertArguments& arguments, const Motion& motion) {
+/// The body as VRM's stand: its bones told, facing +Z, in metres.
+Status write_as_vrma(const ConvertArguments& arguments,
+                     const FileMotion& file,
+                     Console& console) {
+  RawBody raw;
+  raw.motion = file.motion;
+  raw.has_motion = true;
+  raw.unit = file.unit;
+  const auto body = identify_body(std::move(raw), arguments.in);
+  if (!body) return body.error();
+  for (const std::string& remark : body->remarks()) {
+    console.warn(arguments.in.string() + ": " + remark);
+  }
+  const Motion& motion = body->raw.motion;
   const auto map = retarget::map_body(motion.skeleton);
   if (!map) {
     Error error = map.error();
@@ -141,15 +178,18 @@ Status write_as_mot(const ConvertArguments& arguments, const Motion& motion) {
                 "put the motion on one first: marey retarget");
 }
 
-Status write(const ConvertArguments& arguments, const Motion& motion) {
+Status write(const ConvertArguments& arguments,
+             const FileMotion& file,
+             Console& console) {
+  const Motion& motion = file.motion;
   const std::string kind = kind_by_extension(arguments.out);
   if (kind != ".bvh" && !(arguments.bvh_dialect.empty() && arguments.to_unit.empty())) {
     return cannot(arguments,
                   "only a .bvh is written in a dialect or a unit",
                   "leave out --bvh-dialect and --to-unit");
   }
-  if (kind == ".bvh") return write_as_bvh(arguments, motion);
-  if (kind == ".vrma") return write_as_vrma(arguments, motion);
+  if (kind == ".bvh") return write_as_bvh(arguments, motion, console);
+  if (kind == ".vrma") return write_as_vrma(arguments, file, console);
   if (kind == ".npz") {
     const recordings::NpzExtras extras{{}, foot_contacts(motion), {}};
     return recordings::write_npz(arguments.out, motion, extras);
@@ -219,7 +259,7 @@ Exit convert_motion(const ConvertArguments& arguments, bool json, Console& conso
                                     "give a higher --to-rate"));
     }
   }
-  const Status written = write(arguments, motion);
+  const Status written = write(arguments, *file, console);
   if (!written) return console.fail(written.error());
   tell(arguments, *file, json, console);
   return Exit::kOk;

@@ -167,6 +167,40 @@ TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {
             *recordings::read_file(folder / "b.bvh"));
 }
 
+// Its bones are told by their names. Legs hang on the hips by joints that do not turn, so
+// that they are where the file has them.
+TEST(ConvertMotion, TellsTheBonesOfAMotionThatAVrmaOrADialectNames) {
+  const fs::path trial = fs::path(MAREY_SHARED_DATA) / "mocap/cmu_asfamc/02_01.amc";
+  if (!fs::exists(trial)) GTEST_SKIP() << trial << " is not here";
+  const ScratchFolder folder;
+  ASSERT_EQ(convert(trial, folder / "a.bvh").exit_code, 0);
+  const ProgramRun run = convert(trial, folder / "a.vrma");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto own = recordings::read_bvh(folder / "a.bvh");
+  ASSERT_TRUE(own);
+  const Motion& truth = own->motion;
+  const Motion motion = read_vrma(folder / "a.vrma");
+  ASSERT_EQ(motion.poses.size(), truth.poses.size());
+  EXPECT_EQ(motion.rate.hz, 120.0);
+  for (std::size_t i = 0; i < motion.poses.size(); i += 20) {
+    const auto a = world_from_joints(motion.skeleton, motion.poses[i]);
+    const auto b = world_from_joints(truth.skeleton, truth.poses[i]);
+    for (const auto& [bone, joint] : {std::pair{HumanBone::kHips, "root"},
+                                      std::pair{HumanBone::kLeftLowerLeg, "ltibia"},
+                                      std::pair{HumanBone::kRightFoot, "rfoot"},
+                                      std::pair{HumanBone::kRightToes, "rtoes"}}) {
+      EXPECT_LT(glm::distance(a[index(motion.skeleton.find(bone).value())].translation,
+                              b[index(truth.skeleton.find(joint).value())].translation),
+                1e-4)
+          << joint;
+    }
+  }
+  ASSERT_EQ(convert(trial, folder / "b.bvh", {"--bvh-dialect", "mobu"}).exit_code, 0);
+  const std::string text = *recordings::read_file(folder / "b.bvh");
+  EXPECT_NE(text.find("JOINT LeftUpLeg\n"), std::string::npos);
+  EXPECT_EQ(text.find("lfemur"), std::string::npos);
+}
+
 TEST(ConvertMotion, RefusesWhatDoesNotGoTogether) {
   const ScratchFolder folder;
   ASSERT_TRUE(recordings::write_bvh(folder / "a.bvh", a_motion()));
