@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -17,14 +18,22 @@ Exit run_retarget(const BodyFile& motion,
                   const std::filesystem::path& out,
                   bool json,
                   Console& console) {
-  const auto source = read_motion(motion);
-  if (!source) return console.fail(source.error());
-  if (const auto note = left_out(*source))
+  auto raw = read_raw_body(motion.path);
+  if (!raw) return console.fail(raw.error());
+  if (!raw->has_motion) {
+    return console.fail(bad_input(
+        motion.path.string(), "holds no animation", "give a file with a motion"));
+  }
+  if (const auto note = left_out({{}, raw->ignored_translation_m})) {
     console.warn(motion.path.string() + ": " + *note);
-  for (const std::string& remark : source->remarks) {
+  }
+  if (const Status ok = check_avatar(avatar); !ok) return console.fail(ok.error());
+  const auto source = identify_body(*std::move(raw), motion);
+  if (!source) return console.fail(source.error());
+  for (const std::string& remark : source->remarks()) {
     console.warn(motion.path.string() + ": " + remark);
   }
-  const auto result = retarget_to_file(source->motion, avatar, out);
+  const auto result = retarget_to_file(source->raw.motion, avatar, out);
   if (!result) return console.fail(result.error());
   for (const std::string& remark : result->remarks) {
     console.warn(avatar.path.string() + ": " + remark);
