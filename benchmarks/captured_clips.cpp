@@ -17,6 +17,7 @@
 #include "recordings/bvh.h"
 #include "retarget/body_map.h"
 #include "retarget/make_character.h"
+#include "retarget/standing_rest.h"
 #include "tests/support/acclaim.h"
 
 namespace marey {
@@ -125,36 +126,6 @@ Motion without_helpers(const Motion& motion) {
   return out;
 }
 
-/// The same motion of a skeleton that rests as in `frame`, turned to face +Z, every
-/// joint's axes parallel to the world's.
-Motion resting_in(const Motion& motion, std::size_t frame) {
-  const auto old_rest = world_from_joints(motion.skeleton, motion.poses[frame]);
-  const auto place = [&](HumanBone bone) {
-    return old_rest[index(*motion.skeleton.find(bone))].translation;
-  };
-  glm::dvec3 left = place(HumanBone::kLeftUpperLeg) - place(HumanBone::kRightUpperLeg);
-  left.y = 0.0;
-  const glm::dquat forward = rotation_between(left, {1.0, 0.0, 0.0});
-  Motion out = motion;
-  for (std::size_t i = 0; i < out.skeleton.joints.size(); ++i) {
-    Joint& joint = out.skeleton.joints[i];
-    const glm::dvec3 from =
-        joint.parent ? old_rest[index(*joint.parent)].translation : glm::dvec3(0.0);
-    joint.parent_from_joint = {glm::dquat(1.0, 0.0, 0.0, 0.0),
-                               forward * (old_rest[i].translation - from)};
-  }
-  std::vector<glm::dquat> turned(old_rest.size());
-  for (Pose& pose : out.poses) {
-    const auto world_from_joint = world_from_joints(motion.skeleton, pose);
-    for (std::size_t i = 0; i < turned.size(); ++i) {
-      turned[i] =
-          world_from_joint[i].rotation * glm::conjugate(forward * old_rest[i].rotation);
-    }
-    pose = pose_from_world(out.skeleton, pose.root_in_world, turned);
-  }
-  return out;
-}
-
 Result<CapturedClip> clip_of(std::string name, const Motion& motion) {
   const auto map = retarget::map_body(motion.skeleton);
   if (!map) return map.error();
@@ -173,9 +144,11 @@ Result<CapturedClip> read_bvh_clip(const std::filesystem::path& file,
   auto read = recordings::read_bvh(file, {unit_m});
   if (!read) return read.error();
   mark_bones(studio, read->motion.skeleton);
-  const Motion motion = without_helpers(read->motion);
-  return clip_of(std::move(name),
-                 studio == Studio::kBandai ? resting_in(motion, 0) : motion);
+  Motion motion = without_helpers(read->motion);
+  if (!retarget::rests_standing(motion.skeleton)) {
+    motion.skeleton = retarget::standing_rest(motion);
+  }
+  return clip_of(std::move(name), motion);
 }
 
 Result<CapturedClip> read_acclaim_clip(const std::filesystem::path& folder,
@@ -217,7 +190,9 @@ Result<CapturedClip> read_acclaim_clip(const std::filesystem::path& folder,
 
 Result<std::vector<CapturedClip>> read_clips(const std::filesystem::path& mocap) {
   std::vector<CapturedClip> clips;
-  for (const auto& [trial, name] : {std::pair{"02_05", "punch (CMU 02_05)"},
+  for (const auto& [trial, name] : {std::pair{"02_03", "run (CMU 02_03)"},
+                                    std::pair{"02_04", "jump (CMU 02_04)"},
+                                    std::pair{"02_05", "punch (CMU 02_05)"},
                                     std::pair{"02_06", "bend, scoop (CMU 02_06)"}}) {
     if (!std::filesystem::exists(mocap / "cmu_asfamc" / (std::string(trial) + ".amc"))) {
       continue;

@@ -21,10 +21,10 @@ struct CapturedClip {
   std::vector<Pose> poses;
 };
 
-/// CMU's punches (02_05) and scoops (02_06), Bandai Namco's kick, CMU's and Bandai's walk
+/// CMU's run and jump (02_03, 02_04), punches (02_05) and scoops (02_06), Bandai Namco's kick, CMU's and Bandai's walk
 /// and dance, as far as `mocap` holds them. Joints that other programs name otherwise get
 /// VRM's bones by their names. Where a file's zero pose is no human's (Bandai), the
-/// skeleton rests as in the first frame, turned to face +Z.
+/// skeleton rests as retarget::standing_rest() says.
 /// Errors: a file that exists cannot be read.
 [[nodiscard]] Result<std::vector<CapturedClip>> read_clips(
     const std::filesystem::path& mocap);

@@ -18,31 +18,41 @@ namespace {
 // One foot joint over the motion.
 struct Path {
   std::vector<glm::dvec3> p_in_world;
-  std::vector<double> speed_m_per_s;
+  std::vector<double> speed_m_per_s;         // Around each frame.
+  std::vector<double> before_speed_m_per_s;  // Until it.
+  std::vector<double> after_speed_m_per_s;   // From it on.
   double rest_height_m = 0.0;
 };
 
-// Slope of the line fitted to the positions around each frame: noise is averaged away
-// that a difference of two frames would keep.
-std::vector<double> speeds(std::span<const glm::dvec3> p_in_world,
-                           double hz,
-                           double smoothing_s) {
-  const int count = static_cast<int>(p_in_world.size());
+// Speed by the slope of the line fitted to the positions from `first` to `last`: noise is
+// averaged away that a difference of two frames would keep.
+double fitted_speed(std::span<const glm::dvec3> p_in_world,
+                    int first,
+                    int last,
+                    double hz) {
+  const double middle = 0.5 * (first + last);
+  glm::dvec3 slope(0.0);
+  double weight = 0.0;
+  for (int k = first; k <= last; ++k) {
+    slope += (k - middle) * p_in_world[static_cast<std::size_t>(k)];
+    weight += (k - middle) * (k - middle);
+  }
+  return weight > 0.0 ? glm::length(slope) * hz / weight : 0.0;
+}
+
+void find_speeds(double hz, double smoothing_s, Path& path) {
+  const int count = static_cast<int>(path.p_in_world.size());
   const int half = std::max(1, static_cast<int>(std::lround(0.5 * smoothing_s * hz)));
-  std::vector<double> out;
   for (int t = 0; t < count; ++t) {
     const int first = std::max(0, t - half);
     const int last = std::min(count - 1, t + half);
-    const double middle = 0.5 * (first + last);
-    glm::dvec3 slope(0.0);
-    double weight = 0.0;
-    for (int k = first; k <= last; ++k) {
-      slope += (k - middle) * p_in_world[static_cast<std::size_t>(k)];
-      weight += (k - middle) * (k - middle);
-    }
-    out.push_back(weight > 0.0 ? glm::length(slope) * hz / weight : 0.0);
+    const auto speed = [&](int from, int to) {
+      return fitted_speed(path.p_in_world, from, to, hz);
+    };
+    path.speed_m_per_s.push_back(speed(first, last));
+    path.before_speed_m_per_s.push_back(first < t ? speed(first, t) : speed(first, last));
+    path.after_speed_m_per_s.push_back(t < last ? speed(t, last) : speed(first, last));
   }
-  return out;
 }
 
 // The lower decile of the heights while slow; of all heights when it never is.
@@ -72,8 +82,43 @@ std::vector<FrameInterval> runs(const std::vector<char>& on) {
   return out;
 }
 
+// How much higher than usual the floor seems to be under one foot, frame by frame: the
+// lower decile of its heights, that of the lower of its two points, while the foot is
+// slow. Captured floors, and bodies that were fitted to markers, are off by some
+// centimetres from one step to the next; a heel that is up, with the ball down, is not.
+std::vector<double> floor_under(const Path& ankle,
+                                const Path* toes,
+                                const BodyMap& map,
+                                const DetectContactsOptions& o) {
+  const double slow_m_per_s = o.keep_speed_legs_per_s * map.leg_length_m;
+  const double most_m = o.uneven_legs * map.leg_length_m;
+  std::vector<double> above;
+  std::vector<char> slow;
+  for (std::size_t t = 0; t < ankle.p_in_world.size(); ++t) {
+    double height_m = ankle.p_in_world[t].y - ankle.rest_height_m;
+    double speed = ankle.speed_m_per_s[t];
+    if (toes != nullptr) {
+      height_m = std::min(height_m, toes->p_in_world[t].y - toes->rest_height_m);
+      speed = std::min(speed, toes->speed_m_per_s[t]);
+    }
+    above.push_back(height_m);
+    slow.push_back(speed < slow_m_per_s && height_m < most_m ? 1 : 0);
+  }
+  std::vector<double> floor_m(above.size(), 0.0);
+  for (const FrameInterval& run : runs(slow)) {
+    std::vector<double> heights(above.begin() + run.first, above.begin() + run.last + 1);
+    const auto decile = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 10);
+    std::nth_element(heights.begin(), decile, heights.end());
+    std::fill(floor_m.begin() + run.first,
+              floor_m.begin() + run.last + 1,
+              std::clamp(*decile, 0.0, most_m));
+  }
+  return floor_m;
+}
+
 // Frames that keep a contact, in runs that hold at least one that starts it.
 std::vector<FrameInterval> resting_runs(const Path& path,
+                                        std::span<const double> floor_m,
                                         const BodyMap& map,
                                         double hz,
                                         const DetectContactsOptions& o) {
@@ -81,8 +126,14 @@ std::vector<FrameInterval> resting_runs(const Path& path,
   std::vector<char> keep(path.p_in_world.size(), 0);
   for (std::size_t t = 0; t < keep.size(); ++t) {
     const double speed = path.speed_m_per_s[t] / map.leg_length_m;
-    const double height = (path.p_in_world[t].y - path.rest_height_m) / map.leg_length_m;
-    const bool keeps = speed < o.keep_speed_legs_per_s && height < o.keep_height_legs;
+    const double height =
+        (path.p_in_world[t].y - path.rest_height_m - floor_m[t]) / map.leg_length_m;
+    // A foot that has just landed rests already, one about to leave still.
+    const bool is_slow =
+        speed < o.keep_speed_legs_per_s ||
+        path.after_speed_m_per_s[t] < o.landed_speed_legs_per_s * map.leg_length_m ||
+        path.before_speed_m_per_s[t] < o.landed_speed_legs_per_s * map.leg_length_m;
+    const bool keeps = is_slow && height < o.keep_height_legs;
     const bool starts =
         keeps && speed < o.start_speed_legs_per_s && height < o.start_height_legs;
     keep[t] = keeps ? 1 : 0;
@@ -104,6 +155,43 @@ std::vector<FrameInterval> resting_runs(const Path& path,
     return run.last - run.first + 1 < o.shortest_s * hz;
   });
   return merged;
+}
+
+// Frames in which the ball bears alone and the ankle is slow, in runs over which it hardly
+// moves.
+std::vector<FrameInterval> heel_up_runs(const Path& ankle,
+                                        const FootContacts& foot,
+                                        const BodyMap& map,
+                                        double hz,
+                                        const DetectContactsOptions& o) {
+  std::vector<char> still(ankle.p_in_world.size(), 0);
+  for (const FrameInterval& run : foot.ball) {
+    for (int k = run.first; k <= run.last; ++k) {
+      const auto t = static_cast<std::size_t>(k);
+      const bool is_slow =
+          ankle.speed_m_per_s[t] < o.start_speed_legs_per_s * map.leg_length_m;
+      still[t] = is_slow ? 1 : 0;
+    }
+  }
+  for (const FrameInterval& run : foot.heel) {
+    std::fill(still.begin() + run.first, still.begin() + run.last + 1, char{0});
+  }
+  std::vector<FrameInterval> out = runs(still);
+  std::erase_if(out, [&](const FrameInterval& run) {
+    if (run.last - run.first + 1 < o.shortest_s * hz) return true;
+    glm::dvec3 mean(0.0);
+    for (int k = run.first; k <= run.last; ++k) {
+      mean += ankle.p_in_world[static_cast<std::size_t>(k)];
+    }
+    mean /= run.last - run.first + 1;
+    for (int k = run.first; k <= run.last; ++k) {
+      const double away_m =
+          glm::length(ankle.p_in_world[static_cast<std::size_t>(k)] - mean);
+      if (away_m > o.heel_up_legs * map.leg_length_m) return true;
+    }
+    return false;
+  });
+  return out;
 }
 
 std::vector<FrameInterval> either(const FootContacts& foot, int frame_count) {
@@ -152,7 +240,7 @@ Contacts detect_contacts(const Motion& motion,
   }
   for (auto& path : paths) {
     if (!path) continue;
-    path->speed_m_per_s = speeds(path->p_in_world, motion.rate.hz, options.smoothing_s);
+    find_speeds(motion.rate.hz, options.smoothing_s, *path);
     path->rest_height_m =
         resting_height_m(*path, options.start_speed_legs_per_s * map.leg_length_m);
   }
@@ -164,15 +252,21 @@ Contacts detect_contacts(const Motion& motion,
 
   for (std::size_t side = 0; side < 2; ++side) {
     FootContacts& foot = out.feet[side];
-    foot.heel = resting_runs(*paths[side], map, motion.rate.hz, options);
+    const auto& toes = paths[side + 2];
+    const std::vector<double> floor_m =
+        floor_under(*paths[side], toes ? &*toes : nullptr, map, options);
+    foot.heel = resting_runs(*paths[side], floor_m, map, motion.rate.hz, options);
     foot.ankle_height_m = paths[side]->rest_height_m;
     foot.ball = foot.heel;
     foot.ball_height_m = foot.ankle_height_m;
-    if (const auto& toes = paths[side + 2]) {
-      foot.ball = resting_runs(*toes, map, motion.rate.hz, options);
+    if (toes) {
+      foot.ball = resting_runs(*toes, floor_m, map, motion.rate.hz, options);
       foot.ball_height_m = toes->rest_height_m;
     }
     foot.stance = either(foot, out.frame_count);
+    if (toes) {
+      foot.heel_up = heel_up_runs(*paths[side], foot, map, motion.rate.hz, options);
+    }
   }
   return out;
 }

@@ -10,6 +10,7 @@
 
 #include "core/assert.h"
 #include "core/transform.h"
+#include "retarget/leg_on_foot.h"
 #include "retarget/smooth_step.h"
 
 namespace marey::retarget {
@@ -18,13 +19,13 @@ namespace {
 // A quantity over time that some frames prescribe; bridge() finds the others.
 using Prescribed = std::vector<std::optional<glm::dvec3>>;
 
-// Value, speed and acceleration at the edge of a run of prescribed frames, by one-sided
-// differences; `step` is -1 at a run's last frame, +1 at its first. Time runs away from
-// the run.
+// Value and speed at the edge of a run of prescribed frames, by one-sided differences;
+// `step` is -1 at a run's last frame, +1 at its first. Time runs away from the run. Not
+// acceleration: feet that land or leave change it at once, and following it costs more
+// suddenness than it saves.
 struct Edge {
   glm::dvec3 value{0.0};
   glm::dvec3 speed{0.0};
-  glm::dvec3 acceleration{0.0};
 };
 
 Edge edge_of(const Prescribed& p, int at, int step, double hz) {
@@ -38,7 +39,6 @@ Edge edge_of(const Prescribed& p, int at, int step, double hz) {
   const auto two = get(2);
   if (one && two) {
     edge.speed = (3.0 * edge.value - 4.0 * *one + *two) * (0.5 * hz);
-    edge.acceleration = (edge.value - 2.0 * *one + *two) * (hz * hz);
   } else if (one) {
     edge.speed = (edge.value - *one) * hz;
   }
@@ -48,18 +48,21 @@ Edge edge_of(const Prescribed& p, int at, int step, double hz) {
 // The edge's own course, fading to its value over `fade_s`.
 glm::dvec3 fading(const Edge& edge, double since_s, double fade_s) {
   const double left = 1.0 - smooth_step(since_s / fade_s);
-  return left * since_s * (edge.speed + 0.5 * since_s * edge.acceleration);
+  return left * since_s * edge.speed;
 }
 
 // Fills the frames first..last, whose neighbours are prescribed (or the motion's ends).
-void bridge_gap(Prescribed& p, int first, int last, double hz, double blend_s) {
+void bridge_gap(Prescribed& p,
+                int first,
+                int last,
+                double hz,
+                const FootPlanOptions& o) {
   const int count = static_cast<int>(p.size());
   std::optional<Edge> before;
   std::optional<Edge> after;
   if (first > 0) before = edge_of(p, first - 1, -1, hz);
   if (last + 1 < count) after = edge_of(p, last + 1, +1, hz);
   const double gap_s = (last - first + 2) / hz;
-  const double fade_s = std::min(blend_s, gap_s);
   for (int t = first; t <= last; ++t) {
     const double since_s = (t - first + 1) / hz;
     const double until_s = gap_s - since_s;
@@ -69,14 +72,14 @@ void bridge_gap(Prescribed& p, int first, int last, double hz, double blend_s) {
     } else if (before || after) {
       value = before ? before->value : after->value;
     }
-    if (before) value += fading(*before, since_s, fade_s);
-    if (after) value += fading(*after, until_s, fade_s);
+    if (before) value += fading(*before, since_s, std::min(o.blend_s, gap_s));
+    if (after) value += fading(*after, until_s, std::min(o.blend_s, gap_s));
     p[static_cast<std::size_t>(t)] = value;
   }
 }
 
-// C2 across every edge, exact where prescribed; zero when nothing is.
-std::vector<glm::dvec3> bridge(Prescribed p, double hz, double blend_s) {
+// With continuous speed across every edge, exact where prescribed; zero when nothing is.
+std::vector<glm::dvec3> bridge(Prescribed p, double hz, const FootPlanOptions& o) {
   const int count = static_cast<int>(p.size());
   const Prescribed given = p;
   const auto is_given = [&](int t) {
@@ -86,7 +89,7 @@ std::vector<glm::dvec3> bridge(Prescribed p, double hz, double blend_s) {
     if (is_given(t)) continue;
     int last = t;
     while (last + 1 < count && !is_given(last + 1)) ++last;
-    bridge_gap(p, t, last, hz, blend_s);
+    bridge_gap(p, t, last, hz, o);
     t = last;
   }
   std::vector<glm::dvec3> out;
@@ -107,9 +110,10 @@ struct Task {
   const FootMap& foot;
   double leg_length_m = 0.0;
   double hz = 0.0;
-  double blend_s = 0.0;
+  const FootPlanOptions& options;
   std::vector<char> heel;  // Per frame: does it bear?
   std::vector<char> ball;
+  std::vector<FrameInterval> heel_up;  // In which a foot on its ball keeps still.
   std::vector<Footprint> print;  // Of the stance that the frame is in.
 
   [[nodiscard]] bool bears(std::size_t t) const { return heel[t] || ball[t]; }
@@ -175,6 +179,18 @@ Footprint footprint(const Task& task, const FrameInterval& run) {
   return print;
 }
 
+// Mean rotation of the reference foot over a run in which it hardly turns.
+glm::dquat mean_foot(const Task& task, const FrameInterval& run) {
+  const glm::dquat first = task.reference[static_cast<std::size_t>(run.first)].foot;
+  glm::dvec3 turn(0.0);
+  for (int k = run.first; k <= run.last; ++k) {
+    turn += rotation_vector(task.reference[static_cast<std::size_t>(k)].foot *
+                            glm::conjugate(first));
+  }
+  return rotation_from_vector(turn / static_cast<double>(run.last - run.first + 1)) *
+         first;
+}
+
 // Turns foot and toes flat where they must be, and as little as possible elsewhere.
 void turn(const Task& task, std::vector<FootPlace>& out) {
   Prescribed foot_turn(out.size());
@@ -189,38 +205,19 @@ void turn(const Task& task, std::vector<FootPlace>& out) {
       toes_turn[t] = rotation_vector(heading * glm::conjugate(reference.toes));
     }
   }
-  const auto foot = bridge(std::move(foot_turn), task.hz, task.blend_s);
-  const auto toes = bridge(std::move(toes_turn), task.hz, task.blend_s);
+  for (const FrameInterval& run : task.heel_up) {
+    const glm::dquat still = mean_foot(task, run);
+    for (int k = run.first; k <= run.last; ++k) {
+      const auto t = static_cast<std::size_t>(k);
+      foot_turn[t] = rotation_vector(still * glm::conjugate(task.reference[t].foot));
+    }
+  }
+  const auto foot = bridge(std::move(foot_turn), task.hz, task.options);
+  const auto toes = bridge(std::move(toes_turn), task.hz, task.options);
   for (std::size_t t = 0; t < out.size(); ++t) {
     out[t].foot = glm::normalize(rotation_from_vector(foot[t]) * task.reference[t].foot);
     out[t].toes = glm::normalize(rotation_from_vector(toes[t]) * task.reference[t].toes);
   }
-}
-
-// Pitches a foot that bears on one joint until the other is not below its own height.
-void keep_other_joint_up(const Task& task, std::size_t t, FootPlace& place) {
-  const glm::dvec3 flat = task.foot.ball_from_ankle_in_t_pose;
-  const glm::dvec3 now = place.foot * flat;
-  const bool sinks = task.heel[t] ? now.y < flat.y : now.y > flat.y;
-  if (!sinks) return;
-  const glm::dvec2 ground(now.x, now.z);
-  const double reach = glm::length(ground);
-  if (reach < 1e-6) return;
-  const glm::dvec2 ahead = ground * (glm::length(glm::dvec2(flat.x, flat.z)) / reach);
-  place.foot =
-      glm::normalize(rotation_between(now, {ahead.x, flat.y, ahead.y}) * place.foot);
-}
-
-// Lifts a swinging foot over the floor, softly: never below, and hardly at all when high.
-void lift(const Task& task, double softness_m, FootPlace& place) {
-  const double ankle = place.ankle_in_world.y - task.foot.ankle_height_m;
-  const double ball = place.ankle_in_world.y +
-                      (place.foot * task.foot.ball_from_ankle_in_t_pose).y -
-                      task.foot.ball_height_m;
-  const double clearance = std::min(ankle, ball);
-  const double wanted =
-      0.5 * (clearance + std::sqrt(clearance * clearance + softness_m * softness_m));
-  place.ankle_in_world.y += wanted - clearance;
 }
 
 // Seconds from each frame to the nearest that bears; large when none does.
@@ -243,22 +240,23 @@ void place_ankles(const Task& task, std::vector<FootPlace>& out) {
   for (std::size_t t = 0; t < out.size(); ++t) {
     if (!task.bears(t)) continue;
     const Footprint& print = task.print[t];
-    if (!task.flat(t)) keep_other_joint_up(task, t, out[t]);
+    if (!task.flat(t)) keep_other_joint_up(task.foot, task.heel[t] != 0, out[t]);
     out[t].ankle_in_world =
         task.heel[t]
             ? print.ankle_in_world
             : print.ball_in_world - out[t].foot * task.foot.ball_from_ankle_in_t_pose;
     shift[t] = out[t].ankle_in_world - task.reference[t].ankle_in_world;
   }
-  const auto shifts = bridge(std::move(shift), task.hz, task.blend_s);
+  const auto shifts = bridge(std::move(shift), task.hz, task.options);
   const auto away_s = distance_to_stance_s(task);
   for (std::size_t t = 0; t < out.size(); ++t) {
     if (task.bears(t)) continue;
     out[t].ankle_in_world = task.reference[t].ankle_in_world + shifts[t];
     constexpr double kSoftnessInLegs = 0.01;
-    lift(task,
-         kSoftnessInLegs * task.leg_length_m * smooth_step(away_s[t] / task.blend_s),
-         out[t]);
+    lift_over_floor(
+        task.foot,
+        kSoftnessInLegs * task.leg_length_m * smooth_step(away_s[t] / task.options.blend_s),
+        out[t]);
   }
 }
 
@@ -276,9 +274,10 @@ std::vector<FootPlace> plan_foot(std::span<const FootPlace> reference,
             foot,
             leg_length_m,
             rate.hz,
-            options.blend_s,
+            options,
             marks(contacts.heel, count),
             marks(contacts.ball, count),
+            contacts.heel_up,
             std::vector<Footprint>(count)};
   for (const FrameInterval& run : contacts.stance) {
     const Footprint print = footprint(task, run);

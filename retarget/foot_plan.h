@@ -23,10 +23,9 @@ struct FootPlace {
 };
 
 struct FootPlanOptions {
-  /// How long the course of a contact's displacement (its speed and acceleration) takes
-  /// to fade out after it, and in before. Longer is softer, and follows noise further.
-  /// [s]
-  double blend_s = 0.12;
+  /// How long the speed of a contact's displacement takes to fade out after it, and in
+  /// before it. Longer is softer, and follows noise further. [s]
+  double blend_s = 0.14;
 };
 
 /// Moves a foot's path onto its footprints.
@@ -34,9 +33,10 @@ struct FootPlanOptions {
 /// Every stance gets one footprint, the mean of where the reference foot stands flat in
 /// it. While heel and ball bear, the foot is exactly flat and still on the floor Y = 0,
 /// its ankle and toe joint at their own resting heights; while only one bears, the foot
-/// turns about that joint as the reference does. Between stances the reference's path is
-/// kept but for a displacement that joins the two stances' own with continuous position,
-/// speed and acceleration. The ankle and the toe joint are never lower than they rest.
+/// turns about that joint as the reference does, or, while a raised heel keeps still, not
+/// at all. Between stances the reference's path is
+/// kept but for a displacement that joins the two stances' own with continuous position
+/// and speed. The ankle and the toe joint are never lower than they rest.
 ///
 /// `reference` holds the foot in the posture to keep, one entry per frame of `contacts`;
 /// the answer is as long. Linear in frames.

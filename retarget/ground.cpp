@@ -13,14 +13,11 @@
 #include "core/assert.h"
 #include "core/pose.h"
 #include "core/transform.h"
+#include "retarget/leg_on_foot.h"
 
 namespace marey::retarget {
 namespace {
 
-using B = HumanBone;
-
-// A root never sinks further than this for a leg's sake: past it, the leg gives up.
-constexpr double kMostSinkInLegs = 0.5;
 constexpr double kReachTolerance = 5e-4;  // [m] A foot further off its print has slipped.
 
 // One leg over the whole motion.
@@ -28,29 +25,6 @@ struct LegPath {
   std::vector<FootPlace> foot;
   std::vector<glm::dvec3> hip_from_root;  // World axes. [m]
 };
-
-B foot_bone(int side) {
-  return side == 0 ? B::kLeftFoot : B::kRightFoot;
-}
-B toes_bone(int side) {
-  return side == 0 ? B::kLeftToes : B::kRightToes;
-}
-
-FootPlace foot_of(const BodyMap& map,
-                  const NormalizedPose& pose,
-                  std::span<const RigidTransform> world_from_joint,
-                  int side) {
-  const auto turn = [&](B bone) {
-    const auto joint = map.joint_of[index(bone)];
-    if (pose.segments[index(bone)]) return *pose.segments[index(bone)];
-    if (!joint) return glm::dquat(1, 0, 0, 0);
-    return world_from_joint[index(*joint)].rotation *
-           glm::conjugate(map.joints[index(*joint)].t_pose_from_joint);
-  };
-  return {world_from_joint[index(map.leg(side).end)].translation,
-          turn(foot_bone(side)),
-          turn(toes_bone(side))};
-}
 
 std::array<LegPath, 2> reference_legs(const Skeleton& body,
                                       const BodyMap& map,
@@ -79,19 +53,6 @@ std::vector<char> bearing_frames(const FootContacts& foot, std::size_t count) {
   return on;
 }
 
-// How far the root must sink for the leg to reach its ankle: steps 1 to 3 of 4.2.4.1.
-// The pelvis' width goes out with hip_from_root.
-double sink_m(const LegPath& leg,
-              std::size_t t,
-              const glm::dvec3& root,
-              double length_m) {
-  const glm::dvec3 hip = root + leg.hip_from_root[t];
-  const glm::dvec3 ankle = leg.foot[t].ankle_in_world;
-  const double aside = glm::length(glm::dvec2(hip.x - ankle.x, hip.z - ankle.z));
-  const double rise = std::sqrt(std::max(length_m * length_m - aside * aside, 0.0));
-  return std::clamp(hip.y - (ankle.y + rise), 0.0, kMostSinkInLegs * length_m);
-}
-
 // The least smooth curve of its kind above `needed`: the greatest within +-half a window,
 // averaged over +-half a window with a C2 bell. Every value averaged is at least the
 // one needed in the middle, so the average is too.
@@ -118,22 +79,6 @@ std::vector<double> smooth_cover(const std::vector<double>& needed, int half) {
   return out;
 }
 
-// Step 5 of 4.2.4.1: the leg from this hip to this ankle, its half-plane turned along.
-// Returns how far the ankle stays away. [m]
-double aim_leg(const glm::dvec3& hip,
-               const glm::dvec3& ankle,
-               double length_m,
-               NormalizedLimb& leg) {
-  const glm::dvec3 wanted = ankle - hip;
-  const double distance = glm::length(wanted);
-  if (distance < 1e-9) return 0.0;
-  const glm::dvec3 now = leg.world_from_limb * glm::dvec3(0, 0, 1);
-  leg.world_from_limb =
-      glm::normalize(rotation_between(now, wanted) * leg.world_from_limb);
-  leg.extension = std::min(distance / length_m, 1.0);
-  return std::max(distance - length_m, 0.0);
-}
-
 // Sinks the root where bearing legs do not reach, smoothly; legs follow.
 GroundReport settle(const BodyMap& map,
                     const Contacts& contacts,
@@ -156,7 +101,10 @@ GroundReport settle(const BodyMap& map,
       if (!bears[side][t]) continue;
       const double length_m =
           full_m * std::max(options.straight, poses[t].limbs[2 + side]->extension);
-      needed[t] = std::max(needed[t], sink_m(leg, t, poses[t].root * unit_m, length_m));
+      // The pelvis' width goes out with hip_from_root.
+      const glm::dvec3 hip = poses[t].root * unit_m + leg.hip_from_root[t];
+      needed[t] =
+          std::max(needed[t], sink_m(hip, leg.foot[t].ankle_in_world, length_m));
     }
   }
 

@@ -69,6 +69,22 @@ Motion expand_all(const std::vector<NormalizedPose>& poses,
 
 }  // namespace
 
+Result<MappedBodies> map_bodies(const Skeleton& source,
+                                const Skeleton& avatar,
+                                RootNormalization root) {
+  Result<BodyMap> from = map_named_body(source, "source skeleton");
+  if (!from) return from.error();
+  Result<BodyMap> to = map_named_body(avatar, "avatar");
+  if (!to) return to.error();
+  if (root == RootNormalization::kArmLength &&
+      (from->arm_length_m <= 0.0 || to->arm_length_m <= 0.0)) {
+    return bad_input(from->arm_length_m > 0.0 ? "avatar" : "source skeleton",
+                     "it has no complete arm to measure the root's path in",
+                     "normalize the root by leg length");
+  }
+  return MappedBodies{std::move(*from), std::move(*to)};
+}
+
 FootFigures measure_feet(const Motion& motion,
                          const BodyMap& map,
                          const Contacts& contacts) {
@@ -104,16 +120,10 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
                                          const Skeleton& avatar,
                                          const RetargetOptions& options) {
   MAREY_ASSERT(source.rate.hz > 0.0);
-  const Result<BodyMap> from = map_named_body(source.skeleton, "source skeleton");
-  if (!from) return from.error();
-  const Result<BodyMap> to = map_named_body(avatar, "avatar");
-  if (!to) return to.error();
-  if (options.root == RootNormalization::kArmLength &&
-      (from->arm_length_m <= 0.0 || to->arm_length_m <= 0.0)) {
-    return bad_input(from->arm_length_m > 0.0 ? "avatar" : "source skeleton",
-                     "it has no complete arm to measure the root's path in",
-                     "normalize the root by leg length");
-  }
+  const auto bodies = map_bodies(source.skeleton, avatar, options.root);
+  if (!bodies) return bodies.error();
+  const BodyMap* from = &bodies->source;
+  const BodyMap* to = &bodies->avatar;
 
   RetargetedMotion out;
   out.report.contacts = detect_contacts(source, *from, options.contacts);

@@ -19,6 +19,18 @@ struct RetargetOptions {
   GroundOptions ground;
 };
 
+/// Who moves, and who is to.
+struct MappedBodies {
+  BodyMap source;
+  BodyMap avatar;
+};
+/// map_body() of both, and whether the root can be normalized so.
+/// Errors: map_body()'s, of the source ("source skeleton") or the avatar ("avatar"); no
+/// arms to normalize the root with.
+[[nodiscard]] Result<MappedBodies> map_bodies(const Skeleton& source,
+                                              const Skeleton& avatar,
+                                              RootNormalization root);
+
 /// How well feet keep to the floor.
 struct FootFigures {
   /// Mean horizontal speed of the joints that bear, over all contacts. [cm/s]
@@ -50,9 +62,7 @@ struct RetargetedMotion {
 /// Frames, rate and first_frame are the source's. Same input, same bytes. Linear in
 /// frames, some ten microseconds each.
 ///
-/// Errors: map_body()'s, of the source ("source skeleton") or the avatar ("avatar");
-/// no arms to normalize the root with.
-/// Precondition: the rate is positive; every pose has one entry per joint.
+/// Errors: map_bodies()'s. Precondition: the rate is positive; every pose has one entry per joint.
 [[nodiscard]] Result<RetargetedMotion> retarget_motion(
     const Motion& source, const Skeleton& avatar, const RetargetOptions& options = {});
 

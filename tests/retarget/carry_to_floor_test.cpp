@@ -149,10 +149,16 @@ TEST(CarryToFloor, ThePelvisAnticipatesAStep) {
   EXPECT_EQ(on.ground.unreachable_frames, 0);
   expect_on_floor(scene, floor, on);
   expect_no_slide(scene, floor, on);
+  // When it really does: contacts are found a few frames around it.
   int lands = kFrames;
   for (const SupportTrack& track : on.tracks) {
+    const bool is_left = track.constraint.point.segment == "leftFoot";
+    const auto& truth = scene.walk.feet[is_left ? 0 : 1];
     for (const FloorStance& stance : track.stands) {
-      if (stance.part) lands = std::min(lands, stance.frames.first);
+      if (!stance.part) continue;
+      auto t = static_cast<std::size_t>(stance.frames.first);
+      while (truth.heel[t] == 0 && truth.ball[t] == 0) ++t;
+      lands = std::min(lands, static_cast<int>(t));
     }
   }
   ASSERT_LT(lands, kFrames - 60);
@@ -165,10 +171,10 @@ TEST(CarryToFloor, ThePelvisAnticipatesAStep) {
   // Half the step, but for the 4 cm by which the trailing leg would be too short.
   EXPECT_GT(rise_m(lands), 0.03);
   EXPECT_NEAR(rise_m(kFrames - 10), 0.15, 1e-3) << "both feet are";
-  // Half of 15 cm with each swing of 0.44 s: 5.8 * 0.075 / 0.44^2 = 2.2 m/s2, and sinking
-  // for the trailing leg, beside the walk's own.
+  // Half of 15 cm with each swing of 0.44 s: 5.8 * 0.075 / 0.44^2 = 2.2 m/s2, beside the
+  // walk's own, with what the trailing leg asks for within it.
   const double was = greatest_pelvis_acceleration(scene, scene.planted);
-  EXPECT_LT(greatest_pelvis_acceleration(scene, on.adapted.motion), 2.0 * was) << was;
+  EXPECT_LT(greatest_pelvis_acceleration(scene, on.adapted.motion), was + 2.2) << was;
 }
 
 // No ankle or ball is within the step while it swings over its edge.

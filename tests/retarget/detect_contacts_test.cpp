@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/detect_contacts.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
@@ -104,6 +105,69 @@ TEST(DetectContacts, CallsAStillButRaisedFootNoContact) {
   const Contacts contacts = detect_contacts(motion, map);
   EXPECT_TRUE(contacts.feet[0].stance.empty());
   EXPECT_EQ(contacts.feet[1].stance.size(), 1U);
+}
+
+// Bodies fitted to markers climb and sink by some centimetres from step to step.
+TEST(DetectContacts, DoesNotMindAFloorThatRisesByFourCentimetresUnderway) {
+  testing::SyntheticWalk walk = testing::synthetic_walk(190, 60.0);
+  const double end_m = walk.motion.poses.back().root_in_world.z;
+  for (Pose& pose : walk.motion.poses) {
+    pose.root_in_world.y += 0.04 * pose.root_in_world.z / end_m;
+  }
+  expect_truth(walk, 4);
+}
+
+TEST(DetectContacts, BeginsWithTheFrameInWhichAFootHasLanded) {
+  Motion motion;
+  motion.skeleton = testing::child();
+  motion.rate.hz = 30.0;
+  const Pose stands = rest_pose(motion.skeleton);
+  for (int t = 0; t < 40; ++t) {
+    Pose pose = stands;
+    pose.root_in_world.z += 0.08 * std::min(0, t - 15) + 0.08 * std::max(0, t - 25);
+    motion.poses.push_back(pose);
+  }
+  const Contacts contacts = detect_contacts(motion, *map_body(motion.skeleton));
+  for (const FootContacts& foot : contacts.feet) {
+    ASSERT_EQ(foot.stance.size(), 1U);
+    EXPECT_EQ(foot.stance[0].first, 15);
+    EXPECT_EQ(foot.stance[0].last, 25);
+  }
+}
+
+// Flat for a second, then on the balls of the feet for another, heels up by 20 degrees.
+TEST(DetectContacts, TellsARaisedHeelThatKeepsStillFromOneThatRests) {
+  Motion motion;
+  motion.skeleton = testing::giant();
+  motion.rate.hz = 60.0;
+  const BodyMap map = *map_body(motion.skeleton);
+  for (int t = 0; t < 120; ++t) {
+    Pose pose = rest_pose(motion.skeleton);
+    const double up_rad = 0.35 * std::clamp((t - 60) / 12.0, 0.0, 1.0);
+    const glm::dquat pitch = glm::angleAxis(up_rad, glm::dvec3(1, 0, 0));
+    for (std::size_t side = 0; side < 2; ++side) {
+      const JointIndex ankle = map.leg(static_cast<int>(side)).end;
+      const JointIndex toes = *map.joint_of[index(side == 0 ? HumanBone::kLeftToes
+                                                            : HumanBone::kRightToes)];
+      pose.parent_from_joint[index(ankle)] =
+          pitch * pose.parent_from_joint[index(ankle)];
+      pose.parent_from_joint[index(toes)] =
+          glm::conjugate(pitch) * pose.parent_from_joint[index(toes)];
+    }
+    const glm::dvec3 ball = map.feet[0].ball_from_ankle_in_t_pose;
+    pose.root_in_world += ball - pitch * ball;
+    motion.poses.push_back(pose);
+  }
+  const Contacts contacts = detect_contacts(motion, map);
+  for (const FootContacts& foot : contacts.feet) {
+    ASSERT_EQ(foot.ball.size(), 1U);
+    EXPECT_EQ(foot.ball[0].last, 119);
+    ASSERT_EQ(foot.heel.size(), 1U);
+    EXPECT_LT(foot.heel[0].last, 72);
+    ASSERT_FALSE(foot.heel_up.empty());
+    EXPECT_LE(foot.heel_up.back().first, 74);
+    EXPECT_EQ(foot.heel_up.back().last, 119);
+  }
 }
 
 TEST(DetectContacts, AcceptsAMotionWithoutFrames) {

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/live_retarget.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/assert.h"
+#include "retarget/ground.h"
+#include "retarget/leg_on_foot.h"
+#include "retarget/live_foot.h"
+#include "retarget/retarget_motion.h"
+
+namespace marey::retarget {
+
+struct LiveRetarget::State {
+  Skeleton source;
+  Skeleton avatar;
+  BodyMap from;
+  BodyMap to;
+  LiveRetargetOptions options;
+  double rise_m = 0.0;
+  double sink_m = 0.0;
+  std::array<LiveContact, 4> contacts;  // Left and right ankle, left and right ball.
+  std::array<StandingFoot, 2> standing{};
+  std::array<LiveFoot, 2> feet;
+  NormalizedPose posture;
+  std::vector<RigidTransform> source_world;
+  std::vector<RigidTransform> avatar_world;
+
+  void judge_feet(double since_last_s);
+  void hold_feet(double since_last_s);
+};
+
+// Where each foot of the source stands.
+void LiveRetarget::State::judge_feet(double since_last_s) {
+  const double leg_m = from.leg_length_m;
+  const auto look = [&](JointIndex joint, double rest_m, LiveContact& contact) {
+    const glm::dvec3 p = source_world[index(joint)].translation;
+    return contact.look(p / leg_m, (p.y - rest_m) / leg_m, since_last_s, options);
+  };
+  for (int side = 0; side < 2; ++side) {
+    const auto s = static_cast<std::size_t>(side);
+    const FootMap& foot = from.feet[s];
+    standing[s].heel = look(from.leg(side).end, foot.ankle_height_m, contacts[s]);
+    const auto toes = from.joint_of[index(toes_bone(side))];
+    standing[s].ball =
+        toes ? look(*toes, foot.ball_height_m, contacts[s + 2]) : standing[s].heel;
+  }
+}
+
+// Feet where they stand, hips low enough, legs in between.
+void LiveRetarget::State::hold_feet(double since_last_s) {
+  const double unit_m = root_unit_m(to, options.root);
+  const glm::dvec3 root = avatar_world[index(to.hips())].translation;
+  std::array<FootPlace, 2> places;
+  std::array<glm::dvec3, 2> hips{};
+  double needed_m = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    const auto s = static_cast<std::size_t>(side);
+    places[s] = foot_of(to, posture, avatar_world, side);
+    hips[s] = avatar_world[index(to.leg(side).upper)].translation;
+    feet[s].hold(standing[s], to.feet[s], to.leg_length_m, since_last_s, options, places[s]);
+    if (!standing[s].heel && !standing[s].ball) continue;
+    const double straight =
+        std::max(GroundOptions{}.straight, posture.limbs[2 + s]->extension);
+    needed_m = std::max(needed_m,
+                        retarget::sink_m(hips[s],
+                                         places[s].ankle_in_world,
+                                         straight * to.leg(side).length_m()));
+  }
+  sink_m = std::max(needed_m, sink_m * std::exp(-since_last_s / options.rise_s));
+  posture.root.y = (root.y - sink_m) / unit_m;
+  for (int side = 0; side < 2; ++side) {
+    const auto s = static_cast<std::size_t>(side);
+    aim_leg(hips[s] - glm::dvec3(0.0, sink_m, 0.0),
+            places[s].ankle_in_world,
+            to.leg(side).length_m(),
+            *posture.limbs[2 + s]);
+    posture.segments[index(foot_bone(side))] = places[s].foot;
+    posture.segments[index(toes_bone(side))] = places[s].toes;
+  }
+}
+
+LiveRetarget::LiveRetarget(std::unique_ptr<State> state) : state_(std::move(state)) {}
+LiveRetarget::LiveRetarget(LiveRetarget&&) noexcept = default;
+LiveRetarget& LiveRetarget::operator=(LiveRetarget&&) noexcept = default;
+LiveRetarget::~LiveRetarget() = default;
+
+Result<LiveRetarget> LiveRetarget::make(const Skeleton& source,
+                                        const Skeleton& avatar,
+                                        const LiveRetargetOptions& options) {
+  auto bodies = map_bodies(source, avatar, options.root);
+  if (!bodies) return bodies.error();
+  auto state = std::make_unique<State>();
+  state->source = source;
+  state->avatar = avatar;
+  state->from = std::move(bodies->source);
+  state->to = std::move(bodies->avatar);
+  state->options = options;
+  const double scale =
+      root_unit_m(state->to, options.root) / root_unit_m(state->from, options.root);
+  state->rise_m = standing_rise_m(state->from, {}, state->to, scale);
+  state->source_world.resize(source.joints.size());
+  state->avatar_world.resize(avatar.joints.size());
+  return LiveRetarget(std::move(state));
+}
+
+void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
+  MAREY_ASSERT(since_last_s > 0.0);
+  State& s = *state_;
+  MAREY_ASSERT(source.parent_from_joint.size() == s.source.joints.size());
+  world_from_joints(s.source, source, s.source_world);
+  normalize(s.from, s.source_world, s.posture, s.options.root);
+  s.posture.root.y += s.rise_m / root_unit_m(s.to, s.options.root);
+  s.judge_feet(since_last_s);
+  expand(s.posture, s.avatar, s.to, s.avatar_world, out);
+  if (!s.options.hold_feet) return;
+  s.hold_feet(since_last_s);
+  expand(s.posture, s.avatar, s.to, s.avatar_world, out);
+}
+
+void LiveRetarget::forget() {
+  for (LiveContact& contact : state_->contacts) contact.forget();
+  for (LiveFoot& foot : state_->feet) foot.forget();
+  state_->sink_m = 0.0;
+}
+
+const std::array<StandingFoot, 2>& LiveRetarget::standing() const {
+  return state_->standing;
+}
+
+std::span<const RigidTransform> LiveRetarget::world_from_joint() const {
+  return state_->avatar_world;
+}
+
+}  // namespace marey::retarget
