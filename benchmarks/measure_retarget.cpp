@@ -15,6 +15,7 @@
 #include "benchmarks/result_table.h"
 #include "core/pose.h"
 #include "retarget/body_map.h"
+#include "retarget/live_retarget.h"
 #include "retarget/retarget_motion.h"
 
 namespace marey {
@@ -74,62 +75,101 @@ std::array<double, kContactPoints> rest_heights(const retarget::BodyMap& map) {
           map.feet[1].ball_height_m};
 }
 
-void add_row(const CapturedClip& clip, const BodyScale& scale, ResultTable& table) {
+/// A whole motion at once, or posture by posture.
+enum class Way { kOffline, kLive };
+
+Result<Motion> retargeted(const Motion& source, const Skeleton& body, Way way) {
+  if (way == Way::kOffline) {
+    auto whole = retarget::retarget_motion(source, body);
+    if (!whole) return whole.error();
+    return std::move(whole->motion);
+  }
+  auto live = retarget::LiveRetarget::make(source.skeleton, body);
+  if (!live) return live.error();
+  Motion out{body, source.rate, source.first_frame, {}};
+  out.poses.resize(source.poses.size());
+  for (std::size_t t = 0; t < source.poses.size(); ++t) {
+    live->step(source.poses[t], 1.0 / source.rate.hz, out.poses[t]);
+  }
+  return out;
+}
+
+Status add_row(const CapturedClip& clip,
+               const BodyScale& scale,
+               Way way,
+               ResultTable& table) {
   const Motion source{clip.character.skeleton, {clip.rate_hz}, 0, clip.poses};
   const Skeleton body = scaled(source.skeleton, scale);
-  const auto from = retarget::map_body(source.skeleton);
-  const auto to = retarget::map_body(body);
-  if (!from || !to) return;
+  const auto bodies = retarget::map_bodies(
+      source.skeleton, body, retarget::RootNormalization::kLegLength);
+  if (!bodies) return bodies.error();
   const auto begin = std::chrono::steady_clock::now();
-  const auto result = retarget::retarget_motion(source, body);
+  const auto motion = retargeted(source, body, way);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  if (!result) {
-    std::fprintf(stderr, "%s\n", result.error().cause.c_str());
-    return;
-  }
-  const ContactLabels labels = label_contacts(contact_paths(source, *from), clip.rate_hz);
-  const Motion& motion = result->motion;
-  const ContactFigures figures = measure_contacts(
-      contact_paths(motion, *to), labels, rest_heights(*to), clip.rate_hz);
-  const double height_ratio = height_m(body, *to) / height_m(source.skeleton, *from);
+  if (!motion) return motion.error();
+  const ContactLabels labels =
+      label_contacts(contact_paths(source, bodies->source), clip.rate_hz);
+  const ContactFigures figures =
+      measure_contacts(contact_paths(*motion, bodies->avatar),
+                       labels,
+                       rest_heights(bodies->avatar),
+                       clip.rate_hz);
+  const double height_ratio =
+      height_m(body, bodies->avatar) / height_m(source.skeleton, bodies->source);
   table.rows.push_back({clip.name,
                         scale.name,
                         figures.mean_slide_cm_per_s,
-                        figures.worst_drift_mm,
                         figures.median_drift_mm,
+                        figures.worst_drift_mm,
                         figures.sinking_mm,
                         figures.float_mm,
                         static_cast<double>(figures.floating_frames),
-                        mean_jerk(motion) / (height_ratio * mean_jerk(source)),
+                        mean_jerk(*motion) / (height_ratio * mean_jerk(source)),
                         1e6 * took.count() / static_cast<double>(clip.poses.size())});
+  return Done{};
+}
+
+ResultTable empty_table(const char* id, const char* title) {
+  return {id,
+          title,
+          {{"clip"},
+           {"body"},
+           {"slide cm/s", 3},
+           {"median drift mm", 2},
+           {"worst drift mm", 2},
+           {"sinking mm", 2},
+           {"float mm", 1},
+           {"frames > 5 mm", 0},
+           {"jerk / source's", 3},
+           {"us/frame", 1}},
+          {},
+          {}};
+}
+
+int fail(const Error& error) {
+  std::fprintf(stderr, "%s: %s\n", error.where.c_str(), error.cause.c_str());
+  return 3;
 }
 
 int run(const std::filesystem::path& mocap, const std::filesystem::path& json) {
   const auto clips = read_clips(mocap);
-  if (!clips) {
-    std::fprintf(stderr, "%s: %s\n", clips.error().where.c_str(), clips.error().cause.c_str());
-    return 3;
-  }
-  ResultTable table{"contacts",
-                    "Recorded motions on other bodies: feet and jerk",
-                    {{"clip"},
-                     {"body"},
-                     {"slide cm/s", 3},
-                     {"worst drift mm", 2},
-                     {"median drift mm", 2},
-                     {"sinking mm", 2},
-                     {"float mm", 1},
-                     {"frames > 5", 0},
-                     {"jerk", 3},
-                     {"us/frame", 1}},
-                    {},
-                    {}};
+  if (!clips) return fail(clips.error());
+  std::vector<ResultTable> tables{
+      empty_table("offline", "Recorded motions on other bodies, whole"),
+      empty_table("live", "The same posture by posture, without the future")};
   for (const CapturedClip& clip : *clips) {
-    for (const BodyScale& scale : kBodies) add_row(clip, scale, table);
+    for (const BodyScale& scale : kBodies) {
+      for (const Way way : {Way::kOffline, Way::kLive}) {
+        ResultTable& table = tables[way == Way::kLive ? 1 : 0];
+        if (const Status ok = add_row(clip, scale, way, table); !ok) {
+          return fail(ok.error());
+        }
+      }
+    }
   }
-  print_table(table);
+  for (const ResultTable& table : tables) print_table(table);
   if (json.empty()) return 0;
-  return write_tables(json, {table}) ? 0 : 5;
+  return write_tables(json, tables) ? 0 : 5;
 }
 
 }  // namespace

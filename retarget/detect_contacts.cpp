@@ -131,8 +131,8 @@ std::vector<FrameInterval> resting_runs(const Path& path,
     // A foot that has just landed rests already, one about to leave still.
     const bool is_slow =
         speed < o.keep_speed_legs_per_s ||
-        path.after_speed_m_per_s[t] < o.landed_speed_legs_per_s * map.leg_length_m ||
-        path.before_speed_m_per_s[t] < o.start_speed_legs_per_s * map.leg_length_m;
+        path.after_speed_m_per_s[t] < o.edge_speed_legs_per_s * map.leg_length_m ||
+        path.before_speed_m_per_s[t] < o.edge_speed_legs_per_s * map.leg_length_m;
     const bool keeps = is_slow && height < o.keep_height_legs;
     const bool starts =
         keeps && speed < o.start_speed_legs_per_s && height < o.start_height_legs;

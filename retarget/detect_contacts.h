@@ -39,8 +39,8 @@ struct DetectContactsOptions {
   double start_speed_legs_per_s = 0.2;  ///< Slower than this begins a contact,
   double keep_speed_legs_per_s = 0.35;  ///< which lasts while slower than this.
   /// Nor does it begin later than where the foot is slower than this from then on, or end
-  /// earlier than where it was slower than `start_speed_legs_per_s` until then.
-  double landed_speed_legs_per_s = 0.25;
+  /// earlier than where it was slower until then.
+  double edge_speed_legs_per_s = 0.25;
   double start_height_legs = 0.02;      ///< Lower above its resting height begins one,
   double keep_height_legs = 0.03;       ///< which lasts while lower than this.
   double heel_up_legs = 0.03;           ///< A raised heel that is still moves less.

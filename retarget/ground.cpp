@@ -136,18 +136,29 @@ GroundReport settle(const BodyMap& map,
 }  // namespace
 
 double standing_rise_m(const BodyMap& source,
-                       const Contacts& contacts,
+                       const std::array<double, 2>& source_ankles_rest_m,
                        const BodyMap& avatar,
                        double scale) {
   double source_m = source.hip_drop_m;
   double avatar_m = avatar.hip_drop_m;
   for (std::size_t side = 0; side < 2; ++side) {
-    const FootContacts& foot = contacts.feet[side];
-    source_m += 0.5 * (foot.stance.empty() ? source.feet[side].ankle_height_m
-                                           : foot.ankle_height_m);
+    source_m += 0.5 * source_ankles_rest_m[side];
     avatar_m += 0.5 * avatar.feet[side].ankle_height_m;
   }
   return avatar_m - scale * source_m;
+}
+
+double standing_rise_m(const BodyMap& source,
+                       const Contacts& contacts,
+                       const BodyMap& avatar,
+                       double scale) {
+  std::array<double, 2> rest_m{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const FootContacts& foot = contacts.feet[side];
+    rest_m[side] = foot.stance.empty() ? source.feet[side].ankle_height_m
+                                       : foot.ankle_height_m;
+  }
+  return standing_rise_m(source, rest_m, avatar, scale);
 }
 
 GroundReport settle_on_feet(const Skeleton& body,

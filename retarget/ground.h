@@ -38,6 +38,12 @@ struct GroundReport {
                                      const BodyMap& avatar,
                                      double scale);
 
+/// The same where the source's left and right ankle rest at these heights.
+[[nodiscard]] double standing_rise_m(const BodyMap& source,
+                                     const std::array<double, 2>& source_ankles_rest_m,
+                                     const BodyMap& avatar,
+                                     double scale);
+
 /// Fast ground adaptation (Kulpa 2005, 4.2.4.1) of a whole motion, in place.
 ///
 /// `poses` are the reference postures at this body's size, one per frame of `contacts`.

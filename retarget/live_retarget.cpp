@@ -21,9 +21,10 @@ struct LiveRetarget::State {
   BodyMap from;
   BodyMap to;
   LiveRetargetOptions options;
-  double rise_m = 0.0;
+  double scale = 1.0;  // Of the root's way.
   double sink_m = 0.0;
   std::array<LiveContact, 4> contacts;  // Left and right ankle, left and right ball.
+  std::array<LiveFloor, 2> floors;
   std::array<StandingFoot, 2> standing{};
   std::array<LiveFoot, 2> feet;
   NormalizedPose posture;
@@ -31,24 +32,44 @@ struct LiveRetarget::State {
   std::vector<RigidTransform> avatar_world;
 
   void judge_feet(double since_last_s);
+  [[nodiscard]] double rise_m() const;
   void hold_feet(double since_last_s);
 };
 
 // Where each foot of the source stands.
 void LiveRetarget::State::judge_feet(double since_last_s) {
   const double leg_m = from.leg_length_m;
-  const auto look = [&](JointIndex joint, double rest_m, LiveContact& contact) {
-    const glm::dvec3 p = source_world[index(joint)].translation;
-    return contact.look(p / leg_m, (p.y - rest_m) / leg_m, since_last_s, options);
-  };
   for (int side = 0; side < 2; ++side) {
     const auto s = static_cast<std::size_t>(side);
     const FootMap& foot = from.feet[s];
-    standing[s].heel = look(from.leg(side).end, foot.ankle_height_m, contacts[s]);
+    const glm::dvec3 ankle = source_world[index(from.leg(side).end)].translation / leg_m;
+    const double ankle_height = ankle.y - foot.ankle_height_m / leg_m;
+    double speed = contacts[s].speed_legs_per_s(ankle, since_last_s, options);
+    double lower = ankle_height;
     const auto toes = from.joint_of[index(toes_bone(side))];
+    double ball_height = 0.0;
+    if (toes) {
+      const glm::dvec3 ball = source_world[index(*toes)].translation / leg_m;
+      ball_height = ball.y - foot.ball_height_m / leg_m;
+      lower = std::min(lower, ball_height);
+      speed = std::min(speed,
+                       contacts[s + 2].speed_legs_per_s(ball, since_last_s, options));
+    }
+    floors[s].look(lower, speed, since_last_s, options);
+    const double floor = floors[s].offset_legs();
+    standing[s].heel = contacts[s].rests(ankle_height - floor, options);
     standing[s].ball =
-        toes ? look(*toes, foot.ball_height_m, contacts[s + 2]) : standing[s].heel;
+        toes ? contacts[s + 2].rests(ball_height - floor, options) : standing[s].heel;
   }
+}
+
+// By how much the root that was scaled with the legs must rise for ankles that rest as the
+// source's do to be where the avatar's should.
+double LiveRetarget::State::rise_m() const {
+  const std::array<double, 2> rest_m{
+      from.feet[0].ankle_height_m + floors[0].offset_legs() * from.leg_length_m,
+      from.feet[1].ankle_height_m + floors[1].offset_legs() * from.leg_length_m};
+  return standing_rise_m(from, rest_m, to, scale);
 }
 
 // Feet where they stand, hips low enough, legs in between.
@@ -100,9 +121,8 @@ Result<LiveRetarget> LiveRetarget::make(const Skeleton& source,
   state->from = std::move(bodies->source);
   state->to = std::move(bodies->avatar);
   state->options = options;
-  const double scale =
+  state->scale =
       root_unit_m(state->to, options.root) / root_unit_m(state->from, options.root);
-  state->rise_m = standing_rise_m(state->from, {}, state->to, scale);
   state->source_world.resize(source.joints.size());
   state->avatar_world.resize(avatar.joints.size());
   return LiveRetarget(std::move(state));
@@ -114,8 +134,10 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
   MAREY_ASSERT(source.parent_from_joint.size() == s.source.joints.size());
   world_from_joints(s.source, source, s.source_world);
   normalize(s.from, s.source_world, s.posture, s.options.root);
-  s.posture.root.y += s.rise_m / root_unit_m(s.to, s.options.root);
   s.judge_feet(since_last_s);
+  if (s.options.hold_feet) {
+    s.posture.root.y += s.rise_m() / root_unit_m(s.to, s.options.root);
+  }
   expand(s.posture, s.avatar, s.to, s.avatar_world, out);
   if (!s.options.hold_feet) return;
   s.hold_feet(since_last_s);
@@ -124,6 +146,7 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
 
 void LiveRetarget::forget() {
   for (LiveContact& contact : state_->contacts) contact.forget();
+  for (LiveFloor& floor : state_->floors) floor.forget();
   for (LiveFoot& foot : state_->feet) foot.forget();
   state_->sink_m = 0.0;
 }
