@@ -86,7 +86,7 @@ int measure(const Arguments& arguments) {
   if (arguments.asks("reach")) keep(measure_reach());
   if (arguments.asks("thesis")) keep(measure_thesis());
   if (arguments.asks("captured")) {
-    const auto clips = read_clips(arguments.data / "mocap");
+    const auto clips = read_clips(arguments.data / "mocap", ClipSet::kReaches);
     if (!clips) stop(clips.error().message());
     keep(measure_captured(*clips));
   }

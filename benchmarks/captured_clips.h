@@ -21,13 +21,16 @@ struct CapturedClip {
   std::vector<Pose> poses;
 };
 
-/// CMU's run and jump (02_03, 02_04), punches (02_05) and scoops (02_06), Bandai Namco's kick, CMU's and Bandai's walk
-/// and dance, as far as `mocap` holds them. Joints that other programs name otherwise get
-/// VRM's bones by their names. Where a file's zero pose is no human's (Bandai), the
-/// skeleton rests as retarget::standing_rest() says.
+enum class ClipSet {
+  kReaches,  ///< Of hands and feet: punch, scoop, kick, dance, walk.
+  kAll,      ///< And CMU's run and jump (02_03, 02_04).
+};
+
+/// CMU's punches (02_05) and scoops (02_06), Bandai Namco's kick, CMU's and Bandai's walk
+/// and dance, as far as `mocap` holds them, read as `marey` reads them.
 /// Errors: a file that exists cannot be read.
 [[nodiscard]] Result<std::vector<CapturedClip>> read_clips(
-    const std::filesystem::path& mocap);
+    const std::filesystem::path& mocap, ClipSet set);
 
 /// A posture to start from and one to arrive at, of one clip, and who stands in both.
 struct CapturedPair {

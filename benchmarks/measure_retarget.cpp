@@ -152,7 +152,7 @@ int fail(const Error& error) {
 }
 
 int run(const std::filesystem::path& mocap, const std::filesystem::path& json) {
-  const auto clips = read_clips(mocap);
+  const auto clips = read_clips(mocap, ClipSet::kAll);
   if (!clips) return fail(clips.error());
   std::vector<ResultTable> tables{
       empty_table("offline", "Recorded motions on other bodies, whole"),

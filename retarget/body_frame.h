@@ -61,10 +61,10 @@ struct FileUnit {
 /// file of motion need not care for.
 [[nodiscard]] bool stands_at_rest(const Skeleton& skeleton, const FoundBones& found);
 
-/// Makes a standing posture the rest of a motion's skeleton: each limb and the trunk turned
-/// as in the frame in which it stands best (legs upright and foot on the floor, arms
-/// straight and at the sides, trunk upright), facing along an axis. Poses are what they
-/// were: they do not count from the rest.
+/// Makes a standing posture the rest of a motion's skeleton: each limb, foot and the trunk
+/// turned as in the frame in which it shows best how it is built (legs upright, feet at
+/// their lowest, arms straight and at the sides, trunk upright), facing along an axis, as
+/// high as the feet are then. Poses are what they were: they do not count from the rest.
 /// Precondition: the motion has poses.
 void rest_as_standing(Motion& motion, const FoundBones& found);
 

@@ -20,7 +20,8 @@ namespace {
 using B = HumanBone;
 
 constexpr std::size_t kTrunk = 4;  // Behind the four limbs of human_limbs().
-constexpr std::size_t kParts = 5;
+constexpr std::size_t kFeet = 5;   // Left and right, toes included.
+constexpr std::size_t kParts = 7;
 
 /// One frame of the motion, seen with the body's own left and front.
 struct Seen {
@@ -56,14 +57,18 @@ Seen seen(const FoundBones& found,
   return view;
 }
 
-/// How far a leg is from bearing a standing body, with its foot on the floor: 0 at best.
-double leg_unrest(const Seen& view, const HumanLimb& limb, double floor, double length) {
-  const B toes = limb.end == B::kLeftFoot ? B::kLeftToes : B::kRightToes;
-  const double upper = 1.0 + glm::dot(view.bone(limb.upper, limb.lower), view.up);
-  const double lower = 1.0 + glm::dot(view.bone(limb.lower, limb.end), view.up);
-  double low = view.height(limb.end);
-  if (view.found.joint(toes)) low = 0.5 * (low + view.height(toes));
-  return upper + lower + 2.0 * std::abs(low - floor) / length;
+/// How far a leg is from hanging straight: 0 at best.
+double leg_unrest(const Seen& view, const HumanLimb& limb) {
+  return 2.0 + glm::dot(view.bone(limb.upper, limb.lower), view.up) +
+         glm::dot(view.bone(limb.lower, limb.end), view.up);
+}
+
+/// A foot that bears is as low as it gets.
+double foot_height(const Seen& view, std::size_t side) {
+  const B foot = side == 0 ? B::kLeftFoot : B::kRightFoot;
+  const B toes = side == 0 ? B::kLeftToes : B::kRightToes;
+  const double ankle = view.height(foot);
+  return view.found.joint(toes) ? 0.5 * (ankle + view.height(toes)) : ankle;
 }
 
 /// An arm may hang, or lie anywhere else in the plane of the body's sides, if straight.
@@ -85,7 +90,8 @@ double trunk_unrest(const Seen& view) {
   return sum;
 }
 
-/// Which part each joint belongs to: a limb from its root down, else the trunk.
+/// Which part each joint belongs to: a limb from its root to a foot, a foot, else the
+/// trunk.
 std::vector<std::size_t> parts_of(const Skeleton& skeleton, const FoundBones& found) {
   std::vector<std::size_t> parts(skeleton.joints.size(), kTrunk);
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -94,45 +100,25 @@ std::vector<std::size_t> parts_of(const Skeleton& skeleton, const FoundBones& fo
     for (std::size_t limb = 0; limb < 4; ++limb) {
       const auto root = found.joint(human_limbs()[limb].upper);
       if (root && index(*root) == i) parts[i] = limb;
+      const auto end = found.joint(human_limbs()[limb].end);
+      if (limb >= 2 && end && index(*end) == i) parts[i] = kFeet + limb - 2;
     }
   }
   return parts;
 }
 
-/// Where up is, and how low the feet get.
-struct Ground {
-  glm::dvec3 up{0.0};
-  std::array<double, 2> floor{};
-  double leg = 1e-9;
-};
-
-Ground ground_of(const Motion& motion,
+/// Most of the time hips are above feet.
+glm::dvec3 up_of(const Motion& motion,
                  const FoundBones& found,
                  std::span<RigidTransform> world) {
-  const Skeleton& skeleton = motion.skeleton;
-  const auto place = [&](JointIndex joint) { return world[index(joint)].translation; };
-  Ground ground;
-  // Most of the time hips are above feet.
+  glm::dvec3 up(0.0);
   for (const Pose& pose : motion.poses) {
-    world_from_joints(skeleton, pose, world);
-    const Places p = places_of(found, place);
-    ground.up += unit_of(p.mid_hip() - p.mid_foot());
-    ground.leg = std::max(ground.leg, glm::distance(p.hip[0], p.foot[0]));
+    world_from_joints(motion.skeleton, pose, world);
+    const Places p =
+        places_of(found, [&](JointIndex joint) { return world[index(joint)].translation; });
+    up += unit_of(p.mid_hip() - p.mid_foot());
   }
-  ground.up = snapped(unit_of(ground.up), 0.8);
-  ground.floor.fill(std::numeric_limits<double>::infinity());
-  for (const Pose& pose : motion.poses) {
-    world_from_joints(skeleton, pose, world);
-    const Seen view{found, world, ground.up};
-    for (std::size_t side = 0; side < 2; ++side) {
-      const B foot = side == 0 ? B::kLeftFoot : B::kRightFoot;
-      const B toes = side == 0 ? B::kLeftToes : B::kRightToes;
-      double low = view.height(foot);
-      if (found.joint(toes)) low = 0.5 * (low + view.height(toes));
-      ground.floor[side] = std::min(ground.floor[side], low);
-    }
-  }
-  return ground;
+  return snapped(unit_of(up), 0.8);
 }
 
 glm::dquat facing(const Seen& view) {
@@ -142,49 +128,61 @@ glm::dquat facing(const Seen& view) {
   return rotation_between(view.front, usual);
 }
 
-}  // namespace
+double unrest_of(const Seen& view, std::size_t part) {
+  if (part == kTrunk) return trunk_unrest(view);
+  if (part >= kFeet) return foot_height(view, part - kFeet);
+  const HumanLimb& limb = human_limbs()[part];
+  return part < 2 ? arm_unrest(view, limb) : leg_unrest(view, limb);
+}
 
-void rest_as_standing(Motion& motion, const FoundBones& found) {
-  Skeleton& skeleton = motion.skeleton;
-  std::vector<RigidTransform> world(skeleton.joints.size());
-  const Ground ground = ground_of(motion, found, world);
+/// The frame in which each part stands best.
+std::array<std::size_t, kParts> best_frames(const Motion& motion,
+                                            const FoundBones& found,
+                                            const glm::dvec3& up,
+                                            std::span<RigidTransform> world) {
   std::array<double, kParts> least{};
   least.fill(std::numeric_limits<double>::infinity());
   std::array<std::size_t, kParts> frame{};
   for (std::size_t i = 0; i < motion.poses.size(); ++i) {
-    world_from_joints(skeleton, motion.poses[i], world);
-    const Seen view = seen(found, world, ground.up);
+    world_from_joints(motion.skeleton, motion.poses[i], world);
+    const Seen view = seen(found, world, up);
     for (std::size_t part = 0; part < kParts; ++part) {
-      double unrest = 0.0;
-      if (part == kTrunk) {
-        unrest = trunk_unrest(view);
-      } else if (part < 2) {
-        unrest = arm_unrest(view, human_limbs()[part]);
-      } else {
-        unrest =
-            leg_unrest(view, human_limbs()[part], ground.floor[part - 2], ground.leg);
-      }
+      const double unrest = unrest_of(view, part);
       if (unrest >= least[part]) continue;
       least[part] = unrest;
       frame[part] = i;
     }
   }
+  return frame;
+}
+
+}  // namespace
+
+void rest_as_standing(Motion& motion, const FoundBones& found) {
+  Skeleton& skeleton = motion.skeleton;
+  std::vector<RigidTransform> world(skeleton.joints.size());
+  const glm::dvec3 up = up_of(motion, found, world);
+  const auto frame = best_frames(motion, found, up, world);
   const std::vector<std::size_t> parts = parts_of(skeleton, found);
   std::vector<glm::dquat> rest(skeleton.joints.size());
+  double feet = 0.0;  // How high both are when they bear.
   for (std::size_t part = 0; part < kParts; ++part) {
     world_from_joints(skeleton, motion.poses[frame[part]], world);
-    const glm::dquat turn = facing(seen(found, world, ground.up));
+    const Seen view = seen(found, world, up);
+    const glm::dquat turn = facing(view);
     for (std::size_t i = 0; i < rest.size(); ++i) {
       if (parts[i] == part) rest[i] = glm::normalize(turn * world[i].rotation);
     }
+    if (part >= kFeet) feet += 0.5 * foot_height(view, part - kFeet);
   }
-  const glm::dvec3 root =
-      ground.up * glm::dot(motion.poses[frame[kTrunk]].root_in_world, ground.up);
-  const Pose pose = pose_from_world(skeleton, root, rest);
+  Pose pose = pose_from_world(skeleton, glm::dvec3(0.0), rest);
+  world_from_joints(skeleton, pose, world);
+  const Seen stands = seen(found, world, up);
+  const double now = 0.5 * (foot_height(stands, 0) + foot_height(stands, 1));
   for (std::size_t i = 0; i < rest.size(); ++i) {
     skeleton.joints[i].parent_from_joint.rotation = pose.parent_from_joint[i];
   }
-  skeleton.joints[0].parent_from_joint.translation = root;
+  skeleton.joints[0].parent_from_joint.translation = (feet - now) * up;
 }
 
 }  // namespace marey::retarget
