@@ -34,7 +34,8 @@ template <class F>
     const F error = length(p.error);
     const Mask<F> asked = is_asked(point, p, level);
     const Mask<F> held = asked & ((p.holds > zero) | (num<F>(point.level) < num<F>(1)));
-    out.worst_over_precision = max(out.worst_over_precision, error * p.per_precision);
+    const F counts = select(is_served(point, p, level), p.per_precision, zero);
+    out.worst_over_precision = max(out.worst_over_precision, error * counts);
     out.worst = max(out.worst, error);
     out.held = select(held, max(out.held, error), out.held);
     const F weight = select(asked, p.weight, zero);

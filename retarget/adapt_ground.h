@@ -135,15 +135,17 @@ template <class F>
   return drop;
 }
 
-/// How far, along the floor, the root has to go back towards its footprints.
+/// How far, along the floor, the root has to go back towards its footprints: each time
+/// for the leg that lacks most.
 template <class F>
 [[nodiscard]] Vec3<F> stride_excess(const Plan& plan,
                                     const SolveSettings& settings,
                                     Lanes<F>& s) {
   const F zero = num<F>(0);
   Vec3<F> shift{zero, zero, zero};
-  for (int round = 0; round < 4; ++round) {
-    Mask<F> moved = zero > num<F>(1);
+  for (int round = 0; round < 8; ++round) {
+    F most = zero;
+    Vec3<F> step{zero, zero, zero};
     for_each_stand<F>(
         plan, settings, s, [&](const LimbPlan& limb, const auto& stand, auto&) {
           const Vec3<F> was = s.reference_place[static_cast<std::size_t>(limb.end)] -
@@ -155,12 +157,13 @@ template <class F>
           const F across = sqrt(leg.x * leg.x + leg.z * leg.z);
           const Mask<F> far =
               stand.active & (across > longest + num<F>(kOnFootprint) * stand.reach);
-          const F back =
-              select(far, (across - longest) / max(across, num<F>(1e-6)), zero);
-          shift += Vec3<F>{back * leg.x, zero, back * leg.z};
-          moved = moved | far;
+          const F excess = select(far, across - longest, zero);
+          const F back = excess / max(across, num<F>(1e-6));
+          step = select(excess > most, Vec3<F>{back * leg.x, zero, back * leg.z}, step);
+          most = max(most, excess);
         });
-    if (!any(moved)) break;
+    if (!any(most > zero)) break;
+    shift += step;
   }
   return shift;
 }

@@ -25,6 +25,8 @@ struct LanePoint {
   Vec3<F> in_joint;  ///< The constrained point.
   LaneGoal<F> goal;
   F active{};         ///< 1 or 0.
+  F asked{};          ///< 1: active; the thesis' method has one level active at a time.
+  F firm{};           ///< 1: it is on a foot that stands.
   F weight{};         ///< Of blending: importance over the largest; 1 otherwise.
   F per_precision{};  ///< One over the precision.
   Vec3<F> place;      ///< In the world, at this moment.

@@ -72,6 +72,12 @@ void load_wishes(const Plan& plan, const float* packed, int lane, Lanes<F>& s) {
     from.get(p.active);
     from.get(p.weight);
     from.get(p.per_precision);
+    // Supports come first.
+    for (const int support : plan.points[k].firm_under) {
+      const auto i = static_cast<std::size_t>(support);
+      if (support == plan.points[k].firm_under.front()) lane_of(p.firm, lane) = 0;
+      if (lane_of(s.points[i].active, lane) > 0) lane_of(p.firm, lane) = 1;
+    }
   }
 }
 

@@ -41,6 +41,15 @@ template <class F>
   return s.place[j] + rotate(s.rotation[j], p.in_joint);
 }
 
+/// Where the other point of a distance within the body is.
+template <class F>
+[[nodiscard]] inline Vec3<F> other_place(const PointPlan& point,
+                                         const LanePoint<F>& p,
+                                         const Lanes<F>& s) {
+  const auto o = static_cast<std::size_t>(point.other_joint);
+  return s.place[o] + rotate(s.rotation[o], p.goal.b);
+}
+
 /// Where a wish wants its point, which is at `p.place` (thesis 3.3: one conversion per
 /// type).
 template <class F>
@@ -53,11 +62,8 @@ template <class F>
     case GoalKind::kDistanceToPoint:
       return point.at_distance ? at_distance(p.place, p.goal.a, p.goal.distance)
                                : p.goal.a;
-    case GoalKind::kDistanceToOther: {
-      const auto o = static_cast<std::size_t>(point.other_joint);
-      return at_distance(
-          p.place, s.place[o] + rotate(s.rotation[o], p.goal.b), p.goal.distance);
-    }
+    case GoalKind::kDistanceToOther:
+      return at_distance(p.place, other_place(point, p, s), p.goal.distance);
     case GoalKind::kAllowedSpace:
       return inside(p.place, p.goal.a, p.goal.b);
     case GoalKind::kForbiddenSpace:
@@ -69,6 +75,16 @@ template <class F>
   return p.goal.a;
 }
 
+/// Where a wish whose level is done keeps its point (hold_point() in adapt_solve.h).
+template <class F>
+[[nodiscard]] inline Vec3<F> held_target(const PointPlan& point,
+                                         const LanePoint<F>& p,
+                                         const Lanes<F>& s) {
+  if (point.turns_only()) return p.target - p.held;
+  if (point.goal != GoalKind::kDistanceToOther) return p.held;
+  return at_distance(p.place, other_place(point, p, s), p.held.x);
+}
+
 /// Places, targets and errors of all wishes.
 template <class F>
 void measure_points(const Plan& plan, Lanes<F>& s, const F& level) {
@@ -78,8 +94,8 @@ void measure_points(const Plan& plan, Lanes<F>& s, const F& level) {
     LanePoint<F>& p = s.points[k];
     p.place = place_of(point, p, s);
     p.target = target_of(point, p, s);
-    if (!point.turns_only() && point.level > 0) {
-      p.target = select(p.holds > zero, p.held, p.target);
+    if (point.level > 0 && any(p.holds > zero)) {
+      p.target = select(p.holds > zero, held_target(point, p, s), p.target);
     }
     const Mask<F> asked = (p.active > zero) & (num<F>(point.level) <= level);
     const Vec3<F> none{zero, zero, zero};

@@ -179,6 +179,27 @@ void add_points(const Character& character,
   }
 }
 
+// What belongs to a foot that stands is where it is: a foot that is turned as it should
+// be wholly, another at the joint that stands.
+void find_firm_points(const ConstraintSet& constraints, Plan& plan) {
+  const auto is_at_its_joint = [&](const PointPlan& point) {
+    return is_at_joint(constraints.constraints[at(point.constraint)]);
+  };
+  for (PointPlan& point : plan.points) {
+    if (point.level == 0 || point.goal == GoalKind::kDistanceToOther) continue;
+    for (std::size_t k = 0; k < plan.points.size() && plan.points[k].level == 0; ++k) {
+      const PointPlan& support = plan.points[k];
+      if (support.limb < 0) continue;
+      const int end = plan.limbs[at(support.limb)].end;
+      const bool flat = support.stands_flat && support.joint == end &&
+                        plan.is_at_or_below(point.joint, end);
+      const bool same = support.joint == point.joint && !point.turns_only() &&
+                        is_at_its_joint(support) && is_at_its_joint(point);
+      if (flat || same) point.firm_under.push_back(static_cast<int>(k));
+    }
+  }
+}
+
 // A point at its joint's own place is moved by no turn of that joint.
 void drop_idle_turns(const ConstraintSet& constraints, Plan& plan) {
   for (PointPlan& point : plan.points) {
@@ -190,10 +211,14 @@ void drop_idle_turns(const ConstraintSet& constraints, Plan& plan) {
 
 void set_turning(Plan& plan, bool balance) {
   plan.turning.assign(at(plan.joint_count), Turning::kRigid);
+  plan.turns_from.assign(at(plan.joint_count), 0);
+  // The most important come first.
   for (const PointPlan& point : plan.points) {
     for (const int j : point.chain) {
+      if (plan.turning[at(j)] != Turning::kRigid) continue;
       plan.turning[at(j)] =
           plan.limb_of_hinge[at(j)] >= 0 ? Turning::kHinge : Turning::kBall;
+      plan.turns_from[at(j)] = point.level;
     }
   }
   for (const GroupPlan& group : plan.groups) {
@@ -201,12 +226,15 @@ void set_turning(Plan& plan, bool balance) {
     for (const int j : group.joints) {
       const bool last =
           group.limb >= 0 && plan.is_at_or_below(j, plan.limbs[at(group.limb)].end);
-      if (last || plan.turning[at(j)] != Turning::kRigid) continue;
+      if (last) continue;
+      plan.turns_from[at(j)] = 0;
+      if (plan.turning[at(j)] != Turning::kRigid) continue;
       plan.turning[at(j)] =
           plan.limb_of_hinge[at(j)] >= 0 ? Turning::kHinge : Turning::kBall;
     }
   }
   plan.turning[0] = Turning::kBall;
+  plan.turns_from[0] = 0;
 }
 
 void set_live(Plan& plan) {
@@ -223,6 +251,10 @@ void set_live(Plan& plan) {
   for (const PointPlan& point : plan.points) {
     touch(point.joint);
     if (point.other_joint >= 0) touch(point.other_joint);
+  }
+  // The thesis' method turns a section as a whole.
+  for (const std::vector<int>& section : plan.sections) {
+    if (plan.turning[at(section.front())] != Turning::kRigid) touch(section.back());
   }
   for (const LimbPlan& limb : plan.limbs) touch(limb.end);
   if (plan.has_hamstrings()) touch(plan.abdomen_high);
@@ -324,6 +356,7 @@ Plan make_plan(const Character& character,
   plan.limb_of_hinge.assign(at(plan.joint_count), -1);
   add_groups(character, plan);
   add_points(character, constraints, plan);
+  find_firm_points(constraints, plan);
   drop_idle_turns(constraints, plan);
   for (const PointPlan& point : plan.points) {
     plan.has_supports = plan.has_supports || point.goal == GoalKind::kSupport;

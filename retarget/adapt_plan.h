@@ -49,7 +49,9 @@ struct PointPlan {
   /// An orientation of a limb's extremity: set as it is asked, by no step of the body.
   bool direct = false;
   bool stands_flat = false;  ///< A support that has its foot's orientation, too.
-  std::vector<int> chain;    ///< Joints that turn for it, from its own to `top`.
+  /// Supports whose foot it is a point of: nothing moves it while one of them stands.
+  std::vector<int> firm_under;
+  std::vector<int> chain;  ///< Joints that turn for it, from its own to `top`.
   [[nodiscard]] bool turns_only() const { return goal == GoalKind::kOrientation; }
   bool operator==(const PointPlan&) const = default;
 };
@@ -108,6 +110,8 @@ struct Plan {
   int joint_count = 0;
   std::vector<int> parent;
   std::vector<Turning> turning;
+  /// Per joint: the first level of importance that it turns for; 0 where it turns anyway.
+  std::vector<int> turns_from;
   std::vector<int> limb_of_hinge;  ///< Per joint; -1.
   /// Joints that whole-body steps must follow: they turn, carry a point, or lead to one
   /// that does. The others hang rigidly from those.

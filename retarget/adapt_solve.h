@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "retarget/adapt_errors.h"
 #include "retarget/adapt_ground.h"
-#include "retarget/close_limbs.h"
-#include "retarget/whole_body_solve.h"
+#include "retarget/adapt_levels.h"
 
 /// The strict method, over lanes.
 ///
@@ -22,9 +20,12 @@
 ///    starts to help before an arm is straight, and by nothing at first.
 ///
 /// All levels of importance are tried at once. Where that does not meet every wish, and
-/// importance is priority, they are solved from the reference again, one after the other:
-/// what the higher have reached is held, and a step that takes some of it away does not
-/// count. Supports come before the centre of mass, and that before constraints.
+/// importance is priority, the last is left out and the others are tried from the
+/// reference again, until all that are left are met or one level is left: to the bit what
+/// would come out if the less important were not there. What was reached is held, and the
+/// levels that were left out get what they can, one after the other: a step that takes
+/// some of it away does not count. Supports come before the centre of mass, and that
+/// before constraints.
 namespace marey::retarget {
 
 /// Up to here, in reaches of its limb, a wish is the limb's alone.
@@ -38,43 +39,9 @@ inline constexpr int kHomingStepsBalanced = 3;
 inline constexpr double kHomingFades = 0.5;
 /// The third step in a row that hardly helps ends the loop.
 inline constexpr double kStalledSteps = 2.5;
-/// Held points may give way by this much, in units: rounding's.
-inline constexpr double kHeldSlack = 2e-5;
-/// Steps for supports and balance alone, after constraints took balance away.
-inline constexpr int kBalanceSteps = 10;
 /// Mobility per unit of an error that limbs cannot mend.
 inline constexpr double kHelpPerUnit = 10.0;
 inline constexpr double kHelpPerUnitMissing = 2.0;
-
-/// What is kept of a solve from one turn of its loop to the next.
-template <class F>
-struct Solve {
-  Progress<F> progress;
-  F needs_body{};  ///< 0: limbs were enough.
-  F held_error{};  ///< Of held points, when their level was done.
-  F by_level{};    ///< 1: all levels at once did not do.
-};
-
-/// What of a plan the strict method goes by.
-struct Shape {
-  RowOrder rows;
-  double last_level = 1.0;  ///< Of importance; 1 is the highest.
-  bool by_level = true;     ///< Control::kPriority.
-};
-
-/// Live joints as `rotation` and `place` have them, in the lanes of `mask`.
-template <class F>
-void take_posture(const std::vector<Quat<F>>& rotation,
-                  const std::vector<Vec3<F>>& place,
-                  const Plan& plan,
-                  const Mask<F>& mask,
-                  Lanes<F>& s) {
-  for (const int j : plan.live) {
-    const auto i = static_cast<std::size_t>(j);
-    s.rotation[i] = select(mask, rotation[i], s.rotation[i]);
-    s.place[i] = select(mask, place[i], s.place[i]);
-  }
-}
 
 /// How much the trunk has to help, before limbs moved: 0 while every limb stays in
 /// comfortable reach of its wish, or no further stretched or folded than in the
@@ -89,7 +56,7 @@ template <class F>
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const PointPlan& point = plan.points[k];
     const LanePoint<F>& p = s.points[k];
-    const Mask<F> asked = is_asked(point, p, level);
+    const Mask<F> asked = is_served(point, p, level);
     // The distance of a point on the upper bone is what it is.
     if (point.direct || (point.limb >= 0 && point.place == LimbPlace::kUpper)) continue;
     if (point.limb < 0) {
@@ -113,7 +80,8 @@ template <class F>
     const F least = abs(near_bone - far_bone) * over_reach;
     const F fold = min(now, least + num<F>(0.12));
     const F tight = min((fold - wanted) / max(fold - least, num<F>(0.002)), one);
-    // A folded limb has next to no lever: a thousandth of the trunk's mobility outdoes it.
+    // A folded limb has next to no lever: a thousandth of the trunk's mobility outdoes
+    // it.
     const F folded = tight * tight * tight * smooth(tight);
     share = select(asked, max(share, max(stretch, folded)), share);
   }
@@ -126,10 +94,51 @@ template <class F>
 template <class F>
 [[nodiscard]] F help_missing(const Errors<F>& errors) {
   const F one = num<F>(1);
-  const F beyond = max(one - num<F>(0.5) / max(errors.worst_over_precision, num<F>(1e-6)),
-                       num<F>(0));
+  const F beyond =
+      max(one - num<F>(0.5) / max(errors.worst_over_precision, num<F>(1e-6)), num<F>(0));
   const F help = num<F>(kHelpPerUnitMissing) * errors.worst * beyond * beyond;
   return min(select(help < num<F>(1e-7), num<F>(0), help), one);
+}
+
+/// Starts lanes of `mask` from their reference, for wishes up to `level`: as if there
+/// were no others. Those that need the whole body are told, and measured if there are
+/// any; limbs were enough for the rest.
+template <class F>
+[[nodiscard]] Mask<F> start_from_reference(const Plan& plan,
+                                           const Shape& shape,
+                                           const SolveSettings& settings,
+                                           const F& level,
+                                           const Mask<F>& mask,
+                                           Lanes<F>& s,
+                                           Solve<F>& solve) {
+  const F zero = num<F>(0);
+  const F one = num<F>(1);
+  take_posture(s.reference_rotation, s.reference_place, plan, mask, s);
+  Progress<F>& p = solve.progress;
+  measure_points(plan, s, level);
+  F share = one;
+  if (!shape.rows.balance) {
+    share = help_needed(plan, settings, level, s);
+    close_limbs(plan, settings, level, mask & (share < one), s);
+    const Errors<F> errors = measure(plan, false, level, s);
+    share = max(share, help_missing(errors));
+  }
+  s.mobility = select(mask, share, s.mobility);
+  p.steps = select(mask, zero, p.steps);
+  p.square = select(mask, zero, p.square);
+  p.merit = select(mask, num<F>(1e9), p.merit);
+  p.stalled = select(mask, zero, p.stalled);
+  p.damping = select(mask, num<F>(kLeastDamping), p.damping);
+  p.homing = select(mask, one, p.homing);
+  p.level = select(mask, level, p.level);
+  const Mask<F> loops = mask & (share > zero);
+  if (any(loops)) {
+    // Where no step is any good, what limbs did alone is the answer.
+    keep_as_best(plan, loops, s);
+    take_posture(s.reference_rotation, s.reference_place, plan, loops, s);
+    static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
+  }
+  return loops;
 }
 
 /// Starts lanes from their reference: places are those of the reference posture.
@@ -142,92 +151,39 @@ void begin_lanes(const Plan& plan,
                  Solve<F>& solve) {
   const F zero = num<F>(0);
   const F one = num<F>(1);
-  const F last = num<F>(shape.last_level);
   ground_reference(plan, settings, shape.rows.balance, mask, s);
-  take_posture(s.reference_rotation, s.reference_place, plan, mask, s);
   for (LanePoint<F>& p : s.points) p.holds = select(mask, zero, p.holds);
   Progress<F>& p = solve.progress;
-  measure_points(plan, s, last);
-  F share = one;
-  if (!shape.rows.balance) {
-    share = help_needed(plan, settings, last, s);
-    close_limbs(plan, settings, last, mask & (share < one), s);
-    const Errors<F> errors = measure(plan, false, last, s);
-    share = max(share, help_missing(errors));
-  }
-  solve.needs_body = select(mask, select(share > zero, one, zero), solve.needs_body);
-  s.mobility = select(mask, share, s.mobility);
-  p.iterations = select(mask, zero, p.iterations);
   p.capped = select(mask, zero, p.capped);
-  p.steps = select(mask, zero, p.steps);
-  p.square = select(mask, zero, p.square);
-  p.merit = select(mask, num<F>(1e9), p.merit);
-  p.stalled = select(mask, zero, p.stalled);
-  p.damping = select(mask, num<F>(kLeastDamping), p.damping);
-  p.homing = select(mask, one, p.homing);
-  p.level = select(mask, last, p.level);
-  solve.by_level = select(mask, zero, solve.by_level);
+  p.iterations = select(mask, zero, p.iterations);
+  solve.begun = select(mask, zero, solve.begun);
+  solve.holds = select(mask, zero, solve.holds);
   solve.held_error = select(mask, num<F>(1e9), solve.held_error);
-  const Mask<F> loops = mask & (share > zero);
-  if (any(loops)) {
-    // Where no step is any good, what limbs did alone is the answer.
-    for (const int j : plan.live) {
-      const auto i = static_cast<std::size_t>(j);
-      s.best_rotation[i] = select(loops, s.rotation[i], s.best_rotation[i]);
-      s.best_place[i] = select(loops, s.place[i], s.best_place[i]);
-    }
-    take_posture(s.reference_rotation, s.reference_place, plan, loops, s);
-    static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
-  }
+  solve.held_balance = select(mask, num<F>(1e9), solve.held_balance);
+  F last = num<F>(shape.last_level);
+  if (shape.last_level > 1.0) last = min(last, asked_level_before(plan, last + one, s));
+  solve.last_level = select(mask, last, solve.last_level);
+  const Mask<F> loops = start_from_reference(plan, shape, settings, last, mask, s, solve);
+  solve.needs_body = select(mask, select(loops, one, zero), solve.needs_body);
 }
 
-/// Closes a level: what it reached is held from now on, and the next begins from there.
+/// All levels up to a lane's own could not be met at once: without the last of them, from
+/// the reference again.
 template <class F>
-void next_level(const Plan& plan,
-                const Shape& shape,
-                const Mask<F>& mask,
-                Lanes<F>& s,
-                Solve<F>& solve) {
+void leave_last_level(const Plan& plan,
+                      const Shape& shape,
+                      const SolveSettings& settings,
+                      const Mask<F>& mask,
+                      Lanes<F>& s,
+                      Solve<F>& solve) {
   Progress<F>& p = solve.progress;
-  take_posture(s.best_rotation, s.best_place, plan, mask, s);
-  static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
-  for (std::size_t k = 0; k < plan.points.size(); ++k) {
-    const F level = num<F>(plan.points[k].level);
-    LanePoint<F>& point = s.points[k];
-    const Mask<F> held =
-        mask & (level > num<F>(0)) & (level <= p.level) & (point.holds < num<F>(0.5));
-    point.held = select(held, point.place, point.held);
-    point.holds = select(held, num<F>(1), point.holds);
-  }
-  p.level = select(mask, p.level + num<F>(1), p.level);
-  const Errors<F> errors = measure(plan, shape.rows.balance, p.level, s);
-  // Doing nothing for the next level is the first answer.
-  p.merit = select(mask, sqrt(errors.square), p.merit);
-  p.square = select(mask, errors.square, p.square);
-  solve.held_error = select(mask, errors.held + num<F>(kHeldSlack), solve.held_error);
-  p.stalled = select(mask, num<F>(0), p.stalled);
-  p.damping = select(mask, num<F>(kLeastDamping), p.damping);
-  p.homing = select(mask, num<F>(0), p.homing);
-  s.mobility = select(mask, num<F>(1), s.mobility);
-}
-
-/// All levels at once could not be met: from the reference again, one after the other.
-template <class F>
-void begin_levels(const Plan& plan,
-                  const Shape& shape,
-                  const Mask<F>& mask,
-                  Lanes<F>& s,
-                  Solve<F>& solve) {
-  const F one = num<F>(1);
-  Progress<F>& p = solve.progress;
-  take_posture(s.reference_rotation, s.reference_place, plan, mask, s);
-  solve.by_level = select(mask, one, solve.by_level);
-  p.level = select(mask, one, p.level);
-  p.steps = select(mask, num<F>(0), p.steps);
-  p.merit = select(mask, num<F>(1e9), p.merit);
-  p.stalled = select(mask, num<F>(0), p.stalled);
-  p.damping = select(mask, num<F>(kLeastDamping), p.damping);
-  p.homing = select(mask, one, p.homing);
+  solve.begun = select(mask, p.iterations, solve.begun);
+  const F level = asked_level_before(plan, p.level, s);
+  const Mask<F> loops =
+      start_from_reference(plan, shape, settings, level, mask, s, solve);
+  const Mask<F> limbs_do = mask & !loops;
+  keep_as_best(plan, limbs_do, s);
+  if (any(limbs_do)) next_level(plan, shape, settings, limbs_do, s, solve);
   static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
 }
 
@@ -264,18 +220,14 @@ template <class F>
 
   const F merit = sqrt(errors.square) + num<F>(4) * errors.balance;
   const Mask<F> homes = p.homing > zero;
+  const Mask<F> kept =
+      (errors.held <= solve.held_error) & (errors.balance <= solve.held_balance);
   const Mask<F> met = (errors.worst_over_precision <= one) &
-                      (errors.balance <= s.balance_precision) &
-                      (errors.held <= solve.held_error);
+                      (errors.balance <= s.balance_precision) & kept;
   // Of postures that are all good enough the last counts.
-  const Mask<F> better =
-      (met | ((merit < p.merit) & (errors.held <= solve.held_error))) & !homes;
-  const F gain = p.merit - merit;
-  for (const int j : plan.live) {
-    const auto i = static_cast<std::size_t>(j);
-    s.best_rotation[i] = select(better, s.rotation[i], s.best_rotation[i]);
-    s.best_place[i] = select(better, s.place[i], s.best_place[i]);
-  }
+  const Mask<F> better = (met | ((merit < p.merit) & kept)) & !homes;
+  const F gain = select(better | homes, p.merit - merit, zero);
+  keep_as_best(plan, better, s);
   p.merit = select(better, merit, p.merit);
   p.square = select(better | homes, errors.square, p.square);
   // A step that made things worse is taken back and tried again, more carefully; not
@@ -287,53 +239,24 @@ template <class F>
   }
   p.damping = select(worse, num<F>(8) * p.damping, p.damping);
   const Mask<F> idle = gain < max(s.threshold, num<F>(0.002) * p.merit);
-  p.stalled = select(idle & !homes, p.stalled + one, zero);
+  // A step that would help, but not without cost to what is held, may be too long.
+  const F counts = select(kept, one, num<F>(0.5));
+  p.stalled = select(idle & !homes, p.stalled + counts, zero);
   // Homing is never cut short: a posture on its way is nobody's answer.
-  const Mask<F> capped = (p.iterations >= num<F>(settings.max_iterations)) & !homes;
+  const Mask<F> capped =
+      (p.iterations - solve.begun >= num<F>(settings.max_iterations)) & !homes;
   const Mask<F> is_done = (met & !homes) | (p.stalled > num<F>(kStalledSteps));
-  const F levels = num<F>(shape.last_level);
-  const Mask<F> has_levels = levels > one;
-  const Mask<F> wants_split =
-      has_levels & (solve.by_level < num<F>(shape.by_level ? 0.5 : -1.0)) & !met;
-  const Mask<F> wants_next =
-      has_levels & (solve.by_level > num<F>(0.5)) & (p.level < levels);
-  const Mask<F> splits = is_done & !capped & wants_split;
-  const Mask<F> next = is_done & !capped & wants_next;
-  const Mask<F> cut = capped & ((!is_done) | wants_split | wants_next);
-  p.capped = select(cut, one, zero);
-  if (any(next)) next_level(plan, shape, next, s, solve);
-  if (any(splits)) begin_levels(plan, shape, splits, s, solve);
-  return (is_done | capped) & !(next | splits);
-}
-
-/// Brings the centre of mass where it has to be, for supports alone: constraints that
-/// cannot be reached must not take balance away. Lanes in balance stay as they are.
-template <class F>
-void settle_balance(const Plan& plan,
-                    const Shape& shape,
-                    const SolveSettings& settings,
-                    const Mask<F>& mask,
-                    Lanes<F>& s) {
-  const F zero = num<F>(0);
-  Progress<F> alone{};
-  alone.damping = num<F>(kLeastDamping);
-  const F mobility = s.mobility;
-  for (int round = 0; round < kBalanceSteps; ++round) {
-    const Errors<F> errors = measure(plan, true, zero, s);
-    const Mask<F> off = mask & (errors.balance > s.balance_precision);
-    if (!any(off)) break;
-    for (const int j : plan.live) {
-      const auto i = static_cast<std::size_t>(j);
-      s.kept_rotation[i] = s.rotation[i];
-      s.kept_place[i] = s.place[i];
-    }
-    s.mobility = num<F>(1);
-    step_whole_body(plan, shape.rows, alone, s);
-    measure_points(plan, s, zero);
-    close_limbs(plan, settings, zero, off, s);
-    take_posture(s.kept_rotation, s.kept_place, plan, !off, s);
-    s.mobility = mobility;
-  }
+  const Mask<F> ended = is_done | capped;
+  p.capped = select(capped & !is_done, one, p.capped);
+  if (!shape.by_level || shape.last_level < 2.0) return ended;
+  const Mask<F> holds = solve.holds > num<F>(0.5);
+  const Mask<F> last = p.level >= solve.last_level;
+  const Mask<F> first = p.level <= asked_level_before(plan, p.level, s);
+  const Mask<F> leaves = ended & !(met | holds | first);
+  const Mask<F> next = ended & !(last | leaves);
+  if (any(next)) next_level(plan, shape, settings, next, s, solve);
+  if (any(leaves)) leave_last_level(plan, shape, settings, leaves, s, solve);
+  return ended & !(next | leaves);
 }
 
 /// The final posture of lanes that are done. Leaves its measures.
@@ -346,16 +269,7 @@ template <class F>
                                      Solve<F>& solve) {
   const F last = num<F>(shape.last_level);
   const Mask<F> looped = mask & (solve.needs_body > num<F>(0));
-  take_posture(s.best_rotation, s.best_place, plan, looped, s);
-  if (any(looped)) {
-    // A second time: the first left single precision's error in the bend of a limb that
-    // went far.
-    measure_points(plan, s, last);
-    SolveSettings told = settings;
-    told.mixes = false;
-    close_limbs(plan, told, last, looped, s);
-    if (shape.rows.balance) settle_balance(plan, shape, settings, looped, s);
-  }
+  if (any(looped)) finish_level(plan, shape, settings, last, looped, s, solve);
   for (LanePoint<F>& p : s.points) p.holds = select(mask, num<F>(0), p.holds);
   return measure(plan, shape.rows.balance, last, s);
 }

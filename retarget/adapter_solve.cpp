@@ -119,7 +119,7 @@ void Adapter::State::solve_for(double least, LaneFigures<float>& figures) {
     begin_thesis(plan, thesis, told, true, lanes, solve);
     while (!advance_thesis(plan, thesis, told, lanes, solve)) {
     }
-    add(finish_thesis(plan, thesis, told, true, lanes));
+    add(finish_thesis(plan, thesis, told, true, lanes, solve));
     return;
   }
   begin_lanes(plan, form, told, true, lanes, solve);

@@ -23,6 +23,15 @@ template <class F>
   return (p.active > num<F>(0)) & (num<F>(point.level) <= level);
 }
 
+/// Whether the body does anything for a wish: not for a point of a foot that stands.
+template <class F>
+[[nodiscard]] inline Mask<F> is_served(const PointPlan& point,
+                                       const LanePoint<F>& p,
+                                       const F& level) {
+  const Mask<F> asked = is_asked(point, p, level);
+  return point.firm_under.empty() ? asked : asked & (p.firm < num<F>(0.5));
+}
+
 /// Where a point has to go for the limb to bring it there: a point on an extremity that
 /// has an orientation of its own asks the wrist or ankle to stand off by as much.
 template <class F>
@@ -82,7 +91,7 @@ void close_first_again(const Plan& plan,
     if (k == later) return;
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
     LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
-    const Mask<F> first = left & is_asked(point, p, level);
+    const Mask<F> first = left & is_served(point, p, level);
     if (!any(first)) continue;
     p.place = place_of(point, p, s);
     const LimbWish<F> wish = wish_of(limb, point, p, extremity, s);
@@ -109,7 +118,7 @@ void close_limb(const Plan& plan,
       const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
       const F counts = num<F>(point.goal == GoalKind::kSupport ? -9 : 1);
       wishes =
-          wishes + select(is_asked(point, s.points[static_cast<std::size_t>(k)], level),
+          wishes + select(is_served(point, s.points[static_cast<std::size_t>(k)], level),
                           counts,
                           num<F>(0));
     }
@@ -122,7 +131,7 @@ void close_limb(const Plan& plan,
   for (const int k : limb.points) {
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
     LanePoint<F>& p = s.points[static_cast<std::size_t>(k)];
-    const Mask<F> asked = mask & is_asked(point, p, level);
+    const Mask<F> asked = mask & is_served(point, p, level);
     if (!any(asked)) continue;
     p.place = place_of(point, p, s);
     const LimbWish<F> wish = wish_of(limb, point, p, extremity, s);
@@ -173,7 +182,7 @@ void rest_limbs(const Plan& plan, const F& level, const Mask<F>& mask, Lanes<F>&
     Mask<F> wished = num<F>(0) > num<F>(1);
     for (const int k : limb.points) {
       const auto i = static_cast<std::size_t>(k);
-      wished = wished | is_asked(plan.points[i], s.points[i], level);
+      wished = wished | is_served(plan.points[i], s.points[i], level);
     }
     wished = wished & mask;
     for (const int j : limb.own) {
@@ -187,7 +196,8 @@ void rest_limbs(const Plan& plan, const F& level, const Mask<F>& mask, Lanes<F>&
 }
 
 /// Moves the root by the least that brings every support within its leg's reach, if one
-/// place does (alternating projections). Thesis 4.2.4: supports are always satisfied.
+/// place does (projections, each time for the leg that lacks most, so that no leg comes
+/// first). Thesis 4.2.4: supports are always satisfied.
 template <class F>
 void reach_supports(const Plan& plan,
                     const SolveSettings& settings,
@@ -196,7 +206,9 @@ void reach_supports(const Plan& plan,
   const F zero = num<F>(0);
   Vec3<F> shift{zero, zero, zero};
   Mask<F> left = mask;
-  for (int round = 0; round < 8; ++round) {
+  for (int round = 0; round < 16; ++round) {
+    F most = num<F>(1e-7);
+    Vec3<F> step{zero, zero, zero};
     Mask<F> moved = num<F>(0) > num<F>(1);
     for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
       const LimbPlan& limb = plan.limbs[l];
@@ -215,10 +227,13 @@ void reach_supports(const Plan& plan,
         const F distance = length(gap);
         const F excess =
             select(left & (p.active > zero), max(distance - reach, zero), zero);
-        shift += (excess / max(distance, num<F>(1e-6))) * gap;
-        moved = moved | (excess > num<F>(1e-7));
+        const Mask<F> takes = excess > most;
+        step = select(takes, (excess / max(distance, num<F>(1e-6))) * gap, step);
+        most = max(most, excess);
+        moved = moved | takes;
       }
     }
+    shift += step;
     if (!any(moved)) break;
     // Who is near enough stays there, however many rounds others take.
     left = left & moved;

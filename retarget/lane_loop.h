@@ -101,7 +101,7 @@ class LaneLoop final : public LaneKernel {
     const Plan& plan = *task.plan;
     const Errors<F> errors =
         task.by_thesis
-            ? finish_thesis(plan, *task.thesis, task.settings, done, lanes_)
+            ? finish_thesis(plan, *task.thesis, task.settings, done, lanes_, solve_)
             : finish_lanes(plan, task.shape, task.settings, done, lanes_, solve_);
     const LaneFigures<F> figures{
         solve_.progress.iterations, solve_.progress.capped, errors.balance};

@@ -345,7 +345,8 @@ template <class F>
     if (!thesis.moves_root[k]) continue;
     const LanePoint<F>& p = s.points[k];
     measure_wish(plan, static_cast<int>(k), s);
-    const F weight = select(p.active > zero, p.weight, zero);
+    const F weight =
+        select(is_served(plan.points[k], p, num<F>(kAllLevels)), p.weight, zero);
     sum += weight * p.error;
     weights = weights + weight;
   }

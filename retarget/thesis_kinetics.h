@@ -61,10 +61,12 @@ template <class F>
   return rotation_onto(from_or_up, select(can, to, up), across(from_or_up));
 }
 
-/// Trunk and head: one rotation, shared by the joints of the group.
+/// Trunk and head: one rotation, shared by the joints of the group. `error`: how much of
+/// what balance lacks is theirs to bring.
 template <class F>
 void balance_with_segment(const Plan& plan,
                           const KineticGroup& group,
+                          const Vec3<F>& error,
                           const Mask<F>& mask,
                           Lanes<F>& s) {
   const auto root = static_cast<std::size_t>(group.root);
@@ -74,7 +76,7 @@ void balance_with_segment(const Plan& plan,
       (num<F>(1) / max(s.below_mass[root], num<F>(1e-9))) * s.below_moment[root];
   const Vec3<F> pivot = pivot_of(group.joints, s);
   const Vec3<F> from = com - pivot;
-  const Vec3<F> wanted = from + (num<F>(1) / max(share, num<F>(1e-4))) * balance_error(s);
+  const Vec3<F> wanted = from + (num<F>(1) / max(share, num<F>(1e-4))) * error;
   const Vec3<F> to = reached_by_turning(from, wanted, s.vertical);
   const F least2 = num<F>(1e-8);
   const Mask<F> can = weighs & (length2(from) > least2) & (length2(to) > least2);
@@ -94,6 +96,7 @@ template <class F>
 void balance_with_limb(const Plan& plan,
                        const KineticGroup& group,
                        const SolveSettings& settings,
+                       const Vec3<F>& error,
                        const Mask<F>& mask,
                        Lanes<F>& s) {
   const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(group.limb)];
@@ -118,8 +121,7 @@ void balance_with_limb(const Plan& plan,
       per_mass * (s.below_moment[u] - s.below_moment[l] + s.below_mass[l] * middle);
   const Vec3<F> from_centre = per_mass * lower;
   const Vec3<F> com = centre + from_centre;
-  const Vec3<F> wanted =
-      com - root + (num<F>(1) / max(share, num<F>(1e-4))) * balance_error(s);
+  const Vec3<F> wanted = com - root + (num<F>(1) / max(share, num<F>(1e-4))) * error;
   const Quat<F> bend = bend_to(limb_axis(limb, s, group.limb),
                                root - centre,
                                s.place[e] - middle,
@@ -160,9 +162,35 @@ void balance_with_root(const Plan& plan,
   measure_balance(plan, s);
 }
 
+/// All of what is left, along the axes that the root is willing to move along at all: the
+/// thesis ends each round with 100 %, and CnRoot only sets how much of it comes first.
+template <class F>
+[[nodiscard]] inline Vec3<F> all_of_root(const Lanes<F>& s) {
+  const F zero = num<F>(0);
+  const F one = num<F>(1);
+  const F floor = select(s.root_weight_on_floor > zero, one, zero);
+  return {floor, select(s.root_weight > zero, one, zero), floor};
+}
+
 template <class F>
 [[nodiscard]] inline Mask<F> is_unbalanced(const Lanes<F>& s) {
   return length(balance_error(s)) > s.balance_precision;
+}
+
+/// What groups of one rank are to bring of what balance lacks now, over the mass that the
+/// free ones have together: each as much as its own mass is of theirs, as if they were
+/// one. The thesis has them one after the other, and the left arm before the right.
+template <class F>
+[[nodiscard]] Vec3<F> error_per_mass(const ThesisPlan& thesis,
+                                     int rank,
+                                     const Lanes<F>& s) {
+  F mass = num<F>(0);
+  for (const KineticGroup& group : thesis.balancing) {
+    if (group.rank != rank) continue;
+    const F own = s.below_mass[static_cast<std::size_t>(group.root)];
+    mass = mass + select(is_free(group, s), own, num<F>(0));
+  }
+  return (num<F>(1) / max(mass, num<F>(1e-9))) * balance_error(s);
 }
 
 /// The kinetic half of an iteration (5.2.2): the root by CnRoot, the groups from heavy to
@@ -182,21 +210,31 @@ void adapt_balance(const Plan& plan,
   for (const KineticGroup& group : thesis.balancing) {
     has_groups = has_groups | is_free(group, s);
   }
-  const F floor = select(has_groups, s.root_weight_on_floor, one);
-  const F up = select(has_groups, s.root_weight, one);
+  const Vec3<F> all = all_of_root(s);
+  const F floor = select(has_groups, s.root_weight_on_floor, all.x);
+  const F up = select(has_groups, s.root_weight, all.y);
   balance_with_root(plan, settings, {floor, up, floor}, off, s);
+  int rank = -1;
+  Mask<F> still = off;
+  Vec3<F> per_mass{};
   for (const KineticGroup& group : thesis.balancing) {
-    const Mask<F> uses = off & is_free(group, s) & is_unbalanced(s);
+    if (group.rank != rank) {
+      rank = group.rank;
+      still = off & is_unbalanced(s);
+      per_mass = error_per_mass(thesis, rank, s);
+    }
+    const Mask<F> uses = still & is_free(group, s);
     if (!any(uses)) continue;
+    const Vec3<F> error = s.below_mass[static_cast<std::size_t>(group.root)] * per_mass;
     if (group.limb >= 0) {
-      balance_with_limb(plan, group, settings, uses, s);
+      balance_with_limb(plan, group, settings, error, uses, s);
     } else {
-      balance_with_segment(plan, group, uses, s);
+      balance_with_segment(plan, group, error, uses, s);
     }
     update_balance(plan, group.below, s);
   }
   const Mask<F> left = off & is_unbalanced(s);
-  if (any(left)) balance_with_root(plan, settings, {one, one, one}, left, s);
+  if (any(left)) balance_with_root(plan, settings, all, left, s);
 }
 
 }  // namespace marey::retarget

@@ -173,11 +173,11 @@ ThesisPlan make_thesis_plan(const Plan& plan) {
   builder.add_root();
   for (const GroupPlan& group : plan.groups) builder.add_balancing(group);
   ThesisPlan& out = builder.out;
-  std::stable_sort(out.balancing.begin(),
-                   out.balancing.end(),
-                   [&](const KineticGroup& a, const KineticGroup& b) {
-                     return weight_class(plan, a) < weight_class(plan, b);
-                   });
+  for (KineticGroup& group : out.balancing) group.rank = weight_class(plan, group);
+  std::stable_sort(
+      out.balancing.begin(),
+      out.balancing.end(),
+      [](const KineticGroup& a, const KineticGroup& b) { return a.rank < b.rank; });
   out.bone_orientations.resize(plan.limbs.size());
   out.supports.resize(plan.limbs.size());
   for (std::size_t k = 0; k < plan.points.size(); ++k) {

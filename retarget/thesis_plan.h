@@ -33,6 +33,7 @@ struct ThesisGroup {
 
 /// Who may balance, heaviest first (thesis 5.2.2).
 struct KineticGroup {
+  int rank = 0;             ///< The same for arms, for legs: they balance together.
   int limb = -1;            ///< In two steps; else as one segment:
   std::vector<int> joints;  ///< low to high, that share the turn.
   std::vector<int> below;   ///< Live joints at or below its root, parents first.

@@ -34,7 +34,9 @@ template <class F>
     const LanePoint<F>& p = s.points[k];
     measure_wish(plan, static_cast<int>(k), s);
     const F error = length(p.error);
-    out.worst_over_precision = max(out.worst_over_precision, error * p.per_precision);
+    const F counts =
+        select(is_served(point, p, num<F>(kAllLevels)), p.per_precision, zero);
+    out.worst_over_precision = max(out.worst_over_precision, error * counts);
     if (!point.direct) out.worst = max(out.worst, error);
     const bool support = point.goal == GoalKind::kSupport;
     const F weight = select(
@@ -59,6 +61,32 @@ template <class F>
   return errors.mean + num<F>(2) * max(errors.balance - s.balance_precision, num<F>(0));
 }
 
+/// Has the wishes up to `level` active that are asked, in the lanes of `mask`.
+template <class F>
+void activate_levels(const Plan& plan, const Mask<F>& mask, const F& level, Lanes<F>& s) {
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    LanePoint<F>& point = s.points[k];
+    const Mask<F> now = num<F>(plan.points[k].level) <= level;
+    point.active = select(mask, select(now, point.asked, num<F>(0)), point.active);
+  }
+}
+
+/// Whether a posture costs no level that is done, per lane. Precondition: `errors` are
+/// its own.
+template <class F>
+[[nodiscard]] Mask<F> keeps_levels(const Plan& plan,
+                                   const Errors<F>& errors,
+                                   const Lanes<F>& s,
+                                   const Solve<F>& solve) {
+  Mask<F> out = errors.balance <= solve.held_balance;
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const LanePoint<F>& point = s.points[k];
+    const Mask<F> free = point.holds < num<F>(0.5);
+    out = out & (free | (length(point.error) <= point.held.x + num<F>(kHeldSlack)));
+  }
+  return out;
+}
+
 /// Limbs, and with balance what their masses undo: the root by what is left, and limbs
 /// again. A round leaves about a tenth.
 template <class F>
@@ -75,11 +103,89 @@ template <class F>
   for (int round = 0; round < rounds; ++round) {
     const Mask<F> off = mask & is_unbalanced(s);
     if (!any(off)) break;
-    balance_with_root(plan, settings, {one, one, one}, off, s);
+    balance_with_root(plan, settings, all_of_root(s), off, s);
     adapt_groups(plan, shape.groups, false, settings, one, off, s);
     errors = measure_wishes(plan, shape.balance, s);
   }
   return errors;
+}
+
+/// Priority ("the more important first, never undone by the next") holds on each segment
+/// by itself in the thesis (4.2.2.1), while the root goes by a mean of all wishes and the
+/// loop by the sum of their errors. Here levels have the whole loop one after the other:
+/// the first as if there were no others, the next with what turns out not to cost what
+/// was reached, or not more than its precision.
+///
+/// Begins the next level of lanes in `mask` that have one, from their best posture.
+template <class F>
+void next_thesis_level(const Plan& plan,
+                       const ThesisShape& shape,
+                       const SolveSettings& settings,
+                       const Mask<F>& mask,
+                       Lanes<F>& s,
+                       Solve<F>& solve) {
+  const F zero = num<F>(0);
+  const F one = num<F>(1);
+  Progress<F>& p = solve.progress;
+  take_posture(s.best_rotation, s.best_place, plan, mask, s);
+  Errors<F> errors = measure_wishes(plan, shape.balance, s);
+  const Mask<F> off =
+      mask & (solve.holds < num<F>(0.5)) & (errors.balance > s.balance_precision);
+  if (shape.balance && any(off)) {
+    errors = close_and_settle(plan, shape, settings, 8, off, s);
+  }
+  keep_as_best(plan, mask, s);
+  F next = num<F>(kAllLevels);
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    const F level = num<F>(plan.points[k].level);
+    LanePoint<F>& point = s.points[k];
+    const F allowed = max(length(point.error), one / point.per_precision);
+    const Mask<F> holds = mask & (level <= p.level) & (point.holds < num<F>(0.5));
+    point.held.x = select(holds, allowed, point.held.x);
+    point.holds = select(holds, one, point.holds);
+    const Mask<F> comes = (point.asked > zero) & (level > p.level);
+    next = select(comes, min(next, level), next);
+  }
+  p.level = select(mask, next, p.level);
+  activate_levels(plan, mask, p.level, s);
+  solve.holds = select(mask, one, solve.holds);
+  solve.held_balance =
+      select(mask, max(errors.balance, s.balance_precision), solve.held_balance);
+  errors = measure_wishes(plan, shape.balance, s);
+  const Mask<F> asked = mask & (errors.worst_over_precision > one);
+  p.iterations = select(asked, max(p.iterations, one), p.iterations);
+  errors = close_and_settle(plan, shape, settings, 8, asked, s);
+  const Mask<F> lost = mask & !keeps_levels(plan, errors, s, solve);
+  if (any(lost)) {
+    take_posture(s.best_rotation, s.best_place, plan, lost, s);
+    errors = measure_wishes(plan, shape.balance, s);
+  }
+  keep_as_best(plan, mask, s);
+  const Mask<F> met =
+      (errors.worst_over_precision <= one) & (errors.balance <= s.balance_precision);
+  solve.needs_body = select(mask, select(met, zero, one), solve.needs_body);
+  solve.begun = select(mask, p.iterations, solve.begun);
+  p.merit = select(mask, merit_of(errors, s), p.merit);
+  p.square = select(mask, errors.balance, p.square);
+  p.stalled = select(mask, zero, p.stalled);
+  p.damping = select(mask, one, p.damping);
+}
+
+/// Goes on with lanes of `mask` whose level is done (they need nothing of the body) until
+/// there is something to do or no level left.
+template <class F>
+void skip_met_levels(const Plan& plan,
+                     const ThesisShape& shape,
+                     const SolveSettings& settings,
+                     const Mask<F>& mask,
+                     Lanes<F>& s,
+                     Solve<F>& solve) {
+  for (int n = 0; n < plan.level_count; ++n) {
+    const Mask<F> next = mask & (solve.needs_body <= num<F>(0)) &
+                         (solve.progress.level < solve.last_level);
+    if (!any(next)) return;
+    next_thesis_level(plan, shape, settings, next, s, solve);
+  }
 }
 
 /// Starts lanes from their reference, on the ground and with their limbs closed: the
@@ -96,6 +202,24 @@ void begin_thesis(const Plan& plan,
   ground_reference(plan, settings, shape.balance, mask, s);
   take_posture(s.reference_rotation, s.reference_place, plan, mask, s);
   Progress<F>& p = solve.progress;
+  F first = num<F>(settings.blend ? kAllLevels : plan.level_count);
+  F last = zero;
+  for (std::size_t k = 0; k < plan.points.size(); ++k) {
+    LanePoint<F>& point = s.points[k];
+    point.asked = select(mask, point.active, point.asked);
+    point.holds = select(mask, zero, point.holds);
+    const F level = num<F>(plan.points[k].level);
+    const Mask<F> counts = (point.active > zero) & (level > zero);
+    first = select(counts, min(first, level), first);
+    last = select(counts, max(last, level), last);
+  }
+  if (settings.blend) first = num<F>(kAllLevels);
+  p.level = select(mask, first, p.level);
+  solve.last_level = select(mask, last, solve.last_level);
+  solve.holds = select(mask, zero, solve.holds);
+  solve.begun = select(mask, zero, solve.begun);
+  solve.held_balance = select(mask, num<F>(1e9), solve.held_balance);
+  activate_levels(plan, mask, p.level, s);
   const Errors<F> before = measure_wishes(plan, shape.balance, s);
   // Nobody asks: the reference it is.
   const Mask<F> idle = (before.worst <= num<F>(kOnFootprint)) &
@@ -104,11 +228,7 @@ void begin_thesis(const Plan& plan,
   const Mask<F> asked = mask & !idle;
   if (any(asked)) adapt_groups(plan, shape.groups, false, settings, one, asked, s);
   const Errors<F> errors = measure_wishes(plan, shape.balance, s);
-  for (const int j : plan.live) {
-    const auto i = static_cast<std::size_t>(j);
-    s.best_rotation[i] = select(mask, s.rotation[i], s.best_rotation[i]);
-    s.best_place[i] = select(mask, s.place[i], s.best_place[i]);
-  }
+  keep_as_best(plan, mask, s);
   const Mask<F> met =
       (errors.worst_over_precision <= one) & (errors.balance <= s.balance_precision);
   solve.needs_body = select(mask, select(idle | met, zero, one), solve.needs_body);
@@ -118,6 +238,7 @@ void begin_thesis(const Plan& plan,
   p.square = select(mask, errors.balance, p.square);
   p.stalled = select(mask, zero, p.stalled);
   p.damping = select(mask, one, p.damping);
+  skip_met_levels(plan, shape, settings, mask, s, solve);
 }
 
 /// One turn of the merged loop (5.3.3) for all lanes; those of the answer are done.
@@ -131,26 +252,25 @@ template <class F>
   const F one = num<F>(1);
   Progress<F>& p = solve.progress;
   const F cap = num<F>(settings.max_iterations);
-  const Mask<F> mask = (solve.needs_body > zero) & (p.iterations < cap);
-  p.capped = select((solve.needs_body > zero) & !mask, one, p.capped);
+  const Mask<F> mask = (solve.needs_body > zero) & (p.iterations - solve.begun < cap);
   if (!any(mask)) return !mask;
   adapt_groups(plan, shape.groups, true, settings, p.damping, mask, s);
   const Vec3<F> wish = root_wish(plan, shape.groups, s);
   shift_root(plan, select(mask, p.damping * wish, Vec3<F>{zero, zero, zero}), s);
   adapt_to_supports(plan, settings, mask, s);
   if (shape.balance) adapt_balance(plan, shape.groups, settings, mask, s);
-  const Errors<F> errors = close_and_settle(plan, shape, settings, 2, mask, s);
+  Errors<F> errors = close_and_settle(plan, shape, settings, 2, mask, s);
+  // What is held is held with balance, too: to its precision.
+  const Mask<F> off =
+      mask & (solve.holds > num<F>(0.5)) & (errors.balance > solve.held_balance);
+  if (any(off)) errors = close_and_settle(plan, shape, settings, 6, off, s);
 
   p.iterations = select(mask, p.iterations + one, p.iterations);
   const F merit = merit_of(errors, s);
-  const Mask<F> better = mask & (merit < p.merit);
+  const Mask<F> better = mask & (merit < p.merit) & keeps_levels(plan, errors, s, solve);
   const Mask<F> worse = mask & !better;
   const F gain = p.merit - merit;
-  for (const int j : plan.live) {
-    const auto i = static_cast<std::size_t>(j);
-    s.best_rotation[i] = select(better, s.rotation[i], s.best_rotation[i]);
-    s.best_place[i] = select(better, s.place[i], s.best_place[i]);
-  }
+  keep_as_best(plan, better, s);
   const Mask<F> balanced = errors.balance <= s.balance_precision;
   const Mask<F> settled =
       (gain < s.threshold) &
@@ -165,10 +285,11 @@ template <class F>
   const Mask<F> met = (errors.worst_over_precision <= one) & balanced;
   const Mask<F> done =
       mask & ((better & (met | settled)) | (p.stalled > num<F>(kMostRetries - 0.5)));
-  solve.needs_body = select(done, zero, solve.needs_body);
-  const Mask<F> left = solve.needs_body > zero;
-  p.capped = select(left & (p.iterations >= cap), one, p.capped);
-  return !(left & (p.iterations < cap));
+  const Mask<F> capped = mask & (p.iterations - solve.begun >= cap);
+  p.capped = select(capped & !done, one, p.capped);
+  solve.needs_body = select(done | capped, zero, solve.needs_body);
+  skip_met_levels(plan, shape, settings, done | capped, s, solve);
+  return solve.needs_body <= zero;
 }
 
 /// The final posture of lanes that are done: balance has the last word. Leaves its
@@ -178,10 +299,14 @@ template <class F>
                                       const ThesisShape& shape,
                                       const SolveSettings& settings,
                                       const Mask<F>& mask,
-                                      Lanes<F>& s) {
+                                      Lanes<F>& s,
+                                      const Solve<F>& solve) {
+  activate_levels(plan, mask, num<F>(kAllLevels), s);
+  for (LanePoint<F>& p : s.points) p.holds = select(mask, num<F>(0), p.holds);
   take_posture(s.best_rotation, s.best_place, plan, mask, s);
   Errors<F> errors = measure_wishes(plan, shape.balance, s);
-  const Mask<F> off = mask & (errors.balance > s.balance_precision);
+  const Mask<F> off =
+      mask & (solve.holds < num<F>(0.5)) & (errors.balance > s.balance_precision);
   if (shape.balance && any(off)) {
     errors = close_and_settle(plan, shape, settings, 8, off, s);
   }

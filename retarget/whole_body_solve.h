@@ -41,6 +41,9 @@ inline constexpr double kLongestError = 0.5;
 /// How far each turning joint has turned from its reference, as a vector in world axes.
 template <class F>
 void measure_straying(const Plan& plan, const F& share, Lanes<F>& s) {
+  // Zeros have signs: nothing is the same whatever other lanes do.
+  const Vec3<F> none{num<F>(0), num<F>(0), num<F>(0)};
+  const Mask<F> homes = share > num<F>(0);
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
     if (plan.turning[i] == Turning::kRigid) continue;
@@ -56,7 +59,7 @@ void measure_straying(const Plan& plan, const F& share, Lanes<F>& s) {
       const Vec3<F>& axis = s.axis[static_cast<std::size_t>(plan.limb_of_hinge[i])];
       turned = dot(axis, turned) * axis;
     }
-    s.strayed[i] = share * turned;
+    s.strayed[i] = select(homes, share * turned, none);
   }
 }
 
@@ -114,12 +117,14 @@ void form_system(const Plan& plan,
                  Lanes<F>& s) {
   const F zero = num<F>(0);
   const F one = num<F>(1);
-  sum_runs(plan, rows.balance, s);
+  const F& level = progress.level;
+  sum_runs(plan, rows.balance, level, s);
   form_point_blocks(plan, rows, side, s);
-  if (rows.balance) form_balance_blocks(plan, rows, side, s);
-  add_hinges(plan, rows, side, s);
+  if (rows.balance) form_balance_blocks(plan, rows, side, level, s);
+  add_hinges(plan, rows, side, level, s);
   const F homing = homing_of(progress);
-  const bool strays = any(progress.steps > zero);
+  const Mask<F> homes = homing > zero;
+  const bool strays = any(homes);
   if (strays) {
     measure_straying(plan, homing, s);
   } else {
@@ -130,19 +135,19 @@ void form_system(const Plan& plan,
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
     const PointPlan& point = plan.points[k];
     LanePoint<F>& p = s.points[k];
-    const F level = num<F>(point.level);
-    const F asked = select((p.active > zero) & (level <= progress.level), one, zero);
+    const F asked = select(is_served(point, p, level), one, zero);
     const F soft = progress.damping *
                    (one + num<F>(kDampingPerSquare / kLeastDamping) * progress.square) /
                    max(p.weight, num<F>(1e-6));
-    const F damping =
-        select((p.holds > zero) | (level < one), num<F>(kExactDamping), soft);
+    const F damping = select(
+        (p.holds > zero) | (num<F>(point.level) < one), num<F>(kExactDamping), soft);
     const int row = rows.row_of(static_cast<int>(k));
     const F long_enough = num<F>(kLongestError);
     const F scale = long_enough / max(length(p.error), long_enough);
     s.right[static_cast<std::size_t>(row)] = scale * p.error;
     if (strays) {
-      s.right[static_cast<std::size_t>(row)] += strayed_of(point, p, travelled, s);
+      Vec3<F>& right = s.right[static_cast<std::size_t>(row)];
+      right = select(homes, right + strayed_of(point, p, travelled, s), right);
     }
     keep_rows(side, row, Vec3<F>{asked, asked, asked}, damping, s);
     Vec3<F>& right = s.right[static_cast<std::size_t>(row)];
@@ -158,6 +163,7 @@ void form_system(const Plan& plan,
       if (!strays || plan.turning[i] == Turning::kRigid) continue;
       back += cross(s.strayed[i], s.lever[i]);
     }
+    back = select(homes, back, travelled);
     s.right[static_cast<std::size_t>(rows.supports)] = scale * error + back;
     keep_rows(side,
               rows.supports,
@@ -196,7 +202,11 @@ template <class F>
 
 /// Turns the joints by what the multipliers say, and moves the root.
 template <class F>
-void apply_step(const Plan& plan, const RowOrder& rows, const F& homing, Lanes<F>& s) {
+void apply_step(const Plan& plan,
+                const RowOrder& rows,
+                const F& homing,
+                const F& level,
+                Lanes<F>& s) {
   const F zero = num<F>(0);
   Vec3<F> travel{zero, zero, zero};
   for (std::size_t k = 0; k < plan.points.size(); ++k) {
@@ -209,8 +219,7 @@ void apply_step(const Plan& plan, const RowOrder& rows, const F& homing, Lanes<F
     const auto i = static_cast<std::size_t>(j);
     if (plan.turning[i] == Turning::kRigid) continue;
     const Vec3<F> by =
-        (plan.in_limb[i] ? num<F>(1) : s.mobility) * turn_of(plan, rows, j, s) -
-        s.strayed[i];
+        own_share(plan, i, level, s) * turn_of(plan, rows, j, s) - s.strayed[i];
     // Elbows and knees that overturn land behind their limits, or beyond half a turn:
     // they would come back the other way.
     s.turn[i] =
@@ -252,7 +261,7 @@ void step_whole_body(const Plan& plan,
   const int side = static_cast<int>(plan.points.size()) + (rows.balance ? 1 : 0);
   form_system(plan, rows, side, progress, s);
   solve_blocks(side, num<F>(kExactDamping), s.blocks.data(), s.right.data());
-  apply_step(plan, rows, homing_of(progress), s);
+  apply_step(plan, rows, homing_of(progress), progress.level, s);
 }
 
 }  // namespace marey::retarget

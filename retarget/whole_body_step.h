@@ -22,11 +22,22 @@
 /// block row of the system says so); damped rows share what is left.
 namespace marey::retarget {
 
+/// How willingly joint `i` turns for wishes up to `level`. Balance moves whatever turns:
+/// not what turns only for wishes of a later level.
+template <class F>
+[[nodiscard]] inline F own_share(const Plan& plan,
+                                 std::size_t i,
+                                 const F& level,
+                                 const Lanes<F>& s) {
+  const F share = plan.in_limb[i] ? num<F>(1) : s.mobility;
+  if (plan.turns_from[i] <= 1) return share;
+  return select(num<F>(plan.turns_from[i]) <= level, share, num<F>(0));
+}
+
 /// Sums along the way from the root to each live joint, over joints that turn.
 template <class F>
-void sum_runs(const Plan& plan, bool balance, Lanes<F>& s) {
+void sum_runs(const Plan& plan, bool balance, const F& level, Lanes<F>& s) {
   const F zero = num<F>(0);
-  const F one = num<F>(1);
   for (const int joint : plan.live) {
     const auto i = static_cast<std::size_t>(joint);
     const bool turns = plan.turning[i] == Turning::kBall;
@@ -40,7 +51,7 @@ void sum_runs(const Plan& plan, bool balance, Lanes<F>& s) {
       for (std::size_t n = 0; n < 6; ++n) square[n] = s.run_square[6 * p + n];
     }
     const Vec3<F>& at = s.place[i];
-    const F own = plan.in_limb[i] ? one : s.mobility;
+    const F own = own_share(plan, i, level, s);
     if (turns) {
       const Vec3<F> weighted = own * at;
       weight = weight + own;
@@ -216,10 +227,8 @@ void form_point_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes<F
 
 /// Of the centre of mass with itself.
 template <class F>
-void form_own_balance_block(const Plan& plan,
-                            const RowOrder& rows,
-                            int side,
-                            Lanes<F>& s) {
+void form_own_balance_block(
+    const Plan& plan, const RowOrder& rows, int side, const F& level, Lanes<F>& s) {
   const int row = rows.supports;
   const F zero = num<F>(0);
   F own[9] = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
@@ -227,7 +236,7 @@ void form_own_balance_block(const Plan& plan,
     const auto i = static_cast<std::size_t>(j);
     if (plan.turning[i] != Turning::kBall) continue;
     const Vec3<F>& v = s.lever[i];
-    const Vec3<F> weighted = (plan.in_limb[i] ? num<F>(1) : s.mobility) * v;
+    const Vec3<F> weighted = own_share(plan, i, level, s) * v;
     const F square = dot(weighted, v);
     F outer[9] = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
     add_outer(weighted, v, outer);
@@ -245,8 +254,9 @@ void form_own_balance_block(const Plan& plan,
 
 /// Of the centre of mass with itself and with every wish.
 template <class F>
-void form_balance_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes<F>& s) {
-  form_own_balance_block(plan, rows, side, s);
+void form_balance_blocks(
+    const Plan& plan, const RowOrder& rows, int side, const F& level, Lanes<F>& s) {
+  form_own_balance_block(plan, rows, side, level, s);
   const int n = static_cast<int>(plan.points.size());
   const int row = rows.supports;
   const F zero = num<F>(0);
@@ -313,14 +323,16 @@ void form_balance_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes
 
 /// Hinges turn about one axis: each adds the product of what it moves.
 template <class F>
-void add_hinges(const Plan& plan, const RowOrder& rows, int side, Lanes<F>& s) {
+void add_hinges(
+    const Plan& plan, const RowOrder& rows, int side, const F& level, Lanes<F>& s) {
   for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
     const auto j = static_cast<std::size_t>(plan.limbs[l].lower);
     if (plan.turning[j] != Turning::kHinge) continue;
     s.axis[l] = limb_axis(plan.limbs[l], s, static_cast<int>(l));
     const int begin = plan.through_begin[j];
     const int end = plan.through_begin[j + 1];
-    const Vec3<F> com = rows.balance ? cross(s.axis[l], s.lever[j]) : Vec3<F>{};
+    Vec3<F> com = rows.balance ? cross(s.axis[l], s.lever[j]) : Vec3<F>{};
+    if (rows.balance) com = own_share(plan, j, level, s) * com;
     if (rows.balance) {
       const int row = rows.supports;
       add_outer(com, com, &s.blocks[static_cast<std::size_t>(9 * (row * side + row))]);

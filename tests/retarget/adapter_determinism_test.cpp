@@ -80,6 +80,28 @@ TEST_P(AdapterDeterminism, DoesNotDependOnWhatWasAskedBefore) {
   }
 }
 
+// A section turns as a whole, even where only its first vertebra has a wish.
+TEST_P(AdapterDeterminism, DoesNotDependOnWhatWasAskedOfAPartOfASectionBefore) {
+  const Character body = bodies().back();
+  Dice dice(10);
+  for (const char* segment : {"tail1", "tail3", "neck1", "back2", "head"}) {
+    const Pose reference = random_posture(body, dice, 0.4);
+    const glm::dvec3 offset(0.0, 0.03, 0.08);
+    const glm::dvec3 target =
+        place_of(body, reference, {segment, offset}) + 0.1 * dice.direction();
+    const ConstraintSet wishes{{contact("wish", segment, target, offset)}, {}};
+    Adapter adapter = make_adapter(body, wishes, options());
+    Pose first;
+    static_cast<void>(adapter.adapt(reference, kLater_s, first));
+    Pose out;
+    for (int i = 0; i < 10; ++i) {
+      static_cast<void>(adapter.adapt(random_posture(body, dice, 0.5), kLater_s, out));
+      static_cast<void>(adapter.adapt(reference, kLater_s, out));
+      ASSERT_TRUE(same_bits(first, out)) << segment << " " << i;
+    }
+  }
+}
+
 TEST_P(AdapterDeterminism, AllocatesNothingAfterTheFirstPosture) {
   for (const Character& body : bodies()) {
     const std::string end = body.skeleton.joints.back().name;

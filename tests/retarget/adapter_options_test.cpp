@@ -81,6 +81,29 @@ TEST_P(AdapterOptions, ExtremitiesKeepTheirOrientationIfSoWished) {
   }
 }
 
+TEST_P(AdapterOptions, ARootThatIsNotWillingStaysWhateverBalanceLacks) {
+  const Character body = human(false);
+  AdaptOptions wanted = options();
+  wanted.root_for_balance = 0.0;
+  wanted.root_for_constraints = 0.0;
+  Dice dice(103);
+  for (const BalanceMode balance : {BalanceMode::kHorizontal, BalanceMode::k3d}) {
+    wanted.balance = balance;
+    for (int i = 0; i < 30; ++i) {
+      const Pose reference = waiting(body);
+      Adapter adapter = make_adapter(
+          body,
+          {{contact("hand", "leftHand", far_from(body, reference, "leftHand"))}, {}},
+          wanted);
+      adapter.set_balance_target(centre_of_mass(body, reference) +
+                                 0.1 * dice.direction());
+      Pose out;
+      static_cast<void>(adapter.adapt(reference, 0.0, out));
+      ASSERT_LT(glm::distance(out.root_in_world, reference.root_in_world), 1e-6) << i;
+    }
+  }
+}
+
 TEST_P(AdapterOptions, OutcomesAreTrue) {
   const Character body = human(true);
   const Pose reference = waiting(body);

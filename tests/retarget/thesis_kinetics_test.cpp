@@ -72,7 +72,7 @@ TEST(ThesisLimb, BendsByEquation56WhenItsMassesAreOnItsBones) {
     lane.lanes.com_target =
         vec_of((share * (wanted - pose.root_in_world)) / lane.body.unit_m);
     const KineticGroup& arm = lane.balancing("leftUpperArm");
-    balance_with_limb(lane.plan, arm, {}, true, lane.lanes);
+    balance_with_limb(lane.plan, arm, {}, balance_error(lane.lanes), true, lane.lanes);
     const double length_m =
         lane.body.unit_m * length(lane.lanes.place[lane.joint("leftHand")] -
                                   lane.lanes.place[lane.joint("leftUpperArm")]);
@@ -102,7 +102,8 @@ TEST(ThesisLimb, BringsItsCentreExactlyWhereItIsWanted) {
         ThesisLane moved = lane;
         SolveSettings settings;
         settings.keeps_orientation = keeps_orientation;
-        balance_with_limb(moved.plan, limb, settings, true, moved.lanes);
+        balance_with_limb(
+            moved.plan, limb, settings, balance_error(moved.lanes), true, moved.lanes);
         measure_balance(moved.plan, moved.lanes);
         EXPECT_LT(length(balance_error(moved.lanes)), 1e-7 /* loaded in float */)
             << root << ", hand " << (keeps_orientation ? "kept" : "follows");
@@ -117,7 +118,7 @@ TEST(ThesisLimb, GoesUnderTheWantedPlaceInHorizontalMode) {
   ThesisLane lane(character, {}, pose, BalanceMode::kHorizontal);
   const KineticGroup& arm = lane.balancing("leftUpperArm");
   lane.lanes.com_target = lane.lanes.com + vec_of({0.004, 0.5, 0.005});
-  balance_with_limb(lane.plan, arm, {}, true, lane.lanes);
+  balance_with_limb(lane.plan, arm, {}, balance_error(lane.lanes), true, lane.lanes);
   measure_balance(lane.plan, lane.lanes);
   EXPECT_LT(length(balance_error(lane.lanes)), 1e-7);
 }
@@ -128,7 +129,7 @@ TEST(ThesisLimb, StretchesTowardsWhatIsOutOfReach) {
   ThesisLane lane(character, {}, pose, BalanceMode::k3d);
   const KineticGroup& arm = lane.balancing("leftUpperArm");
   lane.lanes.com_target = lane.lanes.com + vec_of({0.5, 0.0, 0.0});
-  balance_with_limb(lane.plan, arm, {}, true, lane.lanes);
+  balance_with_limb(lane.plan, arm, {}, balance_error(lane.lanes), true, lane.lanes);
   const auto at = [&](const char* name) { return lane.lanes.place[lane.joint(name)]; };
   const double bones = length(at("leftLowerArm") - at("leftUpperArm")) +
                        length(at("leftHand") - at("leftLowerArm"));
@@ -163,7 +164,7 @@ TEST(ThesisTrunk, BringsTheBodysCentreNearerByOneRotation) {
     EXPECT_EQ(trunk.root, lane.shape.groups.balancing.front().root) << "heaviest first";
     lane.lanes.com_target = lane.lanes.com + vec_of({0.02, 0.0, -0.04});
     const double before = length(balance_error(lane.lanes));
-    balance_with_segment(lane.plan, trunk, true, lane.lanes);
+    balance_with_segment(lane.plan, trunk, balance_error(lane.lanes), true, lane.lanes);
     measure_balance(lane.plan, lane.lanes);
     // Over the wanted place to first order, as the turn is shared over vertebrae; in
     // three dimensions a rotation leaves the distance from its root as it was.
@@ -178,9 +179,10 @@ TEST(ThesisMasses, AreKeptUpGroupByGroup) {
   lane.lanes.com_target = lane.lanes.com + vec_of({0.05, 0.02, -0.03});
   for (const KineticGroup& group : lane.shape.groups.balancing) {
     if (group.limb >= 0) {
-      balance_with_limb(lane.plan, group, {}, true, lane.lanes);
+      balance_with_limb(
+          lane.plan, group, {}, balance_error(lane.lanes), true, lane.lanes);
     } else {
-      balance_with_segment(lane.plan, group, true, lane.lanes);
+      balance_with_segment(lane.plan, group, balance_error(lane.lanes), true, lane.lanes);
     }
     update_balance(lane.plan, group.below, lane.lanes);
     const Vec3<double> kept = lane.lanes.com;
