@@ -94,6 +94,12 @@ template <class F>
   return sqrt(max(x, num<F>(0)));
 }
 
+/// -x with the sign of a zero turned as well: some vectors have 0 - x for -x.
+template <class F>
+[[nodiscard, gnu::always_inline]] inline F negated(const F& x) {
+  return num<F>(-0.0) - x;
+}
+
 template <class F>
 struct Vec3 {
   F x{}, y{}, z{};
@@ -109,7 +115,7 @@ template <class F>
 }
 template <class F>
 [[gnu::always_inline]] inline Vec3<F> operator-(const Vec3<F>& a) {
-  return {-a.x, -a.y, -a.z};
+  return {negated(a.x), negated(a.y), negated(a.z)};
 }
 template <class F>
 [[gnu::always_inline]] inline Vec3<F> operator*(const F& s, const Vec3<F>& a) {
@@ -169,7 +175,7 @@ template <class F>
 }
 template <class F>
 [[nodiscard, gnu::always_inline]] inline Quat<F> conjugate(const Quat<F>& q) {
-  return {q.w, -q.x, -q.y, -q.z};
+  return {q.w, negated(q.x), negated(q.y), negated(q.z)};
 }
 template <class F>
 [[nodiscard, gnu::always_inline]] inline Vec3<F> vector_part(const Quat<F>& q) {
