@@ -4,11 +4,14 @@
 
 #include <utility>
 
-#include "app/read_body.h"
 #include "core/humanoid.h"
 #include "core/motion.h"
 #include "core/transform.h"
+#include "recordings/asf.h"
+#include "recordings/bvh.h"
+#include "retarget/body_frame.h"
 #include "retarget/body_map.h"
+#include "retarget/identify_bones.h"
 #include "retarget/make_character.h"
 
 namespace marey {
@@ -54,10 +57,37 @@ Result<CapturedClip> clip_of(std::string name, const Motion& motion) {
       std::move(name), *std::move(character), motion.rate.hz, motion.poses};
 }
 
+Result<Motion> read_motion(const std::filesystem::path& file) {
+  if (file.extension() == ".bvh") {
+    auto bvh = recordings::read_bvh(file);
+    if (!bvh) return bvh.error();
+    return std::move(bvh->motion);
+  }
+  const auto beside = recordings::skeleton_beside(file);
+  if (!beside) return bad_input(file.string(), "no .asf beside it", "put it there");
+  const auto skeleton = recordings::read_asf(*beside);
+  if (!skeleton) return skeleton.error();
+  auto amc = recordings::read_amc(file, *skeleton);
+  if (!amc) return amc.error();
+  return std::move(amc->motion);
+}
+
 Result<CapturedClip> read_clip(const std::filesystem::path& file, std::string name) {
-  auto body = app::read_body(file);
-  if (!body) return body.error();
-  return clip_of(std::move(name), without_helpers(body->raw.motion));
+  auto motion = read_motion(file);
+  if (!motion) return motion.error();
+  auto bones = retarget::identify_bones(motion->skeleton);
+  if (!bones) return bones.error();
+  if (!retarget::stands_at_rest(motion->skeleton, *bones)) {
+    retarget::rest_as_standing(*motion, *bones);
+  }
+  // A BVH's unit is custom alone; CMU's files say theirs.
+  const bool is_bvh = file.extension() == ".bvh";
+  const retarget::FileUnit unit{is_bvh ? 0.01 : 1.0, !is_bvh};
+  const auto frame = retarget::find_body_frame(motion->skeleton, unit, {}, *bones);
+  if (!frame) return frame.error();
+  retarget::mark(*bones, motion->skeleton);
+  retarget::put_into_frame(*frame, *motion);
+  return clip_of(std::move(name), without_helpers(*motion));
 }
 
 }  // namespace
