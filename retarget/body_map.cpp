@@ -7,6 +7,7 @@
 #include <string>
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "core/pose.h"
 
@@ -134,6 +135,26 @@ double rest_floor_m(const Builder& b) {
   return lowest - (has_toes ? kBallHeightInLegs : kAnkleHeightInLegs) * leg;
 }
 
+// Where the sole ends, in lengths from ankle to ball: a heel's round end bears a quarter of
+// it behind the ankle, toes reach half of it beyond the ball (Drillis and Contini 1966:
+// the foot is 0.152 of the stature long, the ankle 0.039 high).
+void map_sole(const Builder& b,
+              const std::optional<JointIndex>& toes,
+              const glm::dquat& align,
+              FootMap& foot) {
+  constexpr double kHeel = 0.25;
+  constexpr double kToes = 0.5;
+  const glm::dvec3 ball = foot.ball_from_ankle_in_t_pose;
+  const double length_m = glm::length(glm::dvec2(ball.x, ball.z));
+  foot.heel_from_ankle_in_t_pose = {0.0, -foot.ankle_height_m, -kHeel * length_m};
+  glm::dvec3 tip(0.0, 0.0, kToes * length_m);
+  if (toes && b.skeleton[*toes].tip_in_joint) {
+    const RigidTransform& at = b.world_from_joint[index(*toes)];
+    tip = align * (at * *b.skeleton[*toes].tip_in_joint - at.translation);
+  }
+  foot.tip_from_ball_in_t_pose = {tip.x, -foot.ball_height_m, tip.z};
+}
+
 void map_foot(Builder& b, int side, double floor_m) {
   const JointIndex ankle = *b.joint(side == 0 ? B::kLeftFoot : B::kRightFoot);
   const auto toes = b.joint(side == 0 ? B::kLeftToes : B::kRightToes);
@@ -154,6 +175,7 @@ void map_foot(Builder& b, int side, double floor_m) {
     foot.ball_from_ankle_in_t_pose = align * bone;
     drive(b, *toes, JointRole::kSegment, align);
   }
+  map_sole(b, toes, align, foot);
   drive(b, ankle, JointRole::kSegment, align);
 }
 

@@ -49,6 +49,10 @@ struct FootMap {
   /// From the ankle to the toe joint; a guess when the body has no toes.
   glm::dvec3 ball_from_ankle_in_t_pose{0.0};
   bool has_toes = false;
+  /// The sole's end behind: what a foot that comes down heel first rolls over. A guess.
+  glm::dvec3 heel_from_ankle_in_t_pose{0.0};
+  /// The sole's end in front, below the tip of the toes; a guess when no tip is told.
+  glm::dvec3 tip_from_ball_in_t_pose{0.0};
 };
 
 /// How a joint gets its rotation when a normalized posture is expanded.

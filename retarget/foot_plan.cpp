@@ -245,6 +245,9 @@ void place_ankles(const Task& task, std::vector<FootPlace>& out) {
         task.heel[t]
             ? print.ankle_in_world
             : print.ball_in_world - out[t].foot * task.foot.ball_from_ankle_in_t_pose;
+    // What rolls over its heel rises on it.
+    if (!task.flat(t)) lift_over_floor(task.foot, 0.0, out[t]);
+    if (!task.ball[t]) keep_toes_up(task.foot, out[t]);
     shift[t] = out[t].ankle_in_world - task.reference[t].ankle_in_world;
   }
   const auto shifts = bridge(std::move(shift), task.hz, task.options);
@@ -257,6 +260,7 @@ void place_ankles(const Task& task, std::vector<FootPlace>& out) {
         task.foot,
         kSoftnessInLegs * task.leg_length_m * smooth_step(away_s[t] / task.options.blend_s),
         out[t]);
+    keep_toes_up(task.foot, out[t]);
   }
 }
 

@@ -64,12 +64,28 @@ void keep_other_joint_up(const FootMap& foot, bool on_heel, FootPlace& place) {
       glm::normalize(rotation_between(now, {ahead.x, flat.y, ahead.y}) * place.foot);
 }
 
+void keep_toes_up(const FootMap& foot, FootPlace& place) {
+  const glm::dvec3 tip = place.toes * foot.tip_from_ball_in_t_pose;
+  const double ball_m =
+      place.ankle_in_world.y + (place.foot * foot.ball_from_ankle_in_t_pose).y;
+  const double under_m = -(ball_m + tip.y);
+  const double length_m = glm::length(tip);
+  if (under_m <= 0.0 || length_m < 1e-6) return;
+  const glm::dvec2 ground(tip.x, tip.z);
+  const double ahead = glm::length(ground);
+  if (ahead < 1e-6) return;
+  const double y = std::clamp(tip.y + under_m, -length_m, length_m);
+  const glm::dvec2 level =
+      ground * (std::sqrt(length_m * length_m - y * y) / ahead);
+  place.toes = glm::normalize(rotation_between(tip, {level.x, y, level.y}) * place.toes);
+}
+
 void lift_over_floor(const FootMap& foot, double softness_m, FootPlace& place) {
-  const double ankle_m = place.ankle_in_world.y - foot.ankle_height_m;
-  const double ball_m = place.ankle_in_world.y +
-                        (place.foot * foot.ball_from_ankle_in_t_pose).y -
-                        foot.ball_height_m;
-  const double clearance_m = std::min(ankle_m, ball_m);
+  const double ankle_m = place.ankle_in_world.y;
+  const double ball_m = ankle_m + (place.foot * foot.ball_from_ankle_in_t_pose).y;
+  const double heel_m = ankle_m + (place.foot * foot.heel_from_ankle_in_t_pose).y;
+  const double clearance_m =
+      std::min({ankle_m - foot.ankle_height_m, ball_m - foot.ball_height_m, heel_m});
   const double wanted_m =
       0.5 * (clearance_m +
              std::sqrt(clearance_m * clearance_m + softness_m * softness_m));

@@ -45,8 +45,12 @@ double aim_leg(const glm::dvec3& hip_in_world,
 /// is not below its own height.
 void keep_other_joint_up(const FootMap& foot, bool on_heel, FootPlace& place);
 
+/// Bends toes up at the ball as far as their tip would be below the floor Y = 0.
+void keep_toes_up(const FootMap& foot, FootPlace& place);
+
 /// Lifts a foot over the floor Y = 0, softly: never below, and hardly at all when it is
-/// more than some `softness_m` above.
+/// more than some `softness_m` above. What counts are the ankle and the ball above where
+/// they rest, and the sole's end behind.
 void lift_over_floor(const FootMap& foot, double softness_m, FootPlace& place);
 
 }  // namespace marey::retarget

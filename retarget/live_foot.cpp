@@ -149,6 +149,8 @@ void LiveFoot::hold(const StandingFoot& stands,
   } else {
     place.ankle_in_world = aimed.ankle_in_world + left * left_over_m_;
   }
+  // What rolls over its heel rises on it.
+  if (mode_ == Mode::kHeel || mode_ == Mode::kBall) lift_over_floor(foot, 0.0, place);
   if (mode_ == Mode::kFree) {
     constexpr double kSoftnessInLegs = 0.01;
     lift_over_floor(foot,
@@ -156,6 +158,7 @@ void LiveFoot::hold(const StandingFoot& stands,
                         smooth_step(since_change_s_ / options.release_s),
                     place);
   }
+  if (mode_ == Mode::kFree || mode_ == Mode::kHeel) keep_toes_up(foot, place);
   is_known_ = true;
   last_ = place;
   last_reference_ = reference;

@@ -11,6 +11,7 @@
 
 #include "core/assert.h"
 #include "core/pose.h"
+#include "retarget/leg_on_foot.h"
 
 namespace marey::retarget {
 namespace {
@@ -85,11 +86,36 @@ Result<MappedBodies> map_bodies(const Skeleton& source,
   return MappedBodies{std::move(*from), std::move(*to)};
 }
 
+// Most that the ends of both soles are below the floor. [m]
+double deepest_sole_m(const Motion& motion, const BodyMap& map) {
+  double deepest_m = 0.0;
+  std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
+  for (const Pose& pose : motion.poses) {
+    world_from_joints(motion.skeleton, pose, world_from_joint);
+    const auto end_m = [&](JointIndex joint, const glm::dvec3& from_joint_in_t_pose) {
+      const RigidTransform& at = world_from_joint[index(joint)];
+      const glm::dquat turn =
+          at.rotation * glm::conjugate(map.joints[index(joint)].t_pose_from_joint);
+      return (at.translation + turn * from_joint_in_t_pose).y;
+    };
+    for (int side = 0; side < 2; ++side) {
+      const FootMap& foot = map.feet[static_cast<std::size_t>(side)];
+      deepest_m = std::max(
+          deepest_m, -end_m(map.leg(side).end, foot.heel_from_ankle_in_t_pose));
+      const auto toes = map.joint_of[index(toes_bone(side))];
+      if (!toes) continue;
+      deepest_m = std::max(deepest_m, -end_m(*toes, foot.tip_from_ball_in_t_pose));
+    }
+  }
+  return deepest_m;
+}
+
 FootFigures measure_feet(const Motion& motion,
                          const BodyMap& map,
                          const Contacts& contacts) {
   MAREY_ASSERT(contacts.frame_count == static_cast<int>(motion.poses.size()));
   FootFigures figures;
+  figures.deepest_penetration_mm = 1e3 * deepest_sole_m(motion, map);
   Slide slide;
   constexpr std::array<B, 2> kToes{B::kLeftToes, B::kRightToes};
   for (std::size_t side = 0; side < 2; ++side) {

@@ -35,7 +35,8 @@ struct MappedBodies {
 struct FootFigures {
   /// Mean horizontal speed of the joints that bear, over all contacts. [cm/s]
   double mean_slide_cm_per_s = 0.0;
-  /// Most that an ankle or toe joint is lower than when it stands in the T-pose. [mm]
+  /// Most that an ankle or toe joint is lower than when it stands in the T-pose, or that
+  /// an end of a sole is below the floor. [mm]
   double deepest_penetration_mm = 0.0;
 };
 

@@ -38,5 +38,21 @@ TEST(MapBody, FindsTheSoleOfABodyThatRestsAtTheOrigin) {
   EXPECT_GT(map.feet[0].ankle_height_m, 0.01);
 }
 
+// A sole is on the floor from behind the ankle to below the tip of the toes.
+TEST(BodyMap, KnowsWhereSolesEnd) {
+  const Skeleton body = testing::giant();
+  const BodyMap map = *map_body(body);
+  const auto rest = world_from_joints(body, rest_pose(body));
+  for (int side = 0; side < 2; ++side) {
+    const FootMap& foot = map.feet[static_cast<std::size_t>(side)];
+    EXPECT_NEAR(foot.heel_from_ankle_in_t_pose.y, -foot.ankle_height_m, 1e-12);
+    EXPECT_LT(foot.heel_from_ankle_in_t_pose.z, -0.02);
+    EXPECT_NEAR(foot.tip_from_ball_in_t_pose.y, -foot.ball_height_m, 1e-12);
+    const JointIndex toes = *map.joint_of[index(side == 0 ? HumanBone::kLeftToes
+                                                          : HumanBone::kRightToes)];
+    EXPECT_NEAR(foot.tip_from_ball_in_t_pose.z, body[toes].tip_in_joint->z, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace marey::retarget
