@@ -130,19 +130,27 @@ void turn_limb(const Plan& plan,
   Quat<F> end =
       trued(select(extremity.is_set, extremity.rotation, turn.lower * s.rotation[e]));
   if (plan.has_limits && limits) {
-    // What holds the upper bone back holds back all that hangs from it.
+    // What holds the upper bone back holds back all that hangs from it. Limits are about
+    // a joint's own parent: bones between two of these three go with the one above.
+    const auto own_parent = [&](std::size_t joint,
+                                std::size_t above,
+                                const Quat<F>& turned) {
+      const auto p = static_cast<std::size_t>(plan.parent[joint]);
+      return p == above ? turned : turned * conjugate(s.rotation[above]) * s.rotation[p];
+    };
     const auto p = plan.parent[u] < 0 ? u : static_cast<std::size_t>(plan.parent[u]);
     const Quat<F> kept_upper = limited(plan, s, limb.upper, s.rotation[p], upper);
     const Quat<F> back = kept_upper * conjugate(upper);
-    const auto above = static_cast<std::size_t>(plan.parent[l]);
-    const Quat<F> under = above == u
-                              ? kept_upper
-                              : kept_upper * conjugate(s.rotation[u]) * s.rotation[above];
-    const Quat<F> kept_lower = limited(plan, s, limb.lower, under, back * lower);
+    const Quat<F> under_upper = own_parent(l, u, kept_upper);
+    const Quat<F> kept_lower = limited(plan, s, limb.lower, under_upper, back * lower);
     const Quat<F> followed = kept_lower * conjugate(lower) * end;
     upper = kept_upper;
     lower = kept_lower;
-    end = limited(plan, s, limb.end, lower, select(extremity.is_set, end, followed));
+    end = limited(plan,
+                  s,
+                  limb.end,
+                  own_parent(e, l, lower),
+                  select(extremity.is_set, end, followed));
   }
   const Quat<F> end_turn = end * conjugate(s.rotation[e]);
   const auto carry = [&](const std::vector<int>& joints, const Quat<F>& carried) {

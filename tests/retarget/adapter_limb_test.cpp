@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/retarget/adapter_bodies.h"
+#include "tests/retarget/named_bodies.h"
 
 /// Limbs: exact at once when they reach, as near as can be when they do not.
 namespace marey::retarget {
@@ -177,6 +178,36 @@ TEST_P(AdapterLimbs, AreAsNearAsTheyCanToWhatTheyDoNotReach) {
           << point.segment << " " << i;
     }
   }
+}
+
+// A joint's limits are about its own parent, also where a bone between turns by itself.
+TEST_P(AdapterLimbs, KeepAHandsLimitsBehindATwistedForearm) {
+  const Character body = human_of(
+      with_joint_above(
+          make_humanoid(average_proportions(1.75)), "leftHand", "leftTwist", 0.5),
+      true);
+  Dice dice(8);
+  double furthest_rad = 0.0;
+  for (int i = 0; i < 100; ++i) {
+    Pose reference = waiting(body);
+    reference.parent_from_joint[joint_at(body, "leftTwist")] =
+        glm::angleAxis(dice.between(-1.0, 1.0), glm::dvec3(1, 0, 0));
+    Constraint turned = contact("turned", "leftHand", {});
+    turned.range = 3;
+    turned.goal =
+        SegmentOrientation{dice.turn(3.0) * rotation_of(body, reference, "leftHand")};
+    const Constraint near = contact("near",
+                                    "leftHand",
+                                    place_of(body, reference, {"leftHand"}) +
+                                        dice.between(0.0, 0.2) * dice.direction());
+    const Pose out = adapted(body, {{turned, near}, {}}, reference, options()).pose;
+    ASSERT_LT(beyond_limits_rad(body, out), 1e-4) << i;
+    furthest_rad = std::max(
+        furthest_rad,
+        angle_between_rad(rotation_of(body, out, "leftHand"),
+                          std::get<SegmentOrientation>(turned.goal).world_from_t_pose));
+  }
+  EXPECT_GT(furthest_rad, 0.3) << "no limit was in the way";
 }
 
 }  // namespace
