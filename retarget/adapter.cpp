@@ -89,10 +89,7 @@ void Adapter::set_options(const AdaptOptions& options) {
   MAREY_ASSERT(!state_->is_member);
   const bool replan = (options.balance == BalanceMode::kOff) !=
                       (state_->options.balance == BalanceMode::kOff);
-  if (options.control != state_->options.control) {
-    state_->left_control = state_->options.control;
-    state_->left_since_s.reset();
-  }
+  state_->turn_passage(options);
   state_->options = options;
   state_->control = options.control;
   if (replan) state_->set_up();

@@ -160,8 +160,9 @@ class Adapter {
   /// False: it has none of that name.
   bool carry(std::string_view load, bool carried);
   /// May change from one posture to the next; a change of `control` begins with the next
-  /// posture's time and fades over. Switching balance on or off allocates. Precondition:
-  /// in range; not of a crowd's member.
+  /// posture's time and fades over. One that is taken back before it is over goes back
+  /// from where the last posture was. Switching balance on or off allocates.
+  /// Precondition: in range; not of a crowd's member.
   void set_options(const AdaptOptions& options);
 
   /// Precondition: `reference` is a posture of the character's skeleton, finite, with

@@ -183,13 +183,23 @@ void Adapter::State::ask_for(double least, PackedQuestion& asked) const {
 void Adapter::State::pass_over(double time_s) {
   control = options.control;
   left_share = 0.0;
-  if (!left_control) return;
-  if (!left_since_s) left_since_s = time_s;
-  const double gone = time_s - *left_since_s;
-  left_share = options.control_change_s > 0.0
-                   ? 1.0 - smooth_step(gone / options.control_change_s)
-                   : 0.0;
-  if (left_share <= 0.0) left_control.reset();
+  const double duration_s = options.control_change_s;
+  if (duration_s <= 0.0) passed = 1.0;
+  if (passed >= 1.0) return;
+  if (!passes_since_s) passes_since_s = time_s - passed * duration_s;
+  passed = std::clamp((time_s - *passes_since_s) / duration_s, 0.0, 1.0);
+  left_share = 1.0 - smooth_step(passed);
+}
+
+void Adapter::State::turn_passage(const AdaptOptions& to) {
+  if (to.control != options.control) {
+    left_control = options.control;
+    // The ramp is its own mirror image: the share stays what it was.
+    passed = 1.0 - passed;
+  } else if (to.control_change_s == options.control_change_s) {
+    return;
+  }
+  passes_since_s.reset();
 }
 
 void Adapter::State::call_for_state() const {

@@ -174,7 +174,7 @@ void Adapter::State::solve_faded(LaneFigures<float>& figures) {
       above = next;
     }
   };
-  if (left_share > 0.0) add_all(*left_control, left_share);
+  if (left_share > 0.0) add_all(left_control, left_share);
   add_all(options.control, 1.0 - left_share);
   for (std::size_t k = 0; k < wishes.size(); ++k) {
     wishes[k].active = activations[k] > kFirm;

@@ -53,10 +53,13 @@ struct Adapter::State {
   glm::dvec3 origin_in_world{0.0};
   std::vector<LiveActivation> live;      ///< Of each constraint.
   Control control = Control::kPriority;  ///< Solved for at this moment.
-  /// The control that is being left, its share now, and since when.
-  std::optional<Control> left_control;
+  /// The control that is being left, and its share now.
+  Control left_control = Control::kPriority;
   double left_share = 0.0;
-  std::optional<double> left_since_s;
+  /// How much of the passage's duration the last posture had behind it, 0 to 1, and when
+  /// it began, or would have at this pace; known from the next posture on.
+  double passed = 1.0;
+  std::optional<double> passes_since_s;
   bool is_standing = false;                 ///< The reference is in `lanes`.
   std::vector<ConstraintOutcome> outcomes;  ///< As the constraints.
   /// Where supports without a footprint stand, since they began.
@@ -68,6 +71,9 @@ struct Adapter::State {
         const ConstraintSet& constraints_in,
         const AdaptOptions& options_in);
 
+  /// Before `to` become the options: a passage to the other control begins, or the one
+  /// that runs turns back from where the last posture was.
+  void turn_passage(const AdaptOptions& to);
   /// Plans anew, after what the plan is made from has changed. Allocates.
   void set_up();
   AdaptReport adapt(const Pose& reference, double time_s, Pose& out);

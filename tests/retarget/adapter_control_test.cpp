@@ -67,5 +67,59 @@ TEST(AdapterControl, ChangesAtOnceWhenNoDurationIsGiven) {
   }
 }
 
+// Taken back before any posture has seen it, it never was.
+TEST(AdapterControl, AChangeThatIsTakenBackAtOnceChangesNothing) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  Adapter changing = make_adapter(body, torn_apart(), options(Control::kPriority, 0.4));
+  Pose goal;
+  Pose now;
+  static_cast<void>(changing.adapt(reference, 0.0, goal));
+  changing.set_options(options(Control::kBlend, 0.4));
+  changing.set_options(options(Control::kPriority, 0.4));
+  for (const double time_s : {0.001, 0.2, 1.0}) {
+    static_cast<void>(changing.adapt(reference, time_s, now));
+    EXPECT_TRUE(same_bits(now, goal)) << time_s;
+  }
+}
+
+// Back and forth, taken back at every stage, its duration changed on the way.
+TEST(AdapterControl, AChangeThatIsTakenBackOnItsWayTurnsAroundWithoutAJump) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  constexpr double kChange_s = 0.4;
+  constexpr double kSlower_s = 0.8;
+  constexpr int kSteps = 400;  // Of 1 ms: one whole passage.
+  Adapter changing =
+      make_adapter(body, torn_apart(), options(Control::kPriority, kChange_s));
+  Adapter blending = make_adapter(body, torn_apart(), options(Control::kBlend, 0.0));
+  Pose before;
+  Pose now;
+  Pose first;
+  Pose goal;
+  static_cast<void>(changing.adapt(reference, 0.0, first));
+  static_cast<void>(blending.adapt(reference, 0.0, goal));
+  const double whole_way_rad = most_turned_rad(goal, first);
+  before = first;
+  int step = 0;
+  const auto go_on = [&](Control control, double change_s, int steps) {
+    changing.set_options(options(control, change_s));
+    for (int i = 0; i < steps; ++i) {
+      static_cast<void>(changing.adapt(reference, 0.001 * ++step, now));
+      // As above.
+      ASSERT_LT(most_turned_rad(now, before), 4.0 * 1.875 * whole_way_rad / kSteps)
+          << step;
+      before = now;
+    }
+  };
+  go_on(Control::kBlend, kChange_s, 200);
+  EXPECT_GT(most_turned_rad(now, first), 0.1) << "half of the way";
+  go_on(Control::kPriority, kChange_s, 50);
+  go_on(Control::kBlend, kChange_s, 150);
+  go_on(Control::kBlend, kSlower_s, 20);
+  go_on(Control::kPriority, kSlower_s, 1000);
+  EXPECT_TRUE(same_bits(now, first));
+}
+
 }  // namespace
 }  // namespace marey::retarget
