@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/ids.h"
+#include "core/skeleton.h"
+#include "core/transform.h"
+#include "retarget/body_map.h"
+
+namespace marey::retarget {
+
+/// The parts of a body that touch each other. Left limbs before right ones.
+enum class VolumePart : int {
+  kHead,
+  kChest,
+  kAbdomen,
+  kPelvis,
+  kLeftUpperArm,
+  kLeftForearm,
+  kLeftHand,
+  kLeftThigh,
+  kLeftShank,
+  kRightUpperArm,
+  kRightForearm,
+  kRightHand,
+  kRightThigh,
+  kRightShank,
+};
+
+inline constexpr int kVolumePartCount = 14;
+
+[[nodiscard]] constexpr std::size_t index(VolumePart part) {
+  return static_cast<std::size_t>(part);
+}
+
+/// As people say it: "left thigh".
+[[nodiscard]] std::string_view name(VolumePart part);
+
+/// The same limb's part on a side, 0 left and 1 right. Precondition: a left limb's part.
+[[nodiscard]] constexpr VolumePart on_side(VolumePart left_part, int side) {
+  return static_cast<VolumePart>(static_cast<int>(left_part) + 5 * side);
+}
+
+/// All that is within a radius of a piece of a line. Its frame has the middle of that as
+/// origin, Z along it, and X towards the front of the body in its T-pose, so that
+/// directions about it mean the same on every body.
+struct Capsule {
+  JointIndex joint{};  ///< Which carries it.
+  RigidTransform joint_from_capsule;
+  double half_length_m = 0.0;  ///< Of the line; 0 is a ball.
+  double radius_m = 0.0;
+};
+
+/// What a body takes up of space, by parts. A limb's capsule lies along its bone, from
+/// its root to its end; the trunk's three lie across, left to right, because a trunk is
+/// half again as broad as it is deep.
+struct BodyVolume {
+  std::array<std::optional<Capsule>, kVolumePartCount> parts{};
+
+  [[nodiscard]] const std::optional<Capsule>& operator[](VolumePart part) const {
+    return parts[index(part)];
+  }
+  [[nodiscard]] std::optional<Capsule>& operator[](VolumePart part) {
+    return parts[index(part)];
+  }
+};
+
+/// How a point lies to a capsule.
+struct CapsuleSide {
+  double distance_m = 0.0;  ///< From the surface; negative within.
+  glm::dvec3 outward{0.0};  ///< Unit, from the axis to the point; the front on the axis.
+};
+
+/// In the capsule's frame. Exact, allocates nothing.
+[[nodiscard]] CapsuleSide side_of(const Capsule& capsule, const glm::dvec3& p_in_capsule);
+
+/// In the world. Precondition: one frame per joint.
+[[nodiscard]] CapsuleSide side_of(const Capsule& capsule,
+                                  std::span<const RigidTransform> world_from_joint,
+                                  const glm::dvec3& p_in_world);
+
+/// The point of the axis, -1 at its start to 1 at its end, in the joint's frame.
+[[nodiscard]] glm::dvec3 axis_point_in_joint(const Capsule& capsule, double along);
+
+/// Where a ball beside `to` lies as one beside `from` does: at the same place on it,
+/// measured in its lengths and radii, and with the same distance between the surfaces.
+/// On a capsule of the same size the same place, to rounding. Continuous; smooth but for
+/// where a capsule's side becomes its end. Both in their capsule's frame.
+[[nodiscard]] glm::dvec3 carried_over(const Capsule& from,
+                                      const glm::dvec3& p_in_from,
+                                      double ball_at_from_m,
+                                      const Capsule& to,
+                                      double ball_at_to_m);
+
+/// A place on the surface of a part, whatever its size.
+struct PlaceOnPart {
+  double along = 0.0;       ///< -1 to 1 from end to end, caps included.
+  double around_rad = 0.0;  ///< About the axis from the front, counterclockwise.
+};
+
+/// Of a point in the capsule's frame, beside the capsule or within.
+[[nodiscard]] PlaceOnPart place_on(const Capsule& capsule,
+                                   const glm::dvec3& p_in_capsule);
+
+/// The point of the surface, in the joint's frame.
+[[nodiscard]] glm::dvec3 surface_point_in_joint(const Capsule& capsule,
+                                                const PlaceOnPart& place);
+
+/// The volume of an average adult of this skeleton's lengths: thickness over length of
+/// the same segment, breadth of the trunk over that between shoulders and hips, its depth
+/// over its height, from the girths, breadths and depths in Gordon et al. 2014, "2012
+/// Anthropometric Survey of U.S. Army Personnel" (NATICK/TR-15/007), means of women and
+/// men to a centimetre, over the segments of average_proportions(). Skin is taken for
+/// round; a hand's radius lies between half its thickness and half its breadth. Where a
+/// body is thick or thin nobody knows from its skeleton: a mesh knows
+/// (retarget/fit_volume.h). Parts whose bones the skeleton lacks are not there.
+/// Precondition: `map` was made from `skeleton`.
+[[nodiscard]] BodyVolume average_volume(const Skeleton& skeleton, const BodyMap& map);
+
+/// Joints in the canonical T-pose, their places from the first joint's rest place.
+/// Precondition: `map` was made from `skeleton`.
+[[nodiscard]] std::vector<RigidTransform> t_pose_joints(const Skeleton& skeleton,
+                                                        const BodyMap& map);
+
+}  // namespace marey::retarget

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/fit_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/assert.h"
+#include "core/humanoid.h"
+#include "core/pose.h"
+#include "core/quantile.h"
+
+namespace marey::retarget {
+namespace {
+
+using B = HumanBone;
+using P = VolumePart;
+
+constexpr std::size_t kFewest = 12;
+constexpr double kWithin = 0.97;  // Of a trunk's vertices are within its breadth.
+constexpr std::array kTrunkParts{P::kPelvis, P::kAbdomen, P::kChest};
+
+// Part of a limb or head that a marked bone carries.
+std::optional<P> part_of(B bone) {
+  switch (bone) {
+    case B::kHead:
+      return P::kHead;
+    case B::kLeftUpperArm:
+      return P::kLeftUpperArm;
+    case B::kLeftLowerArm:
+      return P::kLeftForearm;
+    case B::kLeftHand:
+      return P::kLeftHand;
+    case B::kLeftUpperLeg:
+      return P::kLeftThigh;
+    case B::kLeftLowerLeg:
+      return P::kLeftShank;
+    case B::kRightUpperArm:
+      return P::kRightUpperArm;
+    case B::kRightLowerArm:
+      return P::kRightForearm;
+    case B::kRightHand:
+      return P::kRightHand;
+    case B::kRightUpperLeg:
+      return P::kRightThigh;
+    case B::kRightLowerLeg:
+      return P::kRightShank;
+    default:
+      return std::nullopt;
+  }
+}
+
+enum class Belongs { kNowhere, kPart, kTrunk };
+struct Home {
+  Belongs belongs = Belongs::kNowhere;
+  P part = P::kHead;
+};
+
+// Unmarked joints (fingers, twists) belong to what they hang on.
+std::vector<Home> homes_of(const Skeleton& skeleton, const BodyMap& map) {
+  std::vector<Home> homes(skeleton.joints.size());
+  for (std::size_t i = 0; i < homes.size(); ++i) {
+    const Joint& joint = skeleton.joints[i];
+    const JointIndex self{static_cast<int>(i)};
+    const bool vertebra = map.joints[i].role == JointRole::kVertebra;
+    if (self == map.hips() || vertebra) {
+      homes[i] = {Belongs::kTrunk, P::kPelvis};
+    } else if (!joint.bone) {
+      if (joint.parent) homes[i] = homes[index(*joint.parent)];
+    } else if (const auto part = part_of(*joint.bone)) {
+      homes[i] = {Belongs::kPart, *part};
+    }
+  }
+  return homes;
+}
+
+using Cloud = std::vector<glm::dvec3>;  // In a capsule's frame. [m]
+
+void fit_round(const Cloud& cloud, Capsule& capsule) {
+  std::vector<double> off_m;
+  for (const glm::dvec3& p : cloud) {
+    if (std::abs(p.z) <= capsule.half_length_m) off_m.push_back(std::hypot(p.x, p.y));
+  }
+  if (off_m.size() >= kFewest) capsule.radius_m = median(std::move(off_m));
+}
+
+// Half of the thinner of the two extents across.
+void fit_hand(const Cloud& cloud, Capsule& capsule) {
+  const auto half_extent = [&](int axis) {
+    std::vector<double> values;
+    for (const glm::dvec3& p : cloud) values.push_back(p[axis]);
+    return 0.5 * (quantile(values, kWithin) - quantile(values, 1.0 - kWithin));
+  };
+  const double thin_m = std::min(half_extent(0), half_extent(1));
+  if (thin_m > 0.0) capsule.radius_m = thin_m;
+}
+
+// Along the capsule is left to right, its x to the front.
+void fit_slice(const Cloud& cloud, Capsule& capsule) {
+  std::vector<double> aside;
+  std::vector<double> front;
+  for (const glm::dvec3& p : cloud) {
+    aside.push_back(std::abs(p.z));
+    front.push_back(p.x);
+  }
+  const double back_m = quantile(front, 1.0 - kWithin);
+  const double front_m = quantile(front, kWithin);
+  const double radius_m = 0.5 * (front_m - back_m);
+  if (radius_m <= 0.0) return;
+  capsule.radius_m = radius_m;
+  capsule.half_length_m = std::max(quantile(std::move(aside), kWithin) - radius_m, 0.0);
+  capsule.joint_from_capsule.translation =
+      capsule.joint_from_capsule * glm::dvec3(0.5 * (front_m + back_m), 0.0, 0.0);
+}
+
+}  // namespace
+
+BodyVolume volume_of_skin(const Skeleton& skeleton,
+                          const BodyMap& map,
+                          std::span<const SkinPoint> skin) {
+  BodyVolume out = average_volume(skeleton, map);
+  const std::vector<Home> homes = homes_of(skeleton, map);
+  const std::vector<RigidTransform> rest =
+      world_from_joints(skeleton, rest_pose(skeleton));
+  std::array<Cloud, kVolumePartCount> clouds;
+  const auto in_capsule = [&](const Capsule& capsule, const glm::dvec3& p) {
+    return inverse(rest[index(capsule.joint)] * capsule.joint_from_capsule) * p;
+  };
+  for (const SkinPoint& point : skin) {
+    MAREY_ASSERT(index(point.joint) < homes.size());
+    const Home& home = homes[index(point.joint)];
+    if (home.belongs == Belongs::kPart && out[home.part]) {
+      clouds[index(home.part)].push_back(in_capsule(*out[home.part], point.p_in_world));
+    } else if (home.belongs == Belongs::kTrunk) {
+      // The slice whose middle is nearest in height.
+      const auto height = [&](P part) {
+        return std::abs(in_capsule(*out[part], point.p_in_world).y);
+      };
+      const P slice = *std::min_element(kTrunkParts.begin(),
+                                        kTrunkParts.end(),
+                                        [&](P a, P b) { return height(a) < height(b); });
+      clouds[index(slice)].push_back(in_capsule(*out[slice], point.p_in_world));
+    }
+  }
+  for (int i = 0; i < kVolumePartCount; ++i) {
+    const P part = static_cast<P>(i);
+    const Cloud& cloud = clouds[index(part)];
+    if (!out[part] || cloud.size() < kFewest) continue;
+    const bool trunk =
+        std::find(kTrunkParts.begin(), kTrunkParts.end(), part) != kTrunkParts.end();
+    if (trunk) {
+      fit_slice(cloud, *out[part]);
+    } else if (part == P::kLeftHand || part == P::kRightHand) {
+      fit_hand(cloud, *out[part]);
+    } else {
+      fit_round(cloud, *out[part]);
+    }
+  }
+  return out;
+}
+
+}  // namespace marey::retarget
