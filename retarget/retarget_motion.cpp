@@ -175,6 +175,10 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
     out.motion = expand_all(poses, source, avatar, *to);
     out.report.after = measure_feet(out.motion, *to, out.report.contacts);
   }
+  if (options.hands) {
+    out.report.hands =
+        refine_hands(source, *from, *to, {scale, rise_m}, *options.hands, out.motion);
+  }
   return out;
 }
 

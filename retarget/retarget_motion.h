@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/motion.h"
@@ -9,6 +10,7 @@
 #include "retarget/detect_contacts.h"
 #include "retarget/ground.h"
 #include "retarget/normalized_skeleton.h"
+#include "retarget/refine_hands.h"
 
 namespace marey::retarget {
 
@@ -17,6 +19,8 @@ struct RetargetOptions {
   bool adapt_ground = true;
   DetectContactsOptions contacts;
   GroundOptions ground;
+  /// nullopt: hands and arms stay where the normalized posture has them.
+  std::optional<RefineHandsOptions> hands = RefineHandsOptions{};
 };
 
 /// Who moves, and who is to.
@@ -51,6 +55,7 @@ struct RetargetReport {
   FootFigures before;  ///< On the avatar, without ground adaptation.
   FootFigures after;   ///< On the avatar, as delivered.
   GroundReport ground;
+  HandReport hands;
 };
 
 struct RetargetedMotion {
@@ -59,7 +64,8 @@ struct RetargetedMotion {
 };
 
 /// Puts a motion on another body: normalized skeleton, root at the avatar's height,
-/// feet on the floor Y = 0 (which the source's feet define, wherever they rest).
+/// feet on the floor Y = 0 (which the source's feet define, wherever they rest), hands
+/// where they are on the source's body.
 /// Frames, rate and first_frame are the source's. Same input, same bytes. Linear in
 /// frames, some ten microseconds each.
 ///

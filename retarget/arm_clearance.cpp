@@ -1,0 +1,143 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/arm_clearance.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "core/transform.h"
+
+namespace marey::retarget {
+namespace {
+
+using P = VolumePart;
+
+constexpr std::array kObstacles{
+    P::kChest, P::kAbdomen, P::kPelvis, P::kLeftThigh, P::kRightThigh};
+constexpr double kNothing_m = 1e-9;
+
+// What of an arm is looked at: a ball on a bone.
+enum class Bone { kUpper, kForearm, kHand };
+struct Ball {
+  Bone bone;
+  double at;  // From the bone's root, 0, to its end, 1.
+};
+constexpr std::array<Ball, 8> kBalls{{{Bone::kUpper, 0.6},
+                                      {Bone::kUpper, 0.8},
+                                      {Bone::kForearm, 0.0},
+                                      {Bone::kForearm, 1.0 / 3.0},
+                                      {Bone::kForearm, 2.0 / 3.0},
+                                      {Bone::kForearm, 1.0},
+                                      {Bone::kHand, 0.5},
+                                      {Bone::kHand, 1.0}}};
+
+struct PlacedBall {
+  glm::dvec3 p_in_world;
+  double radius_m;
+};
+
+PlacedBall placed(const Ball& ball,
+                  const ArmPlaces& arm,
+                  const VolumeInMotion& body,
+                  int side,
+                  std::span<const RigidTransform> joints) {
+  const auto radius_m = [&](P part) {
+    const auto& capsule = body.volume[on_side(part, side)];
+    return capsule ? capsule->radius_m : 0.0;
+  };
+  if (ball.bone == Bone::kUpper) {
+    return {glm::mix(arm.shoulder, arm.elbow, ball.at), radius_m(P::kLeftUpperArm)};
+  }
+  if (ball.bone == Bone::kForearm) {
+    return {glm::mix(arm.elbow, arm.wrist, ball.at), radius_m(P::kLeftForearm)};
+  }
+  const auto& hand = body.volume[on_side(P::kLeftHand, side)];
+  if (!hand) return {arm.wrist, 0.0};
+  const glm::dvec3 from_wrist = joints[index(hand->joint)].rotation *
+                                axis_point_in_joint(*hand, 2.0 * ball.at - 1.0);
+  return {arm.wrist + from_wrist, hand->radius_m};
+}
+
+// How far a ball must go, and where to.
+struct Push {
+  glm::dvec3 way{0.0};  // World, [m].
+  double depth_m = 0.0;
+};
+
+// From `p` out along the unit `way`, until a ball there is as far as wanted.
+double way_out_m(const Capsule& capsule,
+                 const glm::dvec3& p,
+                 const glm::dvec3& way,
+                 double wanted_m) {
+  double along_m = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    const CapsuleSide side = side_of(capsule, p + along_m * way);
+    const double missing_m = wanted_m - side.distance_m;
+    if (missing_m <= kNothing_m) break;
+    along_m += missing_m / std::max(glm::dot(side.outward, way), 0.4);
+  }
+  return along_m;
+}
+
+Push push_out(const Capsule& source,
+              const RigidTransform& world_from_source,
+              const PlacedBall& source_ball,
+              const Capsule& avatar,
+              const RigidTransform& world_from_avatar,
+              const PlacedBall& ball,
+              double slack_m) {
+  const glm::dvec3 p = inverse(world_from_avatar) * ball.p_in_world;
+  const double distance_m = side_of(avatar, p).distance_m - ball.radius_m;
+  if (distance_m > 0.0) return {};
+  const glm::dvec3 p_in_source = inverse(world_from_source) * source_ball.p_in_world;
+  const double allowed_m =
+      std::min(side_of(source, p_in_source).distance_m - source_ball.radius_m, 0.0);
+  const Push inside{glm::dvec3(0.0), allowed_m - distance_m};
+  if (inside.depth_m <= slack_m + kNothing_m) return inside;
+  // The side on which the source is: the direction as the source's place has it on this
+  // body.
+  const glm::dvec3 place =
+      carried_over(source, p_in_source, source_ball.radius_m, avatar, ball.radius_m);
+  const glm::dvec3 way = side_of(avatar, place).outward;
+  const double out_m = way_out_m(avatar, p, way, allowed_m - slack_m + ball.radius_m);
+  return {world_from_avatar.rotation * (way * out_m), inside.depth_m};
+}
+
+}  // namespace
+
+ArmNeed arm_need(const ArmOfBody& source,
+                 const ArmOfBody& avatar,
+                 int side,
+                 std::size_t t,
+                 double slack_m) {
+  ArmNeed out;
+  const auto source_joints = source.body.frames[t];
+  const auto joints = avatar.body.frames[t];
+  for (const P part : kObstacles) {
+    const auto& from = source.body.volume[part];
+    const auto& to = avatar.body.volume[part];
+    if (!from || !to) continue;
+    const RigidTransform world_from_source =
+        source_joints[index(from->joint)] * from->joint_from_capsule;
+    const RigidTransform world_from_avatar =
+        joints[index(to->joint)] * to->joint_from_capsule;
+    for (const Ball& ball : kBalls) {
+      const Push push =
+          push_out(*from,
+                   world_from_source,
+                   placed(ball, source.arm, source.body, side, source_joints),
+                   *to,
+                   world_from_avatar,
+                   placed(ball, avatar.arm, avatar.body, side, joints),
+                   slack_m);
+      out.deepest_m = std::max(out.deepest_m, push.depth_m);
+      if (ball.bone == Bone::kUpper) take_greater(push.way / ball.at, out.elbow);
+      if (ball.bone == Bone::kForearm && ball.at < 1.0) take_greater(push.way, out.elbow);
+      if (ball.bone != Bone::kUpper && ball.at > 0.0) take_greater(push.way, out.wrist);
+    }
+  }
+  return out;
+}
+
+}  // namespace marey::retarget

@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/arm_shift.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "core/assert.h"
+#include "core/transform.h"
+
+namespace marey::retarget {
+namespace {
+
+// Up to this share of its length an arm follows exactly, or as far as it is stretched
+// already; the rest it takes ever more slowly, since the last percent costs an elbow ten
+// degrees at once.
+constexpr double kExact = 0.97;
+constexpr double kStraight = 0.9995;
+constexpr double kNoShift = 1e-9;  // [m], [rad]
+
+bool is_zero(const ArmShift& shift) {
+  return glm::length(shift.wrist_m) < kNoShift && std::abs(shift.swivel_rad) < kNoShift;
+}
+
+// How far an arm goes that should go that far, in its lengths. Continuous slope.
+double reached(double wanted, double extension_before) {
+  const double exact = std::max(kExact, extension_before);
+  const double left = kStraight - exact;
+  if (wanted <= exact) return wanted;
+  if (left <= 0.0) return exact;
+  return exact + left * (1.0 - std::exp((exact - wanted) / left));
+}
+
+}  // namespace
+
+Arms::Arms(const PosedFrames& frames, const BodyMap& map) : frames_(&frames), map_(&map) {
+  NormalizedPose pose;
+  for (std::size_t t = 0; t < frames.count(); ++t) {
+    normalize(map, frames[t], pose, RootNormalization::kNone);
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (pose.limbs[side]) limbs_[side].push_back(*pose.limbs[side]);
+    }
+  }
+}
+
+ArmPlaces Arms::places(std::size_t t, int side) const {
+  const auto joints = (*frames_)[t];
+  const LimbMap& arm = limb(side);
+  return {joints[index(arm.upper)].translation,
+          joints[index(arm.lower)].translation,
+          joints[index(arm.end)].translation};
+}
+
+NormalizedLimb Arms::shifted_limb(std::size_t t, int side, const ArmShift& shift) const {
+  const ArmPlaces now = places(t, side);
+  NormalizedLimb out = limbs_[static_cast<std::size_t>(side)][t];
+  const glm::dvec3 wanted = now.wrist + shift.wrist_m - now.shoulder;
+  const double distance_m = glm::length(wanted);
+  if (distance_m < 1e-9) return out;
+  const glm::dvec3 axis = wanted / distance_m;
+  const glm::dvec3 before = out.world_from_limb * glm::dvec3(0, 0, 1);
+  out.world_from_limb =
+      glm::normalize(glm::angleAxis(shift.swivel_rad, axis) *
+                     rotation_between(before, axis) * out.world_from_limb);
+  out.extension = reached(distance_m / limb(side).length_m(), out.extension);
+  return out;
+}
+
+ArmPlaces Arms::places(std::size_t t, int side, const ArmShift& shift) const {
+  ArmPlaces out = places(t, side);
+  if (is_zero(shift)) return out;
+  const LimbMap& arm = limb(side);
+  const NormalizedLimb bent = shifted_limb(t, side, shift);
+  const double l1 = arm.upper_length_m;
+  const double l2 = arm.lower_length_m;
+  const double distance = std::clamp(
+      bent.extension * arm.length_m(), std::max(std::abs(l1 - l2), 1e-9), l1 + l2);
+  const double along =
+      std::clamp(0.5 * (distance + (l1 - l2) * (l1 + l2) / distance), -l1, l1);
+  const double offset = std::sqrt(std::max(l1 * l1 - along * along, 0.0));
+  out.elbow = out.shoulder + bent.world_from_limb * glm::dvec3(offset, 0.0, along);
+  out.wrist = out.shoulder + bent.world_from_limb * glm::dvec3(0.0, 0.0, distance);
+  return out;
+}
+
+double Arms::out_of_reach_m(std::size_t t, int side, const ArmShift& shift) const {
+  const glm::dvec3 wanted = places(t, side).wrist + shift.wrist_m;
+  return glm::distance(places(t, side, shift).wrist, wanted);
+}
+
+void shift_arms(const Arms& arms,
+                const BodyMap& map,
+                const PosedFrames& frames,
+                const ArmShifts& shifts,
+                Motion& motion) {
+  MAREY_ASSERT(arms.count() == motion.poses.size());
+  const Skeleton& skeleton = motion.skeleton;
+  std::vector<RigidTransform> world_from_joint(skeleton.joints.size());
+  NormalizedPose pose;
+  Pose expanded;
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+    std::array<bool, 2> moved{};
+    for (int side = 0; side < 2; ++side) {
+      const auto s = static_cast<std::size_t>(side);
+      moved[s] = arms.has(side) && !is_zero(shifts[s][t]);
+    }
+    if (!moved[0] && !moved[1]) continue;
+    normalize(map, frames[t], pose, RootNormalization::kNone);
+    for (int side = 0; side < 2; ++side) {
+      const auto s = static_cast<std::size_t>(side);
+      if (moved[s]) pose.limbs[s] = arms.shifted_limb(t, side, shifts[s][t]);
+    }
+    expand(pose, skeleton, map, world_from_joint, expanded);
+    for (int side = 0; side < 2; ++side) {
+      if (!moved[static_cast<std::size_t>(side)]) continue;
+      const LimbMap& arm = arms.limb(side);
+      for (const JointIndex joint : {arm.upper, arm.lower, arm.end}) {
+        motion.poses[t].parent_from_joint[index(joint)] =
+            expanded.parent_from_joint[index(joint)];
+      }
+    }
+  }
+}
+
+}  // namespace marey::retarget

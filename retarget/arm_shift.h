@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/motion.h"
+#include "retarget/body_map.h"
+#include "retarget/normalized_skeleton.h"
+#include "retarget/posed_frames.h"
+
+namespace marey::retarget {
+
+/// How one arm is moved in one frame: the wrist from where it is, in the world, and the
+/// elbow about the line from shoulder to wrist. The hand is not turned in the world.
+struct ArmShift {
+  glm::dvec3 wrist_m{0.0};
+  double swivel_rad = 0.0;
+};
+
+/// One shift per frame, left and right.
+using ArmShifts = std::array<std::vector<ArmShift>, 2>;
+
+/// Where the joints of an arm are. World, [m].
+struct ArmPlaces {
+  glm::dvec3 shoulder{0.0};
+  glm::dvec3 elbow{0.0};
+  glm::dvec3 wrist{0.0};
+};
+
+/// The arms of a motion, and where they would be when shifted.
+class Arms {
+ public:
+  /// Precondition: `map` was made from the skeleton of `frames`; both outlive this.
+  Arms(const PosedFrames& frames, const BodyMap& map);
+
+  [[nodiscard]] std::size_t count() const { return frames_->count(); }
+  /// Whether the body has that arm, complete.
+  [[nodiscard]] bool has(int side) const {
+    return map_->limbs[static_cast<std::size_t>(side)].has_value();
+  }
+  /// Precondition (here and below): has(side), t < count().
+  [[nodiscard]] const LimbMap& limb(int side) const {
+    return *map_->limbs[static_cast<std::size_t>(side)];
+  }
+  [[nodiscard]] ArmPlaces places(std::size_t t, int side) const;
+  /// The limb that brings the wrist there. The half-plane of the elbow turns along by the
+  /// smallest rotation, then by the swivel. A wrist that would stretch the arm beyond 97
+  /// percent goes in that direction ever less, and never out of reach: some millimetres.
+  [[nodiscard]] NormalizedLimb shifted_limb(std::size_t t,
+                                            int side,
+                                            const ArmShift& shift) const;
+  [[nodiscard]] ArmPlaces places(std::size_t t, int side, const ArmShift& shift) const;
+  /// How far the wrist stays away from where the shift wants it. [m]
+  [[nodiscard]] double out_of_reach_m(std::size_t t,
+                                      int side,
+                                      const ArmShift& shift) const;
+
+ private:
+  const PosedFrames* frames_;
+  const BodyMap* map_;
+  std::array<std::vector<NormalizedLimb>, 2> limbs_;
+};
+
+/// Moves the arms of the motion that `arms` was made of. Frames whose shifts are zero to
+/// a nanometre keep their bytes; nothing but upper arms, forearms and hands is written.
+/// Unmarked joints of a shifted arm are taken as at rest.
+void shift_arms(const Arms& arms,
+                const BodyMap& map,
+                const PosedFrames& frames,
+                const ArmShifts& shifts,
+                Motion& motion);
+
+}  // namespace marey::retarget

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/clear_arms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/assert.h"
+#include "core/transform.h"
+#include "retarget/arm_clearance.h"
+#include "retarget/smooth_cover.h"
+#include "retarget/smooth_step.h"
+
+namespace marey::retarget {
+namespace {
+
+// Between these shares of its length an arm stops being bent or stretched to give way,
+// and only turns: a straight one's elbow moves by centimetres for a millimetre.
+constexpr double kBends = 0.8;
+constexpr double kTurns = 0.95;
+// A nearly straight arm's elbow gains nothing by swinging: below this distance from the
+// axis the wrist takes over, smoothly.
+constexpr double kSwingingElbow_m = 0.04;
+constexpr double kWorthIt = 0.95;  // Of what is missing is left after a pass, at most.
+
+std::size_t s(int side) {
+  return static_cast<std::size_t>(side);
+}
+
+struct Clearing {
+  const VolumeInMotion& source;
+  const VolumeInMotion& avatar;
+  const Arms& source_arms;
+  const Arms& arms;
+  double slack_m;
+
+  [[nodiscard]] ArmNeed need(std::size_t t, int side, const ArmShift& shift) const {
+    return arm_need({source, source_arms.places(t, side)},
+                    {avatar, arms.places(t, side, shift)},
+                    side,
+                    t,
+                    slack_m);
+  }
+
+  // The same as a shift: what the elbow gains by swinging, and by going with the wrist.
+  [[nodiscard]] ArmShift answer(std::size_t t,
+                                int side,
+                                const ArmShift& shift,
+                                const ArmNeed& lacks) const {
+    ArmShift out{lacks.wrist, 0.0};
+    const ArmPlaces arm = arms.places(t, side, shift);
+    const glm::dvec3 reach = arm.wrist - arm.shoulder;
+    const double reach_m = glm::length(reach);
+    if (reach_m < 1e-6) return out;
+    const glm::dvec3 axis = reach / reach_m;
+    const glm::dvec3 to_elbow = arm.elbow - arm.shoulder;
+    const glm::dvec3 radial = to_elbow - axis * glm::dot(to_elbow, axis);
+    const glm::dvec3 tangent = glm::cross(axis, radial);  // Per radian. [m]
+    const double offset2 = glm::dot(radial, radial);
+    out.swivel_rad = std::clamp(
+        glm::dot(lacks.elbow, tangent) / (offset2 + kSwingingElbow_m * kSwingingElbow_m),
+        -0.5,
+        0.5);
+    const glm::dvec3 left = lacks.elbow - out.swivel_rad * tangent;
+    const double lever = arms.limb(side).length_m() / arms.limb(side).upper_length_m;
+    take_greater(left * std::min(lever, reach_m / arms.limb(side).upper_length_m),
+                 out.wrist_m);
+    return out;
+  }
+};
+
+// A wrist's way as a turn of the line from the shoulder, and a change of its length.
+struct Turn {
+  glm::dvec3 turn{0.0};  // Rotation vector, world axes. [rad]
+  double longer_m = 0.0;
+};
+
+Turn turn_of(const LimbMap& limb, const ArmPlaces& arm, const glm::dvec3& way) {
+  const glm::dvec3 reach = arm.wrist - arm.shoulder;
+  const double reach_m = glm::length(reach);
+  if (reach_m < 1e-6) return {};
+  const double straight =
+      smooth_step((reach_m / limb.length_m() - kBends) / (kTurns - kBends));
+  return {glm::cross(reach, way) / (reach_m * reach_m),
+          (1.0 - straight) * glm::dot(way, reach) / reach_m};
+}
+
+glm::dvec3 way_of(const ArmPlaces& arm, const Turn& turn) {
+  const glm::dvec3 reach = arm.wrist - arm.shoulder;
+  const double reach_m = glm::length(reach);
+  if (reach_m < 1e-6) return glm::dvec3(0.0);
+  const glm::dvec3 turned = rotation_from_vector(turn.turn) * reach;
+  return turned * (1.0 + turn.longer_m / reach_m) - reach;
+}
+
+// Signals over time of what is missing, and smoothly more than that.
+struct Channel {
+  std::vector<double> above;
+  std::vector<double> below;
+
+  explicit Channel(std::size_t count) : above(count, 0.0), below(count, 0.0) {}
+  void set(std::size_t t, double value) {
+    above[t] = std::max(value, 0.0);
+    below[t] = std::max(-value, 0.0);
+  }
+  [[nodiscard]] std::vector<double> covered(int half) const {
+    std::vector<double> out = smooth_cover(above, half);
+    const std::vector<double> minus = smooth_cover(below, half);
+    for (std::size_t t = 0; t < out.size(); ++t) out[t] -= minus[t];
+    return out;
+  }
+};
+
+// A vector in axes that turn with the hips.
+struct VectorChannel {
+  std::array<Channel, 3> axes;
+
+  explicit VectorChannel(std::size_t count)
+      : axes{Channel(count), Channel(count), Channel(count)} {}
+  void set(std::size_t t, const glm::dvec3& way) {
+    for (int i = 0; i < 3; ++i) axes[s(i)].set(t, way[i]);
+  }
+  [[nodiscard]] std::vector<glm::dvec3> covered(int half) const {
+    std::vector<glm::dvec3> out(axes[0].above.size(), glm::dvec3(0.0));
+    for (int i = 0; i < 3; ++i) {
+      const std::vector<double> values = axes[s(i)].covered(half);
+      for (std::size_t t = 0; t < out.size(); ++t) out[t][i] = values[t];
+    }
+    return out;
+  }
+};
+
+glm::dvec3 greater_by_axis(const glm::dvec3& a, const glm::dvec3& b) {
+  glm::dvec3 out = a;
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(b[i]) > std::abs(a[i])) out[i] = b[i];
+  }
+  return out;
+}
+
+// What is missing, of all frames. Vectors in axes that turn with the hips.
+struct Missing {
+  struct Arm {
+    VectorChannel turn;
+    Channel longer;
+    Channel swivel;
+
+    explicit Arm(std::size_t count) : turn(count), longer(count), swivel(count) {}
+  };
+  std::array<Arm, 2> arms;
+  VectorChannel common;  // Ways of both wrists, where hands are on each other. [m]
+  double deepest_m = 0.0;
+  int worst_frame = -1;
+  double sum_m = 0.0;  // Over frames and arms: whether a pass was worth it.
+
+  explicit Missing(std::size_t count) : arms{Arm(count), Arm(count)}, common(count) {}
+};
+
+Missing missing_of(const Clearing& clearing,
+                   const HandHolds& holds,
+                   const std::vector<glm::dquat>& world_from_axes,
+                   const ArmShifts& shifts) {
+  const std::size_t count = clearing.arms.count();
+  Missing out(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    const glm::dquat axes_from_world = glm::conjugate(world_from_axes[t]);
+    glm::dvec3 both(0.0);
+    for (int side = 0; side < 2; ++side) {
+      if (!clearing.arms.has(side) || !clearing.source_arms.has(side)) continue;
+      const ArmShift& now = shifts[s(side)][t];
+      const ArmNeed need = clearing.need(t, side, now);
+      if (need.deepest_m <= 0.0) continue;
+      out.sum_m += need.deepest_m;
+      if (need.deepest_m > out.deepest_m) {
+        out.deepest_m = need.deepest_m;
+        out.worst_frame = static_cast<int>(t);
+      }
+      const ArmShift answer = clearing.answer(t, side, now, need);
+      const Turn turn = turn_of(
+          clearing.arms.limb(side), clearing.arms.places(t, side, now), answer.wrist_m);
+      const double free = 1.0 - holds.hand[s(side)][t];
+      Missing::Arm& arm = out.arms[s(side)];
+      arm.turn.set(t, free * (axes_from_world * turn.turn));
+      arm.longer.set(t, free * turn.longer_m);
+      arm.swivel.set(t, answer.swivel_rad);
+      both = greater_by_axis(both, axes_from_world * answer.wrist_m);
+    }
+    out.common.set(t, holds.hands[t] * both);
+  }
+  return out;
+}
+
+void add_covered(const Clearing& clearing,
+                 const HandHolds& holds,
+                 const std::vector<glm::dquat>& world_from_axes,
+                 const Missing& missing,
+                 int half,
+                 ArmShifts& shifts) {
+  const std::vector<glm::dvec3> together = missing.common.covered(half);
+  for (int side = 0; side < 2; ++side) {
+    if (!clearing.arms.has(side)) continue;
+    const Missing::Arm& arm = missing.arms[s(side)];
+    const std::vector<glm::dvec3> turn = arm.turn.covered(half);
+    const std::vector<double> longer_m = arm.longer.covered(half);
+    const std::vector<double> swivel_rad = arm.swivel.covered(half);
+    for (std::size_t t = 0; t < turn.size(); ++t) {
+      ArmShift& shift = shifts[s(side)][t];
+      const double joined = holds.hands[t];
+      const double free = 1.0 - holds.hand[s(side)][t];
+      const double both_free = free * (1.0 - holds.hand[s(1 - side)][t]);
+      const double alone = (1.0 - joined) * free;
+      const Turn own{alone * (world_from_axes[t] * turn[t]), alone * longer_m[t]};
+      const glm::dvec3 way = way_of(clearing.arms.places(t, side, shift), own) +
+                             joined * both_free * (world_from_axes[t] * together[t]);
+      shift.wrist_m += way;
+      shift.swivel_rad += swivel_rad[t];
+    }
+  }
+}
+
+}  // namespace
+
+ClearArmsReport clear_arms(const VolumeInMotion& source,
+                           const VolumeInMotion& avatar,
+                           const Arms& arms,
+                           FrameRate rate,
+                           const HandHolds& holds,
+                           const ClearArmsOptions& options,
+                           ArmShifts& shifts) {
+  const std::size_t count = avatar.frames.count();
+  MAREY_ASSERT(source.frames.count() == count);
+  MAREY_ASSERT(holds.hands.size() == count && shifts[0].size() == count);
+  ClearArmsReport report;
+  if (count == 0) return report;
+  const Arms source_arms(source.frames, source.map);
+  const Clearing clearing{source, avatar, source_arms, arms, options.slack_m};
+  std::vector<glm::dquat> world_from_axes;
+  const JointIndex hips = avatar.map.hips();
+  for (std::size_t t = 0; t < count; ++t) {
+    world_from_axes.push_back(
+        avatar.frames[t][index(hips)].rotation *
+        glm::conjugate(avatar.map.joints[index(hips)].t_pose_from_joint));
+  }
+  const double half_frames =
+      std::clamp(0.5 * options.anticipation_s * rate.hz, 1.0, static_cast<double>(count));
+  const int half = static_cast<int>(std::lround(half_frames));
+  ArmShifts best = shifts;
+  double least_m = std::numeric_limits<double>::max();
+  for (;; ++report.passes) {
+    const Missing missing = missing_of(clearing, holds, world_from_axes, shifts);
+    if (report.passes == 0) report.deepest_before_m = missing.deepest_m;
+    // What held hands keep in the way stays there, however often it is tried.
+    const bool better = missing.sum_m < least_m;
+    const bool goes_on = missing.sum_m < kWorthIt * least_m;
+    if (better) {
+      least_m = missing.sum_m;
+      best = shifts;
+      report.deepest_after_m = missing.deepest_m;
+      report.worst_frame = missing.worst_frame;
+    }
+    const bool enough = missing.deepest_m <= options.slack_m + options.good_enough_m;
+    if (enough || !goes_on || report.passes == options.most_passes) break;
+    add_covered(clearing, holds, world_from_axes, missing, half, shifts);
+  }
+  shifts = std::move(best);
+  return report;
+}
+
+}  // namespace marey::retarget
