@@ -14,6 +14,7 @@
 #include "core/pose.h"
 #include "core/transform.h"
 #include "retarget/leg_on_foot.h"
+#include "retarget/smooth_cover.h"
 
 namespace marey::retarget {
 namespace {
@@ -51,32 +52,6 @@ std::vector<char> bearing_frames(const FootContacts& foot, std::size_t count) {
     std::fill(on.begin() + run.first, on.begin() + run.last + 1, char{1});
   }
   return on;
-}
-
-// The least smooth curve of its kind above `needed`: the greatest within +-half a window,
-// averaged over +-half a window with a C2 bell. Every value averaged is at least the
-// one needed in the middle, so the average is too.
-std::vector<double> smooth_cover(const std::vector<double>& needed, int half) {
-  const int count = static_cast<int>(needed.size());
-  std::vector<double> peak(needed.size());
-  for (int t = 0; t < count; ++t) {
-    const auto from = needed.begin() + std::max(0, t - half);
-    const auto to = needed.begin() + std::min(count - 1, t + half) + 1;
-    peak[static_cast<std::size_t>(t)] = *std::max_element(from, to);
-  }
-  std::vector<double> out(needed.size());
-  for (int t = 0; t < count; ++t) {
-    double sum = 0.0;
-    double weights = 0.0;
-    for (int k = -half; k <= half; ++k) {
-      const double x = static_cast<double>(k) / (half + 1);
-      const double bell = (1.0 - x * x) * (1.0 - x * x) * (1.0 - x * x);
-      sum += bell * peak[static_cast<std::size_t>(std::clamp(t + k, 0, count - 1))];
-      weights += bell;
-    }
-    out[static_cast<std::size_t>(t)] = sum / weights;
-  }
-  return out;
 }
 
 // Sinks the root where bearing legs do not reach, smoothly; legs follow.

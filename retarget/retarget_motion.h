@@ -19,8 +19,9 @@ struct RetargetOptions {
   bool adapt_ground = true;
   DetectContactsOptions contacts;
   GroundOptions ground;
-  /// nullopt: hands and arms stay where the normalized posture has them.
-  std::optional<RefineHandsOptions> hands = RefineHandsOptions{};
+  /// What hands do to the body is kept, arms stay out of it (retarget/refine_hands.h);
+  /// nullopt: arms stay where the normalized posture has them.
+  std::optional<RefineHandsOptions> hands;
 };
 
 /// Who moves, and who is to.
@@ -55,7 +56,7 @@ struct RetargetReport {
   FootFigures before;  ///< On the avatar, without ground adaptation.
   FootFigures after;   ///< On the avatar, as delivered.
   GroundReport ground;
-  HandReport hands;
+  HandReport hands;  ///< Empty unless asked for.
 };
 
 struct RetargetedMotion {
@@ -65,7 +66,7 @@ struct RetargetedMotion {
 
 /// Puts a motion on another body: normalized skeleton, root at the avatar's height,
 /// feet on the floor Y = 0 (which the source's feet define, wherever they rest), hands
-/// where they are on the source's body.
+/// where they are on the source's body if asked for.
 /// Frames, rate and first_frame are the source's. Same input, same bytes. Linear in
 /// frames, some ten microseconds each.
 ///

@@ -80,11 +80,7 @@ RetargetedMotion retargeted(const Motion& source,
                             bool ground = true) {
   RetargetOptions options;
   options.adapt_ground = ground;
-  if (hands) {
-    options.hands->avatar_volume = std::move(avatar_volume);
-  } else {
-    options.hands.reset();
-  }
+  if (hands) options.hands.emplace().avatar_volume = std::move(avatar_volume);
   Result<RetargetedMotion> out = retarget_motion(source, avatar, options);
   EXPECT_TRUE(out) << (out ? "" : out.error().message());
   return *std::move(out);
