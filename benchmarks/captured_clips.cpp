@@ -4,14 +4,13 @@
 
 #include <utility>
 
+#include "benchmarks/stand_as_marey.h"
 #include "core/humanoid.h"
 #include "core/motion.h"
 #include "core/transform.h"
 #include "recordings/asf.h"
 #include "recordings/bvh.h"
-#include "retarget/body_frame.h"
 #include "retarget/body_map.h"
-#include "retarget/identify_bones.h"
 #include "retarget/make_character.h"
 
 namespace marey {
@@ -75,18 +74,10 @@ Result<Motion> read_motion(const std::filesystem::path& file) {
 Result<CapturedClip> read_clip(const std::filesystem::path& file, std::string name) {
   auto motion = read_motion(file);
   if (!motion) return motion.error();
-  auto bones = retarget::identify_bones(motion->skeleton);
-  if (!bones) return bones.error();
-  if (!retarget::stands_at_rest(motion->skeleton, *bones)) {
-    retarget::rest_as_standing(*motion, *bones);
-  }
   // A BVH's unit is custom alone; CMU's files say theirs.
   const bool is_bvh = file.extension() == ".bvh";
-  const retarget::FileUnit unit{is_bvh ? 0.01 : 1.0, !is_bvh};
-  const auto frame = retarget::find_body_frame(motion->skeleton, unit, {}, *bones);
-  if (!frame) return frame.error();
-  retarget::mark(*bones, motion->skeleton);
-  retarget::put_into_frame(*frame, *motion);
+  const auto ok = stand_as_marey({is_bvh ? 0.01 : 1.0, !is_bvh}, *motion);
+  if (!ok) return ok.error();
   return clip_of(std::move(name), without_helpers(*motion));
 }
 

@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "benchmarks/stand_as_marey.h"
+
+#include "retarget/identify_bones.h"
+
+namespace marey {
+
+Result<retarget::BodyFrame> stand_as_marey(const retarget::FileUnit& unit,
+                                           Motion& motion) {
+  auto bones = retarget::identify_bones(motion.skeleton);
+  if (!bones) return bones.error();
+  if (!motion.poses.empty() && !retarget::stands_at_rest(motion.skeleton, *bones)) {
+    retarget::rest_as_standing(motion, *bones);
+  }
+  auto frame = retarget::find_body_frame(motion.skeleton, unit, {}, *bones);
+  if (!frame) return frame.error();
+  retarget::mark(*bones, motion.skeleton);
+  retarget::put_into_frame(*frame, motion);
+  return frame;
+}
+
+}  // namespace marey

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/motion.h"
+#include "core/result.h"
+#include "retarget/body_frame.h"
+
+namespace marey {
+
+/// Marks the bones of a motion that was read, and puts it into marey's frame, as `marey`
+/// does. What it did to the frame. Errors: identify_bones()'s and find_body_frame()'s.
+[[nodiscard]] Result<retarget::BodyFrame> stand_as_marey(const retarget::FileUnit& unit,
+                                                         Motion& motion);
+
+}  // namespace marey
