@@ -120,6 +120,7 @@ Result<LiveRetarget> LiveRetarget::make(const Skeleton& source,
   state->avatar = avatar;
   state->from = std::move(bodies->source);
   state->to = std::move(bodies->avatar);
+  wear(options.soles, state->to);
   state->options = options;
   state->scale =
       root_unit_m(state->to, options.root) / root_unit_m(state->from, options.root);

@@ -11,12 +11,14 @@
 #include "core/skeleton.h"
 #include "core/transform.h"
 #include "retarget/detect_contacts.h"
+#include "retarget/find_soles.h"
 #include "retarget/normalized_skeleton.h"
 
 namespace marey::retarget {
 
 struct LiveRetargetOptions {
   RootNormalization root = RootNormalization::kLegLength;
+  Soles soles;            ///< Of the avatar, where its skin is known.
   bool hold_feet = true;  ///< Feet that stand in the source stand still on the avatar.
   /// When a foot stands; its times and its uneven floors need the future and do not count.
   DetectContactsOptions contacts;

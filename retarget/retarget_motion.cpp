@@ -146,8 +146,9 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
                                          const Skeleton& avatar,
                                          const RetargetOptions& options) {
   MAREY_ASSERT(source.rate.hz > 0.0);
-  const auto bodies = map_bodies(source.skeleton, avatar, options.root);
+  auto bodies = map_bodies(source.skeleton, avatar, options.root);
   if (!bodies) return bodies.error();
+  wear(options.soles, bodies->avatar);
   const BodyMap* from = &bodies->source;
   const BodyMap* to = &bodies->avatar;
 

@@ -8,6 +8,7 @@
 #include "core/motion.h"
 #include "core/result.h"
 #include "retarget/detect_contacts.h"
+#include "retarget/find_soles.h"
 #include "retarget/ground.h"
 #include "retarget/normalized_skeleton.h"
 #include "retarget/refine_hands.h"
@@ -17,6 +18,7 @@ namespace marey::retarget {
 struct RetargetOptions {
   RootNormalization root = RootNormalization::kLegLength;
   bool adapt_ground = true;
+  Soles soles;  ///< Of the avatar, where its skin is known.
   DetectContactsOptions contacts;
   GroundOptions ground;
   /// What hands do to the body is kept, arms stay out of it (retarget/refine_hands.h);

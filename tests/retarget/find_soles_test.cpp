@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/find_soles.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/pose.h"
+#include "retarget/live_retarget.h"
+#include "retarget/retarget_motion.h"
+#include "tests/support/random_bodies.h"
+#include "tests/support/synthetic_walk.h"
+
+namespace marey::retarget {
+namespace {
+
+// Feet as boxes: 9 cm behind the ankle and 12 cm in front of the ball.
+struct Shoes {
+  Skeleton body;
+  BodyMap map;
+  std::vector<glm::dvec3> places;
+  std::vector<JointIndex> carriers;
+
+  explicit Shoes(Skeleton skeleton) : body(std::move(skeleton)), map(*map_body(body)) {
+    const auto rest = world_from_joints(body, rest_pose(body));
+    for (std::size_t side = 0; side < 2; ++side) {
+      const JointIndex ankle = map.leg(static_cast<int>(side)).end;
+      const JointIndex toes =
+          *map.joint_of[index(side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes)];
+      const glm::dquat world_from_t_pose =
+          rest[index(ankle)].rotation *
+          glm::conjugate(map.joints[index(ankle)].t_pose_from_joint);
+      const auto add = [&](JointIndex joint, const glm::dvec3& from_joint_in_t_pose) {
+        places.push_back(rest[index(joint)].translation +
+                         world_from_t_pose * from_joint_in_t_pose);
+        carriers.push_back(joint);
+      };
+      for (const double x : {-0.04, 0.04}) {
+        add(ankle, {x, -map.feet[side].ankle_height_m, -0.09});
+        add(ankle, {x, 0.0, 0.0});
+        add(toes, {x, -map.feet[side].ball_height_m, 0.12});
+      }
+      // A long boot leg is no sole.
+      add(ankle, {0.0, 0.2, -0.5});
+    }
+  }
+};
+
+TEST(FindSoles, EndWhereTheSkinDoes) {
+  testing::Dice dice(4);
+  for (const Skeleton& body :
+       {testing::giant(), testing::with_random_axes(testing::giant(), dice)}) {
+    const Shoes shoes(body);
+    const Soles soles = find_soles(shoes.body, shoes.map, shoes.places, shoes.carriers);
+    for (std::size_t side = 0; side < 2; ++side) {
+      ASSERT_TRUE(soles[side]);
+      EXPECT_NEAR(soles[side]->heel_from_ankle_in_t_pose.z, -0.09, 1e-9);
+      EXPECT_NEAR(soles[side]->tip_from_ball_in_t_pose.z, 0.12, 1e-9);
+      EXPECT_NEAR(soles[side]->tip_from_ball_in_t_pose.y,
+                  -shoes.map.feet[side].ball_height_m,
+                  1e-9);
+    }
+  }
+}
+
+TEST(FindSoles, NoneWithoutSkin) {
+  const Skeleton body = testing::child();
+  const Soles soles = find_soles(body, *map_body(body), {}, {});
+  EXPECT_FALSE(soles[0]);
+  EXPECT_FALSE(soles[1]);
+}
+
+TEST(FindSoles, LongShoesStayAboveTheFloor) {
+  const Motion walk = testing::synthetic_walk(200, 60.0).motion;
+  const Shoes shoes(testing::giant());
+  const Soles soles = find_soles(shoes.body, shoes.map, shoes.places, shoes.carriers);
+  BodyMap map = shoes.map;
+  wear(soles, map);
+
+  RetargetOptions options;
+  options.soles = soles;
+  const auto out = retarget_motion(walk, shoes.body, options);
+  ASSERT_TRUE(out);
+  EXPECT_LT(measure_feet(out->motion, map, out->report.contacts).deepest_penetration_mm,
+            1.0);
+  const auto bare = retarget_motion(walk, shoes.body);
+  ASSERT_TRUE(bare);
+  EXPECT_GT(measure_feet(bare->motion, map, bare->report.contacts).deepest_penetration_mm,
+            5.0);
+
+  LiveRetargetOptions live_options;
+  live_options.soles = soles;
+  auto live = LiveRetarget::make(walk.skeleton, shoes.body, live_options);
+  ASSERT_TRUE(live);
+  Motion motion{shoes.body, walk.rate, 0, {}};
+  for (const Pose& pose : walk.poses) {
+    motion.poses.emplace_back();
+    live->step(pose, 1.0 / 60.0, motion.poses.back());
+  }
+  EXPECT_LT(measure_feet(motion, map, out->report.contacts).deepest_penetration_mm, 1.0);
+}
+
+}  // namespace
+}  // namespace marey::retarget
