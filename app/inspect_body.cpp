@@ -99,7 +99,7 @@ Result<Json> inspect_body(const std::filesystem::path& file,
   }
   out["skeleton"] = {{"joints", kept.motion.skeleton.joints.size()},
                      {"human_bones", bones}};
-  if (kept.vertices > 0) out["vertices"] = kept.vertices;
+  if (kept.mesh) out["vertices"] = kept.mesh->p_in_world.size();
   if (kept.has_motion) {
     const Motion& motion = kept.motion;
     out["motion"] = {

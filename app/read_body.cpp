@@ -9,6 +9,7 @@
 #include "recordings/asf.h"
 #include "recordings/bone_map_file.h"
 #include "recordings/bvh.h"
+#include "retarget/body_map.h"
 
 namespace marey::app {
 namespace {
@@ -60,13 +61,27 @@ Result<RawBody> read_gltf(const std::filesystem::path& path) {
   RawBody raw;
   raw.has_motion = character->motion.has_value();
   raw.ignored_translation_m = character->ignored_translation_m;
-  if (character->mesh) raw.vertices = character->mesh->p_in_world.size();
+  raw.mesh = std::move(character->mesh);
   if (raw.has_motion) {
     raw.motion = *std::move(character->motion);
   } else {
     raw.motion.skeleton = std::move(character->skeleton);
   }
   return raw;
+}
+
+void put_into_frame(const retarget::BodyFrame& frame, recordings::SkinnedMesh& mesh) {
+  for (glm::dvec3& p : mesh.p_in_world) p = frame.scale * (frame.marey_from_file * p);
+  for (glm::dvec3& n : mesh.normal_in_world) n = frame.marey_from_file * n;
+}
+
+retarget::Soles soles_of(const Skeleton& skeleton, const recordings::SkinnedMesh& mesh) {
+  const auto map = retarget::map_body(skeleton);
+  if (!map) return {};
+  std::vector<JointIndex> carriers;
+  carriers.reserve(mesh.skin.size());
+  for (const recordings::SkinWeights& skin : mesh.skin) carriers.push_back(skin.joints[0]);
+  return retarget::find_soles(skeleton, *map, mesh.p_in_world, carriers);
 }
 
 Result<BoneMap> told_of(const BodyFile& file, ReadBody& body) {
@@ -136,6 +151,10 @@ Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
   retarget::mark(body.bones, motion.skeleton);
   retarget::put_into_frame(body.frame, motion);
   body.raw.ignored_translation_m *= body.frame.scale;
+  if (body.raw.mesh) {
+    put_into_frame(body.frame, *body.raw.mesh);
+    body.soles = soles_of(motion.skeleton, *body.raw.mesh);
+  }
   return body;
 }
 

@@ -13,7 +13,9 @@
 #include "core/motion.h"
 #include "core/result.h"
 #include "recordings/gltf.h"
+#include "recordings/mesh.h"
 #include "retarget/body_frame.h"
+#include "retarget/find_soles.h"
 #include "retarget/identify_bones.h"
 
 namespace marey::app {
@@ -37,7 +39,7 @@ struct RawBody {
   bool has_motion = false;
   /// The largest movement of a bone against its parent that was left out. [m]
   double ignored_translation_m = 0.0;
-  std::size_t vertices = 0;
+  std::optional<recordings::SkinnedMesh> mesh;
   retarget::FileUnit unit;
 };
 
@@ -52,6 +54,7 @@ struct ReadBody {
   std::optional<std::filesystem::path> bone_map;  ///< That counted.
   /// The rest is made of the motion's frames, the file's being no posture of a body.
   bool rests_as_in_motion = false;
+  retarget::Soles soles;  ///< By its skin, in marey's frame.
 
   [[nodiscard]] const Skeleton& skeleton() const { return raw.motion.skeleton; }
   /// What write_retargeted() has to know.

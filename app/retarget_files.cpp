@@ -28,7 +28,9 @@ struct Dressed {
 Result<Dressed> retarget_only(const Motion& motion, const BodyFile& avatar) {
   const auto body = read_body(avatar);
   if (!body) return body.error();
-  auto retargeted = retarget::retarget_motion(motion, body->skeleton());
+  retarget::RetargetOptions options;
+  options.soles = body->soles;
+  auto retargeted = retarget::retarget_motion(motion, body->skeleton(), options);
   if (!retargeted) return of_file(avatar.path, retargeted.error());
   return Dressed{
       {std::move(*retargeted), {}, body->remarks()}, avatar.path, body->changed()};
