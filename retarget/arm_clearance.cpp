@@ -33,8 +33,8 @@ constexpr std::array<Ball, 8> kBalls{{{Bone::kUpper, 0.6},
                                       {Bone::kHand, 1.0}}};
 
 struct PlacedBall {
-  glm::dvec3 p_in_world;
-  double radius_m;
+  glm::dvec3 p_in_world{0.0};
+  double radius_m = 0.0;
 };
 
 PlacedBall placed(const Ball& ball,
@@ -114,6 +114,12 @@ ArmNeed arm_need(const ArmOfBody& source,
   ArmNeed out;
   const auto source_joints = source.body.frames[t];
   const auto joints = avatar.body.frames[t];
+  std::array<PlacedBall, kBalls.size()> source_balls;
+  std::array<PlacedBall, kBalls.size()> balls;
+  for (std::size_t i = 0; i < kBalls.size(); ++i) {
+    source_balls[i] = placed(kBalls[i], source.arm, source.body, side, source_joints);
+    balls[i] = placed(kBalls[i], avatar.arm, avatar.body, side, joints);
+  }
   for (const P part : kObstacles) {
     const auto& from = source.body.volume[part];
     const auto& to = avatar.body.volume[part];
@@ -122,15 +128,15 @@ ArmNeed arm_need(const ArmOfBody& source,
         source_joints[index(from->joint)] * from->joint_from_capsule;
     const RigidTransform world_from_avatar =
         joints[index(to->joint)] * to->joint_from_capsule;
-    for (const Ball& ball : kBalls) {
-      const Push push =
-          push_out(*from,
-                   world_from_source,
-                   placed(ball, source.arm, source.body, side, source_joints),
-                   *to,
-                   world_from_avatar,
-                   placed(ball, avatar.arm, avatar.body, side, joints),
-                   slack_m);
+    for (std::size_t i = 0; i < kBalls.size(); ++i) {
+      const Ball& ball = kBalls[i];
+      const Push push = push_out(*from,
+                                 world_from_source,
+                                 source_balls[i],
+                                 *to,
+                                 world_from_avatar,
+                                 balls[i],
+                                 slack_m);
       out.deepest_m = std::max(out.deepest_m, push.depth_m);
       if (ball.bone == Bone::kUpper) take_greater(push.way / ball.at, out.elbow);
       if (ball.bone == Bone::kForearm && ball.at < 1.0) take_greater(push.way, out.elbow);
