@@ -11,6 +11,7 @@
 #include "core/assert.h"
 #include "core/transform.h"
 #include "retarget/activation.h"
+#include "retarget/arm_clearance.h"
 
 namespace marey::retarget {
 namespace {
@@ -19,6 +20,7 @@ using P = VolumePart;
 
 // What neither hand is free for is shared, not left to the last digit.
 constexpr double kLeastFreedom = 1e-3;
+constexpr double kSlack_m = 0.002;  // As ClearArmsOptions has it.
 // Solve, low-pass the difference, add, repeat: what the low-pass took comes back.
 constexpr int kPlacePasses = 3;
 constexpr int kDistancePasses = 6;
@@ -139,6 +141,13 @@ Fade fade_of(const FrameInterval& frames,
   return fade;
 }
 
+// What a hold improves next.
+enum class Towards {
+  kPlace,     // To where it wants the hand, as far as others leave the hand free.
+  kClear,     // Out of trunk and thighs, as the source's hand is.
+  kDistance,  // At its distance from the part, whatever others want.
+};
+
 // A touch, or a hand that keeps still, with what it is free to move.
 struct Hold {
   const Touch* touch = nullptr;
@@ -182,6 +191,7 @@ std::vector<glm::dvec3> spread(const std::vector<glm::dvec3>& missing,
 
 struct Keeper {
   const Scene& scene;
+  const Arms& source_arms;
   const WorldScale& world;
   StillPlace place;
   int low_pass_half;  // [frames]
@@ -236,17 +246,24 @@ struct Keeper {
     }
   }
 
-  // Brings a hand nearer to where its hold wants it: to the place, as far as others leave
-  // it free, or at the distance alone, whatever others want.
-  void improve(const Hold& hold, bool distance_alone) const {
+  [[nodiscard]] glm::dvec3 error(const Hold& hold, Towards towards, std::size_t t) const {
+    if (hold.still) return still_error(hold.side, t);
+    if (towards == Towards::kPlace) return touch_error(scene, *hold.touch, shifts, t);
+    if (towards == Towards::kDistance) return distance_error(*hold.touch, t);
+    const ArmShift& shift = shifts[s(hold.side)][t];
+    return arm_need({scene.source, source_arms.places(t, hold.side)},
+                    {scene.avatar, scene.arms.places(t, hold.side, shift)},
+                    hold.side,
+                    t,
+                    kSlack_m)
+        .wrist;
+  }
+
+  void improve(const Hold& hold, Towards towards) const {
     std::vector<glm::dvec3> missing;
     for (int frame = hold.frames.first; frame <= hold.frames.last; ++frame) {
       const std::size_t t = s(frame);
-      const glm::dvec3 error = hold.still ? still_error(hold.side, t)
-                               : distance_alone
-                                   ? distance_error(*hold.touch, t)
-                                   : touch_error(scene, *hold.touch, shifts, t);
-      missing.push_back(glm::conjugate(axes(hold, t)) * error);
+      missing.push_back(glm::conjugate(axes(hold, t)) * error(hold, towards, t));
     }
     const std::vector<glm::dvec3> way = spread(missing,
                                                hold.frames.first - hold.fade.first,
@@ -254,7 +271,8 @@ struct Keeper {
                                                low_pass_half);
     for (std::size_t i = 0; i < way.size(); ++i) {
       const std::size_t t = s(hold.fade.first) + i;
-      const double share = hold.fade.active[i] * (distance_alone ? 1.0 : hold.free[i]);
+      const double free = towards == Towards::kPlace ? hold.free[i] : 1.0;
+      const double share = hold.fade.active[i] * free;
       move(hold, t, share * (axes(hold, t) * way[i]));
     }
   }
@@ -332,15 +350,20 @@ HandHolds keep_touches(const Touches& touches,
                   std::vector<double>(count, 0.0)};
   std::vector<Hold> all = holds_of(scene, touches, rate, options);
   const int half = static_cast<int>(std::lround(options.low_pass_s * 0.5 * rate.hz));
-  const Keeper keeper{scene, world, options.still, half, holds, shifts};
+  const Arms source_arms(source.frames, source.map);
+  const Keeper keeper{scene, source_arms, world, options.still, half, holds, shifts};
   for (Hold& hold : all) keeper.take_free(hold);
   for (int pass = 0; pass < kPlacePasses; ++pass) {
-    for (const Hold& hold : all) keeper.improve(hold, false);
+    for (const Hold& hold : all) keeper.improve(hold, Towards::kPlace);
   }
   // The last word is the first's: where one hand cannot do both, the nearest is kept.
   for (int pass = 0; pass < kDistancePasses; ++pass) {
+    for (const Hold& hold : all) {
+      const bool on_body = hold.touch && !arm_side(hold.touch->part);
+      if (on_body && source_arms.has(hold.side)) keeper.improve(hold, Towards::kClear);
+    }
     for (auto hold = all.rbegin(); hold != all.rend(); ++hold) {
-      if (hold->touch) keeper.improve(*hold, true);
+      if (hold->touch) keeper.improve(*hold, Towards::kDistance);
     }
   }
   return holds;

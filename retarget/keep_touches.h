@@ -39,13 +39,13 @@ struct HandHolds {
 /// that a hand that strokes strokes, and a source's own body changes by less than 1e-9 m.
 /// What a hand is moved by goes on, in the axes of what it touches, before and after, and
 /// fades there with continuous speed and acceleration; the arm follows
-/// (retarget/arm_shift.h), nothing else does. A hand with several touches keeps the
-/// nearest one's place, and the distances of all as far as one place has them; hands that
-/// touch meet half way, or where one of them is held. Displacement maps: solve, low-pass
-/// the difference, add, repeat. Adds to `shifts`. Linear in the frames of touches; some
-/// ten microseconds each.
-/// Precondition: source and avatar have the same frames, `arms` are the avatar's,
-/// `shifts` has one per frame.
+/// (retarget/arm_shift.h), nothing else does. A hand that would lie in another part of
+/// trunk or thighs slides on what it touches until it does not. A hand with several
+/// touches keeps the nearest one's place, and the distances of all as far as one place
+/// has them; hands that touch meet half way, or where one of them is held. Displacement
+/// maps: solve, low-pass the difference, add, repeat. Adds to `shifts`. Linear in the
+/// frames of touches; some ten microseconds each. Precondition: source and avatar have
+/// the same frames, `arms` are the avatar's, `shifts` has one per frame.
 [[nodiscard]] HandHolds keep_touches(const Touches& touches,
                                      const VolumeInMotion& source,
                                      const VolumeInMotion& avatar,

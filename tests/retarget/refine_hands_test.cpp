@@ -298,6 +298,16 @@ TEST(ClearArms, LaysAHandOnABiggerBelly) {
   EXPECT_LT(deepest_m(out.motion, belly), deepest_m(source, own) + 0.005);
 }
 
+// A hand on a hip beside a belly that hangs over it slides until it is clear of both.
+TEST(ClearArms, SlidesHandsOnHipsOutOfABiggerBelly) {
+  const Motion source = hands_go_to(hands_on_hips());
+  const BodyMap map = mapped(source.skeleton);
+  const BodyVolume belly = with_belly(average_volume(source.skeleton, map), 1.5);
+  const auto out = retargeted(source, source.skeleton, true, belly);
+  EXPECT_LT(out.report.hands.worst_touch_error_m, 0.01);
+  EXPECT_LT(out.report.hands.arms.deepest_after_m, 0.005);
+}
+
 // Hands that clap before a belly that reaches further leave it together.
 TEST(ClearArms, KeepsHandsTogetherBeforeABiggerBelly) {
   const Motion source = hands_go_to(clapping());
