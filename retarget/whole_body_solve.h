@@ -175,6 +175,29 @@ void form_system(const Plan& plan,
   }
 }
 
+/// No multiplier of a sound step is longer: an error over kExactDamping, and what a long
+/// lever strays.
+inline constexpr double kLongestMultiplier = 1e7;
+
+/// Points so far away that single precision leaves nothing of the near ones beside them
+/// give systems without a sound solution: who has one takes no step for its wishes. Also
+/// what is no number is not at most anything.
+template <class F>
+void drop_unsound(int side, Lanes<F>& s) {
+  const F most = num<F>(kLongestMultiplier);
+  Mask<F> sound = num<F>(0) < num<F>(1);
+  for (int row = 0; row < side; ++row) {
+    const Vec3<F>& m = s.right[static_cast<std::size_t>(row)];
+    sound = sound & (abs(m.x) <= most) & (abs(m.y) <= most) & (abs(m.z) <= most);
+  }
+  if (all(sound)) return;
+  const Vec3<F> none{num<F>(0), num<F>(0), num<F>(0)};
+  for (int row = 0; row < side; ++row) {
+    Vec3<F>& m = s.right[static_cast<std::size_t>(row)];
+    m = select(sound, m, none);
+  }
+}
+
 /// By how much joint `j` turns for the solved multipliers, in world axes. [rad]
 template <class F>
 [[nodiscard]] Vec3<F> turn_of(const Plan& plan,
@@ -261,6 +284,7 @@ void step_whole_body(const Plan& plan,
   const int side = static_cast<int>(plan.points.size()) + (rows.balance ? 1 : 0);
   form_system(plan, rows, side, progress, s);
   solve_blocks(side, num<F>(kExactDamping), s.blocks.data(), s.right.data());
+  drop_unsound(side, s);
   apply_step(plan, rows, homing_of(progress), progress.level, s);
 }
 

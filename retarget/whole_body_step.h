@@ -34,7 +34,10 @@ template <class F>
   return select(num<F>(plan.turns_from[i]) <= level, share, num<F>(0));
 }
 
-/// Sums along the way from the root to each live joint, over joints that turn.
+/// Sums along the way from the root to each live joint, over joints that turn. Places
+/// count from where the root is now: footprints may have taken the body far from where
+/// the reference was, and squares of far places leave nothing of the near ones between
+/// them.
 template <class F>
 void sum_runs(const Plan& plan, bool balance, const F& level, Lanes<F>& s) {
   const F zero = num<F>(0);
@@ -50,7 +53,7 @@ void sum_runs(const Plan& plan, bool balance, const F& level, Lanes<F>& s) {
       place = s.run_place[p];
       for (std::size_t n = 0; n < 6; ++n) square[n] = s.run_square[6 * p + n];
     }
-    const Vec3<F>& at = s.place[i];
+    const Vec3<F> at = s.place[i] - s.place[0];
     const F own = own_share(plan, i, level, s);
     if (turns) {
       const Vec3<F> weighted = own * at;
@@ -68,7 +71,7 @@ void sum_runs(const Plan& plan, bool balance, const F& level, Lanes<F>& s) {
     for (std::size_t n = 0; n < 6; ++n) s.run_square[6 * i + n] = square[n];
     if (!balance) continue;
     // How the centre of mass, over the whole mass, moves with a turn of this joint.
-    const Vec3<F> lever = s.below_moment[i] - s.below_mass[i] * at;
+    const Vec3<F> lever = s.below_moment[i] - s.below_mass[i] * s.place[i];
     s.lever[i] = lever;
     const auto p = joint > 0 ? static_cast<std::size_t>(plan.parent[i]) : 0;
     Vec3<F> run = joint > 0 ? s.run_lever[p] : Vec3<F>{zero, zero, zero};
@@ -206,8 +209,8 @@ void form_point_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes<F
       if (run.lowest >= 0) {
         shared_block(plan.points[ia],
                      plan.points[ib],
-                     s.points[ia].place,
-                     s.points[ib].place,
+                     s.points[ia].place - s.place[0],
+                     s.points[ib].place - s.place[0],
                      sums_of(run, s),
                      block);
       } else {
@@ -262,7 +265,7 @@ void form_balance_blocks(
   const F zero = num<F>(0);
   for (int k = 0; k < n; ++k) {
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
-    const Vec3<F>& p = s.points[static_cast<std::size_t>(k)].place;
+    const Vec3<F> p = s.points[static_cast<std::size_t>(k)].place - s.place[0];
     const auto low =
         static_cast<std::size_t>(point.chain.empty() ? 0 : point.chain.front());
     const int above = plan.parent[static_cast<std::size_t>(point.top)];

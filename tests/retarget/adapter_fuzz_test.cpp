@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "tests/retarget/adapter_bodies.h"
@@ -145,6 +147,80 @@ TEST_P(AdapterFuzz, GivesPosturesWithinTheLimitsWhateverIsAsked) {
     }
   }
   EXPECT_GT(solved, 20000);
+}
+
+// Any place that constraints may name, evenly over the orders of magnitude.
+glm::dvec3 any_far_place(Dice& dice) {
+  constexpr double kFurthest_m = 1e4;
+  const double far_m = std::pow(10.0, dice.between(0, 4));
+  return std::min(far_m, 0.999 * kFurthest_m) * dice.direction();
+}
+
+// Half of the wishes and points go as far as constraints may be.
+void go_far(ConstraintSet& set, Dice& dice) {
+  for (Constraint& wish : set.constraints) {
+    if (dice.between(0, 1) < 0.5) continue;
+    const glm::dvec3 place = any_far_place(dice);
+    if (auto* stands = std::get_if<Support>(&wish.goal)) {
+      stands->footprint_in_world = place;
+    } else if (auto* to_point = std::get_if<DistanceToPoint>(&wish.goal)) {
+      to_point->p_in_world = place;
+      if (to_point->distance_m > 0.0) to_point->distance_m = glm::length(place);
+    } else if (auto* to_body = std::get_if<DistanceToBody>(&wish.goal)) {
+      to_body->distance_m = glm::length(place);
+    } else if (auto* allowed = std::get_if<AllowedSpace>(&wish.goal)) {
+      *allowed = {place, glm::max(place, glm::dvec3(0.0))};
+    }
+    if (dice.between(0, 1) < 0.2) wish.point.offset_in_t_pose = any_far_place(dice);
+  }
+}
+
+TEST_P(AdapterFuzz, GivesPosturesHoweverFarItIsAskedToGo) {
+  constexpr int kQuestions = 2500;
+  int solved = 0;
+  for (const Character& body : bodies()) {
+    Dice dice(5);
+    for (int q = 0; q < kQuestions; ++q) {
+      Question asked = any_question(body, GetParam(), dice);
+      go_far(asked.set, dice);
+      auto adapter = Adapter::make(body, asked.set, asked.options);
+      if (!adapter) continue;
+      if (dice.between(0, 1) < 0.2) adapter->set_balance_target(any_far_place(dice));
+      Pose out;
+      const AdaptReport report = adapter->adapt(any_posture(body, dice), 2.0, out);
+      ++solved;
+      ASSERT_TRUE(is_finite(out) && has_numbers(report)) << "question " << q;
+      for (const glm::dquat& rotation : out.parent_from_joint) {
+        ASSERT_NEAR(glm::length(rotation), 1.0, 1e-9) << "question " << q;
+      }
+      ASSERT_LT(beyond_limits_rad(body, out, asked.standing), kLimit_rad)
+          << "question " << q;
+    }
+  }
+  EXPECT_GT(solved, 5000);
+}
+
+// A body that has to go far to its footprint stands there as it would have stood here.
+TEST(AdapterFar, StandsOnAFarFootprintAsOnANearOne) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  const glm::dvec3 foot = place_of(body, reference, {"leftFoot", {}});
+  for (const BalanceMode balance : {BalanceMode::kHorizontal, BalanceMode::k3d}) {
+    for (double far_m = 10.0; far_m < 9000.0; far_m *= 1.3) {
+      ConstraintSet set{{standing("stands", "leftFoot")}, {}};
+      std::get<Support>(set.constraints[0].goal).footprint_in_world =
+          foot + glm::dvec3(far_m, 0, 0);
+      AdaptOptions options;
+      options.balance = balance;
+      Adapter adapter = make_adapter(body, set, options);
+      Pose out;
+      const AdaptReport report = adapter.adapt(reference, 1.0, out);
+      // What single precision resolves there.
+      const double least_m = 1e-3 + 1e-6 * far_m;
+      EXPECT_LT(report.worst_error_m, least_m) << far_m;
+      EXPECT_LT(report.balance_error_m, least_m) << far_m;
+    }
+  }
 }
 
 }  // namespace

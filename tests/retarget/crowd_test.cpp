@@ -3,6 +3,7 @@
 #include "retarget/crowd.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -174,6 +175,25 @@ TEST_P(CrowdOfMany, AnswersAsItsMembersDoWhenTheyMayNotFinish) {
     few.max_iterations = most;
     expect_own_answers(members(human(false), 21, dice), few, dice);
   }
+}
+
+// A body for which single precision finds no step leaves its neighbours theirs.
+TEST_P(CrowdOfMany, AnswersAsItsMembersDoHoweverFarSomeAreAskedToGo) {
+  Dice dice(2008);
+  auto some = members(human(false), 21, dice);
+  for (std::size_t i = 0; i < some.size(); i += 2) {
+    for (CrowdQuestion& question : some[i].questions) {
+      for (Constraint& wish : question.wishes.constraints) {
+        const glm::dvec3 place = std::pow(10.0, dice.between(1, 4)) * dice.direction();
+        if (auto* support = std::get_if<Support>(&wish.goal)) {
+          if (support->footprint_in_world) support->footprint_in_world = place;
+        } else if (auto* point = std::get_if<DistanceToPoint>(&wish.goal)) {
+          point->p_in_world = place;
+        }
+      }
+    }
+  }
+  expect_own_answers(some, options(), dice);
 }
 
 // Fewer members than lanes, and as many.
