@@ -40,11 +40,15 @@ Result<Character> find_character(const Motion& source, const AdaptBodyOptions& o
   return character;
 }
 
-/// The file whose mesh the character has, if any.
-fs::path look_of(const AdaptBodyOptions& options) {
+/// The file whose mesh the character has, if any, and how it was turned and scaled when
+/// the character was made of it.
+Result<BodyLook> look_of(const AdaptBodyOptions& options) {
   const fs::path file =
       options.character.empty() ? options.motion : body_file_of(options.character);
-  return is_gltf(file) ? file : fs::path();
+  if (!is_gltf(file)) return BodyLook{};
+  const auto body = read_body(file);
+  if (!body) return body.error();
+  return BodyLook{file, body->changed()};
 }
 
 /// The same joints, as far as six decimals of a file tell; only roots may rest elsewhere.
@@ -107,7 +111,9 @@ Result<AdaptBody> make_adapt_body(const Motion& source, const AdaptBodyOptions& 
   if (!character) return character.error();
   auto map = retarget::map_body(character->skeleton);
   if (!map) return in_file(options.character, map.error());
-  AdaptBody body{std::move(*character), std::move(*map), {}, {}, 0.0, look_of(options)};
+  auto look = look_of(options);
+  if (!look) return look.error();
+  AdaptBody body{std::move(*character), std::move(*map), {}, {}, 0.0, *std::move(look)};
   if (const Status ok = place_motion(source, options, body); !ok) return ok.error();
   return body;
 }
@@ -128,7 +134,7 @@ Status check_adapted_out(const AdaptBody& body, const fs::path& out) {
                      "cannot write a \"" + kind + "\" file",
                      "name the result .glb or .bvh");
   }
-  if (!body.look.empty() || is_marey_s(body.character.skeleton)) return Done{};
+  if (!body.look.file.empty() || is_marey_s(body.character.skeleton)) return Done{};
   return bad_input(out.string(),
                    "the body has no mesh to put into a .glb",
                    "give a character with a GLB or VRM avatar, or name the result .bvh");
@@ -136,7 +142,9 @@ Status check_adapted_out(const AdaptBody& body, const fs::path& out) {
 
 Status write_adapted(const AdaptBody& body, const Motion& motion, const fs::path& out) {
   if (kind_by_extension(out) == ".bvh") return recordings::write_bvh(out, motion);
-  if (!body.look.empty()) return recordings::write_retargeted(body.look, out, motion);
+  if (!body.look.file.empty()) {
+    return write_motion_file(out, MotionFormat::kGlb, motion, body.look);
+  }
   return recordings::write_character(
       out,
       motion.skeleton,

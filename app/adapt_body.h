@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "app/motion_files.h"
 #include "core/character.h"
 #include "core/motion.h"
 #include "core/result.h"
@@ -19,8 +20,8 @@ struct AdaptBody {
   Motion reference;
   retarget::Contacts contacts;  ///< Of the motion's feet, as far as detected.
   double floor_height_m = 0.0;  ///< World Y on which `reference` stands.
-  /// Whose mesh the result can be written with; empty: none.
-  std::filesystem::path look;
+  /// Whose mesh the result can be written with.
+  BodyLook look;
 };
 
 struct AdaptBodyOptions {

@@ -32,13 +32,6 @@ struct RecordArguments {
 /// `marey record SESSION --out TAKE --trial NAME`: until Ctrl-C, or for some seconds.
 [[nodiscard]] Exit run_record(const RecordArguments& arguments, Console& console);
 
-/// `marey retarget MOTION --avatar A --out OUT`.
-[[nodiscard]] Exit run_retarget(const BodyFile& motion,
-                                const BodyFile& avatar,
-                                const std::filesystem::path& out,
-                                bool json,
-                                Console& console);
-
 struct ConvertArguments {
   std::filesystem::path in;   ///< Markers: .c3d, .trc; motions: .bvh, .amc, .glb, .vrma.
   std::filesystem::path out;  ///< Markers: .c3d, .trc; motions: .bvh, .vrma, .npz...

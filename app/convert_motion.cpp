@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/angle_table.h"
-#include "app/foot_contacts.h"
+#include "app/motion_files.h"
 #include "app/read_body.h"
 #include "app/retarget_files.h"
 #include "core/extension.h"
@@ -22,11 +22,7 @@
 #include "recordings/bvh.h"
 #include "recordings/file_axes.h"
 #include "recordings/mot.h"
-#include "recordings/motion_tables.h"
-#include "recordings/npz.h"
-#include "recordings/vrma.h"
 #include "retarget/body_frame.h"
-#include "retarget/body_map.h"
 #include "retarget/identify_bones.h"
 
 namespace marey::app {
@@ -125,23 +121,6 @@ Status write_as_bvh(const ConvertArguments& arguments,
   return recordings::write_bvh(arguments.out, named, options);
 }
 
-/// World rotations of all joints in the T-pose: of those that carry none, as at rest.
-std::vector<glm::dquat> t_pose_of(const Skeleton& skeleton,
-                                  const retarget::BodyMap& map) {
-  std::vector<glm::dquat> world;
-  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-    const Joint& joint = skeleton.joints[i];
-    if (map.joints[i].role != retarget::JointRole::kFree) {
-      world.push_back(map.joints[i].t_pose_from_joint);
-    } else if (joint.parent) {
-      world.push_back(world[index(*joint.parent)] * joint.parent_from_joint.rotation);
-    } else {
-      world.push_back(joint.parent_from_joint.rotation);
-    }
-  }
-  return world;
-}
-
 /// The body as VRM's stand: its bones told, facing +Z, in metres.
 Status write_as_vrma(const ConvertArguments& arguments,
                      const FileMotion& file,
@@ -155,18 +134,11 @@ Status write_as_vrma(const ConvertArguments& arguments,
   for (const std::string& remark : body->remarks()) {
     console.warn(arguments.in.string() + ": " + remark);
   }
-  const Motion& motion = body->raw.motion;
-  const auto map = retarget::map_body(motion.skeleton);
-  if (!map) {
-    Error error = map.error();
-    error.where = arguments.in.string();
-    return error;
-  }
-  const std::vector<glm::dquat> t_pose = t_pose_of(motion.skeleton, *map);
-  return recordings::write_vrma(
-      arguments.out,
-      motion,
-      {.t_pose_from_joint = t_pose, .clip = arguments.out.stem().string()});
+  return write_motion_file(arguments.out,
+                           MotionFormat::kVrma,
+                           body->raw.motion,
+                           {},
+                           {.bvh = {}, .clip = arguments.out.stem().string()});
 }
 
 Status write_as_mot(const ConvertArguments& arguments, const Motion& motion) {
@@ -191,10 +163,11 @@ Status write(const ConvertArguments& arguments,
   if (kind == ".bvh") return write_as_bvh(arguments, motion, console);
   if (kind == ".vrma") return write_as_vrma(arguments, file, console);
   if (kind == ".npz") {
-    const recordings::NpzExtras extras{{}, foot_contacts(motion), {}};
-    return recordings::write_npz(arguments.out, motion, extras);
+    return write_motion_file(arguments.out, MotionFormat::kNpz, motion, {});
   }
-  if (kind == ".csv") return recordings::write_places_csv(arguments.out, motion);
+  if (kind == ".csv") {
+    return write_motion_file(arguments.out, MotionFormat::kCsv, motion, {});
+  }
   if (kind == ".mot") return write_as_mot(arguments, motion);
   return cannot(arguments,
                 "cannot write a motion as \"" + kind + "\"",

@@ -15,6 +15,7 @@
 #include "app/plan_commands.h"
 #include "app/print_commands.h"
 #include "app/repair_commands.h"
+#include "app/retarget_commands.h"
 #include "app/version.h"
 #include "recordings/atomic_file.h"
 
@@ -35,13 +36,9 @@ struct Arguments {
   std::filesystem::path media;
   bool json = false;
   std::string progress = "auto";
-  std::filesystem::path motion;
-  std::filesystem::path avatar;
   std::filesystem::path out;
   std::filesystem::path file;
   InspectBodyOptions inspect_body;
-  std::optional<std::filesystem::path> bones;
-  std::optional<std::filesystem::path> motion_bones;
   std::filesystem::path sample = MAREY_SAMPLE;
   RecordArguments record;
   ConvertArguments convert;
@@ -52,6 +49,7 @@ struct Arguments {
   RepairArguments repair;
   FitArguments fit;
   AdaptArguments adapt;
+  RetargetArguments retarget;
 
   [[nodiscard]] ProgressStyle style_of_progress() const {
     if (progress == "json") return ProgressStyle::kJson;
@@ -112,25 +110,6 @@ void add_record(CLI::App& app, Arguments& args, Command& chosen) {
       ->check(between(0.001, 1e6));
   command->callback([&] {
     chosen = [&args](Console& console) { return run_record(args.record, console); };
-  });
-}
-
-void add_retarget(CLI::App& app, Arguments& args, Command& chosen) {
-  CLI::App* command = app.add_subcommand("retarget", "Put a motion on another body");
-  command->add_option("motion", args.motion, ".bvh, .glb, .vrm or .vrma")->required();
-  command->add_option("-a,--avatar", args.avatar, ".glb, .vrm or .bvh")->required();
-  command->add_option("-o,--out", args.out, "Result: .glb or .bvh")->required();
-  command->add_option("--bones", args.bones, "Bone map of the avatar (TOML)");
-  command->add_option("--motion-bones", args.motion_bones, "Bone map of the motion");
-  command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
-  command->callback([&] {
-    chosen = [&args](Console& console) {
-      return run_retarget({args.motion, args.motion_bones},
-                          {args.avatar, args.bones},
-                          args.out,
-                          args.json,
-                          console);
-    };
   });
 }
 
@@ -250,7 +229,7 @@ int run(int argc, char** argv) {
                       args,
                       chosen);
   add_record(app, args, chosen);
-  add_retarget(app, args, chosen);
+  add_retarget_command(app, args.retarget, chosen);
   add_adapt_command(app, args.adapt, chosen);
   add_convert(app, args, chosen);
   add_mannequin(app, args, chosen);

@@ -4,10 +4,8 @@
 
 #include <array>
 #include <cstdio>
+#include <utility>
 
-#include "core/extension.h"
-#include "recordings/bvh.h"
-#include "recordings/gltf.h"
 #include "retarget/body_map.h"
 
 namespace marey::app {
@@ -18,76 +16,45 @@ Error of_file(const std::filesystem::path& path, Error error) {
   return error;
 }
 
-/// A motion on an avatar, and what its file has to know of it.
-struct Dressed {
-  RetargetedFiles result;
-  std::filesystem::path avatar;
-  recordings::ChangedFrame changed;
-};
-
-Result<Dressed> retarget_only(const Motion& motion, const BodyFile& avatar) {
-  const auto body = read_body(avatar);
-  if (!body) return body.error();
-  retarget::RetargetOptions options;
-  options.soles = body->soles;
-  auto retargeted = retarget::retarget_motion(motion, body->skeleton(), options);
-  if (!retargeted) return of_file(avatar.path, retargeted.error());
-  return Dressed{
-      {std::move(*retargeted), {}, body->remarks()}, avatar.path, body->changed()};
-}
-
-Status write(Dressed& dressed, const std::filesystem::path& out) {
-  const Motion& motion = dressed.result.retargeted.motion;
-  const Status ok = is_gltf(out)
-                        ? recordings::write_retargeted(
-                              dressed.avatar, out, motion, "motion", dressed.changed)
-                        : recordings::write_bvh(out, motion);
-  if (ok) dressed.result.files.push_back(out);
-  return ok;
-}
-
 }  // namespace
+
+Result<OpenedAvatar> open_avatar(const BodyFile& avatar) {
+  auto body = read_body(avatar);
+  if (!body) return body.error();
+  if (const auto map = retarget::map_body(body->skeleton()); !map) {
+    return of_file(avatar.path, map.error());
+  }
+  OpenedAvatar opened{avatar.path, {}, {}, body->soles, body->remarks()};
+  if (is_gltf(avatar.path)) opened.look = {avatar.path, body->changed()};
+  opened.skeleton = std::move(body->raw.motion.skeleton);
+  return opened;
+}
 
 Result<RetargetedFiles> retarget_to_files(const Motion& motion,
                                           const BodyFile& avatar,
                                           const std::filesystem::path& stem) {
-  auto dressed = retarget_only(motion, avatar);
-  if (!dressed) return dressed.error();
-  if (is_gltf(avatar.path)) {
-    if (const Status ok = write(*dressed, stem.string() + ".glb"); !ok) {
-      return ok.error();
-    }
+  const auto opened = open_avatar(avatar);
+  if (!opened) return opened.error();
+  retarget::RetargetOptions options;
+  options.soles = opened->soles;
+  auto retargeted = retarget::retarget_motion(motion, opened->skeleton, options);
+  if (!retargeted) return of_file(avatar.path, retargeted.error());
+  RetargetedFiles result{*std::move(retargeted), {}, opened->remarks};
+  for (const MotionFormat format :
+       {MotionFormat::kGlb, MotionFormat::kBvh, MotionFormat::kVrma}) {
+    if (!can_hold(format, opened->skeleton, opened->look)) continue;
+    const std::filesystem::path out = stem.string() + "." + std::string(name(format));
+    const Status ok =
+        write_motion_file(out, format, result.retargeted.motion, opened->look);
+    if (!ok) return ok.error();
+    result.files.push_back(out);
   }
-  if (const Status ok = write(*dressed, stem.string() + ".bvh"); !ok) return ok.error();
-  return std::move(dressed->result);
-}
-
-Result<RetargetedFiles> retarget_to_file(const Motion& motion,
-                                         const BodyFile& avatar,
-                                         const std::filesystem::path& out) {
-  const std::string kind = kind_by_extension(out);
-  if (kind != ".bvh" && kind != ".glb") {
-    return bad_input(out.string(),
-                     "cannot write a \"" + kind + "\" file",
-                     "name the result .glb or .bvh");
-  }
-  if (kind == ".glb" && !is_gltf(avatar.path)) {
-    return bad_input(avatar.path.string(),
-                     "has no mesh to put into a .glb",
-                     "give a GLB or VRM avatar, or name the result .bvh");
-  }
-  auto dressed = retarget_only(motion, avatar);
-  if (!dressed) return dressed.error();
-  if (const Status ok = write(*dressed, out); !ok) return ok.error();
-  return std::move(dressed->result);
+  return result;
 }
 
 Status check_avatar(const BodyFile& avatar) {
-  const auto skeleton = read_skeleton(avatar);
-  if (!skeleton) return skeleton.error();
-  const auto map = retarget::map_body(*skeleton);
-  if (map) return Done{};
-  return of_file(avatar.path, map.error());
+  const auto opened = open_avatar(avatar);
+  return opened ? Status(Done{}) : Status(opened.error());
 }
 
 Result<Skeleton> read_skeleton(const BodyFile& file) {

@@ -7,13 +7,27 @@
 #include <string>
 #include <vector>
 
+#include "app/motion_files.h"
 #include "app/read_body.h"
 #include "core/motion.h"
 #include "core/result.h"
 #include "core/skeleton.h"
+#include "retarget/find_soles.h"
 #include "retarget/retarget_motion.h"
 
 namespace marey::app {
+
+/// A body that motions can be put on.
+struct OpenedAvatar {
+  std::filesystem::path file;
+  Skeleton skeleton;                 ///< In marey's frame, its bones marked.
+  BodyLook look;                     ///< Without a file when there is no mesh.
+  retarget::Soles soles;             ///< ReadBody::soles.
+  std::vector<std::string> remarks;  ///< ReadBody::remarks().
+};
+
+/// Reads an avatar. Errors (kBadInput), naming the file: read_body()'s, map_body()'s.
+[[nodiscard]] Result<OpenedAvatar> open_avatar(const BodyFile& avatar);
 
 struct RetargetedFiles {
   retarget::RetargetedMotion retargeted;
@@ -21,20 +35,15 @@ struct RetargetedFiles {
   std::vector<std::string> remarks = {};  ///< ReadBody::remarks() of the avatar.
 };
 
-/// Puts a motion on an avatar and writes it beside each other as STEM.bvh and, if the
-/// avatar is a GLB, VRM or glTF, as STEM.glb with the avatar's own look. `stem` is a path
-/// without an extension, which may hold dots.
-/// Errors: read_body()'s, of the avatar; the disk.
+/// Puts a motion on an avatar and writes it beside each other as STEM.bvh; if the avatar
+/// is a GLB, VRM or glTF, as STEM.glb with its own look; and if it has the bones of VRM's
+/// humanoid, as STEM.vrma. `stem` is a path without an extension, which may hold dots.
+/// Errors: open_avatar()'s; the disk.
 [[nodiscard]] Result<RetargetedFiles> retarget_to_files(
     const Motion& motion, const BodyFile& avatar, const std::filesystem::path& stem);
 
-/// Only the file that `out`'s extension names: .bvh or .glb.
-[[nodiscard]] Result<RetargetedFiles> retarget_to_file(const Motion& motion,
-                                                       const BodyFile& avatar,
-                                                       const std::filesystem::path& out);
-
 /// Whether a motion can be put on this body: it can be read and has the bones. Costs what
-/// reading does. Errors: those of retarget_to_files() that are the avatar's.
+/// reading does. Errors: open_avatar()'s.
 [[nodiscard]] Status check_avatar(const BodyFile& avatar);
 
 /// The skeleton in a .bvh, .glb, .gltf, .vrm or .vrma file, its bones told, as

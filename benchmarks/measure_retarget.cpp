@@ -11,10 +11,11 @@
 #include <vector>
 
 #include "benchmarks/captured_clips.h"
-#include "benchmarks/contact_figures.h"
 #include "benchmarks/result_table.h"
+
 #include "core/pose.h"
 #include "retarget/body_map.h"
+#include "retarget/contact_figures.h"
 #include "retarget/live_retarget.h"
 #include "retarget/retarget_motion.h"
 
@@ -62,19 +63,6 @@ Skeleton scaled(const Skeleton& body, const BodyScale& scale) {
   return out;
 }
 
-double height_m(const Skeleton& skeleton, const retarget::BodyMap& map) {
-  const auto rest = world_from_joints(skeleton, rest_pose(skeleton));
-  return rest[index(*map.joint_of[index(HumanBone::kHead)])].translation.y -
-         rest[index(map.leg(0).end)].translation.y + map.feet[0].ankle_height_m;
-}
-
-std::array<double, kContactPoints> rest_heights(const retarget::BodyMap& map) {
-  return {map.feet[0].ankle_height_m,
-          map.feet[1].ankle_height_m,
-          map.feet[0].ball_height_m,
-          map.feet[1].ball_height_m};
-}
-
 /// A whole motion at once, or posture by posture.
 enum class Way { kOffline, kLive };
 
@@ -107,25 +95,26 @@ Status add_row(const CapturedClip& clip,
   const auto motion = retargeted(source, body, way);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   if (!motion) return motion.error();
-  const ContactLabels labels =
-      label_contacts(contact_paths(source, bodies->source), clip.rate_hz);
-  const ContactFigures figures =
-      measure_contacts(contact_paths(*motion, bodies->avatar),
-                       labels,
-                       rest_heights(bodies->avatar),
-                       clip.rate_hz);
-  const double height_ratio =
-      height_m(body, bodies->avatar) / height_m(source.skeleton, bodies->source);
-  table.rows.push_back({clip.name,
-                        scale.name,
-                        figures.mean_slide_cm_per_s,
-                        figures.median_drift_mm,
-                        figures.worst_drift_mm,
-                        figures.sinking_mm,
-                        figures.float_mm,
-                        static_cast<double>(figures.floating_frames),
-                        mean_jerk(*motion) / (height_ratio * mean_jerk(source)),
-                        1e6 * took.count() / static_cast<double>(clip.poses.size())});
+  const retarget::ContactLabels labels = retarget::label_contacts(
+      retarget::contact_paths(source, bodies->source), clip.rate_hz);
+  const retarget::ContactFigures figures =
+      retarget::measure_contacts(retarget::contact_paths(*motion, bodies->avatar),
+                                 labels,
+                                 retarget::rest_heights_m(bodies->avatar),
+                                 clip.rate_hz);
+  const double height_ratio = retarget::head_height_m(body, bodies->avatar) /
+                              retarget::head_height_m(source.skeleton, bodies->source);
+  table.rows.push_back(
+      {clip.name,
+       scale.name,
+       figures.mean_slide_cm_per_s,
+       figures.median_drift_mm,
+       figures.worst_drift_mm,
+       figures.sinking_mm,
+       figures.float_mm,
+       static_cast<double>(figures.floating_frames),
+       retarget::mean_jerk(*motion) / (height_ratio * retarget::mean_jerk(source)),
+       1e6 * took.count() / static_cast<double>(clip.poses.size())});
   return Done{};
 }
 

@@ -262,7 +262,7 @@ TEST(ReadBody, WritesAvatarsBackInTheirOwnFrame) {
   const ScratchFolder folder;
   const auto motion = read_motion(source);
   ASSERT_TRUE(motion) << motion.error().message();
-  const auto made = retarget_to_file(motion->motion, avatar, folder / "out.glb");
+  const auto made = retarget_to_files(motion->motion, avatar, folder / "out");
   ASSERT_TRUE(made) << made.error().message();
   const Motion& truth = made->retargeted.motion;
   for (const std::size_t frame : {std::size_t{0}, truth.poses.size() - 1}) {

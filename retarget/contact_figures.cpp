@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "benchmarks/contact_figures.h"
+#include "retarget/contact_figures.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
 #include "core/pose.h"
 
-namespace marey {
+namespace marey::retarget {
 namespace {
 
 double horizontal_m(const glm::dvec3& a, const glm::dvec3& b) {
@@ -19,16 +20,12 @@ double horizontal_m(const glm::dvec3& a, const glm::dvec3& b) {
 
 }  // namespace
 
-ContactPaths contact_paths(const Motion& motion, const retarget::BodyMap& map) {
-  constexpr std::array<HumanBone, kContactPoints> kBones{HumanBone::kLeftFoot,
-                                                         HumanBone::kRightFoot,
-                                                         HumanBone::kLeftToes,
-                                                         HumanBone::kRightToes};
+ContactPaths contact_paths(const Motion& motion, const BodyMap& map) {
   ContactPaths out;
   for (const Pose& pose : motion.poses) {
     const auto world_from_joint = world_from_joints(motion.skeleton, pose);
     for (std::size_t i = 0; i < out.size(); ++i) {
-      const auto joint = map.joint_of[index(kBones[i])];
+      const auto joint = map.joint_of[index(kContactBones[i])];
       if (joint) out[i].push_back(world_from_joint[index(*joint)].translation);
     }
   }
@@ -58,14 +55,16 @@ ContactLabels label_contacts(const ContactPaths& source, double hz) {
   return labels;
 }
 
-ContactFigures measure_contacts(const ContactPaths& paths,
-                                const ContactLabels& labels,
-                                const std::array<double, kContactPoints>& rest_heights_m,
-                                double hz) {
-  ContactFigures out;
+namespace {
+
+// Slide and drift of points while they touch; how deep they ever are.
+void measure_points(const ContactPaths& paths,
+                    const ContactLabels& labels,
+                    const std::array<double, kContactPoints>& rest_heights_m,
+                    double hz,
+                    ContactFigures& out) {
   double slide_m = 0.0;
   int frames = 0;
-  std::vector<double> drifts_mm;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     std::optional<std::size_t> began;
     for (std::size_t t = 0; t < paths[i].size(); ++t) {
@@ -77,14 +76,28 @@ ContactFigures measure_contacts(const ContactPaths& paths,
       }
       slide_m += horizontal_m(paths[i][t + 1], paths[i][t]);
       ++frames;
+      const int frame = static_cast<int>(t);
       if (!began) {
         began = t;
-        drifts_mm.push_back(0.0);
+        out.drifts.push_back({static_cast<int>(i), {frame, frame}, 0.0});
       }
-      drifts_mm.back() = std::max(drifts_mm.back(),
-                                  1e3 * horizontal_m(paths[i][t], paths[i][*began]));
+      ContactDrift& drift = out.drifts.back();
+      drift.frames.last = frame;
+      drift.drift_mm = std::max(drift.drift_mm,
+                                1e3 * horizontal_m(paths[i][t], paths[i][*began]));
     }
   }
+  if (frames > 0) out.mean_slide_cm_per_s = 100.0 * slide_m * hz / frames;
+}
+
+}  // namespace
+
+ContactFigures measure_contacts(const ContactPaths& paths,
+                                const ContactLabels& labels,
+                                const std::array<double, kContactPoints>& rest_heights_m,
+                                double hz) {
+  ContactFigures out;
+  measure_points(paths, labels, rest_heights_m, hz, out);
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t t = 0; t < paths[side].size(); ++t) {
       double lowest_mm = 1e9;
@@ -100,7 +113,8 @@ ContactFigures measure_contacts(const ContactPaths& paths,
       if (lowest_mm > kFloats_mm) ++out.floating_frames;
     }
   }
-  if (frames > 0) out.mean_slide_cm_per_s = 100.0 * slide_m * hz / frames;
+  std::vector<double> drifts_mm;
+  for (const ContactDrift& drift : out.drifts) drifts_mm.push_back(drift.drift_mm);
   if (!drifts_mm.empty()) {
     std::sort(drifts_mm.begin(), drifts_mm.end());
     out.worst_drift_mm = drifts_mm.back();
@@ -109,12 +123,27 @@ ContactFigures measure_contacts(const ContactPaths& paths,
   return out;
 }
 
-double mean_jerk(const Motion& motion) {
+std::array<double, kContactPoints> rest_heights_m(const BodyMap& map) {
+  return {map.feet[0].ankle_height_m,
+          map.feet[1].ankle_height_m,
+          map.feet[0].ball_height_m,
+          map.feet[1].ball_height_m};
+}
+
+double head_height_m(const Skeleton& skeleton, const BodyMap& map) {
+  const auto rest = world_from_joints(skeleton, rest_pose(skeleton));
+  const JointIndex top = map.joint_of[index(HumanBone::kHead)].value_or(map.hips());
+  return rest[index(top)].translation.y - rest[index(map.leg(0).end)].translation.y +
+         map.feet[0].ankle_height_m;
+}
+
+double mean_jerk(const Motion& motion, std::span<const JointIndex> joints) {
   std::vector<std::vector<glm::dvec3>> places;
   for (const Pose& pose : motion.poses) {
+    const auto world_from_joint = world_from_joints(motion.skeleton, pose);
     places.emplace_back();
-    for (const RigidTransform& joint : world_from_joints(motion.skeleton, pose)) {
-      places.back().push_back(joint.translation);
+    for (const JointIndex joint : joints) {
+      places.back().push_back(world_from_joint[index(joint)].translation);
     }
   }
   const double hz3 = std::pow(motion.rate.hz, 3.0);
@@ -130,4 +159,12 @@ double mean_jerk(const Motion& motion) {
   return count > 0.0 ? sum / count : 0.0;
 }
 
-}  // namespace marey
+double mean_jerk(const Motion& motion) {
+  std::vector<JointIndex> all;
+  for (std::size_t j = 0; j < motion.skeleton.joints.size(); ++j) {
+    all.push_back(static_cast<JointIndex>(j));
+  }
+  return mean_jerk(motion, all);
+}
+
+}  // namespace marey::retarget

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "core/motion.h"
+#include "core/result.h"
+#include "retarget/retarget_motion.h"
+
+namespace marey::app {
+
+struct PutOnOptions {
+  retarget::RetargetOptions retarget;
+  /// Posture by posture, without knowing what comes: as it would be live.
+  bool live = false;
+  /// Frames per second of the result; without it the source's.
+  std::optional<double> rate_hz;
+};
+
+/// retarget_motion(), or LiveRetarget, at another rate.
+///
+/// At another rate the source is resampled first, to the smallest whole multiple of that
+/// rate that is no less than its own, and of what comes of it the frames in question are
+/// kept: so feet stand in every frame, and instants that both rates share are the same.
+/// The report is of the frames that are kept. Same input, same bytes. Linear in frames.
+///
+/// Errors (kBadInput): retarget_motion()'s; no instant of the rate lies in the motion.
+/// Precondition: retarget_motion()'s; rate_hz > 0.
+[[nodiscard]] Result<retarget::RetargetedMotion> put_on(const Motion& source,
+                                                        const Skeleton& avatar,
+                                                        const PutOnOptions& options = {});
+
+}  // namespace marey::app

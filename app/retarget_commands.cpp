@@ -1,0 +1,309 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/retarget_commands.h"
+
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "app/option_checks.h"
+#include "app/retarget_figures.h"
+#include "app/retarget_files.h"
+#include "app/retarget_page.h"
+#include "app/retarget_plan.h"
+#include "core/resample.h"
+#include "recordings/atomic_file.h"
+#include "recordings/constraints_file.h"
+#include "retarget/plan_supports.h"
+#include "retarget/support_constraints.h"
+
+namespace marey::app {
+namespace {
+
+Error of_file(const std::filesystem::path& path, Error error) {
+  error.where = path.string() + (error.where.empty() ? "" : ": " + error.where);
+  return error;
+}
+
+/// A run while it is made.
+struct Work {
+  const RetargetArguments& args;
+  const RetargetPlan& plan;
+  Console& console;
+  RetargetRun run;
+  std::vector<std::optional<OpenedAvatar>> opened;  ///< One per avatar of the plan.
+  Exit exit = Exit::kOk;                            ///< The first failure's.
+
+  void fail(AvatarResult& avatar, const Error& error) {
+    const Exit told = console.fail(error);
+    if (exit == Exit::kOk) exit = told;
+    avatar.error = error;
+  }
+};
+
+void open_avatars(Work& work) {
+  for (const RetargetPlan::Avatar& avatar : work.plan.avatars) {
+    AvatarResult result;
+    result.name = avatar.name;
+    result.avatar = avatar.file.path;
+    auto opened = open_avatar(avatar.file);
+    if (opened) {
+      work.opened.emplace_back(*std::move(opened));
+    } else {
+      work.opened.emplace_back();
+      work.fail(result, opened.error());
+    }
+    work.run.avatars.push_back(std::move(result));
+  }
+}
+
+/// The formats of the plan that this body can have. Errors: it can have none.
+Result<std::vector<MotionFormat>> formats_of(Work& work, const OpenedAvatar& body) {
+  std::vector<MotionFormat> out;
+  std::optional<Error> first;
+  for (const MotionFormat format : work.plan.formats) {
+    const Status ok = can_hold(format, body.skeleton, body.look);
+    if (ok) {
+      out.push_back(format);
+      continue;
+    }
+    const Error error = of_file(body.file, ok.error());
+    if (work.plan.formats_are_wanted && work.plan.file.empty()) {
+      work.console.warn(body.file.string() + ": no ." + std::string(name(format)) + ": " +
+                        error.cause);
+    }
+    if (!first) first = error;
+  }
+  if (out.empty()) return *first;
+  return out;
+}
+
+MotionFileOptions file_options(const RetargetArguments& args) {
+  MotionFileOptions options;
+  options.clip = args.clip;
+  if (const auto dialect = recordings::bvh_dialect(args.bvh_dialect)) {
+    options.bvh = recordings::write_options(*dialect);
+  }
+  return options;
+}
+
+Status write_supports(const RetargetArguments& args, const AvatarResult& avatar) {
+  const Motion& motion = avatar.retargeted.motion;
+  const auto map = retarget::map_body(motion.skeleton);
+  if (!map) return map.error();
+  // Short: its feet stand already, so that what fades in has nothing to move, while it
+  // would hold a foot in the air back.
+  const retarget::PlanSupportsOptions options{.ramp_s = 0.05};
+  const auto tracks =
+      retarget::plan_supports(motion, *map, avatar.retargeted.report.contacts, options);
+  return recordings::write_constraints(
+      args.constraints_out, retarget::support_constraints(tracks, motion.rate));
+}
+
+/// Everything of one avatar: its motion, then its files.
+Status put_on_one(const Motion& source,
+                  const OpenedAvatar& body,
+                  std::size_t i,
+                  Work& work) {
+  AvatarResult& avatar = work.run.avatars[i];
+  const auto formats = formats_of(work, body);
+  if (!formats) return formats.error();
+  PutOnOptions options = work.args.options;
+  options.retarget.soles = body.soles;
+  auto retargeted = put_on(source, body.skeleton, options);
+  if (!retargeted) return of_file(body.file, retargeted.error());
+  avatar.retargeted = *std::move(retargeted);
+  for (const MotionFormat format : *formats) {
+    const auto out = work.plan.out(work.plan.avatars[i], format);
+    const Status ok = write_motion_file(
+        out, format, avatar.retargeted.motion, body.look, file_options(work.args));
+    if (!ok) return ok;
+    avatar.files.push_back(out);
+  }
+  if (!work.args.constraints_out.empty()) {
+    if (const Status ok = write_supports(work.args, avatar); !ok) return ok;
+  }
+  return Done{};
+}
+
+void put_on_all(const Motion& source, Work& work) {
+  const int count = static_cast<int>(work.opened.size());
+  const Progress progress = count > 1 ? work.console.stage("retarget") : Progress();
+  for (int i = 0; i < count; ++i) {
+    if (progress) progress(i, count);
+    const auto at = static_cast<std::size_t>(i);
+    auto& body = work.opened[at];
+    AvatarResult& avatar = work.run.avatars[at];
+    if (!body) continue;
+    const Status ok = put_on_one(source, *body, at, work);
+    if (!ok) {
+      work.fail(avatar, ok.error());
+      continue;
+    }
+    for (const std::string& remark : body->remarks) {
+      work.console.warn(body->file.string() + ": " + remark);
+    }
+    body.reset();
+  }
+  if (progress) progress(count, count);
+}
+
+bool has_any(const RetargetRun& run) {
+  for (const AvatarResult& avatar : run.avatars) {
+    if (!avatar.error) return true;
+  }
+  return false;
+}
+
+/// What avatars are held against, and how they do.
+Status measure(const Motion& source, Work& work) {
+  RetargetRun& run = work.run;
+  run.source = work.args.options.rate_hz
+                   ? resample(source, FrameRate{*work.args.options.rate_hz})
+                   : source;
+  for (const AvatarResult& avatar : run.avatars) {
+    if (!avatar.error) run.contacts = avatar.retargeted.report.contacts;
+  }
+  if (const Status ok = measure_source(run); !ok) return ok;
+  for (AvatarResult& avatar : run.avatars) {
+    if (avatar.error) continue;
+    if (const Status ok = measure_avatar(run, avatar); !ok) return ok;
+  }
+  return Done{};
+}
+
+void tell(const Work& work) {
+  if (work.args.json) {
+    constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+    const auto figures = work.plan.file.empty()
+                             ? retarget_figures(work.run)
+                             : avatar_figures(work.run, work.run.avatars.front());
+    std::printf("%s\n", figures.dump(2, ' ', false, kReplace).c_str());
+  }
+  for (const AvatarResult& avatar : work.run.avatars) {
+    if (!avatar.error) work.console.say(summary_of(avatar));
+  }
+}
+
+/// The motion; also told is what of it is left out. Errors: as read_motion()'s.
+Result<RawBody> read_source(const RetargetArguments& args, Console& console) {
+  auto raw = read_raw_body(args.motion);
+  if (!raw) return raw.error();
+  if (!raw->has_motion) {
+    return bad_input(
+        args.motion.string(), "holds no animation", "give a file with a motion");
+  }
+  if (const auto note = left_out({{}, raw->ignored_translation_m})) {
+    console.warn(args.motion.string() + ": " + *note);
+  }
+  return raw;
+}
+
+void add_result_options(CLI::App& command, RetargetArguments& args) {
+  std::vector<std::string> formats;
+  for (const MotionFormat format : motion_formats()) formats.emplace_back(name(format));
+  command
+      .add_option("--formats",
+                  args.formats,
+                  "Kinds of files in the folder, with commas between; default glb, bvh "
+                  "and vrma, as far as the body can have them")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(formats));
+  command.add_option("--bvh-dialect", args.bvh_dialect, "For whom a .bvh is")
+      ->check(CLI::IsMember({"blender", "mobu", "maya", "unity"}));
+  command
+      .add_option_function<double>(
+          "--rate",
+          [&args](double hz) { args.options.rate_hz = hz; },
+          "Frames per second of the result; default the motion's")
+      ->check(between(0.1, 2000.0));
+  command.add_option("--clip", args.clip, "Name of the animation in .glb and .vrma");
+  command.add_option("--constraints-out",
+                     args.constraints_out,
+                     "Where feet stand, as constraints for marey adapt (.xml)");
+  command.add_flag("--report", args.report, "Write a page of figures and pictures, too");
+  command.add_flag("--json", args.json, "Print the figures as JSON on standard output");
+}
+
+void add_body_options(CLI::App& command, RetargetArguments& args) {
+  using Root = retarget::RootNormalization;
+  const std::map<std::string, Root> roots{{"leg-length", Root::kLegLength},
+                                          {"arm-length", Root::kArmLength},
+                                          {"none", Root::kNone}};
+  command.add_option("--bones", args.bones, "Bone map of the avatar (TOML)");
+  command.add_option("--motion-bones", args.motion_bones, "Bone map of the motion");
+  command
+      .add_option_function<std::string>(
+          "--root",
+          [&args, roots](const std::string& word) {
+            args.options.retarget.root = roots.at(word);
+          },
+          "What the way of the root grows with; default leg-length")
+      ->check(CLI::IsMember(roots))
+      ->type_name("WORD");
+  command.add_flag("--no-ground", args.no_ground, "Feet are not kept to the floor");
+  command.add_flag(
+      "--live", args.options.live, "Posture by posture, knowing nothing of the future");
+}
+
+}  // namespace
+
+Exit run_retarget(const RetargetArguments& args, Console& console) {
+  const auto plan = plan_retarget(args);
+  if (!plan) return console.fail(plan.error());
+  auto raw = read_source(args, console);
+  if (!raw) return console.fail(raw.error());
+  Work work{args, *plan, console, {}, {}, Exit::kOk};
+  work.run.motion = args.motion;
+  work.run.live = args.options.live;
+  open_avatars(work);
+  if (!has_any(work.run)) return work.exit;
+  const auto source = identify_body(*std::move(raw), {args.motion, args.motion_bones});
+  if (!source) return console.fail(source.error());
+  for (const std::string& remark : source->remarks()) {
+    console.warn(args.motion.string() + ": " + remark);
+  }
+  put_on_all(source->raw.motion, work);
+  if (!has_any(work.run)) return work.exit;
+  if (const Status ok = measure(source->raw.motion, work); !ok) {
+    return console.fail(of_file(args.motion, ok.error()));
+  }
+  if (!plan->page.empty()) {
+    const Status ok = recordings::write_file(plan->page, retarget_page(work.run));
+    if (!ok) return console.fail(ok.error());
+  }
+  tell(work);
+  return work.exit;
+}
+
+void add_retarget_command(CLI::App& app,
+                          RetargetArguments& args,
+                          std::function<Exit(Console&)>& chosen) {
+  CLI::App* command = app.add_subcommand("retarget", "Put a motion on other bodies");
+  command->add_option("motion", args.motion, ".bvh, .amc, .glb, .vrm or .vrma")
+      ->required();
+  command->add_option(
+      "avatars", args.avatars, "Bodies: .glb, .gltf, .vrm or .bvh, one or many");
+  command->add_option("-a,--avatar", args.more_avatars, "A body; may be repeated")
+      ->allow_extra_args(false);
+  command
+      ->add_option("-o,--out",
+                   args.out,
+                   "Result: a folder, or of one avatar a .glb, .bvh, .vrma, .npz, .csv "
+                   "or .mot")
+      ->required();
+  add_body_options(*command, args);
+  add_result_options(*command, args);
+  command->callback([&] {
+    if (args.avatars.empty() && args.more_avatars.empty()) {
+      throw CLI::RequiredError("an avatar");
+    }
+    args.options.retarget.adapt_ground = !args.no_ground;
+    chosen = [&args](Console& console) { return run_retarget(args, console); };
+  });
+}
+
+}  // namespace marey::app

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "app/console.h"
+#include "app/put_on.h"
+
+namespace marey::app {
+
+/// What `marey retarget` was asked for.
+struct RetargetArguments {
+  std::filesystem::path motion;
+  std::optional<std::filesystem::path> motion_bones;
+  std::vector<std::filesystem::path> avatars;
+  std::vector<std::filesystem::path> more_avatars;  ///< Those of --avatar.
+  std::optional<std::filesystem::path> bones;       ///< Of the only avatar.
+  /// A file of one avatar, or a folder for all; see retarget_plan.h.
+  std::filesystem::path out;
+  std::vector<std::string> formats;  ///< Empty: .glb, .bvh and .vrma, as far as they go.
+  std::string bvh_dialect;           ///< A BvhDialect's name, or empty.
+  std::string clip = "motion";
+  PutOnOptions options;
+  bool no_ground = false;
+  std::filesystem::path constraints_out;  ///< Empty: none.
+  bool report = false;
+  bool json = false;
+};
+
+/// `marey retarget MOTION AVATAR... --out FILE|FOLDER`: a motion on one body or on many.
+/// A body that fails does not stop the others; the exit code is the first failure's.
+[[nodiscard]] Exit run_retarget(const RetargetArguments& args, Console& console);
+
+/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+void add_retarget_command(CLI::App& app,
+                          RetargetArguments& args,
+                          std::function<Exit(Console&)>& chosen);
+
+}  // namespace marey::app

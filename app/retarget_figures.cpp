@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/retarget_figures.h"
+
+#include <array>
+#include <cstdio>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "app/report_figures.h"
+#include "core/assert.h"
+
+namespace marey::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Joints of the bones that both have, in the order of bones.
+std::array<std::vector<JointIndex>, 2> common_joints(const retarget::BodyMap& a,
+                                                     const retarget::BodyMap& b) {
+  std::array<std::vector<JointIndex>, 2> out;
+  for (std::size_t bone = 0; bone < a.joint_of.size(); ++bone) {
+    if (!a.joint_of[bone] || !b.joint_of[bone]) continue;
+    out[0].push_back(*a.joint_of[bone]);
+    out[1].push_back(*b.joint_of[bone]);
+  }
+  return out;
+}
+
+Json contact_list(const retarget::ContactFigures& figures) {
+  Json list = Json::array();
+  for (const retarget::ContactDrift& drift : figures.drifts) {
+    const auto point = static_cast<std::size_t>(drift.point);
+    list.push_back({{"bone", name(retarget::kContactBones[point])},
+                    {"first_frame", drift.frames.first},
+                    {"last_frame", drift.frames.last},
+                    {"drift_mm", rounded(drift.drift_mm, 3)}});
+  }
+  return list;
+}
+
+}  // namespace
+
+Status measure_source(RetargetRun& run) {
+  auto map = retarget::map_body(run.source.skeleton);
+  if (!map) return map.error();
+  run.map = *std::move(map);
+  const auto paths = retarget::contact_paths(run.source, run.map);
+  run.labels = retarget::label_contacts(paths, run.source.rate.hz);
+  run.figures = retarget::measure_contacts(
+      paths, run.labels, retarget::rest_heights_m(run.map), run.source.rate.hz);
+  return Done{};
+}
+
+Status measure_avatar(const RetargetRun& run, AvatarResult& avatar) {
+  const Motion& motion = avatar.retargeted.motion;
+  MAREY_ASSERT(motion.poses.size() == run.source.poses.size());
+  auto map = retarget::map_body(motion.skeleton);
+  if (!map) return map.error();
+  avatar.map = *std::move(map);
+  avatar.own_contacts = retarget::detect_contacts(motion, avatar.map);
+  avatar.contacts =
+      retarget::measure_contacts(retarget::contact_paths(motion, avatar.map),
+                                 run.labels,
+                                 retarget::rest_heights_m(avatar.map),
+                                 motion.rate.hz);
+  const auto joints = common_joints(run.map, avatar.map);
+  const double source = retarget::mean_jerk(run.source, joints[0]) *
+                        retarget::head_height_m(motion.skeleton, avatar.map) /
+                        retarget::head_height_m(run.source.skeleton, run.map);
+  const double jerk = retarget::mean_jerk(motion, joints[1]);
+  avatar.jerk_ratio = source > 0.0 ? jerk / source : 1.0;
+  return Done{};
+}
+
+Json avatar_figures(const RetargetRun& run, const AvatarResult& avatar) {
+  Json out{{"avatar", avatar.avatar.string()}};
+  if (avatar.error) {
+    out["error"] = avatar.error->message();
+    return out;
+  }
+  if (!avatar.files.empty()) out["out"] = avatar.files.front().string();
+  out["files"] = Json::array();
+  for (const auto& file : avatar.files) out["files"].push_back(file.string());
+  const retarget::RetargetReport& report = avatar.retargeted.report;
+  out["frames"] = run.source.poses.size();
+  out["rate_hz"] = run.source.rate.hz;
+  out["live"] = run.live;
+  out["slide_before_cm_per_s"] = report.before.mean_slide_cm_per_s;
+  out["slide_after_cm_per_s"] = report.after.mean_slide_cm_per_s;
+  out["deepest_penetration_mm"] = report.after.deepest_penetration_mm;
+  out["unreachable_frames"] = report.ground.unreachable_frames;
+  const retarget::ContactFigures& c = avatar.contacts;
+  out["contacts"] = {
+      {"source_slide_cm_per_s", rounded(run.figures.mean_slide_cm_per_s, 3)},
+      {"slide_cm_per_s", rounded(c.mean_slide_cm_per_s, 3)},
+      {"worst_drift_mm", rounded(c.worst_drift_mm, 3)},
+      {"median_drift_mm", rounded(c.median_drift_mm, 3)},
+      {"sinking_mm", rounded(c.sinking_mm, 3)},
+      {"float_mm", rounded(c.float_mm, 3)},
+      {"floating_frames", c.floating_frames},
+      {"jerk_over_source", rounded(avatar.jerk_ratio, 4)},
+      {"drifts", contact_list(c)}};
+  return out;
+}
+
+Json retarget_figures(const RetargetRun& run) {
+  Json out{{"motion", run.motion.string()},
+           {"frames", run.source.poses.size()},
+           {"rate_hz", run.source.rate.hz},
+           {"avatars", Json::array()}};
+  for (const AvatarResult& avatar : run.avatars) {
+    out["avatars"].push_back(avatar_figures(run, avatar));
+  }
+  return out;
+}
+
+std::string summary_of(const AvatarResult& avatar) {
+  const retarget::RetargetReport& report = avatar.retargeted.report;
+  std::string files;
+  for (const auto& file : avatar.files) {
+    files += files.empty() ? file.string() : ", " + file.extension().string();
+  }
+  std::array<char, 160> text{};
+  std::snprintf(text.data(),
+                text.size(),
+                ": %zu frames, stance feet slide %.2f cm/s (%.2f before the ground), "
+                "deepest foot %.1f mm",
+                avatar.retargeted.motion.poses.size(),
+                report.after.mean_slide_cm_per_s,
+                report.before.mean_slide_cm_per_s,
+                report.after.deepest_penetration_mm);
+  return files + text.data();
+}
+
+}  // namespace marey::app

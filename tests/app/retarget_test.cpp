@@ -1,0 +1,219 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// `marey retarget`: what it makes.
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/pose.h"
+#include "recordings/constraints_file.h"
+#include "tests/app/retarget_scene.h"
+
+namespace marey::testing {
+namespace {
+
+using Json = nlohmann::json;
+
+TEST(Retarget, PutsAMotionOnSeveralBodiesInEveryFormatThatTheyCanHave) {
+  const RetargetScene scene;
+  const ProgramRun run = scene.retarget(
+      {"small.glb", "tall.glb", "-a", "plain.bvh", "--out", "all", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const char* name : {"small", "tall"}) {
+    const Motion glb = scene.motion(std::string("all/") + name + ".glb");
+    const Motion bvh = scene.motion(std::string("all/") + name + ".bvh");
+    const Motion vrma = scene.motion(std::string("all/") + name + ".vrma");
+    EXPECT_EQ(glb.poses.size(), 120U);
+    EXPECT_EQ(bvh.rate.hz, 60.0);
+    for (const HumanBone bone : {HumanBone::kLeftHand, HumanBone::kRightFoot}) {
+      EXPECT_LT(apart_m(glb, bvh, bone), 1e-5);
+      EXPECT_LT(apart_m(glb, vrma, bone), 1e-5);
+    }
+  }
+  EXPECT_FALSE(scene.has("all/plain.glb")) << "it has no mesh";
+  EXPECT_TRUE(scene.has("all/plain.bvh") && scene.has("all/plain.vrma"));
+  const Json figures = Json::parse(run.out).at("avatars");
+  ASSERT_EQ(figures.size(), 3U);
+  for (const Json& body : figures) {
+    EXPECT_LT(body.at("contacts").at("slide_cm_per_s"), 0.01);
+    EXPECT_LT(body.at("contacts").at("worst_drift_mm"), 0.1);
+    EXPECT_LT(body.at("contacts").at("sinking_mm"), 0.1);
+    EXPECT_GT(body.at("contacts").at("drifts").size(), 4U);
+    // Captured motions stay below 1.1; this one has corners only where feet land.
+    EXPECT_LT(body.at("contacts").at("jerk_over_source"), 1.3);
+  }
+}
+
+TEST(Retarget, WritesTheFileOfOneBodyThatItsNameTells) {
+  const RetargetScene scene;
+  for (const char* out : {"o.glb", "o.bvh", "o.vrma", "o.npz", "o.csv", "o.mot"}) {
+    const ProgramRun run =
+        scene.retarget({"--avatar", "small.glb", "--out", out, "--json"});
+    ASSERT_EQ(run.exit_code, 0) << out << ": " << run.err;
+    const Json figures = Json::parse(run.out);
+    EXPECT_EQ(figures.at("out"), out);
+    EXPECT_EQ(figures.at("frames"), 120);
+    EXPECT_LT(figures.at("slide_after_cm_per_s"), 0.01);
+    EXPECT_TRUE(scene.has(out));
+  }
+  EXPECT_LT(apart_m(scene.motion("o.glb"), scene.motion("o.bvh"), HumanBone::kHead),
+            1e-5);
+}
+
+TEST(Retarget, GivesTheSameBytesAgain) {
+  const RetargetScene scene;
+  const std::vector<std::string> what{
+      "small.glb", "plain.bvh", "--formats", "glb,bvh,vrma,npz,csv", "--report", "--out"};
+  for (const char* folder : {"a", "b"}) {
+    std::vector<std::string> more = what;
+    more.emplace_back(folder);
+    ASSERT_EQ(scene.retarget(more).exit_code, 0);
+  }
+  int compared = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(scene / "a")) {
+    const std::string name = entry.path().filename().string();
+    EXPECT_EQ(scene.bytes("a/" + name), scene.bytes("b/" + name)) << name;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 5 + 4 + 1);  // plain.bvh has no mesh.
+}
+
+// Every second frame of 60 Hz is one of 30 Hz; in all others feet stand as well.
+TEST(Retarget, ResamplesSoThatSharedInstantsAreTheSameAndFeetStand) {
+  const RetargetScene scene;
+  ASSERT_EQ(scene.retarget({"small.glb", "--out", "full.bvh"}).exit_code, 0);
+  ASSERT_EQ(scene.retarget({"small.glb", "--out", "half.bvh", "--rate", "30"}).exit_code,
+            0);
+  Motion full = scene.motion("full.bvh");
+  const Motion half = scene.motion("half.bvh");
+  EXPECT_EQ(half.rate.hz, 30.0);
+  ASSERT_EQ(half.poses.size(), 60U);
+  for (std::size_t t = 0; t < 60; ++t) full.poses[t] = full.poses[2 * t];
+  full.poses.resize(60);
+  EXPECT_LT(apart_m(full, half, HumanBone::kLeftFoot), 1e-7);
+  for (const char* rate : {"24", "25", "144"}) {
+    const ProgramRun run =
+        scene.retarget({"small.glb", "--out", "o.bvh", "--rate", rate, "--json"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_LT(Json::parse(run.out).at("slide_after_cm_per_s"), 0.01) << rate;
+    EXPECT_EQ(scene.motion("o.bvh").rate.hz, std::stod(rate));
+  }
+}
+
+TEST(Retarget, NamesTheClipAndSpeaksTheDialect) {
+  const RetargetScene scene;
+  ASSERT_EQ(scene
+                .retarget({"small.glb",
+                           "--out",
+                           "o",
+                           "--clip",
+                           "A long walk",
+                           "--bvh-dialect",
+                           "mobu"})
+                .exit_code,
+            0);
+  EXPECT_NE(scene.bytes("o/small.glb").find("\"A long walk\""), std::string::npos);
+  EXPECT_NE(scene.bytes("o/small.vrma").find("\"A long walk\""), std::string::npos);
+  EXPECT_NE(scene.bytes("o/small.bvh").find("LeftUpLeg"), std::string::npos);
+}
+
+/// How far the hips travel along Z. [m]
+double way_m(const Motion& motion) {
+  return motion.poses.back().root_in_world.z - motion.poses.front().root_in_world.z;
+}
+
+TEST(Retarget, ScalesTheWayOfTheRootAsAsked) {
+  const RetargetScene scene;
+  for (const char* root : {"leg-length", "arm-length", "none"}) {
+    ASSERT_EQ(scene
+                  .retarget({"small.glb",
+                             "--no-ground",
+                             "--root",
+                             root,
+                             "--out",
+                             std::string(root) + ".bvh"})
+                  .exit_code,
+              0);
+  }
+  const double truth_m = way_m(scene.walk().motion);
+  EXPECT_NEAR(way_m(scene.motion("none.bvh")), truth_m, 1e-5);
+  EXPECT_NEAR(way_m(scene.motion("leg-length.bvh")), truth_m * 0.9 / 1.75, 0.02);
+  EXPECT_NEAR(way_m(scene.motion("arm-length.bvh")), truth_m * 0.9 / 1.75, 0.02);
+}
+
+TEST(Retarget, LiveIsPostureByPosture) {
+  const RetargetScene scene;
+  const ProgramRun whole = scene.retarget({"small.glb", "--out", "whole.bvh", "--json"});
+  const ProgramRun live =
+      scene.retarget({"small.glb", "--out", "live.bvh", "--live", "--json"});
+  ASSERT_EQ(live.exit_code, 0) << live.err;
+  EXPECT_TRUE(Json::parse(live.out).at("live"));
+  // It cannot know that a foot will land: it slides more than when all is known.
+  EXPECT_GT(Json::parse(live.out).at("slide_after_cm_per_s"),
+            Json::parse(whole.out).at("slide_after_cm_per_s"));
+  EXPECT_LT(Json::parse(live.out).at("slide_after_cm_per_s"), 1.5);
+  // The first half does not depend on the second.
+  Motion first = scene.motion("live.bvh");
+  first.poses.resize(60);
+  const ProgramRun again = scene.retarget({"small.glb", "--out", "live2.bvh", "--live"});
+  Motion second = scene.motion("live2.bvh");
+  second.poses.resize(60);
+  EXPECT_EQ(apart_m(first, second, HumanBone::kLeftFoot), 0.0);
+}
+
+// The constraint file, given to `marey adapt`, keeps the feet as exactly where they are.
+TEST(Retarget, WritesSupportsThatAdaptReadsAgain) {
+  const RetargetScene scene;
+  ASSERT_EQ(scene.retarget({"tall.glb", "--out", "o.bvh", "--constraints-out", "s.xml"})
+                .exit_code,
+            0);
+  const auto file = recordings::read_constraints(scene / "s.xml");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_TRUE(file->notes.empty());
+  EXPECT_TRUE(file->set.find("leftFoot flat 1"));
+  const ProgramRun run = scene.marey(
+      {"adapt", "o.bvh", "--constraints", "s.xml", "--out", "adapted.bvh", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.err.find("thrown off"), std::string::npos) << run.err;
+  const Json kept = Json::parse(run.out).at("constraints");
+  EXPECT_EQ(kept.size(), file->set.constraints.size());
+  for (const Json& one : kept) {
+    EXPECT_GT(one.at("active_frames"), 0) << one;
+    EXPECT_LT(one.at("worst_error_mm"), 0.01) << one;
+  }
+  const Motion before = scene.motion("o.bvh");
+  const Motion after = scene.motion("adapted.bvh");
+  // What fades in holds the landing foot back a little, and the body with it.
+  EXPECT_LT(apart_m(before, after, HumanBone::kHead), 5e-3);
+}
+
+// CesiumMan looks to +X in its file: what adapt writes there, read again, is what it
+// made.
+TEST(Retarget, IsAdaptedFurtherOnATurnedAvatar) {
+  const std::filesystem::path avatar =
+      std::filesystem::path(MAREY_SHARED_DATA) / "avatars/khronos/cesium_man.gltf";
+  if (!std::filesystem::exists(avatar)) GTEST_SKIP() << avatar << " is not there";
+  const RetargetScene scene;
+  ASSERT_EQ(scene.retarget({avatar.string(), "--out", "o.glb"}).exit_code, 0);
+  for (const char* out : {"adapted.glb", "adapted.bvh"}) {
+    const ProgramRun run = scene.marey({"adapt", "o.glb", "--out", out});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+  }
+  for (const char* out : {"of_glb.bvh", "of_bvh.bvh"}) {
+    const std::string in = std::string("adapted.") + (out[3] == 'g' ? "glb" : "bvh");
+    ASSERT_EQ(scene.marey({"retarget", in, "small.glb", "--out", out}).exit_code, 0);
+  }
+  for (const HumanBone bone : {HumanBone::kLeftHand, HumanBone::kRightFoot}) {
+    EXPECT_LT(apart_m(scene.motion("of_glb.bvh"), scene.motion("of_bvh.bvh"), bone),
+              1e-3);
+  }
+}
+
+}  // namespace
+}  // namespace marey::testing
