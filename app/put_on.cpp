@@ -21,6 +21,7 @@ Result<RetargetedMotion> put_on_live(const Motion& source,
   // What stands when, and what it was before the ground, is judged as for whole motions.
   retarget::RetargetOptions free = options;
   free.adapt_ground = false;
+  free.hands.reset();  // They need the future.
   auto out = retarget::retarget_motion(source, avatar, free);
   if (!out) return out.error();
   retarget::LiveRetargetOptions live;

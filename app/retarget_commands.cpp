@@ -245,6 +245,9 @@ void add_body_options(CLI::App& command, RetargetArguments& args) {
       ->check(CLI::IsMember(roots))
       ->type_name("WORD");
   command.add_flag("--no-ground", args.no_ground, "Feet are not kept to the floor");
+  command.add_flag("--no-hands",
+                   args.no_hands,
+                   "What hands do to the body is not kept, nor arms kept out of it");
   command.add_flag(
       "--live", args.options.live, "Posture by posture, knowing nothing of the future");
 }
@@ -302,6 +305,7 @@ void add_retarget_command(CLI::App& app,
       throw CLI::RequiredError("an avatar");
     }
     args.options.retarget.adapt_ground = !args.no_ground;
+    if (!args.no_hands) args.options.retarget.hands.emplace();
     chosen = [&args](Console& console) { return run_retarget(args, console); };
   });
 }

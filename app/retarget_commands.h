@@ -29,6 +29,7 @@ struct RetargetArguments {
   std::string clip = "motion";
   PutOnOptions options;
   bool no_ground = false;
+  bool no_hands = false;
   std::filesystem::path constraints_out;  ///< Empty: none.
   bool report = false;
   bool json = false;

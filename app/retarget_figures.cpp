@@ -91,6 +91,9 @@ Json avatar_figures(const RetargetRun& run, const AvatarResult& avatar) {
   out["slide_after_cm_per_s"] = report.after.mean_slide_cm_per_s;
   out["deepest_penetration_mm"] = report.after.deepest_penetration_mm;
   out["unreachable_frames"] = report.ground.unreachable_frames;
+  const retarget::HandReport& hands = report.hands;
+  out["worst_touch_error_mm"] = rounded(1e3 * hands.worst_touch_error_m, 3);
+  out["mean_touch_error_mm"] = rounded(1e3 * hands.mean_touch_error_m, 3);
   const retarget::ContactFigures& c = avatar.contacts;
   out["contacts"] = {
       {"source_slide_cm_per_s", rounded(run.figures.mean_slide_cm_per_s, 3)},

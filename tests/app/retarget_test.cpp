@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `marey retarget`: what it makes.
-#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -191,6 +192,40 @@ TEST(Retarget, WritesSupportsThatAdaptReadsAgain) {
   const Motion after = scene.motion("adapted.bvh");
   // What fades in holds the landing foot back a little, and the body with it.
   EXPECT_LT(apart_m(before, after, HumanBone::kHead), 5e-3);
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos;
+       at = text.find(word, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST(Retarget, ReportsEveryBodyWithItsFiguresContactsAndPictures) {
+  const RetargetScene scene;
+  const ProgramRun run = scene.retarget(
+      {"small.glb", "bad.glb", "tall.glb", "--out", "all", "--report", "--json"});
+  EXPECT_EQ(run.exit_code, 3);
+  const std::string page = scene.bytes("all/retarget.html");
+  EXPECT_EQ(count_of(page, "<svg class=\"strip\""), 3U) << "the source, too";
+  EXPECT_EQ(count_of(page, "class=\"name\""), 3U);
+  EXPECT_EQ(count_of(page, "<svg class=\"bars\""), 2U);
+  EXPECT_EQ(count_of(page, "bad.glb: this is neither"), 1U);
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("http:"), std::string::npos) << "it needs nothing else";
+  const std::string body = page.substr(page.find("<main>"));
+  EXPECT_EQ(body.find("nan"), std::string::npos);
+  EXPECT_EQ(body.find("inf"), std::string::npos);
+  EXPECT_NE(body.find("href=\"small.vrma\""), std::string::npos);
+  const Json source =
+      Json::parse(run.out).at("avatars").at(0).at("contacts").at("source_slide_cm_per_s");
+  std::array<char, 32> figure{};
+  std::snprintf(figure.data(), figure.size(), ">%.2f cm/s<", source.get<double>());
+  EXPECT_NE(page.find(figure.data()), std::string::npos) << figure.data();
+  ASSERT_EQ(scene.retarget({"small.glb", "--out", "o.bvh", "--report"}).exit_code, 0);
+  EXPECT_TRUE(scene.has("o.bvh.html"));
 }
 
 // CesiumMan looks to +X in its file: what adapt writes there, read again, is what it
