@@ -28,6 +28,7 @@ Result<RetargetedMotion> put_on_live(const Motion& source,
   live.root = options.root;
   live.hold_feet = options.adapt_ground;
   live.contacts = options.contacts;
+  live.soles = options.soles;
   auto stage = retarget::LiveRetarget::make(source.skeleton, avatar, live);
   if (!stage) return stage.error();
   for (std::size_t t = 0; t < source.poses.size(); ++t) {
