@@ -154,6 +154,7 @@ TEST(FirstLight, WritesEveryFileOfTheContract) {
                            "walk/motion.npz",
                            "walk/child.glb",
                            "walk/child.bvh",
+                           "walk/child.vrma",
                            "walk/giant.glb",
                            "walk/giant.bvh"}) {
     EXPECT_TRUE(files.contains(name)) << name;
