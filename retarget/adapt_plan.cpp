@@ -49,7 +49,6 @@ void add_groups(const Character& character, Plan& plan) {
   for (const BodyGroup& group : character.groups) {
     GroupPlan out;
     out.level = group.level;
-    out.parent = group.parent.value_or(-1);
     out.balances = group.balances;
     for (const BodyPart& part : group.parts) {
       for (const JointIndex j : part.joints) out.joints.push_back(number(j));

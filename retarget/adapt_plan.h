@@ -94,7 +94,6 @@ struct PartPlan {
 
 struct GroupPlan {
   int level = 2;
-  int parent = -1;
   bool balances = true;
   int limb = -1;                ///< Of an arm or leg.
   std::vector<int> sections;    ///< Positions in Plan::sections.

@@ -134,7 +134,6 @@ struct Builder {
     if (from.limb >= 0) {
       const LimbPlan& limb = plan.limbs[at(from.limb)];
       group.root = limb.upper;
-      group.lower = live_below(plan, limb.lower);
     } else {
       for (const int section : from.sections) {
         const std::vector<int>& joints = plan.sections[at(section)];

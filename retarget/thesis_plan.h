@@ -37,7 +37,6 @@ struct KineticGroup {
   int limb = -1;            ///< In two steps; else as one segment:
   std::vector<int> joints;  ///< low to high, that share the turn.
   std::vector<int> below;   ///< Live joints at or below its root, parents first.
-  std::vector<int> lower;   ///< Of a limb: those at or below its middle joint.
   std::vector<int> users;   ///< Wishes that turn it: while one is active, it is theirs.
   int root = 0;             ///< The joint about which it turns.
 };
