@@ -30,7 +30,8 @@ struct LimbMasses {
   }
 };
 
-TEST(ThesisExtension, IsWhatTheTriangleSays) {
+// Of the tests' own truth: the formula that the next one holds the limb against.
+TEST(ThesisExtension, OfTheseTestsIsWhatTheTriangleSays) {
   testing::Dice dice(3);
   for (int k = 0; k < 1000; ++k) {
     const LimbMasses limb{dice.between(0.2, 0.5),
