@@ -50,7 +50,8 @@ struct BodyGroup {
 /// axes, on its own. [rad]
 struct JointLimit {
   JointIndex joint{};
-  /// T-pose axes from the joint's frame in the T-pose.
+  /// T-pose axes from the joint's frame in the T-pose: make_character() takes them from
+  /// Character::t_pose_from_joint; a table of its own may have a joint turn about others.
   glm::dquat t_pose_from_joint{1.0, 0.0, 0.0, 0.0};
   glm::dvec3 min_rad{-3.14159265358979323846};
   glm::dvec3 max_rad{3.14159265358979323846};
@@ -86,7 +87,9 @@ struct Character {
   std::vector<glm::dquat> t_pose_from_joint;
   /// In the order of kinematic adaptation, light to heavy; the root's group is last.
   std::vector<BodyGroup> groups;
-  std::vector<JointLimit> limits;  ///< Joints without one turn freely.
+  /// Joints without one turn freely, and so does the root, whose limit says nothing: a
+  /// body may stand any way about.
+  std::vector<JointLimit> limits;
   Flexibility flexibility;
   std::vector<PointMass> masses;  ///< One or more per joint that weighs anything.
   std::vector<Load> loads;        ///< On top of `masses`.

@@ -23,7 +23,7 @@ struct FloorPart {
   std::string name;
   glm::dvec2 min_xz_m{0.0};  ///< World X and Z, unmoved; below max_xz_m.
   glm::dvec2 max_xz_m{0.0};
-  double height_m = 0.0;       ///< Of its top above the floor Y = 0, in the middle.
+  double height_m = 0.0;       ///< Of its top, in the middle; from the motion's floor.
   glm::dvec2 slope{0.0};       ///< Rise per metre towards +X and +Z.
   std::vector<FloorKey> path;  ///< Times ascending; empty: it does not move.
 };

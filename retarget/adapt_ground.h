@@ -53,7 +53,8 @@ template <class F>
           length(knee - hip) + length(wish.place - knee)};
 }
 
-/// Calls `visit(limb, stand, point's number)` for each support on a limb.
+/// Calls `visit(limb, stand, point)` for each support on a limb: `point` is its
+/// LanePoint, measured.
 template <class F, class Visit>
 void for_each_stand(const Plan& plan,
                     const SolveSettings& settings,

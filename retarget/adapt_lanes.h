@@ -79,7 +79,7 @@ struct Lanes {
   F threshold{};  ///< Of changes of error.
   F balance_threshold{};
   F mobility{};     ///< Of all joints that are in no limb, and of the root: 0 to 1.
-  F root_weight{};  ///< Vertical, and along the floor without balance.
+  F root_weight{};  ///< Vertical: the root's share of its travel.
   F root_weight_on_floor{};
   // Workspace of the whole-body step.
   std::vector<F> run_weight;             ///< Sums over joints from the root: of weights,

@@ -75,7 +75,7 @@ template <class F>
   return p.goal.a;
 }
 
-/// Where a wish whose level is done keeps its point (hold_point() in adapt_solve.h).
+/// Where a wish whose level is done keeps its point (hold_point() in adapt_levels.h).
 template <class F>
 [[nodiscard]] inline Vec3<F> held_target(const PointPlan& point,
                                          const LanePoint<F>& p,

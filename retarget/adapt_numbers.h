@@ -64,7 +64,7 @@ struct BalanceNumbers {
   /// Where the centre of mass is wanted.
   glm::dvec3 com_in_world{0.0};
   bool from_reference = true;  ///< Where the reference has it, instead.
-  double root_weight = 1.0;    ///< Vertical,
+  double root_weight = 1.0;    ///< Vertical: the root's share of its travel.
   double root_weight_on_floor = 1.0;
   /// Of changes of error from step to step: less is no progress.
   double constraint_threshold_m = 1e-4;

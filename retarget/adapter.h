@@ -32,8 +32,11 @@ enum class Method {
 
 /// What the importance of constraints means.
 enum class Control {
-  kPriority,  ///< The more important first, never undone by the less important.
-  kBlend,     ///< A weighted compromise.
+  /// The more important first. A less important one that is added costs one that was met
+  /// no more than 1 mm beyond its precision, and one that was missed 1 mm more; with
+  /// balance, where rounding adds up masses in another order, 3 % more if that is more.
+  kPriority,
+  kBlend,  ///< A weighted compromise.
 };
 
 /// Where the centre of mass is wanted: CnMode of the thesis.
@@ -59,10 +62,12 @@ struct AdaptOptions {
   /// and that of the centre of mass by less (CnThreshold; the thesis' method alone).
   double balance_threshold_m = 1e-5;
   double balance_precision_m = 1e-4;  ///< CnErrorMax: nearer is good enough.
-  /// Of one solve. The strict method's first kFirstSteps (with balance
-  /// kFirstStepsBalanced) count, but are never cut short: less than that is the same as
-  /// that, and a solve may end that many beyond. What brings balance back at the very end
-  /// does not count.
+  /// Of one try. By priority the strict method makes one for each set of levels that it
+  /// tries to meet at once, and then one for each level that was left out; a blend, and
+  /// the thesis' method, make one. The strict method's first kFirstSteps (with balance
+  /// kFirstStepsBalanced) of a try count, but are never cut short: less than that is the
+  /// same as that, and a try may end that many beyond. What brings balance back at the
+  /// very end does not count.
   int max_iterations = 50;
   /// Hands and feet that are not constrained keep their orientation in the world (the
   /// thesis) instead of following forearm and shank.
@@ -75,23 +80,28 @@ inline constexpr int kFirstSteps = 4;
 /// With balance fewer, that end more gently: the centre of mass has to be met, too.
 inline constexpr int kFirstStepsBalanced = 3;
 
-/// What became of one constraint. While it is hardly active it has no errors.
+/// A constraint that fades is closed on from this activation up, wholly at 1: so it is
+/// met as it becomes fully active. At or below this the posture is on its way to it, and
+/// what is missing yet is no error.
+inline constexpr double kFirmActivation = 0.8;
+
+/// What became of one constraint. At or below kFirmActivation it has no errors, and is
+/// not met.
 struct ConstraintOutcome {
   double activation = 0.0;  ///< 0 to 1.
   double error_m = 0.0;     ///< From its point to its target; of an orientation 0.
   double error_rad = 0.0;   ///< What is left to turn; of all but orientations 0.
-  /// Within its precision (is_met() in retarget/measure_constraint.h). False while the
-  /// constraint is hardly active.
-  bool met = false;
+  bool met = false;  ///< By its precision: is_met() in retarget/measure_constraint.h.
 };
 
-/// Means the same by both methods and all controls.
+/// Errors mean the same by both methods and all controls; of constraints above
+/// kFirmActivation.
 struct AdaptReport {
-  /// Of the whole-body loop; while constraints fade, of all solves together. 0: limbs
-  /// sufficed (the thesis' method: nothing had to be done).
+  /// Of the whole-body loop, of all tries, and of all solves while constraints fade. 0:
+  /// limbs sufficed (the thesis' method: nothing had to be done).
   int iterations = 0;
-  /// max_iterations ended a solve, any of those while constraints fade, that would have
-  /// gone on: with more the answer may be better.
+  /// max_iterations ended a try that would have gone on: with more the answer may be
+  /// better.
   bool capped = false;
   /// Mean by importance (eq. 4.2): of what is no support and no orientation.
   double constraint_error_m = 0;

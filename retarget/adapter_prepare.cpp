@@ -105,18 +105,7 @@ void Adapter::State::read_wish(std::size_t k, double activation, PackedQuestion&
     wish.world_from_joint = orientation->world_from_t_pose * t_pose;
   } else {
     const auto& support = std::get<Support>(goal);
-    if (!wish.active) {
-      begun_in_world[c].reset();
-      begun_rotation[c].reset();
-    } else if (!begun_in_world[c]) {
-      stand(asked);
-      const Vec3<float> at =
-          lanes.reference_place[j] +
-          rotate(lanes.reference_rotation[j],
-                 marey::retarget::lanes<float>(wish.in_joint / body.unit_m));
-      begun_in_world[c] = origin_in_world + plain(at) * body.unit_m;
-      begun_rotation[c] = plain(lanes.reference_rotation[j]);
-    }
+    follow_support(c, point.joint, asked, wish);
     wish.a_in_world =
         support.footprint_in_world.value_or(begun_in_world[c].value_or(origin_in_world));
     if (support.world_from_t_pose) {
@@ -128,6 +117,28 @@ void Adapter::State::read_wish(std::size_t k, double activation, PackedQuestion&
       wish.world_from_joint = begun_rotation[c].value_or(glm::dquat(1, 0, 0, 0));
     }
   }
+}
+
+void Adapter::State::follow_support(std::size_t constraint,
+                                    int joint,
+                                    const PackedQuestion& asked,
+                                    const WishNumbers& wish) {
+  std::optional<glm::dvec3>& place = begun_in_world[constraint];
+  std::optional<glm::dquat>& rotation = begun_rotation[constraint];
+  if (!wish.active) {
+    place.reset();
+    rotation.reset();
+    return;
+  }
+  if (place) return;
+  stand(asked);
+  const auto j = static_cast<std::size_t>(joint);
+  const Vec3<float> at =
+      lanes.reference_place[j] +
+      rotate(lanes.reference_rotation[j],
+             marey::retarget::lanes<float>(wish.in_joint / body.unit_m));
+  place = origin_in_world + plain(at) * body.unit_m;
+  rotation = plain(lanes.reference_rotation[j]);
 }
 
 void Adapter::State::read_wishes(double time_s, PackedQuestion& asked) {

@@ -45,9 +45,6 @@ float dot(const Quat<float>& a, const Quat<float>& b) {
   return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// Constraints are closed on a mean of postures from this activation on, wholly at 1.
-constexpr double kFirm = 0.8;
-
 }  // namespace
 
 Adapter::State::State(const Character& character_in,
@@ -177,7 +174,7 @@ void Adapter::State::solve_faded(LaneFigures<float>& figures) {
   if (left_share > 0.0) add_all(left_control, left_share);
   add_all(options.control, 1.0 - left_share);
   for (std::size_t k = 0; k < wishes.size(); ++k) {
-    wishes[k].active = activations[k] > kFirm;
+    wishes[k].active = activations[k] > kFirmActivation;
   }
   pack_wishes(plan, body, origin_in_world, wishes, question.wishes);
   load_wishes(plan, question.wishes.data(), 0, lanes);
@@ -200,8 +197,8 @@ void Adapter::State::solve_faded(LaneFigures<float>& figures) {
   static_cast<void>(measure(plan, shape().rows.balance, last, lanes));
   for (std::size_t k = 0; k < wishes.size(); ++k) {
     LanePoint<float>& p = lanes.points[k];
-    const auto share =
-        static_cast<float>(smooth_step((activations[k] - kFirm) / (1.0 - kFirm)));
+    const auto share = static_cast<float>(
+        smooth_step((activations[k] - kFirmActivation) / (1.0 - kFirmActivation)));
     p.target = p.place + share * (p.target - p.place);
   }
   close_limbs(plan, settings(), last, true, lanes);
@@ -217,7 +214,7 @@ void Adapter::State::judge(const Plan& shared, const float* errors) {
     const Constraint& constraint = constraints.constraints[c];
     ConstraintOutcome& outcome = outcomes[c];
     const auto error = static_cast<double>(errors[k]);
-    const bool counts = outcome.activation > kFirm;
+    const bool counts = outcome.activation > kFirmActivation;
     outcome.error_m = 0.0;
     outcome.error_rad = 0.0;
     if (point.turns_only()) {

@@ -106,6 +106,11 @@ struct Adapter::State {
  private:
   void read_wishes(double time_s, PackedQuestion& asked);
   void read_wish(std::size_t k, double activation, PackedQuestion& asked);
+  /// Remembers where the reference has a support as it begins, until it ends.
+  void follow_support(std::size_t constraint,
+                      int joint,
+                      const PackedQuestion& asked,
+                      const WishNumbers& wish);
   [[nodiscard]] BalanceNumbers balance() const;
   void stand(const PackedQuestion& asked);
   void ask_for(double least, PackedQuestion& asked) const;

@@ -6,12 +6,13 @@
 
 /// What each type of constraint asks of its point, as a place to bring it to (Kulpa 2005,
 /// 3.3), for one body or many side by side (retarget/lanes.h). Places are the world's, or
-/// all of any other frame with its axes [m]; boxes are along its axes. Finite in, finite
-/// out.
+/// all of any other frame with its axes, and lengths in any one unit: metres, or a body's
+/// own (BodyNumbers::unit_m); boxes are along its axes. Finite in, finite out.
 namespace marey::retarget {
 
-/// Closer than this two points have no direction from one to the other. [m]
-inline constexpr double kNoDirection_m = 1e-6;
+/// Closer than this two points have no direction from one to the other, in the unit of
+/// places: for bodies of about one unit as small as single precision tells two apart.
+inline constexpr double kNoDirection = 1e-6;
 
 /// The place at `distance` from `from`, on the side where `place` is: distance
 /// constraints of all three kinds. With distance 0 it is `from` itself, to the bit; when
@@ -21,7 +22,7 @@ template <class F>
                                          const Vec3<F>& from,
                                          const F& distance) {
   const Vec3<F> up{num<F>(0), num<F>(1), num<F>(0)};
-  return from + distance * unit_or(place - from, up, num<F>(kNoDirection_m));
+  return from + distance * unit_or(place - from, up, num<F>(kNoDirection));
 }
 
 /// The nearest place in a box: allowed space. `place` itself when it is there.

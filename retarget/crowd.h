@@ -33,8 +33,9 @@ class Crowd {
  public:
   /// Errors (bad input): no members; one that differs from the first in its skeleton's
   /// structure, its groups, which joints have limits, its constraints' types and places,
-  /// or its options: which, is told; less than one thread; a width that this processor
-  /// does not have.
+  /// or in one of these options: method, control, balance, max_iterations and
+  /// extremities_keep_orientation (the others are each member's own): which, is told;
+  /// less than one thread; a width that this processor does not have.
   [[nodiscard]] static Result<Crowd> make(std::vector<Adapter> members,
                                           const CrowdOptions& options = {});
   Crowd(Crowd&&) noexcept;

@@ -179,16 +179,14 @@ void swing(const Task& task,
     out.places[i] = between(
         carried(task, from, t, flat), carried(task, to, t, flat), smooth_step(share(t)));
     out.carried_m[i] = out.places[i].ankle_in_world - flat.ankle_in_world;
-    // Nearer to a stance lifting comes too late, and would throw the foot up.
-    constexpr double kLate = 0.3;
     constexpr double kRounding_m = 1e-6;
     const double depth = depth_m(task, side, t, out.places[i]);
-    if (bump(share(t)) < kLate || depth < kRounding_m) continue;
+    if (bump(share(t)) < kLateLift || depth < kRounding_m) continue;
     const double margin_m = kClearanceInLegs * task.map.leg_length_m;
     most_m = std::max(most_m, (depth + margin_m) / bump(share(t)));
   }
   if (most_m == 0.0) return;
-  most_m = std::min(most_m, 0.5 * task.map.leg_length_m);
+  most_m = std::min(most_m, kMostLiftInLegs * task.map.leg_length_m);
   for (int t = first + 1; t < last; ++t) {
     out.places[static_cast<std::size_t>(t)].ankle_in_world.y += most_m * bump(share(t));
   }

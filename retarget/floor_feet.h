@@ -49,10 +49,11 @@ struct FloorFeetOptions {
 /// Between two stances the foot goes over from one displacement to the other with
 /// continuous speed and acceleration, beginning as it leaves, following moving parts on
 /// both sides; and it is lifted over what would be in its way (ankle and ball, with
-/// kClearanceInLegs to spare), by one bump a swing. Before the first stance and after the
-/// last it keeps that one's displacement; a foot that never stands has the base's.
-/// On a level floor at 0 nothing changes, to the bit. Costs frames times parts.
-/// Precondition: `flat` and `contacts` have the same frames; frame i is at
+/// kClearanceInLegs to spare), by one bump a swing: by kMostLiftInLegs at most, and not
+/// for what it meets where the bump is below kLateLift. Those it goes through. Before the
+/// first stance and after the last it keeps that one's displacement; a foot that never
+/// stands has the base's. On a level floor at 0 nothing changes, to the bit. Costs frames
+/// times parts. Precondition: `flat` and `contacts` have the same frames; frame i is at
 /// (first_frame + i) / rate seconds.
 [[nodiscard]] std::array<FloorFoot, 2> stand_feet_on(
     const Floor& floor,
@@ -66,5 +67,10 @@ struct FloorFeetOptions {
 /// What a swinging foot that must be lifted keeps above an edge, in leg lengths: for the
 /// toes in front of the ball.
 inline constexpr double kClearanceInLegs = 0.025;
+/// The highest that it is lifted, in leg lengths: a knee that bends by 120 degrees.
+inline constexpr double kMostLiftInLegs = 0.5;
+/// Nearer to a stance than where the bump has this share of its height, lifting comes too
+/// late: it would throw the whole swing up by more than three times the edge.
+inline constexpr double kLateLift = 0.3;
 
 }  // namespace marey::retarget

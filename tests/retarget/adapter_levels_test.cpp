@@ -10,7 +10,8 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// What is less important never costs what is more important anything.
+/// What is less important costs what is more important no more than Control::kPriority
+/// says.
 namespace marey::retarget {
 namespace {
 
@@ -68,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLevels, both_methods(), name_of);
 class AdapterLevelsStrict : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLevelsStrict, strict_method(), name_of);
 
-TEST_P(AdapterLevels, TheLowerCostsTheHigherNothing) {
+TEST_P(AdapterLevels, TheLowerCostsTheHigherAMillimetreAtMostOrThreePercentInBalance) {
   for (const bool with_limits : {false, true}) {
     const Character body = human(with_limits);
     for (const BalanceMode balance :

@@ -145,6 +145,34 @@ TEST_P(AdapterReport, TellsWhetherTheCapEndedAnySolveWhileFading) {
   EXPECT_TRUE(half_way().capped);
 }
 
+// While it fades a constraint has an error above kFirmActivation: what it lacks; and none
+// at or below it.
+TEST_P(AdapterReport, ConstraintsHaveErrorsAboveTheFirmActivationAlone) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  Constraint hand = off_by(body, reference, "leftHand", {0, 0.1, 0.1});
+  hand.activation = {0.0, {}, 1.0, 0.0};
+  Adapter adapter = make_adapter(body, {{hand}, {}}, options());
+  Pose out;
+  int hardly = 0;
+  int firmly = 0;
+  for (double time_s = 0.5; time_s < 1.0; time_s += 0.004) {
+    static_cast<void>(adapter.adapt(reference, time_s, out));
+    const ConstraintOutcome& outcome = adapter.constraint("leftHand")->outcome();
+    if (outcome.activation <= kFirmActivation) {
+      ++hardly;
+      EXPECT_EQ(outcome.error_m, 0.0) << outcome.activation;
+      EXPECT_FALSE(outcome.met) << outcome.activation;
+    } else {
+      ++firmly;
+      EXPECT_NEAR(outcome.error_m, error_m(body, out, hand), kFloat_m);
+      EXPECT_EQ(outcome.met, outcome.error_m < hand.precision_m + 2e-5);
+    }
+  }
+  EXPECT_GT(hardly, 10);
+  EXPECT_GT(firmly, 10);
+}
+
 TEST(AdapterFirstSteps, AreNeverCutShort) {
   const Character body = human(false);
   const Pose reference = waiting(body);

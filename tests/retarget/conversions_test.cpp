@@ -132,7 +132,7 @@ TEST(Conversions, KeepTheirDistanceInSinglePrecision) {
   }
 }
 
-// Beyond kNoDirection_m the direction is the point's own: two near points on either side
+// Beyond kNoDirection the direction is the point's own: two near points on either side
 // have targets on either side.
 TEST(Conversions, GoUpOnlyFromWithinAMicrometre) {
   EXPECT_EQ(at_distance(Vec3<double>{-2e-6, 0, 0}, {}, 1.0).x, -1.0);
