@@ -149,20 +149,21 @@ Status read_floor(const AdaptArguments& args, SupportsFrom supports, AdaptRun& r
   return Done{};
 }
 
-/// Where the feet of the motion stand. Takes the motion to the floor that was asked for.
+/// Where the feet of the motion stand. Takes the motion to the floor that was asked for,
+/// and notes in how many frames a leg does not reach it.
 std::vector<retarget::SupportTrack> find_supports(const AdaptArguments& args,
                                                   AdaptBody& body,
-                                                  const AdaptRun& run) {
+                                                  AdaptRun& run) {
   retarget::PlanSupportsOptions plan;
   plan.floor_height_m = body.floor_height_m;
   plan.feet = free_feet(run.constraints, body);
   if (!args.floor.empty()) plan.floor = &run.floor;
   auto tracks = retarget::plan_supports(body.reference, body.map, body.contacts, plan);
   if (plan.floor != nullptr) {
-    body.reference =
-        retarget::carry_to_floor(
-            body.reference, body.map, body.contacts, run.floor, body.floor_height_m)
-            .motion;
+    retarget::CarriedMotion carried = retarget::carry_to_floor(
+        body.reference, body.map, body.contacts, run.floor, body.floor_height_m);
+    body.reference = std::move(carried.motion);
+    run.out_of_reach_frames = carried.ground.unreachable_frames;
   }
   return tracks;
 }
@@ -265,8 +266,11 @@ void add_solve_options(CLI::App& command, retarget::AdaptOptions& options) {
   command
       .add_option("--max-iterations",
                   options.max_iterations,
-                  "At most so many a solve, of which a frame while constraints fade has "
-                  "several; default 50. The strict method makes 4 at least")
+                  "At most so many a try, of which a frame has several while constraints "
+                  "fade, or by priority when not all can be met; default 50. The strict "
+                  "method makes " +
+                      std::to_string(retarget::kFirstSteps) + " at least, with balance " +
+                      std::to_string(retarget::kFirstStepsBalanced))
       ->check(CLI::Range(1, 100000));
 }
 

@@ -187,6 +187,7 @@ Json adapt_figures(const AdaptArguments& args, const AdaptRun& run) {
            {"supports", found_supports_of(run)},
            {"worst_support_mm", 1e3 * worst_m(run, is_support)},
            {"worst_slide_mm", 1e3 * worst_slide_m(run)}};
+  if (!args.floor.empty()) out["floor_out_of_reach_frames"] = run.out_of_reach_frames;
   if (args.options.balance != retarget::BalanceMode::kOff) {
     out["balance"] = {{"mean_error_mm", 1e3 * adapted.mean_balance_error_m},
                       {"worst_error_mm", 1e3 * adapted.worst_balance_error_m}};
@@ -270,6 +271,13 @@ std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptR
     } else if (is_missed(kept) && &kept != failure) {
       out.push_back(who + miss_of(kept, run) + ". Next: " + advice_for(kept, args, run));
     }
+  }
+  if (run.out_of_reach_frames > 0) {
+    out.push_back(args.floor.string() +
+                  text_of(": in %d of %zu frames a standing leg does not reach it at any "
+                          "height of the hips. Next: lower or move its parts",
+                          run.out_of_reach_frames,
+                          adapted.motion.poses.size()));
   }
   for (const KeptConstraint& kept : adapted.supports) {
     if (kept.worst_error_m <= kFirmFoot_m || &kept == failure) continue;

@@ -25,6 +25,8 @@ struct AdaptRun {
   retarget::AdaptedMotion adapted;
   double floor_height_m = 0.0;
   Floor floor;  ///< Heights from floor_height_m.
+  /// Frames in which no height of the hips lets all standing legs reach that floor.
+  int out_of_reach_frames = 0;
   std::vector<std::vector<retarget::SupportSlide>> slides;  ///< As adapted.supports.
   double adapt_s = 0.0;  ///< Wall clock, of the postures alone.
 };
@@ -46,8 +48,8 @@ struct AdaptRun {
 [[nodiscard]] Status judge_adapted(const AdaptArguments& args, const AdaptRun& run);
 
 /// What else was not kept, each with when, by how much and what would help; and
-/// constraints that never were active; balance that is off by more than 10 mm; joints
-/// that are thrown about by more than 100 m/s2.
+/// constraints that never were active; a floor that legs do not reach; balance that is
+/// off by more than 10 mm; joints that are thrown about by more than 100 m/s2.
 [[nodiscard]] std::vector<std::string> adapt_warnings(const AdaptArguments& args,
                                                       const AdaptRun& run);
 

@@ -186,6 +186,23 @@ TEST(Adapt, StandsOnAMovingFloor) {
   EXPECT_GT(carried.x, 0.02);
 }
 
+// A step that is higher than legs are long.
+TEST(Adapt, TellsOfAFloorThatLegsDoNotReach) {
+  const AdaptScene scene;
+  const std::string parts =
+      scene.file("floor.toml",
+                 "format = 1\n[[part]]\nname = \"cliff\"\nx_m = [-2, 2]\nz_m = [0.8, 9]\n"
+                 "top_m = 1.5\n");
+  const ProgramRun run = scene.adapt({"--floor", parts});
+  EXPECT_NE(run.err.find("floor.toml: in "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("frames a standing leg does not reach it"), std::string::npos)
+      << run.err;
+  EXPECT_GT(Json::parse(run.out).at("floor_out_of_reach_frames").get<int>(), 0);
+  const ProgramRun low = scene.adapt({"--floor", lift_file(scene)});
+  EXPECT_EQ(Json::parse(low.out).at("floor_out_of_reach_frames").get<int>(), 0);
+  EXPECT_EQ(low.err.find("does not reach"), std::string::npos) << low.err;
+}
+
 TEST(Adapt, ALevelFloorIsNoFloor) {
   const AdaptScene scene;
   ASSERT_EQ(scene.adapt({}).exit_code, 0);
