@@ -75,6 +75,9 @@ requires std::is_floating_point_v<F>
 [[nodiscard, gnu::always_inline]] inline bool any(bool mask) {
   return mask;
 }
+[[nodiscard, gnu::always_inline]] inline bool all(bool mask) {
+  return mask;
+}
 
 /// The same number in every lane.
 template <class F>
