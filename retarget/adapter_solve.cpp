@@ -7,7 +7,6 @@
 #include "retarget/activation.h"
 #include "retarget/adapter_state.h"
 #include "retarget/measure_constraint.h"
-#include "retarget/smooth_step.h"
 
 namespace marey::retarget {
 namespace {
@@ -35,15 +34,6 @@ class ResultReader {
 };
 
 static_assert(kHomingSteps == kFirstSteps && kHomingStepsBalanced == kFirstStepsBalanced);
-
-// A joint of a mean of postures keeps its limits wholly where each of them keeps them to
-// single precision, and not at all where one of them is as far beyond as a degree or two.
-constexpr double kWithin_rad = 1e-4;
-constexpr double kBeyond_rad = 0.03;
-
-float dot(const Quat<float>& a, const Quat<float>& b) {
-  return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
-}
 
 }  // namespace
 
@@ -74,6 +64,8 @@ void Adapter::State::set_up() {
   solve = {};
   mixed_rotation.assign(plan.parent.size(), identity<float>());
   mixed_beyond.assign(plan.parent.size(), 0.0F);
+  mixed_left.assign(plan.points.size(), {});
+  firmness.assign(plan.points.size(), 0.0F);
   question = PackedQuestion(plan);
   outcomes.assign(constraints.constraints.size(), {});
   begun_in_world.resize(constraints.constraints.size());
@@ -125,84 +117,6 @@ void Adapter::State::solve_for(double least, LaneFigures<float>& figures) {
     }
   }
   add(finish_lanes(plan, form, told, true, lanes, solve));
-}
-
-void Adapter::State::mix(float share) {
-  for (const int j : plan.live) {
-    const auto i = static_cast<std::size_t>(j);
-    const Quat<float>& q = lanes.rotation[i];
-    Quat<float>& sum = mixed_rotation[i];
-    // Of the two quaternions of a rotation the one on the side of the sum so far: so two
-    // that are nearly the same never cancel, and the sum only grows. The first is on the
-    // reference's side.
-    const bool is_first = dot(sum, sum) <= 0.0F;
-    const Quat<float>& like = is_first ? lanes.reference_rotation[i] : sum;
-    const float sign = dot(q, like) < 0.0F ? -share : share;
-    sum = {
-        sum.w + sign * q.w, sum.x + sign * q.x, sum.y + sign * q.y, sum.z + sign * q.z};
-    if (plan.limit_of[i] < 0 || j == 0) continue;
-    const auto p = static_cast<std::size_t>(plan.parent[i]);
-    const Quat<float> kept = limited(plan, lanes, j, lanes.rotation[p], q);
-    mixed_beyond[i] = std::max(mixed_beyond[i], length(turn_left(q, kept)));
-  }
-  mixed_root += share * lanes.place[0];
-}
-
-// Constraints fade between the postures without and with them. With activations
-// 1 = a0 > a1 > ... > an > an+1 = 0 and posture Si for all constraints of at least ai,
-// the answer is the mean of the Si with weights ai - ai+1: continuous in every
-// activation, also as they pass each other, and exact where nothing fades (the Lovasz
-// extension of the map from sets of constraints to postures). What is fully active is
-// then closed again from that mean.
-void Adapter::State::solve_faded(LaneFigures<float>& figures) {
-  const std::vector<double>& activations = question.activations;
-  const std::vector<double>& ramps = question.ramps;
-  std::vector<WishNumbers>& wishes = question.numbers;
-  for (Quat<float>& q : mixed_rotation) q = {0.0F, 0.0F, 0.0F, 0.0F};
-  for (float& beyond : mixed_beyond) beyond = 0.0F;
-  mixed_root = {0.0F, 0.0F, 0.0F};
-  const auto add_all = [&](Control asked, double weight) {
-    control = asked;
-    double above = 1.0;
-    for (std::size_t n = 0; n <= ramps.size(); ++n) {
-      const double next = n < ramps.size() ? ramps[n] : 0.0;
-      solve_for(n == 0 ? 1.0 : ramps[n - 1], figures);
-      mix(static_cast<float>(weight * (above - next)));
-      above = next;
-    }
-  };
-  if (left_share > 0.0) add_all(left_control, left_share);
-  add_all(options.control, 1.0 - left_share);
-  for (std::size_t k = 0; k < wishes.size(); ++k) {
-    wishes[k].active = activations[k] > kFirmActivation;
-  }
-  pack_wishes(plan, body, origin_in_world, wishes, question.wishes);
-  load_wishes(plan, question.wishes.data(), 0, lanes);
-  for (const int j : plan.live) {
-    const auto i = static_cast<std::size_t>(j);
-    lanes.rotation[i] = normalized(mixed_rotation[i]);
-    if (plan.limit_of[i] < 0 || j == 0) continue;
-    // Between two postures that keep a limit may be one that does not. Where one of them
-    // does not either (supports and references may be beyond) the mean stays as it is.
-    const auto p = static_cast<std::size_t>(plan.parent[i]);
-    const Quat<float> kept =
-        limited(plan, lanes, j, lanes.rotation[p], lanes.rotation[i]);
-    const auto keeps = static_cast<float>(
-        smooth_step((kBeyond_rad - mixed_beyond[i]) / (kBeyond_rad - kWithin_rad)));
-    lanes.rotation[i] = between(lanes.rotation[i], kept, keeps);
-  }
-  lanes.place[0] = mixed_root;
-  place_live_joints(plan, lanes);
-  const auto last = static_cast<float>(shape().last_level);
-  static_cast<void>(measure(plan, shape().rows.balance, last, lanes));
-  for (std::size_t k = 0; k < wishes.size(); ++k) {
-    LanePoint<float>& p = lanes.points[k];
-    const auto share = static_cast<float>(
-        smooth_step((activations[k] - kFirmActivation) / (1.0 - kFirmActivation)));
-    p.target = p.place + share * (p.target - p.place);
-  }
-  close_limbs(plan, settings(), last, true, lanes);
-  figures.balance = measure(plan, shape().rows.balance, last, lanes).balance;
 }
 
 void Adapter::State::judge(const Plan& shared, const float* errors) {

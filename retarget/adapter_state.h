@@ -101,6 +101,10 @@ struct Adapter::State {
   ThesisShape thesis;
   std::vector<Quat<float>> mixed_rotation;  ///< While constraints fade in or out.
   Vec3<float> mixed_root;
+  Vec3<float> mixed_com;
+  Vec3<float> mixed_com_target;
+  std::vector<Vec3<float>> mixed_left;  ///< Of each wish, to its target.
+  std::vector<float> firmness;          ///< Of each wish, how far it is closed: 0 to 1.
   std::vector<float> mixed_beyond;  ///< By how much a joint is beyond its limits. [rad]
 
  private:
@@ -119,6 +123,10 @@ struct Adapter::State {
   void solve_faded(LaneFigures<float>& figures);
   /// Adds `share` of the posture that was just solved to the mixed one.
   void mix(float share);
+  void take_mean();
+  void close_mean();
+  void aim_at_mean();
+  void settle_mean();
   void pass_over(double time_s);
   /// Outcomes and report, from the errors of the plan's points.
   void judge(const Plan& shared, const float* errors);

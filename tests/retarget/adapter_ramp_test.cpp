@@ -150,5 +150,145 @@ TEST_P(AdapterRamps, NearlyEqualHalfTurnsDoNotCancel) {
               0.02);
 }
 
+/// The most that a posture's joints turn from one moment to the next, over how much the
+/// constraint's activation changed meanwhile; from its start to its end.
+double fastest_rad_per_activation(Adapter& adapter,
+                                  const Pose& reference,
+                                  const std::string& id) {
+  constexpr int kSteps = 2000;
+  // Steps are compared where single precision does not count.
+  constexpr double kLeastChange = 1e-5;
+  Pose now;
+  Pose before;
+  double fastest = 0.0;
+  double active = 0.0;
+  static_cast<void>(adapter.adapt(reference, 0.0, before));
+  for (int step = 1; step <= kSteps; ++step) {
+    static_cast<void>(adapter.adapt(reference, static_cast<double>(step) / kSteps, now));
+    const double next = adapter.constraint(id)->outcome().activation;
+    const double change = std::max(next - active, kLeastChange);
+    fastest = std::max(fastest, (most_turned_rad(now, before) - 1e-3) / change);
+    active = next;
+    std::swap(now, before);
+  }
+  return fastest;
+}
+
+// All the way, not in one step where limbs begin to be closed again.
+TEST_P(AdapterRamps, TurnAnExtremityAsTheyRise) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  constexpr double kTurn_rad = 1.0;
+  for (const char* segment : {"leftHand", "leftFoot"}) {
+    for (const bool keeps : {false, true}) {
+      Constraint turned;
+      turned.id = "turned";
+      turned.point.segment = segment;
+      turned.goal = SegmentOrientation{glm::angleAxis(kTurn_rad, glm::dvec3(0, 0, 1)) *
+                                       rotation_of(body, reference, segment)};
+      turned.activation = {0.0, {}, 1.0, 0.0};
+      AdaptOptions told = options();
+      told.extremities_keep_orientation = keeps;
+      Adapter adapter = make_adapter(body, {{turned}, {}}, told);
+      // Along the chord, not the arc.
+      EXPECT_LT(fastest_rad_per_activation(adapter, reference, "turned"), 1.1 * kTurn_rad)
+          << segment << (keeps ? ", kept" : "");
+    }
+  }
+}
+
+// Nobody asks a hand that is kept to turn while its upper arm is asked for.
+TEST_P(AdapterRamps, TurnNoHandThatIsKept) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  Constraint arm;
+  arm.id = "arm";
+  arm.point.segment = "leftUpperArm";
+  const double apart_m = glm::distance(place_of(body, reference, arm.point),
+                                       place_of(body, reference, {"head"}));
+  arm.goal = DistanceToBody{apart_m - 0.1, {"head", {}}};
+  arm.activation = {0.0, {}, 1.0, 0.0};
+  AdaptOptions told = options();
+  told.extremities_keep_orientation = true;
+  Adapter adapter = make_adapter(body, {{arm, standing("foot", "rightFoot")}, {}}, told);
+  EXPECT_LT(fastest_rad(adapter, reference, 1.1), kFastest_rad);
+}
+
+/// A hand out of what balance allows, another that comes; feet that stand.
+ConstraintSet hand_that_comes(const Character& body, const Pose& reference) {
+  const auto from = [&](const char* segment, const glm::dvec3& by) {
+    return place_of(body, reference, {segment}) + by;
+  };
+  const glm::dvec3 away = 0.6 * glm::normalize(glm::dvec3(0.2, 0.3, 1.0));
+  Constraint comes = contact("comes", "rightHand", from("rightHand", {0.0, 0.05, 0.05}));
+  comes.activation = {0.0, {}, 1.0, 0.0};
+  return {{contact("first", "leftHand", from("leftHand", away), {}, 2.0),
+           comes,
+           standing("left", "leftFoot"),
+           standing("right", "rightFoot")},
+          {}};
+}
+
+// What the full answer does not do, for it would cost balance, the ramp does not either.
+TEST_P(AdapterRamps, KeepBalanceAndEndWhereTheyLead) {
+  for (const BalanceMode mode : {BalanceMode::kHorizontal, BalanceMode::k3d}) {
+    // The thesis' method does not find balance at this height.
+    if (mode == BalanceMode::k3d && GetParam() == Method::kThesis) continue;
+    for (const bool limits : {false, true}) {
+      const Character body = human(limits);
+      const Pose reference = waiting(body);
+      AdaptOptions told = options();
+      told.balance = mode;
+      Adapter adapter = make_adapter(body, hand_that_comes(body, reference), told);
+      const glm::dvec3 wanted = centre_of_mass(body, reference);
+      Pose now;
+      Pose before;
+      static_cast<void>(adapter.adapt(reference, -1.0, before));
+      for (int frame = 0; frame <= 1000; ++frame) {
+        static_cast<void>(adapter.adapt(reference, kFrame_s * frame, now));
+        glm::dvec3 off = centre_of_mass(body, now) - wanted;
+        if (mode == BalanceMode::kHorizontal) off.y = 0.0;
+        ASSERT_LT(glm::length(off), told.balance_precision_m) << frame;
+        for (const char* foot : {"leftFoot", "rightFoot"}) {
+          ASSERT_LT(glm::distance(place_of(body, now, {foot}),
+                                  place_of(body, reference, {foot})),
+                    1e-5)
+              << frame;
+        }
+        ASSERT_LT(most_turned_rad(now, before), kFastest_rad) << frame;
+        std::swap(now, before);
+      }
+    }
+  }
+}
+
+TEST_P(AdapterRamps, PassFromOneControlToTheOtherInBalance) {
+  const Character body = human(false);
+  const Pose reference = waiting(body);
+  const auto from = [&](const char* segment, const glm::dvec3& by) {
+    return place_of(body, reference, {segment}) + by;
+  };
+  const ConstraintSet far = {
+      {contact("first", "leftHand", from("leftHand", {0.3, 0.3, 0.5}), {}, 2.0),
+       contact("next", "rightHand", from("rightHand", {-0.7, 0.2, 0.3})),
+       standing("left", "leftFoot"),
+       standing("right", "rightFoot")},
+      {}};
+  AdaptOptions told = options();
+  told.balance = BalanceMode::kHorizontal;
+  told.control_change_s = 0.7;
+  Adapter adapter = make_adapter(body, far, told);
+  Pose before;
+  Pose now;
+  static_cast<void>(adapter.adapt(reference, 0.0, before));
+  told.control = Control::kBlend;
+  adapter.set_options(told);
+  for (int frame = 1; frame <= 720; ++frame) {
+    static_cast<void>(adapter.adapt(reference, kFrame_s * frame, now));
+    ASSERT_LT(most_turned_rad(now, before), kFastest_rad) << frame;
+    std::swap(now, before);
+  }
+}
+
 }  // namespace
 }  // namespace marey::retarget
