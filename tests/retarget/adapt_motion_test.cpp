@@ -209,5 +209,23 @@ TEST(AdaptMotion, NamesALoadThatIsNotThere) {
       << adapted.error().message();
 }
 
+// Feet come to stand and leave at every step: the postures in between are in balance,
+// too.
+TEST(AdaptMotion, KeepsBalanceWhileFeetComeAndGo) {
+  const Scene scene;
+  for (const Method method : {Method::kStrict, Method::kThesis}) {
+    AdaptMotionOptions options;
+    options.adapt.method = method;
+    options.adapt.balance = BalanceMode::kHorizontal;
+    const auto adapted =
+        adapt_motion(scene.walk.motion, scene.character, {}, scene.supports, options);
+    ASSERT_TRUE(adapted) << adapted.error().message();
+    EXPECT_LT(adapted->worst_balance_error_m, options.adapt.balance_precision_m);
+    for (const KeptConstraint& support : adapted->supports) {
+      EXPECT_LT(support.worst_error_m, kSingle_m) << support.id;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace marey::retarget
