@@ -20,11 +20,9 @@ float dot(const Quat<float>& a, const Quat<float>& b) {
   return a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// Rounds that bring a mean's centre of mass back: by the root, which leaves about a fifth
-// each time, and by the whole body for what the root may not or cannot do. Always as
-// many: to end where it is good enough would be a jump.
+// Rounds that bring a mean's centre of mass back, each of which leaves about a fifth.
+// Always as many: to end where it is good enough would be a jump.
 constexpr int kRootRounds = 6;
-constexpr int kBodyRounds = 4;
 // Less is rounding's, in units.
 constexpr float kSettled = 2e-7F;
 // In precisions of balance: nothing is mended up to the first, all from the second on. A
@@ -180,7 +178,9 @@ void Adapter::State::close_mean() {
   }
 }
 
-// The centre of mass to where the mixed postures have theirs on average.
+// The centre of mass to where the mixed postures have theirs on average, by the root:
+// steps of the whole body would jump as a fading support joins them. What legs at full
+// stretch or a root that may not travel leave is left.
 void Adapter::State::settle_mean() {
   measure_balance(plan, lanes);
   lanes.com_target = mixed_com;
@@ -191,22 +191,14 @@ void Adapter::State::settle_mean() {
       smooth_step((precisions - kNearEnough) / (kWholly - kNearEnough)));
   if (share <= 0.0F) return;
   lanes.com_target = lanes.com + share * (mixed_com - lanes.com);
-  lanes.mobility = 1.0F;
-  Progress<float> alone{};
-  alone.damping = static_cast<float>(kLeastDamping);
-  for (int round = 0; round < kRootRounds + kBodyRounds; ++round) {
-    aim_at_mean();
+  for (int round = 0; round < kRootRounds; ++round) {
     measure_balance(plan, lanes);
     const Vec3<float> error = balance_error(lanes);
     if (length(error) < kSettled) return;
-    if (round < kRootRounds) {
-      lanes.place[0] += Vec3<float>{lanes.root_weight_on_floor * error.x,
-                                    lanes.root_weight * error.y,
-                                    lanes.root_weight_on_floor * error.z};
-      place_live_joints(plan, lanes);
-    } else {
-      step_whole_body(plan, shape().rows, alone, lanes);
-    }
+    lanes.place[0] += Vec3<float>{lanes.root_weight_on_floor * error.x,
+                                  lanes.root_weight * error.y,
+                                  lanes.root_weight_on_floor * error.z};
+    place_live_joints(plan, lanes);
     close_mean();
   }
 }
