@@ -30,13 +30,16 @@ namespace marey::retarget {
 ///   point of the same segment, which no posture changes;
 /// - a rotation that is not unit, a box whose min is above its max;
 /// - a support that is not the extremity of a limb of a group that can support;
-/// - of one and the same point, while both are fully active (cross-fading is not
-/// refused):
-///   allowed boxes that have no point in common, one that lies inside a forbidden box,
-///   supports with two footprints.
+/// - what no posture meets while both are fully active (cross-fading is not refused):
+///   of one and the same point allowed boxes that have no point in common, one that lies
+///   inside a forbidden box, supports with two footprints, a footprint outside an allowed
+///   box or inside a forbidden one; of one foot footprints that are not as far apart as
+///   the points that stand on them; two distances between the same two points. The last
+///   four by more than both precisions; a support that starts only when a caller says so
+///   (from 1e8 s on) may be placed by then, too, and is not looked at.
 ///
 /// Precondition: the character is one that check_character() accepts. Linear in
-/// constraints times joints, quadratic in boxes, supports and distances to constraints.
+/// constraints times joints, quadratic in boxes, supports and distances within the body.
 [[nodiscard]] Status check_constraints(const ConstraintSet& constraints,
                                        const Character& character);
 

@@ -12,7 +12,9 @@ namespace marey::retarget {
 /// Precondition: those that they name exist, and none names itself.
 [[nodiscard]] Refusal check_circles(const ConstraintSet& set);
 
-/// Boxes and supports of one point that leave it no place while all are fully active.
+/// Boxes and supports of one point that leave it no place while all are fully active;
+/// supports of one foot that are not as far apart as its points; two distances between
+/// the same two points.
 /// Precondition: each constraint alone is sound.
 [[nodiscard]] Refusal check_contradictions(const ConstraintSet& set,
                                            const Skeleton& skeleton);

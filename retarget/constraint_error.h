@@ -22,6 +22,9 @@ using Refusal = std::optional<Error>;
 // Beyond these lie mistakes, and squares that single precision does not hold.
 inline constexpr double kFurthest_m = 1e4;
 inline constexpr double kLatest_s = 1e9;
+/// What starts so late (three years) starts when a caller says so (Handle::start()), who
+/// may place it, too: where it is until then contradicts nothing.
+inline constexpr double kUntilTold_s = 1e8;
 
 [[nodiscard]] inline Error refused(const Constraint& constraint,
                                    std::string cause,

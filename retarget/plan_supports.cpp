@@ -8,6 +8,7 @@
 
 #include "core/assert.h"
 #include "core/humanoid.h"
+#include "retarget/constraint_error.h"
 #include "retarget/plan_feet.h"
 
 namespace marey::retarget {
@@ -55,7 +56,7 @@ std::vector<FloorStance> standing(const std::vector<FrameInterval>& runs,
 }
 
 // Never by itself: whoever drives the track starts it.
-constexpr double kNever_s = 1e8;
+constexpr double kNever_s = kUntilTold_s;
 
 // Runs of one point that begin and end alike.
 struct Bearing {

@@ -305,5 +305,71 @@ TEST(CheckConstraints, RefusesAFootOnTwoFootprints) {
   EXPECT_EQ(said({0.1, 0.08, 0}), "no refusal");
 }
 
+/// What is said of two supports of the left foot: "stands" on the ankle, and "odd" on a
+/// point 0.1 m from it.
+std::string on_ball(const glm::dvec3& second, const Activation& of_second = {}) {
+  return refusal_of([&](ConstraintSet& set) {
+    set.constraints.back().goal = Support{glm::dvec3(0.1, 0.08, 0), {}};
+    Constraint ball = constraint("odd", "leftFoot", Support{second, {}});
+    ball.point.offset_in_t_pose = {0, -0.06, 0.08};
+    ball.activation = of_second;
+    set.constraints.push_back(ball);
+  });
+}
+
+TEST(CheckConstraints, RefusesFootprintsThatNoFootIsLongEnoughFor) {
+  EXPECT_EQ(
+      on_ball({0.1, 0.08, 0.3}),
+      "constraint \"odd\": it contradicts \"stands\" on the same foot: their points "
+      "are 0.1 m apart and their footprints 0.3 m. Next: change one of them, or let "
+      "one stop before the other starts.");
+  EXPECT_NE(on_ball({0.1, 0.08, 0.05}), "no refusal");
+  // Wherever the foot turns, and as near as both precisions.
+  EXPECT_EQ(on_ball({0.1, 0.08, 0.1}), "no refusal");
+  EXPECT_EQ(on_ball({0.1, 0.08, 0.1019}), "no refusal");
+  // Who starts it when the time has come may place it, too.
+  EXPECT_EQ(on_ball({0.1, 0.08, 0.3}, {1e8, std::nullopt, 0.0, 0.0}), "no refusal");
+}
+
+TEST(CheckConstraints, RefusesAFootprintWhereItsPointMustNotBe) {
+  const auto said = [](Goal space, const Activation& of_support) {
+    return refusal_of([&](ConstraintSet& set) {
+      set.constraints.back().goal = Support{glm::dvec3(0.1, 0.08, 0), {}};
+      set.constraints.back().activation = of_support;
+      set.constraints.push_back(constraint("odd", "leftFoot", std::move(space)));
+    });
+  };
+  EXPECT_EQ(
+      said(ForbiddenSpace{{0, 0, -1}, {1, 1, 1}}, {}),
+      "constraint \"stands\": it contradicts \"odd\" on the same point: its footprint "
+      "lies inside the other's forbidden box. Next: change one of them, or let one stop "
+      "before the other starts.");
+  EXPECT_EQ(said(ForbiddenSpace{{0.099, 0, -1}, {1, 1, 1}}, {}), "no refusal");
+  EXPECT_EQ(said(ForbiddenSpace{{0, 0, -1}, {1, 1, 1}}, {1e8, std::nullopt, 0.0, 0.0}),
+            "no refusal");
+  EXPECT_NE(said(AllowedSpace{{0.2, 0, -1}, {1, 1, 1}}, {})
+                .find("its footprint lies outside the other's allowed box"),
+            std::string::npos);
+  EXPECT_EQ(said(AllowedSpace{{0.1, 0, -1}, {1, 1, 1}}, {}), "no refusal");
+}
+
+TEST(CheckConstraints, RefusesTwoDistancesBetweenTheSameTwoPoints) {
+  // clap keeps the hands together, from the other side.
+  EXPECT_EQ(
+      with_goal("rightHand", DistanceToBody{0.3, {"leftHand", {}}}),
+      "constraint \"odd\": it contradicts \"clap\" on the same two points: it keeps "
+      "0.3 m between them and the other 0 m. Next: change one of them, or let one "
+      "stop before the other starts.");
+  // near keeps the head from reach's point, which is the right hand.
+  EXPECT_NE(with_goal("head", DistanceToBody{0.3, {"rightHand", {}}})
+                .find("it contradicts \"near\""),
+            std::string::npos);
+  EXPECT_EQ(with_goal("head", DistanceToBody{0.2, {"rightHand", {}}}), "no refusal");
+  EXPECT_EQ(with_goal("rightHand", DistanceToBody{0.002, {"leftHand", {}}}),
+            "no refusal");
+  EXPECT_EQ(with_goal("rightHand", DistanceToBody{0.3, {"leftHand", {0, 0, 0.1}}}),
+            "no refusal");
+}
+
 }  // namespace
 }  // namespace marey::retarget
