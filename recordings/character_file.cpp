@@ -21,6 +21,7 @@ constexpr Limits kStature{0.1, 10.0, "m"};
 constexpr Limits kTotalMass{0.01, 1000.0, "kg"};
 constexpr Limits kMass{0.0, 1000.0, "kg"};
 constexpr Limits kAngle{0.0, 180.0, "degrees"};
+constexpr double kFurthest_m = 1e4;
 
 struct TableWord {
   MassTable table;
@@ -165,6 +166,12 @@ void read_load(TomlReader& in, std::vector<LoadSpec>& loads) {
   if (in.has("offset_m")) {
     const std::vector<double> offset = in.numbers("offset_m", 3);
     load.point.offset_in_t_pose = {offset[0], offset[1], offset[2]};
+    for (const double along : offset) {
+      if (std::abs(along) <= kFurthest_m) continue;
+      in.fail("offset_m",
+              in_quotes("offset_m") + " is beyond 10 km",
+              "give metres from the segment's joint");
+    }
   }
   load.mass_kg = in.number("mass_kg", kMass);
   if (load.name.empty()) in.fail("name", "the name is empty", "name the load");

@@ -8,17 +8,24 @@
 
 #include "core/pose.h"
 #include "retarget/check_groups.h"
+#include "retarget/constraint_error.h"
 
 namespace marey::retarget {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
+constexpr double kHeaviest_kg = 1e6;
+
 bool is_finite(double x) {
   return std::isfinite(x);
 }
 bool is_finite(const glm::dvec3& v) {
   return is_finite(v.x) && is_finite(v.y) && is_finite(v.z);
+}
+bool is_near(const glm::dvec3& v) {
+  return std::abs(v.x) <= kFurthest_m && std::abs(v.y) <= kFurthest_m &&
+         std::abs(v.z) <= kFurthest_m;
 }
 bool is_rotation(const glm::dquat& q) {
   // Also false for what is not a number.
@@ -50,6 +57,12 @@ Status check_skeleton(const CharacterCheck& check) {
       return check.refuse(called,
                           "its rest pose is not a place and a unit quaternion",
                           "correct its numbers");
+    }
+    if (!is_near(joints[i].parent_from_joint.translation)) {
+      return check.refuse(called,
+                          std::string("it rests more than 10 km from ") +
+                              (parent ? "its parent" : "the origin"),
+                          "give its place in metres");
     }
   }
   const auto& t_pose = check.character.t_pose_from_joint;
@@ -118,6 +131,16 @@ Status check_mass(const CharacterCheck& check,
   }
   if (!(mass.mass_kg >= 0.0) || !is_finite(mass.mass_kg)) {
     return check.refuse(called, "its mass is negative or not a number", "give it in kg");
+  }
+  if (!is_near(mass.p_in_joint)) {
+    return check.refuse(called,
+                        "its place is more than 10 km from its joint",
+                        "give its place in metres");
+  }
+  if (mass.mass_kg > kHeaviest_kg) {
+    return check.refuse(called,
+                        "its mass is " + digits(mass.mass_kg) + " kg",
+                        "give it in kg; " + digits(kHeaviest_kg) + " is the most");
   }
   return Done{};
 }

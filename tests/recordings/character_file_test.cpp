@@ -165,6 +165,13 @@ TEST(CharacterFile, NamesTheNearestKey) {
   EXPECT_TRUE(says(mistake("offset_m", "offset"), "[[load]]"));
 }
 
+TEST(CharacterFile, WantsALoadNearItsBone) {
+  const std::string given = "offset_m = [";
+  EXPECT_TRUE(says(mistake(given, given + "1e300, 0.0, 0.0]\n#"),
+                   "\"offset_m\" is beyond 10 km. Next: give metres from the segment's "
+                   "joint"));
+}
+
 TEST(CharacterFile, WantsOneBody) {
   EXPECT_TRUE(says(mistake("avatar = \"../avatars/ann.vrm\"\n", ""),
                    "does not say whose lengths"));

@@ -128,6 +128,27 @@ TEST(CheckCharacter, RefusesALimbWithoutLength) {
       "joint \"leftFoot\" has no length. Next: name joints that lie apart.");
 }
 
+// Which they are in avatars differs; adapter_coincident_test.cpp says that it does no
+// harm.
+TEST(CheckCharacter, TakesAllOtherBonesWithoutLength) {
+  for (const B bone : {B::kLeftShoulder,
+                       B::kLeftUpperArm,
+                       B::kLeftUpperLeg,
+                       B::kNeck,
+                       B::kHead,
+                       B::kLeftToes}) {
+    EXPECT_EQ(refusal([&](Character& c) {
+                joint(c, bone).parent_from_joint.translation = {0, 0, 0};
+              }),
+              "")
+        << name(bone);
+  }
+}
+
+TEST(CheckCharacter, TakesASegmentThatWeighsNothing) {
+  EXPECT_EQ(refusal([](Character& c) { c.masses.back().mass_kg = 0.0; }), "");
+}
+
 // Captured skeletons have vertebrae in the same place, and bend all the same.
 TEST(CheckCharacter, TakesVertebraeThatCoincide) {
   EXPECT_EQ(refusal([](Character& c) {
@@ -275,6 +296,36 @@ TEST(CheckCharacter, RefusesMassesThatDoNotWeigh) {
             std::string::npos);
   EXPECT_NE(refusal([](Character& c) { c.masses.clear(); }).find("weighs nothing"),
             std::string::npos);
+}
+
+// What single precision does not hold gave postures that are no numbers.
+TEST(CheckCharacter, RefusesMassesAndLengthsThatNoBodyHas) {
+  const Load bag{"bag", {JointIndex{2}, {0, 0, 0}, 1e6}};
+  EXPECT_EQ(refusal([&](Character& c) { c.loads = {bag}; }), "");
+  EXPECT_EQ(refusal([&](Character& c) {
+              c.loads = {bag};
+              c.loads[0].mass.mass_kg = 1e39;
+            }),
+            "character \"Ann\": load \"bag\": its mass is 1e+39 kg. Next: give it in kg; "
+            "1e+06 is the most.");
+  EXPECT_EQ(refusal([&](Character& c) {
+              c.loads = {bag};
+              c.loads[0].mass.p_in_joint.x = 1e300;
+            }),
+            "character \"Ann\": load \"bag\": its place is more than 10 km from its "
+            "joint. Next: give its place in metres.");
+  EXPECT_NE(refusal([](Character& c) {
+              c.masses.front().mass_kg = 2e6;
+            }).find("mass of joint \"hips\": its mass is 2e+06 kg"),
+            std::string::npos);
+  EXPECT_EQ(
+      refusal([](Character& c) {
+        for (Joint& joint : c.skeleton.joints) {
+          joint.parent_from_joint.translation *= 1e300;
+        }
+      }),
+      "character \"Ann\": joint \"hips\": it rests more than 10 km from the origin. "
+      "Next: give its place in metres.");
 }
 
 TEST(CheckCharacter, RefusesLoadsThatCannotBeToldApart) {
