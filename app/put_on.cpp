@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/resample.h"
+#include "retarget/find_soles.h"
 #include "retarget/live_retarget.h"
 
 namespace marey::app {
@@ -34,8 +35,9 @@ Result<RetargetedMotion> put_on_live(const Motion& source,
   for (std::size_t t = 0; t < source.poses.size(); ++t) {
     stage->step(source.poses[t], 1.0 / source.rate.hz, out->motion.poses[t]);
   }
-  const auto map = retarget::map_body(avatar);
+  auto map = retarget::map_body(avatar);
   if (!map) return map.error();
+  retarget::wear(options.soles, *map);
   out->report.after = retarget::measure_feet(out->motion, *map, out->report.contacts);
   return out;
 }
@@ -103,8 +105,9 @@ Result<RetargetedMotion> put_on(const Motion& source,
   kept.before = kept.multiple * out->motion.first_frame - dense_first;
   kept.count = static_cast<int>(out->motion.poses.size());
   out->report.contacts = kept_of(out->report.contacts, kept);
-  const auto map = retarget::map_body(avatar);
+  auto map = retarget::map_body(avatar);
   if (!map) return map.error();
+  retarget::wear(options.retarget.soles, *map);
   // What it was before the ground stays that of all frames: it was never kept.
   out->report.after = retarget::measure_feet(out->motion, *map, out->report.contacts);
   return out;

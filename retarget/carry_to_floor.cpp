@@ -32,6 +32,32 @@ glm::dvec3 root_shift_m(const std::array<FloorFoot, 2>& feet, std::size_t t) {
   return count > 0 ? sum_m / static_cast<double>(count) : feet[0].carried_m[t];
 }
 
+// Over the whole motion, averaged over +-`half_s` with a C2 bell, which near the ends is
+// narrower: what moves evenly goes on so, and what is exactly zero stays.
+std::vector<glm::dvec3> root_path_m(const std::array<FloorFoot, 2>& feet,
+                                    std::size_t count,
+                                    double half_s,
+                                    FrameRate rate) {
+  std::vector<glm::dvec3> shift_m(count);
+  for (std::size_t t = 0; t < count; ++t) shift_m[t] = root_shift_m(feet, t);
+  const auto widest = static_cast<std::size_t>(
+      std::clamp(half_s * rate.hz, 0.0, static_cast<double>(count)));
+  std::vector<glm::dvec3> out(count);
+  for (std::size_t t = 0; t < count; ++t) {
+    const std::size_t half = std::min({widest, t, count - 1 - t});
+    glm::dvec3 sum_m = shift_m[t];
+    double weights = 1.0;
+    for (std::size_t k = 1; k <= half; ++k) {
+      const double x = static_cast<double>(k) / static_cast<double>(half + 1);
+      const double weight = (1.0 - x * x) * (1.0 - x * x) * (1.0 - x * x);
+      sum_m += weight * (shift_m[t - k] + shift_m[t + k]);
+      weights += 2.0 * weight;
+    }
+    out[t] = sum_m / weights;
+  }
+  return out;
+}
+
 }  // namespace
 
 CarriedMotion carry_to_floor(const Motion& motion,
@@ -44,13 +70,14 @@ CarriedMotion carry_to_floor(const Motion& motion,
   // A lift over an edge comes with a displacement, or the edge was in the way before.
   if (!is_carried(feet[0]) && !is_carried(feet[1])) return {motion, {}};
 
+  const std::vector<glm::dvec3> root_m =
+      root_path_m(feet, motion.poses.size(), options.root_blend_s, motion.rate);
   std::vector<NormalizedPose> poses(motion.poses.size());
   std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
   for (std::size_t t = 0; t < poses.size(); ++t) {
     world_from_joints(motion.skeleton, motion.poses[t], world_from_joint);
     normalize(map, world_from_joint, poses[t]);
-    poses[t].root +=
-        root_shift_m(feet, t) / root_unit_m(map, poses[t].root_normalization);
+    poses[t].root += root_m[t] / root_unit_m(map, poses[t].root_normalization);
   }
   CarriedMotion out{motion, {}};
   out.ground = settle_on_feet(motion.skeleton,

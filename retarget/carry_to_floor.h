@@ -14,6 +14,9 @@ namespace marey::retarget {
 /// too short by more, and for longer.
 struct CarryOptions {
   GroundOptions ground{.feet = {}, .anticipation_s = 0.4};
+  /// The root's share of what the floor does to the feet is averaged over this long before
+  /// and after: a pelvis takes a step less suddenly than a foot. [s]
+  double root_blend_s = 0.1;
 };
 
 struct CarriedMotion {
@@ -26,8 +29,8 @@ struct CarriedMotion {
 ///
 /// The feet go where plan_feet() has them. The root goes by the mean of both feet's
 /// displacements, of a swinging one too: so it anticipates, beginning to rise or to be
-/// carried as soon as a foot leaves its footprint for one that is displaced otherwise. A
-/// foot's lift over an edge does not move it. Then it sinks, and legs follow, as in
+/// carried as soon as a foot leaves its footprint for one that is displaced otherwise
+/// (CarryOptions::root_blend_s earlier still). A foot's lift over an edge does not move it. Then it sinks, and legs follow, as in
 /// settle_on_feet(). What hangs on the root (trunk, head, arms) goes along unturned.
 ///
 /// Where nothing is displaced the motion is the same, to the bit. Linear in frames.

@@ -25,7 +25,7 @@ struct FootPlace {
 struct FootPlanOptions {
   /// How long the speed of a contact's displacement takes to fade out after it, and in
   /// before it. Longer is softer, and follows noise further. [s]
-  double blend_s = 0.14;
+  double blend_s = 0.28;
 };
 
 /// Moves a foot's path onto its footprints.
