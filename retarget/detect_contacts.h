@@ -42,10 +42,10 @@ struct DetectContactsOptions {
   /// earlier than where it was slower until then.
   double edge_speed_legs_per_s = 0.25;
   double start_height_legs = 0.02;      ///< Lower above its resting height begins one,
-  double keep_height_legs = 0.03;       ///< which lasts while lower than this.
+  double keep_height_legs = 0.045;      ///< which lasts while lower than this.
   double heel_up_legs = 0.03;           ///< A raised heel that is still moves less.
   double uneven_legs = 0.06;            ///< Steps may be this much higher than others.
-  double shortest_s = 0.08;             ///< Shorter contacts are accidents.
+  double shortest_s = 0.06;             ///< Shorter contacts are accidents.
   double longest_gap_s = 0.05;          ///< Shorter interruptions are noise.
   double smoothing_s = 0.06;  ///< Speeds are slopes of lines fitted over this long.
 };
