@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "benchmarks/captured_clips.h"
+#include "benchmarks/measure_spines.h"
 #include "benchmarks/result_table.h"
 
 #include "core/pose.h"
@@ -156,6 +157,9 @@ int run(const std::filesystem::path& mocap, const std::filesystem::path& json) {
       }
     }
   }
+  auto spines = measure_spines(*clips);
+  if (!spines) return fail(spines.error());
+  tables.push_back(std::move(*spines));
   for (const ResultTable& table : tables) print_table(table);
   if (json.empty()) return 0;
   return write_tables(json, tables) ? 0 : 5;

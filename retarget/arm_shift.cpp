@@ -35,6 +35,21 @@ double reached(double wanted, double extension_before) {
 
 }  // namespace
 
+bool aim_arm(const glm::dvec3& wrist_from_shoulder_m,
+             double length_m,
+             double swivel_rad,
+             NormalizedLimb& arm) {
+  const double distance_m = glm::length(wrist_from_shoulder_m);
+  if (distance_m < 1e-9) return false;
+  const glm::dvec3 axis = wrist_from_shoulder_m / distance_m;
+  const glm::dvec3 before = arm.world_from_limb * glm::dvec3(0, 0, 1);
+  arm.world_from_limb =
+      glm::normalize(glm::angleAxis(swivel_rad, axis) * rotation_between(before, axis) *
+                     arm.world_from_limb);
+  arm.extension = reached(distance_m / length_m, arm.extension);
+  return true;
+}
+
 Arms::Arms(const PosedFrames& frames, const BodyMap& map) : frames_(&frames), map_(&map) {
   NormalizedPose pose;
   for (std::size_t t = 0; t < frames.count(); ++t) {
@@ -57,14 +72,7 @@ NormalizedLimb Arms::shifted_limb(std::size_t t, int side, const ArmShift& shift
   const ArmPlaces now = places(t, side);
   NormalizedLimb out = limbs_[static_cast<std::size_t>(side)][t];
   const glm::dvec3 wanted = now.wrist + shift.wrist_m - now.shoulder;
-  const double distance_m = glm::length(wanted);
-  if (distance_m < 1e-9) return out;
-  const glm::dvec3 axis = wanted / distance_m;
-  const glm::dvec3 before = out.world_from_limb * glm::dvec3(0, 0, 1);
-  out.world_from_limb =
-      glm::normalize(glm::angleAxis(shift.swivel_rad, axis) *
-                     rotation_between(before, axis) * out.world_from_limb);
-  out.extension = reached(distance_m / limb(side).length_m(), out.extension);
+  aim_arm(wanted, limb(side).length_m(), shift.swivel_rad, out);
   return out;
 }
 

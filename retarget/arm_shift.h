@@ -33,6 +33,15 @@ struct ArmPlaces {
   glm::dvec3 wrist{0.0};
 };
 
+/// Points an arm of that length at a place, from its shoulder [m]. The half-plane of the
+/// elbow turns along by the smallest rotation, then by the swivel. An arm that would be
+/// stretched beyond 97 percent, or beyond what it is, goes in that direction ever less,
+/// and never out of reach. False, and nothing done, for a place in the shoulder.
+bool aim_arm(const glm::dvec3& wrist_from_shoulder_m,
+             double length_m,
+             double swivel_rad,
+             NormalizedLimb& arm);
+
 /// The arms of a motion, and where they would be when shifted.
 class Arms {
  public:
@@ -49,9 +58,8 @@ class Arms {
     return *map_->limbs[static_cast<std::size_t>(side)];
   }
   [[nodiscard]] ArmPlaces places(std::size_t t, int side) const;
-  /// The limb that brings the wrist there. The half-plane of the elbow turns along by the
-  /// smallest rotation, then by the swivel. A wrist that would stretch the arm beyond 97
-  /// percent goes in that direction ever less, and never out of reach: some millimetres.
+  /// The limb that brings the wrist there, as aim_arm() does: beyond 97 percent of its
+  /// length, some millimetres short.
   [[nodiscard]] NormalizedLimb shifted_limb(std::size_t t,
                                             int side,
                                             const ArmShift& shift) const;

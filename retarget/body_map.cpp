@@ -135,9 +135,9 @@ double rest_floor_m(const Builder& b) {
   return lowest - (has_toes ? kBallHeightInLegs : kAnkleHeightInLegs) * leg;
 }
 
-// Where the sole ends, in lengths from ankle to ball: a heel's round end bears a quarter of
-// it behind the ankle, toes reach half of it beyond the ball (Drillis and Contini 1966:
-// the foot is 0.152 of the stature long, the ankle 0.039 high).
+// Where the sole ends, in lengths from ankle to ball: a heel's round end bears a quarter
+// of it behind the ankle, toes reach half of it beyond the ball (Drillis and Contini
+// 1966: the foot is 0.152 of the stature long, the ankle 0.039 high).
 void map_sole(const Builder& b,
               const std::optional<JointIndex>& toes,
               const glm::dquat& align,
@@ -208,32 +208,72 @@ void fill_section(Builder& b,
                   const std::vector<double>& end_m,
                   std::size_t from,
                   std::size_t to,
+                  const std::optional<JointIndex>& top,
                   SpineSection& section) {
   section.count = static_cast<int>(to - from);
   const double start = from == 0 ? 0.0 : end_m[from - 1];
   const double length = to > from ? end_m[to - 1] - start : 1.0;
   for (std::size_t i = from; i < to; ++i) {
+    const auto next = i + 1 < chain.size() ? std::optional(chain[i + 1]) : top;
     section.joints[i - from] = chain[i];
     section.at[i - from] = (end_m[i] - start) / length;
-    drive(b, chain[i], JointRole::kVertebra, glm::dquat(1, 0, 0, 0));
+    if (next) section.bone_in_t_pose[i - from] = b.place(*next) - b.place(chain[i]);
   }
+}
+
+// Arc length at the far end of each joint of a chain that ends at `top`.
+std::vector<double> arc_ends_m(const Builder& b,
+                               const std::vector<JointIndex>& chain,
+                               const std::optional<JointIndex>& top) {
+  std::vector<double> end_m;
+  double sum_m = 0.0;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const auto next = i + 1 < chain.size() ? std::optional(chain[i + 1]) : top;
+    const double bone_m = next ? glm::length(b.place(*next) - b.place(chain[i])) : 0.0;
+    sum_m += std::max(bone_m, kShortestVertebra);
+    end_m.push_back(sum_m);
+  }
+  return end_m;
+}
+
+// What hangs on the last vertebra: neck, collar bones, or arms without collar bones.
+void map_girdle(const Builder& b, JointIndex last, JointIndex top, SpineLine& spine) {
+  std::vector<glm::dvec3> places{b.place(top)};
+  for (const B bone :
+       {B::kLeftShoulder, B::kRightShoulder, B::kLeftUpperArm, B::kRightUpperArm}) {
+    const auto joint = b.joint(bone);
+    if (joint && b.skeleton[*joint].parent == last) places.push_back(b.place(*joint));
+  }
+  glm::dvec3 mean(0.0);
+  for (const glm::dvec3& place : places)
+    mean += place / static_cast<double>(places.size());
+  double squares = 0.0;
+  for (const glm::dvec3& place : places) squares += glm::dot(place - mean, place - mean);
+  spine.girdle_in_t_pose = mean - b.place(last);
+  spine.girdle_radius_m = std::sqrt(squares / static_cast<double>(places.size()));
+}
+
+void map_spine_line(Builder& b,
+                    const std::vector<JointIndex>& chain,
+                    const std::vector<double>& end_m,
+                    std::size_t split,
+                    JointIndex top) {
+  SpineLine spine;
+  spine.hips_bone_in_t_pose = b.place(chain[0]) - b.place(b.map.hips());
+  const double first_m = glm::length(spine.hips_bone_in_t_pose);
+  spine.length_m = first_m + end_m.back();
+  const double below_m = split > 0 ? end_m[split - 1] : 0.0;
+  spine.shares = {first_m / spine.length_m, (first_m + below_m) / spine.length_m};
+  map_girdle(b, chain.back(), top, spine);
+  b.map.spine = spine;
 }
 
 Status map_spine(Builder& b) {
   const std::vector<JointIndex> chain = vertebrae(b);
   if (chain.empty()) return Done{};
-  // Arc length at the far end of each vertebra.
   auto top = b.joint(B::kNeck);
   if (!top) top = b.joint(B::kHead);
-  std::vector<double> end_m;
-  double sum_m = 0.0;
-  for (std::size_t i = 0; i < chain.size(); ++i) {
-    const bool last = i + 1 == chain.size();
-    const auto next = last ? top : std::optional(chain[i + 1]);
-    const double bone_m = next ? glm::length(b.place(*next) - b.place(chain[i])) : 0.0;
-    sum_m += std::max(bone_m, kShortestVertebra);
-    end_m.push_back(sum_m);
-  }
+  const std::vector<double> end_m = arc_ends_m(b, chain, top);
   std::size_t split = chain.size() / 2;
   const auto chest = b.joint(B::kChest);
   const auto at = chest ? std::find(chain.begin(), chain.end(), *chest) : chain.end();
@@ -244,9 +284,34 @@ Status map_spine(Builder& b) {
                     "use a skeleton with at most " + std::to_string(kMaxVertebrae) +
                         " below and above the chest");
   }
-  fill_section(b, chain, end_m, 0, split, b.map.abdomen);
-  fill_section(b, chain, end_m, split, chain.size(), b.map.torso);
+  fill_section(b, chain, end_m, 0, split, top, b.map.abdomen);
+  fill_section(b, chain, end_m, split, chain.size(), top, b.map.torso);
+  for (const JointIndex vertebra : chain) {
+    drive(b, vertebra, JointRole::kVertebra, glm::dquat(1, 0, 0, 0));
+  }
+  if (top) map_spine_line(b, chain, end_m, split, *top);
   return Done{};
+}
+
+// The joints from the neck to just below the head.
+void map_neck(Builder& b) {
+  const auto neck = b.joint(B::kNeck);
+  const auto head = b.joint(B::kHead);
+  if (!neck || !head) return;
+  std::vector<JointIndex> chain;
+  auto joint = b.skeleton[*head].parent;
+  while (joint && *joint != *neck) {
+    if (b.map.joints[index(*joint)].role != JointRole::kFree) return;
+    chain.push_back(*joint);
+    joint = b.skeleton[*joint].parent;
+  }
+  chain.push_back(*neck);
+  if (!joint || chain.size() > static_cast<std::size_t>(kMaxVertebrae)) return;
+  std::reverse(chain.begin(), chain.end());
+  for (std::size_t i = 1; i < chain.size(); ++i) {
+    drive(b, chain[i], JointRole::kNeck, glm::dquat(1, 0, 0, 0));
+  }
+  fill_section(b, chain, arc_ends_m(b, chain, head), 0, chain.size(), head, b.map.neck);
 }
 
 }  // namespace
@@ -272,6 +337,7 @@ Result<BodyMap> map_body(const Skeleton& skeleton) {
   const double floor_m = rest_floor_m(b);
   for (int side = 0; side < 2; ++side) map_foot(b, side, floor_m);
   if (const Status mapped = map_spine(b); !mapped) return mapped.error();
+  map_neck(b);
   return std::move(b.map);
 }
 

@@ -40,6 +40,26 @@ struct SpineSection {
   std::array<JointIndex, kMaxVertebrae> joints{};
   /// Normalized arc length at the far end of each vertebra; the last one's is 1.
   std::array<double, kMaxVertebrae> at{};
+  /// From each joint to the next one up, in the T-pose. [m]
+  std::array<glm::dvec3, kMaxVertebrae> bone_in_t_pose{};
+};
+
+/// Where abdomen and torso begin on the way from the hips to the neck, as shares of that
+/// way's length at rest.
+struct SpineShares {
+  double abdomen = 0.0;
+  double torso = 0.0;
+};
+
+/// The way from the hips to where the spine ends: the neck (without one, the head).
+struct SpineLine {
+  glm::dvec3 hips_bone_in_t_pose{0.0};  ///< To the first vertebra. [m]
+  SpineShares shares;
+  double length_m = 0.0;  ///< Along the bones.
+  /// What the last vertebra carries: the mean place of the spine's end and of the collar
+  /// bones (upper arms) that hang on it, from its joint, in the T-pose. [m]
+  glm::dvec3 girdle_in_t_pose{0.0};
+  double girdle_radius_m = 0.0;  ///< Root mean square distance of these from their mean.
 };
 
 /// A foot as it stands in the T-pose, sole on the floor, pointing to +Z.
@@ -60,6 +80,7 @@ enum class JointRole : unsigned char {
   kFree,      ///< No mark: stays as at rest in its parent.
   kSegment,   ///< Its own orientation is transferred.
   kVertebra,  ///< Sampled from a spine curve.
+  kNeck,      ///< Above the marked neck joint: sampled from the neck's curve.
   kLimbBone,  ///< Solved with its limb.
 };
 
@@ -78,12 +99,14 @@ struct BodyMap {
   std::vector<JointDrive> joints;  ///< One per joint of the skeleton.
   /// As in human_limbs(). Both legs are always there.
   std::array<std::optional<LimbMap>, 4> limbs{};
-  SpineSection abdomen;           ///< From the hips to where the torso begins.
-  SpineSection torso;             ///< From there to the base of the neck.
-  std::array<FootMap, 2> feet{};  ///< Left, right.
-  double leg_length_m = 0.0;      ///< Hip to knee to ankle, mean of both sides.
-  double arm_length_m = 0.0;      ///< Shoulder to elbow to wrist; 0 without arms.
-  double hip_drop_m = 0.0;        ///< Height of the hips joint above the hip centres.
+  SpineSection abdomen;            ///< From the hips to where the torso begins.
+  SpineSection torso;              ///< From there to the base of the neck.
+  std::optional<SpineLine> spine;  ///< Of a body with vertebrae, and a neck or a head.
+  SpineSection neck;               ///< From the neck to the head. Empty without either.
+  std::array<FootMap, 2> feet{};   ///< Left, right.
+  double leg_length_m = 0.0;       ///< Hip to knee to ankle, mean of both sides.
+  double arm_length_m = 0.0;       ///< Shoulder to elbow to wrist; 0 without arms.
+  double hip_drop_m = 0.0;         ///< Height of the hips joint above the hip centres.
 
   [[nodiscard]] JointIndex hips() const { return *joint_of[index(HumanBone::kHips)]; }
   /// Side 0 is left, 1 is right.
@@ -100,6 +123,7 @@ struct BodyMap {
 /// their forearm; feet keep their sole flat and turn about the vertical until they point
 /// forward; all else is taken as it rests. Joints between hips and neck (head, when there
 /// is no neck) are vertebrae, marked or not; the torso begins at the chest, or halfway.
+/// Joints between neck and head are the neck's, up to kMaxVertebrae with it.
 /// A limb that is not complete is treated bone by bone.
 ///
 /// The sole is the floor Y = 0 of the rest pose if the lowest foot joint or toe tip is

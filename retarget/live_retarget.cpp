@@ -9,6 +9,7 @@
 
 #include "core/assert.h"
 #include "retarget/ground.h"
+#include "retarget/keep_wrists.h"
 #include "retarget/leg_on_foot.h"
 #include "retarget/live_foot.h"
 #include "retarget/retarget_motion.h"
@@ -22,6 +23,7 @@ struct LiveRetarget::State {
   BodyMap to;
   LiveRetargetOptions options;
   double scale = 1.0;  // Of the root's way.
+  bool wrists_to_keep = false;
   double sink_m = 0.0;
   std::array<LiveContact, 4> contacts;  // Left and right ankle, left and right ball.
   std::array<LiveFloor, 2> floors;
@@ -52,8 +54,8 @@ void LiveRetarget::State::judge_feet(double since_last_s) {
       const glm::dvec3 ball = source_world[index(*toes)].translation / leg_m;
       ball_height = ball.y - foot.ball_height_m / leg_m;
       lower = std::min(lower, ball_height);
-      speed = std::min(speed,
-                       contacts[s + 2].speed_legs_per_s(ball, since_last_s, options));
+      speed =
+          std::min(speed, contacts[s + 2].speed_legs_per_s(ball, since_last_s, options));
     }
     floors[s].look(lower, speed, since_last_s, options);
     const double floor = floors[s].offset_legs();
@@ -63,8 +65,8 @@ void LiveRetarget::State::judge_feet(double since_last_s) {
   }
 }
 
-// By how much the root that was scaled with the legs must rise for ankles that rest as the
-// source's do to be where the avatar's should.
+// By how much the root that was scaled with the legs must rise for ankles that rest as
+// the source's do to be where the avatar's should.
 double LiveRetarget::State::rise_m() const {
   const std::array<double, 2> rest_m{
       from.feet[0].ankle_height_m + floors[0].offset_legs() * from.leg_length_m,
@@ -83,14 +85,15 @@ void LiveRetarget::State::hold_feet(double since_last_s) {
     const auto s = static_cast<std::size_t>(side);
     places[s] = foot_of(to, posture, avatar_world, side);
     hips[s] = avatar_world[index(to.leg(side).upper)].translation;
-    feet[s].hold(standing[s], to.feet[s], to.leg_length_m, since_last_s, options, places[s]);
+    feet[s].hold(
+        standing[s], to.feet[s], to.leg_length_m, since_last_s, options, places[s]);
     if (!standing[s].heel && !standing[s].ball) continue;
     const double straight =
         std::max(GroundOptions{}.straight, posture.limbs[2 + s]->extension);
-    needed_m = std::max(needed_m,
-                        retarget::sink_m(hips[s],
-                                         places[s].ankle_in_world,
-                                         straight * to.leg(side).length_m()));
+    needed_m = std::max(
+        needed_m,
+        retarget::sink_m(
+            hips[s], places[s].ankle_in_world, straight * to.leg(side).length_m()));
   }
   sink_m = std::max(needed_m, sink_m * std::exp(-since_last_s / options.rise_s));
   posture.root.y = (root.y - sink_m) / unit_m;
@@ -124,6 +127,7 @@ Result<LiveRetarget> LiveRetarget::make(const Skeleton& source,
   state->options = options;
   state->scale =
       root_unit_m(state->to, options.root) / root_unit_m(state->from, options.root);
+  state->wrists_to_keep = spines_differ(state->from, state->to);
   state->source_world.resize(source.joints.size());
   state->avatar_world.resize(avatar.joints.size());
   return LiveRetarget(std::move(state));
@@ -140,8 +144,10 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
     s.posture.root.y += s.rise_m() / root_unit_m(s.to, s.options.root);
   }
   expand(s.posture, s.avatar, s.to, s.avatar_world, out);
-  if (!s.options.hold_feet) return;
-  s.hold_feet(since_last_s);
+  const bool moved =
+      s.wrists_to_keep && keep_wrists(s.avatar, s.to, s.avatar_world, s.posture);
+  if (!moved && !s.options.hold_feet) return;
+  if (s.options.hold_feet) s.hold_feet(since_last_s);
   expand(s.posture, s.avatar, s.to, s.avatar_world, out);
 }
 

@@ -9,6 +9,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/assert.h"
+#include "retarget/place_spine.h"
 #include "retarget/smooth_step.h"
 
 namespace marey::retarget {
@@ -191,17 +192,12 @@ void normalize_spine(const BodyMap& map,
   }
   out.torso.add(0.0, sample(out.abdomen, 1.0));
   add_section(map.torso, out.torso);
-}
-
-void place_section(const BodyMap& map,
-                   const SpineSection& section,
-                   const RotationCurve& curve,
-                   std::span<RigidTransform> world_from_joint) {
-  for (std::size_t i = 0; i < static_cast<std::size_t>(section.count); ++i) {
-    const std::size_t joint = index(section.joints[i]);
-    world_from_joint[joint].rotation =
-        sample(curve, section.at[i]) * map.joints[joint].t_pose_from_joint;
-  }
+  out.spine.reset();
+  if (map.spine) out.spine = map.spine->shares;
+  out.neck.count = 0;
+  if (map.neck.count == 0) return;
+  out.neck.add(0.0, sample(out.torso, 1.0));
+  add_section(map.neck, out.neck);
 }
 
 bool is_driven(const JointDrive& drive, const NormalizedPose& pose) {
@@ -212,6 +208,8 @@ bool is_driven(const JointDrive& drive, const NormalizedPose& pose) {
       return pose.segments[index(drive.bone)].has_value();
     case JointRole::kVertebra:
       return true;
+    case JointRole::kNeck:
+      return pose.neck.count > 0;
     case JointRole::kLimbBone:
       return pose.limbs[static_cast<std::size_t>(drive.limb)].has_value();
   }
@@ -309,8 +307,8 @@ void expand(const NormalizedPose& pose,
     world_from_joint[index(*joint)].rotation =
         *pose.segments[i] * drive.t_pose_from_joint;
   }
-  place_section(map, map.abdomen, pose.abdomen, world_from_joint);
-  place_section(map, map.torso, pose.torso, world_from_joint);
+  place_spine(pose, map, world_from_joint);
+  place_neck(pose, map, world_from_joint);
   for (std::size_t i = 0; i < pose.limbs.size(); ++i) {
     if (!map.limbs[i] || !pose.limbs[i]) continue;
     place_limb(map, *map.limbs[i], *pose.limbs[i], world_from_joint);

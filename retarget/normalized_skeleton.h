@@ -58,6 +58,12 @@ struct NormalizedPose {
   std::array<std::optional<NormalizedLimb>, 4> limbs{};  ///< As in human_limbs().
   RotationCurve abdomen;  ///< From the hips (knot 0) to where the torso begins.
   RotationCurve torso;    ///< From there to the base of the neck.
+  /// Where the curves lie along the source's spine, whose end follows from them: each
+  /// knot but the first of a curve is a rigid bone, which reaches from the knot before.
+  /// nullopt when the source has no vertebrae, or neither neck nor head.
+  std::optional<SpineShares> spine;
+  RotationCurve
+      neck;  ///< From the spine's end (knot 0) to the head; empty without a neck.
   /// World rotation of each bone that is neither a vertebra nor in a complete limb: hips,
   /// clavicles, neck, head, hands, feet, toes. nullopt where the source has none.
   std::array<std::optional<glm::dquat>, kHumanBoneCount> segments{};
@@ -80,12 +86,13 @@ void normalize(const BodyMap& map,
     RootNormalization root = RootNormalization::kLegLength);
 
 /// Gives a posture a body (eq. 1.4): limb ends at root + v * sum of lengths, elbows and
-/// knees by the law of cosines, vertebrae sampled from the spine curves. A limb that
-/// cannot fold or stretch as asked goes as far as it can. Joints without a mark, and
-/// bones that the source does not have, stay as at rest in their parent.
-/// `world_from_joint` gets every joint's frame in the world, `out` the pose. A few
-/// microseconds; allocates nothing when `out` has one entry per joint already.
-/// Precondition: `map` was made from `body`; one `world_from_joint` per joint.
+/// knees by the law of cosines, vertebrae sampled from the spine curves and turned so
+/// that neck and shoulders lie where these put them (place_spine()). A limb that cannot
+/// fold or stretch as asked goes as far as it can. Joints without a mark, and bones that
+/// the source does not have, stay as at rest in their parent. `world_from_joint` gets
+/// every joint's frame in the world, `out` the pose. A few microseconds; allocates
+/// nothing when `out` has one entry per joint already. Precondition: `map` was made from
+/// `body`; one `world_from_joint` per joint.
 void expand(const NormalizedPose& pose,
             const Skeleton& body,
             const BodyMap& map,

@@ -11,6 +11,7 @@
 
 #include "core/assert.h"
 #include "core/pose.h"
+#include "retarget/keep_wrists.h"
 #include "retarget/leg_on_foot.h"
 
 namespace marey::retarget {
@@ -68,6 +69,17 @@ Motion expand_all(const std::vector<NormalizedPose>& poses,
   return motion;
 }
 
+void keep_all_wrists(const Skeleton& avatar,
+                     const BodyMap& map,
+                     std::vector<NormalizedPose>& poses) {
+  std::vector<RigidTransform> world_from_joint(avatar.joints.size());
+  Pose scratch;
+  for (NormalizedPose& pose : poses) {
+    expand(pose, avatar, map, world_from_joint, scratch);
+    keep_wrists(avatar, map, world_from_joint, pose);
+  }
+}
+
 }  // namespace
 
 Result<MappedBodies> map_bodies(const Skeleton& source,
@@ -100,8 +112,8 @@ double deepest_sole_m(const Motion& motion, const BodyMap& map) {
     };
     for (int side = 0; side < 2; ++side) {
       const FootMap& foot = map.feet[static_cast<std::size_t>(side)];
-      deepest_m = std::max(
-          deepest_m, -end_m(map.leg(side).end, foot.heel_from_ankle_in_t_pose));
+      deepest_m =
+          std::max(deepest_m, -end_m(map.leg(side).end, foot.heel_from_ankle_in_t_pose));
       const auto toes = map.joint_of[index(toes_bone(side))];
       if (!toes) continue;
       deepest_m = std::max(deepest_m, -end_m(*toes, foot.tip_from_ball_in_t_pose));
@@ -167,6 +179,7 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
     normalize(*from, world_from_joint, poses[t], options.root);
     poses[t].root.y += rise_m / unit_m;
   }
+  if (spines_differ(*from, *to)) keep_all_wrists(avatar, *to, poses);
   out.motion = expand_all(poses, source, avatar, *to);
   out.report.before = measure_feet(out.motion, *to, out.report.contacts);
   out.report.after = out.report.before;

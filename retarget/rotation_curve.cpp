@@ -9,19 +9,18 @@ namespace {
 
 constexpr double kSamePlace = 1e-9;
 
-// Rotation vector per unit of arc length at knot k, in the knot's own frame: the mean of
-// the two neighbouring slopes, each weighted by the other's span.
+// Rotation vector per unit of arc length at knot k, in the knot's own frame: from the
+// knot before to the knot after, over the way between them. (The mean of both slopes that
+// weighs each by the other's span would follow a parabola better, and a knot that lies
+// against the next one, as a vertebra without length does, by whole turns.)
 glm::dvec3 slope(const RotationCurve& c, std::size_t k) {
   const auto last = static_cast<std::size_t>(c.count - 1);
-  const auto towards = [&](std::size_t from, std::size_t to) {
-    return rotation_vector(glm::conjugate(c.rotation[from]) * c.rotation[to]) /
-           (c.at[to] - c.at[from]);
+  const auto turn = [&](std::size_t from, std::size_t to) {
+    return rotation_vector(glm::conjugate(c.rotation[from]) * c.rotation[to]);
   };
-  if (k == 0) return towards(0, 1);
-  if (k == last) return towards(last, last - 1);
-  const double before = c.at[k] - c.at[k - 1];
-  const double after = c.at[k + 1] - c.at[k];
-  return (towards(k, k - 1) * after + towards(k, k + 1) * before) / (before + after);
+  if (k == 0) return turn(0, 1) / (c.at[1] - c.at[0]);
+  if (k == last) return -turn(last, last - 1) / (c.at[last] - c.at[last - 1]);
+  return (turn(k, k + 1) - turn(k, k - 1)) / (c.at[k + 1] - c.at[k - 1]);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -189,19 +190,50 @@ TEST(Normalize, KeepsTheEndsOfTheSpineFromThreeVertebraeToFiveAndBack) {
   }
 }
 
-// A steady bend is a steady bend, however many vertebrae share it.
+// Four vertebrae that bend by 0.2 each.
+struct SteadyBend {
+  Skeleton few = testing::with_vertebrae(testing::giant(), 4);
+  Pose pose = rest_pose(few);
+
+  SteadyBend() {
+    for (std::size_t k = 1; k <= 4; ++k) {
+      pose.parent_from_joint[k] = glm::angleAxis(0.2, glm::dvec3(1, 0, 0));
+    }
+  }
+};
+
+// A steady bend is a steady bend, however many vertebrae share it: so says the curve
+// where it does not say where the spine ends.
 TEST(Normalize, SharesASteadyBendOutOverMoreVertebrae) {
-  const Skeleton few = testing::with_vertebrae(testing::giant(), 4);
+  const SteadyBend bend;
   const Skeleton many = testing::with_vertebrae(testing::giant(), 8);
   const BodyMap map = mapped(many);
-  Pose pose = rest_pose(few);
-  for (int k = 1; k <= 4; ++k) {
-    pose.parent_from_joint[static_cast<std::size_t>(k)] =
-        glm::angleAxis(0.2, glm::dvec3(1, 0, 0));
-  }
-  const Pose adapted = expand(normalize(few, mapped(few), pose), many, map);
+  NormalizedPose posture = normalize(bend.few, mapped(bend.few), bend.pose);
+  posture.spine.reset();
+  const Pose adapted = expand(posture, many, map);
   for (std::size_t k = 1; k <= 8; ++k) {
     EXPECT_NEAR(glm::length(rotation_vector(adapted.parent_from_joint[k])), 0.1, 1e-6);
+  }
+}
+
+// Where it does: eight vertebrae that bend by 0.1 each would leave the neck of this giant
+// five millimetres high, because four begin to bend further from the hips. It is where
+// the four have it, and every one of the eight still bends that way.
+TEST(Normalize, SharesASteadyBendOutSoThatTheNeckIsWhereItWas) {
+  const SteadyBend bend;
+  const Skeleton many = testing::with_vertebrae(testing::giant(), 8);
+  const BodyMap map = mapped(many);
+  const Pose adapted =
+      expand(normalize(bend.few, mapped(bend.few), bend.pose), many, map);
+  const auto neck = [](const Skeleton& body, const Pose& pose) {
+    return world_from_joints(body, pose)[index(*body.find(HumanBone::kNeck))].translation;
+  };
+  EXPECT_LT(glm::distance(neck(bend.few, bend.pose), neck(many, adapted)), 1e-3);
+  for (std::size_t k = 1; k <= 8; ++k) {
+    const glm::dvec3 turn = rotation_vector(adapted.parent_from_joint[k]);
+    EXPECT_GT(turn.x, 0.03);
+    EXPECT_LT(turn.x, 0.13);
+    EXPECT_LT(std::abs(turn.y) + std::abs(turn.z), 1e-6);
   }
 }
 
