@@ -244,6 +244,28 @@ void add_body_options(CLI::App& command, RetargetArguments& args) {
           "What the way of the root grows with; default leg-length")
       ->check(CLI::IsMember(roots))
       ->type_name("WORD");
+  using Lengths = retarget::WorldLengths;
+  const std::map<std::string, Lengths> lengths{{"scaled", Lengths::kScaled},
+                                               {"kept", Lengths::kKept}};
+  const auto add_lengths = [&](const char* option, Lengths& into, const char* help) {
+    command
+        .add_option_function<std::string>(
+            option,
+            [&into, lengths](const std::string& word) { into = lengths.at(word); },
+            help)
+        ->check(CLI::IsMember(lengths))
+        ->type_name("WORD");
+  };
+  add_lengths("--path",
+              args.options.retarget.path,
+              "The way over the ground grows with the body, or keeps its metres; default "
+              "scaled");
+  add_lengths("--heights",
+              args.options.retarget.heights,
+              "How high hands and feet reach, seats and jumps are; default scaled");
+  command.add_flag("--balance",
+                   args.balance,
+                   "The centre of mass is kept over the feet where the source stands so");
   command.add_flag("--no-ground", args.no_ground, "Feet are not kept to the floor");
   command.add_flag("--no-hands",
                    args.no_hands,
@@ -306,6 +328,7 @@ void add_retarget_command(CLI::App& app,
     }
     args.options.retarget.adapt_ground = !args.no_ground;
     if (!args.no_hands) args.options.retarget.hands.emplace();
+    if (args.balance) args.options.retarget.balance.emplace();
     chosen = [&args](Console& console) { return run_retarget(args, console); };
   });
 }

@@ -28,6 +28,7 @@ struct RetargetArguments {
   std::string bvh_dialect;           ///< A BvhDialect's name, or empty.
   std::string clip = "motion";
   PutOnOptions options;
+  bool balance = false;
   bool no_ground = false;
   bool no_hands = false;
   std::filesystem::path constraints_out;  ///< Empty: none.

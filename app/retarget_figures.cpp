@@ -10,6 +10,7 @@
 
 #include "app/report_figures.h"
 #include "core/assert.h"
+#include "retarget/place_masses.h"
 
 namespace marey::app {
 namespace {
@@ -40,6 +41,37 @@ Json contact_list(const retarget::ContactFigures& figures) {
   return list;
 }
 
+/// Masses by the tables: where the centre of mass is, whatever the body weighs.
+Result<retarget::BalanceTrack> balance_of(const Motion& motion,
+                                          const retarget::BodyMap& map,
+                                          const retarget::Contacts& contacts) {
+  const auto masses = retarget::place_masses(motion.skeleton, map, {});
+  if (!masses) return masses.error();
+  return retarget::track_balance(motion, map, *masses, contacts);
+}
+
+double percent(const retarget::BalanceFigures& figures) {
+  return rounded(100.0 * figures.over_share(), 2);
+}
+
+Json balance_json(const RetargetRun& run, const AvatarResult& avatar) {
+  const auto source = retarget::balance_figures(run.balance);
+  const auto made = retarget::balance_figures(avatar.balance, run.balance);
+  const auto& report = avatar.retargeted.report.balance;
+  Json out{{"kept", report.has_value()},
+           {"source_over_percent", percent(source)},
+           {"over_percent", percent(made)},
+           {"supported_frames", made.supported_frames},
+           {"lost_frames", made.lost_frames}};
+  if (!report) return out;
+  out["before_over_percent"] = percent(report->before);
+  out["before_lost_frames"] = report->before.lost_frames;
+  out["mean_off_before_mm"] = rounded(1e3 * report->kept.mean_off_before_m, 2);
+  out["mean_off_mm"] = rounded(1e3 * report->kept.mean_off_m, 2);
+  out["root_moved_mm"] = rounded(1e3 * report->kept.furthest_m, 2);
+  return out;
+}
+
 }  // namespace
 
 Status measure_source(RetargetRun& run) {
@@ -50,6 +82,9 @@ Status measure_source(RetargetRun& run) {
   run.labels = retarget::label_contacts(paths, run.source.rate.hz);
   run.figures = retarget::measure_contacts(
       paths, run.labels, retarget::rest_heights_m(run.map), run.source.rate.hz);
+  auto balance = balance_of(run.source, run.map, run.contacts);
+  if (!balance) return balance.error();
+  run.balance = *std::move(balance);
   return Done{};
 }
 
@@ -71,6 +106,9 @@ Status measure_avatar(const RetargetRun& run, AvatarResult& avatar) {
                         retarget::head_height_m(run.source.skeleton, run.map);
   const double jerk = retarget::mean_jerk(motion, joints[1]);
   avatar.jerk_ratio = source > 0.0 ? jerk / source : 1.0;
+  auto balance = balance_of(motion, avatar.map, avatar.retargeted.report.contacts);
+  if (!balance) return balance.error();
+  avatar.balance = *std::move(balance);
   return Done{};
 }
 
@@ -105,6 +143,7 @@ Json avatar_figures(const RetargetRun& run, const AvatarResult& avatar) {
       {"floating_frames", c.floating_frames},
       {"jerk_over_source", rounded(avatar.jerk_ratio, 4)},
       {"drifts", contact_list(c)}};
+  out["balance"] = balance_json(run, avatar);
   return out;
 }
 

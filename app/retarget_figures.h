@@ -13,6 +13,7 @@
 #include "core/result.h"
 #include "retarget/body_map.h"
 #include "retarget/contact_figures.h"
+#include "retarget/measure_balance.h"
 #include "retarget/retarget_motion.h"
 
 namespace marey::app {
@@ -30,6 +31,7 @@ struct AvatarResult {
   retarget::ContactFigures contacts;
   /// Mean jerk of the bones that both bodies have, over the source's at this height.
   double jerk_ratio = 0.0;
+  retarget::BalanceTrack balance;  ///< As delivered.
 };
 
 /// What came of `marey retarget`.
@@ -43,6 +45,7 @@ struct RetargetRun {
   retarget::Contacts contacts;
   retarget::ContactLabels labels;
   retarget::ContactFigures figures;
+  retarget::BalanceTrack balance;
   std::vector<AvatarResult> avatars;
 };
 

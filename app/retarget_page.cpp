@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/balance_section.h"
 #include "app/motion_strip.h"
 #include "app/plan_map.h"
 #include "app/report_page.h"
@@ -287,6 +288,7 @@ std::string retarget_page(const RetargetRun& run) {
       "<title>marey retarget</title>\n<style>\n";
   out += report_style();
   out += kStyle;
+  out += kBalanceStyle;
   out += "</style>\n</head>\n<body>\n<main>\n<h1>" + name_of(run.motion) + "</h1>\n" +
          text_of("<p class=\"lead\">%.0f frames at %.6g Hz, %.2f s",
                  frames,
@@ -295,7 +297,7 @@ std::string retarget_page(const RetargetRun& run) {
          (run.live ? ", put on posture by posture, knowing nothing of the future"
                    : ", put on as a whole") +
          ".</p>\n" + errors_of(run) + figures_of(run) + strips_of(run, moments) +
-         timeline_of(run, moments) + drift_section(run);
+         timeline_of(run, moments) + balance_section(run, moments) + drift_section(run);
   return out + "</main>\n</body>\n</html>\n";
 }
 

@@ -112,6 +112,25 @@ Status check_outs(const RetargetArguments& args, const RetargetPlan& plan) {
   return Done{};
 }
 
+/// Options that do not go together.
+Status check_options(const RetargetArguments& args) {
+  const retarget::RetargetOptions& options = args.options.retarget;
+  if (args.balance && args.no_ground) {
+    return bad_input("--balance",
+                     "feet that are not kept to the floor are nothing to stand over",
+                     "leave out --no-ground");
+  }
+  if (!args.options.live) return Done{};
+  const bool path = options.path == retarget::WorldLengths::kKept;
+  const bool heights = options.heights == retarget::WorldLengths::kKept;
+  if (!args.balance && !path && !heights) return Done{};
+  return bad_input(args.balance ? "--balance"
+                   : path       ? "--path kept"
+                                : "--heights kept",
+                   "that is done of whole motions alone",
+                   "leave out --live");
+}
+
 }  // namespace
 
 fs::path RetargetPlan::out(const Avatar& avatar, MotionFormat format) const {
@@ -133,6 +152,7 @@ Result<RetargetPlan> plan_retarget(const RetargetArguments& args) {
                      "footprints are those of one avatar, and there are several",
                      "give one avatar");
   }
+  if (const Status ok = check_options(args); !ok) return ok.error();
   RetargetPlan plan;
   const auto file = is_file(args, avatars.size());
   if (!file) return file.error();

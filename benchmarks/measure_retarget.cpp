@@ -13,6 +13,7 @@
 #include "benchmarks/captured_clips.h"
 #include "benchmarks/measure_spines.h"
 #include "benchmarks/result_table.h"
+#include "benchmarks/scaled_bodies.h"
 
 #include "core/pose.h"
 #include "retarget/body_map.h"
@@ -23,46 +24,12 @@
 namespace marey {
 namespace {
 
-/// How long the bones of another body are, over the source's.
-struct BodyScale {
-  const char* name;
-  double legs;
-  double trunk;
-  double arms;
-};
-
 constexpr std::array kBodies{
     BodyScale{"same", 1.0, 1.0, 1.0},
     BodyScale{"child 0.7", 0.7, 0.7, 0.7},
     BodyScale{"legs 1.2, trunk 0.9", 1.2, 0.9, 1.0},
     BodyScale{"legs 0.75, trunk 1.15", 0.75, 1.15, 1.0},
 };
-
-bool is_below(const Skeleton& skeleton, JointIndex joint, HumanBone bone) {
-  std::optional<JointIndex> at = joint;
-  while (at) {
-    if (skeleton[*at].bone == bone) return true;
-    at = skeleton[*at].parent;
-  }
-  return false;
-}
-
-Skeleton scaled(const Skeleton& body, const BodyScale& scale) {
-  Skeleton out = body;
-  for (std::size_t j = 0; j < out.joints.size(); ++j) {
-    const JointIndex joint{static_cast<int>(j)};
-    const bool is_leg = is_below(body, joint, HumanBone::kLeftUpperLeg) ||
-                        is_below(body, joint, HumanBone::kRightUpperLeg);
-    const bool is_arm = is_below(body, joint, HumanBone::kLeftShoulder) ||
-                        is_below(body, joint, HumanBone::kRightShoulder);
-    const double by = is_leg || !body.joints[j].parent ? scale.legs
-                      : is_arm                         ? scale.arms
-                                                       : scale.trunk;
-    out.joints[j].parent_from_joint.translation *= by;
-    if (out.joints[j].tip_in_joint) *out.joints[j].tip_in_joint *= by;
-  }
-  return out;
-}
 
 /// A whole motion at once, or posture by posture.
 enum class Way { kOffline, kLive };

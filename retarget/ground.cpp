@@ -46,6 +46,20 @@ std::array<LegPath, 2> reference_legs(const Skeleton& body,
   return legs;
 }
 
+// Has both feet where plan_foot() puts them.
+void plan(const BodyMap& map,
+          const Contacts& contacts,
+          FrameRate rate,
+          const FootPlanOptions& options,
+          std::array<LegPath, 2>& legs) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    LegPath& leg = legs[side];
+    MAREY_ASSERT(static_cast<int>(leg.foot.size()) == contacts.frame_count);
+    leg.foot = plan_foot(
+        leg.foot, contacts.feet[side], map.feet[side], map.leg_length_m, rate, options);
+  }
+}
+
 std::vector<char> bearing_frames(const FootContacts& foot, std::size_t count) {
   std::vector<char> on(count, 0);
   for (const FrameInterval& run : foot.stance) {
@@ -78,8 +92,7 @@ GroundReport settle(const BodyMap& map,
           full_m * std::max(options.straight, poses[t].limbs[2 + side]->extension);
       // The pelvis' width goes out with hip_from_root.
       const glm::dvec3 hip = poses[t].root * unit_m + leg.hip_from_root[t];
-      needed[t] =
-          std::max(needed[t], sink_m(hip, leg.foot[t].ankle_in_world, length_m));
+      needed[t] = std::max(needed[t], sink_m(hip, leg.foot[t].ankle_in_world, length_m));
     }
   }
 
@@ -123,17 +136,21 @@ double standing_rise_m(const BodyMap& source,
   return avatar_m - scale * source_m;
 }
 
+std::array<double, 2> ankles_rest_m(const BodyMap& source, const Contacts& contacts) {
+  std::array<double, 2> rest_m{};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const FootContacts& foot = contacts.feet[side];
+    rest_m[side] =
+        foot.stance.empty() ? source.feet[side].ankle_height_m : foot.ankle_height_m;
+  }
+  return rest_m;
+}
+
 double standing_rise_m(const BodyMap& source,
                        const Contacts& contacts,
                        const BodyMap& avatar,
                        double scale) {
-  std::array<double, 2> rest_m{};
-  for (std::size_t side = 0; side < 2; ++side) {
-    const FootContacts& foot = contacts.feet[side];
-    rest_m[side] = foot.stance.empty() ? source.feet[side].ankle_height_m
-                                       : foot.ankle_height_m;
-  }
-  return standing_rise_m(source, rest_m, avatar, scale);
+  return standing_rise_m(source, ankles_rest_m(source, contacts), avatar, scale);
 }
 
 GroundReport settle_on_feet(const Skeleton& body,
@@ -151,23 +168,26 @@ GroundReport settle_on_feet(const Skeleton& body,
   return settle(map, contacts, rate, poses, legs, options);
 }
 
+std::array<std::vector<FootPlace>, 2> plan_level_feet(
+    const Skeleton& body,
+    const BodyMap& map,
+    const Contacts& contacts,
+    FrameRate rate,
+    std::span<const NormalizedPose> poses,
+    const FootPlanOptions& options) {
+  std::array<LegPath, 2> legs = reference_legs(body, map, poses);
+  plan(map, contacts, rate, options, legs);
+  return {std::move(legs[0].foot), std::move(legs[1].foot)};
+}
+
 GroundReport adapt_to_ground(const Skeleton& body,
                              const BodyMap& map,
                              const Contacts& contacts,
                              FrameRate rate,
                              std::span<NormalizedPose> poses,
                              const GroundOptions& options) {
-  MAREY_ASSERT(static_cast<int>(poses.size()) == contacts.frame_count);
   std::array<LegPath, 2> legs = reference_legs(body, map, poses);
-  for (std::size_t side = 0; side < 2; ++side) {
-    LegPath& leg = legs[side];
-    leg.foot = plan_foot(leg.foot,
-                         contacts.feet[side],
-                         map.feet[side],
-                         map.leg_length_m,
-                         rate,
-                         options.feet);
-  }
+  plan(map, contacts, rate, options.feet, legs);
   return settle(map, contacts, rate, poses, legs, options);
 }
 

@@ -30,6 +30,11 @@ struct GroundReport {
   int unreachable_frames = 0;
 };
 
+/// Heights of the ankles when they rest: of `contacts`, or the body's own where a foot
+/// never stands. [m]
+[[nodiscard]] std::array<double, 2> ankles_rest_m(const BodyMap& source,
+                                                  const Contacts& contacts);
+
 /// By how much a root that was scaled with the legs must rise so that a body whose hips
 /// or ankles lie otherwise than the source's stands on Y = 0 with its legs as bent as
 /// the source's. [m] Negative: sink. Source resting heights are those of `contacts`.
@@ -60,6 +65,16 @@ GroundReport adapt_to_ground(const Skeleton& body,
                              FrameRate rate,
                              std::span<NormalizedPose> poses,
                              const GroundOptions& options = {});
+
+/// Where that has the feet, left and right, one place a pose: plan_foot() of both.
+/// Precondition: one pose per frame of `contacts`.
+[[nodiscard]] std::array<std::vector<FootPlace>, 2> plan_level_feet(
+    const Skeleton& body,
+    const BodyMap& map,
+    const Contacts& contacts,
+    FrameRate rate,
+    std::span<const NormalizedPose> poses,
+    const FootPlanOptions& options = {});
 
 /// The same onto feet that were planned otherwise, above any floor: the root sinks where
 /// a bearing leg would not reach, legs, feet and toes follow. `feet` are left, right, one

@@ -8,6 +8,7 @@
 
 #include "core/assert.h"
 #include "retarget/arm_shift.h"
+#include "retarget/keep_heights.h"
 #include "retarget/posed_frames.h"
 
 namespace marey::retarget {
@@ -88,6 +89,7 @@ HandReport refine_hands(const Motion& source,
   const Arms source_arms(source_frames, source_map);
   const Arms arms(avatar_frames, avatar_map);
   ArmShifts shifts{std::vector<ArmShift>(count), std::vector<ArmShift>(count)};
+  if (world.keeps_heights) keep_hand_heights(source_arms, arms, shifts);
   if (options.keep_touches) {
     report.touches = find_touches(source, source_map, source_volume, options.find);
   }

@@ -41,7 +41,8 @@ struct HandReport {
 /// find_touches() in the source, keep_touches() and clear_arms() on the avatar's motion,
 /// which is a retargeted one, in place, after its ground. Only upper arms, forearms and
 /// hands of the postures change, so feet stand where they stand. `world` is what brought
-/// the source's root to the avatar's. Same input, same bytes. Linear in frames, a tenth
+/// the source's root to the avatar's; where it keeps heights, hands that reach do, too
+/// (keep_hand_heights()). Same input, same bytes. Linear in frames, a tenth
 /// of a millisecond each; memory for every joint of every frame of both.
 /// Precondition: both motions have the same frames; the maps were made from their
 /// skeletons; the rate is positive.

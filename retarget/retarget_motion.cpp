@@ -11,8 +11,10 @@
 
 #include "core/assert.h"
 #include "core/pose.h"
+#include "retarget/keep_heights.h"
 #include "retarget/keep_wrists.h"
 #include "retarget/leg_on_foot.h"
+#include "retarget/place_masses.h"
 
 namespace marey::retarget {
 namespace {
@@ -154,44 +156,164 @@ FootFigures measure_feet(const Motion& motion,
   return figures;
 }
 
-Result<RetargetedMotion> retarget_motion(const Motion& source,
-                                         const Skeleton& avatar,
-                                         const RetargetOptions& options) {
-  MAREY_ASSERT(source.rate.hz > 0.0);
-  auto bodies = map_bodies(source.skeleton, avatar, options.root);
-  if (!bodies) return bodies.error();
-  wear(options.soles, bodies->avatar);
-  const BodyMap* from = &bodies->source;
-  const BodyMap* to = &bodies->avatar;
+namespace {
 
-  RetargetedMotion out;
-  out.report.contacts = detect_contacts(source, *from, options.contacts);
-  const double unit_m = root_unit_m(*to, options.root);
-  const double scale = unit_m / root_unit_m(*from, options.root);
-  const double rise_m = options.adapt_ground
-                            ? standing_rise_m(*from, out.report.contacts, *to, scale)
-                            : 0.0;
+// A motion on its way from one body to the other.
+struct Task {
+  const Motion& source;
+  const Skeleton& avatar;
+  const BodyMap& from;
+  const BodyMap& to;
+  const RetargetOptions& options;
+  double unit_m = 1.0;  // What the avatar's root is measured in.
+  WorldScale world;
+};
 
+// The avatar's postures, not yet on its ground.
+std::vector<NormalizedPose> posed(const Task& task, const Contacts& contacts) {
+  const Motion& source = task.source;
+  const WorldScale& world = task.world;
+  const std::array<double, 2> rest_m = ankles_rest_m(task.from, contacts);
+  const double stands_m =
+      task.from.leg_length_m + task.from.hip_drop_m + 0.5 * (rest_m[0] + rest_m[1]);
   std::vector<NormalizedPose> poses(source.poses.size());
   std::vector<RigidTransform> world_from_joint(source.skeleton.joints.size());
   for (std::size_t t = 0; t < poses.size(); ++t) {
     world_from_joints(source.skeleton, source.poses[t], world_from_joint);
-    normalize(*from, world_from_joint, poses[t], options.root);
-    poses[t].root.y += rise_m / unit_m;
+    glm::dvec3& root = poses[t].root;
+    normalize(task.from, world_from_joint, poses[t], task.options.root);
+    if (world.keeps_path) root = {root.x / world.scale, root.y, root.z / world.scale};
+    if (world.keeps_heights) {
+      const double y_m = world_from_joint[index(task.from.hips())].translation.y;
+      root.y = kept_hips_height_m(y_m, stands_m, world.scale * stands_m + world.rise_m) /
+               task.unit_m;
+    } else {
+      root.y += world.rise_m / task.unit_m;
+    }
   }
-  if (spines_differ(*from, *to)) keep_all_wrists(avatar, *to, poses);
-  out.motion = expand_all(poses, source, avatar, *to);
-  out.report.before = measure_feet(out.motion, *to, out.report.contacts);
+  if (spines_differ(task.from, task.to)) keep_all_wrists(task.avatar, task.to, poses);
+  if (world.keeps_heights) {
+    keep_foot_heights(source, task.from, rest_m, task.avatar, task.to, poses);
+  }
+  return poses;
+}
+
+// The source on its own body, its feet on the floor as the avatar's are.
+std::vector<NormalizedPose> grounded_source(const Task& task, const Contacts& contacts) {
+  const RetargetOptions& options = task.options;
+  const double rise_m = standing_rise_m(task.from, contacts, task.from, 1.0);
+  const Task own{task.source,
+                 task.source.skeleton,
+                 task.from,
+                 task.from,
+                 options,
+                 root_unit_m(task.from, options.root),
+                 {1.0, rise_m}};
+  std::vector<NormalizedPose> poses = posed(own, contacts);
+  adapt_to_ground(
+      task.source.skeleton, task.from, contacts, task.source.rate, poses, options.ground);
+  return poses;
+}
+
+// Stands the postures on their feet, in balance. Errors: place_masses()'s.
+Status settle_in_balance(const Task& task,
+                         const BalanceOptions& options,
+                         std::vector<NormalizedPose>& poses,
+                         RetargetedMotion& out) {
+  const Skeleton& body = task.source.skeleton;
+  const FrameRate rate = task.source.rate;
+  const auto source_masses = place_masses(body, task.from, options.source_masses);
+  if (!source_masses) return source_masses.error();
+  const auto masses = place_masses(task.avatar, task.to, options.avatar_masses);
+  if (!masses) return masses.error();
+  const Contacts& contacts = out.report.contacts;
+  const BalanceReference reference = balance_reference(body,
+                                                       task.from,
+                                                       *source_masses,
+                                                       contacts,
+                                                       rate,
+                                                       grounded_source(task, contacts),
+                                                       options);
+  std::vector<NormalizedPose> still = poses;
+  adapt_to_ground(task.avatar, task.to, contacts, rate, still, task.options.ground);
+  BalanceReport& report = out.report.balance.emplace();
+  report.kept = keep_balance(reference,
+                             {task.avatar, task.to, *masses},
+                             contacts,
+                             rate,
+                             task.world.keeps_path ? 1.0 : task.world.scale,
+                             poses,
+                             options,
+                             task.options.ground);
+  out.report.ground = report.kept.ground;
+  const BalanceTrack source =
+      track_balance(task.source, task.from, *source_masses, contacts);
+  report.source = balance_figures(source);
+  const auto figures = [&](const Motion& motion) {
+    return balance_figures(track_balance(motion, task.to, *masses, contacts), source);
+  };
+  report.before = figures(expand_all(still, task.source, task.avatar, task.to));
+  report.after = figures(expand_all(poses, task.source, task.avatar, task.to));
+  return Done{};
+}
+
+Status settle(const Task& task,
+              std::vector<NormalizedPose>& poses,
+              RetargetedMotion& out) {
+  const RetargetOptions& options = task.options;
+  if (options.balance) {
+    const Status ok = settle_in_balance(task, *options.balance, poses, out);
+    if (!ok) return ok;
+  } else {
+    out.report.ground = adapt_to_ground(task.avatar,
+                                        task.to,
+                                        out.report.contacts,
+                                        task.source.rate,
+                                        poses,
+                                        options.ground);
+  }
+  out.motion = expand_all(poses, task.source, task.avatar, task.to);
+  out.report.after = measure_feet(out.motion, task.to, out.report.contacts);
+  return Done{};
+}
+
+}  // namespace
+
+Result<RetargetedMotion> retarget_motion(const Motion& source,
+                                         const Skeleton& avatar,
+                                         const RetargetOptions& options) {
+  MAREY_ASSERT(source.rate.hz > 0.0);
+  if (options.balance && !options.adapt_ground) {
+    return bad_input(
+        "",
+        "a body whose feet are not kept to the floor cannot keep its balance",
+        "keep the ground, or leave out the balance");
+  }
+  auto bodies = map_bodies(source.skeleton, avatar, options.root);
+  if (!bodies) return bodies.error();
+  wear(options.soles, bodies->avatar);
+  const BodyMap& from = bodies->source;
+  const BodyMap& to = bodies->avatar;
+
+  RetargetedMotion out;
+  out.report.contacts = detect_contacts(source, from, options.contacts);
+  const double unit_m = root_unit_m(to, options.root);
+  WorldScale world{unit_m / root_unit_m(from, options.root)};
+  world.keeps_path = options.path == WorldLengths::kKept;
+  world.keeps_heights = options.heights == WorldLengths::kKept;
+  if (options.adapt_ground) {
+    world.rise_m = standing_rise_m(from, out.report.contacts, to, world.scale);
+  }
+  const Task task{source, avatar, from, to, options, unit_m, world};
+  std::vector<NormalizedPose> poses = posed(task, out.report.contacts);
+  out.motion = expand_all(poses, source, avatar, to);
+  out.report.before = measure_feet(out.motion, to, out.report.contacts);
   out.report.after = out.report.before;
   if (options.adapt_ground) {
-    out.report.ground = adapt_to_ground(
-        avatar, *to, out.report.contacts, source.rate, poses, options.ground);
-    out.motion = expand_all(poses, source, avatar, *to);
-    out.report.after = measure_feet(out.motion, *to, out.report.contacts);
+    if (const Status ok = settle(task, poses, out); !ok) return ok.error();
   }
   if (options.hands) {
-    out.report.hands =
-        refine_hands(source, *from, *to, {scale, rise_m}, *options.hands, out.motion);
+    out.report.hands = refine_hands(source, from, to, world, *options.hands, out.motion);
   }
   return out;
 }

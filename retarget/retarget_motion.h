@@ -10,13 +10,26 @@
 #include "retarget/detect_contacts.h"
 #include "retarget/find_soles.h"
 #include "retarget/ground.h"
+#include "retarget/keep_balance.h"
 #include "retarget/normalized_skeleton.h"
 #include "retarget/refine_hands.h"
 
 namespace marey::retarget {
 
+/// What becomes of a length in the world.
+enum class WorldLengths {
+  kScaled,  ///< It grows with the body: by what RetargetOptions::root names.
+  kKept,    ///< Metres stay metres.
+};
+
 struct RetargetOptions {
   RootNormalization root = RootNormalization::kLegLength;
+  /// The way over the ground: of the root, and with it of footprints and still hands.
+  /// Legs that are too short for kept strides make the root sink.
+  WorldLengths path = WorldLengths::kScaled;
+  /// How high hands and feet reach, still hands are, seats are and jumps go
+  /// (retarget/keep_heights.h). Who stands, stands at the own height. Hands: if `hands`.
+  WorldLengths heights = WorldLengths::kScaled;
   bool adapt_ground = true;
   Soles soles;  ///< Of the avatar, where its skin is known.
   DetectContactsOptions contacts;
@@ -24,6 +37,9 @@ struct RetargetOptions {
   /// What hands do to the body is kept, arms stay out of it (retarget/refine_hands.h);
   /// nullopt: arms stay where the normalized posture has them.
   std::optional<RefineHandsOptions> hands;
+  /// The centre of mass is kept over what bears (retarget/keep_balance.h); nullopt: it is
+  /// where the posture brings it. Needs adapt_ground.
+  std::optional<BalanceOptions> balance;
 };
 
 /// Who moves, and who is to.
@@ -58,7 +74,8 @@ struct RetargetReport {
   FootFigures before;  ///< On the avatar, without ground adaptation.
   FootFigures after;   ///< On the avatar, as delivered.
   GroundReport ground;
-  HandReport hands;  ///< Empty unless asked for.
+  HandReport hands;                      ///< Empty unless asked for.
+  std::optional<BalanceReport> balance;  ///< If asked for.
 };
 
 struct RetargetedMotion {
@@ -68,11 +85,12 @@ struct RetargetedMotion {
 
 /// Puts a motion on another body: normalized skeleton, root at the avatar's height,
 /// feet on the floor Y = 0 (which the source's feet define, wherever they rest), hands
-/// where they are on the source's body if asked for.
-/// Frames, rate and first_frame are the source's. Same input, same bytes. Linear in
-/// frames, some ten microseconds each.
+/// where they are on the source's body, and the centre of mass over what bears, if asked
+/// for. Frames, rate and first_frame are the source's. Same input, same bytes. Linear in
+/// frames, some ten microseconds each; keep_balance() and refine_hands() more.
 ///
-/// Errors: map_bodies()'s. Precondition: the rate is positive; every pose has one entry per joint.
+/// Errors: map_bodies()'s; place_masses()'s; balance without the ground. Precondition:
+/// the rate is positive; every pose has one entry per joint.
 [[nodiscard]] Result<RetargetedMotion> retarget_motion(
     const Motion& source, const Skeleton& avatar, const RetargetOptions& options = {});
 

@@ -20,15 +20,21 @@ enum class StillPlace {
   kFree,    ///< Wherever the arm brings it.
 };
 
-/// The avatar's world from the source's: p * scale, risen by rise_m.
+/// The avatar's world from the source's: p * scale, risen by rise_m; or the source's own
+/// metres, over the ground or upwards.
 struct WorldScale {
   double scale = 1.0;
   double rise_m = 0.0;
+  bool keeps_path = false;     ///< X and Z are the source's.
+  bool keeps_heights = false;  ///< Y is the source's.
 
   /// Precondition: `place` is not kFree.
   [[nodiscard]] glm::dvec3 of(const glm::dvec3& p_in_source, StillPlace place) const {
     if (place == StillPlace::kKept) return p_in_source;
-    return scale * p_in_source + glm::dvec3(0.0, rise_m, 0.0);
+    const double level = keeps_path ? 1.0 : scale;
+    return {level * p_in_source.x,
+            keeps_heights ? p_in_source.y : scale * p_in_source.y + rise_m,
+            level * p_in_source.z};
   }
 };
 

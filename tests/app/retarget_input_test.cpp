@@ -90,6 +90,10 @@ TEST(RetargetInput, RefusesWhatCannotBeMeant) {
            {{"small.glb", "tall.glb", "--out", "o", "--constraints-out", "s.xml"},
             3,
             "footprints are those of one avatar"},
+           {{"small.glb", "--out", "o", "--heights", "tall"}, 2, "tall"},
+           {{"small.glb", "--out", "o", "--balance", "--no-ground"}, 3, "--balance"},
+           {{"small.glb", "--out", "o", "--balance", "--live"}, 3, "leave out --live"},
+           {{"small.glb", "--out", "o", "--path", "kept", "--live"}, 3, "--path kept"},
            {{"plain.bvh", "--out", "o.glb"}, 3, "plain.bvh: the body has no mesh"},
            {{"arms.bvh", "--out", "o.vrma"}, 3, "arms.bvh"},
            {{"plain.bvh", "--out", "o", "--formats", "glb"}, 3, "no mesh"}}) {

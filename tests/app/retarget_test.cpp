@@ -129,6 +129,42 @@ double way_m(const Motion& motion) {
   return motion.poses.back().root_in_world.z - motion.poses.front().root_in_world.z;
 }
 
+TEST(Retarget, KeepsTheWayInMetresIfAsked) {
+  const RetargetScene scene;
+  const auto way = [&](const std::string& path) {
+    const ProgramRun run =
+        scene.retarget({"tall.glb", "--path", path, "--out", path + ".bvh", "--json"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_LT(Json::parse(run.out).at("slide_after_cm_per_s"), 0.01);
+    return way_m(scene.motion(path + ".bvh"));
+  };
+  EXPECT_NEAR(way("kept"), way_m(scene.motion("walk.bvh")), 1e-5);
+  EXPECT_GT(way("scaled"), 1.2 * way("kept"));
+}
+
+TEST(Retarget, TellsWhetherBodiesAreOverTheirFeetAndKeepsThemThere) {
+  const RetargetScene scene;
+  const ProgramRun without =
+      scene.retarget({"small.glb", "plain.bvh", "--out", "a", "--json", "--report"});
+  ASSERT_EQ(without.exit_code, 0) << without.err;
+  const ProgramRun with = scene.retarget(
+      {"small.glb", "plain.bvh", "--balance", "--out", "b", "--json", "--report"});
+  ASSERT_EQ(with.exit_code, 0) << with.err;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Json before = Json::parse(without.out).at("avatars")[i].at("balance");
+    const Json after = Json::parse(with.out).at("avatars")[i].at("balance");
+    EXPECT_FALSE(before.at("kept"));
+    EXPECT_TRUE(after.at("kept"));
+    EXPECT_GT(before.at("supported_frames"), 60);
+    EXPECT_EQ(before.at("source_over_percent"), after.at("source_over_percent"));
+    EXPECT_LE(after.at("mean_off_mm"), after.at("mean_off_before_mm"));
+    EXPECT_FALSE(before.contains("root_moved_mm"));
+  }
+  for (const char* page : {"a/retarget.html", "b/retarget.html"}) {
+    EXPECT_NE(scene.bytes(page).find("Centre of mass and the feet"), std::string::npos);
+  }
+}
+
 TEST(Retarget, ScalesTheWayOfTheRootAsAsked) {
   const RetargetScene scene;
   for (const char* root : {"leg-length", "arm-length", "none"}) {

@@ -1,0 +1,182 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/measure_balance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "core/assert.h"
+#include "core/pose.h"
+#include "retarget/centre_of_mass.h"
+#include "retarget/leg_on_foot.h"
+
+namespace marey::retarget {
+namespace {
+
+constexpr double kBreadthInLengths = 0.38;
+constexpr double kHeelPart = 0.25;
+// Toes over ankle to ball where no tip is told: as place_masses() has it.
+constexpr double kToesInBall = 0.5;
+
+// Seen from above: X, Z.
+glm::dvec2 above(const glm::dvec3& p) {
+  return {p.x, p.z};
+}
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+// The corners of all that bears, then their convex hull, counterclockwise.
+class Hull {
+ public:
+  void add(const glm::dvec2& p) { corners_[count_++] = p; }
+  [[nodiscard]] bool empty() const { return count_ == 0; }
+
+  // Andrew's monotone chain.
+  void close() {
+    const auto end = corners_.begin() + static_cast<std::ptrdiff_t>(count_);
+    std::sort(corners_.begin(), end, [](const glm::dvec2& a, const glm::dvec2& b) {
+      return a.x != b.x ? a.x < b.x : a.y < b.y;
+    });
+    const auto chain = [&](std::size_t base, const glm::dvec2& p) {
+      while (size_ >= base + 2 &&
+             cross(hull_[size_ - 1] - hull_[size_ - 2], p - hull_[size_ - 1]) <= 0.0) {
+        --size_;
+      }
+      hull_[size_++] = p;
+    };
+    for (std::size_t i = 0; i < count_; ++i) chain(0, corners_[i]);
+    const std::size_t base = size_ - 1;
+    for (std::size_t i = count_ - 1; i-- > 0;) chain(base, corners_[i]);
+    --size_;  // The last is the first again.
+  }
+
+  // Negative within.
+  [[nodiscard]] double outside_m(const glm::dvec2& p) const {
+    double nearest = std::numeric_limits<double>::max();
+    bool within = true;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const glm::dvec2 a = hull_[i];
+      const glm::dvec2 along = hull_[(i + 1) % size_] - a;
+      within &= cross(along, p - a) >= 0.0;
+      const double at =
+          std::clamp(glm::dot(p - a, along) / glm::dot(along, along), 0.0, 1.0);
+      nearest = std::min(nearest, glm::length(p - a - at * along));
+    }
+    return within ? -nearest : nearest;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 8;  // Two feet of four corners.
+  std::array<glm::dvec2, kMost> corners_{};
+  std::size_t count_ = 0;
+  std::array<glm::dvec2, 2 * kMost> hull_{};
+  std::size_t size_ = 0;
+};
+
+glm::dquat turn_of(const BodyMap& map,
+                   std::span<const RigidTransform> world_from_joint,
+                   JointIndex joint) {
+  return world_from_joint[index(joint)].rotation *
+         glm::conjugate(map.joints[index(joint)].t_pose_from_joint);
+}
+
+// The ends of one sole, seen from above.
+struct Sole {
+  glm::dvec2 heel{0.0};
+  glm::dvec2 ball{0.0};
+  glm::dvec2 tip{0.0};
+};
+
+Sole sole_of(const BodyMap& map,
+             std::span<const RigidTransform> world_from_joint,
+             int side) {
+  const FootMap& foot = map.feet[static_cast<std::size_t>(side)];
+  const JointIndex ankle = map.leg(side).end;
+  const glm::dquat turn = turn_of(map, world_from_joint, ankle);
+  const glm::dvec3 at = world_from_joint[index(ankle)].translation;
+  const glm::dvec3 ball = at + turn * foot.ball_from_ankle_in_t_pose;
+  const auto toes = map.joint_of[index(toes_bone(side))];
+  const glm::dquat toes_turn = toes ? turn_of(map, world_from_joint, *toes) : turn;
+  glm::dvec3 tip = foot.tip_from_ball_in_t_pose;
+  if (above(tip) == glm::dvec2(0.0)) {
+    tip += kToesInBall * glm::dvec3(foot.ball_from_ankle_in_t_pose.x,
+                                    0.0,
+                                    foot.ball_from_ankle_in_t_pose.z);
+  }
+  return {above(at + turn * foot.heel_from_ankle_in_t_pose),
+          above(ball),
+          above(ball + toes_turn * tip)};
+}
+
+void add_foot(const Sole& sole, bool heel_bears, bool ball_bears, Hull& hull) {
+  const glm::dvec2 ahead = sole.tip - sole.heel;
+  const glm::dvec2 aside =
+      0.5 * kBreadthInLengths * glm::dvec2(-ahead.y, ahead.x);  // Of this length.
+  const glm::dvec2 from = heel_bears ? sole.heel : sole.ball;
+  const glm::dvec2 to = ball_bears ? sole.tip : sole.heel + kHeelPart * ahead;
+  for (const glm::dvec2& p : {from, to}) {
+    hull.add(p - aside);
+    hull.add(p + aside);
+  }
+}
+
+std::vector<char> frames_of(const std::vector<FrameInterval>& runs, int count) {
+  std::vector<char> on(static_cast<std::size_t>(count), 0);
+  for (const FrameInterval& run : runs) {
+    std::fill(on.begin() + run.first, on.begin() + run.last + 1, char{1});
+  }
+  return on;
+}
+
+}  // namespace
+
+BalanceTrack track_balance(const Motion& motion,
+                           const BodyMap& map,
+                           std::span<const PointMass> masses,
+                           const Contacts& contacts) {
+  MAREY_ASSERT(contacts.frame_count == static_cast<int>(motion.poses.size()));
+  std::array<std::vector<char>, 2> heel;
+  std::array<std::vector<char>, 2> ball;
+  for (std::size_t side = 0; side < 2; ++side) {
+    heel[side] = frames_of(contacts.feet[side].heel, contacts.frame_count);
+    ball[side] = frames_of(contacts.feet[side].ball, contacts.frame_count);
+  }
+  BalanceTrack out(motion.poses.size());
+  std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
+  for (std::size_t t = 0; t < out.size(); ++t) {
+    world_from_joints(motion.skeleton, motion.poses[t], world_from_joint);
+    Hull hull;
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (heel[side][t] == 0 && ball[side][t] == 0) continue;
+      const Sole sole = sole_of(map, world_from_joint, static_cast<int>(side));
+      add_foot(sole, heel[side][t] != 0, ball[side][t] != 0, hull);
+    }
+    if (hull.empty()) continue;
+    hull.close();
+    out[t] = hull.outside_m(above(centre_of_mass(masses, world_from_joint)));
+  }
+  return out;
+}
+
+BalanceFigures balance_figures(const BalanceTrack& track, const BalanceTrack& source) {
+  MAREY_ASSERT(source.empty() || source.size() == track.size());
+  BalanceFigures out;
+  for (std::size_t t = 0; t < track.size(); ++t) {
+    if (!track[t]) continue;
+    ++out.supported_frames;
+    const bool is_over = *track[t] <= 0.0;
+    if (is_over) ++out.over_frames;
+    const bool was_over = !source.empty() && source[t] && *source[t] <= 0.0;
+    if (was_over && !is_over) ++out.lost_frames;
+  }
+  return out;
+}
+
+}  // namespace marey::retarget

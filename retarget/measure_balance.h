@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/character.h"
+#include "core/motion.h"
+#include "retarget/body_map.h"
+#include "retarget/detect_contacts.h"
+
+namespace marey::retarget {
+
+/// How far the centre of mass is outside of what bears, seen from above, frame by frame;
+/// negative: within, that far from the edge. nullopt: no foot bears. [m]
+using BalanceTrack = std::vector<std::optional<double>>;
+
+/// What bears is the convex hull of the soles of the feet that stand: of a flat foot from
+/// heel to tip, of a raised heel from the ball on, of a foot on its heel the hindmost
+/// quarter; 0.38 of its length broad, as feet are on average. Linear in frames.
+/// Precondition: `map` was made from the motion's skeleton, `masses` are on its joints
+/// and weigh something, `contacts` has its frames.
+[[nodiscard]] BalanceTrack track_balance(const Motion& motion,
+                                         const BodyMap& map,
+                                         std::span<const PointMass> masses,
+                                         const Contacts& contacts);
+
+struct BalanceFigures {
+  int supported_frames = 0;  ///< A foot bears.
+  int over_frames = 0;       ///< And the centre of mass is above what bears.
+  /// And it is not, though it is in the motion that this is held against.
+  int lost_frames = 0;
+
+  /// Of the frames with support; 0 without one.
+  [[nodiscard]] double over_share() const {
+    return supported_frames > 0 ? static_cast<double>(over_frames) / supported_frames
+                                : 0.0;
+  }
+};
+
+/// Precondition: as many frames, or no `source`.
+[[nodiscard]] BalanceFigures balance_figures(const BalanceTrack& track,
+                                             const BalanceTrack& source = {});
+
+}  // namespace marey::retarget
