@@ -20,9 +20,16 @@ namespace {
 // frame that is not counts as this much of one in which nothing is missing.
 constexpr double kAbsent = 0.02;
 constexpr double kSpeedOver_s = 0.05;  // To each side.
+// Further than this the hips look dislocated, whatever they balance.
+constexpr double kMostInLegs = 0.3;
 
 glm::dvec2 above(const glm::dvec3& p) {
   return {p.x, p.z};
+}
+
+// As it is while it is short, and never longer than that.
+glm::dvec2 limited(const glm::dvec2& way_m, double most_m) {
+  return way_m / std::pow(1.0 + std::pow(glm::length(way_m) / most_m, 8.0), 0.125);
 }
 
 // (1 - x^2)^3: C2 at its ends.
@@ -132,6 +139,7 @@ KeptBalance keep_balance(const BalanceReference& reference,
   const double half_frames = std::clamp(
       0.5 * options.low_pass_s * rate.hz, 1.0, static_cast<double>(poses.size()));
   const std::vector<double> bell = bell_of(static_cast<int>(std::lround(half_frames)));
+  const double most_m = kMostInLegs * body.map.leg_length_m;
   std::vector<glm::dvec2> moved(poses.size(), glm::dvec2(0.0));
   std::vector<glm::dvec2> missing(poses.size());
   std::vector<glm::dvec2> added(poses.size());
@@ -140,7 +148,8 @@ KeptBalance keep_balance(const BalanceReference& reference,
   for (int pass = 0;; ++pass) {
     for (std::size_t t = 0; t < poses.size(); ++t) {
       poses[t] = first[t];
-      poses[t].root += glm::dvec3(moved[t].x, 0.0, moved[t].y) / unit_m;
+      const glm::dvec2 by_m = limited(moved[t], most_m);
+      poses[t].root += glm::dvec3(by_m.x, 0.0, by_m.y) / unit_m;
     }
     out.ground =
         settle_on_feet(body.skeleton, body.map, contacts, rate, poses, feet, ground);
@@ -160,7 +169,7 @@ KeptBalance keep_balance(const BalanceReference& reference,
     for (std::size_t t = 0; t < poses.size(); ++t) moved[t] += added[t];
   }
   for (const glm::dvec2& by_m : moved) {
-    out.furthest_m = std::max(out.furthest_m, glm::length(by_m));
+    out.furthest_m = std::max(out.furthest_m, glm::length(limited(by_m, most_m)));
   }
   return out;
 }

@@ -90,7 +90,8 @@ struct BalancedBody {
 /// root alone moves for it, level: that shifts the mass at the least cost of angles (3 cm
 /// at an adult are 2 degrees of the legs, or 10 of the trunk), leaves trunk, head and arms
 /// turned as they are and hands on the body. Feet stay on the footprints they have without
-/// it, to the bit; where a leg would not reach, the root sinks.
+/// it, to the bit; where a leg would not reach, the root sinks. It is moved by 0.3 legs at
+/// most: what is then missing stays so.
 ///
 /// Displacement maps: what is missing is found frame by frame, low-passed over the frames
 /// that are still, added, and all stands on its feet again, `passes` times; so nothing
