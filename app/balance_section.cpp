@@ -64,6 +64,7 @@ std::string bars_of(const retarget::BalanceTrack& track,
 }  // namespace
 
 const std::string_view kBalanceStyle = R"(
+.contacts .who { overflow-wrap: anywhere; }
 .contacts .over { fill: #1a9b62; } .contacts .beside { fill: #d9a441; }
 )";
 
@@ -92,7 +93,7 @@ std::string balance_section(const RetargetRun& run, const std::vector<int>& mome
       "its support<i style=\"background:#d9a441\"></i>beside it; nothing: no foot bears. "
       "Dashed: the moments of the pictures.</p>\n<div class=\"contacts\">";
   const auto add = [&](const std::string& name, const retarget::BalanceTrack& track) {
-    out += "<div class=\"name\">" + name + "</div>" +
+    out += "<div class=\"who\">" + name + "</div>" +
            bars_of(track, moments, run.source.rate.hz);
   };
   add("source", run.balance);
