@@ -85,13 +85,13 @@ struct BalancedBody {
 
 /// adapt_to_ground() that keeps the centre of mass, seen from above, where the reference
 /// has it: while that stands still over what bears, at the same share of what bears
-/// (corresponding(), by `beyond_scale` where it is beside). Where bodies move, and nothing
-/// is in balance, the motion is what it is without, displaced as before and after. The
-/// root alone moves for it, level: that shifts the mass at the least cost of angles (3 cm
-/// at an adult are 2 degrees of the legs, or 10 of the trunk), leaves trunk, head and arms
-/// turned as they are and hands on the body. Feet stay on the footprints they have without
-/// it, to the bit; where a leg would not reach, the root sinks. It is moved by 0.3 legs at
-/// most: what is then missing stays so.
+/// (corresponding(), by `beyond_scale` where it is beside). Where bodies move, and
+/// nothing is in balance, the motion is what it is without, displaced as before and
+/// after. The root alone moves for it, level: that shifts the mass at the least cost of
+/// angles (3 cm at an adult are 2 degrees of the legs, or 10 of the trunk), leaves trunk,
+/// head and arms turned as they are and hands on the body. Feet stay on the footprints
+/// they have without it, to the bit; where a leg would not reach, the root sinks. It is
+/// moved by 0.3 legs at most: what is then missing stays so.
 ///
 /// Displacement maps: what is missing is found frame by frame, low-passed over the frames
 /// that are still, added, and all stands on its feet again, `passes` times; so nothing
