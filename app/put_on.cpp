@@ -22,7 +22,7 @@ Result<RetargetedMotion> put_on_live(const Motion& source,
   // What stands when, and what it was before the ground, is judged as for whole motions.
   retarget::RetargetOptions free = options;
   free.adapt_ground = false;
-  free.hands.reset();  // They need the future.
+  free.hands.reset();
   auto out = retarget::retarget_motion(source, avatar, free);
   if (!out) return out.error();
   retarget::LiveRetargetOptions live;
@@ -30,6 +30,12 @@ Result<RetargetedMotion> put_on_live(const Motion& source,
   live.hold_feet = options.adapt_ground;
   live.contacts = options.contacts;
   live.soles = options.soles;
+  live.hands.reset();
+  if (options.hands) {
+    auto& hands = live.hands.emplace();
+    hands.source_volume = options.hands->source_volume;
+    hands.avatar_volume = options.hands->avatar_volume;
+  }
   auto stage = retarget::LiveRetarget::make(source.skeleton, avatar, live);
   if (!stage) return stage.error();
   for (std::size_t t = 0; t < source.poses.size(); ++t) {
@@ -75,6 +81,23 @@ retarget::Contacts kept_of(const retarget::Contacts& contacts, const Kept& kept)
   return out;
 }
 
+// Touches of no kept frame are left out.
+template <class Found>
+std::vector<Found> kept_of(const std::vector<Found>& all, const Kept& kept) {
+  std::vector<Found> out;
+  for (Found one : all) {
+    const auto frames = kept_of(std::vector<retarget::FrameInterval>{one.frames}, kept);
+    if (frames.empty()) continue;
+    one.frames = frames.front();
+    out.push_back(one);
+  }
+  return out;
+}
+
+retarget::Touches kept_of(const retarget::Touches& touches, const Kept& kept) {
+  return {kept.count, kept_of(touches.touches, kept), kept_of(touches.still, kept)};
+}
+
 Result<RetargetedMotion> put_on_as_it_is(const Motion& source,
                                          const Skeleton& avatar,
                                          const PutOnOptions& options) {
@@ -105,6 +128,7 @@ Result<RetargetedMotion> put_on(const Motion& source,
   kept.before = kept.multiple * out->motion.first_frame - dense_first;
   kept.count = static_cast<int>(out->motion.poses.size());
   out->report.contacts = kept_of(out->report.contacts, kept);
+  out->report.hands.touches = kept_of(out->report.hands.touches, kept);
   auto map = retarget::map_body(avatar);
   if (!map) return map.error();
   retarget::wear(options.retarget.soles, *map);

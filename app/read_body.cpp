@@ -10,6 +10,7 @@
 #include "recordings/bone_map_file.h"
 #include "recordings/bvh.h"
 #include "retarget/body_map.h"
+#include "retarget/fit_volume.h"
 
 namespace marey::app {
 namespace {
@@ -75,13 +76,19 @@ void put_into_frame(const retarget::BodyFrame& frame, recordings::SkinnedMesh& m
   for (glm::dvec3& n : mesh.normal_in_world) n = frame.marey_from_file * n;
 }
 
-retarget::Soles soles_of(const Skeleton& skeleton, const recordings::SkinnedMesh& mesh) {
+// What is known of a body by its skin. A body that cannot be mapped is refused elsewhere.
+void look_at_skin(const recordings::SkinnedMesh& mesh, ReadBody& body) {
+  const Skeleton& skeleton = body.skeleton();
   const auto map = retarget::map_body(skeleton);
-  if (!map) return {};
+  if (!map) return;
   std::vector<JointIndex> carriers;
-  carriers.reserve(mesh.skin.size());
-  for (const recordings::SkinWeights& skin : mesh.skin) carriers.push_back(skin.joints[0]);
-  return retarget::find_soles(skeleton, *map, mesh.p_in_world, carriers);
+  std::vector<retarget::SkinPoint> skin;
+  for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
+    carriers.push_back(mesh.skin[i].joints[0]);
+    skin.push_back({mesh.p_in_world[i], mesh.skin[i].joints[0]});
+  }
+  body.soles = retarget::find_soles(skeleton, *map, mesh.p_in_world, carriers);
+  if (!skin.empty()) body.volume = retarget::volume_of_skin(skeleton, *map, skin);
 }
 
 Result<BoneMap> told_of(const BodyFile& file, ReadBody& body) {
@@ -153,7 +160,7 @@ Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
   body.raw.ignored_translation_m *= body.frame.scale;
   if (body.raw.mesh) {
     put_into_frame(body.frame, *body.raw.mesh);
-    body.soles = soles_of(motion.skeleton, *body.raw.mesh);
+    look_at_skin(*body.raw.mesh, body);
   }
   return body;
 }

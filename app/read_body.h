@@ -15,6 +15,7 @@
 #include "recordings/gltf.h"
 #include "recordings/mesh.h"
 #include "retarget/body_frame.h"
+#include "retarget/body_volume.h"
 #include "retarget/find_soles.h"
 #include "retarget/identify_bones.h"
 
@@ -55,6 +56,8 @@ struct ReadBody {
   /// The rest is made of the motion's frames, the file's being no posture of a body.
   bool rests_as_in_motion = false;
   retarget::Soles soles;  ///< By its skin, in marey's frame.
+  /// What it takes up of space, by its skin; nullopt: nobody knows.
+  std::optional<retarget::BodyVolume> volume;
 
   [[nodiscard]] const Skeleton& skeleton() const { return raw.motion.skeleton; }
   /// What write_retargeted() has to know.

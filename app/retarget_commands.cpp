@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/retarget_commands.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -18,6 +20,7 @@
 #include "recordings/constraints_file.h"
 #include "retarget/plan_supports.h"
 #include "retarget/support_constraints.h"
+#include "retarget/touch_constraints.h"
 
 namespace marey::app {
 namespace {
@@ -35,6 +38,7 @@ struct Work {
   RetargetRun run;
   std::vector<std::optional<OpenedAvatar>> opened;  ///< One per avatar of the plan.
   Exit exit = Exit::kOk;                            ///< The first failure's.
+  std::optional<retarget::BodyVolume> source_volume = std::nullopt;
 
   void fail(AvatarResult& avatar, const Error& error) {
     const Exit told = console.fail(error);
@@ -89,7 +93,10 @@ MotionFileOptions file_options(const RetargetArguments& args) {
   return options;
 }
 
-Status write_supports(const RetargetArguments& args, const AvatarResult& avatar) {
+/// Where feet stand, and what hands touch or lean on.
+Status write_contacts(const RetargetArguments& args,
+                      const OpenedAvatar& body,
+                      const AvatarResult& avatar) {
   const Motion& motion = avatar.retargeted.motion;
   const auto map = retarget::map_body(motion.skeleton);
   if (!map) return map.error();
@@ -98,8 +105,22 @@ Status write_supports(const RetargetArguments& args, const AvatarResult& avatar)
   const retarget::PlanSupportsOptions options{.ramp_s = 0.05};
   const auto tracks =
       retarget::plan_supports(motion, *map, avatar.retargeted.report.contacts, options);
-  return recordings::write_constraints(
-      args.constraints_out, retarget::support_constraints(tracks, motion.rate));
+  ConstraintSet set = retarget::support_constraints(tracks, motion.rate);
+  const retarget::HandReport& hands = avatar.retargeted.report.hands;
+  retarget::TouchConstraintsOptions fading;
+  fading.world = hands.world;
+  fading.nearest_alone = true;
+  // Files of motions begin at 0.
+  ConstraintSet touches = retarget::constraints_of(
+      hands.touches,
+      motion.skeleton,
+      *map,
+      body.volume ? *body.volume : retarget::average_volume(motion.skeleton, *map),
+      0,
+      motion.rate,
+      fading);
+  std::ranges::move(touches.constraints, std::back_inserter(set.constraints));
+  return recordings::write_constraints(args.constraints_out, set);
 }
 
 /// Everything of one avatar: its motion, then its files.
@@ -112,6 +133,10 @@ Status put_on_one(const Motion& source,
   if (!formats) return formats.error();
   PutOnOptions options = work.args.options;
   options.retarget.soles = body.soles;
+  if (options.retarget.hands) {
+    options.retarget.hands->source_volume = work.source_volume;
+    options.retarget.hands->avatar_volume = body.volume;
+  }
   auto retargeted = put_on(source, body.skeleton, options);
   if (!retargeted) return of_file(body.file, retargeted.error());
   avatar.retargeted = *std::move(retargeted);
@@ -123,7 +148,7 @@ Status put_on_one(const Motion& source,
     avatar.files.push_back(out);
   }
   if (!work.args.constraints_out.empty()) {
-    if (const Status ok = write_supports(work.args, avatar); !ok) return ok;
+    if (const Status ok = write_contacts(work.args, body, avatar); !ok) return ok;
   }
   return Done{};
 }
@@ -201,6 +226,15 @@ Result<RawBody> read_source(const RetargetArguments& args, Console& console) {
   return raw;
 }
 
+/// Of its skin; a skeleton of marey's own wears a mannequin, which is nobody's skin.
+std::optional<retarget::BodyVolume> volume_of_source(const ReadBody& source) {
+  const bool is_ours = std::ranges::all_of(
+      source.skeleton().joints, [](const Joint& joint) {
+        return joint.bone && joint.name == name(*joint.bone);
+      });
+  return is_ours ? std::nullopt : source.volume;
+}
+
 void add_result_options(CLI::App& command, RetargetArguments& args) {
   std::vector<std::string> formats;
   for (const MotionFormat format : motion_formats()) formats.emplace_back(name(format));
@@ -223,7 +257,8 @@ void add_result_options(CLI::App& command, RetargetArguments& args) {
   command.add_option("--clip", args.clip, "Name of the animation in .glb and .vrma");
   command.add_option("--constraints-out",
                      args.constraints_out,
-                     "Where feet stand, as constraints for marey adapt (.xml)");
+                     "Where feet stand and what hands touch, as constraints for marey "
+                     "adapt (.xml)");
   command.add_flag("--report", args.report, "Write a page of figures and pictures, too");
   command.add_flag("--json", args.json, "Print the figures as JSON on standard output");
 }
@@ -291,6 +326,7 @@ Exit run_retarget(const RetargetArguments& args, Console& console) {
   for (const std::string& remark : source->remarks()) {
     console.warn(args.motion.string() + ": " + remark);
   }
+  work.source_volume = volume_of_source(*source);
   put_on_all(source->raw.motion, work);
   if (!has_any(work.run)) return work.exit;
   if (const Status ok = measure(source->raw.motion, work); !ok) {

@@ -24,7 +24,7 @@ Result<OpenedAvatar> open_avatar(const BodyFile& avatar) {
   if (const auto map = retarget::map_body(body->skeleton()); !map) {
     return of_file(avatar.path, map.error());
   }
-  OpenedAvatar opened{avatar.path, {}, {}, body->soles, body->remarks()};
+  OpenedAvatar opened{avatar.path, {}, {}, body->soles, body->volume, body->remarks()};
   if (is_gltf(avatar.path)) opened.look = {avatar.path, body->changed()};
   opened.skeleton = std::move(body->raw.motion.skeleton);
   return opened;
@@ -37,6 +37,7 @@ Result<RetargetedFiles> retarget_to_files(const Motion& motion,
   if (!opened) return opened.error();
   retarget::RetargetOptions options;
   options.soles = opened->soles;
+  options.hands.emplace().avatar_volume = opened->volume;
   auto retargeted = retarget::retarget_motion(motion, opened->skeleton, options);
   if (!retargeted) return of_file(avatar.path, retargeted.error());
   RetargetedFiles result{*std::move(retargeted), {}, opened->remarks};

@@ -12,6 +12,7 @@
 #include "core/motion.h"
 #include "core/result.h"
 #include "core/skeleton.h"
+#include "retarget/body_volume.h"
 #include "retarget/find_soles.h"
 #include "retarget/retarget_motion.h"
 
@@ -23,6 +24,7 @@ struct OpenedAvatar {
   Skeleton skeleton;                 ///< In marey's frame, its bones marked.
   BodyLook look;                     ///< Without a file when there is no mesh.
   retarget::Soles soles;             ///< ReadBody::soles.
+  std::optional<retarget::BodyVolume> volume;  ///< ReadBody::volume.
   std::vector<std::string> remarks;  ///< ReadBody::remarks().
 };
 
@@ -35,7 +37,8 @@ struct RetargetedFiles {
   std::vector<std::string> remarks = {};  ///< ReadBody::remarks() of the avatar.
 };
 
-/// Puts a motion on an avatar and writes it beside each other as STEM.bvh; if the avatar
+/// Puts a motion on an avatar, with its soles, and with what hands do to the body
+/// (RetargetOptions::hands) by the avatar's skin, and writes it beside each other as STEM.bvh; if the avatar
 /// is a GLB, VRM or glTF, as STEM.glb with its own look; and if it has the bones of VRM's
 /// humanoid, as STEM.vrma. `stem` is a path without an extension, which may hold dots.
 /// Errors: open_avatar()'s; the disk.

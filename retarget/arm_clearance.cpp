@@ -16,6 +16,9 @@ using P = VolumePart;
 constexpr std::array kObstacles{
     P::kChest, P::kAbdomen, P::kPelvis, P::kLeftThigh, P::kRightThigh};
 constexpr double kNothing_m = 1e-9;
+// A nearly straight arm's elbow gains nothing by swinging: below this distance from the
+// axis the wrist takes over, smoothly.
+constexpr double kSwingingElbow_m = 0.04;
 
 // What of an arm is looked at: a ball on a bone.
 enum class Bone { kUpper, kForearm, kHand };
@@ -39,11 +42,11 @@ struct PlacedBall {
 
 PlacedBall placed(const Ball& ball,
                   const ArmPlaces& arm,
-                  const VolumeInMotion& body,
+                  const BodyVolume& volume,
                   int side,
                   std::span<const RigidTransform> joints) {
   const auto radius_m = [&](P part) {
-    const auto& capsule = body.volume[on_side(part, side)];
+    const auto& capsule = volume[on_side(part, side)];
     return capsule ? capsule->radius_m : 0.0;
   };
   if (ball.bone == Bone::kUpper) {
@@ -52,7 +55,7 @@ PlacedBall placed(const Ball& ball,
   if (ball.bone == Bone::kForearm) {
     return {glm::mix(arm.elbow, arm.wrist, ball.at), radius_m(P::kLeftForearm)};
   }
-  const auto& hand = body.volume[on_side(P::kLeftHand, side)];
+  const auto& hand = volume[on_side(P::kLeftHand, side)];
   if (!hand) return {arm.wrist, 0.0};
   const glm::dvec3 from_wrist = joints[index(hand->joint)].rotation *
                                 axis_point_in_joint(*hand, 2.0 * ball.at - 1.0);
@@ -104,25 +107,38 @@ Push push_out(const Capsule& source,
   return {world_from_avatar.rotation * (way * out_m), inside.depth_m};
 }
 
+// Of the hand above the floor; negative within. [m]
+double above_floor_m(const ArmOfBody& body, int side) {
+  const Capsule& hand = *body.volume[on_side(P::kLeftHand, side)];
+  const glm::dquat& turn = body.world_from_joint[index(hand.joint)].rotation;
+  return lowest_m(body.volume, side, {turn, body.arm.wrist}) - *body.floor_m;
+}
+
 }  // namespace
 
 ArmNeed arm_need(const ArmOfBody& source,
                  const ArmOfBody& avatar,
                  int side,
-                 std::size_t t,
                  double slack_m) {
   ArmNeed out;
-  const auto source_joints = source.body.frames[t];
-  const auto joints = avatar.body.frames[t];
+  const auto source_joints = source.world_from_joint;
+  const auto joints = avatar.world_from_joint;
   std::array<PlacedBall, kBalls.size()> source_balls;
   std::array<PlacedBall, kBalls.size()> balls;
   for (std::size_t i = 0; i < kBalls.size(); ++i) {
-    source_balls[i] = placed(kBalls[i], source.arm, source.body, side, source_joints);
-    balls[i] = placed(kBalls[i], avatar.arm, avatar.body, side, joints);
+    source_balls[i] = placed(kBalls[i], source.arm, source.volume, side, source_joints);
+    balls[i] = placed(kBalls[i], avatar.arm, avatar.volume, side, joints);
+  }
+  const P hand = on_side(P::kLeftHand, side);
+  if (source.floor_m && avatar.floor_m && source.volume[hand] && avatar.volume[hand]) {
+    // A skin is known to touch the floor; of a guess only what differs counts.
+    const bool is_skin = !avatar.volume.hand_skin_in_joint[side == 0 ? 0 : 1].empty();
+    const double allowed_m = is_skin ? 0.0 : std::min(above_floor_m(source, side), 0.0);
+    out.rise_m = std::max(allowed_m - above_floor_m(avatar, side), 0.0);
   }
   for (const P part : kObstacles) {
-    const auto& from = source.body.volume[part];
-    const auto& to = avatar.body.volume[part];
+    const auto& from = source.volume[part];
+    const auto& to = avatar.volume[part];
     if (!from || !to) continue;
     const RigidTransform world_from_source =
         source_joints[index(from->joint)] * from->joint_from_capsule;
@@ -143,6 +159,26 @@ ArmNeed arm_need(const ArmOfBody& source,
       if (ball.bone != Bone::kUpper && ball.at > 0.0) take_greater(push.way, out.wrist);
     }
   }
+  return out;
+}
+
+ArmShift shift_for(const ArmNeed& lacks, const LimbMap& limb, const ArmPlaces& arm) {
+  ArmShift out{lacks.wrist, 0.0};
+  const glm::dvec3 reach = arm.wrist - arm.shoulder;
+  const double reach_m = glm::length(reach);
+  if (reach_m < 1e-6) return out;
+  const glm::dvec3 axis = reach / reach_m;
+  const glm::dvec3 to_elbow = arm.elbow - arm.shoulder;
+  const glm::dvec3 radial = to_elbow - axis * glm::dot(to_elbow, axis);
+  const glm::dvec3 tangent = glm::cross(axis, radial);  // Per radian. [m]
+  const double offset2 = glm::dot(radial, radial);
+  out.swivel_rad = std::clamp(
+      glm::dot(lacks.elbow, tangent) / (offset2 + kSwingingElbow_m * kSwingingElbow_m),
+      -0.5,
+      0.5);
+  const glm::dvec3 left = lacks.elbow - out.swivel_rad * tangent;
+  const double lever = limb.length_m() / limb.upper_length_m;
+  take_greater(left * std::min(lever, reach_m / limb.upper_length_m), out.wrist_m);
   return out;
 }
 

@@ -50,6 +50,41 @@ bool aim_arm(const glm::dvec3& wrist_from_shoulder_m,
   return true;
 }
 
+NormalizedLimb shifted_limb(const LimbMap& arm,
+                            const ArmPlaces& now,
+                            const NormalizedLimb& limb,
+                            const ArmShift& shift) {
+  NormalizedLimb out = limb;
+  const glm::dvec3 wanted = now.wrist + shift.wrist_m - now.shoulder;
+  aim_arm(wanted, arm.length_m(), shift.swivel_rad, out);
+  return out;
+}
+
+ArmPlaces shifted_places(const LimbMap& arm,
+                         const ArmPlaces& now,
+                         const NormalizedLimb& limb,
+                         const ArmShift& shift) {
+  ArmPlaces out = now;
+  if (is_zero(shift)) return out;
+  const NormalizedLimb bent = shifted_limb(arm, now, limb, shift);
+  const double l1 = arm.upper_length_m;
+  const double l2 = arm.lower_length_m;
+  const double distance = std::clamp(
+      bent.extension * arm.length_m(), std::max(std::abs(l1 - l2), 1e-9), l1 + l2);
+  const double along =
+      std::clamp(0.5 * (distance + (l1 - l2) * (l1 + l2) / distance), -l1, l1);
+  const double offset = std::sqrt(std::max(l1 * l1 - along * along, 0.0));
+  out.elbow = out.shoulder + bent.world_from_limb * glm::dvec3(offset, 0.0, along);
+  out.wrist = out.shoulder + bent.world_from_limb * glm::dvec3(0.0, 0.0, distance);
+  return out;
+}
+
+ArmPlaces places_of(const LimbMap& arm, std::span<const RigidTransform> joints) {
+  return {joints[index(arm.upper)].translation,
+          joints[index(arm.lower)].translation,
+          joints[index(arm.end)].translation};
+}
+
 Arms::Arms(const PosedFrames& frames, const BodyMap& map) : frames_(&frames), map_(&map) {
   NormalizedPose pose;
   for (std::size_t t = 0; t < frames.count(); ++t) {
@@ -61,36 +96,21 @@ Arms::Arms(const PosedFrames& frames, const BodyMap& map) : frames_(&frames), ma
 }
 
 ArmPlaces Arms::places(std::size_t t, int side) const {
-  const auto joints = (*frames_)[t];
-  const LimbMap& arm = limb(side);
-  return {joints[index(arm.upper)].translation,
-          joints[index(arm.lower)].translation,
-          joints[index(arm.end)].translation};
+  return places_of(limb(side), (*frames_)[t]);
 }
 
 NormalizedLimb Arms::shifted_limb(std::size_t t, int side, const ArmShift& shift) const {
-  const ArmPlaces now = places(t, side);
-  NormalizedLimb out = limbs_[static_cast<std::size_t>(side)][t];
-  const glm::dvec3 wanted = now.wrist + shift.wrist_m - now.shoulder;
-  aim_arm(wanted, limb(side).length_m(), shift.swivel_rad, out);
-  return out;
+  return retarget::shifted_limb(limb(side),
+                                places(t, side),
+                                limbs_[static_cast<std::size_t>(side)][t],
+                                shift);
 }
 
 ArmPlaces Arms::places(std::size_t t, int side, const ArmShift& shift) const {
-  ArmPlaces out = places(t, side);
-  if (is_zero(shift)) return out;
-  const LimbMap& arm = limb(side);
-  const NormalizedLimb bent = shifted_limb(t, side, shift);
-  const double l1 = arm.upper_length_m;
-  const double l2 = arm.lower_length_m;
-  const double distance = std::clamp(
-      bent.extension * arm.length_m(), std::max(std::abs(l1 - l2), 1e-9), l1 + l2);
-  const double along =
-      std::clamp(0.5 * (distance + (l1 - l2) * (l1 + l2) / distance), -l1, l1);
-  const double offset = std::sqrt(std::max(l1 * l1 - along * along, 0.0));
-  out.elbow = out.shoulder + bent.world_from_limb * glm::dvec3(offset, 0.0, along);
-  out.wrist = out.shoulder + bent.world_from_limb * glm::dvec3(0.0, 0.0, distance);
-  return out;
+  return shifted_places(limb(side),
+                        places(t, side),
+                        limbs_[static_cast<std::size_t>(side)][t],
+                        shift);
 }
 
 double Arms::out_of_reach_m(std::size_t t, int side, const ArmShift& shift) const {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
@@ -41,6 +42,21 @@ bool aim_arm(const glm::dvec3& wrist_from_shoulder_m,
              double length_m,
              double swivel_rad,
              NormalizedLimb& arm);
+
+/// The limb that brings the wrist of an arm there that is at `now`, as aim_arm() does.
+/// Pure, allocates nothing (here and below).
+[[nodiscard]] NormalizedLimb shifted_limb(const LimbMap& arm,
+                                          const ArmPlaces& now,
+                                          const NormalizedLimb& limb,
+                                          const ArmShift& shift);
+/// Where its joints are then.
+[[nodiscard]] ArmPlaces shifted_places(const LimbMap& arm,
+                                       const ArmPlaces& now,
+                                       const NormalizedLimb& limb,
+                                       const ArmShift& shift);
+/// Of a posed body.
+[[nodiscard]] ArmPlaces places_of(const LimbMap& arm,
+                                  std::span<const RigidTransform> world_from_joint);
 
 /// The arms of a motion, and where they would be when shifted.
 class Arms {

@@ -226,6 +226,22 @@ CapsuleSide side_of(const Capsule& capsule,
   return side;
 }
 
+double lowest_m(const BodyVolume& volume,
+                int side,
+                const RigidTransform& world_from_hand) {
+  const auto& skin = volume.hand_skin_in_joint[static_cast<std::size_t>(side)];
+  const auto height_m = [&](const glm::dvec3& p) { return (world_from_hand * p).y; };
+  if (skin.empty()) {
+    const Capsule& hand = *volume[on_side(P::kLeftHand, side)];
+    return std::min(height_m(axis_point_in_joint(hand, -1.0)),
+                    height_m(axis_point_in_joint(hand, 1.0))) -
+           hand.radius_m;
+  }
+  double lowest = height_m(skin.front());
+  for (const glm::dvec3& p : skin) lowest = std::min(lowest, height_m(p));
+  return lowest;
+}
+
 glm::dvec3 axis_point_in_joint(const Capsule& capsule, double along) {
   return capsule.joint_from_capsule * glm::dvec3(0, 0, along * capsule.half_length_m);
 }

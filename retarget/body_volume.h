@@ -64,6 +64,9 @@ struct Capsule {
 /// half again as broad as it is deep.
 struct BodyVolume {
   std::array<std::optional<Capsule>, kVolumePartCount> parts{};
+  /// The outermost points of the hands' skin, left and right, each in its joint's frame;
+  /// empty: their capsules' surface.
+  std::array<std::vector<glm::dvec3>, 2> hand_skin_in_joint;
 
   [[nodiscard]] const std::optional<Capsule>& operator[](VolumePart part) const {
     return parts[index(part)];
@@ -81,6 +84,12 @@ struct CapsuleSide {
 
 /// In the capsule's frame. Exact, allocates nothing.
 [[nodiscard]] CapsuleSide side_of(const Capsule& capsule, const glm::dvec3& p_in_capsule);
+
+/// The lowest of a hand whose wrist is there. World Y, [m]
+/// Precondition: the body has that hand; world_from_hand is of its joint.
+[[nodiscard]] double lowest_m(const BodyVolume& volume,
+                              int side,
+                              const RigidTransform& world_from_hand);
 
 /// In the world. Precondition: one frame per joint.
 [[nodiscard]] CapsuleSide side_of(const Capsule& capsule,

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,9 +25,6 @@ namespace {
 // and only turns: a straight one's elbow moves by centimetres for a millimetre.
 constexpr double kBends = 0.8;
 constexpr double kTurns = 0.95;
-// A nearly straight arm's elbow gains nothing by swinging: below this distance from the
-// axis the wrist takes over, smoothly.
-constexpr double kSwingingElbow_m = 0.04;
 constexpr double kWorthIt = 0.95;  // Of what is missing is left after a pass, at most.
 
 std::size_t s(int side) {
@@ -39,39 +37,25 @@ struct Clearing {
   const Arms& source_arms;
   const Arms& arms;
   double slack_m;
+  std::optional<double> source_floor_m;  // World Y; nullopt: floors do not count.
+  std::optional<double> floor_m;
 
   [[nodiscard]] ArmNeed need(std::size_t t, int side, const ArmShift& shift) const {
-    return arm_need({source, source_arms.places(t, side)},
-                    {avatar, arms.places(t, side, shift)},
-                    side,
-                    t,
-                    slack_m);
+    return arm_need(
+        {source.volume,
+         source.frames[t],
+         source_arms.places(t, side),
+         source_floor_m},
+        {avatar.volume, avatar.frames[t], arms.places(t, side, shift), floor_m},
+        side,
+        slack_m);
   }
 
-  // The same as a shift: what the elbow gains by swinging, and by going with the wrist.
   [[nodiscard]] ArmShift answer(std::size_t t,
                                 int side,
                                 const ArmShift& shift,
                                 const ArmNeed& lacks) const {
-    ArmShift out{lacks.wrist, 0.0};
-    const ArmPlaces arm = arms.places(t, side, shift);
-    const glm::dvec3 reach = arm.wrist - arm.shoulder;
-    const double reach_m = glm::length(reach);
-    if (reach_m < 1e-6) return out;
-    const glm::dvec3 axis = reach / reach_m;
-    const glm::dvec3 to_elbow = arm.elbow - arm.shoulder;
-    const glm::dvec3 radial = to_elbow - axis * glm::dot(to_elbow, axis);
-    const glm::dvec3 tangent = glm::cross(axis, radial);  // Per radian. [m]
-    const double offset2 = glm::dot(radial, radial);
-    out.swivel_rad = std::clamp(
-        glm::dot(lacks.elbow, tangent) / (offset2 + kSwingingElbow_m * kSwingingElbow_m),
-        -0.5,
-        0.5);
-    const glm::dvec3 left = lacks.elbow - out.swivel_rad * tangent;
-    const double lever = arms.limb(side).length_m() / arms.limb(side).upper_length_m;
-    take_greater(left * std::min(lever, reach_m / arms.limb(side).upper_length_m),
-                 out.wrist_m);
-    return out;
+    return shift_for(lacks, arms.limb(side), arms.places(t, side, shift));
   }
 };
 
@@ -150,8 +134,10 @@ struct Missing {
     VectorChannel turn;
     Channel longer;
     Channel swivel;
+    Channel rise;
 
-    explicit Arm(std::size_t count) : turn(count), longer(count), swivel(count) {}
+    explicit Arm(std::size_t count)
+        : turn(count), longer(count), swivel(count), rise(count) {}
   };
   std::array<Arm, 2> arms;
   VectorChannel common;  // Ways of both wrists, where hands are on each other. [m]
@@ -175,10 +161,12 @@ Missing missing_of(const Clearing& clearing,
       if (!clearing.arms.has(side) || !clearing.source_arms.has(side)) continue;
       const ArmShift& now = shifts[s(side)][t];
       const ArmNeed need = clearing.need(t, side, now);
-      if (need.deepest_m <= 0.0) continue;
-      out.sum_m += need.deepest_m;
-      if (need.deepest_m > out.deepest_m) {
-        out.deepest_m = need.deepest_m;
+      out.arms[s(side)].rise.set(t, need.rise_m);
+      const double deepest_m = std::max(need.deepest_m, need.rise_m);
+      if (deepest_m <= 0.0) continue;
+      out.sum_m += deepest_m;
+      if (deepest_m > out.deepest_m) {
+        out.deepest_m = deepest_m;
         out.worst_frame = static_cast<int>(t);
       }
       const ArmShift answer = clearing.answer(t, side, now, need);
@@ -209,6 +197,7 @@ void add_covered(const Clearing& clearing,
     const std::vector<glm::dvec3> turn = arm.turn.covered(half);
     const std::vector<double> longer_m = arm.longer.covered(half);
     const std::vector<double> swivel_rad = arm.swivel.covered(half);
+    const std::vector<double> rise_m = arm.rise.covered(half);
     for (std::size_t t = 0; t < turn.size(); ++t) {
       ArmShift& shift = shifts[s(side)][t];
       const double joined = holds.hands[t];
@@ -218,8 +207,26 @@ void add_covered(const Clearing& clearing,
       const Turn own{alone * (world_from_axes[t] * turn[t]), alone * longer_m[t]};
       const glm::dvec3 way = way_of(clearing.arms.places(t, side, shift), own) +
                              joined * both_free * (world_from_axes[t] * together[t]);
-      shift.wrist_m += way;
+      shift.wrist_m += way + glm::dvec3(0.0, rise_m[t], 0.0);
       shift.swivel_rad += swivel_rad[t];
+    }
+  }
+}
+
+// What is left in the floor, whatever keeps arms in the body: a few passes of that alone.
+void lift_hands(const Clearing& clearing, int half, double enough_m, ArmShifts& shifts) {
+  constexpr int kMostPasses = 6;
+  for (int side = 0; side < 2; ++side) {
+    if (!clearing.arms.has(side) || !clearing.source_arms.has(side)) continue;
+    std::vector<ArmShift>& shift = shifts[s(side)];
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      std::vector<double> needed_m;
+      for (std::size_t t = 0; t < shift.size(); ++t) {
+        needed_m.push_back(clearing.need(t, side, shift[t]).rise_m);
+      }
+      if (*std::max_element(needed_m.begin(), needed_m.end()) <= enough_m) break;
+      const std::vector<double> rise_m = smooth_cover(needed_m, half);
+      for (std::size_t t = 0; t < shift.size(); ++t) shift[t].wrist_m.y += rise_m[t];
     }
   }
 }
@@ -230,6 +237,7 @@ ClearArmsReport clear_arms(const VolumeInMotion& source,
                            const VolumeInMotion& avatar,
                            const Arms& arms,
                            FrameRate rate,
+                           const WorldScale& world,
                            const HandHolds& holds,
                            const ClearArmsOptions& options,
                            ArmShifts& shifts) {
@@ -239,7 +247,11 @@ ClearArmsReport clear_arms(const VolumeInMotion& source,
   ClearArmsReport report;
   if (count == 0) return report;
   const Arms source_arms(source.frames, source.map);
-  const Clearing clearing{source, avatar, source_arms, arms, options.slack_m};
+  Clearing clearing{source, avatar, source_arms, arms, options.slack_m, {}, {}};
+  if (options.over_floor) {
+    clearing.source_floor_m = -world.rise_m / world.scale;
+    clearing.floor_m = 0.0;
+  }
   std::vector<glm::dquat> world_from_axes;
   const JointIndex hips = avatar.map.hips();
   for (std::size_t t = 0; t < count; ++t) {
@@ -269,6 +281,7 @@ ClearArmsReport clear_arms(const VolumeInMotion& source,
     add_covered(clearing, holds, world_from_axes, missing, half, shifts);
   }
   shifts = std::move(best);
+  lift_hands(clearing, half, options.slack_m, shifts);
   return report;
 }
 

@@ -13,6 +13,7 @@
 #include "core/humanoid.h"
 #include "core/pose.h"
 #include "core/quantile.h"
+#include "retarget/outermost.h"
 
 namespace marey::retarget {
 namespace {
@@ -88,15 +89,24 @@ void fit_round(const Cloud& cloud, Capsule& capsule) {
   if (off_m.size() >= kFewest) capsule.radius_m = median(std::move(off_m));
 }
 
-// Half of the thinner of the two extents across.
+// Half of the thinner of the two extents across; from the wrist to the finger tips.
 void fit_hand(const Cloud& cloud, Capsule& capsule) {
+  const auto values = [&](int axis) {
+    std::vector<double> out;
+    for (const glm::dvec3& p : cloud) out.push_back(p[axis]);
+    return out;
+  };
   const auto half_extent = [&](int axis) {
-    std::vector<double> values;
-    for (const glm::dvec3& p : cloud) values.push_back(p[axis]);
-    return 0.5 * (quantile(values, kWithin) - quantile(values, 1.0 - kWithin));
+    return 0.5 * (quantile(values(axis), kWithin) - quantile(values(axis), 1.0 - kWithin));
   };
   const double thin_m = std::min(half_extent(0), half_extent(1));
-  if (thin_m > 0.0) capsule.radius_m = thin_m;
+  if (thin_m <= 0.0) return;
+  const double wrist_m = -capsule.half_length_m - capsule.radius_m;
+  const double tips_m = quantile(values(2), kWithin);
+  capsule.radius_m = std::min(thin_m, std::max(0.5 * (tips_m - wrist_m), 0.25 * thin_m));
+  capsule.half_length_m = std::max(0.5 * (tips_m - wrist_m) - capsule.radius_m, 0.0);
+  capsule.joint_from_capsule.translation =
+      capsule.joint_from_capsule * glm::dvec3(0.0, 0.0, 0.5 * (tips_m + wrist_m));
 }
 
 // Along the capsule is left to right, its x to the front.
@@ -155,6 +165,10 @@ BodyVolume volume_of_skin(const Skeleton& skeleton,
     if (trunk) {
       fit_slice(cloud, *out[part]);
     } else if (part == P::kLeftHand || part == P::kRightHand) {
+      const RigidTransform joint_from_capsule = out[part]->joint_from_capsule;
+      Cloud in_joint;
+      for (const glm::dvec3& p : cloud) in_joint.push_back(joint_from_capsule * p);
+      out.hand_skin_in_joint[part == P::kLeftHand ? 0 : 1] = outermost(in_joint);
       fit_hand(cloud, *out[part]);
     } else {
       fit_round(cloud, *out[part]);

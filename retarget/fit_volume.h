@@ -21,7 +21,8 @@ struct SkinPoint {
 };
 
 /// What a body takes up of space, from its skin. Limbs keep the axes of average_volume()
-/// and get the median distance of the skin from them, hands half their thinner extent;
+/// and get the median distance of the skin from them; hands half their thinner extent,
+/// and end with the finger tips, and their outermost points are kept;
 /// each slice of the trunk gets the breadth and depth that all but the outermost
 /// thirtieth of its vertices are within. A part of fewer than 12 vertices keeps the
 /// average's size. Linear in vertices. Precondition: `map` was made from `skeleton`;

@@ -251,11 +251,13 @@ struct Keeper {
     if (towards == Towards::kPlace) return touch_error(scene, *hold.touch, shifts, t);
     if (towards == Towards::kDistance) return distance_error(*hold.touch, t);
     const ArmShift& shift = shifts[s(hold.side)][t];
-    return arm_need({scene.source, source_arms.places(t, hold.side)},
-                    {scene.avatar, scene.arms.places(t, hold.side, shift)},
-                    hold.side,
-                    t,
-                    kSlack_m)
+    const VolumeInMotion& source = scene.source;
+    const VolumeInMotion& avatar = scene.avatar;
+    return arm_need(
+               {source.volume, source.frames[t], source_arms.places(t, hold.side)},
+               {avatar.volume, avatar.frames[t], scene.arms.places(t, hold.side, shift)},
+               hold.side,
+               kSlack_m)
         .wrist;
   }
 

@@ -29,6 +29,9 @@ struct LiveRetarget::State {
   std::array<LiveFloor, 2> floors;
   std::array<StandingFoot, 2> standing{};
   std::array<LiveFoot, 2> feet;
+  BodyVolume source_volume;
+  BodyVolume avatar_volume;
+  LiveHands hands;
   NormalizedPose posture;
   std::vector<RigidTransform> source_world;
   std::vector<RigidTransform> avatar_world;
@@ -128,6 +131,13 @@ Result<LiveRetarget> LiveRetarget::make(const Skeleton& source,
   state->scale =
       root_unit_m(state->to, options.root) / root_unit_m(state->from, options.root);
   state->wrists_to_keep = spines_differ(state->from, state->to);
+  if (options.hands) {
+    const LiveHandsOptions& hands = *options.hands;
+    state->source_volume = hands.source_volume ? *hands.source_volume
+                                               : average_volume(source, state->from);
+    state->avatar_volume =
+        hands.avatar_volume ? *hands.avatar_volume : average_volume(avatar, state->to);
+  }
   state->source_world.resize(source.joints.size());
   state->avatar_world.resize(avatar.joints.size());
   return LiveRetarget(std::move(state));
@@ -140,14 +150,26 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
   world_from_joints(s.source, source, s.source_world);
   normalize(s.from, s.source_world, s.posture, s.options.root);
   s.judge_feet(since_last_s);
-  if (s.options.hold_feet) {
-    s.posture.root.y += s.rise_m() / root_unit_m(s.to, s.options.root);
-  }
+  const double rise_m = s.options.hold_feet ? s.rise_m() : 0.0;
+  s.posture.root.y += rise_m / root_unit_m(s.to, s.options.root);
   expand(s.posture, s.avatar, s.to, s.avatar_world, out);
-  const bool moved =
-      s.wrists_to_keep && keep_wrists(s.avatar, s.to, s.avatar_world, s.posture);
-  if (!moved && !s.options.hold_feet) return;
+  if (s.wrists_to_keep) keep_wrists(s.avatar, s.to, s.avatar_world, s.posture);
   if (s.options.hold_feet) s.hold_feet(since_last_s);
+  if (s.wrists_to_keep || s.options.hold_feet) {
+    expand(s.posture, s.avatar, s.to, s.avatar_world, out);
+  }
+  if (!s.options.hands) return;
+  std::optional<double> source_floor_m;
+  std::optional<double> floor_m;
+  if (s.options.hold_feet) {
+    source_floor_m = -rise_m / s.scale;
+    floor_m = 0.0;
+  }
+  s.hands.move({s.from, s.source_volume, s.source_world, source_floor_m},
+               {s.to, s.avatar_volume, s.avatar_world, floor_m},
+               *s.options.hands,
+               since_last_s,
+               s.posture);
   expand(s.posture, s.avatar, s.to, s.avatar_world, out);
 }
 
@@ -155,6 +177,7 @@ void LiveRetarget::forget() {
   for (LiveContact& contact : state_->contacts) contact.forget();
   for (LiveFloor& floor : state_->floors) floor.forget();
   for (LiveFoot& foot : state_->feet) foot.forget();
+  state_->hands.forget();
   state_->sink_m = 0.0;
 }
 

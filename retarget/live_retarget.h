@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "core/pose.h"
@@ -12,6 +13,7 @@
 #include "core/transform.h"
 #include "retarget/detect_contacts.h"
 #include "retarget/find_soles.h"
+#include "retarget/live_hands.h"
 #include "retarget/normalized_skeleton.h"
 
 namespace marey::retarget {
@@ -29,6 +31,9 @@ struct LiveRetargetOptions {
   double rise_s = 0.3;      ///< Time constant of hips rising after they had to sink.
   /// A foot that would have to stay further than this behind the source's slips. [legs]
   double slip_legs = 0.3;
+  /// What hands do to the body is kept, arms stay out of it; nullopt: arms stay where the
+  /// normalized posture has them.
+  std::optional<LiveHandsOptions> hands = LiveHandsOptions{};
 };
 
 /// Which parts of one foot stand, as judged in the source.
@@ -40,7 +45,8 @@ struct StandingFoot {
 /// Puts one performer's motion on one avatar, posture by posture, knowing nothing of the
 /// future: what retarget_motion() is for whole motions. A foot that comes to rest in the
 /// source stands where it is on the avatar, to the micrometre, until it leaves; hips sink
-/// at once where a standing leg would not reach, and rise again slowly.
+/// at once where a standing leg would not reach, and rise again slowly. Hands that are near
+/// the body stay as near on the avatar, arms out of it (retarget/live_hands.h).
 ///
 /// Same postures and time steps, same answers, to the bit. The source's floor is Y = 0.
 /// Costs some ten microseconds a posture; allocates nothing after make().

@@ -73,6 +73,7 @@ HandReport refine_hands(const Motion& source,
                         Motion& motion) {
   MAREY_ASSERT(source.poses.size() == motion.poses.size());
   HandReport report;
+  report.world = world;
   const std::size_t count = motion.poses.size();
   report.touches.frame_count = static_cast<int>(count);
   if (count == 0) return report;
@@ -96,7 +97,8 @@ HandReport refine_hands(const Motion& source,
   const HandHolds holds = keep_touches(
       report.touches, from, to, arms, source.rate, world, options.keep, shifts);
   if (options.clear_arms) {
-    report.arms = clear_arms(from, to, arms, source.rate, holds, options.clear, shifts);
+    report.arms = clear_arms(
+        from, to, arms, source.rate, world, holds, options.clear, shifts);
   }
   judge(from, to, source_arms, arms, holds, shifts, report);
   shift_arms(arms, avatar_map, avatar_frames, shifts, motion);

@@ -17,8 +17,8 @@ namespace marey::retarget {
 struct RefineHandsOptions {
   bool keep_touches = true;
   bool clear_arms = true;
-  /// nullopt: average_volume() of the skeleton. Give both or none, by the same means:
-  /// what counts is how the two differ.
+  /// By a skin where there is one (retarget/fit_volume.h); nullopt: average_volume() of
+  /// the skeleton, which is as good a guess of somebody captured as there is.
   std::optional<BodyVolume> source_volume;
   std::optional<BodyVolume> avatar_volume;
   FindTouchesOptions find;
@@ -35,6 +35,7 @@ struct HandReport {
   double mean_touch_error_m = 0.0;
   int unreachable_frames = 0;  ///< A hand could not reach what it touches or leans on.
   ClearArmsReport arms;
+  WorldScale world;  ///< What brought the source's root to the avatar's.
 };
 
 /// What hands do to the body is kept on another body, and arms stay out of it:

@@ -313,7 +313,9 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
     if (const Status ok = settle(task, poses, out); !ok) return ok.error();
   }
   if (options.hands) {
-    out.report.hands = refine_hands(source, from, to, world, *options.hands, out.motion);
+    RefineHandsOptions hands = *options.hands;
+    hands.clear.over_floor = hands.clear.over_floor && options.adapt_ground;
+    out.report.hands = refine_hands(source, from, to, world, hands, out.motion);
   }
   return out;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/touch_constraints.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -22,6 +23,17 @@ BodyPoint body_point(const Skeleton& body,
   // what a volume's part hangs on.
   return {at.bone ? std::string(name(*at.bone)) : at.name,
           map.joints[index(joint)].t_pose_from_joint * p_in_joint};
+}
+
+// Whether the same hand touches something nearer meanwhile.
+bool is_second(const Touches& touches, const Touch& touch) {
+  return std::any_of(
+      touches.touches.begin(), touches.touches.end(), [&](const Touch& other) {
+        return &other != &touch && other.side == touch.side &&
+               other.frames.first <= touch.frames.last &&
+               other.frames.last >= touch.frames.first &&
+               other.distance_m < touch.distance_m;
+      });
 }
 
 }  // namespace
@@ -69,6 +81,7 @@ ConstraintSet constraints_of(const Touches& touches,
     const auto& hand = volume[side];
     const auto& part = volume[touch.part];
     if (!hand || !part) continue;
+    if (options.nearest_alone && is_second(touches, touch)) continue;
     const DistanceToBody goal{
         std::max(hand->radius_m + touch.distance_m, 0.0),
         body_point(body, map, part->joint, surface_point_in_joint(*part, touch.place))};

@@ -43,6 +43,9 @@ struct TouchConstraintsOptions {
   StillPlace still = StillPlace::kScaled;
   WorldScale world;
   double precision_m = 0.005;
+  /// Where a hand touches several parts at once, the nearest alone is wished for: no
+  /// posture may be able to do more.
+  bool nearest_alone = false;
 };
 
 /// When a touch holds: fully in its frames, faded before and after. A touch that begins

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `marey retarget`: what it makes.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -13,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pose.h"
+#include "recordings/bvh.h"
 #include "recordings/constraints_file.h"
 #include "tests/app/retarget_scene.h"
 
@@ -228,6 +232,52 @@ TEST(Retarget, WritesSupportsThatAdaptReadsAgain) {
   const Motion after = scene.motion("adapted.bvh");
   // What fades in holds the landing foot back a little, and the body with it.
   EXPECT_LT(apart_m(before, after, HumanBone::kHead), 5e-3);
+}
+
+// Somebody lowers the left arm until its hand lies at the thigh.
+Motion hand_to_thigh() {
+  Motion motion{make_humanoid(average_proportions(1.75)), {60.0}, 0, {}};
+  const JointIndex arm = *motion.skeleton.find(HumanBone::kLeftUpperArm);
+  for (int t = 0; t < 120; ++t) {
+    const double x = std::min(t / 40.0, 1.0);
+    Pose pose = rest_pose(motion.skeleton);
+    pose.parent_from_joint[index(arm)] =
+        glm::angleAxis(-0.9 - 0.76 * x * x * (3.0 - 2.0 * x), glm::dvec3(0, 0, 1));
+    motion.poses.push_back(std::move(pose));
+  }
+  return motion;
+}
+
+TEST(Retarget, ProposesWhatHandsTouchAsConstraintsThatAdaptMeets) {
+  const RetargetScene scene;
+  ASSERT_TRUE(recordings::write_bvh(scene / "hand.bvh", hand_to_thigh()));
+  ASSERT_EQ(
+      scene
+          .marey({"retarget", "hand.bvh", "small.glb", "--out", "o.bvh",
+                  "--constraints-out", "s.xml"})
+          .exit_code,
+      0);
+  const auto file = recordings::read_constraints(scene / "s.xml");
+  ASSERT_TRUE(file);
+  int touches = 0;
+  for (const Constraint& one : file->set.constraints) {
+    if (!std::holds_alternative<DistanceToBody>(one.goal)) continue;
+    ++touches;
+    EXPECT_EQ(one.id.find("left hand on "), 0U) << one.id;
+    EXPECT_EQ(one.point.segment, "leftHand");
+    // It fades in before the hand lies there, and stays to the end.
+    ASSERT_TRUE(one.activation.start_s);
+    EXPECT_LT(*one.activation.start_s, 40.0 / 60.0);
+    EXPECT_GT(one.activation.start_duration_s, 0.2);
+    EXPECT_FALSE(one.activation.stop_s);
+  }
+  EXPECT_EQ(touches, 1);
+  const ProgramRun run = scene.marey(
+      {"adapt", "o.bvh", "--constraints", "s.xml", "--out", "adapted.bvh", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const Json& one : Json::parse(run.out).at("constraints")) {
+    EXPECT_LT(one.at("worst_error_mm"), 5.0) << one;
+  }
 }
 
 std::size_t count_of(const std::string& text, const std::string& word) {

@@ -158,6 +158,38 @@ Skeleton broad(double factor) {
   return make_humanoid(p);
 }
 
+Skeleton ape() {
+  Proportions p = average_proportions(1.75);
+  for (const HumanBone bone : {HumanBone::kLeftLowerLeg,
+                               HumanBone::kLeftFoot,
+                               HumanBone::kRightLowerLeg,
+                               HumanBone::kRightFoot}) {
+    p[bone] *= 0.5;
+  }
+  p[HumanBone::kHips].y *= 0.5;
+  for (const HumanBone bone : {HumanBone::kLeftLowerArm,
+                               HumanBone::kLeftHand,
+                               HumanBone::kRightLowerArm,
+                               HumanBone::kRightHand}) {
+    p[bone] *= 1.75;
+  }
+  return make_humanoid(p);
+}
+
+double deepest_hand_m(const Motion& motion) {
+  const BodyMap map = mapped(motion.skeleton);
+  const BodyVolume volume = average_volume(motion.skeleton, map);
+  double deepest = 0.0;
+  for (const Pose& pose : motion.poses) {
+    const auto world = world_from_joints(motion.skeleton, pose);
+    for (int side = 0; side < 2; ++side) {
+      const JointIndex hand = volume[on_side(VolumePart::kLeftHand, side)]->joint;
+      deepest = std::max(deepest, -lowest_m(volume, side, world[index(hand)]));
+    }
+  }
+  return deepest;
+}
+
 BodyVolume with_belly(BodyVolume volume, double factor) {
   for (const P part : {P::kAbdomen, P::kPelvis}) {
     volume[part]->half_length_m *= factor;

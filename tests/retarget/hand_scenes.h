@@ -50,6 +50,12 @@ inline constexpr int kHeldLast = 150;     ///< until then, and hang before 60, a
 /// An adult whose shoulders and hips are `factor` times as far apart.
 [[nodiscard]] Skeleton broad(double factor);
 
+/// An adult of short legs and long arms, whose hands would hang a decimetre into the floor.
+[[nodiscard]] Skeleton ape();
+
+/// How deep hands are in the floor Y = 0 at most, over a motion. [m]
+[[nodiscard]] double deepest_hand_m(const Motion& motion);
+
 /// The same body with an abdomen and pelvis `factor` times as broad and deep.
 [[nodiscard]] BodyVolume with_belly(BodyVolume volume, double factor);
 

@@ -284,6 +284,21 @@ TEST(ClearArms, ChangesNothingOnTheSourcesOwnBody) {
   EXPECT_LT(added(without.motion, with.motion, B::kLeftLowerArm).distance_m, 1e-9);
 }
 
+TEST(ClearArms, LiftsHandsOverTheFloorByTheirElbows) {
+  const Belly scene = hanging_beside_a_belly(1.0);
+  const auto without = retargeted(scene.source, ape(), false);
+  const auto with = retargeted(scene.source, ape(), true);
+  EXPECT_GT(deepest_hand_m(without.motion), 0.08) << "the claim is empty";
+  EXPECT_LT(deepest_hand_m(with.motion), 0.005);
+  for (const B bone : {B::kLeftHand, B::kRightHand, B::kLeftLowerArm}) {
+    const Added a = added(without.motion, with.motion, bone);
+    EXPECT_LT(a.acceleration, 2.0 * 5.8 * a.distance_m / 0.09) << a.distance_m;
+  }
+  // Without a floor nothing is lifted.
+  const auto nowhere = retargeted(scene.source, ape(), true, std::nullopt, false);
+  EXPECT_GT(deepest_hand_m(nowhere.motion), 0.08);
+}
+
 // What a source's hand does to its belly it does to the bigger one: it lies on it.
 TEST(ClearArms, LaysAHandOnABiggerBelly) {
   const Motion source = hands_go_to(hand_on_belly());
