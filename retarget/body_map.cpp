@@ -17,8 +17,9 @@ namespace {
 using B = HumanBone;
 
 constexpr double kNoLength = 1e-6;  // [m] A bone shorter than this has no direction.
-// [m] Vertebrae that coincide still get a stretch of the curve each, so none is lost.
-constexpr double kShortestVertebra = 1e-3;
+// Vertebrae that coincide still get a stretch of the curve each, so none is lost: a share
+// of the whole, that bodies of all sizes share the curve alike.
+constexpr double kShortestVertebra = 2e-3;
 // Toe joint from ankle in leg lengths, after average_proportions().
 constexpr double kFootLengthInLegs = 0.16;
 constexpr double kAnkleHeightInLegs = 0.08;
@@ -226,12 +227,17 @@ std::vector<double> arc_ends_m(const Builder& b,
                                const std::vector<JointIndex>& chain,
                                const std::optional<JointIndex>& top) {
   std::vector<double> end_m;
-  double sum_m = 0.0;
+  double whole_m = 0.0;
   for (std::size_t i = 0; i < chain.size(); ++i) {
     const auto next = i + 1 < chain.size() ? std::optional(chain[i + 1]) : top;
-    const double bone_m = next ? glm::length(b.place(*next) - b.place(chain[i])) : 0.0;
-    sum_m += std::max(bone_m, kShortestVertebra);
-    end_m.push_back(sum_m);
+    end_m.push_back(next ? glm::length(b.place(*next) - b.place(chain[i])) : 0.0);
+    whole_m += end_m.back();
+  }
+  const double shortest_m = kShortestVertebra * (whole_m > kNoLength ? whole_m : 1.0);
+  double sum_m = 0.0;
+  for (double& end : end_m) {
+    sum_m += std::max(end, shortest_m);
+    end = sum_m;
   }
   return end_m;
 }

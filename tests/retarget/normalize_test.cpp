@@ -237,6 +237,30 @@ TEST(Normalize, SharesASteadyBendOutSoThatTheNeckIsWhereItWas) {
   }
 }
 
+// Some files have a vertebra without length: it turns apart from its neighbours, and so it
+// does on a body that is smaller all over.
+TEST(Normalize, SharesASpineOutAlikeOnBodiesOfAllSizes) {
+  Dice dice(31);
+  for (const std::size_t coincident : {2U, 3U, 4U}) {
+    Skeleton source = testing::with_vertebrae(testing::giant(), 4);
+    source.joints[coincident].parent_from_joint.translation = glm::dvec3(0.0);
+    Skeleton small = source;
+    for (Joint& joint : small.joints) {
+      joint.parent_from_joint.translation *= 0.7;
+      if (joint.tip_in_joint) *joint.tip_in_joint *= 0.7;
+    }
+    const Pose pose = testing::random_pose(source, dice);
+    const Pose adapted =
+        expand(normalize(source, mapped(source), pose), small, mapped(small));
+    for (std::size_t k = 1; k <= 4; ++k) {
+      const glm::dquat& was = pose.parent_from_joint[k];
+      const glm::dquat& is = adapted.parent_from_joint[k];
+      EXPECT_LT(glm::length(rotation_vector(glm::conjugate(was) * is)), 1e-7)
+          << "vertebra " << k << ", without length: " << coincident;
+    }
+  }
+}
+
 TEST(Normalize, GivesTheMirrorImageOfTheMirrorImage) {
   Dice dice(29);
   const Skeleton source = testing::random_humanoid(dice);
