@@ -111,12 +111,16 @@ Status write_as_bvh(const ConvertArguments& arguments,
   if (options.names == recordings::BvhNames::kOwn) {
     return recordings::write_bvh(arguments.out, motion, options);
   }
+  // Its bones are told as wherever it is read; its frame stays the file's.
+  RawBody raw;
+  raw.motion = motion;
+  raw.has_motion = true;
   Motion named = motion;
-  if (const auto bones = retarget::identify_bones(motion.skeleton)) {
-    retarget::mark(*bones, named.skeleton);
+  if (const auto body = identify_body(std::move(raw), arguments.in)) {
+    retarget::mark(body->bones, named.skeleton);
   } else {
     console.warn(arguments.in.string() +
-                 ": joints keep their names: " + bones.error().message());
+                 ": joints keep their names: " + body.error().message());
   }
   return recordings::write_bvh(arguments.out, named, options);
 }

@@ -56,13 +56,23 @@ BoneMap map_of(const ReadBody& body) {
   return map;
 }
 
-/// All bones without a joint, to be filled in: a body that was declined.
+/// All bones, to be filled in: a body that was declined. They are comments: "" would say
+/// that the body has no such bone.
 std::string empty_map_text(const Skeleton& skeleton) {
-  BoneMap map;
-  for (ToldBone& bone : map.bones) bone.told = true;
-  std::string text = recordings::bone_map_text(map, skeleton);
+  std::string text = recordings::bone_map_text({}, skeleton);
+  for (const HumanBone bone : human_bones()) {
+    text += "# " + std::string(name(bone)) + " = \"\"\n";
+  }
   text += "\n# The joints:\n";
-  for (const Joint& joint : skeleton.joints) text += "# " + joint.name + "\n";
+  for (const Joint& joint : skeleton.joints) {
+    text += "# ";
+    // A name with a line of its own would be read as a key.
+    for (const char c : joint.name) {
+      const bool is_control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+      text += is_control ? '?' : c;
+    }
+    text += "\n";
+  }
   return text;
 }
 

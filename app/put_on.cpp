@@ -118,13 +118,14 @@ Result<RetargetedMotion> put_on(const Motion& source,
   kept.multiple = std::max(1, static_cast<int>(std::ceil(source.rate.hz / rate.hz)));
   auto out = put_on_as_it_is(
       resample(source, FrameRate{kept.multiple * rate.hz}), avatar, options);
-  if (!out || kept.multiple == 1) return out;
+  if (!out) return out;
   const int dense_first = out->motion.first_frame;
-  out->motion = resample(out->motion, rate);
+  if (kept.multiple > 1) out->motion = resample(out->motion, rate);
   if (out->motion.poses.empty()) {
     return bad_input(
         "", "the motion is shorter than a frame at that rate", "give a higher --rate");
   }
+  if (kept.multiple == 1) return out;
   kept.before = kept.multiple * out->motion.first_frame - dense_first;
   kept.count = static_cast<int>(out->motion.poses.size());
   out->report.contacts = kept_of(out->report.contacts, kept);

@@ -23,10 +23,12 @@ struct PutOnOptions {
 /// At another rate the source is resampled first, to the smallest whole multiple of that
 /// rate that is no less than its own, and of what comes of it the frames in question are
 /// kept: so feet stand in every frame, and instants that both rates share are the same.
-/// The report is of the frames that are kept. Same input, same bytes. Linear in frames.
+/// Contacts, touches and the figures `after` are of the frames that are kept, the rest of
+/// the report is of all that were solved. Same input, same bytes. Linear in frames.
 ///
 /// Errors (kBadInput): retarget_motion()'s; no instant of the rate lies in the motion.
-/// Precondition: retarget_motion()'s; rate_hz > 0.
+/// Precondition: retarget_motion()'s; rate_hz > 0; not `live` with what needs the whole
+/// motion: balance, a way or heights that are kept.
 [[nodiscard]] Result<retarget::RetargetedMotion> put_on(const Motion& source,
                                                         const Skeleton& avatar,
                                                         const PutOnOptions& options = {});

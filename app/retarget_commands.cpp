@@ -132,7 +132,7 @@ Status put_on_one(const Motion& source,
   const auto formats = formats_of(work, body);
   if (!formats) return formats.error();
   PutOnOptions options = work.args.options;
-  options.retarget.soles = body.soles;
+  options.retarget.soles = avatar.soles = body.soles;
   if (options.retarget.hands) {
     options.retarget.hands->source_volume = work.source_volume;
     options.retarget.hands->avatar_volume = body.volume;

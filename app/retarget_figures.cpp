@@ -80,8 +80,16 @@ Status measure_source(RetargetRun& run) {
   run.map = *std::move(map);
   const auto paths = retarget::contact_paths(run.source, run.map);
   run.labels = retarget::label_contacts(paths, run.source.rate.hz);
+  // Its floor is where its feet rest, be that at Y = 0 or not.
+  auto rest_heights_m = retarget::rest_heights_m(run.map);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const retarget::FootContacts& foot = run.contacts.feet[side];
+    if (foot.stance.empty()) continue;
+    rest_heights_m[side] = foot.ankle_height_m;
+    rest_heights_m[side + 2] = foot.ball_height_m;
+  }
   run.figures = retarget::measure_contacts(
-      paths, run.labels, retarget::rest_heights_m(run.map), run.source.rate.hz);
+      paths, run.labels, rest_heights_m, run.source.rate.hz);
   auto balance = balance_of(run.source, run.map, run.contacts);
   if (!balance) return balance.error();
   run.balance = *std::move(balance);
@@ -94,6 +102,7 @@ Status measure_avatar(const RetargetRun& run, AvatarResult& avatar) {
   auto map = retarget::map_body(motion.skeleton);
   if (!map) return map.error();
   avatar.map = *std::move(map);
+  retarget::wear(avatar.soles, avatar.map);
   avatar.own_contacts = retarget::detect_contacts(motion, avatar.map);
   avatar.contacts =
       retarget::measure_contacts(retarget::contact_paths(motion, avatar.map),

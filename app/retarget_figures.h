@@ -13,6 +13,7 @@
 #include "core/result.h"
 #include "retarget/body_map.h"
 #include "retarget/contact_figures.h"
+#include "retarget/find_soles.h"
 #include "retarget/measure_balance.h"
 #include "retarget/retarget_motion.h"
 
@@ -25,8 +26,9 @@ struct AvatarResult {
   std::vector<std::filesystem::path> files;
   std::optional<Error> error;
   // Without an error:
+  retarget::Soles soles;  ///< By its skin.
   retarget::RetargetedMotion retargeted;
-  retarget::BodyMap map;
+  retarget::BodyMap map;  ///< That wears the soles.
   retarget::Contacts own_contacts;  ///< As detect_contacts() has them on the avatar.
   retarget::ContactFigures contacts;
   /// Mean jerk of the bones that both bodies have, over the source's at this height.
@@ -52,7 +54,7 @@ struct RetargetRun {
 /// Fills in what is measured of the source, of which `source` and `contacts` are given.
 /// Errors: map_body()'s.
 [[nodiscard]] Status measure_source(RetargetRun& run);
-/// Likewise of an avatar without an error, of which `retargeted` is given.
+/// Likewise of an avatar without an error, of which `soles` and `retargeted` are given.
 /// Precondition: measure_source() was called; as many frames.
 [[nodiscard]] Status measure_avatar(const RetargetRun& run, AvatarResult& avatar);
 

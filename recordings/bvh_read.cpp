@@ -209,7 +209,12 @@ class Parser {
       const std::string_view word = reader_.word();
       const std::string keyword = lower(word);
       Status done = Done{};
-      if (keyword == "joint") {
+      // Deeper than any body, and than programs that go down the tree can.
+      constexpr std::size_t kDeepest = 1000;
+      if (keyword == "joint" && open.size() >= kDeepest) {
+        done = fail("joints hang on joints more than " + std::to_string(kDeepest) +
+                    " levels deep");
+      } else if (keyword == "joint") {
         done = begin_joint(open.back());
         open.push_back(JointIndex{static_cast<int>(file_.skeleton.joints.size()) - 1});
       } else if (keyword == "channels") {

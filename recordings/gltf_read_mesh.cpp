@@ -92,7 +92,7 @@ Result<std::array<std::pair<double, std::size_t>, 4>> weights_of(const NamedMode
   for (std::size_t k = 0; k < 4; ++k) {
     const double weight = std::max(0.0, vertices.weights[4 * v + k]);
     const double joint = vertices.joints[4 * v + k];
-    if (weight > 0.0 && joint >= static_cast<double>(joints)) {
+    if (weight > 0.0 && !(joint >= 0.0 && joint < static_cast<double>(joints))) {
       return file.fail("a vertex hangs on joint " +
                        std::to_string(static_cast<long>(joint)) + " of a skin with " +
                        std::to_string(joints));

@@ -149,6 +149,13 @@ Result<glm::dvec3> find_front(const SkeletonTree& tree,
                               const glm::dvec3& up,
                               FoundBones& found,
                               std::vector<std::string>& remarks) {
+  constexpr double kAcross = 0.5;
+  if (told.front && glm::length(glm::cross(glm::normalize(*told.front), up)) < kAcross) {
+    return bad_input("skeleton",
+                     "the bone map's \"front\" is not across the body's up, which is " +
+                         axis_word(snapped(up, kNearFront)),
+                     "give a direction at right angles to it, or tell \"up\", too");
+  }
   const bool by_shape =
       found.bones[index(B::kLeftUpperLeg)]->evidence == BoneEvidence::kShape;
   const auto left_axis = [&] {
@@ -196,7 +203,7 @@ Result<glm::dvec3> find_front(const SkeletonTree& tree,
         "its feet do not say where the front is: left and right are as "
         "its names say");
   }
-  if (told.front) return toes;
+  if (told.front) return toes;  // Which is checked to lie across `up`.
   const glm::dvec3 front = snapped(glm::cross(left_axis(), up), kNearFront);
   if (snapped(front, 1.0 - 1e-9) != front) {
     remarks.push_back("it rests between two axes, looking to " + axis_word(front));

@@ -12,7 +12,7 @@ namespace marey::retarget {
 
 /// Adds what follows from limbs and head that are found: hips, vertebrae, neck,
 /// shoulders, toes, an extremity whose named joint hangs elsewhere. Leaves alone what the
-/// user told. Precondition: both upper legs are found.
+/// user told. Precondition: both upper legs are found, and hips are not told to be absent.
 void complete_bones(const SkeletonTree& tree,
                     const std::vector<JointWord>& words,
                     const BoneMap& told,

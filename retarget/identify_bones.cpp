@@ -139,7 +139,12 @@ Result<FoundBones> identify_bones(const Skeleton& skeleton, const BoneMap& told)
     found = std::move(shape);
     put_told(told, *found);
   }
-  if (!is_marked) complete_bones(tree, words, told, *found);
+  // What a map leaves out cannot be completed from.
+  const ToldBone& told_hips = told.bones[index(B::kHips)];
+  const bool can_complete = found->joint(B::kLeftUpperLeg) &&
+                            found->joint(B::kRightUpperLeg) &&
+                            (!told_hips.told || told_hips.joint);
+  if (!is_marked && can_complete) complete_bones(tree, words, told, *found);
   if (const Status ok = check_bones(tree, *found); !ok) return ok.error();
   remark_missing(*found);
   return found;

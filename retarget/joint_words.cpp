@@ -91,8 +91,7 @@ void undress(Words& words) {
   while (words.size() > 1 && is_decoration_behind(words.back())) words.pop_back();
 }
 
-/// The word that most names begin with, if it is no side and no bone's: a name of the
-/// character's own.
+/// The word that most names begin with, if it is no side: a name of the character's own.
 std::string common_word(const std::vector<Words>& names) {
   std::map<std::string, std::size_t> counts;
   for (const Words& words : names) {

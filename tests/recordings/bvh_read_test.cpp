@@ -224,6 +224,21 @@ TEST(ReadBvh, SaysWhereTheHierarchyBreaksOff) {
             std::string::npos);
 }
 
+TEST(ReadBvh, RefusesJointsTooDeepForPrograms) {
+  const auto chain = [](int joints) {
+    const std::string still = "\n{\nOFFSET 0 1 0\nCHANNELS 0\n";
+    std::string text = "HIERARCHY\nROOT a" + still;
+    for (int i = 1; i < joints; ++i) text += "JOINT b" + still;
+    text += "End Site\n{\nOFFSET 0 1 0\n}\n";
+    for (int i = 0; i < joints; ++i) text += "}\n";
+    return text + "MOTION\nFrames: 1\nFrame Time: 0.01\n\n";
+  };
+  EXPECT_EQ(refusal(chain(1000)), "no refusal");
+  EXPECT_NE(refusal(chain(1001)).find("walk.bvh:4002: joints hang on joints more than"),
+            std::string::npos)
+      << refusal(chain(1001));
+}
+
 TEST(ReadBvh, RefusesAChannelItDoesNotKnow) {
   std::string text = kTwoJoints;
   text.replace(text.find("Zposition"), 9, "Wposition");

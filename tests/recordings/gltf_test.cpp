@@ -315,6 +315,17 @@ TEST(ReadCharacter, RefusesASkinWithoutJoints) {
   EXPECT_EQ(refusal(folder, skinned_triangle("")), "a skin has no joints");
 }
 
+// The bytes 80 80 80 3f are a weight of 1.004, and joints of -128 where bytes are signed.
+TEST(ReadCharacter, RefusesVerticesOnJointsBelowZero) {
+  const ScratchFolder folder;
+  std::string text = skinned_triangle("0");
+  text.replace(text.find(std::string(64, 'A')),
+               64,
+               "gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/");
+  text.replace(text.find("5121"), 4, "5120");
+  EXPECT_EQ(refusal(folder, text), "a vertex hangs on joint -128 of a skin with 1");
+}
+
 TEST(ReadCharacter, RefusesNodesBeyondAllReason) {
   const ScratchFolder folder;
   EXPECT_EQ(refusal(folder,

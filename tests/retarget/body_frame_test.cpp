@@ -154,6 +154,13 @@ TEST(BodyFrame, TellsSidesOfAShapeByItsToes) {
   }
 }
 
+TEST(BodyFrame, DeclinesAFrontThatPointsUp) {
+  BoneMap told;
+  told.front = glm::dvec3(0, 1, 0);
+  EXPECT_NE(cause(adult(), told).find("\"front\" is not across the body's up"),
+            std::string::npos);
+}
+
 TEST(BodyFrame, DeclinesLeftThatIsRight) {
   Skeleton body = adult();
   for (Joint& joint : body.joints) joint.bone = mirrored(*joint.bone);

@@ -141,6 +141,23 @@ TEST(IdentifyBones, BelievesTheUserFirst) {
   EXPECT_EQ(joint_of(body, *found, B::kRightToes), "RightToeBase");
 }
 
+// A map may say of every bone that the body has none.
+TEST(IdentifyBones, DeclinesABodyWhoseHipsOrLegsAreToldAway) {
+  const Skeleton body = mixamo_body();
+  Skeleton nameless = body;
+  for (std::size_t i = 0; i < nameless.joints.size(); ++i) {
+    nameless.joints[i].name = std::to_string(i);
+  }
+  BoneMap no_hips;
+  no_hips.bones[index(B::kHips)].told = true;
+  BoneMap nothing;
+  for (ToldBone& bone : nothing.bones) bone.told = true;
+  for (const Skeleton& one : {body, nameless}) {
+    EXPECT_NE(cause(one, no_hips), "");
+    EXPECT_NE(cause(one, nothing), "");
+  }
+}
+
 TEST(IdentifyBones, FindsTheFootThatALegLeadsTo) {
   // Feet of a rig for inverse kinematics hang on the root.
   Skeleton body = mixamo_body();

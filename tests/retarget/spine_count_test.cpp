@@ -172,6 +172,7 @@ TEST(SpineCount, WristsAreWhereTheSourceHasThem) {
     ASSERT_TRUE(whole);
     LiveRetargetOptions live_options;
     live_options.hold_feet = false;
+    live_options.hands.reset();
     auto live = LiveRetarget::make(source, body, live_options);
     ASSERT_TRUE(live);
     Pose out;
