@@ -227,11 +227,11 @@ TEST(ReadBvh, SaysWhereTheHierarchyBreaksOff) {
 TEST(ReadBvh, RefusesJointsTooDeepForPrograms) {
   const auto chain = [](int joints) {
     const std::string still = "\n{\nOFFSET 0 1 0\nCHANNELS 0\n";
-    std::string text = "HIERARCHY\nROOT a" + still;
+    std::string text = "HIERARCHY\nROOT a\n{\nOFFSET 0 0 0\nCHANNELS 1 Yrotation\n";
     for (int i = 1; i < joints; ++i) text += "JOINT b" + still;
     text += "End Site\n{\nOFFSET 0 1 0\n}\n";
     for (int i = 0; i < joints; ++i) text += "}\n";
-    return text + "MOTION\nFrames: 1\nFrame Time: 0.01\n\n";
+    return text + "MOTION\nFrames: 1\nFrame Time: 0.01\n0\n";
   };
   EXPECT_EQ(refusal(chain(1000)), "no refusal");
   EXPECT_NE(refusal(chain(1001)).find("walk.bvh:4002: joints hang on joints more than"),
