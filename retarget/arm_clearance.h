@@ -15,6 +15,10 @@
 
 namespace marey::retarget {
 
+/// So deep in a body is nobody's business: what legs that were put on the floor take and
+/// give. [m]
+inline constexpr double kArmSlack_m = 0.002;
+
 /// One posed body with one of its arms, shifted or not. What it refers to outlives it.
 struct ArmOfBody {
   const BodyVolume& volume;

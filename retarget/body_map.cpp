@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 
 #include "core/pose.h"
+#include "retarget/foot_shape.h"
 
 namespace marey::retarget {
 namespace {
@@ -136,19 +137,16 @@ double rest_floor_m(const Builder& b) {
   return lowest - (has_toes ? kBallHeightInLegs : kAnkleHeightInLegs) * leg;
 }
 
-// Where the sole ends, in lengths from ankle to ball: a heel's round end bears a quarter
-// of it behind the ankle, toes reach half of it beyond the ball (Drillis and Contini
-// 1966: the foot is 0.152 of the stature long, the ankle 0.039 high).
+// Where the sole ends, as an average foot's does where no tip is told.
 void map_sole(const Builder& b,
               const std::optional<JointIndex>& toes,
               const glm::dquat& align,
               FootMap& foot) {
-  constexpr double kHeel = 0.25;
-  constexpr double kToes = 0.5;
   const glm::dvec3 ball = foot.ball_from_ankle_in_t_pose;
   const double length_m = glm::length(glm::dvec2(ball.x, ball.z));
-  foot.heel_from_ankle_in_t_pose = {0.0, -foot.ankle_height_m, -kHeel * length_m};
-  glm::dvec3 tip(0.0, 0.0, kToes * length_m);
+  foot.heel_from_ankle_in_t_pose = {
+      0.0, -foot.ankle_height_m, -kBearingHeelInBall * length_m};
+  glm::dvec3 tip(0.0, 0.0, kToesInBall * length_m);
   if (toes && b.skeleton[*toes].tip_in_joint) {
     const RigidTransform& at = b.world_from_joint[index(*toes)];
     tip = align * (at * *b.skeleton[*toes].tip_in_joint - at.translation);

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/assert.h"
 #include "core/pose.h"
+#include "retarget/bell.h"
 #include "retarget/plan_feet.h"
 
 namespace marey::retarget {
@@ -48,8 +48,7 @@ std::vector<glm::dvec3> root_path_m(const std::array<FloorFoot, 2>& feet,
     glm::dvec3 sum_m = shift_m[t];
     double weights = 1.0;
     for (std::size_t k = 1; k <= half; ++k) {
-      const double x = static_cast<double>(k) / static_cast<double>(half + 1);
-      const double weight = (1.0 - x * x) * (1.0 - x * x) * (1.0 - x * x);
+      const double weight = bell(static_cast<double>(k) / static_cast<double>(half + 1));
       sum_m += weight * (shift_m[t - k] + shift_m[t + k]);
       weights += 2.0 * weight;
     }

@@ -30,8 +30,9 @@ struct CarriedMotion {
 /// The feet go where plan_feet() has them. The root goes by the mean of both feet's
 /// displacements, of a swinging one too: so it anticipates, beginning to rise or to be
 /// carried as soon as a foot leaves its footprint for one that is displaced otherwise
-/// (CarryOptions::root_blend_s earlier still). A foot's lift over an edge does not move it. Then it sinks, and legs follow, as in
-/// settle_on_feet(). What hangs on the root (trunk, head, arms) goes along unturned.
+/// (CarryOptions::root_blend_s earlier still). A foot's lift over an edge does not move
+/// it. Then it sinks, and legs follow, as in settle_on_feet(). What hangs on the root
+/// (trunk, head, arms) goes along unturned.
 ///
 /// Where nothing is displaced the motion is the same, to the bit. Linear in frames.
 /// Precondition: `map` was made from the motion's skeleton; `contacts` are of the motion,

@@ -17,6 +17,7 @@
 #include "retarget/arm_clearance.h"
 #include "retarget/smooth_cover.h"
 #include "retarget/smooth_step.h"
+#include "retarget/t_pose_turn.h"
 
 namespace marey::retarget {
 namespace {
@@ -255,9 +256,7 @@ ClearArmsReport clear_arms(const VolumeInMotion& source,
   std::vector<glm::dquat> world_from_axes;
   const JointIndex hips = avatar.map.hips();
   for (std::size_t t = 0; t < count; ++t) {
-    world_from_axes.push_back(
-        avatar.frames[t][index(hips)].rotation *
-        glm::conjugate(avatar.map.joints[index(hips)].t_pose_from_joint));
+    world_from_axes.push_back(turn_off_t_pose(avatar.map, avatar.frames[t], hips));
   }
   const double half_frames =
       std::clamp(0.5 * options.anticipation_s * rate.hz, 1.0, static_cast<double>(count));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/time.h"
+#include "retarget/arm_clearance.h"
 #include "retarget/arm_shift.h"
 #include "retarget/keep_touches.h"
 
@@ -11,9 +12,7 @@ namespace marey::retarget {
 struct ClearArmsOptions {
   /// An arm begins to give way this long before it must, and comes back as long after.
   double anticipation_s = 0.3;
-  /// So much of what is missing is nobody's business: what legs that were put on the
-  /// floor take and give. [m]
-  double slack_m = 0.002;
+  double slack_m = kArmSlack_m;  ///< So much of what is missing is left. [m]
   int most_passes = 8;
   /// Hands stay over the floor, Y = 0 (without a skin as far as the source's are).
   bool over_floor = true;

@@ -10,6 +10,7 @@
 
 #include "core/assert.h"
 #include "core/transform.h"
+#include "retarget/frame_marks.h"
 #include "retarget/leg_on_foot.h"
 #include "retarget/smooth_step.h"
 
@@ -121,15 +122,6 @@ struct Task {
   [[nodiscard]] bool bears(std::size_t t) const { return heel[t] || ball[t]; }
   [[nodiscard]] bool flat(std::size_t t) const { return heel[t] && ball[t]; }
 };
-
-std::vector<char> marks(const std::vector<FrameInterval>& runs, std::size_t count) {
-  std::vector<char> on(count, 0);
-  for (const FrameInterval& run : runs) {
-    MAREY_ASSERT(run.first >= 0 && run.last < static_cast<int>(count));
-    std::fill(on.begin() + run.first, on.begin() + run.last + 1, char{1});
-  }
-  return on;
-}
 
 // Mean of a point of the reference foot over the frames of `run` that count.
 template <class Counts, class Point>
@@ -281,8 +273,8 @@ std::vector<FootPlace> plan_foot(std::span<const FootPlace> reference,
             leg_length_m,
             rate.hz,
             options,
-            marks(contacts.heel, count),
-            marks(contacts.ball, count),
+            frame_marks(contacts.heel, count),
+            frame_marks(contacts.ball, count),
             contacts.heel_up,
             std::vector<Footprint>(count)};
   for (const FrameInterval& run : contacts.stance) {

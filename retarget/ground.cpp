@@ -13,6 +13,7 @@
 #include "core/assert.h"
 #include "core/pose.h"
 #include "core/transform.h"
+#include "retarget/frame_marks.h"
 #include "retarget/leg_on_foot.h"
 #include "retarget/smooth_cover.h"
 
@@ -60,14 +61,6 @@ void plan(const BodyMap& map,
   }
 }
 
-std::vector<char> bearing_frames(const FootContacts& foot, std::size_t count) {
-  std::vector<char> on(count, 0);
-  for (const FrameInterval& run : foot.stance) {
-    std::fill(on.begin() + run.first, on.begin() + run.last + 1, char{1});
-  }
-  return on;
-}
-
 // Sinks the root where bearing legs do not reach, smoothly; legs follow.
 GroundReport settle(const BodyMap& map,
                     const Contacts& contacts,
@@ -84,7 +77,7 @@ GroundReport settle(const BodyMap& map,
   std::vector<double> needed(count, 0.0);
   for (std::size_t side = 0; side < 2; ++side) {
     const LegPath& leg = legs[side];
-    bears[side] = bearing_frames(contacts.feet[side], count);
+    bears[side] = frame_marks(contacts.feet[side].stance, count);
     const double full_m = map.leg(static_cast<int>(side)).length_m();
     for (std::size_t t = 0; t < count; ++t) {
       if (!bears[side][t]) continue;
@@ -140,10 +133,24 @@ std::array<double, 2> ankles_rest_m(const BodyMap& source, const Contacts& conta
   std::array<double, 2> rest_m{};
   for (std::size_t side = 0; side < 2; ++side) {
     const FootContacts& foot = contacts.feet[side];
-    rest_m[side] =
-        foot.stance.empty() ? source.feet[side].ankle_height_m : foot.ankle_height_m;
+    const FootContacts& other = contacts.feet[1 - side];
+    if (!foot.stance.empty()) {
+      rest_m[side] = foot.ankle_height_m;
+      continue;
+    }
+    rest_m[side] = source.feet[side].ankle_height_m;
+    if (other.stance.empty()) continue;
+    rest_m[side] += other.ankle_height_m - source.feet[1 - side].ankle_height_m;
   }
   return rest_m;
+}
+
+double floor_height_m(const BodyMap& body, const std::array<double, 2>& ankles_rest_m) {
+  double floor_m = 0.0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    floor_m += 0.5 * (ankles_rest_m[side] - body.feet[side].ankle_height_m);
+  }
+  return floor_m;
 }
 
 double standing_rise_m(const BodyMap& source,

@@ -30,10 +30,15 @@ struct GroundReport {
   int unreachable_frames = 0;
 };
 
-/// Heights of the ankles when they rest: of `contacts`, or the body's own where a foot
-/// never stands. [m]
+/// World Y of the ankles when they rest: of `contacts`; of a foot that never stands the
+/// body's own, over the floor of the other one, or Y = 0. [m]
 [[nodiscard]] std::array<double, 2> ankles_rest_m(const BodyMap& source,
                                                   const Contacts& contacts);
+
+/// World Y of the floor that a body stands on whose ankles rest at these heights: the
+/// mean of what is below both ankles. [m]
+[[nodiscard]] double floor_height_m(const BodyMap& body,
+                                    const std::array<double, 2>& ankles_rest_m);
 
 /// By how much a root that was scaled with the legs must rise so that a body whose hips
 /// or ankles lie otherwise than the source's stands on Y = 0 with its legs as bent as

@@ -10,6 +10,7 @@
 
 #include "core/assert.h"
 #include "core/pose.h"
+#include "retarget/bell.h"
 #include "retarget/centre_of_mass.h"
 #include "retarget/smooth_step.h"
 
@@ -32,33 +33,23 @@ glm::dvec2 limited(const glm::dvec2& way_m, double most_m) {
   return way_m / std::pow(1.0 + std::pow(glm::length(way_m) / most_m, 8.0), 0.125);
 }
 
-// (1 - x^2)^3: C2 at its ends.
-std::vector<double> bell_of(int half) {
-  std::vector<double> bell;
-  for (int k = -half; k <= half; ++k) {
-    const double x = static_cast<double>(k) / (half + 1);
-    bell.push_back((1.0 - x * x) * (1.0 - x * x) * (1.0 - x * x));
-  }
-  return bell;
-}
-
 // What is missing, averaged over the still frames about each.
 void low_pass(std::span<const glm::dvec2> missing,
               std::span<const double> still,
-              std::span<const double> bell,
+              std::span<const double> weights,
               std::span<glm::dvec2> out) {
   const int count = static_cast<int>(missing.size());
-  const int half = static_cast<int>(bell.size()) / 2;
+  const int half = static_cast<int>(weights.size()) / 2;
   for (int t = 0; t < count; ++t) {
     glm::dvec2 sum(0.0);
-    double weights = 0.0;
+    double sum_of_weights = 0.0;
     for (int k = -half; k <= half; ++k) {
       const auto i = static_cast<std::size_t>(std::clamp(t + k, 0, count - 1));
-      const double weight = bell[static_cast<std::size_t>(k + half)];
+      const double weight = weights[static_cast<std::size_t>(k + half)];
       sum += weight * still[i] * missing[i];
-      weights += weight * (still[i] + kAbsent * (1.0 - still[i]));
+      sum_of_weights += weight * (still[i] + kAbsent * (1.0 - still[i]));
     }
-    out[static_cast<std::size_t>(t)] = sum / weights;
+    out[static_cast<std::size_t>(t)] = sum / sum_of_weights;
   }
 }
 
@@ -138,7 +129,8 @@ KeptBalance keep_balance(const BalanceReference& reference,
   const double unit_m = root_unit_m(body.map, first[0].root_normalization);
   const double half_frames = std::clamp(
       0.5 * options.low_pass_s * rate.hz, 1.0, static_cast<double>(poses.size()));
-  const std::vector<double> bell = bell_of(static_cast<int>(std::lround(half_frames)));
+  const std::vector<double> weights =
+      bell_weights(static_cast<int>(std::lround(half_frames)));
   const double most_m = kMostInLegs * body.map.leg_length_m;
   std::vector<glm::dvec2> moved(poses.size(), glm::dvec2(0.0));
   std::vector<glm::dvec2> missing(poses.size());
@@ -165,7 +157,7 @@ KeptBalance keep_balance(const BalanceReference& reference,
     out.mean_off_m = mean_length(missing, reference.still);
     if (pass == 0) out.mean_off_before_m = out.mean_off_m;
     if (pass == options.passes) break;
-    low_pass(missing, reference.still, bell, added);
+    low_pass(missing, reference.still, weights, added);
     for (std::size_t t = 0; t < poses.size(); ++t) moved[t] += added[t];
   }
   for (const glm::dvec2& by_m : moved) {

@@ -40,10 +40,10 @@ glm::dvec3 shift_to_height(const glm::dvec3& root,
 }  // namespace
 
 double kept_hips_height_m(double y_m, double source_stands_m, double avatar_stands_m) {
-  MAREY_ASSERT(source_stands_m > 0.0 && avatar_stands_m > 0.0);
   constexpr double kLow = 0.3;
   const double low_m = kLow * std::min(source_stands_m, avatar_stands_m);
-  if (y_m >= source_stands_m) return y_m + (avatar_stands_m - source_stands_m);
+  if (y_m >= source_stands_m || low_m <= 0.0)
+    return y_m + (avatar_stands_m - source_stands_m);
   if (y_m <= low_m) return y_m;
   // A cubic whose slopes at both ends are 1, or what keeps it rising (Fritsch and Carlson
   // 1980, "Monotone piecewise cubic interpolation").
@@ -60,6 +60,7 @@ void keep_foot_heights(const Motion& source,
                        const std::array<double, 2>& rests_m,
                        const Skeleton& avatar,
                        const BodyMap& avatar_map,
+                       double floor_m,
                        std::span<NormalizedPose> poses) {
   constexpr double kLow = 0.1;
   constexpr double kHigh = 0.6;
@@ -81,13 +82,16 @@ void keep_foot_heights(const Motion& source,
       const glm::dvec3 hip = avatar_world[index(leg.upper)].translation;
       const glm::dvec3 ankle = avatar_world[index(leg.end)].translation;
       const glm::dvec3 shift =
-          shift_to_height(hip, ankle, avatar_map.feet[s].ankle_height_m + up_m);
+          shift_to_height(hip, ankle, floor_m + avatar_map.feet[s].ankle_height_m + up_m);
       aim_leg(hip, ankle + share * shift, leg.length_m(), *poses[t].limbs[2 + s]);
     }
   }
 }
 
-void keep_hand_heights(const Arms& source, const Arms& avatar, ArmShifts& shifts) {
+void keep_hand_heights(const Arms& source,
+                       double source_floor_m,
+                       const Arms& avatar,
+                       ArmShifts& shifts) {
   constexpr double kBent = 0.75;
   constexpr double kStretched = 0.92;
   constexpr double kHanging_rad = 0.87;  // 50 degrees.
@@ -107,7 +111,8 @@ void keep_hand_heights(const Arms& source, const Arms& avatar, ArmShifts& shifts
           smooth_step((raised_rad - kHanging_rad) / (kRaised_rad - kHanging_rad));
       if (share == 0.0) continue;
       const ArmPlaces to = avatar.places(t, side);
-      shift[t].wrist_m += share * shift_to_height(to.shoulder, to.wrist, from.wrist.y);
+      shift[t].wrist_m +=
+          share * shift_to_height(to.shoulder, to.wrist, from.wrist.y - source_floor_m);
     }
   }
 }

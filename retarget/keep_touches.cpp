@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include <glm/geometric.hpp>
@@ -12,6 +13,7 @@
 #include "core/transform.h"
 #include "retarget/activation.h"
 #include "retarget/arm_clearance.h"
+#include "retarget/bell.h"
 
 namespace marey::retarget {
 namespace {
@@ -20,7 +22,6 @@ using P = VolumePart;
 
 // What neither hand is free for is shared, not left to the last digit.
 constexpr double kLeastFreedom = 1e-3;
-constexpr double kSlack_m = 0.002;  // As ClearArmsOptions has it.
 // Solve, low-pass the difference, add, repeat: what the low-pass took comes back.
 constexpr int kPlacePasses = 3;
 constexpr int kDistancePasses = 6;
@@ -171,20 +172,15 @@ std::vector<glm::dvec3> spread(const std::vector<glm::dvec3>& missing,
   const auto at = [&](int k) {
     return missing[static_cast<std::size_t>(std::clamp(k, 0, inner - 1))];
   };
-  std::vector<double> bell;
-  double weights = 0.0;
-  for (int k = -half; k <= half; ++k) {
-    const double x = static_cast<double>(k) / (half + 1);
-    bell.push_back((1.0 - x * x) * (1.0 - x * x) * (1.0 - x * x));
-    weights += bell.back();
-  }
+  const std::vector<double> weights = bell_weights(half);
+  const double sum_of_weights = std::accumulate(weights.begin(), weights.end(), 0.0);
   std::vector<glm::dvec3> out;
   for (int t = -before; t < inner + after; ++t) {
     glm::dvec3 sum(0.0);
     for (int k = -half; k <= half; ++k) {
-      sum += bell[static_cast<std::size_t>(k + half)] * at(t + k);
+      sum += weights[static_cast<std::size_t>(k + half)] * at(t + k);
     }
-    out.push_back(sum / weights);
+    out.push_back(sum / sum_of_weights);
   }
   return out;
 }
@@ -195,6 +191,7 @@ struct Keeper {
   const WorldScale& world;
   StillPlace place;
   int low_pass_half;  // [frames]
+  double slack_m;
   HandHolds& holds;
   ArmShifts& shifts;
 
@@ -257,7 +254,7 @@ struct Keeper {
                {source.volume, source.frames[t], source_arms.places(t, hold.side)},
                {avatar.volume, avatar.frames[t], scene.arms.places(t, hold.side, shift)},
                hold.side,
-               kSlack_m)
+               slack_m)
         .wrist;
   }
 
@@ -342,6 +339,7 @@ HandHolds keep_touches(const Touches& touches,
                        FrameRate rate,
                        const WorldScale& world,
                        const KeepTouchesOptions& options,
+                       double slack_m,
                        ArmShifts& shifts) {
   const std::size_t count = avatar.frames.count();
   MAREY_ASSERT(source.frames.count() == count);
@@ -353,7 +351,8 @@ HandHolds keep_touches(const Touches& touches,
   std::vector<Hold> all = holds_of(scene, touches, rate, options);
   const int half = static_cast<int>(std::lround(options.low_pass_s * 0.5 * rate.hz));
   const Arms source_arms(source.frames, source.map);
-  const Keeper keeper{scene, source_arms, world, options.still, half, holds, shifts};
+  const Keeper keeper{
+      scene, source_arms, world, options.still, half, slack_m, holds, shifts};
   for (Hold& hold : all) keeper.take_free(hold);
   for (int pass = 0; pass < kPlacePasses; ++pass) {
     for (const Hold& hold : all) keeper.improve(hold, Towards::kPlace);

@@ -40,7 +40,8 @@ struct HandHolds {
 /// What a hand is moved by goes on, in the axes of what it touches, before and after, and
 /// fades there with continuous speed and acceleration; the arm follows
 /// (retarget/arm_shift.h), nothing else does. A hand that would lie in another part of
-/// trunk or thighs slides on what it touches until it does not. A hand with several
+/// trunk or thighs, by more than `slack_m`, slides on what it touches until it does not.
+/// A hand with several
 /// touches keeps the nearest one's place, and the distances of all as far as one place
 /// has them; hands that touch meet half way, or where one of them is held. Displacement
 /// maps: solve, low-pass the difference, add, repeat. Adds to `shifts`. Linear in the
@@ -53,6 +54,7 @@ struct HandHolds {
                                      FrameRate rate,
                                      const WorldScale& world,
                                      const KeepTouchesOptions& options,
+                                     double slack_m,
                                      ArmShifts& shifts);
 
 /// Between the surfaces of a hand and what it touches, on a shifted avatar in frame `t`.

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "retarget/t_pose_turn.h"
+
 namespace marey::retarget {
 
 FootPlace foot_of(const BodyMap& map,
@@ -18,8 +20,7 @@ FootPlace foot_of(const BodyMap& map,
     const auto joint = map.joint_of[index(bone)];
     if (pose.segments[index(bone)]) return *pose.segments[index(bone)];
     if (!joint) return glm::dquat(1, 0, 0, 0);
-    return world_from_joint[index(*joint)].rotation *
-           glm::conjugate(map.joints[index(*joint)].t_pose_from_joint);
+    return turn_off_t_pose(map, world_from_joint, *joint);
   };
   return {world_from_joint[index(map.leg(side).end)].translation,
           turn(foot_bone(side)),

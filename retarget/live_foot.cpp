@@ -141,8 +141,10 @@ void LiveFoot::hold(const StandingFoot& stands,
   const double fade_s = mode_ == Mode::kFree ? options.release_s : options.land_s;
   const double left = 1.0 - smooth_step(since_change_s_ / fade_s);
   const FootPlace aimed = aim(foot, reference);
-  place.foot = glm::normalize(rotation_from_vector(left * foot_left_over_rad_) * aimed.foot);
-  place.toes = glm::normalize(rotation_from_vector(left * toes_left_over_rad_) * aimed.toes);
+  place.foot =
+      glm::normalize(rotation_from_vector(left * foot_left_over_rad_) * aimed.foot);
+  place.toes =
+      glm::normalize(rotation_from_vector(left * toes_left_over_rad_) * aimed.toes);
   if (mode_ == Mode::kBall) {
     // The ball is what keeps its place while the foot still turns.
     place.ankle_in_world = anchor_in_world_ + left * left_over_m_ - place.foot * ball;

@@ -10,13 +10,13 @@
 #include "core/transform.h"
 #include "retarget/arm_clearance.h"
 #include "retarget/smooth_step.h"
+#include "retarget/t_pose_turn.h"
 
 namespace marey::retarget {
 namespace {
 
 using P = VolumePart;
 
-constexpr double kSlack_m = 0.002;  // As ClearArmsOptions has it.
 constexpr int kClearPasses = 3;
 constexpr std::array<double, 3> kHandPoints{-1.0, 0.0, 1.0};  // Wrist to finger tips.
 // What a hand can lie on and that does not move with an arm.
@@ -135,14 +135,11 @@ struct Scene {
   void leave_body(int side) {
     for (int pass = 0; pass < kClearPasses; ++pass) {
       const ArmNeed need = arm_need(
-          {source.volume,
-           source.world_from_joint,
-           source_arms[s(side)],
-           source.floor_m},
+          {source.volume, source.world_from_joint, source_arms[s(side)], source.floor_m},
           {avatar.volume, avatar.world_from_joint, now[s(side)], avatar.floor_m},
           side,
-          kSlack_m);
-      if (std::max(need.deepest_m, need.rise_m) <= kSlack_m) return;
+          kArmSlack_m);
+      if (std::max(need.deepest_m, need.rise_m) <= kArmSlack_m) return;
       ArmShift by = shift_for(need, *avatar.map.limbs[s(side)], now[s(side)]);
       by.wrist_m.y += need.rise_m;
       shift(side, by);
@@ -211,8 +208,7 @@ void LiveHands::move(const PosedVolume& source,
   keep_relations(scene);
   const JointIndex hips = avatar.map.hips();
   const glm::dquat world_from_axes =
-      avatar.world_from_joint[index(hips)].rotation *
-      glm::conjugate(avatar.map.joints[index(hips)].t_pose_from_joint);
+      turn_off_t_pose(avatar.map, avatar.world_from_joint, hips);
   for (int side = 0; side < 2; ++side) {
     if (!scene.has[s(side)]) continue;
     Arm& arm = arms_[s(side)];

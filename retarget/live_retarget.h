@@ -52,7 +52,7 @@ struct StandingFoot {
 /// Costs some ten microseconds a posture; allocates nothing after make().
 class LiveRetarget {
  public:
-  /// Errors: as retarget_motion()'s.
+  /// Errors: map_bodies()'s.
   [[nodiscard]] static Result<LiveRetarget> make(const Skeleton& source,
                                                  const Skeleton& avatar,
                                                  const LiveRetargetOptions& options = {});

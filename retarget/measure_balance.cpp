@@ -13,15 +13,15 @@
 #include "core/assert.h"
 #include "core/pose.h"
 #include "retarget/centre_of_mass.h"
+#include "retarget/foot_shape.h"
+#include "retarget/frame_marks.h"
 #include "retarget/leg_on_foot.h"
+#include "retarget/t_pose_turn.h"
 
 namespace marey::retarget {
 namespace {
 
-constexpr double kBreadthInLengths = 0.38;
-constexpr double kHeelPart = 0.25;
-// Toes over ankle to ball where no tip is told: as place_masses() has it.
-constexpr double kToesInBall = 0.5;
+constexpr double kHeelPart = 0.25;  // Of a sole, that a foot on its heel bears on.
 
 // Seen from above: X, Z.
 glm::dvec2 above(const glm::dvec3& p) {
@@ -40,10 +40,16 @@ class Hull {
 
   // Andrew's monotone chain.
   void close() {
-    const auto end = corners_.begin() + static_cast<std::ptrdiff_t>(count_);
-    std::sort(corners_.begin(), end, [](const glm::dvec2& a, const glm::dvec2& b) {
+    const auto first = corners_.begin();
+    const auto end = first + static_cast<std::ptrdiff_t>(count_);
+    std::sort(first, end, [](const glm::dvec2& a, const glm::dvec2& b) {
       return a.x != b.x ? a.x < b.x : a.y < b.y;
     });
+    count_ = static_cast<std::size_t>(std::unique(first, end) - first);
+    if (count_ == 1) {
+      hull_[size_++] = corners_[0];
+      return;
+    }
     const auto chain = [&](std::size_t base, const glm::dvec2& p) {
       while (size_ >= base + 2 &&
              cross(hull_[size_ - 1] - hull_[size_ - 2], p - hull_[size_ - 1]) <= 0.0) {
@@ -57,16 +63,17 @@ class Hull {
     --size_;  // The last is the first again.
   }
 
-  // Negative within.
+  // Negative within. Nothing is within a point or a line.
   [[nodiscard]] double outside_m(const glm::dvec2& p) const {
     double nearest = std::numeric_limits<double>::max();
-    bool within = true;
+    bool within = size_ > 2;
     for (std::size_t i = 0; i < size_; ++i) {
       const glm::dvec2 a = hull_[i];
       const glm::dvec2 along = hull_[(i + 1) % size_] - a;
       within &= cross(along, p - a) >= 0.0;
+      const double squared = glm::dot(along, along);
       const double at =
-          std::clamp(glm::dot(p - a, along) / glm::dot(along, along), 0.0, 1.0);
+          squared > 0.0 ? std::clamp(glm::dot(p - a, along) / squared, 0.0, 1.0) : 0.0;
       nearest = std::min(nearest, glm::length(p - a - at * along));
     }
     return within ? -nearest : nearest;
@@ -80,13 +87,6 @@ class Hull {
   std::size_t size_ = 0;
 };
 
-glm::dquat turn_of(const BodyMap& map,
-                   std::span<const RigidTransform> world_from_joint,
-                   JointIndex joint) {
-  return world_from_joint[index(joint)].rotation *
-         glm::conjugate(map.joints[index(joint)].t_pose_from_joint);
-}
-
 // The ends of one sole, seen from above.
 struct Sole {
   glm::dvec2 heel{0.0};
@@ -99,40 +99,27 @@ Sole sole_of(const BodyMap& map,
              int side) {
   const FootMap& foot = map.feet[static_cast<std::size_t>(side)];
   const JointIndex ankle = map.leg(side).end;
-  const glm::dquat turn = turn_of(map, world_from_joint, ankle);
+  const glm::dquat turn = turn_off_t_pose(map, world_from_joint, ankle);
   const glm::dvec3 at = world_from_joint[index(ankle)].translation;
   const glm::dvec3 ball = at + turn * foot.ball_from_ankle_in_t_pose;
   const auto toes = map.joint_of[index(toes_bone(side))];
-  const glm::dquat toes_turn = toes ? turn_of(map, world_from_joint, *toes) : turn;
-  glm::dvec3 tip = foot.tip_from_ball_in_t_pose;
-  if (above(tip) == glm::dvec2(0.0)) {
-    tip += kToesInBall * glm::dvec3(foot.ball_from_ankle_in_t_pose.x,
-                                    0.0,
-                                    foot.ball_from_ankle_in_t_pose.z);
-  }
+  const glm::dquat toes_turn =
+      toes ? turn_off_t_pose(map, world_from_joint, *toes) : turn;
   return {above(at + turn * foot.heel_from_ankle_in_t_pose),
           above(ball),
-          above(ball + toes_turn * tip)};
+          above(ball + toes_turn * foot.tip_from_ball_in_t_pose)};
 }
 
 void add_foot(const Sole& sole, bool heel_bears, bool ball_bears, Hull& hull) {
   const glm::dvec2 ahead = sole.tip - sole.heel;
   const glm::dvec2 aside =
-      0.5 * kBreadthInLengths * glm::dvec2(-ahead.y, ahead.x);  // Of this length.
+      0.5 * kBreadthInFoot * glm::dvec2(-ahead.y, ahead.x);  // Of this length.
   const glm::dvec2 from = heel_bears ? sole.heel : sole.ball;
   const glm::dvec2 to = ball_bears ? sole.tip : sole.heel + kHeelPart * ahead;
   for (const glm::dvec2& p : {from, to}) {
     hull.add(p - aside);
     hull.add(p + aside);
   }
-}
-
-std::vector<char> frames_of(const std::vector<FrameInterval>& runs, int count) {
-  std::vector<char> on(static_cast<std::size_t>(count), 0);
-  for (const FrameInterval& run : runs) {
-    std::fill(on.begin() + run.first, on.begin() + run.last + 1, char{1});
-  }
-  return on;
 }
 
 }  // namespace
@@ -145,8 +132,8 @@ BalanceTrack track_balance(const Motion& motion,
   std::array<std::vector<char>, 2> heel;
   std::array<std::vector<char>, 2> ball;
   for (std::size_t side = 0; side < 2; ++side) {
-    heel[side] = frames_of(contacts.feet[side].heel, contacts.frame_count);
-    ball[side] = frames_of(contacts.feet[side].ball, contacts.frame_count);
+    heel[side] = frame_marks(contacts.feet[side].heel, motion.poses.size());
+    ball[side] = frame_marks(contacts.feet[side].ball, motion.poses.size());
   }
   BalanceTrack out(motion.poses.size());
   std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());

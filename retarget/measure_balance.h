@@ -19,9 +19,10 @@ using BalanceTrack = std::vector<std::optional<double>>;
 
 /// What bears is the convex hull of the soles of the feet that stand: of a flat foot from
 /// heel to tip, of a raised heel from the ball on, of a foot on its heel the hindmost
-/// quarter; 0.38 of its length broad, as feet are on average. Linear in frames.
-/// Precondition: `map` was made from the motion's skeleton, `masses` are on its joints
-/// and weigh something, `contacts` has its frames.
+/// quarter; 0.38 of its length broad, as feet are on average. A sole of no length bears
+/// at a point, and nothing is within points and lines. Linear in frames. Precondition:
+/// `map` was made from the motion's skeleton, `masses` are on its joints and weigh
+/// something, `contacts` has its frames.
 [[nodiscard]] BalanceTrack track_balance(const Motion& motion,
                                          const BodyMap& map,
                                          std::span<const PointMass> masses,

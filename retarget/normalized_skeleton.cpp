@@ -11,6 +11,7 @@
 #include "core/assert.h"
 #include "retarget/place_spine.h"
 #include "retarget/smooth_step.h"
+#include "retarget/t_pose_turn.h"
 
 namespace marey::retarget {
 namespace {
@@ -95,21 +96,14 @@ glm::dquat limb_frame(const LimbMap& limb, const LimbPlaces& p, const glm::dvec3
   return rotation_of_axes(x, glm::cross(z, x), z);
 }
 
-glm::dquat from_t_pose(const BodyMap& map,
-                       std::span<const RigidTransform> world_from_joint,
-                       JointIndex joint) {
-  return world_from_joint[index(joint)].rotation *
-         glm::conjugate(map.joints[index(joint)].t_pose_from_joint);
-}
-
 NormalizedLimb normalize_limb(const BodyMap& map,
                               const LimbMap& limb,
                               std::span<const RigidTransform> world_from_joint) {
   const glm::dvec3 root = world_from_joint[index(limb.upper)].translation;
   const LimbPlaces p{world_from_joint[index(limb.lower)].translation - root,
                      world_from_joint[index(limb.end)].translation - root};
-  const glm::dquat upper = from_t_pose(map, world_from_joint, limb.upper);
-  const glm::dquat lower = from_t_pose(map, world_from_joint, limb.lower);
+  const glm::dquat upper = turn_off_t_pose(map, world_from_joint, limb.upper);
+  const glm::dquat lower = turn_off_t_pose(map, world_from_joint, limb.lower);
 
   NormalizedLimb out;
   out.extension = std::min(glm::length(p.end_from_root) / limb.length_m(), 1.0);
@@ -176,10 +170,10 @@ void normalize_spine(const BodyMap& map,
                      NormalizedPose& out) {
   const auto add_section = [&](const SpineSection& section, RotationCurve& curve) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(section.count); ++i) {
-      curve.add(section.at[i], from_t_pose(map, world_from_joint, section.joints[i]));
+      curve.add(section.at[i], turn_off_t_pose(map, world_from_joint, section.joints[i]));
     }
   };
-  const glm::dquat hips = from_t_pose(map, world_from_joint, map.hips());
+  const glm::dquat hips = turn_off_t_pose(map, world_from_joint, map.hips());
   out.abdomen.count = 0;
   out.torso.count = 0;
   out.abdomen.add(0.0, hips);
@@ -187,7 +181,7 @@ void normalize_spine(const BodyMap& map,
     add_section(map.abdomen, out.abdomen);
   } else if (map.torso.count > 0) {
     // One stiff trunk: a body that has an abdomen bends it half way.
-    const glm::dquat torso = from_t_pose(map, world_from_joint, map.torso.joints[0]);
+    const glm::dquat torso = turn_off_t_pose(map, world_from_joint, map.torso.joints[0]);
     out.abdomen.add(1.0, glm::slerp(hips, torso, 0.5));
   }
   out.torso.add(0.0, sample(out.abdomen, 1.0));
@@ -271,7 +265,7 @@ void normalize(const BodyMap& map,
     const auto joint = map.joint_of[i];
     const bool own = joint && map.joints[index(*joint)].role == JointRole::kSegment;
     out.segments[i].reset();
-    if (own) out.segments[i] = from_t_pose(map, world_from_joint, *joint);
+    if (own) out.segments[i] = turn_off_t_pose(map, world_from_joint, *joint);
   }
   for (std::size_t i = 0; i < out.limbs.size(); ++i) {
     out.limbs[i].reset();

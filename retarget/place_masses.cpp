@@ -10,6 +10,7 @@
 
 #include "core/pose.h"
 #include "retarget/anthropometry.h"
+#include "retarget/foot_shape.h"
 
 namespace marey::retarget {
 namespace {
@@ -26,10 +27,6 @@ constexpr double kShouldersInTrunk = 0.883;
 constexpr double kEarInHead = 1.0 / 3.0;
 // The third knuckle, between wrist and finger tip: de Leva's WJC-MET3 over WJC-DAC3.
 constexpr double kKnuckleInHand = 0.459;
-// The heel behind the ankle, in the distance from ankle to toe tip: what is left of
-// Winter's foot length (0.152 of the stature) in average_proportions().
-constexpr double kHeelInFoot = 0.267;
-constexpr double kToesInBall = 0.5;  // Toes over ankle to ball, when there is no tip.
 
 struct Placed {
   JointIndex joint{};

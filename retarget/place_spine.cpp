@@ -10,6 +10,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "retarget/t_pose_turn.h"
+
 namespace marey::retarget {
 namespace {
 
@@ -232,11 +234,9 @@ std::array<glm::dvec3, 2> shoulders_missing_m(
   BoneRun run = begin_at_hips(pose, *map.spine);
   const auto add = [&](const SpineSection& section, double from, double to) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(section.count); ++i) {
-      const std::size_t joint = index(section.joints[i]);
       run.add(from + (to - from) * section.at[i],
               section.bone_in_t_pose[i],
-              world_from_joint[joint].rotation *
-                  glm::conjugate(map.joints[joint].t_pose_from_joint));
+              turn_off_t_pose(map, world_from_joint, section.joints[i]));
     }
   };
   add(map.abdomen, map.spine->shares.abdomen, map.spine->shares.torso);

@@ -6,35 +6,29 @@
 #include <vector>
 
 #include "core/assert.h"
-#include "core/humanoid.h"
 #include "core/pose.h"
 #include "retarget/foot_plan.h"
+#include "retarget/leg_on_foot.h"
+#include "retarget/t_pose_turn.h"
 
 namespace marey::retarget {
 namespace {
-
-using B = HumanBone;
-
-constexpr std::array<B, 2> kToes{B::kLeftToes, B::kRightToes};
 
 // The foot over the motion, above a floor at Y = 0.
 std::vector<FootPlace> places_of(const Motion& motion,
                                  const BodyMap& map,
                                  std::size_t side,
                                  double floor_height_m) {
-  const auto turn = [&](const std::vector<RigidTransform>& world, JointIndex joint) {
-    return world[index(joint)].rotation *
-           glm::conjugate(map.joints[index(joint)].t_pose_from_joint);
-  };
   const JointIndex ankle = map.leg(static_cast<int>(side)).end;
-  const auto toes = map.joint_of[index(kToes[side])];
+  const auto toes = map.joint_of[index(toes_bone(static_cast<int>(side)))];
   std::vector<FootPlace> out;
   std::vector<RigidTransform> world(motion.skeleton.joints.size());
   for (const Pose& pose : motion.poses) {
     world_from_joints(motion.skeleton, pose, world);
-    FootPlace place{world[index(ankle)].translation, turn(world, ankle), {}};
+    FootPlace place{
+        world[index(ankle)].translation, turn_off_t_pose(map, world, ankle), {}};
     place.ankle_in_world.y -= floor_height_m;
-    place.toes = toes ? turn(world, *toes) : place.foot;
+    place.toes = toes ? turn_off_t_pose(map, world, *toes) : place.foot;
     out.push_back(place);
   }
   return out;

@@ -90,12 +90,21 @@ HandReport refine_hands(const Motion& source,
   const Arms source_arms(source_frames, source_map);
   const Arms arms(avatar_frames, avatar_map);
   ArmShifts shifts{std::vector<ArmShift>(count), std::vector<ArmShift>(count)};
-  if (world.keeps_heights) keep_hand_heights(source_arms, arms, shifts);
+  if (world.keeps_heights) {
+    keep_hand_heights(source_arms, world.source_floor_m, arms, shifts);
+  }
   if (options.keep_touches) {
     report.touches = find_touches(source, source_map, source_volume, options.find);
   }
-  const HandHolds holds = keep_touches(
-      report.touches, from, to, arms, source.rate, world, options.keep, shifts);
+  const HandHolds holds = keep_touches(report.touches,
+                                       from,
+                                       to,
+                                       arms,
+                                       source.rate,
+                                       world,
+                                       options.keep,
+                                       options.clear.slack_m,
+                                       shifts);
   if (options.clear_arms) {
     report.arms = clear_arms(
         from, to, arms, source.rate, world, holds, options.clear, shifts);

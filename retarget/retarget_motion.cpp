@@ -15,11 +15,10 @@
 #include "retarget/keep_wrists.h"
 #include "retarget/leg_on_foot.h"
 #include "retarget/place_masses.h"
+#include "retarget/t_pose_turn.h"
 
 namespace marey::retarget {
 namespace {
-
-using B = HumanBone;
 
 // World places of one joint over a motion. [m]
 std::vector<glm::dvec3> path_of(const Motion& motion, JointIndex joint) {
@@ -82,6 +81,32 @@ void keep_all_wrists(const Skeleton& avatar,
   }
 }
 
+// Most that the ends of both soles are below the floor. [m]
+double deepest_sole_m(const Motion& motion, const BodyMap& map) {
+  double deepest_m = 0.0;
+  std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
+  for (const Pose& pose : motion.poses) {
+    world_from_joints(motion.skeleton, pose, world_from_joint);
+    const auto end_m = [&](JointIndex joint, const glm::dvec3& from_joint_in_t_pose) {
+      const glm::dquat turn = turn_off_t_pose(map, world_from_joint, joint);
+      return (world_from_joint[index(joint)].translation + turn * from_joint_in_t_pose).y;
+    };
+    for (int side = 0; side < 2; ++side) {
+      const FootMap& foot = map.feet[static_cast<std::size_t>(side)];
+      const JointIndex ankle = map.leg(side).end;
+      const auto toes = map.joint_of[index(toes_bone(side))];
+      // Without a toe joint the tip turns with the ankle.
+      const double tip_m =
+          toes ? end_m(*toes, foot.tip_from_ball_in_t_pose)
+               : end_m(ankle,
+                       foot.ball_from_ankle_in_t_pose + foot.tip_from_ball_in_t_pose);
+      deepest_m =
+          std::max({deepest_m, -end_m(ankle, foot.heel_from_ankle_in_t_pose), -tip_m});
+    }
+  }
+  return deepest_m;
+}
+
 }  // namespace
 
 Result<MappedBodies> map_bodies(const Skeleton& source,
@@ -100,30 +125,6 @@ Result<MappedBodies> map_bodies(const Skeleton& source,
   return MappedBodies{std::move(*from), std::move(*to)};
 }
 
-// Most that the ends of both soles are below the floor. [m]
-double deepest_sole_m(const Motion& motion, const BodyMap& map) {
-  double deepest_m = 0.0;
-  std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
-  for (const Pose& pose : motion.poses) {
-    world_from_joints(motion.skeleton, pose, world_from_joint);
-    const auto end_m = [&](JointIndex joint, const glm::dvec3& from_joint_in_t_pose) {
-      const RigidTransform& at = world_from_joint[index(joint)];
-      const glm::dquat turn =
-          at.rotation * glm::conjugate(map.joints[index(joint)].t_pose_from_joint);
-      return (at.translation + turn * from_joint_in_t_pose).y;
-    };
-    for (int side = 0; side < 2; ++side) {
-      const FootMap& foot = map.feet[static_cast<std::size_t>(side)];
-      deepest_m =
-          std::max(deepest_m, -end_m(map.leg(side).end, foot.heel_from_ankle_in_t_pose));
-      const auto toes = map.joint_of[index(toes_bone(side))];
-      if (!toes) continue;
-      deepest_m = std::max(deepest_m, -end_m(*toes, foot.tip_from_ball_in_t_pose));
-    }
-  }
-  return deepest_m;
-}
-
 FootFigures measure_feet(const Motion& motion,
                          const BodyMap& map,
                          const Contacts& contacts) {
@@ -131,7 +132,6 @@ FootFigures measure_feet(const Motion& motion,
   FootFigures figures;
   figures.deepest_penetration_mm = 1e3 * deepest_sole_m(motion, map);
   Slide slide;
-  constexpr std::array<B, 2> kToes{B::kLeftToes, B::kRightToes};
   for (std::size_t side = 0; side < 2; ++side) {
     const auto measure =
         [&](JointIndex joint, const std::vector<FrameInterval>& runs, double height_m) {
@@ -146,7 +146,7 @@ FootFigures measure_feet(const Motion& motion,
     measure(map.leg(static_cast<int>(side)).end,
             contacts.feet[side].heel,
             foot.ankle_height_m);
-    if (const auto toes = map.joint_of[index(kToes[side])]) {
+    if (const auto toes = map.joint_of[index(toes_bone(static_cast<int>(side)))]) {
       measure(*toes, contacts.feet[side].ball, foot.ball_height_m);
     }
   }
@@ -174,8 +174,14 @@ std::vector<NormalizedPose> posed(const Task& task, const Contacts& contacts) {
   const Motion& source = task.source;
   const WorldScale& world = task.world;
   const std::array<double, 2> rest_m = ankles_rest_m(task.from, contacts);
-  const double stands_m =
-      task.from.leg_length_m + task.from.hip_drop_m + 0.5 * (rest_m[0] + rest_m[1]);
+  const double floor_m = floor_height_m(task.from, rest_m);
+  // Of the hips, above the floor that each stands on.
+  const double stands_m = task.from.leg_length_m + task.from.hip_drop_m +
+                          0.5 * (rest_m[0] + rest_m[1]) - floor_m;
+  const double avatar_stands_m =
+      world.scale * (stands_m + world.source_floor_m) + world.rise_m;
+  // Nowhere but where nothing brings feet to Y = 0.
+  const double avatar_floor_m = floor_m - world.source_floor_m;
   std::vector<NormalizedPose> poses(source.poses.size());
   std::vector<RigidTransform> world_from_joint(source.skeleton.joints.size());
   for (std::size_t t = 0; t < poses.size(); ++t) {
@@ -185,7 +191,8 @@ std::vector<NormalizedPose> posed(const Task& task, const Contacts& contacts) {
     if (world.keeps_path) root = {root.x / world.scale, root.y, root.z / world.scale};
     if (world.keeps_heights) {
       const double y_m = world_from_joint[index(task.from.hips())].translation.y;
-      root.y = kept_hips_height_m(y_m, stands_m, world.scale * stands_m + world.rise_m) /
+      root.y = (avatar_floor_m +
+                kept_hips_height_m(y_m - floor_m, stands_m, avatar_stands_m)) /
                task.unit_m;
     } else {
       root.y += world.rise_m / task.unit_m;
@@ -193,7 +200,8 @@ std::vector<NormalizedPose> posed(const Task& task, const Contacts& contacts) {
   }
   if (spines_differ(task.from, task.to)) keep_all_wrists(task.avatar, task.to, poses);
   if (world.keeps_heights) {
-    keep_foot_heights(source, task.from, rest_m, task.avatar, task.to, poses);
+    keep_foot_heights(
+        source, task.from, rest_m, task.avatar, task.to, avatar_floor_m, poses);
   }
   return poses;
 }
@@ -302,7 +310,9 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
   world.keeps_path = options.path == WorldLengths::kKept;
   world.keeps_heights = options.heights == WorldLengths::kKept;
   if (options.adapt_ground) {
-    world.rise_m = standing_rise_m(from, out.report.contacts, to, world.scale);
+    const std::array<double, 2> rest_m = ankles_rest_m(from, out.report.contacts);
+    world.rise_m = standing_rise_m(from, rest_m, to, world.scale);
+    world.source_floor_m = floor_height_m(from, rest_m);
   }
   const Task task{source, avatar, from, to, options, unit_m, world};
   std::vector<NormalizedPose> poses = posed(task, out.report.contacts);

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
+
+#include "retarget/bell.h"
 
 namespace marey::retarget {
 
@@ -13,13 +16,8 @@ std::vector<double> smooth_cover(std::span<const double> needed, int half) {
   if (std::all_of(needed.begin(), needed.end(), [](double x) { return x <= 0.0; })) {
     return out;
   }
-  std::vector<double> bell;
-  double weights = 0.0;
-  for (int k = -half; k <= half; ++k) {
-    const double x = static_cast<double>(k) / (half + 1);
-    bell.push_back((1.0 - x * x) * (1.0 - x * x) * (1.0 - x * x));
-    weights += bell.back();
-  }
+  const std::vector<double> weights = bell_weights(half);
+  const double sum_of_weights = std::accumulate(weights.begin(), weights.end(), 0.0);
   std::vector<double> peak(needed.size());
   for (int t = 0; t < count; ++t) {
     const auto from = needed.begin() + std::max(0, t - half);
@@ -29,10 +27,10 @@ std::vector<double> smooth_cover(std::span<const double> needed, int half) {
   for (int t = 0; t < count; ++t) {
     double sum = 0.0;
     for (int k = -half; k <= half; ++k) {
-      sum += bell[static_cast<std::size_t>(k + half)] *
+      sum += weights[static_cast<std::size_t>(k + half)] *
              peak[static_cast<std::size_t>(std::clamp(t + k, 0, count - 1))];
     }
-    out[static_cast<std::size_t>(t)] = sum / weights;
+    out[static_cast<std::size_t>(t)] = sum / sum_of_weights;
   }
   return out;
 }

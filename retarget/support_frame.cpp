@@ -9,12 +9,14 @@
 #include <glm/geometric.hpp>
 
 #include "retarget/smooth_step.h"
+#include "retarget/t_pose_turn.h"
 
 namespace marey::retarget {
 namespace {
 
-// A sole's half length and half breadth, from ankle to ball being 1: feet are about 1.6
-// times as long as that, and 0.38 of their length broad.
+// A sole's half length and half breadth, from ankle to ball being 1. A measure that two
+// bodies are held against, not either's sole: rounded from about 1.6 times that length
+// and kBreadthInFoot (retarget/foot_shape.h).
 constexpr double kHalfLength = 0.8;
 constexpr double kHalfBreadth = 0.3;
 
@@ -84,8 +86,7 @@ SupportFrame support_frame(const BodyMap& map,
     const auto s = static_cast<std::size_t>(side);
     const JointIndex joint = map.leg(side).end;
     const RigidTransform& ankle = world_from_joint[index(joint)];
-    const glm::dvec3 ball = ankle.rotation *
-                            glm::conjugate(map.joints[index(joint)].t_pose_from_joint) *
+    const glm::dvec3 ball = turn_off_t_pose(map, world_from_joint, joint) *
                             map.feet[s].ball_from_ankle_in_t_pose;
     const glm::dvec2 foot(ball.x, ball.z);
     middle[s] =

@@ -16,24 +16,27 @@ namespace marey::retarget {
 /// Where a hand that kept still in the source belongs on another body.
 enum class StillPlace {
   kScaled,  ///< Where the body's own size puts it: a table of its size.
-  kKept,    ///< Where it was in the world: the same table.
+  kKept,    ///< Where it was over the floor: the same table.
   kFree,    ///< Wherever the arm brings it.
 };
 
 /// The avatar's world from the source's: p * scale, risen by rise_m; or the source's own
-/// metres, over the ground or upwards.
+/// metres, over the ground or upwards from its floor.
 struct WorldScale {
   double scale = 1.0;
   double rise_m = 0.0;
   bool keeps_path = false;     ///< X and Z are the source's.
-  bool keeps_heights = false;  ///< Y is the source's.
+  bool keeps_heights = false;  ///< Y is the source's, above its floor.
+  double source_floor_m =
+      0.0;  ///< World Y of what becomes Y = 0 where metres stay metres.
 
   /// Precondition: `place` is not kFree.
   [[nodiscard]] glm::dvec3 of(const glm::dvec3& p_in_source, StillPlace place) const {
-    if (place == StillPlace::kKept) return p_in_source;
+    const double kept_m = p_in_source.y - source_floor_m;
+    if (place == StillPlace::kKept) return {p_in_source.x, kept_m, p_in_source.z};
     const double level = keeps_path ? 1.0 : scale;
     return {level * p_in_source.x,
-            keeps_heights ? p_in_source.y : scale * p_in_source.y + rise_m,
+            keeps_heights ? kept_m : scale * p_in_source.y + rise_m,
             level * p_in_source.z};
   }
 };

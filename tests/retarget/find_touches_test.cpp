@@ -162,10 +162,22 @@ TEST(TouchConstraints, KeepHeightsOfTheSourceIfAsked) {
   const ConstraintSet set =
       constraints_of(touches, body, map, volume, 0, FrameRate{60.0}, options);
   ASSERT_EQ(set.constraints.size(), 1u);
-  EXPECT_EQ(std::get<DistanceToPoint>(set.constraints[0].goal).p_in_world.y, 0.9);
+  const auto y_m = [](const ConstraintSet& of) {
+    return std::get<DistanceToPoint>(of.constraints[0].goal).p_in_world.y;
+  };
+  EXPECT_EQ(y_m(set), 0.9);
   // From the first frame to the last: it does not fade.
   EXPECT_FALSE(set.constraints[0].activation.start_s);
   EXPECT_FALSE(set.constraints[0].activation.stop_s);
+  // Over the floor, wherever the source has it.
+  options.world.source_floor_m = 0.5;
+  const auto on_floor = [&] {
+    return constraints_of(touches, body, map, volume, 0, FrameRate{60.0}, options);
+  };
+  EXPECT_EQ(y_m(on_floor()), 0.4);
+  options.still = StillPlace::kScaled;
+  options.world.keeps_heights = true;
+  EXPECT_EQ(y_m(on_floor()), 0.4);
 }
 
 }  // namespace

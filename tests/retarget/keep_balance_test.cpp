@@ -99,6 +99,60 @@ TEST(TrackBalance, KnowsHowFarAStandingBodyIsFromTheEdgeOfItsFeet) {
   EXPECT_FALSE(track_balance(motion, map, middle, contacts)[0]) << "in the air";
 }
 
+// One frame of a body in its rest pose that bears on both feet, or on the left one.
+BalanceTrack track_at_rest(const Skeleton& body,
+                           const BodyMap& map,
+                           const glm::dvec3& mass_in_world,
+                           bool on_both) {
+  Motion motion{body, {60.0}, 0, {rest_pose(body)}};
+  Contacts contacts;
+  contacts.frame_count = 1;
+  for (int side = 0; side < (on_both ? 2 : 1); ++side) {
+    FootContacts& foot = contacts.feet[static_cast<std::size_t>(side)];
+    foot.heel = foot.ball = foot.stance = {{0, 0}};
+  }
+  const auto rest = world_from_joints(body, motion.poses[0]);
+  const std::vector<PointMass> mass{
+      {map.hips(), inverse(rest[index(map.hips())]) * mass_in_world, 1.0}};
+  return track_balance(motion, map, mass, contacts);
+}
+
+// The toe joint straight below the ankle, no tip: soles of no length.
+TEST(TrackBalance, MeasuresFromThePointThatASoleOfNoLengthIs) {
+  Skeleton body = make_humanoid(average_proportions(1.75));
+  for (const B bone : {B::kLeftToes, B::kRightToes}) {
+    Joint& toes = body.joints[index(*body.find(bone))];
+    toes.parent_from_joint.translation.x = 0.0;
+    toes.parent_from_joint.translation.z = 0.0;
+    toes.tip_in_joint.reset();
+  }
+  const BodyMap map = *map_body(body);
+  ASSERT_LT(glm::length(glm::dvec2(map.feet[0].ball_from_ankle_in_t_pose.x,
+                                   map.feet[0].ball_from_ankle_in_t_pose.z)),
+            1e-12);
+  const auto rest = world_from_joints(body, rest_pose(body));
+  const glm::dvec3 ankle = rest[index(map.leg(0).end)].translation;
+  const auto off_m = [&](const glm::dvec3& from_ankle, bool on_both) {
+    return *track_at_rest(body, map, ankle + from_ankle, on_both)[0];
+  };
+  EXPECT_NEAR(off_m({0.3, 0.0, 0.4}, false), 0.5, 1e-9);
+  EXPECT_NEAR(off_m({0.0, 0.0, 0.02}, false), 0.02, 1e-9);
+  // Both: the line between them. Left is at +X.
+  EXPECT_NEAR(off_m({-0.05, 0.0, 0.02}, true), 0.02, 1e-9);
+  EXPECT_NEAR(off_m({0.05, 0.0, 0.0}, true), 0.05, 1e-9) << "on the line, beyond its end";
+}
+
+TEST(TrackBalance, EndsAFootWhereItsKnownSkinDoes) {
+  const Skeleton body = make_humanoid(average_proportions(1.75));
+  BodyMap map = *map_body(body);
+  for (FootMap& foot : map.feet) foot.tip_from_ball_in_t_pose.z = 0.0;
+  const FootMap& foot = map.feet[0];
+  const auto rest = world_from_joints(body, rest_pose(body));
+  const glm::dvec3 ankle = rest[index(map.leg(0).end)].translation;
+  const glm::dvec3 ahead{0.0, 0.0, foot.ball_from_ankle_in_t_pose.z + 0.03};
+  EXPECT_NEAR(*track_at_rest(body, map, ankle + ahead, false)[0], 0.03, 1e-9);
+}
+
 TEST(KeepBalance, LeavesABodyThatIsTheSourcesAsItIs) {
   for (const Motion& source : {slow_kick(),
                                deep_bend(),

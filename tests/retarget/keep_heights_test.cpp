@@ -121,6 +121,80 @@ TEST(KeptHeights, AHandReachesAsHighInMetresAsFarAsTheArmGoes) {
               5e-3);
 }
 
+// A source on a floor elsewhere: centred on its hips, or on a platform.
+Motion raised(Motion motion, double by_m) {
+  for (Pose& pose : motion.poses) pose.root_in_world.y += by_m;
+  return motion;
+}
+
+// On one place, with the right hand forward at shoulder height, 90 to 150.
+Motion reach() {
+  HandPlaces places;
+  places[1] = HandPlace{{-0.25, 1.25, 0.55}};
+  return hands_go_to(places);
+}
+
+TEST(KeptHeights, AreOverTheFloorThatTheSourceStandsOn) {
+  for (const Motion& source : {slow_kick(), small_jump(0.3), deep_bend(), reach()}) {
+    for (const Skeleton& avatar : {testing::child(), testing::giant()}) {
+      const Motion level = put_on(source, avatar, kScaled, kKept).motion;
+      for (const double floor_m : {-1.5, 0.5}) {
+        const Motion other =
+            put_on(raised(source, floor_m), avatar, kScaled, kKept).motion;
+        for (int t = 0; t < static_cast<int>(source.poses.size()); ++t) {
+          for (const B bone :
+               {B::kHips, B::kHead, B::kLeftHand, B::kRightHand, B::kRightFoot}) {
+            EXPECT_LT(glm::length(place(level, t, bone) - place(other, t, bone)), 1e-6)
+                << floor_m << " " << t << " " << name(bone);
+          }
+        }
+      }
+    }
+  }
+}
+
+// One foot alone tells where the floor is.
+TEST(KeptHeights, AreOverTheFloorOfAFootThatStandsAlone) {
+  Motion source = slow_kick();
+  source.poses.assign(120, source.poses[kHeld]);
+  const Skeleton avatar = testing::giant();
+  const auto level = put_on(source, avatar, kScaled, kKept);
+  ASSERT_TRUE(level.report.contacts.feet[1].stance.empty());
+  for (const double floor_m : {-1.5, 0.5}) {
+    const Motion other = put_on(raised(source, floor_m), avatar, kScaled, kKept).motion;
+    for (const B bone : {B::kHips, B::kRightHand, B::kRightFoot}) {
+      EXPECT_LT(glm::length(place(level.motion, 60, bone) - place(other, 60, bone)), 1e-6)
+          << floor_m << " " << name(bone);
+    }
+  }
+}
+
+// Whose feet nothing brings to Y = 0 stays on the source's floor, wherever that is.
+TEST(KeptHeights, StayOnTheSourcesFloorWithoutTheGround) {
+  RetargetOptions options;
+  options.heights = kKept;
+  options.adapt_ground = false;
+  options.hands.emplace();
+  for (const Motion& source : {slow_kick(), reach()}) {
+    const auto level = *retarget_motion(source, testing::giant(), options);
+    for (const double floor_m : {-1.5, 0.5}) {
+      const auto other =
+          *retarget_motion(raised(source, floor_m), testing::giant(), options);
+      for (const B bone : {B::kHips, B::kRightHand, B::kRightFoot}) {
+        EXPECT_NEAR(place(other.motion, kHeld, bone).y - floor_m,
+                    place(level.motion, kHeld, bone).y,
+                    1e-6)
+            << floor_m << " " << name(bone);
+      }
+    }
+  }
+}
+
+TEST(KeptHipsHeight, RisesWithHipsThatAreNotAboveTheFloorInStanding) {
+  EXPECT_EQ(kept_hips_height_m(0.25, 0.0, 0.5), 0.75);
+  EXPECT_EQ(kept_hips_height_m(-0.25, -0.5, 1.0), 1.25);
+}
+
 TEST(KeptPath, IsTheSourcesInMetresAndFeetStandStill) {
   const Motion source = testing::synthetic_walk(200, 60.0).motion;
   const Skeleton small = make_humanoid(average_proportions(1.5));

@@ -291,5 +291,28 @@ TEST(MeasureFeet, SeesAFootThatSlidesAndSinks) {
   EXPECT_NEAR(figures.deepest_penetration_mm, 5.0, 1e-9);
 }
 
+// On tiptoe about its toe tips, heels high: the tips alone are in the floor.
+TEST(MeasureFeet, SeesTheTipOfAFootWithoutAToeJoint) {
+  const Skeleton toeless =
+      testing::without(testing::without(testing::giant(), B::kLeftToes), B::kRightToes);
+  Motion motion{toeless, {50.0}, 0, {rest_pose(toeless)}};
+  const BodyMap map = *map_body(toeless);
+  const JointIndex ankle = map.leg(0).end;
+  constexpr double kPitch_rad = 0.5;
+  const auto rest = world_from_joints(toeless, motion.poses[0]);
+  const glm::dquat pitch = glm::angleAxis(kPitch_rad, glm::dvec3(1, 0, 0));
+  glm::dquat& turn = motion.poses[0].parent_from_joint[index(ankle)];
+  const glm::dquat world = rest[index(ankle)].rotation;
+  turn = turn * glm::conjugate(world) * pitch * world;
+  const FootMap& foot = map.feet[0];
+  const glm::dvec3 tip = foot.ball_from_ankle_in_t_pose + foot.tip_from_ball_in_t_pose;
+  const double under_m = -(rest[index(ankle)].translation + pitch * tip).y;
+  ASSERT_GT(under_m, 0.05);
+  Contacts contacts;
+  contacts.frame_count = 1;
+  EXPECT_NEAR(
+      measure_feet(motion, map, contacts).deepest_penetration_mm, 1e3 * under_m, 1e-6);
+}
+
 }  // namespace
 }  // namespace marey::retarget
