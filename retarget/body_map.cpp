@@ -143,13 +143,17 @@ void map_sole(const Builder& b,
               const glm::dquat& align,
               FootMap& foot) {
   const glm::dvec3 ball = foot.ball_from_ankle_in_t_pose;
+  constexpr double kShortestTip_m = 1e-6;
   const double length_m = glm::length(glm::dvec2(ball.x, ball.z));
   foot.heel_from_ankle_in_t_pose = {
       0.0, -foot.ankle_height_m, -kBearingHeelInBall * length_m};
   glm::dvec3 tip(0.0, 0.0, kToesInBall * length_m);
   if (toes && b.skeleton[*toes].tip_in_joint) {
     const RigidTransform& at = b.world_from_joint[index(*toes)];
-    tip = align * (at * *b.skeleton[*toes].tip_in_joint - at.translation);
+    const glm::dvec3 told =
+        align * (at * *b.skeleton[*toes].tip_in_joint - at.translation);
+    // An end that lies in its joint, as files write that have none, tells nothing.
+    if (glm::length(glm::dvec2(told.x, told.z)) > kShortestTip_m) tip = told;
   }
   foot.tip_from_ball_in_t_pose = {tip.x, -foot.ball_height_m, tip.z};
 }

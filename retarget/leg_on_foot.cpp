@@ -85,8 +85,12 @@ void lift_over_floor(const FootMap& foot, double softness_m, FootPlace& place) {
   const double ankle_m = place.ankle_in_world.y;
   const double ball_m = ankle_m + (place.foot * foot.ball_from_ankle_in_t_pose).y;
   const double heel_m = ankle_m + (place.foot * foot.heel_from_ankle_in_t_pose).y;
-  const double clearance_m =
+  double clearance_m =
       std::min({ankle_m - foot.ankle_height_m, ball_m - foot.ball_height_m, heel_m});
+  if (!foot.has_toes) {
+    clearance_m =
+        std::min(clearance_m, ball_m + (place.foot * foot.tip_from_ball_in_t_pose).y);
+  }
   const double wanted_m =
       0.5 * (clearance_m +
              std::sqrt(clearance_m * clearance_m + softness_m * softness_m));

@@ -50,7 +50,7 @@ void keep_toes_up(const FootMap& foot, FootPlace& place);
 
 /// Lifts a foot over the floor Y = 0, softly: never below, and hardly at all when it is
 /// more than some `softness_m` above. What counts are the ankle and the ball above where
-/// they rest, and the sole's end behind.
+/// they rest, and the sole's end behind; in front, too, where no toe joint bends it up.
 void lift_over_floor(const FootMap& foot, double softness_m, FootPlace& place);
 
 }  // namespace marey::retarget

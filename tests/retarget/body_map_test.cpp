@@ -54,5 +54,20 @@ TEST(BodyMap, KnowsWhereSolesEnd) {
   }
 }
 
+// Files that know no toe tip write one of no length: it is guessed as if it were not
+// told.
+TEST(BodyMap, GuessesToesWhoseTipIsNoFurtherThanTheirJoint) {
+  Skeleton told = testing::giant();
+  Skeleton untold = told;
+  for (const HumanBone bone : {HumanBone::kLeftToes, HumanBone::kRightToes}) {
+    told.joints[index(*told.find(bone))].tip_in_joint = glm::dvec3(0.0);
+    untold.joints[index(*untold.find(bone))].tip_in_joint.reset();
+  }
+  const FootMap foot = map_body(told)->feet[0];
+  EXPECT_GT(foot.tip_from_ball_in_t_pose.z, 0.05);
+  EXPECT_EQ(foot.tip_from_ball_in_t_pose.z,
+            map_body(untold)->feet[0].tip_from_ball_in_t_pose.z);
+}
+
 }  // namespace
 }  // namespace marey::retarget
