@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <map>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -74,13 +76,57 @@ Room room_of(const Stance& stance, const std::vector<Stance>& all) {
   return room;
 }
 
-Constraint constraint_of(const Stance& stance, const Room& room, FrameRate rate) {
+// Whether one foot has both, and one takes over from the other: a frame is in both.
+bool share_a_frame(const Stance& a, const Stance& b) {
+  return a.track->constraint.point.segment == b.track->constraint.point.segment &&
+         a.frames.first <= b.frames.last && b.frames.first <= a.frames.last;
+}
+
+bool is_flat(const Stance& stance) {
+  return !std::get<Support>(stance.track->constraint.goal).turns;
+}
+
+// In which frame each stance's footprint is taken. Those that take over from each other
+// hold at once for a moment, and a foot that turns rises on its heel: they have theirs of
+// one frame, the first in which the foot is flat, so that all are of one posture.
+std::vector<std::size_t> footprint_frames(const std::vector<Stance>& stances) {
+  constexpr int kNone = -1;
+  std::vector<int> frames(stances.size(), kNone);
+  std::vector<std::size_t> by_time(stances.size());
+  std::iota(by_time.begin(), by_time.end(), std::size_t{0});
+  std::ranges::stable_sort(
+      by_time, {}, [&](std::size_t i) { return stances[i].frames.first; });
+  for (const std::size_t flat : by_time) {
+    if (!is_flat(stances[flat]) || frames[flat] != kNone) continue;
+    std::vector<std::size_t> chain{flat};
+    frames[flat] = stances[flat].frames.first;
+    while (!chain.empty()) {
+      const std::size_t at = chain.back();
+      chain.pop_back();
+      for (std::size_t i = 0; i < stances.size(); ++i) {
+        if (frames[i] != kNone || !share_a_frame(stances[at], stances[i])) continue;
+        frames[i] = frames[at];
+        chain.push_back(i);
+      }
+    }
+  }
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < stances.size(); ++i) {
+    out.push_back(static_cast<std::size_t>(frames[i] == kNone ? stances[i].frames.first
+                                                              : frames[i]));
+  }
+  return out;
+}
+
+Constraint constraint_of(const Stance& stance,
+                         std::size_t at,
+                         const Room& room,
+                         FrameRate rate) {
   const SupportTrack& track = *stance.track;
-  const auto first = static_cast<std::size_t>(stance.frames.first);
   Constraint out = track.constraint;
   auto& support = std::get<Support>(out.goal);
-  support.footprint_in_world = rounded(track.p_in_world[first]);
-  if (!support.turns) support.world_from_t_pose = track.world_from_t_pose[first];
+  support.footprint_in_world = rounded(track.p_in_world[at]);
+  if (!support.turns) support.world_from_t_pose = track.world_from_t_pose[at];
   out.point.offset_in_t_pose = rounded(out.point.offset_in_t_pose);
   Activation& when = out.activation;
   when.start_duration_s =
@@ -103,12 +149,15 @@ ConstraintSet support_constraints(std::span<const SupportTrack> tracks, FrameRat
       stances.push_back({&track, stance.frames});
     }
   }
-  // A heel or a ball before the flat foot: of several supports of one foot the first is
-  // closed exactly. Tracks are in that order, so that it is kept.
+  // The flat foot first: of several supports of one foot the first is closed exactly, and
+  // whoever takes over from it or hands over to it is met by it.
+  std::ranges::stable_partition(stances, is_flat);
   ConstraintSet set;
-  for (const Stance& stance : stances) {
-    set.constraints.push_back(constraint_of(stance, room_of(stance, stances), rate));
-    set.constraints.back().id = name_of(*stance.track);
+  const std::vector<std::size_t> footprint_frame = footprint_frames(stances);
+  for (std::size_t i = 0; i < stances.size(); ++i) {
+    set.constraints.push_back(constraint_of(
+        stances[i], footprint_frame[i], room_of(stances[i], stances), rate));
+    set.constraints.back().id = name_of(*stances[i].track);
   }
   std::map<std::string, std::vector<Constraint*>> of_name;
   for (Constraint& constraint : set.constraints) {

@@ -19,9 +19,13 @@ namespace marey::retarget {
 /// fully active in all its frames. Numbers have as many digits as a hand that edits them
 /// wants: times tenths of a millisecond, places micrometres. It takes no longer to fade
 /// than half the time to the same foot's stance before or after it, and where one takes
-/// over from the other it is at once. On a floor that moves, footprints are where they
-/// are when stances begin. Costs stances squared. Precondition: the rate is positive;
-/// tracks have one motion's frames.
+/// over from the other it is at once: both hold for a moment, so that stances that take
+/// over from each other have the footprints of one posture, the foot's in the first frame
+/// in which it is flat. A foot that turns on its heel may rise by some millimetres; its
+/// footprint does not. On a floor that moves, footprints are where they are in that
+/// frame, those of other stances where they are when these begin. Flat feet come first,
+/// so that where both hold the foot is flat. Costs stances squared. Precondition: the
+/// rate is positive; tracks have one motion's frames.
 [[nodiscard]] ConstraintSet support_constraints(std::span<const SupportTrack> tracks,
                                                 FrameRate rate);
 
