@@ -50,6 +50,16 @@ bool aim_arm(const glm::dvec3& wrist_from_shoulder_m,
   return true;
 }
 
+ArmShift within_reason(const ArmShift& shift, double arm_length_m) {
+  const auto share = [](double size, double most) {
+    const double twice = (size / most) * (size / most);
+    const double eightfold = twice * twice * twice * twice;
+    return std::pow(1.0 + eightfold, -0.125);
+  };
+  return {share(glm::length(shift.wrist_m), kMostWayOut * arm_length_m) * shift.wrist_m,
+          share(shift.swivel_rad, kMostSwivel_rad) * shift.swivel_rad};
+}
+
 NormalizedLimb shifted_limb(const LimbMap& arm,
                             const ArmPlaces& now,
                             const NormalizedLimb& limb,

@@ -34,6 +34,16 @@ struct ArmPlaces {
   glm::dvec3 wrist{0.0};
 };
 
+/// How far an arm gives way to the body that it hangs on, at most: shares of its length, and
+/// swivel. Where arms hang within a trunk at rest already, as drawn bodies have them, all
+/// of the way out would hold them out like wings.
+inline constexpr double kMostWayOut = 0.25;
+inline constexpr double kMostSwivel_rad = 0.5;
+
+/// A shift of an arm of that length, no further than that: as it is while it is small (to
+/// 0.05 percent at half of it), smoothly less beyond.
+[[nodiscard]] ArmShift within_reason(const ArmShift& shift, double arm_length_m);
+
 /// Points an arm of that length at a place, from its shoulder [m]. The half-plane of the
 /// elbow turns along by the smallest rotation, then by the swivel. An arm that would be
 /// stretched beyond 97 percent, or beyond what it is, goes in that direction ever less,

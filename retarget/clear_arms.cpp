@@ -261,6 +261,7 @@ ClearArmsReport clear_arms(const VolumeInMotion& source,
   const double half_frames =
       std::clamp(0.5 * options.anticipation_s * rate.hz, 1.0, static_cast<double>(count));
   const int half = static_cast<int>(std::lround(half_frames));
+  const ArmShifts before = shifts;
   ArmShifts best = shifts;
   double least_m = std::numeric_limits<double>::max();
   for (;; ++report.passes) {
@@ -279,7 +280,20 @@ ClearArmsReport clear_arms(const VolumeInMotion& source,
     if (enough || !goes_on || report.passes == options.most_passes) break;
     add_covered(clearing, holds, world_from_axes, missing, half, shifts);
   }
-  shifts = std::move(best);
+  for (int side = 0; side < 2; ++side) {
+    if (!arms.has(side)) continue;
+    const auto i = static_cast<std::size_t>(side);
+    for (std::size_t t = 0; t < count; ++t) {
+      const ArmShift& from = before[i][t];
+      const ArmShift out = within_reason({best[i][t].wrist_m - from.wrist_m,
+                                          best[i][t].swivel_rad - from.swivel_rad},
+                                         arms.limb(side).length_m());
+      shifts[i][t] = {from.wrist_m + out.wrist_m, from.swivel_rad + out.swivel_rad};
+    }
+  }
+  const Missing left = missing_of(clearing, holds, world_from_axes, shifts);
+  report.deepest_after_m = left.deepest_m;
+  report.worst_frame = left.worst_frame;
   lift_hands(clearing, half, options.slack_m, shifts);
   return report;
 }

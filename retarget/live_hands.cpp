@@ -218,8 +218,11 @@ void LiveHands::move(const PosedVolume& source,
     scene.shift(side, touching);
     scene.leave_body(side);
     const ArmShift& all = scene.shifts[s(side)];
-    const ArmShift leaving = arm.to_leave.follow(
+    const ArmShift out = within_reason(
         {all.wrist_m - touching.wrist_m, all.swivel_rad - touching.swivel_rad},
+        avatar.map.limbs[s(side)]->length_m());
+    const ArmShift leaving = arm.to_leave.follow(
+        out,
         world_from_axes,
         since_last_s,
         options.leave_s);
