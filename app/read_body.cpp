@@ -128,6 +128,13 @@ std::vector<std::string> ReadBody::remarks() const {
         "its rest is no posture of a body: one that stands is made of its "
         "motion");
   }
+  if (std::ranges::any_of(bones.bones, [](const auto& found) {
+        return found && found->evidence == retarget::BoneEvidence::kShape;
+      })) {
+    all.push_back(
+        "its bones are told by its shape, no names or marks say them: look at what "
+        "marey inspect --picture draws, and correct it with a bone map");
+  }
   std::string unsure;
   for (const HumanBone bone : human_bones()) {
     const auto& found = bones.bones[index(bone)];

@@ -254,7 +254,15 @@ void add_result_options(CLI::App& command, RetargetArguments& args) {
           [&args](double hz) { args.options.rate_hz = hz; },
           "Frames per second of the result; default the motion's")
       ->check(between(0.1, 2000.0));
-  command.add_option("--clip", args.clip, "Name of the animation in .glb and .vrma");
+  command.add_option("--clip", args.clip, "Name of the animation in .glb and .vrma")
+      ->check([](const std::string& clip) {
+        try {
+          (void)nlohmann::json(clip).dump();
+          return std::string();
+        } catch (const nlohmann::json::type_error&) {
+          return std::string("is not UTF-8 text");
+        }
+      });
   command.add_option("--constraints-out",
                      args.constraints_out,
                      "Where feet stand and what hands touch, as constraints for marey "

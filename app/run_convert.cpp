@@ -35,6 +35,12 @@ recordings::FileAxes target_axes(const ConvertArguments& arguments,
 }  // namespace
 
 Exit run_convert(const ConvertArguments& arguments, bool json, Console& console) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(arguments.in, arguments.out, ignored)) {
+    return console.fail(bad_input(arguments.out.string(),
+                                  "that is the file to be converted",
+                                  "give the result another name"));
+  }
   if (is_motion(arguments.in)) return convert_motion(arguments, json, console);
   if (arguments.rate_hz || arguments.to_rate_hz || !arguments.skeleton.empty() ||
       !arguments.bvh_dialect.empty()) {

@@ -231,5 +231,17 @@ TEST(ConvertMotion, RefusesWhatDoesNotGoTogether) {
             2);
 }
 
+TEST(ConvertMotion, NeverWritesOverWhatItReads) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(recordings::write_bvh(folder / "a.bvh", a_motion()));
+  const auto before = recordings::read_file(folder / "a.bvh");
+  const ProgramRun run =
+      convert(folder / "a.bvh", folder / "." / "a.bvh", {"--to-rate", "5"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_NE(run.err.find("that is the file to be converted"), std::string::npos)
+      << run.err;
+  EXPECT_EQ(*recordings::read_file(folder / "a.bvh"), *before);
+}
+
 }  // namespace
 }  // namespace marey::testing
