@@ -37,8 +37,8 @@ struct ArmPlaces {
 /// How far an arm gives way to the body that it hangs on, at most: shares of its length, and
 /// swivel. Where arms hang within a trunk at rest already, as drawn bodies have them, all
 /// of the way out would hold them out like wings.
-inline constexpr double kMostWayOut = 0.25;
-inline constexpr double kMostSwivel_rad = 0.5;
+inline constexpr double kMostWayOut = 0.35;
+inline constexpr double kMostSwivel_rad = 0.8;
 
 /// A shift of an arm of that length, no further than that: as it is while it is small (to
 /// 0.05 percent at half of it), smoothly less beyond.
