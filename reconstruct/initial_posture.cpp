@@ -10,13 +10,11 @@
 namespace marey::reconstruct {
 namespace {
 
-using Found = std::map<HumanBone, RigidTransform>;
+using Found = FoundSegments;
 using B = HumanBone;
 
-std::optional<RigidTransform> find(const Found& found, HumanBone bone) {
-  const auto it = found.find(bone);
-  if (it == found.end()) return std::nullopt;
-  return it->second;
+const std::optional<RigidTransform>& find(const Found& found, HumanBone bone) {
+  return found[index(bone)];
 }
 
 /// The child's rotation if its parent turned from `old_parent` to `new_parent` rigidly.
@@ -180,6 +178,16 @@ Posture posture_from_segments(const Found& found,
   set_limb({2, Slot::kHips}, found, lengths, fallback, posture);
   set_limb({3, Slot::kHips}, found, lengths, fallback, posture);
   return posture;
+}
+
+Posture posture_from_segments(
+    const std::map<HumanBone, RigidTransform>& world_from_segment,
+    const Lengths& lengths,
+    const BodyFrame& body,
+    const Posture& fallback) {
+  FoundSegments found;
+  for (const auto& [bone, frame] : world_from_segment) found[index(bone)] = frame;
+  return posture_from_segments(found, lengths, body, fallback);
 }
 
 Posture extrapolate(const Posture& before, const Posture& now, double share) {

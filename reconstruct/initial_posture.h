@@ -4,8 +4,11 @@
 
 // Private to reconstruct: a posture good enough to start a solver from.
 
+#include <array>
 #include <map>
+#include <optional>
 
+#include "core/humanoid.h"
 #include "reconstruct/posture.h"
 
 namespace marey::reconstruct {
@@ -20,6 +23,13 @@ namespace marey::reconstruct {
     const Lengths& lengths,
     const BodyFrame& body,
     const Posture& fallback);
+
+/// The same of an entry per bone. Allocates nothing.
+using FoundSegments = std::array<std::optional<RigidTransform>, kHumanBoneCount>;
+[[nodiscard]] Posture posture_from_segments(const FoundSegments& world_from_segment,
+                                            const Lengths& lengths,
+                                            const BodyFrame& body,
+                                            const Posture& fallback);
 
 /// The posture one frame on, every block moving on at `share` of the speed it had.
 [[nodiscard]] Posture extrapolate(const Posture& before,

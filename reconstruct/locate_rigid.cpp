@@ -11,6 +11,8 @@
 #include <ceres/jet.h>
 #include <glm/geometric.hpp>
 
+#include "core/assert.h"
+
 namespace marey::reconstruct {
 namespace {
 
@@ -143,6 +145,36 @@ std::optional<RigidTransform> camera_from_square(const Intrinsics& intrinsics,
   return RigidTransform{{q.w(), q.x(), q.y(), q.z()}, {t.x(), t.y(), t.z()}};
 }
 
+/// Refines every start where it stands; `costs` is for as many.
+std::optional<RigidPose> best_end(std::span<const RigidPointView> views,
+                                  std::span<RigidTransform> starts,
+                                  std::span<double> costs) {
+  if (views.size() < 4) return std::nullopt;
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    costs[i] = refine(views, starts[i]);
+    if (!std::isfinite(costs[i])) continue;
+    if (!best || costs[i] < costs[*best]) best = i;
+  }
+  if (!best) return std::nullopt;
+  const RigidTransform& pose = starts[*best];
+  double runner_up = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (!std::isfinite(costs[i])) continue;
+    const double turn_rad =
+        glm::length(rotation_vector(glm::conjugate(pose.rotation) * starts[i].rotation));
+    if (turn_rad > 0.1) runner_up = std::min(runner_up, costs[i]);
+  }
+  double sum = 0.0;
+  for (const RigidPointView& view : views) {
+    const glm::dvec2 r = *project(*view.camera, pose * view.p_in_body) - view.pixel_px;
+    sum += glm::dot(r, r);
+  }
+  return RigidPose{pose,
+                   std::sqrt(sum / static_cast<double>(views.size())),
+                   runner_up / std::max(costs[*best], 1e-9)};
+}
+
 }  // namespace
 
 void append_corner_views(const Camera& camera,
@@ -158,11 +190,11 @@ void append_corner_views(const Camera& camera,
   }
 }
 
-std::vector<RigidTransform> planar_candidates(const Camera& camera,
-                                              const TagDetection& tag,
-                                              double size_m) {
+std::optional<std::array<RigidTransform, 2>> planar_readings(const Camera& camera,
+                                                             const TagDetection& tag,
+                                                             double size_m) {
   const auto camera_from_tag = camera_from_square(camera.intrinsics, tag, size_m);
-  if (!camera_from_tag) return {};
+  if (!camera_from_tag) return std::nullopt;
   const RigidTransform world_from_camera = inverse(camera.camera_from_world);
   // The other solution: the normal mirrored about the line of sight.
   const glm::dvec3 sight = glm::normalize(camera_from_tag->translation);
@@ -170,42 +202,29 @@ std::vector<RigidTransform> planar_candidates(const Camera& camera,
   const glm::dvec3 mirrored = 2.0 * glm::dot(normal, sight) * sight - normal;
   RigidTransform other = *camera_from_tag;
   other.rotation = rotation_between(normal, mirrored) * other.rotation;
-  return {world_from_camera * *camera_from_tag, world_from_camera * other};
+  return std::array{world_from_camera * *camera_from_tag, world_from_camera * other};
+}
+
+std::vector<RigidTransform> planar_candidates(const Camera& camera,
+                                              const TagDetection& tag,
+                                              double size_m) {
+  const auto both = planar_readings(camera, tag, size_m);
+  if (!both) return {};
+  return {both->begin(), both->end()};
 }
 
 std::optional<RigidPose> locate_rigid(std::span<const RigidPointView> views,
                                       std::span<const RigidTransform> starts) {
-  if (views.size() < 4) return std::nullopt;
-  struct End {
-    RigidTransform pose;
-    double cost;
-  };
-  std::vector<End> ends;
-  for (const RigidTransform& start : starts) {
-    RigidTransform pose = start;
-    const double cost = refine(views, pose);
-    if (std::isfinite(cost)) ends.push_back({pose, cost});
-  }
-  if (ends.empty()) return std::nullopt;
-  const End& best =
-      *std::min_element(ends.begin(), ends.end(), [](const End& a, const End& b) {
-        return a.cost < b.cost;
-      });
-  double runner_up = std::numeric_limits<double>::infinity();
-  for (const End& end : ends) {
-    const double turn_rad = glm::length(
-        rotation_vector(glm::conjugate(best.pose.rotation) * end.pose.rotation));
-    if (turn_rad > 0.1) runner_up = std::min(runner_up, end.cost);
-  }
-  double sum = 0.0;
-  for (const RigidPointView& view : views) {
-    const glm::dvec2 r =
-        *project(*view.camera, best.pose * view.p_in_body) - view.pixel_px;
-    sum += glm::dot(r, r);
-  }
-  return RigidPose{best.pose,
-                   std::sqrt(sum / static_cast<double>(views.size())),
-                   runner_up / std::max(best.cost, 1e-9)};
+  std::vector<RigidTransform> ends(starts.begin(), starts.end());
+  std::vector<double> costs(starts.size());
+  return best_end(views, ends, costs);
+}
+
+std::optional<RigidPose> locate_rigid_in_place(std::span<const RigidPointView> views,
+                                               std::span<RigidTransform> starts) {
+  MAREY_ASSERT(starts.size() <= kMostStarts);
+  std::array<double, kMostStarts> costs{};
+  return best_end(views, starts, std::span(costs).first(starts.size()));
 }
 
 }  // namespace marey::reconstruct

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -47,6 +49,10 @@ void append_corner_views(const Camera& camera,
                                                             const TagDetection& tag,
                                                             double size_m);
 
+/// The same two, or nullopt; allocates nothing.
+[[nodiscard]] std::optional<std::array<RigidTransform, 2>> planar_readings(
+    const Camera& camera, const TagDetection& tag, double size_m);
+
 /// The pose of a rigid thing that best explains all views, by Levenberg-Marquardt on the
 /// reprojection (Huber at 3 sigma) from each of `starts`; the best end wins.
 ///
@@ -54,5 +60,11 @@ void append_corner_views(const Camera& camera,
 /// views. Pure; linear in views and starts.
 [[nodiscard]] std::optional<RigidPose> locate_rigid(
     std::span<const RigidPointView> views, std::span<const RigidTransform> starts);
+
+/// The same; `starts` become where they led, and nothing is allocated. Precondition: no
+/// more than kMostStarts.
+inline constexpr std::size_t kMostStarts = 32;
+[[nodiscard]] std::optional<RigidPose> locate_rigid_in_place(
+    std::span<const RigidPointView> views, std::span<RigidTransform> starts);
 
 }  // namespace marey::reconstruct

@@ -2,18 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/marker_model.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace marey::reconstruct {
-namespace {
-
-// Of the damping: so little does not hold a step back.
-constexpr double kNearlyFree = 1e-3;
-
-}  // namespace
-
 const UnfoldedPosture& MarkerFrameSolver::unfold(const Posture& posture) {
   unfolded_.unfold(posture, model_->lengths, model_->body);
   return unfolded_;
@@ -47,43 +38,12 @@ double MarkerFrameSolver::solve(std::span<const SeenMarker> seen,
                                 const PosturePrior* prior,
                                 Posture& posture,
                                 const FrameLimits& limits) {
-  PostureEquations* now = &equations_[0];
-  PostureEquations* next = &equations_[1];
-  evaluate(seen, prior, posture, limits, *now);
-  double damping = 0.0;
-  PostureVector step;
-  for (iterations_ = 1; iterations_ <= limits.iterations; ++iterations_) {
-    if (!factor_.factor(now->hessian, damping)) {
-      damping = std::max(1e-6, 10.0 * damping);
-      continue;
-    }
-    factor_.step(now->gradient, step);
-    const double largest = step.cwiseAbs().maxCoeff();
-    Posture moved = posture;
-    move(moved, step);
-    // A damped step is small because it is held back.
-    if (largest < limits.last_step && damping < kNearlyFree) {
-      // So near the least cost that the quadratic it was computed from is right.
-      now->cost += 0.5 * now->gradient.dot(step);
-      posture = moved;
-      break;
-    }
-    evaluate(seen, prior, moved, limits, *next);
-    if (next->cost < now->cost) {
-      posture = moved;
-      std::swap(now, next);
-      damping = damping < 1e-5 ? 0.0 : 0.1 * damping;
-    } else {
-      damping = std::max(1e-3, 10.0 * damping);
-      if (damping > 1e8) break;
-    }
-  }
-  iterations_ = std::min(iterations_, limits.iterations);
-  // What is known of the posture is told by the equations alone.
-  if (damping > 0.0 && !factor_.factor(now->hessian, 0.0)) {
-    (void)factor_.factor(now->hessian, damping);
-  }
-  return now->cost;
+  return descent_.run(
+      [&](const Posture& at, PostureEquations& out) {
+        evaluate(seen, prior, at, limits, out);
+      },
+      limits,
+      posture);
 }
 
 }  // namespace marey::reconstruct

@@ -11,7 +11,7 @@
 
 #include <Eigen/Core>
 
-#include "reconstruct/posture_equations.h"
+#include "reconstruct/posture_descent.h"
 
 namespace marey::reconstruct {
 
@@ -41,11 +41,7 @@ struct SeenMarker {
 /// Cauchy's loss starts to doubt a marker that is this many sigmas off.
 inline constexpr double kDoubtfulSigmas = 3.0;
 
-struct FrameLimits {
-  int iterations = 20;
-  /// A step smaller than this is the last one: [m] and [rad]. Its error is its square's
-  /// size.
-  double last_step = 3e-3;
+struct FrameLimits : DescentLimits {
   /// Markers stray this many times farther than the model says: a start that is far off
   /// has to be brought near before any marker can be told from a wrong one.
   double sigma_scale = 1.0;
@@ -67,9 +63,9 @@ class MarkerFrameSolver {
                const FrameLimits& limits = {});
 
   /// Iterations of the last solve().
-  [[nodiscard]] int iterations() const { return iterations_; }
+  [[nodiscard]] int iterations() const { return descent_.iterations(); }
   /// Of the last solve(), at the posture from which its last step was made.
-  [[nodiscard]] const ArrowFactor& factor() const { return factor_; }
+  [[nodiscard]] const ArrowFactor& factor() const { return descent_.factor(); }
   /// The posture given, unfolded.
   const UnfoldedPosture& unfold(const Posture& posture);
 
@@ -83,10 +79,7 @@ class MarkerFrameSolver {
   const MarkerModel* model_;
   UnfoldedPosture unfolded_;
   SparseDerivative derivative_;
-  /// At the posture and at the one it may move to; which is which changes.
-  std::array<PostureEquations, 2> equations_;
-  ArrowFactor factor_;
-  int iterations_ = 0;
+  PostureDescent descent_;
 };
 
 }  // namespace marey::reconstruct

@@ -20,8 +20,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr double kFirstSigma = 0.3;
 // After which people have changed what they do, and habits speak anew. [s]
 constexpr double kHabitMemory_s = 0.5;
-// Athletes are brisker than the everyday movement of the accelerations; markers tell.
-constexpr double kBriskness = 5.0;
 
 template <int N>
 using Square = Eigen::Matrix<double, N, N>;
@@ -49,12 +47,30 @@ auto both(const Matrix6d& covariance) {
 
 }  // namespace
 
-SlotProcess::SlotProcess(const Lengths& lengths, FrameRate rate)
-    : lengths_(lengths), habit_share_(std::min(1.0, 1.0 / (kHabitMemory_s * rate.hz))) {
+SlotProcess::SlotProcess(const Lengths& lengths, FrameRate rate, double brisk)
+    : lengths_(lengths), brisk_(brisk) {
+  set_rate(rate);
+}
+
+void SlotProcess::set_rate(FrameRate rate) {
+  rate_ = rate;
+  habit_share_ = std::min(1.0, 1.0 / (kHabitMemory_s * rate.hz));
   for (const SlotAcceleration& row : kAccelerations) {
     process_[index(row.slot)] = process_of(row, rate);
-    process_[index(row.slot)].sigma *= kBriskness;
+    process_[index(row.slot)].sigma *= brisk_;
   }
+}
+
+void SlotProcess::change_rate(FrameRate rate, PostureBelief& belief) {
+  const double longer = rate_.hz / rate.hz;
+  belief.step *= longer;
+  each_slot([&](Slot slot, auto size) {
+    constexpr int kN = decltype(size)::value;
+    Matrix6d& covariance = belief.covariance[index(slot)];
+    covariance.middleRows<kN>(kN) *= longer;
+    covariance.middleCols<kN>(kN) *= longer;
+  });
+  set_rate(rate);
 }
 
 PostureBelief SlotProcess::start(const Posture& posture) const {

@@ -29,10 +29,18 @@ struct PostureBelief {
   std::array<Eigen::Matrix<double, 6, 6>, kSlotCount> covariance;
 };
 
+/// How much brisker than the everyday movement of kAccelerations people are taken to be.
+/// Athletes are; markers, of which a frame has many, tell.
+inline constexpr double kBriskOfMarkers = 5.0;
+
 /// The filter's constants at a frame rate.
 class SlotProcess {
  public:
-  SlotProcess(const Lengths& lengths, FrameRate rate);
+  SlotProcess(const Lengths& lengths, FrameRate rate, double brisk = kBriskOfMarkers);
+
+  /// The frames to come are `rate` apart: what is believed of steps per frame follows.
+  void change_rate(FrameRate rate, PostureBelief& belief);
+  [[nodiscard]] FrameRate rate() const { return rate_; }
 
   /// A posture of which nothing is known but where `posture` has it, give or take: speeds
   /// are those that the process has on average.
@@ -70,6 +78,7 @@ class SlotProcess {
   [[nodiscard]] double habit_share() const { return habit_share_; }
 
  private:
+  void set_rate(FrameRate rate);
   void add_flexion(Slot slot,
                    const Posture& posture,
                    const PostureCovariance& covariance,
@@ -77,7 +86,9 @@ class SlotProcess {
 
   std::array<StepProcess, kSlotCount> process_;
   Lengths lengths_;
-  double habit_share_;
+  FrameRate rate_;
+  double brisk_;
+  double habit_share_ = 1.0;
 };
 
 }  // namespace marey::reconstruct

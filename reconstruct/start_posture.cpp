@@ -149,9 +149,9 @@ double PostureFinder::anneal(std::span<const SeenMarker> seen,
                              double first_scale,
                              Posture& posture) {
   for (double scale = first_scale; scale > 1.5; scale /= 3.2) {
-    (void)solver_.solve(seen, nullptr, posture, {8, 0.03, scale});
+    (void)solver_.solve(seen, nullptr, posture, {{8, 0.03}, scale});
   }
-  return solver_.solve(seen, nullptr, posture, {15, 3e-3, 1.0});
+  return solver_.solve(seen, nullptr, posture, {{15, 3e-3}, 1.0});
 }
 
 bool PostureFinder::limb_misfits(std::size_t limb,

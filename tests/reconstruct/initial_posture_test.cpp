@@ -76,7 +76,7 @@ TEST(PostureFromSegments, IsTheFallbackWhenNothingWasFound) {
   const Lengths lengths = random_lengths(dice);
   const BodyFrame body = average_frame();
   const Posture fallback = random_posture(dice);
-  const Posture found = posture_from_segments({}, lengths, body, fallback);
+  const Posture found = posture_from_segments(FoundSegments{}, lengths, body, fallback);
   for (const HumanBone bone : {HumanBone::kHips,
                                HumanBone::kUpperChest,
                                HumanBone::kHead,

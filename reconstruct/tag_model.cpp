@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/tag_model.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+#include "reconstruct/sightings.h"
+
+namespace marey::reconstruct {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kC2 = kDoubtfulTag * kDoubtfulTag;
+// Of a tag that is behind the camera that saw it: wrong, but not impossible to leave.
+constexpr double kBehind2 = 8e6;
+// A camera so early that it tells no more of the posture than of the one before.
+constexpr double kLeastFollowed = 0.2;
+
+/// A step of move_bones() as one of move().
+PostureVector in_unknowns(const PostureVector& step,
+                          const Posture& posture,
+                          const Lengths& lengths) {
+  PostureVector out = step;
+  for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
+    out.segment<3>(column_of(kLimbSlots[limb].frame)) -=
+        step[column_of(kLimbSlots[limb].flexion)] *
+        upper_by_flexion(posture, limb, lengths);
+  }
+  return out;
+}
+
+}  // namespace
+
+TagModel to_tag_model(const Body& body, std::span<const Camera> cameras) {
+  TagModel model;
+  model.lengths = lengths_of(body.proportions);
+  model.body = frame_of(body.proportions);
+  for (const PlacedTag& placed : body.tags) {
+    ModelTag tag{
+        placed.tag, solved_segment(placed.tag.segment), placed.segment_from_tag, {}};
+    for (int c = 0; c < 4; ++c) {
+      tag.corners_in_bone[static_cast<std::size_t>(c)] =
+          eigen(tag.bone_from_tag * corner_in_tag(c, placed.tag.size_m));
+    }
+    model.tags.push_back(tag);
+  }
+  std::stable_sort(
+      model.tags.begin(), model.tags.end(), [](const ModelTag& a, const ModelTag& b) {
+        return a.tag.id < b.tag.id;
+      });
+  model.cameras.assign(cameras.begin(), cameras.end());
+  for (const Camera& camera : cameras) model.sights.emplace_back(camera);
+  return model;
+}
+
+TagFrameSolver::TagFrameSolver(const TagModel& model)
+    : model_(&model), by_camera_(model.cameras.size()) {}
+
+const UnfoldedPosture& TagFrameSolver::unfold(const Posture& posture) {
+  unfolded_.unfold(posture, model_->lengths, model_->body);
+  return unfolded_;
+}
+
+void TagFrameSolver::unfold_all(const Posture& posture, const Drift* drift) {
+  PostureVector step;
+  if (drift) {
+    const PostureVector moved =
+        bone_step_between(*drift->expected, posture, model_->lengths);
+    step = drift->step;
+    for (const Slot slot : kAllSlots) {
+      const int column = column_of(slot);
+      const Matrix3d& gain = drift->gain[index(slot)];
+      if (tangent_size(slot) == 3) {
+        step.segment<3>(column) += gain * moved.segment<3>(column);
+      } else {
+        step[column] += gain(0, 0) * moved[column];
+      }
+    }
+  }
+  unfold(posture);
+  if (drift) step_ = in_unknowns(step, posture, model_->lengths);
+  for (std::size_t c = 0; c < by_camera_.size(); ++c) {
+    Seen& seen = by_camera_[c];
+    seen.late = drift != nullptr;
+    if (!drift) continue;
+    const double late = drift->late_frames[c];
+    Posture later = posture;
+    move_bones(later, late * step, model_->lengths);
+    seen.unfolded.unfold(later, model_->lengths, model_->body);
+    for (const Slot slot : kAllSlots) {
+      const int size = tangent_size(slot);
+      const double gain =
+          drift->gain[index(slot)].topLeftCorner(size, size).trace() / size;
+      seen.follows.segment(column_of(slot), size)
+          .setConstant(std::max(kLeastFollowed, 1.0 + late * gain));
+    }
+  }
+}
+
+bool TagFrameSolver::sight(const SeenTag& seen,
+                           const Beside& beside,
+                           double sigma_scale,
+                           TagSighted& out) const {
+  const ModelTag& tag = model_->tags[seen.tag];
+  const Seen& by = by_camera_[seen.camera];
+  const UnfoldedPosture& unfolded = by.late ? by.unfolded : unfolded_;
+  const double scale = 1.0 / (sigma_scale * seen.detection.sigma_px);
+  for (std::size_t c = 0; c < 4; ++c) {
+    out.corners_in_world[c] = unfolded.point(tag.bone, tag.corners_in_bone[c]);
+    Eigen::Vector2d pixel;
+    Eigen::Matrix<double, 2, 3> px_by_world;
+    if (!model_->sights[seen.camera].project(
+            out.corners_in_world[c], pixel, px_by_world)) {
+      return false;
+    }
+    const glm::dvec2& corner = seen.detection.corners_px[c];
+    const auto row = static_cast<Eigen::Index>(2 * c);
+    out.residual.segment<2>(row) = scale * (pixel - Eigen::Vector2d(corner.x, corner.y));
+    out.by_shift.middleRows<2>(row) = scale * px_by_world;
+  }
+  out.explained.setZero();
+  const double slip_m = beside.slips_m ? (*beside.slips_m)[index(tag.bone)] : 0.0;
+  if (slip_m > 0.0) {
+    Matrix3d inside = out.by_shift.transpose() * out.by_shift;
+    inside.diagonal().array() += 1.0 / (seen.cameras * slip_m * slip_m);
+    out.explained = inside.inverse();
+  }
+  return true;
+}
+
+/// derivative_ of one sighting. Precondition: unfold_all(), and it was sighted.
+void TagFrameSolver::derive(const SeenTag& seen, const TagSighted& sighted) {
+  const Seen& by = by_camera_[seen.camera];
+  const UnfoldedPosture& unfolded = by.late ? by.unfolded : unfolded_;
+  const HumanBone bone = model_->tags[seen.tag].bone;
+  for (std::size_t c = 0; c < 4; ++c) {
+    unfolded.derivative(bone, sighted.corners_in_world[c], point_);
+    const auto row = static_cast<Eigen::Index>(2 * c);
+    derivative_.value.middleRows<2>(row).leftCols(point_.columns).noalias() =
+        sighted.by_shift.middleRows<2>(row).lazyProduct(
+            point_.value.leftCols(point_.columns));
+  }
+  derivative_.columns = point_.columns;
+  derivative_.column = point_.column;
+}
+
+void TagFrameSolver::accumulate(std::span<const SeenTag> seen,
+                                const Beside& beside,
+                                const Posture& posture,
+                                const TagLimits& limits,
+                                PostureEquations& out) {
+  unfold_all(posture, beside.drift);
+  out.clear();
+  TagSighted sighted;
+  for (const SeenTag& one : seen) {
+    if (!sight(one, beside, limits.sigma_scale, sighted)) {
+      out.cost += 0.5 * kC2 * std::log1p(kBehind2 / kC2);
+      continue;
+    }
+    const double squared = sighted.squared();
+    out.cost += 0.5 * kC2 * std::log1p(squared / kC2);
+    derive(one, sighted);
+    const Seen& by = by_camera_[one.camera];
+    for (int i = 0; by.late && i < derivative_.columns; ++i) {
+      derivative_.value.col(i) *=
+          by.follows[derivative_.column[static_cast<std::size_t>(i)]];
+    }
+    derivative_.add_to(sighted, 1.0 / (1.0 + squared / kC2), out);
+  }
+  out.add_habits(posture, unfolded_, model_->twists, limits.habit_share);
+  if (beside.prior) out.add_prior(posture, model_->lengths, *beside.prior);
+}
+
+double TagFrameSolver::solve(std::span<const SeenTag> seen,
+                             const Beside& beside,
+                             Posture& posture,
+                             const TagLimits& limits) {
+  return descent_.run(
+      [&](const Posture& at, PostureEquations& out) {
+        accumulate(seen, beside, at, limits, out);
+      },
+      limits,
+      posture);
+}
+
+const PostureEquations& TagFrameSolver::evaluate(std::span<const SeenTag> seen,
+                                                 const Beside& beside,
+                                                 const Posture& posture,
+                                                 const TagLimits& limits) {
+  accumulate(seen, beside, posture, limits, judged_);
+  return judged_;
+}
+
+void TagFrameSolver::fit(std::span<const SeenTag> seen,
+                         const Beside& beside,
+                         const Posture& posture,
+                         std::span<TagFit> fits) {
+  unfold_all(posture, beside.drift);
+  TagSighted sighted;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    fits[i] = {kBehind2, 1e3};
+    if (!sight(seen[i], beside, 1.0, sighted)) continue;
+    fits[i].squared = sighted.squared();
+    fits[i].rms_px =
+        seen[i].detection.sigma_px * std::sqrt(sighted.residual.squaredNorm() / 4.0);
+  }
+}
+
+void TagFrameSolver::lateness(std::span<const SeenTag> seen,
+                              const Beside& beside,
+                              const Posture& posture,
+                              std::span<Lateness> out) {
+  std::fill(out.begin(), out.end(), Lateness{});
+  if (!beside.drift) return;
+  unfold_all(posture, beside.drift);
+  TagSighted sighted;
+  for (const SeenTag& one : seen) {
+    if (!sight(one, beside, 1.0, sighted)) continue;
+    const double squared = sighted.squared();
+    const double weight = 1.0 / (1.0 + squared / kC2);
+    if (weight < 0.5) continue;
+    derive(one, sighted);
+    const PostureVector& follows = by_camera_[one.camera].follows;
+    Eigen::Matrix<double, 8, 1> speed = Eigen::Matrix<double, 8, 1>::Zero();
+    for (int i = 0; i < derivative_.columns; ++i) {
+      speed += step_[derivative_.column[static_cast<std::size_t>(i)]] *
+               derivative_.value.col(i);
+    }
+    const Eigen::Matrix<double, 8, 1> weighed = weight * sighted.weighed(speed);
+    Lateness& here = out[one.camera];
+    here.gradient += weighed.dot(sighted.residual);
+    here.information += weighed.dot(speed);
+    for (int i = 0; i < derivative_.columns; ++i) {
+      const int column = derivative_.column[static_cast<std::size_t>(i)];
+      here.by_posture[column] += follows[column] * weighed.dot(derivative_.value.col(i));
+    }
+  }
+}
+
+}  // namespace marey::reconstruct
