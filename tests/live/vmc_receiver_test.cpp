@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "live/vmc_receiver.h"
+
+#include <gtest/gtest.h>
+
+#include "live/vmc_body.h"
+#include "tests/support/random_bodies.h"
+
+namespace marey::live {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(VmcReceiver, HearsWhatASenderSends) {
+  auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
+  auto sender = *VmcSender::open(
+      {.targets = {{"127.0.0.1", receiver.port()}}, .listen = std::nullopt});
+  const Skeleton body = make_humanoid(average_proportions(1.7));
+  VmcPose told;
+  VmcBody::make(body)->tell(rest_pose(body), told);
+  VmcFrame frame;
+  EXPECT_FALSE(receiver.receive(frame));
+  for (int i = 0; i < 3; ++i) sender.send(i * 10ms, told, {.tracking = i != 2});
+  receiver.wait(1000ms);
+  ASSERT_TRUE(receiver.receive(frame));
+  EXPECT_EQ(frame.pose.has, told.has);
+  EXPECT_NEAR(*frame.time_s, 0.02, 1e-6);
+  EXPECT_FALSE(frame.status.tracking);
+  EXPECT_EQ(receiver.received().packets, 3);
+  EXPECT_EQ(receiver.received().frames, 3);
+}
+
+TEST(VmcReceiver, DropsStrangersPackets) {
+  auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
+  const std::vector<UdpAddress> targets{{"127.0.0.1", receiver.port()}};
+  auto stranger = *UdpSender::open(targets);
+  stranger.send({});
+  stranger.send(std::vector<std::uint8_t>(1000, 0xff));
+  stranger.send(std::vector<std::uint8_t>{'/', 'a', 0, 0, ',', 0, 0, 0});
+  VmcFrame frame;
+  EXPECT_FALSE(receiver.receive(frame));
+  EXPECT_EQ(receiver.received().packets, 3);
+  EXPECT_EQ(receiver.received().malformed, 2);
+  EXPECT_EQ(receiver.received().ignored, 1);
+}
+
+TEST(VmcReceiver, SaysThatItsPortIsTaken) {
+  const auto first = *VmcReceiver::open({"127.0.0.1", 0});
+  const auto second = VmcReceiver::open({"127.0.0.1", first.port()});
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, Errc::kDevice);
+}
+
+}  // namespace
+}  // namespace marey::live
