@@ -41,7 +41,7 @@ endif()
 foreach(line "SPDX-FileCopyrightText: The marey authors"
              "SPDX-License-Identifier: Apache-2.0")
   files_of(unlicensed grep -L "${line}" --
-    *.h *.hpp *.cpp *.py *.mjs *.js *.css *.html *.sh *.cmake run */run
+    *.h *.hpp *.cpp *.py *.mjs *.js *.ts *.css *.html *.sh *.cmake run */run
     CMakeLists.txt tests/*CMakeLists.txt benchmarks/*CMakeLists.txt)
   if(unlicensed)
     message(FATAL_ERROR "lacks the line ${line}:\n${unlicensed}")

@@ -167,6 +167,8 @@ fault(a_room_that_is_not_listed layering utils/misc.h
   "#pragma once" "utils/: holds C.. and is no room")
 fault(a_header_under_another_name layering core/point.hpp
   "#include <Eigen/Dense>" "core/point.hpp: code of this kind has no place here")
+fault(a_script_of_the_page_beside_its_sources layering live/viewer/point.ts
+  "let point" "live/viewer/point.ts: code of this kind has no place here")
 fault(a_script_in_a_room layering core/point.js
   "let point" "core/point.js: code of this kind has no place here")
 fault(an_include_in_disguise layering calib/place.cpp

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// An avatar in its skin: the file is loaded once, its nodes follow the skeleton.
+
+import {
+  Group, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, SkinnedMesh, TextureLoader,
+  Vector3,
+} from 'three';
+import type {Material, Mesh, MeshStandardMaterial, Object3D} from 'three';
+import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
+import type {GLTF, GLTFParser} from 'three/addons/loaders/GLTFLoader.js';
+import type {PosedSkeleton} from './posed_skeleton';
+import type {SkeletonWords, SkinWords} from './protocol';
+import {NodeDriver, turnOfFile} from './skin_fit';
+
+export class AvatarView {
+  readonly object = new Group();
+  private pose: PosedSkeleton;
+  private readonly nodes: (Object3D | null)[];
+  private readonly driver: NodeDriver;
+  private readonly local = new Float32Array(4);
+  private readonly root: Object3D;
+  /** From the world to the frame of the root node's parent. */
+  private readonly parent_from_world: Matrix4;
+  private readonly file: GLTF;
+
+  private constructor(file: GLTF, words: SkeletonWords, skin: SkinWords,
+    pose: PosedSkeleton) {
+    this.file = file;
+    this.pose = pose;
+    this.object.add(file.scene);
+    this.nodes = nodesOf(file, skin.node_index);
+    const [root] = this.nodes;
+    if (!root) throw new Error('its root joint is none of the file’s nodes');
+    this.root = root;
+    this.stand(skin);
+    this.driver = this.fit();
+    this.parent_from_world = root.parent!.matrixWorld.clone().invert();
+    this.object.position.set(...words.offset_m);
+    file.scene.traverse(lighten);
+  }
+
+  /** Fetches and dresses a skeleton. Throws an Error that says what is wrong. Precondition:
+   *  the pose is at rest. */
+  static async load(words: SkeletonWords, skin: SkinWords, pose: PosedSkeleton,
+    signal: AbortSignal): Promise<AvatarView> {
+    const answer = await fetch(skin.media, {signal, credentials: 'same-origin'});
+    if (!answer.ok) throw new Error(`${skin.media}: ${answer.status} ${answer.statusText}`);
+    const loader = new GLTFLoader();
+    // Pictures as <img>: the usual way fetches blob: addresses, which the page may not.
+    loader.register((parser: GLTFParser) => {
+      parser.textureLoader = new TextureLoader(parser.options.manager);
+      return {name: 'MAREY_pictures'};
+    });
+    const file = await loader.parseAsync(await answer.arrayBuffer(), '');
+    signal.throwIfAborted();
+    return new AvatarView(file, words, skin, pose);
+  }
+
+  /** Whose pose it takes on from now on. Precondition: of the same skeleton. */
+  follow(pose: PosedSkeleton): void {
+    this.pose = pose;
+  }
+
+  /** Takes on the pose as it is now. No allocation. */
+  update(): void {
+    const {nodes, local, pose, root} = this;
+    for (let i = 0; i < nodes.length; ++i) {
+      const node = nodes[i];
+      if (!node) continue;
+      this.driver.local(i, pose.world_from_joint, local);
+      node.quaternion.set(local[0], local[1], local[2], local[3]);
+    }
+    const p = pose.p_in_world;
+    root.position.set(p[0], p[1], p[2]).applyMatrix4(this.parent_from_world);
+  }
+
+  dispose(): void {
+    this.object.removeFromParent();
+    this.file.scene.traverse((node) => {
+      const mesh = node as Mesh;
+      if (!mesh.isMesh) return;
+      mesh.geometry.dispose();
+      for (const material of [mesh.material].flat()) disposeMaterial(material);
+    });
+  }
+
+  /** Scale and turn, so that the file at rest is where the skeleton is at rest. */
+  private stand(skin: SkinWords): void {
+    const {object, nodes, pose} = this;
+    object.updateMatrixWorld(true);
+    const known = nodes.map((node, i) => (node ? i : -1)).filter((i) => i >= 0);
+    const at = new Vector3();
+    const inFile = known.flatMap((i) => at.setFromMatrixPosition(nodes[i]!.matrixWorld).toArray());
+    const inScene = known.flatMap((i) => [...pose.p_in_world.subarray(3 * i, 3 * i + 3)]);
+    object.rotation.y = turnOfFile(inScene, inFile, skin.unit_from_m);
+    object.scale.setScalar(1 / skin.unit_from_m);
+    object.updateMatrixWorld(true);
+  }
+
+  /** Precondition: the pose is at rest, and so is the file. */
+  private fit(): NodeDriver {
+    const {nodes, pose} = this;
+    const count = nodes.length;
+    const node_rest = new Float32Array(4 * count);
+    const parent_rest = new Float32Array(4 * count);
+    const turned = new Quaternion();
+    nodes.forEach((node, i) => {
+      node?.getWorldQuaternion(turned).toArray(node_rest, 4 * i);
+      node?.parent?.getWorldQuaternion(turned).toArray(parent_rest, 4 * i);
+    });
+    const places = new Map(nodes.map((node, i) => [node, i]));
+    const ancestors = Int16Array.from(nodes, (node) => {
+      for (let above = node?.parent; above; above = above.parent) {
+        const place = places.get(above);
+        if (place !== undefined) return place;
+      }
+      return -1;
+    });
+    return new NodeDriver(pose.world_from_joint, node_rest, parent_rest, ancestors);
+  }
+}
+
+/** The file's nodes by their index in it; null for those that are not in the scene. */
+function nodesOf(file: GLTF, indices: number[]): (Object3D | null)[] {
+  const byIndex = new Map<number, Object3D>();
+  file.scene.traverse((node) => {
+    const index = file.parser.associations.get(node)?.nodes;
+    if (index !== undefined && !byIndex.has(index)) byIndex.set(index, node);
+  });
+  return indices.map((index) => byIndex.get(index) ?? null);
+}
+
+/** What costs much and shows little goes: shine, faces that nobody moves. */
+function lighten(node: Object3D): void {
+  const mesh = node as Mesh;
+  if (!mesh.isMesh) return;
+  if ((mesh as SkinnedMesh).isSkinnedMesh) mesh.frustumCulled = false;
+  mesh.geometry.morphAttributes = {};
+  mesh.morphTargetInfluences = undefined;
+  mesh.material = Array.isArray(mesh.material)
+    ? mesh.material.map(plainer) : plainer(mesh.material);
+}
+
+function plainer(material: Material): Material {
+  if (material instanceof MeshBasicMaterial) return material;
+  const old = material as MeshStandardMaterial;
+  const made = new MeshLambertMaterial({
+    name: old.name, color: old.color, map: old.map, side: old.side, opacity: old.opacity,
+    transparent: old.transparent, alphaTest: old.alphaTest, depthWrite: old.depthWrite,
+    vertexColors: old.vertexColors, emissive: old.emissive, emissiveMap: old.emissiveMap,
+  });
+  material.dispose();
+  return made;
+}
+
+function disposeMaterial(material: Material): void {
+  for (const value of Object.values(material)) {
+    if (value && typeof value === 'object' && 'isTexture' in value) {
+      (value as unknown as {dispose(): void}).dispose();
+    }
+  }
+  material.dispose();
+}

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The bar at the top: what this is, how it does, what can be called up.
+
+import {el, setText} from './elements';
+import type {SceneWords, StatusWords} from './protocol';
+import type {Theme} from './theme';
+import {milliseconds} from './status_panel';
+
+const SUBJECT_WORDS = {waiting: 'waiting for a performer', tracked: 'tracked', lost: 'lost'};
+
+export class Header {
+  private readonly title = el('h1', {}, 'marey');
+  private readonly pill = el('span', {class: 'pill', role: 'status', 'aria-live': 'polite'});
+  private readonly figures = el('span', {class: 'figures'});
+  private readonly recordButton: HTMLButtonElement;
+  private readonly banner = el('p', {class: 'banner', role: 'alert', hidden: true});
+  private live = false;
+  private connected = false;
+  private recording = false;
+  private subject: StatusWords['subject'] = 'waiting';
+
+  constructor(element: HTMLElement, stage: HTMLElement, theme: Theme,
+    buttons: HTMLElement[], record: (on: boolean) => void) {
+    this.recordButton = el('button', {type: 'button', class: 'record', 'aria-pressed': 'false',
+      hidden: true, onclick: () => record(!this.recording)}, 'Record');
+    const themeButton = el('button', {type: 'button', class: 'icon', title:
+      'Dark or light colours', 'aria-label': 'Dark or light colours',
+    onclick: () => theme.choose(theme.dark ? 'light' : 'dark')}, '◐');
+    element.append(this.title, this.pill, this.figures, el('span', {class: 'spring'}),
+      this.recordButton, themeButton, ...buttons);
+    stage.append(this.banner);
+    this.tell();
+  }
+
+  setScene(scene: SceneWords): void {
+    this.live = scene.mode === 'live';
+    setText(this.title, scene.title || 'marey');
+    document.title = scene.title ? `${scene.title} – marey` : 'marey';
+    this.recordButton.hidden = !this.live;
+    this.figures.hidden = !this.live;
+    this.tell();
+  }
+
+  setConnected(connected: boolean): void {
+    this.connected = connected;
+    this.banner.hidden = connected;
+    setText(this.banner, connected ? ''
+      : 'The connection to marey is lost. Trying again twice a second; is it still running?');
+    this.tell();
+  }
+
+  setStatus(status: StatusWords): void {
+    this.subject = status.subject;
+    const latency = status.latency_ms ? ` · ${milliseconds(status.latency_ms.p50)}` : '';
+    setText(this.figures, `${status.rate_hz.toFixed(0)} Hz${latency}`);
+    this.recording = status.recording !== null;
+    this.recordButton.setAttribute('aria-pressed', String(this.recording));
+    setText(this.recordButton, status.recording
+      ? `Stop ${status.recording.seconds.toFixed(0)} s` : 'Record');
+    this.tell();
+  }
+
+  private tell(): void {
+    const state = !this.connected ? 'offline' : this.live ? this.subject : 'file';
+    setText(this.pill, state === 'offline' ? 'not connected'
+      : state === 'file' ? 'from a file' : SUBJECT_WORDS[state]);
+    this.pill.className = `pill pill-${state}`;
+  }
+}

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Keys and gestures: what they are and what they do.
+
+import {el} from './elements';
+
+const KEYS: [string, string][] = [
+  ['space', 'play, pause'], ['← →', 'one frame back, on'], ['shift ← →', 'one second back, on'],
+  ['home end', 'first, last frame (live: now)'], ['L', 'loop'], ['F', 'frame the bodies'],
+  ['1 2 3', 'from the front, their left, above'], ['+ −', 'nearer, farther'],
+  ['drag', 'turn; on a handle: move it'], ['shift drag', 'pan; on a handle: up and down'],
+  ['wheel, two fingers', 'zoom; on the timeline: zoom in time'], ['double click', 'all of it'],
+  ['D', 'segments, contacts, graphs'], ['P', 'panels'], ['?', 'this help'],
+];
+
+export class Help {
+  readonly button = el('button', {type: 'button', class: 'icon', title: 'Keys and gestures (?)',
+    'aria-label': 'Keys and gestures', onclick: () => this.toggle()}, '?');
+  private readonly dialog = el('dialog', {class: 'help', 'aria-labelledby': 'help-title'},
+    el('h2', {id: 'help-title'}, 'Keys and gestures'),
+    el('dl', {}, ...KEYS.flatMap(([key, what]) =>
+      [el('dt', {}, ...key.split(' ').flatMap((word) => [el('kbd', {}, word), ' '])),
+        el('dd', {}, what)])),
+    el('form', {method: 'dialog'}, el('button', {class: 'primary', autofocus: true}, 'Close')));
+
+  constructor() {
+    document.body.append(this.dialog);
+    this.dialog.addEventListener('click', (event) => {
+      // Beside the box, that is, on the backdrop.
+      if (event.target === this.dialog) this.dialog.close();
+    });
+  }
+
+  toggle(): void {
+    if (this.dialog.open) this.dialog.close();
+    else this.dialog.showModal();
+  }
+}
+
+/** Calls what belongs to a key; leaves those alone that a control of the page wants. */
+export function listenToKeys(actions: Record<string, (event: KeyboardEvent) => void>): void {
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const target = event.target as HTMLElement;
+    if (target.closest('select, input:not([type=checkbox]), dialog')) {
+      if (!(event.key === '?' && target.closest('dialog'))) return;
+    }
+    // Space presses what has the focus.
+    if (event.key === ' ' && target.closest('button, summary, input')) return;
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const action = actions[key];
+    if (!action) return;
+    event.preventDefault();
+    action(event);
+  });
+}

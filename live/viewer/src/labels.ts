@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Names that hang in the scene: elements over the canvas.
+
+import type {PerspectiveCamera} from 'three';
+import {Vector3} from 'three';
+import {el, setText} from './elements';
+
+export class Labels {
+  readonly element = el('div', {class: 'labels', 'aria-hidden': 'true'});
+  private readonly spans: HTMLSpanElement[] = [];
+  private readonly at = new Vector3();
+  private used = 0;
+  private width = 1;
+  private height = 1;
+
+  begin(width: number, height: number): void {
+    this.used = 0;
+    this.width = width;
+    this.height = height;
+  }
+
+  /** Above this place. */
+  add(text: string, kind: string, camera: PerspectiveCamera, x: number, y: number,
+    z: number): void {
+    const {at} = this;
+    at.set(x, y, z).project(camera);
+    if (at.z > 1 || Math.abs(at.x) > 1.1 || Math.abs(at.y) > 1.1) return;
+    const span = this.spans[this.used] ?? this.grow();
+    ++this.used;
+    setText(span, text);
+    if (span.className !== kind) span.className = kind;
+    if (span.hidden) span.hidden = false;
+    const left = Math.round((at.x + 1) / 2 * this.width);
+    const top = Math.round((1 - at.y) / 2 * this.height);
+    span.style.transform = `translate(${left}px, ${top}px) translate(-50%, -100%)`;
+  }
+
+  end(): void {
+    for (let i = this.used; i < this.spans.length; ++i) {
+      if (!this.spans[i].hidden) this.spans[i].hidden = true;
+    }
+  }
+
+  private grow(): HTMLSpanElement {
+    const span = el('span');
+    this.spans.push(span);
+    this.element.append(span);
+    return span;
+  }
+}

@@ -1,0 +1,295 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The page: what comes from marey goes to the stage, the timeline and the panels; what a
+// person does goes back.
+
+import {CamerasPanel} from './cameras_panel';
+import {Connection} from './connection';
+import type {Listener} from './connection';
+import {ConstraintsPanel} from './constraints_panel';
+import {FRAME_KIND} from './decode_frame';
+import {decodeThumbnail, THUMBNAIL_KIND} from './decode_thumbnail';
+import {el} from './elements';
+import {Header} from './header';
+import {Help, listenToKeys} from './help';
+import {Panels} from './panels';
+import type {DragPhase, SceneWords, ServerWords, Vector} from './protocol';
+import {Reel} from './reel';
+import {Stage} from './stage';
+import type {StageListener} from './stage';
+import {StatusPanel} from './status_panel';
+import {Theme} from './theme';
+import {Timeline} from './timeline';
+import {Transport} from './transport';
+import {ViewPanel} from './view_panel';
+import {WizardPanel} from './wizard_panel';
+
+const SHOWN_EVERY_MS = 500;
+const REPAINT_EVERY_MS = 250;
+/** marey tells its status twice a second: after this it is gone, whatever the line says. */
+const SILENCE_MS = 3000;
+const DRAG_EVERY_MS = 15;
+
+class Page implements Listener, StageListener {
+  readonly reel = new Reel();
+  readonly stage: Stage;
+  /** Pictures drawn since the page was opened. */
+  drawnCount = 0;
+  /** Told after every picture of a frame that is new; for measuring. */
+  onDrawn: ((sent_s: number) => void) | null = null;
+  connected = false;
+  private readonly theme = new Theme();
+  private readonly timeline: Timeline;
+  private readonly transport: Transport;
+  private readonly header: Header;
+  private readonly help = new Help();
+  private readonly panels: Panels;
+  private readonly cameras = new CamerasPanel((on) => this.send({type: 'thumbnails', on}));
+  private readonly wizard = new WizardPanel((action) => this.send({type: 'wizard', action}));
+  private readonly constraints = new ConstraintsPanel((id, active) =>
+    this.send({type: 'constraint', id, active}));
+  private readonly status = new StatusPanel();
+  private readonly connection: Connection;
+  private scene: SceneWords | null = null;
+  private sceneText = '';
+  private loading = new AbortController();
+  private stale = true;
+  private last_ms = 0;
+  private told_ms = 0;
+  private dragged_ms = 0;
+  private echoed_s = -1;
+  private due = 0;
+  private drawn = 0;
+
+  constructor() {
+    const byId = (id: string): HTMLElement => document.getElementById(id)!;
+    this.stage = new Stage(this.theme, this);
+    byId('stage').append(this.stage.element);
+    this.panels = new Panels(byId('panels'), () => this.cameras.ask());
+    const view = new ViewPanel(this.stage, this.theme, () => this.renew());
+    this.panels.add(view.section, this.cameras.section, this.wizard.section,
+      this.constraints.section, this.status.section);
+    this.timeline = new Timeline(this.theme, (frame) => {
+      this.reel.playback.playing = false;
+      this.reel.playback.seek(frame);
+      this.renew();
+    });
+    this.transport = new Transport(this.reel.playback, this.timeline, () => this.renew());
+    byId('time').append(this.transport.element, el('div', {class: 'scroll'},
+      this.timeline.element));
+    this.header = new Header(byId('bar'), this.stage.element, this.theme,
+      [this.help.button, this.panels.button], (on) => this.send({type: 'record', on}));
+    this.listenToKeys();
+    this.connection = new Connection(this);
+    window.setInterval(() => this.second(), 1000);
+    window.setInterval(() => this.repaintLive(), REPAINT_EVERY_MS);
+  }
+
+  // --- From marey ---
+
+  words(words: ServerWords): void {
+    if (words.type === 'scene') void this.setScene(words);
+    else if (words.type === 'status') {
+      this.header.setStatus(words);
+      this.status.show(words);
+      this.cameras.status(words.cameras);
+    } else if (words.type === 'wizard') this.wizard.show(words);
+    else if (words.type === 'constraints') this.setConstraints(words.constraints);
+    else this.trouble(words.text);
+  }
+
+  binary(buffer: ArrayBuffer): void {
+    const view = new DataView(buffer);
+    const kind = buffer.byteLength > 0 ? view.getUint8(0) : 0;
+    if (kind === FRAME_KIND && this.scene) {
+      if (!this.reel.push(view)) return;
+      ++this.due;
+      if (this.live && !this.reel.playback.following) this.placeTimeline();
+      else this.renew();
+    } else if (kind === THUMBNAIL_KIND) {
+      const thumbnail = decodeThumbnail(buffer);
+      if (thumbnail) this.cameras.show(thumbnail);
+    }
+  }
+
+  state(state: 'open' | 'lost'): void {
+    this.connected = state === 'open';
+    this.header.setConnected(this.connected);
+    if (this.connected) this.cameras.repeat();
+  }
+
+  trouble(text: string): void {
+    this.status.tell(text);
+    this.status.section.reveal();
+  }
+
+  private async setScene(scene: SceneWords): Promise<void> {
+    // A server that came back says what it said before.
+    const text = JSON.stringify({...scene, revision: 0, wizard: null, constraints: []});
+    const same = text === this.sceneText;
+    this.scene = scene;
+    this.wizard.load(scene.wizard, scene.mode === 'live');
+    if (same) {
+      this.setConstraints(scene.constraints);
+      return;
+    }
+    this.sceneText = text;
+    this.loading.abort();
+    this.loading = new AbortController();
+    const {signal} = this.loading;
+    this.reel.setScene(scene);
+    this.stage.setScene(scene);
+    this.constraints.show(scene.constraints);
+    this.header.setScene(scene);
+    this.cameras.load(scene.cameras, scene.mode === 'live');
+    this.status.section.hidden = false;
+    this.timeline.load({rows: this.reel.rows, contacts: scene.file?.contacts ?? [],
+      graphs: scene.file?.graphs ?? [], notes: scene.file?.notes ?? [],
+      rate_hz: this.reel.playback.rate_hz, first_frame: scene.file?.first_frame ?? 0,
+      live: scene.mode === 'live'});
+    this.transport.setMode(scene.mode === 'live');
+    this.renew();
+    try {
+      await this.reel.load(scene, signal);
+    } catch (problem) {
+      if (!signal.aborted) this.trouble(`The recording cannot be shown: ${String(problem)}`);
+    }
+    if (!signal.aborted) this.renew();
+  }
+
+  private setConstraints(constraints: SceneWords['constraints']): void {
+    this.stage.setConstraints(constraints);
+    this.constraints.show(constraints);
+  }
+
+  // --- From the stage ---
+
+  beforePicture(now_ms: number): void {
+    const seconds = Math.min((now_ms - this.last_ms) / 1000, 0.25);
+    this.last_ms = now_ms;
+    const {playback} = this.reel;
+    const before = playback.time;
+    playback.advance(seconds, this.live);
+    if (playback.time !== before) this.stale = true;
+    if (playback.playing && !playback.following) this.stage.refresh();
+    if (!this.stale) return;
+    this.stale = false;
+    if (this.reel.compose()) this.stage.show(this.reel.shown);
+    if (this.reel.points) this.stage.showPoints(this.reel.points, playback.frame);
+    this.placeTimeline();
+  }
+
+  private placeTimeline(): void {
+    const {playback} = this.reel;
+    this.timeline.place(playback.first, playback.last, playback.time, playback.frame);
+    this.transport.show();
+  }
+
+  afterPicture(): void {
+    ++this.drawnCount;
+    const {sent_s} = this.reel.shown;
+    const fresh = this.live && this.reel.playback.following && sent_s !== this.echoed_s;
+    if (!fresh) return;
+    ++this.drawn;
+    this.echoed_s = sent_s;
+    this.onDrawn?.(sent_s);
+    if (this.last_ms - this.told_ms < SHOWN_EVERY_MS) return;
+    this.told_ms = this.last_ms;
+    this.send({type: 'shown', sent_s});
+  }
+
+  drag(id: string, p_in_world: Vector, phase: DragPhase): void {
+    // Of many movements the server needs no more than it can show; the last is in the end.
+    const now_ms = performance.now();
+    if (phase === 'move' && now_ms - this.dragged_ms < DRAG_EVERY_MS) return;
+    this.dragged_ms = now_ms;
+    if (!this.live && phase === 'begin') {
+      this.reel.playback.pause();
+      this.reel.playback.seek(this.reel.playback.frame);
+      this.renew();
+    }
+    this.send({type: 'drag', id, p_in_world, phase,
+      ...(this.live ? {} : {frame: this.reel.playback.frame})});
+  }
+
+  private get live(): boolean {
+    return this.scene?.mode === 'live';
+  }
+
+  private send(words: Parameters<Connection['send']>[0]): void {
+    // Panels ask before there is a line; what they ask is repeated when there is one.
+    this.connection?.send(words);
+  }
+
+  /** What is shown changed. */
+  private renew(): void {
+    this.stale = true;
+    this.stage.refresh();
+  }
+
+  private second(): void {
+    const {playback} = this.reel;
+    if (playback.following) this.stage.renderer.adapt(this.due, this.drawn);
+    this.due = 0;
+    this.drawn = 0;
+    if (this.live && this.connected) this.connection.renewAfter(SILENCE_MS);
+  }
+
+  /** A timeline that moves on is painted a few times a second. */
+  private repaintLive(): void {
+    if (this.live && !document.hidden) this.timeline.repaint();
+  }
+
+  private listenToKeys(): void {
+    const {playback} = this.reel;
+    const stride = (event: KeyboardEvent): number =>
+      (event.shiftKey ? Math.max(1, Math.round(playback.rate_hz)) : 1);
+    const zoom = (factor: number): void => {
+      this.stage.orbit.zoom(factor);
+      this.stage.refresh();
+    };
+    listenToKeys({
+      ' ': () => this.transport.toggle(),
+      ArrowLeft: (event) => this.transport.step(-stride(event)),
+      ArrowRight: (event) => this.transport.step(stride(event)),
+      Home: () => this.seek(playback.first),
+      End: () => (this.live ? this.follow() : this.seek(playback.last)),
+      l: () => this.transport.setLoop(!playback.loop),
+      f: () => this.stage.frameBodies(),
+      1: () => this.stage.viewFrom('front'),
+      2: () => this.stage.viewFrom('left'),
+      3: () => this.stage.viewFrom('above'),
+      '+': () => zoom(0.9),
+      '-': () => zoom(1 / 0.9),
+      d: () => this.transport.toggleFold(),
+      p: () => this.panels.set(!this.panels.shown),
+      '?': () => this.help.toggle(),
+    });
+  }
+
+  private seek(frame: number): void {
+    this.reel.playback.seek(frame);
+    this.renew();
+  }
+
+  private follow(): void {
+    this.reel.playback.follow();
+    this.renew();
+  }
+}
+
+declare global {
+  interface Window {
+    /** For those who test or measure the page. */
+    mareyPage?: Page;
+  }
+}
+
+try {
+  window.mareyPage = new Page();
+} catch (problem) {
+  document.body.append(el('p', {class: 'banner', role: 'alert'},
+    'This page cannot be shown: ', problem instanceof Error ? problem.message :
+      String(problem), '. It needs a browser with WebGL 2; in most it can be switched on.'));
+}

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Panels beside the stage: sections that fold, and remember whether they were open.
+
+import {el, remember, remembered, setText} from './elements';
+
+export class Section {
+  readonly body = el('div', {class: 'section-body'});
+  readonly element: HTMLDetailsElement;
+  private readonly hint = el('span', {class: 'hint'});
+
+  constructor(readonly name: string, title: string, open: boolean, toggled?: () => void) {
+    const kept = remembered(`panel.${name}`);
+    this.element = el('details', {class: `section section-${name}`,
+      open: kept === null ? open : kept === 'open',
+      ontoggle: () => {
+        remember(`panel.${name}`, this.element.open ? 'open' : 'folded');
+        toggled?.();
+      }}, el('summary', {}, title, this.hint), this.body);
+  }
+
+  get open(): boolean {
+    return this.element.open && !this.element.hidden;
+  }
+
+  set hidden(hidden: boolean) {
+    this.element.hidden = hidden;
+  }
+
+  reveal(): void {
+    this.element.open = true;
+    this.element.scrollIntoView({block: 'nearest'});
+  }
+
+  /** A few words that are seen when it is folded, too. */
+  tell(words: string): void {
+    setText(this.hint, words);
+  }
+}
+
+const NARROW = '(max-width: 48rem), (max-height: 30rem)';
+
+/** Shows or hides them all; on a phone they lie over the stage, and begin hidden. */
+export class Panels {
+  private readonly narrow = window.matchMedia(NARROW);
+  readonly button: HTMLButtonElement;
+
+  constructor(private readonly element: HTMLElement, private readonly changed: () => void) {
+    this.button = el('button', {type: 'button', 'aria-controls': 'panels',
+      onclick: () => this.set(!this.shown)}, 'Panels');
+    this.set(!this.narrow.matches && remembered('panels') !== 'hidden', false);
+    this.narrow.addEventListener('change', () => {
+      this.set(!this.narrow.matches && remembered('panels') !== 'hidden', false);
+    });
+  }
+
+  add(...sections: Section[]): void {
+    this.element.append(...sections.map((section) => section.element));
+  }
+
+  get shown(): boolean {
+    return !document.body.classList.contains('without-panels');
+  }
+
+  set(shown: boolean, keep = true): void {
+    document.body.classList.toggle('without-panels', !shown);
+    this.button.setAttribute('aria-expanded', String(shown));
+    if (keep && !this.narrow.matches) remember('panels', shown ? 'shown' : 'hidden');
+    this.changed();
+  }
+}

@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Where the joints of a skeleton are.
+
+import type {SkeletonFrame} from './decode_frame';
+import type {SkeletonWords} from './protocol';
+import {blend, multiply, turn} from './quaternions';
+
+export class PosedSkeleton {
+  readonly joints: number;
+  readonly parents: Int16Array;
+  /** x y z of every joint. The offset that sets it beside others is not in it. */
+  readonly p_in_world: Float32Array;
+  /** x y z w of every joint. */
+  readonly world_from_joint: Float32Array;
+  private readonly p_in_parent: Float32Array;
+
+  constructor(words: Pick<SkeletonWords, 'joints'>) {
+    const {joints} = words;
+    this.joints = joints.length;
+    this.parents = Int16Array.from(joints, (joint) => joint.parent);
+    this.p_in_parent = Float32Array.from(joints.flatMap((joint) => joint.rest.p));
+    this.p_in_world = new Float32Array(3 * joints.length);
+    this.world_from_joint = new Float32Array(4 * joints.length);
+    this.setRest(words);
+  }
+
+  setRest(words: Pick<SkeletonWords, 'joints'>): void {
+    const local = Float32Array.from(words.joints.flatMap((joint) => joint.rest.q));
+    this.set(local, this.p_in_parent);
+  }
+
+  /** One pass. Precondition: the frame has a pose of as many joints. */
+  setFrame(frame: SkeletonFrame): void {
+    this.set(frame.parent_from_joint, frame.root_in_world);
+  }
+
+  private set(parent_from_joint: Float32Array, root_in_world: Float32Array): void {
+    const {p_in_world: p, world_from_joint: q} = this;
+    for (let i = 0; i < this.joints; ++i) {
+      const parent = this.parents[i];
+      if (parent < 0) {
+        for (let k = 0; k < 3; ++k) p[3 * i + k] = root_in_world[k];
+        for (let k = 0; k < 4; ++k) q[4 * i + k] = parent_from_joint[4 * i + k];
+        continue;
+      }
+      turn(p, 3 * i, q, 4 * parent, this.p_in_parent, 3 * i);
+      for (let k = 0; k < 3; ++k) p[3 * i + k] += p[3 * parent + k];
+      multiply(q, 4 * i, q, 4 * parent, parent_from_joint, 4 * i);
+    }
+  }
+}
+
+/** `into` = the instant between two frames: poses are blended, the rest is the nearer
+ *  frame's. Where one has no pose, the nearer frame alone counts. */
+export function blendFrames(into: SkeletonFrame, a: SkeletonFrame, b: SkeletonFrame,
+  share: number): void {
+  into.copy(share < 0.5 ? a : b);
+  if (!a.hasPose || !b.hasPose) return;
+  for (let k = 0; k < 3; ++k) {
+    into.root_in_world[k] = (1 - share) * a.root_in_world[k] + share * b.root_in_world[k];
+  }
+  for (let i = 0; i < into.joints; ++i) {
+    blend(into.parent_from_joint, a.parent_from_joint, b.parent_from_joint, 4 * i, share);
+  }
+  if (!a.hasBalance || !b.hasBalance) return;
+  for (let k = 0; k < 3; ++k) {
+    into.centre_of_mass_in_world[k] = (1 - share) * a.centre_of_mass_in_world[k] +
+      share * b.centre_of_mass_in_world[k];
+  }
+}

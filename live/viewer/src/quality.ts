@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How fine the picture is, so that a slow machine keeps up. Knows no clock: it is told once
+// a second what was wanted and what was drawn.
+
+/** Pixels of the picture per pixel of the page, from the finest. */
+const RATIOS = [2, 1.5, 1, 0.75, 0.6];
+const PATIENCE = 2; // Seconds of one kind before anything changes.
+const CALM = 20; // Seconds without trouble before it is tried finer.
+
+export class Quality {
+  private level: number;
+  private behind = 0;
+  private fine = 0;
+  private readonly finest: number;
+  /** What was too much once is not tried again. */
+  private limit: number;
+
+  /** `software`: there is no graphics processor. */
+  constructor(pixelRatio: number, software: boolean) {
+    const wanted = software ? 1 : pixelRatio;
+    this.finest = Math.max(0, RATIOS.findIndex((ratio) => ratio <= Math.max(wanted, 0.6)));
+    this.level = this.finest;
+    this.limit = this.finest;
+  }
+
+  get ratio(): number {
+    return RATIOS[this.level];
+  }
+
+  /** Pictures that were due within the last second and those that were drawn. True when the
+   *  ratio changed. */
+  second(due: number, drawn: number): boolean {
+    // Few pictures say nothing: the page was hidden, or nothing moved.
+    if (due < 10) return false;
+    const slow = drawn < 0.85 * Math.min(due, 60);
+    this.behind = slow ? this.behind + 1 : 0;
+    this.fine = slow ? 0 : this.fine + 1;
+    if (this.behind >= PATIENCE && this.level < RATIOS.length - 1) {
+      this.limit = this.level + 1;
+      return this.change(this.level + 1);
+    }
+    if (this.fine >= CALM && this.level > this.limit) return this.change(this.level - 1);
+    return false;
+  }
+
+  private change(level: number): boolean {
+    this.level = level;
+    this.behind = 0;
+    this.fine = 0;
+    return true;
+  }
+}

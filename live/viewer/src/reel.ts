@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Where shown instants come from: a recording's block, or the last minute of a live session.
+
+import {MotionBlock, PointBlock} from './decode_blocks';
+import {decodeFrame, SceneFrame} from './decode_frame';
+import {FrameRing} from './frame_ring';
+import {Playback} from './playback';
+import {blendFrames} from './posed_skeleton';
+import type {SceneWords} from './protocol';
+import {FileRows, RingRows} from './timeline_rows';
+import type {Rows} from './timeline_rows';
+
+const KEPT_S = 60;
+const MOST_FRAMES = 7200;
+
+export class Reel {
+  readonly playback = new Playback();
+  /** The instant that is shown, after compose(). */
+  shown = new SceneFrame([]);
+  rows: Rows = new RingRows([], new FrameRing(1, 0));
+  points: PointBlock | null = null;
+  private before = new SceneFrame([]);
+  private after = new SceneFrame([]);
+  private block: MotionBlock | null = null;
+  private ring = new FrameRing(1, 0);
+  private live = true;
+  private layout = '';
+  /** Whose sources the timeline shows. */
+  private witness = -1;
+  /** What came of dragging a constraint of a recording, and at which frame. */
+  private adapted: {at: number; frame: SceneFrame} | null = null;
+
+  /** A session that goes on keeps its past. */
+  setScene(scene: SceneWords): void {
+    this.live = scene.mode === 'live';
+    this.playback.rate_hz = scene.rate_hz > 0 ? scene.rate_hz : 30;
+    this.adapted = null;
+    const layout = JSON.stringify([scene.mode, scene.rate_hz, scene.skeletons.map(
+      ({joints}) => joints.map(({name}) => name))]);
+    if (this.live && layout === this.layout) return;
+    this.layout = layout;
+    this.shown = new SceneFrame(scene.skeletons);
+    this.before = new SceneFrame(scene.skeletons);
+    this.after = new SceneFrame(scene.skeletons);
+    this.block = null;
+    this.points = null;
+    this.witness = Math.max(scene.skeletons.findIndex(({estimate}) => estimate), -1);
+    this.beginTimeline(scene);
+  }
+
+  private beginTimeline(scene: SceneWords): void {
+    const {playback} = this;
+    if (scene.file) {
+      this.rows = new FileRows(scene.file);
+      playback.following = false;
+      playback.playing = false;
+      playback.setRange(0, scene.file.frames - 1);
+      return;
+    }
+    const witness = scene.skeletons[this.witness];
+    const names = witness ? witness.joints.map(({name, bone}) => bone || name) : [];
+    const capacity = Math.min(Math.ceil(KEPT_S * playback.rate_hz), MOST_FRAMES);
+    this.ring = new FrameRing(capacity, names.length);
+    this.rows = new RingRows(names, this.ring);
+    playback.setRange(0, 0);
+    playback.follow();
+  }
+
+  /** Fetches what the scene names. Throws an Error that says what is wrong. */
+  async load(scene: SceneWords, signal: AbortSignal): Promise<void> {
+    const {file} = scene;
+    if (!file) return;
+    if (file.block) {
+      const block = new MotionBlock(await fetched(file.block, signal),
+        new SceneFrame(scene.skeletons));
+      if (signal.aborted) return;
+      this.block = block;
+    }
+    if (file.points_block) {
+      const points = new PointBlock(await fetched(file.points_block, signal));
+      if (!signal.aborted) this.points = points;
+    }
+  }
+
+  /** A frame came. False when it is not of this scene. */
+  push(view: DataView): boolean {
+    if (!this.live) return this.adapt(view);
+    // Read once now, for the timeline, and again when it is shown: it may never be.
+    if (decodeFrame(view, 0, this.after) < 0) return false;
+    const witness = this.after.skeletons[this.witness];
+    if (witness && !witness.hasDoubt) witness.source.fill(0);
+    this.ring.push(view, witness?.hasPose ? witness.source : null);
+    this.playback.setRange(this.ring.first, this.ring.last);
+    return true;
+  }
+
+  private adapt(view: DataView): boolean {
+    const frame = new SceneFrame(this.shown.skeletons.map(({joints}) =>
+      ({joints: new Array(joints)})));
+    if (decodeFrame(view, 0, frame) < 0) return false;
+    this.adapted = {at: this.playback.frame, frame};
+    return true;
+  }
+
+  /** Makes `shown` the instant of the playback. False when there is nothing to show. */
+  compose(): boolean {
+    const {time, frame} = this.playback;
+    if (this.adapted && this.adapted.at === time) {
+      this.take(this.adapted.frame);
+      return true;
+    }
+    this.adapted = null;
+    const low = Math.floor(time);
+    if (low === time || !this.read(low + 1, this.after)) return this.read(frame, this.shown);
+    if (!this.read(low, this.before)) return false;
+    this.shown.frame = this.before.frame;
+    this.shown.sent_s = this.before.sent_s;
+    this.shown.skeletons.forEach((into, i) => blendFrames(into, this.before.skeletons[i],
+      this.after.skeletons[i], time - low));
+    return true;
+  }
+
+  private take(frame: SceneFrame): void {
+    this.shown.frame = frame.frame;
+    this.shown.time_s = frame.time_s;
+    this.shown.sent_s = frame.sent_s;
+    this.shown.skeletons.forEach((into, i) => into.copy(frame.skeletons[i]));
+  }
+
+  private read(i: number, into: SceneFrame): boolean {
+    if (!this.live) {
+      if (!this.block || i < 0 || i >= this.block.frames) return false;
+      this.block.read(i, into);
+      return true;
+    }
+    const view = this.ring.at(i);
+    return view !== null && decodeFrame(view, 0, into) >= 0;
+  }
+}
+
+async function fetched(media: string, signal: AbortSignal): Promise<ArrayBuffer> {
+  const answer = await fetch(media, {signal, credentials: 'same-origin'});
+  if (!answer.ok) throw new Error(`${media}: ${answer.status} ${answer.statusText}`);
+  return answer.arrayBuffer();
+}

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How the nodes of an avatar's file follow the joints of its skeleton. The file may stand in
+// other units, look the other way (VRM 0), and have its own axes in every joint.
+
+import {multiply, multiplyInverse} from './quaternions';
+
+/** World places (x y z each) of the same joints at rest: those of the scene, in metres, and
+ *  those of the file, in its units. Returns how the file is to be turned about Y so that it
+ *  stands as the scene does: 0 or half a turn. [rad] */
+export function turnOfFile(scene_p: ArrayLike<number>, file_p: ArrayLike<number>,
+  unit_from_m: number): number {
+  let asIs = 0;
+  let turned = 0;
+  for (let i = 0; i < scene_p.length; i += 3) {
+    const [x, z] = [scene_p[i] - scene_p[0], scene_p[i + 2] - scene_p[2]];
+    const u = (file_p[i] - file_p[0]) / unit_from_m;
+    const w = (file_p[i + 2] - file_p[2]) / unit_from_m;
+    asIs += (x - u) ** 2 + (z - w) ** 2;
+    turned += (x + u) ** 2 + (z + w) ** 2;
+  }
+  return turned < asIs ? Math.PI : 0;
+}
+
+/** Turns the world rotations of joints into local rotations of nodes. */
+export class NodeDriver {
+  private readonly count: number;
+  private readonly ancestors: Int16Array;
+  /** before * (ancestor's joint)^-1 * (own joint) * after = the node's local rotation. */
+  private readonly before: Float32Array;
+  private readonly after: Float32Array;
+  private readonly scratch = new Float32Array(4);
+
+  /** At rest, x y z w each: the joints' and nodes' world rotations (the file turned as the
+   *  scene stands), and the rotations of the nodes' own parents. `ancestors`: of each node,
+   *  the nearest node above it that is driven, too; -1 for none. */
+  constructor(joint_rest: Float32Array, node_rest: Float32Array, node_parent_rest: Float32Array,
+    ancestors: Int16Array) {
+    this.count = ancestors.length;
+    this.ancestors = ancestors;
+    this.before = new Float32Array(4 * this.count);
+    this.after = new Float32Array(4 * this.count);
+    const joint_from_parent = new Float32Array(4);
+    const identity = new Float32Array([0, 0, 0, 1]);
+    for (let i = 0; i < this.count; ++i) {
+      multiplyInverse(this.after, 4 * i, joint_rest, 4 * i, node_rest, 4 * i);
+      const above = ancestors[i];
+      // What hangs between two driven nodes moves with the upper one.
+      if (above < 0) {
+        joint_from_parent.set(node_parent_rest.subarray(4 * i, 4 * i + 4));
+      } else {
+        multiplyInverse(joint_from_parent, 0, joint_rest, 4 * above, node_parent_rest, 4 * i);
+      }
+      multiplyInverse(this.before, 4 * i, joint_from_parent, 0, identity, 0);
+    }
+  }
+
+  /** Local rotation of node i when the joints have these world rotations. */
+  local(i: number, world_from_joint: Float32Array, out: Float32Array): void {
+    const above = this.ancestors[i];
+    const {scratch} = this;
+    if (above < 0) {
+      multiply(scratch, 0, this.before, 4 * i, world_from_joint, 4 * i);
+    } else {
+      multiplyInverse(scratch, 0, world_from_joint, 4 * above, world_from_joint, 4 * i);
+      multiply(scratch, 0, this.before, 4 * i, scratch, 0);
+    }
+    multiply(out, 0, scratch, 0, this.after, 4 * i);
+  }
+}

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Everything that stands before the eye.
+
+import {BodyView} from './body_view';
+import type {Shown} from './body_view';
+import {ConstraintView} from './constraint_view';
+import type {Handle} from './constraint_view';
+import type {PointBlock} from './decode_blocks';
+import type {SceneFrame} from './decode_frame';
+import {dragInPlane, dragVertically} from './drag_plane';
+import {el} from './elements';
+import {Floor} from './floor';
+import {Gestures} from './gestures';
+import type {Grip} from './gestures';
+import {Labels} from './labels';
+import {framing, Orbit} from './orbit';
+import {PointsView} from './points_view';
+import type {ConstraintWords, DragPhase, SceneWords, Vector} from './protocol';
+import {Renderer} from './renderer';
+import {RigView} from './rig_view';
+import type {Theme} from './theme';
+
+const MOST_POINT_NAMES = 80;
+
+export interface StageListener {
+  /** A picture is due; the stage draws itself after that. */
+  beforePicture(now_ms: number): void;
+  /** A picture was drawn. */
+  afterPicture(): void;
+  drag(id: string, p_in_world: Vector, phase: DragPhase): void;
+  trouble(text: string): void;
+}
+
+export class Stage {
+  readonly element: HTMLElement;
+  readonly renderer: Renderer;
+  readonly orbit = new Orbit();
+  readonly shown: Shown = {skin: true, bones: false, doubt: true, balance: true,
+    cameras: true, handles: true, names: true};
+  private readonly labels = new Labels();
+  private readonly floor = new Floor();
+  private readonly rig = new RigView();
+  private readonly handles = new ConstraintView();
+  private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)');
+  private bodies: BodyView[] = [];
+  private points: PointsView | null = null;
+  private words: SceneWords | null = null;
+  private inHand: string | null = null;
+  private framed = false;
+  private last_ms = 0;
+
+  constructor(private readonly theme: Theme, private readonly listener: StageListener) {
+    this.renderer = new Renderer((now_ms) => this.picture(now_ms), () => this.settle());
+    const {scene, canvas} = this.renderer;
+    scene.add(this.floor.object, this.rig.object, this.handles.object);
+    this.element = el('div', {class: 'stage'}, canvas, this.labels.element);
+    new Gestures(canvas, this.orbit, {
+      grip: (x, y, reach) => this.grip(x, y, reach),
+      hover: (x, y) => this.hover(x, y),
+      changed: () => this.renderer.invalidate(),
+      reset: () => this.frameBodies(),
+    });
+    theme.onChange(() => this.paint());
+    this.paint();
+  }
+
+  get software(): boolean {
+    return this.renderer.software;
+  }
+
+  setScene(words: SceneWords): void {
+    for (const body of this.bodies) body.dispose();
+    if (this.points) this.points.object.removeFromParent();
+    this.points?.dispose();
+    this.words = words;
+    this.floor.height_m = words.floor?.height_m ?? 0;
+    this.bodies = words.skeletons.map((skeleton) => {
+      const body = new BodyView(skeleton, this.shown, this.floor.height_m, (trouble) => {
+        if (trouble) this.listener.trouble(trouble);
+        this.renderer.invalidate();
+      });
+      this.renderer.scene.add(body.object);
+      return body;
+    });
+    this.rig.set(words.cameras);
+    this.points = words.points ? new PointsView(words.points.labels) : null;
+    if (this.points) this.renderer.scene.add(this.points.object);
+    this.setConstraints(words.constraints);
+    this.paint();
+  }
+
+  setConstraints(constraints: readonly ConstraintWords[]): void {
+    this.handles.set(constraints, this.words?.skeletons ?? [], this.inHand);
+    this.renderer.invalidate();
+  }
+
+  /** Shows this instant. Precondition: of the scene that was set last. */
+  show(frame: SceneFrame): void {
+    this.bodies.forEach((body, i) => body.update(frame.skeletons[i]));
+    if (!this.framed && this.bodies.some((body) => body.present)) this.frameBodies(true);
+  }
+
+  showPoints(block: PointBlock, frame: number): void {
+    if (!this.points || block.points !== this.points.labels.length) return;
+    this.points.update(block, frame);
+    if (!this.framed && this.bodies.length === 0) this.frameBodies(true);
+  }
+
+  /** The look of everything changed, not the instant. */
+  refresh(): void {
+    this.renderer.invalidate();
+  }
+
+  /** Goes to where all bodies are in the picture. */
+  frameBodies(atOnce = false, azimuth = this.orbit.azimuth, height = this.orbit.height): void {
+    const places = this.bodies.filter((body) => body.present).flatMap((body) => {
+      const [dx, dy, dz] = body.words.offset_m;
+      const p = body.pose.p_in_world;
+      const moved: number[] = [];
+      for (let i = 0; i < p.length; i += 3) moved.push(p[i] + dx, p[i + 1] + dy, p[i + 2] + dz);
+      return moved;
+    });
+    if (this.points) places.push(...this.points.p_in_world);
+    const {width, height: tall} = this.renderer;
+    const view = framing(places, azimuth, height, width / tall);
+    if (!view) return;
+    this.framed = true;
+    this.orbit.goTo(view, atOnce || this.still.matches);
+    this.renderer.invalidate();
+  }
+
+  /** From the front, from their left, from above. */
+  viewFrom(side: 'front' | 'left' | 'above'): void {
+    const azimuth = side === 'left' ? Math.PI / 2 : 0;
+    this.frameBodies(false, azimuth, side === 'above' ? 1.5 : 0.12);
+  }
+
+  /** Where a handle is on the canvas: what tests take hold of. */
+  pixelOfHandle(id: string): [number, number] | null {
+    const handle = this.handles.handles.find(({words}) => words.id === id);
+    return handle ? this.renderer.pixelOf(handle.shown_in_world) : null;
+  }
+
+  private paint(): void {
+    const {colours} = this.theme;
+    for (const part of [this.floor, this.rig, this.handles, this.points, ...this.bodies]) {
+      part?.paint(colours);
+    }
+    this.renderer.paint(colours);
+  }
+
+  /** A stage that was turned or folded shows its bodies again. */
+  private settle(): void {
+    if (this.framed) this.frameBodies(true);
+  }
+
+  private picture(now_ms: number): void {
+    const seconds = Math.min((now_ms - this.last_ms) / 1000, 0.1);
+    this.last_ms = now_ms;
+    this.listener.beforePicture(now_ms);
+    if (this.orbit.glide(seconds)) this.renderer.invalidate();
+    this.renderer.look(this.orbit);
+    const [x, , z] = this.orbit.target_in_world;
+    this.floor.place(x, z);
+    this.rig.object.visible = this.shown.cameras;
+    this.handles.object.visible = this.shown.handles;
+    this.handles.update(this.renderer.eye);
+    this.renderer.render();
+    this.placeLabels();
+    this.listener.afterPicture();
+  }
+
+  private placeLabels(): void {
+    const {labels, renderer: {camera, width, height}, words} = this;
+    labels.begin(width, height);
+    if (this.shown.names && words) {
+      for (const body of this.bodies) {
+        if (!body.object.visible) continue;
+        const [dx, dy, dz] = body.words.offset_m;
+        const p = body.pose.p_in_world;
+        labels.add(body.words.name, 'body', camera, p[0] + dx, body.top_m() + dy + 0.22,
+          p[2] + dz);
+      }
+      if (this.shown.cameras) {
+        for (const {name, world_from_camera: {p}} of words.cameras) {
+          labels.add(name, 'camera', camera, p[0], p[1] + 0.1, p[2]);
+        }
+      }
+      this.namePoints();
+    }
+    if (this.shown.handles) this.nameHandles();
+    labels.end();
+  }
+
+  private namePoints(): void {
+    const {points} = this;
+    if (!points || points.labels.length > MOST_POINT_NAMES) return;
+    points.labels.forEach((label, i) => {
+      const at = 3 * i;
+      const p = points.p_in_world;
+      if (Number.isNaN(p[at])) return;
+      this.labels.add(label, 'point', this.renderer.camera, p[at], p[at + 1] + 0.01, p[at + 2]);
+    });
+  }
+
+  /** Only the one under the pointer: names of all would hide the body. */
+  private nameHandles(): void {
+    const handle = this.handles.handles.find(({words}) => words.id === this.handles.held);
+    if (!handle) return;
+    const [x, y, z] = handle.shown_in_world;
+    this.labels.add(handle.words.id, 'handle', this.renderer.camera, x, y + 0.06, z);
+  }
+
+  private nearest(x_px: number, y_px: number, reach_px: number): Handle | null {
+    if (!this.shown.handles) return null;
+    let best: Handle | null = null;
+    let least = reach_px;
+    for (const handle of this.handles.handles) {
+      if (!handle.words.draggable) continue;
+      const at = this.renderer.pixelOf(handle.shown_in_world);
+      if (!at) continue;
+      const away = Math.hypot(at[0] - x_px, at[1] - y_px);
+      if (away <= least) [best, least] = [handle, away];
+    }
+    return best;
+  }
+
+  private hover(x_px: number, y_px: number): void {
+    const held = this.nearest(x_px, y_px, 14)?.words.id ?? null;
+    if (held === this.handles.held) return;
+    this.handles.held = held;
+    this.renderer.canvas.classList.toggle('over-handle', held !== null);
+    this.renderer.invalidate();
+  }
+
+  private grip(x_px: number, y_px: number, reach_px: number): Grip | null {
+    const taken = this.nearest(x_px, y_px, reach_px);
+    if (!taken) return null;
+    const {id} = taken.words;
+    // The server may send handles anew meanwhile.
+    const handle = (): Handle | undefined =>
+      this.handles.handles.find(({words}) => words.id === id);
+    const start = taken.shown_in_world;
+    const normal = this.renderer.facing();
+    // Taken off its middle, it stays off it.
+    const at = this.renderer.pixelOf(start)!;
+    const [off_x, off_y] = [at[0] - x_px, at[1] - y_px];
+    this.inHand = id;
+    this.handles.held = id;
+    this.listener.drag(id, taken.words.p_in_world, 'begin');
+    return {
+      move: (x, y, vertical) => {
+        const moved = handle();
+        if (!moved) return;
+        const ray = this.renderer.rayThrough(x + off_x, y + off_y);
+        const {eye} = this.renderer;
+        const to = vertical ? dragVertically(eye, ray, start)
+          : dragInPlane(eye, ray, start, normal);
+        if (!to) return;
+        this.handles.move(moved, to);
+        this.listener.drag(id, moved.words.p_in_world, 'move');
+        this.renderer.invalidate();
+      },
+      end: () => {
+        this.inHand = null;
+        this.handles.held = null;
+        const moved = handle();
+        if (moved) this.listener.drag(id, moved.words.p_in_world, 'end');
+        this.renderer.invalidate();
+      },
+    };
+  }
+}

@@ -1,0 +1,287 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The timeline's picture: an axis, one strip per segment, contacts, graphs.
+
+import type {ContactWords, GraphWords} from './protocol';
+import type {Colours} from './theme';
+import type {TimeWindow} from './time_window';
+import {clockWords, tickStep_s} from './time_window';
+import type {Rows} from './timeline_rows';
+
+export const AXIS_PX = 20;
+const SUMMARY_PX = 18;
+export const ROW_PX = 14;
+const GRAPH_PX = 58;
+const GAP_PX = 6;
+
+export interface TimelineData {
+  rows: Rows;
+  contacts: readonly ContactWords[];
+  graphs: readonly GraphWords[];
+  notes: readonly {frame: number; text: string}[];
+  rate_hz: number;
+  first_frame: number;
+  live: boolean;
+}
+
+export interface Band {
+  kind: 'summary' | 'row' | 'contact' | 'graph';
+  index: number;
+  top: number;
+  height: number;
+}
+
+/** Bands from the top. Folded: only the summary. */
+export function layOut(data: TimelineData, folded: boolean): Band[] {
+  const bands: Band[] = [];
+  let top = AXIS_PX;
+  const add = (kind: Band['kind'], index: number, height: number): void => {
+    bands.push({kind, index, top, height});
+    top += height;
+  };
+  if (data.rows.names.length > 0 || folded) add('summary', 0, SUMMARY_PX);
+  if (folded) return bands;
+  if (data.rows.names.length > 0) top += GAP_PX;
+  data.rows.names.forEach((_, i) => add('row', i, ROW_PX));
+  if (data.contacts.length > 0) top += GAP_PX;
+  data.contacts.forEach((_, i) => add('contact', i, ROW_PX));
+  data.graphs.forEach((_, i) => {
+    top += GAP_PX;
+    add('graph', i, GRAPH_PX);
+  });
+  return bands;
+}
+
+export function heightOf(bands: readonly Band[]): number {
+  const last = bands[bands.length - 1];
+  return (last ? last.top + last.height : AXIS_PX) + GAP_PX;
+}
+
+/** Lowest and highest value that is known; null of a graph without any. */
+export function rangeOf(values: readonly (number | null)[]): [number, number] | null {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const value of values) {
+    if (value === null || !Number.isFinite(value)) continue;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  if (low > high) return null;
+  // From zero, where that does not squeeze the curve.
+  return [low >= 0 && low < 0.6 * high ? 0 : low, high > low ? high : low + 1];
+}
+
+export class TimelinePainter {
+  constructor(private readonly context: CanvasRenderingContext2D,
+    private readonly colours: Colours, private readonly window: TimeWindow,
+    private readonly gutter: number, private readonly width: number) {}
+
+  paint(data: TimelineData, bands: readonly Band[]): void {
+    const {context, gutter, width} = this;
+    context.clearRect(0, 0, gutter + width, heightOf(bands) + 100);
+    context.font = '11px system-ui, sans-serif';
+    context.textBaseline = 'middle';
+    this.axis(data);
+    for (const band of bands) {
+      if (band.kind === 'summary') this.summary(data, band);
+      if (band.kind === 'row') this.row(data, band);
+      if (band.kind === 'contact') this.contact(data.contacts[band.index], band);
+      if (band.kind === 'graph') this.graph(data.graphs[band.index], band);
+    }
+    for (const {frame} of data.notes) this.note(frame);
+  }
+
+  private x(frame: number): number {
+    return this.gutter + this.window.x(frame, this.width);
+  }
+
+  private name(text: string, band: Band): void {
+    const {context, gutter, colours} = this;
+    context.save();
+    context.beginPath();
+    context.rect(0, band.top, gutter - 6, band.height);
+    context.clip();
+    context.fillStyle = colours.quiet;
+    context.textAlign = 'left';
+    context.fillText(text, 0, band.top + band.height / 2);
+    context.restore();
+  }
+
+  /** From frame `first` to `last`, both included, within the plot. */
+  private bar(first: number, last: number, top: number, height: number): void {
+    const left = Math.max(this.x(first - 0.5), this.gutter);
+    const right = Math.min(this.x(last + 0.5), this.gutter + this.width);
+    if (right <= left) return;
+    this.context.fillRect(left, top, Math.max(right - left, 1), height);
+  }
+
+  private axis(data: TimelineData): void {
+    const {context, colours, window, width} = this;
+    const second_px = width / (window.to - window.from) * data.rate_hz;
+    const step_s = tickStep_s(62 / second_px);
+    const decimals = step_s >= 1 ? 0 : step_s >= 0.1 ? 1 : step_s >= 0.01 ? 2 : 3;
+    const origin = data.live ? window.to : 0;
+    context.textAlign = 'center';
+    const first = Math.ceil((window.from - origin) / data.rate_hz / step_s);
+    const last = Math.floor((window.to - origin) / data.rate_hz / step_s);
+    for (let i = first; i <= last; ++i) {
+      const x = this.x(origin + i * step_s * data.rate_hz);
+      context.fillStyle = colours.rule;
+      context.fillRect(Math.round(x), AXIS_PX - 5, 1, 5);
+      const text = data.live && i === 0 ? 'now' : clockWords(i * step_s, decimals);
+      const half = context.measureText(text).width / 2;
+      const at = Math.min(Math.max(x, this.gutter + half), this.gutter + width - half);
+      context.fillStyle = colours.quiet;
+      context.fillText(text, at, AXIS_PX / 2 - 2);
+    }
+  }
+
+  private colourOf(source: number): string {
+    return this.colours.sources[source] ?? this.colours.none;
+  }
+
+  private strip(top: number, height: number): void {
+    this.context.fillStyle = this.colours.sources[0];
+    this.bar(this.window.from, this.window.to, top, height);
+  }
+
+  private get stride(): number {
+    return (this.window.to - this.window.from) / Math.max(this.width, 1);
+  }
+
+  /** How many segments were measured, repaired, inferred: one column per pixel. */
+  private summary(data: TimelineData, band: Band): void {
+    const {rows} = data;
+    const {from, to} = this.window;
+    const all = rows.names.length;
+    const height = band.height - 2;
+    this.name(all > 0 ? 'all segments' : '', band);
+    this.context.fillStyle = all > 0 ? this.colours.sources[0] : this.colours.none;
+    this.bar(from, to, band.top, height);
+    if (all === 0) return;
+    const columns = Math.ceil(this.width);
+    const counts = [1, 2, 3].map(() => new Uint16Array(columns));
+    rows.names.forEach((_, row) => rows.spans(row, from, to, this.stride,
+      (first, last, source) => {
+        const left = Math.max(0, Math.floor(this.window.x(first - 0.5, this.width)));
+        const right = Math.min(columns, Math.ceil(this.window.x(last + 0.5, this.width)));
+        const count = counts[source - 1];
+        for (let x = left; count && x < right; ++x) ++count[x];
+      }));
+    this.columns(counts, all, band.top, height);
+  }
+
+  /** The graver the source, the higher up. */
+  private columns(counts: readonly Uint16Array[], all: number, top: number,
+    height: number): void {
+    const {context} = this;
+    const above = new Uint16Array(this.width + 1);
+    for (const source of [3, 2, 1]) {
+      const count = counts[source - 1];
+      context.fillStyle = this.colourOf(source);
+      // Columns alike are one rectangle.
+      for (let x = 0, start = 0; x < count.length; x = start) {
+        while (start < count.length && count[start] === count[x] && above[start] === above[x]) {
+          ++start;
+        }
+        const [y, tall] = [above[x] / all * height, count[x] / all * height];
+        if (tall > 0) context.fillRect(this.gutter + x, top + y, start - x, tall);
+      }
+      count.forEach((of, x) => { above[x] += of; });
+    }
+  }
+
+  private row(data: TimelineData, band: Band): void {
+    this.name(boneWords(data.rows.names[band.index]), band);
+    this.strip(band.top, band.height - 2);
+    data.rows.spans(band.index, this.window.from, this.window.to, this.stride,
+      (first, last, source) => {
+        this.context.fillStyle = this.colourOf(source);
+        this.bar(first, last, band.top, band.height - 2);
+      });
+  }
+
+  private contact(contact: ContactWords, band: Band): void {
+    this.name(contact.name, band);
+    this.context.fillStyle = this.colours.none;
+    this.bar(this.window.from, this.window.to, band.top, band.height - 2);
+    this.context.fillStyle = this.colours.ink;
+    for (const [first, last] of contact.spans) {
+      this.bar(first, last, band.top + 2, band.height - 6);
+    }
+  }
+
+  private graph(graph: GraphWords, band: Band): void {
+    const {context, colours, window, gutter, width} = this;
+    const range = rangeOf(graph.values);
+    this.name(graph.unit ? `${graph.name} [${graph.unit}]` : graph.name,
+      {...band, height: 14});
+    context.fillStyle = colours.none;
+    context.fillRect(gutter, band.top + band.height - 1, width, 1);
+    if (!range) return;
+    const [low, high] = range;
+    context.fillStyle = colours.quiet;
+    context.textAlign = 'right';
+    context.fillText(short(high), gutter - 6, band.top + (band.height > 30 ? 22 : 6));
+    context.fillText(short(low), gutter - 6, band.top + band.height - 6);
+    const y = (value: number): number =>
+      band.top + 3 + (1 - (value - low) / (high - low)) * (band.height - 6);
+    context.save();
+    context.beginPath();
+    context.rect(gutter, band.top, width, band.height);
+    context.clip();
+    context.beginPath();
+    let drawing = false;
+    const step = Math.max(1, Math.floor(this.stride / 2));
+    const to = Math.min(graph.values.length - 1, Math.ceil(window.to));
+    for (let i = Math.max(0, Math.floor(window.from)); i <= to; i += step) {
+      const value = highest(graph.values, i, step);
+      if (value === null) {
+        drawing = false;
+        continue;
+      }
+      if (drawing) context.lineTo(this.x(i), y(value));
+      else context.moveTo(this.x(i), y(value));
+      drawing = true;
+    }
+    context.strokeStyle = colours.accent;
+    context.lineWidth = 1.5;
+    context.lineJoin = 'round';
+    context.stroke();
+    context.restore();
+  }
+
+  private note(frame: number): void {
+    const x = this.x(frame);
+    if (x < this.gutter || x > this.gutter + this.width) return;
+    const {context} = this;
+    context.fillStyle = this.colours.accent;
+    context.beginPath();
+    context.moveTo(x - 4, AXIS_PX - 8);
+    context.lineTo(x + 4, AXIS_PX - 8);
+    context.lineTo(x, AXIS_PX - 1);
+    context.fill();
+  }
+}
+
+/** The worst of several frames that share a pixel. */
+function highest(values: readonly (number | null)[], from: number, count: number):
+  number | null {
+  let best: number | null = null;
+  for (let i = from; i < Math.min(from + count, values.length); ++i) {
+    const value = values[i];
+    if (value !== null && Number.isFinite(value) && (best === null || value > best)) best = value;
+  }
+  return best;
+}
+
+export function short(value: number): string {
+  const size = Math.abs(value);
+  return size >= 100 ? value.toFixed(0) : size >= 10 ? value.toFixed(1) : value.toFixed(2);
+}
+
+/** leftLowerArm: left lower arm */
+export function boneWords(bone: string): string {
+  return bone.replace(/[a-z][A-Z]/g, (pair) => `${pair[0]} ${pair[1].toLowerCase()}`);
+}

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the mock tells: scenes, states, steps of a calibration.
+
+import {JOINTS, sourceAt} from './walker.mjs';
+
+/** Cameras in front, aside and behind, all looking at the middle. */
+const CAMERAS = [['left', 2.2, 2.4], ['right', -2.2, 2.4], ['back', 0.3, -3]].map(
+  ([name, x, z]) => {
+    const yaw = Math.atan2(-x, -z);
+    // Camera: x right, y down, z forward: half a turn about z after turning to the middle.
+    return {name, width_px: 1280, height_px: 720, fx: 900, fy: 900, cx: 639.5, cy: 359.5,
+      world_from_camera: {p: [x, 1.5, z], q: [Math.sin(yaw / 2), 0, Math.cos(yaw / 2), 0]},
+      rms_px: 0.31};
+  });
+
+const skeleton = (name, kind, offset_m, skin) => ({name, kind, joints: JOINTS, skin, offset_m,
+  estimate: kind !== 'avatar'});
+
+function bodies(kind, avatar) {
+  const performer = skeleton('performer', kind, [0, 0, 0], null);
+  if (!avatar) return [performer];
+  const words = avatar.words ?? {format: 'glb', nodes: JOINTS.map(({name}) => name),
+    node_index: JOINTS.map((_, i) => i + 1), unit_from_m: 1};
+  return [performer, skeleton('mannequin', 'avatar', [1.2, 0, 0], {media: '/media/1', ...words})];
+}
+
+const constraint = (id, kind, p_in_world, active = true) =>
+  ({id, skeleton: 0, kind, active, p_in_world, draggable: true});
+
+const common = (mode, rate_hz, avatar) => ({
+  type: 'scene', version: 1, revision: 1, mode, rate_hz,
+  skeletons: bodies(mode === 'live' ? 'performer' : 'motion', avatar),
+  cameras: CAMERAS, points: null, floor: {height_m: 0},
+  constraints: [constraint('left hand', 'position', [0.42, 0.95, 0.2]),
+    constraint('right hand', 'position', [-0.42, 0.95, 0.2]),
+    constraint('left foot', 'support', [0.1, 0.02, 0.05]),
+    constraint('gaze', 'orientation', [0, 1.7, 0.4], false)],
+  wizard: null,
+});
+
+export function liveScene(rate_hz, avatar) {
+  return {...common('live', rate_hz, avatar), title: 'studio', file: null};
+}
+
+export function fileScene(rate_hz, frames, avatar) {
+  const tracks = JOINTS.filter(({bone}) => bone).map(({name}) => {
+    const joint = JOINTS.findIndex((other) => other.name === name);
+    const gaps = [];
+    for (let i = 0; i < frames; ++i) {
+      const source = ['', 'repaired', 'inferred'][sourceAt(joint, i)];
+      const last = gaps[gaps.length - 1];
+      if (source && last && last[1] === i - 1 && last[2] === source) last[1] = i;
+      else if (source) gaps.push([i, i, source]);
+    }
+    return {name, gaps};
+  });
+  const spans = (shift) => Array.from({length: Math.ceil(frames / 33)}, (_, i) =>
+    [33 * i + shift, Math.min(33 * i + shift + 18, frames - 1)]);
+  return {...common('file', rate_hz, avatar), title: 'walk', file: {frames, first_frame: 100,
+    block: '/media/2', points_block: null, tracks,
+    contacts: [{name: 'left heel', spans: spans(0)}, {name: 'right heel', spans: spans(16)}],
+    graphs: [{name: 'reprojection', unit: 'px', values: Array.from({length: frames}, (_, i) =>
+      (i % 97 === 0 ? null : 0.3 + 0.12 * Math.sin(i / 9) + (i % 120 < 25 ? 0.4 : 0)))}],
+    notes: [{frame: 60, text: 'arm behind the back'}]}};
+}
+
+export function statusAt({frame, rate_hz, recording, pages}) {
+  const stage = (name, p50_ms, p95_ms) => ({name, p50_ms, p95_ms});
+  return {type: 'status', clock_s: frame / rate_hz, subject: 'tracked', frame, rate_hz: 29.9,
+    latency_ms: {p50: 21.4, p95: 29.8},
+    stages: [stage('detect left', 7.2, 9.9), stage('detect right', 7, 9.6),
+      stage('track pose', 1.6, 2.3), stage('adapt', 0.2, 0.3), stage('send', 0.1, 0.2)],
+    overload: 'none', cameras: CAMERAS.map(({name}, i) => ({name, state: i === 2 ? 'silent'
+      : 'streaming', frames: frame, dropped: 2 * i, tags: 5 - i, detail: i === 2
+      ? 'no frame for 0.4 s' : ''})),
+    outputs: [{name: 'VMC 127.0.0.1:39539', sent: 3 * frame, failed: 0, detail: ''}],
+    recording: recording === null ? null : {file: 'take-003', seconds:
+      (performance.now() - recording) / 1000, trouble: ''},
+    clients: pages.size, messages: frame > 60 ? ['camera back: no frame for 0.4 s'] : []};
+}
+
+const STEPS = {
+  idle: ['Not calibrated here', 'Finds where the tags sit on the body.', 0],
+  stand: ['Stand still', 'Feet apart, arms a little away from the body, for three seconds.', 0.4],
+  move: ['Move every joint', 'Bend elbows and knees, turn wrists, lean to all sides.', 0.7],
+  done: ['Done', 'Accept it, or cancel to keep the earlier one.', 1],
+};
+
+export function wizardAt(step) {
+  const [title, text, progress] = STEPS[step];
+  const seen = step === 'move' || step === 'done';
+  const grid = (k) => Array.from({length: 48}, (_, i) =>
+    Math.max(0, 1 - Math.hypot(i % 8 - 3.5 - k, Math.floor(i / 8) - 2.5) / 4));
+  return {type: 'wizard', step, title, text, progress,
+    cameras: seen ? CAMERAS.map(({name}, k) => ({name, coverage: 0.7 - 0.2 * k, grid: grid(k),
+      rms_px: step === 'done' ? 0.3 + 0.1 * k : null})) : [],
+    quality: step === 'done' ? [{name: 'left forearm', value: '24.1 cm ± 0.3', good: true},
+      {name: 'right shin', value: '40.9 cm ± 2.8', good: false}] : [],
+    error: ''};
+}

@@ -1,0 +1,9 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// npm run serve [-- file]: the page with the mock behind it, to be looked at.
+
+import {MockServer} from './mock_server.mjs';
+
+const mode = process.argv[2] === 'file' ? 'file' : 'live';
+console.log(await new MockServer({mode}).start(8123));
