@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+#include "core/transform.h"
+#include "live/page_wizard.h"
+
+namespace marey::live {
+
+/// Members stay in the order in which they are written.
+using PageJson = nlohmann::ordered_json;
+
+/// In one line; broken UTF-8 is replaced, what is not finite is null.
+[[nodiscard]] inline std::string in_one_line(const PageJson& json) {
+  return json.dump(-1, ' ', false, PageJson::error_handler_t::replace);
+}
+
+[[nodiscard]] inline PageJson to_json(const glm::dvec3& v) {
+  return PageJson::array({v.x, v.y, v.z});
+}
+
+[[nodiscard]] inline PageJson to_json(const RigidTransform& t) {
+  return {{"p", to_json(t.translation)},
+          {"q", {t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w}}};
+}
+
+template <class T>
+[[nodiscard]] PageJson or_null(const std::optional<T>& value) {
+  return value ? PageJson(*value) : PageJson();
+}
+
+/// One entry for each of `list`.
+template <class List, class One>
+[[nodiscard]] PageJson array_of(const List& list, const One& one) {
+  PageJson out = PageJson::array();
+  for (const auto& item : list) out.push_back(one(item));
+  return out;
+}
+
+/// The message `wizard`, which is also a member of the scene.
+[[nodiscard]] PageJson wizard_object(const PageWizard& wizard);
+
+}  // namespace marey::live
