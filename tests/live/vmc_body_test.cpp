@@ -71,16 +71,29 @@ AnyRest with_any_rest(const Skeleton& t_posed, Dice& dice) {
   return out;
 }
 
+/// `t_pose_from_joint`: what normalising took away from each joint's rotation; empty:
+/// nothing.
 void expect_shown(const Skeleton& body,
                   const Pose& pose,
-                  const std::vector<glm::dmat4>& shown) {
+                  const std::vector<glm::dmat4>& shown,
+                  std::span<const glm::dquat> t_pose_from_joint = {}) {
+  const glm::dmat3 mirror(-1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
   const auto world = world_from_joints(body, pose);
   for (std::size_t i = 0; i < world.size(); ++i) {
     if (!body.joints[i].bone) continue;
     const glm::dvec3 p = world[i].translation;
-    const glm::dvec3 mirrored(-p.x, p.y, p.z);
-    EXPECT_LT(glm::distance(glm::dvec3(shown[i][3]), mirrored), kRounding_m)
+    EXPECT_LT(glm::distance(glm::dvec3(shown[i][3]), mirror * p), kRounding_m)
         << body.joints[i].name;
+    glm::dmat3 turned = glm::mat3_cast(world[i].rotation);
+    if (!t_pose_from_joint.empty()) {
+      turned = turned * glm::transpose(glm::mat3_cast(t_pose_from_joint[i]));
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LT(
+          glm::distance(glm::dvec3(shown[i][axis]), (mirror * turned * mirror)[axis]),
+          1e-11)
+          << body.joints[i].name;
+    }
   }
 }
 
@@ -106,9 +119,37 @@ TEST(VmcBody, Vrm0IsWhatANormalisedAvatarShowsInUnity) {
     const Pose pose = any_pose(rest.body, dice);
     VmcPose told;
     vmc.tell(pose, told);
-    expect_shown(
-        rest.body, pose, shown_in_unity(t_posed, normalised_unity_nodes(t_posed), told));
+    expect_shown(rest.body,
+                 pose,
+                 shown_in_unity(t_posed, normalised_unity_nodes(t_posed), told),
+                 rest.t_pose_from_joint);
   }
+}
+
+// The file has a node above the hips that the skeleton lacks.
+TEST(VmcBody, RawKnowsOfANodeAboveTheFirstJoint) {
+  Dice dice(10);
+  const Skeleton body = testing::random_humanoid(dice);
+  const RigidTransform world_from_above{dice.turn(2.0), {0.1, 0.2, -0.3}};
+  const VmcBody vmc = *VmcBody::make(
+      body, {.rest = VmcRest::kRaw, .world_from_root_parent = world_from_above});
+  const Pose pose = any_pose(body, dice);
+  VmcPose told;
+  vmc.tell(pose, told);
+  const UnityTransform& hips = told.local[index(UnityBone::kHips)];
+  const RigidTransform above_from_hips{mirrored_x(hips.rotation),
+                                       mirrored_x(hips.position)};
+  const RigidTransform world_from_hips = world_from_above * above_from_hips;
+  EXPECT_LT(glm::distance(world_from_hips.translation, pose.root_in_world), kRounding_m);
+  EXPECT_NEAR(std::abs(glm::dot(world_from_hips.rotation, pose.parent_from_joint[0])),
+              1.0,
+              1e-12);
+  Pose again;
+  vmc.pose_of(told, again);
+  EXPECT_LT(glm::distance(again.root_in_world, pose.root_in_world), kRounding_m);
+  EXPECT_NEAR(std::abs(glm::dot(again.parent_from_joint[0], pose.parent_from_joint[0])),
+              1.0,
+              1e-12);
 }
 
 TEST(VmcBody, TellsIdentityInTheTPoseAndTheAvatarsOwnOffsets) {
