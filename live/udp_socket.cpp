@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "live/udp_socket.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <system_error>
+#include <vector>
 
 #include <netdb.h>
 #include <netinet/in.h>
@@ -17,7 +20,10 @@ namespace {
 using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
 Error trouble(const UdpAddress& address, int problem, std::string next) {
-  return {Errc::kDevice, text_of(address), std::strerror(problem), std::move(next)};
+  return {Errc::kDevice,
+          text_of(address),
+          std::generic_category().message(problem),
+          std::move(next)};
 }
 
 /// Every address of the host, or why there is none.
@@ -40,6 +46,17 @@ Result<AddressList> look_up(const UdpAddress& address) {
                "check the network, or give the host's address"};
 }
 
+/// IPv4 before IPv6. Nobody answers to UDP, so that the first address is all that is ever
+/// tried, and receivers of VMC at "localhost" mostly are at 127.0.0.1 alone, not at ::1.
+std::vector<const addrinfo*> old_network_first(const addrinfo& list) {
+  std::vector<const addrinfo*> order;
+  for (const addrinfo* at = &list; at != nullptr; at = at->ai_next) order.push_back(at);
+  std::stable_partition(order.begin(), order.end(), [](const addrinfo* at) {
+    return at->ai_family == AF_INET;
+  });
+  return order;
+}
+
 int open_socket(const addrinfo& address) {
   return socket(address.ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
 }
@@ -54,7 +71,7 @@ Result<UdpSocket> UdpSocket::to(const UdpAddress& address) {
   const Result<AddressList> list = look_up(address);
   if (!list) return list.error();
   int problem = 0;
-  for (const addrinfo* at = list->get(); at != nullptr; at = at->ai_next) {
+  for (const addrinfo* at : old_network_first(**list)) {
     UdpSocket made(open_socket(*at));
     const int on = 1;
     // Connected, so that a receiver that is not there shows as ECONNREFUSED.
@@ -72,7 +89,7 @@ Result<UdpSocket> UdpSocket::at(const UdpAddress& address) {
   const Result<AddressList> list = look_up(address);
   if (!list) return list.error();
   int problem = 0;
-  for (const addrinfo* at = list->get(); at != nullptr; at = at->ai_next) {
+  for (const addrinfo* at : old_network_first(**list)) {
     UdpSocket made(open_socket(*at));
     if (made.fd_ >= 0 && bind(made.fd_, at->ai_addr, at->ai_addrlen) == 0) return made;
     problem = errno;

@@ -21,8 +21,9 @@ class UdpSocket {
   ~UdpSocket();
 
   /// A socket whose packets go to `address`, broadcasts included. Looks the name up,
-  /// which may take seconds. Errors: there is no such host (kBadInput); names cannot be
-  /// looked up, or no network leads there (kDevice).
+  /// which may take seconds; of a host's addresses IPv4's come first. Errors: there is no
+  /// such host (kBadInput); names cannot be looked up, or no network leads there
+  /// (kDevice).
   [[nodiscard]] static Result<UdpSocket> to(const UdpAddress& address);
 
   /// A socket that hears packets for `address`: "127.0.0.1" hears this machine alone,

@@ -10,7 +10,7 @@
 namespace marey::live {
 namespace {
 
-constexpr double kFurthest_m = 10e3;
+constexpr double kFurthest = 10e3;  // [m]
 // Senders round; below this a rotation is nobody's.
 constexpr double kShortestQuaternion = 1e-3;
 constexpr int kIncompleteUntilBelieved = 5;
@@ -26,7 +26,7 @@ std::optional<UnityTransform> read_transform(OscArguments& arguments) {
   const auto [x, y, z, qx, qy, qz, qw] = numbers;
   const glm::dvec3 position(x, y, z);
   const double length = std::hypot(std::hypot(qx, qy), std::hypot(qz, qw));
-  if (!(glm::length(position) <= kFurthest_m) || !(length >= kShortestQuaternion) ||
+  if (!(glm::length(position) <= kFurthest) || !(length >= kShortestQuaternion) ||
       !std::isfinite(length)) {
     return std::nullopt;
   }

@@ -18,6 +18,7 @@
 #include "recordings/marker_file.h"
 #include "recordings/trc.h"
 #include "recordings/vrma.h"
+#include "tests/fuzz/fuzz_seeds_osc.h"
 
 namespace {
 
@@ -192,6 +193,8 @@ bool write_all(const std::filesystem::path& folder) {
       "range 0.4 1.6\r\n# x\r\nendheader \r\n\r\npelvis_tx Time pelvis_tilt\r\n1 0.4 "
       "-9\r\n";
   return ok && write_constraint_sets(folder / "constraints") && write_motions(folder) &&
+         write_file(folder / "osc/pose", fuzz::osc_pose()).has_value() &&
+         write_file(folder / "osc/commands", fuzz::osc_commands()).has_value() &&
          write_file(folder / "trc/odd.trc", odd).has_value() &&
          write_file(folder / "mot/opensim.mot", opensim).has_value() &&
          write_file(folder / "mot/simm.mot", simm).has_value();

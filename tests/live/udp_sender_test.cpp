@@ -44,6 +44,7 @@ TEST(UdpAddress, IsDeclinedWhenItIsUnclear) {
   }
 }
 
+// "localhost" is ::1, too, where b is not.
 TEST(UdpSender, ReachesEveryTarget) {
   auto a = *UdpListener::open(here(0));
   auto b = *UdpListener::open(here(0));
@@ -53,8 +54,6 @@ TEST(UdpSender, ReachesEveryTarget) {
   for (UdpListener* listener : {&a, &b}) {
     listener->wait(1000ms);
     const auto packet = listener->receive();
-    // "localhost" may be ::1, where b is not.
-    if (listener == &b && !packet) continue;
     ASSERT_TRUE(packet);
     EXPECT_EQ(std::vector<std::uint8_t>(packet->begin(), packet->end()), kPacket);
     EXPECT_FALSE(listener->receive());
