@@ -54,8 +54,8 @@ export class BalanceView {
     this.offset = offset;
     this.corners.setUsage(DynamicDrawUsage);
     this.plumbEnds.setUsage(DynamicDrawUsage);
-    this.centre = new Mesh(new SphereGeometry(0.028, 16, 10), this.mark);
-    this.foot = new Mesh(new SphereGeometry(0.014, 12, 8), this.mark);
+    this.centre = new Mesh(new SphereGeometry(0.028, 12, 8), this.mark);
+    this.foot = new Mesh(new SphereGeometry(0.014, 8, 6), this.mark);
     const fan = new BufferGeometry();
     fan.setAttribute('position', this.corners);
     fan.setIndex(Array.from({length: MOST_CORNERS - 2}, (_, i) => [0, i + 1, i + 2]).flat());

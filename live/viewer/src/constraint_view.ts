@@ -14,11 +14,11 @@ import type {Colours} from './theme';
 const SIZE = 0.0105;
 
 const SHAPES: Record<ConstraintWords['kind'], () => BufferGeometry> = {
-  position: () => new SphereGeometry(1, 18, 12),
+  position: () => new SphereGeometry(1, 12, 8),
   distance: () => new OctahedronGeometry(1.3),
   box: () => new BoxGeometry(1.7, 1.7, 1.7),
-  orientation: () => new ConeGeometry(1, 2.2, 16),
-  support: () => new CylinderGeometry(1.3, 1.3, 0.5, 20),
+  orientation: () => new ConeGeometry(1, 2.2, 12),
+  support: () => new CylinderGeometry(1.3, 1.3, 0.5, 14),
 };
 
 export interface Handle {

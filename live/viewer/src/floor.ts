@@ -3,7 +3,11 @@
 
 // The floor: a grid of metres that fades with the distance.
 
-import {Color, Mesh, PlaneGeometry, ShaderMaterial} from 'three';
+import {
+  BufferGeometry, Color, Float32BufferAttribute, LineBasicMaterial, LineSegments, Mesh,
+  PlaneGeometry, ShaderMaterial,
+} from 'three';
+import type {Object3D} from 'three';
 import type {Colours} from './theme';
 
 const REACH_M = 16;
@@ -37,7 +41,21 @@ void main() {
   #include <colorspace_fragment>
 }`;
 
-export class Floor {
+/** What bodies stand on. */
+export interface Floor {
+  readonly object: Object3D;
+  height_m: number;
+  paint(colours: Colours): void;
+  /** Around what is looked at. */
+  place(x: number, z: number): void;
+}
+
+/** `software`: every pixel costs, so the floor is lines alone. */
+export function makeFloor(software: boolean): Floor {
+  return software ? new LinedFloor() : new ShadedFloor();
+}
+
+class ShadedFloor implements Floor {
   readonly object: Mesh<PlaneGeometry, ShaderMaterial>;
   height_m = 0;
 
@@ -65,11 +83,55 @@ export class Floor {
     uniforms.grid.value.setStyle(colours.grid);
   }
 
-  /** Around what is looked at. */
   place(x: number, z: number): void {
     this.object.position.set(x, this.height_m, z);
     const {centre} = this.object.material.uniforms;
     centre.value[0] = x;
     centre.value[1] = z;
+  }
+}
+
+const LINED_REACH_M = 8;
+
+class LinedFloor implements Floor {
+  readonly object: LineSegments<BufferGeometry, LineBasicMaterial>;
+  height_m = 0;
+  private readonly fades: number[] = [];
+
+  constructor() {
+    const ends: number[] = [];
+    const reach = LINED_REACH_M;
+    for (let line = -reach; line <= reach; ++line) {
+      // In pieces of two metres: colour runs evenly from end to end.
+      for (let along = -reach; along < reach; along += 2) {
+        for (const [x, z] of [[along, line], [along + 2, line], [line, along],
+          [line, along + 2]]) {
+          ends.push(x, 0, z);
+          this.fades.push(Math.max(1 - Math.hypot(x, z) / reach, 0));
+        }
+      }
+    }
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new Float32BufferAttribute(ends, 3));
+    geometry.setAttribute('color', new Float32BufferAttribute(ends.length, 3));
+    this.object = new LineSegments(geometry, new LineBasicMaterial({vertexColors: true,
+      depthWrite: false}));
+    this.object.renderOrder = -10;
+    this.object.frustumCulled = false;
+  }
+
+  paint(colours: Colours): void {
+    const [far, near, mixed] = [new Color(colours.stage), new Color(colours.grid), new Color()];
+    const tints = this.object.geometry.attributes.color;
+    this.fades.forEach((fade, i) => {
+      const {r, g, b} = mixed.lerpColors(far, near, fade);
+      tints.setXYZ(i, r, g, b);
+    });
+    tints.needsUpdate = true;
+  }
+
+  /** In whole metres: lines stay where they are in the world. */
+  place(x: number, z: number): void {
+    this.object.position.set(Math.round(x), this.height_m, Math.round(z));
   }
 }

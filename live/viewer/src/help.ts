@@ -55,3 +55,18 @@ export function listenToKeys(actions: Record<string, (event: KeyboardEvent) => v
     action(event);
   });
 }
+
+/** What was pressed with the mouse does not keep the focus: keys then go to the scene again.
+ *  Whoever goes from control to control by keyboard is left alone. */
+export function giveFocusBack(): void {
+  let byPointer = false;
+  document.addEventListener('pointerdown', () => { byPointer = true; }, true);
+  document.addEventListener('keydown', () => { byPointer = false; }, true);
+  for (const kind of ['click', 'change']) {
+    document.addEventListener(kind, ({target}) => {
+      const control = (target as HTMLElement).closest<HTMLElement>(
+        kind === 'click' ? 'button, summary, input' : 'select');
+      if (byPointer && control && !control.closest('dialog')) control.blur();
+    });
+  }
+}

@@ -12,7 +12,7 @@ import {FRAME_KIND} from './decode_frame';
 import {decodeThumbnail, THUMBNAIL_KIND} from './decode_thumbnail';
 import {el} from './elements';
 import {Header} from './header';
-import {Help, listenToKeys} from './help';
+import {giveFocusBack, Help, listenToKeys} from './help';
 import {Panels} from './panels';
 import type {DragPhase, SceneWords, ServerWords, Vector} from './protocol';
 import {Reel} from './reel';
@@ -81,6 +81,7 @@ class Page implements Listener, StageListener {
     this.header = new Header(byId('bar'), this.stage.element, this.theme,
       [this.help.button, this.panels.button], (on) => this.send({type: 'record', on}));
     this.listenToKeys();
+    giveFocusBack();
     this.connection = new Connection(this);
     window.setInterval(() => this.second(), 1000);
     window.setInterval(() => this.repaintLive(), REPAINT_EVERY_MS);
@@ -206,7 +207,11 @@ class Page implements Listener, StageListener {
     this.dragged_ms = now_ms;
     if (!this.live && phase === 'begin') {
       this.reel.playback.pause();
-      this.reel.playback.seek(this.reel.playback.frame);
+      // Between frames there is nothing to adapt.
+      if (this.reel.playback.time !== this.reel.playback.frame) {
+        this.reel.playback.seek(this.reel.playback.frame);
+      }
+      this.reel.expectAdapted();
       this.renew();
     }
     this.send({type: 'drag', id, p_in_world, phase,

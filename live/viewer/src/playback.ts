@@ -16,6 +16,8 @@ export class Playback {
   playing = false;
   /** Live: shows the newest, whatever comes. */
   following = false;
+  /** How often somebody went somewhere. */
+  seeks = 0;
 
   get frame(): number {
     return Math.min(Math.max(Math.round(this.time), this.first), this.last);
@@ -30,6 +32,7 @@ export class Playback {
 
   seek(time: number): void {
     this.following = false;
+    ++this.seeks;
     this.time = this.clamped(time);
   }
 

@@ -8,6 +8,8 @@
 const RATIOS = [2, 1.5, 1, 0.75, 0.6];
 const PATIENCE = 2; // Seconds of one kind before anything changes.
 const CALM = 20; // Seconds without trouble before it is tried finer.
+/** Pixels below which it gets uglier and hardly faster. */
+const FEWEST_PX = 200_000;
 
 export class Quality {
   private level: number;
@@ -29,15 +31,17 @@ export class Quality {
     return RATIOS[this.level];
   }
 
-  /** Pictures that were due within the last second and those that were drawn. True when the
-   *  ratio changed. */
-  second(due: number, drawn: number): boolean {
+  /** Pictures that were due within the last second and those that were drawn, and the area
+   *  they take on the page. True when the ratio changed. */
+  second(due: number, drawn: number, area_px: number): boolean {
     // Few pictures say nothing: the page was hidden, or nothing moved.
     if (due < 10) return false;
     const slow = drawn < 0.85 * Math.min(due, 60);
     this.behind = slow ? this.behind + 1 : 0;
     this.fine = slow ? 0 : this.fine + 1;
-    if (this.behind >= PATIENCE && this.level < RATIOS.length - 1) {
+    const coarser = RATIOS[this.level + 1];
+    const worthIt = coarser !== undefined && coarser ** 2 * area_px >= FEWEST_PX;
+    if (this.behind >= PATIENCE && worthIt) {
       this.limit = this.level + 1;
       return this.change(this.level + 1);
     }

@@ -29,8 +29,9 @@ export class Reel {
   private layout = '';
   /** Whose sources the timeline shows. */
   private witness = -1;
-  /** What came of dragging a constraint of a recording, and at which frame. */
-  private adapted: {at: number; frame: SceneFrame} | null = null;
+  /** What comes of dragging a constraint of a recording at frame `at`, until one goes
+   *  elsewhere: answers that come later than that are not looked at. */
+  private adapted: {at: number; seeks: number; frame: SceneFrame | null} | null = null;
 
   /** A session that goes on keeps its past. */
   setScene(scene: SceneWords): void {
@@ -96,22 +97,31 @@ export class Reel {
     return true;
   }
 
+  /** A constraint is dragged: what the server answers is this frame, adapted. */
+  expectAdapted(): void {
+    const {frame: at, seeks} = this.playback;
+    if (!this.live) this.adapted = {at, seeks, frame: this.adapted?.frame ?? null};
+  }
+
   private adapt(view: DataView): boolean {
+    if (this.adapted?.seeks !== this.playback.seeks) return false;
     const frame = new SceneFrame(this.shown.skeletons.map(({joints}) =>
       ({joints: new Array(joints)})));
     if (decodeFrame(view, 0, frame) < 0) return false;
-    this.adapted = {at: this.playback.frame, frame};
+    this.adapted.frame = frame;
     return true;
   }
 
   /** Makes `shown` the instant of the playback. False when there is nothing to show. */
   compose(): boolean {
     const {time, frame} = this.playback;
-    if (this.adapted && this.adapted.at === time) {
+    if (this.adapted?.at !== time || this.adapted.seeks !== this.playback.seeks) {
+      this.adapted = null;
+    }
+    if (this.adapted?.frame) {
       this.take(this.adapted.frame);
       return true;
     }
-    this.adapted = null;
     const low = Math.floor(time);
     if (low === time || !this.read(low + 1, this.after)) return this.read(frame, this.shown);
     if (!this.read(low, this.before)) return false;

@@ -103,7 +103,7 @@ export class Renderer {
 
   /** Once a second: pictures that were due, and those drawn. */
   adapt(due: number, drawn: number): void {
-    if (this.quality.second(due, drawn)) this.resize();
+    if (this.quality.second(due, drawn, this.width * this.height)) this.resize();
   }
 
   /** Waits until everything asked for is drawn. For measuring. */

@@ -44,10 +44,9 @@ export class SkeletonView {
     this.radii = lengths.map((length) => Math.min(0.13 * length, 0.022 * size));
     this.jointRadius = 0.0095 * size;
     const shape = boneGeometry();
-    const ball = ballGeometry(1);
     this.bones = instances(shape, new MeshLambertMaterial(), this.ends.length);
-    this.balls = instances(ball, new MeshLambertMaterial(), pose.joints);
-    this.doubt = instances(ball, new MeshBasicMaterial({transparent: true, opacity: 0.28,
+    this.balls = instances(ballGeometry(0), new MeshLambertMaterial(), pose.joints);
+    this.doubt = instances(ballGeometry(1), new MeshBasicMaterial({transparent: true, opacity: 0.28,
       depthWrite: false}), pose.joints);
     this.shadow = instances(shape, new MeshBasicMaterial({side: DoubleSide,
       depthWrite: false}), this.ends.length);

@@ -11,7 +11,8 @@ import type {PointBlock} from './decode_blocks';
 import type {SceneFrame} from './decode_frame';
 import {dragInPlane, dragVertically} from './drag_plane';
 import {el} from './elements';
-import {Floor} from './floor';
+import {makeFloor} from './floor';
+import type {Floor} from './floor';
 import {Gestures} from './gestures';
 import type {Grip} from './gestures';
 import {Labels} from './labels';
@@ -40,7 +41,7 @@ export class Stage {
   readonly shown: Shown = {skin: true, bones: false, doubt: true, balance: true,
     cameras: true, handles: true, names: true};
   private readonly labels = new Labels();
-  private readonly floor = new Floor();
+  private readonly floor: Floor;
   private readonly rig = new RigView();
   private readonly handles = new ConstraintView();
   private readonly still = window.matchMedia('(prefers-reduced-motion: reduce)');
@@ -53,7 +54,8 @@ export class Stage {
 
   constructor(private readonly theme: Theme, private readonly listener: StageListener) {
     this.renderer = new Renderer((now_ms) => this.picture(now_ms), () => this.settle());
-    const {scene, canvas} = this.renderer;
+    const {scene, canvas, software} = this.renderer;
+    this.floor = makeFloor(software);
     scene.add(this.floor.object, this.rig.object, this.handles.object);
     this.element = el('div', {class: 'stage'}, canvas, this.labels.element);
     new Gestures(canvas, this.orbit, {
@@ -64,10 +66,6 @@ export class Stage {
     });
     theme.onChange(() => this.paint());
     this.paint();
-  }
-
-  get software(): boolean {
-    return this.renderer.software;
   }
 
   setScene(words: SceneWords): void {

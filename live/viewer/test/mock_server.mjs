@@ -114,7 +114,7 @@ export class MockServer {
     const tell = () => { if (!this.silent) this.say(statusAt(this)); };
     const show = () => {
       for (const page of this.pages) {
-        if (page.wantsPictures) page.send(thumbnail(this.frame));
+        if (page.wantsPictures && !this.silent) page.send(thumbnail(this.frame));
       }
     };
     this.timers = [setInterval(send, 2), setInterval(tell, 500), setInterval(show, 250)];

@@ -23,7 +23,11 @@ function bodies(kind, avatar) {
   if (!avatar) return [performer];
   const words = avatar.words ?? {format: 'glb', nodes: JOINTS.map(({name}) => name),
     node_index: JOINTS.map((_, i) => i + 1), unit_from_m: 1};
-  return [performer, skeleton('mannequin', 'avatar', [1.2, 0, 0], {media: '/media/1', ...words})];
+  const dressed = skeleton('mannequin', 'avatar', [1.2, 0, 0], {media: '/media/1', ...words});
+  if (avatar.rest) {
+    dressed.joints = JOINTS.map((joint, i) => ({...joint, rest: avatar.rest[i]}));
+  }
+  return [performer, dressed];
 }
 
 const constraint = (id, kind, p_in_world, active = true) =>

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A browser without a screen, drawing in software, and what went wrong in it.
+
+import {existsSync} from 'node:fs';
+import {fileURLToPath} from 'node:url';
+import {missingPackages} from './installed.mjs';
+
+const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
+
+/** Why there can be no browser; null when there can. */
+export function missing() {
+  const here = fileURLToPath(new URL('..', import.meta.url));
+  const packages = missingPackages();
+  if (packages) return packages;
+  if (!existsSync(`${here}dist/page.js`)) {
+    return 'the page is not built; npm run build --prefix live/viewer';
+  }
+  if (!existsSync(CHROMIUM)) return 'chromium is missing; apt-get install chromium';
+  return null;
+}
+
+export async function openBrowser() {
+  const {chromium} = await import('playwright-core');
+  return chromium.launch({executablePath: CHROMIUM, args: ['--no-sandbox',
+    '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']});
+}
+
+/** A page at this address. `troubles` collects errors and requests that leave the server. */
+export async function openPage(browser, address, options = {}) {
+  const context = await browser.newContext({viewport: {width: 960, height: 600}, ...options});
+  const page = await context.newPage();
+  const troubles = [];
+  page.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type())) troubles.push(message.text());
+  });
+  page.on('pageerror', (error) => troubles.push(error.message));
+  page.on('request', (request) => {
+    if (!request.url().startsWith(address) && !/^(blob|data):/.test(request.url())) {
+      troubles.push(`asks for ${request.url()}`);
+    }
+  });
+  await page.goto(address);
+  // Something came and was drawn.
+  await page.waitForFunction(() => window.mareyPage?.stage.bodies.some((body) => body.present));
+  return {page, troubles, close: () => context.close()};
+}

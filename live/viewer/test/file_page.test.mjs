@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A recording in a browser: played, scrubbed, stepped through, adapted.
+
+import assert from 'node:assert/strict';
+import {after, before, test} from 'node:test';
+import {openBrowser, openPage} from './browser.mjs';
+import {MockServer} from './mock_server.mjs';
+
+const FRAMES = 300;
+
+let browser;
+let server;
+let opened;
+let page;
+before(async () => {
+  browser = await openBrowser();
+  server = new MockServer({mode: 'file', frames: FRAMES});
+  opened = await openPage(browser, await server.start());
+  ({page} = opened);
+  await page.waitForFunction(() => window.mareyPage.stage.bodies[1]?.dressed &&
+    window.mareyPage.stage.bodies[0].present);
+});
+after(async () => {
+  await browser.close();
+  await server.stop();
+});
+
+const time = () => page.evaluate(() => window.mareyPage.reel.playback.time);
+const hips_y = () => page.evaluate(() => window.mareyPage.stage.bodies[0].pose.p_in_world[1]);
+
+test('keys step, jump and play', async () => {
+  await page.keyboard.press('Home');
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await time(), 1);
+  await page.keyboard.press('Shift+ArrowRight');
+  assert.equal(await time(), 31);
+  await page.keyboard.press('End');
+  assert.equal(await time(), FRAMES - 1);
+  await page.keyboard.press('Home');
+  await page.keyboard.press(' ');
+  await page.waitForTimeout(700);
+  await page.keyboard.press(' ');
+  const reached = await time();
+  assert.ok(reached > 5 && reached < 60, `0.7 s reached frame ${reached}`);
+  await page.waitForTimeout(150);
+  assert.equal(await time(), reached, 'it stands');
+});
+
+test('the timeline scrubs, zooms and says where one is', async () => {
+  const box = await page.locator('.strips').boundingBox();
+  await page.mouse.move(box.x + box.width / 2, box.y + 25);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.75 * box.width, box.y + 25, {steps: 5});
+  await page.mouse.up();
+  const reached = await time();
+  assert.ok(reached > 0.6 * FRAMES && reached < 0.8 * FRAMES);
+  assert.equal(await page.locator('.strips').getAttribute('aria-valuenow'), String(reached));
+  assert.match(await page.locator('.clock').textContent(),
+    new RegExp(`frame ${reached + 100}$`));
+  await page.mouse.wheel(0, -600);
+  await page.waitForTimeout(100);
+  assert.ok(await page.evaluate(() => !window.mareyPage.timeline.window.whole));
+  await page.mouse.dblclick(box.x + box.width / 2, box.y + 25);
+  assert.ok(await page.evaluate(() => window.mareyPage.timeline.window.whole));
+});
+
+test('slow motion is shown between frames', async () => {
+  await page.keyboard.press('Home');
+  await page.getByLabel('Speed').selectOption('0.1');
+  await page.locator('.play').click();
+  await page.waitForTimeout(500);
+  await page.locator('.play').click();
+  const reached = await time();
+  assert.ok(reached > 0.3 && reached < 5, `reached frame ${reached}`);
+  assert.notEqual(reached, Math.floor(reached));
+  await page.getByLabel('Speed').selectOption('1');
+});
+
+test('loop begins anew', async () => {
+  await page.locator('.loop').click();
+  await page.keyboard.press('End');
+  await page.keyboard.press(' ');
+  await page.waitForFunction(() => window.mareyPage.reel.playback.time < 100);
+  await page.keyboard.press(' ');
+  await page.locator('.loop').click();
+});
+
+test('details show segments, contacts and graphs', async () => {
+  const height = () => page.evaluate(() => document.querySelector('.strips').clientHeight);
+  const before_px = await height();
+  await page.keyboard.press('d');
+  assert.ok(await height() > before_px + 200);
+  await page.keyboard.press('d');
+  assert.equal(await height(), before_px);
+});
+
+test('a dragged constraint shows that frame adapted, until one goes elsewhere', async () => {
+  await page.evaluate(() => window.mareyPage.seek(40));
+  await page.waitForTimeout(700);
+  const before_m = await hips_y();
+  const [x, y] = await page.evaluate(() => {
+    const {left, top} = document.querySelector('.stage canvas').getBoundingClientRect();
+    const at = window.mareyPage.stage.pixelOfHandle('left hand');
+    return [at[0] + left, at[1] + top];
+  });
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 10, y - 30, {steps: 3});
+  await page.mouse.up();
+  await page.waitForFunction((was) =>
+    window.mareyPage.stage.bodies[0].pose.p_in_world[1] > was + 0.09, before_m);
+  assert.ok(server.heard.filter(({type}) => type === 'drag').every(({frame}) => frame === 40));
+  await page.keyboard.press('ArrowRight');
+  await page.keyboard.press('ArrowLeft');
+  await page.waitForFunction((was) =>
+    Math.abs(window.mareyPage.stage.bodies[0].pose.p_in_world[1] - was) < 1e-6, before_m);
+});
+
+test('all of it without a complaint or a request elsewhere', () => {
+  assert.deepEqual(opened.troubles, []);
+});
