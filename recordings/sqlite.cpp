@@ -48,6 +48,57 @@ bool execute(sqlite3* database, const std::string& statements) {
          SQLITE_OK;
 }
 
+std::int64_t setting_of(sqlite3* database, const std::string& name) {
+  Statement ask(database, "PRAGMA " + name);
+  return ask.next_row() ? ask.integer(0) : -1;
+}
+
+Error disk_error(const std::string& file, sqlite3* database, const std::string& what) {
+  return {Errc::kDevice,
+          file,
+          what + ": " + sqlite3_errmsg(database),
+          "make room on the disk, or record to another one"};
+}
+
+Result<Database> begin_recorded(const std::filesystem::path& file,
+                                const RecordedKind& kind,
+                                const std::string& instead,
+                                const std::function<bool(sqlite3*)>& write_head) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) {
+    return bad_input(file.string(), "there is a recording already", instead);
+  }
+  Database database = open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  if (!database) {
+    return Error{Errc::kDevice,
+                 file.string(),
+                 "the file cannot be made",
+                 "choose a folder that may be written to"};
+  }
+  sqlite3* const raw = database.get();
+  // NORMAL does not wait for the disk at each commit: what is lost then is lost to a
+  // power cut alone, never to the end of the process.
+  const bool made =
+      execute(raw, "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;") &&
+      execute(raw,
+              "PRAGMA application_id=" + std::to_string(kind.application) +
+                  "; PRAGMA user_version=" + std::to_string(kind.version)) &&
+      execute(raw, kind.schema) && write_head(raw) && execute(raw, "COMMIT");
+  if (made) return database;
+  Error error = disk_error(file.string(), raw, "the take cannot be begun");
+  database.reset();
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
+    std::filesystem::remove(file.string() + suffix, ignored);
+  }
+  return error;
+}
+
+Database open_recorded(const std::filesystem::path& file) {
+  Database database = open_database(file, SQLITE_OPEN_READWRITE);
+  if (database && setting_of(database.get(), "schema_version") > 0) return database;
+  return open_database(file, SQLITE_OPEN_READONLY, "immutable=1");
+}
+
 Statement::Statement(sqlite3* database, std::string_view text) {
   sqlite3_stmt* raw = nullptr;
   result_ = sqlite3_prepare_v2(
@@ -69,6 +120,13 @@ void Statement::bind(int place, std::string_view value) {
                     value.data(),
                     static_cast<int>(value.size()),
                     SQLITE_TRANSIENT);
+}
+
+void Statement::bind(int place, std::span<const std::byte> value) {
+  // Without a pointer it would be NULL, which a table may not take.
+  const void* const bytes = value.empty() ? "" : static_cast<const void*>(value.data());
+  sqlite3_bind_blob64(
+      statement_.get(), place + 1, bytes, value.size(), SQLITE_TRANSIENT);
 }
 
 bool Statement::run() {
@@ -97,6 +155,13 @@ std::string Statement::text(int column) const {
   const int size = sqlite3_column_bytes(statement_.get(), column);
   if (bytes == nullptr || size <= 0) return {};
   return {reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)};
+}
+
+std::span<const std::byte> Statement::bytes(int column) const {
+  const void* const bytes = sqlite3_column_blob(statement_.get(), column);
+  const int size = sqlite3_column_bytes(statement_.get(), column);
+  if (bytes == nullptr || size <= 0) return {};
+  return {static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)};
 }
 
 }  // namespace marey::recordings

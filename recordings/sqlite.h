@@ -2,13 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
 #include <sqlite3.h>
+
+#include "core/result.h"
 
 // Private to recordings/: what of SQLite is needed, without its pairs of calls.
 namespace marey::recordings {
@@ -27,6 +32,35 @@ using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 /// Runs statements without results. False when one failed: see sqlite3_errmsg().
 [[nodiscard]] bool execute(sqlite3* database, const std::string& statements);
 
+/// A pragma's number; -1 where the file is no database.
+[[nodiscard]] std::int64_t setting_of(sqlite3* database, const std::string& name);
+
+/// What a database of recordings is told by.
+struct RecordedKind {
+  int application = 0;           ///< SQLite's application_id.
+  int version = 0;               ///< SQLite's user_version.
+  const char* schema = nullptr;  ///< The statements that make its tables.
+};
+
+/// Begins a recording: makes the file, with a write-ahead log, its tables and what
+/// `write_head` puts there. Errors (kDevice): the disk, and no file is left; (kBadInput):
+/// the file is there already, and `instead` says what to do.
+[[nodiscard]] Result<Database> begin_recorded(
+    const std::filesystem::path& file,
+    const RecordedKind& kind,
+    const std::string& instead,
+    const std::function<bool(sqlite3*)>& write_head);
+
+/// Opens a recording to be read; null when it cannot be. A log that was left behind is
+/// read with the file, which takes the right to write; a recording on a read-only disk is
+/// read without.
+[[nodiscard]] Database open_recorded(const std::filesystem::path& file);
+
+/// What SQLite says of a write that failed (kDevice).
+[[nodiscard]] Error disk_error(const std::string& file,
+                               sqlite3* database,
+                               const std::string& what);
+
 /// A prepared statement. Binding and columns count from 0.
 class Statement {
  public:
@@ -35,6 +69,7 @@ class Statement {
   void bind(int place, std::int64_t value);
   void bind(int place, double value);
   void bind(int place, std::string_view value);
+  void bind(int place, std::span<const std::byte> value);
   /// Runs a statement without results, and makes it ready for the next values.
   [[nodiscard]] bool run();
   /// The next row, if any. After the last, failed() tells an end from an error.
@@ -44,6 +79,8 @@ class Statement {
   [[nodiscard]] std::int64_t integer(int column) const;
   [[nodiscard]] double number(int column) const;
   [[nodiscard]] std::string text(int column) const;
+  /// Valid until the next row.
+  [[nodiscard]] std::span<const std::byte> bytes(int column) const;
 
  private:
   struct Finalize {

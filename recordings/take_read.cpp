@@ -20,19 +20,6 @@ Error damaged(const std::string& file) {
                        std::string(kTakeFile) + "-wal and -shm if they are there");
 }
 
-std::int64_t setting(sqlite3* database, const std::string& name) {
-  Statement ask(database, "PRAGMA " + name);
-  return ask.next_row() ? ask.integer(0) : -1;
-}
-
-/// A log that was left behind is read with the file, which takes the right to write; a
-/// take on a read-only disk is read without.
-Database open_take(const std::filesystem::path& file) {
-  Database database = open_database(file, SQLITE_OPEN_READWRITE);
-  if (database && setting(database.get(), "schema_version") > 0) return database;
-  return open_database(file, SQLITE_OPEN_READONLY, "immutable=1");
-}
-
 bool read_head(sqlite3* database, Take& take) {
   Statement head(database, "SELECT trial, started, finished FROM take");
   if (!head.next_row()) return false;
@@ -118,11 +105,11 @@ Result<Take> read_take(const std::filesystem::path& path) {
                      "the trial's `videos`, elsewhere than in the take: then frames are "
                      "matched by their numbers");
   }
-  const Database database = open_take(path);
-  if (!database || setting(database.get(), "application_id") != kTakeApplication) {
+  const Database database = open_recorded(path);
+  if (!database || setting_of(database.get(), "application_id") != kTakeApplication) {
     return damaged(file);
   }
-  const std::int64_t version = setting(database.get(), "user_version");
+  const std::int64_t version = setting_of(database.get(), "user_version");
   if (version > kTakeVersion) {
     return bad_input(file,
                      "it was recorded by a newer marey (format " +

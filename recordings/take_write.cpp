@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <mutex>
-#include <system_error>
 #include <utility>
 
 #include "recordings/sqlite.h"
@@ -10,16 +9,6 @@
 #include "recordings/take_schema.h"
 
 namespace marey::recordings {
-namespace {
-
-Error disk_error(const std::string& file, sqlite3* database, const std::string& what) {
-  return {Errc::kDevice,
-          file,
-          what + ": " + sqlite3_errmsg(database),
-          "make room on the disk, or record to another one"};
-}
-
-}  // namespace
 
 struct TakeWriter::Impl {
   struct Row {
@@ -104,39 +93,15 @@ TakeWriter::~TakeWriter() = default;
 
 Result<TakeWriter> TakeWriter::create(const std::filesystem::path& path,
                                       const Take& take) {
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored)) {
-    return bad_input(path.string(),
-                     "there is a recording already",
-                     "record under another trial's name, or move the old one away");
-  }
-  Database database = open_database(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  if (!database) {
-    return Error{Errc::kDevice,
-                 path.string(),
-                 "the file cannot be made",
-                 "choose a folder that may be written to"};
-  }
-  sqlite3* const raw = database.get();
-  // NORMAL does not wait for the disk at each commit: what is lost then is lost to a
-  // power cut alone, never to the end of the process.
-  const bool made =
-      execute(raw, "PRAGMA journal_mode=WAL; PRAGMA synchronous=NORMAL; BEGIN;") &&
-      execute(raw,
-              "PRAGMA application_id=" + std::to_string(kTakeApplication) +
-                  "; PRAGMA user_version=" + std::to_string(kTakeVersion)) &&
-      execute(raw, kTakeSchema) && write_head(raw, take) && execute(raw, "COMMIT");
-  if (!made) {
-    Error error = disk_error(path.string(), raw, "the take cannot be begun");
-    database.reset();
-    for (const char* suffix : {"", "-wal", "-shm", "-journal"}) {
-      std::filesystem::remove(path.string() + suffix, ignored);
-    }
-    return error;
-  }
+  auto database = begin_recorded(
+      path,
+      {kTakeApplication, kTakeVersion, kTakeSchema},
+      "record under another trial's name, or move the old one away",
+      [&take](sqlite3* raw) { return write_head(raw, take); });
+  if (!database) return database.error();
   // Only now: the statements want their tables.
   return TakeWriter(
-      std::make_unique<Impl>(path.string(), std::move(database), take.cameras.size()));
+      std::make_unique<Impl>(path.string(), *std::move(database), take.cameras.size()));
 }
 
 void TakeWriter::add(int camera, const TakeFrame& frame) {
