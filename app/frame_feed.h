@@ -33,6 +33,8 @@ class FrameFeed {
   [[nodiscard]] virtual std::string device() const = 0;
   /// What happened to the camera since the last call, in its order.
   [[nodiscard]] virtual std::vector<FeedEvent> events() = 0;
+  /// No frame will come any more: a recording has ended. Cameras never do.
+  [[nodiscard]] virtual bool is_over() { return false; }
 };
 
 }  // namespace marey::app

@@ -89,9 +89,16 @@ class LiveGroups {
       if (const auto deadline = grouper_.deadline()) {
         until = std::min(until, Clock::time_point(*deadline) + kTick);
       }
-      if (Clock::now() >= give_up) return nullptr;
+      const bool is_over = ended_ == lanes_.size() && !grouper_.deadline();
+      if (is_over || Clock::now() >= give_up) return nullptr;
       offered_.wait_until(lock, std::max(until, Clock::now() + kTick));
     }
+  }
+
+  /// Every feed has ended, and every group was handed out.
+  [[nodiscard]] bool is_over() const {
+    const std::lock_guard lock(mutex_);
+    return ended_ == lanes_.size() && !grouper_.deadline();
   }
 
   [[nodiscard]] capture::GroupingCounts counts(CameraId camera) const {
@@ -116,6 +123,7 @@ class LiveGroups {
     Lane& lane = *lanes_[index(camera)];
     while (!stop.stop_requested()) {
       const auto frame = feed.next(kListen);
+      if (!frame && feed.is_over()) break;
       if (!frame) continue;
       std::int64_t place = 0;
       {
@@ -140,6 +148,12 @@ class LiveGroups {
       }
       offered_.notify_one();
     }
+    {
+      const std::lock_guard lock(mutex_);
+      grouper_.end(camera);
+      ++ended_;
+    }
+    offered_.notify_one();
   }
 
   const LiveGroup<Made>* show(const capture::FrameGroup& group) {
@@ -173,6 +187,7 @@ class LiveGroups {
   capture::FrameGrouper grouper_;
   Make make_;
   std::vector<std::unique_ptr<Lane>> lanes_;
+  std::size_t ended_ = 0;  ///< Workers whose feed is over.
   LiveGroup<Made> group_;
   std::vector<capture::GroupedFrame> shown_;
   std::vector<std::jthread> workers_;  ///< Last: they end before what they use.

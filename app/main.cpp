@@ -11,6 +11,7 @@
 #include "app/adapt_commands.h"
 #include "app/commands.h"
 #include "app/fit_commands.h"
+#include "app/live_commands.h"
 #include "app/option_checks.h"
 #include "app/plan_commands.h"
 #include "app/print_commands.h"
@@ -50,6 +51,8 @@ struct Arguments {
   FitArguments fit;
   AdaptArguments adapt;
   RetargetArguments retarget;
+  LiveArguments live;
+  ReplayArguments replay;
 
   [[nodiscard]] ProgressStyle style_of_progress() const {
     if (progress == "json") return ProgressStyle::kJson;
@@ -229,6 +232,7 @@ int run(int argc, char** argv) {
                       args,
                       chosen);
   add_record(app, args, chosen);
+  add_live_commands(app, args.live, args.replay, chosen);
   add_retarget_command(app, args.retarget, chosen);
   add_adapt_command(app, args.adapt, chosen);
   add_convert(app, args, chosen);

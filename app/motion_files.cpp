@@ -26,23 +26,6 @@ constexpr std::array kFormats{MotionFormat::kGlb,
                               MotionFormat::kCsv,
                               MotionFormat::kMot};
 
-/// World rotations of all joints in the T-pose: of those that carry none, as at rest.
-std::vector<glm::dquat> t_pose_of(const Skeleton& skeleton,
-                                  const retarget::BodyMap& map) {
-  std::vector<glm::dquat> world;
-  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
-    const Joint& joint = skeleton.joints[i];
-    if (map.joints[i].role != retarget::JointRole::kFree) {
-      world.push_back(map.joints[i].t_pose_from_joint);
-    } else if (joint.parent) {
-      world.push_back(world[index(*joint.parent)] * joint.parent_from_joint.rotation);
-    } else {
-      world.push_back(joint.parent_from_joint.rotation);
-    }
-  }
-  return world;
-}
-
 /// A motion of one frame, at rest.
 Motion at_rest(const Skeleton& skeleton) {
   return {skeleton, FrameRate{60.0}, 0, {rest_pose(skeleton)}};
@@ -63,6 +46,22 @@ Error no_angles() {
 }
 
 }  // namespace
+
+std::vector<glm::dquat> t_pose_of(const Skeleton& skeleton,
+                                  const retarget::BodyMap& map) {
+  std::vector<glm::dquat> world;
+  for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
+    const Joint& joint = skeleton.joints[i];
+    if (map.joints[i].role != retarget::JointRole::kFree) {
+      world.push_back(map.joints[i].t_pose_from_joint);
+    } else if (joint.parent) {
+      world.push_back(world[index(*joint.parent)] * joint.parent_from_joint.rotation);
+    } else {
+      world.push_back(joint.parent_from_joint.rotation);
+    }
+  }
+  return world;
+}
 
 std::span<const MotionFormat> motion_formats() {
   return kFormats;

@@ -7,11 +7,15 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
 
 #include "core/motion.h"
 #include "core/result.h"
 #include "recordings/bvh.h"
 #include "recordings/gltf.h"
+#include "retarget/body_map.h"
 
 namespace marey::app {
 
@@ -33,6 +37,11 @@ struct MotionFileOptions {
   recordings::BvhWriteOptions bvh;
   std::string clip = "motion";  ///< What an animation in GLB or VRMA is called.
 };
+
+/// World rotations of all joints in the T-pose facing +Z: of those that carry no bone, as
+/// at rest. Precondition: `map` is of the skeleton.
+[[nodiscard]] std::vector<glm::dquat> t_pose_of(const Skeleton& skeleton,
+                                                const retarget::BodyMap& map);
 
 /// The bytes of a VRM animation of a body in marey's frame, whose bones are marked,
 /// whatever its rest pose.

@@ -3,10 +3,10 @@
 #include "app/pipeline.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
+#include "app/camera_doubt.h"
 #include "app/find_tags.h"
 #include "app/retarget_files.h"
 #include "app/stopwatch.h"
@@ -40,16 +40,6 @@ void leave_out_unrecorded(recordings::Session& session, Console& console) {
     if (left_out) console.warn("trial " + trial.name + " is not recorded yet");
     return left_out;
   });
-}
-
-/// How well a place that all cameras see is known because of where they are themselves:
-/// what is wrong with each of them counts by its share.
-double common_sigma_m(const std::vector<ReportCamera>& cameras) {
-  double sum_m2 = 0.0;
-  for (const ReportCamera& camera : cameras) {
-    sum_m2 += camera.quality.centre_sigma_m * camera.quality.centre_sigma_m;
-  }
-  return cameras.empty() ? 0.0 : std::sqrt(sum_m2) / static_cast<double>(cameras.size());
 }
 
 /// What a stage, and those before it, must find in the session.
@@ -238,7 +228,9 @@ Result<reconstruct::SolvedTrial> Pipeline::solve_trial(const Trial& trial,
   if (!detections) return detections.error();
   // A camera without a video in this trial keeps its place, and stays silent.
   reconstruct::SolveMotionOptions options;
-  options.camera_sigma_m = common_sigma_m(report_.cameras);
+  std::vector<CameraQuality> quality;
+  for (const ReportCamera& camera : report_.cameras) quality.push_back(camera.quality);
+  options.camera_sigma_m = common_sigma_m(quality);
   auto solved =
       reconstruct::solve_motion(*body_, cameras_, *detections, options, progress);
   if (!solved) return in_session(solved.error());

@@ -5,13 +5,13 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "app/camera_recorder.h"
+#include "app/utc_now.h"
 #include "core/assert.h"
 #include "recordings/take_file.h"
 
@@ -22,15 +22,6 @@ using capture::DeviceSettings;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kCommitEvery{250};
-
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  std::array<char, 32> text{};
-  std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-  return text.data();
-}
 
 template <class T>
 void add_line(std::string& text, const char* key, const std::optional<T>& value) {

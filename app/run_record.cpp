@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/device_feed.h"
+#include "app/record_device.h"
 #include "app/record_take.h"
 #include "app/stop_signal.h"
 #include "recordings/atomic_file.h"
@@ -13,20 +14,7 @@ namespace marey::app {
 namespace {
 
 using recordings::Session;
-using recordings::SessionDevice;
 using recordings::Trial;
-
-capture::DeviceRequest request_of(const SessionDevice& wanted) {
-  capture::DeviceRequest request;
-  request.path = wanted.path;
-  request.width_px = wanted.width_px;
-  request.height_px = wanted.height_px;
-  request.rate = wanted.rate;
-  request.exposure_s = wanted.exposure_s;
-  request.focus = wanted.focus;
-  request.gain = wanted.gain;
-  return request;
-}
 
 Result<const Trial*> trial_to_record(const Session& session, const std::string& name) {
   const Trial* trial = session.find(name);

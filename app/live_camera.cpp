@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_camera.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/stopwatch.h"
+
+namespace marey::app {
+namespace {
+
+Timestamp monotonic_now() {
+  return std::chrono::steady_clock::now().time_since_epoch();
+}
+
+/// Of 1280 x 720 what is 320 x 180: enough to see who stands where.
+constexpr int kShrink = 4;
+
+}  // namespace
+
+Result<std::unique_ptr<LiveCamera>> LiveCamera::create(
+    const LiveCameraOptions& options,
+    const Camera& camera,
+    FrameFeed& feed,
+    const capture::TagDetectorOptions& detector) {
+  capture::TrackTagsOptions tracking;
+  tracking.detector = detector;
+  auto tracker = capture::TagTracker::create(tracking);
+  if (!tracker) return tracker.error();
+  return std::unique_ptr<LiveCamera>(
+      new LiveCamera(options, camera, feed, *std::move(tracker)));
+}
+
+LiveCamera::LiveCamera(const LiveCameraOptions& options,
+                       const Camera& camera,
+                       FrameFeed& feed,
+                       capture::TagTracker tracker)
+    : options_(options),
+      width_px_(camera.intrinsics.width_px),
+      height_px_(camera.intrinsics.height_px),
+      feed_(&feed),
+      decoder_(options.name),
+      tracker_(std::move(tracker)) {}
+
+/// The tracker predicts by the number of pictures between two: those that were lost count.
+int LiveCamera::picture_index(const capture::RawFrame& frame) {
+  // Sequence numbers begin anew after an outage, whose length nobody knows.
+  last_index_ += 1 + std::clamp(frame.dropped_before, 0, 1000);
+  return last_index_;
+}
+
+bool LiveCamera::make(const capture::RawFrame& frame, DetectedPicture& out) {
+  ++counts_.pictures;
+  counts_.dropped += frame.dropped_before;
+  const int number = picture_index(frame);
+  if (seconds(monotonic_now() - frame.time) > options_.stale_after_s) {
+    ++counts_.stale;
+    return false;
+  }
+  const Stopwatch decoding;
+  const auto picture = decoder_.decode(frame, feed_->settings(), number);
+  out.decode_s = decoding.seconds();
+  if (!picture || picture->width_px != width_px_ || picture->height_px != height_px_) {
+    ++counts_.broken;
+    return false;
+  }
+  const Stopwatch detecting;
+  const std::vector<TagDetection>& tags = tracker_.track(*picture);
+  out.tags.assign(tags.begin(), tags.end());
+  out.detect_s = detecting.seconds();
+  out.thumbnail.clear();
+  if (thumbnails_wanted_ && made_ % options_.thumbnail_every == 0) shrink(*picture, out);
+  ++made_;
+  out.done = monotonic_now();
+  return true;
+}
+
+/// The mean of each block of pixels.
+void LiveCamera::shrink(const capture::GrayFrame& picture, DetectedPicture& out) const {
+  out.thumbnail_width_px = picture.width_px / kShrink;
+  out.thumbnail_height_px = picture.height_px / kShrink;
+  const auto stride = static_cast<std::ptrdiff_t>(picture.stride);
+  for (int y = 0; y < out.thumbnail_height_px; ++y) {
+    for (int x = 0; x < out.thumbnail_width_px; ++x) {
+      const std::uint8_t* block = picture.pixels + kShrink * (y * stride + x);
+      unsigned sum = 0;
+      for (int row = 0; row < kShrink; ++row) {
+        for (int column = 0; column < kShrink; ++column) {
+          sum += block[row * stride + column];
+        }
+      }
+      out.thumbnail.push_back(static_cast<std::byte>(sum / (kShrink * kShrink)));
+    }
+  }
+}
+
+}  // namespace marey::app

@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_commands.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "app/live_chain.h"
+#include "app/live_outputs.h"
+#include "app/live_recorder.h"
+#include "app/live_run.h"
+#include "app/option_checks.h"
+#include "app/stop_signal.h"
+#include "live/vmc_sender.h"
+
+namespace marey::app {
+namespace {
+
+/// Commands are heard by the first stream. On VMC's own port another program may listen
+/// already, which is worth a word and no more; a port that was asked for must be free.
+Result<LiveOutputs> open_outputs(const LiveArguments& arguments,
+                                 OpenedLive& live,
+                                 Console& console) {
+  if (live.settings.streams.empty()) return LiveOutputs::open({}, {});
+  std::optional<int>& port = live.settings.streams.front().listen_port;
+  if (!arguments.vmc_deaf) port = arguments.vmc_listen.value_or(live::kPerformerPort);
+  auto outputs = LiveOutputs::open(live.settings.streams, live.targets);
+  if (outputs || !port || arguments.vmc_listen) return outputs;
+  const Error trouble = outputs.error();
+  port.reset();
+  outputs = LiveOutputs::open(live.settings.streams, live.targets);
+  if (outputs) console.warn("no VMC commands are heard: " + trouble.message());
+  return outputs;
+}
+
+void tell(const LiveFigures& figures, Console& console) {
+  char text[200];
+  std::snprintf(text,
+                sizeof text,
+                "%ld frames in %.1f s, %ld with the body tracked; frame to packet %.1f ms "
+                "(median), %.1f ms (95 %%)",
+                figures.frames,
+                figures.seconds,
+                figures.tracked,
+                1000.0 * figures.times.frame_to_packet.quantile_s(0.5),
+                1000.0 * figures.times.frame_to_packet.quantile_s(0.95));
+  console.say(text);
+  for (const LiveCameraFigures& camera : figures.cameras) {
+    const long lost = camera.dropped + camera.stale + camera.broken + camera.unused;
+    if (lost == 0) continue;
+    console.say("camera " + camera.name + ": " + std::to_string(lost) + " of " +
+                std::to_string(camera.pictures + camera.dropped) +
+                " pictures were not used");
+  }
+}
+
+Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
+  auto outputs = open_outputs(arguments, live, console);
+  if (!outputs) return console.fail(outputs.error());
+  auto chain = LiveChain::make(
+      live.body, live.calibration.cameras, live.avatars, live.settings);
+  if (!chain) return console.fail(chain.error());
+  std::unique_ptr<LiveRecorder> recorder;
+  if (!arguments.record.empty()) {
+    auto made = LiveRecorder::create(arguments.record, live);
+    if (!made) return console.fail(made.error());
+    recorder = *std::move(made);
+  }
+  LiveRunOptions options;
+  options.seconds = arguments.seconds;
+  options.longest_wait =
+      std::chrono::nanoseconds(static_cast<long long>(1e6 * arguments.wait_ms));
+  catch_stop_signals();
+  if (!arguments.seconds) console.say("live; Ctrl-C ends it");
+  auto figures = run_live(live,
+                          *chain,
+                          *outputs,
+                          recorder.get(),
+                          nullptr,
+                          options,
+                          stop_wanted,
+                          console);
+  if (!figures) return console.fail(figures.error());
+  Exit exit = Exit::kOk;
+  if (recorder) {
+    if (const Status ok = recorder->finish(); !ok) {
+      exit = console.fail(ok.error());
+    } else {
+      console.say("recorded to " + arguments.record.string());
+    }
+  }
+  tell(*figures, console);
+  if (arguments.json) std::fputs(live_figures_text(*figures).c_str(), stdout);
+  return exit;
+}
+
+void add_live(CLI::App& app,
+              LiveArguments& live,
+              std::function<Exit(Console&)>& chosen) {
+  CLI::App* command =
+      app.add_subcommand("live", "From cameras to a moving character, as it happens");
+  command->add_option("session", live.session, "session.toml, or its folder")->required();
+  command->add_option("--results",
+                      live.results,
+                      "Folder with calibration.toml and subject.toml, if not the "
+                      "session's");
+  command->add_option(
+      "--play", live.play, "Play this trial's videos as if they were cameras");
+  command->add_flag("--loop", live.loop, "Play them over and over");
+  command
+      ->add_option("--camera", live.cameras, "Use only this camera; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option(
+      "--media", live.media, "Folder that the session's video paths are relative to");
+  command
+      ->add_option("-a,--avatar",
+                   live.avatars,
+                   "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--vmc",
+                   live.vmc,
+                   "Where VMC packets go: [AVATAR=]HOST[:PORT]; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--vmc-rest", live.vmc_rest, "What no rotation means: vrm0 or raw")
+      ->check(CLI::IsMember({"vrm0", "raw"}));
+  command
+      ->add_option("--vmc-mtu",
+                   live.vmc_mtu,
+                   "Largest packet in bytes; 0: one bundle a frame, as on this machine")
+      ->check(between(0, 65507));
+  command
+      ->add_option("--vmc-listen", live.vmc_listen, "Port on which commands are heard")
+      ->check(between(1, 65535));
+  command->add_flag("--vmc-deaf", live.vmc_deaf, "Hear no commands");
+  command->add_option("--record", live.record, "Folder for the take of this run");
+  command->add_option("--seconds", live.seconds, "Stop by itself after so long")
+      ->check(between(0.001, 1e6));
+  command
+      ->add_option("--wait-ms",
+                   live.wait_ms,
+                   "How long a camera's picture is waited for")
+      ->check(between(1.0, 1000.0));
+  command->add_flag("--json", live.json, "Print the figures as JSON on standard output");
+  command->callback([&] {
+    chosen = [&live](Console& console) { return run_live_command(live, console); };
+  });
+}
+
+}  // namespace
+
+Exit run_live_command(const LiveArguments& arguments, Console& console) {
+  auto live = open_live(arguments, console);
+  if (!live) return console.fail(live.error());
+  return run(arguments, *live, console);
+}
+
+void add_live_commands(CLI::App& app,
+                       LiveArguments& live,
+                       ReplayArguments& replay,
+                       std::function<Exit(Console&)>& chosen) {
+  add_live(app, live, chosen);
+  CLI::App* command =
+      app.add_subcommand("replay", "A recorded live run again, to the same bytes");
+  command->add_option("take", replay.take, "The folder that marey live --record made")
+      ->required();
+  command
+      ->add_option("--vmc", replay.vmc, "Where the packets go: [AVATAR=]HOST[:PORT]")
+      ->allow_extra_args(false);
+  command->add_option("--speed", replay.speed, "How fast: 1 is as it was")
+      ->check(between(0.01, 100.0));
+  command->add_flag("--fast", replay.fast, "As fast as it goes");
+  command->add_flag("--json", replay.json, "Print the figures as JSON");
+  command->callback([&] {
+    chosen = [&replay](Console& console) { return run_replay(replay, console); };
+  });
+}
+
+}  // namespace marey::app

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/latency_histogram.h"
+#include "app/live_outputs.h"
+#include "core/result.h"
+#include "reconstruct/track_body.h"
+
+namespace marey::app {
+
+/// How long the stages of a frame took, and the whole of it.
+struct LiveTimes {
+  std::vector<LatencyHistogram> decode;  ///< By camera.
+  std::vector<LatencyHistogram> detect;  ///< By camera.
+  /// From the last camera's tags until the instant was taken up.
+  LatencyHistogram wait;
+  LatencyHistogram solve;
+  LatencyHistogram retarget;
+  LatencyHistogram encode;
+  LatencyHistogram send;
+  /// From the instant of the earliest picture in it to the last packet.
+  LatencyHistogram frame_to_packet;
+
+  explicit LiveTimes(std::size_t cameras) : decode(cameras), detect(cameras) {}
+};
+
+/// How one camera fared.
+struct LiveCameraFigures {
+  std::string name;
+  long pictures = 0;  ///< That came.
+  long dropped = 0;   ///< Lost before they came, by the driver's count.
+  long stale = 0;     ///< Passed over, too old.
+  long broken = 0;    ///< Could not be used.
+  long unused = 0;    ///< Late for their instant, or displaced by newer ones.
+  long missing = 0;   ///< Instants that had to do without it.
+};
+
+/// A minute of a run, for those who watch it for hours.
+struct LiveMinute {
+  long frames = 0;
+  double p50_s = 0.0;
+  double p95_s = 0.0;
+  double resident_mb = 0.0;  ///< Memory of the process.
+};
+
+/// What a live run did.
+struct LiveFigures {
+  long frames = 0;    ///< Instants that were solved.
+  long tracked = 0;   ///< Of these, with the body tracked.
+  long lost = 0;      ///< Of these, with the body lost.
+  int found_anew = 0; ///< Times that a lost body came back.
+  double seconds = 0.0;
+  LiveTimes times;
+  std::vector<LiveCameraFigures> cameras;
+  std::vector<OutputCounts> outputs;
+  std::vector<LiveMinute> minutes;
+  std::optional<Error> recording_trouble;
+
+  explicit LiveFigures(std::size_t camera_count) : times(camera_count) {}
+};
+
+/// The figures as JSON (docs/formats.md), indented, with an end of line.
+[[nodiscard]] std::string live_figures_text(const LiveFigures& figures);
+
+/// Memory of this process that is in use. [MB]; 0 where the system does not tell.
+[[nodiscard]] double resident_mb();
+
+}  // namespace marey::app

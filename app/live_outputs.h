@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/live_chain.h"
+#include "app/live_streams.h"
+#include "live/udp_listener.h"
+#include "live/udp_sender.h"
+
+namespace marey::app {
+
+/// How an output fares.
+struct OutputCounts {
+  std::string name;  ///< "VMC 127.0.0.1:39539".
+  live::UdpCounts counts;
+};
+
+/// The network's end of a live run: packets to all targets, commands from who sends them.
+/// Nothing here blocks, or stops because somebody is gone.
+class LiveOutputs {
+ public:
+  /// Commands are heard on the port of the first stream that has one.
+  /// Errors: UdpSender::open()'s and UdpListener::open()'s.
+  [[nodiscard]] static Result<LiveOutputs> open(
+      const std::vector<VmcStream>& streams, const std::vector<StreamTargets>& targets);
+
+  /// What was asked for since the last call. Reads no more than 64 packets.
+  const LiveRequests& take_requests();
+  void send(const LiveResult& result);
+  /// By target.
+  [[nodiscard]] std::vector<OutputCounts> counts() const;
+
+ private:
+  std::vector<StreamTargets> targets_;
+  std::vector<live::UdpSender> senders_;  ///< By stream.
+  std::optional<live::UdpListener> listener_;
+  std::size_t listening_stream_ = 0;
+  LiveRequests requests_;
+};
+
+}  // namespace marey::app

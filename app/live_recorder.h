@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "app/live_chain.h"
+#include "app/live_session.h"
+#include "core/result.h"
+#include "recordings/live_take.h"
+
+namespace marey::app {
+
+/// The take of a live run: a folder with the cameras, the subject and the avatars as they
+/// were, and live.sqlite with every instant, so that it can be replayed to the same bytes
+/// wherever it lies. What is half a second old survives whatever happens to the process.
+/// The disk is waited for by a thread of its own.
+class LiveRecorder {
+ public:
+  /// Makes the folder and what does not change. Errors: it holds a take already, or
+  /// avatars are of a kind that cannot be copied alone (kBadInput); the disk (kDevice).
+  [[nodiscard]] static Result<std::unique_ptr<LiveRecorder>> create(
+      const std::filesystem::path& folder, const OpenedLive& live);
+  ~LiveRecorder();
+
+  /// Does not wait for the disk. After trouble nothing more is kept.
+  void add(const LiveInstant& instant,
+           const LiveRequests& requests,
+           const LiveResult& result);
+  /// Why the recording ended before its time; the rest of the run goes on.
+  [[nodiscard]] std::optional<Error> trouble() const;
+  /// Writes what is left. Errors: trouble(), or the disk.
+  [[nodiscard]] Status finish();
+
+ private:
+  explicit LiveRecorder(recordings::LiveTakeWriter writer);
+  void commit_often(const std::stop_token& stop);
+
+  recordings::LiveTakeWriter writer_;
+  recordings::LiveTakeInstant instant_;
+  mutable std::mutex mutex_;
+  std::optional<Error> trouble_;
+  std::jthread committer_;
+};
+
+/// The take of a run again: what is to be replayed.
+struct OpenedTake {
+  recordings::LiveTake take;
+  recordings::Calibration calibration;
+  Body body;
+  std::vector<OpenedAvatar> avatars;
+  LiveSettings settings;
+};
+
+/// Errors (kBadInput): a file of the folder that is missing or not as it was written.
+[[nodiscard]] Result<OpenedTake> open_live_take(const std::filesystem::path& folder);
+
+}  // namespace marey::app

@@ -1,0 +1,286 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_run.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "app/live_camera.h"
+#include "app/live_groups.h"
+#include "app/stopwatch.h"
+
+namespace marey::app {
+namespace {
+
+using reconstruct::TrackState;
+using std::chrono::milliseconds;
+
+constexpr double kStatusEvery_s = 0.5;
+constexpr double kMinute_s = 60.0;
+/// Time for every thread to be there before the first picture of a video.
+constexpr milliseconds kHeadStart{200};
+
+Timestamp monotonic_now() {
+  return std::chrono::steady_clock::now().time_since_epoch();
+}
+
+using Cameras = std::vector<std::unique_ptr<LiveCamera>>;
+using Groups = LiveGroups<DetectedPicture>;
+
+Result<Cameras> make_cameras(OpenedLive& live) {
+  Cameras cameras;
+  for (std::size_t c = 0; c < live.feeds.size(); ++c) {
+    const Camera& camera = live.calibration.cameras[c];
+    LiveCameraOptions options;
+    options.name = camera.name;
+    auto one = LiveCamera::create(options, camera, *live.feeds[c], live.detector);
+    if (!one) return one.error();
+    cameras.push_back(*std::move(one));
+  }
+  return cameras;
+}
+
+void take_in(const LiveGroup<DetectedPicture>& group, LiveInstant& out) {
+  out.number = group.number;
+  out.time = group.time;
+  out.views.resize(group.frames.size());
+  for (std::size_t f = 0; f < group.frames.size(); ++f) {
+    out.views[f].camera = group.frames[f].camera;
+    out.views[f].time = group.frames[f].time;
+    out.views[f].tags.assign(group.frames[f].made->tags.begin(),
+                             group.frames[f].made->tags.end());
+  }
+}
+
+/// One run's counting: what is added to the figures of all of it, and of the last while.
+class Counting {
+ public:
+  explicit Counting(std::size_t cameras)
+      : figures_(cameras), lately_(cameras), minute_begin_(monotonic_now()) {}
+
+  void add_cameras(const LiveGroup<DetectedPicture>& group) {
+    for (LiveTimes* times : {&figures_.times, &lately_}) {
+      for (const auto& frame : group.frames) {
+        const std::size_t c = index(frame.camera);
+        times->decode[c].add(frame.made->decode_s);
+        times->detect[c].add(frame.made->detect_s);
+      }
+    }
+  }
+
+  void add(const LiveGroup<DetectedPicture>& group,
+           const LiveResult& result,
+           Timestamp taken_up,
+           double send_s) {
+    const Timestamp sent = monotonic_now();
+    Timestamp earliest{std::numeric_limits<std::int64_t>::max()};
+    Timestamp done{0};
+    for (const auto& frame : group.frames) {
+      earliest = std::min(earliest, frame.time);
+      done = std::max(done, frame.made->done);
+    }
+    for (LiveTimes* times : {&figures_.times, &lately_}) {
+      times->wait.add(seconds(taken_up - done));
+      times->solve.add(result.solve_s);
+      times->retarget.add(result.retarget_s);
+      times->encode.add(result.encode_s);
+      times->send.add(send_s);
+      times->frame_to_packet.add(seconds(sent - earliest));
+    }
+    minute_.add(seconds(sent - earliest));
+    ++figures_.frames;
+    if (result.track.state == TrackState::kTracked) ++figures_.tracked;
+    if (result.track.state == TrackState::kLost) ++figures_.lost;
+    if (was_lost_ && result.track.state == TrackState::kTracked) ++figures_.found_anew;
+    was_lost_ = result.track.state == TrackState::kLost;
+  }
+
+  void end_minute(bool is_end) {
+    const double lasted_s = seconds(monotonic_now() - minute_begin_);
+    if (minute_.count() == 0 || (lasted_s < kMinute_s && !is_end)) return;
+    figures_.minutes.push_back({static_cast<long>(minute_.count()),
+                                minute_.quantile_s(0.5),
+                                minute_.quantile_s(0.95),
+                                resident_mb()});
+    minute_.clear();
+    minute_begin_ = monotonic_now();
+  }
+
+  void look_at(const Cameras& cameras, const Groups& groups) {
+    figures_.cameras.clear();
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      const LiveCameraCounts& counts = cameras[c]->counts();
+      const capture::GroupingCounts grouped =
+          groups.counts(CameraId{static_cast<int>(c)});
+      figures_.cameras.push_back({cameras[c]->name(),
+                                  counts.pictures,
+                                  counts.dropped,
+                                  counts.stale,
+                                  counts.broken,
+                                  grouped.late + grouped.displaced + grouped.surplus,
+                                  grouped.missing});
+    }
+  }
+
+  [[nodiscard]] LiveFigures& figures() { return figures_; }
+  [[nodiscard]] const LiveTimes& lately() const { return lately_; }
+  void forget_lately() { lately_ = LiveTimes(lately_.detect.size()); }
+
+ private:
+  LiveFigures figures_;
+  LiveTimes lately_;
+  LatencyHistogram minute_;
+  Timestamp minute_begin_;
+  bool was_lost_ = false;
+};
+
+/// What is said of the body when that changes.
+void tell_state(TrackState before, TrackState now, Console& console) {
+  if (before == now) return;
+  if (now == TrackState::kTracked) {
+    console.say(before == TrackState::kLost ? "the body is back" : "the body is found");
+  }
+  if (now == TrackState::kLost) console.say("the body is lost: nobody sees it");
+}
+
+/// The thread that solves and sends.
+class Loop {
+ public:
+  Loop(OpenedLive& live,
+       LiveChain& chain,
+       LiveOutputs& outputs,
+       LiveRecorder* recorder,
+       LiveWatcher* watcher,
+       Console& console)
+      : chain_(chain),
+        outputs_(outputs),
+        recorder_(recorder),
+        watcher_(watcher),
+        console_(console),
+        progress_(console.stage("live")),
+        counting_(live.feeds.size()) {}
+
+  void run(Groups& groups,
+           const Cameras& cameras,
+           const LiveRunOptions& options,
+           const std::function<bool()>& stop) {
+    constexpr milliseconds kLook{100};
+    const Stopwatch watch;
+    while (!stop() && !(options.seconds && watch.seconds() >= *options.seconds)) {
+      const bool wanted = watcher_ && watcher_->wants_thumbnails();
+      for (const auto& camera : cameras) camera->want_thumbnails(wanted);
+      if (const auto* group = groups.next(kLook)) {
+        take(*group);
+      } else if (groups.is_over()) {
+        break;
+      }
+      if (watch.seconds() - last_status_s_ >= kStatusEvery_s) {
+        last_status_s_ = watch.seconds();
+        tell(groups, cameras, false);
+      }
+    }
+    counting_.figures().seconds = watch.seconds();
+    tell(groups, cameras, true);
+  }
+
+  [[nodiscard]] LiveFigures& figures() { return counting_.figures(); }
+
+ private:
+  void take(const LiveGroup<DetectedPicture>& group) {
+    const Timestamp taken_up = monotonic_now();
+    take_in(group, instant_);
+    const LiveRequests& requests = outputs_.take_requests();
+    const LiveResult& result = chain_.step(instant_, requests);
+    const Stopwatch sending;
+    outputs_.send(result);
+    counting_.add(group, result, taken_up, sending.seconds());
+    counting_.add_cameras(group);
+    tell_state(state_, result.track.state, console_);
+    state_ = result.track.state;
+    if (recorder_) recorder_->add(instant_, requests, result);
+    if (!watcher_) return;
+    watcher_->on_frame(instant_, result);
+    for (const auto& frame : group.frames) {
+      if (frame.made->thumbnail.empty()) continue;
+      watcher_->on_thumbnail(index(frame.camera),
+                             frame.made->thumbnail,
+                             frame.made->thumbnail_width_px,
+                             frame.made->thumbnail_height_px,
+                             frame.made->tags);
+    }
+  }
+
+  void tell(const Groups& groups, const Cameras& cameras, bool is_end) {
+    LiveFigures& figures = counting_.figures();
+    counting_.look_at(cameras, groups);
+    figures.outputs = outputs_.counts();
+    counting_.end_minute(is_end);
+    if (recorder_ && !figures.recording_trouble) {
+      figures.recording_trouble = recorder_->trouble();
+      if (figures.recording_trouble) {
+        console_.warn(figures.recording_trouble->message() +
+                      " The run goes on without recording.");
+      }
+    }
+    if (progress_) progress_(static_cast<int>(figures.frames), kUnknownTotal);
+    if (watcher_) watcher_->on_status(figures, counting_.lately(), state_);
+    counting_.forget_lately();
+  }
+
+  LiveChain& chain_;
+  LiveOutputs& outputs_;
+  LiveRecorder* recorder_;
+  LiveWatcher* watcher_;
+  Console& console_;
+  Progress progress_;
+  Counting counting_;
+  LiveInstant instant_;
+  TrackState state_ = TrackState::kWaiting;
+  double last_status_s_ = 0.0;
+};
+
+capture::GroupFramesOptions grouping(const OpenedLive& live,
+                                     const LiveRunOptions& options) {
+  capture::GroupFramesOptions out;
+  out.mode = capture::GroupingMode::kLive;
+  out.rate = live.settings.rate;
+  out.origin = std::nullopt;
+  out.longest_wait = options.longest_wait;
+  out.capacity = 8;
+  return out;
+}
+
+}  // namespace
+
+Result<LiveFigures> run_live(OpenedLive& live,
+                             LiveChain& chain,
+                             LiveOutputs& outputs,
+                             LiveRecorder* recorder,
+                             LiveWatcher* watcher,
+                             const LiveRunOptions& options,
+                             const std::function<bool()>& stop,
+                             Console& console) {
+  auto cameras = make_cameras(live);
+  if (!cameras) return cameras.error();
+  std::vector<FrameFeed*> feeds;
+  for (const auto& feed : live.feeds) feeds.push_back(feed.get());
+  const std::vector<capture::ClockModel> clocks(feeds.size());
+  Loop loop(live, chain, outputs, recorder, watcher, console);
+  // Destroyed first: its threads use the cameras.
+  Groups groups(feeds,
+                clocks,
+                grouping(live, options),
+                [&cameras](CameraId camera,
+                           const capture::RawFrame& frame,
+                           DetectedPicture& out) {
+                  return (*cameras)[index(camera)]->make(frame, out);
+                });
+  const Timestamp begin = monotonic_now() + kHeadStart;
+  for (VideoFeed* video : live.videos) video->begin_at(begin);
+  loop.run(groups, *cameras, options, stop);
+  return std::move(loop.figures());
+}
+
+}  // namespace marey::app

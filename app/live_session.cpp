@@ -1,0 +1,228 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_session.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include "app/camera_doubt.h"
+#include "app/device_feed.h"
+#include "app/record_device.h"
+#include "recordings/session.h"
+#include "recordings/subject_file.h"
+
+namespace marey::app {
+namespace {
+
+using recordings::Session;
+using recordings::Trial;
+
+/// Cameras of the session that are to be used, in its order.
+Result<std::vector<CameraId>> chosen_cameras(const Session& session,
+                                             const LiveArguments& arguments,
+                                             const Trial* trial) {
+  for (const std::string& name : arguments.cameras) {
+    if (std::find(session.cameras.begin(), session.cameras.end(), name) ==
+        session.cameras.end()) {
+      std::string names;
+      for (const std::string& one : session.cameras) names += " " + one;
+      return bad_input(session.file.string(),
+                       "there is no camera \"" + name + "\"",
+                       "choose of:" + names);
+    }
+  }
+  std::vector<CameraId> chosen;
+  for (std::size_t c = 0; c < session.cameras.size(); ++c) {
+    const CameraId id{static_cast<int>(c)};
+    const bool is_wanted =
+        arguments.cameras.empty() ||
+        std::find(arguments.cameras.begin(),
+                  arguments.cameras.end(),
+                  session.cameras[c]) != arguments.cameras.end();
+    const bool is_there =
+        trial ? std::any_of(trial->videos.begin(),
+                            trial->videos.end(),
+                            [&](const auto& video) { return video.camera == id; })
+              : session.devices[c].has_value();
+    if (is_wanted && is_there) chosen.push_back(id);
+  }
+  if (chosen.size() >= 2) return chosen;
+  return bad_input(session.file.string(),
+                   std::to_string(chosen.size()) + " of its cameras " +
+                       (trial ? "have a video in trial \"" + trial->name + "\""
+                              : std::string("have a device")) +
+                       ", and a body needs two at least",
+                   trial ? "play another trial"
+                         : "give each [[camera]] its device = \"/dev/video0\", or play a "
+                           "recorded trial with --play");
+}
+
+Result<const Trial*> trial_to_play(const Session& session,
+                                   const LiveArguments& arguments) {
+  if (!arguments.play) return static_cast<const Trial*>(nullptr);
+  const Trial* trial = session.find(*arguments.play);
+  if (trial) return trial;
+  std::string names;
+  for (const Trial& one : session.trials) names += " " + one.name;
+  return bad_input(session.file.string(),
+                   "there is no trial \"" + *arguments.play + "\"",
+                   "choose one of:" + names);
+}
+
+std::filesystem::path results_of(const Session& session, const LiveArguments& arguments) {
+  return arguments.results.empty() ? session.file.parent_path() : arguments.results;
+}
+
+Status need_file(const std::filesystem::path& path, const std::string& what) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) return Done{};
+  return bad_input(path.string(),
+                   "there is no " + what + ", without which nobody can be followed live",
+                   "name the folder that marey process (or calibrate, then solve) wrote "
+                   "with --results, or make it");
+}
+
+/// The calibration's cameras of the names in question, in the session's order.
+Result<recordings::Calibration> calibration_of(const Session& session,
+                                               const std::vector<CameraId>& chosen,
+                                               const std::filesystem::path& file) {
+  if (const Status ok = need_file(file, "calibration"); !ok) return ok.error();
+  const auto all = recordings::read_calibration(file);
+  if (!all) return all.error();
+  recordings::Calibration out;
+  out.rms_px = all->rms_px;
+  for (const CameraId id : chosen) {
+    const std::string& name = session.cameras[index(id)];
+    const auto found =
+        std::find_if(all->cameras.begin(), all->cameras.end(), [&](const Camera& camera) {
+          return camera.name == name;
+        });
+    if (found == all->cameras.end()) {
+      std::string names;
+      for (const Camera& camera : all->cameras) names += " " + camera.name;
+      return bad_input(file.string(),
+                       "the session's camera \"" + name + "\" is not among those that "
+                       "were calibrated:" + names,
+                       "calibrate again, or use its name of then");
+    }
+    const auto place = static_cast<std::size_t>(found - all->cameras.begin());
+    out.cameras.push_back(*found);
+    out.quality.push_back(all->quality[place]);
+    out.clocks.push_back(all->clocks[place]);
+  }
+  return out;
+}
+
+Result<std::unique_ptr<VideoFeed>> open_video(const Trial& trial,
+                                              CameraId camera,
+                                              const std::string& name,
+                                              bool loop) {
+  const auto video =
+      std::find_if(trial.videos.begin(), trial.videos.end(), [&](const auto& one) {
+        return one.camera == camera;
+      });
+  VideoFeedOptions options;
+  options.name = name;
+  options.path = video->path;
+  options.rate = trial.rate;
+  options.loop = loop;
+  if (trial.frames) {
+    options.first_frame = trial.frames->first;
+    options.last_frame = trial.frames->last;
+  }
+  return VideoFeed::open(options);
+}
+
+Status open_feeds(const Session& session,
+                  const std::vector<CameraId>& chosen,
+                  const Trial* trial,
+                  bool loop,
+                  Console& console,
+                  OpenedLive& out) {
+  const auto warn = [&console](const std::string& text) { console.warn(text); };
+  for (std::size_t c = 0; c < chosen.size(); ++c) {
+    const std::string& name = session.cameras[index(chosen[c])];
+    if (trial) {
+      auto feed = open_video(*trial, chosen[c], name, loop);
+      if (!feed) return feed.error();
+      out.videos.push_back(feed->get());
+      out.feeds.push_back(*std::move(feed));
+    } else {
+      console.say("opening camera " + name + ": this may take some seconds");
+      auto feed =
+          DeviceFeed::open(name, request_of(*session.devices[index(chosen[c])]), warn);
+      if (!feed) return feed.error();
+      out.feeds.push_back(*std::move(feed));
+    }
+    const capture::DeviceSettings& settings = out.feeds.back()->settings();
+    const Intrinsics& expected = out.calibration.cameras[c].intrinsics;
+    if (settings.width_px == expected.width_px &&
+        settings.height_px == expected.height_px) {
+      continue;
+    }
+    return bad_input(session.file.string(),
+                     "camera \"" + name + "\" was calibrated with pictures of " +
+                         std::to_string(expected.width_px) + "x" +
+                         std::to_string(expected.height_px) + " and now has " +
+                         std::to_string(settings.width_px) + "x" +
+                         std::to_string(settings.height_px),
+                     "set its width and height as they were, or calibrate again");
+  }
+  return Done{};
+}
+
+FrameRate rate_of_feeds(const OpenedLive& live) {
+  double fastest_hz = 0.0;
+  for (const auto& feed : live.feeds) {
+    fastest_hz = std::max(fastest_hz, feed->settings().rate.hz);
+  }
+  return {fastest_hz > 0.0 ? fastest_hz : 30.0};
+}
+
+}  // namespace
+
+Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
+  const auto session = recordings::read_session(arguments.session, {arguments.media});
+  if (!session) return session.error();
+  const auto trial = trial_to_play(*session, arguments);
+  if (!trial) return trial.error();
+  const auto chosen = chosen_cameras(*session, arguments, *trial);
+  if (!chosen) return chosen.error();
+  const std::filesystem::path results = results_of(*session, arguments);
+  OpenedLive out;
+  out.session = session->name;
+  auto calibration = calibration_of(*session, *chosen, results / "calibration.toml");
+  if (!calibration) return calibration.error();
+  out.calibration = *std::move(calibration);
+  if (const Status ok = need_file(results / "subject.toml", "subject"); !ok) {
+    return ok.error();
+  }
+  auto body = recordings::read_subject(results / "subject.toml");
+  if (!body) return body.error();
+  out.body = *std::move(body);
+  for (const auto& path : arguments.avatars) {
+    auto avatar = open_avatar(path);
+    if (!avatar) return avatar.error();
+    for (const std::string& remark : avatar->remarks) {
+      console.warn(path.string() + ": " + remark);
+    }
+    out.settings.avatars.push_back(path.filename().string());
+    out.avatars.push_back(*std::move(avatar));
+  }
+  const auto rest =
+      arguments.vmc_rest == "raw" ? live::VmcRest::kRaw : live::VmcRest::kVrm0;
+  const Status streams =
+      plan_streams(arguments.vmc, rest, arguments.vmc_mtu, out.settings, out.targets);
+  if (!streams) return streams.error();
+  out.settings.camera_sigma_m = common_sigma_m(out.calibration.quality);
+  out.settings.lag_known.assign(chosen->size(), false);
+  out.detector.families = session->families;
+  const Status feeds =
+      open_feeds(*session, *chosen, *trial, arguments.loop, console, out);
+  if (!feeds) return feeds.error();
+  out.settings.rate = rate_of_feeds(out);
+  return out;
+}
+
+}  // namespace marey::app

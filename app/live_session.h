@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/console.h"
+#include "app/frame_feed.h"
+#include "app/live_settings.h"
+#include "app/live_streams.h"
+#include "app/retarget_files.h"
+#include "app/video_feed.h"
+#include "capture/detect_tags.h"
+#include "core/body.h"
+#include "core/result.h"
+#include "recordings/calibration_file.h"
+
+namespace marey::app {
+
+/// What `marey live` was asked to begin with.
+struct LiveArguments {
+  std::filesystem::path session;  ///< session.toml or its folder.
+  /// The folder with calibration.toml and subject.toml; empty: the session's.
+  std::filesystem::path results;
+  std::optional<std::string> play;  ///< A trial whose videos are the cameras.
+  bool loop = false;
+  std::vector<std::string> cameras;  ///< Those to use; empty: all.
+  std::optional<std::filesystem::path> media;
+  std::vector<std::filesystem::path> avatars;
+  std::vector<std::string> vmc;  ///< "[AVATAR=]HOST[:PORT]".
+  std::string vmc_rest = "vrm0";
+  std::optional<int> vmc_mtu;     ///< nullopt: by the target; 0: one bundle a frame.
+  std::optional<int> vmc_listen;  ///< nullopt: VMC's own port, if it is free.
+  bool vmc_deaf = false;          ///< Hears no commands.
+  std::filesystem::path record;   ///< Folder of the take; empty: not recorded.
+  std::optional<double> seconds;
+  double wait_ms = 50.0;
+  bool json = false;
+};
+
+/// A live run before its first frame.
+struct OpenedLive {
+  std::string session;
+  recordings::Calibration calibration;  ///< Of the cameras in use, in their order.
+  Body body;
+  std::vector<OpenedAvatar> avatars;
+  LiveSettings settings;
+  std::vector<StreamTargets> targets;  ///< By stream.
+  std::vector<std::unique_ptr<FrameFeed>> feeds;
+  std::vector<VideoFeed*> videos;  ///< Those of the feeds that are to be begun.
+  capture::TagDetectorOptions detector;
+};
+
+/// Reads and opens all that a live run needs, cameras last.
+///
+/// Errors (kBadInput): the session's; no calibration or subject, and what makes them; a
+/// camera that the calibration does not have, or of another picture size; fewer than two
+/// cameras with what was asked to be played; an avatar that is not humanoid; addresses.
+/// (kDevice): a camera that cannot be opened.
+[[nodiscard]] Result<OpenedLive> open_live(const LiveArguments& arguments,
+                                           Console& console);
+
+}  // namespace marey::app

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/result.h"
+#include "core/time.h"
+#include "live/vmc_body.h"
+#include "live/vmc_encoder.h"
+
+namespace marey::app {
+
+/// A stream of VMC packets: who is shown, and how.
+struct VmcStream {
+  /// Position in the list of avatars; nullopt: the performer's own skeleton.
+  std::optional<std::size_t> avatar;
+  live::VmcRest rest = live::VmcRest::kVrm0;
+  std::optional<int> mtu_bytes;  ///< As in VmcEncoderOptions.
+  std::optional<int> listen_port;
+};
+
+/// All that the results of a live run depend on beside cameras, subject and avatars'
+/// files: what a replay has to have again.
+struct LiveSettings {
+  FrameRate rate;
+  double camera_sigma_m = 0.0;
+  /// Per camera: its stamps are the instants of its pictures, without a lag of their own.
+  std::vector<bool> lag_known;
+  std::vector<std::string> avatars;  ///< File names, as they lie in the take.
+  std::vector<VmcStream> streams;
+};
+
+/// As JSON, in one line.
+[[nodiscard]] std::string live_settings_text(const LiveSettings& settings);
+
+/// Errors (kBadInput), at `file`: not such a text; streams of avatars that there are not.
+[[nodiscard]] Result<LiveSettings> parse_live_settings(std::string_view text,
+                                                       const std::string& file);
+
+/// What others asked for since the instant before, and results depend on.
+struct LiveRequests {
+  /// By stream: what Set/Period and Set/Req asked.
+  struct OfStream {
+    std::optional<live::VmcPeriods> periods;
+    bool info = false;
+  };
+  std::vector<OfStream> streams;  ///< Empty: nobody asked for anything.
+};
+
+/// As JSON in one line; empty when nothing was asked for.
+[[nodiscard]] std::string live_requests_text(const LiveRequests& requests);
+
+/// Errors (kBadInput), at `file`: not such a text.
+[[nodiscard]] Result<LiveRequests> parse_live_requests(std::string_view text,
+                                                       const std::string& file);
+
+}  // namespace marey::app

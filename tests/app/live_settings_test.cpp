@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_settings.h"
+
+#include <gtest/gtest.h>
+
+#include "app/live_streams.h"
+
+namespace marey::app {
+namespace {
+
+LiveSettings settings() {
+  LiveSettings out;
+  out.rate = {29.97};
+  out.camera_sigma_m = 0.1 / 3.0;
+  out.lag_known = {true, false};
+  out.avatars = {"man.vrm", "robot.glb"};
+  out.streams.push_back({1, live::VmcRest::kRaw, 1472, 39540});
+  out.streams.push_back({std::nullopt, live::VmcRest::kVrm0, std::nullopt, std::nullopt});
+  return out;
+}
+
+TEST(LiveSettings, AreKeptExactly) {
+  const auto back = parse_live_settings(live_settings_text(settings()), "take");
+  ASSERT_TRUE(back) << back.error().message();
+  EXPECT_EQ(back->rate.hz, settings().rate.hz);
+  EXPECT_EQ(back->camera_sigma_m, settings().camera_sigma_m);
+  EXPECT_EQ(back->lag_known, settings().lag_known);
+  EXPECT_EQ(back->avatars, settings().avatars);
+  ASSERT_EQ(back->streams.size(), 2U);
+  EXPECT_EQ(back->streams[0].avatar, 1U);
+  EXPECT_EQ(back->streams[0].rest, live::VmcRest::kRaw);
+  EXPECT_EQ(back->streams[0].mtu_bytes, 1472);
+  EXPECT_EQ(back->streams[0].listen_port, 39540);
+  EXPECT_FALSE(back->streams[1].avatar);
+  EXPECT_FALSE(back->streams[1].mtu_bytes);
+}
+
+TEST(LiveSettings, AreRefusedWhereTheyCannotBe) {
+  for (const char* text : {"",
+                           "{}",
+                           "[1]",
+                           "not JSON",
+                           R"({"rate_hz":0,"camera_sigma_m":0,"lag_known":[],)"
+                           R"("avatars":[],"vmc":[]})",
+                           R"({"rate_hz":30,"camera_sigma_m":0,"lag_known":[],)"
+                           R"("avatars":[],"vmc":[{"avatar":0,"rest":"raw",)"
+                           R"("mtu_bytes":null,"listen_port":null}]})"}) {
+    const auto read = parse_live_settings(text, "take/live.sqlite");
+    ASSERT_FALSE(read) << text;
+    EXPECT_EQ(read.error().where, "take/live.sqlite");
+  }
+}
+
+TEST(LiveRequests, AreKeptAndAreNothingWhenNobodyAsked) {
+  EXPECT_EQ(live_requests_text({}), "");
+  EXPECT_EQ(live_requests_text({{{std::nullopt, false}}}), "");
+  LiveRequests asked;
+  asked.streams.resize(2);
+  asked.streams[1] = {live::VmcPeriods{1, 2, 3}, true};
+  const auto back = parse_live_requests(live_requests_text(asked), "take");
+  ASSERT_TRUE(back);
+  ASSERT_EQ(back->streams.size(), 2U);
+  EXPECT_FALSE(back->streams[0].periods);
+  EXPECT_EQ(back->streams[1].periods->bone, 3);
+  EXPECT_TRUE(back->streams[1].info);
+  EXPECT_FALSE(parse_live_requests("{\"vmc\":7}", "take"));
+}
+
+TEST(PlanStreams, PutsTargetsOfOneKindTogether) {
+  LiveSettings plan;
+  plan.avatars = {"man.vrm", "robot.glb"};
+  std::vector<StreamTargets> targets;
+  const Status ok = plan_streams({"127.0.0.1", "192.168.1.7:5000", "robot=localhost:41",
+                                  "man.vrm=127.0.0.1:40000"},
+                                 live::VmcRest::kVrm0,
+                                 std::nullopt,
+                                 plan,
+                                 targets);
+  ASSERT_TRUE(ok) << ok.error().message();
+  ASSERT_EQ(plan.streams.size(), 3U);
+  EXPECT_EQ(plan.streams[0].avatar, 0U);
+  EXPECT_FALSE(plan.streams[0].mtu_bytes) << "one bundle a frame on this machine";
+  ASSERT_EQ(targets[0].addresses.size(), 2U);
+  EXPECT_EQ(targets[0].addresses[0].port, 39539);
+  EXPECT_EQ(targets[0].addresses[1].port, 40000);
+  EXPECT_EQ(plan.streams[1].mtu_bytes, 1472);
+  EXPECT_EQ(plan.streams[2].avatar, 1U);
+}
+
+}  // namespace
+}  // namespace marey::app

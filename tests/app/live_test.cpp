@@ -1,0 +1,209 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// `marey live` and `marey replay` on the sample session, its walk played as four cameras,
+// with the cameras and the subject of the sample's own results.
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "live/osc_parse.h"
+#include "live/udp_listener.h"
+#include "recordings/live_take.h"
+#include "tests/support/run_program.h"
+#include "tests/support/scratch_folder.h"
+
+namespace marey::testing {
+namespace {
+
+const std::filesystem::path kSample = MAREY_SAMPLE;
+const std::filesystem::path kResults = std::filesystem::path(MAREY_FIRST_LIGHT) / "once";
+const std::filesystem::path kProgram = MAREY_PROGRAM;
+
+using Words = std::vector<std::string>;
+
+Words with(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+/// As long as it takes on a machine that is busy with other tests: what is dropped then
+/// is dropped, and what follows from it must still hold.
+Words played() {
+  return {"live",     kSample.string(),  "--results", kResults.string(),
+          "--play",   "walk",            "--wait-ms", "500",
+          "--json",   "--progress",      "none",      "--vmc-deaf"};
+}
+
+
+class LiveRecording : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new ScratchFolder;
+    const std::string glb = (*folder_ / "body.glb").string();
+    const ProgramRun made = run_program(kProgram, {"mannequin", "--out", glb});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    auto listener = live::UdpListener::open({"127.0.0.1", 0});
+    ASSERT_TRUE(listener);
+    run_ = new ProgramRun(run_program(
+        kProgram,
+        with(played(),
+             {"--avatar", glb, "--vmc", "127.0.0.1:" + std::to_string(listener->port()),
+              "--record", take().string()})));
+    heard_ = 0;
+    while (const auto packet = listener->receive()) ++heard_;
+  }
+  static void TearDownTestSuite() {
+    delete run_;
+    delete folder_;
+  }
+  static std::filesystem::path take() { return *folder_ / "take"; }
+
+  static inline ScratchFolder* folder_ = nullptr;
+  static inline ProgramRun* run_ = nullptr;
+  static inline int heard_ = 0;
+};
+
+TEST_F(LiveRecording, FollowsTheWalkToItsEnd) {
+  ASSERT_EQ(run_->exit_code, 0) << run_->err;
+  const auto figures = nlohmann::json::parse(run_->out);
+  EXPECT_GT(figures["frames"], 20);
+  EXPECT_GT(figures["tracked"], 15);
+  EXPECT_EQ(figures["cameras"].size(), 4U);
+  EXPECT_EQ(figures["outputs"][0]["failed"], 0);
+  EXPECT_EQ(figures["outputs"][0]["sent"], figures["frames"]);
+  // The socket of a listener that nobody empties holds some hundred packets.
+  EXPECT_GT(heard_, 20);
+}
+
+TEST_F(LiveRecording, IsReplayedToTheSameBytes) {
+  ASSERT_EQ(run_->exit_code, 0) << run_->err;
+  const auto live = recordings::read_live_take(take() / recordings::kLiveTakeFile);
+  ASSERT_TRUE(live) << live.error().message();
+  EXPECT_TRUE(live->finished);
+  for (const Words& how : {Words{"--fast"}, Words{"--speed", "4"}}) {
+    const ProgramRun replay =
+        run_program(kProgram, with({"replay", take().string(), "--json"}, how));
+    ASSERT_EQ(replay.exit_code, 0) << replay.err;
+    const auto found = nlohmann::json::parse(replay.out);
+    EXPECT_EQ(found["frames"], live->instants.size());
+    EXPECT_EQ(found["differing"], 0);
+  }
+}
+
+TEST_F(LiveRecording, IsReplayedToTheSameBytesOnOneCore) {
+  ASSERT_EQ(run_->exit_code, 0) << run_->err;
+  const ProgramRun replay = run_program(
+      "/usr/bin/taskset",
+      {"-c", "0", kProgram.string(), "replay", take().string(), "--fast", "--json"});
+  ASSERT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_EQ(nlohmann::json::parse(replay.out)["differing"], 0);
+}
+
+// So that the two above can fail.
+TEST_F(LiveRecording, IsToldFromOneThatWasChanged) {
+  ASSERT_EQ(run_->exit_code, 0) << run_->err;
+  const ScratchFolder folder;
+  std::filesystem::copy(
+      take(), folder / "take", std::filesystem::copy_options::recursive);
+  const auto original = recordings::read_live_take(take() / recordings::kLiveTakeFile);
+  std::filesystem::remove(folder / "take" / recordings::kLiveTakeFile);
+  {
+    auto writer = recordings::LiveTakeWriter::create(
+        folder / "take" / recordings::kLiveTakeFile, original->head);
+    ASSERT_TRUE(writer);
+    for (recordings::LiveTakeInstant one : original->instants) {
+      if (!one.seen.views.empty() && !one.seen.views[0].tags.empty()) {
+        one.seen.views[0].tags[0].corners_px[0].x += 0.25;
+      }
+      writer->add(one);
+    }
+    ASSERT_TRUE(writer->finish());
+  }
+  const ProgramRun replay =
+      run_program(kProgram, {"replay", (folder / "take").string(), "--fast"});
+  EXPECT_EQ(replay.exit_code, 4);
+  EXPECT_NE(replay.err.find("are not what they were"), std::string::npos) << replay.err;
+}
+
+TEST_F(LiveRecording, IsNeverWrittenOver) {
+  ASSERT_EQ(run_->exit_code, 0) << run_->err;
+  const ProgramRun again =
+      run_program(kProgram, with(played(), {"--record", take().string()}));
+  EXPECT_EQ(again.exit_code, 3);
+  EXPECT_NE(again.err.find("not empty"), std::string::npos) << again.err;
+}
+
+/// The exit code and what is on standard error.
+void expect_refused(const Words& words, int exit_code, const std::string& because) {
+  const ProgramRun run = run_program(kProgram, words);
+  EXPECT_EQ(run.exit_code, exit_code) << run.err;
+  EXPECT_NE(run.err.find(because), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("Next: "), std::string::npos) << run.err;
+  EXPECT_TRUE(run.out.empty()) << run.out;
+}
+
+TEST(LiveRefuses, SessionsWithoutCalibrationOrSubject) {
+  const ScratchFolder folder;
+  const Words live{"live", kSample.string(), "--play", "walk", "--results"};
+  expect_refused(with(live, {folder.path().string()}), 3, "there is no calibration");
+  std::filesystem::copy(kResults / "calibration.toml", folder / "calibration.toml");
+  expect_refused(with(live, {folder.path().string()}), 3, "there is no subject");
+}
+
+TEST(LiveRefuses, CamerasThatWereNotCalibrated) {
+  const ScratchFolder folder;
+  std::filesystem::copy(kResults / "subject.toml", folder / "subject.toml");
+  std::ifstream in(kResults / "calibration.toml");
+  std::string text((std::istreambuf_iterator<char>(in)), {});
+  for (std::size_t at = 0; (at = text.find("cam2", at)) != std::string::npos;) {
+    text.replace(at, 4, "door");
+  }
+  std::ofstream(folder / "calibration.toml") << text;
+  expect_refused({"live",
+                  kSample.string(),
+                  "--play",
+                  "walk",
+                  "--results",
+                  folder.path().string()},
+                 3,
+                 "\"cam2\" is not among those that were calibrated");
+}
+
+TEST(LiveRefuses, WhatThereIsNot) {
+  expect_refused(with(played(), {"--camera", "cam7"}), 3, "there is no camera");
+  expect_refused(with(played(), {"--camera", "cam1"}), 3, "two at least");
+  expect_refused({"live", kSample.string(), "--play", "dance"}, 3, "there is no trial");
+  expect_refused({"live", kSample.string()}, 3, "have a device");
+  expect_refused(with(played(), {"--vmc", "nobody=127.0.0.1"}), 3, "no avatar");
+  expect_refused(with(played(), {"--vmc", "127.0.0.1:99999"}), 3, "99999");
+  expect_refused({"replay", "/nowhere/at/all"}, 3, "no live take");
+}
+
+TEST(LiveRefuses, AvatarsThatAreNotHumanoid) {
+  const ScratchFolder folder;
+  std::ofstream(folder / "box.bvh") << "HIERARCHY\nROOT box\n{\n  OFFSET 0 0 0\n"
+                                       "  CHANNELS 3 Zrotation Xrotation Yrotation\n"
+                                       "  End Site\n  {\n    OFFSET 0 1 0\n  }\n}\n"
+                                       "MOTION\nFrames: 1\nFrame Time: 0.1\n0 0 0\n";
+  expect_refused(
+      with(played(), {"--avatar", (folder / "box.bvh").string()}), 3, "box.bvh");
+}
+
+TEST(LiveRefuses, ABusyPortThatWasAskedFor) {
+  auto taken = live::UdpListener::open({"127.0.0.1", 0});
+  ASSERT_TRUE(taken);
+  Words words = played();
+  words.pop_back();  // Deaf.
+  expect_refused(
+      with(words, {"--vmc", "127.0.0.1", "--vmc-listen", std::to_string(taken->port())}),
+      5,
+      std::to_string(taken->port()));
+}
+
+}  // namespace
+}  // namespace marey::testing
