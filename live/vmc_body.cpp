@@ -11,6 +11,7 @@ namespace marey::live {
 namespace {
 
 constexpr glm::dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
+constexpr glm::dquat kHalfTurn{0.0, 0.0, 1.0, 0.0};  // About Y.
 
 std::vector<glm::dquat> rotations_of(std::span<const RigidTransform> frames) {
   std::vector<glm::dquat> rotations;
@@ -36,6 +37,7 @@ Result<VmcBody> VmcBody::make(const Skeleton& skeleton, const VmcBodyOptions& op
   VmcBody body;
   body.skeleton_ = skeleton;
   body.rest_ = options.rest;
+  if (options.file_faces_back) body.world_from_file_ = kHalfTurn;
   const Pose rest = rest_pose(skeleton);
   if (options.rest == VmcRest::kVrm0 && !options.t_pose_from_joint.empty()) {
     body.world_from_joint_at_zero_.assign(options.t_pose_from_joint.begin(),
@@ -50,7 +52,7 @@ Result<VmcBody> VmcBody::make(const Skeleton& skeleton, const VmcBodyOptions& op
                      "the hips do not carry the " + std::string(name(bone.unity)),
                      "correct the body's bones in a bone map");
   }
-  body.find_frames(options.world_from_root_parent);
+  body.find_frames(options.file_from_root_parent);
   body.find_lacked();
   return body;
 }
@@ -73,7 +75,8 @@ void VmcBody::find_bones() {
   }
 }
 
-void VmcBody::find_frames(const RigidTransform& world_from_root_parent) {
+void VmcBody::find_frames(const RigidTransform& file_from_root_parent) {
+  const RigidTransform world_from_file{world_from_file_, {}};
   const Pose zero = pose_from_world(skeleton_,
                                     skeleton_.joints[0].parent_from_joint.translation,
                                     world_from_joint_at_zero_);
@@ -81,11 +84,13 @@ void VmcBody::find_frames(const RigidTransform& world_from_root_parent) {
   for (Bone& bone : list_) {
     const auto parent = skeleton_[bone.joint].parent;
     const RigidTransform a = bone.above ? placed[index(*bone.above)] : RigidTransform{};
-    const RigidTransform p = parent ? placed[index(*parent)] : world_from_root_parent;
+    const RigidTransform p =
+        parent ? placed[index(*parent)] : world_from_file * file_from_root_parent;
     if (rest_ == VmcRest::kRaw) {
       const RigidTransform p_from_a = inverse(p) * a;
-      bone.before = p_from_a.rotation;
-      bone.moved = p_from_a.translation;
+      bone.before = world_from_file_ * p_from_a.rotation;
+      bone.after = glm::conjugate(world_from_file_);
+      bone.moved = world_from_file_ * p_from_a.translation;
     } else {
       bone.before = a.rotation;
       bone.after = glm::conjugate(placed[index(bone.joint)].rotation);
@@ -165,8 +170,9 @@ void VmcBody::turn_joints(const VmcPose& told, Pose& out) const {
     glm::dquat& local = out.parent_from_joint[joint];
     if (rest_ == VmcRest::kRaw) {
       if (!told.contains(bone.unity)) continue;
-      local = mirrored_x(told.local[index(bone.unity)].rotation);
-      if (!above) local = glm::conjugate(bone.before) * local;
+      const glm::dquat& before = above ? world_from_file_ : bone.before;
+      local = glm::conjugate(before) *
+              mirrored_x(told.local[index(bone.unity)].rotation) * world_from_file_;
     } else {
       const glm::dquat turned = turn_of(told, bone) * world_from_joint_at_zero_[joint];
       local = above ? glm::conjugate(world_from_joint_at_zero_[index(*above)]) * turned

@@ -22,7 +22,7 @@ namespace marey::live {
 enum class VmcRest {
   /// The T-pose: rest rotations were normalised, as in VRM 0.x and most receivers.
   kVrm0,
-  /// The avatar's own nodes, as its file has them: VRM 1.0. The file's body faces +Z.
+  /// The avatar's own nodes, as its file has them: VRM 1.0.
   kRaw,
 };
 
@@ -31,9 +31,11 @@ struct VmcBodyOptions {
   /// World rotation of each joint's frame in the T-pose facing +Z, as
   /// Character::t_pose_from_joint; empty when the rest pose is one. Read by make() alone.
   std::span<const glm::dquat> t_pose_from_joint = {};
-  /// Rest of the file's node above the skeleton's first joint, when there is one: that
-  /// joint is local to it in the receiver's copy of the avatar.
-  RigidTransform world_from_root_parent = {};
+  /// Rest, in the file's world, of the node above the skeleton's first joint, when there
+  /// is one: that joint is local to it in the receiver's copy of the avatar.
+  RigidTransform file_from_root_parent = {};
+  /// The file is a VRM 0.x: its body faces -Z, and the skeleton was turned half about Y.
+  bool file_faces_back = false;
 };
 
 /// Tells an avatar's poses as VMC wants them, and VMC's as poses of the avatar.
@@ -50,13 +52,15 @@ struct VmcBodyOptions {
 ///            rotation = T_A * rotation(a_from_b) * inverse(T_b)
 ///            position = T_A * position(a_from_b) - (p of P - p of A in the T-pose)
 ///
-/// and then everything is mirrored into Unity's axes (live/vmc_pose.h). The root stays at
-/// the world's origin; the hips move. Offsets are the avatar's own, so that receivers
-/// that apply positions keep its shape. Nodes are taken to be unscaled.
+/// and then everything is mirrored into Unity's axes (live/vmc_pose.h); kRaw of a file
+/// that faces back is turned half about Y before, there and back, so that it is Z that is
+/// mirrored, as importers do. The root stays at the world's origin; the hips move.
+/// Offsets are the avatar's own, so that receivers that apply positions keep its shape.
+/// Nodes are taken to be unscaled.
 class VmcBody {
  public:
-  /// Errors (kBadInput): one of the 15 bones that VRM requires is not marked, or
-  /// the hips do not carry all others.
+  /// Errors (kBadInput): one of the 15 bones that VRM requires is not marked, or the
+  /// hips do not carry all others.
   /// Precondition: the first joint is the only root; t_pose_from_joint is empty or has
   /// one rotation per joint.
   [[nodiscard]] static Result<VmcBody> make(const Skeleton& skeleton,
@@ -93,7 +97,7 @@ class VmcBody {
 
   VmcBody() = default;
   void find_bones();
-  void find_frames(const RigidTransform& world_from_root_parent);
+  void find_frames(const RigidTransform& file_from_root_parent);
   void find_lacked();
   [[nodiscard]] RigidTransform above_from_bone(const Pose& pose, const Bone& bone) const;
   [[nodiscard]] glm::dquat turn_of(const VmcPose& told, const Bone& bone) const;
@@ -102,6 +106,7 @@ class VmcBody {
 
   Skeleton skeleton_;
   VmcRest rest_ = VmcRest::kVrm0;
+  glm::dquat world_from_file_{1.0, 0.0, 0.0, 0.0};
   std::vector<Bone> list_;  ///< Parents first: the hips are the first.
   std::vector<UnityBone> bones_;
   /// Rotations of what identity means: the T-pose, or the rest pose. One per joint.

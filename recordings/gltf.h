@@ -30,6 +30,7 @@ struct Character {
   /// Pose moves only the root. Movement of the first joint that branches (the hips) is
   /// handed to the root and not lost. [m]
   double ignored_translation_m = 0.0;
+  bool faces_back = false;  ///< In the file, a VRM 0.x; here it was turned round.
 };
 
 /// Reads a .glb, .vrm, .vrma or .gltf (2.0) file.

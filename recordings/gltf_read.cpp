@@ -221,7 +221,8 @@ Status fill_source(const NamedModel& file, GltfSource& source) {
   source.character = {std::move(body->skeleton),
                       *std::move(mesh),
                       std::move(animation->motion),
-                      animation->ignored_translation_m};
+                      animation->ignored_translation_m,
+                      faces_back};
   return Done{};
 }
 

@@ -126,13 +126,58 @@ TEST(VmcBody, Vrm0IsWhatANormalisedAvatarShowsInUnity) {
   }
 }
 
+// A VRM 0.x: importers mirror Z of the file's nodes, whose body faces -Z.
+TEST(VmcBody, RawOfAFileThatFacesBackIsItsNodesWithZMirrored) {
+  Dice dice(11);
+  const RigidTransform half_turn{{0.0, 0.0, 1.0, 0.0}, {}};
+  const auto mirrored_z = [](const RigidTransform& local) {
+    const glm::dvec3& p = local.translation;
+    const glm::dquat& q = local.rotation;
+    return RigidTransform{{q.w, -q.x, -q.y, q.z}, {p.x, p.y, -p.z}};
+  };
+  // With a node above the hips, which is turned round with the body, and without one.
+  for (const bool node_above : {true, false}) {
+    const Skeleton body = node_above ? any_body(dice) : testing::random_humanoid(dice);
+    const RigidTransform file_from_above{dice.turn(1.0), {0.1, 0.2, -0.3}};
+    const VmcBody vmc = *VmcBody::make(body,
+                                       {.rest = VmcRest::kRaw,
+                                        .file_from_root_parent = file_from_above,
+                                        .file_faces_back = true});
+    const Pose pose = with_resting_others(body, any_pose(body, dice));
+    VmcPose told;
+    vmc.tell(pose, told);
+    for (std::size_t i = 0; i < body.joints.size(); ++i) {
+      const Joint& joint = body.joints[i];
+      if (!joint.bone || (node_above && joint.bone == HumanBone::kHips)) continue;
+      RigidTransform node{pose.parent_from_joint[i], joint.parent_from_joint.translation};
+      if (!joint.parent) {
+        node.translation = pose.root_in_world;
+        node = inverse(half_turn * file_from_above) * node;
+      }
+      const RigidTransform expected = mirrored_z(node);
+      const UnityTransform& got = told.local[index(unity_bone(*joint.bone))];
+      EXPECT_LT(glm::distance(got.position, expected.translation), kRounding_m)
+          << joint.name;
+      EXPECT_NEAR(std::abs(glm::dot(got.rotation, expected.rotation)), 1.0, 1e-12)
+          << joint.name;
+    }
+    Pose again;
+    vmc.pose_of(told, again);
+    const auto before = world_from_joints(body, pose);
+    const auto after = world_from_joints(body, again);
+    for (std::size_t k = node_above ? 1 : 0; k < after.size(); ++k) {
+      EXPECT_LT(glm::distance(after[k].translation, before[k].translation), kRounding_m);
+    }
+  }
+}
+
 // The file has a node above the hips that the skeleton lacks.
 TEST(VmcBody, RawKnowsOfANodeAboveTheFirstJoint) {
   Dice dice(10);
   const Skeleton body = testing::random_humanoid(dice);
   const RigidTransform world_from_above{dice.turn(2.0), {0.1, 0.2, -0.3}};
   const VmcBody vmc = *VmcBody::make(
-      body, {.rest = VmcRest::kRaw, .world_from_root_parent = world_from_above});
+      body, {.rest = VmcRest::kRaw, .file_from_root_parent = world_from_above});
   const Pose pose = any_pose(body, dice);
   VmcPose told;
   vmc.tell(pose, told);

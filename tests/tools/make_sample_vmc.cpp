@@ -6,7 +6,7 @@
 // node: make_sample_vmc FOLDER [AVATAR.vrm BODY.glb].
 //   raw          by the nodes of turned.glb, whose rest rotations are anything
 //   normalised   the same as VRM 0.x would have it
-//   vrm0         of AVATAR.vrm, a VRM 0.x
+//   vrm0         of AVATAR.vrm, a VRM 0.x; vrm0_raw: by its nodes
 //   body         by the nodes of BODY.glb
 // A .vmc has, for every packet, its size in four bytes, the highest first, and its bytes.
 #include <cstdio>
@@ -38,8 +38,10 @@ void write_packet(std::ofstream& file, std::span<const std::uint8_t> packet) {
   for (const std::uint8_t byte : packet) file.put(static_cast<char>(byte));
 }
 
-bool write_packets(const Path& path, const Motion& motion, live::VmcRest rest) {
-  const auto body = live::VmcBody::make(motion.skeleton, {.rest = rest});
+bool write_packets(const Path& path,
+                   const Motion& motion,
+                   const live::VmcBodyOptions& options) {
+  const auto body = live::VmcBody::make(motion.skeleton, options);
   if (!body) std::cerr << path << ": " << body.error().message() << "\n";
   if (!body) return false;
   auto encoder = *live::VmcEncoder::make();
@@ -85,10 +87,10 @@ bool write_bones(const Path& path, const Skeleton& skeleton) {
 bool write_all(const Path& folder,
                const std::string& name,
                const Skeleton& skeleton,
-               live::VmcRest rest) {
+               const live::VmcBodyOptions& options) {
   Motion motion = recordings::wild_motion(skeleton, kFrames);
   motion.rate.hz = 60.0;
-  return write_packets(folder / (name + ".vmc"), motion, rest) &&
+  return write_packets(folder / (name + ".vmc"), motion, options) &&
          write_places(folder / (name + ".csv"), motion) &&
          write_bones(folder / (name + ".json"), skeleton);
 }
@@ -100,8 +102,9 @@ bool write_turned(const Path& folder) {
   const Skeleton skeleton = recordings::with_turned_axes(make_humanoid(child));
   const auto written = recordings::write_character(
       folder / "turned.glb", skeleton, recordings::make_mannequin_mesh(child));
-  return written.has_value() && write_all(folder, "raw", skeleton, live::VmcRest::kRaw) &&
-         write_all(folder, "normalised", skeleton, live::VmcRest::kVrm0);
+  return written.has_value() &&
+         write_all(folder, "raw", skeleton, {.rest = live::VmcRest::kRaw}) &&
+         write_all(folder, "normalised", skeleton, {.rest = live::VmcRest::kVrm0});
 }
 
 /// The file's body, its bones found if it does not tell them.
@@ -116,7 +119,8 @@ bool write_avatar(const Path& folder,
   if (!bones) std::cerr << bones.error().message() << "\n";
   if (!bones) return false;
   retarget::mark(*bones, body->skeleton);
-  return write_all(folder, name, body->skeleton, rest);
+  return write_all(
+      folder, name, body->skeleton, {.rest = rest, .file_faces_back = body->faces_back});
 }
 
 }  // namespace
@@ -131,6 +135,7 @@ int main(int argc, char** argv) {
   bool ok = write_turned(folder);
   if (argc == 4) {
     ok = write_avatar(folder, "vrm0", argv[2], live::VmcRest::kVrm0) && ok;
+    ok = write_avatar(folder, "vrm0_raw", argv[2], live::VmcRest::kRaw) && ok;
     ok = write_avatar(folder, "body", argv[3], live::VmcRest::kRaw) && ok;
   }
   return ok ? 0 : 1;
