@@ -14,6 +14,8 @@ Timestamp monotonic_now() {
   return std::chrono::steady_clock::now().time_since_epoch();
 }
 
+/// A search of the whole picture takes longer than a frame has.
+constexpr int kStrips = 8;
 /// Of 1280 x 720 what is 320 x 180: enough to see who stands where.
 constexpr int kShrink = 4;
 
@@ -26,6 +28,7 @@ Result<std::unique_ptr<LiveCamera>> LiveCamera::create(
     const capture::TagDetectorOptions& detector) {
   capture::TrackTagsOptions tracking;
   tracking.detector = detector;
+  tracking.strips = kStrips;
   auto tracker = capture::TagTracker::create(tracking);
   if (!tracker) return tracker.error();
   return std::unique_ptr<LiveCamera>(

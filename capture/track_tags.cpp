@@ -28,6 +28,8 @@ constexpr int kWideEvery = 4;
 constexpr int kPixelsPerCall = 1500;
 // Above this share of the picture boxes are not worth their trouble.
 constexpr double kAsGoodAsFull = 0.75;
+// How far a strip reaches into its neighbours: half a tag that is near and large.
+constexpr double kStripOverlap = 0.04;
 // Corners of threshold tiles: a box that begins there is cut into the same tiles.
 constexpr int kTile = 4;
 
@@ -67,7 +69,7 @@ glm::dvec2 middle_of(const std::array<glm::dvec2, 4>& corners_px) {
 
 Result<TagTracker> TagTracker::create(const TrackTagsOptions& options) {
   MAREY_ASSERT(options.full_every_frames > 0 && options.body_every_frames > 0 &&
-               options.remember_frames >= 0);
+               options.remember_frames >= 0 && options.strips > 0);
   // Boxes on a coarser grid would not give the corners of the whole picture.
   MAREY_ASSERT(options.detector.quad_decimate == 1.0F);
   auto detector = TagDetector::create(options.detector);
@@ -90,22 +92,11 @@ const std::vector<TagDetection>& TagTracker::track(const GrayFrame& frame) {
 /// Fills boxes_ with what to search.
 SearchKind TagTracker::choose_search(const GrayFrame& frame) {
   const PixelBox whole{0, 0, frame.width_px, frame.height_px};
+  const bool is_spread = options_.strips > 1 && next_full_ > 0;
   boxes_.clear();
   SearchKind kind = SearchKind::kFull;
-  if (frame.index < next_full_ && !tracks_.empty()) {
-    predict_boxes(frame);
-    // All that was followed has left the picture: somebody else may have come.
-    kind = boxes_.empty() ? SearchKind::kFull : SearchKind::kRegions;
-    if (frame.index >= next_body_ && !boxes_.empty()) {
-      kind = SearchKind::kBody;
-      PixelBox body = boxes_.front();
-      for (const PixelBox& box : boxes_) body = hull(body, box);
-      const glm::dvec2 low(body.left, body.top);
-      const glm::dvec2 high(body.right, body.bottom);
-      const bool wide = ++body_searches_ % kWideEvery == 0;
-      const glm::dvec2 pad = (wide ? kWideBodyPad : kBodyPad) * (high - low);
-      boxes_.assign(1, tiled(frame, low - pad, high + pad));
-    }
+  if (is_spread || (frame.index < next_full_ && !tracks_.empty())) {
+    kind = choose_parts(frame, is_spread);
     merge_boxes();
     std::int64_t cost = 0;
     for (const PixelBox& box : boxes_) cost += area(box) + kPixelsPerCall;
@@ -116,9 +107,45 @@ SearchKind TagTracker::choose_search(const GrayFrame& frame) {
   if (kind == SearchKind::kFull) {
     boxes_.assign(1, whole);
     next_full_ = frame.index + options_.full_every_frames;
+    next_body_ = frame.index + options_.body_every_frames;
   }
-  if (kind != SearchKind::kRegions) next_body_ = frame.index + options_.body_every_frames;
   return kind;
+}
+
+/// The predicted tags, and now and then what is around them, and a strip.
+SearchKind TagTracker::choose_parts(const GrayFrame& frame, bool is_spread) {
+  predict_boxes(frame);
+  // All that was followed has left the picture: somebody else may have come.
+  if (boxes_.empty() && !is_spread) return SearchKind::kFull;
+  SearchKind kind = SearchKind::kRegions;
+  if (frame.index >= next_body_ && !boxes_.empty()) {
+    kind = SearchKind::kBody;
+    next_body_ = frame.index + options_.body_every_frames;
+    PixelBox body = boxes_.front();
+    for (const PixelBox& box : boxes_) body = hull(body, box);
+    const glm::dvec2 low(body.left, body.top);
+    const glm::dvec2 high(body.right, body.bottom);
+    const bool wide = ++body_searches_ % kWideEvery == 0;
+    const glm::dvec2 pad = (wide ? kWideBodyPad : kBodyPad) * (high - low);
+    boxes_.assign(1, tiled(frame, low - pad, high + pad));
+  }
+  if (is_spread && (boxes_.empty() || frame.index >= next_strip_)) {
+    kind = SearchKind::kStrip;
+    next_strip_ =
+        frame.index + std::max(1, options_.full_every_frames / options_.strips);
+    add_strip(frame);
+  }
+  return kind;
+}
+
+/// The strip whose turn it is. Strips overlap, so that a tag is whole in one of them.
+void TagTracker::add_strip(const GrayFrame& frame) {
+  const double width_px = static_cast<double>(frame.width_px) / options_.strips;
+  const double overlap_px = kStripOverlap * frame.width_px;
+  const glm::dvec2 low(strip_ * width_px - overlap_px, 0.0);
+  const glm::dvec2 high((strip_ + 1) * width_px + overlap_px, frame.height_px);
+  boxes_.push_back(tiled(frame, low, high));
+  strip_ = (strip_ + 1) % options_.strips;
 }
 
 void TagTracker::predict_boxes(const GrayFrame& frame) {

@@ -14,6 +14,10 @@ struct TrackTagsOptions {
   TagDetectorOptions detector;
   /// The whole picture is searched this often, for tags that come in from its edges.
   int full_every_frames = 30;
+  /// Into so many upright strips, one after the other, that search of the whole picture is
+  /// spread, so that no frame takes much longer than others: what live work wants. 1: it
+  /// is done at once. While nothing is followed a strip is searched in every frame.
+  int strips = 1;
   /// The surroundings of all tags that are followed are searched this often, for those
   /// of the same body that turn into view.
   int body_every_frames = 2;
@@ -26,6 +30,7 @@ enum class SearchKind {
   kFull,     ///< The whole picture.
   kBody,     ///< One box around all tags that are followed, and well beyond.
   kRegions,  ///< Merged boxes around the predicted tags.
+  kStrip,    ///< A strip of the picture beside these, or the box around all tags.
 };
 
 /// Follows the tags of one camera from frame to frame: looks where they should be, which
@@ -40,7 +45,7 @@ enum class SearchKind {
 /// give the same tags.
 class TagTracker {
  public:
-  /// kBadInput as TagDetector::create(). Precondition: intervals are positive,
+  /// kBadInput as TagDetector::create(). Precondition: intervals and strips are positive,
   /// remember_frames not negative, quad_decimate is 1.
   [[nodiscard]] static Result<TagTracker> create(const TrackTagsOptions& options = {});
 
@@ -65,7 +70,9 @@ class TagTracker {
 
   TagTracker(TagDetector detector, const TrackTagsOptions& options);
   [[nodiscard]] SearchKind choose_search(const GrayFrame& frame);
+  [[nodiscard]] SearchKind choose_parts(const GrayFrame& frame, bool is_spread);
   void predict_boxes(const GrayFrame& frame);
+  void add_strip(const GrayFrame& frame);
   void merge_boxes();
   void remember(const GrayFrame& frame);
 
@@ -77,6 +84,8 @@ class TagTracker {
   std::vector<TagDetection> found_;
   int next_full_ = 0;
   int next_body_ = 0;
+  int next_strip_ = 0;
+  int strip_ = 0;  ///< Whose turn it is.
   int body_searches_ = 0;
   SearchKind last_search_ = SearchKind::kFull;
 };

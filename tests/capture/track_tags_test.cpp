@@ -139,6 +139,43 @@ TEST(TrackTags, LooksEverywhereOnceAllItFollowedHasLeft) {
   }
 }
 
+TEST(TrackTags, ComesUponATagFarAwayStripByStripAndNeverSearchesWholeForIt) {
+  TrackTagsOptions options;
+  options.full_every_frames = 10;
+  options.strips = 5;
+  auto tracker = TagTracker::create(options);
+  int first_seen = -1;
+  for (int f = 0; f < 15; ++f) {
+    const DrawnTag here{"tag36h11", 3, tests::square({60.0, 60.0}, 30.0)};
+    const DrawnTag far{"tag36h11", 5, tests::square({300.0, 190.0}, 30.0)};
+    const cv::Mat image = draw(f < 3 ? std::vector{here} : std::vector{here, far});
+    const auto& found = tracker->track(numbered(image, f));
+    if (found.size() == 2 && first_seen < 0) first_seen = f;
+    // Later the box around both is the whole picture.
+    if (first_seen < 0) {
+      EXPECT_EQ(tracker->last_search() == SearchKind::kFull, f == 0) << f;
+    }
+  }
+  EXPECT_GE(first_seen, 3);
+  EXPECT_LE(first_seen, 13) << "its strip's turn comes once in ten frames";
+}
+
+TEST(TrackTags, LooksForSomebodyStripByStripWhileNobodyIsThere) {
+  TrackTagsOptions options;
+  options.strips = 4;
+  auto tracker = TagTracker::create(options);
+  EXPECT_TRUE(tracker->track(numbered(draw({}), 0)).empty());
+  const cv::Mat image =
+      draw({{"tag36h11", 5, tests::square({180.0, 120.0}, 26.0)}});  // Astride of two.
+  int first_seen = -1;
+  for (int f = 1; f < 6 && first_seen < 0; ++f) {
+    if (!tracker->track(numbered(image, f)).empty()) first_seen = f;
+    EXPECT_NE(tracker->last_search(), SearchKind::kFull);
+  }
+  EXPECT_GE(first_seen, 1);
+  EXPECT_LE(first_seen, 4);
+}
+
 TEST(TrackTags, SearchesWholeWhatTagsFill) {
   // Nine tags all over the image: their boxes would be all of it.
   std::vector<DrawnTag> tags;
