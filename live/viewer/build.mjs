@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// npm run build: src/ as one page in dist/, which needs nothing else. With --watch it goes on.
+// npm run build: src/ as one page in dist/ (or in the folder that MAREY_PAGE names), which needs
+// nothing else. With --watch it goes on.
 import {copyFile, mkdir} from 'node:fs/promises';
 import {fileURLToPath} from 'node:url';
 import esbuild from 'esbuild';
@@ -9,7 +10,7 @@ import esbuild from 'esbuild';
 const here = fileURLToPath(new URL('.', import.meta.url));
 const options = {
   entryPoints: [`${here}src/page.ts`, `${here}src/page.css`],
-  outdir: `${here}dist`,
+  outdir: process.env.MAREY_PAGE ?? `${here}dist`,
   bundle: true,
   minify: !process.argv.includes('--watch'),
   format: 'esm',

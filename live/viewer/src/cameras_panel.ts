@@ -110,22 +110,24 @@ function sizeWords(camera: CameraWords): string {
 
 /** Outlines and ids. Yellow with a dark edge is seen on everything. */
 function drawTags(context: CanvasRenderingContext2D, {tags}: Thumbnail, scale: number): void {
-  context.font = '600 11px system-ui, sans-serif';
+  // In pixels of the page, however small the picture is shown.
+  const fine = context.canvas.width / Math.max(context.canvas.clientWidth, 1);
+  context.font = `600 ${(11 * fine).toFixed(1)}px system-ui, sans-serif`;
   context.textAlign = 'center';
   context.textBaseline = 'middle';
   for (const {id, corners_px: c} of tags) {
     context.beginPath();
     for (let i = 0; i < 8; i += 2) context.lineTo((c[i] + 0.5) * scale, (c[i + 1] + 0.5) * scale);
     context.closePath();
-    context.lineWidth = 3;
+    context.lineWidth = 3 * fine;
     context.strokeStyle = 'rgb(0 0 0 / 60%)';
     context.stroke();
-    context.lineWidth = 1.4;
+    context.lineWidth = 1.4 * fine;
     context.strokeStyle = '#ffe45c';
     context.stroke();
     const x = (c[0] + c[2] + c[4] + c[6]) / 4 * scale;
     const y = (c[1] + c[3] + c[5] + c[7]) / 4 * scale;
-    context.lineWidth = 3;
+    context.lineWidth = 3 * fine;
     context.strokeStyle = 'rgb(0 0 0 / 75%)';
     context.strokeText(String(id), x, y);
     context.fillStyle = '#ffe45c';

@@ -14,7 +14,7 @@ import type {Colours} from './theme';
 const SIZE = 0.0105;
 
 const SHAPES: Record<ConstraintWords['kind'], () => BufferGeometry> = {
-  position: () => new SphereGeometry(1, 12, 8),
+  position: () => new SphereGeometry(1, 16, 10),
   distance: () => new OctahedronGeometry(1.3),
   box: () => new BoxGeometry(1.7, 1.7, 1.7),
   orientation: () => new ConeGeometry(1, 2.2, 12),

@@ -25,7 +25,7 @@ export class Header {
     buttons: HTMLElement[], record: (on: boolean) => void) {
     this.recordButton = el('button', {type: 'button', class: 'record', 'aria-pressed': 'false',
       hidden: true, onclick: () => record(!this.recording)}, 'Record');
-    const themeButton = el('button', {type: 'button', class: 'icon', title:
+    const themeButton = el('button', {type: 'button', class: 'icon theme', title:
       'Dark or light colours', 'aria-label': 'Dark or light colours',
     onclick: () => theme.choose(theme.dark ? 'light' : 'dark')}, '◐');
     element.append(this.title, this.pill, this.figures, el('span', {class: 'spring'}),

@@ -5,24 +5,27 @@
 
 import {el} from './elements';
 
-const KEYS: [string, string][] = [
-  ['space', 'play, pause'], ['← →', 'one frame back, on'], ['shift ← →', 'one second back, on'],
-  ['home end', 'first, last frame (live: now)'], ['L', 'loop'], ['F', 'frame the bodies'],
-  ['1 2 3', 'from the front, their left, above'], ['+ −', 'nearer, farther'],
-  ['drag', 'turn; on a handle: move it'], ['shift drag', 'pan; on a handle: up and down'],
-  ['wheel, two fingers', 'zoom; on the timeline: zoom in time'], ['double click', 'all of it'],
-  ['D', 'segments, contacts, graphs'], ['P', 'panels'], ['?', 'this help'],
+const KEYS: [string[], string][] = [
+  [['space'], 'play, pause'], [['←', '→'], 'one frame back, on'],
+  [['shift ←', 'shift →'], 'one second back, on'],
+  [['home', 'end'], 'first, last frame (live: now)'], [['L'], 'loop'],
+  [['F'], 'all bodies in the picture'], [['1', '2', '3'], 'from the front, their left, above'],
+  [['+', '−'], 'nearer, farther'], [['drag'], 'turn; on a handle: move it'],
+  [['shift drag'], 'pan; on a handle: up and down'],
+  [['wheel', 'two fingers'], 'zoom; on the timeline: zoom in time'],
+  [['double click'], 'all of it'], [['D'], 'segments, contacts, graphs'], [['P'], 'panels'],
+  [['?'], 'this help'],
 ];
 
 export class Help {
   readonly button = el('button', {type: 'button', class: 'icon', title: 'Keys and gestures (?)',
     'aria-label': 'Keys and gestures', onclick: () => this.toggle()}, '?');
   private readonly dialog = el('dialog', {class: 'help', 'aria-labelledby': 'help-title'},
-    el('h2', {id: 'help-title'}, 'Keys and gestures'),
-    el('dl', {}, ...KEYS.flatMap(([key, what]) =>
-      [el('dt', {}, ...key.split(' ').flatMap((word) => [el('kbd', {}, word), ' '])),
+    el('h2', {id: 'help-title', tabindex: -1, autofocus: true}, 'Keys and gestures'),
+    el('dl', {}, ...KEYS.flatMap(([keys, what]) =>
+      [el('dt', {}, ...keys.flatMap((key) => [el('kbd', {}, key), ' '])),
         el('dd', {}, what)])),
-    el('form', {method: 'dialog'}, el('button', {class: 'primary', autofocus: true}, 'Close')));
+    el('form', {method: 'dialog'}, el('button', {class: 'primary'}, 'Close')));
 
   constructor() {
     document.body.append(this.dialog);
@@ -43,7 +46,7 @@ export function listenToKeys(actions: Record<string, (event: KeyboardEvent) => v
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const target = event.target as HTMLElement;
-    if (target.closest('select, input:not([type=checkbox]), dialog')) {
+    if (target.closest('select, input:not([type=checkbox]), dialog[open]')) {
       if (!(event.key === '?' && target.closest('dialog'))) return;
     }
     // Space presses what has the focus.

@@ -8,7 +8,7 @@ import {turn} from './quaternions';
 import type {CameraWords, Vector} from './protocol';
 import type {Colours} from './theme';
 
-const DEPTH_M = 0.32;
+const DEPTH_M = 0.24;
 
 /** Ends of the lines of one camera's pyramid, x y z each, in the world. A short stroke marks
  *  the top of its picture. */
@@ -31,7 +31,8 @@ export function frustumLines(camera: CameraWords): number[] {
 }
 
 export class RigView {
-  readonly object = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
+  readonly object = new LineSegments(new BufferGeometry(), new LineBasicMaterial({
+    transparent: true, opacity: 0.6}));
 
   set(cameras: readonly CameraWords[]): void {
     this.object.geometry.dispose();

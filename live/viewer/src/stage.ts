@@ -24,6 +24,7 @@ import {RigView} from './rig_view';
 import type {Theme} from './theme';
 
 const MOST_POINT_NAMES = 80;
+const NAME_ABOVE_M = 0.2; // Over the highest joint, which is not the top of the head.
 
 export interface StageListener {
   /** A picture is due; the stage draws itself after that. */
@@ -118,6 +119,7 @@ export class Stage {
       const p = body.pose.p_in_world;
       const moved: number[] = [];
       for (let i = 0; i < p.length; i += 3) moved.push(p[i] + dx, p[i + 1] + dy, p[i + 2] + dz);
+      if (this.shown.names) moved.push(p[0] + dx, body.top_m() + dy + NAME_ABOVE_M, p[2] + dz);
       return moved;
     });
     if (this.points) places.push(...this.points.p_in_world);
@@ -178,7 +180,7 @@ export class Stage {
         if (!body.object.visible) continue;
         const [dx, dy, dz] = body.words.offset_m;
         const p = body.pose.p_in_world;
-        labels.add(body.words.name, 'body', camera, p[0] + dx, body.top_m() + dy + 0.22,
+        labels.add(body.words.name, 'body', camera, p[0] + dx, body.top_m() + dy + NAME_ABOVE_M,
           p[2] + dz);
       }
       if (this.shown.cameras) {

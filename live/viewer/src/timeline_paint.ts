@@ -104,7 +104,9 @@ export class TimelinePainter {
     context.clip();
     context.fillStyle = colours.quiet;
     context.textAlign = 'left';
-    context.fillText(text, 0, band.top + band.height / 2);
+    // Where there is little room the side is one letter.
+    const words = gutter < 100 ? text.replace(/^left /, 'L ').replace(/^right /, 'R ') : text;
+    context.fillText(words, 0, band.top + band.height / 2);
     context.restore();
   }
 
@@ -131,7 +133,10 @@ export class TimelinePainter {
       context.fillRect(Math.round(x), AXIS_PX - 5, 1, 5);
       const text = data.live && i === 0 ? 'now' : clockWords(i * step_s, decimals);
       const half = context.measureText(text).width / 2;
+      // The first and the last tick move their words inwards; others that do not fit have none.
+      const end = x - this.gutter < 1 || this.gutter + width - x < 1;
       const at = Math.min(Math.max(x, this.gutter + half), this.gutter + width - half);
+      if (at !== x && !end) continue;
       context.fillStyle = colours.quiet;
       context.fillText(text, at, AXIS_PX / 2 - 2);
     }

@@ -4,17 +4,15 @@
 // A browser without a screen, drawing in software, and what went wrong in it.
 
 import {existsSync} from 'node:fs';
-import {fileURLToPath} from 'node:url';
-import {missingPackages} from './installed.mjs';
+import {missingPackages, pageFolder} from './installed.mjs';
 
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
 /** Why there can be no browser; null when there can. */
 export function missing() {
-  const here = fileURLToPath(new URL('..', import.meta.url));
   const packages = missingPackages();
   if (packages) return packages;
-  if (!existsSync(`${here}dist/page.js`)) {
+  if (!existsSync(`${pageFolder}page.js`)) {
     return 'the page is not built; npm run build --prefix live/viewer';
   }
   if (!existsSync(CHROMIUM)) return 'chromium is missing; apt-get install chromium';

@@ -8,6 +8,9 @@ import {fileURLToPath} from 'node:url';
 
 const here = fileURLToPath(new URL('..', import.meta.url));
 
+/** Where the page was built. */
+export const pageFolder = `${process.env.MAREY_PAGE ?? `${here}dist`}/`;
+
 /** Why there are no packages; null when there are. */
 export function missingPackages() {
   return ['esbuild', 'typescript', 'three', 'playwright-core'].every((name) =>

@@ -165,7 +165,7 @@ test('dark and light are chosen, shown and remembered', async () => {
   const background = () => page.evaluate(() =>
     getComputedStyle(document.body).backgroundColor);
   const light = await background();
-  await page.locator('#bar button.icon').first().click();
+  await page.locator('#bar .theme').click();
   const dark = await background();
   assert.notEqual(light, dark);
   await page.reload();
@@ -199,11 +199,13 @@ test('on a phone all is within the screen and large enough for a finger', async 
   assert.ok(!await page.locator('#panels').isVisible(), 'panels begin folded');
   await page.getByRole('button', {name: 'Panels'}).tap();
   assert.ok(await page.locator('#panels').isVisible());
-  const {width, small} = await page.evaluate(() => ({
+  const {width, stage_px, small} = await page.evaluate(() => ({
     width: document.documentElement.scrollWidth,
+    stage_px: document.querySelector('.stage canvas').clientWidth,
     small: [...document.querySelectorAll('button, select, summary')].filter((node) =>
       node.offsetParent && node.getBoundingClientRect().height < 36).map((n) => n.textContent)}));
   assert.ok(width <= 390, `${width} px wide`);
+  assert.equal(stage_px, 390, 'panels lie over the stage');
   assert.deepEqual(small, []);
   await page.getByRole('button', {name: 'Panels'}).tap();
   assert.ok(!await page.locator('#panels').isVisible());

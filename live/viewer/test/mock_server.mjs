@@ -6,14 +6,13 @@
 
 import {readFileSync, existsSync} from 'node:fs';
 import {createServer} from 'node:http';
-import {fileURLToPath} from 'node:url';
 import {avatarFile} from './avatar_file.mjs';
 import {fileScene, liveScene, statusAt, wizardAt} from './scenes.mjs';
+import {pageFolder} from './installed.mjs';
 import {PageSocket} from './socket.mjs';
 import {encodeFrame} from './walker.mjs';
 import {thumbnail} from './thumbnail.mjs';
 
-const dist = fileURLToPath(new URL('../dist/', import.meta.url));
 const KINDS = {html: 'text/html; charset=utf-8', js: 'text/javascript', css: 'text/css',
   svg: 'image/svg+xml'};
 /** What marey sends: the page has to do with it. */
@@ -35,7 +34,7 @@ export class MockServer {
     this.wizard = null;
     this.scene = mode === 'live' ? liveScene(rate_hz, avatar) : fileScene(rate_hz, frames, avatar);
     this.bodies = this.scene.skeletons.map(({estimate, kind}) =>
-      ({estimate, balance: kind === 'performer'}));
+      ({estimate, balance: kind === 'performer', droop: kind === 'avatar' ? avatar.droop : 0}));
     if (avatar) this.media.set('/media/1', avatar.bytes ?? avatarFile());
     if (mode === 'file') this.media.set('/media/2', this.#block());
   }
@@ -76,8 +75,8 @@ export class MockServer {
     const path = new URL(request.url, 'http://mock').pathname;
     const media = this.media.get(path);
     const name = path === '/' ? 'index.html' : path.slice(1);
-    const file = /^[a-z]+\.(html|js|css|svg)$/.test(name) && existsSync(dist + name)
-      ? readFileSync(dist + name) : null;
+    const file = /^[a-z]+\.(html|js|css|svg)$/.test(name) && existsSync(pageFolder + name)
+      ? readFileSync(pageFolder + name) : null;
     const body = media ?? file;
     response.writeHead(body ? 200 : 404, {
       'Content-Type': file ? KINDS[name.split('.').pop()] : 'application/octet-stream',

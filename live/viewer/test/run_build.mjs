@@ -6,11 +6,11 @@
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
-import {skipWithoutPackages} from './installed.mjs';
+import {pageFolder, skipWithoutPackages} from './installed.mjs';
 
 skipWithoutPackages();
 await import('../build.mjs');
-const read = (name) => readFileSync(new URL(`../dist/${name}`, import.meta.url), 'utf8');
+const read = (name) => readFileSync(pageFolder + name, 'utf8');
 const [html, script, style] = ['index.html', 'page.js', 'page.css'].map(read);
 assert.match(read('icon.svg'), /^<svg/);
 assert.doesNotMatch(html, /<script>|style=|\son[a-z]+=|https?:/, 'the policy forbids these');

@@ -166,7 +166,7 @@ test('a camera sees where its picture is, not behind', () => {
     cx: 50, cy: 50, rms_px: null,
     world_from_camera: {p: [0, 1, 3], q: [1, 0, 0, 0]}});
   for (let i = 0; i < lines.length; i += 3) assert.ok(lines[i + 2] <= 3 + 1e-9);
-  close(lines.slice(0, 2), [-0.32 * 0.505, 1 + 0.32 * 0.505], 1e-9);
+  close(lines.slice(0, 2), [-0.24 * 0.505, 1 + 0.24 * 0.505], 1e-9);
 });
 
 test('a bone goes from joint to joint, its shadow lies on the floor', () => {

@@ -40,15 +40,19 @@ const times = (a, b) => [
   a[3] * b[2] + a[0] * b[1] - a[1] * b[0] + a[2] * b[3],
   a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]];
 
-/** Rotations at this time, x y z w per joint. */
-export function postureAt(time_s) {
+/** Rotations at this time, x y z w per joint. `droop`: by how much arms hang at rest
+ *  already, less than a T-pose. [rad] */
+export function postureAt(time_s, droop = 0) {
   const swing = Math.sin(2 * Math.PI * 0.9 * time_s);
   return JOINTS.map(({name}) => {
     const s = name.startsWith('left') ? 1 : -1;
     if (name.endsWith('UpperLeg')) return about(0, -0.45 * s * swing);
     if (name.endsWith('LowerLeg')) return about(0, 0.35 - 0.35 * s * Math.cos(5.65 * time_s));
-    if (name.endsWith('UpperArm')) return times(about(0, 0.5 * s * swing), about(2, -1.25 * s));
-    if (name.endsWith('LowerArm')) return about(1, -0.4 * s);
+    if (name.endsWith('UpperArm')) return times(about(0, 0.5 * s * swing),
+      about(2, (droop - 1.25) * s));
+    if (name.endsWith('LowerArm')) {
+      return times(times(about(2, -droop * s), about(1, -0.4 * s)), about(2, droop * s));
+    }
     if (name === 'spine') return about(1, 0.12 * swing);
     if (name === 'hips') return about(1, -0.1 * swing);
     return [0, 0, 0, 1];
@@ -80,14 +84,14 @@ export function encodeFrame(skeletons, frame, time_s, sent_s) {
   out.writeDoubleLE(sent_s, 16);
   let at = 24;
   const float = (value) => { at = out.writeFloatLE(value, at); };
-  skeletons.forEach(({estimate, balance, raise = 0}, k) => {
+  skeletons.forEach(({estimate, balance, raise = 0, droop = 0}, k) => {
     out.writeUInt8(1 + (estimate ? 2 : 0) + (balance ? 4 : 0), at);
     out.writeUInt16LE(J, at + 2);
     at += 4;
     const time = time_s - 0.1 * k;
     const sway = 0.03 * Math.sin(5.65 * time);
     [sway, 0.93 + 0.015 * Math.cos(11.3 * time) + raise, 0].forEach(float);
-    postureAt(time).flat().forEach(float);
+    postureAt(time, droop).flat().forEach(float);
     if (estimate) {
       for (let i = 0; i < J; ++i) float(0.006 + 0.02 * sourceAt(i, frame));
       for (let i = 0; i < J; ++i) out.writeUInt8(sourceAt(i, frame), at + i);
