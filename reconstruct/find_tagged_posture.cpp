@@ -21,6 +21,13 @@ constexpr double kUnambiguous = 3.0;
 constexpr std::size_t kStartsOfABone = 3;
 // Of a limb, that are tried.
 constexpr std::size_t kSightingsOfALimb = 4;
+// How far a limb that is looked for anew may stray from where it was expected: a loose
+// leash that matters where nothing is seen.
+constexpr double kLeash_rad = 0.3;
+// Of what stands still: [rad] and [m].
+constexpr double kHeld = 1e-3;
+// Another attitude has to be so much better.
+constexpr double kClearly = 0.9;
 // What has to be explained of what is seen, and how much there has to be.
 constexpr double kExplained = 0.6;
 constexpr std::size_t kFewestSightings = 4;
@@ -76,20 +83,13 @@ double squares_of(std::span<const RigidPointView> views, const RigidTransform& p
 
 }  // namespace
 
-std::optional<std::size_t> limb_of(HumanBone bone) {
-  for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
-    const HumanLimb& bones = human_limbs()[limb];
-    if (bone == bones.upper || bone == bones.lower || bone == bones.end) return limb;
-  }
-  return std::nullopt;
-}
-
 TaggedPostureFinder::TaggedPostureFinder(const TagModel& model)
     : model_(&model), solver_(model) {
   const std::size_t most = model.tags.size() * model.cameras.size();
   views_.reserve(4 * most);
   starts_.reserve(2 * most);
   fits_.reserve(most);
+  own_.reserve(most);
 }
 
 std::optional<RigidTransform> TaggedPostureFinder::locate_bone(
@@ -146,7 +146,8 @@ std::optional<Posture> TaggedPostureFinder::find(std::span<const SeenTag> seen) 
   fits_.resize(seen.size());
   solver_.fit(seen, {}, posture, fits_);
   for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
-    if (limb_misfits(limb, seen, fits_)) (void)retry_limb(limb, seen, {}, {}, posture);
+    if (!limb_misfits(limb, seen, fits_)) continue;
+    if (retry_limb(limb, seen, {}, {}, posture)) (void)solver_.solve(seen, {}, posture);
   }
   solver_.fit(seen, {}, posture, fits_);
   const auto explained = std::count_if(
@@ -172,15 +173,24 @@ bool TaggedPostureFinder::retry_limb(std::size_t limb,
                                      const TagFrameSolver::Beside& beside,
                                      const TagLimits& limits,
                                      Posture& posture) {
+  own_.clear();
+  for (const SeenTag& one : seen) {
+    if (!beside.prior || limb_of(model_->tags[one.tag].bone) == limb) own_.push_back(one);
+  }
+  const Posture start = posture;
+  TagFrameSolver::Beside own = beside;
+  if (beside.prior) {
+    leash(limb, start, *beside.prior);
+    own.prior = &leash_;
+  }
   TagLimits quick = limits;
   quick.iterations = 8;
-  locate(seen);
+  locate(own_);
   const FoundSegments found = found_;
-  const Posture start = posture;
-  double least = solver_.evaluate(seen, beside, posture, limits).cost;
+  double least = solver_.solve(own_, own, posture, quick);
   bool changed = false;
   std::size_t tried = 0;
-  for (const SeenTag& one : seen) {
+  for (const SeenTag& one : own_) {
     const ModelTag& tag = model_->tags[one.tag];
     if (limb_of(tag.bone) != limb || tried == kSightingsOfALimb) continue;
     const auto readings =
@@ -194,14 +204,33 @@ bool TaggedPostureFinder::retry_limb(std::size_t limb,
       take_limb(limb,
                 posture_from_segments(found_, model_->lengths, model_->body, start),
                 candidate);
-      const double cost = solver_.solve(seen, beside, candidate, quick);
-      if (!(cost < least)) continue;
+      const double cost = solver_.solve(own_, own, candidate, quick);
+      if (!(cost < kClearly * least)) continue;
       least = cost;
       posture = candidate;
       changed = true;
     }
   }
+  if (!changed) posture = start;
   return changed;
+}
+
+/// What is believed while a limb is tried: the rest of the body stands still, the limb is
+/// somewhere near to where it is expected.
+void TaggedPostureFinder::leash(std::size_t limb,
+                                const Posture& start,
+                                const PosturePrior& prior) {
+  leash_.expected = start;
+  for (Eigen::Matrix3d& information : leash_.information) {
+    information = Eigen::Matrix3d::Identity() / (kHeld * kHeld);
+  }
+  take_limb(limb, prior.expected, leash_.expected);
+  const LimbSlots& s = kLimbSlots[limb];
+  for (const Slot slot :
+       {s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity}) {
+    leash_.information[index(slot)] =
+        Eigen::Matrix3d::Identity() / (kLeash_rad * kLeash_rad);
+  }
 }
 
 }  // namespace marey::reconstruct

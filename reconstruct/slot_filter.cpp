@@ -18,8 +18,6 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // Of a posture that was just found from nothing. [rad], [m]
 constexpr double kFirstSigma = 0.3;
-// After which people have changed what they do, and habits speak anew. [s]
-constexpr double kHabitMemory_s = 0.5;
 
 template <int N>
 using Square = Eigen::Matrix<double, N, N>;
@@ -47,17 +45,17 @@ auto both(const Matrix6d& covariance) {
 
 }  // namespace
 
-SlotProcess::SlotProcess(const Lengths& lengths, FrameRate rate, double brisk)
-    : lengths_(lengths), brisk_(brisk) {
+SlotProcess::SlotProcess(const Lengths& lengths, FrameRate rate, const Temper& temper)
+    : lengths_(lengths), temper_(temper) {
   set_rate(rate);
 }
 
 void SlotProcess::set_rate(FrameRate rate) {
   rate_ = rate;
-  habit_share_ = std::min(1.0, 1.0 / (kHabitMemory_s * rate.hz));
+  habit_share_ = std::min(1.0, 1.0 / (temper_.habit_memory_s * rate.hz));
   for (const SlotAcceleration& row : kAccelerations) {
     process_[index(row.slot)] = process_of(row, rate);
-    process_[index(row.slot)].sigma *= brisk_;
+    process_[index(row.slot)].sigma *= temper_.brisk;
   }
 }
 

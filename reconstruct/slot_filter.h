@@ -29,14 +29,19 @@ struct PostureBelief {
   std::array<Eigen::Matrix<double, 6, 6>, kSlotCount> covariance;
 };
 
-/// How much brisker than the everyday movement of kAccelerations people are taken to be.
-/// Athletes are; markers, of which a frame has many, tell.
-inline constexpr double kBriskOfMarkers = 5.0;
+/// What the filter believes of people.
+struct Temper {
+  /// How much brisker than the everyday movement of kAccelerations they are. Athletes
+  /// are; markers, of which a frame has many, tell.
+  double brisk = 5.0;
+  /// After which they have changed what they do, and habits speak anew. [s]
+  double habit_memory_s = 0.5;
+};
 
 /// The filter's constants at a frame rate.
 class SlotProcess {
  public:
-  SlotProcess(const Lengths& lengths, FrameRate rate, double brisk = kBriskOfMarkers);
+  SlotProcess(const Lengths& lengths, FrameRate rate, const Temper& temper = {});
 
   /// The frames to come are `rate` apart: what is believed of steps per frame follows.
   void change_rate(FrameRate rate, PostureBelief& belief);
@@ -87,7 +92,7 @@ class SlotProcess {
   std::array<StepProcess, kSlotCount> process_;
   Lengths lengths_;
   FrameRate rate_;
-  double brisk_;
+  Temper temper_;
   double habit_share_ = 1.0;
 };
 

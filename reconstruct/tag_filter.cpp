@@ -10,16 +10,20 @@
 namespace marey::reconstruct {
 namespace {
 
-// Tags of a frame say less than markers: how people move says more.
-constexpr double kBrisk = 1.0;
-// How far tags slip on skin, where nothing else is known.
-constexpr double kUsualSlip_m = 0.0005;
+// Tags of a frame say less than markers: how people move says more, and what they usually
+// do, of whom a part may not be seen at all.
+constexpr double kBrisk = 1.2;
+constexpr double kHabitMemory_s = 0.1;
 // The body is lost where less than this of what is seen is explained.
 constexpr double kExplained = 0.5;
 constexpr std::size_t kFewestToJudge = 3;
+// Nor is a tag somebody else's that is off by less: detectors may be surer than they are.
+constexpr double kNear_px = 1.5;
 // Who is lost and not found is looked for again so much later, limbs that do not fit
 // likewise.
 constexpr double kBetweenLooks_s = 0.15;
+// Of a body's parts, beside what is known of their speed.
+constexpr double kUnknownSpeed_m_s = 0.5;
 // After so long without a picture nothing is expected of speeds, and time stands still.
 constexpr double kLongestStep_s = 2.0;
 
@@ -30,22 +34,23 @@ TagFilter::TagFilter(const TagModel& model,
                      const std::vector<bool>& lag_known)
     : model_(&model),
       nominal_(rate),
-      process_(model.lengths, rate, kBrisk),
+      process_(model.lengths, rate, {kBrisk, kHabitMemory_s}),
       solver_(model),
       finder_(model),
       readings_(model),
       lags_(lag_known),
       late_frames_(model.cameras.size(), 0.0),
+      late_sigma_frames_(model.cameras.size(), 0.0),
       lateness_(model.cameras.size()) {
   fits_.reserve(model.tags.size() * model.cameras.size());
-  slips_m_.fill(kUsualSlip_m);
   drift_.late_frames = late_frames_;
+  drift_.late_sigma_frames = late_sigma_frames_;
   drift_.expected = &predicted_.posture;
-  beside_ = {&prior_, &drift_, &slips_m_};
+  beside_ = {&prior_, &drift_, &slips_.sigmas_m()};
 }
 
 bool TagFilter::is_used(const TagFit& fit) {
-  return fit.squared < kDoubtfulTag * kDoubtfulTag;
+  return fit.squared < kDoubtfulTag * kDoubtfulTag || fit.rms_px < kNear_px;
 }
 
 TagLimits TagFilter::limits() const {
@@ -78,6 +83,7 @@ void TagFilter::predict(double since_s) {
 void TagFilter::prepare(std::span<const double> late_s) {
   SlotProcess::to_prior(predicted_, prior_);
   drift_.step = predicted_.step;
+  drift_.speed_sigma_m = kUnknownSpeed_m_s / process_.rate().hz;
   for (const Slot slot : kAllSlots) {
     const auto& c = predicted_.covariance[index(slot)];
     Eigen::Matrix3d& gain = drift_.gain[index(slot)];
@@ -90,6 +96,7 @@ void TagFilter::prepare(std::span<const double> late_s) {
   }
   for (std::size_t c = 0; c < late_frames_.size(); ++c) {
     late_frames_[c] = (late_s[c] + lags_.lags_s()[c]) * process_.rate().hz;
+    late_sigma_frames_[c] = lags_.sigma_s(c) * process_.rate().hz;
   }
 }
 
@@ -159,11 +166,9 @@ void TagFilter::mend(std::span<const SeenTag> seen,
       continue;
     }
     limb_astray_s_[limb] += since_s;
-    TagFrameSolver::Beside alone = beside_;
-    alone.prior = nullptr;
     until_next_look_s_ = kBetweenLooks_s;
     Posture other = posture;
-    if (!finder_.retry_limb(limb, seen, alone, limits(), other)) continue;
+    if (!finder_.retry_limb(limb, seen, beside_, limits(), other)) continue;
     const LimbSlots& s = kLimbSlots[limb];
     forget(std::array{s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity},
            other);
@@ -194,11 +199,20 @@ void TagFilter::step(std::span<const SeenTag> seen,
   refine(seen, posture);
   mend(seen, late_s, since_s, posture);
   solver_.factor().covariance(covariance_);
-  if (lags_.any()) {
-    solver_.lateness(seen, beside_, posture, lateness_);
-    lags_.update(lateness_, solver_.factor(), 1.0 / process_.rate().hz, since_s);
-  }
   process_.update(predicted_, posture, covariance_, filtered_);
+  learn(seen, since_s, posture);
+}
+
+/// What the solved frame says of cameras and skin.
+void TagFilter::learn(std::span<const SeenTag> seen,
+                      double since_s,
+                      const Posture& posture) {
+  solver_.slips(seen, beside_, posture, covariance_, slip_scores_);
+  if (lags_.any()) {
+    solver_.lateness(seen, beside_, posture, limits(), lateness_);
+    lags_.update(lateness_, solver_.late_factor(), 1.0 / process_.rate().hz, since_s);
+  }
+  slips_.update(slip_scores_, since_s);
 }
 
 }  // namespace marey::reconstruct

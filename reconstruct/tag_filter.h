@@ -10,6 +10,7 @@
 
 #include "reconstruct/camera_lags.h"
 #include "reconstruct/find_tagged_posture.h"
+#include "reconstruct/follow_slips.h"
 #include "reconstruct/slot_filter.h"
 #include "reconstruct/tag_readings.h"
 
@@ -59,6 +60,7 @@ class TagFilter {
             double since_s,
             Posture& posture);
   void forget(std::span<const Slot> slots, const Posture& posture);
+  void learn(std::span<const SeenTag> seen, double since_s, const Posture& posture);
   [[nodiscard]] double unexplained(std::span<const SeenTag> seen, const Posture& posture);
   [[nodiscard]] TagLimits limits() const;
 
@@ -74,7 +76,9 @@ class TagFilter {
   PosturePrior prior_;
   Drift drift_;
   std::vector<double> late_frames_;
-  SegmentSlips slips_m_{};
+  std::vector<double> late_sigma_frames_;
+  FollowedSlips slips_;
+  std::array<TagFrameSolver::SlipScore, kHumanBoneCount> slip_scores_{};
   TagFrameSolver::Beside beside_;
   PostureCovariance covariance_;
   std::vector<TagFit> fits_;

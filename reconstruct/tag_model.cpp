@@ -18,6 +18,9 @@ using Eigen::Vector3d;
 constexpr double kC2 = kDoubtfulTag * kDoubtfulTag;
 // Of a tag that is behind the camera that saw it: wrong, but not impossible to leave.
 constexpr double kBehind2 = 8e6;
+// One sighting says no more than this many times what is expected: blunders are not
+// slips.
+constexpr double kMostSquares = 9.0;
 // A camera so early that it tells no more of the posture than of the one before.
 constexpr double kLeastFollowed = 0.2;
 
@@ -58,6 +61,14 @@ TagModel to_tag_model(const Body& body, std::span<const Camera> cameras) {
   return model;
 }
 
+std::optional<std::size_t> limb_of(HumanBone bone) {
+  for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
+    const HumanLimb& bones = human_limbs()[limb];
+    if (bone == bones.upper || bone == bones.lower || bone == bones.end) return limb;
+  }
+  return std::nullopt;
+}
+
 TagFrameSolver::TagFrameSolver(const TagModel& model)
     : model_(&model), by_camera_(model.cameras.size()) {}
 
@@ -83,7 +94,15 @@ void TagFrameSolver::unfold_all(const Posture& posture, const Drift* drift) {
     }
   }
   unfold(posture);
-  if (drift) step_ = in_unknowns(step, posture, model_->lengths);
+  if (drift) {
+    step_ = in_unknowns(step, posture, model_->lengths);
+    Posture next = posture;
+    move(next, step_);
+    next_.unfold(next, model_->lengths, model_->body);
+  }
+  for (std::size_t limb = 0; drift && limb < kLimbSlots.size(); ++limb) {
+    upper_by_flexion_[limb] = upper_by_flexion(posture, limb, model_->lengths);
+  }
   for (std::size_t c = 0; c < by_camera_.size(); ++c) {
     Seen& seen = by_camera_[c];
     seen.late = drift != nullptr;
@@ -124,13 +143,30 @@ bool TagFrameSolver::sight(const SeenTag& seen,
     out.by_shift.middleRows<2>(row) = scale * px_by_world;
   }
   out.explained.setZero();
-  const double slip_m = beside.slips_m ? (*beside.slips_m)[index(tag.bone)] : 0.0;
-  if (slip_m > 0.0) {
+  const double variance_m2 = stray_m2(seen, beside);
+  if (variance_m2 > 0.0) {
     Matrix3d inside = out.by_shift.transpose() * out.by_shift;
-    inside.diagonal().array() += 1.0 / (seen.cameras * slip_m * slip_m);
+    inside.diagonal().array() += 1.0 / variance_m2;
     out.explained = inside.inverse();
   }
   return true;
+}
+
+/// Of a tag about where a rigid body would carry it at the time that it is seen: its
+/// slip, and how far it moves while nobody knows whether it was seen. [m^2]
+double TagFrameSolver::stray_m2(const SeenTag& seen, const Beside& beside) const {
+  const ModelTag& tag = model_->tags[seen.tag];
+  const double slip_m = beside.slips_m ? (*beside.slips_m)[index(tag.bone)] : 0.0;
+  double variance_m2 = seen.cameras * slip_m * slip_m;
+  if (beside.drift && !beside.drift->late_sigma_frames.empty()) {
+    const Vector3d& corner = tag.corners_in_bone[0];
+    const Vector3d moved =
+        next_.point(tag.bone, corner) - unfolded_.point(tag.bone, corner);
+    const double sigma = beside.drift->late_sigma_frames[seen.camera];
+    const double speed_m = beside.drift->speed_sigma_m;
+    variance_m2 += sigma * sigma * (moved.squaredNorm() + speed_m * speed_m);
+  }
+  return variance_m2;
 }
 
 /// derivative_ of one sighting. Precondition: unfold_all(), and it was sighted.
@@ -149,6 +185,27 @@ void TagFrameSolver::derive(const SeenTag& seen, const TagSighted& sighted) {
   derivative_.column = point_.column;
 }
 
+/// derivative_ of a camera that sees the body later than it is solved: it follows the
+/// step, too, whose limbs' upper bones move by themselves (move_bones()).
+void TagFrameSolver::scale_late(const SeenTag& seen) {
+  const Seen& by = by_camera_[seen.camera];
+  if (!by.late) return;
+  const auto limb = limb_of(model_->tags[seen.tag].bone);
+  for (int i = 0; i < derivative_.columns; ++i) {
+    const int column = derivative_.column[static_cast<std::size_t>(i)];
+    if (!limb || column != column_of(kLimbSlots[*limb].flexion)) {
+      derivative_.value.col(i) *= by.follows[column];
+      continue;
+    }
+    // Its frame's columns are the three before, and scaled by now.
+    const double share =
+        by.follows[column] / by.follows[column_of(kLimbSlots[*limb].frame)];
+    derivative_.value.col(i) *= by.follows[column];
+    derivative_.value.col(i) +=
+        (1.0 - share) * derivative_.value.middleCols<3>(i - 3) * upper_by_flexion_[*limb];
+  }
+}
+
 void TagFrameSolver::accumulate(std::span<const SeenTag> seen,
                                 const Beside& beside,
                                 const Posture& posture,
@@ -165,11 +222,7 @@ void TagFrameSolver::accumulate(std::span<const SeenTag> seen,
     const double squared = sighted.squared();
     out.cost += 0.5 * kC2 * std::log1p(squared / kC2);
     derive(one, sighted);
-    const Seen& by = by_camera_[one.camera];
-    for (int i = 0; by.late && i < derivative_.columns; ++i) {
-      derivative_.value.col(i) *=
-          by.follows[derivative_.column[static_cast<std::size_t>(i)]];
-    }
+    scale_late(one);
     derivative_.add_to(sighted, 1.0 / (1.0 + squared / kC2), out);
   }
   out.add_habits(posture, unfolded_, model_->twists, limits.habit_share);
@@ -214,32 +267,87 @@ void TagFrameSolver::fit(std::span<const SeenTag> seen,
 void TagFrameSolver::lateness(std::span<const SeenTag> seen,
                               const Beside& beside,
                               const Posture& posture,
+                              const TagLimits& limits,
                               std::span<Lateness> out) {
   std::fill(out.begin(), out.end(), Lateness{});
   if (!beside.drift) return;
-  unfold_all(posture, beside.drift);
+  Drift drift = *beside.drift;
+  // Whose doubt is what this is for.
+  drift.late_sigma_frames = {};
+  const Beside own{beside.prior, &drift, beside.slips_m};
+  accumulate(seen, own, posture, limits, judged_);
+  if (!late_factor_.factor(judged_.hessian, 0.0)) return;
   TagSighted sighted;
   for (const SeenTag& one : seen) {
-    if (!sight(one, beside, 1.0, sighted)) continue;
+    if (!sight(one, own, 1.0, sighted)) continue;
     const double squared = sighted.squared();
     const double weight = 1.0 / (1.0 + squared / kC2);
-    if (weight < 0.5) continue;
     derive(one, sighted);
-    const PostureVector& follows = by_camera_[one.camera].follows;
     Eigen::Matrix<double, 8, 1> speed = Eigen::Matrix<double, 8, 1>::Zero();
     for (int i = 0; i < derivative_.columns; ++i) {
       speed += step_[derivative_.column[static_cast<std::size_t>(i)]] *
                derivative_.value.col(i);
     }
     const Eigen::Matrix<double, 8, 1> weighed = weight * sighted.weighed(speed);
+    scale_late(one);
     Lateness& here = out[one.camera];
     here.gradient += weighed.dot(sighted.residual);
     here.information += weighed.dot(speed);
     for (int i = 0; i < derivative_.columns; ++i) {
       const int column = derivative_.column[static_cast<std::size_t>(i)];
-      here.by_posture[column] += follows[column] * weighed.dot(derivative_.value.col(i));
+      here.by_posture[column] += weighed.dot(derivative_.value.col(i));
     }
   }
+  // Where the posture goes that does not doubt when it is seen.
+  PostureVector step;
+  late_factor_.step(judged_.gradient, step);
+  for (Lateness& here : out) here.gradient += here.by_posture.dot(step);
+}
+
+void TagFrameSolver::slips(std::span<const SeenTag> seen,
+                           const Beside& beside,
+                           const Posture& posture,
+                           const PostureCovariance& covariance,
+                           std::span<SlipScore> out) {
+  std::fill(out.begin(), out.end(), SlipScore{});
+  unfold_all(posture, beside.drift);
+  TagSighted sighted;
+  for (const SeenTag& one : seen) {
+    if (!sight(one, beside, 1.0, sighted)) continue;
+    derive(one, sighted);
+    scale_late(one);
+    const std::size_t bone = index(model_->tags[one.tag].bone);
+    const double slip_m = beside.slips_m ? (*beside.slips_m)[bone] : 0.0;
+    // Per metre of slip: what the corners' errors and the slip leave of it, and what the
+    // posture gives way by.
+    const Matrix3d shared = sighted.by_shift.transpose() * sighted.by_shift;
+    const Matrix3d weighed = shared - shared * sighted.explained * shared;
+    const Matrix3d gives = covariance.of(by_slip(sighted));
+    const Matrix3d kept = weighed - gives;
+    // Where several cameras see one slip, each counts as if it were larger than it is.
+    const double overrated =
+        (one.cameras - 1.0) * slip_m * slip_m * weighed.squaredNorm();
+    const double expected = kept.trace() - overrated;
+    if (!(expected > 0.0)) continue;
+    const Vector3d pull =
+        sighted.by_shift.transpose() * sighted.weighed(sighted.residual);
+    out[bone].excess += std::min(pull.squaredNorm(), kMostSquares * expected) - expected;
+    out[bone].information += kept.squaredNorm();
+    out[bone].count += 1.0;
+  }
+}
+
+/// How the pull of a tag's slip follows the posture, from derivative_.
+const SparseDerivative& TagFrameSolver::by_slip(const TagSighted& sighted) {
+  point_.columns = derivative_.columns;
+  point_.column = derivative_.column;
+  const Eigen::Matrix<double, 3, 8> weighed =
+      sighted.by_shift.transpose() -
+      (sighted.by_shift.transpose() * sighted.by_shift * sighted.explained) *
+          sighted.by_shift.transpose();
+  point_.value.leftCols(point_.columns).noalias() =
+      weighed.lazyProduct(derivative_.value.leftCols(point_.columns));
+  return point_;
 }
 
 }  // namespace marey::reconstruct

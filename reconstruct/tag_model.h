@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct TagModel {
 
 [[nodiscard]] TagModel to_tag_model(const Body& body, std::span<const Camera> cameras);
 
+/// Which of the four limbs a bone is of; nullopt of others.
+[[nodiscard]] std::optional<std::size_t> limb_of(HumanBone bone);
+
 /// A tag of the model in a picture.
 struct SeenTag {
   std::size_t tag = 0;
@@ -55,6 +59,10 @@ using SegmentSlips = std::array<double, kHumanBoneCount>;
 struct Drift {
   /// Per camera: how much later than the posture's instant it sees, in frames.
   std::span<const double> late_frames;
+  /// How well that is known, likewise, where it counts.
+  std::span<const double> late_sigma_frames;
+  /// By how much the body's speed is not what it seems to be. [m] per frame
+  double speed_sigma_m = 0.0;
   /// The step per frame that is expected where the posture is as expected, and how it
   /// follows the posture: as in move_bones().
   const Posture* expected = nullptr;
@@ -122,7 +130,24 @@ class TagFrameSolver {
   void lateness(std::span<const SeenTag> seen,
                 const Beside& beside,
                 const Posture& posture,
+                const TagLimits& limits,
                 std::span<Lateness> out);
+  /// Of the last lateness(): of the posture's equations, no lateness doubted.
+  [[nodiscard]] const ArrowFactor& late_factor() const { return late_factor_; }
+
+  /// What the sightings of one bone say of how far its tags slip (tag_slip.h): squares in
+  /// excess of what their slip makes expect, and what that weighs, per squared slip.
+  struct SlipScore {
+    double excess = 0.0;       ///< [1/m^2]
+    double information = 0.0;  ///< [1/m^4]
+    double count = 0.0;        ///< Of sightings.
+  };
+  /// At a solved posture with this covariance; `out` has one entry per bone.
+  void slips(std::span<const SeenTag> seen,
+             const Beside& beside,
+             const Posture& posture,
+             const PostureCovariance& covariance,
+             std::span<SlipScore> out);
 
   [[nodiscard]] const ArrowFactor& factor() const { return descent_.factor(); }
   /// The posture given, unfolded.
@@ -137,6 +162,8 @@ class TagFrameSolver {
   };
   void unfold_all(const Posture& posture, const Drift* drift);
   void derive(const SeenTag& seen, const TagSighted& sighted);
+  void scale_late(const SeenTag& seen);
+  [[nodiscard]] const SparseDerivative& by_slip(const TagSighted& sighted);
   void accumulate(std::span<const SeenTag> seen,
                   const Beside& beside,
                   const Posture& posture,
@@ -146,15 +173,19 @@ class TagFrameSolver {
                            const Beside& beside,
                            double sigma_scale,
                            TagSighted& out) const;
+  [[nodiscard]] double stray_m2(const SeenTag& seen, const Beside& beside) const;
 
   const TagModel* model_;
   UnfoldedPosture unfolded_;
   std::vector<Seen> by_camera_;
-  PostureVector step_;  ///< Of the body per frame, in the posture's unknowns.
+  UnfoldedPosture next_;  ///< A frame later.
+  PostureVector step_;    ///< Of the body per frame, in the posture's unknowns.
+  std::array<Eigen::Vector3d, 4> upper_by_flexion_;  ///< Per limb.
   SparseDerivative point_;
   TagDerivative derivative_;
   PostureDescent descent_;
   PostureEquations judged_;
+  ArrowFactor late_factor_;
 };
 
 }  // namespace marey::reconstruct
