@@ -18,6 +18,7 @@
 #include "app/repair_commands.h"
 #include "app/retarget_commands.h"
 #include "app/version.h"
+#include "app/view_commands.h"
 #include "recordings/atomic_file.h"
 
 namespace marey::app {
@@ -53,6 +54,7 @@ struct Arguments {
   RetargetArguments retarget;
   LiveArguments live;
   ReplayArguments replay;
+  ViewArguments view;
 
   [[nodiscard]] ProgressStyle style_of_progress() const {
     if (progress == "json") return ProgressStyle::kJson;
@@ -241,6 +243,7 @@ int run(int argc, char** argv) {
   add_plan_command(app, args.plan, chosen);
   add_repair_command(app, args.repair, chosen);
   add_fit_command(app, args.fit, chosen);
+  add_view_command(app, args.view, chosen);
   add_small_commands(app, args, chosen);
   try {
     app.parse(argc, argv);

@@ -63,6 +63,8 @@ Result<RawBody> read_gltf(const std::filesystem::path& path) {
   raw.has_motion = character->motion.has_value();
   raw.ignored_translation_m = character->ignored_translation_m;
   raw.mesh = std::move(character->mesh);
+  raw.node_of_joint = std::move(character->node_of_joint);
+  raw.faces_back = character->faces_back;
   if (raw.has_motion) {
     raw.motion = *std::move(character->motion);
   } else {

@@ -42,6 +42,8 @@ struct RawBody {
   double ignored_translation_m = 0.0;
   std::optional<recordings::SkinnedMesh> mesh;
   retarget::FileUnit unit;
+  std::vector<int> node_of_joint;  ///< Of glTF: recordings::Character's.
+  bool faces_back = false;         ///< Likewise.
 };
 
 /// Errors: unreadable; another kind of file; an .amc without its .asf.

@@ -210,6 +210,12 @@ Json avatar_figures(const ReportTrial& trial) {
   return avatars;
 }
 
+Json residuals_over_time(const ReportTrial& trial) {
+  Json values = Json::array();
+  for (const double value_px : trial.frame_rms_px) values.push_back(px(value_px));
+  return values;
+}
+
 Json trial_figures(const ReportTrial& trial) {
   std::vector<double> sigmas_m;
   collect_sigmas(trial, sigmas_m);
@@ -222,6 +228,7 @@ Json trial_figures(const ReportTrial& trial) {
       {"solved_percent", percent(trial.frames_solved, trial.frames)},
       {"rms_px", px(trial.rms_px)},
       {"median_px", px(trial.median_px)},
+      {"frame_rms_px", residuals_over_time(trial)},
       {"joint_sigma_median_mm", quantile_mm(sigmas_m, 0.5)},
       {"joint_sigma_p95_mm", quantile_mm(sigmas_m, 0.95)},
       {"files",

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -31,6 +32,8 @@ struct Character {
   /// handed to the root and not lost. [m]
   double ignored_translation_m = 0.0;
   bool faces_back = false;  ///< In the file, a VRM 0.x; here it was turned round.
+  /// Which of the file's nodes each joint is.
+  std::vector<int> node_of_joint;
 };
 
 /// Reads a .glb, .vrm, .vrma or .gltf (2.0) file.

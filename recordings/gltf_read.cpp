@@ -222,7 +222,8 @@ Status fill_source(const NamedModel& file, GltfSource& source) {
                       *std::move(mesh),
                       std::move(animation->motion),
                       animation->ignored_translation_m,
-                      faces_back};
+                      faces_back,
+                      source.node_of_joint};
   return Done{};
 }
 

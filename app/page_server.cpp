@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/page_server.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <utility>
+
+#include <spawn.h>
+#include <unistd.h>
+
+#include "app/view_page.h"
+#include "core/extension.h"
+#include "live/access_token.h"
+#include "live/local_addresses.h"
+#include "live/page_embedded.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::map<std::string, std::string> kTypes = {
+    {".html", "text/html; charset=utf-8"},
+    {".js", "text/javascript; charset=utf-8"},
+    {".css", "text/css; charset=utf-8"},
+    {".svg", "image/svg+xml"},
+};
+
+void open_in_browser(const std::string& address) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) {
+    return;
+  }
+  std::string program = "xdg-open";
+  std::string argument = address;
+  const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  pid_t child = 0;
+  // Without a browser the address is on the screen still.
+  static_cast<void>(
+      posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ));
+}
+
+}  // namespace
+
+Status WebRoot::serve(live::WebServer& server) {
+  std::error_code failed;
+  fs::file_time_type newest = newest_;
+  bool has_index = false;
+  for (const auto& entry : fs::directory_iterator(folder_, failed)) {
+    const auto type = kTypes.find(kind_by_extension(entry.path()));
+    if (type == kTypes.end()) continue;
+    const std::string name = entry.path().filename().string();
+    const bool is_index = name == "index.html";
+    std::string path = "/";
+    if (!is_index) path.append(name);
+    has_index |= is_index;
+    std::error_code unknown;
+    const auto changed = entry.last_write_time(unknown);
+    newest = std::max(newest, changed);
+    if (changed <= newest_ || !live::is_web_path(path)) continue;
+    auto content = file_content(entry.path(), path, type->second);
+    if (!content) return content.error();
+    server.put(*std::move(content));
+  }
+  if (!has_index) {
+    return bad_input(folder_.string(),
+                     "holds no index.html",
+                     "build the page there: npm run build in live/viewer");
+  }
+  newest_ = newest;
+  return Done{};
+}
+
+Result<PageServer> start_page(const PageServerOptions& options) {
+  live::WebServerOptions served;
+  served.port = options.port;
+  if (options.lan) {
+    auto token = live::make_access_token();
+    if (!token) return token.error();
+    served.address = "0.0.0.0";
+    served.token = *std::move(token);
+  }
+  auto server = live::WebServer::start(served);
+  if (!server) return server.error();
+  if (options.web_root.empty()) {
+    for (live::WebContent& content : live::embedded_page()) {
+      server->put(std::move(content));
+    }
+  } else if (Status ok = WebRoot(options.web_root).serve(*server); !ok) {
+    return ok.error();
+  }
+  std::string after = ":";
+  after += std::to_string(server->port());
+  after += '/';
+  if (options.lan) after += "?token=" + served.token;
+  PageServer page{*std::move(server), {std::string("http://127.0.0.1").append(after)}};
+  if (options.lan) {
+    for (const std::string& address : live::local_addresses()) {
+      page.addresses.push_back(std::string("http://").append(address).append(after));
+    }
+  }
+  return page;
+}
+
+void tell_addresses(const PageServer& page, const PageServerOptions& options) {
+  for (const std::string& address : page.addresses) std::printf("%s\n", address.c_str());
+  std::fflush(stdout);
+  if (options.open && isatty(STDOUT_FILENO) != 0) open_in_browser(page.addresses.front());
+}
+
+}  // namespace marey::app

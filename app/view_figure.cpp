@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/view_figure.h"
+
+#include <utility>
+
+#include "app/foot_contacts.h"
+#include "core/extension.h"
+#include "retarget/retarget_motion.h"
+
+namespace marey::app {
+namespace {
+
+bool is_fetched_alone(const std::filesystem::path& file) {
+  const std::string kind = kind_by_extension(file);
+  return kind == ".glb" || kind == ".vrm";
+}
+
+void stand_still(Motion& motion) {
+  if (motion.poses.empty()) motion.poses.push_back(rest_pose(motion.skeleton));
+}
+
+/// How a file's body was turned as it was read.
+glm::dquat turn_of(bool faces_back) {
+  return faces_back ? glm::dquat(0.0, 0.0, 1.0, 0.0) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+}
+
+/// As people say it.
+std::string place_name(const std::string& joint) {
+  if (joint == "leftFoot") return "left heel";
+  if (joint == "leftToes") return "left ball";
+  if (joint == "rightFoot") return "right heel";
+  if (joint == "rightToes") return "right ball";
+  return joint;
+}
+
+void add_remarks(const std::filesystem::path& file,
+                 const std::vector<std::string>& of_body,
+                 std::vector<std::string>& remarks) {
+  for (const std::string& remark : of_body) {
+    remarks.push_back(file.string() + ": " + remark);
+  }
+}
+
+}  // namespace
+
+std::optional<FigureSkin> skin_of(const std::filesystem::path& file,
+                                  const ReadBody& body) {
+  const bool fits = body.raw.mesh && !body.rests_as_in_motion && is_fetched_alone(file);
+  if (!fits) return std::nullopt;
+  return FigureSkin{file,
+                    body.raw.node_of_joint,
+                    1.0 / body.frame.scale,
+                    body.frame.marey_from_file * turn_of(body.raw.faces_back)};
+}
+
+Result<ViewedFigure> figure_of_file(const std::filesystem::path& file,
+                                    std::vector<std::string>& remarks) {
+  auto raw = read_raw_body(file);
+  if (!raw) return raw.error();
+  ViewedFigure figure;
+  figure.name = file.stem().string();
+  const Motion as_in_file = raw->motion;
+  const std::vector<int> nodes = raw->node_of_joint;
+  const bool faces_back = raw->faces_back;
+  const bool has_skin = raw->mesh.has_value();
+  auto body = identify_body(*std::move(raw), file);
+  if (body) {
+    add_remarks(file, body->remarks(), remarks);
+    figure.skin = skin_of(file, *body);
+    figure.motion = std::move(body->raw.motion);
+  } else {
+    remarks.push_back(body.error().message() + " It is shown as it is in its file");
+    figure.motion = as_in_file;
+    if (has_skin && is_fetched_alone(file)) {
+      figure.skin = FigureSkin{file, nodes, 1.0, turn_of(faces_back)};
+    }
+  }
+  stand_still(figure.motion);
+  return figure;
+}
+
+Result<ViewedFigure> figure_on_avatar(const Motion& motion,
+                                      const std::filesystem::path& avatar,
+                                      std::vector<std::string>& remarks) {
+  auto body = read_body(avatar);
+  if (!body) return body.error();
+  add_remarks(avatar, body->remarks(), remarks);
+  retarget::RetargetOptions options;
+  options.soles = body->soles;
+  options.hands.emplace().avatar_volume = body->volume;
+  auto put_on = retarget::retarget_motion(motion, body->skeleton(), options);
+  if (!put_on) {
+    Error error = put_on.error();
+    error.where = avatar.string() + (error.where.empty() ? "" : ": " + error.where);
+    return error;
+  }
+  ViewedFigure figure;
+  figure.name = avatar.stem().string();
+  figure.kind = live::PageSkeletonKind::kAvatar;
+  figure.skin = skin_of(avatar, *body);
+  figure.motion = std::move(put_on->motion);
+  return figure;
+}
+
+std::vector<live::PageContact> contact_spans(const Motion& motion, int first_frame) {
+  const recordings::NpzContacts contacts = foot_contacts(motion);
+  std::vector<live::PageContact> out;
+  const std::size_t places = contacts.names.size();
+  for (std::size_t place = 0; place < places; ++place) {
+    live::PageContact contact{place_name(contacts.names[place]), {}};
+    bool bore = false;
+    for (std::size_t i = 0; i < motion.poses.size(); ++i) {
+      const bool bears = contacts.bears[i * places + place] != 0;
+      const int frame = first_frame + static_cast<int>(i);
+      if (bears && !bore) contact.spans.push_back({frame, frame});
+      if (bears) contact.spans.back().last = frame;
+      bore = bears;
+    }
+    out.push_back(std::move(contact));
+  }
+  return out;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "app/view_recording.h"
+#include "core/result.h"
+#include "live/page_scene.h"
+#include "live/web_content.h"
+
+namespace marey::app {
+
+/// A recording as the page takes it.
+struct PageOfRecording {
+  live::PageScene scene;
+  std::vector<live::WebContent> media;  ///< What the scene names: /media/1 and on.
+};
+
+/// Puts figures side by side, encodes all frames and reads the skins' files. Figures at
+/// another rate than the recording's are resampled; one that ends earlier is gone then.
+/// Cost: 16 bytes a joint and frame, 16 a marker and frame, and the files of the skins.
+/// Errors: a skin's file cannot be read.
+[[nodiscard]] Result<PageOfRecording> page_of_recording(const ViewedRecording& recording);
+
+/// A figure as the scene describes it, drawn in `media` if it has a skin.
+[[nodiscard]] live::PageSkeleton page_skeleton(const ViewedFigure& figure,
+                                               const std::string& media,
+                                               const glm::dvec3& offset_m);
+
+/// A file's bytes as content. Errors: it cannot be read.
+[[nodiscard]] Result<live::WebContent> file_content(const std::filesystem::path& file,
+                                                    std::string path,
+                                                    std::string content_type);
+
+}  // namespace marey::app

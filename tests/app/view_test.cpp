@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// What `marey view` serves of files. That pages show it is tested in live/viewer.
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "app/view_files.h"
+#include "app/view_page.h"
+#include "live/page_scene.h"
+#include "recordings/bvh.h"
+#include "recordings/calibration_file.h"
+#include "recordings/marker_file.h"
+#include "recordings/motion_tables.h"
+#include "tests/support/run_program.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/support/synthetic_rig.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace marey::testing;
+
+constexpr int kFrames = 30;
+
+/// A synthetic walk as `marey process` would leave it, in OUT/walk.
+class View : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const Skeleton skeleton = make_humanoid(average_proportions(1.75));
+    walk_.motion = walking(skeleton, kFrames);
+    walk_.motion.first_frame = 7;
+    walk_.doubt.assign(kFrames, std::vector<JointDoubt>(skeleton.joints.size()));
+    for (std::size_t i = 0; i < kFrames; ++i) {
+      walk_.doubt[i][0] = {0.001, i < 10 ? Source::kMeasured : Source::kRepaired};
+    }
+    fs::create_directories(out() / "walk");
+    ASSERT_TRUE(recordings::write_bvh(out() / "walk/motion.bvh", walk_.motion));
+    ASSERT_TRUE(recordings::write_segments_csv(out() / "walk/segments.csv", walk_));
+    ASSERT_TRUE(recordings::write_joints_csv(out() / "walk/joints.csv", walk_));
+  }
+
+  [[nodiscard]] fs::path out() const { return folder_ / "out"; }
+  [[nodiscard]] fs::path in_folder(const char* name) const { return folder_ / name; }
+
+  static Motion walking(const Skeleton& skeleton, int frames) {
+    Motion motion{skeleton, {30.0}, 0, {}};
+    for (int i = 0; i < frames; ++i) {
+      Pose pose = rest_pose(skeleton);
+      pose.root_in_world.z = 0.03 * i;
+      motion.poses.push_back(pose);
+    }
+    return motion;
+  }
+
+  EstimatedMotion walk_;
+
+ private:
+  ScratchFolder folder_;
+};
+
+TEST_F(View, ShowsWhatWasSolvedWithItsDoubt) {
+  std::ofstream(out() / "report.json")
+      << R"({"trials":[{"name":"walk","frame_rms_px":[0.5,0.25]}]})";
+  const auto view = read_view({.what = out(), .trial = {}, .avatars = {}});
+  ASSERT_TRUE(view) << view.error().message();
+  EXPECT_EQ(view->title, "walk");
+  EXPECT_EQ(view->first_frame, 7);
+  EXPECT_EQ(view->frames, kFrames);
+  ASSERT_EQ(view->figures.size(), 1U);
+  EXPECT_EQ(view->figures[0].doubt[9][0].source, Source::kMeasured);
+  EXPECT_EQ(view->figures[0].doubt[9][0].sigma_m, 0.001);
+  EXPECT_EQ(view->figures[0].doubt[10][0].source, Source::kRepaired);
+  // The hips alone were ever seen.
+  ASSERT_EQ(view->tracks.size(), 1U);
+  EXPECT_EQ(view->tracks[0].name, "hips");
+  ASSERT_EQ(view->tracks[0].gaps.size(), 1U);
+  EXPECT_EQ(view->tracks[0].gaps[0].span.first, 17);
+  EXPECT_EQ(view->tracks[0].gaps[0].span.last, 36);
+  ASSERT_EQ(view->graphs.size(), 2U);
+  EXPECT_EQ(view->graphs[0].name, "reprojection");
+  EXPECT_EQ(view->graphs[0].values.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(view->graphs[0].values[1], 0.25);
+}
+
+TEST_F(View, EncodesEveryFrameOfEveryFigure) {
+  const auto view = read_view({.what = out() / "walk", .trial = {}, .avatars = {}});
+  ASSERT_TRUE(view) << view.error().message();
+  const auto page = page_of_recording(*view);
+  ASSERT_TRUE(page);
+  ASSERT_EQ(page->media.size(), 1U);
+  EXPECT_EQ(page->media[0].path, page->scene.file->block);
+  const std::string& block = *page->media[0].bytes;
+  constexpr std::size_t kJoints = 22;
+  constexpr std::size_t kFrameBytes =
+      24 + 4 + 12 + 16 * kJoints + 4 * kJoints + 24;  // Sources of 22 joints take 24.
+  ASSERT_EQ(block.size(), 16 + kFrames * kFrameBytes);
+  std::uint32_t frame = 0;
+  std::memcpy(&frame, block.data() + 16 + 29 * kFrameBytes + 4, sizeof frame);
+  EXPECT_EQ(frame, 36U);
+  float z = 0.0F;
+  std::memcpy(&z, block.data() + 16 + 29 * kFrameBytes + 28 + 8, sizeof z);
+  EXPECT_NEAR(z, 0.87, 1e-5);  // BVH has six decimals of a centimetre.
+}
+
+TEST_F(View, StandsAvatarsBesideTheSource) {
+  const auto view =
+      read_view({.what = out(), .trial = "walk", .avatars = {out() / "walk/motion.bvh"}});
+  ASSERT_TRUE(view) << view.error().message();
+  const auto page = page_of_recording(*view);
+  ASSERT_TRUE(page);
+  ASSERT_EQ(page->scene.skeletons.size(), 2U);
+  EXPECT_EQ(page->scene.skeletons[0].kind, live::PageSkeletonKind::kPerformer);
+  EXPECT_EQ(page->scene.skeletons[1].kind, live::PageSkeletonKind::kAvatar);
+  EXPECT_GT(page->scene.skeletons[1].offset_m.x, 0.8);
+}
+
+TEST_F(View, ShowsMarkersAndCamerasAlone) {
+  recordings::MarkerFile markers;
+  markers.tracks.labels = {"LASI", "RASI"};
+  markers.tracks.rate = {100.0};
+  for (int i = 0; i < 6; ++i) {
+    markers.tracks.samples.emplace_back(MarkerSample{.p_in_world = {0.1 * i, 1.0, 0.2}});
+  }
+  markers.tracks.samples[3].reset();
+  ASSERT_TRUE(recordings::write_markers(in_folder("a.trc"), markers));
+  const auto view = read_view({.what = in_folder("a.trc"), .trial = {}, .avatars = {}});
+  ASSERT_TRUE(view) << view.error().message();
+  EXPECT_EQ(view->frames, 3);
+  ASSERT_TRUE(view->points);
+  ASSERT_EQ(view->tracks.size(), 2U);
+  EXPECT_EQ(view->tracks[1].gaps[0].span.first, 2);
+
+  recordings::Calibration calibration;
+  calibration.cameras = {ring_of_cameras().front()};
+  calibration.quality.resize(1);
+  calibration.clocks.resize(1);
+  const fs::path file = in_folder("calibration.toml");
+  ASSERT_TRUE(recordings::write_calibration(file, calibration));
+  const auto cameras = read_view({.what = file, .trial = {}, .avatars = {}});
+  ASSERT_TRUE(cameras) << cameras.error().message();
+  EXPECT_EQ(cameras->cameras.size(), 1U);
+  EXPECT_FALSE(cameras->cameras[0].rms_px);
+}
+
+TEST_F(View, SaysWhatItCannotShow) {
+  const auto cause = [](const ViewChoice& choice) {
+    const auto view = read_view(choice);
+    return view ? std::string("shown") : view.error().cause;
+  };
+  EXPECT_EQ(cause({.what = in_folder("gone"), .trial = {}, .avatars = {}}),
+            "is not there");
+  EXPECT_EQ(cause({.what = out(), .trial = "run", .avatars = {}}),
+            "has no trial \"run\"");
+  fs::create_directories(in_folder("empty"));
+  EXPECT_EQ(cause({.what = in_folder("empty"), .trial = {}, .avatars = {}}),
+            "holds no results: no trial in it has a segments.csv");
+  std::ofstream(in_folder("a.txt")) << "text";
+  EXPECT_EQ(cause({.what = in_folder("a.txt"), .trial = {}, .avatars = {}}),
+            "is nothing that can be shown");
+}
+
+TEST_F(View, ServesUntilItsTimeIsOver) {
+  const std::string what = (out() / "walk/motion.bvh").string();
+  const ProgramRun run = run_program(
+      MAREY_PROGRAM, {"view", what, "--port", "0", "--no-open", "--seconds", "0.05"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_TRUE(run.out.starts_with("http://127.0.0.1:")) << run.out;
+  const ProgramRun stopped = run_program(MAREY_PROGRAM,
+                                         {"view", what, "--port", "0", "--no-open"},
+                                         {.folder = {}, .interrupt_at = "Ctrl-C"});
+  EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
+  const ProgramRun lan = run_program(
+      MAREY_PROGRAM,
+      {"view", what, "--port", "0", "--lan", "--no-open", "--seconds", "0.05"});
+  EXPECT_EQ(lan.exit_code, 0) << lan.err;
+  EXPECT_NE(lan.out.find("/?token="), std::string::npos) << lan.out;
+  EXPECT_EQ(run_program(MAREY_PROGRAM, {"view", what, "--port", "70000"}).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace marey::app
