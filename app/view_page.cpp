@@ -103,6 +103,7 @@ live::PageSkeleton page_skeleton(const ViewedFigure& figure,
   for (const Joint& joint : out.skeleton.joints) skin.nodes.push_back(joint.name);
   skin.node_index = figure.skin->node_of_joint;
   skin.unit_from_m = figure.skin->unit_from_m;
+  skin.scene_from_file = figure.skin->marey_from_file;
   out.skin = std::move(skin);
   return out;
 }

@@ -23,9 +23,12 @@ using PageJson = nlohmann::ordered_json;
   return PageJson::array({v.x, v.y, v.z});
 }
 
+[[nodiscard]] inline PageJson to_json(const glm::dquat& q) {
+  return PageJson::array({q.x, q.y, q.z, q.w});
+}
+
 [[nodiscard]] inline PageJson to_json(const RigidTransform& t) {
-  return {{"p", to_json(t.translation)},
-          {"q", {t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w}}};
+  return {{"p", to_json(t.translation)}, {"q", to_json(t.rotation)}};
 }
 
 template <class T>

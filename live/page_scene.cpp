@@ -49,7 +49,8 @@ PageJson skin_object(const std::optional<PageSkin>& skin) {
           {"format", skin->format},
           {"nodes", skin->nodes},
           {"node_index", skin->node_index},
-          {"unit_from_m", skin->unit_from_m}};
+          {"unit_from_m", skin->unit_from_m},
+          {"scene_from_file", to_json(skin->scene_from_file)}};
 }
 
 PageJson skeleton_object(const PageSkeleton& skeleton) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/camera.h"
@@ -24,6 +25,8 @@ struct PageSkin {
   std::vector<std::string> nodes{};
   std::vector<int> node_index{};
   double unit_from_m = 1.0;  ///< The file's unit in a metre.
+  /// How the whole file is turned to stand as the scene does.
+  glm::dquat scene_from_file{1.0, 0.0, 0.0, 0.0};
 };
 
 enum class PageSkeletonKind { kPerformer, kAvatar, kMotion };

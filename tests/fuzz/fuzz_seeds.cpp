@@ -192,7 +192,14 @@ bool write_all(const std::filesystem::path& folder) {
       "first trial\t\t\r\nname a\t\t\r\ndatacolumns 3\r\ndatarows 1\r\notherdata 1\r\n"
       "range 0.4 1.6\r\n# x\r\nendheader \r\n\r\npelvis_tx Time pelvis_tilt\r\n1 0.4 "
       "-9\r\n";
-  return ok && write_constraint_sets(folder / "constraints") && write_motions(folder) &&
+  const std::string drag =
+      R"({"type":"drag","id":"left hand","p_in_world":[1,2.5,-3],"phase":"move","frame":12})";
+  const std::string request =
+      "GET\n/page.js?token=0123456789abcdef0123456789abcdef\n127.0.0.1:8790\n"
+      "http://127.0.0.1:8790\nmarey_token=0123456789abcdef0123456789abcdef\n\"5f2c\"";
+  return ok && write_file(folder / "page_message/drag", drag).has_value() &&
+         write_file(folder / "page_door/request", request).has_value() &&
+         write_constraint_sets(folder / "constraints") && write_motions(folder) &&
          write_file(folder / "osc/pose", fuzz::osc_pose()).has_value() &&
          write_file(folder / "osc/commands", fuzz::osc_commands()).has_value() &&
          write_file(folder / "trc/odd.trc", odd).has_value() &&

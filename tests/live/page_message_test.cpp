@@ -30,7 +30,7 @@ PageScene full_scene() {
   scene.title = "walk";
   PageSkeleton body{.name = "performer", .kind = PageSkeletonKind::kPerformer};
   body.skeleton = make_humanoid(average_proportions(1.75));
-  body.skin = PageSkin{"/media/1", "glb", {"mixamorig:Hips"}, {4}, 100.0};
+  body.skin = PageSkin{"/media/1", "glb", {"mixamorig:Hips"}, {4}, 100.0, {1.0, 0.0, 0.0, 0.0}};
   body.offset_m = {1.5, 0.0, 0.0};
   body.estimate = true;
   scene.skeletons.push_back(body);
@@ -83,7 +83,8 @@ TEST(PageScene, HasTheMembersOfTheProtocol) {
   EXPECT_EQ(body["joints"][0]["rest"]["q"], Json::parse("[0.0,0.0,0.0,1.0]"));
   EXPECT_EQ(body["skin"],
             Json::parse(R"({"media":"/media/1","format":"glb","nodes":["mixamorig:Hips"],
-                            "node_index":[4],"unit_from_m":100.0})"));
+                            "node_index":[4],"unit_from_m":100.0,
+                            "scene_from_file":[0.0,0.0,0.0,1.0]})"));
 }
 
 TEST(PageScene, TellsWhereCamerasStand) {

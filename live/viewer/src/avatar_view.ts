@@ -90,11 +90,16 @@ export class AvatarView {
   private stand(skin: SkinWords): void {
     const {object, nodes, pose} = this;
     object.updateMatrixWorld(true);
-    const known = nodes.map((node, i) => (node ? i : -1)).filter((i) => i >= 0);
-    const at = new Vector3();
-    const inFile = known.flatMap((i) => at.setFromMatrixPosition(nodes[i]!.matrixWorld).toArray());
-    const inScene = known.flatMap((i) => [...pose.p_in_world.subarray(3 * i, 3 * i + 3)]);
-    object.rotation.y = turnOfFile(inScene, inFile, skin.unit_from_m);
+    if (skin.scene_from_file) {
+      object.quaternion.fromArray(skin.scene_from_file);
+    } else {
+      const known = nodes.map((node, i) => (node ? i : -1)).filter((i) => i >= 0);
+      const at = new Vector3();
+      const inFile =
+        known.flatMap((i) => at.setFromMatrixPosition(nodes[i]!.matrixWorld).toArray());
+      const inScene = known.flatMap((i) => [...pose.p_in_world.subarray(3 * i, 3 * i + 3)]);
+      object.rotation.y = turnOfFile(inScene, inFile, skin.unit_from_m);
+    }
     object.scale.setScalar(1 / skin.unit_from_m);
     object.updateMatrixWorld(true);
   }

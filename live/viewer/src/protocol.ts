@@ -32,6 +32,8 @@ export interface SkinWords {
   nodes: string[];
   node_index: number[];
   unit_from_m: number;
+  /** How the file is turned to stand as the scene does; without it, found out. */
+  scene_from_file?: Quaternion;
 }
 
 export interface SkeletonWords {
