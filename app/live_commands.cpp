@@ -7,10 +7,12 @@
 
 #include "app/live_chain.h"
 #include "app/live_outputs.h"
+#include "app/live_page.h"
 #include "app/live_recorder.h"
 #include "app/live_run.h"
 #include "app/option_checks.h"
 #include "app/stop_signal.h"
+#include "app/view_commands.h"
 #include "live/vmc_sender.h"
 
 namespace marey::app {
@@ -66,6 +68,13 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
     if (!made) return console.fail(made.error());
     recorder = *std::move(made);
   }
+  std::unique_ptr<LivePage> page;
+  if (!arguments.no_page) {
+    auto opened =
+        LivePage::open(arguments.page, live, chain->performer(), arguments.record);
+    if (!opened) return console.fail(opened.error());
+    page = *std::move(opened);
+  }
   LiveRunOptions options;
   options.seconds = arguments.seconds;
   options.longest_wait =
@@ -76,7 +85,7 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
                           *chain,
                           *outputs,
                           recorder.get(),
-                          nullptr,
+                          page.get(),
                           options,
                           stop_wanted,
                           console);
@@ -141,6 +150,8 @@ void add_live(CLI::App& app,
                    live.wait_ms,
                    "How long a camera's picture is waited for")
       ->check(between(1.0, 1000.0));
+  add_page_options(*command, live.page);
+  command->add_flag("--no-page", live.no_page, "Serve no page");
   command->add_flag("--json", live.json, "Print the figures as JSON on standard output");
   command->callback([&] {
     chosen = [&live](Console& console) { return run_live_command(live, console); };

@@ -27,7 +27,7 @@ Result<LiveOutputs> LiveOutputs::open(const std::vector<VmcStream>& streams,
   return out;
 }
 
-const LiveRequests& LiveOutputs::take_requests() {
+LiveRequests& LiveOutputs::take_requests() {
   constexpr int kMostPackets = 64;
   requests_.streams.clear();
   if (!listener_) return requests_;

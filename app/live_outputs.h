@@ -30,7 +30,7 @@ class LiveOutputs {
       const std::vector<VmcStream>& streams, const std::vector<StreamTargets>& targets);
 
   /// What was asked for since the last call. Reads no more than 64 packets.
-  const LiveRequests& take_requests();
+  LiveRequests& take_requests();
   void send(const LiveResult& result);
   /// By target.
   [[nodiscard]] std::vector<OutputCounts> counts() const;

@@ -191,7 +191,8 @@ class Loop {
   void take(const LiveGroup<DetectedPicture>& group) {
     const Timestamp taken_up = monotonic_now();
     take_in(group, instant_);
-    const LiveRequests& requests = outputs_.take_requests();
+    LiveRequests& requests = outputs_.take_requests();
+    if (watcher_) watcher_->hear(requests);
     const LiveResult& result = chain_.step(instant_, requests);
     const Stopwatch sending;
     outputs_.send(result);

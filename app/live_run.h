@@ -21,6 +21,8 @@ class LiveWatcher {
   virtual ~LiveWatcher() = default;
   /// Cameras' small pictures are wanted.
   [[nodiscard]] virtual bool wants_thumbnails() const { return false; }
+  /// Adds what was asked for since the last call.
+  virtual void hear(LiveRequests& /*requests*/) {}
   virtual void on_frame(const LiveInstant& instant, const LiveResult& result) = 0;
   /// `picture` as DetectedPicture::thumbnail.
   virtual void on_thumbnail(std::size_t camera,

@@ -12,6 +12,7 @@
 #include "app/frame_feed.h"
 #include "app/live_settings.h"
 #include "app/live_streams.h"
+#include "app/page_server.h"
 #include "app/retarget_files.h"
 #include "app/video_feed.h"
 #include "capture/detect_tags.h"
@@ -39,6 +40,8 @@ struct LiveArguments {
   std::filesystem::path record;   ///< Folder of the take; empty: not recorded.
   std::optional<double> seconds;
   double wait_ms = 50.0;
+  bool no_page = false;
+  PageServerOptions page;
   bool json = false;
 };
 

@@ -36,7 +36,7 @@ Words with(Words words, const Words& more) {
 Words played() {
   return {"live",     kSample.string(),  "--results", kResults.string(),
           "--play",   "walk",            "--wait-ms", "500",
-          "--json",   "--progress",      "none",      "--vmc-deaf"};
+          "--json",   "--progress",      "none",      "--no-page", "--vmc-deaf"};
 }
 
 

@@ -1,0 +1,263 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_page.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+#include <variant>
+
+#include "app/view_figure.h"
+#include "app/view_page.h"
+#include "live/page_request.h"
+
+namespace marey::app {
+namespace {
+
+using reconstruct::TrackState;
+
+double now_s() {
+  return seconds(std::chrono::steady_clock::now().time_since_epoch());
+}
+
+live::PageSubject subject_of(TrackState state) {
+  switch (state) {
+    case TrackState::kTracked:
+      return live::PageSubject::kTracked;
+    case TrackState::kLost:
+      return live::PageSubject::kLost;
+    case TrackState::kWaiting:
+      break;
+  }
+  return live::PageSubject::kWaiting;
+}
+
+live::PageSpread spread_of(const LatencyHistogram& times) {
+  return {1000.0 * times.quantile_s(0.5), 1000.0 * times.quantile_s(0.95)};
+}
+
+std::vector<live::PageStage> stages_of(const LiveTimes& times,
+                                       const std::vector<LiveCameraFigures>& cameras) {
+  std::vector<live::PageStage> stages;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    stages.push_back({"decode " + cameras[c].name, spread_of(times.decode[c])});
+    stages.push_back({"detect " + cameras[c].name, spread_of(times.detect[c])});
+  }
+  stages.push_back({"wait", spread_of(times.wait)});
+  stages.push_back({"solve", spread_of(times.solve)});
+  stages.push_back({"retarget", spread_of(times.retarget)});
+  stages.push_back({"encode", spread_of(times.encode)});
+  stages.push_back({"send", spread_of(times.send)});
+  return stages;
+}
+
+/// Which part of the policy is in force, by what was passed over of late.
+std::string overload_of(const std::vector<LiveCameraFigures>& cameras,
+                        const std::vector<LiveCameraFigures>& before) {
+  long stale = 0;
+  long unused = 0;
+  for (std::size_t c = 0; c < cameras.size() && c < before.size(); ++c) {
+    stale += cameras[c].stale - before[c].stale;
+    unused += cameras[c].unused - before[c].unused;
+  }
+  if (stale > 0) return "pictures that are too old are passed over";
+  if (unused > 0) return "pictures come too late for their instant";
+  return "none";
+}
+
+}  // namespace
+
+Result<std::unique_ptr<LivePage>> LivePage::open(const PageServerOptions& options,
+                                                 const OpenedLive& live,
+                                                 const Skeleton& performer,
+                                                 const std::filesystem::path& recording) {
+  auto page = start_page(options);
+  if (!page) return page.error();
+  auto out = std::unique_ptr<LivePage>(new LivePage(*std::move(page)));
+  out->take_ = recording.string();
+  if (const Status ok = out->make_scene(live, performer); !ok) return ok.error();
+  tell_addresses(out->page_, options);
+  return out;
+}
+
+Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
+  constexpr double kBeside_m = 1.2;
+  scene_.title = live.session;
+  scene_.rate_hz = live.settings.rate.hz;
+  for (std::size_t c = 0; c < live.calibration.cameras.size(); ++c) {
+    scene_.cameras.push_back(
+        {live.calibration.cameras[c], live.calibration.quality[c].rms_px});
+  }
+  live::PageSkeleton body;
+  body.name = live.body.name.empty() ? "performer" : live.body.name;
+  body.kind = live::PageSkeletonKind::kPerformer;
+  body.skeleton = performer;
+  body.estimate = true;
+  scene_.skeletons.push_back(std::move(body));
+  for (std::size_t a = 0; a < live.avatars.size(); ++a) {
+    std::vector<std::string> remarks;  // Were told as it was opened.
+    auto figure = figure_of_file(live.avatars[a].file, remarks);
+    if (!figure) return figure.error();
+    figure->kind = live::PageSkeletonKind::kAvatar;
+    const std::string path = "/media/" + std::to_string(a + 1);
+    if (figure->skin) {
+      auto skin = file_content(figure->skin->file, path, "model/gltf-binary");
+      if (!skin) return skin.error();
+      page_.server.put(*std::move(skin));
+    }
+    const glm::dvec3 offset_m(kBeside_m * static_cast<double>(a + 1), 0.0, 0.0);
+    scene_.skeletons.push_back(page_skeleton(*figure, path, offset_m));
+  }
+  figures_.resize(scene_.skeletons.size());
+  for (std::size_t s = 0; s < figures_.size(); ++s) {
+    figures_[s].joints = scene_.skeletons[s].skeleton.joints.size();
+  }
+  encoders_.resize(scene_.cameras.size());
+  tags_seen_.assign(scene_.cameras.size(), 0);
+  page_.server.publish_text(live::PageMessage::kScene, live::scene_json(scene_));
+  return Done{};
+}
+
+/// What is said to a page that asked; empty: nothing.
+std::string LivePage::answer(const std::string& text, LiveRequests& /*requests*/) {
+  const auto request = live::read_page_request(text);
+  if (!request) return request.error().message();
+  if (const auto* thumbnails = std::get_if<live::ThumbnailsRequest>(&*request)) {
+    thumbnails_wanted_ = thumbnails->on;
+    return {};
+  }
+  const bool is_understood = std::holds_alternative<live::HelloRequest>(*request) ||
+                             std::holds_alternative<live::ShownRequest>(*request);
+  return is_understood ? std::string() : "this run does not do that";
+}
+
+void LivePage::hear(LiveRequests& requests) {
+  page_.server.take_texts(texts_);
+  for (const live::ReceivedText& text : texts_) {
+    const std::string refusal = answer(text.text, requests);
+    if (!refusal.empty()) {
+      page_.server.answer_text(text.client, live::error_json(refusal));
+    }
+  }
+}
+
+void LivePage::on_frame(const LiveInstant& instant, const LiveResult& result) {
+  if (!first_) first_ = instant.time;
+  std::fill(tags_seen_.begin(), tags_seen_.end(), 0);
+  for (const CameraTags& view : instant.views) {
+    tags_seen_[index(view.camera)] = static_cast<int>(view.tags.size());
+  }
+  if (page_.server.client_count() == 0) {
+    ++frame_;
+    return;
+  }
+  const bool is_there = result.track.state != TrackState::kWaiting;
+  figures_[0].pose = is_there ? result.pose : nullptr;
+  figures_[0].doubt = is_there ? result.doubt : std::span<const JointDoubt>();
+  for (std::size_t a = 0; a < result.avatars.size(); ++a) {
+    figures_[a + 1].pose = is_there ? &result.avatars[a] : nullptr;
+  }
+  live::PageFrame frame;
+  frame.frame = frame_++;
+  frame.time_s = seconds(instant.time - *first_);
+  frame.sent_s = now_s();
+  frame.figures = figures_;
+  bytes_.clear();
+  live::append_frame(frame, bytes_);
+  page_.server.publish_frame(bytes_);
+}
+
+void LivePage::on_thumbnail(std::size_t camera,
+                            std::span<const std::byte> pixels,
+                            int width_px,
+                            int height_px,
+                            std::span<const TagDetection> tags) {
+  auto& encoder = encoders_[camera];
+  if (!encoder) {
+    auto made = recordings::JpegEncoder::create(
+        recordings::RawLayout::kGrey, width_px, height_px, width_px);
+    if (!made) return;
+    encoder.emplace(*std::move(made));
+  }
+  const auto jpeg = encoder->encode(pixels);
+  live::PageThumbnail thumbnail;
+  thumbnail.camera = static_cast<std::uint8_t>(camera);
+  thumbnail.width_px = scene_.cameras[camera].camera.intrinsics.width_px;
+  thumbnail.height_px = scene_.cameras[camera].camera.intrinsics.height_px;
+  thumbnail.tags = tags;
+  thumbnail.jpeg = {reinterpret_cast<const char*>(jpeg.data()), jpeg.size()};
+  bytes_.clear();
+  live::append_thumbnail(thumbnail, bytes_);
+  page_.server.publish_thumbnail(camera, bytes_);
+}
+
+/// What people should know, newest last.
+void LivePage::note(TrackState state, const LiveFigures& figures) {
+  constexpr std::size_t kMost = 8;
+  if (state_ != state) {
+    if (state == TrackState::kTracked) notes_.emplace_back("the body is found");
+    if (state == TrackState::kLost) notes_.emplace_back("the body is lost");
+    if (state == TrackState::kWaiting) notes_.emplace_back("waiting for the body");
+    state_ = state;
+  }
+  if (figures.recording_trouble) {
+    const std::string text = figures.recording_trouble->message();
+    if (std::find(notes_.begin(), notes_.end(), text) == notes_.end()) {
+      notes_.push_back(text);
+    }
+  }
+  if (notes_.size() > kMost) notes_.erase(notes_.begin());
+}
+
+void LivePage::on_status(const LiveFigures& figures,
+                         const LiveTimes& lately,
+                         TrackState state) {
+  note(state, figures);
+  live::PageStatus status;
+  status.clock_s = since_start_.seconds();
+  status.subject = subject_of(state);
+  status.frame = static_cast<int>(frame_);
+  const double lasted_s = status.clock_s - seconds_before_;
+  if (lasted_s > 0.0) {
+    status.rate_hz = static_cast<double>(figures.frames - frames_before_) / lasted_s;
+  }
+  status.latency = spread_of(lately.frame_to_packet);
+  status.stages = stages_of(lately, figures.cameras);
+  status.overload = overload_of(figures.cameras, cameras_before_);
+  for (std::size_t c = 0; c < figures.cameras.size(); ++c) {
+    const LiveCameraFigures& camera = figures.cameras[c];
+    const bool has_come =
+        c >= cameras_before_.size() || camera.pictures > cameras_before_[c].pictures;
+    live::PageCameraStatus one;
+    one.name = camera.name;
+    one.state = has_come ? live::PageCameraState::kStreaming
+                         : live::PageCameraState::kSilent;
+    one.frames = static_cast<std::uint64_t>(camera.pictures);
+    one.dropped = static_cast<std::uint64_t>(camera.dropped + camera.stale +
+                                             camera.broken + camera.unused);
+    one.tags = tags_seen_[c];
+    status.cameras.push_back(std::move(one));
+  }
+  for (const OutputCounts& output : figures.outputs) {
+    live::PageOutput one;
+    one.name = output.name;
+    one.sent = static_cast<std::uint64_t>(output.counts.sent);
+    one.failed = static_cast<std::uint64_t>(output.counts.failed + output.counts.refused);
+    if (output.counts.refused > 0) one.detail = "nobody listens there";
+    status.outputs.push_back(std::move(one));
+  }
+  if (!take_.empty()) {
+    status.recording = live::PageRecording{
+        take_,
+        status.clock_s,
+        figures.recording_trouble ? figures.recording_trouble->message() : ""};
+  }
+  status.clients = page_.server.client_count();
+  status.messages = notes_;
+  page_.server.publish_text(live::PageMessage::kStatus, live::status_json(status));
+  cameras_before_ = figures.cameras;
+  frames_before_ = figures.frames;
+  seconds_before_ = status.clock_s;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/live_run.h"
+#include "app/page_server.h"
+#include "app/stopwatch.h"
+#include "live/page_frame.h"
+#include "live/page_scene.h"
+#include "live/page_status.h"
+#include "recordings/jpeg_encoder.h"
+
+namespace marey::app {
+
+/// What a live run looks like in browsers: the performer with its doubt, every avatar in
+/// its skin beside it, cameras and what they see, and how everything fares. A browser
+/// that does not keep up misses frames, and never delays the run.
+class LivePage final : public LiveWatcher {
+ public:
+  /// Starts the server with the scene of this run; `recording` is the take's folder, or
+  /// empty. Errors: start_page()'s; a skin's file cannot be read.
+  [[nodiscard]] static Result<std::unique_ptr<LivePage>> open(
+      const PageServerOptions& options,
+      const OpenedLive& live,
+      const Skeleton& performer,
+      const std::filesystem::path& recording);
+
+  [[nodiscard]] bool wants_thumbnails() const override { return thumbnails_wanted_; }
+  void hear(LiveRequests& requests) override;
+  void on_frame(const LiveInstant& instant, const LiveResult& result) override;
+  void on_thumbnail(std::size_t camera,
+                    std::span<const std::byte> pixels,
+                    int width_px,
+                    int height_px,
+                    std::span<const TagDetection> tags) override;
+  void on_status(const LiveFigures& figures,
+                 const LiveTimes& lately,
+                 reconstruct::TrackState state) override;
+
+ private:
+  explicit LivePage(PageServer page) : page_(std::move(page)) {}
+  [[nodiscard]] Status make_scene(const OpenedLive& live, const Skeleton& performer);
+  [[nodiscard]] std::string answer(const std::string& text, LiveRequests& requests);
+  void note(reconstruct::TrackState state, const LiveFigures& figures);
+
+  PageServer page_;
+  std::string take_;  ///< The folder of the recording, or empty.
+  live::PageScene scene_;
+  std::vector<live::PageFigure> figures_;
+  std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.
+  std::vector<int> tags_seen_;                                    ///< By camera.
+  std::vector<LiveCameraFigures> cameras_before_;  ///< As last told.
+  std::vector<live::ReceivedText> texts_;
+  std::string bytes_;
+  std::vector<std::string> notes_;
+  std::optional<Timestamp> first_;
+  std::optional<reconstruct::TrackState> state_;
+  std::uint32_t frame_ = 0;
+  long frames_before_ = 0;
+  double seconds_before_ = 0.0;
+  Stopwatch since_start_;
+  bool thumbnails_wanted_ = false;
+};
+
+}  // namespace marey::app
