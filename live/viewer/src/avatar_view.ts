@@ -5,14 +5,13 @@
 
 import {
   Group, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, SkinnedMesh, TextureLoader,
-  Vector3,
 } from 'three';
 import type {Material, Mesh, MeshStandardMaterial, Object3D} from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import type {GLTF, GLTFParser} from 'three/addons/loaders/GLTFLoader.js';
 import type {PosedSkeleton} from './posed_skeleton';
 import type {SkeletonWords, SkinWords} from './protocol';
-import {NodeDriver, turnOfFile} from './skin_fit';
+import {NodeDriver} from './skin_fit';
 
 export class AvatarView {
   readonly object = new Group();
@@ -86,22 +85,11 @@ export class AvatarView {
     });
   }
 
-  /** Scale and turn, so that the file at rest is where the skeleton is at rest. */
+  /** Scale and turn: the file at rest then is where the skeleton is at rest. */
   private stand(skin: SkinWords): void {
-    const {object, nodes, pose} = this;
-    object.updateMatrixWorld(true);
-    if (skin.scene_from_file) {
-      object.quaternion.fromArray(skin.scene_from_file);
-    } else {
-      const known = nodes.map((node, i) => (node ? i : -1)).filter((i) => i >= 0);
-      const at = new Vector3();
-      const inFile =
-        known.flatMap((i) => at.setFromMatrixPosition(nodes[i]!.matrixWorld).toArray());
-      const inScene = known.flatMap((i) => [...pose.p_in_world.subarray(3 * i, 3 * i + 3)]);
-      object.rotation.y = turnOfFile(inScene, inFile, skin.unit_from_m);
-    }
-    object.scale.setScalar(1 / skin.unit_from_m);
-    object.updateMatrixWorld(true);
+    this.object.quaternion.set(...(skin.scene_from_file ?? [0, 0, 0, 1]));
+    this.object.scale.setScalar(1 / skin.unit_from_m);
+    this.object.updateMatrixWorld(true);
   }
 
   /** Precondition: the pose is at rest, and so is the file. */

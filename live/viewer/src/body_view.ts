@@ -21,6 +21,7 @@ export interface Shown {
   cameras: boolean;
   handles: boolean;
   names: boolean;
+  follow: boolean;
 }
 
 export class BodyView {

@@ -96,6 +96,16 @@ export class Orbit implements View {
   }
 }
 
+const LEASH_M = 0.6;
+
+/** How far the eye moves along with a body that is so far (x, z) from where it was thought to
+ *  be: steps on the spot do not move it. */
+export function leash(x_m: number, z_m: number): [number, number] {
+  const away = Math.hypot(x_m, z_m);
+  const share = away > LEASH_M ? 1 - LEASH_M / away : 0;
+  return [share * x_m, share * z_m];
+}
+
 /** Looks at all of these points (x y z each; those that are not finite do not count) from this
  *  side, with a hand's breadth around them. null without points. */
 export function framing(points_in_world: ArrayLike<number>, azimuth: number, height: number,

@@ -21,6 +21,7 @@ import type {StageListener} from './stage';
 import {StatusPanel} from './status_panel';
 import {Theme} from './theme';
 import {Timeline} from './timeline';
+import {timelineOf} from './timeline_paint';
 import {Transport} from './transport';
 import {ViewPanel} from './view_panel';
 import {WizardPanel} from './wizard_panel';
@@ -144,11 +145,8 @@ class Page implements Listener, StageListener {
     this.constraints.show(scene.constraints);
     this.header.setScene(scene);
     this.cameras.load(scene.cameras, scene.mode === 'live');
-    this.status.section.hidden = false;
-    this.timeline.load({rows: this.reel.rows, contacts: scene.file?.contacts ?? [],
-      graphs: scene.file?.graphs ?? [], notes: scene.file?.notes ?? [],
-      rate_hz: this.reel.playback.rate_hz, first_frame: scene.file?.first_frame ?? 0,
-      live: scene.mode === 'live'});
+    this.status.load(scene.mode === 'live');
+    this.timeline.load(timelineOf(scene, this.reel.rows, this.reel.playback.rate_hz));
     this.transport.setMode(scene.mode === 'live');
     this.renew();
     try {
@@ -215,7 +213,11 @@ class Page implements Listener, StageListener {
       this.renew();
     }
     this.send({type: 'drag', id, p_in_world, phase,
-      ...(this.live ? {} : {frame: this.reel.playback.frame})});
+      ...(this.live ? {} : {frame: this.reel.playback.frame + this.firstFrame})});
+  }
+
+  private get firstFrame(): number {
+    return this.scene?.file?.first_frame ?? 0;
   }
 
   private get live(): boolean {

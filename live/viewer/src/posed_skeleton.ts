@@ -15,6 +15,7 @@ export class PosedSkeleton {
   /** x y z w of every joint. */
   readonly world_from_joint: Float32Array;
   private readonly p_in_parent: Float32Array;
+  private readonly world_from_root_rest: Float32Array;
 
   constructor(words: Pick<SkeletonWords, 'joints'>) {
     const {joints} = words;
@@ -24,6 +25,7 @@ export class PosedSkeleton {
     this.p_in_world = new Float32Array(3 * joints.length);
     this.world_from_joint = new Float32Array(4 * joints.length);
     this.setRest(words);
+    this.world_from_root_rest = this.world_from_joint.slice(0, 4);
   }
 
   setRest(words: Pick<SkeletonWords, 'joints'>): void {
@@ -34,6 +36,15 @@ export class PosedSkeleton {
   /** One pass. Precondition: the frame has a pose of as many joints. */
   setFrame(frame: SkeletonFrame): void {
     this.set(frame.parent_from_joint, frame.root_in_world);
+  }
+
+  /** Which way the body looks: about Y from +Z, where it looks at rest. [rad] */
+  heading(): number {
+    const ahead = [0, 0, 1];
+    const {world_from_root_rest: rest} = this;
+    turn(ahead, 0, [-rest[0], -rest[1], -rest[2], rest[3]], 0, ahead, 0);
+    turn(ahead, 0, this.world_from_joint, 0, ahead, 0);
+    return Math.atan2(ahead[0], ahead[2]);
   }
 
   private set(parent_from_joint: Float32Array, root_in_world: Float32Array): void {

@@ -32,8 +32,8 @@ export interface SkinWords {
   nodes: string[];
   node_index: number[];
   unit_from_m: number;
-  /** How the file is turned to stand as the scene does; without it, found out. */
-  scene_from_file?: Quaternion;
+  /** How the whole file is turned to stand as the scene does. */
+  scene_from_file: Quaternion;
 }
 
 export interface SkeletonWords {
@@ -66,7 +66,8 @@ export interface ConstraintWords {
   draggable: boolean;
 }
 
-/** First and last frame, both included, counted from the file's own first frame. */
+/** First and last frame, both included, as the recording numbers them: from `first_frame`
+ *  on. */
 export type Gap = [number, number, 'repaired' | 'inferred'];
 
 export interface TrackWords {
@@ -85,6 +86,7 @@ export interface GraphWords {
   values: (number | null)[];
 }
 
+/** Spans and notes number frames as the recording does, from `first_frame` on. */
 export interface FileWords {
   frames: number;
   first_frame: number;

@@ -6,23 +6,6 @@
 
 import {multiply, multiplyInverse} from './quaternions';
 
-/** World places (x y z each) of the same joints at rest: those of the scene, in metres, and
- *  those of the file, in its units. Returns how the file is to be turned about Y so that it
- *  stands as the scene does: 0 or half a turn. [rad] */
-export function turnOfFile(scene_p: ArrayLike<number>, file_p: ArrayLike<number>,
-  unit_from_m: number): number {
-  let asIs = 0;
-  let turned = 0;
-  for (let i = 0; i < scene_p.length; i += 3) {
-    const [x, z] = [scene_p[i] - scene_p[0], scene_p[i + 2] - scene_p[2]];
-    const u = (file_p[i] - file_p[0]) / unit_from_m;
-    const w = (file_p[i + 2] - file_p[2]) / unit_from_m;
-    asIs += (x - u) ** 2 + (z - w) ** 2;
-    turned += (x + u) ** 2 + (z + w) ** 2;
-  }
-  return turned < asIs ? Math.PI : 0;
-}
-
 /** Turns the world rotations of joints into local rotations of nodes. */
 export class NodeDriver {
   private readonly count: number;

@@ -16,7 +16,7 @@ import type {Floor} from './floor';
 import {Gestures} from './gestures';
 import type {Grip} from './gestures';
 import {Labels} from './labels';
-import {framing, Orbit} from './orbit';
+import {framing, leash, Orbit} from './orbit';
 import {PointsView} from './points_view';
 import type {ConstraintWords, DragPhase, SceneWords, Vector} from './protocol';
 import {Renderer} from './renderer';
@@ -40,7 +40,7 @@ export class Stage {
   readonly renderer: Renderer;
   readonly orbit = new Orbit();
   readonly shown: Shown = {skin: true, bones: false, doubt: true, balance: true,
-    cameras: true, handles: true, names: true};
+    cameras: true, handles: true, names: true, follow: true};
   private readonly labels = new Labels();
   private readonly floor: Floor;
   private readonly rig = new RigView();
@@ -50,6 +50,8 @@ export class Stage {
   private points: PointsView | null = null;
   private words: SceneWords | null = null;
   private inHand: string | null = null;
+  /** Where on the floor (x, z) the followed body is thought to be. */
+  private readonly anchor: [number, number] = [0, 0];
   private framed = false;
   private last_ms = 0;
 
@@ -98,7 +100,10 @@ export class Stage {
   /** Shows this instant. Precondition: of the scene that was set last. */
   show(frame: SceneFrame): void {
     this.bodies.forEach((body, i) => body.update(frame.skeletons[i]));
-    if (!this.framed && this.bodies.some((body) => body.present)) this.frameBodies(true);
+    if (!this.framed && this.bodies.some((body) => body.present)) {
+      this.frameBodies(true, this.firstAzimuth());
+    }
+    this.follow();
   }
 
   showPoints(block: PointBlock, frame: number): void {
@@ -127,14 +132,38 @@ export class Stage {
     const view = framing(places, azimuth, height, width / tall);
     if (!view) return;
     this.framed = true;
+    const body = this.bodies.find((one) => one.present);
+    if (body) [this.anchor[0], , this.anchor[1]] = body.pose.p_in_world;
     this.orbit.goTo(view, atOnce || this.still.matches);
     this.renderer.invalidate();
   }
 
   /** From the front, from their left, from above. */
   viewFrom(side: 'front' | 'left' | 'above'): void {
-    const azimuth = side === 'left' ? Math.PI / 2 : 0;
-    this.frameBodies(false, azimuth, side === 'above' ? 1.5 : 0.12);
+    const aside = side === 'left' ? Math.PI / 2 : 0;
+    this.frameBodies(false, this.heading() + aside, side === 'above' ? 1.5 : 0.12);
+  }
+
+  /** Bodies side by side stand in a row along X: it is not looked along. */
+  private firstAzimuth(): number {
+    const heading = this.heading();
+    if (this.bodies.length < 2) return heading + 0.5;
+    return (Math.cos(heading) >= 0 ? 0 : Math.PI) + 0.35;
+  }
+
+  private follow(): void {
+    const body = this.bodies.find((one) => one.present);
+    if (!body || !this.shown.follow) return;
+    const [x, z] = [body.pose.p_in_world[0], body.pose.p_in_world[2]];
+    const [dx, dz] = leash(x - this.anchor[0], z - this.anchor[1]);
+    this.anchor[0] += dx;
+    this.anchor[1] += dz;
+    this.orbit.shift(dx, dz);
+  }
+
+  /** Where the first body looks. */
+  private heading(): number {
+    return this.bodies.find((body) => body.present)?.pose.heading() ?? 0;
   }
 
   /** Where a handle is on the canvas: what tests take hold of. */

@@ -32,7 +32,13 @@ export class StatusPanel {
   constructor() {
     this.section.body.append(this.overload, this.facts, this.stages.table, this.cameras.table,
       this.outputs.table, this.messages);
-    this.overload.hidden = true;
+    for (const part of [this.overload, this.stages.table, this.cameras.table,
+      this.outputs.table]) part.hidden = true;
+  }
+
+  /** A file has no status, but perhaps something to say. */
+  load(live: boolean): void {
+    this.section.hidden = !live && this.said.length === 0;
   }
 
   show(status: StatusWords): void {
@@ -54,6 +60,7 @@ export class StatusPanel {
   tell(...messages: string[]): void {
     const fresh = messages.filter((message) => !this.said.includes(message));
     if (fresh.length === 0) return;
+    this.section.hidden = false;
     this.said = [...fresh.reverse(), ...this.said].slice(0, MOST_MESSAGES);
     keepRows(this.messages, this.said, () => el('li'), (row, text) => setText(row, text));
   }

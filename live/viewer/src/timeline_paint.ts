@@ -3,7 +3,7 @@
 
 // The timeline's picture: an axis, one strip per segment, contacts, graphs.
 
-import type {ContactWords, GraphWords} from './protocol';
+import type {ContactWords, GraphWords, SceneWords} from './protocol';
 import type {Colours} from './theme';
 import type {TimeWindow} from './time_window';
 import {clockWords, tickStep_s} from './time_window';
@@ -23,6 +23,16 @@ export interface TimelineData {
   rate_hz: number;
   first_frame: number;
   live: boolean;
+}
+
+/** What the timeline shows of a scene: frames counted from 0, as the playback does. */
+export function timelineOf(scene: SceneWords, rows: Rows, rate_hz: number): TimelineData {
+  const {file} = scene;
+  const first_frame = file?.first_frame ?? 0;
+  return {rows, rate_hz, first_frame, live: file === null, graphs: file?.graphs ?? [],
+    contacts: (file?.contacts ?? []).map(({name, spans}) => ({name, spans: spans.map(
+      ([first, last]) => [first - first_frame, last - first_frame])})),
+    notes: (file?.notes ?? []).map(({frame, text}) => ({frame: frame - first_frame, text}))};
 }
 
 export interface Band {

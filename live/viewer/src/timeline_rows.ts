@@ -26,7 +26,9 @@ export class FileRows implements Rows {
   private readonly tracks: FileWords['tracks'];
 
   constructor(file: FileWords) {
-    this.tracks = file.tracks;
+    // Counted from 0, as the playback does.
+    this.tracks = file.tracks.map(({name, gaps}) => ({name, gaps: gaps.map(
+      ([first, last, source]) => [first - file.first_frame, last - file.first_frame, source])}));
     this.names = file.tracks.map((track) => track.name);
   }
 

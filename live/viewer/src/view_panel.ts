@@ -17,7 +17,8 @@ const LAYERS: [keyof Shown, string, string][] = [
   ['balance', 'Balance', 'Centre of mass, its plumb line, the polygon that carries it'],
   ['cameras', 'Cameras', 'Where they stand and what they see'],
   ['handles', 'Handles', 'Constraints, to be dragged'],
-  ['names', 'Names', ''],
+  ['names', 'Names', 'Of bodies, cameras and points'],
+  ['follow', 'Follow', 'The eye goes along with whom it looks at'],
 ];
 
 const MEANINGS = {

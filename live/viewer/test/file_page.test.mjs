@@ -111,7 +111,7 @@ test('a dragged constraint shows that frame adapted, until one goes elsewhere', 
   await page.mouse.up();
   await page.waitForFunction((was) =>
     window.mareyPage.stage.bodies[0].pose.p_in_world[1] > was + 0.09, before_m);
-  assert.ok(server.heard.filter(({type}) => type === 'drag').every(({frame}) => frame === 40));
+  assert.ok(server.heard.filter(({type}) => type === 'drag').every(({frame}) => frame === 140));
   await page.keyboard.press('ArrowRight');
   await page.keyboard.press('ArrowLeft');
   await page.waitForFunction((was) =>

@@ -7,7 +7,7 @@
 import {readFileSync, existsSync} from 'node:fs';
 import {createServer} from 'node:http';
 import {avatarFile} from './avatar_file.mjs';
-import {fileScene, liveScene, statusAt, wizardAt} from './scenes.mjs';
+import {fileScene, FIRST, liveScene, statusAt, wizardAt} from './scenes.mjs';
 import {pageFolder} from './installed.mjs';
 import {PageSocket} from './socket.mjs';
 import {encodeFrame} from './walker.mjs';
@@ -46,7 +46,7 @@ export class MockServer {
     head.writeUInt32LE(this.frames, 8);
     head.writeUInt32LE(this.bodies.length, 12);
     return Buffer.concat([head, ...Array.from({length: this.frames}, (_, i) =>
-      encodeFrame(this.bodies, i, i / this.rate_hz, 0))]);
+      encodeFrame(this.bodies, i + FIRST, (i + FIRST) / this.rate_hz, 0))]);
   }
 
   /** Returns the address. */

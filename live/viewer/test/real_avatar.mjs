@@ -36,7 +36,7 @@ export function realAvatar(path) {
   const rest = restOf(nodes, node_index);
   const [x, y] = rest[JOINTS.findIndex(({name}) => name === 'leftLowerArm')].p;
   return {bytes, words: {format: 'glb', nodes: JOINTS.map(({name}) => name), node_index,
-    unit_from_m: 1}, rest, droop: Math.atan2(-y, x)};
+    unit_from_m: 1, scene_from_file: [0, 0, 0, 1]}, rest, droop: Math.atan2(-y, x)};
 }
 
 /** Places of the driven nodes in the world (files whose nodes do not turn at rest, as the

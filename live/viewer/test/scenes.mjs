@@ -5,6 +5,9 @@
 
 import {JOINTS, sourceAt} from './walker.mjs';
 
+/** What the mock's recording calls its first frame. */
+export const FIRST = 100;
+
 /** Cameras in front, aside and behind, all looking at the middle. */
 const CAMERAS = [['left', 2.2, 2.4], ['right', -2.2, 2.4], ['back', 0.3, -3]].map(
   ([name, x, z]) => {
@@ -22,7 +25,8 @@ function bodies(kind, avatar) {
   const performer = skeleton('performer', kind, [0, 0, 0], null);
   if (!avatar) return [performer];
   const words = avatar.words ?? {format: 'glb', nodes: JOINTS.map(({name}) => name),
-    node_index: JOINTS.map((_, i) => i + 1), unit_from_m: 1};
+    node_index: JOINTS.map((_, i) => i + 1), unit_from_m: 1,
+    scene_from_file: [0, 0, 0, 1]};
   const dressed = skeleton('mannequin', 'avatar', [1.2, 0, 0], {media: '/media/1', ...words});
   if (avatar.rest) {
     dressed.joints = JOINTS.map((joint, i) => ({...joint, rest: avatar.rest[i]}));
@@ -53,21 +57,21 @@ export function fileScene(rate_hz, frames, avatar) {
     const joint = JOINTS.findIndex((other) => other.name === name);
     const gaps = [];
     for (let i = 0; i < frames; ++i) {
-      const source = ['', 'repaired', 'inferred'][sourceAt(joint, i)];
+      const source = ['', 'repaired', 'inferred'][sourceAt(joint, i + FIRST)];
       const last = gaps[gaps.length - 1];
       if (source && last && last[1] === i - 1 && last[2] === source) last[1] = i;
       else if (source) gaps.push([i, i, source]);
     }
-    return {name, gaps};
+    return {name, gaps: gaps.map(([a, b, source]) => [a + FIRST, b + FIRST, source])};
   });
   const spans = (shift) => Array.from({length: Math.ceil(frames / 33)}, (_, i) =>
-    [33 * i + shift, Math.min(33 * i + shift + 18, frames - 1)]);
-  return {...common('file', rate_hz, avatar), title: 'walk', file: {frames, first_frame: 100,
+    [33 * i + shift + FIRST, Math.min(33 * i + shift + 18, frames - 1) + FIRST]);
+  return {...common('file', rate_hz, avatar), title: 'walk', file: {frames, first_frame: FIRST,
     block: '/media/2', points_block: null, tracks,
     contacts: [{name: 'left heel', spans: spans(0)}, {name: 'right heel', spans: spans(16)}],
     graphs: [{name: 'reprojection', unit: 'px', values: Array.from({length: frames}, (_, i) =>
       (i % 97 === 0 ? null : 0.3 + 0.12 * Math.sin(i / 9) + (i % 120 < 25 ? 0.4 : 0)))}],
-    notes: [{frame: 60, text: 'arm behind the back'}]}};
+    notes: [{frame: 60 + FIRST, text: 'arm behind the back'}]}};
 }
 
 export function statusAt({frame, rate_hz, recording, pages}) {

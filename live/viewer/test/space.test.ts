@@ -9,13 +9,13 @@ import {carries} from '../src/balance_view';
 import {boneMatrix, flatten} from '../src/bone_shapes';
 import {SkeletonFrame} from '../src/decode_frame';
 import {dragInPlane, dragVertically} from '../src/drag_plane';
-import {framing, Orbit, VIEW_ANGLE} from '../src/orbit';
+import {framing, leash, Orbit, VIEW_ANGLE} from '../src/orbit';
 import {blendFrames, PosedSkeleton} from '../src/posed_skeleton';
 import type {JointWords, Quaternion, Vector} from '../src/protocol';
 import {Quality} from '../src/quality';
 import {multiply, multiplyInverse, turn} from '../src/quaternions';
 import {frustumLines} from '../src/rig_view';
-import {NodeDriver, turnOfFile} from '../src/skin_fit';
+import {NodeDriver} from '../src/skin_fit';
 
 const HALF = Math.SQRT1_2;
 const none: Quaternion = [0, 0, 0, 1];
@@ -56,6 +56,20 @@ test('a bent chain has its joints where geometry puts them', () => {
   close(pose.p_in_world, [5, 0, 0, 6, 0, 0, 6, 1, 0]);
 });
 
+test('a heading is where the body looks, however its joints rest', () => {
+  // A quarter turn about +Y: it looks towards +X.
+  const turned: Quaternion = [0, HALF, 0, HALF];
+  const odd: Quaternion = [HALF, 0, 0, HALF];
+  for (const rest of [none, odd]) {
+    const pose = new PosedSkeleton({joints: [joint(-1, [0, 1, 0], rest)]});
+    assert.equal(pose.heading(), 0);
+    const frame = new SkeletonFrame(1);
+    multiply(frame.parent_from_joint, 0, turned, 0, rest, 0);
+    pose.setFrame(frame);
+    assert.ok(Math.abs(pose.heading() - Math.PI / 2) < 1e-6);
+  }
+});
+
 test('between two frames bones keep their lengths, the short way round', () => {
   const [a, b, into] = [new SkeletonFrame(1), new SkeletonFrame(1), new SkeletonFrame(1)];
   a.hasPose = b.hasPose = true;
@@ -65,14 +79,6 @@ test('between two frames bones keep their lengths, the short way round', () => {
   blendFrames(into, a, b, 0.5);
   close(into.root_in_world, [1, 2, 3]);
   close(into.parent_from_joint, [0, 0, Math.sin(Math.PI / 8), Math.cos(Math.PI / 8)]);
-});
-
-test('a file that looks the other way is turned, one in other units is not', () => {
-  const scene = [0, 1, 0, 0.2, 1, 0.05, -0.2, 1, 0.05];
-  const centimetres = scene.map((v) => 100 * v);
-  const backwards = scene.map((v, i) => (i % 3 === 1 ? v : -v));
-  assert.equal(turnOfFile(scene, centimetres, 100), 0);
-  assert.equal(turnOfFile(scene, backwards, 1), Math.PI);
 });
 
 test('nodes with axes of their own follow the joints in the world', () => {
@@ -138,6 +144,13 @@ test('a panned eye keeps its distance', () => {
   const eye = orbit.eye([0, 0, 0]);
   const away = Math.hypot(...eye.map((v, k) => v - orbit.target_in_world[k]));
   assert.ok(Math.abs(away - before) < 1e-9);
+});
+
+test('the eye goes along with who walks, not with who sways', () => {
+  close(leash(0.3, -0.4), [0, 0]);
+  const [dx, dz] = leash(3, 4);
+  assert.ok(Math.abs(Math.hypot(3 - dx, 4 - dz) - 0.6) < 1e-9);
+  assert.ok(Math.abs(dx / dz - 0.75) < 1e-9);
 });
 
 test('a drag stays in its plane, a vertical one on its line', () => {

@@ -95,8 +95,8 @@ test('rows of a ring tell runs of what was not measured', () => {
 });
 
 test('rows of a file tell the gaps that are in sight', () => {
-  const rows = new FileRows({frames: 100, first_frame: 0, block: null, points_block: null,
-    tracks: [{name: 'a', gaps: [[3, 8, 'repaired'], [50, 60, 'inferred']]}], contacts: [],
+  const rows = new FileRows({frames: 100, first_frame: 10, block: null, points_block: null,
+    tracks: [{name: 'a', gaps: [[13, 18, 'repaired'], [60, 70, 'inferred']]}], contacts: [],
     graphs: [], notes: []});
   const spans: number[][] = [];
   rows.spans(0, 8, 40, 1, (...span) => spans.push(span));
