@@ -74,6 +74,12 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
         LivePage::open(arguments.page, live, chain->performer(), arguments.record);
     if (!opened) return console.fail(opened.error());
     page = *std::move(opened);
+    if (arguments.json) {
+      // Standard output is for the figures.
+      for (const std::string& address : page->server().addresses) console.say(address);
+    } else {
+      tell_addresses(page->server(), arguments.page);
+    }
   }
   LiveRunOptions options;
   options.seconds = arguments.seconds;

@@ -76,7 +76,6 @@ Result<std::unique_ptr<LivePage>> LivePage::open(const PageServerOptions& option
   auto out = std::unique_ptr<LivePage>(new LivePage(*std::move(page)));
   out->take_ = recording.string();
   if (const Status ok = out->make_scene(live, performer); !ok) return ok.error();
-  tell_addresses(out->page_, options);
   return out;
 }
 

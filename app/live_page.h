@@ -30,6 +30,7 @@ class LivePage final : public LiveWatcher {
       const Skeleton& performer,
       const std::filesystem::path& recording);
 
+  [[nodiscard]] const PageServer& server() const { return page_; }
   [[nodiscard]] bool wants_thumbnails() const override { return thumbnails_wanted_; }
   void hear(LiveRequests& requests) override;
   void on_frame(const LiveInstant& instant, const LiveResult& result) override;

@@ -138,6 +138,46 @@ TEST_F(LiveRecording, IsNeverWrittenOver) {
   EXPECT_NE(again.err.find("not empty"), std::string::npos) << again.err;
 }
 
+/// `marey live` with these words, by a shell that does to it what `script` says; $0 is the
+/// program, $@ are the words.
+ProgramRun run_in_shell(const std::string& script, const Words& words) {
+  return run_program("/bin/bash", with({"-c", script, kProgram.string()}, words));
+}
+
+TEST(LiveRecordingInTrouble, LosesAtMostASecondWhenItsProcessIsKilled) {
+  const ScratchFolder folder;
+  const std::string take = (folder / "take").string();
+  const ProgramRun killed = run_in_shell(
+      "\"$0\" \"$@\" & sleep 4; kill -9 $!; wait $!",
+      with(played(), {"--loop", "--record", take}));
+  EXPECT_EQ(killed.exit_code, 128 + 9) << killed.err;
+  const auto kept = recordings::read_live_take(folder / "take/live.sqlite");
+  ASSERT_TRUE(kept) << kept.error().message();
+  EXPECT_FALSE(kept->finished);
+  EXPECT_GT(kept->instants.size(), 10U);
+  const ProgramRun replay = run_program(kProgram, {"replay", take, "--fast"});
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_NE(replay.err.find("was cut off"), std::string::npos) << replay.err;
+}
+
+// Files may not grow beyond 200 kB, as on a disk with so much room.
+TEST(LiveRecordingInTrouble, GoesOnWithoutItWhenTheDiskIsFull) {
+  const ScratchFolder folder;
+  const std::string take = (folder / "take").string();
+  const ProgramRun run = run_in_shell(
+      "trap '' XFSZ; ulimit -f 200; exec \"$0\" \"$@\"",
+      with(played(), {"--loop", "--seconds", "6", "--record", take}));
+  EXPECT_EQ(run.exit_code, 5) << run.err;
+  EXPECT_NE(run.err.find("goes on without recording"), std::string::npos) << run.err;
+  const auto figures = nlohmann::json::parse(run.out);
+  EXPECT_TRUE(figures.contains("recording_trouble"));
+  const auto kept = recordings::read_live_take(folder / "take/live.sqlite");
+  ASSERT_TRUE(kept) << kept.error().message();
+  // Frames that the run had after the disk was full.
+  EXPECT_GT(figures["frames"], kept->instants.size() + 5);
+  EXPECT_GT(kept->instants.size(), 5U);
+}
+
 /// The exit code and what is on standard error.
 void expect_refused(const Words& words, int exit_code, const std::string& because) {
   const ProgramRun run = run_program(kProgram, words);
