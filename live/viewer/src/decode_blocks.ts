@@ -68,6 +68,16 @@ export class PointBlock {
     this.view = new DataView(buffer);
   }
 
+  /** The first frame in which any point is there; 0 when none ever is. */
+  firstSeen(): number {
+    for (let k = 0; k < this.frames * this.points; ++k) {
+      if (!Number.isNaN(this.view.getFloat32(BLOCK_HEADER_BYTES + k * POINT_BYTES, true))) {
+        return Math.floor(k / this.points);
+      }
+    }
+    return 0;
+  }
+
   /** Every point of frame i: x y z into `p_in_world` (NaN: not there), indices into SOURCES
    *  into `source`. Precondition: 0 <= i < frames; room for all points. */
   read(i: number, p_in_world: Float32Array, source: Uint8Array): void {

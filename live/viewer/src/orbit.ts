@@ -96,7 +96,7 @@ export class Orbit implements View {
   }
 }
 
-const LEASH_M = 0.6;
+const LEASH_M = 0.25;
 
 /** How far the eye moves along with a body that is so far (x, z) from where it was thought to
  *  be: steps on the spot do not move it. */

@@ -33,6 +33,19 @@ export class PointsView {
     this.object.frustumCulled = false;
   }
 
+  /** x and z of the middle of those that are there; null without any. */
+  middle(): [number, number] | null {
+    const {p_in_world: p} = this;
+    let [x, z, count] = [0, 0, 0];
+    for (let i = 0; i < p.length; i += 3) {
+      if (Number.isNaN(p[i])) continue;
+      x += p[i];
+      z += p[i + 2];
+      ++count;
+    }
+    return count > 0 ? [x / count, z / count] : null;
+  }
+
   paint(colours: Colours): void {
     colours.sources.forEach((colour, i) => this.colours[i].setStyle(colour));
   }

@@ -81,7 +81,10 @@ export class Reel {
     }
     if (file.points_block) {
       const points = new PointBlock(await fetched(file.points_block, signal));
-      if (!signal.aborted) this.points = points;
+      if (signal.aborted) return;
+      this.points = points;
+      // Markers alone are often seen later than the cameras ran.
+      if (scene.skeletons.length === 0) this.playback.seek(points.firstSeen());
     }
   }
 

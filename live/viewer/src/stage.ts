@@ -109,7 +109,9 @@ export class Stage {
   showPoints(block: PointBlock, frame: number): void {
     if (!this.points || block.points !== this.points.labels.length) return;
     this.points.update(block, frame);
-    if (!this.framed && this.bodies.length === 0) this.frameBodies(true);
+    if (this.bodies.length > 0) return;
+    if (!this.framed) this.frameBodies(true);
+    this.follow();
   }
 
   /** The look of everything changed, not the instant. */
@@ -132,8 +134,8 @@ export class Stage {
     const view = framing(places, azimuth, height, width / tall);
     if (!view) return;
     this.framed = true;
-    const body = this.bodies.find((one) => one.present);
-    if (body) [this.anchor[0], , this.anchor[1]] = body.pose.p_in_world;
+    const place = this.place();
+    if (place) [this.anchor[0], this.anchor[1]] = place;
     this.orbit.goTo(view, atOnce || this.still.matches);
     this.renderer.invalidate();
   }
@@ -151,11 +153,17 @@ export class Stage {
     return (Math.cos(heading) >= 0 ? 0 : Math.PI) + 0.35;
   }
 
-  private follow(): void {
+  /** Where (x, z) those who are looked at are: the first body, or all points. */
+  private place(): [number, number] | null {
     const body = this.bodies.find((one) => one.present);
-    if (!body || !this.shown.follow) return;
-    const [x, z] = [body.pose.p_in_world[0], body.pose.p_in_world[2]];
-    const [dx, dz] = leash(x - this.anchor[0], z - this.anchor[1]);
+    if (!body) return this.points?.middle() ?? null;
+    return [body.pose.p_in_world[0], body.pose.p_in_world[2]];
+  }
+
+  private follow(): void {
+    const place = this.place();
+    if (!place || !this.framed || !this.shown.follow) return;
+    const [dx, dz] = leash(place[0] - this.anchor[0], place[1] - this.anchor[1]);
     this.anchor[0] += dx;
     this.anchor[1] += dz;
     this.orbit.shift(dx, dz);

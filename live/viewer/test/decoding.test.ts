@@ -136,6 +136,10 @@ test('blocks that are not whole say what is wrong', () => {
   assert.throws(() => new PointBlock(points), /cut short/);
 });
 
+function frameOfOnePoint(): ArrayBuffer {
+  return new Float32Array([1, 2, 3, 0]).buffer;
+}
+
 test('points that are not there stay NaN', () => {
   const values = new ArrayBuffer(32);
   const view = new DataView(values);
@@ -149,6 +153,11 @@ test('points that are not there stay NaN', () => {
   new PointBlock(bytes).read(0, p, source);
   assert.deepEqual([...p], [1, 2, 3, NaN, NaN, NaN]);
   assert.deepEqual([...source], [1, 0]);
+  assert.equal(new PointBlock(bytes).firstSeen(), 0);
+  const later = block('MRPB', values.slice(16), values.slice(16), frameOfOnePoint());
+  new DataView(later).setUint32(8, 3, true);
+  new DataView(later).setUint32(12, 1, true);
+  assert.equal(new PointBlock(later).firstSeen(), 2);
 });
 
 test('a thumbnail is read with its tags', () => {
