@@ -237,7 +237,8 @@ test('a skin that cannot be read is told of, and the bones are shown', async () 
   server.media.set('/media/1', Buffer.from('no model at all'));
   await page.reload();
   await until('the message', async () => /skin of mannequin/.test(await text('.messages')));
-  assert.ok(await page.evaluate(() => window.mareyPage.stage.bodies[1].present));
+  await until('its bones', () => page.evaluate(() =>
+    window.mareyPage.stage.bodies[1].present && !window.mareyPage.stage.bodies[1].dressed));
 });
 
 const real = `${DATA}/avatars/makehuman/adult_male_mixamo_unity.glb`;
