@@ -15,7 +15,9 @@ Timestamp monotonic_now() {
 }
 
 /// A search of the whole picture takes longer than a frame has.
-constexpr int kStrips = 8;
+constexpr int kStrips = 16;
+constexpr int kFullEvery = 60;
+constexpr int kBodyEvery = 2;
 /// Of 1280 x 720 what is 320 x 180: enough to see who stands where.
 constexpr int kShrink = 4;
 
@@ -29,6 +31,8 @@ Result<std::unique_ptr<LiveCamera>> LiveCamera::create(
   capture::TrackTagsOptions tracking;
   tracking.detector = detector;
   tracking.strips = kStrips;
+  tracking.full_every_frames = kFullEvery;
+  tracking.body_every_frames = kBodyEvery;
   auto tracker = capture::TagTracker::create(tracking);
   if (!tracker) return tracker.error();
   return std::unique_ptr<LiveCamera>(

@@ -84,12 +84,31 @@ const std::vector<TagDetection>& TagTracker::track(const GrayFrame& frame) {
   last_search_ = choose_search(frame);
   found_.clear();
   for (const PixelBox& box : boxes_) detector_.search(frame, box, found_);
+  if (last_search_ == SearchKind::kStrip) search_strip(frame);
   detector_.finish(frame, found_);
   remember(frame);
   return found_;
 }
 
-/// Fills boxes_ with what to search.
+/// What of the strip no box has shown already. Joined to the boxes, it would cost the
+/// whole height of the picture between them.
+void TagTracker::search_strip(const GrayFrame& frame) {
+  const auto known = static_cast<std::ptrdiff_t>(found_.size());
+  detector_.search(frame, strip_box_, found_);
+  const auto is_known = [&](const TagDetection& tag) {
+    const glm::dvec2 middle_px = middle_of(tag.corners_px);
+    const double near_px = 0.5 * glm::distance(tag.corners_px[0], tag.corners_px[1]);
+    return std::any_of(
+        found_.begin(), found_.begin() + known, [&](const TagDetection& other) {
+          return other.id == tag.id &&
+                 glm::distance(middle_of(other.corners_px), middle_px) < near_px;
+        });
+  };
+  found_.erase(std::remove_if(found_.begin() + known, found_.end(), is_known),
+               found_.end());
+}
+
+/// Fills boxes_ with what to search, and strip_box_ where a strip's turn has come.
 SearchKind TagTracker::choose_search(const GrayFrame& frame) {
   const PixelBox whole{0, 0, frame.width_px, frame.height_px};
   const bool is_spread = options_.strips > 1 && next_full_ > 0;
@@ -125,26 +144,29 @@ SearchKind TagTracker::choose_parts(const GrayFrame& frame, bool is_spread) {
     for (const PixelBox& box : boxes_) body = hull(body, box);
     const glm::dvec2 low(body.left, body.top);
     const glm::dvec2 high(body.right, body.bottom);
-    const bool wide = ++body_searches_ % kWideEvery == 0;
+    // Strips come upon what is far off, too, and cost less.
+    const bool wide = !is_spread && ++body_searches_ % kWideEvery == 0;
     const glm::dvec2 pad = (wide ? kWideBodyPad : kBodyPad) * (high - low);
     boxes_.assign(1, tiled(frame, low - pad, high + pad));
   }
-  if (is_spread && (boxes_.empty() || frame.index >= next_strip_)) {
+  // Not both in one frame: it would take the longest.
+  const bool is_due = kind == SearchKind::kRegions && frame.index >= next_strip_;
+  if (is_spread && (boxes_.empty() || is_due)) {
     kind = SearchKind::kStrip;
     next_strip_ =
         frame.index + std::max(1, options_.full_every_frames / options_.strips);
-    add_strip(frame);
+    choose_strip(frame);
   }
   return kind;
 }
 
 /// The strip whose turn it is. Strips overlap, so that a tag is whole in one of them.
-void TagTracker::add_strip(const GrayFrame& frame) {
+void TagTracker::choose_strip(const GrayFrame& frame) {
   const double width_px = static_cast<double>(frame.width_px) / options_.strips;
   const double overlap_px = kStripOverlap * frame.width_px;
   const glm::dvec2 low(strip_ * width_px - overlap_px, 0.0);
   const glm::dvec2 high((strip_ + 1) * width_px + overlap_px, frame.height_px);
-  boxes_.push_back(tiled(frame, low, high));
+  strip_box_ = tiled(frame, low, high);
   strip_ = (strip_ + 1) % options_.strips;
 }
 

@@ -30,7 +30,7 @@ enum class SearchKind {
   kFull,     ///< The whole picture.
   kBody,     ///< One box around all tags that are followed, and well beyond.
   kRegions,  ///< Merged boxes around the predicted tags.
-  kStrip,    ///< A strip of the picture beside these, or the box around all tags.
+  kStrip,    ///< A strip of the picture beside these.
 };
 
 /// Follows the tags of one camera from frame to frame: looks where they should be, which
@@ -72,7 +72,8 @@ class TagTracker {
   [[nodiscard]] SearchKind choose_search(const GrayFrame& frame);
   [[nodiscard]] SearchKind choose_parts(const GrayFrame& frame, bool is_spread);
   void predict_boxes(const GrayFrame& frame);
-  void add_strip(const GrayFrame& frame);
+  void choose_strip(const GrayFrame& frame);
+  void search_strip(const GrayFrame& frame);
   void merge_boxes();
   void remember(const GrayFrame& frame);
 
@@ -86,6 +87,7 @@ class TagTracker {
   int next_body_ = 0;
   int next_strip_ = 0;
   int strip_ = 0;  ///< Whose turn it is.
+  PixelBox strip_box_;
   int body_searches_ = 0;
   SearchKind last_search_ = SearchKind::kFull;
 };
