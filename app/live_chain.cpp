@@ -85,6 +85,12 @@ Result<LiveChain> LiveChain::make(const Body& body,
     chain.streams_.push_back({stream, *std::move(told), *std::move(encoder), {}});
   }
   chain.packets_.resize(chain.streams_.size());
+  if (settings.vrchat) {
+    // The performer's rest pose is a T-pose.
+    chain.trackers_.emplace(chain.performer());
+    chain.world_from_joint_.resize(chain.performer().joints.size());
+    chain.packets_.emplace_back();
+  }
   return chain;
 }
 
@@ -161,6 +167,13 @@ void LiveChain::encode(Timestamp time, const LiveRequests& requests) {
       packets_[s][p].assign(packets[p].begin(), packets[p].end());
     }
   }
+  if (!trackers_) return;
+  // A body that was not found stands nowhere.
+  packets_.back().clear();
+  if (result_.track.state == TrackState::kWaiting) return;
+  world_from_joints(tracker_.skeleton(), pose_, world_from_joint_);
+  const auto packet = trackers_->encode(world_from_joint_);
+  packets_.back().emplace_back(packet.begin(), packet.end());
 }
 
 }  // namespace marey::app

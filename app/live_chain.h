@@ -17,6 +17,7 @@
 #include "core/motion.h"
 #include "core/result.h"
 #include "live/vmc_encoder.h"
+#include "live/vrchat_trackers.h"
 #include "reconstruct/track_body.h"
 #include "retarget/live_retarget.h"
 
@@ -31,7 +32,7 @@ struct LiveResult {
   const Pose* pose = nullptr;
   std::span<const JointDoubt> doubt;
   std::span<const Pose> avatars;  ///< In the order of the settings; likewise.
-  /// Of each stream, the packets to be sent.
+  /// Of each stream, the packets to be sent; then VRChat's, if they are wanted.
   std::span<const std::vector<std::vector<std::uint8_t>>> packets;
   // What it took. [s]
   double solve_s = 0.0;
@@ -80,6 +81,8 @@ class LiveChain {
   reconstruct::BodyTracker tracker_;
   std::vector<retarget::LiveRetarget> retargets_;
   std::vector<Stream> streams_;
+  std::optional<live::VrchatTrackers> trackers_;
+  std::vector<RigidTransform> world_from_joint_;  ///< Of the performer.
 
   std::optional<std::int64_t> last_number_;
   bool was_lost_ = false;

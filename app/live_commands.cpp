@@ -23,14 +23,14 @@ namespace {
 Result<LiveOutputs> open_outputs(const LiveArguments& arguments,
                                  OpenedLive& live,
                                  Console& console) {
-  if (live.settings.streams.empty()) return LiveOutputs::open({}, {});
+  if (live.settings.streams.empty()) return LiveOutputs::open({}, {}, live.vrchat);
   std::optional<int>& port = live.settings.streams.front().listen_port;
   if (!arguments.vmc_deaf) port = arguments.vmc_listen.value_or(live::kPerformerPort);
-  auto outputs = LiveOutputs::open(live.settings.streams, live.targets);
+  auto outputs = LiveOutputs::open(live.settings.streams, live.targets, live.vrchat);
   if (outputs || !port || arguments.vmc_listen) return outputs;
   const Error trouble = outputs.error();
   port.reset();
-  outputs = LiveOutputs::open(live.settings.streams, live.targets);
+  outputs = LiveOutputs::open(live.settings.streams, live.targets, live.vrchat);
   if (outputs) console.warn("no VMC commands are heard: " + trouble.message());
   return outputs;
 }
@@ -148,6 +148,11 @@ void add_live(CLI::App& app,
       ->add_option("--vmc-listen", live.vmc_listen, "Port on which commands are heard")
       ->check(between(1, 65535));
   command->add_flag("--vmc-deaf", live.vmc_deaf, "Hear no commands");
+  command
+      ->add_option("--vrchat",
+                   live.vrchat,
+                   "Where trackers for VRChat go: HOST[:PORT]; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--record", live.record, "Folder for the take of this run");
   command->add_option("--seconds", live.seconds, "Stop by itself after so long")
       ->check(between(0.001, 1e6));

@@ -10,7 +10,8 @@
 namespace marey::app {
 
 Result<LiveOutputs> LiveOutputs::open(const std::vector<VmcStream>& streams,
-                                      const std::vector<StreamTargets>& targets) {
+                                      const std::vector<StreamTargets>& targets,
+                                      const std::vector<live::UdpAddress>& vrchat) {
   MAREY_ASSERT(streams.size() == targets.size());
   LiveOutputs out;
   out.targets_ = targets;
@@ -23,6 +24,13 @@ Result<LiveOutputs> LiveOutputs::open(const std::vector<VmcStream>& streams,
     if (!listener) return listener.error();
     out.listener_.emplace(*std::move(listener));
     out.listening_stream_ = s;
+  }
+  out.vmc_streams_ = streams.size();
+  if (!vrchat.empty()) {
+    auto sender = live::UdpSender::open(vrchat);
+    if (!sender) return sender.error();
+    out.senders_.push_back(*std::move(sender));
+    out.targets_.push_back({vrchat});
   }
   return out;
 }
@@ -44,7 +52,8 @@ LiveRequests& LiveOutputs::take_requests() {
 }
 
 void LiveOutputs::send(const LiveResult& result) {
-  MAREY_ASSERT(result.packets.size() == senders_.size());
+  // A replay may send less than was recorded.
+  MAREY_ASSERT(result.packets.size() >= senders_.size());
   for (std::size_t s = 0; s < senders_.size(); ++s) {
     for (const auto& packet : result.packets[s]) senders_[s].send(packet);
   }
@@ -54,7 +63,8 @@ std::vector<OutputCounts> LiveOutputs::counts() const {
   std::vector<OutputCounts> out;
   for (std::size_t s = 0; s < senders_.size(); ++s) {
     for (std::size_t t = 0; t < targets_[s].addresses.size(); ++t) {
-      out.push_back({"VMC " + live::text_of(targets_[s].addresses[t]),
+      const char* const what = s < vmc_streams_ ? "VMC " : "VRChat ";
+      out.push_back({what + live::text_of(targets_[s].addresses[t]),
                      senders_[s].counts()[t]});
     }
   }

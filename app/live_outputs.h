@@ -24,10 +24,13 @@ struct OutputCounts {
 /// Nothing here blocks, or stops because somebody is gone.
 class LiveOutputs {
  public:
-  /// Commands are heard on the port of the first stream that has one.
+  /// Commands are heard on the port of the first stream that has one. `vrchat`: where
+  /// trackers go; empty: the settings want none.
   /// Errors: UdpSender::open()'s and UdpListener::open()'s.
   [[nodiscard]] static Result<LiveOutputs> open(
-      const std::vector<VmcStream>& streams, const std::vector<StreamTargets>& targets);
+      const std::vector<VmcStream>& streams,
+      const std::vector<StreamTargets>& targets,
+      const std::vector<live::UdpAddress>& vrchat = {});
 
   /// What was asked for since the last call. Reads no more than 64 packets.
   LiveRequests& take_requests();
@@ -36,8 +39,9 @@ class LiveOutputs {
   [[nodiscard]] std::vector<OutputCounts> counts() const;
 
  private:
-  std::vector<StreamTargets> targets_;
-  std::vector<live::UdpSender> senders_;  ///< By stream.
+  std::vector<StreamTargets> targets_;  ///< By stream; VRChat's last, if there is any.
+  std::vector<live::UdpSender> senders_;  ///< Likewise.
+  std::size_t vmc_streams_ = 0;
   std::optional<live::UdpListener> listener_;
   std::size_t listening_stream_ = 0;
   LiveRequests requests_;

@@ -9,6 +9,7 @@
 #include "app/camera_doubt.h"
 #include "app/device_feed.h"
 #include "app/record_device.h"
+#include "live/vrchat_trackers.h"
 #include "recordings/session.h"
 #include "recordings/subject_file.h"
 
@@ -215,6 +216,12 @@ Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
   const Status streams =
       plan_streams(arguments.vmc, rest, arguments.vmc_mtu, out.settings, out.targets);
   if (!streams) return streams.error();
+  for (const std::string& text : arguments.vrchat) {
+    auto address = live::parse_udp_address(text, live::kVrchatPort);
+    if (!address) return address.error();
+    out.vrchat.push_back(*std::move(address));
+  }
+  out.settings.vrchat = !out.vrchat.empty();
   out.settings.camera_sigma_m = common_sigma_m(out.calibration.quality);
   out.settings.lag_known.assign(chosen->size(), false);
   out.detector.families = session->families;

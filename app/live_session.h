@@ -37,6 +37,7 @@ struct LiveArguments {
   std::optional<int> vmc_mtu;     ///< nullopt: by the target; 0: one bundle a frame.
   std::optional<int> vmc_listen;  ///< nullopt: VMC's own port, if it is free.
   bool vmc_deaf = false;          ///< Hears no commands.
+  std::vector<std::string> vrchat;  ///< "HOST[:PORT]".
   std::filesystem::path record;   ///< Folder of the take; empty: not recorded.
   std::optional<double> seconds;
   double wait_ms = 50.0;
@@ -53,6 +54,7 @@ struct OpenedLive {
   std::vector<OpenedAvatar> avatars;
   LiveSettings settings;
   std::vector<StreamTargets> targets;  ///< By stream.
+  std::vector<live::UdpAddress> vrchat;
   std::vector<std::unique_ptr<FrameFeed>> feeds;
   std::vector<VideoFeed*> videos;  ///< Those of the feeds that are to be begun.
   capture::TagDetectorOptions detector;

@@ -56,6 +56,7 @@ LiveSettings to_settings(const json& object) {
   for (const json& stream : object.at("vmc")) {
     settings.streams.push_back(to_stream(stream));
   }
+  settings.vrchat = object.at("vrchat").get<bool>();
   return settings;
 }
 
@@ -90,7 +91,8 @@ std::string live_settings_text(const LiveSettings& settings) {
                     {"camera_sigma_m", settings.camera_sigma_m},
                     {"lag_known", settings.lag_known},
                     {"avatars", settings.avatars},
-                    {"vmc", std::move(streams)}};
+                    {"vmc", std::move(streams)},
+                    {"vrchat", settings.vrchat}};
   return object.dump();
 }
 

@@ -32,6 +32,7 @@ struct LiveSettings {
   std::vector<bool> lag_known;
   std::vector<std::string> avatars;  ///< File names, as they lie in the take.
   std::vector<VmcStream> streams;
+  bool vrchat = false;  ///< Packets of the performer's trackers, after those of streams.
 };
 
 /// As JSON, in one line.

@@ -15,6 +15,7 @@ LiveSettings settings() {
   out.camera_sigma_m = 0.1 / 3.0;
   out.lag_known = {true, false};
   out.avatars = {"man.vrm", "robot.glb"};
+  out.vrchat = true;
   out.streams.push_back({1, live::VmcRest::kRaw, 1472, 39540});
   out.streams.push_back({std::nullopt, live::VmcRest::kVrm0, std::nullopt, std::nullopt});
   return out;
@@ -34,6 +35,7 @@ TEST(LiveSettings, AreKeptExactly) {
   EXPECT_EQ(back->streams[0].listen_port, 39540);
   EXPECT_FALSE(back->streams[1].avatar);
   EXPECT_FALSE(back->streams[1].mtu_bytes);
+  EXPECT_TRUE(back->vrchat);
 }
 
 TEST(LiveSettings, AreRefusedWhereTheyCannotBe) {
@@ -42,10 +44,10 @@ TEST(LiveSettings, AreRefusedWhereTheyCannotBe) {
                            "[1]",
                            "not JSON",
                            R"({"rate_hz":0,"camera_sigma_m":0,"lag_known":[],)"
-                           R"("avatars":[],"vmc":[]})",
+                           R"("avatars":[],"vmc":[],"vrchat":false})",
                            R"({"rate_hz":30,"camera_sigma_m":0,"lag_known":[],)"
                            R"("avatars":[],"vmc":[{"avatar":0,"rest":"raw",)"
-                           R"("mtu_bytes":null,"listen_port":null}]})"}) {
+                           R"("mtu_bytes":null,"listen_port":null}],"vrchat":false})"}) {
     const auto read = parse_live_settings(text, "take/live.sqlite");
     ASSERT_FALSE(read) << text;
     EXPECT_EQ(read.error().where, "take/live.sqlite");

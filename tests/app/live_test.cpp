@@ -53,7 +53,7 @@ class LiveRecording : public ::testing::Test {
         kProgram,
         with(played(),
              {"--avatar", glb, "--vmc", "127.0.0.1:" + std::to_string(listener->port()),
-              "--record", take().string()})));
+              "--vrchat", "127.0.0.1:" + std::to_string(listener->port()), "--record", take().string()})));
     heard_ = 0;
     while (const auto packet = listener->receive()) ++heard_;
   }
@@ -76,6 +76,8 @@ TEST_F(LiveRecording, FollowsTheWalkToItsEnd) {
   EXPECT_EQ(figures["cameras"].size(), 4U);
   EXPECT_EQ(figures["outputs"][0]["failed"], 0);
   EXPECT_EQ(figures["outputs"][0]["sent"], figures["frames"]);
+  EXPECT_EQ(figures["outputs"][1]["name"].get<std::string>().rfind("VRChat", 0), 0U);
+  EXPECT_GE(figures["outputs"][1]["sent"], figures["tracked"]);
   // The socket of a listener that nobody empties holds some hundred packets.
   EXPECT_GT(heard_, 20);
 }
