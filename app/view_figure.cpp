@@ -6,6 +6,9 @@
 
 #include "app/foot_contacts.h"
 #include "core/extension.h"
+#include "retarget/body_map.h"
+#include "retarget/detect_contacts.h"
+#include "retarget/place_masses.h"
 #include "retarget/retarget_motion.h"
 
 namespace marey::app {
@@ -101,6 +104,15 @@ Result<ViewedFigure> figure_on_avatar(const Motion& motion,
   figure.skin = skin_of(avatar, *body);
   figure.motion = std::move(put_on->motion);
   return figure;
+}
+
+std::vector<retarget::BalanceFrame> balance_of(const Motion& motion) {
+  const auto map = retarget::map_body(motion.skeleton);
+  if (!map || motion.poses.size() < 2) return {};
+  const auto masses = retarget::place_masses(motion.skeleton, *map, {});
+  if (!masses) return {};
+  const retarget::Contacts contacts = retarget::detect_contacts(motion, *map);
+  return retarget::balance_frames(motion, *map, *masses, contacts);
 }
 
 std::vector<live::PageContact> contact_spans(const Motion& motion, int first_frame) {

@@ -28,6 +28,9 @@ namespace marey::app {
                                                     const std::filesystem::path& avatar,
                                                     std::vector<std::string>& remarks);
 
+/// Where the weight of a human body is, and what bears it; empty for other bodies.
+[[nodiscard]] std::vector<retarget::BalanceFrame> balance_of(const Motion& motion);
+
 /// When feet bear, as spans of frames. Nothing for bodies of which it cannot be told.
 [[nodiscard]] std::vector<live::PageContact> contact_spans(const Motion& motion,
                                                            int first_frame);

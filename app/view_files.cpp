@@ -140,6 +140,7 @@ Result<ViewedRecording> read_view(const ViewChoice& choice) {
   auto out = any_view(choice.what, choice.trial);
   if (!out) return out;
   for (ViewedFigure& figure : out->figures) take_rate(out->rate, figure.motion);
+  for (ViewedFigure& figure : out->figures) figure.balance = balance_of(figure.motion);
   for (const fs::path& avatar : choice.avatars) {
     if (out->figures.empty()) {
       return bad_input(choice.what.string(),
@@ -148,6 +149,7 @@ Result<ViewedRecording> read_view(const ViewChoice& choice) {
     }
     auto figure = figure_on_avatar(out->figures.front().motion, avatar, out->remarks);
     if (!figure) return figure.error();
+    figure->balance = balance_of(figure->motion);
     out->figures.push_back(*std::move(figure));
   }
   return out;

@@ -50,6 +50,11 @@ live::PageFigure figure_at(const ViewedFigure& figure, std::size_t frame) {
   out.joints = figure.motion.skeleton.joints.size();
   if (frame < figure.motion.poses.size()) out.pose = &figure.motion.poses[frame];
   if (frame < figure.doubt.size()) out.doubt = figure.doubt[frame];
+  if (frame < figure.balance.size()) {
+    const retarget::BalanceFrame& balance = figure.balance[frame];
+    out.balance =
+        live::PageBalance{balance.centre_of_mass_in_world, balance.support_xz_m};
+  }
   return out;
 }
 

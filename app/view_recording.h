@@ -11,6 +11,7 @@
 #include "core/marker_tracks.h"
 #include "core/motion.h"
 #include "live/page_scene.h"
+#include "retarget/measure_balance.h"
 
 namespace marey::app {
 
@@ -27,7 +28,8 @@ struct ViewedFigure {
   std::string name;
   live::PageSkeletonKind kind = live::PageSkeletonKind::kMotion;
   Motion motion;
-  std::vector<std::vector<JointDoubt>> doubt{};  ///< [frame][joint], or empty.
+  std::vector<std::vector<JointDoubt>> doubt{};   ///< [frame][joint], or empty.
+  std::vector<retarget::BalanceFrame> balance{};  ///< Likewise.
   std::optional<FigureSkin> skin{};
 };
 

@@ -41,8 +41,8 @@ enum class PageMessage { kScene, kStatus, kWizard, kConstraints };
 /// keep up misses messages and delays nobody, and memory stays bounded (the newest of
 /// each kind, and one message under way for each page). Publishing copies the message
 /// into a buffer that is kept, waits for no network and allocates nothing once buffers
-/// have grown: some microseconds, and at most as long as another thread takes to copy one
-/// message.
+/// have grown: some ten microseconds, most of them to wake the server's thread, and at
+/// most as long as that takes to copy one message besides.
 class WebServer {
  public:
   /// Binds and starts to listen.

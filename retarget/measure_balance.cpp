@@ -37,6 +37,10 @@ class Hull {
  public:
   void add(const glm::dvec2& p) { corners_[count_++] = p; }
   [[nodiscard]] bool empty() const { return count_ == 0; }
+  // Precondition: closed.
+  [[nodiscard]] std::span<const glm::dvec2> corners() const {
+    return {hull_.data(), size_};
+  }
 
   // Andrew's monotone chain.
   void close() {
@@ -122,12 +126,14 @@ void add_foot(const Sole& sole, bool heel_bears, bool ball_bears, Hull& hull) {
   }
 }
 
-}  // namespace
-
-BalanceTrack track_balance(const Motion& motion,
-                           const BodyMap& map,
-                           std::span<const PointMass> masses,
-                           const Contacts& contacts) {
+// Calls `each(frame, centre of mass in the world, what bears)`, the hull being closed
+// unless nothing bears.
+template <class Each>
+void for_each_frame(const Motion& motion,
+                    const BodyMap& map,
+                    std::span<const PointMass> masses,
+                    const Contacts& contacts,
+                    const Each& each) {
   MAREY_ASSERT(contacts.frame_count == static_cast<int>(motion.poses.size()));
   std::array<std::vector<char>, 2> heel;
   std::array<std::vector<char>, 2> ball;
@@ -135,9 +141,8 @@ BalanceTrack track_balance(const Motion& motion,
     heel[side] = frame_marks(contacts.feet[side].heel, motion.poses.size());
     ball[side] = frame_marks(contacts.feet[side].ball, motion.poses.size());
   }
-  BalanceTrack out(motion.poses.size());
   std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
-  for (std::size_t t = 0; t < out.size(); ++t) {
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     world_from_joints(motion.skeleton, motion.poses[t], world_from_joint);
     Hull hull;
     for (std::size_t side = 0; side < 2; ++side) {
@@ -145,10 +150,41 @@ BalanceTrack track_balance(const Motion& motion,
       const Sole sole = sole_of(map, world_from_joint, static_cast<int>(side));
       add_foot(sole, heel[side][t] != 0, ball[side][t] != 0, hull);
     }
-    if (hull.empty()) continue;
-    hull.close();
-    out[t] = hull.outside_m(above(centre_of_mass(masses, world_from_joint)));
+    if (!hull.empty()) hull.close();
+    each(t, centre_of_mass(masses, world_from_joint), hull);
   }
+}
+
+}  // namespace
+
+BalanceTrack track_balance(const Motion& motion,
+                           const BodyMap& map,
+                           std::span<const PointMass> masses,
+                           const Contacts& contacts) {
+  BalanceTrack out(motion.poses.size());
+  for_each_frame(motion,
+                 map,
+                 masses,
+                 contacts,
+                 [&](std::size_t t, const glm::dvec3& centre, const Hull& hull) {
+                   if (!hull.empty()) out[t] = hull.outside_m(above(centre));
+                 });
+  return out;
+}
+
+std::vector<BalanceFrame> balance_frames(const Motion& motion,
+                                         const BodyMap& map,
+                                         std::span<const PointMass> masses,
+                                         const Contacts& contacts) {
+  std::vector<BalanceFrame> out(motion.poses.size());
+  for_each_frame(motion,
+                 map,
+                 masses,
+                 contacts,
+                 [&](std::size_t t, const glm::dvec3& centre, const Hull& hull) {
+                   const auto corners = hull.corners();
+                   out[t] = {centre, {corners.begin(), corners.end()}};
+                 });
   return out;
 }
 

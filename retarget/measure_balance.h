@@ -6,12 +6,29 @@
 #include <span>
 #include <vector>
 
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
 #include "core/character.h"
 #include "core/motion.h"
 #include "retarget/body_map.h"
 #include "retarget/detect_contacts.h"
 
 namespace marey::retarget {
+
+/// Where a body's weight is and what may bear it, in one frame.
+struct BalanceFrame {
+  glm::dvec3 centre_of_mass_in_world{0.0};
+  /// What bears, seen from above, as track_balance() says: X and Z of its corners, in
+  /// turn. Empty: nothing does.
+  std::vector<glm::dvec2> support_xz_m;
+};
+
+/// Frame by frame. Cost and preconditions as track_balance()'s.
+[[nodiscard]] std::vector<BalanceFrame> balance_frames(const Motion& motion,
+                                                       const BodyMap& map,
+                                                       std::span<const PointMass> masses,
+                                                       const Contacts& contacts);
 
 /// How far the centre of mass is outside of what bears, seen from above, frame by frame;
 /// negative: within, that far from the edge. nullopt: no foot bears. [m]

@@ -99,6 +99,35 @@ TEST(TrackBalance, KnowsHowFarAStandingBodyIsFromTheEdgeOfItsFeet) {
   EXPECT_FALSE(track_balance(motion, map, middle, contacts)[0]) << "in the air";
 }
 
+TEST(BalanceFrames, TellTheMassAndTheCornersOfWhatBears) {
+  Motion motion{make_humanoid(average_proportions(1.75)), {60.0}, 0, {}};
+  const BodyMap map = *map_body(motion.skeleton);
+  motion.poses.push_back(rest_pose(motion.skeleton));
+  Contacts contacts;
+  contacts.frame_count = 1;
+  contacts.feet[0].heel = contacts.feet[0].ball = contacts.feet[0].stance = {{0, 0}};
+  const std::vector<PointMass> mass{{JointIndex{0}, {0.1, 0.2, 0.3}, 1.0}};
+  const auto frames = balance_frames(motion, map, mass, contacts);
+  ASSERT_EQ(frames.size(), 1U);
+  const auto rest = world_from_joints(motion.skeleton, motion.poses[0]);
+  EXPECT_LT(glm::length(frames[0].centre_of_mass_in_world - rest[0].translation -
+                        glm::dvec3(0.1, 0.2, 0.3)),
+            1e-12);
+  // The left sole, from heel to tip.
+  ASSERT_EQ(frames[0].support_xz_m.size(), 4U);
+  const FootMap& foot = map.feet[0];
+  const double ankle_z = rest[index(map.leg(0).end)].translation.z;
+  const double heel_z = ankle_z + foot.heel_from_ankle_in_t_pose.z;
+  const double tip_z =
+      ankle_z + foot.ball_from_ankle_in_t_pose.z + foot.tip_from_ball_in_t_pose.z;
+  for (const glm::dvec2& corner : frames[0].support_xz_m) {
+    EXPECT_LT(std::min(std::abs(corner.y - heel_z), std::abs(corner.y - tip_z)), 1e-9);
+    EXPECT_GT(corner.x, 0.0) << "the left foot";
+  }
+  contacts.feet[0] = {};
+  EXPECT_TRUE(balance_frames(motion, map, mass, contacts)[0].support_xz_m.empty());
+}
+
 // One frame of a body in its rest pose that bears on both feet, or on the left one.
 BalanceTrack track_at_rest(const Skeleton& body,
                            const BodyMap& map,
