@@ -30,13 +30,17 @@ Result<retarget::LiveRetarget> make_retarget(const Skeleton& performer,
   return made;
 }
 
-Result<live::VmcBody> make_vmc_body(const Skeleton& skeleton, live::VmcRest rest) {
+/// `avatar` is null for the performer's own skeleton.
+Result<live::VmcBody> make_vmc_body(const Skeleton& skeleton,
+                                    const OpenedAvatar* avatar,
+                                    live::VmcRest rest) {
   const auto map = retarget::map_body(skeleton);
   if (!map) return map.error();
   const std::vector<glm::dquat> t_pose = t_pose_of(skeleton, *map);
   live::VmcBodyOptions options;
   options.rest = rest;
   options.t_pose_from_joint = t_pose;
+  options.file_faces_back = avatar != nullptr && avatar->file_faces_back;
   return live::VmcBody::make(skeleton, options);
 }
 
@@ -69,9 +73,16 @@ Result<LiveChain> LiveChain::make(const Body& body,
     chain.retargets_.push_back(*std::move(retarget));
     chain.avatar_poses_.push_back(rest_pose(avatar.skeleton));
   }
+  if (!avatars.empty()) {
+    const OpenedAvatar& first = avatars.front();
+    auto handles = LiveHandles::make(first.file.stem().string(), first.skeleton);
+    if (!handles) return of_file(first.file, handles.error());
+    chain.handles_ = *std::move(handles);
+  }
   for (const VmcStream& stream : settings.streams) {
     const OpenedAvatar* avatar = stream.avatar ? &avatars[*stream.avatar] : nullptr;
-    auto told = make_vmc_body(avatar ? avatar->skeleton : chain.performer(), stream.rest);
+    auto told = make_vmc_body(
+        avatar ? avatar->skeleton : chain.performer(), avatar, stream.rest);
     if (!told) return avatar ? of_file(avatar->file, told.error()) : told.error();
     live::VmcEncoderOptions encoding;
     encoding.mtu_bytes = stream.mtu_bytes;
@@ -109,7 +120,10 @@ const LiveResult& LiveChain::step(const LiveInstant& instant,
   result_.track = tracker_.last();
   result_.solve_s = solving.seconds();
   const Stopwatch retargeting;
-  if (result_.track.state != TrackState::kWaiting) put_on_avatars(since_last_s);
+  if (result_.track.state != TrackState::kWaiting) {
+    put_on_avatars(since_last_s);
+    drag(requests, since_last_s);
+  }
   result_.retarget_s = retargeting.seconds();
   const Stopwatch encoding;
   encode(instant.time, requests);
@@ -117,6 +131,7 @@ const LiveResult& LiveChain::step(const LiveInstant& instant,
   result_.pose = &pose_;
   result_.doubt = doubt_;
   result_.avatars = avatar_poses_;
+  if (handles_) result_.handles = handles_->handles();
   result_.packets = packets_;
   return result_;
 }
@@ -147,6 +162,16 @@ void LiveChain::put_on_avatars(double since_last_s) {
     retargets_[a].step(pose_, since_last_s, avatar_poses_[a]);
   }
   was_lost_ = is_lost;
+}
+
+/// While nobody is there, nothing can be taken hold of.
+void LiveChain::drag(const LiveRequests& requests, double since_last_s) {
+  if (!handles_) return;
+  for (const HandleRequest& request : requests.handles) handles_->ask(request);
+  handles_->step(retargets_.front().world_from_joint(),
+                 retargets_.front().standing(),
+                 since_last_s,
+                 avatar_poses_.front());
 }
 
 void LiveChain::encode(Timestamp time, const LiveRequests& requests) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/live_handles.h"
 #include "app/live_settings.h"
 #include "app/retarget_files.h"
 #include "core/body.h"
@@ -32,6 +33,8 @@ struct LiveResult {
   const Pose* pose = nullptr;
   std::span<const JointDoubt> doubt;
   std::span<const Pose> avatars;  ///< In the order of the settings; likewise.
+  /// Of the first avatar; empty without avatars.
+  std::span<const HandleState> handles;
   /// Of each stream, the packets to be sent; then VRChat's, if they are wanted.
   std::span<const std::vector<std::vector<std::uint8_t>>> packets;
   // What it took. [s]
@@ -41,14 +44,15 @@ struct LiveResult {
 };
 
 /// Everything between what cameras saw and what goes out, as one function of it: corners
-/// to the performer's posture, to every avatar's, to the packets of every stream. Live
+/// to the performer's posture, to every avatar's, the first one's brought to what is
+/// dragged (app/live_handles.h), to the packets of every stream. Live
 /// and replay run this same code: the past is in this object and nowhere else, no clock is
 /// read but to measure. Same instants and requests, same bytes. One thread at a time.
 class LiveChain {
  public:
   /// Avatars in the order of `settings.avatars`.
-  /// Errors: BodyTracker::create()'s, LiveRetarget::make()'s, VmcBody::make()'s (naming
-  /// the avatar's file), VmcEncoder::make()'s.
+  /// Errors: BodyTracker::create()'s, LiveRetarget::make()'s, LiveHandles::make()'s and
+  /// VmcBody::make()'s (naming the avatar's file), VmcEncoder::make()'s.
   [[nodiscard]] static Result<LiveChain> make(const Body& body,
                                               std::span<const Camera> cameras,
                                               std::span<const OpenedAvatar> avatars,
@@ -74,12 +78,14 @@ class LiveChain {
             const LiveSettings& settings);
   void take_in(const LiveInstant& instant);
   void put_on_avatars(double since_last_s);
+  void drag(const LiveRequests& requests, double since_last_s);
   void encode(Timestamp time, const LiveRequests& requests);
 
   std::vector<Camera> cameras_;
   FrameRate rate_;
   reconstruct::BodyTracker tracker_;
   std::vector<retarget::LiveRetarget> retargets_;
+  std::optional<LiveHandles> handles_;  ///< Of the first avatar.
   std::vector<Stream> streams_;
   std::optional<live::VrchatTrackers> trackers_;
   std::vector<RigidTransform> world_from_joint_;  ///< Of the performer.

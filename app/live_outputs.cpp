@@ -37,7 +37,7 @@ Result<LiveOutputs> LiveOutputs::open(const std::vector<VmcStream>& streams,
 
 LiveRequests& LiveOutputs::take_requests() {
   constexpr int kMostPackets = 64;
-  requests_.streams.clear();
+  requests_.clear();
   if (!listener_) return requests_;
   live::VmcCommands commands;
   for (int i = 0; i < kMostPackets; ++i) {

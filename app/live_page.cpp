@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/body_handles.h"
 #include "app/view_figure.h"
 #include "app/view_page.h"
 #include "live/page_request.h"
@@ -107,6 +108,16 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
     const glm::dvec3 offset_m(kBeside_m * static_cast<double>(a + 1), 0.0, 0.0);
     scene_.skeletons.push_back(page_skeleton(*figure, path, offset_m));
   }
+  if (!live.avatars.empty()) {
+    for (const BodyHandle& handle : body_handles(live.avatars.front().skeleton)) {
+      live::PageConstraint& shown = scene_.constraints.emplace_back();
+      shown.id = handle.id;
+      shown.skeleton = 1;  // The first behind the performer.
+      shown.active = false;
+      shown.draggable = true;
+      shown.joint = handle.joint;
+    }
+  }
   figures_.resize(scene_.skeletons.size());
   for (std::size_t s = 0; s < figures_.size(); ++s) {
     figures_[s].joints = scene_.skeletons[s].skeleton.joints.size();
@@ -118,16 +129,58 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
 }
 
 /// What is said to a page that asked; empty: nothing.
-std::string LivePage::answer(const std::string& text, LiveRequests& /*requests*/) {
+std::string LivePage::answer(const std::string& text, LiveRequests& requests) {
   const auto request = live::read_page_request(text);
   if (!request) return request.error().message();
   if (const auto* thumbnails = std::get_if<live::ThumbnailsRequest>(&*request)) {
     thumbnails_wanted_ = thumbnails->on;
     return {};
   }
+  if (const auto* drag = std::get_if<live::DragRequest>(&*request)) {
+    return ask({drag->id, HandleAction::kMove, drag->p_in_world}, requests);
+  }
+  if (const auto* hold = std::get_if<live::ConstraintRequest>(&*request)) {
+    const HandleAction action = hold->active ? HandleAction::kStart : HandleAction::kStop;
+    return ask({hold->id, action, {}}, requests);
+  }
   const bool is_understood = std::holds_alternative<live::HelloRequest>(*request) ||
                              std::holds_alternative<live::ShownRequest>(*request);
   return is_understood ? std::string() : "this run does not do that";
+}
+
+/// As answer().
+std::string LivePage::ask(HandleRequest request, LiveRequests& requests) {
+  const bool is_known =
+      std::ranges::find(scene_.constraints, request.id, &live::PageConstraint::id) !=
+      scene_.constraints.end();
+  if (!is_known) return "there is no handle \"" + request.id + "\"";
+  const bool is_taken = requests.add(std::move(request));
+  return is_taken ? std::string() : "too much is asked at once";
+}
+
+/// Where handles are held, some times a second while that changes. Those that are not
+/// held go along with their joints, which the page knows.
+void LivePage::tell_handles(std::span<const HandleState> handles) {
+  constexpr double kMostPerSecond = 10.0;
+  const double frames_since = frame_ - handles_told_;
+  if (frames_since * kMostPerSecond < scene_.rate_hz) return;
+  bool changed = false;
+  for (std::size_t i = 0; i < handles.size(); ++i) {
+    live::PageConstraint& told = scene_.constraints[i];
+    const HandleState& now = handles[i];
+    if (told.active == now.active &&
+        (!now.active || told.p_in_world == now.p_in_world)) {
+      continue;
+    }
+    changed = true;
+    told.active = now.active;
+    told.p_in_world = now.p_in_world;
+    told.joint = now.active ? std::nullopt : std::optional(now.joint);
+  }
+  if (!changed) return;
+  handles_told_ = frame_;
+  page_.server.publish_text(live::PageMessage::kConstraints,
+                            live::constraints_json(scene_.constraints));
 }
 
 void LivePage::hear(LiveRequests& requests) {
@@ -164,6 +217,7 @@ void LivePage::on_frame(const LiveInstant& instant, const LiveResult& result) {
   bytes_.clear();
   live::append_frame(frame, bytes_);
   page_.server.publish_frame(bytes_);
+  tell_handles(result.handles);
 }
 
 void LivePage::on_thumbnail(std::size_t camera,

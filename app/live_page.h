@@ -18,7 +18,7 @@
 namespace marey::app {
 
 /// What a live run looks like in browsers: the performer with its doubt, every avatar in
-/// its skin beside it, cameras and what they see, and how everything fares. A browser
+/// its skin beside it, the first one's handles, cameras and what they see, and how everything fares. A browser
 /// that does not keep up misses frames, and never delays the run.
 class LivePage final : public LiveWatcher {
  public:
@@ -47,6 +47,8 @@ class LivePage final : public LiveWatcher {
   explicit LivePage(PageServer page) : page_(std::move(page)) {}
   [[nodiscard]] Status make_scene(const OpenedLive& live, const Skeleton& performer);
   [[nodiscard]] std::string answer(const std::string& text, LiveRequests& requests);
+  [[nodiscard]] std::string ask(HandleRequest request, LiveRequests& requests);
+  void tell_handles(std::span<const HandleState> handles);
   void note(reconstruct::TrackState state, const LiveFigures& figures);
 
   PageServer page_;
@@ -62,6 +64,7 @@ class LivePage final : public LiveWatcher {
   std::optional<Timestamp> first_;
   std::optional<reconstruct::TrackState> state_;
   std::uint32_t frame_ = 0;
+  std::uint32_t handles_told_ = 0;  ///< In which frame.
   long frames_before_ = 0;
   double seconds_before_ = 0.0;
   Stopwatch since_start_;

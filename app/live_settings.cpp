@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_settings.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -68,8 +70,57 @@ bool can_be(const LiveSettings& settings) {
          settings.camera_sigma_m >= 0.0 && std::isfinite(settings.camera_sigma_m);
 }
 
-LiveRequests to_requests(const json& object) {
+constexpr std::array<std::pair<HandleAction, const char*>, 3> kActions{
+    {{HandleAction::kMove, "move"},
+     {HandleAction::kStart, "start"},
+     {HandleAction::kStop, "stop"}}};
+
+json to_json(const HandleRequest& request) {
+  json object{{"id", request.id}};
+  for (const auto& [action, word] : kActions) {
+    if (action == request.action) object["action"] = word;
+  }
+  if (request.action == HandleAction::kMove) {
+    const glm::dvec3& p = request.p_in_world;
+    object["p_in_world"] = {p.x, p.y, p.z};
+  }
+  return object;
+}
+
+/// nullopt: it cannot be.
+std::optional<HandleRequest> to_handle(const json& object) {
+  constexpr double kFarthest_m = 1e4;
+  HandleRequest request;
+  request.id = object.at("id").get<std::string>();
+  const auto word = object.at("action").get<std::string>();
+  const auto* action = std::ranges::find(kActions, word, [](const auto& known) {
+    return std::string_view(known.second);
+  });
+  if (action == kActions.end()) return std::nullopt;
+  request.action = action->first;
+  if (request.action != HandleAction::kMove) return request;
+  const json& place = object.at("p_in_world");
+  if (!place.is_array() || place.size() != 3) return std::nullopt;
+  for (int i = 0; i < 3; ++i) {
+    const auto x = place[static_cast<std::size_t>(i)].get<double>();
+    if (!(std::abs(x) <= kFarthest_m)) return std::nullopt;
+    request.p_in_world[i] = x;
+  }
+  return request;
+}
+
+/// nullopt: a value is out of range.
+std::optional<LiveRequests> to_requests(const json& object) {
   LiveRequests requests;
+  // Takes of earlier versions have none.
+  if (const auto handles = object.find("handles"); handles != object.end()) {
+    if (handles->size() > LiveRequests::kMostHandles) return std::nullopt;
+    for (const json& asked : *handles) {
+      auto request = to_handle(asked);
+      if (!request) return std::nullopt;
+      requests.handles.push_back(*std::move(request));
+    }
+  }
   for (const json& asked : object.at("vmc")) {
     LiveRequests::OfStream& one = requests.streams.emplace_back();
     one.info = asked.at("info").get<bool>();
@@ -107,6 +158,20 @@ Result<LiveSettings> parse_live_settings(std::string_view text, const std::strin
   }
 }
 
+bool LiveRequests::add(HandleRequest request) {
+  // Of many movements between two instants the last counts.
+  const bool is_void = !handles.empty() && request.action == HandleAction::kMove &&
+                       handles.back().action == HandleAction::kMove &&
+                       handles.back().id == request.id;
+  if (is_void) {
+    handles.back() = std::move(request);
+    return true;
+  }
+  if (handles.size() >= kMostHandles) return false;
+  handles.push_back(std::move(request));
+  return true;
+}
+
 std::string live_requests_text(const LiveRequests& requests) {
   bool asked = false;
   json streams = json::array();
@@ -120,13 +185,20 @@ std::string live_requests_text(const LiveRequests& requests) {
     }
     streams.push_back({{"info", one.info}, {"periods", std::move(periods)}});
   }
-  return asked ? json{{"vmc", std::move(streams)}}.dump() : std::string{};
+  if (!asked && requests.handles.empty()) return {};
+  json object{{"vmc", std::move(streams)}};
+  for (const HandleRequest& request : requests.handles) {
+    object["handles"].push_back(to_json(request));
+  }
+  return object.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
 Result<LiveRequests> parse_live_requests(std::string_view text, const std::string& file) {
   if (text.empty()) return LiveRequests{};
   try {
-    return to_requests(json::parse(text));
+    auto requests = to_requests(json::parse(text));
+    if (!requests) return not_ours(file, "a value is out of range");
+    return *std::move(requests);
   } catch (const json::exception& problem) {
     return not_ours(file, problem.what());
   }

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "core/result.h"
 #include "core/time.h"
 #include "live/vmc_body.h"
@@ -42,14 +44,37 @@ struct LiveSettings {
 [[nodiscard]] Result<LiveSettings> parse_live_settings(std::string_view text,
                                                        const std::string& file);
 
+/// What a person does with a handle of the first avatar (app/live_handles.h).
+enum class HandleAction {
+  kMove,   ///< To a place; it is taken hold of if nobody has.
+  kStart,  ///< It holds its joint where that is.
+  kStop,   ///< The joint goes its own way again.
+};
+struct HandleRequest {
+  std::string id;  ///< "left hand".
+  HandleAction action = HandleAction::kMove;
+  glm::dvec3 p_in_world{0.0};  ///< Of kMove, in the avatar's world.
+};
+
 /// What others asked for since the instant before, and results depend on.
 struct LiveRequests {
+  static constexpr std::size_t kMostHandles = 64;  ///< Requests about handles.
+
   /// By stream: what Set/Period and Set/Req asked.
   struct OfStream {
     std::optional<live::VmcPeriods> periods;
     bool info = false;
   };
   std::vector<OfStream> streams;  ///< Empty: nobody asked for anything.
+  std::vector<HandleRequest> handles{};
+
+  void clear() {
+    streams.clear();
+    handles.clear();
+  }
+  /// Adds a request, in place of one before it that it makes void. False: there are too
+  /// many already.
+  bool add(HandleRequest request);
 };
 
 /// As JSON in one line; empty when nothing was asked for.

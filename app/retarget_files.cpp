@@ -24,7 +24,8 @@ Result<OpenedAvatar> open_avatar(const BodyFile& avatar) {
   if (const auto map = retarget::map_body(body->skeleton()); !map) {
     return of_file(avatar.path, map.error());
   }
-  OpenedAvatar opened{avatar.path, {}, {}, body->soles, body->volume, body->remarks()};
+  OpenedAvatar opened{avatar.path, {}, {}, body->soles, body->volume, body->remarks(),
+                      body->raw.faces_back};
   if (is_gltf(avatar.path)) opened.look = {avatar.path, body->changed()};
   opened.skeleton = std::move(body->raw.motion.skeleton);
   return opened;

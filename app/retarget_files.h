@@ -26,6 +26,8 @@ struct OpenedAvatar {
   retarget::Soles soles;             ///< ReadBody::soles.
   std::optional<retarget::BodyVolume> volume;  ///< ReadBody::volume.
   std::vector<std::string> remarks;  ///< ReadBody::remarks().
+  /// The file is a VRM 0.x: `skeleton` was turned half about Y.
+  bool file_faces_back = false;
 };
 
 /// Reads an avatar. Errors (kBadInput), naming the file: read_body()'s, map_body()'s.

@@ -76,12 +76,14 @@ PageJson camera_object(const PageCamera& camera) {
 }
 
 PageJson constraint_object(const PageConstraint& constraint) {
-  return {{"id", constraint.id},
-          {"skeleton", constraint.skeleton},
-          {"kind", word(constraint.kind)},
-          {"active", constraint.active},
-          {"p_in_world", to_json(constraint.p_in_world)},
-          {"draggable", constraint.draggable}};
+  PageJson object{{"id", constraint.id},
+                  {"skeleton", constraint.skeleton},
+                  {"kind", word(constraint.kind)},
+                  {"active", constraint.active},
+                  {"p_in_world", to_json(constraint.p_in_world)},
+                  {"draggable", constraint.draggable}};
+  if (constraint.joint) object["joint"] = index(*constraint.joint);
+  return object;
 }
 
 PageJson span_array(const PageSpan& span) {

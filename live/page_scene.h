@@ -54,6 +54,8 @@ struct PageConstraint {
   bool active = true;
   glm::dvec3 p_in_world{0.0};
   bool draggable = false;
+  /// It is where this joint of its skeleton is, frame by frame, and p_in_world is void.
+  std::optional<JointIndex> joint{};
 };
 
 /// Frames from first to last, both included.

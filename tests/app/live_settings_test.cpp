@@ -69,6 +69,39 @@ TEST(LiveRequests, AreKeptAndAreNothingWhenNobodyAsked) {
   EXPECT_FALSE(parse_live_requests("{\"vmc\":7}", "take"));
 }
 
+TEST(LiveRequests, KeepWhatIsDraggedToTheLastBit) {
+  LiveRequests asked;
+  EXPECT_TRUE(asked.add({"left hand", HandleAction::kMove, {0.1, 0.2, 0.3}}));
+  EXPECT_TRUE(asked.add({"left hand", HandleAction::kMove, {0.1 / 3.0, 1e-17, -4.2}}));
+  EXPECT_TRUE(asked.add({"hips", HandleAction::kStop, {}}));
+  EXPECT_TRUE(asked.add({"left hand", HandleAction::kMove, {0.5, 0.6, 0.7}}));
+  const auto back = parse_live_requests(live_requests_text(asked), "take");
+  ASSERT_TRUE(back) << back.error().message();
+  ASSERT_EQ(back->handles.size(), 3U) << "the last of movements counts";
+  EXPECT_EQ(back->handles[0].id, "left hand");
+  EXPECT_EQ(back->handles[0].p_in_world, glm::dvec3(0.1 / 3.0, 1e-17, -4.2));
+  EXPECT_EQ(back->handles[1].action, HandleAction::kStop);
+  EXPECT_EQ(back->handles[2].p_in_world, glm::dvec3(0.5, 0.6, 0.7));
+}
+
+TEST(LiveRequests, RefuseHandlesThatCannotBe) {
+  for (const char* handle : {R"({"id":"hips","action":"jump"})",
+                             R"({"id":"hips","action":"move"})",
+                             R"({"id":"hips","action":"move","p_in_world":[0,1]})",
+                             R"({"id":"hips","action":"move","p_in_world":[0,1,1e5]})",
+                             R"({"id":"hips","action":"move","p_in_world":[0,1,null]})",
+                             R"({"id":7,"action":"stop"})",
+                             "7"}) {
+    const std::string text = std::string(R"({"vmc":[],"handles":[)") + handle + "]}";
+    EXPECT_FALSE(parse_live_requests(text, "take")) << text;
+  }
+  LiveRequests asked;
+  for (std::size_t i = 0; i < LiveRequests::kMostHandles; ++i) {
+    EXPECT_TRUE(asked.add({"hips", HandleAction::kStop, {}}));
+  }
+  EXPECT_FALSE(asked.add({"hips", HandleAction::kStop, {}}));
+}
+
 TEST(PlanStreams, PutsTargetsOfOneKindTogether) {
   LiveSettings plan;
   plan.avatars = {"man.vrm", "robot.glb"};

@@ -7,6 +7,7 @@ import {
   BoxGeometry, BufferGeometry, ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial,
   OctahedronGeometry, SphereGeometry,
 } from 'three';
+import type {PosedSkeleton} from './posed_skeleton';
 import type {ConstraintWords, SkeletonWords, Vector} from './protocol';
 import type {Colours} from './theme';
 
@@ -52,11 +53,26 @@ export class ConstraintView {
       const same = old && old.words.kind === words.kind;
       const object = same ? old.object : this.make(words.kind);
       const at = inHand === words.id && old ? old.words.p_in_world : words.p_in_world;
-      const handle: Handle = {words: {...words, p_in_world: at}, offset_m, object,
+      const handle: Handle = {words: {...words, p_in_world: [...at]}, offset_m, object,
         shown_in_world: [at[0] + offset_m[0], at[1] + offset_m[1], at[2] + offset_m[2]]};
       this.object.add(object);
       return handle;
     });
+  }
+
+  /** Those that are at a joint go along with it, but for what a person holds. `poses` has
+   *  one for each skeleton of the scene, null where a body is not there. */
+  follow(poses: readonly (PosedSkeleton | null)[], inHand: string | null): void {
+    for (const handle of this.handles) {
+      const {joint, skeleton, id} = handle.words;
+      const pose = poses[skeleton];
+      if (joint === undefined || id === inHand || !pose || joint >= pose.joints) continue;
+      for (let k = 0; k < 3; ++k) {
+        const at = pose.p_in_world[3 * joint + k];
+        handle.words.p_in_world[k] = at;
+        handle.shown_in_world[k] = at + handle.offset_m[k];
+      }
+    }
   }
 
   /** `shown_in_world` is where the handle is drawn. */

@@ -64,6 +64,8 @@ export interface ConstraintWords {
   active: boolean;
   p_in_world: Vector;
   draggable: boolean;
+  /** It is where this joint of its skeleton is, frame by frame, and p_in_world is void. */
+  joint?: number;
 }
 
 /** First and last frame, both included, as the recording numbers them: from `first_frame`

@@ -94,16 +94,22 @@ export class Stage {
 
   setConstraints(constraints: readonly ConstraintWords[]): void {
     this.handles.set(constraints, this.words?.skeletons ?? [], this.inHand);
+    this.takeAlong();
     this.renderer.invalidate();
   }
 
   /** Shows this instant. Precondition: of the scene that was set last. */
   show(frame: SceneFrame): void {
     this.bodies.forEach((body, i) => body.update(frame.skeletons[i]));
+    this.takeAlong();
     if (!this.framed && this.bodies.some((body) => body.present)) {
       this.frameBodies(true, this.firstAzimuth());
     }
     this.follow();
+  }
+
+  private takeAlong(): void {
+    this.handles.follow(this.bodies.map((body) => body.present ? body.pose : null), this.inHand);
   }
 
   showPoints(block: PointBlock, frame: number): void {
@@ -279,7 +285,7 @@ export class Stage {
     // The server may send handles anew meanwhile.
     const handle = (): Handle | undefined =>
       this.handles.handles.find(({words}) => words.id === id);
-    const start = taken.shown_in_world;
+    const start: Vector = [...taken.shown_in_world];
     const normal = this.renderer.facing();
     // Taken off its middle, it stays off it.
     const at = this.renderer.pixelOf(start)!;
