@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "app/motion_files.h"
+#include "app/live_avatar.h"
 #include "app/stopwatch.h"
 #include "core/assert.h"
 #include "retarget/body_map.h"
@@ -18,30 +18,6 @@ using reconstruct::TrackState;
 Error of_file(const std::filesystem::path& path, Error error) {
   error.where = path.string() + (error.where.empty() ? "" : ": " + error.where);
   return error;
-}
-
-Result<retarget::LiveRetarget> make_retarget(const Skeleton& performer,
-                                             const OpenedAvatar& avatar) {
-  retarget::LiveRetargetOptions options;
-  options.soles = avatar.soles;
-  options.hands.emplace().avatar_volume = avatar.volume;
-  auto made = retarget::LiveRetarget::make(performer, avatar.skeleton, options);
-  if (!made) return of_file(avatar.file, made.error());
-  return made;
-}
-
-/// `avatar` is null for the performer's own skeleton.
-Result<live::VmcBody> make_vmc_body(const Skeleton& skeleton,
-                                    const OpenedAvatar* avatar,
-                                    live::VmcRest rest) {
-  const auto map = retarget::map_body(skeleton);
-  if (!map) return map.error();
-  const std::vector<glm::dquat> t_pose = t_pose_of(skeleton, *map);
-  live::VmcBodyOptions options;
-  options.rest = rest;
-  options.t_pose_from_joint = t_pose;
-  options.file_faces_back = avatar != nullptr && avatar->file_faces_back;
-  return live::VmcBody::make(skeleton, options);
 }
 
 }  // namespace
@@ -68,7 +44,7 @@ Result<LiveChain> LiveChain::make(const Body& body,
   if (!tracker) return tracker.error();
   LiveChain chain(*std::move(tracker), cameras, settings);
   for (const OpenedAvatar& avatar : avatars) {
-    auto retarget = make_retarget(chain.performer(), avatar);
+    auto retarget = make_live_retarget(chain.performer(), avatar);
     if (!retarget) return retarget.error();
     chain.retargets_.push_back(*std::move(retarget));
     chain.avatar_poses_.push_back(rest_pose(avatar.skeleton));
@@ -83,7 +59,7 @@ Result<LiveChain> LiveChain::make(const Body& body,
     const OpenedAvatar* avatar = stream.avatar ? &avatars[*stream.avatar] : nullptr;
     auto told = make_vmc_body(
         avatar ? avatar->skeleton : chain.performer(), avatar, stream.rest);
-    if (!told) return avatar ? of_file(avatar->file, told.error()) : told.error();
+    if (!told) return told.error();
     live::VmcEncoderOptions encoding;
     encoding.mtu_bytes = stream.mtu_bytes;
     encoding.info.listen_port = stream.listen_port;

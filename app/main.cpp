@@ -11,6 +11,7 @@
 #include "app/adapt_commands.h"
 #include "app/commands.h"
 #include "app/fit_commands.h"
+#include "app/listen_commands.h"
 #include "app/live_commands.h"
 #include "app/option_checks.h"
 #include "app/plan_commands.h"
@@ -53,6 +54,7 @@ struct Arguments {
   AdaptArguments adapt;
   RetargetArguments retarget;
   LiveArguments live;
+  ListenArguments listen;
   ReplayArguments replay;
   ViewArguments view;
 
@@ -235,6 +237,7 @@ int run(int argc, char** argv) {
                       chosen);
   add_record(app, args, chosen);
   add_live_commands(app, args.live, args.replay, chosen);
+  add_listen_command(app, args.listen, chosen);
   add_retarget_command(app, args.retarget, chosen);
   add_adapt_command(app, args.adapt, chosen);
   add_convert(app, args, chosen);

@@ -40,6 +40,11 @@ Words played() {
 }
 
 
+/// What a shell does of `script`; $0 is the program, $@ are the words.
+ProgramRun run_in_shell(const std::string& script, const Words& words) {
+  return run_program("/bin/bash", with({"-c", script, kProgram.string()}, words));
+}
+
 class LiveRecording : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -132,18 +137,31 @@ TEST_F(LiveRecording, IsToldFromOneThatWasChanged) {
   EXPECT_NE(replay.err.find("are not what they were"), std::string::npos) << replay.err;
 }
 
+// What one marey sends another hears, with the same avatar: the packets of the walk.
+TEST_F(LiveRecording, IsHeardAsAMotion) {
+  ASSERT_EQ(run_->exit_code, 0) << run_->err;
+  const auto free = live::UdpListener::open({"127.0.0.1", 0});
+  ASSERT_TRUE(free);
+  const std::string at = "127.0.0.1:" + std::to_string(free->port() + 1);
+  const std::string body = (*folder_ / "body.glb").string();
+  const std::string motion = (*folder_ / "heard.bvh").string();
+  const ProgramRun run = run_in_shell(
+      "\"$0\" listen \"$2\" --at $1 --out \"$3\" --json --seconds 6 & sleep 1; "
+      "\"$0\" replay \"$4\" --vmc $1; wait $!",
+      {at, body, motion, take().string()});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto heard = nlohmann::json::parse(run.out);
+  EXPECT_GT(heard["kept"], 20) << run.err;
+  EXPECT_EQ(heard["malformed"], 0);
+  EXPECT_TRUE(std::filesystem::exists(motion)) << run.err;
+}
+
 TEST_F(LiveRecording, IsNeverWrittenOver) {
   ASSERT_EQ(run_->exit_code, 0) << run_->err;
   const ProgramRun again =
       run_program(kProgram, with(played(), {"--record", take().string()}));
   EXPECT_EQ(again.exit_code, 3);
   EXPECT_NE(again.err.find("not empty"), std::string::npos) << again.err;
-}
-
-/// `marey live` with these words, by a shell that does to it what `script` says; $0 is the
-/// program, $@ are the words.
-ProgramRun run_in_shell(const std::string& script, const Words& words) {
-  return run_program("/bin/bash", with({"-c", script, kProgram.string()}, words));
 }
 
 TEST(LiveRecordingInTrouble, LosesAtMostASecondWhenItsProcessIsKilled) {

@@ -1,0 +1,34 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/motion.h"
+
+namespace marey::app {
+
+/// Poses that came when they came, as a motion at a steady rate.
+class HeardMotion {
+ public:
+  /// Poses whose time does not grow are passed over: a sender that began anew goes on
+  /// where it was. Precondition: finite.
+  void add(double time_s, const Pose& pose);
+  [[nodiscard]] std::size_t size() const { return heard_.size(); }
+
+  /// From the first to the last, in between on the shorter way from each to the next.
+  /// nullopt with fewer than two. Precondition: rate above 0; poses of the skeleton.
+  [[nodiscard]] std::optional<Motion> at_rate(const Skeleton& skeleton,
+                                              FrameRate rate) const;
+
+ private:
+  struct Heard {
+    double time_s = 0.0;
+    Pose pose;
+  };
+  std::vector<Heard> heard_;
+  double shift_s_ = 0.0;  ///< Of a sender that began anew.
+};
+
+}  // namespace marey::app
