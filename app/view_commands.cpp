@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/view_commands.h"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 #include <variant>
@@ -9,8 +10,10 @@
 
 #include "app/option_checks.h"
 #include "app/stop_signal.h"
+#include "app/view_handles.h"
 #include "app/view_page.h"
 #include "live/page_request.h"
+#include "live/page_scene.h"
 #include "live/page_status.h"
 
 namespace marey::app {
@@ -18,26 +21,63 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a page may ask of a recording that only plays; empty: it was a greeting.
-std::string refusal_of(const std::string& text) {
-  const auto request = live::read_page_request(text);
-  if (!request) return request.error().message();
+/// What is shown, and what pages do to it.
+struct Shown {
+  const ViewedRecording& recording;
+  ViewHandles handles;
+};
+
+/// Notes one message. What is said to the page; empty: nothing. `drags`: it wants a frame.
+std::string note(const live::ReceivedText& text, Shown& shown, bool& drags) {
+  const auto request = live::read_page_request(text.text);
+  if (!request) return live::error_json(request.error().message());
+  if (const auto* drag = std::get_if<live::DragRequest>(&*request)) {
+    const Status ok = shown.handles.drag(text.client, *drag);
+    if (!ok) return live::error_json(ok.error().message());
+    drags = true;
+    return {};
+  }
+  if (const auto* hold = std::get_if<live::ConstraintRequest>(&*request)) {
+    drags = !hold->active && shown.handles.release(text.client, hold->id);
+    // The page has shown it as switched already.
+    return drags ? std::string() : live::constraints_json(shown.handles.constraints());
+  }
   const bool harmless = std::holds_alternative<live::HelloRequest>(*request) ||
                         std::holds_alternative<live::ShownRequest>(*request) ||
                         std::holds_alternative<live::ThumbnailsRequest>(*request);
-  return harmless ? std::string() : "a recording is only looked at here";
+  return harmless ? std::string()
+                  : live::error_json("a recording is only looked at here");
 }
 
-void hear(live::WebServer& server, std::vector<live::ReceivedText>& texts) {
-  server.take_texts(texts);
-  for (const live::ReceivedText& text : texts) {
-    const std::string refusal = refusal_of(text.text);
-    if (!refusal.empty()) server.answer_text(text.client, live::error_json(refusal));
+void answer(live::WebServer& server, const Shown& shown, live::ClientId client) {
+  const auto adapted = shown.handles.adapted(client);
+  if (!adapted) {
+    server.answer_text(client, live::error_json(adapted.error().message()));
+    return;
   }
+  server.answer_frame(
+      client,
+      frame_with(
+          shown.recording, adapted->frame, shown.handles.figure(), adapted->pose));
+}
+
+/// Of what a page dragged meanwhile only the last counts.
+void hear(live::WebServer& server, std::vector<live::ReceivedText>& texts, Shown& shown) {
+  server.take_texts(texts);
+  std::vector<live::ClientId> dragging;
+  for (const live::ReceivedText& text : texts) {
+    bool drags = false;
+    const std::string said = note(text, shown, drags);
+    if (!said.empty()) server.answer_text(text.client, said);
+    if (drags && std::ranges::find(dragging, text.client) == dragging.end()) {
+      dragging.push_back(text.client);
+    }
+  }
+  for (const live::ClientId client : dragging) answer(server, shown, client);
 }
 
 /// Until Ctrl-C or the time is over.
-Status serve(live::WebServer& server, const ViewArguments& args) {
+Status serve(live::WebServer& server, const ViewArguments& args, Shown& shown) {
   constexpr std::chrono::milliseconds kLook{100};
   const auto end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -46,7 +86,7 @@ Status serve(live::WebServer& server, const ViewArguments& args) {
   if (!args.page.web_root.empty()) root.emplace(args.page.web_root);
   std::vector<live::ReceivedText> texts;
   while (!stop_wanted() && (!args.seconds || Clock::now() < end)) {
-    if (server.wait_for_text(kLook)) hear(server, texts);
+    if (server.wait_for_text(kLook)) hear(server, texts, shown);
     if (!root) continue;
     if (Status ok = root->serve(server); !ok) return ok;
   }
@@ -61,6 +101,10 @@ Exit run_view(const ViewArguments& args, Console& console) {
   for (const std::string& remark : recording->remarks) console.say(remark);
   auto encoded = page_of_recording(*recording);
   if (!encoded) return console.fail(encoded.error());
+  auto handles = ViewHandles::make(*recording, args.constraints);
+  if (!handles) return console.fail(handles.error());
+  Shown shown{*recording, *std::move(handles)};
+  encoded->scene.constraints = shown.handles.constraints();
   auto page = start_page(args.page);
   if (!page) return console.fail(page.error());
   for (live::WebContent& content : encoded->media) page->server.put(std::move(content));
@@ -68,7 +112,7 @@ Exit run_view(const ViewArguments& args, Console& console) {
   catch_stop_signals();
   tell_addresses(*page, args.page);
   if (!args.seconds) console.say("open the address in a browser; Ctrl-C ends it");
-  if (const Status ok = serve(page->server, args); !ok) return console.fail(ok.error());
+  if (const Status ok = serve(page->server, args, shown); !ok) return console.fail(ok.error());
   return Exit::kOk;
 }
 
@@ -103,6 +147,9 @@ void add_view_command(CLI::App& app,
                    args.choice.avatars,
                    "Body to show the motion on, too (.glb, .vrm, .bvh); may be repeated")
       ->allow_extra_args(false);
+  command->add_option("-x,--constraints",
+                      args.constraints,
+                      "Constraints (.xml) that hold in frames that are dragged in");
   add_page_options(*command, args.page);
   command->add_option("--seconds", args.seconds, "Stop by itself after so long")
       ->check(between(0.001, 1e6));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 
@@ -16,6 +17,7 @@ namespace marey::app {
 /// What `marey view` was asked for.
 struct ViewArguments {
   ViewChoice choice;
+  std::filesystem::path constraints;  ///< Of the first human figure; empty: none.
   PageServerOptions page;
   std::optional<double> seconds;
 };

@@ -58,6 +58,18 @@ live::PageFigure figure_at(const ViewedFigure& figure, std::size_t frame) {
   return out;
 }
 
+void append_frame(const ViewedRecording& recording,
+                  std::uint32_t i,
+                  std::span<const live::PageFigure> figures,
+                  std::string& out) {
+  live::append_frame(
+      {.frame = i + static_cast<std::uint32_t>(std::max(0, recording.first_frame)),
+       .time_s = (recording.first_frame + i) / recording.rate.hz,
+       .sent_s = 0.0,
+       .figures = figures},
+      out);
+}
+
 std::string motion_block(const ViewedRecording& recording) {
   std::string out;
   const auto frames = static_cast<std::uint32_t>(recording.frames);
@@ -69,12 +81,7 @@ std::string motion_block(const ViewedRecording& recording) {
     for (const ViewedFigure& figure : recording.figures) {
       figures.push_back(figure_at(figure, i));
     }
-    live::append_frame(
-        {.frame = i + static_cast<std::uint32_t>(std::max(0, recording.first_frame)),
-         .time_s = (recording.first_frame + i) / recording.rate.hz,
-         .sent_s = 0.0,
-         .figures = figures},
-        out);
+    append_frame(recording, i, figures, out);
   }
   return out;
 }
@@ -91,6 +98,20 @@ live::PageFile page_file(const ViewedRecording& recording) {
 }
 
 }  // namespace
+
+std::string frame_with(const ViewedRecording& recording,
+                       int frame,
+                       std::size_t figure,
+                       const Pose& pose) {
+  std::vector<live::PageFigure> figures;
+  for (const ViewedFigure& one : recording.figures) {
+    figures.push_back(figure_at(one, static_cast<std::size_t>(frame)));
+  }
+  figures[figure].pose = &pose;
+  std::string out;
+  append_frame(recording, static_cast<std::uint32_t>(frame), figures, out);
+  return out;
+}
 
 live::PageSkeleton page_skeleton(const ViewedFigure& figure,
                                  const std::string& media,

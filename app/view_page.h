@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "app/view_recording.h"
@@ -23,6 +24,12 @@ struct PageOfRecording {
 /// Cost: 16 bytes a joint and frame, 16 a marker and frame, and the files of the skins.
 /// Errors: a skin's file cannot be read.
 [[nodiscard]] Result<PageOfRecording> page_of_recording(const ViewedRecording& recording);
+
+/// One frame (from 0) of all figures, as the page is sent it, one of them posed otherwise.
+[[nodiscard]] std::string frame_with(const ViewedRecording& recording,
+                                     int frame,
+                                     std::size_t figure,
+                                     const Pose& pose);
 
 /// A figure as the scene describes it, drawn in `media` if it has a skin.
 [[nodiscard]] live::PageSkeleton page_skeleton(const ViewedFigure& figure,
