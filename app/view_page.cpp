@@ -108,6 +108,7 @@ std::string frame_with(const ViewedRecording& recording,
     figures.push_back(figure_at(one, static_cast<std::size_t>(frame)));
   }
   figures[figure].pose = &pose;
+  figures[figure].balance.reset();  // The recording's is not this posture's.
   std::string out;
   append_frame(recording, static_cast<std::uint32_t>(frame), figures, out);
   return out;
