@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/live_chain.h"
+#include "app/live_guide.h"
 #include "app/live_outputs.h"
 #include "app/live_page.h"
 #include "app/live_recorder.h"
@@ -56,22 +57,45 @@ void tell(const LiveFigures& figures, Console& console) {
   }
 }
 
+LiveGuideOptions guiding(const LiveArguments& arguments) {
+  return {arguments.calibrate,
+          arguments.calibrate && arguments.no_page,
+          !arguments.record.empty(),
+          arguments.guide};
+}
+
+/// Stands for who is yet to be measured.
+Skeleton average_person(const OpenedLive& live) {
+  return make_humanoid(average_proportions(live.prior.stature_m));
+}
+
 Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
   auto outputs = open_outputs(arguments, live, console);
   if (!outputs) return console.fail(outputs.error());
-  auto chain = LiveChain::make(
-      live.body, live.calibration.cameras, live.avatars, live.settings);
-  if (!chain) return console.fail(chain.error());
+  std::optional<LiveChain> chain;
+  if (live.body) {
+    auto made = LiveChain::make(
+        *live.body, live.calibration.cameras, live.avatars, live.settings);
+    if (!made) return console.fail(made.error());
+    chain.emplace(*std::move(made));
+  }
   std::unique_ptr<LiveRecorder> recorder;
   if (!arguments.record.empty()) {
     auto made = LiveRecorder::create(arguments.record, live);
     if (!made) return console.fail(made.error());
     recorder = *std::move(made);
   }
+  std::optional<LiveGuide> guide;
+  if (!live.prior.tags.empty()) {
+    guide.emplace(live, guiding(arguments), console);
+  }
   std::unique_ptr<LivePage> page;
   if (!arguments.no_page) {
-    auto opened =
-        LivePage::open(arguments.page, live, chain->performer(), arguments.record);
+    auto opened = LivePage::open(arguments.page,
+                                 live,
+                                 chain ? chain->performer() : average_person(live),
+                                 arguments.record,
+                                 guide ? &*guide : nullptr);
     if (!opened) return console.fail(opened.error());
     page = *std::move(opened);
     if (arguments.json) {
@@ -88,8 +112,9 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
   catch_stop_signals();
   if (!arguments.seconds) console.say("live; Ctrl-C ends it");
   auto figures = run_live(live,
-                          *chain,
+                          chain,
                           *outputs,
+                          guide ? &*guide : nullptr,
                           recorder.get(),
                           page.get(),
                           options,
@@ -97,6 +122,10 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
                           console);
   if (!figures) return console.fail(figures.error());
   Exit exit = Exit::kOk;
+  if (arguments.calibrate && !guide->has_measured()) {
+    console.warn("nobody was measured");
+    exit = Exit::kQualityGate;
+  }
   if (recorder) {
     if (const Status ok = recorder->finish(); !ok) {
       exit = console.fail(ok.error());
@@ -119,8 +148,12 @@ void add_live(CLI::App& app,
                       live.results,
                       "Folder with calibration.toml and subject.toml, if not the "
                       "session's");
-  command->add_option(
-      "--play", live.play, "Play this trial's videos as if they were cameras");
+  command
+      ->add_option("--play",
+                   live.play,
+                   "Play this trial's videos as if they were cameras; may be repeated: "
+                   "one after the other")
+      ->allow_extra_args(false);
   command->add_flag("--loop", live.loop, "Play them over and over");
   command
       ->add_option("--camera", live.cameras, "Use only this camera; may be repeated")
@@ -154,6 +187,20 @@ void add_live(CLI::App& app,
                    "Where trackers for VRChat go: HOST[:PORT]; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--record", live.record, "Folder for the take of this run");
+  command
+      ->add_flag("--calibrate",
+                 live.calibrate,
+                 "Measure the person first, or again: standing, then moving")
+      ->excludes("--record");
+  command
+      ->add_option(
+          "--stand-s", live.guide.stand_s, "For so long standing still is looked at")
+      ->check(between(0.5, 60.0));
+  command
+      ->add_option("--move-s",
+                   live.guide.move_s,
+                   "For so long moving is looked at; twice that while a part is not seen")
+      ->check(between(5.0, 600.0));
   command->add_option("--seconds", live.seconds, "Stop by itself after so long")
       ->check(between(0.001, 1e6));
   command

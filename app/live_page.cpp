@@ -71,11 +71,13 @@ std::string overload_of(const std::vector<LiveCameraFigures>& cameras,
 Result<std::unique_ptr<LivePage>> LivePage::open(const PageServerOptions& options,
                                                  const OpenedLive& live,
                                                  const Skeleton& performer,
-                                                 const std::filesystem::path& recording) {
+                                                 const std::filesystem::path& recording,
+                                                 LiveGuide* guide) {
   auto page = start_page(options);
   if (!page) return page.error();
   auto out = std::unique_ptr<LivePage>(new LivePage(*std::move(page)));
   out->take_ = recording.string();
+  out->guide_ = guide;
   if (const Status ok = out->make_scene(live, performer); !ok) return ok.error();
   return out;
 }
@@ -89,7 +91,8 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
         {live.calibration.cameras[c], live.calibration.quality[c].rms_px});
   }
   live::PageSkeleton body;
-  body.name = live.body.name.empty() ? "performer" : live.body.name;
+  const std::string& name = live.body ? live.body->name : live.prior.name;
+  body.name = name.empty() ? "performer" : name;
   body.kind = live::PageSkeletonKind::kPerformer;
   body.skeleton = performer;
   body.estimate = true;
@@ -124,8 +127,27 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
   }
   encoders_.resize(scene_.cameras.size());
   tags_seen_.assign(scene_.cameras.size(), 0);
+  if (guide_) scene_.wizard = guide_->told();
   page_.server.publish_text(live::PageMessage::kScene, live::scene_json(scene_));
   return Done{};
+}
+
+void LivePage::on_body(const Body& body, const Skeleton& performer) {
+  live::PageSkeleton& shown = scene_.skeletons.front();
+  if (!body.name.empty()) shown.name = body.name;
+  shown.skeleton = performer;
+  figures_.front().joints = performer.joints.size();
+  if (guide_) scene_.wizard = guide_->told();
+  ++scene_.revision;
+  page_.server.publish_text(live::PageMessage::kScene, live::scene_json(scene_));
+  show_wizard();
+}
+
+void LivePage::show_wizard() {
+  if (!guide_) return;
+  shown_step_ = guide_->told().step;
+  page_.server.publish_text(live::PageMessage::kWizard,
+                            live::wizard_json(guide_->told()));
 }
 
 /// What is said to a page that asked; empty: nothing.
@@ -142,6 +164,12 @@ std::string LivePage::answer(const std::string& text, LiveRequests& requests) {
   if (const auto* hold = std::get_if<live::ConstraintRequest>(&*request)) {
     const HandleAction action = hold->active ? HandleAction::kStart : HandleAction::kStop;
     return ask({hold->id, action, {}}, requests);
+  }
+  if (const auto* wizard = std::get_if<live::WizardRequest>(&*request)) {
+    if (!guide_) return "the session does not say who is to be measured";
+    const auto refusal = guide_->act(wizard->action);
+    show_wizard();
+    return refusal.value_or("");
   }
   const bool is_understood = std::holds_alternative<live::HelloRequest>(*request) ||
                              std::holds_alternative<live::ShownRequest>(*request);
@@ -199,6 +227,7 @@ void LivePage::on_frame(const LiveInstant& instant, const LiveResult& result) {
   for (const CameraTags& view : instant.views) {
     tags_seen_[index(view.camera)] = static_cast<int>(view.tags.size());
   }
+  if (guide_ && guide_->told().step != shown_step_) show_wizard();
   if (page_.server.client_count() == 0) {
     ++frame_;
     return;
@@ -266,6 +295,7 @@ void LivePage::on_status(const LiveFigures& figures,
                          const LiveTimes& lately,
                          TrackState state) {
   note(state, figures);
+  show_wizard();
   live::PageStatus status;
   status.clock_s = since_start_.seconds();
   status.subject = subject_of(state);

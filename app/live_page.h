@@ -23,16 +23,18 @@ namespace marey::app {
 class LivePage final : public LiveWatcher {
  public:
   /// Starts the server with the scene of this run; `recording` is the take's folder, or
-  /// empty. Errors: start_page()'s; a skin's file cannot be read.
+  /// empty. `guide` measures people, or is null; it outlives the page. Errors: start_page()'s; a skin's file cannot be read.
   [[nodiscard]] static Result<std::unique_ptr<LivePage>> open(
       const PageServerOptions& options,
       const OpenedLive& live,
       const Skeleton& performer,
-      const std::filesystem::path& recording);
+      const std::filesystem::path& recording,
+      LiveGuide* guide);
 
   [[nodiscard]] const PageServer& server() const { return page_; }
   [[nodiscard]] bool wants_thumbnails() const override { return thumbnails_wanted_; }
   void hear(LiveRequests& requests) override;
+  void on_body(const Body& body, const Skeleton& performer) override;
   void on_frame(const LiveInstant& instant, const LiveResult& result) override;
   void on_thumbnail(std::size_t camera,
                     std::span<const std::byte> pixels,
@@ -49,9 +51,12 @@ class LivePage final : public LiveWatcher {
   [[nodiscard]] std::string answer(const std::string& text, LiveRequests& requests);
   [[nodiscard]] std::string ask(HandleRequest request, LiveRequests& requests);
   void tell_handles(std::span<const HandleState> handles);
+  void show_wizard();
   void note(reconstruct::TrackState state, const LiveFigures& figures);
 
   PageServer page_;
+  LiveGuide* guide_ = nullptr;
+  live::WizardStep shown_step_ = live::WizardStep::kIdle;
   std::string take_;  ///< The folder of the recording, or empty.
   live::PageScene scene_;
   std::vector<live::PageFigure> figures_;

@@ -56,7 +56,7 @@ Status write_surroundings(const std::filesystem::path& folder, const OpenedLive&
       !ok) {
     return ok;
   }
-  if (const Status ok = recordings::write_subject(folder / "subject.toml", live.body);
+  if (const Status ok = recordings::write_subject(folder / "subject.toml", *live.body);
       !ok) {
     return ok;
   }

@@ -24,6 +24,7 @@ class LiveRecorder {
  public:
   /// Makes the folder and what does not change. Errors: it holds a take already, or
   /// avatars are of a kind that cannot be copied alone (kBadInput); the disk (kDevice).
+  /// Precondition: there is a body.
   [[nodiscard]] static Result<std::unique_ptr<LiveRecorder>> create(
       const std::filesystem::path& folder, const OpenedLive& live);
   ~LiveRecorder();

@@ -149,13 +149,15 @@ void tell_state(TrackState before, TrackState now, Console& console) {
 class Loop {
  public:
   Loop(OpenedLive& live,
-       LiveChain& chain,
+       std::optional<LiveChain>& chain,
        LiveOutputs& outputs,
+       LiveGuide* guide,
        LiveRecorder* recorder,
        LiveWatcher* watcher,
        Console& console)
       : chain_(chain),
         outputs_(outputs),
+        guide_(guide),
         recorder_(recorder),
         watcher_(watcher),
         console_(console),
@@ -182,6 +184,7 @@ class Loop {
       }
     }
     counting_.figures().seconds = watch.seconds();
+    if (guide_) guide_->end();
     tell(groups, cameras, true);
   }
 
@@ -193,15 +196,36 @@ class Loop {
     take_in(group, instant_);
     LiveRequests& requests = outputs_.take_requests();
     if (watcher_) watcher_->hear(requests);
-    const LiveResult& result = chain_.step(instant_, requests);
+    const LiveResult& result =
+        chain_ ? chain_->step(instant_, requests) : nobody(instant_);
     const Stopwatch sending;
-    outputs_.send(result);
+    if (chain_) outputs_.send(result);
     counting_.add(group, result, taken_up, sending.seconds());
     counting_.add_cameras(group);
     tell_state(state_, result.track.state, console_);
     state_ = result.track.state;
     if (recorder_) recorder_->add(instant_, requests, result);
-    if (!watcher_) return;
+    if (watcher_) show(group, result);
+    if (guide_) guide(instant_);
+  }
+
+  /// What a run has to tell while nobody is followed.
+  const LiveResult& nobody(const LiveInstant& instant) {
+    nobody_.number = instant.number;
+    nobody_.time = instant.time;
+    return nobody_;
+  }
+
+  /// Last of all: nothing that goes out waits for it.
+  void guide(const LiveInstant& instant) {
+    guide_->see(instant);
+    auto found = guide_->take_body();
+    if (!found) return;
+    chain_.emplace(std::move(found->chain));
+    if (watcher_) watcher_->on_body(found->body, chain_->performer());
+  }
+
+  void show(const LiveGroup<DetectedPicture>& group, const LiveResult& result) {
     watcher_->on_frame(instant_, result);
     for (const auto& frame : group.frames) {
       if (frame.made->thumbnail.empty()) continue;
@@ -230,14 +254,16 @@ class Loop {
     counting_.forget_lately();
   }
 
-  LiveChain& chain_;
+  std::optional<LiveChain>& chain_;
   LiveOutputs& outputs_;
+  LiveGuide* guide_;
   LiveRecorder* recorder_;
   LiveWatcher* watcher_;
   Console& console_;
   Progress progress_;
   Counting counting_;
   LiveInstant instant_;
+  LiveResult nobody_;
   TrackState state_ = TrackState::kWaiting;
   double last_status_s_ = 0.0;
 };
@@ -256,8 +282,9 @@ capture::GroupFramesOptions grouping(const OpenedLive& live,
 }  // namespace
 
 Result<LiveFigures> run_live(OpenedLive& live,
-                             LiveChain& chain,
+                             std::optional<LiveChain>& chain,
                              LiveOutputs& outputs,
+                             LiveGuide* guide,
                              LiveRecorder* recorder,
                              LiveWatcher* watcher,
                              const LiveRunOptions& options,
@@ -268,7 +295,7 @@ Result<LiveFigures> run_live(OpenedLive& live,
   std::vector<FrameFeed*> feeds;
   for (const auto& feed : live.feeds) feeds.push_back(feed.get());
   const std::vector<capture::ClockModel> clocks(feeds.size());
-  Loop loop(live, chain, outputs, recorder, watcher, console);
+  Loop loop(live, chain, outputs, guide, recorder, watcher, console);
   // Destroyed first: its threads use the cameras.
   Groups groups(feeds,
                 clocks,

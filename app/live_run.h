@@ -9,6 +9,7 @@
 #include "app/console.h"
 #include "app/live_chain.h"
 #include "app/live_figures.h"
+#include "app/live_guide.h"
 #include "app/live_outputs.h"
 #include "app/live_recorder.h"
 #include "app/live_session.h"
@@ -23,6 +24,8 @@ class LiveWatcher {
   [[nodiscard]] virtual bool wants_thumbnails() const { return false; }
   /// Adds what was asked for since the last call.
   virtual void hear(LiveRequests& /*requests*/) {}
+  /// From now on results are this body's.
+  virtual void on_body(const Body& /*body*/, const Skeleton& /*performer*/) {}
   virtual void on_frame(const LiveInstant& instant, const LiveResult& result) = 0;
   /// `picture` as DetectedPicture::thumbnail.
   virtual void on_thumbnail(std::size_t camera,
@@ -47,11 +50,14 @@ struct LiveRunOptions {
 ///
 /// When there is more to do than time, what is newest wins: a picture older than
 /// LiveCameraOptions::stale_after_s is passed over, instants that were not taken up are
-/// skipped for a newer one, and all of it is counted. `recorder` and `watcher` may be null.
+/// skipped for a newer one, and all of it is counted. Without a chain nobody is followed
+/// and nothing sent, until the guide has a body. `guide` (of the same `live`), `recorder`
+/// and `watcher` may be null.
 /// Errors: of the detectors.
 [[nodiscard]] Result<LiveFigures> run_live(OpenedLive& live,
-                                           LiveChain& chain,
+                                           std::optional<LiveChain>& chain,
                                            LiveOutputs& outputs,
+                                           LiveGuide* guide,
                                            LiveRecorder* recorder,
                                            LiveWatcher* watcher,
                                            const LiveRunOptions& options,

@@ -18,11 +18,29 @@ namespace {
 
 using recordings::Session;
 using recordings::Trial;
+/// Those to be played, one after the other; empty: real cameras.
+using Trials = std::vector<const Trial*>;
+
+const recordings::TrialVideo* video_of(const Trial& trial, CameraId camera) {
+  const auto found =
+      std::find_if(trial.videos.begin(), trial.videos.end(), [&](const auto& video) {
+        return video.camera == camera;
+      });
+  return found == trial.videos.end() ? nullptr : &*found;
+}
+
+std::string names_of(const Trials& trials) {
+  std::string names;
+  for (const Trial* trial : trials) {
+    names += (names.empty() ? "\"" : ", \"") + trial->name + "\"";
+  }
+  return names;
+}
 
 /// Cameras of the session that are to be used, in its order.
 Result<std::vector<CameraId>> chosen_cameras(const Session& session,
                                              const LiveArguments& arguments,
-                                             const Trial* trial) {
+                                             const Trials& trials) {
   for (const std::string& name : arguments.cameras) {
     if (std::find(session.cameras.begin(), session.cameras.end(), name) ==
         session.cameras.end()) {
@@ -42,33 +60,36 @@ Result<std::vector<CameraId>> chosen_cameras(const Session& session,
                   arguments.cameras.end(),
                   session.cameras[c]) != arguments.cameras.end();
     const bool is_there =
-        trial ? std::any_of(trial->videos.begin(),
-                            trial->videos.end(),
-                            [&](const auto& video) { return video.camera == id; })
-              : session.devices[c].has_value();
+        trials.empty() ? session.devices[c].has_value()
+                       : std::all_of(trials.begin(), trials.end(), [&](const Trial* one) {
+                           return video_of(*one, id) != nullptr;
+                         });
     if (is_wanted && is_there) chosen.push_back(id);
   }
   if (chosen.size() >= 2) return chosen;
   return bad_input(session.file.string(),
                    std::to_string(chosen.size()) + " of its cameras " +
-                       (trial ? "have a video in trial \"" + trial->name + "\""
-                              : std::string("have a device")) +
+                       (trials.empty() ? std::string("have a device")
+                                       : "have a video in trial " + names_of(trials)) +
                        ", and a body needs two at least",
-                   trial ? "play another trial"
-                         : "give each [[camera]] its device = \"/dev/video0\", or play a "
-                           "recorded trial with --play");
+                   trials.empty()
+                       ? "give each [[camera]] its device = \"/dev/video0\", or play a "
+                         "recorded trial with --play"
+                       : "play another trial");
 }
 
-Result<const Trial*> trial_to_play(const Session& session,
-                                   const LiveArguments& arguments) {
-  if (!arguments.play) return static_cast<const Trial*>(nullptr);
-  const Trial* trial = session.find(*arguments.play);
-  if (trial) return trial;
-  std::string names;
-  for (const Trial& one : session.trials) names += " " + one.name;
-  return bad_input(session.file.string(),
-                   "there is no trial \"" + *arguments.play + "\"",
-                   "choose one of:" + names);
+Result<Trials> trials_to_play(const Session& session, const LiveArguments& arguments) {
+  Trials trials;
+  for (const std::string& wanted : arguments.play) {
+    trials.push_back(session.find(wanted));
+    if (trials.back()) continue;
+    std::string names;
+    for (const Trial& one : session.trials) names += " " + one.name;
+    return bad_input(session.file.string(),
+                     "there is no trial \"" + wanted + "\"",
+                     "choose one of:" + names);
+  }
+  return trials;
 }
 
 std::filesystem::path results_of(const Session& session, const LiveArguments& arguments) {
@@ -115,37 +136,40 @@ Result<recordings::Calibration> calibration_of(const Session& session,
   return out;
 }
 
-Result<std::unique_ptr<VideoFeed>> open_video(const Trial& trial,
+/// Precondition: the camera has a video in every trial.
+Result<std::unique_ptr<VideoFeed>> open_video(const Trials& trials,
                                               CameraId camera,
                                               const std::string& name,
                                               bool loop) {
-  const auto video =
-      std::find_if(trial.videos.begin(), trial.videos.end(), [&](const auto& one) {
-        return one.camera == camera;
-      });
+  std::vector<VideoPart> parts;
+  for (const Trial* trial : trials) {
+    parts.push_back({video_of(*trial, camera)->path});
+    if (!trial->frames) continue;
+    parts.back().first_frame = trial->frames->first;
+    parts.back().last_frame = trial->frames->last;
+  }
   VideoFeedOptions options;
   options.name = name;
-  options.path = video->path;
-  options.rate = trial.rate;
+  options.path = parts.front().path;
+  options.first_frame = parts.front().first_frame;
+  options.last_frame = parts.front().last_frame;
+  options.then.assign(parts.begin() + 1, parts.end());
+  options.rate = trials.front()->rate;
   options.loop = loop;
-  if (trial.frames) {
-    options.first_frame = trial.frames->first;
-    options.last_frame = trial.frames->last;
-  }
   return VideoFeed::open(options);
 }
 
 Status open_feeds(const Session& session,
                   const std::vector<CameraId>& chosen,
-                  const Trial* trial,
+                  const Trials& trials,
                   bool loop,
                   Console& console,
                   OpenedLive& out) {
   const auto warn = [&console](const std::string& text) { console.warn(text); };
   for (std::size_t c = 0; c < chosen.size(); ++c) {
     const std::string& name = session.cameras[index(chosen[c])];
-    if (trial) {
-      auto feed = open_video(*trial, chosen[c], name, loop);
+    if (!trials.empty()) {
+      auto feed = open_video(trials, chosen[c], name, loop);
       if (!feed) return feed.error();
       out.videos.push_back(feed->get());
       out.feeds.push_back(*std::move(feed));
@@ -173,6 +197,34 @@ Status open_feeds(const Session& session,
   return Done{};
 }
 
+/// Who is followed, and who is to be measured.
+Status find_body(const Session& session,
+                 const std::filesystem::path& results,
+                 const LiveArguments& arguments,
+                 OpenedLive& out) {
+  out.subject_file = results / "subject.toml";
+  out.prior = {session.subject.name,
+               session.subject.stature_m,
+               session.subject.mass_kg,
+               session.tags};
+  if (arguments.calibrate && session.tags.empty()) {
+    return bad_input(session.file.string(),
+                     "it does not say who is to be measured, and where tags are worn",
+                     "add [subject] and [[tags.tag]], see docs/formats.md");
+  }
+  const Status there = need_file(out.subject_file, "subject");
+  if (!there && arguments.calibrate) return Done{};
+  if (!there) {
+    Error error = there.error();
+    error.next += "; --calibrate measures a person live";
+    return error;
+  }
+  auto body = recordings::read_subject(out.subject_file);
+  if (!body) return body.error();
+  out.body = *std::move(body);
+  return Done{};
+}
+
 FrameRate rate_of_feeds(const OpenedLive& live) {
   double fastest_hz = 0.0;
   for (const auto& feed : live.feeds) {
@@ -186,9 +238,9 @@ FrameRate rate_of_feeds(const OpenedLive& live) {
 Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
   const auto session = recordings::read_session(arguments.session, {arguments.media});
   if (!session) return session.error();
-  const auto trial = trial_to_play(*session, arguments);
-  if (!trial) return trial.error();
-  const auto chosen = chosen_cameras(*session, arguments, *trial);
+  const auto trials = trials_to_play(*session, arguments);
+  if (!trials) return trials.error();
+  const auto chosen = chosen_cameras(*session, arguments, *trials);
   if (!chosen) return chosen.error();
   const std::filesystem::path results = results_of(*session, arguments);
   OpenedLive out;
@@ -196,12 +248,9 @@ Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
   auto calibration = calibration_of(*session, *chosen, results / "calibration.toml");
   if (!calibration) return calibration.error();
   out.calibration = *std::move(calibration);
-  if (const Status ok = need_file(results / "subject.toml", "subject"); !ok) {
+  if (const Status ok = find_body(*session, results, arguments, out); !ok) {
     return ok.error();
   }
-  auto body = recordings::read_subject(results / "subject.toml");
-  if (!body) return body.error();
-  out.body = *std::move(body);
   for (const auto& path : arguments.avatars) {
     auto avatar = open_avatar(path);
     if (!avatar) return avatar.error();
@@ -226,7 +275,7 @@ Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
   out.settings.lag_known.assign(chosen->size(), false);
   out.detector.families = session->families;
   const Status feeds =
-      open_feeds(*session, *chosen, *trial, arguments.loop, console, out);
+      open_feeds(*session, *chosen, *trials, arguments.loop, console, out);
   if (!feeds) return feeds.error();
   out.settings.rate = rate_of_feeds(out);
   return out;

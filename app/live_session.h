@@ -10,6 +10,7 @@
 
 #include "app/console.h"
 #include "app/frame_feed.h"
+#include "app/guide_subject.h"
 #include "app/live_settings.h"
 #include "app/live_streams.h"
 #include "app/page_server.h"
@@ -18,6 +19,7 @@
 #include "capture/detect_tags.h"
 #include "core/body.h"
 #include "core/result.h"
+#include "reconstruct/fit_subject.h"
 #include "recordings/calibration_file.h"
 
 namespace marey::app {
@@ -27,7 +29,8 @@ struct LiveArguments {
   std::filesystem::path session;  ///< session.toml or its folder.
   /// The folder with calibration.toml and subject.toml; empty: the session's.
   std::filesystem::path results;
-  std::optional<std::string> play;  ///< A trial whose videos are the cameras.
+  /// Trials whose videos are the cameras, one after the other; empty: real cameras.
+  std::vector<std::string> play;
   bool loop = false;
   std::vector<std::string> cameras;  ///< Those to use; empty: all.
   std::optional<std::filesystem::path> media;
@@ -44,13 +47,17 @@ struct LiveArguments {
   bool no_page = false;
   PageServerOptions page;
   bool json = false;
+  bool calibrate = false;  ///< Measure the person, before or again.
+  GuideOptions guide;
 };
 
 /// A live run before its first frame.
 struct OpenedLive {
   std::string session;
   recordings::Calibration calibration;  ///< Of the cameras in use, in their order.
-  Body body;
+  std::optional<Body> body;  ///< nullopt: is yet to be measured.
+  reconstruct::SubjectPrior prior;  ///< Who is to be measured, if anybody.
+  std::filesystem::path subject_file;
   std::vector<OpenedAvatar> avatars;
   LiveSettings settings;
   std::vector<StreamTargets> targets;  ///< By stream.
@@ -62,7 +69,8 @@ struct OpenedLive {
 
 /// Reads and opens all that a live run needs, cameras last.
 ///
-/// Errors (kBadInput): the session's; no calibration or subject, and what makes them; a
+/// Errors (kBadInput): the session's; no calibration, or subject but to calibrate,
+/// and what makes them; nothing known of whom to calibrate; a
 /// camera that the calibration does not have, or of another picture size; fewer than two
 /// cameras with what was asked to be played; an avatar that is not humanoid; addresses.
 /// (kDevice): a camera that cannot be opened.

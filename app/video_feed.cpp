@@ -21,6 +21,19 @@ Timestamp monotonic_now() {
   return std::chrono::steady_clock::now().time_since_epoch();
 }
 
+Status check_sizes(const capture::StreamInfo& first, const std::vector<VideoPart>& then) {
+  for (const VideoPart& part : then) {
+    const auto source = capture::open_frames(part.path, part.path.string());
+    if (!source) return source.error();
+    const capture::StreamInfo& info = (*source)->info();
+    if (info.width_px == first.width_px && info.height_px == first.height_px) continue;
+    return bad_input(part.path.string(),
+                     "its pictures are of another size than those played before it",
+                     "play trials that one camera recorded");
+  }
+  return Done{};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<VideoFeed>> VideoFeed::open(const VideoFeedOptions& options) {
@@ -33,8 +46,13 @@ Result<std::unique_ptr<VideoFeed>> VideoFeed::open(const VideoFeedOptions& optio
                      "nobody knows how many frames it has a second",
                      "give the trial its fps in session.toml");
   }
-  auto feed =
-      std::unique_ptr<VideoFeed>(new VideoFeed(options, *std::move(source), *rate));
+  std::vector<VideoPart> parts{{options.path, options.first_frame, options.last_frame}};
+  parts.insert(parts.end(), options.then.begin(), options.then.end());
+  if (const Status ok = check_sizes((*source)->info(), options.then); !ok) {
+    return ok.error();
+  }
+  auto feed = std::unique_ptr<VideoFeed>(
+      new VideoFeed(options, std::move(parts), *std::move(source), *rate));
   if (const Status ok = feed->seek_first(); !ok) return ok.error();
   VideoFeed* const raw = feed.get();
   const auto first = raw->decode_one(raw->ring_.front());
@@ -50,11 +68,13 @@ Result<std::unique_ptr<VideoFeed>> VideoFeed::open(const VideoFeedOptions& optio
 }
 
 VideoFeed::VideoFeed(const VideoFeedOptions& options,
+                     std::vector<VideoPart> parts,
                      std::unique_ptr<capture::FrameSource> source,
                      FrameRate rate)
     : options_(options),
       rate_(rate),
       source_(std::move(source)),
+      parts_(std::move(parts)),
       ring_(static_cast<std::size_t>(options.buffers) + kAhead) {
   settings_.format = capture::PixelFormat::kGrey;
   settings_.width_px = source_->info().width_px;
@@ -81,15 +101,16 @@ Timestamp VideoFeed::due(std::int64_t number) const {
          Timestamp(std::llround(1e9 * static_cast<double>(number) / rate_.hz));
 }
 
-/// Opens the file anew if it was read on, and passes over what comes before the trial.
+/// Opens the part's file if it was read on, and passes over what comes before the trial.
 Status VideoFeed::seek_first() {
+  const VideoPart& part = parts_[part_];
   if (next_in_file_ > 0) {
-    auto again = capture::open_frames(options_.path, options_.path.string());
+    auto again = capture::open_frames(part.path, part.path.string());
     if (!again) return again.error();
     source_ = *std::move(again);
     next_in_file_ = 0;
   }
-  while (next_in_file_ < options_.first_frame) {
+  while (next_in_file_ < part.first_frame) {
     const auto frame = source_->next();
     if (!frame) return frame.error();
     if (!*frame) break;
@@ -98,9 +119,10 @@ Status VideoFeed::seek_first() {
   return Done{};
 }
 
-/// The next picture; false at the end of the trial. Damaged ones are grey all over.
+/// The next picture; false at the end of the part. Damaged ones are grey all over.
 Result<bool> VideoFeed::decode_one(Picture& picture) {
-  if (options_.last_frame && next_in_file_ > *options_.last_frame) return false;
+  const std::optional<int> last = parts_[part_].last_frame;
+  if (last && next_in_file_ > *last) return false;
   const auto frame = source_->next();
   if (!frame) return frame.error();
   if (!*frame) return false;
@@ -121,6 +143,17 @@ Result<bool> VideoFeed::decode_one(Picture& picture) {
   return true;
 }
 
+/// As decode_one(), from part to part; false at the end of the last one. A part without a
+/// picture is the end, lest a loop of them go on for ever.
+Result<bool> VideoFeed::decode_next(Picture& picture) {
+  auto decoded = decode_one(picture);
+  const bool is_last = part_ + 1 == parts_.size();
+  if (!decoded || *decoded || (is_last && !options_.loop)) return decoded;
+  part_ = is_last ? 0 : part_ + 1;
+  if (const Status ok = seek_first(); !ok) return ok.error();
+  return decode_one(picture);
+}
+
 void VideoFeed::decode(const std::stop_token& stop) {
   while (true) {
     Picture* place = nullptr;
@@ -132,14 +165,7 @@ void VideoFeed::decode(const std::stop_token& stop) {
       // Nobody else touches places beyond the count.
       place = &ring_[(first_ + count_) % ring_.size()];
     }
-    auto decoded = decode_one(*place);
-    if (decoded && !*decoded && options_.loop && next_number_ > 0) {
-      if (const Status ok = seek_first(); !ok) {
-        decoded = ok.error();
-      } else {
-        decoded = decode_one(*place);
-      }
-    }
+    const auto decoded = decode_next(*place);
     const std::lock_guard lock(mutex_);
     if (!decoded) {
       events_.push_back({monotonic_now(), "lost: " + decoded.error().message()});

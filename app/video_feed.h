@@ -20,11 +20,19 @@
 
 namespace marey::app {
 
+/// What of a video is to be seen.
+struct VideoPart {
+  std::filesystem::path path;       ///< A video or a folder of images.
+  int first_frame = 0;              ///< Frames before it are passed over.
+  std::optional<int> last_frame{};  ///< Inclusive; nullopt: to the end.
+};
+
 struct VideoFeedOptions {
   std::string name;                     ///< Of the camera, in messages.
-  std::filesystem::path path;           ///< A video or a folder of images.
-  int first_frame = 0;                  ///< Frames before it are passed over.
-  std::optional<int> last_frame{};      ///< Inclusive; nullopt: to the end.
+  std::filesystem::path path;           ///< These three as in VideoPart.
+  int first_frame = 0;
+  std::optional<int> last_frame{};
+  std::vector<VideoPart> then{};        ///< What follows, of pictures of the same size.
   std::optional<FrameRate> rate{};      ///< nullopt: as the video says.
   bool loop = false;                    ///< From the last frame on to the first.
   int buffers = 4;                      ///< Frames that wait for the reader, as a driver's.
@@ -36,8 +44,8 @@ struct VideoFeedOptions {
 /// Where decoding cannot keep the pace, frames come late and keep their instants.
 class VideoFeed final : public FrameFeed {
  public:
-  /// Opens the video and decodes its first frame. Errors: open_frames()'s; a rate that
-  /// nobody knows (kBadInput).
+  /// Opens the videos and decodes the first frame. Errors: open_frames()'s; a rate that
+  /// nobody knows; pictures of another size in what follows (kBadInput).
   [[nodiscard]] static Result<std::unique_ptr<VideoFeed>> open(
       const VideoFeedOptions& options);
   ~VideoFeed() override;
@@ -61,10 +69,12 @@ class VideoFeed final : public FrameFeed {
   };
 
   VideoFeed(const VideoFeedOptions& options,
+            std::vector<VideoPart> parts,
             std::unique_ptr<capture::FrameSource> source,
             FrameRate rate);
   void decode(const std::stop_token& stop);
   [[nodiscard]] Status seek_first();
+  [[nodiscard]] Result<bool> decode_next(Picture& picture);
   [[nodiscard]] Result<bool> decode_one(Picture& picture);
   [[nodiscard]] Timestamp due(std::int64_t number) const;
   void drop_stale(Timestamp now);
@@ -75,6 +85,8 @@ class VideoFeed final : public FrameFeed {
   FrameRate rate_;
   // Of the thread that decodes.
   std::unique_ptr<capture::FrameSource> source_;
+  const std::vector<VideoPart> parts_;  ///< At least one.
+  std::size_t part_ = 0;
   int next_in_file_ = 0;
   std::int64_t next_number_ = 0;
 

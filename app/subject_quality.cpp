@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/subject_quality.h"
+
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+#include <glm/geometric.hpp>
+
+namespace marey::app {
+namespace {
+
+constexpr double kPoorSigma_m = 0.01;
+constexpr double kPoorRms_px = 5.0;
+constexpr double kPoorRatio = 0.15;
+constexpr std::size_t kTagsPerUnplaced = 5;
+
+std::string format(const char* form, double a, double b = 0.0) {
+  char text[64];
+  std::snprintf(text, sizeof text, form, a, b);
+  return text;
+}
+
+/// The bone from its own joint to its child's.
+live::WizardQuality length_of(const Body& body, HumanBone bone, HumanBone child) {
+  const double length_m = glm::length(body.proportions[child]);
+  const double sigma_m = body.joint_centre_sigma_m[index(child)];
+  return {in_words(bone),
+          format("%.1f cm \u00b1 %.1f", 100.0 * length_m, 100.0 * sigma_m),
+          sigma_m <= kPoorSigma_m};
+}
+
+live::WizardQuality unplaced_of(const reconstruct::SubjectFit& fit) {
+  std::string names;
+  for (const TagId id : fit.unplaced) {
+    names += (names.empty() ? "" : ", ") + std::to_string(number(id));
+  }
+  const std::size_t all = fit.body.tags.size() + fit.unplaced.size();
+  return {"tags without a place",
+          names.empty() ? "none" : names,
+          kTagsPerUnplaced * fit.unplaced.size() <= all};
+}
+
+}  // namespace
+
+std::string in_words(HumanBone bone) {
+  std::string words;
+  for (const char letter : name(bone)) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (std::isupper(code)) words += ' ';
+    words += static_cast<char>(std::tolower(code));
+  }
+  return words;
+}
+
+std::vector<live::WizardQuality> quality_of(const reconstruct::SubjectFit& fit) {
+  std::vector<live::WizardQuality> out;
+  for (const HumanLimb& limb : human_limbs()) {
+    out.push_back(length_of(fit.body, limb.upper, limb.lower));
+    out.push_back(length_of(fit.body, limb.lower, limb.end));
+  }
+  out.push_back({"distance from what was seen",
+                 format("%.2f px", fit.rms_px),
+                 fit.rms_px <= kPoorRms_px});
+  out.push_back({"limbs to an average person's",
+                 format("%.0f %%", 100.0 * fit.limb_ratio),
+                 std::abs(fit.limb_ratio - 1.0) <= kPoorRatio});
+  out.push_back(unplaced_of(fit));
+  return out;
+}
+
+}  // namespace marey::app
