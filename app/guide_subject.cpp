@@ -26,7 +26,7 @@ constexpr double kStillShare = 0.015;
 constexpr std::size_t kFewestShifts = 4;
 /// Instants that are further apart do not count as the time between them.
 constexpr double kLongestStep_s = 0.2;
-/// Instants in which two cameras saw a tag until its part counts as seen.
+/// Instants in which a part was seen twice until it counts as seen.
 constexpr int kPairs = 10;
 // What is enough for those who are in a hurry, and for recordings that end.
 constexpr double kLeastStand_s = 0.5;
@@ -231,7 +231,9 @@ void SubjectGuide::move(const LiveInstant& instant) {
   }
   count_time(instant.time);
   keep(instant, material_.moving);
-  for (std::size_t t = 0; t < now_.size(); ++t) twice_[t] += now_[t] >= 2 ? 1 : 0;
+  for (std::size_t t = 0; t < now_.size(); ++t) {
+    if (sightings_of(setup_.prior.tags[t].segment) >= 2) ++twice_[t];
+  }
   const std::set<HumanBone> seen = parts_of(twice_, kPairs);
   const double time_share = std::min(counted_s_ / options_.move_s, 1.0);
   const double part_share =
@@ -242,7 +244,7 @@ void SubjectGuide::move(const LiveInstant& instant) {
         static_cast<std::size_t>(time_share * static_cast<double>(kMoves.size()));
     told_.text = kMoves[std::min(which, kMoves.size() - 1)];
   } else {
-    told_.text = "Turn so that two cameras see it at once. " + missing_parts(seen);
+    told_.text = "Turn so that the cameras see more of you. " + missing_parts(seen);
   }
   const bool is_over = counted_s_ >= 2.0 * options_.move_s;
   if (is_over || (counted_s_ >= options_.move_s && seen.size() == parts_.size())) {
@@ -295,6 +297,15 @@ void SubjectGuide::keep(const LiveInstant& instant,
     tags = view.tags;
     for (TagDetection& tag : tags) tag.corners_px = unshrunk(tag.corners_px, shrinkage);
   }
+}
+
+/// How often a part is seen in this instant, over its tags and all cameras.
+int SubjectGuide::sightings_of(HumanBone part) const {
+  int sightings = 0;
+  for (std::size_t t = 0; t < now_.size(); ++t) {
+    if (setup_.prior.tags[t].segment == part) sightings += now_[t];
+  }
+  return sightings;
 }
 
 /// Parts of which a tag has at least so many.

@@ -49,7 +49,8 @@ struct GuideMaterial {
 /// - Stand: counts while the hips and most parts of the body are seen; begins anew when
 ///   somebody moves by more than some centimetres. Goes on to move by itself.
 /// - Move: counts while the hips are seen, and waits for every part of the body that wears
-///   tags to be seen by two cameras at once. Goes on to solve by itself.
+///   tags to be seen twice at once, by two cameras or of two tags. Goes on to solve by
+///   itself.
 class SubjectGuide {
  public:
   /// Preconditions: cameras and rms_px of one number, at least one tag.
@@ -85,6 +86,7 @@ class SubjectGuide {
   void keep(const LiveInstant& instant, std::vector<CameraDetections>& out) const;
   void count_time(Timestamp time);
   [[nodiscard]] bool has_moved(const LiveInstant& instant);
+  [[nodiscard]] int sightings_of(HumanBone part) const;
   [[nodiscard]] std::set<HumanBone> parts_of(const std::vector<int>& counts,
                                              int least) const;
   [[nodiscard]] std::string missing_parts(const std::set<HumanBone>& there) const;
@@ -101,7 +103,7 @@ class SubjectGuide {
   bool was_restless_ = false;
   std::vector<std::vector<int>> cells_;  ///< By camera and cell: tags seen there.
   std::vector<int> now_;    ///< By tag: cameras that see it in this instant.
-  std::vector<int> twice_;  ///< By tag: instants in which two cameras saw it.
+  std::vector<int> twice_;  ///< By tag: instants in which its part was seen twice.
   /// By camera and tag: where its centre was as the standing began. [px]
   std::vector<std::vector<std::optional<glm::dvec2>>> stood_px_;
   std::vector<double> shifts_;

@@ -207,6 +207,28 @@ void expect_refused(const Words& words, int exit_code, const std::string& becaus
   EXPECT_TRUE(run.out.empty()) << run.out;
 }
 
+// Of too short a stand nobody is measured, and nothing written.
+TEST(LiveCalibration, NeedsASubjectToStandAndNoSubjectBefore) {
+  const ScratchFolder folder;
+  std::filesystem::copy(kResults / "calibration.toml", folder / "calibration.toml");
+  const ProgramRun run = run_program(
+      kProgram,
+      {"live", kSample.string(), "--results", folder.path().string(), "--play", "static",
+       "--calibrate", "--stand-s", "60", "--wait-ms", "500", "--json", "--no-page"});
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_NE(run.err.find("standing still for long enough"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("nobody was measured"), std::string::npos) << run.err;
+  EXPECT_GT(nlohmann::json::parse(run.out)["frames"], 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "subject.toml"));
+}
+
+TEST(LiveRefuses, ToMeasureWhileATakeIsRecorded) {
+  const ScratchFolder folder;
+  const ProgramRun run = run_program(
+      kProgram, with(played(), {"--calibrate", "--record", (folder / "take").string()}));
+  EXPECT_EQ(run.exit_code, 2) << run.err;
+}
+
 TEST(LiveRefuses, SessionsWithoutCalibrationOrSubject) {
   const ScratchFolder folder;
   const Words live{"live", kSample.string(), "--play", "walk", "--results"};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/video_feed.h"
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <string>
@@ -111,6 +112,24 @@ TEST(VideoFeed, PlaysARangeOverAndOver) {
     EXPECT_EQ(frame->sequence, static_cast<std::uint32_t>(k));
   }
   EXPECT_FALSE(feed->is_over());
+}
+
+TEST(VideoFeed, PlaysOneVideoAfterTheOther) {
+  const testing::ScratchFolder first;
+  const testing::ScratchFolder second;
+  VideoFeedOptions options{.name = "left", .path = make_video(first, 2)};
+  options.then = {{make_video(second, 6), 3, 4}};
+  options.loop = true;
+  options.buffers = 100;
+  const auto feed = open(options);
+  feed->begin_at(now());
+  constexpr std::array kShown{0, 1, 3, 4};
+  for (std::size_t k = 0; k < 9; ++k) {
+    const auto frame = feed->next(milliseconds(60000));
+    ASSERT_TRUE(frame);
+    EXPECT_NEAR(grey_of(*frame), 20 * kShown[k % 4], 2) << k;
+    EXPECT_EQ(frame->sequence, static_cast<std::uint32_t>(k));
+  }
 }
 
 TEST(VideoFeed, RefusesWhatIsNoVideoAndRangesBeyondTheEnd) {
