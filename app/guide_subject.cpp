@@ -143,7 +143,7 @@ void SubjectGuide::begin_move() {
 void SubjectGuide::begin_solve() {
   told_.step = WizardStep::kSolve;
   told_.title = "Wait";
-  told_.text = "The body is measured from what was seen. This takes some seconds.";
+  told_.text = "The body is measured from what was seen. This can take a minute.";
   told_.progress = 0.0;
   has_material_ = true;
 }

@@ -39,7 +39,7 @@ class LiveGuide {
   [[nodiscard]] std::optional<std::string> act(live::WizardAction action);
   /// Takes some microseconds, but for the instant in which a body is accepted.
   void see(const LiveInstant& instant);
-  /// No instant follows. Waits for what is being solved, some seconds, and in a run by
+  /// No instant follows. Waits for what is being solved, up to a minute, and in a run by
   /// itself keeps it if it is good.
   void end();
   /// The body that was accepted since the last call.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/subject_quality.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -12,6 +13,9 @@ namespace marey::app {
 namespace {
 
 constexpr double kPoorSigma_m = 0.01;
+/// People's sides differ by less: a limb that was hardly seen is wrong by more than its
+/// sigma says.
+constexpr double kPoorSide = 0.05;
 constexpr double kPoorRms_px = 5.0;
 constexpr double kPoorRatio = 0.15;
 constexpr std::size_t kTagsPerUnplaced = 5;
@@ -25,10 +29,12 @@ std::string format(const char* form, double a, double b = 0.0) {
 /// The bone from its own joint to its child's.
 live::WizardQuality length_of(const Body& body, HumanBone bone, HumanBone child) {
   const double length_m = glm::length(body.proportions[child]);
+  const double other_m = glm::length(body.proportions[mirrored(child)]);
   const double sigma_m = body.joint_centre_sigma_m[index(child)];
   return {in_words(bone),
           format("%.1f cm \u00b1 %.1f", 100.0 * length_m, 100.0 * sigma_m),
-          sigma_m <= kPoorSigma_m};
+          sigma_m <= kPoorSigma_m &&
+              std::abs(length_m - other_m) <= kPoorSide * std::max(length_m, other_m)};
 }
 
 live::WizardQuality unplaced_of(const reconstruct::SubjectFit& fit) {

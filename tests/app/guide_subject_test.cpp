@@ -139,6 +139,7 @@ TEST_F(Guiding, WhatIsGoodIsAcceptedAndWhatIsPoorIsToldSo) {
   EXPECT_EQ(guide_.told().error, "the disk is full.");
 
   fit.body.joint_centre_sigma_m[index(HumanBone::kLeftHand)] = 0.02;
+  SubjectGuide third = other;
   other.finish(fit);
   EXPECT_EQ(other.step(), WizardStep::kDone);
   EXPECT_FALSE(other.is_good());
@@ -146,6 +147,12 @@ TEST_F(Guiding, WhatIsGoodIsAcceptedAndWhatIsPoorIsToldSo) {
                                  other.told().quality.end(),
                                  [](const auto& one) { return !one.good; });
   EXPECT_EQ(poor->name, "left lower arm");
+
+  fit.body.joint_centre_sigma_m.fill(0.002);
+  fit.body.proportions[HumanBone::kRightFoot] *= 0.85;
+  third.finish(fit);
+  EXPECT_EQ(third.step(), WizardStep::kDone);
+  EXPECT_FALSE(third.is_good()) << "legs of different lengths";
 }
 
 TEST_F(Guiding, WhoMovesHasNotStood) {
