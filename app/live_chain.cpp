@@ -62,6 +62,7 @@ Result<LiveChain> LiveChain::make(const Body& body,
     if (!told) return told.error();
     live::VmcEncoderOptions encoding;
     encoding.mtu_bytes = stream.mtu_bytes;
+    encoding.begin = settings.vmc_begin;
     encoding.info.listen_port = stream.listen_port;
     if (avatar) {
       encoding.info.vrm_path = avatar->file.filename().string();

@@ -9,8 +9,8 @@
 #include "app/live_guide.h"
 #include "app/live_outputs.h"
 #include "app/live_page.h"
-#include "app/live_recorder.h"
 #include "app/live_run.h"
+#include "app/live_takes.h"
 #include "app/option_checks.h"
 #include "app/stop_signal.h"
 #include "app/view_commands.h"
@@ -79,11 +79,13 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
     if (!made) return console.fail(made.error());
     chain.emplace(*std::move(made));
   }
-  std::unique_ptr<LiveRecorder> recorder;
+  LiveTakes takes(live,
+                  arguments.record.empty() ? live.folder / "takes" / "live"
+                                           : arguments.record,
+                  console);
   if (!arguments.record.empty()) {
-    auto made = LiveRecorder::create(arguments.record, live);
-    if (!made) return console.fail(made.error());
-    recorder = *std::move(made);
+    const Status ok = takes.begin_with_run(arguments.record);
+    if (!ok) return console.fail(ok.error());
   }
   std::optional<LiveGuide> guide;
   if (!live.prior.tags.empty()) {
@@ -94,7 +96,6 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
     auto opened = LivePage::open(arguments.page,
                                  live,
                                  chain ? chain->performer() : average_person(live),
-                                 arguments.record,
                                  guide ? &*guide : nullptr);
     if (!opened) return console.fail(opened.error());
     page = *std::move(opened);
@@ -115,7 +116,7 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
                           chain,
                           *outputs,
                           guide ? &*guide : nullptr,
-                          recorder.get(),
+                          &takes,
                           page.get(),
                           options,
                           stop_wanted,
@@ -126,13 +127,10 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
     console.warn("nobody was measured");
     exit = Exit::kQualityGate;
   }
-  if (recorder) {
-    if (const Status ok = recorder->finish(); !ok) {
-      exit = console.fail(ok.error());
-    } else {
-      console.say("recorded to " + arguments.record.string());
-    }
-  }
+  if (const Status ok = takes.finish(); !ok) exit = console.fail(ok.error());
+  figures->recording.reset();
+  figures->takes = takes.finished();
+  figures->recording_trouble = takes.trouble();
   tell(*figures, console);
   if (arguments.json) std::fputs(live_figures_text(*figures).c_str(), stdout);
   return exit;

@@ -74,6 +74,7 @@ std::string live_figures_text(const LiveFigures& figures) {
                               {"p95_ms", rounded(1000.0 * minute.p95_s)},
                               {"resident_mb", rounded(minute.resident_mb)}});
   }
+  out["takes"] = figures.takes;
   if (figures.recording_trouble) {
     out["recording_trouble"] = figures.recording_trouble->message();
   }

@@ -49,6 +49,13 @@ struct LiveMinute {
   double resident_mb = 0.0;  ///< Memory of the process.
 };
 
+/// What is being recorded.
+struct LiveRecording {
+  std::string folder{};  ///< Empty: it is being made.
+  double seconds = 0.0;  ///< That can be replayed.
+  std::string trouble{};  ///< Why it ended; empty: none.
+};
+
 /// What a live run did.
 struct LiveFigures {
   long frames = 0;    ///< Instants that were solved.
@@ -60,6 +67,8 @@ struct LiveFigures {
   std::vector<LiveCameraFigures> cameras;
   std::vector<OutputCounts> outputs;
   std::vector<LiveMinute> minutes;
+  std::optional<LiveRecording> recording;  ///< Under way.
+  std::vector<std::string> takes;          ///< Folders of those that are whole.
   std::optional<Error> recording_trouble;
 
   explicit LiveFigures(std::size_t camera_count) : times(camera_count) {}

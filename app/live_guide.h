@@ -17,7 +17,7 @@ namespace marey::app {
 struct LiveGuideOptions {
   bool begin = false;      ///< At once, without being asked.
   bool by_itself = false;  ///< Accepts what is good and begins anew after what is not.
-  bool is_recording = false;  ///< A take has one body: nobody is measured meanwhile.
+  bool is_recording = false;  ///< As set_recording().
   GuideOptions steps{};
 };
 
@@ -37,6 +37,8 @@ class LiveGuide {
 
   /// Why not, or nullopt.
   [[nodiscard]] std::optional<std::string> act(live::WizardAction action);
+  /// A take has one body: nobody begins to be measured meanwhile.
+  void set_recording(bool on) { options_.is_recording = on; }
   /// Takes some microseconds, but for the instant in which a body is accepted.
   void see(const LiveInstant& instant);
   /// No instant follows. Waits for what is being solved, up to a minute, and in a run by

@@ -71,13 +71,12 @@ std::string overload_of(const std::vector<LiveCameraFigures>& cameras,
 Result<std::unique_ptr<LivePage>> LivePage::open(const PageServerOptions& options,
                                                  const OpenedLive& live,
                                                  const Skeleton& performer,
-                                                 const std::filesystem::path& recording,
                                                  LiveGuide* guide) {
   auto page = start_page(options);
   if (!page) return page.error();
   auto out = std::unique_ptr<LivePage>(new LivePage(*std::move(page)));
-  out->take_ = recording.string();
   out->guide_ = guide;
+  out->has_body_ = live.body.has_value();
   if (const Status ok = out->make_scene(live, performer); !ok) return ok.error();
   return out;
 }
@@ -137,6 +136,7 @@ void LivePage::on_body(const Body& body, const Skeleton& performer) {
   if (!body.name.empty()) shown.name = body.name;
   shown.skeleton = performer;
   figures_.front().joints = performer.joints.size();
+  has_body_ = true;
   if (guide_) scene_.wizard = guide_->told();
   ++scene_.revision;
   page_.server.publish_text(live::PageMessage::kScene, live::scene_json(scene_));
@@ -164,6 +164,11 @@ std::string LivePage::answer(const std::string& text, LiveRequests& requests) {
   if (const auto* hold = std::get_if<live::ConstraintRequest>(&*request)) {
     const HandleAction action = hold->active ? HandleAction::kStart : HandleAction::kStop;
     return ask({hold->id, action, {}}, requests);
+  }
+  if (const auto* record = std::get_if<live::RecordRequest>(&*request)) {
+    if (record->on && !has_body_) return "nobody was measured yet, whom takes could follow";
+    wish_ = record->on;
+    return {};
   }
   if (const auto* wizard = std::get_if<live::WizardRequest>(&*request)) {
     if (!guide_) return "the session does not say who is to be measured";
@@ -329,11 +334,8 @@ void LivePage::on_status(const LiveFigures& figures,
     if (output.counts.refused > 0) one.detail = "nobody listens there";
     status.outputs.push_back(std::move(one));
   }
-  if (!take_.empty()) {
-    status.recording = live::PageRecording{
-        take_,
-        status.clock_s,
-        figures.recording_trouble ? figures.recording_trouble->message() : ""};
+  if (const auto& now = figures.recording) {
+    status.recording = live::PageRecording{now->folder, now->seconds, now->trouble};
   }
   status.clients = page_.server.client_count();
   status.messages = notes_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/live_run.h"
@@ -22,19 +23,19 @@ namespace marey::app {
 /// that does not keep up misses frames, and never delays the run.
 class LivePage final : public LiveWatcher {
  public:
-  /// Starts the server with the scene of this run; `recording` is the take's folder, or
-  /// empty. `guide` measures people, or is null; it outlives the page. Errors: start_page()'s; a skin's file cannot be read.
+  /// Starts the server with the scene of this run. `guide` measures people, or is null; it
+  /// outlives the page. Errors: start_page()'s; a skin's file cannot be read.
   [[nodiscard]] static Result<std::unique_ptr<LivePage>> open(
       const PageServerOptions& options,
       const OpenedLive& live,
       const Skeleton& performer,
-      const std::filesystem::path& recording,
       LiveGuide* guide);
 
   [[nodiscard]] const PageServer& server() const { return page_; }
   [[nodiscard]] bool wants_thumbnails() const override { return thumbnails_wanted_; }
   void hear(LiveRequests& requests) override;
   void on_body(const Body& body, const Skeleton& performer) override;
+  std::optional<bool> record_wish() override { return std::exchange(wish_, {}); }
   void on_frame(const LiveInstant& instant, const LiveResult& result) override;
   void on_thumbnail(std::size_t camera,
                     std::span<const std::byte> pixels,
@@ -57,7 +58,8 @@ class LivePage final : public LiveWatcher {
   PageServer page_;
   LiveGuide* guide_ = nullptr;
   live::WizardStep shown_step_ = live::WizardStep::kIdle;
-  std::string take_;  ///< The folder of the recording, or empty.
+  bool has_body_ = false;
+  std::optional<bool> wish_;  ///< To record, or not to.
   live::PageScene scene_;
   std::vector<live::PageFigure> figures_;
   std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.

@@ -47,7 +47,21 @@ Status copy_avatar(const std::filesystem::path& file,
   return Done{};
 }
 
-Status write_surroundings(const std::filesystem::path& folder, const OpenedLive& live) {
+/// Takes away what create() made of a folder.
+void forget(const std::filesystem::path& folder, bool was_there) {
+  std::error_code ignored;
+  if (!was_there) {
+    std::filesystem::remove_all(folder, ignored);
+    return;
+  }
+  for (const char* name : {"calibration.toml", "subject.toml", kAvatars}) {
+    std::filesystem::remove_all(folder / name, ignored);
+  }
+}
+
+Status write_surroundings(const std::filesystem::path& folder,
+                          const OpenedLive& live,
+                          const Body& body) {
   std::error_code problem;
   std::filesystem::create_directories(folder / kAvatars, problem);
   if (problem) return disk(folder, problem);
@@ -56,8 +70,7 @@ Status write_surroundings(const std::filesystem::path& folder, const OpenedLive&
       !ok) {
     return ok;
   }
-  if (const Status ok = recordings::write_subject(folder / "subject.toml", *live.body);
-      !ok) {
+  if (const Status ok = recordings::write_subject(folder / "subject.toml", body); !ok) {
     return ok;
   }
   for (const OpenedAvatar& avatar : live.avatars) {
@@ -69,15 +82,24 @@ Status write_surroundings(const std::filesystem::path& folder, const OpenedLive&
 }  // namespace
 
 Result<std::unique_ptr<LiveRecorder>> LiveRecorder::create(
-    const std::filesystem::path& folder, const OpenedLive& live) {
+    const std::filesystem::path& folder,
+    const OpenedLive& live,
+    const Body& body,
+    const LiveSettings& settings) {
   std::error_code ignored;
-  if (std::filesystem::exists(folder, ignored) &&
-      !std::filesystem::is_empty(folder, ignored)) {
+  const bool was_there = std::filesystem::exists(folder, ignored);
+  if (was_there && !std::filesystem::is_empty(folder, ignored)) {
     return bad_input(folder.string(),
                      "the folder is not empty, or is a file",
                      "record into a new folder");
   }
-  if (const Status ok = write_surroundings(folder, live); !ok) return ok.error();
+  const auto give_up = [&](const Error& error) {
+    forget(folder, was_there);
+    return error;
+  };
+  if (const Status ok = write_surroundings(folder, live, body); !ok) {
+    return give_up(ok.error());
+  }
   recordings::LiveTakeHead head;
   head.session = live.session;
   head.started = utc_now();
@@ -85,9 +107,9 @@ Result<std::unique_ptr<LiveRecorder>> LiveRecorder::create(
   for (const Camera& camera : live.calibration.cameras) {
     head.cameras.push_back(camera.name);
   }
-  head.settings = live_settings_text(live.settings);
+  head.settings = live_settings_text(settings);
   auto writer = LiveTakeWriter::create(folder / recordings::kLiveTakeFile, head);
-  if (!writer) return writer.error();
+  if (!writer) return give_up(writer.error());
   auto recorder = std::unique_ptr<LiveRecorder>(new LiveRecorder(*std::move(writer)));
   LiveRecorder* const raw = recorder.get();
   raw->committer_ =
@@ -105,6 +127,15 @@ void LiveRecorder::add(const LiveInstant& instant,
   instant_.seen = instant;
   instant_.requests = live_requests_text(requests);
   write_results(result, instant_.results);
+  writer_.add(instant_);
+}
+
+void LiveRecorder::add_lead_in(const LiveInstant& instant,
+                               const LiveRequests& requests) {
+  if (trouble()) return;
+  instant_.seen = instant;
+  instant_.requests = live_requests_text(requests);
+  instant_.results.clear();
   writer_.add(instant_);
 }
 

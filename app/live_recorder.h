@@ -22,17 +22,22 @@ namespace marey::app {
 /// The disk is waited for by a thread of its own.
 class LiveRecorder {
  public:
-  /// Makes the folder and what does not change. Errors: it holds a take already, or
-  /// avatars are of a kind that cannot be copied alone (kBadInput); the disk (kDevice).
-  /// Precondition: there is a body.
+  /// Makes the folder and what does not change, of a run with this body and these settings. Errors: it
+  /// holds a take already, or avatars are of a kind that cannot be copied alone
+  /// (kBadInput); the disk (kDevice). Nothing is left in the folder then.
   [[nodiscard]] static Result<std::unique_ptr<LiveRecorder>> create(
-      const std::filesystem::path& folder, const OpenedLive& live);
+      const std::filesystem::path& folder,
+      const OpenedLive& live,
+      const Body& body,
+      const LiveSettings& settings);
   ~LiveRecorder();
 
   /// Does not wait for the disk. After trouble nothing more is kept.
   void add(const LiveInstant& instant,
            const LiveRequests& requests,
            const LiveResult& result);
+  /// One that is needed to come to the state in which the take begins (LiveTakes).
+  void add_lead_in(const LiveInstant& instant, const LiveRequests& requests);
   /// Why the recording ended before its time; the rest of the run goes on.
   [[nodiscard]] std::optional<Error> trouble() const;
   /// Writes what is left. Errors: trouble(), or the disk.

@@ -152,13 +152,14 @@ class Loop {
        std::optional<LiveChain>& chain,
        LiveOutputs& outputs,
        LiveGuide* guide,
-       LiveRecorder* recorder,
+       LiveTakes* takes,
        LiveWatcher* watcher,
        Console& console)
-      : chain_(chain),
+      : live_(live),
+        chain_(chain),
         outputs_(outputs),
         guide_(guide),
-        recorder_(recorder),
+        takes_(takes),
         watcher_(watcher),
         console_(console),
         progress_(console.stage("live")),
@@ -194,6 +195,8 @@ class Loop {
   void take(const LiveGroup<DetectedPicture>& group) {
     const Timestamp taken_up = monotonic_now();
     take_in(group, instant_);
+    // Whatever chain comes later goes on with the time of the first.
+    if (!live_.settings.vmc_begin) live_.settings.vmc_begin = instant_.time;
     LiveRequests& requests = outputs_.take_requests();
     if (watcher_) watcher_->hear(requests);
     const LiveResult& result =
@@ -204,9 +207,19 @@ class Loop {
     counting_.add_cameras(group);
     tell_state(state_, result.track.state, console_);
     state_ = result.track.state;
-    if (recorder_) recorder_->add(instant_, requests, result);
     if (watcher_) show(group, result);
+    // The chain may be another one then.
+    if (takes_) record(requests, result);
     if (guide_) guide(instant_);
+  }
+
+  void record(const LiveRequests& requests, const LiveResult& result) {
+    if (!chain_) return;
+    if (watcher_) {
+      if (const auto wish = watcher_->record_wish()) takes_->want(*wish);
+    }
+    takes_->add(instant_, requests, result, *chain_);
+    if (guide_) guide_->set_recording(takes_->is_wanted());
   }
 
   /// What a run has to tell while nobody is followed.
@@ -222,6 +235,7 @@ class Loop {
     auto found = guide_->take_body();
     if (!found) return;
     chain_.emplace(std::move(found->chain));
+    if (takes_) takes_->follow(found->body);
     if (watcher_) watcher_->on_body(found->body, chain_->performer());
   }
 
@@ -242,22 +256,21 @@ class Loop {
     counting_.look_at(cameras, groups);
     figures.outputs = outputs_.counts();
     counting_.end_minute(is_end);
-    if (recorder_ && !figures.recording_trouble) {
-      figures.recording_trouble = recorder_->trouble();
-      if (figures.recording_trouble) {
-        console_.warn(figures.recording_trouble->message() +
-                      " The run goes on without recording.");
-      }
+    if (takes_) {
+      figures.recording = takes_->state();
+      figures.takes = takes_->finished();
+      figures.recording_trouble = takes_->trouble();
     }
     if (progress_) progress_(static_cast<int>(figures.frames), kUnknownTotal);
     if (watcher_) watcher_->on_status(figures, counting_.lately(), state_);
     counting_.forget_lately();
   }
 
+  OpenedLive& live_;
   std::optional<LiveChain>& chain_;
   LiveOutputs& outputs_;
   LiveGuide* guide_;
-  LiveRecorder* recorder_;
+  LiveTakes* takes_;
   LiveWatcher* watcher_;
   Console& console_;
   Progress progress_;
@@ -285,7 +298,7 @@ Result<LiveFigures> run_live(OpenedLive& live,
                              std::optional<LiveChain>& chain,
                              LiveOutputs& outputs,
                              LiveGuide* guide,
-                             LiveRecorder* recorder,
+                             LiveTakes* takes,
                              LiveWatcher* watcher,
                              const LiveRunOptions& options,
                              const std::function<bool()>& stop,
@@ -295,7 +308,7 @@ Result<LiveFigures> run_live(OpenedLive& live,
   std::vector<FrameFeed*> feeds;
   for (const auto& feed : live.feeds) feeds.push_back(feed.get());
   const std::vector<capture::ClockModel> clocks(feeds.size());
-  Loop loop(live, chain, outputs, guide, recorder, watcher, console);
+  Loop loop(live, chain, outputs, guide, takes, watcher, console);
   // Destroyed first: its threads use the cameras.
   Groups groups(feeds,
                 clocks,

@@ -11,8 +11,8 @@
 #include "app/live_figures.h"
 #include "app/live_guide.h"
 #include "app/live_outputs.h"
-#include "app/live_recorder.h"
 #include "app/live_session.h"
+#include "app/live_takes.h"
 
 namespace marey::app {
 
@@ -26,6 +26,8 @@ class LiveWatcher {
   virtual void hear(LiveRequests& /*requests*/) {}
   /// From now on results are this body's.
   virtual void on_body(const Body& /*body*/, const Skeleton& /*performer*/) {}
+  /// What was asked for last, if anything was since the last call: to record, or not to.
+  virtual std::optional<bool> record_wish() { return std::nullopt; }
   virtual void on_frame(const LiveInstant& instant, const LiveResult& result) = 0;
   /// `picture` as DetectedPicture::thumbnail.
   virtual void on_thumbnail(std::size_t camera,
@@ -51,14 +53,14 @@ struct LiveRunOptions {
 /// When there is more to do than time, what is newest wins: a picture older than
 /// LiveCameraOptions::stale_after_s is passed over, instants that were not taken up are
 /// skipped for a newer one, and all of it is counted. Without a chain nobody is followed
-/// and nothing sent, until the guide has a body. `guide` (of the same `live`), `recorder`
-/// and `watcher` may be null.
+/// and nothing sent, until the guide has a body. `guide` (of the same `live`), `takes`
+/// (likewise) and `watcher` may be null.
 /// Errors: of the detectors.
 [[nodiscard]] Result<LiveFigures> run_live(OpenedLive& live,
                                            std::optional<LiveChain>& chain,
                                            LiveOutputs& outputs,
                                            LiveGuide* guide,
-                                           LiveRecorder* recorder,
+                                           LiveTakes* takes,
                                            LiveWatcher* watcher,
                                            const LiveRunOptions& options,
                                            const std::function<bool()>& stop,

@@ -245,6 +245,7 @@ Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
   const std::filesystem::path results = results_of(*session, arguments);
   OpenedLive out;
   out.session = session->name;
+  out.folder = session->file.parent_path();
   auto calibration = calibration_of(*session, *chosen, results / "calibration.toml");
   if (!calibration) return calibration.error();
   out.calibration = *std::move(calibration);

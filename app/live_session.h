@@ -54,6 +54,7 @@ struct LiveArguments {
 /// A live run before its first frame.
 struct OpenedLive {
   std::string session;
+  std::filesystem::path folder;  ///< The session's.
   recordings::Calibration calibration;  ///< Of the cameras in use, in their order.
   std::optional<Body> body;  ///< nullopt: is yet to be measured.
   reconstruct::SubjectPrior prior;  ///< Who is to be measured, if anybody.

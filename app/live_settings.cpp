@@ -59,6 +59,10 @@ LiveSettings to_settings(const json& object) {
     settings.streams.push_back(to_stream(stream));
   }
   settings.vrchat = object.at("vrchat").get<bool>();
+  // Only takes that begin in the middle of a run have it.
+  if (const auto begin = object.find("vmc_begin_ns"); begin != object.end()) {
+    settings.vmc_begin = Timestamp{begin->get<std::int64_t>()};
+  }
   return settings;
 }
 
@@ -138,12 +142,13 @@ std::optional<LiveRequests> to_requests(const json& object) {
 std::string live_settings_text(const LiveSettings& settings) {
   json streams = json::array();
   for (const VmcStream& stream : settings.streams) streams.push_back(to_json(stream));
-  const json object{{"rate_hz", settings.rate.hz},
+  json object{{"rate_hz", settings.rate.hz},
                     {"camera_sigma_m", settings.camera_sigma_m},
                     {"lag_known", settings.lag_known},
                     {"avatars", settings.avatars},
                     {"vmc", std::move(streams)},
                     {"vrchat", settings.vrchat}};
+  if (settings.vmc_begin) object["vmc_begin_ns"] = settings.vmc_begin->count();
   return object.dump();
 }
 

@@ -34,6 +34,8 @@ struct LiveSettings {
   std::vector<bool> lag_known;
   std::vector<std::string> avatars;  ///< File names, as they lie in the take.
   std::vector<VmcStream> streams;
+  /// Since when VMC's T counts; nullopt: since the first instant.
+  std::optional<Timestamp> vmc_begin{};
   bool vrchat = false;  ///< Packets of the performer's trackers, after those of streams.
 };
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -70,13 +71,17 @@ Result<Replayed> replay(const ReplayArguments& arguments,
   using Clock = std::chrono::steady_clock;
   const std::string file =
       (arguments.take / recordings::kLiveTakeFile).string();
-  const Clock::time_point begin = Clock::now();
+  Clock::time_point begin = Clock::now();
   const auto& instants = opened.take.instants;
   Replayed found;
   std::vector<std::byte> results;
+  // Without results: the lead-in of a take that begins in the middle of a run.
+  const auto first = std::ranges::find_if(
+      instants, [](const auto& one) { return !one.results.empty(); });
   for (const recordings::LiveTakeInstant& one : instants) {
-    const auto since_first = one.seen.time - instants.front().seen.time;
-    if (!arguments.fast) {
+    const bool leads_in = one.results.empty();
+    if (!arguments.fast && !leads_in) {
+      const auto since_first = one.seen.time - first->seen.time;
       const auto later = std::chrono::duration_cast<Clock::duration>(
           std::chrono::duration<double>(seconds(since_first) / arguments.speed));
       if (!wait_until(begin + later)) break;
@@ -86,6 +91,10 @@ Result<Replayed> replay(const ReplayArguments& arguments,
     const auto requests = parse_live_requests(one.requests, file);
     if (!requests) return requests.error();
     const LiveResult& result = chain.step(one.seen, *requests);
+    if (leads_in) {
+      begin = Clock::now();
+      continue;
+    }
     outputs.send(result);
     write_results(result, results);
     ++found.frames;

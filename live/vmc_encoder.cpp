@@ -26,7 +26,7 @@ int sound(int period) {
 }  // namespace
 
 VmcEncoder::VmcEncoder(const VmcEncoderOptions& options, std::size_t limit_bytes)
-    : info_(options.info), writer_(limit_bytes) {}
+    : info_(options.info), writer_(limit_bytes), first_(options.begin) {}
 
 Result<VmcEncoder> VmcEncoder::make(const VmcEncoderOptions& options) {
   const int limit = options.mtu_bytes.value_or(kLargestPacket);

@@ -46,6 +46,8 @@ struct VmcEncoderOptions {
   /// it. A network without fragments takes 1472. [bytes]
   std::optional<int> mtu_bytes = std::nullopt;
   VmcInfo info = {};
+  /// Since when T counts; nullopt: since the first frame.
+  std::optional<Timestamp> begin = std::nullopt;
 };
 
 /// The frames of one body as VMC 3.1 packets, each an OSC bundle to be carried out
@@ -57,7 +59,7 @@ struct VmcEncoderOptions {
 /// With mtu_bytes a frame is several bundles, OK and T in the first. Blend shapes are not
 /// sent, and so no /VMC/Ext/Blend/Apply, which only commits them.
 ///
-/// T is the frame's own time since the first encoded frame, a float: frames of 60 Hz are
+/// T is the frame's own time since the first encoded frame (or `begin`), a float: frames of 60 Hz are
 /// told apart for 36 hours. Quaternions have length 1 to 1e-6 and w >= 0. Same calls,
 /// same bytes; nothing is allocated after the first full frame (live/osc_writer.h).
 class VmcEncoder {

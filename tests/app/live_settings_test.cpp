@@ -16,6 +16,7 @@ LiveSettings settings() {
   out.lag_known = {true, false};
   out.avatars = {"man.vrm", "robot.glb"};
   out.vrchat = true;
+  out.vmc_begin = Timestamp{1234567890123456789};
   out.streams.push_back({1, live::VmcRest::kRaw, 1472, 39540});
   out.streams.push_back({std::nullopt, live::VmcRest::kVrm0, std::nullopt, std::nullopt});
   return out;
@@ -36,6 +37,10 @@ TEST(LiveSettings, AreKeptExactly) {
   EXPECT_FALSE(back->streams[1].avatar);
   EXPECT_FALSE(back->streams[1].mtu_bytes);
   EXPECT_TRUE(back->vrchat);
+  EXPECT_EQ(back->vmc_begin, settings().vmc_begin);
+  LiveSettings whole_run = settings();
+  whole_run.vmc_begin.reset();
+  EXPECT_FALSE(parse_live_settings(live_settings_text(whole_run), "take")->vmc_begin);
 }
 
 TEST(LiveSettings, AreRefusedWhereTheyCannotBe) {

@@ -112,6 +112,13 @@ TEST(VmcEncoder, KeepsQuaternionsUnitAndPositionsToTheFloat) {
   }
 }
 
+TEST(VmcEncoder, GoesOnWithTheTimeOfAnother) {
+  VmcEncoder encoder = *VmcEncoder::make({.begin = Timestamp(2s)});
+  const auto messages = messages_of(frame_of(encoder, 5s, some_pose(1)));
+  EXPECT_EQ(messages[1].address, "/VMC/Ext/T");
+  EXPECT_EQ(messages[1].numbers[0], 3.0);
+}
+
 TEST(VmcEncoder, SplitsAFrameAtTheLimitWithTInTheFirst) {
   VmcEncoder whole = *VmcEncoder::make();
   VmcEncoder split = *VmcEncoder::make({.mtu_bytes = 1472});

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "live/web_server.h"
-#include "tests/live/web_socket.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/web_socket.h"
 
 namespace marey::live {
 namespace {

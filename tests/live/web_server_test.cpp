@@ -10,7 +10,7 @@
 
 #include "live/access_token.h"
 #include "live/page_embedded.h"
-#include "tests/live/web_socket.h"
+#include "tests/support/web_socket.h"
 
 namespace marey::live {
 namespace {

@@ -10,6 +10,13 @@ import {milliseconds} from './status_panel';
 
 const SUBJECT_WORDS = {waiting: 'waiting for a performer', tracked: 'tracked', lost: 'lost'};
 
+/** What pressing the button does, and how the take does that there is. */
+function recordWords(recording: StatusWords['recording']): string {
+  if (!recording) return 'Record';
+  if (recording.trouble) return 'Recording failed';
+  return recording.seconds > 0 ? `Stop ${recording.seconds.toFixed(0)} s` : 'Stop (beginning)';
+}
+
 export class Header {
   private readonly title = el('h1', {}, 'marey');
   private readonly pill = el('span', {class: 'pill', role: 'status', 'aria-live': 'polite'});
@@ -57,8 +64,8 @@ export class Header {
     setText(this.figures, `${status.rate_hz.toFixed(0)} Hz${latency}`);
     this.recording = status.recording !== null;
     this.recordButton.setAttribute('aria-pressed', String(this.recording));
-    setText(this.recordButton, status.recording
-      ? `Stop ${status.recording.seconds.toFixed(0)} s` : 'Record');
+    setText(this.recordButton, recordWords(status.recording));
+    this.recordButton.title = status.recording?.trouble || status.recording?.file || '';
     this.tell();
   }
 

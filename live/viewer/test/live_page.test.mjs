@@ -155,6 +155,12 @@ test('constraints are switched, takes recorded, states told', async () => {
   await until('recording', async () => /Stop/.test(await text('.record')));
   await page.locator('.record').click();
   await until('its end', () => said('record').length === 2);
+  server.recordingTrouble = 'take-003: the disk is full';
+  await page.locator('.record').click();
+  await until('the trouble', async () => /failed/.test(await text('.record')));
+  assert.match(await page.locator('.record').getAttribute('title'), /disk is full/);
+  await page.locator('.record').click();
+  await until('no more of it', async () => (await text('.record')) === 'Record');
   await page.locator('.section-status summary').click();
   assert.match(await text('.section-status'), /detect left/);
   assert.match(await text('.facts'), /21 ms, p95 30 ms/);

@@ -31,6 +31,8 @@ export class MockServer {
     this.media = new Map();
     this.frame = 0;
     this.recording = null;
+    /** Why takes fail; empty: they do not. */
+    this.recordingTrouble = '';
     this.wizard = null;
     this.scene = mode === 'live' ? liveScene(rate_hz, avatar) : fileScene(rate_hz, frames, avatar);
     this.bodies = this.scene.skeletons.map(({estimate, kind}) =>

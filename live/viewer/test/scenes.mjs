@@ -74,7 +74,7 @@ export function fileScene(rate_hz, frames, avatar) {
     notes: [{frame: 60 + FIRST, text: 'arm behind the back'}]}};
 }
 
-export function statusAt({frame, rate_hz, recording, pages}) {
+export function statusAt({frame, rate_hz, recording, recordingTrouble, pages}) {
   const stage = (name, p50_ms, p95_ms) => ({name, p50_ms, p95_ms});
   return {type: 'status', clock_s: frame / rate_hz, subject: 'tracked', frame, rate_hz: 29.9,
     latency_ms: {p50: 21.4, p95: 29.8},
@@ -85,7 +85,7 @@ export function statusAt({frame, rate_hz, recording, pages}) {
       ? 'no frame for 0.4 s' : ''})),
     outputs: [{name: 'VMC 127.0.0.1:39539', sent: 3 * frame, failed: 0, detail: ''}],
     recording: recording === null ? null : {file: 'take-003', seconds:
-      (performance.now() - recording) / 1000, trouble: ''},
+      (performance.now() - recording) / 1000, trouble: recordingTrouble},
     clients: pages.size, messages: frame > 60 ? ['camera back: no frame for 0.4 s'] : []};
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/live/web_socket.h"
+#include "tests/support/web_socket.h"
 
 #include <cstdint>
 #include <cstdlib>

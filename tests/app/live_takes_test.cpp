@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Takes of `marey live` that are begun and ended from its page, in the middle of a run.
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "recordings/live_take.h"
+#include "tests/support/run_program.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/support/web_socket.h"
+
+namespace marey::testing {
+namespace {
+
+using nlohmann::json;
+
+const std::filesystem::path kSample = MAREY_SAMPLE;
+const std::filesystem::path kResults = std::filesystem::path(MAREY_FIRST_LIGHT) / "once";
+const std::filesystem::path kProgram = MAREY_PROGRAM;
+
+/// One that nobody had a moment ago.
+int free_port() {
+  const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in any{};
+  any.sin_family = AF_INET;
+  any.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof any;
+  EXPECT_EQ(bind(socket, reinterpret_cast<sockaddr*>(&any), size), 0);
+  EXPECT_EQ(getsockname(socket, reinterpret_cast<sockaddr*>(&any), &size), 0);
+  close(socket);
+  return ntohs(any.sin_port);
+}
+
+/// The sample's walk played over and over, in a session of its own.
+class LiveTakesOfThePage : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::copy(kSample / "session.toml", session_ / "session.toml");
+    const std::string glb = (session_ / "body.glb").string();
+    ASSERT_EQ(run_program(kProgram, {"mannequin", "--out", glb}).exit_code, 0);
+  }
+
+  void start(double seconds, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{
+        "live",      session_.path().string(),
+        "--results", kResults.string(),
+        "--media",   kSample.string(),
+        "--play",    "walk",
+        "--loop",    "--wait-ms",
+        "500",       "--avatar",
+        (session_ / "body.glb").string(),
+        "--vmc",     "127.0.0.1:9",
+        "--vmc-deaf", "--no-open",
+        "--json",    "--progress",
+        "none",      "--port",
+        std::to_string(port_),
+        "--seconds", std::to_string(seconds)};
+    words.insert(words.end(), more.begin(), more.end());
+    run_ = std::async(std::launch::async,
+                      [words] { return run_program(kProgram, words); });
+  }
+
+  /// A page; waits until there is somebody to answer.
+  [[nodiscard]] WebSocketClient open_page() const {
+    for (int tries = 0;; ++tries) {
+      WebSocketClient page(port_);
+      if (page.upgrade().find(" 101 ") != std::string::npos || tries > 200) return page;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
+
+  /// The next status for which `holds`; null: none came.
+  template <class Holds>
+  static json status_when(WebSocketClient& page, Holds holds) {
+    while (const auto message = page.receive_message()) {
+      if (message->opcode != 1) continue;
+      json words = json::parse(message->payload);
+      if (words["type"] == "status" && holds(words)) return words;
+    }
+    return {};
+  }
+
+  static void record(const WebSocketClient& page, bool on) {
+    page.send_frame(1, json{{"type", "record"}, {"on", on}}.dump());
+  }
+
+  /// Frames that can be replayed; -1 when one of them is not as it was.
+  static long replayed(const std::string& take) {
+    const ProgramRun replay =
+        run_program(kProgram, {"replay", take, "--fast", "--json"});
+    if (replay.exit_code != 0) return -1;
+    const json found = json::parse(replay.out);
+    return found["differing"] == 0 ? found["frames"].get<long>() : -1;
+  }
+
+  ScratchFolder session_;
+  int port_ = free_port();
+  std::future<ProgramRun> run_;
+};
+
+TEST_F(LiveTakesOfThePage, BeginInTheMiddleAndAreReplayedToTheSameBytes) {
+  start(9.0);
+  WebSocketClient page = open_page();
+  const json before = status_when(
+      page, [](const json& status) { return status["subject"] == "tracked"; });
+  ASSERT_FALSE(before.is_null());
+  EXPECT_TRUE(before["recording"].is_null());
+  // What is held as a take begins is part of what it begins with.
+  page.send_frame(
+      1,
+      R"({"type":"drag","id":"left hand","p_in_world":[0.4,1.2,0.3],"phase":"move"})");
+  record(page, true);
+  const json during = status_when(page, [](const json& status) {
+    return !status["recording"].is_null() && status["recording"]["seconds"] > 0.5;
+  });
+  ASSERT_FALSE(during.is_null());
+  EXPECT_EQ(during["recording"]["trouble"], "");
+  const std::string first = (session_ / "takes/live-1").string();
+  EXPECT_EQ(during["recording"]["file"], first);
+  record(page, false);
+  ASSERT_FALSE(
+      status_when(page, [](const json& status) { return status["recording"].is_null(); })
+          .is_null());
+  record(page, true);  // Goes on until the run ends.
+
+  const ProgramRun run = run_.get();
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string second = (session_ / "takes/live-2").string();
+  EXPECT_EQ(json::parse(run.out)["takes"], json({first, second})) << run.err;
+  EXPECT_GT(replayed(first), 8);
+  EXPECT_GE(replayed(second), 0);
+  const auto take = recordings::read_live_take(first + "/live.sqlite");
+  ASSERT_TRUE(take);
+  EXPECT_TRUE(take->finished);
+  EXPECT_TRUE(take->instants.front().results.empty());
+  EXPECT_NE(take->instants.front().requests.find("left hand"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace marey::testing
