@@ -40,7 +40,16 @@ std::vector<FeedEvent> DeviceFeed::events() {
   return std::exchange(events_, {});
 }
 
+FeedHealth DeviceFeed::health() const {
+  const std::lock_guard lock(mutex_);
+  return health_;
+}
+
 void DeviceFeed::hear(const capture::CameraStatus& status) {
+  {
+    const std::lock_guard lock(mutex_);
+    health_ = {status.state, status.trouble ? status.trouble->message() : ""};
+  }
   std::string text = capture::name(status.state);
   if (status.trouble) text += ": " + status.trouble->message();
   tell_("camera " + name_ + " is " + text);

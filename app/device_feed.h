@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ class DeviceFeed final : public FrameFeed {
   [[nodiscard]] const capture::DeviceSettings& settings() const override;
   [[nodiscard]] std::string device() const override;
   [[nodiscard]] std::vector<FeedEvent> events() override;
+  [[nodiscard]] FeedHealth health() const override;
 
  private:
   DeviceFeed(std::string name, Tell tell);
@@ -38,6 +40,8 @@ class DeviceFeed final : public FrameFeed {
   std::string name_;
   Tell tell_;
   std::vector<FeedEvent> events_;
+  mutable std::mutex mutex_;
+  FeedHealth health_;
   std::optional<capture::ReopeningDevice> device_;
 };
 

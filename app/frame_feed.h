@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "capture/reopening_device.h"
 #include "capture/v4l2_device.h"
 #include "core/time.h"
 
@@ -16,6 +17,12 @@ namespace marey::app {
 struct FeedEvent {
   Timestamp time{0};  ///< On the clock of the camera's frames.
   std::string text;   ///< "lost: ...".
+};
+
+/// How a camera is at this moment.
+struct FeedHealth {
+  capture::CameraState state = capture::CameraState::kStreaming;
+  std::string trouble{};  ///< Why it does not stream.
 };
 
 /// A camera as those see it who take its frames. One thread at a time.
@@ -35,6 +42,8 @@ class FrameFeed {
   [[nodiscard]] virtual std::vector<FeedEvent> events() = 0;
   /// No frame will come any more: a recording has ended. Cameras never do.
   [[nodiscard]] virtual bool is_over() { return false; }
+  /// From any thread.
+  [[nodiscard]] virtual FeedHealth health() const { return {}; }
 };
 
 }  // namespace marey::app

@@ -66,6 +66,7 @@ class LiveCamera {
   void want_thumbnails(bool wanted) { thumbnails_wanted_ = wanted; }
   [[nodiscard]] const LiveCameraCounts& counts() const { return counts_; }
   [[nodiscard]] const std::string& name() const { return options_.name; }
+  [[nodiscard]] FeedHealth health() const { return feed_->health(); }
 
  private:
   LiveCamera(const LiveCameraOptions& options,

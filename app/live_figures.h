@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/frame_feed.h"
 #include "app/latency_histogram.h"
 #include "app/live_outputs.h"
 #include "core/result.h"
@@ -39,6 +40,7 @@ struct LiveCameraFigures {
   long broken = 0;    ///< Could not be used.
   long unused = 0;    ///< Late for their instant, or displaced by newer ones.
   long missing = 0;   ///< Instants that had to do without it.
+  FeedHealth health{};
 };
 
 /// A minute of a run, for those who watch it for hours.

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "app/body_handles.h"
+#include "app/live_health.h"
 #include "app/view_figure.h"
 #include "app/view_page.h"
 #include "live/page_request.h"
@@ -313,26 +314,14 @@ void LivePage::on_status(const LiveFigures& figures,
   status.stages = stages_of(lately, figures.cameras);
   status.overload = overload_of(figures.cameras, cameras_before_);
   for (std::size_t c = 0; c < figures.cameras.size(); ++c) {
-    const LiveCameraFigures& camera = figures.cameras[c];
-    const bool has_come =
-        c >= cameras_before_.size() || camera.pictures > cameras_before_[c].pictures;
-    live::PageCameraStatus one;
-    one.name = camera.name;
-    one.state = has_come ? live::PageCameraState::kStreaming
-                         : live::PageCameraState::kSilent;
-    one.frames = static_cast<std::uint64_t>(camera.pictures);
-    one.dropped = static_cast<std::uint64_t>(camera.dropped + camera.stale +
-                                             camera.broken + camera.unused);
-    one.tags = tags_seen_[c];
-    status.cameras.push_back(std::move(one));
+    const bool is_new = c >= cameras_before_.size();
+    status.cameras.push_back(camera_status(
+        figures.cameras[c], is_new ? nullptr : &cameras_before_[c], tags_seen_[c]));
   }
-  for (const OutputCounts& output : figures.outputs) {
-    live::PageOutput one;
-    one.name = output.name;
-    one.sent = static_cast<std::uint64_t>(output.counts.sent);
-    one.failed = static_cast<std::uint64_t>(output.counts.failed + output.counts.refused);
-    if (output.counts.refused > 0) one.detail = "nobody listens there";
-    status.outputs.push_back(std::move(one));
+  for (std::size_t o = 0; o < figures.outputs.size(); ++o) {
+    const bool is_new = o >= outputs_before_.size();
+    status.outputs.push_back(
+        output_status(figures.outputs[o], is_new ? nullptr : &outputs_before_[o]));
   }
   if (const auto& now = figures.recording) {
     status.recording = live::PageRecording{now->folder, now->seconds, now->trouble};
@@ -341,6 +330,7 @@ void LivePage::on_status(const LiveFigures& figures,
   status.messages = notes_;
   page_.server.publish_text(live::PageMessage::kStatus, live::status_json(status));
   cameras_before_ = figures.cameras;
+  outputs_before_ = figures.outputs;
   frames_before_ = figures.frames;
   seconds_before_ = status.clock_s;
 }

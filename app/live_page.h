@@ -65,6 +65,7 @@ class LivePage final : public LiveWatcher {
   std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.
   std::vector<int> tags_seen_;                                    ///< By camera.
   std::vector<LiveCameraFigures> cameras_before_;  ///< As last told.
+  std::vector<OutputCounts> outputs_before_;       ///< Likewise.
   std::vector<live::ReceivedText> texts_;
   std::string bytes_;
   std::vector<std::string> notes_;

@@ -120,7 +120,8 @@ class Counting {
                                   counts.stale,
                                   counts.broken,
                                   grouped.late + grouped.displaced + grouped.surplus,
-                                  grouped.missing});
+                                  grouped.missing,
+                                  cameras[c]->health()});
     }
   }
 

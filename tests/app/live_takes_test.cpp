@@ -4,6 +4,7 @@
 // Takes of `marey live` that are begun and ended from its page, in the middle of a run.
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <future>
 #include <string>
 #include <thread>
@@ -113,6 +114,9 @@ class LiveTakesOfThePage : public ::testing::Test {
 TEST_F(LiveTakesOfThePage, BeginInTheMiddleAndAreReplayedToTheSameBytes) {
   start(9.0);
   WebSocketClient page = open_page();
+  // Two more browsers, one that is killed and one that hangs, are nobody's concern.
+  { const WebSocketClient killed = open_page(); }
+  const WebSocketClient hanging = open_page();
   const json before = status_when(
       page, [](const json& status) { return status["subject"] == "tracked"; });
   ASSERT_FALSE(before.is_null());
@@ -146,6 +150,27 @@ TEST_F(LiveTakesOfThePage, BeginInTheMiddleAndAreReplayedToTheSameBytes) {
   EXPECT_TRUE(take->finished);
   EXPECT_TRUE(take->instants.front().results.empty());
   EXPECT_NE(take->instants.front().requests.find("left hand"), std::string::npos);
+}
+
+TEST_F(LiveTakesOfThePage, SayWhyTheyCannotBeMadeAndTheRunGoesOn) {
+  std::ofstream(session_ / "takes") << "a file where a folder should be";
+  start(5.0);
+  WebSocketClient page = open_page();
+  record(page, true);
+  const json failed = status_when(page, [](const json& status) {
+    return !status["recording"].is_null() && status["recording"]["trouble"] != "";
+  });
+  ASSERT_FALSE(failed.is_null());
+  record(page, false);
+  const json after = status_when(
+      page, [](const json& status) { return status["recording"].is_null(); });
+  ASSERT_FALSE(after.is_null());
+  EXPECT_GT(after["frame"], failed["frame"]);
+  const ProgramRun run = run_.get();
+  EXPECT_EQ(run.exit_code, 5) << run.err;
+  EXPECT_NE(run.err.find("goes on without recording"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("Next: "), std::string::npos) << run.err;
+  EXPECT_TRUE(json::parse(run.out)["takes"].empty());
 }
 
 }  // namespace
