@@ -200,6 +200,29 @@ TEST_F(LiveFaults, WhoLeavesAndReturnsElsewhereIsFollowedWithinASecond) {
   EXPECT_LE(took_s, 1.0);
 }
 
+// The first, by whose clock frames are told; and the one that sees most.
+TEST_F(LiveFaults, ACameraThatIsGoneForThreeSecondsIsDoneWithout) {
+  const auto instants = film(180);
+  const auto unharmed = follow(instants);
+  for (const std::size_t gone : {std::size_t{0}, std::size_t{2}}) {
+    auto lacking = instants;
+    for (std::size_t f = 30; f < 120; ++f) {
+      auto& views = lacking[f].views;
+      views.erase(views.begin() + static_cast<std::ptrdiff_t>(gone));
+    }
+    const auto frames = follow(lacking);
+    double worst_mm = 0.0;
+    for (std::size_t f = 30; f < 120; ++f) {
+      EXPECT_EQ(frames[f].tracking, 1) << f;
+      worst_mm = std::max(worst_mm, farthest_mm(frames[f].pose, unharmed[f].pose));
+    }
+    tell("off_mm_without_camera_" + std::to_string(gone), worst_mm);
+    const double took_s = recovery_s(frames, unharmed, 120);
+    tell("as_before_after_s", took_s);
+    EXPECT_LE(took_s, 1.0);
+  }
+}
+
 // Another in a suit of other tags, and, for a second, one whose suit has the same numbers:
 // of those that are seen twice each fifth is the other's, elsewhere in every picture.
 TEST_F(LiveFaults, AnotherPersonBeforeTheCamerasIsNotFollowed) {

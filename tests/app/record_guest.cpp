@@ -1,10 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// record_guest: what the recorder claims, tried on a real kernel in an emulated machine
+// record_guest: what the recorder claims, and what live runs do of cameras that come and
+// go, tried on a real kernel in an emulated machine
 // (tests/capture/run_v4l2_guest.sh), where vivid makes two cameras. Prints a line for
 // each claim; its exit code is the number of claims that failed.
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -13,7 +16,11 @@
 #include <utility>
 #include <vector>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "app/device_feed.h"
+#include "app/live_groups.h"
 #include "app/record_take.h"
 #include "recordings/take_file.h"
 #include "recordings/video_times.h"
@@ -158,11 +165,100 @@ void check_disconnect() {
         text_of(recorded.summaries[1]));
 }
 
+/// What a live run sees while its first camera is unplugged and back.
+struct Seen {
+  double longest_wait_s = 0.0;   ///< For an instant that any camera has.
+  double longest_pause_s = 0.0;  ///< Between two with the first camera.
+  int with_second = 0;
+  int alone = 0;  ///< Instants of the second camera alone.
+  std::string told;
+  double back_after_s = -1.0;  ///< The first camera, since it was plugged in again.
+};
+
+/// vivid's device is there again when the last who had it open has closed it: whoever
+/// holds it keeps it unplugged. Tells when he let go.
+Timestamp unplug_for_two_seconds() {
+  const int held = ::open(kPaths[0].c_str(), O_RDWR);
+  set_vivid(kPaths[0].c_str(), "Disconnect");
+  std::this_thread::sleep_for(std::chrono::seconds(2));
+  const Timestamp now = std::chrono::steady_clock::now().time_since_epoch();
+  ::close(held);
+  return now;
+}
+
+Seen watch_live(const std::vector<std::unique_ptr<DeviceFeed>>& feeds,
+                const std::atomic<std::int64_t>& back_ns) {
+  using Clock = std::chrono::steady_clock;
+  const std::array<app::FrameFeed*, 2> both{feeds[0].get(), feeds[1].get()};
+  const std::vector<capture::ClockModel> clocks(2);
+  capture::GroupFramesOptions options;
+  options.mode = capture::GroupingMode::kLive;
+  options.origin = std::nullopt;
+  options.capacity = 8;
+  app::LiveGroups<int> groups(
+      both, clocks, options, [](CameraId, const capture::RawFrame&, int&) {
+        return true;
+      });
+  Seen seen;
+  const auto begin = Clock::now();
+  auto last = begin;
+  auto first_camera = begin;
+  while (Clock::now() - begin < std::chrono::seconds(8)) {
+    const auto* group = groups.next(std::chrono::milliseconds(100));
+    const app::FeedHealth health = feeds[0]->health();
+    if (health.state == capture::CameraState::kLost) seen.told = health.trouble;
+    if (!group) continue;
+    const auto now = Clock::now();
+    const auto since = [now](Clock::time_point then) { return seconds(now - then); };
+    seen.longest_wait_s = std::max(seen.longest_wait_s, since(last));
+    last = now;
+    for (const auto& frame : group->frames) {
+      seen.with_second += frame.camera == CameraId{1};
+      seen.alone += frame.camera == CameraId{1} && group->frames.size() == 1;
+      if (frame.camera != CameraId{0}) continue;
+      seen.longest_pause_s = std::max(seen.longest_pause_s, since(first_camera));
+      if (back_ns > 0 && seen.back_after_s < 0.0) {
+        seen.back_after_s = seconds(frame.time - Timestamp{back_ns.load()});
+      }
+      first_camera = now;
+    }
+  }
+  return seen;
+}
+
+void check_live() {
+  const auto feeds = open_both();
+  if (feeds.size() < 2) return;
+  std::atomic<std::int64_t> back_ns = 0;
+  std::thread other([&back_ns] {
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    back_ns = unplug_for_two_seconds().count();
+  });
+  const Seen seen = watch_live(feeds, back_ns);
+  other.join();
+  check(seen.told.find(kPaths[0]) != std::string::npos,
+        "live, a camera that is unplugged is told of",
+        seen.told);
+  check(seen.longest_pause_s >= 2.0 && seen.back_after_s >= 0.0 &&
+            seen.back_after_s <= 3.0,
+        "it is back within 3 s of its return",
+        std::to_string(seen.back_after_s) + " s, gone for " +
+            std::to_string(seen.longest_pause_s) + " s");
+  check(seen.with_second >= 225 && seen.longest_wait_s <= 0.2,
+        "instants go on with its neighbour meanwhile",
+        std::to_string(seen.with_second) + ", of which alone " +
+            std::to_string(seen.alone) + "; none for " +
+            std::to_string(seen.longest_wait_s) + " s at most");
+  check(feeds[0]->health().state == capture::CameraState::kStreaming,
+        "and then it streams again");
+}
+
 }  // namespace
 }  // namespace marey::guest
 
 int main() {
   marey::guest::check_two_at_once();
   marey::guest::check_disconnect();
+  marey::guest::check_live();
   return marey::guest::failures;
 }
