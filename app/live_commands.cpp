@@ -83,10 +83,6 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
                   arguments.record.empty() ? live.folder / "takes" / "live"
                                            : arguments.record,
                   console);
-  if (!arguments.record.empty()) {
-    const Status ok = takes.begin_with_run(arguments.record);
-    if (!ok) return console.fail(ok.error());
-  }
   std::optional<LiveGuide> guide;
   if (!live.prior.tags.empty()) {
     guide.emplace(live, guiding(arguments), console);
@@ -99,12 +95,17 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
                                  guide ? &*guide : nullptr);
     if (!opened) return console.fail(opened.error());
     page = *std::move(opened);
-    if (arguments.json) {
-      // Standard output is for the figures.
-      for (const std::string& address : page->server().addresses) console.say(address);
-    } else {
-      tell_addresses(page->server(), arguments.page);
-    }
+  }
+  // When nothing else can fail: it makes a folder.
+  if (!arguments.record.empty()) {
+    const Status ok = takes.begin_with_run(arguments.record);
+    if (!ok) return console.fail(ok.error());
+  }
+  if (page && arguments.json) {
+    // Standard output is for the figures.
+    for (const std::string& address : page->server().addresses) console.say(address);
+  } else if (page) {
+    tell_addresses(page->server(), arguments.page);
   }
   LiveRunOptions options;
   options.seconds = arguments.seconds;

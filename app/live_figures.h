@@ -69,6 +69,7 @@ struct LiveFigures {
   std::vector<LiveCameraFigures> cameras;
   std::vector<OutputCounts> outputs;
   std::vector<LiveMinute> minutes;
+  bool seen_in_vain = false;  ///< Now: SeenInVain.
   std::optional<LiveRecording> recording;  ///< Under way.
   std::vector<std::string> takes;          ///< Folders of those that are whole.
   std::optional<Error> recording_trouble;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_health.h"
 
+#include <algorithm>
+
 namespace marey::app {
 
 live::PageCameraStatus camera_status(const LiveCameraFigures& now,
@@ -36,6 +38,29 @@ live::PageOutput output_status(const OutputCounts& now, const OutputCounts* befo
     out.detail = "packets cannot be sent there";
   }
   return out;
+}
+
+SeenInVain::SeenInVain(const Body& body) {
+  for (const PlacedTag& tag : body.tags) worn_.push_back(tag.tag.id);
+  std::ranges::sort(worn_);
+}
+
+void SeenInVain::add(const LiveInstant& instant,
+                     const reconstruct::TrackReport& found) {
+  const auto sees_some = [this](const CameraTags& view) {
+    return std::ranges::count_if(view.tags, [this](const TagDetection& tag) {
+             return std::ranges::binary_search(worn_, tag.id);
+           }) >= kFewest;
+  };
+  const bool fits = found.state == reconstruct::TrackState::kTracked &&
+                    found.rms_px <= kMost_px;
+  if (fits || std::ranges::count_if(instant.views, sees_some) < 2) {
+    since_.reset();
+    is_so_ = false;
+    return;
+  }
+  if (!since_) since_ = instant.time;
+  is_so_ = seconds(instant.time - *since_) >= kAfter_s;
 }
 
 }  // namespace marey::app

@@ -2,7 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+#include <vector>
+
 #include "app/live_figures.h"
+#include "core/body.h"
+#include "core/live_instant.h"
 #include "live/page_status.h"
 
 namespace marey::app {
@@ -17,5 +22,29 @@ namespace marey::app {
 /// How an output fares, likewise: trouble counts while there is some, not for ever.
 [[nodiscard]] live::PageOutput output_status(const OutputCounts& now,
                                              const OutputCounts* before);
+
+/// Whether a body's tags are seen in vain: for kAfter_s at least two cameras have seen some
+/// of them each, and no body was found in them, or only one that is kMost_px beside them.
+/// So it is when cameras were swapped or moved since they were calibrated.
+class SeenInVain {
+ public:
+  static constexpr double kAfter_s = 3.0;
+  static constexpr double kMost_px = 4.0;
+  static constexpr int kFewest = 4;  ///< Tags, of each of two cameras.
+
+  explicit SeenInVain(const Body& body);
+  void add(const LiveInstant& instant, const reconstruct::TrackReport& found);
+  [[nodiscard]] bool is_so() const { return is_so_; }
+  /// What that means for who is there.
+  static constexpr const char* kText =
+      "tags are seen, but no body fits them: hips and chest are hidden, cameras were moved "
+      "or swapped since they were calibrated, or it is another's suit. Next: show them, "
+      "give each camera its name of then, or calibrate again.";
+
+ private:
+  std::vector<TagId> worn_;  ///< Ascending.
+  std::optional<Timestamp> since_;
+  bool is_so_ = false;
+};
 
 }  // namespace marey::app

@@ -328,6 +328,7 @@ void LivePage::on_status(const LiveFigures& figures,
   }
   status.clients = page_.server.client_count();
   status.messages = notes_;
+  if (figures.seen_in_vain) status.messages.emplace_back(SeenInVain::kText);
   page_.server.publish_text(live::PageMessage::kStatus, live::status_json(status));
   cameras_before_ = figures.cameras;
   outputs_before_ = figures.outputs;

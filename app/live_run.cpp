@@ -9,6 +9,7 @@
 
 #include "app/live_camera.h"
 #include "app/live_groups.h"
+#include "app/live_health.h"
 #include "app/stopwatch.h"
 
 namespace marey::app {
@@ -164,7 +165,9 @@ class Loop {
         watcher_(watcher),
         console_(console),
         progress_(console.stage("live")),
-        counting_(live.feeds.size()) {}
+        counting_(live.feeds.size()) {
+    if (live.body) in_vain_.emplace(*live.body);
+  }
 
   void run(Groups& groups,
            const Cameras& cameras,
@@ -208,10 +211,19 @@ class Loop {
     counting_.add_cameras(group);
     tell_state(state_, result.track.state, console_);
     state_ = result.track.state;
+    look_for_swapped_cameras(result);
     if (watcher_) show(group, result);
     // The chain may be another one then.
     if (takes_) record(requests, result);
     if (guide_) guide(instant_);
+  }
+
+  void look_for_swapped_cameras(const LiveResult& result) {
+    if (!chain_ || !in_vain_) return;
+    in_vain_->add(instant_, result.track);
+    bool& told = counting_.figures().seen_in_vain;
+    if (in_vain_->is_so() && !told) console_.warn(SeenInVain::kText);
+    told = in_vain_->is_so();
   }
 
   void record(const LiveRequests& requests, const LiveResult& result) {
@@ -236,6 +248,7 @@ class Loop {
     auto found = guide_->take_body();
     if (!found) return;
     chain_.emplace(std::move(found->chain));
+    in_vain_.emplace(found->body);
     if (takes_) takes_->follow(found->body);
     if (watcher_) watcher_->on_body(found->body, chain_->performer());
   }
@@ -278,6 +291,7 @@ class Loop {
   Counting counting_;
   LiveInstant instant_;
   LiveResult nobody_;
+  std::optional<SeenInVain> in_vain_;
   TrackState state_ = TrackState::kWaiting;
   double last_status_s_ = 0.0;
 };

@@ -8,12 +8,14 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "app/live_chain.h"
+#include "app/live_health.h"
 #include "live/osc_parse.h"
 #include "tests/support/synthetic_person.h"
 
@@ -221,6 +223,30 @@ TEST_F(LiveFaults, ACameraThatIsGoneForThreeSecondsIsDoneWithout) {
     tell("as_before_after_s", took_s);
     EXPECT_LE(took_s, 1.0);
   }
+}
+
+TEST_F(LiveFaults, CamerasInAnotherOrderAreTold) {
+  auto instants = film(120);
+  LiveChain right = make_chain();
+  SeenInVain never(body_);
+  for (const LiveInstant& instant : instants) {
+    never.add(instant, right.step(instant, {}).track);
+    EXPECT_FALSE(never.is_so()) << instant.number;
+  }
+  LiveChain chain = make_chain();
+  SeenInVain seen(body_);
+  for (LiveInstant& instant : instants) {
+    std::swap(instant.views[0].tags, instant.views[2].tags);
+    seen.add(instant, chain.step(instant, {}).track);
+  }
+  EXPECT_TRUE(seen.is_so());
+  // Not where nobody is.
+  SeenInVain nobody(body_);
+  for (LiveInstant& instant : instants) {
+    for (CameraTags& view : instant.views) view.tags.clear();
+    nobody.add(instant, {});
+  }
+  EXPECT_FALSE(nobody.is_so());
 }
 
 // Another in a suit of other tags, and, for a second, one whose suit has the same numbers:

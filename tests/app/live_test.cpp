@@ -13,6 +13,7 @@
 
 #include "live/osc_parse.h"
 #include "live/udp_listener.h"
+#include "live/web_server.h"
 #include "recordings/live_take.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
@@ -285,6 +286,24 @@ TEST(LiveRefuses, ABusyPortThatWasAskedFor) {
       with(words, {"--vmc", "127.0.0.1", "--vmc-listen", std::to_string(taken->port())}),
       5,
       std::to_string(taken->port()));
+}
+
+// The page is opened before the take: a refusal leaves no folder behind.
+TEST(LiveRefuses, ABusyPageWithoutBeginningATake) {
+  const ScratchFolder folder;
+  live::WebServerOptions free;
+  free.port = 0;
+  auto server = live::WebServer::start(free);
+  ASSERT_TRUE(server);
+  Words words = played();
+  std::erase(words, "--no-page");
+  const auto take = folder / "take";
+  expect_refused(with(words,
+                      {"--no-open", "--port", std::to_string(server->port()), "--record",
+                       take.string()}),
+                 5,
+                 "in use");
+  EXPECT_FALSE(std::filesystem::exists(take));
 }
 
 }  // namespace
