@@ -151,38 +151,37 @@ void LivePage::show_wizard() {
                             live::wizard_json(guide_->told()));
 }
 
-/// What is said to a page that asked; empty: nothing.
-std::string LivePage::answer(const std::string& text, LiveRequests& requests) {
+LivePage::Answer LivePage::answer(const std::string& text, LiveRequests& requests) {
   const auto request = live::read_page_request(text);
-  if (!request) return request.error().message();
+  if (!request) return {request.error().message()};
   if (const auto* thumbnails = std::get_if<live::ThumbnailsRequest>(&*request)) {
     thumbnails_wanted_ = thumbnails->on;
     return {};
   }
   if (const auto* drag = std::get_if<live::DragRequest>(&*request)) {
-    return ask({drag->id, HandleAction::kMove, drag->p_in_world}, requests);
+    return {ask({drag->id, HandleAction::kMove, drag->p_in_world}, requests)};
   }
   if (const auto* hold = std::get_if<live::ConstraintRequest>(&*request)) {
     const HandleAction action = hold->active ? HandleAction::kStart : HandleAction::kStop;
-    return ask({hold->id, action, {}}, requests);
+    return {ask({hold->id, action, {}}, requests)};
   }
   if (const auto* record = std::get_if<live::RecordRequest>(&*request)) {
-    if (record->on && !has_body_) return "nobody was measured yet, whom takes could follow";
+    if (record->on && !has_body_) return {"nobody was measured yet, whom takes could follow"};
     wish_ = record->on;
     return {};
   }
   if (const auto* wizard = std::get_if<live::WizardRequest>(&*request)) {
-    if (!guide_) return "the session does not say who is to be measured";
+    if (!guide_) return {"the session does not say who is to be measured", "wizard"};
     const auto refusal = guide_->act(wizard->action);
     show_wizard();
-    return refusal.value_or("");
+    return {refusal.value_or(""), "wizard"};
   }
   const bool is_understood = std::holds_alternative<live::HelloRequest>(*request) ||
                              std::holds_alternative<live::ShownRequest>(*request);
-  return is_understood ? std::string() : "this run does not do that";
+  return {is_understood ? "" : "this run does not do that"};
 }
 
-/// As answer().
+/// Why not; empty: it is done.
 std::string LivePage::ask(HandleRequest request, LiveRequests& requests) {
   const bool is_known =
       std::ranges::find(scene_.constraints, request.id, &live::PageConstraint::id) !=
@@ -220,9 +219,9 @@ void LivePage::tell_handles(std::span<const HandleState> handles) {
 void LivePage::hear(LiveRequests& requests) {
   page_.server.take_texts(texts_);
   for (const live::ReceivedText& text : texts_) {
-    const std::string refusal = answer(text.text, requests);
-    if (!refusal.empty()) {
-      page_.server.answer_text(text.client, live::error_json(refusal));
+    const Answer said = answer(text.text, requests);
+    if (!said.text.empty()) {
+      page_.server.answer_text(text.client, live::error_json(said.text, said.about));
     }
   }
 }

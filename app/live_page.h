@@ -49,7 +49,12 @@ class LivePage final : public LiveWatcher {
  private:
   explicit LivePage(PageServer page) : page_(std::move(page)) {}
   [[nodiscard]] Status make_scene(const OpenedLive& live, const Skeleton& performer);
-  [[nodiscard]] std::string answer(const std::string& text, LiveRequests& requests);
+  /// What is said to a page that asked; an empty text: nothing.
+  struct Answer {
+    std::string text;
+    std::string about{};  ///< As error_json()'s.
+  };
+  [[nodiscard]] Answer answer(const std::string& text, LiveRequests& requests);
   [[nodiscard]] std::string ask(HandleRequest request, LiveRequests& requests);
   void tell_handles(std::span<const HandleState> handles);
   void show_wizard();

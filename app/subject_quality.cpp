@@ -31,8 +31,10 @@ live::WizardQuality length_of(const Body& body, HumanBone bone, HumanBone child)
   const double length_m = glm::length(body.proportions[child]);
   const double other_m = glm::length(body.proportions[mirrored(child)]);
   const double sigma_m = body.joint_centre_sigma_m[index(child)];
+  // No length is known to nothing.
+  const double sigma_cm = std::max(100.0 * sigma_m, 0.1);
   return {in_words(bone),
-          format("%.1f cm \u00b1 %.1f", 100.0 * length_m, 100.0 * sigma_m),
+          format("%.1f cm \u00b1 %.1f", 100.0 * length_m, sigma_cm),
           sigma_m <= kPoorSigma_m &&
               std::abs(length_m - other_m) <= kPoorSide * std::max(length_m, other_m)};
 }

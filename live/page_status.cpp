@@ -79,8 +79,9 @@ std::string status_json(const PageStatus& status) {
        {"messages", status.messages}});
 }
 
-std::string error_json(const std::string& text) {
-  return in_one_line({{"type", "error"}, {"text", text}});
+std::string error_json(const std::string& text, const std::string& about) {
+  if (about.empty()) return in_one_line({{"type", "error"}, {"text", text}});
+  return in_one_line({{"type", "error"}, {"text", text}, {"about", about}});
 }
 
 }  // namespace marey::live

@@ -65,7 +65,9 @@ struct PageStatus {
 /// As scene_json().
 [[nodiscard]] std::string status_json(const PageStatus& status);
 
-/// The answer to a message that was not understood.
-[[nodiscard]] std::string error_json(const std::string& text);
+/// The answer to a message that was not understood, or asks for what cannot be. `about` is
+/// the type of that message where the page says it beside what was asked; else empty.
+[[nodiscard]] std::string error_json(const std::string& text,
+                                     const std::string& about = {});
 
 }  // namespace marey::live

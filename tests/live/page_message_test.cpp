@@ -192,6 +192,8 @@ TEST(PageWizard, TellsHowMuchOfEachPictureWasSeen) {
 
 TEST(PageError, SaysWhatWasNotUnderstood) {
   EXPECT_EQ(error_json("id is missing"), R"({"type":"error","text":"id is missing"})");
+  EXPECT_EQ(error_json("too early", "wizard"),
+            R"({"type":"error","text":"too early","about":"wizard"})");
 }
 
 }  // namespace

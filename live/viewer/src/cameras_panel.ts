@@ -41,7 +41,7 @@ export class CamerasPanel {
       canvas.style.aspectRatio = `${camera.width_px} / ${camera.height_px}`;
       canvas.hidden = !live;
       return {canvas, busy: false, next: null, state: el('span', {class: 'state'}),
-        caption: el('figcaption', {}, el('b', {}, camera.name), ` ${sizeWords(camera)} `)};
+        caption: el('figcaption', {}, el('b', {}, camera.name), ` ${sizeWords(camera)}, `)};
     });
     this.section.body.replaceChildren(el('div', {class: 'pictures'},
       ...this.pictures.map(({canvas, caption, state}) => {

@@ -60,12 +60,14 @@ export class ConstraintView {
     });
   }
 
-  /** Those that are at a joint go along with it, but for what a person holds. `poses` has
-   *  one for each skeleton of the scene, null where a body is not there. */
+  /** Those that are at a joint go along with it, but for what a person holds; those of a
+   *  body that is not there are nowhere. `poses` has one for each skeleton of the scene,
+   *  null where a body is not there. */
   follow(poses: readonly (PosedSkeleton | null)[], inHand: string | null): void {
     for (const handle of this.handles) {
       const {joint, skeleton, id} = handle.words;
       const pose = poses[skeleton];
+      handle.object.visible = joint === undefined || id === inHand || !!pose;
       if (joint === undefined || id === inHand || !pose || joint >= pose.joints) continue;
       for (let k = 0; k < 3; ++k) {
         const at = pose.p_in_world[3 * joint + k];

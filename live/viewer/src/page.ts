@@ -66,7 +66,7 @@ class Page implements Listener, StageListener {
   constructor() {
     const byId = (id: string): HTMLElement => document.getElementById(id)!;
     this.stage = new Stage(this.theme, this);
-    byId('stage').append(this.stage.element);
+    byId('stage').append(this.stage.element, this.wizard.guidance.element);
     this.panels = new Panels(byId('panels'), () => this.cameras.ask());
     const view = new ViewPanel(this.stage, this.theme, () => this.renew());
     this.panels.add(view.section, this.cameras.section, this.wizard.section,
@@ -98,6 +98,7 @@ class Page implements Listener, StageListener {
       this.cameras.status(words.cameras);
     } else if (words.type === 'wizard') this.wizard.show(words);
     else if (words.type === 'constraints') this.setConstraints(words.constraints);
+    else if (words.about === 'wizard') this.wizard.refuse(words.text);
     else this.trouble(words.text);
   }
 
@@ -131,9 +132,11 @@ class Page implements Listener, StageListener {
     const text = JSON.stringify({...scene, revision: 0, wizard: null, constraints: []});
     const same = text === this.sceneText;
     this.scene = scene;
-    this.wizard.load(scene.wizard, scene.mode === 'live');
+    const loadWizard = (): void =>
+      this.wizard.load(scene.wizard, scene.cameras, scene.mode === 'live');
     if (same) {
       this.setConstraints(scene.constraints);
+      loadWizard();
       return;
     }
     this.sceneText = text;
@@ -146,6 +149,7 @@ class Page implements Listener, StageListener {
     this.header.setScene(scene);
     this.cameras.load(scene.cameras, scene.mode === 'live');
     this.status.load(scene.mode === 'live');
+    loadWizard(); // The last: it is scrolled to when it begins.
     this.timeline.load(timelineOf(scene, this.reel.rows, this.reel.playback.rate_hz));
     this.transport.setMode(scene.mode === 'live');
     this.renew();

@@ -28,9 +28,10 @@ export class Section {
     this.element.hidden = hidden;
   }
 
+  /** Opens it; its beginning is seen then, and as much of the rest as there is room for. */
   reveal(): void {
     this.element.open = true;
-    this.element.scrollIntoView({block: 'nearest'});
+    this.element.scrollIntoView({block: 'start'});
   }
 
   /** A few words that are seen when it is folded, too. */

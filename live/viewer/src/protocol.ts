@@ -157,7 +157,7 @@ export type ServerWords =
   | StatusWords
   | WizardWords
   | {type: 'constraints'; constraints: ConstraintWords[]}
-  | {type: 'error'; text: string};
+  | {type: 'error'; text: string; about?: string};
 
 export type DragPhase = 'begin' | 'move' | 'end';
 export type WizardAction = 'start' | 'next' | 'cancel' | 'accept';

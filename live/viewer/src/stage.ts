@@ -24,6 +24,7 @@ import {RigView} from './rig_view';
 import type {Theme} from './theme';
 
 const MOST_POINT_NAMES = 80;
+const ROOM_HEIGHT = 0.4; // Of the eye above the horizon. [rad]
 const NAME_ABOVE_M = 0.2; // Over the highest joint, which is not the top of the head.
 
 export interface StageListener {
@@ -89,6 +90,7 @@ export class Stage {
     this.points = words.points ? new PointsView(words.points.labels) : null;
     if (this.points) this.renderer.scene.add(this.points.object);
     this.setConstraints(words.constraints);
+    if (!this.framed) this.frameRoom();
     this.paint();
   }
 
@@ -146,6 +148,16 @@ export class Stage {
     this.renderer.invalidate();
   }
 
+  /** Nobody is there yet: looks at the cameras, and at the floor between them. */
+  private frameRoom(): void {
+    const places = (this.words?.cameras ?? []).flatMap(({world_from_camera: {p}}) =>
+      [...p, p[0], this.floor.height_m, p[2]]);
+    const {width, height: tall} = this.renderer;
+    const view = framing(places, this.orbit.azimuth, ROOM_HEIGHT, width / tall);
+    if (view) this.orbit.goTo(view, true);
+    this.renderer.invalidate();
+  }
+
   /** From the front, from their left, from above. */
   viewFrom(side: 'front' | 'left' | 'above'): void {
     const aside = side === 'left' ? Math.PI / 2 : 0;
@@ -197,6 +209,7 @@ export class Stage {
   /** A stage that was turned or folded shows its bodies again. */
   private settle(): void {
     if (this.framed) this.frameBodies(true);
+    else this.frameRoom();
   }
 
   private picture(now_ms: number): void {
@@ -261,7 +274,7 @@ export class Stage {
     let best: Handle | null = null;
     let least = reach_px;
     for (const handle of this.handles.handles) {
-      if (!handle.words.draggable) continue;
+      if (!handle.words.draggable || !handle.object.visible) continue;
       const at = this.renderer.pixelOf(handle.shown_in_world);
       if (!at) continue;
       const away = Math.hypot(at[0] - x_px, at[1] - y_px);
