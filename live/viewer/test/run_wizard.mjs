@@ -66,7 +66,7 @@ async function drive(page, folder) {
   const press = (name) => wizard.getByRole('button', {name, exact: true})
     .click({timeout: 60_000});
   const title = (words) => wizard.getByRole('heading', {name: words, exact: true})
-    .waitFor({timeout: 120_000});
+    .waitFor({timeout: 240_000});
   const guidance = page.locator('.guidance');
   await wizard.locator('summary').click();
   assert.ok(!await guidance.isVisible());
