@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/live_balance.h"
 #include "app/live_run.h"
 #include "app/page_server.h"
 #include "app/stopwatch.h"
@@ -56,6 +57,8 @@ class LivePage final : public LiveWatcher {
   };
   [[nodiscard]] Answer answer(const std::string& text, LiveRequests& requests);
   [[nodiscard]] std::string ask(HandleRequest request, LiveRequests& requests);
+  void stand(const LiveInstant& instant, const LiveResult& result);
+  void pose_figures(const LiveResult& result);
   void tell_handles(std::span<const HandleState> handles);
   void show_wizard();
   void note(reconstruct::TrackState state, const LiveFigures& figures);
@@ -67,6 +70,7 @@ class LivePage final : public LiveWatcher {
   std::optional<bool> wish_;  ///< To record, or not to.
   live::PageScene scene_;
   std::vector<live::PageFigure> figures_;
+  std::optional<LiveBalance> balance_;
   std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.
   std::vector<int> tags_seen_;                                    ///< By camera.
   std::vector<LiveCameraFigures> cameras_before_;  ///< As last told.
@@ -75,6 +79,7 @@ class LivePage final : public LiveWatcher {
   std::string bytes_;
   std::vector<std::string> notes_;
   std::optional<Timestamp> first_;
+  std::optional<std::int64_t> stood_at_;  ///< The last instant in which it was tracked.
   std::optional<reconstruct::TrackState> state_;
   std::uint32_t frame_ = 0;
   std::uint32_t handles_told_ = 0;  ///< In which frame.

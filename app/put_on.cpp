@@ -28,7 +28,7 @@ Result<RetargetedMotion> put_on_live(const Motion& source,
   retarget::LiveRetargetOptions live;
   live.root = options.root;
   live.hold_feet = options.adapt_ground;
-  live.contacts = options.contacts;
+  live.stance.contacts = options.contacts;
   live.soles = options.soles;
   live.hands.reset();
   if (options.hands) {

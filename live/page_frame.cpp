@@ -18,6 +18,7 @@ constexpr std::uint8_t kVersion = 1;
 constexpr std::uint8_t kHasPose = 1;
 constexpr std::uint8_t kHasDoubt = 2;
 constexpr std::uint8_t kHasBalance = 4;
+constexpr std::uint8_t kHasTracking = 8;
 
 /// Appends numbers, their least byte first.
 class Writer {
@@ -84,11 +85,22 @@ void write_balance(const PageBalance& balance, Writer& out) {
   }
 }
 
+void write_tracking(const PageTracking& tracking, Writer& out) {
+  out.f32(tracking.residual_px.value_or(std::numeric_limits<double>::quiet_NaN()));
+  std::uint8_t bears = 0;
+  for (std::size_t i = 0; i < tracking.bears.size(); ++i) {
+    if (tracking.bears[i]) bears |= static_cast<std::uint8_t>(1U << i);
+  }
+  out.u8(bears);
+  for (int i = 0; i < 3; ++i) out.u8(0);
+}
+
 void write_figure(const PageFigure& figure, Writer& out) {
   std::uint8_t flags = 0;
   if (figure.pose != nullptr) flags |= kHasPose;
   if (!figure.doubt.empty()) flags |= kHasDoubt;
   if (figure.balance) flags |= kHasBalance;
+  if (figure.tracking) flags |= kHasTracking;
   out.u8(flags);
   out.u8(0);
   out.u16(figure.joints);
@@ -107,6 +119,7 @@ void write_figure(const PageFigure& figure, Writer& out) {
     write_doubt(figure.doubt, out);
   }
   if (figure.balance) write_balance(*figure.balance, out);
+  if (figure.tracking) write_tracking(*figure.tracking, out);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,12 +28,20 @@ struct PageBalance {
   std::span<const glm::dvec2> support_xz_m{};  ///< Polygon on the floor; may be empty.
 };
 
+/// How a body that is followed live was found, for the timeline.
+struct PageTracking {
+  std::optional<double> residual_px{};  ///< Nothing was seen of it: not known.
+  /// Which of the left heel, left ball, right heel and right ball bear.
+  std::array<bool, 4> bears{};
+};
+
 /// One skeleton in one frame.
 struct PageFigure {
   std::size_t joints = 0;               ///< Of the scene's skeleton.
   const Pose* pose = nullptr;           ///< nullptr: not there in this frame.
   std::span<const JointDoubt> doubt{};  ///< One for each joint, or empty.
   std::optional<PageBalance> balance{};
+  std::optional<PageTracking> tracking{};
 };
 
 struct PageFrame {

@@ -21,45 +21,6 @@ glm::dquat heading_of(const glm::dquat& foot) {
 
 }  // namespace
 
-double LiveContact::speed_legs_per_s(const glm::dvec3& p_legs,
-                                     double since_last_s,
-                                     const LiveRetargetOptions& options) {
-  if (is_known_) {
-    const double share = 1.0 - std::exp(-since_last_s / options.speed_filter_s);
-    const glm::dvec3 now_legs_per_s = (p_legs - before_legs_) / since_last_s;
-    velocity_legs_per_s_ += share * (now_legs_per_s - velocity_legs_per_s_);
-  }
-  is_known_ = true;
-  before_legs_ = p_legs;
-  return glm::length(velocity_legs_per_s_);
-}
-
-bool LiveContact::rests(double height_legs, const LiveRetargetOptions& options) {
-  const DetectContactsOptions& o = options.contacts;
-  const double speed = glm::length(velocity_legs_per_s_);
-  rests_ = rests_
-               ? speed < o.keep_speed_legs_per_s && height_legs < o.keep_height_legs
-               : speed < o.start_speed_legs_per_s && height_legs < o.start_height_legs;
-  return rests_;
-}
-
-void LiveFloor::look(double height_legs,
-                     double speed_legs_per_s,
-                     double since_last_s,
-                     const LiveRetargetOptions& options) {
-  const DetectContactsOptions& o = options.contacts;
-  if (speed_legs_per_s > o.start_speed_legs_per_s ||
-      std::abs(height_legs) > o.uneven_legs) {
-    return;
-  }
-  // Down at once, for nothing is below a floor; up slowly: a foot may hang over it.
-  constexpr double kSinks_s = 0.05;
-  constexpr double kRises_s = 0.5;
-  const double above = height_legs - offset_legs_;
-  const double time_s = above < 0.0 ? kSinks_s : kRises_s;
-  offset_legs_ += above * (1.0 - std::exp(-since_last_s / time_s));
-}
-
 LiveFoot::Mode LiveFoot::mode_of(const StandingFoot& stands) {
   if (stands.heel && stands.ball) return Mode::kFlat;
   if (stands.heel) return Mode::kHeel;

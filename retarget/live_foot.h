@@ -10,42 +10,6 @@
 
 namespace marey::retarget {
 
-/// One joint of a foot, posture after posture: how fast it is, and whether it rests, by
-/// speed and height with hysteresis in both. Lengths in leg lengths of the source.
-class LiveContact {
- public:
-  void forget() { *this = LiveContact(); }
-  /// Its next place; 0 of the first.
-  double speed_legs_per_s(const glm::dvec3& p_legs,
-                          double since_last_s,
-                          const LiveRetargetOptions& options);
-  /// `height_legs` is above where it rests.
-  bool rests(double height_legs, const LiveRetargetOptions& options);
-
- private:
-  bool is_known_ = false;
-  bool rests_ = false;
-  glm::dvec3 before_legs_{0.0};
-  glm::dvec3 velocity_legs_per_s_{0.0};
-};
-
-/// Learns how much higher than its rest pose's floor a foot stands: bodies that were
-/// fitted to markers stand some centimetres off it.
-class LiveFloor {
- public:
-  void forget() { offset_legs_ = 0.0; }
-  /// `height_legs` is that of the foot's lower joint above where it should rest, which a
-  /// heel that is up with its ball down does not raise.
-  void look(double height_legs,
-            double speed_legs_per_s,
-            double since_last_s,
-            const LiveRetargetOptions& options);
-  [[nodiscard]] double offset_legs() const { return offset_legs_; }
-
- private:
-  double offset_legs_ = 0.0;
-};
-
 /// Keeps one foot of the avatar where it stands, and lets it go again.
 class LiveFoot {
  public:

@@ -25,9 +25,7 @@ struct LiveRetarget::State {
   double scale = 1.0;  // Of the root's way.
   bool wrists_to_keep = false;
   double sink_m = 0.0;
-  std::array<LiveContact, 4> contacts;  // Left and right ankle, left and right ball.
-  std::array<LiveFloor, 2> floors;
-  std::array<StandingFoot, 2> standing{};
+  LiveStance stance;  // Of the source.
   std::array<LiveFoot, 2> feet;
   BodyVolume source_volume;
   BodyVolume avatar_volume;
@@ -36,50 +34,23 @@ struct LiveRetarget::State {
   std::vector<RigidTransform> source_world;
   std::vector<RigidTransform> avatar_world;
 
-  void judge_feet(double since_last_s);
   [[nodiscard]] double rise_m() const;
   void hold_feet(double since_last_s);
 };
-
-// Where each foot of the source stands.
-void LiveRetarget::State::judge_feet(double since_last_s) {
-  const double leg_m = from.leg_length_m;
-  for (int side = 0; side < 2; ++side) {
-    const auto s = static_cast<std::size_t>(side);
-    const FootMap& foot = from.feet[s];
-    const glm::dvec3 ankle = source_world[index(from.leg(side).end)].translation / leg_m;
-    const double ankle_height = ankle.y - foot.ankle_height_m / leg_m;
-    double speed = contacts[s].speed_legs_per_s(ankle, since_last_s, options);
-    double lower = ankle_height;
-    const auto toes = from.joint_of[index(toes_bone(side))];
-    double ball_height = 0.0;
-    if (toes) {
-      const glm::dvec3 ball = source_world[index(*toes)].translation / leg_m;
-      ball_height = ball.y - foot.ball_height_m / leg_m;
-      lower = std::min(lower, ball_height);
-      speed =
-          std::min(speed, contacts[s + 2].speed_legs_per_s(ball, since_last_s, options));
-    }
-    floors[s].look(lower, speed, since_last_s, options);
-    const double floor = floors[s].offset_legs();
-    standing[s].heel = contacts[s].rests(ankle_height - floor, options);
-    standing[s].ball =
-        toes ? contacts[s + 2].rests(ball_height - floor, options) : standing[s].heel;
-  }
-}
 
 // By how much the root that was scaled with the legs must rise for ankles that rest as
 // the source's do to be where the avatar's should.
 double LiveRetarget::State::rise_m() const {
   const std::array<double, 2> rest_m{
-      from.feet[0].ankle_height_m + floors[0].offset_legs() * from.leg_length_m,
-      from.feet[1].ankle_height_m + floors[1].offset_legs() * from.leg_length_m};
+      from.feet[0].ankle_height_m + stance.floor_offset_legs(0) * from.leg_length_m,
+      from.feet[1].ankle_height_m + stance.floor_offset_legs(1) * from.leg_length_m};
   return standing_rise_m(from, rest_m, to, scale);
 }
 
 // Feet where they stand, hips low enough, legs in between.
 void LiveRetarget::State::hold_feet(double since_last_s) {
   const double unit_m = root_unit_m(to, options.root);
+  const std::array<StandingFoot, 2>& standing = stance.standing();
   const glm::dvec3 root = avatar_world[index(to.hips())].translation;
   std::array<FootPlace, 2> places;
   std::array<glm::dvec3, 2> hips{};
@@ -128,6 +99,7 @@ Result<LiveRetarget> LiveRetarget::make(const Skeleton& source,
   state->to = std::move(bodies->avatar);
   wear(options.soles, state->to);
   state->options = options;
+  state->stance = LiveStance(options.stance);
   state->scale =
       root_unit_m(state->to, options.root) / root_unit_m(state->from, options.root);
   state->wrists_to_keep = spines_differ(state->from, state->to);
@@ -149,7 +121,7 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
   MAREY_ASSERT(source.parent_from_joint.size() == s.source.joints.size());
   world_from_joints(s.source, source, s.source_world);
   normalize(s.from, s.source_world, s.posture, s.options.root);
-  s.judge_feet(since_last_s);
+  s.stance.step(s.from, s.source_world, since_last_s);
   const double rise_m = s.options.hold_feet ? s.rise_m() : 0.0;
   s.posture.root.y += rise_m / root_unit_m(s.to, s.options.root);
   expand(s.posture, s.avatar, s.to, s.avatar_world, out);
@@ -174,15 +146,14 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
 }
 
 void LiveRetarget::forget() {
-  for (LiveContact& contact : state_->contacts) contact.forget();
-  for (LiveFloor& floor : state_->floors) floor.forget();
+  state_->stance.forget();
   for (LiveFoot& foot : state_->feet) foot.forget();
   state_->hands.forget();
   state_->sink_m = 0.0;
 }
 
 const std::array<StandingFoot, 2>& LiveRetarget::standing() const {
-  return state_->standing;
+  return state_->stance.standing();
 }
 
 std::span<const RigidTransform> LiveRetarget::world_from_joint() const {

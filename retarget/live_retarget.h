@@ -11,9 +11,9 @@
 #include "core/result.h"
 #include "core/skeleton.h"
 #include "core/transform.h"
-#include "retarget/detect_contacts.h"
 #include "retarget/find_soles.h"
 #include "retarget/live_hands.h"
+#include "retarget/live_stance.h"
 #include "retarget/normalized_skeleton.h"
 
 namespace marey::retarget {
@@ -22,10 +22,7 @@ struct LiveRetargetOptions {
   RootNormalization root = RootNormalization::kLegLength;
   Soles soles;            ///< Of the avatar, where its skin is known.
   bool hold_feet = true;  ///< Feet that stand in the source stand still on the avatar.
-  /// When a foot stands; its times and its uneven floors need the future and do not count.
-  DetectContactsOptions contacts;
-  /// Time constant of the filter on speeds: noise stays under the thresholds. [s]
-  double speed_filter_s = 0.02;
+  LiveStanceOptions stance;
   double land_s = 0.08;     ///< A landing foot takes this long to lie flat.
   double release_s = 0.25;  ///< A leaving foot takes this long to its own way again.
   double rise_s = 0.3;      ///< Time constant of hips rising after they had to sink.
@@ -34,12 +31,6 @@ struct LiveRetargetOptions {
   /// What hands do to the body is kept, arms stay out of it; nullopt: arms stay where the
   /// normalized posture has them.
   std::optional<LiveHandsOptions> hands = LiveHandsOptions{};
-};
-
-/// Which parts of one foot stand, as judged in the source.
-struct StandingFoot {
-  bool heel = false;
-  bool ball = false;
 };
 
 /// Puts one performer's motion on one avatar, posture by posture, knowing nothing of the
@@ -67,7 +58,7 @@ class LiveRetarget {
   /// The next posture is taken as a first one: the performer was lost, or jumped.
   void forget();
 
-  /// Of the last step(). Left, right.
+  /// As judged in the source by the last step(). Left, right.
   [[nodiscard]] const std::array<StandingFoot, 2>& standing() const;
   /// The avatar's joints in the world after the last step().
   [[nodiscard]] std::span<const RigidTransform> world_from_joint() const;

@@ -35,6 +35,8 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) {
 // The corners of all that bears, then their convex hull, counterclockwise.
 class Hull {
  public:
+  static constexpr std::size_t kMost = 8;  // Two feet of four corners.
+
   void add(const glm::dvec2& p) { corners_[count_++] = p; }
   [[nodiscard]] bool empty() const { return count_ == 0; }
   // Precondition: closed.
@@ -84,7 +86,6 @@ class Hull {
   }
 
  private:
-  static constexpr std::size_t kMost = 8;  // Two feet of four corners.
   std::array<glm::dvec2, kMost> corners_{};
   std::size_t count_ = 0;
   std::array<glm::dvec2, 2 * kMost> hull_{};
@@ -126,6 +127,21 @@ void add_foot(const Sole& sole, bool heel_bears, bool ball_bears, Hull& hull) {
   }
 }
 
+// What bears of one posture: closed, unless it is empty.
+Hull hull_of(const BodyMap& map,
+             std::span<const RigidTransform> world_from_joint,
+             const std::array<StandingFoot, 2>& standing) {
+  Hull hull;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const StandingFoot& stands = standing[side];
+    if (!stands.heel && !stands.ball) continue;
+    const Sole sole = sole_of(map, world_from_joint, static_cast<int>(side));
+    add_foot(sole, stands.heel, stands.ball, hull);
+  }
+  if (!hull.empty()) hull.close();
+  return hull;
+}
+
 // Calls `each(frame, centre of mass in the world, what bears)`, the hull being closed
 // unless nothing bears.
 template <class Each>
@@ -144,18 +160,29 @@ void for_each_frame(const Motion& motion,
   std::vector<RigidTransform> world_from_joint(motion.skeleton.joints.size());
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     world_from_joints(motion.skeleton, motion.poses[t], world_from_joint);
-    Hull hull;
+    std::array<StandingFoot, 2> standing;
     for (std::size_t side = 0; side < 2; ++side) {
-      if (heel[side][t] == 0 && ball[side][t] == 0) continue;
-      const Sole sole = sole_of(map, world_from_joint, static_cast<int>(side));
-      add_foot(sole, heel[side][t] != 0, ball[side][t] != 0, hull);
+      standing[side] = {heel[side][t] != 0, ball[side][t] != 0};
     }
-    if (!hull.empty()) hull.close();
-    each(t, centre_of_mass(masses, world_from_joint), hull);
+    each(t,
+         centre_of_mass(masses, world_from_joint),
+         hull_of(map, world_from_joint, standing));
   }
 }
 
 }  // namespace
+
+void balance_of_posture(const BodyMap& map,
+                        std::span<const PointMass> masses,
+                        std::span<const RigidTransform> world_from_joint,
+                        const std::array<StandingFoot, 2>& standing,
+                        BalanceFrame& out) {
+  const Hull hull = hull_of(map, world_from_joint, standing);
+  const auto corners = hull.corners();
+  out.centre_of_mass_in_world = centre_of_mass(masses, world_from_joint);
+  out.support_xz_m.reserve(Hull::kMost);
+  out.support_xz_m.assign(corners.begin(), corners.end());
+}
 
 BalanceTrack track_balance(const Motion& motion,
                            const BodyMap& map,

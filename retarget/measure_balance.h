@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -11,8 +12,10 @@
 
 #include "core/character.h"
 #include "core/motion.h"
+#include "core/transform.h"
 #include "retarget/body_map.h"
 #include "retarget/detect_contacts.h"
+#include "retarget/live_stance.h"
 
 namespace marey::retarget {
 
@@ -23,6 +26,14 @@ struct BalanceFrame {
   /// turn. Empty: nothing does.
   std::vector<glm::dvec2> support_xz_m;
 };
+
+/// Of one posture, on the feet that stand; in `out`, which allocates nothing once it has
+/// held corners. Preconditions: `map` is of the posture's body; of `masses` as below.
+void balance_of_posture(const BodyMap& map,
+                        std::span<const PointMass> masses,
+                        std::span<const RigidTransform> world_from_joint,
+                        const std::array<StandingFoot, 2>& standing,
+                        BalanceFrame& out);
 
 /// Frame by frame. Cost and preconditions as track_balance()'s.
 [[nodiscard]] std::vector<BalanceFrame> balance_frames(const Motion& motion,

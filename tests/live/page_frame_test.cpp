@@ -37,7 +37,8 @@ TEST(PageFrame, HasTheBytesOfTheProtocol) {
       {.joints = 1,
        .pose = &pose,
        .doubt = doubt,
-       .balance = PageBalance{{0.5, 1.0, 2.0}, support}},
+       .balance = PageBalance{{0.5, 1.0, 2.0}, support},
+       .tracking = PageTracking{0.5, {true, false, false, true}}},
       {.joints = 25},
   }};
   std::string out = "kept ";
@@ -47,10 +48,11 @@ TEST(PageFrame, HasTheBytesOfTheProtocol) {
             "kept " + bytes({1, 1, 2, 0, 4, 3, 2, 1}) +      //
                 bytes({0, 0, 0, 0, 0, 0, 0xf0, 0x3f}) +      // 1 as a double
                 bytes({0, 0, 0, 0, 0, 0, 0, 0x40}) +         // 2
-                bytes({7, 0, 1, 0}) + kOne + kTwo + kHalf +  // root
+                bytes({15, 0, 1, 0}) + kOne + kTwo + kHalf +  // root
                 kZero + kZero + kZero + kOne +               // x y z w
                 kHalf + bytes({1, 0, 0, 0}) +                // doubt, filled up
                 kHalf + kOne + kTwo + bytes({1, 0, 0, 0}) + kTwo + kOne +  // balance
+                kHalf + bytes({9, 0, 0, 0}) +  // tracking
                 bytes({0, 0, 25, 0}));
 }
 

@@ -12,6 +12,7 @@ const HEADER_BYTES = 24;
 const HAS_POSE = 1;
 const HAS_DOUBT = 2;
 const HAS_BALANCE = 4;
+const HAS_TRACKING = 8;
 /** Corners of a support polygon that are kept; feet and hands make far fewer. */
 const MOST_CORNERS = 64;
 
@@ -21,6 +22,7 @@ export class SkeletonFrame {
   hasPose = false;
   hasDoubt = false;
   hasBalance = false;
+  hasTracking = false;
   readonly root_in_world = new Float32Array(3);
   /** x y z w of every joint, the rest rotation included. */
   readonly parent_from_joint: Float32Array;
@@ -31,6 +33,10 @@ export class SkeletonFrame {
   /** x z of every corner, on the floor. */
   readonly support_xz = new Float32Array(2 * MOST_CORNERS);
   corners = 0;
+  /** NaN: not known. */
+  residual_px = NaN;
+  /** Bits: left heel, left ball, right heel, right ball. */
+  bears = 0;
 
   constructor(joints: number) {
     this.joints = joints;
@@ -52,6 +58,9 @@ export class SkeletonFrame {
     this.centre_of_mass_in_world.set(other.centre_of_mass_in_world);
     this.support_xz.set(other.support_xz);
     this.corners = other.corners;
+    this.hasTracking = other.hasTracking;
+    this.residual_px = other.residual_px;
+    this.bears = other.bears;
   }
 }
 
@@ -94,6 +103,7 @@ function decodeSkeleton(view: DataView, start: number, into: SkeletonFrame): num
   into.hasPose = (flags & HAS_POSE) !== 0;
   into.hasDoubt = (flags & HAS_DOUBT) !== 0;
   into.hasBalance = (flags & HAS_BALANCE) !== 0;
+  into.hasTracking = (flags & HAS_TRACKING) !== 0;
   let at = start + 4;
   if (into.hasPose) {
     if (at + 12 + 16 * joints > view.byteLength) return -1;
@@ -106,7 +116,8 @@ function decodeSkeleton(view: DataView, start: number, into: SkeletonFrame): num
     for (let i = 0; i < joints; ++i) into.source[i] = Math.min(view.getUint8(at + i), 2);
     at += paddedBytes(joints);
   }
-  return into.hasBalance ? decodeBalance(view, at, into) : at;
+  if (into.hasBalance) at = decodeBalance(view, at, into);
+  return at >= 0 && into.hasTracking ? decodeTracking(view, at, into) : at;
 }
 
 function decodeBalance(view: DataView, start: number, into: SkeletonFrame): number {
@@ -118,6 +129,13 @@ function decodeBalance(view: DataView, start: number, into: SkeletonFrame): numb
   into.corners = Math.min(corners, MOST_CORNERS);
   readFloats(view, at, into.support_xz, 2 * into.corners);
   return at + 8 * corners;
+}
+
+function decodeTracking(view: DataView, start: number, into: SkeletonFrame): number {
+  if (start + 8 > view.byteLength) return -1;
+  into.residual_px = view.getFloat32(start, true);
+  into.bears = view.getUint8(start + 4);
+  return start + 8;
 }
 
 function paddedBytes(count: number): number {

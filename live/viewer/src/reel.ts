@@ -9,8 +9,9 @@ import {FrameRing} from './frame_ring';
 import {Playback} from './playback';
 import {blendFrames} from './posed_skeleton';
 import type {SceneWords} from './protocol';
-import {FileRows, RingRows} from './timeline_rows';
-import type {Rows} from './timeline_rows';
+import {FileContacts, FileCurve, FileRows, RingContacts, RingResidual, RingRows}
+  from './timeline_rows';
+import type {Curve, Rows} from './timeline_rows';
 
 const KEPT_S = 60;
 const MOST_FRAMES = 7200;
@@ -20,6 +21,9 @@ export class Reel {
   /** The instant that is shown, after compose(). */
   shown = new SceneFrame([]);
   rows: Rows = new RingRows([], new FrameRing(1, 0));
+  /** What bears, over time; null of a session without a performer. */
+  contacts: Rows | null = null;
+  curves: readonly Curve[] = [];
   points: PointBlock | null = null;
   private before = new SceneFrame([]);
   private after = new SceneFrame([]);
@@ -55,6 +59,8 @@ export class Reel {
     const {playback} = this;
     if (scene.file) {
       this.rows = new FileRows(scene.file);
+      this.contacts = new FileContacts(scene.file);
+      this.curves = scene.file.graphs.map((graph) => new FileCurve(graph));
       playback.following = false;
       playback.playing = false;
       playback.setRange(0, scene.file.frames - 1);
@@ -65,6 +71,8 @@ export class Reel {
     const capacity = Math.min(Math.ceil(KEPT_S * playback.rate_hz), MOST_FRAMES);
     this.ring = new FrameRing(capacity, names.length);
     this.rows = new RingRows(names, this.ring);
+    this.contacts = witness ? new RingContacts(this.ring) : null;
+    this.curves = witness ? [new RingResidual(this.ring)] : [];
     playback.setRange(0, 0);
     playback.follow();
   }
@@ -95,7 +103,9 @@ export class Reel {
     if (decodeFrame(view, 0, this.after) < 0) return false;
     const witness = this.after.skeletons[this.witness];
     if (witness && !witness.hasDoubt) witness.source.fill(0);
-    this.ring.push(view, witness?.hasPose ? witness.source : null);
+    const tracked = witness?.hasTracking ? witness : null;
+    this.ring.push(view, witness?.hasPose ? witness.source : null, tracked?.bears,
+      tracked?.residual_px);
     this.playback.setRange(this.ring.first, this.ring.last);
     return true;
   }

@@ -8,7 +8,7 @@ import type {Theme} from './theme';
 import {clockWords, TimeWindow} from './time_window';
 import type {Band, TimelineData} from './timeline_paint';
 import {AXIS_PX, boneWords, heightOf, layOut, short, TimelinePainter} from './timeline_paint';
-import {sourceWords} from './timeline_rows';
+import {BEARS, sourceWords} from './timeline_rows';
 
 const WIDE_PX = 640;
 
@@ -41,7 +41,7 @@ export class Timeline {
   get foldable(): boolean {
     const {data} = this;
     return data !== null &&
-      data.rows.names.length + data.contacts.length + data.graphs.length > 0;
+      data.rows.names.length + (data.contacts?.names.length ?? 0) + data.graphs.length > 0;
   }
 
   fold(folded: boolean): void {
@@ -194,12 +194,14 @@ export class Timeline {
       return ` · ${boneWords(data.rows.names[band.index])}: ` +
         sourceWords(data.rows.source(band.index, frame));
     }
-    if (band.kind === 'contact') return ` · ${data.contacts[band.index].name}`;
+    if (band.kind === 'contact' && data.contacts) {
+      const bears = data.contacts.source(band.index, frame) === BEARS;
+      return ` · ${data.contacts.names[band.index]}${bears ? ': bears' : ''}`;
+    }
     if (band.kind === 'graph') {
-      const {name, unit, values} = data.graphs[band.index];
-      const value = values[frame];
-      return value === null || value === undefined ? ` · ${name}: not known`
-        : ` · ${name}: ${short(value)} ${unit}`;
+      const {name, unit} = data.graphs[band.index];
+      const value = data.graphs[band.index].at(frame);
+      return value === null ? ` · ${name}: not known` : ` · ${name}: ${short(value)} ${unit}`;
     }
     return '';
   }

@@ -3,11 +3,12 @@
 
 // The timeline's picture: an axis, one strip per segment, contacts, graphs.
 
-import type {ContactWords, GraphWords, SceneWords} from './protocol';
+import type {SceneWords} from './protocol';
+import type {Reel} from './reel';
 import type {Colours} from './theme';
 import type {TimeWindow} from './time_window';
 import {clockWords, tickStep_s} from './time_window';
-import type {Rows} from './timeline_rows';
+import type {Curve, Rows} from './timeline_rows';
 
 export const AXIS_PX = 20;
 const SUMMARY_PX = 18;
@@ -17,8 +18,8 @@ const GAP_PX = 6;
 
 export interface TimelineData {
   rows: Rows;
-  contacts: readonly ContactWords[];
-  graphs: readonly GraphWords[];
+  contacts: Rows | null;
+  graphs: readonly Curve[];
   notes: readonly {frame: number; text: string}[];
   rate_hz: number;
   first_frame: number;
@@ -26,12 +27,11 @@ export interface TimelineData {
 }
 
 /** What the timeline shows of a scene: frames counted from 0, as the playback does. */
-export function timelineOf(scene: SceneWords, rows: Rows, rate_hz: number): TimelineData {
+export function timelineOf(scene: SceneWords, reel: Reel): TimelineData {
   const {file} = scene;
   const first_frame = file?.first_frame ?? 0;
-  return {rows, rate_hz, first_frame, live: file === null, graphs: file?.graphs ?? [],
-    contacts: (file?.contacts ?? []).map(({name, spans}) => ({name, spans: spans.map(
-      ([first, last]) => [first - first_frame, last - first_frame])})),
+  return {rows: reel.rows, contacts: reel.contacts, graphs: reel.curves,
+    rate_hz: reel.playback.rate_hz, first_frame, live: file === null,
     notes: (file?.notes ?? []).map(({frame, text}) => ({frame: frame - first_frame, text}))};
 }
 
@@ -54,8 +54,9 @@ export function layOut(data: TimelineData, folded: boolean): Band[] {
   if (folded) return bands;
   if (data.rows.names.length > 0) top += GAP_PX;
   data.rows.names.forEach((_, i) => add('row', i, ROW_PX));
-  if (data.contacts.length > 0) top += GAP_PX;
-  data.contacts.forEach((_, i) => add('contact', i, ROW_PX));
+  const contacts = data.contacts?.names ?? [];
+  if (contacts.length > 0) top += GAP_PX;
+  contacts.forEach((_, i) => add('contact', i, ROW_PX));
   data.graphs.forEach((_, i) => {
     top += GAP_PX;
     add('graph', i, GRAPH_PX);
@@ -69,7 +70,7 @@ export function heightOf(bands: readonly Band[]): number {
 }
 
 /** Lowest and highest value that is known; null of a graph without any. */
-export function rangeOf(values: readonly (number | null)[]): [number, number] | null {
+export function rangeOf(values: Iterable<number | null>): [number, number] | null {
   let low = Infinity;
   let high = -Infinity;
   for (const value of values) {
@@ -96,7 +97,7 @@ export class TimelinePainter {
     for (const band of bands) {
       if (band.kind === 'summary') this.summary(data, band);
       if (band.kind === 'row') this.row(data, band);
-      if (band.kind === 'contact') this.contact(data.contacts[band.index], band);
+      if (band.kind === 'contact') this.contact(data, band);
       if (band.kind === 'graph') this.graph(data.graphs[band.index], band);
     }
     for (const {frame} of data.notes) this.note(frame);
@@ -217,19 +218,20 @@ export class TimelinePainter {
       });
   }
 
-  private contact(contact: ContactWords, band: Band): void {
-    this.name(contact.name, band);
+  private contact({contacts, live}: TimelineData, band: Band): void {
+    if (!contacts) return;
+    this.name(contacts.names[band.index], band);
     this.context.fillStyle = this.colours.none;
     this.bar(this.window.from, this.window.to, band.top, band.height - 2);
     this.context.fillStyle = this.colours.ink;
-    for (const [first, last] of contact.spans) {
-      this.bar(first, last, band.top + 2, band.height - 6);
-    }
+    const {from, to} = this.window;
+    contacts.spans(band.index, from, to, live ? this.stride : 1, (first, last) =>
+      this.bar(first, last, band.top + 2, band.height - 6));
   }
 
-  private graph(graph: GraphWords, band: Band): void {
+  private graph(graph: Curve, band: Band): void {
     const {context, colours, window, gutter, width} = this;
-    const range = rangeOf(graph.values);
+    const range = rangeOf(valuesOf(graph));
     this.name(graph.unit ? `${graph.name} [${graph.unit}]` : graph.name,
       {...band, height: 14});
     context.fillStyle = colours.none;
@@ -249,9 +251,11 @@ export class TimelinePainter {
     context.beginPath();
     let drawing = false;
     const step = Math.max(1, Math.floor(this.stride / 2));
-    const to = Math.min(graph.values.length - 1, Math.ceil(window.to));
-    for (let i = Math.max(0, Math.floor(window.from)); i <= to; i += step) {
-      const value = highest(graph.values, i, step);
+    const to = Math.min(graph.end - 1, Math.ceil(window.to));
+    // Whole steps since the beginning: a live curve must not change as it goes on.
+    const from = Math.floor(Math.max(graph.first, window.from) / step) * step;
+    for (let i = from; i <= to; i += step) {
+      const value = highest(graph, i, step);
       if (value === null) {
         drawing = false;
         continue;
@@ -280,12 +284,15 @@ export class TimelinePainter {
   }
 }
 
+function* valuesOf(curve: Curve): Iterable<number | null> {
+  for (let i = curve.first; i < curve.end; ++i) yield curve.at(i);
+}
+
 /** The worst of several frames that share a pixel. */
-function highest(values: readonly (number | null)[], from: number, count: number):
-  number | null {
+function highest(curve: Curve, from: number, count: number): number | null {
   let best: number | null = null;
-  for (let i = from; i < Math.min(from + count, values.length); ++i) {
-    const value = values[i];
+  for (let i = from; i < Math.min(from + count, curve.end); ++i) {
+    const value = curve.at(i);
     if (value !== null && Number.isFinite(value) && (best === null || value > best)) best = value;
   }
   return best;

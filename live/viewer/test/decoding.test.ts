@@ -12,10 +12,10 @@ import {readServerWords} from '../src/protocol';
 
 const two = [{joints: new Array(2)}, {joints: new Array(1)}];
 
-/** Two skeletons: one with pose, doubt and a triangle to stand on; one that is not there.
+/** Two skeletons: one with pose, doubt, a triangle to stand on and how it was found; one that is not there.
  *  Written out by hand after docs/formats.md. */
 function frameBytes(frame = 7): ArrayBuffer {
-  const bytes = new ArrayBuffer(24 + (4 + 12 + 32 + 8 + 4 + 16 + 24) + 4);
+  const bytes = new ArrayBuffer(24 + (4 + 12 + 32 + 8 + 4 + 16 + 24 + 8) + 4);
   const view = new DataView(bytes);
   view.setUint8(0, 1);
   view.setUint8(1, 1);
@@ -24,7 +24,7 @@ function frameBytes(frame = 7): ArrayBuffer {
   view.setFloat64(8, 0.25, true);
   view.setFloat64(16, 12.5, true);
   let at = 24;
-  view.setUint8(at, 7);
+  view.setUint8(at, 15);
   view.setUint16(at + 2, 2, true);
   at += 4;
   const floats = (...values: number[]): void => {
@@ -42,7 +42,9 @@ function frameBytes(frame = 7): ArrayBuffer {
   floats(4, 5, 6);
   view.setUint16(at, 3, true);
   at += 4;
-  floats(0, 0, 1, 0, 0, 1);
+  floats(0, 0, 1, 0, 0, 1, 0.75);
+  view.setUint8(at, 9);
+  at += 4;
   view.setUint16(at + 2, 1, true);
   return bytes;
 }
@@ -76,7 +78,10 @@ test('a frame is read as it was written', () => {
   assert.deepEqual([...there.centre_of_mass_in_world], [4, 5, 6]);
   assert.equal(there.corners, 3);
   assert.deepEqual([...there.support_xz.subarray(0, 6)], [0, 0, 1, 0, 0, 1]);
+  assert.equal(there.residual_px, 0.75);
+  assert.equal(there.bears, 9);
   assert.equal(gone.hasPose, false);
+  assert.equal(gone.hasTracking, false);
 });
 
 test('a frame that is cut short anywhere is refused', () => {

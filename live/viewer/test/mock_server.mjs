@@ -36,7 +36,7 @@ export class MockServer {
     this.wizard = null;
     this.scene = mode === 'live' ? liveScene(rate_hz, avatar) : fileScene(rate_hz, frames, avatar);
     this.bodies = this.scene.skeletons.map(({estimate, kind}) =>
-      ({estimate, balance: kind === 'performer', droop: kind === 'avatar' ? avatar.droop : 0}));
+      ({estimate, balance: kind === 'performer', tracking: kind === 'performer', droop: kind === 'avatar' ? avatar.droop : 0}));
     if (avatar) this.media.set('/media/1', avatar.bytes ?? avatarFile());
     if (mode === 'file') this.media.set('/media/2', this.#block());
   }

@@ -9,7 +9,8 @@ import {ABSENT, FrameRing} from '../src/frame_ring';
 import {Playback} from '../src/playback';
 import {clockWords, TimeWindow, tickStep_s} from '../src/time_window';
 import {layOut, rangeOf} from '../src/timeline_paint';
-import {FileRows, RingRows} from '../src/timeline_rows';
+import {BEARS, FileContacts, FileRows, RingContacts, RingResidual, RingRows}
+  from '../src/timeline_rows';
 
 const view = (frame: number): DataView => {
   const made = new DataView(new ArrayBuffer(4));
@@ -105,6 +106,37 @@ test('rows of a file tell the gaps that are in sight', () => {
   assert.equal(rows.source(0, 9), 0);
 });
 
+test('what bears, and the residual, are remembered as long as frames are', () => {
+  const ring = new FrameRing(4, 0);
+  // Left heel; both balls; nothing; right ball; left heel.
+  [1, 10, 0, 8, 1].forEach((bears, i) => ring.push(view(i), null, bears, i === 2 ? NaN : i / 4));
+  const contacts = new RingContacts(ring);
+  const spans = (row: number): number[][] => {
+    const found: number[][] = [];
+    contacts.spans(row, 0, 10, 1, (...span) => found.push(span));
+    return found;
+  };
+  assert.deepEqual(spans(0), [[4, 4, BEARS]], 'the first frame is forgotten');
+  assert.deepEqual(spans(1), [[1, 1, BEARS]]);
+  assert.deepEqual(spans(3), [[1, 1, BEARS], [3, 3, BEARS]]);
+  assert.equal(contacts.source(3, 3), BEARS);
+  assert.equal(contacts.source(0, 0), 0);
+  const residual = new RingResidual(ring);
+  assert.deepEqual([residual.first, residual.end], [1, 5]);
+  assert.deepEqual([0, 1, 2, 3, 4, 5].map((i) => residual.at(i)),
+    [null, 0.25, null, 0.75, 1, null]);
+});
+
+test('contacts of a file are counted from its first frame', () => {
+  const contacts = new FileContacts({frames: 100, first_frame: 10, block: null,
+    points_block: null, tracks: [], contacts: [{name: 'left heel', spans: [[12, 20]]}],
+    graphs: [], notes: []});
+  const spans: number[][] = [];
+  contacts.spans(0, 0, 50, 1, (...span) => spans.push(span));
+  assert.deepEqual(spans, [[2, 10, BEARS]]);
+  assert.equal(contacts.source(0, 11), 0);
+});
+
 test('zooming keeps the frame under the pointer, and never leaves the recording', () => {
   const seen = new TimeWindow();
   seen.setRange(0, 1000);
@@ -148,7 +180,8 @@ test('axes have round steps and clocks carry over', () => {
 
 test('bands do not overlap, and folded there is one', () => {
   const data = {rows: new RingRows(['a', 'b'], new FrameRing(1, 2)), notes: [], rate_hz: 30,
-    contacts: [{name: 'heel', spans: []}], graphs: [{name: 'g', unit: 'px', values: []}],
+    contacts: new RingRows(['heel'], new FrameRing(1, 1)),
+    graphs: [new RingResidual(new FrameRing(1, 0))],
     first_frame: 0, live: false};
   const bands = layOut(data, false);
   assert.equal(bands.length, 5);
