@@ -63,6 +63,7 @@ void tell(const Report& report,
   }
   if (!report.trials.empty()) {
     console.say("report: " + (out / "report.html").string());
+    console.say("to see it move: marey view " + out.string());
   } else if (report.cameras_are_judged) {
     console.say("report: " + (out / "calibration.html").string());
   }
@@ -137,7 +138,10 @@ Exit run_demo(const std::filesystem::path& sample,
   if (done != Exit::kOk) return done;
   std::error_code ignored;
   const auto page = std::filesystem::absolute(out / "report.html", ignored);
-  std::printf("results: %s\npage:    file://%s\n", out.c_str(), page.c_str());
+  std::printf("results: %s\npage:    file://%s\nnext:    marey view %s\n",
+              out.c_str(),
+              page.c_str(),
+              out.c_str());
   return Exit::kOk;
 }
 

@@ -10,8 +10,8 @@
 
 #include "app/option_checks.h"
 #include "app/stop_signal.h"
-#include "app/view_handles.h"
 #include "app/view_page.h"
+#include "app/view_trials.h"
 #include "live/page_request.h"
 #include "live/page_scene.h"
 #include "live/page_status.h"
@@ -21,26 +21,28 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What is shown, and what pages do to it.
-struct Shown {
-  const ViewedRecording& recording;
-  ViewHandles handles;
-};
-
 /// Notes one message. What is said to the page; empty: nothing. `drags`: it wants a frame.
-std::string note(const live::ReceivedText& text, Shown& shown, bool& drags) {
+std::string note(const live::ReceivedText& text,
+                 live::WebServer& server,
+                 ViewTrials& trials,
+                 bool& drags) {
   const auto request = live::read_page_request(text.text);
   if (!request) return live::error_json(request.error().message());
+  ViewHandles& handles = trials.seen_by(text.client).handles;
   if (const auto* drag = std::get_if<live::DragRequest>(&*request)) {
-    const Status ok = shown.handles.drag(text.client, *drag);
+    const Status ok = handles.drag(text.client, *drag);
     if (!ok) return live::error_json(ok.error().message());
     drags = true;
     return {};
   }
   if (const auto* hold = std::get_if<live::ConstraintRequest>(&*request)) {
-    drags = !hold->active && shown.handles.release(text.client, hold->id);
+    drags = !hold->active && handles.release(text.client, hold->id);
     // The page has shown it as switched already.
-    return drags ? std::string() : live::constraints_json(shown.handles.constraints());
+    return drags ? std::string() : live::constraints_json(handles.constraints());
+  }
+  if (const auto* other = std::get_if<live::TrialRequest>(&*request)) {
+    const auto scene = trials.show(text.client, other->name, server);
+    return scene ? std::string(*scene) : live::error_json(scene.error().message());
   }
   const bool harmless = std::holds_alternative<live::HelloRequest>(*request) ||
                         std::holds_alternative<live::ShownRequest>(*request) ||
@@ -49,7 +51,7 @@ std::string note(const live::ReceivedText& text, Shown& shown, bool& drags) {
                   : live::error_json("a recording is only looked at here");
 }
 
-void answer(live::WebServer& server, const Shown& shown, live::ClientId client) {
+void answer(live::WebServer& server, const ViewedTrial& shown, live::ClientId client) {
   const auto adapted = shown.handles.adapted(client);
   if (!adapted) {
     server.answer_text(client, live::error_json(adapted.error().message()));
@@ -61,23 +63,30 @@ void answer(live::WebServer& server, const Shown& shown, live::ClientId client) 
           shown.recording, adapted->frame, shown.handles.figure(), adapted->pose));
 }
 
-/// Of what a page dragged meanwhile only the last counts.
-void hear(live::WebServer& server, std::vector<live::ReceivedText>& texts, Shown& shown) {
+/// Of what a page dragged meanwhile only the last counts, and nothing once it has turned
+/// to another trial.
+void hear(live::WebServer& server,
+          std::vector<live::ReceivedText>& texts,
+          ViewTrials& trials) {
   server.take_texts(texts);
-  std::vector<live::ClientId> dragging;
+  std::vector<std::pair<live::ClientId, const ViewedTrial*>> dragging;
   for (const live::ReceivedText& text : texts) {
     bool drags = false;
-    const std::string said = note(text, shown, drags);
+    const std::string said = note(text, server, trials, drags);
     if (!said.empty()) server.answer_text(text.client, said);
-    if (drags && std::ranges::find(dragging, text.client) == dragging.end()) {
-      dragging.push_back(text.client);
+    const std::pair<live::ClientId, const ViewedTrial*> one{
+        text.client, &trials.seen_by(text.client)};
+    if (drags && std::ranges::find(dragging, one) == dragging.end()) {
+      dragging.push_back(one);
     }
   }
-  for (const live::ClientId client : dragging) answer(server, shown, client);
+  for (const auto& [client, shown] : dragging) {
+    if (shown == &trials.seen_by(client)) answer(server, *shown, client);
+  }
 }
 
 /// Until Ctrl-C or the time is over.
-Status serve(live::WebServer& server, const ViewArguments& args, Shown& shown) {
+Status serve(live::WebServer& server, const ViewArguments& args, ViewTrials& trials) {
   constexpr std::chrono::milliseconds kLook{100};
   const auto end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(
@@ -86,7 +95,7 @@ Status serve(live::WebServer& server, const ViewArguments& args, Shown& shown) {
   if (!args.page.web_root.empty()) root.emplace(args.page.web_root);
   std::vector<live::ReceivedText> texts;
   while (!stop_wanted() && (!args.seconds || Clock::now() < end)) {
-    if (server.wait_for_text(kLook)) hear(server, texts, shown);
+    if (server.wait_for_text(kLook)) hear(server, texts, trials);
     if (!root) continue;
     if (Status ok = root->serve(server); !ok) return ok;
   }
@@ -96,23 +105,17 @@ Status serve(live::WebServer& server, const ViewArguments& args, Shown& shown) {
 }  // namespace
 
 Exit run_view(const ViewArguments& args, Console& console) {
-  const auto recording = read_view(args.choice);
-  if (!recording) return console.fail(recording.error());
-  for (const std::string& remark : recording->remarks) console.say(remark);
-  auto encoded = page_of_recording(*recording);
-  if (!encoded) return console.fail(encoded.error());
-  auto handles = ViewHandles::make(*recording, args.constraints);
-  if (!handles) return console.fail(handles.error());
-  Shown shown{*recording, *std::move(handles)};
-  encoded->scene.constraints = shown.handles.constraints();
+  auto trials = ViewTrials::open(args.choice, args.constraints);
+  if (!trials) return console.fail(trials.error());
+  for (const std::string& remark : trials->first().recording.remarks) console.say(remark);
   auto page = start_page(args.page);
   if (!page) return console.fail(page.error());
-  for (live::WebContent& content : encoded->media) page->server.put(std::move(content));
-  page->server.publish_text(live::PageMessage::kScene, live::scene_json(encoded->scene));
+  trials->serve(page->server);
+  page->server.publish_text(live::PageMessage::kScene, trials->first().scene);
   catch_stop_signals();
   tell_addresses(*page, args.page);
   if (!args.seconds) console.say("open the address in a browser; Ctrl-C ends it");
-  if (const Status ok = serve(page->server, args, shown); !ok) return console.fail(ok.error());
+  if (const Status ok = serve(page->server, args, *trials); !ok) return console.fail(ok.error());
   return Exit::kOk;
 }
 

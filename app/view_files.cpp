@@ -95,7 +95,7 @@ Result<ViewedRecording> folder_view(const fs::path& folder, const std::string& w
   auto out = read_trial_view(folder / trial);
   if (out && wanted.empty() && trials.size() > 1) {
     out->remarks.push_back("shows the trial " + trial + " of:" + others +
-                           "; --trial shows another");
+                           "; the page and --trial show others");
   }
   return out;
 }

@@ -147,10 +147,11 @@ Result<live::WebContent> file_content(const std::filesystem::path& file,
                           {}};
 }
 
-Result<PageOfRecording> page_of_recording(const ViewedRecording& recording) {
+Result<PageOfRecording> page_of_recording(const ViewedRecording& recording,
+                                          std::size_t first_media) {
   PageOfRecording out;
-  const auto next_path = [&out] {
-    return "/media/" + std::to_string(out.media.size() + 1);
+  const auto next_path = [&out, first_media] {
+    return "/media/" + std::to_string(out.media.size() + first_media);
   };
   live::PageScene& scene = out.scene;
   scene.title = recording.title;

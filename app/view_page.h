@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -22,8 +22,9 @@ struct PageOfRecording {
 /// Puts figures side by side, encodes all frames and reads the skins' files. Figures at
 /// another rate than the recording's are resampled; one that ends earlier is gone then.
 /// Cost: 16 bytes a joint and frame, 16 a marker and frame, and the files of the skins.
-/// Errors: a skin's file cannot be read.
-[[nodiscard]] Result<PageOfRecording> page_of_recording(const ViewedRecording& recording);
+/// Media are numbered from `first_media` on. Errors: a skin's file cannot be read.
+[[nodiscard]] Result<PageOfRecording> page_of_recording(const ViewedRecording& recording,
+                                                        std::size_t first_media = 1);
 
 /// One frame (from 0) of all figures, as the page is sent it, one of them posed otherwise.
 [[nodiscard]] std::string frame_with(const ViewedRecording& recording,

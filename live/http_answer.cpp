@@ -15,6 +15,7 @@ struct Status {
 struct Extras {
   std::string_view host;   ///< Checked; empty: unknown.
   std::string_view token;  ///< To keep as a cookie; empty: none.
+  std::string_view policy;  ///< Instead of the page's; empty: that.
   bool keep_alive = false;
   bool is_head = false;
 };
@@ -39,7 +40,10 @@ std::string content_policy(std::string_view host) {
 std::string begin_head(const Status& status, const Extras& extras) {
   std::string head =
       "HTTP/1.1 " + std::to_string(status.code) + " " + status.name + "\r\n";
-  add_header(head, "Content-Security-Policy", content_policy(extras.host));
+  add_header(head,
+             "Content-Security-Policy",
+             extras.policy.empty() ? content_policy(extras.host)
+                                   : std::string(extras.policy));
   add_header(head, "X-Content-Type-Options", "nosniff");
   add_header(head, "Referrer-Policy", "no-referrer");
   add_header(head, "Cross-Origin-Resource-Policy", "same-origin");
@@ -124,6 +128,7 @@ HttpAnswer answer_request(const CheckedRequest& request,
   if (request.token_in_query) extras.token = token;
   const std::optional<WebContent> content = state.find(request.path);
   if (!content) return words({404, "Not Found"}, "There is nothing here.", extras);
+  extras.policy = content->policy;
   return send(*content, if_none_match, extras);
 }
 

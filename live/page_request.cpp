@@ -39,10 +39,10 @@ class Members {
     return value->is_boolean() ? value->get<bool>() : wrong(name, "true or false", false);
   }
 
-  std::string id() {
-    std::string text = word("id");
+  std::string id(const char* name = "id") {
+    std::string text = word(name);
     if (cause_.empty() && (text.empty() || text.size() > kMostIdBytes)) {
-      return wrong("id", "1 to 200 bytes long", std::string());
+      return wrong(name, "1 to 200 bytes long", std::string());
     }
     return text;
   }
@@ -147,6 +147,7 @@ std::optional<PageRequest> of_type(const std::string& type, Members& members) {
   if (type == "wizard") return wizard(members);
   if (type == "record") return RecordRequest{members.flag("on")};
   if (type == "thumbnails") return ThumbnailsRequest{members.flag("on")};
+  if (type == "trial") return TrialRequest{members.id("name")};
   return std::nullopt;
 }
 

@@ -39,6 +39,10 @@ struct WizardRequest {
 struct RecordRequest {
   bool on = false;
 };
+/// Another trial of the results.
+struct TrialRequest {
+  std::string name{};
+};
 struct ThumbnailsRequest {
   bool on = false;
 };
@@ -49,12 +53,13 @@ using PageRequest = std::variant<HelloRequest,
                                  ConstraintRequest,
                                  WizardRequest,
                                  RecordRequest,
-                                 ThumbnailsRequest>;
+                                 ThumbnailsRequest,
+                                 TrialRequest>;
 
 /// Reads one message of a page. Members that are not known are ignored.
 ///
 /// Errors (kBadInput), for error_json(): not JSON, another type, a member that is
-/// missing, of another kind or out of bounds: ids of 1 to 200 bytes, places within 10 km,
+/// missing, of another kind or out of bounds: ids and names of 1 to 200 bytes, places within 10 km,
 /// frames not negative, version 1, at most 16 kB in all.
 [[nodiscard]] Result<PageRequest> read_page_request(std::string_view text);
 

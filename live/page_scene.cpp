@@ -119,7 +119,10 @@ PageJson file_object(const std::optional<PageFile>& file) {
           {"tracks", array_of(file->tracks, track_object)},
           {"contacts", array_of(file->contacts, contact_object)},
           {"graphs", array_of(file->graphs, graph_object)},
-          {"notes", array_of(file->notes, note_object)}};
+          {"notes", array_of(file->notes, note_object)},
+          {"trial", file->trial},
+          {"trials", file->trials},
+          {"report", file->report}};
 }
 
 }  // namespace

@@ -102,6 +102,9 @@ struct PageFile {
   std::vector<PageContact> contacts{};
   std::vector<PageGraph> graphs{};
   std::vector<PageNote> notes{};
+  std::string trial{};                ///< Which of `trials` it is; may be empty.
+  std::vector<std::string> trials{};  ///< That a page may ask for (TrialRequest).
+  std::string report{};               ///< Where the report of it is served; empty: nowhere.
 };
 
 /// Everything that does not change from frame to frame. With `file` it is a recording,

@@ -20,6 +20,9 @@ struct WebContent {
   /// Quoted, as in the header: "\"5f2c\"". Browsers ask for it again and are told that
   /// they have it. Empty: not to be kept at all, as what belongs to one run.
   std::string etag;
+  /// What its page may do instead of what ours may (Content-Security-Policy); empty: as
+  /// ours.
+  std::string policy{};
 };
 
 /// Whether content may have this path: "/", letters, digits and "._-/", no "..", at most

@@ -60,8 +60,10 @@ function boneWords(name) {
     : name;
 }
 
-/** A link to a file beside the report, whatever is in its name. */
+/** A link to a file beside the report, whatever is in its name. `marey view` serves no
+ *  files: its name then. */
 function fileLink(path) {
+  if (location.protocol === 'http:') return el('span', {class: 'file'}, path.split('/').pop());
   const address = `./${path.split('/').map(encodeURIComponent).join('/')}`;
   return el('a', {href: address, class: 'file'}, path.split('/').pop());
 }

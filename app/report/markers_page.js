@@ -31,7 +31,10 @@ function showTrial(data, player, chosen) {
       : [el('p', {}, 'This trial was not solved.')]);
     about.push(figure.rms_mm === null ? 'not solved' : `RMS ${fixed(figure.rms_mm, 1)} mm`);
   }
-  document.getElementById('trial-about').textContent = about.join(', ');
+  const link = figure.trial && figure.rms_mm !== null
+    ? pageLink(figure.trial, null, 'on the page') : null;
+  document.getElementById('trial-about').replaceChildren(`${about.join(', ')} `,
+    ...(link ? [link] : []));
 }
 
 function trialChooser(data, player) {

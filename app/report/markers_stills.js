@@ -90,7 +90,9 @@ function stillCard(still, data, trial, figure, size) {
   return el('figure', {class: still.is_worst ? 'still worst' : 'still'},
     svg('svg', {viewBox: `0 0 ${wide} ${high}`, role: 'img',
       'aria-label': 'Skeleton and markers from the front and from the left'}, ...parts),
-    el('figcaption', {}, `${frameWords(trial, still.frame, 1)}, ` +
+    el('figcaption', {}, figure.trial ? pageLink(figure.trial,
+      still.frame + trial.first_frame, 'On the page: ') : null,
+    `${frameWords(trial, still.frame, 1)}, ` +
       `${fixed(still.frame / figure.rate_hz, 2)} s · RMS ` +
       `${fixed(still.rms_mm, 1)} mm` +
       (furthest ? `, furthest ${titles[furthest[0]]} ${fixed(furthest[4], 0)} mm` : '') +

@@ -70,6 +70,7 @@ function headSection(data) {
   return [
     el('h1', {}, isFit ? figures.subject : figures.trials[0].file),
     el('p', {class: 'about'}, about.join(' · ')),
+    ...(isFit ? [pageWords()] : []),
     headCards(data),
     ...(warnings.length === 0 ? [] : [el('div', {class: 'warnings', role: 'note'},
       el('h2', {}, plural(warnings.length, 'note', 'notes')),

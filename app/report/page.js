@@ -26,9 +26,10 @@ function showTrial(data, viewer, chosen) {
   fillSection('joints', jointsSection(figure));
   fillSection('cameras', camerasSection(figures.calibration, trial,
     data.calibration_page));
-  document.getElementById('trial-about').textContent = `${figure.frames_solved} of ` +
+  const link = pageLink(figure.name, null, 'on the page');
+  document.getElementById('trial-about').replaceChildren(`${figure.frames_solved} of ` +
     `${plural(figure.frames, 'frame', 'frames')} solved, ${fixed(figure.rms_px, 2)} px, ` +
-    `joints ± ${fixed(figure.joint_sigma_median_mm, 1)} mm`;
+    `joints ± ${fixed(figure.joint_sigma_median_mm, 1)} mm `, ...(link ? [link] : []));
 }
 
 function trialChooser(trials, choose) {

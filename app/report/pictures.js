@@ -55,7 +55,8 @@ function picturesSection(player, trial, figures) {
           player.play(false);
           player.seek(picture.frame - figures.first_frame);
           document.getElementById('motion').scrollIntoView();
-        }}, 'show in the viewer')))));
+        }}, 'show in the viewer'), ' ',
+        pageLink(figures.name, picture.frame, 'on the page')))));
   const box = el('input', {type: 'checkbox', checked: true, onchange: () => {
     pictures.classList.toggle('bare', !box.checked);
   }});

@@ -51,7 +51,8 @@ function camerasSection(calibration, trial, hasPage) {
     el('p', {class: 'lead'}, `The board lies ${fixed(calibration.rms_px, 2)} px from where ` +
       'the cameras expect it. Coverage is the share of the picture in which it was shown: ' +
       'lenses are known only there. ',
-      hasPage ? el('a', {href: './calibration.html'}, 'More in the calibration’s own page')
+      // Of files `marey view` serves its own report alone.
+      hasPage && !SERVED ? el('a', {href: './calibration.html'}, 'More in the calibration’s own page')
         : null),
     table([
       {title: 'Camera', cell: (camera) => camera.name},

@@ -53,6 +53,7 @@ function headSection({summary, warnings, session, trials}) {
   return [
     el('h1', {}, session || 'Session'),
     el('p', {class: 'about'}, parts.join(' · ')),
+    pageWords(),
     verdicts(summary),
     ...(warnings.length === 0 ? [] : [el('div', {class: 'warnings', role: 'note'},
       el('h2', {}, plural(warnings.length, 'warning', 'warnings')),
@@ -60,11 +61,20 @@ function headSection({summary, warnings, session, trials}) {
   ];
 }
 
+/** Where the residual is highest. */
+function worstFrame(trial, {name, first_frame: first}) {
+  const worst = trial.frame_rms_px.reduce((best, value, i, all) =>
+    (value > all[best] ? i : best), 0);
+  if (trial.frame_rms_px.length === 0) return null;
+  const words = `frame ${worst + first}, ${fixed(trial.frame_rms_px[worst], 2)} px`;
+  return el('span', {}, 'The worst is ', pageLink(name, worst + first, words) ?? words, '.');
+}
+
 function reprojectionSection(player, trial, figures) {
   return [
     el('p', {class: 'lead'}, 'The distance between where a camera saw the corners of the ' +
       'tags and where the solved motion puts them. Steady is good; a hump marks moments ' +
-      'to look at. Click to see them in the viewer.'),
+      'to look at. Click to see them in the viewer. ', worstFrame(trial, figures)),
     lineGraph(player, trial.frame_rms_px, {unit: 'px', level: figures.rms_px,
       levelName: 'RMS', firstFrame: figures.first_frame,
       name: 'Reprojection of every frame'}),

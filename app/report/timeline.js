@@ -106,11 +106,14 @@ function gapRows(player, gaps, firstFrame) {
     el('div', {class: 'gutter'}), frameAxis(player, firstFrame));
 }
 
-function gapTable(gaps) {
+function gapTable(gaps, trial) {
   const longestFirst = [...gaps].sort((a, b) => b.duration_s - a.duration_s);
   return table([
     {title: 'Segment', cell: (gap) => boneWords(gap.segment)},
-    {title: 'Frames', number: true, cell: (gap) => `${gap.first_frame} – ${gap.last_frame}`},
+    {title: 'Frames', number: true, cell: (gap) => {
+      const words = `${gap.first_frame} – ${gap.last_frame}`;
+      return pageLink(trial, gap.first_frame, words) ?? words;
+    }},
     {title: 'Length', number: true, cell: (gap) => `${fixed(gap.duration_s, 2)} s`},
     {title: 'Bridged as', cell: (gap) =>
       el('span', {class: `chip chip-${gap.bridged_as}`}, gap.bridged_as)},
@@ -134,6 +137,7 @@ function tagsSection(player, trial, figures) {
           `tags was out of sight, ${duration(lost)} in all. What was not seen is marked so ` +
           'in every file that marey writes.'),
         sourceLegend(false, SOURCES.slice(1)), gapRows(player, gaps, first),
-        el('details', {}, el('summary', {}, 'All gaps as a table'), gapTable(gaps))]),
+        el('details', {}, el('summary', {}, 'All gaps as a table'),
+          gapTable(gaps, figures.name))]),
   ];
 }

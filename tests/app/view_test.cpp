@@ -12,11 +12,14 @@
 
 #include "app/view_files.h"
 #include "app/view_page.h"
+#include "app/view_trials.h"
 #include "live/page_scene.h"
+#include "live/web_server.h"
 #include "recordings/bvh.h"
 #include "recordings/calibration_file.h"
 #include "recordings/marker_file.h"
 #include "recordings/motion_tables.h"
+#include "tests/live/web_socket.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/synthetic_rig.h"
@@ -147,6 +150,59 @@ TEST_F(View, ShowsMarkersAndCamerasAlone) {
   ASSERT_TRUE(cameras) << cameras.error().message();
   EXPECT_EQ(cameras->cameras.size(), 1U);
   EXPECT_FALSE(cameras->cameras[0].rms_px);
+}
+
+TEST_F(View, TurnsToOtherTrialsAndServesTheReport) {
+  fs::copy(out() / "walk", out() / "jump", fs::copy_options::recursive);
+  fs::create_directories(out() / "calib");  // No trial that was solved.
+  std::ofstream(out() / "report.html") << "<p>report";
+  auto trials = ViewTrials::open({.what = out(), .trial = "walk", .avatars = {}}, {});
+  ASSERT_TRUE(trials) << trials.error().message();
+  live::WebServerOptions options;
+  options.port = 0;
+  auto server = live::WebServer::start(options);
+  ASSERT_TRUE(server);
+  trials->serve(*server);
+  const std::string& scene = trials->first().scene;
+  EXPECT_NE(scene.find(R"("trial":"walk","trials":["jump","walk"])"), std::string::npos);
+  EXPECT_NE(scene.find(R"("report":"/report.html")"), std::string::npos);
+
+  const live::ClientId one{1};
+  EXPECT_EQ(trials->seen_by(one).name, "walk");
+  const auto jump = trials->show(one, "jump", *server);
+  ASSERT_TRUE(jump) << jump.error().message();
+  EXPECT_NE(jump->find(R"("trial":"jump")"), std::string_view::npos);
+  EXPECT_NE(jump->find("/media/2"), std::string_view::npos) << "its own, beside the first's";
+  EXPECT_EQ(trials->seen_by(one).name, "jump");
+  EXPECT_EQ(trials->seen_by(live::ClientId{2}).name, "walk") << "another page stays";
+  for (const char* name : {"calib", "..", "walk/../jump", ""}) {
+    EXPECT_FALSE(trials->show(one, name, *server)) << name;
+  }
+  EXPECT_EQ(trials->seen_by(one).name, "jump");
+
+  const std::string report = fetch(server->port(), "/report.html");
+  EXPECT_EQ(status(report), 200);
+  EXPECT_EQ(body(report), "<p>report");
+  EXPECT_TRUE(header(report, "Content-Security-Policy").starts_with("default-src 'none'"));
+  EXPECT_EQ(status(fetch(server->port(), "/media/1")), 200);
+  EXPECT_EQ(status(fetch(server->port(), "/media/2")), 200);
+  for (const char* path : {"/report.json", "/calibration.html", "/walk/motion.bvh", "/media/3"}) {
+    EXPECT_EQ(status(fetch(server->port(), path)), 404) << path;
+  }
+}
+
+// Of one trial's folder the others are beside it.
+TEST_F(View, TurnsToOtherTrialsFromOne) {
+  fs::copy(out() / "walk", out() / "jump", fs::copy_options::recursive);
+  auto trials = ViewTrials::open({.what = out() / "jump", .trial = {}, .avatars = {}}, {});
+  ASSERT_TRUE(trials) << trials.error().message();
+  EXPECT_EQ(trials->first().name, "jump");
+  EXPECT_EQ(trials->first().scene.find("/report.html"), std::string::npos);
+  live::WebServerOptions options;
+  options.port = 0;
+  auto server = live::WebServer::start(options);
+  ASSERT_TRUE(server);
+  EXPECT_TRUE(trials->show(live::ClientId{1}, "walk", *server));
 }
 
 TEST_F(View, SaysWhatItCannotShow) {

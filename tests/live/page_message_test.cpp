@@ -48,6 +48,9 @@ PageScene full_scene() {
   file.contacts = {{"left heel", {{1, 2}}}};
   file.graphs = {{"reprojection", "px", {0.5, std::nan(""), 1.0}}};
   file.notes = {{1, "a note"}};
+  file.trial = "walk";
+  file.trials = {"walk", "jump"};
+  file.report = "/report.html";
   scene.file = file;
   scene.wizard = PageWizard{};
   return scene;
@@ -109,7 +112,8 @@ TEST(PageScene, TellsOfARecording) {
                 "points_block":null,"tracks":[{"name":"hips","gaps":[[0,2,"inferred"]]}],
                 "contacts":[{"name":"left heel","spans":[[1,2]]}],
                 "graphs":[{"name":"reprojection","unit":"px","values":[0.5,null,1.0]}],
-                "notes":[{"frame":1,"text":"a note"}]})"));
+                "notes":[{"frame":1,"text":"a note"}],
+                "trial":"walk","trials":["walk","jump"],"report":"/report.html"})"));
   EXPECT_EQ(scene["points"], Json::parse(R"({"labels":["LASI"]})"));
   EXPECT_EQ(scene["floor"], Json::parse(R"({"height_m":0.0})"));
   EXPECT_EQ(scene["constraints"],

@@ -32,6 +32,7 @@ TEST(PageRequest, ReadsWhatThePageSays) {
             WizardAction::kAccept);
   EXPECT_TRUE(read<RecordRequest>(R"({"type":"record","on":true})").on);
   EXPECT_TRUE(read<ThumbnailsRequest>(R"({"type":"thumbnails","on":true,"x":1})").on);
+  EXPECT_EQ(read<TrialRequest>(R"({"type":"trial","name":"walk"})").name, "walk");
 }
 
 TEST(PageRequest, ReadsDrags) {
@@ -71,6 +72,7 @@ TEST(PageRequest, RefusesWhatItDoesNotUnderstand) {
       {R"({"type":"constraint","id":"","active":true})", "id is not 1 to 200 bytes long"},
       {R"({"type":"constraint","id":")" + std::string(201, 'a') + R"(","active":true})",
        "id is not 1 to 200 bytes long"},
+      {R"({"type":"trial","name":""})", "name is not 1 to 200 bytes long"},
       {R"({"type":"wizard","action":"fly"})",
        "action is not one of start, next, cancel, accept"},
       {drag + "[1,2]}", "p_in_world is not three numbers within 10 km"},

@@ -73,6 +73,15 @@ TEST(WebServer, SaysWhatABrowserMayDoWithThePage) {
   EXPECT_EQ(header(answer, "Cross-Origin-Resource-Policy"), "same-origin");
 }
 
+TEST(WebServer, SaysWhatABrowserMayDoWithAPageOfItsOwnPolicy) {
+  WebServer server = serve();
+  WebContent report = text("/report.html", "<p>");
+  report.policy = "default-src 'none'";
+  server.put(std::move(report));
+  EXPECT_EQ(header(fetch(server.port(), "/report.html"), "Content-Security-Policy"),
+            "default-src 'none'");
+}
+
 TEST(WebServer, SendsNothingAgainToWhoHasIt) {
   WebServer server = serve();
   const std::string answer =

@@ -23,6 +23,7 @@ import {Theme} from './theme';
 import {Timeline} from './timeline';
 import {timelineOf} from './timeline_paint';
 import {Transport} from './transport';
+import {Trials} from './trials';
 import {ViewPanel} from './view_panel';
 import {WizardPanel} from './wizard_panel';
 
@@ -51,6 +52,7 @@ class Page implements Listener, StageListener {
   private readonly constraints = new ConstraintsPanel((id, active) =>
     this.send({type: 'constraint', id, active}));
   private readonly status = new StatusPanel();
+  private readonly trials = new Trials((name) => this.send({type: 'trial', name}));
   private readonly connection: Connection;
   private scene: SceneWords | null = null;
   private sceneText = '';
@@ -69,7 +71,7 @@ class Page implements Listener, StageListener {
     byId('stage').append(this.stage.element, this.wizard.guidance.element);
     this.panels = new Panels(byId('panels'), () => this.cameras.ask());
     const view = new ViewPanel(this.stage, this.theme, () => this.renew());
-    this.panels.add(view.section, this.cameras.section, this.wizard.section,
+    this.panels.add(this.trials.section, view.section, this.cameras.section, this.wizard.section,
       this.constraints.section, this.status.section);
     this.timeline = new Timeline(this.theme, (frame) => {
       this.reel.playback.playing = false;
@@ -128,6 +130,8 @@ class Page implements Listener, StageListener {
   }
 
   private async setScene(scene: SceneWords): Promise<void> {
+    // The one that is looked at follows.
+    if (this.trials.asksInsteadOf(scene.file)) return;
     // A server that came back says what it said before.
     const text = JSON.stringify({...scene, revision: 0, wizard: null, constraints: []});
     const same = text === this.sceneText;
@@ -150,8 +154,11 @@ class Page implements Listener, StageListener {
     this.cameras.load(scene.cameras, scene.mode === 'live');
     this.status.load(scene.mode === 'live');
     loadWizard(); // The last: it is scrolled to when it begins.
-    this.timeline.load(timelineOf(scene, this.reel.rows, this.reel.playback.rate_hz));
+    this.timeline.load(timelineOf(scene, this.reel));
     this.transport.setMode(scene.mode === 'live');
+    this.trials.show(scene.file);
+    const frame = this.trials.takeFrame(scene.file, this.reel.playback.rate_hz);
+    if (frame !== null) this.reel.playback.seek(frame);
     this.renew();
     try {
       await this.reel.load(scene, signal);

@@ -98,6 +98,11 @@ export interface FileWords {
   contacts: ContactWords[];
   graphs: GraphWords[];
   notes: {frame: number; text: string}[];
+  /** Which of `trials` this is, or empty; a page may ask for another. */
+  trial?: string;
+  trials?: string[];
+  /** Where the report is served; empty: nowhere. */
+  report?: string;
 }
 
 export interface SceneWords {
@@ -169,7 +174,8 @@ export type PageWords =
   | {type: 'constraint'; id: string; active: boolean}
   | {type: 'wizard'; action: WizardAction}
   | {type: 'record'; on: boolean}
-  | {type: 'thumbnails'; on: boolean};
+  | {type: 'thumbnails'; on: boolean}
+  | {type: 'trial'; name: string};
 
 /** A text of the server, or what is wrong with it. Only the outline is looked at: the
  *  server is ours, and a page of another version is told so. */

@@ -8,11 +8,12 @@ import {missingPackages, pageFolder} from './installed.mjs';
 
 const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
 
-/** Why there can be no browser; null when there can. */
-export function missing() {
+/** Why there can be no browser, or no page for it; null when there can. `built`: the page
+ *  is wanted from its folder. */
+export function missing({built = true} = {}) {
   const packages = missingPackages();
   if (packages) return packages;
-  if (!existsSync(`${pageFolder}page.js`)) {
+  if (built && !existsSync(`${pageFolder}page.js`)) {
     return 'the page is not built; npm run build --prefix live/viewer';
   }
   if (!existsSync(CHROMIUM)) return 'chromium is missing; apt-get install chromium';

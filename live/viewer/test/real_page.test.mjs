@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The page as marey itself serves it: `marey view` on results, from their report on, and
+// `marey live` on a trial that is played. What people do with it, done once.
+
+import assert from 'node:assert/strict';
+import {spawn} from 'node:child_process';
+import {cpSync, existsSync, mkdtempSync, readdirSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {openBrowser, openPage} from './browser.mjs';
+
+const {MAREY_PROGRAM, MAREY_RESULTS, MAREY_SESSION} = process.env;
+
+let browser;
+let folder;
+const running = [];
+before(async () => {
+  browser = await openBrowser();
+  folder = mkdtempSync(join(tmpdir(), 'marey-page-'));
+  for (const name of ['calibration.toml', 'subject.toml', 'report.html', 'report.json', 'walk']) {
+    cpSync(join(MAREY_RESULTS, name), join(folder, name), {recursive: true});
+  }
+  // A second trial to turn to.
+  cpSync(join(folder, 'walk'), join(folder, 'walk again'), {recursive: true});
+});
+after(async () => {
+  for (const process of running) process.kill('SIGINT');
+  await browser.close();
+  rmSync(folder, {recursive: true});
+});
+
+/** Starts marey; the address that it prints. */
+async function serve(...words) {
+  const marey = spawn(MAREY_PROGRAM, [...words, '--port', '0', '--no-open'],
+    {stdio: ['ignore', 'pipe', 'inherit']});
+  running.push(marey);
+  for await (const bytes of marey.stdout) {
+    const [address] = /http:\S+/.exec(String(bytes)) ?? [];
+    if (address) {
+      marey.stdout.resume();
+      return address;
+    }
+  }
+  throw new Error('marey said no address');
+}
+
+async function until(what, holds, patience_ms = 15000) {
+  const end = performance.now() + patience_ms;
+  while (!(await holds())) {
+    assert.ok(performance.now() < end, `waited in vain for: ${what}`);
+    await new Promise((done) => setTimeout(done, 50));
+  }
+}
+
+/** Where a handle is on the page. */
+const handleAt = (page, id) => page.evaluate((name) => {
+  const {left, top} = document.querySelector('.stage canvas').getBoundingClientRect();
+  const [x, y] = window.mareyPage.stage.pixelOfHandle(name);
+  return [x + left, y + top];
+}, id);
+
+/** Takes a handle along by so many pixels. */
+async function drag(page, id, by_x, by_y) {
+  const [x, y] = await handleAt(page, id);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + by_x, y + by_y, {steps: 6});
+  await page.mouse.up();
+}
+
+/** Where a body's joint is drawn, without its place in the row. [m] */
+const joint = (page, body, bone) => page.evaluate(([which, name]) => {
+  const {pose, words} = window.mareyPage.stage.bodies[which];
+  const i = words.joints.findIndex((one) => one.bone === name);
+  return [...pose.p_in_world.slice(3 * i, 3 * i + 3)];
+}, [body, bone]);
+
+const apart = (a, b) => Math.hypot(...a.map((x, k) => x - b[k]));
+const playback = (page) => page.evaluate(() => {
+  const {frame, time, last, playing, speed, loop} = window.mareyPage.reel.playback;
+  return {frame, time, last, playing, speed, loop};
+});
+const dressed = (page, bodies) => page.waitForFunction((many) =>
+  window.mareyPage.stage.bodies.filter((body) => body.dressed).length === many, bodies);
+
+test('results: from the report to the moment, played, scrubbed, dragged, turned to another trial',
+  async () => {
+    const address = await serve('view', folder);
+    const bodies = readdirSync(join(folder, 'walk')).filter((name) => name.endsWith('.glb'));
+    const {page, troubles, close} = await openPage(browser, address);
+
+    await page.goto(`${address}report.html`);
+    const link = page.locator('.page-link[href*="frame="]').first();
+    const wanted = Number(new URL(await link.getAttribute('href'), address)
+      .searchParams.get('frame'));
+    await link.click();
+    await page.waitForFunction(() => window.mareyPage?.stage.bodies.some(({present}) => present));
+    await dressed(page, bodies.length);
+    const first = await page.evaluate(() => window.mareyPage.scene.file.first_frame);
+    assert.equal((await playback(page)).frame + first, wanted);
+
+    await page.keyboard.press('Home');
+    await page.keyboard.press(' ');
+    await until('it to play', async () => (await playback(page)).frame > 2);
+    await page.keyboard.press(' ');
+    assert.ok(!(await playback(page)).playing);
+    const strips = await page.locator('.strips').boundingBox();
+    await page.mouse.click(strips.x + 0.6 * strips.width, strips.y + 25);
+    const {frame, last} = await playback(page);
+    assert.ok(frame > 0.3 * last && frame < 0.8 * last, `${frame} of ${last}`);
+    await page.locator('select[aria-label="Speed"]').selectOption('2');
+    await page.keyboard.press('l');
+    await page.keyboard.press('End');
+    await page.keyboard.press(' ');
+    await until('it to begin anew', async () => {
+      const now = await playback(page);
+      return now.speed === 2 && now.loop && now.playing && now.frame < 0.5 * last;
+    });
+    await page.keyboard.press(' ');
+
+    const before_drag = await joint(page, 0, 'leftHand');
+    const foot = await joint(page, 0, 'leftFoot');
+    await drag(page, 'left hand', 30, -40);
+    await until('the hand to follow', async () =>
+      apart(await joint(page, 0, 'leftHand'), before_drag) > 0.1);
+    assert.ok(apart(await joint(page, 0, 'leftFoot'), foot) < 0.2, 'the feet stay by it');
+    await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('ArrowLeft');
+    await until('the recording as it was', async () =>
+      apart(await joint(page, 0, 'leftHand'), before_drag) < 1e-3);
+
+    await page.locator('.section-trials select').selectOption('walk again');
+    await until('the other trial', async () =>
+      (await page.locator('#bar h1').textContent()) === 'walk again');
+    assert.match(page.url(), /trial=walk\+again/);
+    await dressed(page, bodies.length);
+    await page.reload();
+    await until('it to stay', async () =>
+      (await page.locator('#bar h1').textContent()) === 'walk again');
+    assert.deepEqual(troubles, []);
+    await close();
+  });
+
+test('live: who walks is seen with its weight and steps, its avatar dragged and let go', async () => {
+  const body = join(folder, 'walk', readdirSync(join(folder, 'walk'))
+    .find((name) => name.endsWith('.glb') && name !== 'motion.glb') ?? 'motion.glb');
+  const address = await serve('live', MAREY_SESSION, '--results', folder, '--play', 'walk', '--loop',
+    '--vmc-deaf', '--progress', 'none', '--avatar', body);
+  const {page, troubles, close} = await openPage(browser, address);
+  await until('a body that is tracked', async () =>
+    /tracked/.test(await page.locator('.pill').textContent()));
+  await dressed(page, 1);
+  await until('its balance', () => page.evaluate(() =>
+    window.mareyPage.reel.shown.skeletons.every(({hasBalance, corners}) =>
+      hasBalance && corners >= 4)));
+  await until('contacts and residuals of the past', () => page.evaluate(() => {
+    const {contacts, curves: [residual], playback: {last}} = window.mareyPage.reel;
+    const frames = [...Array(last + 1).keys()];
+    return contacts.names.some((_, row) => frames.some((i) => contacts.source(row, i) === 1)) &&
+      frames.some((i) => residual.at(i) > 0 && residual.at(i) < 10);
+  }));
+  const handle = () => page.evaluate(() => window.mareyPage.scene.skeletons[1] &&
+    window.mareyPage.stage.handles.handles.find(({words}) => words.id === 'left hand').words);
+  await until('the handle to be held', async () => {
+    // Who walks may have gone on between a look and a grip.
+    await drag(page, 'left hand', 20, -60);
+    await page.waitForTimeout(500);
+    return (await handle()).active;
+  });
+  const target = (await handle()).p_in_world;
+  await until('the hand to be there', async () =>
+    apart(await joint(page, 1, 'leftHand'), target) < 0.1);
+  const summary = page.locator('.section-constraints summary');
+  if (!await page.getByRole('checkbox', {name: 'left hand'}).isVisible()) await summary.click();
+  await page.getByRole('checkbox', {name: 'left hand'}).uncheck();
+  await until('it to be let go', async () => !(await handle()).active);
+  await until('the hand to be its own again', async () =>
+    apart(await joint(page, 1, 'leftHand'), target) > 0.15);
+  assert.deepEqual(troubles, []);
+  await close();
+});

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The page as marey serves it, in a browser. MAREY_PROGRAM is marey, MAREY_RESULTS what
+// `marey process` made of MAREY_SESSION, whose trial is `walk`. Says "skipped:" without a
+// browser.
+
+import {spawnSync} from 'node:child_process';
+import {existsSync} from 'node:fs';
+import {fileURLToPath} from 'node:url';
+import {missing} from './browser.mjs';
+
+const why = missing({built: false});
+if (why) {
+  console.log(`skipped: ${why}`);
+  process.exit(0);
+}
+for (const name of ['MAREY_PROGRAM', 'MAREY_RESULTS', 'MAREY_SESSION']) {
+  if (!existsSync(process.env[name] ?? '')) {
+    console.error(`${name} names nothing that is there`);
+    process.exit(1);
+  }
+}
+const {status} = spawnSync(process.execPath, ['--test',
+  fileURLToPath(new URL('real_page.test.mjs', import.meta.url))], {stdio: 'inherit'});
+process.exit(status ?? 1);
