@@ -125,9 +125,7 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
   for (std::size_t s = 0; s < figures_.size(); ++s) {
     figures_[s].joints = scene_.skeletons[s].skeleton.joints.size();
   }
-  std::vector<const Skeleton*> bodies;
-  for (const live::PageSkeleton& one : scene_.skeletons) bodies.push_back(&one.skeleton);
-  balance_.emplace(bodies);
+  weigh_bodies();
   encoders_.resize(scene_.cameras.size());
   tags_seen_.assign(scene_.cameras.size(), 0);
   if (guide_) scene_.wizard = guide_->told();
@@ -140,6 +138,7 @@ void LivePage::on_body(const Body& body, const Skeleton& performer) {
   if (!body.name.empty()) shown.name = body.name;
   shown.skeleton = performer;
   figures_.front().joints = performer.joints.size();
+  weigh_bodies();
   has_body_ = true;
   if (guide_) scene_.wizard = guide_->told();
   ++scene_.revision;
@@ -227,46 +226,6 @@ void LivePage::hear(LiveRequests& requests) {
       page_.server.answer_text(text.client, live::error_json(said.text, said.about));
     }
   }
-}
-
-/// What the performer stands on. Who was lost and is back stands elsewhere.
-void LivePage::stand(const LiveInstant& instant, const LiveResult& result) {
-  if (result.track.state != TrackState::kTracked) {
-    stood_at_.reset();
-    return;
-  }
-  if (!stood_at_) balance_->forget();
-  const double steps =
-      stood_at_ ? static_cast<double>(instant.number - *stood_at_) : 1.0;
-  stood_at_ = instant.number;
-  balance_->step(*result.pose, steps / scene_.rate_hz);
-}
-
-/// All bodies as they are now. The weight of who is lost nobody knows.
-void LivePage::pose_figures(const LiveResult& result) {
-  const bool is_there = result.track.state != TrackState::kWaiting;
-  const bool is_seen = result.track.state == TrackState::kTracked;
-  const auto pose = [&](std::size_t figure, const Pose* posture) {
-    live::PageFigure& one = figures_[figure];
-    one.pose = is_there ? posture : nullptr;
-    one.balance.reset();
-    if (!is_seen) return;
-    // Handles are of the first avatar.
-    const auto handles = figure == 1 ? result.handles : std::span<const HandleState>();
-    const auto* balance = balance_->look(figure, *posture, handles);
-    if (balance == nullptr) return;
-    one.balance = {balance->centre_of_mass_in_world, balance->support_xz_m};
-  };
-  pose(0, result.pose);
-  for (std::size_t a = 0; a < result.avatars.size(); ++a) pose(a + 1, &result.avatars[a]);
-  figures_[0].doubt = is_there ? result.doubt : std::span<const JointDoubt>();
-  figures_[0].tracking.reset();
-  if (!is_there) return;
-  live::PageTracking& tracking = figures_[0].tracking.emplace();
-  if (result.track.tags_used > 0) tracking.residual_px = result.track.rms_px;
-  if (!is_seen) return;
-  const auto& [left, right] = balance_->standing();
-  tracking.bears = {left.heel, left.ball, right.heel, right.ball};
 }
 
 void LivePage::on_frame(const LiveInstant& instant, const LiveResult& result) {

@@ -57,6 +57,7 @@ class LivePage final : public LiveWatcher {
   };
   [[nodiscard]] Answer answer(const std::string& text, LiveRequests& requests);
   [[nodiscard]] std::string ask(HandleRequest request, LiveRequests& requests);
+  void weigh_bodies();
   void stand(const LiveInstant& instant, const LiveResult& result);
   void pose_figures(const LiveResult& result);
   void tell_handles(std::span<const HandleState> handles);

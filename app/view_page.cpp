@@ -25,13 +25,23 @@ double breadth_m(const Skeleton& skeleton) {
   return std::max(kNarrowest_m, 0.8 * (high - low));
 }
 
+/// Where on the floor a body is on the whole. Bodies of other sizes go other ways than the
+/// first, and must not come through each other.
+glm::dvec3 middle_of_way(const Motion& motion) {
+  glm::dvec3 sum(0.0);
+  for (const Pose& pose : motion.poses) sum += pose.root_in_world;
+  sum.y = 0.0;
+  return sum / std::max(1.0, static_cast<double>(motion.poses.size()));
+}
+
 std::vector<glm::dvec3> side_by_side(const std::vector<ViewedFigure>& figures) {
   std::vector<glm::dvec3> offsets_m;
   double x = 0.0;
   for (std::size_t i = 0; i < figures.size(); ++i) {
     const double here = breadth_m(figures[i].motion.skeleton);
     if (i > 0) x += 0.5 * here;
-    offsets_m.emplace_back(x, 0.0, 0.0);
+    offsets_m.push_back(glm::dvec3(x, 0.0, 0.0) + middle_of_way(figures[0].motion) -
+                        middle_of_way(figures[i].motion));
     x += 0.5 * here;
   }
   return offsets_m;

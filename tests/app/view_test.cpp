@@ -19,7 +19,7 @@
 #include "recordings/calibration_file.h"
 #include "recordings/marker_file.h"
 #include "recordings/motion_tables.h"
-#include "tests/live/web_socket.h"
+#include "tests/support/web_socket.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/synthetic_rig.h"

@@ -4,8 +4,8 @@
 // Balance: the centre of mass, its plumb line, and the polygon that carries it.
 
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Group, Line, LineBasicMaterial,
-  LineLoop, Mesh, MeshBasicMaterial, SphereGeometry,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, DynamicDrawUsage, Group, Line,
+  LineBasicMaterial, LineLoop, Mesh, MeshBasicMaterial, SphereGeometry,
 } from 'three';
 import type {SkeletonFrame} from './decode_frame';
 import type {Vector} from './protocol';
@@ -47,8 +47,8 @@ export class BalanceView {
   private readonly area: Mesh;
   private readonly outline: LineLoop;
   private readonly plumb: Line;
-  private good = '';
-  private poor = '';
+  private readonly good = new Color();
+  private readonly poor = new Color();
 
   constructor(offset: Vector) {
     this.offset = offset;
@@ -76,8 +76,8 @@ export class BalanceView {
   }
 
   paint(colours: Colours): void {
-    this.good = colours.good;
-    this.poor = colours.poor;
+    this.good.setStyle(colours.good);
+    this.poor.setStyle(colours.poor);
   }
 
   update(frame: SkeletonFrame, floor_m: number): void {
@@ -86,7 +86,7 @@ export class BalanceView {
     const corners = Math.min(frame.corners, MOST_CORNERS);
     const held = carries(frame.support_xz, corners, x, z);
     for (const material of [this.mark, this.line, this.fill]) {
-      material.color.setStyle(held ? this.good : this.poor);
+      material.color.copy(held ? this.good : this.poor);
     }
     for (let i = 0; i < corners; ++i) {
       this.corners.setXYZ(i, frame.support_xz[2 * i] + dx, floor_m + ABOVE_FLOOR_M,

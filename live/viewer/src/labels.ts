@@ -7,6 +7,8 @@ import type {PerspectiveCamera} from 'three';
 import {Vector3} from 'three';
 import {el, setText} from './elements';
 
+const HALF_LETTER_PX = 4;
+
 export class Labels {
   readonly element = el('div', {class: 'labels', 'aria-hidden': 'true'});
   private readonly spans: HTMLSpanElement[] = [];
@@ -32,7 +34,10 @@ export class Labels {
     setText(span, text);
     if (span.className !== kind) span.className = kind;
     if (span.hidden) span.hidden = false;
-    const left = Math.round((at.x + 1) / 2 * this.width);
+    // Within the stage, as far as its width can be guessed: to ask for it costs a layout.
+    const half = Math.min(HALF_LETTER_PX * text.length, this.width / 2);
+    const left = Math.round(Math.min(Math.max((at.x + 1) / 2 * this.width, half),
+      this.width - half));
     const top = Math.round((1 - at.y) / 2 * this.height);
     span.style.transform = `translate(${left}px, ${top}px) translate(-50%, -100%)`;
   }

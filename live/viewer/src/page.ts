@@ -32,6 +32,8 @@ const REPAINT_EVERY_MS = 250;
 /** marey tells its status twice a second: after this it is gone, whatever the line says. */
 const SILENCE_MS = 3000;
 const DRAG_EVERY_MS = 15;
+/** What goes on live moves the timeline's words no more often: each costs a layout. */
+const PLACED_EVERY_MS = 100;
 
 class Page implements Listener, StageListener {
   readonly reel = new Reel();
@@ -61,6 +63,8 @@ class Page implements Listener, StageListener {
   private last_ms = 0;
   private told_ms = 0;
   private dragged_ms = 0;
+  private placed_ms = 0;
+  private wasFollowing = false;
   private echoed_s = -1;
   private due = 0;
   private drawn = 0;
@@ -192,6 +196,10 @@ class Page implements Listener, StageListener {
 
   private placeTimeline(): void {
     const {playback} = this.reel;
+    if (playback.following && playback.following === this.wasFollowing &&
+      performance.now() - this.placed_ms < PLACED_EVERY_MS) return;
+    this.placed_ms = performance.now();
+    this.wasFollowing = playback.following;
     this.timeline.place(playback.first, playback.last, playback.time, playback.frame);
     this.transport.show();
   }

@@ -144,11 +144,12 @@ test('results: from the report to the moment, played, scrubbed, dragged, turned 
     await close();
   });
 
-test('live: who walks is seen with its weight and steps, its avatar dragged and let go', async () => {
+test('live: who walks is seen with its weight and steps, its avatar dragged and let go',
+  {timeout: 60000}, async () => {
   const body = join(folder, 'walk', readdirSync(join(folder, 'walk'))
     .find((name) => name.endsWith('.glb') && name !== 'motion.glb') ?? 'motion.glb');
-  const address = await serve('live', MAREY_SESSION, '--results', folder, '--play', 'walk', '--loop',
-    '--vmc-deaf', '--progress', 'none', '--avatar', body);
+  const address = await serve('live', MAREY_SESSION, '--results', folder, '--play', 'walk',
+    '--loop', '--vmc-deaf', '--progress', 'none', '--avatar', body);
   const {page, troubles, close} = await openPage(browser, address);
   await until('a body that is tracked', async () =>
     /tracked/.test(await page.locator('.pill').textContent()));
