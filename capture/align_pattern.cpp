@@ -281,6 +281,8 @@ bool Fit::run() {
   }
   constexpr int kMostSteps = 12;
   constexpr double kLargestDamping = 1e3;
+  // What is left to gain is far below the doubt, and creeping after it costs more.
+  constexpr double kLittle = 1e-2;
   System system = linearized(state_);
   double damping = 1e-3;
   for (int step = 0; step < kMostSteps && damping < kLargestDamping; ++step) {
@@ -289,9 +291,16 @@ bool Fit::run() {
     bool solved = false;
     const Normal inverse = damped.inv(cv::DECOMP_CHOLESKY, &solved);
     if (!solved) return false;
-    Unknowns next = state_ + inverse * system.right;
+    const Unknowns change = inverse * system.right;
+    Unknowns next = state_ + change;
     next[kBend] = std::clamp(next[kBend], -0.8, 0.8);
     next[kBlur] = std::clamp(next[kBlur], std::log(0.25), std::log(4.0));
+    // The last step is taken as the parabola says: to look again would cost a quarter of
+    // the whole.
+    if (change.dot(system.right) < kLittle * system.cost) {
+      state_ = next;
+      break;
+    }
     const System there = linearized(next);
     if (!(there.cost < system.cost)) {
       damping *= 10.0;
@@ -301,8 +310,7 @@ bool Fit::run() {
     state_ = next;
     system = there;
     damping *= 0.1;
-    // What is left to gain is far below the doubt, and creeping after it costs more.
-    if (gain < 1e-2) break;
+    if (gain < kLittle) break;
   }
   const double contrast = std::abs(state_[kLight + 1]);
   const double noise = std::sqrt(system.squares / std::max(1, system.pixels));
