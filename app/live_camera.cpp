@@ -14,10 +14,9 @@ Timestamp monotonic_now() {
   return std::chrono::steady_clock::now().time_since_epoch();
 }
 
-/// A search of the whole picture takes longer than a frame has.
-constexpr int kStrips = 16;
-constexpr int kFullEvery = 60;
-constexpr int kBodyEvery = 2;
+/// The usual time of a search follows the last ones, so much each.
+constexpr double kFollowed = 0.2;
+constexpr double kForgotten = 0.9;
 /// Of 1280 x 720 what is 320 x 180: enough to see who stands where.
 constexpr int kShrink = 4;
 
@@ -28,11 +27,8 @@ Result<std::unique_ptr<LiveCamera>> LiveCamera::create(
     const Camera& camera,
     FrameFeed& feed,
     const capture::TagDetectorOptions& detector) {
-  capture::TrackTagsOptions tracking;
+  capture::TrackTagsOptions tracking = capture::live_tracking();
   tracking.detector = detector;
-  tracking.strips = kStrips;
-  tracking.full_every_frames = kFullEvery;
-  tracking.body_every_frames = kBodyEvery;
   auto tracker = capture::TagTracker::create(tracking);
   if (!tracker) return tracker.error();
   return std::unique_ptr<LiveCamera>(
@@ -61,7 +57,9 @@ bool LiveCamera::make(const capture::RawFrame& frame, DetectedPicture& out) {
   ++counts_.pictures;
   counts_.dropped += frame.dropped_before;
   const int number = picture_index(frame);
-  if (seconds(monotonic_now() - frame.time) > options_.stale_after_s) {
+  if (seconds(monotonic_now() - frame.time) + usual_s_ > options_.stale_after_s) {
+    // Forgotten little by little, or one slow search could end all of them.
+    usual_s_ *= kForgotten;
     ++counts_.stale;
     return false;
   }
@@ -76,6 +74,7 @@ bool LiveCamera::make(const capture::RawFrame& frame, DetectedPicture& out) {
   const std::vector<TagDetection>& tags = tracker_.track(*picture);
   out.tags.assign(tags.begin(), tags.end());
   out.detect_s = detecting.seconds();
+  usual_s_ += kFollowed * (out.detect_s - usual_s_);
   out.thumbnail.clear();
   if (thumbnails_wanted_ && made_ % options_.thumbnail_every == 0) shrink(*picture, out);
   ++made_;

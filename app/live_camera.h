@@ -40,9 +40,9 @@ struct LiveCameraCounts {
 
 struct LiveCameraOptions {
   std::string name;
-  /// A picture older than this when its turn comes is passed over, so that a camera whose
-  /// pictures are searched too slowly catches up. [s]
-  double stale_after_s = 0.1;
+  /// A picture that is likely to be older than this once it was searched is passed over,
+  /// so that a camera whose pictures are searched too slowly catches up. [s]
+  double stale_after_s = 0.05;
   /// A thumbnail is made of every so-many-th picture, while any are wanted.
   int thumbnail_every = 10;
 };
@@ -84,6 +84,7 @@ class LiveCamera {
   capture::TagTracker tracker_;
   int last_index_ = -1;
   long made_ = 0;
+  double usual_s_ = 0.0;  ///< What a picture takes to be searched.
   std::atomic<bool> thumbnails_wanted_ = false;
   LiveCameraCounts counts_;
 };

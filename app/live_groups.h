@@ -45,7 +45,7 @@ struct LiveGroup {
 ///
 /// `Made` is default-constructible; `make` is called on the camera's own thread with the
 /// frame and a place to write to, whose former content it may use up, and returns false
-/// for a frame that is to be passed over.
+/// for a frame that is to be passed over, which no group waits for.
 template <class Made>
 class LiveGroups {
  public:
@@ -138,11 +138,10 @@ class LiveGroups {
         const std::lock_guard lock(mutex_);
         if (!wanted) {
           lane.free.push_back(place);
-          continue;
-        }
-        const capture::Offer offer =
-            grouper_.offer(camera, frame->time, capture::FrameTicket{place});
-        if (offer.dropped) {
+          grouper_.pass_over(camera, frame->time);
+        } else if (const capture::Offer offer = grouper_.offer(
+                       camera, frame->time, capture::FrameTicket{place});
+                   offer.dropped) {
           lane.free.push_back(static_cast<std::int64_t>(*offer.dropped));
         }
       }

@@ -30,12 +30,13 @@ Timestamp monotonic_now() {
 using Cameras = std::vector<std::unique_ptr<LiveCamera>>;
 using Groups = LiveGroups<DetectedPicture>;
 
-Result<Cameras> make_cameras(OpenedLive& live) {
+Result<Cameras> make_cameras(OpenedLive& live, const LiveRunOptions& run) {
   Cameras cameras;
   for (std::size_t c = 0; c < live.feeds.size(); ++c) {
     const Camera& camera = live.calibration.cameras[c];
     LiveCameraOptions options;
     options.name = camera.name;
+    options.stale_after_s = seconds(run.longest_wait);
     auto one = LiveCamera::create(options, camera, *live.feeds[c], live.detector);
     if (!one) return one.error();
     cameras.push_back(*std::move(one));
@@ -318,7 +319,7 @@ Result<LiveFigures> run_live(OpenedLive& live,
                              const LiveRunOptions& options,
                              const std::function<bool()>& stop,
                              Console& console) {
-  auto cameras = make_cameras(live);
+  auto cameras = make_cameras(live, options);
   if (!cameras) return cameras.error();
   std::vector<FrameFeed*> feeds;
   for (const auto& feed : live.feeds) feeds.push_back(feed.get());

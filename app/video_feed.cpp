@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include <sys/resource.h>
+
 #include "core/assert.h"
 
 namespace marey::app {
@@ -15,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 
 /// Pictures that are decoded ahead, beside those that wait for the reader.
-constexpr std::size_t kAhead = 3;
+constexpr std::size_t kAhead = 5;
 
 Timestamp monotonic_now() {
   return std::chrono::steady_clock::now().time_since_epoch();
@@ -34,11 +36,32 @@ Status check_sizes(const capture::StreamInfo& first, const std::vector<VideoPart
   return Done{};
 }
 
+/// From now on the calling thread, and those it starts, leave the processor to others
+/// that want it: a camera would not take any of it. Where that is refused, nothing is
+/// lost but time.
+void give_way() {
+  constexpr int kNice = 10;
+  // Of Linux, where a thread has its own; a process that is nicer already stays so.
+  const int now = getpriority(PRIO_PROCESS, 0);
+  static_cast<void>(setpriority(PRIO_PROCESS, 0, std::min(now + kNice, 19)));
+}
+
+/// Opened by a thread that gives way, so that those of the decoder do.
+Result<std::unique_ptr<capture::FrameSource>> open_quietly(
+    const std::filesystem::path& path) {
+  std::optional<Result<std::unique_ptr<capture::FrameSource>>> opened;
+  std::jthread([&] {
+    give_way();
+    opened.emplace(capture::open_frames(path, path.string()));
+  }).join();
+  return *std::move(opened);
+}
+
 }  // namespace
 
 Result<std::unique_ptr<VideoFeed>> VideoFeed::open(const VideoFeedOptions& options) {
   MAREY_ASSERT(options.buffers > 0 && options.first_frame >= 0);
-  auto source = capture::open_frames(options.path, options.path.string());
+  auto source = open_quietly(options.path);
   if (!source) return source.error();
   const auto rate = options.rate ? options.rate : (*source)->info().rate;
   if (!rate || !(rate->hz > 0.0)) {
@@ -155,6 +178,7 @@ Result<bool> VideoFeed::decode_next(Picture& picture) {
 }
 
 void VideoFeed::decode(const std::stop_token& stop) {
+  give_way();
   while (true) {
     Picture* place = nullptr;
     {

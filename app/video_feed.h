@@ -39,9 +39,10 @@ struct VideoFeedOptions {
 };
 
 /// A recorded video as a camera: its frames come at their pace, each at its instant of
-/// CLOCK_MONOTONIC, grey, decoded ahead of time by a thread of its own. As a camera does,
-/// it drops and counts what nobody fetched in time: the oldest of more than `buffers`.
-/// Where decoding cannot keep the pace, frames come late and keep their instants.
+/// CLOCK_MONOTONIC, grey, decoded ahead of time by a thread of its own, which gives way to
+/// those that work on pictures, as a camera would not disturb them. As a camera does, it
+/// drops and counts what nobody fetched in time: the oldest of more than `buffers`. Where
+/// decoding cannot keep the pace, frames come late and keep their instants.
 class VideoFeed final : public FrameFeed {
  public:
   /// Opens the videos and decodes the first frame. Errors: open_frames()'s; a rate that

@@ -8,8 +8,8 @@
 // OUT is what `marey process` wrote: its calibration and subject are used. TRUTH holds
 // TRIAL/cam0.mp4... and TRIAL/truth/joints.csv (see the recording's README). KEEP is a
 // folder in which detected tags are kept from run to run. Cameras' lags are told to
-// nobody. Prints, for tags of the full detector and of the tracker, of all cameras and of
-// the first two: mean and 95 % errors of the twelve joints of the limbs, live over batch
+// nobody. Prints, for tags of the full detector and as live cameras are searched, of all cameras and
+// of the first two: mean and 95 % errors of the twelve joints of the limbs, live over batch
 // in brackets, the same of joints of which the tracker says that it knows them to 20 mm,
 // and milliseconds of processor time of BodyTracker::step() per frame (median, 95 %,
 // worst); then joint by joint.
@@ -108,7 +108,7 @@ marey::Result<CameraDetections> detect_camera(const Scene& scene,
                                               std::size_t camera) {
   const std::string name = scene.cameras[camera].name;
   const fs::path kept =
-      scene.keep / (trial + "-" + name + (full ? "-full" : "-tracked") + ".json");
+      scene.keep / (trial + "-" + name + (full ? "-full" : "-live") + ".json");
   auto read = marey::recordings::read_detections(kept, "measure_live_tracking");
   if (read && *read) return std::move(**read);
   marey::capture::CameraInput input;
@@ -116,6 +116,7 @@ marey::Result<CameraDetections> detect_camera(const Scene& scene,
   input.camera = static_cast<marey::CameraId>(camera);
   marey::capture::DetectVideosOptions options;
   options.search_every_frame = full;
+  options.tracker = marey::capture::live_tracking();
   auto found = marey::capture::detect_tags_in_videos({&input, 1}, options);
   if (!found) return found.error();
   fs::create_directories(scene.keep);

@@ -82,7 +82,10 @@ Result<std::optional<BoardFinder>> finder_of(
 Result<std::optional<TagTracker>> tracker_of(const DetectVideosOptions& options) {
   if (!options.find_tags) return std::optional<TagTracker>();
   TrackTagsOptions tracking = options.tracker;
-  if (options.search_every_frame) tracking.full_every_frames = 1;
+  if (options.search_every_frame) {
+    tracking.full_every_frames = 1;
+    tracking.strips = 1;
+  }
   auto tracker = TagTracker::create(tracking);
   if (!tracker) return tracker.error();
   return std::optional(std::move(*tracker));

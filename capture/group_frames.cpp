@@ -69,6 +69,19 @@ Offer FrameGrouper::offer(CameraId camera, Timestamp camera_time, FrameTicket ti
   return offer;
 }
 
+void FrameGrouper::pass_over(CameraId camera, Timestamp camera_time) {
+  MAREY_ASSERT(options_.mode == GroupingMode::kLive);
+  MAREY_ASSERT(index(camera) < lanes_.size());
+  Lane& lane = lanes_[index(camera)];
+  MAREY_ASSERT(!lane.ended);
+  if (!options_.origin) return;  // Nothing was offered: nobody waits.
+  const Timestamp time = lane.clock.common_time(camera_time);
+  const std::int64_t slot = follow(lane, time);
+  lane.last_slot = lane.has_delivered ? std::max(lane.last_slot, slot) : slot;
+  lane.last_time = time;
+  lane.has_delivered = true;
+}
+
 void FrameGrouper::end(CameraId camera) {
   MAREY_ASSERT(index(camera) < lanes_.size());
   lanes_[index(camera)].ended = true;

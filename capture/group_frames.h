@@ -103,6 +103,9 @@ class FrameGrouper {
 
   /// Hands a frame over. Precondition: end() was not called for the camera.
   Offer offer(CameraId camera, Timestamp camera_time, FrameTicket ticket);
+  /// Live: this camera's frame of that time will not be offered, nor any before it: no
+  /// group waits for it. Precondition: as offer().
+  void pass_over(CameraId camera, Timestamp camera_time);
   /// No more frames will come from this camera.
   void end(CameraId camera);
 

@@ -19,6 +19,8 @@ namespace {
 constexpr double kPadSides = 0.35;
 constexpr double kPadPerSpeed = 0.5;
 constexpr double kPadPx = 3.0;
+// Two sightings that are so many frames apart tell a velocity; of more, who knows.
+constexpr int kSameWay = 3;
 // How far beyond the tags that are seen the others of a body may be: a share of the box.
 // A head or foot that nothing near it announces needs more, now and then.
 constexpr double kBodyPad = 0.25;
@@ -30,6 +32,10 @@ constexpr int kPixelsPerCall = 1500;
 constexpr double kAsGoodAsFull = 0.75;
 // How far a strip reaches into its neighbours: half a tag that is near and large.
 constexpr double kStripOverlap = 0.04;
+// Fewer tags than this share of what was seen lately: somebody has turned, or jumped.
+constexpr double kFew = 0.6;
+constexpr double kForgotten = 0.98;
+constexpr int kHurriedFrames = 6;  // The whole picture then takes so many.
 // Corners of threshold tiles: a box that begins there is cut into the same tiles.
 constexpr int kTile = 4;
 
@@ -66,6 +72,14 @@ glm::dvec2 middle_of(const std::array<glm::dvec2, 4>& corners_px) {
 }
 
 }  // namespace
+
+TrackTagsOptions live_tracking() {
+  TrackTagsOptions options;
+  options.full_every_frames = 32;
+  options.strips = 16;
+  options.body_every_frames = 2;
+  return options;
+}
 
 Result<TagTracker> TagTracker::create(const TrackTagsOptions& options) {
   MAREY_ASSERT(options.full_every_frames > 0 && options.body_every_frames > 0 &&
@@ -136,38 +150,69 @@ SearchKind TagTracker::choose_parts(const GrayFrame& frame, bool is_spread) {
   predict_boxes(frame);
   // All that was followed has left the picture: somebody else may have come.
   if (boxes_.empty() && !is_spread) return SearchKind::kFull;
-  SearchKind kind = SearchKind::kRegions;
-  if (frame.index >= next_body_ && !boxes_.empty()) {
-    kind = SearchKind::kBody;
-    next_body_ = frame.index + options_.body_every_frames;
-    PixelBox body = boxes_.front();
-    for (const PixelBox& box : boxes_) body = hull(body, box);
-    const glm::dvec2 low(body.left, body.top);
-    const glm::dvec2 high(body.right, body.bottom);
-    // Strips come upon what is far off, too, and cost less.
-    const bool wide = !is_spread && ++body_searches_ % kWideEvery == 0;
-    const glm::dvec2 pad = (wide ? kWideBodyPad : kBodyPad) * (high - low);
-    boxes_.assign(1, tiled(frame, low - pad, high + pad));
-  }
-  // Not both in one frame: it would take the longest.
-  const bool is_due = kind == SearchKind::kRegions && frame.index >= next_strip_;
-  if (is_spread && (boxes_.empty() || is_due)) {
-    kind = SearchKind::kStrip;
-    next_strip_ =
-        frame.index + std::max(1, options_.full_every_frames / options_.strips);
-    choose_strip(frame);
-  }
-  return kind;
+  if (is_spread) return choose_spread(frame);
+  if (frame.index < next_body_) return SearchKind::kRegions;
+  next_body_ = frame.index + options_.body_every_frames;
+  choose_body(frame);
+  return SearchKind::kBody;
 }
 
-/// The strip whose turn it is. Strips overlap, so that a tag is whole in one of them.
-void TagTracker::choose_strip(const GrayFrame& frame) {
+/// A strip or a band: both in one frame would take the longest.
+SearchKind TagTracker::choose_spread(const GrayFrame& frame) {
+  const bool few = static_cast<double>(found_.size()) < kFew * usual_;
+  if (!boxes_.empty() && !few && frame.index < next_strip_) {
+    choose_band(frame);
+    return SearchKind::kBody;
+  }
+  next_strip_ = frame.index + std::max(1, options_.full_every_frames / options_.strips);
+  const bool hurry = boxes_.empty() || few;
+  choose_strip(frame, hurry ? std::max(1, options_.strips / kHurriedFrames) : 1);
+  return SearchKind::kStrip;
+}
+
+/// What is around all predicted tags: the predicted ones are within.
+void TagTracker::choose_body(const GrayFrame& frame) {
+  PixelBox body = boxes_.front();
+  for (const PixelBox& box : boxes_) body = hull(body, box);
+  const glm::dvec2 low(body.left, body.top);
+  const glm::dvec2 high(body.right, body.bottom);
+  const bool wide = ++body_searches_ % kWideEvery == 0;
+  const glm::dvec2 pad = (wide ? kWideBodyPad : kBodyPad) * (high - low);
+  boxes_.assign(1, tiled(frame, low - pad, high + pad));
+}
+
+/// One of as many bands of that, beside the predicted tags: every frame costs the same.
+/// Bands overlap by the largest tag that is followed, so that another of its size is
+/// whole in one of them.
+void TagTracker::choose_band(const GrayFrame& frame) {
+  PixelBox body = boxes_.front();
+  int tallest_px = 0;
+  for (const PixelBox& box : boxes_) {
+    body = hull(body, box);
+    tallest_px = std::max(tallest_px, box.bottom - box.top);
+  }
+  const glm::dvec2 pad =
+      kBodyPad * glm::dvec2(body.right - body.left, body.bottom - body.top);
+  const double top = body.top - pad.y;
+  const double height = body.bottom + pad.y - top;
+  const int bands = options_.body_every_frames;
+  const double overlap = 0.5 * tallest_px;
+  const double from = top + height * band_ / bands - overlap;
+  const double to = top + height * (band_ + 1) / bands + overlap;
+  boxes_.push_back(tiled(frame, {body.left - pad.x, from}, {body.right + pad.x, to}));
+  band_ = (band_ + 1) % bands;
+}
+
+/// So many strips, from the one whose turn it is. They overlap with the next, so that a
+/// tag is whole in one of them.
+void TagTracker::choose_strip(const GrayFrame& frame, int strips) {
   const double width_px = static_cast<double>(frame.width_px) / options_.strips;
   const double overlap_px = kStripOverlap * frame.width_px;
   const glm::dvec2 low(strip_ * width_px - overlap_px, 0.0);
-  const glm::dvec2 high((strip_ + 1) * width_px + overlap_px, frame.height_px);
+  const glm::dvec2 high((strip_ + strips) * width_px + overlap_px, frame.height_px);
   strip_box_ = tiled(frame, low, high);
-  strip_ = (strip_ + 1) % options_.strips;
+  strip_ += strips;
+  if (strip_ >= options_.strips) strip_ = 0;
 }
 
 void TagTracker::predict_boxes(const GrayFrame& frame) {
@@ -229,15 +274,18 @@ void TagTracker::remember(const GrayFrame& frame) {
     if (old != tracks_.end() && old->id == tag.id) {
       const int elapsed = frame.index - old->last_frame;
       MAREY_ASSERT(elapsed > 0);
-      track.velocity_px = (middle_of(tag.corners_px) - middle_of(old->corners_px)) /
-                          static_cast<double>(elapsed);
-      track.sightings = old->sightings + 1;
+      if (elapsed <= kSameWay) {
+        track.velocity_px = (middle_of(tag.corners_px) - middle_of(old->corners_px)) /
+                            static_cast<double>(elapsed);
+        track.sightings = old->sightings + 1;
+      }
       ++old;
     }
     updated_.push_back(track);
   }
   keep_lost_before([](const Track&) { return true; });
   std::swap(tracks_, updated_);
+  usual_ = std::max(static_cast<double>(found_.size()), kForgotten * usual_);
 }
 
 }  // namespace marey::capture

@@ -16,19 +16,24 @@ struct TrackTagsOptions {
   int full_every_frames = 30;
   /// Into so many upright strips, one after the other, that search of the whole picture is
   /// spread, so that no frame takes much longer than others: what live work wants. 1: it
-  /// is done at once. While nothing is followed a strip is searched in every frame.
+  /// is done at once. While fewer tags are seen than lately, or none, a sixth of the
+  /// picture is searched in every frame.
   int strips = 1;
   /// The surroundings of all tags that are followed are searched this often, for those
-  /// of the same body that turn into view.
+  /// of the same body that turn into view. With strips in bands, one a frame.
   int body_every_frames = 2;
   /// A tag that is not found is looked for in its predicted place for so many frames.
   int remember_frames = 6;
 };
 
+/// How live work follows tags: every frame costs about the same, and the whole picture,
+/// in strips, comes round in a second of 30 frames.
+[[nodiscard]] TrackTagsOptions live_tracking();
+
 /// What a frame's tags were looked for in.
 enum class SearchKind {
   kFull,     ///< The whole picture.
-  kBody,     ///< One box around all tags that are followed, and well beyond.
+  kBody,     ///< One box around all tags that are followed, and well beyond; or a band.
   kRegions,  ///< Merged boxes around the predicted tags.
   kStrip,    ///< A strip of the picture beside these.
 };
@@ -72,7 +77,10 @@ class TagTracker {
   [[nodiscard]] SearchKind choose_search(const GrayFrame& frame);
   [[nodiscard]] SearchKind choose_parts(const GrayFrame& frame, bool is_spread);
   void predict_boxes(const GrayFrame& frame);
-  void choose_strip(const GrayFrame& frame);
+  [[nodiscard]] SearchKind choose_spread(const GrayFrame& frame);
+  void choose_body(const GrayFrame& frame);
+  void choose_band(const GrayFrame& frame);
+  void choose_strip(const GrayFrame& frame, int strips);
   void search_strip(const GrayFrame& frame);
   void merge_boxes();
   void remember(const GrayFrame& frame);
@@ -89,6 +97,8 @@ class TagTracker {
   int strip_ = 0;  ///< Whose turn it is.
   PixelBox strip_box_;
   int body_searches_ = 0;
+  int band_ = 0;       ///< Whose turn it is.
+  double usual_ = 0.0;  ///< Tags seen lately in a frame: the most of them, slowly forgotten.
   SearchKind last_search_ = SearchKind::kFull;
 };
 

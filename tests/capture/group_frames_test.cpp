@@ -236,6 +236,35 @@ TEST(GroupFramesLive, WaitsNoLongerThanItMay) {
   EXPECT_EQ(grouper.counts(kRight).late, 1);
 }
 
+TEST(GroupFramesLive, DoesNotWaitForAFrameThatWasPassedOver) {
+  const std::vector<ClockModel> clocks(2);
+  FrameGrouper grouper(clocks, live());
+  grouper.pass_over(kRight, ms(0));  // Before any other.
+  grouper.offer(kLeft, ms(0), FrameTicket{1});
+  grouper.offer(kRight, ms(10), FrameTicket{2});
+  const auto first = grouper.next(ms(11));
+  ASSERT_TRUE(first);
+  EXPECT_EQ(copy(*first).missing, std::vector<int>{1});
+  grouper.offer(kLeft, ms(10), FrameTicket{3});
+  ASSERT_TRUE(grouper.next(ms(12)));
+
+  grouper.offer(kLeft, ms(20), FrameTicket{4});
+  EXPECT_FALSE(grouper.next(ms(21)));
+  grouper.pass_over(kRight, ms(20.5));
+  const auto third = grouper.next(ms(21));
+  ASSERT_TRUE(third);
+  EXPECT_EQ(third->number, 2);
+  EXPECT_EQ(copy(*third).missing, std::vector<int>{1});
+  // It is back with its next frame, and nothing was counted as offered.
+  grouper.offer(kLeft, ms(30), FrameTicket{5});
+  EXPECT_FALSE(grouper.next(ms(31)));
+  grouper.offer(kRight, ms(30), FrameTicket{6});
+  const auto fourth = grouper.next(ms(31));
+  ASSERT_TRUE(fourth);
+  EXPECT_EQ(fourth->frames.size(), 2U);
+  EXPECT_EQ(grouper.counts(kRight).offered, 2);
+}
+
 TEST(GroupFramesLive, DoesNotWaitForACameraThatDied) {
   const std::vector<ClockModel> clocks(2);
   FrameGrouper grouper(clocks, live());

@@ -176,6 +176,50 @@ TEST(TrackTags, LooksForSomebodyStripByStripWhileNobodyIsThere) {
   EXPECT_LE(first_seen, 4);
 }
 
+TEST(TrackTags, ComesUponANewTagOfTheSameBodyBandByBand) {
+  TrackTagsOptions options;
+  options.full_every_frames = 1000;
+  options.strips = 2;
+  options.body_every_frames = 3;
+  auto tracker = TagTracker::create(options);
+  for (int f = 0; f < 11; ++f) {
+    std::vector<DrawnTag> tags{{"tag36h11", 3, tests::square({90.0 + f, 50.0}, 24.0)},
+                               {"tag36h11", 4, tests::square({180.0, 170.0}, 24.0)}};
+    if (f >= 7) tags.push_back({"tag36h11", 5, tests::square({170.0, 60.0}, 24.0)});
+    const cv::Mat image = draw(tags);
+    const std::size_t found = tracker->track(numbered(image, f)).size();
+    if (f < 7 || f >= 9) {
+      EXPECT_EQ(found, tags.size()) << f;
+    }
+    EXPECT_EQ(tracker->last_search() == SearchKind::kFull, f == 0) << f;
+  }
+}
+
+TEST(TrackTags, HurriesOnceMostOfWhatItFollowedIsGone) {
+  TrackTagsOptions options;
+  options.full_every_frames = 600;
+  options.strips = 12;
+  auto tracker = TagTracker::create(options);
+  constexpr int kJump = 4;
+  for (int f = 0; f < kJump + 11; ++f) {
+    const double left_px = f < kJump ? 40.0 : 250.0;
+    std::vector<DrawnTag> tags;
+    for (int i = 0; i < 4; ++i) {
+      tags.push_back({"tag36h11",
+                      i,
+                      tests::square({left_px + 55.0 * (i % 2), 60.0 + 90.0 * (i / 2)},
+                                    24.0)});
+    }
+    const cv::Mat image = draw(tags);
+    const std::size_t found = tracker->track(numbered(image, f)).size();
+    // Not within the 600 frames in which the strips come round otherwise.
+    if (f < kJump || f == kJump + 10) {
+      EXPECT_EQ(found, 4U) << f;
+    }
+    EXPECT_EQ(tracker->last_search() == SearchKind::kFull, f == 0) << f;
+  }
+}
+
 TEST(TrackTags, SearchesWholeWhatTagsFill) {
   // Nine tags all over the image: their boxes would be all of it.
   std::vector<DrawnTag> tags;
