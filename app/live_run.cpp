@@ -36,7 +36,8 @@ Result<Cameras> make_cameras(OpenedLive& live, const LiveRunOptions& run) {
     const Camera& camera = live.calibration.cameras[c];
     LiveCameraOptions options;
     options.name = camera.name;
-    options.stale_after_s = seconds(run.longest_wait);
+    // Who waits less still takes pictures that are late by themselves.
+    options.stale_after_s = std::max(options.stale_after_s, seconds(run.longest_wait));
     auto one = LiveCamera::create(options, camera, *live.feeds[c], live.detector);
     if (!one) return one.error();
     cameras.push_back(*std::move(one));
