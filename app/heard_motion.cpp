@@ -24,14 +24,9 @@ Pose between(const Pose& a, const Pose& b, double share) {
 }  // namespace
 
 void HeardMotion::add(double time_s, const Pose& pose) {
-  // A sender that was restarted counts from 0 again.
-  constexpr double kAnew_s = 1.0;
-  if (!heard_.empty() && time_s + shift_s_ < heard_.back().time_s - kAnew_s) {
-    shift_s_ = heard_.back().time_s - time_s + 1e-3;
-  }
-  const double at_s = time_s + shift_s_;
-  if (!heard_.empty() && at_s <= heard_.back().time_s) return;
-  heard_.push_back({at_s, pose});
+  MAREY_ASSERT(std::isfinite(time_s));
+  if (!heard_.empty() && time_s <= heard_.back().time_s) return;
+  heard_.push_back({time_s, pose});
 }
 
 std::optional<Motion> HeardMotion::at_rate(const Skeleton& skeleton,

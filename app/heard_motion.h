@@ -12,8 +12,8 @@ namespace marey::app {
 /// Poses that came when they came, as a motion at a steady rate.
 class HeardMotion {
  public:
-  /// Poses whose time does not grow are passed over: a sender that began anew goes on
-  /// where it was. Precondition: finite.
+  /// Poses whose time does not grow are passed over. Precondition: finite, and of a clock
+  /// that is ours (SenderClock): the motion is as long as the times are apart.
   void add(double time_s, const Pose& pose);
   [[nodiscard]] std::size_t size() const { return heard_.size(); }
 
@@ -28,7 +28,6 @@ class HeardMotion {
     Pose pose;
   };
   std::vector<Heard> heard_;
-  double shift_s_ = 0.0;  ///< Of a sender that began anew.
 };
 
 }  // namespace marey::app

@@ -13,6 +13,7 @@
 #include "app/live_streams.h"
 #include "app/motion_files.h"
 #include "app/option_checks.h"
+#include "app/sender_clock.h"
 #include "app/stop_signal.h"
 #include "core/extension.h"
 #include "live/udp_sender.h"
@@ -94,7 +95,7 @@ class Listening {
     while (!stop_wanted() && !(seconds && since_start() >= *seconds)) {
       receiver_.wait(kLook);
       if (!receiver_.receive(frame_)) continue;
-      take(frame_.time_s.value_or(since_start()), keep);
+      take(clock_.at_s(frame_.time_s, since_start()), keep);
       if (progress) progress(static_cast<int>(frames_), kUnknownTotal);
     }
   }
@@ -103,6 +104,7 @@ class Listening {
   [[nodiscard]] const live::VmcReceived& received() const { return receiver_.received(); }
 
  private:
+  /// `time_s` is of our clock.
   void take(double time_s, bool keep) {
     vmc_.pose_of(frame_.pose, pose_);
     ++frames_;
@@ -133,6 +135,7 @@ class Listening {
   std::optional<Onward> onward_;
   live::VmcFrame frame_;
   Pose pose_;
+  SenderClock clock_;
   HeardMotion heard_;
   std::optional<double> last_s_;
   long frames_ = 0;
