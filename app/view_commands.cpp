@@ -52,7 +52,9 @@ std::string note(const live::ReceivedText& text,
 }
 
 void answer(live::WebServer& server, const ViewedTrial& shown, live::ClientId client) {
-  const auto adapted = shown.handles.adapted(client);
+  const auto answered = shown.handles.adapted(client);
+  if (!answered) return;  // Too many have dragged since.
+  const Result<ViewHandles::Adapted>& adapted = *answered;
   if (!adapted) {
     server.answer_text(client, live::error_json(adapted.error().message()));
     return;
@@ -127,7 +129,7 @@ void add_page_options(CLI::App& command, PageServerOptions& options) {
   command.add_option(
       "--web-root",
       options.web_root,
-      "Serve the page from this folder, as it changes, for its development");
+      "Serve the page from this folder, for its development");
   command.add_flag_callback(
       "--no-open", [&options] { options.open = false; }, "Open no browser");
 }

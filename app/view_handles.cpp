@@ -7,7 +7,6 @@
 #include <variant>
 
 #include "app/foot_contacts.h"
-#include "core/assert.h"
 #include "recordings/constraints_file.h"
 #include "retarget/adapter.h"
 #include "retarget/check_constraints.h"
@@ -211,9 +210,10 @@ ConstraintSet ViewHandles::constraints_of(const Page& page) const {
   return set;
 }
 
-Result<ViewHandles::Adapted> ViewHandles::adapted(live::ClientId client) const {
+std::optional<Result<ViewHandles::Adapted>> ViewHandles::adapted(
+    live::ClientId client) const {
   const auto page = std::ranges::find(pages_, client, &Page::client);
-  MAREY_ASSERT(page != pages_.end());
+  if (page == pages_.end()) return std::nullopt;
   auto adapter = retarget::Adapter::make(character_, constraints_of(*page), {});
   if (!adapter) return adapter.error();
   Adapted out{page->frame, {}};

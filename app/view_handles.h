@@ -4,6 +4,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,9 +48,9 @@ class ViewHandles {
   };
   /// The frame that the page drags in, brought to all that it holds; feet that bear in
   /// the recording stand, unless the file has supports. Costs an Adapter::make() and an
-  /// adapt(). Errors: Adapter::make()'s.
-  /// Precondition: the page has dragged something.
-  [[nodiscard]] Result<Adapted> adapted(live::ClientId client) const;
+  /// adapt(). nullopt: the page drags nothing, or 16 others have dragged since.
+  /// Errors: Adapter::make()'s.
+  [[nodiscard]] std::optional<Result<Adapted>> adapted(live::ClientId client) const;
 
  private:
   struct Held {

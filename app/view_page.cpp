@@ -74,7 +74,8 @@ void append_frame(const ViewedRecording& recording,
                   std::string& out) {
   live::append_frame(
       {.frame = i + static_cast<std::uint32_t>(std::max(0, recording.first_frame)),
-       .time_s = (recording.first_frame + i) / recording.rate.hz,
+       // Markers may begin before frame 0: no unsigned sum.
+       .time_s = (recording.first_frame + static_cast<int>(i)) / recording.rate.hz,
        .sent_s = 0.0,
        .figures = figures},
       out);

@@ -199,6 +199,8 @@ Result<ViewedRecording> read_trial_view(const fs::path& trial_folder) {
   out.title = folder.filename().string();
   auto figure = performer(folder, out);
   if (!figure) return figure.error();
+  // A .glb has no numbers of frames; those of segments.csv count for the page.
+  figure->motion.first_frame = out.first_frame;
   out.tracks = tracks_of(*figure, out.first_frame);
   out.contacts = contact_spans(figure->motion, out.first_frame);
   add_residual(report_of(results, out.title), out);

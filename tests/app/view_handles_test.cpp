@@ -57,15 +57,15 @@ TEST(ViewHandles, BringAFrameToWhatIsDraggedInIt) {
   ASSERT_TRUE(handles.drag(kPage, drag("left hand", left, kFirst + 20)));
   ASSERT_TRUE(handles.drag(kPage, drag("right hand", right, kFirst + 20)));
   const auto adapted = handles.adapted(kPage);
-  ASSERT_TRUE(adapted) << adapted.error().message();
-  EXPECT_EQ(adapted->frame, 20);
+  ASSERT_TRUE(adapted && *adapted);
+  EXPECT_EQ((*adapted)->frame, 20);
   EXPECT_LT(
-      glm::distance(place(recording, adapted->pose, HumanBone::kLeftHand), left), 1e-3);
+      glm::distance(place(recording, (*adapted)->pose, HumanBone::kLeftHand), left), 1e-3);
   EXPECT_LT(
-      glm::distance(place(recording, adapted->pose, HumanBone::kRightHand), right), 1e-3);
+      glm::distance(place(recording, (*adapted)->pose, HumanBone::kRightHand), right), 1e-3);
   const Pose& before = recording.figures[0].motion.poses[20];
   for (const HumanBone foot : {HumanBone::kLeftFoot, HumanBone::kRightFoot}) {
-    EXPECT_LT(glm::distance(place(recording, adapted->pose, foot),
+    EXPECT_LT(glm::distance(place(recording, (*adapted)->pose, foot),
                             place(recording, before, foot)),
               1e-4);
   }
@@ -73,9 +73,9 @@ TEST(ViewHandles, BringAFrameToWhatIsDraggedInIt) {
   ASSERT_TRUE(handles.drag(ClientId{2}, drag("head", {0.0, 1.5, 0.1}, kFirst + 20)));
   ASSERT_TRUE(handles.drag(kPage, drag("left hand", left, kFirst + 3)));
   const auto other = handles.adapted(kPage);
-  ASSERT_TRUE(other);
+  ASSERT_TRUE(other && *other);
   EXPECT_GT(
-      glm::distance(place(recording, other->pose, HumanBone::kRightHand), right), 0.1);
+      glm::distance(place(recording, (*other)->pose, HumanBone::kRightHand), right), 0.1);
   EXPECT_FALSE(handles.release(kPage, "right hand"));
   EXPECT_TRUE(handles.release(kPage, "left hand"));
 }
@@ -96,16 +96,28 @@ TEST(ViewHandles, KeepTheConstraintsOfAFile) {
   EXPECT_EQ(shown[0].p_in_world, glm::dvec3(-0.3, 1.1, 0.4));
   ASSERT_TRUE(handles->drag(kPage, drag("left hand", {0.35, 1.2, 0.45}, kFirst)));
   const auto adapted = handles->adapted(kPage);
-  ASSERT_TRUE(adapted);
-  EXPECT_LT(glm::distance(place(recording, adapted->pose, HumanBone::kRightHand),
+  ASSERT_TRUE(adapted && *adapted);
+  EXPECT_LT(glm::distance(place(recording, (*adapted)->pose, HumanBone::kRightHand),
                           {-0.3, 1.1, 0.4}),
             1e-3);
   ASSERT_TRUE(handles->drag(kPage, drag("gate", {-0.35, 1.2, 0.4}, kFirst)));
   const auto moved = handles->adapted(kPage);
-  ASSERT_TRUE(moved);
-  EXPECT_LT(glm::distance(place(recording, moved->pose, HumanBone::kRightHand),
+  ASSERT_TRUE(moved && *moved);
+  EXPECT_LT(glm::distance(place(recording, (*moved)->pose, HumanBone::kRightHand),
                           {-0.35, 1.2, 0.4}),
             1e-3);
+}
+
+TEST(ViewHandles, HaveNothingOfAPageThatSixteenOthersFollowed) {
+  auto handles = ViewHandles::make(standing(), {});
+  ASSERT_TRUE(handles);
+  EXPECT_FALSE(handles->adapted(kPage)) << "it has dragged nothing";
+  for (int page = 1; page <= 17; ++page) {
+    const auto client = static_cast<ClientId>(page);
+    ASSERT_TRUE(handles->drag(client, drag("head", {0.0, 1.5, 0.1}, kFirst)));
+  }
+  EXPECT_FALSE(handles->adapted(kPage));
+  EXPECT_TRUE(handles->adapted(ClientId{17}));
 }
 
 TEST(ViewHandles, RefuseWhatIsNotThere) {

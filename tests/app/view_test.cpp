@@ -92,6 +92,31 @@ TEST_F(View, ShowsWhatWasSolvedWithItsDoubt) {
   EXPECT_EQ(view->graphs[0].values[1], 0.25);
 }
 
+// The motion's file counts from 0, segments.csv and the page from 7.
+TEST_F(View, DragsInTheFrameThatThePageShows) {
+  const auto view = read_view({.what = out() / "walk", .trial = {}, .avatars = {}});
+  ASSERT_TRUE(view) << view.error().message();
+  auto handles = ViewHandles::make(*view, {});
+  ASSERT_TRUE(handles);
+  constexpr live::ClientId kPage{1};
+  const live::DragRequest last{
+      "head", {0.0, 1.6, 0.9}, live::DragPhase::kMove, 7 + kFrames - 1};
+  ASSERT_TRUE(handles->drag(kPage, last));
+  const auto adapted = handles->adapted(kPage);
+  ASSERT_TRUE(adapted && *adapted);
+  EXPECT_EQ((*adapted)->frame, kFrames - 1);
+}
+
+TEST_F(View, TellsTheTimeOfFramesBeforeTheFirst) {
+  auto view = read_view({.what = out() / "walk", .trial = {}, .avatars = {}});
+  ASSERT_TRUE(view) << view.error().message();
+  view->first_frame = -3;
+  const std::string frame = frame_with(*view, 0, 0, view->figures[0].motion.poses[0]);
+  double time_s = 0.0;
+  std::memcpy(&time_s, frame.data() + 8, sizeof time_s);
+  EXPECT_EQ(time_s, -0.1);
+}
+
 TEST_F(View, EncodesEveryFrameOfEveryFigure) {
   const auto view = read_view({.what = out() / "walk", .trial = {}, .avatars = {}});
   ASSERT_TRUE(view) << view.error().message();
