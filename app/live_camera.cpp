@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/monotonic_clock.h"
 #include "app/stopwatch.h"
 
 namespace marey::app {
 namespace {
-
-Timestamp monotonic_now() {
-  return std::chrono::steady_clock::now().time_since_epoch();
-}
 
 /// The usual time of a search follows the last ones, so much each.
 constexpr double kFollowed = 0.2;

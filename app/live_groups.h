@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/frame_feed.h"
+#include "app/monotonic_clock.h"
 #include "capture/group_frames.h"
 #include "core/assert.h"
 
@@ -84,7 +85,7 @@ class LiveGroups {
     give_back_shown();
     const auto give_up = Clock::now() + timeout;
     while (true) {
-      if (const auto group = grouper_.next(now())) return show(*group);
+      if (const auto group = grouper_.next(monotonic_now())) return show(*group);
       auto until = give_up;
       if (const auto deadline = grouper_.deadline()) {
         until = std::min(until, Clock::time_point(*deadline) + kTick);
@@ -115,8 +116,6 @@ class LiveGroups {
     std::vector<std::unique_ptr<Made>> places;
     std::vector<std::int64_t> free;
   };
-
-  static Timestamp now() { return Clock::now().time_since_epoch(); }
 
   void work(CameraId camera, FrameFeed& feed, const std::stop_token& stop) {
     constexpr std::chrono::milliseconds kListen{100};

@@ -10,6 +10,7 @@
 #include "app/live_camera.h"
 #include "app/live_groups.h"
 #include "app/live_health.h"
+#include "app/monotonic_clock.h"
 #include "app/stopwatch.h"
 
 namespace marey::app {
@@ -22,10 +23,6 @@ constexpr double kStatusEvery_s = 0.5;
 constexpr double kMinute_s = 60.0;
 /// Time for every thread to be there before the first picture of a video.
 constexpr milliseconds kHeadStart{200};
-
-Timestamp monotonic_now() {
-  return std::chrono::steady_clock::now().time_since_epoch();
-}
 
 using Cameras = std::vector<std::unique_ptr<LiveCamera>>;
 using Groups = LiveGroups<DetectedPicture>;
@@ -267,9 +264,23 @@ class Loop {
     }
   }
 
+  /// Of those that broke off; cameras that are plugged in tell of themselves.
+  void warn_of_videos() {
+    if (live_.videos.empty()) return;
+    const std::vector<LiveCameraFigures>& cameras = counting_.figures().cameras;
+    is_told_lost_.resize(cameras.size(), false);
+    for (std::size_t c = 0; c < cameras.size(); ++c) {
+      const FeedHealth& health = cameras[c].health;
+      if (is_told_lost_[c] || health.state != capture::CameraState::kLost) continue;
+      is_told_lost_[c] = true;
+      console_.warn("camera " + cameras[c].name + " is lost: " + health.trouble);
+    }
+  }
+
   void tell(const Groups& groups, const Cameras& cameras, bool is_end) {
     LiveFigures& figures = counting_.figures();
     counting_.look_at(cameras, groups);
+    warn_of_videos();
     figures.outputs = outputs_.counts();
     counting_.end_minute(is_end);
     if (takes_) {
@@ -294,6 +305,7 @@ class Loop {
   LiveInstant instant_;
   LiveResult nobody_;
   std::optional<SeenInVain> in_vain_;
+  std::vector<bool> is_told_lost_;  ///< By camera.
   TrackState state_ = TrackState::kWaiting;
   double last_status_s_ = 0.0;
 };

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/camera_recorder.h"
+#include "app/monotonic_clock.h"
 #include "app/utc_now.h"
 #include "core/assert.h"
 #include "recordings/take_file.h"
@@ -129,11 +130,6 @@ Status attend(recordings::TakeWriter& take,
     if (progress) progress(static_cast<int>(frames_of(recorders)), kUnknownTotal);
   }
   return Done{};
-}
-
-Timestamp monotonic_now() {
-  // libstdc++'s steady clock is CLOCK_MONOTONIC.
-  return std::chrono::steady_clock::now().time_since_epoch();
 }
 
 /// Runs all threads until it is over and every frame is written. The time at which it was

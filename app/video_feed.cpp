@@ -9,6 +9,7 @@
 
 #include <sys/resource.h>
 
+#include "app/monotonic_clock.h"
 #include "core/assert.h"
 
 namespace marey::app {
@@ -18,10 +19,6 @@ using std::chrono::milliseconds;
 
 /// Pictures that are decoded ahead, beside those that wait for the reader.
 constexpr std::size_t kAhead = 5;
-
-Timestamp monotonic_now() {
-  return std::chrono::steady_clock::now().time_since_epoch();
-}
 
 Status check_sizes(const capture::StreamInfo& first, const std::vector<VideoPart>& then) {
   for (const VideoPart& part : then) {
@@ -192,7 +189,8 @@ void VideoFeed::decode(const std::stop_token& stop) {
     const auto decoded = decode_next(*place);
     const std::lock_guard lock(mutex_);
     if (!decoded) {
-      events_.push_back({monotonic_now(), "lost: " + decoded.error().message()});
+      health_ = {capture::CameraState::kLost, decoded.error().message()};
+      events_.push_back({monotonic_now(), "lost: " + health_.trouble});
     }
     ended_ = !decoded || !*decoded;
     if (!ended_) ++count_;
@@ -260,6 +258,11 @@ std::string VideoFeed::device() const {
 std::vector<FeedEvent> VideoFeed::events() {
   const std::lock_guard lock(mutex_);
   return std::exchange(events_, {});
+}
+
+FeedHealth VideoFeed::health() const {
+  const std::lock_guard lock(mutex_);
+  return health_;
 }
 
 bool VideoFeed::is_over() {

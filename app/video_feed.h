@@ -62,6 +62,9 @@ class VideoFeed final : public FrameFeed {
   [[nodiscard]] std::string device() const override;
   [[nodiscard]] std::vector<FeedEvent> events() override;
   [[nodiscard]] bool is_over() override;
+  /// Lost, and why, once a picture or a following video could not be read: none comes
+  /// after those that were decoded before.
+  [[nodiscard]] FeedHealth health() const override;
 
  private:
   struct Picture {
@@ -91,7 +94,7 @@ class VideoFeed final : public FrameFeed {
   int next_in_file_ = 0;
   std::int64_t next_number_ = 0;
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Picture> ring_;
   std::size_t first_ = 0;
@@ -101,6 +104,7 @@ class VideoFeed final : public FrameFeed {
   std::optional<Timestamp> begin_;
   std::int64_t last_handed_out_ = -1;
   std::vector<FeedEvent> events_;
+  FeedHealth health_;
   std::jthread decoder_;  ///< Last: it ends before what it uses.
 };
 

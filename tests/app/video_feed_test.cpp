@@ -57,6 +57,22 @@ int grey_of(const capture::RawFrame& frame) {
   return std::to_integer<int>(frame.bytes[kWidth * 20 + 30]);
 }
 
+// As one of several cameras, whose others go on.
+TEST(VideoFeed, TellsWhyItBrokeOff) {
+  const testing::ScratchFolder folder;
+  const auto first = make_video(folder, 8);
+  const auto second = folder / "second.mkv";
+  std::filesystem::copy_file(first, second);
+  const auto feed =
+      open({.name = "left", .path = first, .then = {{.path = second}}, .buffers = 1});
+  EXPECT_EQ(feed->health().state, capture::CameraState::kStreaming);
+  std::filesystem::remove(second);  // It waits for a reader before it comes to that.
+  feed->begin_at(now());
+  while (!feed->is_over()) (void)feed->next(milliseconds(100));
+  EXPECT_EQ(feed->health().state, capture::CameraState::kLost);
+  EXPECT_NE(feed->health().trouble.find("second.mkv"), std::string::npos);
+}
+
 TEST(VideoFeed, GivesEveryFrameAtItsInstantAndEnds) {
   const testing::ScratchFolder folder;
   const auto feed = open({.name = "left", .path = make_video(folder, 8), .buffers = 8});
