@@ -23,7 +23,7 @@
 #include "live/web_server.h"
 #include "live/web_state.h"
 
-// Included by web_loop.cpp alone: Boost.Beast takes half a minute to compile.
+// Included by web_loop.cpp alone: Boost.Beast takes long to compile.
 namespace marey::live {
 
 namespace asio = boost::asio;

@@ -190,12 +190,12 @@ class Sockets final : public WebLoop {
   [[nodiscard]] int port() const override { return house_.port; }
 
   void run() override {
-    accept();
-    wait_for_bell();
-    for (;;) {
+    while (!io_.stopped()) {
       try {
+        // Also what could not be waited for anew, if that is what threw.
+        if (!accepts_) accept();
+        if (!hears_bell_) wait_for_bell();
         io_.run();
-        return;
       } catch (const std::exception&) {
         // One connection's trouble, memory for example, is not that of the others.
       }
@@ -204,18 +204,25 @@ class Sockets final : public WebLoop {
   void end() override { io_.stop(); }
 
  private:
+  // Handlers wait anew before they do anything that may throw.
   void accept() {
     acceptor_.async_accept([this](error_code failed, tcp::socket socket) {
+      accepts_ = false;
       if (failed) return accept_later();
-      welcome(std::move(socket));
       accept();
+      welcome(std::move(socket));
     });
+    accepts_ = true;
   }
 
   /// The process has no file descriptors left, most likely.
   void accept_later() {
     pause_.expires_after(std::chrono::milliseconds(100));
-    pause_.async_wait([this](error_code) { accept(); });
+    pause_.async_wait([this](error_code) {
+      accepts_ = false;
+      accept();
+    });
+    accepts_ = true;
   }
 
   void welcome(tcp::socket socket) {
@@ -237,12 +244,14 @@ class Sockets final : public WebLoop {
 
   void wait_for_bell() {
     bell_.async_wait(asio::posix::stream_descriptor::wait_read, [this](error_code) {
+      hears_bell_ = false;
       std::uint64_t rung = 0;
       [[maybe_unused]] const ssize_t got =
           read(bell_.native_handle(), &rung, sizeof rung);
-      for (PageSession* page : house_.pages) page->send_next();
       wait_for_bell();
+      for (PageSession* page : house_.pages) page->send_next();
     });
+    hears_bell_ = true;
   }
 
   House house_;
@@ -250,6 +259,8 @@ class Sockets final : public WebLoop {
   tcp::acceptor acceptor_{io_};
   asio::steady_timer pause_{io_};
   asio::posix::stream_descriptor bell_;
+  bool accepts_ = false;  ///< Somebody who comes is heard, now or after a pause.
+  bool hears_bell_ = false;
 };
 
 Error cannot_listen(const tcp::endpoint& endpoint, const error_code& failed) {

@@ -10,8 +10,7 @@
 
 namespace marey::live {
 
-/// The sockets of a WebServer. Behind a wall, since Boost.Beast takes a minute to
-/// compile.
+/// The sockets of a WebServer. Behind a wall, since Boost.Beast takes long to compile.
 class WebLoop {
  public:
   /// Binds and listens. `bell`: an eventfd that says that the state has something new to
