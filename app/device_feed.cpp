@@ -53,6 +53,9 @@ void DeviceFeed::hear(const capture::CameraStatus& status) {
   std::string text = capture::name(status.state);
   if (status.trouble) text += ": " + status.trouble->message();
   tell_("camera " + name_ + " is " + text);
+  // Live nobody fetches them, and a bad plug makes some every second.
+  constexpr std::size_t kMostEvents = 1000;
+  if (events_.size() == kMostEvents) events_.erase(events_.begin());
   events_.push_back({status.since, std::move(text)});
 }
 

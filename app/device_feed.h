@@ -30,6 +30,7 @@ class DeviceFeed final : public FrameFeed {
   std::optional<capture::RawFrame> next(std::chrono::milliseconds timeout) override;
   [[nodiscard]] const capture::DeviceSettings& settings() const override;
   [[nodiscard]] std::string device() const override;
+  /// The last 1000.
   [[nodiscard]] std::vector<FeedEvent> events() override;
   [[nodiscard]] FeedHealth health() const override;
 

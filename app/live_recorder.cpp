@@ -127,7 +127,7 @@ void LiveRecorder::add(const LiveInstant& instant,
   instant_.seen = instant;
   instant_.requests = live_requests_text(requests);
   write_results(result, instant_.results);
-  writer_.add(instant_);
+  keep();
 }
 
 void LiveRecorder::add_lead_in(const LiveInstant& instant,
@@ -136,7 +136,14 @@ void LiveRecorder::add_lead_in(const LiveInstant& instant,
   instant_.seen = instant;
   instant_.requests = live_requests_text(requests);
   instant_.results.clear();
-  writer_.add(instant_);
+  keep();
+}
+
+void LiveRecorder::keep() {
+  const Status ok = writer_.add(instant_);
+  if (ok) return;
+  const std::lock_guard lock(mutex_);
+  trouble_ = ok.error();
 }
 
 std::optional<Error> LiveRecorder::trouble() const {

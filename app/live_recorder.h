@@ -45,6 +45,7 @@ class LiveRecorder {
 
  private:
   explicit LiveRecorder(recordings::LiveTakeWriter writer);
+  void keep();
   void commit_often(const std::stop_token& stop);
 
   recordings::LiveTakeWriter writer_;

@@ -49,9 +49,13 @@ class LiveTakeWriter {
   LiveTakeWriter& operator=(LiveTakeWriter&&) noexcept;
   ~LiveTakeWriter();
 
-  /// From any thread; does not wait for the disk. Preconditions: numbers grow; cameras
-  /// are the head's.
-  void add(const LiveTakeInstant& instant);
+  /// How many instants may wait for the disk: a minute and more, some 100 MB.
+  static constexpr std::size_t kMostWaiting = 4096;
+
+  /// From any thread; does not wait for the disk. Errors (kDevice): kMostWaiting are
+  /// waiting; the instant is not kept. Preconditions: numbers grow; cameras are the
+  /// head's.
+  [[nodiscard]] Status add(const LiveTakeInstant& instant);
 
   /// Puts everything added so far into the file. To be called at least twice a second, by
   /// one thread. Errors (kDevice): the disk is full or failed; nothing is half-written.

@@ -71,9 +71,16 @@ Result<LiveTakeWriter> LiveTakeWriter::create(const std::filesystem::path& path,
   return LiveTakeWriter(std::make_unique<Impl>(path.string(), *std::move(database)));
 }
 
-void LiveTakeWriter::add(const LiveTakeInstant& instant) {
+Status LiveTakeWriter::add(const LiveTakeInstant& instant) {
   const std::lock_guard lock(impl_->mutex);
+  if (impl_->added.size() >= kMostWaiting) {
+    return Error{Errc::kDevice,
+                 impl_->file,
+                 "the disk has not taken anything for a long time",
+                 "record to a disk that keeps up"};
+  }
   impl_->added.push_back(instant);
+  return Done{};
 }
 
 Status LiveTakeWriter::commit() {

@@ -128,7 +128,7 @@ TEST_F(LiveRecording, IsToldFromOneThatWasChanged) {
       if (!one.seen.views.empty() && !one.seen.views[0].tags.empty()) {
         one.seen.views[0].tags[0].corners_px[0].x += 0.25;
       }
-      writer->add(one);
+      EXPECT_TRUE(writer->add(one));
     }
     ASSERT_TRUE(writer->finish());
   }

@@ -54,12 +54,28 @@ void expect_same(const LiveTakeInstant& a, const LiveTakeInstant& b) {
   EXPECT_EQ(of_a, of_b);
 }
 
+TEST(LiveTake, KeepsNoMoreThanSoManyForADiskThatStandsStill) {
+  const testing::ScratchFolder folder;
+  const auto file = folder.path() / kLiveTakeFile;
+  auto writer = LiveTakeWriter::create(file, head());
+  ASSERT_TRUE(writer);
+  constexpr auto kMost = static_cast<std::int64_t>(LiveTakeWriter::kMostWaiting);
+  for (std::int64_t i = 0; i < kMost; ++i) ASSERT_TRUE(writer->add(instant(i)));
+  const Status full = writer->add(instant(kMost));
+  ASSERT_FALSE(full);
+  EXPECT_EQ(full.error().code, Errc::kDevice);
+  ASSERT_TRUE(writer->finish());
+  const auto take = read_live_take(file);
+  ASSERT_TRUE(take);
+  EXPECT_EQ(take->instants.size(), LiveTakeWriter::kMostWaiting);
+}
+
 TEST(LiveTake, KeepsEveryNumberExactly) {
   const testing::ScratchFolder folder;
   const auto file = folder.path() / kLiveTakeFile;
   auto writer = LiveTakeWriter::create(file, head());
   ASSERT_TRUE(writer);
-  for (const std::int64_t number : {3, 4, 7}) writer->add(instant(number));
+  for (const std::int64_t number : {3, 4, 7}) EXPECT_TRUE(writer->add(instant(number)));
   ASSERT_TRUE(writer->finish());
   const auto take = read_live_take(file);
   ASSERT_TRUE(take) << take.error().message();
@@ -81,9 +97,9 @@ TEST(LiveTake, HasWhatWasCommittedWhenItWasCutOff) {
   const auto file = folder.path() / kLiveTakeFile;
   auto writer = LiveTakeWriter::create(file, head());
   ASSERT_TRUE(writer);
-  writer->add(instant(1));
+  EXPECT_TRUE(writer->add(instant(1)));
   ASSERT_TRUE(writer->commit());
-  writer->add(instant(2));
+  EXPECT_TRUE(writer->add(instant(2)));
   const auto take = read_live_take(file);
   ASSERT_TRUE(take) << take.error().message();
   EXPECT_FALSE(take->finished);
@@ -119,7 +135,7 @@ TEST(LiveTake, RefusesWhatItWouldNotWrite) {
   {
     auto writer = LiveTakeWriter::create(file, head());
     ASSERT_TRUE(writer);
-    writer->add(instant(1));
+    EXPECT_TRUE(writer->add(instant(1)));
     ASSERT_TRUE(writer->finish());
   }
   {
