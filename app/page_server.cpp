@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <utility>
 
 #include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "app/view_page.h"
@@ -30,17 +32,25 @@ const std::map<std::string, std::string> kTypes = {
     {".svg", "image/svg+xml"},
 };
 
+/// `address` is for everybody to see, in the list of processes.
 void open_in_browser(const std::string& address) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) {
     return;
   }
-  std::string program = "xdg-open";
+  std::string program = "/bin/sh";
+  std::string option = "-c";
+  // A shell that ends at once, so that nobody has to wait for a browser that stays.
+  std::string script = "xdg-open \"$0\" &";
   std::string argument = address;
-  const std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
+  const std::array<char*, 5> arguments{
+      program.data(), option.data(), script.data(), argument.data(), nullptr};
   pid_t child = 0;
   // Without a browser the address is on the screen still.
-  static_cast<void>(
-      posix_spawnp(&child, program.c_str(), nullptr, nullptr, arguments.data(), environ));
+  if (posix_spawn(
+          &child, program.c_str(), nullptr, nullptr, arguments.data(), environ) == 0) {
+    while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
 }
 
 }  // namespace
@@ -108,7 +118,9 @@ Result<PageServer> start_page(const PageServerOptions& options) {
 void tell_addresses(const PageServer& page, const PageServerOptions& options) {
   for (const std::string& address : page.addresses) std::printf("%s\n", address.c_str());
   std::fflush(stdout);
-  if (options.open && isatty(STDOUT_FILENO) != 0) open_in_browser(page.addresses.front());
+  // An address with a token is told to nobody else.
+  if (!options.open || options.lan || isatty(STDOUT_FILENO) == 0) return;
+  open_in_browser(page.addresses.front());
 }
 
 }  // namespace marey::app

@@ -46,7 +46,8 @@ class WebRoot {
 };
 
 /// Prints the addresses on standard output, and opens the first in a browser if that is
-/// wanted and there is a screen.
+/// wanted and there is a screen; with `lan` it opens none, since everybody on this machine
+/// can read with what a program was started, the token too.
 void tell_addresses(const PageServer& page, const PageServerOptions& options);
 
 }  // namespace marey::app
