@@ -77,8 +77,8 @@ TEST_F(LiveNetwork, IsNotHeldUpByAHostThatCannotBeReached) {
   // RFC 5737: for documentation, nobody's.
   auto outputs = LiveOutputs::open({VmcStream{}}, {{{{"192.0.2.1", 39539}}}});
   if (!outputs) {
-    EXPECT_EQ(outputs.error().code, Errc::kDevice) << "no network leads there";
-    return;
+    EXPECT_EQ(outputs.error().code, Errc::kDevice);
+    GTEST_SKIP() << "there is no network here that leads there";
   }
   for (int i = 1; i <= 50; ++i) {
     const auto told = send(*outputs);
