@@ -8,7 +8,7 @@ import type {Orbit} from './orbit';
 export interface Grip {
   /** The pointer moved there, with shift or without; pixels of the canvas. */
   move(x_px: number, y_px: number, vertical: boolean): void;
-  /** `kept`: false when the gesture was broken off. */
+  /** It is let go, or the gesture was broken off. */
   end(): void;
 }
 
