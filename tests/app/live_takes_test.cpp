@@ -112,7 +112,7 @@ class LiveTakesOfThePage : public ::testing::Test {
 };
 
 TEST_F(LiveTakesOfThePage, BeginInTheMiddleAndAreReplayedToTheSameBytes) {
-  start(9.0);
+  start(12.0);
   WebSocketClient page = open_page();
   // Two more browsers, one that is killed and one that hangs, are nobody's concern.
   { const WebSocketClient killed = open_page(); }
@@ -154,7 +154,7 @@ TEST_F(LiveTakesOfThePage, BeginInTheMiddleAndAreReplayedToTheSameBytes) {
 
 TEST_F(LiveTakesOfThePage, SayWhyTheyCannotBeMadeAndTheRunGoesOn) {
   std::ofstream(session_ / "takes") << "a file where a folder should be";
-  start(5.0);
+  start(8.0);
   WebSocketClient page = open_page();
   record(page, true);
   const json failed = status_when(page, [](const json& status) {
