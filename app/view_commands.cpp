@@ -143,8 +143,7 @@ void add_view_command(CLI::App& app,
       ->add_option("what",
                    args.choice.what,
                    ".bvh, .amc, .glb, .gltf, .vrm, .vrma, .c3d, .trc, calibration.toml, "
-                   "or a folder of "
-                   "results")
+                   "a folder of results or a take of marey live")
       ->required();
   command->add_option("--trial", args.choice.trial, "Which trial of a folder of results");
   command

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/view_figure.h"
+#include "app/view_live_take.h"
 #include "core/extension.h"
 #include "core/resample.h"
 #include "recordings/calibration_file.h"
@@ -105,6 +106,7 @@ Result<ViewedRecording> any_view(const fs::path& what, const std::string& trial)
   if (!fs::exists(what, ignored)) {
     return bad_input(what.string(), "is not there", "check the path");
   }
+  if (is_live_take(what)) return read_live_take_view(what);
   if (fs::is_directory(what, ignored)) return folder_view(what, trial);
   const std::string kind = kind_by_extension(what);
   if (is_gltf(what) || kind == ".bvh" || kind == ".amc") return motion_view(what);
@@ -114,7 +116,7 @@ Result<ViewedRecording> any_view(const fs::path& what, const std::string& trial)
       what.string(),
       "is nothing that can be shown",
       "give a motion (.bvh, .amc, .glb, .vrm, .vrma), markers (.c3d, .trc), a "
-      "calibration.toml or a folder of results");
+      "calibration.toml, a folder of results or a take of marey live");
 }
 
 /// At the recording's rate, from its first frame on.

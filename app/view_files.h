@@ -19,7 +19,8 @@ struct ViewChoice {
 };
 
 /// Reads a motion (.bvh, .amc, .glb, .gltf, .vrm, .vrma), labelled markers (.c3d, .trc),
-/// a calibration (calibration.toml), or the results of `marey process` or `marey fit`:
+/// a calibration (calibration.toml), a take of `marey live`, or the results of `marey
+/// process` or `marey fit`:
 /// the performer with its doubt, avatars, markers, cameras, gaps, contacts and the
 /// residual over time, as far as they are there.
 ///

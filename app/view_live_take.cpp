@@ -1,0 +1,156 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/view_live_take.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "app/live_chain.h"
+#include "app/live_recorder.h"
+#include "app/view_figure.h"
+#include "app/view_files.h"
+#include "recordings/live_take.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLongestPause_s = 10.0;
+
+fs::path folder_of(const fs::path& what) {
+  return what.filename() == recordings::kLiveTakeFile ? what.parent_path() : what;
+}
+
+/// Who moves in a take, and how far that has been made again.
+class Remade {
+ public:
+  Remade(ViewedRecording& out, FrameRate rate)
+      : out_(out),
+        most_(static_cast<std::int64_t>(kLongestPause_s * rate.hz)) {}
+
+  void add(const LiveResult& result) {
+    if (result.track.state == reconstruct::TrackState::kWaiting) return;
+    ViewedFigure& performer = out_.figures.front();
+    if (!performer.motion.poses.empty()) hold(result.number - last_number_ - 1);
+    last_number_ = result.number;
+    performer.motion.poses.push_back(*result.pose);
+    performer.doubt.emplace_back(result.doubt.begin(), result.doubt.end());
+    for (std::size_t a = 0; a < result.avatars.size(); ++a) {
+      out_.figures[a + 1].motion.poses.push_back(result.avatars[a]);
+    }
+    out_.graphs.front().values.push_back(result.track.rms_px);
+  }
+
+  [[nodiscard]] bool left_out() const { return left_out_; }
+
+ private:
+  /// The last frame again, of instants that the run did not take up.
+  void hold(std::int64_t instants) {
+    left_out_ |= instants > most_;
+    for (std::int64_t i = 0; i < std::min(instants, most_); ++i) {
+      for (ViewedFigure& figure : out_.figures) {
+        figure.motion.poses.push_back(figure.motion.poses.back());
+      }
+      auto& doubt = out_.figures.front().doubt;
+      doubt.push_back(doubt.back());
+      for (JointDoubt& joint : doubt.back()) {
+        if (joint.source == Source::kMeasured) joint.source = Source::kRepaired;
+      }
+      out_.graphs.front().values.push_back(out_.graphs.front().values.back());
+    }
+  }
+
+  ViewedRecording& out_;
+  std::int64_t most_;
+  std::int64_t last_number_ = 0;
+  bool left_out_ = false;
+};
+
+Status add_figures(const OpenedTake& opened,
+                   const Skeleton& performer,
+                   ViewedRecording& out) {
+  const FrameRate rate = opened.settings.rate;
+  const std::string& name = opened.body.name;
+  out.figures.push_back({name.empty() ? "performer" : name,
+                         live::PageSkeletonKind::kPerformer,
+                         Motion{performer, rate, 0, {}}});
+  for (const OpenedAvatar& avatar : opened.avatars) {
+    auto figure = figure_of_file(avatar.file, out.remarks);
+    if (!figure) return figure.error();
+    figure->kind = live::PageSkeletonKind::kAvatar;
+    figure->motion = Motion{avatar.skeleton, rate, 0, {}};
+    out.figures.push_back(*std::move(figure));
+  }
+  return Done{};
+}
+
+/// Runs of frames in which a segment was not measured.
+void add_tracks(const ViewedFigure& performer, ViewedRecording& out) {
+  const auto& joints = performer.motion.skeleton.joints;
+  for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+    live::PageTrack track{joints[joint].name, {}};
+    bool was_seen = false;
+    for (std::size_t i = 0; i < performer.doubt.size(); ++i) {
+      const Source source = performer.doubt[i][joint].source;
+      was_seen |= source != Source::kInferred;
+      add_gap(track, static_cast<int>(i), source);
+    }
+    if (was_seen) out.tracks.push_back(std::move(track));
+  }
+}
+
+}  // namespace
+
+bool is_live_take(const fs::path& what) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder_of(what) / recordings::kLiveTakeFile, ignored);
+}
+
+Result<ViewedRecording> read_live_take_view(const fs::path& what) {
+  const fs::path folder = folder_of(what);
+  const auto opened = open_live_take(folder);
+  if (!opened) return opened.error();
+  auto chain = LiveChain::make(
+      opened->body, opened->calibration.cameras, opened->avatars, opened->settings);
+  if (!chain) return chain.error();
+  ViewedRecording out;
+  out.title = fs::weakly_canonical(folder).filename().string();
+  out.rate = opened->settings.rate;
+  out.graphs.push_back({"reprojection", "px", {}});
+  if (const Status ok = add_figures(*opened, chain->performer(), out); !ok) {
+    return ok.error();
+  }
+  Remade remade(out, out.rate);
+  const std::string file = (folder / recordings::kLiveTakeFile).string();
+  for (const recordings::LiveTakeInstant& one : opened->take.instants) {
+    const auto requests = parse_live_requests(one.requests, file);
+    if (!requests) return requests.error();
+    const LiveResult& result = chain->step(one.seen, *requests);
+    // Without results: the lead-in of a take that begins in the middle of a run.
+    if (!one.results.empty()) remade.add(result);
+  }
+  const ViewedFigure& performer = out.figures.front();
+  if (performer.motion.poses.empty()) {
+    return bad_input(folder.string(),
+                     "in no instant of this take was a body found",
+                     "see the cameras: marey view " +
+                         (folder / "calibration.toml").string());
+  }
+  out.frames = static_cast<int>(performer.motion.poses.size());
+  add_tracks(performer, out);
+  if (out.frames > 1) out.contacts = contact_spans(performer.motion, 0);
+  auto cameras = page_cameras(folder / "calibration.toml");
+  if (!cameras) return cameras.error();
+  out.cameras = *std::move(cameras);
+  if (!opened->take.finished) {
+    out.remarks.push_back("the recording was cut off; what there is of it is shown");
+  }
+  if (remade.left_out()) {
+    out.remarks.push_back("of pauses of more than 10 s the rest is left out");
+  }
+  return out;
+}
+
+}  // namespace marey::app
