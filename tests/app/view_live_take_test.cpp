@@ -71,7 +71,8 @@ class ViewLiveTake : public ::testing::Test {
     ASSERT_TRUE(writer) << writer.error().message();
     for (int i = 0; i < frames; ++i) {
       const std::vector<std::byte> results(i < kLeadIn ? 0 : 1);
-      writer->add({instants_[static_cast<std::size_t>(i)], live_requests_text({}), results});
+      ASSERT_TRUE(writer->add(
+          {instants_[static_cast<std::size_t>(i)], live_requests_text({}), results}));
     }
     ASSERT_TRUE(writer->finish());
   }
