@@ -79,9 +79,10 @@ bool LiveCamera::make(const capture::RawFrame& frame, DetectedPicture& out) {
   return true;
 }
 
-/// The mean of each block of pixels.
+/// The mean of each block of pixels. Pairs of columns, which JPEG's colours need: a last
+/// one without another is left out.
 void LiveCamera::shrink(const capture::GrayFrame& picture, DetectedPicture& out) const {
-  out.thumbnail_width_px = picture.width_px / kShrink;
+  out.thumbnail_width_px = picture.width_px / (2 * kShrink) * 2;
   out.thumbnail_height_px = picture.height_px / kShrink;
   const auto stride = static_cast<std::ptrdiff_t>(picture.stride);
   for (int y = 0; y < out.thumbnail_height_px; ++y) {

@@ -24,7 +24,8 @@ struct DetectedPicture {
   double decode_s = 0.0;
   double detect_s = 0.0;
   Timestamp done{0};  ///< CLOCK_MONOTONIC, when the tags were found.
-  /// A small grey picture of the same, rows from the top; empty when none was made.
+  /// A small grey picture of the same, rows from the top, its width even; empty when none
+  /// was made.
   std::vector<std::byte> thumbnail;
   int thumbnail_width_px = 0;
   int thumbnail_height_px = 0;

@@ -153,11 +153,13 @@ void LivePage::show_wizard() {
                             live::wizard_json(guide_->told()));
 }
 
-LivePage::Answer LivePage::answer(const std::string& text, LiveRequests& requests) {
+LivePage::Answer LivePage::answer(const std::string& text,
+                                  live::ClientId from,
+                                  LiveRequests& requests) {
   const auto request = live::read_page_request(text);
   if (!request) return {request.error().message()};
   if (const auto* thumbnails = std::get_if<live::ThumbnailsRequest>(&*request)) {
-    thumbnails_wanted_ = thumbnails->on;
+    thumbnails_.ask(from, thumbnails->on);
     return {};
   }
   if (const auto* drag = std::get_if<live::DragRequest>(&*request)) {
@@ -221,7 +223,7 @@ void LivePage::tell_handles(std::span<const HandleState> handles) {
 void LivePage::hear(LiveRequests& requests) {
   page_.server.take_texts(texts_);
   for (const live::ReceivedText& text : texts_) {
-    const Answer said = answer(text.text, requests);
+    const Answer said = answer(text.text, text.client, requests);
     if (!said.text.empty()) {
       page_.server.answer_text(text.client, live::error_json(said.text, said.about));
     }
@@ -237,6 +239,7 @@ void LivePage::on_frame(const LiveInstant& instant, const LiveResult& result) {
   if (guide_ && guide_->told().step != shown_step_) show_wizard();
   stand(instant, result);
   if (page_.server.client_count() == 0) {
+    thumbnails_.forget();
     ++frame_;
     return;
   }

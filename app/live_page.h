@@ -12,6 +12,7 @@
 #include "app/live_run.h"
 #include "app/page_server.h"
 #include "app/stopwatch.h"
+#include "app/thumbnail_wishes.h"
 #include "live/page_frame.h"
 #include "live/page_scene.h"
 #include "live/page_status.h"
@@ -33,7 +34,7 @@ class LivePage final : public LiveWatcher {
       LiveGuide* guide);
 
   [[nodiscard]] const PageServer& server() const { return page_; }
-  [[nodiscard]] bool wants_thumbnails() const override { return thumbnails_wanted_; }
+  [[nodiscard]] bool wants_thumbnails() const override { return thumbnails_.any(); }
   void hear(LiveRequests& requests) override;
   void on_body(const Body& body, const Skeleton& performer) override;
   std::optional<bool> record_wish() override { return std::exchange(wish_, {}); }
@@ -55,7 +56,9 @@ class LivePage final : public LiveWatcher {
     std::string text;
     std::string about{};  ///< As error_json()'s.
   };
-  [[nodiscard]] Answer answer(const std::string& text, LiveRequests& requests);
+  [[nodiscard]] Answer answer(const std::string& text,
+                              live::ClientId from,
+                              LiveRequests& requests);
   [[nodiscard]] std::string ask(HandleRequest request, LiveRequests& requests);
   void weigh_bodies();
   void stand(const LiveInstant& instant, const LiveResult& result);
@@ -87,7 +90,7 @@ class LivePage final : public LiveWatcher {
   long frames_before_ = 0;
   double seconds_before_ = 0.0;
   Stopwatch since_start_;
-  bool thumbnails_wanted_ = false;
+  ThumbnailWishes thumbnails_;
 };
 
 }  // namespace marey::app
