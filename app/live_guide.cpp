@@ -83,12 +83,17 @@ void LiveGuide::see(const LiveInstant& instant) {
 }
 
 void LiveGuide::end() {
+  options_.begin = false;  // Not anew.
   guide_.end();
   go_on();
   if (!solver_.joinable()) return;
-  if (!is_solved_) console_.say("waiting for the body to be measured");
+  const bool is_wanted = guide_.step() == WizardStep::kSolve;
+  if (!is_solved_) {
+    console_.say(is_wanted ? "waiting for the body to be measured"
+                           : "waiting for the end of a measurement that was cancelled, up "
+                             "to a minute");
+  }
   is_solved_.wait(false);
-  options_.begin = false;  // Not anew.
   go_on();
 }
 

@@ -4,10 +4,9 @@
 // How the session does: latency, stages, cameras, outputs, what there is to say.
 
 import {el, keepRows, setText} from './elements';
+import {Messages} from './messages';
 import {Section} from './panels';
 import type {StatusWords} from './protocol';
-
-const MOST_MESSAGES = 8;
 
 /** 1.2 ms, 13 ms */
 export function milliseconds(value: number): string {
@@ -27,7 +26,7 @@ export class StatusPanel {
   private readonly outputs = table('Outputs', 'Output', 'Sent', 'Failed');
   private readonly messages = el('ul', {class: 'messages', 'aria-live': 'polite',
     'aria-label': 'Messages'});
-  private said: string[] = [];
+  private readonly said = new Messages();
 
   constructor() {
     this.section.body.append(this.overload, this.facts, this.stages.table, this.cameras.table,
@@ -38,7 +37,7 @@ export class StatusPanel {
 
   /** A file has no status, but perhaps something to say. */
   load(live: boolean): void {
-    this.section.hidden = !live && this.said.length === 0;
+    this.section.hidden = !live && this.said.shown().length === 0;
   }
 
   show(status: StatusWords): void {
@@ -53,16 +52,20 @@ export class StatusPanel {
         count(frames), count(dropped)]));
     rows(this.outputs, status.outputs.map(({name, sent, failed, detail}) =>
       [detail ? `${name}: ${detail}` : name, count(sent), count(failed)]));
-    this.tell(...status.messages);
+    this.said.serve(status.messages);
+    this.showMessages();
   }
 
-  /** What is new comes first; what was said last is not said again. */
-  tell(...messages: string[]): void {
-    const fresh = messages.filter((message) => !this.said.includes(message));
-    if (fresh.length === 0) return;
+  /** What this page found itself. */
+  tell(message: string): void {
+    this.said.add(message);
     this.section.hidden = false;
-    this.said = [...fresh.reverse(), ...this.said].slice(0, MOST_MESSAGES);
-    keepRows(this.messages, this.said, () => el('li'), (row, text) => setText(row, text));
+    this.showMessages();
+  }
+
+  private showMessages(): void {
+    keepRows(this.messages, this.said.shown(), () => el('li'),
+      (row, text) => setText(row, text));
   }
 
   private showFacts(status: StatusWords): void {
