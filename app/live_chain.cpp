@@ -65,8 +65,10 @@ Result<LiveChain> LiveChain::make(const Body& body,
     encoding.begin = settings.vmc_begin;
     encoding.info.listen_port = stream.listen_port;
     if (avatar) {
-      encoding.info.vrm_path = avatar->file.filename().string();
-      encoding.info.vrm_title = avatar->file.stem().string();
+      // Not the file's name, which is another in a take.
+      const std::filesystem::path name = settings.avatars[*stream.avatar];
+      encoding.info.vrm_path = name.string();
+      encoding.info.vrm_title = name.stem().string();
     }
     auto encoder = live::VmcEncoder::make(encoding);
     if (!encoder) return encoder.error();

@@ -122,7 +122,10 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
                           options,
                           stop_wanted,
                           console);
-  if (!figures) return console.fail(figures.error());
+  if (!figures) {
+    (void)takes.finish();
+    return console.fail(figures.error());
+  }
   Exit exit = Exit::kOk;
   if (arguments.calibrate && !guide->has_measured()) {
     console.warn("nobody was measured");

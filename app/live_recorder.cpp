@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_recorder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -26,9 +28,13 @@ Error disk(const std::filesystem::path& path, const std::error_code& problem) {
           "make room on the disk, or choose a folder that may be written to"};
 }
 
-/// An avatar, and the bone map beside it.
-Status copy_avatar(const std::filesystem::path& file,
-                   const std::filesystem::path& folder) {
+/// By their places: names of files may be alike, and of any bytes.
+std::string name_in_take(std::size_t place, const std::filesystem::path& file) {
+  return std::to_string(place + 1) + file.extension().string();
+}
+
+/// An avatar to the path `to`, and the bone map beside it.
+Status copy_avatar(const std::filesystem::path& file, const std::filesystem::path& to) {
   if (file.extension() == ".gltf") {
     return bad_input(file.string(),
                      "a .gltf has its buffers and pictures in other files, which a take "
@@ -36,32 +42,54 @@ Status copy_avatar(const std::filesystem::path& file,
                      "give the avatar as .glb or .vrm");
   }
   std::error_code problem;
+  std::filesystem::copy_file(file, to, problem);
+  if (problem) return disk(to, problem);
   std::filesystem::path map = file;
   map.replace_extension(".bones.toml");
-  for (const std::filesystem::path& one : {file, map}) {
-    if (one == map && !std::filesystem::exists(one, problem)) continue;
-    const auto to = folder / one.filename();
-    std::filesystem::copy_file(one, to, problem);
-    if (problem) return disk(to, problem);
-  }
+  if (!std::filesystem::exists(map, problem)) return Done{};
+  std::filesystem::path map_to = to;
+  map_to.replace_extension(".bones.toml");
+  std::filesystem::copy_file(map, map_to, problem);
+  if (problem) return disk(map_to, problem);
   return Done{};
 }
 
-/// Takes away what create() made of a folder.
+/// Takes away what create() made of a folder, and it too if nothing else is in it.
 void forget(const std::filesystem::path& folder, bool was_there) {
   std::error_code ignored;
-  if (!was_there) {
-    std::filesystem::remove_all(folder, ignored);
-    return;
-  }
-  for (const char* name : {"calibration.toml", "subject.toml", kAvatars}) {
+  const std::string take = recordings::kLiveTakeFile;
+  for (const std::string& name : {std::string("calibration.toml"),
+                                  std::string("subject.toml"),
+                                  std::string(kAvatars),
+                                  take,
+                                  take + "-wal",
+                                  take + "-shm"}) {
     std::filesystem::remove_all(folder / name, ignored);
   }
+  if (!was_there) std::filesystem::remove(folder, ignored);
+}
+
+/// Those of these names, in this order, and no others; nullopt: it does not hold these.
+std::optional<recordings::Calibration> cameras_of(const recordings::Calibration& all,
+                                                  const std::vector<std::string>& names) {
+  if (all.cameras.size() != names.size()) return std::nullopt;
+  recordings::Calibration out;
+  out.rms_px = all.rms_px;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(all.cameras, name, &Camera::name);
+    if (found == all.cameras.end()) return std::nullopt;
+    const auto place = static_cast<std::size_t>(found - all.cameras.begin());
+    out.cameras.push_back(*found);
+    out.quality.push_back(all.quality[place]);
+    out.clocks.push_back(all.clocks[place]);
+  }
+  return out;
 }
 
 Status write_surroundings(const std::filesystem::path& folder,
                           const OpenedLive& live,
-                          const Body& body) {
+                          const Body& body,
+                          const std::vector<std::string>& avatar_files) {
   std::error_code problem;
   std::filesystem::create_directories(folder / kAvatars, problem);
   if (problem) return disk(folder, problem);
@@ -73,8 +101,9 @@ Status write_surroundings(const std::filesystem::path& folder,
   if (const Status ok = recordings::write_subject(folder / "subject.toml", body); !ok) {
     return ok;
   }
-  for (const OpenedAvatar& avatar : live.avatars) {
-    if (const Status ok = copy_avatar(avatar.file, folder / kAvatars); !ok) return ok;
+  for (std::size_t a = 0; a < live.avatars.size(); ++a) {
+    const auto to = folder / kAvatars / avatar_files[a];
+    if (const Status ok = copy_avatar(live.avatars[a].file, to); !ok) return ok;
   }
   return Done{};
 }
@@ -97,7 +126,12 @@ Result<std::unique_ptr<LiveRecorder>> LiveRecorder::create(
     forget(folder, was_there);
     return error;
   };
-  if (const Status ok = write_surroundings(folder, live, body); !ok) {
+  LiveSettings kept = settings;
+  kept.avatar_files.clear();
+  for (std::size_t a = 0; a < live.avatars.size(); ++a) {
+    kept.avatar_files.push_back(name_in_take(a, live.avatars[a].file));
+  }
+  if (const Status ok = write_surroundings(folder, live, body, kept.avatar_files); !ok) {
     return give_up(ok.error());
   }
   recordings::LiveTakeHead head;
@@ -107,10 +141,12 @@ Result<std::unique_ptr<LiveRecorder>> LiveRecorder::create(
   for (const Camera& camera : live.calibration.cameras) {
     head.cameras.push_back(camera.name);
   }
-  head.settings = live_settings_text(settings);
+  head.settings = live_settings_text(kept);
   auto writer = LiveTakeWriter::create(folder / recordings::kLiveTakeFile, head);
   if (!writer) return give_up(writer.error());
   auto recorder = std::unique_ptr<LiveRecorder>(new LiveRecorder(*std::move(writer)));
+  recorder->folder_ = folder;
+  recorder->was_there_ = was_there;
   LiveRecorder* const raw = recorder.get();
   raw->committer_ =
       std::jthread([raw](const std::stop_token& stop) { raw->commit_often(stop); });
@@ -165,9 +201,19 @@ void LiveRecorder::commit_often(const std::stop_token& stop) {
   }
 }
 
-Status LiveRecorder::finish() {
+void LiveRecorder::end_commits() {
   committer_.request_stop();
   if (committer_.joinable()) committer_.join();
+}
+
+void LiveRecorder::discard() {
+  end_commits();
+  { const LiveTakeWriter closed = std::move(writer_); }
+  forget(folder_, was_there_);
+}
+
+Status LiveRecorder::finish() {
+  end_commits();
   if (const auto error = trouble()) return *error;
   return writer_.finish();
 }
@@ -183,17 +229,20 @@ Result<OpenedTake> open_live_take(const std::filesystem::path& folder) {
   out.settings = *std::move(settings);
   auto calibration = recordings::read_calibration(folder / "calibration.toml");
   if (!calibration) return calibration.error();
-  out.calibration = *std::move(calibration);
-  if (out.calibration.cameras.size() != out.take.head.cameras.size() ||
-      out.settings.lag_known.size() > out.calibration.cameras.size()) {
+  const auto& names = out.take.head.cameras;
+  auto cameras = cameras_of(*calibration, names);
+  if (!cameras || out.settings.lag_known.size() > names.size()) {
     return bad_input((folder / "calibration.toml").string(),
                      "it does not hold the cameras of the take",
                      "copy it again from where the take was recorded");
   }
+  out.calibration = *std::move(cameras);
   auto body = recordings::read_subject(folder / "subject.toml");
   if (!body) return body.error();
   out.body = *std::move(body);
-  for (const std::string& name : out.settings.avatars) {
+  const bool is_early = out.settings.avatar_files.empty();
+  for (const std::string& name :
+       is_early ? out.settings.avatars : out.settings.avatar_files) {
     auto avatar =
         open_avatar(folder / kAvatars / std::filesystem::path(name).filename());
     if (!avatar) return avatar.error();

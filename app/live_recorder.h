@@ -42,12 +42,17 @@ class LiveRecorder {
   [[nodiscard]] std::optional<Error> trouble() const;
   /// Writes what is left. Errors: trouble(), or the disk.
   [[nodiscard]] Status finish();
+  /// Instead of finish(): takes away all that create() made. Nothing may follow.
+  void discard();
 
  private:
   explicit LiveRecorder(recordings::LiveTakeWriter writer);
   void keep();
   void commit_often(const std::stop_token& stop);
+  void end_commits();
 
+  std::filesystem::path folder_;
+  bool was_there_ = false;  ///< The folder, before.
   recordings::LiveTakeWriter writer_;
   recordings::LiveTakeInstant instant_;
   mutable std::mutex mutex_;

@@ -202,6 +202,8 @@ class Loop {
     if (!live_.settings.vmc_begin) live_.settings.vmc_begin = instant_.time;
     LiveRequests& requests = outputs_.take_requests();
     if (watcher_) watcher_->hear(requests);
+    periods_.hear(requests);
+    if (chain_ && std::exchange(is_chain_new_, false)) periods_.add_to(requests);
     const LiveResult& result =
         chain_ ? chain_->step(instant_, requests) : nobody(instant_);
     const Stopwatch sending;
@@ -247,6 +249,7 @@ class Loop {
     auto found = guide_->take_body();
     if (!found) return;
     chain_.emplace(std::move(found->chain));
+    is_chain_new_ = true;
     in_vain_.emplace(found->body);
     if (takes_) takes_->follow(found->body);
     if (watcher_) watcher_->on_body(found->body, chain_->performer());
@@ -302,6 +305,8 @@ class Loop {
   Console& console_;
   Progress progress_;
   Counting counting_;
+  KeptPeriods periods_;
+  bool is_chain_new_ = false;  ///< It has seen nothing.
   LiveInstant instant_;
   LiveResult nobody_;
   std::optional<SeenInVain> in_vain_;

@@ -258,7 +258,7 @@ Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
     for (const std::string& remark : avatar->remarks) {
       console.warn(path.string() + ": " + remark);
     }
-    out.settings.avatars.push_back(path.filename().string());
+    out.settings.avatars.push_back(shown_name(path));
     out.avatars.push_back(*std::move(avatar));
   }
   const auto rest =

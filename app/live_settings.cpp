@@ -20,6 +20,11 @@ Error not_ours(const std::string& file, const std::string& what) {
                    "copy the take again from where it was recorded");
 }
 
+/// Names may hold bytes that are not UTF-8, which JSON must be.
+std::string text_of(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
 template <class T>
 json or_null(const std::optional<T>& value) {
   return value ? json(*value) : json(nullptr);
@@ -59,6 +64,9 @@ LiveSettings to_settings(const json& object) {
     settings.streams.push_back(to_stream(stream));
   }
   settings.vrchat = object.at("vrchat").get<bool>();
+  if (const auto files = object.find("avatar_files"); files != object.end()) {
+    settings.avatar_files = files->get<std::vector<std::string>>();
+  }
   // Only takes that begin in the middle of a run have it.
   if (const auto begin = object.find("vmc_begin_ns"); begin != object.end()) {
     settings.vmc_begin = Timestamp{begin->get<std::int64_t>()};
@@ -67,6 +75,10 @@ LiveSettings to_settings(const json& object) {
 }
 
 bool can_be(const LiveSettings& settings) {
+  if (!settings.avatar_files.empty() &&
+      settings.avatar_files.size() != settings.avatars.size()) {
+    return false;
+  }
   for (const VmcStream& stream : settings.streams) {
     if (stream.avatar && *stream.avatar >= settings.avatars.size()) return false;
   }
@@ -139,6 +151,11 @@ std::optional<LiveRequests> to_requests(const json& object) {
 
 }  // namespace
 
+std::string shown_name(const std::filesystem::path& file) {
+  // The one who writes JSON knows what UTF-8 is.
+  return json::parse(text_of(file.filename().string())).get<std::string>();
+}
+
 std::string live_settings_text(const LiveSettings& settings) {
   json streams = json::array();
   for (const VmcStream& stream : settings.streams) streams.push_back(to_json(stream));
@@ -149,7 +166,8 @@ std::string live_settings_text(const LiveSettings& settings) {
                     {"vmc", std::move(streams)},
                     {"vrchat", settings.vrchat}};
   if (settings.vmc_begin) object["vmc_begin_ns"] = settings.vmc_begin->count();
-  return object.dump();
+  if (!settings.avatar_files.empty()) object["avatar_files"] = settings.avatar_files;
+  return text_of(object);
 }
 
 Result<LiveSettings> parse_live_settings(std::string_view text, const std::string& file) {
@@ -177,6 +195,21 @@ bool LiveRequests::add(HandleRequest request) {
   return true;
 }
 
+void KeptPeriods::hear(const LiveRequests& requests) {
+  if (periods_.size() < requests.streams.size()) periods_.resize(requests.streams.size());
+  for (std::size_t s = 0; s < requests.streams.size(); ++s) {
+    if (requests.streams[s].periods) periods_[s] = requests.streams[s].periods;
+  }
+}
+
+void KeptPeriods::add_to(LiveRequests& requests) const {
+  if (requests.streams.size() < periods_.size()) requests.streams.resize(periods_.size());
+  for (std::size_t s = 0; s < periods_.size(); ++s) {
+    auto& periods = requests.streams[s].periods;
+    if (!periods) periods = periods_[s];
+  }
+}
+
 std::string live_requests_text(const LiveRequests& requests) {
   bool asked = false;
   json streams = json::array();
@@ -195,7 +228,7 @@ std::string live_requests_text(const LiveRequests& requests) {
   for (const HandleRequest& request : requests.handles) {
     object["handles"].push_back(to_json(request));
   }
-  return object.dump(-1, ' ', false, json::error_handler_t::replace);
+  return text_of(object);
 }
 
 Result<LiveRequests> parse_live_requests(std::string_view text, const std::string& file) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -32,12 +33,18 @@ struct LiveSettings {
   double camera_sigma_m = 0.0;
   /// Per camera: its stamps are the instants of its pictures, without a lag of their own.
   std::vector<bool> lag_known;
-  std::vector<std::string> avatars;  ///< File names, as they lie in the take.
+  std::vector<std::string> avatars;  ///< By the names of their files: shown_name().
+  /// Names of their files in the take; empty: `avatars`, as in takes of earlier versions.
+  std::vector<std::string> avatar_files{};
   std::vector<VmcStream> streams;
   /// Since when VMC's T counts; nullopt: since the first instant.
   std::optional<Timestamp> vmc_begin{};
   bool vrchat = false;  ///< Packets of the performer's trackers, after those of streams.
 };
+
+/// The name of a file as it is told to others, whatever bytes it has: what is not UTF-8 is
+/// replaced by U+FFFD.
+[[nodiscard]] std::string shown_name(const std::filesystem::path& file);
 
 /// As JSON, in one line.
 [[nodiscard]] std::string live_settings_text(const LiveSettings& settings);
@@ -77,6 +84,18 @@ struct LiveRequests {
   /// Adds a request, in place of one before it that it makes void. False: there are too
   /// many already.
   bool add(HandleRequest request);
+};
+
+/// The periods that were asked for last, which count until others are asked for: told to a
+/// chain that comes later.
+class KeptPeriods {
+ public:
+  void hear(const LiveRequests& requests);
+  /// Adds them to what is asked for, where that says nothing else.
+  void add_to(LiveRequests& requests) const;
+
+ private:
+  std::vector<std::optional<live::VmcPeriods>> periods_;  ///< By stream.
 };
 
 /// As JSON in one line; empty when nothing was asked for.

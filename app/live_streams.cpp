@@ -29,7 +29,7 @@ Status plan_streams(const std::vector<std::string>& vmc,
     stream.rest = rest;
     if (!settings.avatars.empty()) stream.avatar = 0;
     if (equals != std::string::npos) {
-      const std::string name = text.substr(0, equals);
+      const std::string name = shown_name(text.substr(0, equals));
       const auto found = std::find_if(
           settings.avatars.begin(), settings.avatars.end(), [&](const std::string& file) {
             return file == name || std::filesystem::path(file).stem() == name;

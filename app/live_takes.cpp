@@ -77,6 +77,9 @@ void LiveTakes::follow(const Body& body) {
   body_ = body;
   if (wanted_) console_.say("the take ends here: it has one body");
   wanted_ = false;
+  // What is asked for next is another take, with this body.
+  is_opening_void_ = opening_.valid();
+  if (take_) close();
 }
 
 void LiveTakes::suffer(const Error& error) {
@@ -87,7 +90,11 @@ void LiveTakes::suffer(const Error& error) {
 void LiveTakes::look_at_threads() {
   if (is_ready(closing_)) {
     const Take closed = closing_.get();
-    if (!closed.trouble) {
+    if (!closed.trouble && !closed.begin) {
+      console_.warn("nothing was recorded, and " + closed.folder.string() +
+                    " is not kept: the recording ended before its first frame; one "
+                    "begun meanwhile needs the body tracked for a second");
+    } else if (!closed.trouble) {
       console_.say("recorded to " + closed.folder.string());
       finished_.push_back(closed.folder.string());
     } else if (!closed.is_told) {
@@ -98,7 +105,6 @@ void LiveTakes::look_at_threads() {
     take_ = opening_.get();
     is_new_ = true;
     tracked_since_.reset();
-    begin_.reset();
   }
   if (take_ && take_->recorder && !take_->trouble) {
     take_->trouble = take_->recorder->trouble();
@@ -107,7 +113,8 @@ void LiveTakes::look_at_threads() {
     take_->is_told = true;
     suffer(*take_->trouble);
   }
-  if (take_ && !wanted_ && !closing_.valid()) close();
+  const bool is_void = take_ && std::exchange(is_opening_void_, false);
+  if (take_ && (!wanted_ || is_void) && !closing_.valid()) close();
   if (wanted_ && !take_ && !opening_.valid() && !closing_.valid()) {
     opening_ = std::async(std::launch::async, [this, body = *body_] {
       return open(body, live_.settings);
@@ -121,23 +128,20 @@ void LiveTakes::close() {
   if (!take.recorder) return;
   closing_ = std::async(
       std::launch::async, [take = std::move(take)]() mutable -> Take {
-        if (const Status ok = take.recorder->finish(); !ok) take.trouble = ok.error();
+        if (!take.begin && !take.trouble) {
+          take.recorder->discard();
+        } else if (const Status ok = take.recorder->finish(); !ok) {
+          take.trouble = ok.error();
+        }
         take.recorder.reset();
         return std::move(take);
       });
 }
 
-void LiveTakes::remember(const LiveRequests& requests) {
-  if (periods_.size() < requests.streams.size()) periods_.resize(requests.streams.size());
-  for (std::size_t s = 0; s < requests.streams.size(); ++s) {
-    if (requests.streams[s].periods) periods_[s] = requests.streams[s].periods;
-  }
-}
-
 /// All that was asked so far and still counts, for one who has heard nothing of it.
 LiveRequests LiveTakes::all_asked(const LiveResult& result) const {
   LiveRequests all;
-  for (const auto& periods : periods_) all.streams.push_back({periods, false});
+  periods_.add_to(all);
   for (const HandleState& handle : result.handles) {
     if (!handle.active) continue;
     (void)all.add({std::string(handle.id), HandleAction::kMove, handle.p_in_world});
@@ -172,12 +176,12 @@ void LiveTakes::add(const LiveInstant& instant,
                     const LiveResult& result,
                     LiveChain& chain) {
   now_ = instant.time;
-  remember(requests);
+  periods_.hear(requests);
   MAREY_ASSERT(body_);
   look_at_threads();
   if (!take_ || take_->trouble) return;
   if (take_->next) return lead_in(instant, requests, result, chain);
-  if (!begin_) begin_ = instant.time;
+  if (!take_->begin) take_->begin = instant.time;
   take_->recorder->add(instant, requests, result);
 }
 
@@ -186,7 +190,7 @@ std::optional<LiveRecording> LiveTakes::state() const {
   LiveRecording out;
   if (take_) out.folder = take_->folder.string();
   if (take_ && take_->trouble) out.trouble = take_->trouble->message();
-  if (take_ && begin_) out.seconds = seconds(now_ - *begin_);
+  if (take_ && take_->begin) out.seconds = seconds(now_ - *take_->begin);
   return out;
 }
 

@@ -26,6 +26,9 @@ namespace marey::app {
 /// The new chain carries on what is held by its handles, asked of its streams, and VMC's
 /// time.
 ///
+/// A take that ends before that holds nothing that could be replayed: it is taken away
+/// again, with a warning.
+///
 /// Folders, files and the new chain are made, and takes are closed, by other threads:
 /// nothing here waits for the disk, but for finish().
 class LiveTakes {
@@ -69,6 +72,7 @@ class LiveTakes {
     std::filesystem::path folder{};
     std::unique_ptr<LiveRecorder> recorder{};
     std::optional<LiveChain> next{};  ///< Not yet the run's.
+    std::optional<Timestamp> begin{};  ///< Of what can be replayed.
     std::optional<Error> trouble{};
     bool is_told = false;  ///< The trouble.
   };
@@ -80,7 +84,6 @@ class LiveTakes {
                const LiveResult& result,
                LiveChain& chain);
   [[nodiscard]] LiveRequests all_asked(const LiveResult& result) const;
-  void remember(const LiveRequests& requests);
   void close();
   void suffer(const Error& error);
 
@@ -90,13 +93,13 @@ class LiveTakes {
   std::optional<Body> body_;
   bool wanted_ = false;
   std::future<Take> opening_;
+  bool is_opening_void_ = false;  ///< What is being opened is of an earlier body.
   std::future<Take> closing_;
   std::optional<Take> take_;
   bool is_new_ = false;                   ///< Its chain has seen nothing.
   std::optional<Timestamp> tracked_since_;  ///< By that chain.
-  std::optional<Timestamp> begin_;        ///< Of what can be replayed.
   Timestamp now_{0};
-  std::vector<std::optional<live::VmcPeriods>> periods_;  ///< Asked last, by stream.
+  KeptPeriods periods_;
   std::optional<Error> first_trouble_;
   std::vector<std::string> finished_;
 };

@@ -145,6 +145,12 @@ Exit run_replay(const ReplayArguments& arguments, Console& console) {
                              std::to_string(*found->first_differing),
                          "replay it with the version of marey that recorded it"});
   }
+  if (found->frames == 0 && !stop_wanted()) {
+    return console.fail({Errc::kQuality,
+                         arguments.take.string(),
+                         "the take holds no frame whose bytes could be compared",
+                         "record again, until the body was tracked for some seconds"});
+  }
   console.say(std::to_string(found->frames) +
               " frames, each with the bytes that it had live");
   return Exit::kOk;

@@ -43,6 +43,22 @@ TEST(LiveSettings, AreKeptExactly) {
   EXPECT_FALSE(parse_live_settings(live_settings_text(whole_run), "take")->vmc_begin);
 }
 
+// File names may hold any bytes; those of a take are our own.
+TEST(LiveSettings, HoldNamesThatAreNotUtf8) {
+  EXPECT_EQ(shown_name("/some/where/walker.glb"), "walker.glb");
+  EXPECT_EQ(shown_name("/some/where/b\xF6rn.glb"), "b\uFFFDrn.glb");
+  LiveSettings odd = settings();
+  odd.avatars = {"b\xF6rn.glb", "robot.glb"};
+  odd.avatar_files = {"1.glb", "2.glb"};
+  const auto back = parse_live_settings(live_settings_text(odd), "take");
+  ASSERT_TRUE(back) << back.error().message();
+  EXPECT_EQ(back->avatars, (std::vector<std::string>{"b\uFFFDrn.glb", "robot.glb"}));
+  EXPECT_EQ(back->avatar_files, odd.avatar_files);
+  EXPECT_TRUE(parse_live_settings(live_settings_text(settings()), "")->avatar_files.empty());
+  odd.avatar_files.pop_back();
+  EXPECT_FALSE(parse_live_settings(live_settings_text(odd), "take"));
+}
+
 TEST(LiveSettings, AreRefusedWhereTheyCannotBe) {
   for (const char* text : {"",
                            "{}",
@@ -72,6 +88,27 @@ TEST(LiveRequests, AreKeptAndAreNothingWhenNobodyAsked) {
   EXPECT_EQ(back->streams[1].periods->bone, 3);
   EXPECT_TRUE(back->streams[1].info);
   EXPECT_FALSE(parse_live_requests("{\"vmc\":7}", "take"));
+}
+
+// A chain that comes later hears what was asked for before it.
+TEST(KeptPeriods, AreThoseAskedForLast) {
+  KeptPeriods kept;
+  LiveRequests nothing;
+  kept.add_to(nothing);
+  EXPECT_EQ(live_requests_text(nothing), "");
+  kept.hear({{{}, {live::VmcPeriods{1, 1, 1}, true}}});
+  kept.hear({{{}, {live::VmcPeriods{2, 3, 4}, false}}});
+  kept.hear({});
+  LiveRequests later;
+  kept.add_to(later);
+  ASSERT_EQ(later.streams.size(), 2U);
+  EXPECT_FALSE(later.streams[0].periods);
+  ASSERT_TRUE(later.streams[1].periods);
+  EXPECT_EQ(later.streams[1].periods->bone, 4);
+  EXPECT_FALSE(later.streams[1].info);
+  LiveRequests newer{{{}, {live::VmcPeriods{5, 6, 7}, false}}};
+  kept.add_to(newer);
+  EXPECT_EQ(newer.streams[1].periods->bone, 7);
 }
 
 TEST(LiveRequests, KeepWhatIsDraggedToTheLastBit) {
