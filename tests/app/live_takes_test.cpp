@@ -51,6 +51,7 @@ class LiveTakesOfThePage : public ::testing::Test {
     std::filesystem::copy(kSample / "session.toml", session_ / "session.toml");
     const std::string glb = (session_ / "body.glb").string();
     ASSERT_EQ(run_program(kProgram, {"mannequin", "--out", glb}).exit_code, 0);
+    std::filesystem::rename(glb, avatar_);
   }
 
   void start(double seconds, const std::vector<std::string>& more = {}) {
@@ -61,7 +62,7 @@ class LiveTakesOfThePage : public ::testing::Test {
         "--play",    "walk",
         "--loop",    "--wait-ms",
         "500",       "--avatar",
-        (session_ / "body.glb").string(),
+        avatar_.string(),
         "--vmc",     "127.0.0.1:9",
         "--vmc-deaf", "--no-open",
         "--json",    "--progress",
@@ -107,6 +108,8 @@ class LiveTakesOfThePage : public ::testing::Test {
   }
 
   ScratchFolder session_;
+  // Of a name that is not UTF-8, which no file of a take may depend on.
+  std::filesystem::path avatar_ = session_ / "b\xF6rn.glb";
   int port_ = free_port();
   std::future<ProgramRun> run_;
 };
@@ -141,10 +144,20 @@ TEST_F(LiveTakesOfThePage, BeginInTheMiddleAndAreReplayedToTheSameBytes) {
 
   const ProgramRun run = run_.get();
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const std::string second = (session_ / "takes/live-2").string();
-  EXPECT_EQ(json::parse(run.out)["takes"], json({first, second})) << run.err;
+  const json takes = json::parse(run.out)["takes"];
+  ASSERT_FALSE(takes.empty()) << run.err;
+  EXPECT_EQ(takes[0], first);
   EXPECT_GT(replayed(first), 8);
-  EXPECT_GE(replayed(second), 0);
+  // The run may have ended before the second had its first frame: then it is not kept.
+  const std::string second = (session_ / "takes/live-2").string();
+  const bool is_kept = takes.size() == 2;
+  EXPECT_EQ(std::filesystem::exists(second), is_kept) << run.err;
+  if (is_kept) {
+    EXPECT_EQ(takes[1], second);
+    EXPECT_GT(replayed(second), 0);
+  } else {
+    EXPECT_NE(run.err.find("live-2 is not kept"), std::string::npos) << run.err;
+  }
   const auto take = recordings::read_live_take(first + "/live.sqlite");
   ASSERT_TRUE(take);
   EXPECT_TRUE(take->finished);

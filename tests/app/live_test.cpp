@@ -3,8 +3,11 @@
 
 // `marey live` and `marey replay` on the sample session, its walk played as four cameras,
 // with the cameras and the subject of the sample's own results.
+#include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -44,6 +47,38 @@ Words played() {
 /// What a shell does of `script`; $0 is the program, $@ are the words.
 ProgramRun run_in_shell(const std::string& script, const Words& words) {
   return run_program("/bin/bash", with({"-c", script, kProgram.string()}, words));
+}
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A run that is sent `signal` as soon as `is_enough` holds, which is told how many
+/// instants it sent: how long that takes is the machine's affair. `limits` come before it
+/// in the shell.
+ProgramRun run_until(const std::string& limits,
+                     const std::string& signal,
+                     const Words& words,
+                     const std::function<bool(int sent, const std::string& said)>& is_enough) {
+  const ScratchFolder folder;
+  const std::string stop = (folder / "stop").string();
+  const std::string said = (folder / "said").string();
+  auto listener = live::UdpListener::open({"127.0.0.1", 0});
+  EXPECT_TRUE(listener);
+  const Words more{"--vmc", "127.0.0.1:" + std::to_string(listener->port())};
+  auto run = std::async(std::launch::async, [&] {
+    return run_in_shell(limits + "\"$0\" \"$@\" 2> " + said + " & until [ -e " + stop +
+                            " ] || ! kill -0 $!; do sleep 0.02; done; kill -" + signal +
+                            " $!; wait $!; code=$?; cat " + said + " >&2; exit $code",
+                        with(words, more));
+  });
+  int sent = 0;
+  while (run.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) {
+    while (listener->receive()) ++sent;
+    if (is_enough(sent, content_of(said))) std::ofstream(stop) << "now";
+  }
+  return run.get();
 }
 
 class LiveRecording : public ::testing::Test {
@@ -168,9 +203,12 @@ TEST_F(LiveRecording, IsNeverWrittenOver) {
 TEST(LiveRecordingInTrouble, LosesAtMostASecondWhenItsProcessIsKilled) {
   const ScratchFolder folder;
   const std::string take = (folder / "take").string();
-  const ProgramRun killed = run_in_shell(
-      "\"$0\" \"$@\" & sleep 4; kill -9 $!; wait $!",
-      with(played(), {"--loop", "--record", take}));
+  // Two seconds at least, of which one may be lost.
+  const ProgramRun killed =
+      run_until("",
+                "KILL",
+                with(played(), {"--loop", "--record", take}),
+                [](int sent, const std::string&) { return sent > 60; });
   EXPECT_EQ(killed.exit_code, 128 + 9) << killed.err;
   const auto kept = recordings::read_live_take(folder / "take/live.sqlite");
   ASSERT_TRUE(kept) << kept.error().message();
@@ -185,9 +223,16 @@ TEST(LiveRecordingInTrouble, LosesAtMostASecondWhenItsProcessIsKilled) {
 TEST(LiveRecordingInTrouble, GoesOnWithoutItWhenTheDiskIsFull) {
   const ScratchFolder folder;
   const std::string take = (folder / "take").string();
-  const ProgramRun run = run_in_shell(
-      "trap '' XFSZ; ulimit -f 200; exec \"$0\" \"$@\"",
-      with(played(), {"--loop", "--seconds", "6", "--record", take}));
+  int until_full = 0;
+  const ProgramRun run = run_until(
+      "trap '' XFSZ; ulimit -f 200; ",
+      "TERM",
+      with(played(), {"--loop", "--record", take}),
+      [&](int sent, const std::string& said) {
+        const bool is_full = said.find("goes on without") != std::string::npos;
+        if (!is_full) until_full = sent;
+        return is_full && sent > until_full + 10;
+      });
   EXPECT_EQ(run.exit_code, 5) << run.err;
   EXPECT_NE(run.err.find("goes on without recording"), std::string::npos) << run.err;
   const auto figures = nlohmann::json::parse(run.out);
