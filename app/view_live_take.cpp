@@ -76,9 +76,12 @@ Status add_figures(const OpenedTake& opened,
   out.figures.push_back({name.empty() ? "performer" : name,
                          live::PageSkeletonKind::kPerformer,
                          Motion{performer, rate, 0, {}}});
-  for (const OpenedAvatar& avatar : opened.avatars) {
+  for (std::size_t a = 0; a < opened.avatars.size(); ++a) {
+    const OpenedAvatar& avatar = opened.avatars[a];
     auto figure = figure_of_file(avatar.file, out.remarks);
     if (!figure) return figure.error();
+    // Not that of the take's file, which is a number.
+    figure->name = fs::path(opened.settings.avatars[a]).stem().string();
     figure->kind = live::PageSkeletonKind::kAvatar;
     figure->motion = Motion{avatar.skeleton, rate, 0, {}};
     out.figures.push_back(*std::move(figure));
