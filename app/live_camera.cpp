@@ -41,7 +41,19 @@ LiveCamera::LiveCamera(const LiveCameraOptions& options,
       height_px_(camera.intrinsics.height_px),
       feed_(&feed),
       decoder_(options.name),
-      tracker_(std::move(tracker)) {}
+      tracker_(std::move(tracker)) {
+  // The first picture is searched whole, and everything for the first time: twice as long
+  // as a frame has. It is one that nobody waits for.
+  const std::vector<std::uint8_t> nothing(
+      static_cast<std::size_t>(width_px_) * static_cast<std::size_t>(height_px_), 128);
+  capture::GrayFrame first;
+  first.pixels = nothing.data();
+  first.width_px = width_px_;
+  first.height_px = height_px_;
+  first.stride = width_px_;
+  first.index = last_index_;
+  (void)tracker_.track(first);
+}
 
 /// The tracker predicts by the number of pictures between two: those that were lost count.
 int LiveCamera::picture_index(const capture::RawFrame& frame) {

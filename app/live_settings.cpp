@@ -30,11 +30,14 @@ json or_null(const std::optional<T>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
+/// Throws json's exception for what is no count.
 template <class T>
 std::optional<T> optional_at(const json& object, const char* key) {
+  constexpr json::number_unsigned_t kMost = 1'000'000;
   const json& value = object.at(key);
   if (value.is_null()) return std::nullopt;
-  return value.get<T>();
+  const auto& count = value.get_ref<const json::number_unsigned_t&>();
+  return static_cast<T>(std::min(count, kMost));
 }
 
 json to_json(const VmcStream& stream) {
@@ -82,8 +85,12 @@ bool can_be(const LiveSettings& settings) {
   for (const VmcStream& stream : settings.streams) {
     if (stream.avatar && *stream.avatar >= settings.avatars.size()) return false;
   }
-  return settings.rate.hz > 0.0 && std::isfinite(settings.rate.hz) &&
-         settings.camera_sigma_m >= 0.0 && std::isfinite(settings.camera_sigma_m);
+  // Of any camera and any rig.
+  constexpr double kSlowest_hz = 0.1;
+  constexpr double kFastest_hz = 1e4;
+  constexpr double kLargestSigma_m = 10.0;
+  return settings.rate.hz >= kSlowest_hz && settings.rate.hz <= kFastest_hz &&
+         settings.camera_sigma_m >= 0.0 && settings.camera_sigma_m <= kLargestSigma_m;
 }
 
 constexpr std::array<std::pair<HandleAction, const char*>, 3> kActions{

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_settings.h"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "app/live_streams.h"
@@ -72,6 +76,28 @@ TEST(LiveSettings, AreRefusedWhereTheyCannotBe) {
     const auto read = parse_live_settings(text, "take/live.sqlite");
     ASSERT_FALSE(read) << text;
     EXPECT_EQ(read.error().where, "take/live.sqlite");
+  }
+}
+
+TEST(LiveSettings, OfStrangersAreRefusedWhereNothingCouldRunByThem) {
+  LiveSettings sound;
+  sound.rate = {30.0};
+  sound.streams = {{std::nullopt, live::VmcRest::kVrm0, 1472, 39540}};
+  const std::string text = live_settings_text(sound);
+  ASSERT_TRUE(parse_live_settings(text, "live.sqlite"));
+  const std::vector<std::pair<std::string, std::string>> changes{
+      {R"("rate_hz":30.0)", R"("rate_hz":1e-308)"},
+      {R"("rate_hz":30.0)", R"("rate_hz":1e300)"},
+      {R"("mtu_bytes":1472)", R"("mtu_bytes":1e99)"},
+      {R"("mtu_bytes":1472)", R"("mtu_bytes":-5)"},
+      {R"("listen_port":39540)", R"("listen_port":-1)"},
+      {R"("avatar":null)", R"("avatar":0.5)"}};
+  for (const auto& [from, to] : changes) {
+    std::string changed = text;
+    const auto at = changed.find(from);
+    ASSERT_NE(at, std::string::npos) << from << " in " << text;
+    changed.replace(at, from.size(), to);
+    EXPECT_FALSE(parse_live_settings(changed, "live.sqlite")) << to;
   }
 }
 
