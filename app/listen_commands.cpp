@@ -89,13 +89,21 @@ class Listening {
 
   void run(std::optional<double> seconds, bool keep, const Progress& progress) {
     constexpr std::chrono::milliseconds kLook{100};
+    constexpr int kMostAtOnce = 256;  // Whoever floods the port does not hold up the rest.
     const auto since_start = [begin = Clock::now()] {
       return std::chrono::duration<double>(Clock::now() - begin).count();
     };
     while (!stop_wanted() && !(seconds && since_start() >= *seconds)) {
       receiver_.wait(kLook);
-      if (!receiver_.receive(frame_)) continue;
-      take(clock_.at_s(frame_.time_s, since_start()), keep);
+      // All that came meanwhile is kept; of it the newest goes on.
+      int came = 0;
+      double time_s = 0.0;
+      for (; came < kMostAtOnce && receiver_.receive_next(frame_); ++came) {
+        time_s = clock_.at_s(frame_.time_s, since_start());
+        take(time_s, keep);
+      }
+      if (came == 0) continue;
+      if (onward_) pass_on(time_s);
       if (progress) progress(static_cast<int>(frames_), kUnknownTotal);
     }
   }
@@ -109,8 +117,6 @@ class Listening {
     vmc_.pose_of(frame_.pose, pose_);
     ++frames_;
     if (keep) heard_.add(time_s, pose_);
-    if (onward_) pass_on(time_s);
-    last_s_ = time_s;
   }
 
   void pass_on(double time_s) {
@@ -119,6 +125,7 @@ class Listening {
     constexpr double kUsual_s = 1.0 / 60.0;
     const double since_s = last_s_ ? time_s - *last_s_ : kUsual_s;
     const bool goes_on = since_s > 0.0 && since_s < kLongest_s;
+    last_s_ = time_s;
     if (!goes_on) onward_->retarget.forget();
     onward_->retarget.step(pose_, goes_on ? since_s : kUsual_s, onward_->pose);
     onward_->body.tell(onward_->pose, onward_->told);

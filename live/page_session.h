@@ -106,6 +106,8 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
   void begin() {
     page_ = house_.state.open_page();
     house_.state.count(&WebCounts::pages_opened);
+    socket_.control_callback(
+        [this](websocket::frame_type kind, beast::string_view) { hear_control(kind); });
     read();
     send_next();
   }
@@ -130,6 +132,16 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     if (!is_closing_) hear();
     incoming_.consume(incoming_.size());
     read();
+  }
+
+  /// Pings are answered by the library, and are messages like others. Of a page that
+  /// sends too many not even the end is negotiated: this is called while it is read.
+  void hear_control(websocket::frame_type kind) {
+    if (kind == websocket::frame_type::close || is_closing_) return;
+    if (rate_.allow(MessageRate::Clock::now())) return;
+    house_.state.count(&WebCounts::pages_too_loud);
+    is_closing_ = true;
+    beast::get_lowest_layer(socket_).close();
   }
 
   void hear() {

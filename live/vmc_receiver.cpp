@@ -29,4 +29,14 @@ bool VmcReceiver::receive(VmcFrame& newest) {
   return assembler_.take_frame(newest);
 }
 
+bool VmcReceiver::receive_next(VmcFrame& next) {
+  for (int i = 0; i < kMostPackets; ++i) {
+    const auto packet = listener_.receive();
+    if (!packet) return false;
+    assembler_.take(*packet);
+    if (assembler_.take_frame(next)) return true;
+  }
+  return false;
+}
+
 }  // namespace marey::live

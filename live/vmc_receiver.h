@@ -22,6 +22,11 @@ class VmcReceiver {
   /// frame; `newest` is then the newest one. Never blocks; allocates nothing.
   [[nodiscard]] bool receive(VmcFrame& newest);
 
+  /// The same for who wants every frame: the oldest one that has come and was not handed
+  /// out, as long as nothing but this is called. A sender's very first, whose end nobody
+  /// knows before the second has come, gives way to that.
+  [[nodiscard]] bool receive_next(VmcFrame& next);
+
   /// Sleeps until something comes, a signal came, or `longest` is over.
   void wait(std::chrono::milliseconds longest) const { listener_.wait(longest); }
 

@@ -31,6 +31,25 @@ TEST(VmcReceiver, HearsWhatASenderSends) {
   EXPECT_EQ(receiver.received().frames, 3);
 }
 
+TEST(VmcReceiver, HandsOutEveryFrameToWhomeverWantsAll) {
+  auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
+  auto sender = *VmcSender::open(
+      {.targets = {{"127.0.0.1", receiver.port()}}, .listen = std::nullopt});
+  const Skeleton body = make_humanoid(average_proportions(1.7));
+  VmcPose told;
+  VmcBody::make(body)->tell(rest_pose(body), told);
+  VmcFrame frame;
+  EXPECT_FALSE(receiver.receive_next(frame));
+  for (int i = 0; i < 20; ++i) sender.send(i * 10ms, told);
+  for (int i = 1; i < 20; ++i) {  // The first is known to be one with the second.
+    receiver.wait(1000ms);
+    ASSERT_TRUE(receiver.receive_next(frame)) << i;
+    EXPECT_NEAR(*frame.time_s, 0.01 * i, 1e-6);
+    EXPECT_EQ(frame.pose.has, told.has);
+  }
+  EXPECT_FALSE(receiver.receive_next(frame));
+}
+
 TEST(VmcReceiver, DropsStrangersPackets) {
   auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
   const std::vector<UdpAddress> targets{{"127.0.0.1", receiver.port()}};

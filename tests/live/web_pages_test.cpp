@@ -183,6 +183,22 @@ TEST(WebPages, AreClosedWhenTheyTalkTooMuch) {
   EXPECT_EQ(server.counts().pages_too_loud, 1U);
 }
 
+TEST(WebPages, AreCutOffWhenTheyPingTooMuch) {
+  WebServer server = serve();
+  WebSocketClient page(server.port());
+  ASSERT_EQ(status(page.upgrade()), 101);
+  for (int i = 0; i < 150; ++i) page.send_frame(kPing, "");
+  for (int i = 0; i < 150; ++i) {
+    const auto answer = page.receive_message();
+    ASSERT_TRUE(answer) << i;
+    ASSERT_EQ(answer->opcode, kPong);
+  }
+  EXPECT_EQ(server.counts().pages_too_loud, 0U);
+  for (int i = 0; i < 300; ++i) page.send_frame(kPing, "");
+  EXPECT_TRUE(soon([&] { return server.counts().pages_too_loud == 1U; }));
+  while (const auto answer = page.receive_message()) EXPECT_EQ(answer->opcode, kPong);
+}
+
 TEST(WebPages, AreClosedOnWhatIsNoMessageOfTheirs) {
   WebServer server = serve();
   struct Case {
