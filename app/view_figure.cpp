@@ -134,4 +134,20 @@ std::vector<live::PageContact> contact_spans(const Motion& motion, int first_fra
   return out;
 }
 
+std::vector<live::PageTrack> tracks_of(const ViewedFigure& figure, int first_frame) {
+  std::vector<live::PageTrack> out;
+  const auto& joints = figure.motion.skeleton.joints;
+  for (std::size_t joint = 0; joint < joints.size(); ++joint) {
+    live::PageTrack track{joints[joint].name, {}};
+    bool was_seen = false;
+    for (std::size_t i = 0; i < figure.doubt.size(); ++i) {
+      const Source source = figure.doubt[i][joint].source;
+      was_seen |= source != Source::kInferred;
+      add_gap(track, first_frame + static_cast<int>(i), source);
+    }
+    if (was_seen) out.push_back(std::move(track));
+  }
+  return out;
+}
+
 }  // namespace marey::app

@@ -35,4 +35,9 @@ namespace marey::app {
 [[nodiscard]] std::vector<live::PageContact> contact_spans(const Motion& motion,
                                                            int first_frame);
 
+/// By segment, the runs of frames in which it was not measured, from `first_frame` on.
+/// Segments that never were seen carry no tag, and are left out.
+[[nodiscard]] std::vector<live::PageTrack> tracks_of(const ViewedFigure& figure,
+                                                     int first_frame);
+
 }  // namespace marey::app

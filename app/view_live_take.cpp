@@ -89,21 +89,6 @@ Status add_figures(const OpenedTake& opened,
   return Done{};
 }
 
-/// Runs of frames in which a segment was not measured.
-void add_tracks(const ViewedFigure& performer, ViewedRecording& out) {
-  const auto& joints = performer.motion.skeleton.joints;
-  for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-    live::PageTrack track{joints[joint].name, {}};
-    bool was_seen = false;
-    for (std::size_t i = 0; i < performer.doubt.size(); ++i) {
-      const Source source = performer.doubt[i][joint].source;
-      was_seen |= source != Source::kInferred;
-      add_gap(track, static_cast<int>(i), source);
-    }
-    if (was_seen) out.tracks.push_back(std::move(track));
-  }
-}
-
 }  // namespace
 
 bool is_live_take(const fs::path& what) {
@@ -142,7 +127,7 @@ Result<ViewedRecording> read_live_take_view(const fs::path& what) {
                          (folder / "calibration.toml").string());
   }
   out.frames = static_cast<int>(performer.motion.poses.size());
-  add_tracks(performer, out);
+  out.tracks = tracks_of(performer, 0);
   if (out.frames > 1) out.contacts = contact_spans(performer.motion, 0);
   auto cameras = page_cameras(folder / "calibration.toml");
   if (!cameras) return cameras.error();

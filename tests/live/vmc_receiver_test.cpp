@@ -12,13 +12,22 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(VmcReceiver, HearsWhatASenderSends) {
-  auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
-  auto sender = *VmcSender::open(
+VmcSender sender_to(const VmcReceiver& receiver) {
+  return *VmcSender::open(
       {.targets = {{"127.0.0.1", receiver.port()}}, .listen = std::nullopt});
+}
+
+VmcPose somebody_at_rest() {
   const Skeleton body = make_humanoid(average_proportions(1.7));
   VmcPose told;
   VmcBody::make(body)->tell(rest_pose(body), told);
+  return told;
+}
+
+TEST(VmcReceiver, HearsWhatASenderSends) {
+  auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
+  auto sender = sender_to(receiver);
+  const VmcPose told = somebody_at_rest();
   VmcFrame frame;
   EXPECT_FALSE(receiver.receive(frame));
   for (int i = 0; i < 3; ++i) sender.send(i * 10ms, told, {.tracking = i != 2});
@@ -33,11 +42,8 @@ TEST(VmcReceiver, HearsWhatASenderSends) {
 
 TEST(VmcReceiver, HandsOutEveryFrameToWhomeverWantsAll) {
   auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
-  auto sender = *VmcSender::open(
-      {.targets = {{"127.0.0.1", receiver.port()}}, .listen = std::nullopt});
-  const Skeleton body = make_humanoid(average_proportions(1.7));
-  VmcPose told;
-  VmcBody::make(body)->tell(rest_pose(body), told);
+  auto sender = sender_to(receiver);
+  const VmcPose told = somebody_at_rest();
   VmcFrame frame;
   EXPECT_FALSE(receiver.receive_next(frame));
   for (int i = 0; i < 20; ++i) sender.send(i * 10ms, told);
