@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 
 #include "core/assert.h"
-#include "reconstruct/frame_solver.h"
 #include "reconstruct/initial_posture.h"
+#include "reconstruct/refine_subject.h"
 #include "reconstruct/segment_frames.h"
 #include "reconstruct/sightings.h"
 #include "reconstruct/subject_bundle.h"
@@ -27,10 +27,6 @@ constexpr std::size_t kMovingFrames = 90;
 constexpr std::size_t kLocatedFrames = 300;
 constexpr std::size_t kFramesPerTag = 3;
 constexpr std::size_t kFewestMovingFrames = 10;
-// How far a segment's pose may be off in a frame of the bundle when a tag is placed on
-// it: metres, a radian counting as 0.1 m.
-constexpr double kPostureDoubt = 0.04;
-
 std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
   std::vector<std::size_t> chosen;
   const std::size_t n = std::min(count, wanted);
@@ -143,27 +139,6 @@ void keep_sighted(SubjectBundle& bundle) {
   });
 }
 
-/// Tags without a place: where the body's postures say that they sit, as far as several
-/// sightings agree.
-void place_on_body(SubjectBundle& bundle, std::span<const Camera> cameras) {
-  BodyModel& model = bundle.model;
-  for (std::size_t tag = 0; tag < model.tags.size(); ++tag) {
-    if (model.place(tag)) continue;
-    std::vector<RigidTransform> segment_from_tag;
-    for (const BundleFrame& frame : bundle.frames) {
-      const auto world_from_tag = locate_tag(tag, cameras, model.tags, frame.sightings);
-      if (!world_from_tag) continue;
-      segment_from_tag.push_back(
-          inverse(world_from_bone(
-              model.bone(tag), frame.posture, model.lengths, model.body)) *
-          *world_from_tag);
-    }
-    if (const auto agreed = agreed_pose(segment_from_tag, kPostureDoubt)) {
-      model.segment_from_tag[tag] = *agreed;
-    }
-  }
-}
-
 std::string text(const char* format, double a, double b) {
   std::array<char, 240> buffer{};
   std::snprintf(buffer.data(), buffer.size(), format, a, b);
@@ -233,26 +208,12 @@ std::array<double, kHumanBoneCount> centre_sigmas(const SubjectBundle& bundle) {
   return sigmas;
 }
 
-/// Bundle and single frames in turn: a frame in which a limb or a lone tag was read the
-/// wrong way round cannot leave it by itself, and pulls at everybody's lengths.
-bool refine(SubjectBundle& bundle, std::span<const Camera> cameras) {
-  constexpr int kRounds = 3;
-  // First the bundle: against a body that is still centimetres off, every frame misfits.
-  if (!adjust(bundle, cameras, 25, false)) return false;
-  place_on_body(bundle, cameras);
-  for (int round = 0; round < kRounds; ++round) {
-    const FrameSolver solver(bundle.model, cameras);
-    int changed = 0;
-    for (BundleFrame& frame : bundle.frames) {
-      changed += solver.settle(frame.sightings, frame.posture);
-      changed += reconsider_extremities(
-          bundle.model, frame.sightings, cameras, nullptr, frame.posture);
-    }
-    const bool last = changed == 0 || round + 1 == kRounds;
-    if (!adjust(bundle, cameras, last ? 100 : 25, last)) return false;
-    if (last) break;
-  }
-  return true;
+Error unfitted() {
+  return bad_input(
+      "",
+      "the body cannot be fitted: too few frames show enough tags",
+      "record the static and the range-of-motion trial longer, moving every joint in "
+      "view of at least two cameras, and the hips always");
 }
 
 SubjectFit to_fit(const SubjectPrior& prior,
@@ -333,13 +294,13 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
   add_frames(trials[1], moved, lively, false, *frames, bundle);
   keep_sighted(bundle);
   tell(2);
-  if (still.empty() || lively.size() < kFewestMovingFrames || !refine(bundle, cameras)) {
-    return bad_input(
-        "",
-        "the body cannot be fitted: too few frames show enough tags",
-        "record the static and the range-of-motion trial longer, moving every joint in "
-        "view of at least two cameras, and the hips always");
+  SubjectEvidence evidence;
+  if (still.empty() || lively.size() < kFewestMovingFrames ||
+      !refine_subject(cameras, bundle, evidence)) {
+    return unfitted();
   }
+  measure(bundle, cameras);
+  if (!fill_sigmas(bundle, cameras)) return unfitted();
   tell(kSteps);
   SubjectFit fit = to_fit(prior, bundle, average);
   if (const Status ok = check_size(fit.limb_ratio, prior.stature_m); !ok) {

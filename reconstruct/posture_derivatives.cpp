@@ -183,6 +183,11 @@ void UnfoldedPosture::unfold_limb(std::size_t limb,
   own.upper_axis_in_world = upper * eigen(along);
   own.lower_axis_in_world = lower * eigen(along);
   own.lean_rate = lean_rate;
+  const double reach2 = l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * std::cos(flexion);
+  // Folded to nothing, a limb of two equal bones has no direction.
+  const double by_sine = reach2 > 1e-12 ? std::sin(flexion) / reach2 : 0.0;
+  own.lean_by_upper = -l2 * by_sine;
+  own.lean_by_lower = l1 * by_sine;
   const Vector3d p_mid = root + l1 * own.upper_axis_in_world;
   const auto twist = [&](Slot slot) {
     return detail::about_axis(along, *posture.block(slot)).toRotationMatrix();
@@ -229,6 +234,63 @@ void UnfoldedPosture::limb_derivative(std::size_t limb,
   } else {
     out.add(column_of(s.extremity), Matrix3d(-cross_matrix(p - end)));
   }
+}
+
+void UnfoldedPosture::limb_length_derivative(std::size_t limb,
+                                             int place,
+                                             const Vector3d& p,
+                                             SparseDerivative& out) const {
+  const LimbSlots& s = kLimbSlots[limb];
+  const HumanLimb& bones = human_limbs()[limb];
+  const Limb& own = limbs_[limb];
+  // Both bones lean back about the hinge; the extremity's own rotation stays.
+  const Vector3d carried = place == 2 ? origin(bones.end) : p;
+  const Vector3d by_lean = -own.hinge_in_world.cross(carried - origin(bones.upper));
+  Vector3d by_upper = own.lean_by_upper * by_lean;
+  Vector3d by_lower = own.lean_by_lower * by_lean;
+  if (place >= 1) by_upper += own.upper_axis_in_world;
+  if (place == 2) by_lower += own.lower_axis_in_world;
+  out.add(static_cast<int>(s.upper), by_upper);
+  out.add(static_cast<int>(s.lower), by_lower);
+}
+
+void UnfoldedPosture::length_derivative(HumanBone bone,
+                                        const Vector3d& p,
+                                        SparseDerivative& out) const {
+  out.clear();
+  const auto add = [&](Length length, const Vector3d& direction) {
+    out.add(static_cast<int>(length), direction);
+  };
+  const InLimb where = in_limb(bone);
+  const double side = where.limb % 2 == 0 ? 1.0 : -1.0;
+  if (where.limb == 2 || where.limb == 3) {
+    add(Length::kHalfHipWidth, side * rotation(B::kHips).col(0));
+    return limb_length_derivative(where.limb, where.place, p, out);
+  }
+  if (bone == B::kHips) return;
+  add(Length::kSpine, rotation(B::kHips).col(1));
+  if (bone == B::kSpine) return;
+  add(Length::kChest, rotation(B::kSpine).col(1));
+  if (bone == B::kChest) return;
+  add(Length::kUpperChest, rotation(B::kChest).col(1));
+  if (bone == B::kUpperChest) return;
+  const Matrix3d& thorax = rotation(B::kUpperChest);
+  if (bone == B::kNeck || bone == B::kHead) {
+    add(Length::kNeck, thorax.col(1));
+    add(Length::kNeckForward, thorax.col(2));
+    if (bone == B::kHead) add(Length::kHead, rotation(B::kNeck).col(1));
+    return;
+  }
+  const bool left = bone == B::kLeftShoulder || where.limb == 0;
+  const double outward = left ? 1.0 : -1.0;
+  add(Length::kShoulderOut, outward * thorax.col(0));
+  add(Length::kShoulderUp, thorax.col(1));
+  add(Length::kShoulderForward, thorax.col(2));
+  if (where.limb == 4) return;
+  const B shoulder = left ? B::kLeftShoulder : B::kRightShoulder;
+  add(left ? Length::kLeftShoulder : Length::kRightShoulder,
+      outward * rotation(shoulder).col(0));
+  limb_length_derivative(where.limb, where.place, p, out);
 }
 
 void UnfoldedPosture::derivative(HumanBone bone,

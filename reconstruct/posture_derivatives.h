@@ -53,6 +53,12 @@ class UnfoldedPosture {
   /// How the bone's rotation does: as a rotation vector in the world.
   void turn_derivative(HumanBone bone, SparseDerivative& out) const;
 
+  /// Computes how a point that moves with `bone`, now at `p_in_world`, follows the body's
+  /// lengths; columns are positions in Lengths.
+  void length_derivative(HumanBone bone,
+                         const Eigen::Vector3d& p_in_world,
+                         SparseDerivative& out) const;
+
  private:
   struct Bone {
     Eigen::Matrix3d rotation;
@@ -62,7 +68,9 @@ class UnfoldedPosture {
     Eigen::Vector3d hinge_in_world;
     Eigen::Vector3d upper_axis_in_world;
     Eigen::Vector3d lower_axis_in_world;
-    double lean_rate = 0.0;  ///< Of the upper bone, by flexion.
+    double lean_rate = 0.0;      ///< Of the upper bone, by flexion.
+    double lean_by_upper = 0.0;  ///< Of the upper bone, by its own length. [rad/m]
+    double lean_by_lower = 0.0;  ///< Of the upper bone, by the lower bone's. [rad/m]
   };
 
   void unfold_trunk(const Posture& posture, const Lengths& lengths);
@@ -75,6 +83,10 @@ class UnfoldedPosture {
                        const Eigen::Vector3d& p_in_world,
                        SparseDerivative& out) const;
   void thorax_base(SparseDerivative& out) const;
+  void limb_length_derivative(std::size_t limb,
+                              int place,
+                              const Eigen::Vector3d& p_in_world,
+                              SparseDerivative& out) const;
 
   std::array<Bone, kHumanBoneCount> bones_;
   std::array<Limb, 4> limbs_;

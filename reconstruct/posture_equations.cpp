@@ -75,56 +75,77 @@ void PostureEquations::add_rotation(const Vector3d& residual,
   cost += 0.5 * share * scaled.squaredNorm();
 }
 
+// A residual log(E^-1 C), C the part and E where it is expected, both turning in the
+// world, changes by the inverse right Jacobian times C^T (dC - dE); the right one is the
+// left one's transpose.
+
+void PostureEquations::add_halfway(const Posture& posture,
+                                   const HalfwayHabit& row,
+                                   double share) {
+  const Quaterniond lower = quaternion(posture, row.lower);
+  const Quaterniond middle = quaternion(posture, row.middle);
+  const Quaterniond upper = quaternion(posture, row.upper);
+  const Vector3d off = log_of(detail::halfway<double>(lower, upper).conjugate() * middle);
+  const HalfwayDerivative half = halfway_derivative(lower, upper);
+  const Matrix3d to_own = middle.toRotationMatrix().transpose();
+  SparseDerivative turn;
+  turn.add(column_of(row.middle), to_own);
+  turn.add(column_of(row.lower), Matrix3d(-to_own * half.by_lower));
+  turn.add(column_of(row.upper), Matrix3d(-to_own * half.by_upper));
+  add_rotation(off, Vector3d::Constant(row.sigma_rad), share, turn);
+}
+
+void PostureEquations::add_relative(const Posture& posture,
+                                    const RelativeHabit& row,
+                                    const glm::dvec3& sigma_rad,
+                                    double share) {
+  const Quaterniond child = quaternion(posture, row.child);
+  const Quaterniond expected =
+      quaternion(posture, row.parent) * from_vector(row.usual_rad);
+  const Matrix3d to_own = child.toRotationMatrix().transpose();
+  SparseDerivative turn;
+  turn.add(column_of(row.child), to_own);
+  turn.add(column_of(row.parent), Matrix3d(-to_own));
+  add_rotation(log_of(expected.conjugate() * child),
+               {sigma_rad.x, sigma_rad.y, sigma_rad.z},
+               share,
+               turn);
+}
+
+void PostureEquations::add_extremity(const Posture& posture,
+                                     const UnfoldedPosture& unfolded,
+                                     std::size_t limb,
+                                     double sigma_rad,
+                                     double share) {
+  const LimbSlots& s = kLimbSlots[limb];
+  const Quaterniond end = quaternion(posture, s.extremity);
+  const Matrix3d to_own = end.toRotationMatrix().transpose();
+  const Quaterniond lower(unfolded.rotation(human_limbs()[limb].lower));
+  SparseDerivative turn;
+  unfolded.turn_derivative(human_limbs()[limb].lower, turn);
+  for (int i = 0; i < turn.columns; ++i) turn.value.col(i) = -to_own * turn.value.col(i);
+  turn.add(column_of(s.extremity), to_own);
+  add_rotation(
+      log_of(lower.conjugate() * end), Vector3d::Constant(sigma_rad), share, turn);
+}
+
 void PostureEquations::add_habits(const Posture& posture,
                                   const UnfoldedPosture& unfolded,
                                   const TwistHabits& twists,
-                                  double share) {
-  // A residual log(E^-1 C), C the part and E where it is expected, both turning in the
-  // world, changes by the inverse right Jacobian times C^T (dC - dE); the right one is
-  // the left one's transpose.
-  SparseDerivative turn;
-  for (const HalfwayHabit& row : kHalfwayHabits) {
-    const Quaterniond lower = quaternion(posture, row.lower);
-    const Quaterniond middle = quaternion(posture, row.middle);
-    const Quaterniond upper = quaternion(posture, row.upper);
-    const Vector3d off =
-        log_of(detail::halfway<double>(lower, upper).conjugate() * middle);
-    const HalfwayDerivative half = halfway_derivative(lower, upper);
-    const Matrix3d to_own = middle.toRotationMatrix().transpose();
-    turn.clear();
-    turn.add(column_of(row.middle), to_own);
-    turn.add(column_of(row.lower), Matrix3d(-to_own * half.by_lower));
-    turn.add(column_of(row.upper), Matrix3d(-to_own * half.by_upper));
-    add_rotation(off, Vector3d::Constant(row.sigma_rad), 1.0, turn);
-  }
+                                  double share,
+                                  double shoulders_wider) {
+  for (const HalfwayHabit& row : kHalfwayHabits) add_halfway(posture, row, 1.0);
   for (const RelativeHabit& row : kRelativeHabits) {
-    const Quaterniond child = quaternion(posture, row.child);
-    const Quaterniond expected =
-        quaternion(posture, row.parent) * from_vector(row.usual_rad);
-    const Matrix3d to_own = child.toRotationMatrix().transpose();
-    turn.clear();
-    turn.add(column_of(row.child), to_own);
-    turn.add(column_of(row.parent), Matrix3d(-to_own));
-    add_rotation(log_of(expected.conjugate() * child),
-                 {row.sigma_rad.x, row.sigma_rad.y, row.sigma_rad.z},
-                 row.anatomy ? 1.0 : share,
-                 turn);
+    glm::dvec3 sigma_rad = row.sigma_rad;
+    if (row.child == Slot::kLeftShoulder || row.child == Slot::kRightShoulder) {
+      sigma_rad *= glm::dvec3(1.0, shoulders_wider, shoulders_wider);
+    }
+    add_relative(posture, row, sigma_rad, row.anatomy ? 1.0 : share);
   }
   for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
     const LimbSlots& s = kLimbSlots[limb];
     const bool arm = limb < 2;
-    const Quaterniond end = quaternion(posture, s.extremity);
-    const Matrix3d to_own = end.toRotationMatrix().transpose();
-    const Quaterniond lower(unfolded.rotation(human_limbs()[limb].lower));
-    unfolded.turn_derivative(human_limbs()[limb].lower, turn);
-    for (int i = 0; i < turn.columns; ++i) {
-      turn.value.col(i) = -to_own * turn.value.col(i);
-    }
-    turn.add(column_of(s.extremity), to_own);
-    add_rotation(log_of(lower.conjugate() * end),
-                 Vector3d::Constant(extremity_sigma_rad(limb)),
-                 share,
-                 turn);
+    add_extremity(posture, unfolded, limb, extremity_sigma_rad(limb), share);
     const double flexion = *posture.block(s.flexion);
     const int column = column_of(s.flexion);
     // A weight's share is a sigma's inverse root.
@@ -140,6 +161,49 @@ void PostureEquations::add_habits(const Posture& posture,
     add_scalar(column_of(s.lower_twist),
                *posture.block(s.lower_twist),
                arm ? wider * twists.forearm : twists.leg);
+  }
+}
+
+void PostureEquations::add_upright(const Posture& posture,
+                                   Slot slot,
+                                   double sigma_rad,
+                                   bool roll) {
+  const Matrix3d to_own = quaternion(posture, slot).toRotationMatrix().transpose();
+  const Vector3d up = to_own.col(1);
+  const Matrix3d by_turn = to_own * cross_matrix(Vector3d::UnitY());
+  const double weight = 1.0 / (sigma_rad * sigma_rad);
+  const int column = column_of(slot);
+  const auto level = [&](int axis) {
+    const Vector3d row = by_turn.row(axis).transpose();
+    hessian.block<3, 3>(column, column) += weight * row * row.transpose();
+    gradient.segment<3>(column) += weight * up[axis] * row;
+    cost += 0.5 * weight * up[axis] * up[axis];
+  };
+  level(2);
+  if (roll) level(0);
+}
+
+void PostureEquations::add_standing(const Posture& posture,
+                                    const UnfoldedPosture& unfolded,
+                                    double share) {
+  // A weight's share is a sigma's inverse root.
+  const double wider = 1.0 / std::sqrt(share);
+  // The hips' roll is measured: their X axis runs through both hip centres.
+  add_upright(posture, Slot::kHips, 0.03 * wider, false);
+  add_upright(posture, Slot::kThorax, 0.03 * wider, true);
+  add_upright(posture, Slot::kHead, 0.03 * wider, true);
+  add_upright(posture, Slot::kLeftFoot, 0.02 * wider, true);
+  add_upright(posture, Slot::kRightFoot, 0.02 * wider, true);
+  add_halfway(posture, {Slot::kHips, Slot::kAbdomenEnd, Slot::kThorax, 0.03}, share);
+  const glm::dvec3 near(0.1);
+  for (const Slot child : {Slot::kHead, Slot::kLeftShoulder, Slot::kRightShoulder}) {
+    add_relative(posture, {Slot::kThorax, child, {0, 0, 0}, near}, near, share);
+  }
+  for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
+    const LimbSlots& s = kLimbSlots[limb];
+    add_extremity(posture, unfolded, limb, limb < 2 ? 0.1 : 0.15, share);
+    add_scalar(column_of(s.upper_twist), *posture.block(s.upper_twist), 0.02 * wider);
+    add_scalar(column_of(s.lower_twist), *posture.block(s.lower_twist), 0.02 * wider);
   }
 }
 

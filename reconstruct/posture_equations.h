@@ -36,11 +36,18 @@ struct PostureEquations {
            double weight);
   /// Habits of human bodies (posture_habits.h). Some 3 microseconds.
   /// What people do, unlike how they are built, counts with `share` of its weight: of
-  /// frames that follow each other it says the same again.
+  /// frames that follow each other it says the same again. Collar bones may be
+  /// `shoulders_wider` times as far as usual from lying level and sideways.
   void add_habits(const Posture& posture,
                   const UnfoldedPosture& unfolded,
                   const TwistHabits& twists,
-                  double share = 1.0);
+                  double share = 1.0,
+                  double shoulders_wider = 1.0);
+  /// A person standing still and upright, feet flat, hands in line with the forearms
+  /// (add_standing() of posture_terms.h), with `share` of its weight.
+  void add_standing(const Posture& posture,
+                    const UnfoldedPosture& unfolded,
+                    double share = 1.0);
   void add_prior(const Posture& posture,
                  const Lengths& lengths,
                  const PosturePrior& prior);
@@ -51,6 +58,17 @@ struct PostureEquations {
                     double share,
                     SparseDerivative& turn);
   void add_scalar(int column, double off, double sigma);
+  void add_halfway(const Posture& posture, const HalfwayHabit& row, double share);
+  void add_relative(const Posture& posture,
+                    const RelativeHabit& row,
+                    const glm::dvec3& sigma_rad,
+                    double share);
+  void add_extremity(const Posture& posture,
+                     const UnfoldedPosture& unfolded,
+                     std::size_t limb,
+                     double sigma_rad,
+                     double share);
+  void add_upright(const Posture& posture, Slot slot, double sigma_rad, bool roll);
 };
 
 /// Covariance of a posture's unknowns, but for what two limbs share: left empty.

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include <Eigen/Dense>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
@@ -29,13 +30,24 @@ glm::dquat align(glm::dvec3 a1, glm::dvec3 a2, glm::dvec3 b1, glm::dvec3 b2) {
   return glm::normalize(glm::quat_cast(basis(b1, b2) * glm::transpose(basis(a1, a2))));
 }
 
-/// A place inside the body under the cluster's tags.
+/// A place inside the body: where the lines through the tags' middles along their normals
+/// come nearest to each other, some 7 cm under the tags.
 glm::dvec3 inside(const TagCluster& cluster) {
-  glm::dvec3 sum(0.0);
+  constexpr double kDepth_m = 0.07;
+  constexpr double kDepthWeight = 0.05;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const auto& [tag, cluster_from_tag] : cluster.cluster_from_tag) {
-    sum += cluster_from_tag * glm::dvec3(0, 0, 0.05);
+    const glm::dvec3 z = cluster_from_tag.rotation * glm::dvec3(0, 0, 1);
+    const glm::dvec3& c = cluster_from_tag.translation;
+    const Eigen::Vector3d into(z.x, z.y, z.z);
+    const Eigen::Vector3d middle(c.x, c.y, c.z);
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - into * into.transpose();
+    normal += across + kDepthWeight * Eigen::Matrix3d::Identity();
+    right += across * middle + kDepthWeight * (middle + kDepth_m * into);
   }
-  return sum / static_cast<double>(cluster.cluster_from_tag.size());
+  const Eigen::Vector3d place = normal.ldlt().solve(right);
+  return {place.x(), place.y(), place.z()};
 }
 
 /// The pose that all others are nearest to: a person standing still has one.
@@ -141,21 +153,33 @@ class FrameFinder {
     c.root_in_upper = root->p_in_b;
     c.mid_in_upper = mid->p_in_a;
     c.mid_in_lower = mid->p_in_b;
-    if (const auto end = centre(bones.lower, bones.end)) {
-      c.end_in_lower = end->p_in_a;
-      c.end_in_extremity = end->p_in_b;
+    // Hands and feet are seen little, and a centre that a few wrong readings of their
+    // tags make turns the lower bone: that one is straight while standing will do to
+    // begin with.
+    const auto end = centre(bones.lower, bones.end);
+    if (end) c.end_in_extremity = end->p_in_b;
+    if (const auto straight = straight_end(limb)) {
+      c.end_in_lower = *straight;
       return Done{};
     }
-    // No hand or foot to see: the limb goes on straight while standing.
+    if (!end) return unseen(bones.end);
+    c.end_in_lower = end->p_in_a;
+    return Done{};
+  }
+
+  /// Where the lower bone ends, in its cluster's frame, if the limb is straight while
+  /// standing and as long as usual. nullopt when its bones are not seen then.
+  std::optional<glm::dvec3> straight_end(std::size_t limb) const {
+    const HumanLimb& bones = human_limbs()[limb];
+    const LimbCentres& c = centres_[limb];
     if (!standing_.contains(bones.upper) || !standing_.contains(bones.lower)) {
-      return unseen(bones.end);
+      return std::nullopt;
     }
     const glm::dvec3 along = glm::normalize(standing_.at(bones.upper).rotation *
                                             (c.mid_in_upper - c.root_in_upper));
     const double length_m = glm::length(average_[bones.end]);
-    c.end_in_lower = c.mid_in_lower + glm::conjugate(standing_.at(bones.lower).rotation) *
-                                          (along * length_m);
-    return Done{};
+    return c.mid_in_lower +
+           glm::conjugate(standing_.at(bones.lower).rotation) * (along * length_m);
   }
 
   void set_hips() {

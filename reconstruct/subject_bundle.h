@@ -13,6 +13,7 @@
 #include "core/body.h"
 #include "core/camera.h"
 #include "reconstruct/body_model.h"
+#include "reconstruct/subject_equations.h"
 
 namespace marey::reconstruct {
 
@@ -33,8 +34,11 @@ struct SubjectBundle {
   BodyModel model;
   Lengths usual{};  ///< Of an average person: the prior.
   std::vector<BundleFrame> frames;
+  /// Corners of all tags stray this many times farther than they claim.
+  double noise_scale = 1.0;
+  BoneSlips slips_m{};  ///< Of the tags on each segment.
 
-  // Filled by adjust().
+  // Filled by measure() and fill_sigmas().
   Lengths length_sigma_m{};
   std::map<std::size_t, TagSigma> tag_sigma;
   /// Of each joint centre against the tags of its own bone or of its parent's, whichever
@@ -42,14 +46,38 @@ struct SubjectBundle {
   std::array<std::optional<double>, kHumanBoneCount> centre_sigma_m{};
   double rms_px = 0.0;
   double median_px = 0.0;
+
+  [[nodiscard]] SightingNoise noise(std::size_t tag) const {
+    return {noise_scale, slips_m[index(model.bone(tag))]};
+  }
 };
 
-/// Moves lengths, tag poses and postures to the least reprojection. With `sigmas`, also
-/// fills the sigmas. False when the solver finds no usable minimum.
-/// Precondition: every tag of the model is sighted in some frame of the bundle.
-[[nodiscard]] bool adjust(SubjectBundle& bundle,
-                          std::span<const Camera> cameras,
-                          int max_iterations,
-                          bool sigmas);
+/// Which unknowns a solve may move.
+struct BundleFreedom {
+  /// This limb's alone: its frame, bends, twists and extremity in every frame, its two
+  /// lengths and its tags. All others are held. nullopt: everything.
+  std::optional<std::size_t> limb;
+};
+
+/// Moves lengths, tag poses and postures to the least robust cost nearby (Levenberg and
+/// Marquardt; a tag's eight residuals together have a Cauchy loss at 5 sigma), and
+/// returns it; nullopt when the equations have no solution. Some 0.3 ms per frame and
+/// iteration. Precondition: every tag of the model is sighted in some frame of the
+/// bundle.
+std::optional<double> adjust(SubjectBundle& bundle,
+                             std::span<const Camera> cameras,
+                             int max_iterations,
+                             const BundleFreedom& freedom = {});
+
+/// The cost of the bundle as it is: half the squares of all terms.
+[[nodiscard]] double cost_of(const SubjectBundle& bundle,
+                             std::span<const Camera> cameras);
+
+/// Reprojection of all tag corners: rms_px and median_px.
+void measure(SubjectBundle& bundle, std::span<const Camera> cameras);
+
+/// Covariances of lengths, tags and joint centres, with many sightings of one tag by one
+/// camera not counted as so many independent ones. False when they cannot be computed.
+[[nodiscard]] bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras);
 
 }  // namespace marey::reconstruct

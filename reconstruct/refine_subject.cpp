@@ -1,0 +1,243 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/refine_subject.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "core/quantile.h"
+#include "reconstruct/bundle_frames.h"
+#include "reconstruct/subject_priors.h"
+#include "reconstruct/tag_clusters.h"
+
+namespace marey::reconstruct {
+namespace {
+
+// How far a segment's pose may be off in a frame of the bundle when a tag is placed on
+// it: metres, a radian counting as 0.1 m.
+constexpr double kPostureDoubt = 0.04;
+// Below this share of explained sightings a tag's place is wrong.
+constexpr double kLeastExplained = 0.5;
+constexpr double kExplained2 = 40.0;
+// Median of chi-square with eight degrees of freedom.
+constexpr double kMedianSquare = 7.344;
+// A plate that slips further than this is not glued on. [m]
+constexpr double kMostSlip_m = 0.02;
+
+using Places = std::map<std::size_t, RigidTransform>;
+
+bool is_extremity(HumanBone bone) {
+  return std::any_of(human_limbs().begin(), human_limbs().end(), [&](const auto& limb) {
+    return bone == limb.end;
+  });
+}
+
+/// Takes the extremities' tags out of the model; returns their places.
+Places take_extremities(SubjectBundle& bundle) {
+  Places taken;
+  for (std::size_t tag = 0; tag < bundle.model.tags.size(); ++tag) {
+    if (!is_extremity(bundle.model.bone(tag))) continue;
+    if (const RigidTransform* place = bundle.model.place(tag)) taken[tag] = *place;
+    bundle.model.segment_from_tag.erase(tag);
+  }
+  return taken;
+}
+
+/// Tags without a place, extremities' aside: where the body's postures say that they sit,
+/// as far as several sightings agree.
+void place_on_body(SubjectBundle& bundle, std::span<const Camera> cameras) {
+  BodyModel& model = bundle.model;
+  for (std::size_t tag = 0; tag < model.tags.size(); ++tag) {
+    if (model.place(tag) || is_extremity(model.bone(tag))) continue;
+    std::vector<RigidTransform> segment_from_tag;
+    for (const BundleFrame& frame : bundle.frames) {
+      const auto world_from_tag = locate_tag(tag, cameras, model.tags, frame.sightings);
+      if (!world_from_tag) continue;
+      segment_from_tag.push_back(
+          inverse(world_from_bone(
+              model.bone(tag), frame.posture, model.lengths, model.body)) *
+          *world_from_tag);
+    }
+    if (const auto agreed = agreed_pose(segment_from_tag, kPostureDoubt)) {
+      model.segment_from_tag[tag] = *agreed;
+    }
+  }
+}
+
+int settle(SubjectBundle& bundle, std::span<const Camera> cameras) {
+  const BundleFrameSolver solver(bundle, cameras);
+  int changed = 0;
+  for (BundleFrame& frame : bundle.frames) changed += solver.settle(frame);
+  return changed;
+}
+
+/// Bundle and single frames in turn, from a loss that nearly all tags are inside of to
+/// the corners' own.
+bool refine_coarse_to_fine(SubjectBundle& bundle, std::span<const Camera> cameras) {
+  for (const double scale : {10.0, 3.0, 1.0}) {
+    bundle.noise_scale = scale;
+    if (!adjust(bundle, cameras, 12)) return false;
+    if (scale == 3.0) place_on_body(bundle, cameras);
+    settle(bundle, cameras);
+  }
+  return true;
+}
+
+bool refine_rounds(SubjectBundle& bundle, std::span<const Camera> cameras, int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    estimate_slips(cameras, bundle);
+    if (!adjust(bundle, cameras, 15)) return false;
+    if (settle(bundle, cameras) == 0) break;
+  }
+  return true;
+}
+
+std::vector<std::size_t> unexplained_tags(const SubjectBundle& bundle,
+                                          std::span<const Camera> cameras) {
+  std::vector<std::size_t> tags;
+  for (const TagEvidence& e : tag_evidence(cameras, bundle)) {
+    const bool is_lost = e.explained_share < kLeastExplained;
+    const bool is_in_the_air = off_flesh(bundle.model, e.tag) > 3.0;
+    if (is_lost || is_in_the_air) tags.push_back(e.tag);
+  }
+  return tags;
+}
+
+void place_extremities(std::span<const Camera> cameras,
+                       const Places& guesses,
+                       SubjectBundle& bundle,
+                       SubjectEvidence& evidence) {
+  for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
+    std::vector<std::pair<int, std::size_t>> by_sightings;
+    for (std::size_t tag = 0; tag < bundle.model.tags.size(); ++tag) {
+      if (bundle.model.bone(tag) != human_limbs()[limb].end) continue;
+      int count = 0;
+      for (const BundleFrame& frame : bundle.frames) {
+        for (const TagSighting& s : frame.sightings) count += s.tag == tag;
+      }
+      if (count > 0) by_sightings.emplace_back(-count, tag);
+    }
+    if (by_sightings.empty()) continue;
+    std::sort(by_sightings.begin(), by_sightings.end());
+    std::vector<std::size_t> tags;
+    for (const auto& [count, tag] : by_sightings) tags.push_back(tag);
+    std::vector<RigidTransform> starts;
+    if (const auto guess = guesses.find(tags.front()); guess != guesses.end()) {
+      starts.push_back(guess->second);
+    }
+    evidence.extremities[limb] = place_extremity(limb, tags, starts, cameras, bundle);
+  }
+}
+
+}  // namespace
+
+void estimate_slips(std::span<const Camera> cameras, SubjectBundle& bundle) {
+  // One component of one sighting says no more than this: blunders are not slips.
+  constexpr double kMostSquare = 9.0;
+  constexpr int kFewest = 20;
+  struct Score {
+    double excess = 0.0;
+    double information = 0.0;
+    int sightings = 0;
+  };
+  std::array<Score, kHumanBoneCount> scores{};
+  const SubjectSight sight(cameras);
+  UnfoldedPosture unfolded;
+  SightedTag sighted;
+  for (const BundleFrame& frame : bundle.frames) {
+    unfolded.unfold(frame.posture, bundle.model.lengths, bundle.model.body);
+    for (const TagSighting& s : frame.sightings) {
+      if (!bundle.model.place(s.tag)) continue;
+      const SightingNoise noise = bundle.noise(s.tag);
+      if (!sight.look(bundle.model, unfolded, s, noise, false, sighted)) continue;
+      Score& score = scores[index(bundle.model.bone(s.tag))];
+      ++score.sightings;
+      for (int k = 0; k < 3; ++k) {
+        const double gain2 = sighted.slip_gains[k] * sighted.slip_gains[k];
+        const double rate = gain2 / (1.0 + noise.slip_m * noise.slip_m * gain2);
+        const double along = sighted.slip_directions.col(k).dot(sighted.residual);
+        score.excess += rate * (std::min(along * along, kMostSquare) - 1.0);
+        score.information += rate * rate;
+      }
+    }
+  }
+  Score all;
+  double known_m2 = 0.0;
+  for (std::size_t b = 0; b < scores.size(); ++b) {
+    all.excess += scores[b].excess;
+    all.information += scores[b].information;
+    known_m2 += scores[b].information * bundle.slips_m[b] * bundle.slips_m[b];
+  }
+  if (all.information <= 0.0) return;
+  const double usual_m2 = std::max(0.0, (known_m2 + all.excess) / all.information);
+  for (std::size_t b = 0; b < scores.size(); ++b) {
+    const Score& own = scores[b];
+    double variance_m2 = usual_m2;
+    if (own.sightings >= kFewest && own.information > 0.0) {
+      variance_m2 = bundle.slips_m[b] * bundle.slips_m[b] + own.excess / own.information;
+    }
+    bundle.slips_m[b] =
+        std::clamp(std::sqrt(std::max(0.0, variance_m2)), 0.0, kMostSlip_m);
+  }
+}
+
+std::vector<TagEvidence> tag_evidence(std::span<const Camera> cameras,
+                                      const SubjectBundle& bundle) {
+  std::map<std::size_t, std::vector<double>> squares;
+  const SubjectSight sight(cameras);
+  UnfoldedPosture unfolded;
+  SightedTag sighted;
+  for (const BundleFrame& frame : bundle.frames) {
+    unfolded.unfold(frame.posture, bundle.model.lengths, bundle.model.body);
+    for (const TagSighting& s : frame.sightings) {
+      if (!bundle.model.place(s.tag)) continue;
+      const bool seen =
+          sight.look(bundle.model, unfolded, s, bundle.noise(s.tag), false, sighted);
+      squares[s.tag].push_back(seen ? sighted.residual.squaredNorm() : 1e6);
+    }
+  }
+  std::vector<TagEvidence> evidence;
+  for (auto& [tag, own] : squares) {
+    TagEvidence e;
+    e.tag = tag;
+    e.sightings = static_cast<int>(own.size());
+    const auto explained = std::count_if(
+        own.begin(), own.end(), [](double square) { return square < kExplained2; });
+    e.explained_share = static_cast<double>(explained) / static_cast<double>(own.size());
+    e.median_ratio = median(std::move(own)) / kMedianSquare;
+    evidence.push_back(e);
+  }
+  return evidence;
+}
+
+bool refine_subject(std::span<const Camera> cameras,
+                    SubjectBundle& bundle,
+                    SubjectEvidence& evidence) {
+  const Places guesses = take_extremities(bundle);
+  if (!refine_coarse_to_fine(bundle, cameras)) return false;
+  place_on_body(bundle, cameras);
+  if (!refine_rounds(bundle, cameras, 2)) return false;
+  place_extremities(cameras, guesses, bundle, evidence);
+  if (!refine_rounds(bundle, cameras, 3)) return false;
+  const std::vector<std::size_t> lost = unexplained_tags(bundle, cameras);
+  for (const std::size_t tag : lost) bundle.model.segment_from_tag.erase(tag);
+  if (!lost.empty()) {
+    if (!refine_rounds(bundle, cameras, 2)) return false;
+    place_on_body(bundle, cameras);
+    if (!refine_rounds(bundle, cameras, 2)) return false;
+    for (const std::size_t tag : unexplained_tags(bundle, cameras)) {
+      bundle.model.segment_from_tag.erase(tag);
+    }
+  }
+  if (!adjust(bundle, cameras, 60)) return false;
+  for (const std::size_t tag : lost) {
+    if (!bundle.model.place(tag)) evidence.unexplained.push_back(tag);
+  }
+  evidence.tags = tag_evidence(cameras, bundle);
+  return true;
+}
+
+}  // namespace marey::reconstruct

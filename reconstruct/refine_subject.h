@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: from a first guess of a subject to the bundle's answer, by way
+// of hypotheses where one tag has several readings.
+
+#include <span>
+#include <vector>
+
+#include "reconstruct/place_extremity.h"
+#include "reconstruct/subject_bundle.h"
+
+namespace marey::reconstruct {
+
+/// What the sightings of one tag say of the fitted subject.
+struct TagEvidence {
+  std::size_t tag = 0;
+  int sightings = 0;
+  double explained_share = 0.0;  ///< Of them, below five times the expected square.
+  /// Median of the squared misfit over what is expected of it (7.34, slip included).
+  double median_ratio = 0.0;
+};
+
+struct SubjectEvidence {
+  std::vector<TagEvidence> tags;            ///< Placed ones.
+  std::vector<std::size_t> unexplained;     ///< Tags that no place explains; not placed.
+  std::array<ExtremityFit, 4> extremities;  ///< Of limbs whose extremity has tags.
+};
+
+/// Refines `bundle`: first the trunk and the limbs' two bones, with a loss that tightens
+/// step by step, then hands and feet, each by hypotheses, then everything together. Tags
+/// whose sightings the body does not explain are taken out and placed anew, or left out.
+/// False when the equations have no solution.
+[[nodiscard]] bool refine_subject(std::span<const Camera> cameras,
+                                  SubjectBundle& bundle,
+                                  SubjectEvidence& evidence);
+
+/// How far tags slip on their segments (bundle.slips_m) by what the sightings leave
+/// unexplained: one step of Fisher scoring on the slips' variances.
+void estimate_slips(std::span<const Camera> cameras, SubjectBundle& bundle);
+
+/// Evidence of every placed tag.
+[[nodiscard]] std::vector<TagEvidence> tag_evidence(std::span<const Camera> cameras,
+                                                    const SubjectBundle& bundle);
+
+}  // namespace marey::reconstruct

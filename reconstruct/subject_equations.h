@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: the normal equations of a subject's fit. Frames share nothing
+// but the subject, so each is eliminated by itself (Schur complement; Triggs et al. 2000,
+// section 6.1), and within a frame each limb before the trunk.
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+
+#include "core/camera.h"
+#include "reconstruct/body_model.h"
+#include "reconstruct/posture_equations.h"
+#include "reconstruct/tag_sight.h"
+
+namespace marey::reconstruct {
+
+/// How far tags slip on each segment, standard deviation per coordinate. [m]
+using BoneSlips = std::array<double, kHumanBoneCount>;
+
+/// The columns of a subject's unknowns: kLengthCount lengths [m], then six of each placed
+/// tag: a small turn of the tag in its segment's frame [rad], and its place there [m].
+class SubjectColumns {
+ public:
+  explicit SubjectColumns(const BodyModel& model);
+  [[nodiscard]] int size() const { return size_; }
+  /// First of the tag's six columns; -1 of a tag without a place.
+  [[nodiscard]] int of_tag(std::size_t tag) const { return of_tag_[tag]; }
+
+ private:
+  std::vector<int> of_tag_;
+  int size_ = kLengthCount;
+};
+
+/// How one sighting's residuals are scaled.
+struct SightingNoise {
+  double scale = 1.0;   ///< Of the corners' own sigma.
+  double slip_m = 0.0;  ///< Of the tag on its segment, standard deviation per coordinate.
+};
+
+/// A sighting's eight residuals, of unit variance when all is well, and how they follow
+/// the unknowns.
+struct SightedTag {
+  using Vector8 = Eigen::Matrix<double, 8, 1>;
+  Vector8 residual;
+  int posture_columns = 0;
+  std::array<int, SparseDerivative::kMost> posture_column{};
+  Eigen::Matrix<double, 8, SparseDerivative::kMost> by_posture;
+  int length_columns = 0;
+  std::array<int, SparseDerivative::kMost> length_column{};
+  Eigen::Matrix<double, 8, SparseDerivative::kMost> by_length;
+  Eigen::Matrix<double, 8, 6> by_tag;
+  /// What moves together when the tag slips: orthonormal columns, and the residual per
+  /// metre along each before it was scaled. [1/m]
+  Eigen::Matrix<double, 8, 3> slip_directions;
+  Eigen::Vector3d slip_gains;
+};
+
+/// The body's tags as cameras see them.
+class SubjectSight {
+ public:
+  explicit SubjectSight(std::span<const Camera> cameras);
+
+  /// False when a corner is not in front of the camera. Without `derivatives` only
+  /// `residual` and the slip's members are filled. Precondition: the tag has a place.
+  [[nodiscard]] bool look(const BodyModel& model,
+                          const UnfoldedPosture& unfolded,
+                          const TagSighting& sighting,
+                          const SightingNoise& noise,
+                          bool derivatives,
+                          SightedTag& out) const;
+
+ private:
+  std::vector<TagSight> sights_;
+};
+
+/// One frame's equations over its posture and the subject's unknowns, and the frame's
+/// elimination from them.
+class FrameEquations {
+ public:
+  PostureEquations posture;
+
+  /// Empties the equations; `columns` are the subject's that the frame's tags follow.
+  void begin(std::vector<int> columns, int subject_size);
+  void add(const SightedTag& sighted, int tag_column, double weight);
+  /// Keeps these unknowns of the posture as they are.
+  void hold(std::span<const int> posture_columns);
+
+  /// Adds to `hessian` (lower triangle) and `gradient` of the subject what the frame says
+  /// of it once its own posture is free. False where the posture is not determined.
+  [[nodiscard]] bool eliminate(double damping,
+                               Eigen::MatrixXd& hessian,
+                               Eigen::VectorXd& gradient);
+  /// The posture's step that goes with the subject's. After eliminate().
+  void step(const Eigen::VectorXd& subject, PostureVector& out) const;
+
+ private:
+  struct Part {
+    Eigen::LLT<Eigen::MatrixXd> own;
+    std::vector<int> columns;  ///< Local ones, of columns_, that the part follows.
+    Eigen::MatrixXd solved;    ///< L^-1 of [by trunk | by subject | gradient].
+  };
+  [[nodiscard]] bool eliminate_limb(std::size_t limb,
+                                    double damping,
+                                    Eigen::MatrixXd& trunk);
+
+  std::vector<int> columns_;  ///< Of the subject.
+  std::vector<int> local_;    ///< Of the subject's columns where in columns_; -1.
+  Eigen::MatrixXd cross_;     ///< Posture's unknowns by columns_.
+  Eigen::MatrixXd subject_;   ///< columns_ by columns_, lower triangle.
+  Eigen::VectorXd gradient_;  ///< Of columns_.
+  std::array<std::vector<bool>, 4> follows_;  ///< Which of columns_ each limb follows.
+  std::array<Part, 4> limbs_;
+  Part trunk_;
+};
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/subject_priors.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <ceres/jet.h>
+
+#include "core/assert.h"
+#include "reconstruct/length_terms.h"
+
+namespace marey::reconstruct {
+namespace {
+
+// A clavicle turns about one end, and its scapula slides on the rib cage: the point that
+// a shoulder moves about as a whole may be anywhere between.
+constexpr double kShoulderBase_m = 0.05;
+constexpr double kNeckForward_m = 0.012;
+constexpr double kSidesDiffer_m = 0.008;
+
+// A tag's plate lies on the flesh: at least the bone's own radius from its axis, at most
+// the radius of a heavy thigh and a plate on a strap.
+constexpr double kLeastRadius_m = 0.02;
+constexpr double kMostRadius_m = 0.14;
+constexpr double kRadiusSigma_m = 0.015;
+constexpr double kPastEnd_m = 0.03;
+constexpr double kAlongSigma_m = 0.03;
+// Of the line along a limb tag's normal from the bone's axis.
+constexpr double kFacing_m = 0.02;
+
+constexpr int kUnknowns = 7;  // Turn, place, the bone's length.
+using Jet = ceres::Jet<double, kUnknowns>;
+using JetVector = Eigen::Matrix<Jet, 3, 1>;
+
+struct LimbBone {
+  std::size_t limb = 0;
+  Length length{};
+};
+
+std::optional<LimbBone> limb_bone_of(HumanBone bone) {
+  for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
+    if (bone == human_limbs()[limb].upper) return LimbBone{limb, kLimbSlots[limb].upper};
+    if (bone == human_limbs()[limb].lower) return LimbBone{limb, kLimbSlots[limb].lower};
+  }
+  return std::nullopt;
+}
+
+/// How far from the joint a tag on a segment that is no limb's can be. [m]
+double most_reach_m(HumanBone bone) {
+  switch (bone) {
+    case HumanBone::kLeftHand:
+    case HumanBone::kRightHand:
+      return 0.2;
+    case HumanBone::kLeftFoot:
+    case HumanBone::kRightFoot:
+      return 0.25;
+    case HumanBone::kHead:
+      return 0.3;
+    default:
+      return 0.4;
+  }
+}
+
+Jet excess(const Jet& value, double limit, double sigma) {
+  return value.a > limit ? (value - limit) / sigma : Jet(0.0);
+}
+
+struct TagTerms {
+  std::array<Jet, 4> residual{};  ///< Too far off, too near, past an end, facing.
+};
+
+TagTerms tag_terms(const BodyModel& model, std::size_t tag) {
+  const RigidTransform& pose = *model.place(tag);
+  const HumanBone bone = model.bone(tag);
+  JetVector p;
+  for (int i = 0; i < 3; ++i) p[i] = Jet(pose.translation[i], 3 + i);
+  TagTerms terms;
+  const auto limb = limb_bone_of(bone);
+  if (!limb) {
+    const Jet reach = sqrt(p.squaredNorm() + 1e-12);
+    terms.residual[0] = excess(reach, most_reach_m(bone), kAlongSigma_m);
+    return terms;
+  }
+  const glm::dvec3 axis = limb_axis(limb->limb);
+  const JetVector along(Jet(axis.x), Jet(axis.y), Jet(axis.z));
+  const Jet height = p.dot(along);
+  const Jet radius = sqrt((p - height * along).squaredNorm() + 1e-12);
+  terms.residual[0] = excess(radius, kMostRadius_m, kRadiusSigma_m);
+  terms.residual[1] = excess(-radius, -kLeastRadius_m, kRadiusSigma_m);
+  const Jet length(model.lengths[index(limb->length)], 6);
+  const Jet past = height.a < 0.5 * length.a ? -height : height - length;
+  terms.residual[2] = excess(past, kPastEnd_m, kAlongSigma_m);
+  // The line through the tag's middle along its normal passes the bone's axis nearby.
+  const glm::dvec3 normal = pose.rotation * glm::dvec3(0, 0, 1);
+  JetVector turned;
+  const Eigen::Vector3d n = eigen(normal);
+  const Eigen::Matrix3d by_turn = -cross_matrix(n);
+  for (int i = 0; i < 3; ++i) {
+    turned[i] = Jet(n[i]);
+    for (int k = 0; k < 3; ++k) turned[i].v[k] = by_turn(i, k);
+  }
+  const JetVector across = along.cross(turned);
+  // A tag that faces along the bone says nothing.
+  const Jet sine = sqrt(across.squaredNorm() + 1e-12) + 0.05;
+  terms.residual[3] = p.dot(across) / (sine * kFacing_m);
+  return terms;
+}
+
+void add_tag(const BodyModel& model,
+             std::size_t tag,
+             const SubjectColumns& columns,
+             SubjectSystem& out) {
+  std::array<int, kUnknowns> where{};
+  for (int i = 0; i < 6; ++i) {
+    where[static_cast<std::size_t>(i)] = columns.of_tag(tag) + i;
+  }
+  const auto limb = limb_bone_of(model.bone(tag));
+  where[6] = limb ? static_cast<int>(limb->length) : 0;
+  for (const Jet& residual : tag_terms(model, tag).residual) {
+    if (residual.a == 0.0) continue;
+    out.cost += 0.5 * residual.a * residual.a;
+    for (int i = 0; i < kUnknowns; ++i) {
+      const int row = where[static_cast<std::size_t>(i)];
+      out.gradient[row] += residual.a * residual.v[i];
+      for (int j = 0; j < kUnknowns; ++j) {
+        const int column = where[static_cast<std::size_t>(j)];
+        if (row >= column) out.hessian(row, column) += residual.v[i] * residual.v[j];
+      }
+    }
+  }
+}
+
+void add_lengths(const BodyModel& model, const Lengths& usual, SubjectSystem& out) {
+  Lengths sigmas_m = usual_length_sigmas_m(usual);
+  for (const Length length :
+       {Length::kShoulderOut, Length::kShoulderUp, Length::kShoulderForward}) {
+    sigmas_m[index(length)] = kShoulderBase_m;
+  }
+  sigmas_m[index(Length::kNeckForward)] = kNeckForward_m;
+  for (int i = 0; i < kLengthCount; ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    const double weight = 1.0 / (sigmas_m[place] * sigmas_m[place]);
+    const double off = model.lengths[place] - usual[place];
+    out.hessian(i, i) += weight;
+    out.gradient[i] += weight * off;
+    out.cost += 0.5 * weight * off * off;
+  }
+  constexpr double kWeight = 1.0 / (kSidesDiffer_m * kSidesDiffer_m);
+  for (int left = static_cast<int>(Length::kLeftShoulder); left < kLengthCount;
+       left += 2) {
+    const auto place = static_cast<std::size_t>(left);
+    const double off = model.lengths[place] - model.lengths[place + 1];
+    out.hessian(left, left) += kWeight;
+    out.hessian(left + 1, left + 1) += kWeight;
+    out.hessian(left + 1, left) -= kWeight;
+    out.gradient[left] += kWeight * off;
+    out.gradient[left + 1] -= kWeight * off;
+    out.cost += 0.5 * kWeight * off * off;
+  }
+}
+
+}  // namespace
+
+void add_subject_priors(const BodyModel& model,
+                        const Lengths& usual,
+                        const SubjectColumns& columns,
+                        SubjectSystem& out) {
+  add_lengths(model, usual, out);
+  for (const auto& [tag, pose] : model.segment_from_tag) {
+    add_tag(model, tag, columns, out);
+  }
+}
+
+double off_flesh(const BodyModel& model, std::size_t tag) {
+  MAREY_ASSERT(model.place(tag));
+  const TagTerms terms = tag_terms(model, tag);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) sum += terms.residual[i].a * terms.residual[i].a;
+  return std::sqrt(sum);
+}
+
+}  // namespace marey::reconstruct

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to reconstruct: what is known of a person and of glued tags before anything is
+// measured: lengths near an average person's and alike on both sides, tags on the flesh
+// about the bone and facing away from it.
+
+#include <Eigen/Core>
+
+#include "reconstruct/subject_equations.h"
+
+namespace marey::reconstruct {
+
+/// Gauss-Newton's equations over the subject's unknowns (SubjectColumns). Of the Hessian
+/// the lower triangle is kept.
+struct SubjectSystem {
+  Eigen::MatrixXd hessian;
+  Eigen::VectorXd gradient;
+  double cost = 0.0;
+};
+
+/// Adds the terms of a body of which an average person's lengths are `usual`. Limb tags:
+/// 2 to 14 cm off the bone's axis, between its ends, facing away from it; tags elsewhere
+/// within 0.2 to 0.4 m of their joint. Constant inside, quadratic outside (but for the
+/// facing term, a Gaussian of 2 cm).
+void add_subject_priors(const BodyModel& model,
+                        const Lengths& usual,
+                        const SubjectColumns& columns,
+                        SubjectSystem& out);
+
+/// By how far the tag is off the flesh of its segment, in the prior's sigmas; 0 on it.
+[[nodiscard]] double off_flesh(const BodyModel& model, std::size_t tag);
+
+}  // namespace marey::reconstruct
