@@ -90,7 +90,23 @@ using LocatedFrame = std::map<B, Located>;
 struct TagSights {
   Matrix6 information = Matrix6::Zero();
   int cameras = 0;
+  bool is_clear = false;  ///< To one camera alone.
 };
+
+/// Whether a single camera can tell a tag's tilt from the mirrored one: opposite edges
+/// differ in length by what perspective makes of the tilt, against the corners' noise.
+bool is_clear(const RigidTransform& camera_from_tag,
+              const TagDetection& detection,
+              double size_m) {
+  constexpr double kClearSigmas = 4.0;
+  const double distance_m = glm::length(camera_from_tag.translation);
+  const glm::dvec3 sight = camera_from_tag.translation / distance_m;
+  const double tilt_sine =
+      glm::length(glm::cross(camera_from_tag.rotation * glm::dvec3(0, 0, 1), sight));
+  const double side_px =
+      glm::distance(detection.corners_px[0], detection.corners_px[2]) / std::sqrt(2.0);
+  return side_px * size_m * tilt_sine / distance_m > kClearSigmas * detection.sigma_px;
+}
 
 class Locator {
  public:
@@ -107,15 +123,19 @@ class Locator {
       }
     }
     std::map<B, int> seen;
+    std::set<B> clear;
     LocatedFrame located;
     for (const auto& [tag, sight] : sights) {
       const B segment = session_.tags[tag].tag.segment;
       seen[segment] += sight.cameras;
+      if (sight.is_clear) clear.insert(segment);
       Located& here = located[segment];
       here.world_from_segment = bones[index(segment)];
       here.information += with_slip(sight.information, tag);
     }
-    std::erase_if(located, [&](const auto& entry) { return seen[entry.first] < 2; });
+    std::erase_if(located, [&](const auto& entry) {
+      return seen[entry.first] < 2 && !clear.contains(entry.first);
+    });
     return located;
   }
 
@@ -146,6 +166,8 @@ class Locator {
           pixel_derivative(camera, p) * motion / detection.sigma_px;
       sight.information += j.transpose() * j;
     }
+    sight.is_clear |=
+        is_clear(camera.camera_from_world * world_from_tag, detection, tag->tag.size_m);
     ++sight.cameras;
   }
 

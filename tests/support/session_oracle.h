@@ -23,7 +23,8 @@ struct Sufficiency {
 /// A session is sufficient when
 /// - each of hips, upper chest, upper arms, forearms, thighs and shanks is located in at
 ///   least 15 frames of the range of motion, hips and upper chest in 3 of the static
-///   trial. Located: two cameras see a tag of it, or one camera two.
+///   trial. Located: two cameras see a tag of it, or one camera two, or one camera one
+///   whose tilt it can tell from the mirrored one by 4 standard deviations.
 /// - hips, knees, shoulders and elbows are determined to 20 mm along the worst direction
 ///   by the Fisher information of the detections of these frames, taking the true
 ///   postures and the tags' true places: the joint's place in both segments is unknown,

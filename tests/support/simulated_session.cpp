@@ -20,11 +20,13 @@ std::vector<Attitude> postures_of(const Exercise& exercise) {
   return postures;
 }
 
-TagStyle draw_style(Dice& dice) {
+/// Tags are printed to be seen: larger for small pictures.
+TagStyle draw_style(Dice& dice, int picture_height_px) {
   TagStyle style;
   const double many = dice.between(0.0, 1.0);
-  style.most_per_segment = many < 0.25 ? 1 : many < 0.7 ? 2 : 3;
-  style.size_m = dice.between(0.07, 0.1);
+  style.most_per_segment = many < 0.2 ? 1 : many < 0.6 ? 2 : 3;
+  style.size_m =
+      picture_height_px > 720 ? dice.between(0.065, 0.1) : dice.between(0.08, 0.1);
   style.slide_m = dice.between(0.0, 1.0) < 0.3 ? 0.0 : dice.between(0.001, 0.008);
   return style;
 }
@@ -93,7 +95,7 @@ SimulatedSession simulate_session(std::uint64_t seed) {
   s.seed = seed;
   s.body = draw_body(dice);
   s.rig = draw_rig(dice);
-  s.style = draw_style(dice);
+  s.style = draw_style(dice, s.rig.cameras.front().intrinsics.height_px);
   s.diligence = dice.between(0.0, 1.0) < 0.75 ? Diligence::kGood : Diligence::kLazy;
   const double heading = s.rig.heading_rad;
   const Exercise standing = draw_standing(dice, heading);

@@ -195,6 +195,16 @@ glm::dvec3 next_side(const std::vector<glm::dvec3>& sides,
       });
 }
 
+/// Plates are larger than black squares, and do not lie one over the other.
+bool has_room(const GluedTag& tag, const std::vector<GluedTag>& others) {
+  return std::none_of(others.begin(), others.end(), [&](const GluedTag& other) {
+    return other.tag.segment == tag.tag.segment &&
+           glm::distance(other.segment_from_tag.translation,
+                         tag.segment_from_tag.translation) <
+               0.65 * (other.tag.size_m + tag.tag.size_m);
+  });
+}
+
 /// Ids without an order, tag36h11's.
 std::vector<int> shuffled_ids(Dice& dice) {
   std::vector<int> ids;
@@ -238,7 +248,8 @@ std::vector<GluedTag> glue_tags(const SimulatedBody& body,
       tag.segment_from_tag = glue(skin, dice.between(0.003, 0.015), dice);
       const double slide_m = habit.slide * style.slide_m * dice.between(0.5, 1.5);
       add_skin(tag, std::max(0.0, share), slide_m, range, reference, dice);
-      tags.push_back(std::move(tag));
+      // Where another one is glued already there is no room.
+      if (has_room(tag, tags)) tags.push_back(std::move(tag));
     }
   };
   for (const Habit& habit : habits()) {
