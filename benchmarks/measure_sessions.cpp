@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Simulated sessions, judged: docs/measurements.md says what the table means.
+//
+//   measure_sessions --seeds 0..99 [--threads 2] [--csv FILE]
+//   measure_sessions --only SEED --verbose
+//   measure_sessions --sum FILE...
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "benchmarks/session_rows.h"
+#include <time.h>
+
+#include "core/parallel.h"
+#include "reconstruct/check_views.h"
+#include "reconstruct/fit_subject.h"
+#include "reconstruct/solve_motion.h"
+
+namespace marey::benchmarks {
+namespace {
+
+using testing::SessionAnswer;
+using testing::SimulatedSession;
+
+/// Processor time of this thread: the machine may be busy with other things.
+double processor_s() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// As app/camera_doubt.h takes it from a calibration.
+double common_sigma_m(const SimulatedSession& session) {
+  double sum_m2 = 0.0;
+  for (const double sigma_m : session.rig.centre_sigma_m) sum_m2 += sigma_m * sigma_m;
+  return std::sqrt(sum_m2) / static_cast<double>(session.rig.centre_sigma_m.size());
+}
+
+/// What `marey solve` does with a session.
+SessionAnswer answer(const SimulatedSession& session) {
+  SessionAnswer out;
+  const auto refuse = [&](const char* by, const Error& error) {
+    out.refused_by = by;
+    out.refusal = error;
+    return out;
+  };
+  const std::vector<Camera>& cameras = session.rig.calibrated;
+  const reconstruct::SubjectPrior prior{
+      "simulated", session.body.declared_stature_m, {}, session.declared_tags()};
+  for (const auto* trial : {&session.standing, &session.moving, &session.motion}) {
+    const Status ok = reconstruct::check_views(cameras, trial->detections, prior.tags);
+    if (!ok) return refuse("check_views", ok.error());
+  }
+  double start = processor_s();
+  auto fit = reconstruct::fit_subject(
+      prior, cameras, session.standing.detections, session.moving.detections);
+  out.fit_s = processor_s() - start;
+  if (!fit) return refuse("fit_subject", fit.error());
+  out.body = std::move(fit->body);
+  start = processor_s();
+  reconstruct::SolveMotionOptions options;
+  options.camera_sigma_m = common_sigma_m(session);
+  auto solved =
+      reconstruct::solve_motion(out.body, cameras, session.motion.detections, options);
+  out.solve_s = processor_s() - start;
+  if (!solved) return refuse("solve_motion", solved.error());
+  out.motion = std::move(solved->estimate);
+  return out;
+}
+
+struct Options {
+  std::uint64_t first = 0;
+  std::uint64_t last = 9;
+  std::size_t threads = 1;
+  bool is_verbose = false;
+  bool is_simulation_only = false;
+  std::string csv;
+  std::vector<std::string> sum;
+};
+
+SessionRow measure(std::uint64_t seed, const Options& options) {
+  const double start = processor_s();
+  const SimulatedSession session = testing::simulate_session(seed);
+  const double simulated_s = processor_s() - start;
+  const testing::Sufficiency enough = testing::judge_sufficiency(session);
+  SessionRow row;
+  row.seed = seed;
+  row.cameras = static_cast<int>(session.rig.cameras.size());
+  row.session = session.summary();
+  row.is_sufficient = enough.is_sufficient;
+  row.lacking = enough.lacking;
+  if (options.is_verbose) {
+    std::printf("seed %llu: %s\n  simulated in %.2f s\n",
+                static_cast<unsigned long long>(seed),
+                row.session.c_str(),
+                simulated_s);
+    for (const auto& [joint, sigma_m] : enough.joint_sigma_m) {
+      std::printf("  %-14s determined to %.1f mm\n",
+                  std::string(name(joint)).c_str(),
+                  1e3 * sigma_m);
+    }
+    std::printf(
+        "  %s\n",
+        enough.is_sufficient ? "sufficient" : ("lacks " + enough.lacking).c_str());
+  }
+  if (options.is_simulation_only) return row;
+  const SessionAnswer answered = answer(session);
+  row.verdict = testing::judge(session, answered);
+  row.fit_s = answered.fit_s;
+  row.solve_s = answered.solve_s;
+  if (answered.refusal) {
+    row.refused_by = answered.refused_by;
+    row.message_class = testing::message_class(*answered.refusal);
+  }
+  for (const testing::GrossJoint& gross : row.verdict.gross) {
+    if (options.is_verbose) std::printf("  %s\n", gross.details.c_str());
+    if (!gross.is_persistent) continue;
+    row.causes += std::string(name(gross.joint)) + ":" + gross.cause + " ";
+  }
+  if (options.is_verbose) {
+    if (answered.refusal)
+      std::printf("  refused: %s\n", answered.refusal->message().c_str());
+    std::printf(
+        "  joint centres: median %.1f, p95 %.1f, worst %.1f mm; fit %.1f s, "
+        "motion %.1f s\n",
+        1e3 * row.verdict.median_m,
+        1e3 * row.verdict.p95_m,
+        1e3 * row.verdict.max_m,
+        row.fit_s,
+        row.solve_s);
+  }
+  return row;
+}
+
+bool read_options(int argc, char** argv, Options& options) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const bool has_more = i + 1 < words.size();
+    if (words[i] == "--verbose") {
+      options.is_verbose = true;
+    } else if (words[i] == "--simulate") {
+      options.is_simulation_only = true;
+    } else if (words[i] == "--seeds" && has_more) {
+      const std::string& range = words[++i];
+      const std::size_t dots = range.find("..");
+      options.first = std::strtoull(range.c_str(), nullptr, 10);
+      options.last = dots == std::string::npos
+                         ? options.first
+                         : std::strtoull(range.c_str() + dots + 2, nullptr, 10);
+    } else if (words[i] == "--only" && has_more) {
+      options.first = options.last = std::strtoull(words[++i].c_str(), nullptr, 10);
+    } else if (words[i] == "--threads" && has_more) {
+      options.threads = std::strtoull(words[++i].c_str(), nullptr, 10);
+    } else if (words[i] == "--csv" && has_more) {
+      options.csv = words[++i];
+    } else if (words[i] == "--sum" && has_more) {
+      options.sum.assign(words.begin() + static_cast<std::ptrdiff_t>(i) + 1, words.end());
+      break;
+    } else {
+      return false;
+    }
+  }
+  return options.first <= options.last;
+}
+
+int sum(const std::vector<std::string>& files) {
+  std::vector<SessionRow> rows;
+  for (const std::string& file : files) {
+    std::ifstream in(file);
+    auto more = read_rows(in);
+    if (!more) {
+      std::fprintf(stderr, "%s: not a table of measure_sessions\n", file.c_str());
+      return 1;
+    }
+    rows.insert(rows.end(), more->begin(), more->end());
+  }
+  print_table(rows);
+  return 0;
+}
+
+int run(const Options& options) {
+  std::ofstream csv;
+  if (!options.csv.empty()) {
+    csv.open(options.csv);
+    if (!csv) {
+      std::fprintf(stderr, "%s: cannot be written\n", options.csv.c_str());
+      return 1;
+    }
+    write_header(csv);
+  }
+  std::vector<SessionRow> rows(options.last - options.first + 1);
+  std::mutex writing;
+  in_parallel(rows.size(), options.threads, [&](std::size_t i) {
+    rows[i] = measure(options.first + i, options);
+    const std::lock_guard lock(writing);
+    // A run that is broken off leaves what it has measured.
+    if (csv) write_row(csv, rows[i]);
+  });
+  for (SessionRow& row : rows) {
+    // As the file has it, so that sums of files print the same.
+    std::replace(row.session.begin(), row.session.end(), ',', ';');
+  }
+  if (!options.is_simulation_only) print_table(rows);
+  return 0;
+}
+
+}  // namespace
+}  // namespace marey::benchmarks
+
+int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
+  marey::benchmarks::Options options;
+  if (!marey::benchmarks::read_options(argc, argv, options)) {
+    std::fprintf(
+        stderr,
+        "usage: measure_sessions --seeds FIRST..LAST [--threads N] [--csv FILE]\n"
+        "       measure_sessions --only SEED [--verbose] [--simulate]\n"
+        "       measure_sessions --sum FILE...\n");
+    return 2;
+  }
+  return options.sum.empty() ? marey::benchmarks::run(options)
+                             : marey::benchmarks::sum(options.sum);
+}
