@@ -225,23 +225,34 @@ class FrameFinder {
     for (const Length l : kTrunk) out_.lengths[index(l)] *= height_m / usual_m;
   }
 
-  /// Mean of upper x lower over all frames, in the frame of bone `reference`: the hinge,
-  /// with its sign, as long as the limb bends at all.
+  /// The hinge in the frame of bone `reference`, as long as the root mean square sine of
+  /// the limb's bends: the direction that upper x lower mostly has over all frames. A
+  /// limb that bends far bends the natural way, which gives the sign: small bends both
+  /// ways (somebody who stands with bent elbows) do not count against a few far ones.
   glm::dvec3 hinge_in(B reference, std::size_t limb) const {
     const HumanLimb& bones = human_limbs()[limb];
     const LimbCentres& c = centres_[limb];
     const glm::dvec3 u = glm::normalize(c.mid_in_upper - c.root_in_upper);
     const glm::dvec3 l = glm::normalize(c.end_in_lower - c.mid_in_lower);
-    const std::vector<SegmentPair> seen = pairs(bones.upper, bones.lower);
-    glm::dvec3 sum(0.0);
-    for (const SegmentPair& pair : seen) {
-      const glm::dvec3 hinge =
+    std::vector<Eigen::Vector3d> bends;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const SegmentPair& pair : pairs(bones.upper, bones.lower)) {
+      const glm::dvec3 in_world =
           glm::cross(pair.world_from_a.rotation * u, pair.world_from_b.rotation * l);
       const glm::dquat& frame = reference == bones.upper ? pair.world_from_a.rotation
                                                          : pair.world_from_b.rotation;
-      sum += glm::conjugate(frame) * hinge;
+      const glm::dvec3 bend = glm::conjugate(frame) * in_world;
+      bends.emplace_back(bend.x, bend.y, bend.z);
+      spread += bends.back() * bends.back().transpose();
     }
-    return sum / std::max(1.0, static_cast<double>(seen.size()));
+    if (bends.empty()) return glm::dvec3(0.0);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spectrum(
+        spread / static_cast<double>(bends.size()));
+    Eigen::Vector3d hinge = spectrum.eigenvectors().col(2);
+    double skew = 0.0;
+    for (const Eigen::Vector3d& bend : bends) skew += std::pow(hinge.dot(bend), 3);
+    hinge *= std::copysign(std::sqrt(std::max(0.0, spectrum.eigenvalues()[2])), skew);
+    return {hinge.x(), hinge.y(), hinge.z()};
   }
 
   void set_limb(std::size_t limb) {
@@ -250,7 +261,7 @@ class FrameFinder {
     const glm::dvec3 along = limb_axis(limb);
     const auto place = [&](B bone, const glm::dvec3& from, const glm::dvec3& to) {
       glm::dvec3 hinge = hinge_in(bone, limb);
-      constexpr double kBendsAtAll = 0.05;  // mean sine of the flexion
+      constexpr double kBendsAtAll = 0.1;  // Root mean square sine of the flexion.
       if (glm::length(hinge) < kBendsAtAll) hinge = standing_hinge(bone, limb);
       const glm::dquat turn = align(to - from, hinge, along, bones.hinge_axis);
       out_.segment_from_cluster[bone] = {turn, -(turn * from)};

@@ -34,8 +34,9 @@ double robust_weight(double squared) {
 
 BundleSolver::BundleSolver(const SubjectBundle& bundle,
                            std::span<const Camera> cameras,
-                           const BundleFreedom& freedom)
-    : sight_(cameras), columns_(bundle.model) {
+                           const BundleFreedom& freedom,
+                           bool slides)
+    : sight_(cameras), columns_(bundle.model, slides), slides_(slides) {
   MAREY_ASSERT(!bundle.frames.empty());
   frames_ = static_cast<double>(bundle.frames.size());
   standing_ = static_cast<double>(std::max<std::ptrdiff_t>(
@@ -79,6 +80,9 @@ void BundleSolver::linearise_frame(const SubjectBundle& bundle,
     if (!bundle.model.place(s.tag) || last == s.tag) continue;
     last = s.tag;
     for (int i = 0; i < 6; ++i) columns.push_back(columns_.of_tag(s.tag) + i);
+    for (int i = 0; slides_ && i < kSlideColumns; ++i) {
+      columns.push_back(columns_.of_slide(s.tag) + i);
+    }
   }
   out.begin(std::move(columns), columns_.size());
   UnfoldedPosture unfolded;
@@ -92,7 +96,14 @@ void BundleSolver::linearise_frame(const SubjectBundle& bundle,
     }
     const double squared = sighted.residual.squaredNorm();
     out.posture.cost += robust_cost(squared);
-    out.add(sighted, columns_.of_tag(s.tag), robust_weight(squared));
+    const SlideAngles angles =
+        slides_ ? slide_angles(bundle.model.bone(s.tag), frame.posture, unfolded)
+                : SlideAngles{};
+    out.add(sighted,
+            columns_.of_tag(s.tag),
+            robust_weight(squared),
+            columns_.of_slide(s.tag),
+            slides_ ? &angles : nullptr);
   }
   // A collar bone of this person's may well rest otherwise than usual, in all frames
   // alike: together they count as one, or they would move the shoulders' centres.

@@ -46,6 +46,8 @@ struct SubjectBundle {
   std::array<std::optional<double>, kHumanBoneCount> centre_sigma_m{};
   double rms_px = 0.0;
   double median_px = 0.0;
+  /// How far skin slides under tags per radian of the joints beside, standard deviation.
+  double slide_m_per_rad = 0.0;
 
   [[nodiscard]] SightingNoise noise(std::size_t tag) const {
     return {noise_scale, slips_m[index(model.bone(tag))]};
@@ -77,7 +79,11 @@ std::optional<double> adjust(SubjectBundle& bundle,
 void measure(SubjectBundle& bundle, std::span<const Camera> cameras);
 
 /// Covariances of lengths, tags and joint centres, with many sightings of one tag by one
-/// camera not counted as so many independent ones. False when they cannot be computed.
+/// camera not counted as so many independent ones, and with skin that slides under the
+/// tags as joints turn: a slide in proportion to an angle looks like a joint elsewhere,
+/// so that residuals hardly show it. Its size is estimated as the variance of random
+/// effects (restricted maximum likelihood), and the lengths and tags are moved by what it
+/// explains. False when the equations have no solution.
 [[nodiscard]] bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras);
 
 }  // namespace marey::reconstruct

@@ -59,10 +59,51 @@ void whiten(const Eigen::Matrix<double, 8, 3>& directions,
 
 }  // namespace
 
-SubjectColumns::SubjectColumns(const BodyModel& model) : of_tag_(model.tags.size(), -1) {
+SlideAngles slide_angles(HumanBone bone,
+                         const Posture& posture,
+                         const UnfoldedPosture& unfolded) {
+  const auto against = [&](Slot parent, Slot child) {
+    return log_of(quaternion(posture, parent).conjugate() * quaternion(posture, child));
+  };
+  for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
+    const LimbSlots& s = kLimbSlots[limb];
+    const HumanLimb& bones = human_limbs()[limb];
+    const double flexion = *posture.block(s.flexion);
+    if (bone == bones.upper) {
+      const Vector3d r = against(limb < 2 ? Slot::kThorax : Slot::kHips, s.frame);
+      return {flexion, r.x(), r.y(), r.z()};
+    }
+    if (bone == bones.lower) {
+      const Eigen::Quaterniond lower(unfolded.rotation(bone));
+      const Vector3d r = log_of(lower.conjugate() * quaternion(posture, s.extremity));
+      return {flexion, *posture.block(s.lower_twist), r.x(), r.z()};
+    }
+  }
+  if (bone == HumanBone::kHips) {
+    return {against(Slot::kHips, Slot::kLeftLeg).x(),
+            against(Slot::kHips, Slot::kRightLeg).x(),
+            against(Slot::kHips, Slot::kThorax).x(),
+            0.0};
+  }
+  if (bone == HumanBone::kUpperChest) {
+    const Vector3d left = against(Slot::kThorax, Slot::kLeftArm);
+    const Vector3d right = against(Slot::kThorax, Slot::kRightArm);
+    return {left.y(), left.z(), right.y(), right.z()};
+  }
+  return {};
+}
+
+SubjectColumns::SubjectColumns(const BodyModel& model, bool slides)
+    : of_tag_(model.tags.size(), -1), of_slide_(model.tags.size(), -1) {
   for (const auto& [tag, pose] : model.segment_from_tag) {
     of_tag_[tag] = size_;
     size_ += 6;
+  }
+  without_slides_ = size_;
+  if (!slides) return;
+  for (const auto& [tag, pose] : model.segment_from_tag) {
+    of_slide_[tag] = size_;
+    size_ += kSlideColumns;
   }
 }
 
@@ -142,9 +183,13 @@ void FrameEquations::begin(std::vector<int> columns, int subject_size) {
   for (auto& follows : follows_) follows.assign(columns_.size(), false);
 }
 
-void FrameEquations::add(const SightedTag& s, int tag_column, double weight) {
+void FrameEquations::add(const SightedTag& s,
+                         int tag_column,
+                         double weight,
+                         int slide_column,
+                         const SlideAngles* slides) {
   // All columns of the sighting side by side: the posture's, lengths, the tag's.
-  constexpr int kMost = 2 * SparseDerivative::kMost + 6;
+  constexpr int kMost = 2 * SparseDerivative::kMost + 6 + kSlideColumns;
   Eigen::Matrix<double, 8, kMost> all;
   std::array<int, kMost> where{};
   const int own = s.posture_columns;
@@ -167,6 +212,10 @@ void FrameEquations::add(const SightedTag& s, int tag_column, double weight) {
     append(s.by_length.col(i), subject(s.length_column[static_cast<std::size_t>(i)]));
   }
   for (int i = 0; i < 6; ++i) append(s.by_tag.col(i), subject(tag_column + i));
+  for (int i = 0; slides && i < kSlideColumns; ++i) {
+    const double angle = (*slides)[static_cast<std::size_t>(i / 3)];
+    append(angle * s.by_tag.col(3 + i % 3), subject(slide_column + i));
+  }
   const SightedTag::Vector8 pull = weight * s.residual;
   for (int i = 0; i < count; ++i) {
     const int row = where[static_cast<std::size_t>(i)];

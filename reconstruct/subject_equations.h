@@ -24,17 +24,33 @@ namespace marey::reconstruct {
 /// How far tags slip on each segment, standard deviation per coordinate. [m]
 using BoneSlips = std::array<double, kHumanBoneCount>;
 
+/// The angles that pull at the skin under a tag, varying with the posture. [rad]
+inline constexpr int kSlideAngles = 4;
+using SlideAngles = std::array<double, kSlideAngles>;
+[[nodiscard]] SlideAngles slide_angles(HumanBone bone,
+                                       const Posture& posture,
+                                       const UnfoldedPosture& unfolded);
+inline constexpr int kSlideColumns = 3 * kSlideAngles;
+
 /// The columns of a subject's unknowns: kLengthCount lengths [m], then six of each placed
 /// tag: a small turn of the tag in its segment's frame [rad], and its place there [m].
+/// With `slides` then kSlideColumns of each placed tag: how far the tag slides along the
+/// segment's axes per radian of each of slide_angles(). [m/rad]
 class SubjectColumns {
  public:
-  explicit SubjectColumns(const BodyModel& model);
+  explicit SubjectColumns(const BodyModel& model, bool slides = false);
+  /// First of the tag's slide columns; -1 without.
+  [[nodiscard]] int of_slide(std::size_t tag) const { return of_slide_[tag]; }
+  /// Of lengths and tags, which come first.
+  [[nodiscard]] int without_slides() const { return without_slides_; }
   [[nodiscard]] int size() const { return size_; }
   /// First of the tag's six columns; -1 of a tag without a place.
   [[nodiscard]] int of_tag(std::size_t tag) const { return of_tag_[tag]; }
 
  private:
   std::vector<int> of_tag_;
+  std::vector<int> of_slide_;
+  int without_slides_ = kLengthCount;
   int size_ = kLengthCount;
 };
 
@@ -88,7 +104,12 @@ class FrameEquations {
 
   /// Empties the equations; `columns` are the subject's that the frame's tags follow.
   void begin(std::vector<int> columns, int subject_size);
-  void add(const SightedTag& sighted, int tag_column, double weight);
+  /// `slides` are the slide_angles() of the sighting's bone, null without slides.
+  void add(const SightedTag& sighted,
+           int tag_column,
+           double weight,
+           int slide_column = -1,
+           const SlideAngles* slides = nullptr);
   /// Keeps these unknowns of the posture as they are.
   void hold(std::span<const int> posture_columns);
 

@@ -14,10 +14,16 @@
 namespace marey::reconstruct {
 namespace {
 
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
 // Share of the variance of a corner's error that is the same in all pictures that one
 // camera takes of the tag: lens, print and light. A choice: rendered tags that move show
 // up to a seventh (docs/measurements.md).
 constexpr double kCommonShare = 0.03;
+
+// Skin that slides further per radian is a strap that came loose. [m^2]
+constexpr double kMostSlide2 = 0.06 * 0.06;
 
 // The median length of a two-dimensional error whose coordinates have unit sigma.
 constexpr double kMedianOfUnitNoise = 1.177;
@@ -105,32 +111,99 @@ void fill_centre_sigmas(const Eigen::MatrixXd& covariance,
   }
 }
 
+/// The equations of lengths and tags, and of slides once those are free.
+struct SlideSystem {
+  MatrixXd covariance;   ///< Of lengths and tags, slides held.
+  MatrixXd by_slide;     ///< How they follow the slides' equations: H_ss^-1 H_sp.
+  MatrixXd information;  ///< On the slides.
+  VectorXd gradient;     ///< Of the slides.
+};
+
+SlideSystem split(const SubjectSystem& system, int own) {
+  const MatrixXd all = system.hessian.selfadjointView<Eigen::Lower>();
+  const auto slides = all.rows() - own;
+  SlideSystem out;
+  MatrixXd subject = all.topLeftCorner(own, own);
+  subject.diagonal().array() += 1e-9;
+  const Eigen::LDLT<MatrixXd> factor(subject);
+  out.covariance = factor.solve(MatrixXd::Identity(own, own));
+  out.by_slide = out.covariance * all.topRightCorner(own, slides);
+  out.information = all.bottomRightCorner(slides, slides) -
+                    all.bottomLeftCorner(slides, own) * out.by_slide;
+  out.gradient =
+      system.gradient.tail(slides) - out.by_slide.transpose() * system.gradient.head(own);
+  return out;
+}
+
+/// Variance of the slides, of which the scores along the eigenvectors of their
+/// information have the variance `noise` l + v l^2: maximum likelihood by scoring.
+double slide_variance(const Eigen::SelfAdjointEigenSolver<MatrixXd>& spectrum,
+                      const VectorXd& gradient,
+                      double noise) {
+  const VectorXd scores = spectrum.eigenvectors().transpose() * gradient;
+  double variance = 1e-6;
+  for (int round = 0; round < 50; ++round) {
+    double excess = 0.0;
+    double information = 0.0;
+    for (Eigen::Index i = 0; i < scores.size(); ++i) {
+      const double l = spectrum.eigenvalues()[i];
+      if (l < 1.0) continue;
+      const double expected = noise * l + variance * l * l;
+      const double rate = l * l / expected;
+      excess += rate * (scores[i] * scores[i] / expected - 1.0);
+      information += rate * rate;
+    }
+    if (information <= 0.0) return 0.0;
+    const double next = std::clamp(variance + excess / information, 0.0, kMostSlide2);
+    if (std::abs(next - variance) < 1e-3 * variance + 1e-12) return next;
+    variance = next;
+  }
+  return variance;
+}
+
 }  // namespace
 
 bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras) {
-  const BundleSolver solver(bundle, cameras, {});
+  const BundleSolver solver(bundle, cameras, {}, true);
   BundleSolver::Linear linear;
   solver.linearise(bundle, linear);
   SubjectSystem system;
   if (!solver.reduce(linear, 0.0, system)) return false;
-  system.hessian.diagonal().array() += 1e-9;
-  const Eigen::MatrixXd information = system.hessian.selfadjointView<Eigen::Lower>();
-  const Eigen::MatrixXd covariance = information.ldlt().solve(
-      Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  const int own = solver.columns().without_slides();
+  const SlideSystem slides = split(system, own);
   const double scale = sigma_scale(bundle);
-  const auto variance = [&](int i) { return std::max(0.0, covariance(i, i)); };
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(slides.information);
+  const double variance = slide_variance(spectrum, slides.gradient, scale * scale);
+  bundle.slide_m_per_rad = std::sqrt(variance);
+  // The slides' own covariance: what the sightings say of them, and their size.
+  const VectorXd posterior = (spectrum.eigenvalues().array().max(0.0) / (scale * scale) +
+                              1.0 / std::max(variance, 1e-12))
+                                 .inverse();
+  const MatrixXd by_mode = slides.by_slide * spectrum.eigenvectors();
+  const MatrixXd covariance = scale * scale * slides.covariance +
+                              by_mode * posterior.asDiagonal() * by_mode.transpose();
+  const VectorXd modes =
+      -(spectrum.eigenvectors().transpose() * slides.gradient).cwiseProduct(posterior) /
+      (scale * scale);
+  BundleSolver::Step step;
+  step.subject = VectorXd::Zero(solver.columns().size());
+  step.subject.head(own) = -by_mode * modes;
+  step.postures.assign(bundle.frames.size(), PostureVector::Zero());
+  if (!step.subject.allFinite()) return false;
+  solver.move(step, bundle);
+  const auto variance_of = [&](int i) { return std::max(0.0, covariance(i, i)); };
   for (int i = 0; i < kLengthCount; ++i) {
-    bundle.length_sigma_m[static_cast<std::size_t>(i)] = scale * std::sqrt(variance(i));
+    bundle.length_sigma_m[static_cast<std::size_t>(i)] = std::sqrt(variance_of(i));
   }
   for (const auto& [tag, pose] : bundle.model.segment_from_tag) {
     const auto rms = [&](int from) {
-      return scale *
-             std::sqrt((variance(from) + variance(from + 1) + variance(from + 2)) / 3.0);
+      return std::sqrt(
+          (variance_of(from) + variance_of(from + 1) + variance_of(from + 2)) / 3.0);
     };
     const int column = solver.columns().of_tag(tag);
     bundle.tag_sigma[tag] = {rms(column + 3), rms(column)};
   }
-  fill_centre_sigmas(covariance, scale, bundle);
+  fill_centre_sigmas(covariance, 1.0, bundle);
   return true;
 }
 

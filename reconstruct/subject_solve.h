@@ -30,7 +30,8 @@ class BundleSolver {
  public:
   BundleSolver(const SubjectBundle& bundle,
                std::span<const Camera> cameras,
-               const BundleFreedom& freedom);
+               const BundleFreedom& freedom,
+               bool slides = false);
 
   /// All equations at one state of the bundle.
   struct Linear {
@@ -63,6 +64,7 @@ class BundleSolver {
   SubjectColumns columns_;
   double frames_ = 1.0;    ///< That say the same of habits,
   double standing_ = 1.0;  ///< and of how a person stands.
+  bool slides_ = false;
   std::vector<int> held_posture_;
   std::vector<bool> held_subject_;  ///< Empty: none.
 };
