@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "benchmarks/session_rows.h"
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <time.h>
 
 #include "core/parallel.h"
@@ -86,6 +88,40 @@ struct Options {
   std::vector<std::string> sum;
 };
 
+/// Prints the fitted body beside the true one.
+void print_body(const SimulatedSession& session, const Body& found) {
+  for (const HumanBone bone : human_bones()) {
+    if (bone == HumanBone::kHips) continue;
+    std::printf("  %-14s %.0f mm long (true %.0f), joint known to %.1f mm\n",
+                std::string(name(bone)).c_str(),
+                1e3 * glm::length(found.proportions[bone]),
+                1e3 * glm::length(session.body.proportions[bone]),
+                1e3 * found.joint_centre_sigma_m[index(bone)]);
+  }
+  for (const PlacedTag& tag : found.tags) {
+    for (const testing::GluedTag& glued : session.tags) {
+      if (glued.tag.id != tag.tag.id) continue;
+      const glm::dvec3 p = tag.segment_from_tag.translation;
+      const glm::dvec3 t = glued.segment_from_tag.translation;
+      std::printf(
+          "  tag %3d on %-14s %4.0f %4.0f %4.0f mm (true %4.0f %4.0f %4.0f), turned by "
+          "%.0f deg, known to %.1f mm\n",
+          number(tag.tag.id),
+          std::string(name(tag.tag.segment)).c_str(),
+          1e3 * p.x,
+          1e3 * p.y,
+          1e3 * p.z,
+          1e3 * t.x,
+          1e3 * t.y,
+          1e3 * t.z,
+          glm::degrees(
+              glm::length(rotation_vector(glm::conjugate(tag.segment_from_tag.rotation) *
+                                          glued.segment_from_tag.rotation))),
+          1e3 * tag.sigma_m);
+    }
+  }
+}
+
 SessionRow measure(std::uint64_t seed, const Options& options) {
   const double start = processor_s();
   const SimulatedSession session = testing::simulate_session(seed);
@@ -126,6 +162,7 @@ SessionRow measure(std::uint64_t seed, const Options& options) {
     row.causes += std::string(name(gross.joint)) + ":" + gross.cause + " ";
   }
   if (options.is_verbose) {
+    if (!answered.refusal) print_body(session, answered.body);
     if (answered.refusal)
       std::printf("  refused: %s\n", answered.refusal->message().c_str());
     std::printf(

@@ -78,29 +78,42 @@ std::optional<Eigen::MatrixXd> centre_jacobian(const SubjectBundle& bundle,
   return jacobian / tags;
 }
 
-void fill_centre_sigmas(const Eigen::MatrixXd& covariance,
-                        double scale,
-                        SubjectBundle& bundle) {
+/// What the bundle's equations say of its unknowns, and how far apart what it says in
+/// different parts of the trials is.
+struct Knowledge {
+  MatrixXd covariance;  ///< Of lengths and tags.
+  MatrixXd moves;       ///< Of lengths and tags, by each part's equations alone.
+
+  /// Of a linear function of them: the larger of what the covariance and the scatter of
+  /// the parts make of it (White 1982: a model that is not quite right makes residuals
+  /// that go together, and its covariance too small).
+  [[nodiscard]] double variance(const MatrixXd& jacobian) const {
+    const double model = (jacobian * covariance * jacobian.transpose()).trace();
+    const double parts = static_cast<double>(moves.cols());
+    const double scatter = (jacobian * moves).squaredNorm() * parts / (parts - 1.0);
+    return std::max(0.0, std::max(model, scatter));
+  }
+};
+
+void fill_centre_sigmas(const Knowledge& knowledge, SubjectBundle& bundle) {
   const Lengths& lengths = bundle.model.lengths;
   const auto offset_of = [&](const Lengths& some, HumanBone bone) {
     return to_proportions(some, bundle.model.body, Proportions{})[bone];
   };
-  const auto columns = covariance.cols();
+  const auto columns = knowledge.covariance.cols();
   for (const HumanBone bone : human_bones()) {
     std::optional<double>& least = bundle.centre_sigma_m[index(bone)];
-    const auto look = [&](HumanBone side,
-                          const glm::dvec3& offset,
-                          const Eigen::MatrixXd& offset_jacobian) {
-      const auto j = centre_jacobian(bundle, side, offset, offset_jacobian);
-      if (!j) return;
-      const double trace = (*j * covariance * j->transpose()).trace();
-      const double sigma_m = scale * std::sqrt(std::max(0.0, trace) / 3.0);
-      if (!least || sigma_m < *least) least = sigma_m;
-    };
-    look(bone, glm::dvec3(0.0), Eigen::MatrixXd::Zero(3, columns));
+    const auto look =
+        [&](HumanBone side, const glm::dvec3& offset, const MatrixXd& offset_jacobian) {
+          const auto j = centre_jacobian(bundle, side, offset, offset_jacobian);
+          if (!j) return;
+          const double sigma_m = std::sqrt(knowledge.variance(*j) / 3.0);
+          if (!least || sigma_m < *least) least = sigma_m;
+        };
+    look(bone, glm::dvec3(0.0), MatrixXd::Zero(3, columns));
     if (bone == HumanBone::kHips) continue;
     // Offsets are linear in lengths.
-    Eigen::MatrixXd offset_jacobian = Eigen::MatrixXd::Zero(3, columns);
+    MatrixXd offset_jacobian = MatrixXd::Zero(3, columns);
     for (int i = 0; i < kLengthCount; ++i) {
       Lengths longer = lengths;
       longer[static_cast<std::size_t>(i)] += 1.0;
@@ -111,28 +124,19 @@ void fill_centre_sigmas(const Eigen::MatrixXd& covariance,
   }
 }
 
-/// The equations of lengths and tags, and of slides once those are free.
+/// Information on the slides, and their gradient, once lengths and tags are free.
 struct SlideSystem {
-  MatrixXd covariance;   ///< Of lengths and tags, slides held.
-  MatrixXd by_slide;     ///< How they follow the slides' equations: H_ss^-1 H_sp.
-  MatrixXd information;  ///< On the slides.
-  VectorXd gradient;     ///< Of the slides.
+  MatrixXd information;
+  VectorXd gradient;
 };
 
-SlideSystem split(const SubjectSystem& system, int own) {
-  const MatrixXd all = system.hessian.selfadjointView<Eigen::Lower>();
+SlideSystem slides_of(const MatrixXd& all, const VectorXd& gradient, int own) {
   const auto slides = all.rows() - own;
-  SlideSystem out;
-  MatrixXd subject = all.topLeftCorner(own, own);
-  subject.diagonal().array() += 1e-9;
-  const Eigen::LDLT<MatrixXd> factor(subject);
-  out.covariance = factor.solve(MatrixXd::Identity(own, own));
-  out.by_slide = out.covariance * all.topRightCorner(own, slides);
-  out.information = all.bottomRightCorner(slides, slides) -
-                    all.bottomLeftCorner(slides, own) * out.by_slide;
-  out.gradient =
-      system.gradient.tail(slides) - out.by_slide.transpose() * system.gradient.head(own);
-  return out;
+  const Eigen::LDLT<MatrixXd> subject(all.topLeftCorner(own, own));
+  const MatrixXd by_slide = subject.solve(all.topRightCorner(own, slides));
+  return {all.bottomRightCorner(slides, slides) -
+              all.bottomLeftCorner(slides, own) * by_slide,
+          gradient.tail(slides) - by_slide.transpose() * gradient.head(own)};
 }
 
 /// Variance of the slides, of which the scores along the eigenvectors of their
@@ -161,49 +165,83 @@ double slide_variance(const Eigen::SelfAdjointEigenSolver<MatrixXd>& spectrum,
   return variance;
 }
 
+/// The subject's equations as the sum of what each part of the trials says.
+struct Parts {
+  SubjectSystem system;
+  MatrixXd gradients;  ///< One column per part.
+};
+
+std::optional<Parts> in_parts(const SubjectBundle& bundle,
+                              const BundleSolver& solver,
+                              BundleSolver::Linear& linear) {
+  // Enough to see a scatter, and each long enough to hold an exercise of its own.
+  constexpr std::size_t kParts = 12;
+  Parts out;
+  out.system = linear.subject;
+  out.gradients.setZero(solver.columns().size(), kParts + 1);
+  const auto standing = static_cast<std::size_t>(
+      std::count_if(bundle.frames.begin(), bundle.frames.end(), [](const auto& frame) {
+        return frame.standing;
+      }));
+  const std::size_t moving = std::max<std::size_t>(1, bundle.frames.size() - standing);
+  std::size_t moved = 0;
+  VectorXd gradient;
+  for (std::size_t f = 0; f < linear.frames.size(); ++f) {
+    gradient.setZero(solver.columns().size());
+    if (!linear.frames[f].eliminate(0.0, out.system.hessian, gradient)) {
+      return std::nullopt;
+    }
+    const std::size_t part =
+        bundle.frames[f].standing ? kParts : kParts * moved++ / moving;
+    out.gradients.col(static_cast<Eigen::Index>(part)) += gradient;
+    out.system.gradient += gradient;
+  }
+  return out;
+}
+
 }  // namespace
 
 bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras) {
   const BundleSolver solver(bundle, cameras, {}, true);
   BundleSolver::Linear linear;
   solver.linearise(bundle, linear);
-  SubjectSystem system;
-  if (!solver.reduce(linear, 0.0, system)) return false;
+  const auto parts = in_parts(bundle, solver, linear);
+  if (!parts) return false;
   const int own = solver.columns().without_slides();
-  const SlideSystem slides = split(system, own);
+  const int size = solver.columns().size();
+  MatrixXd all = parts->system.hessian.selfadjointView<Eigen::Lower>();
+  all.diagonal().array() += 1e-9;
   const double scale = sigma_scale(bundle);
+  const double scale2 = scale * scale;
+  const SlideSystem slides = slides_of(all, parts->system.gradient, own);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(slides.information);
-  const double variance = slide_variance(spectrum, slides.gradient, scale * scale);
-  bundle.slide_m_per_rad = std::sqrt(variance);
-  // The slides' own covariance: what the sightings say of them, and their size.
-  const VectorXd posterior = (spectrum.eigenvalues().array().max(0.0) / (scale * scale) +
-                              1.0 / std::max(variance, 1e-12))
-                                 .inverse();
-  const MatrixXd by_mode = slides.by_slide * spectrum.eigenvectors();
-  const MatrixXd covariance = scale * scale * slides.covariance +
-                              by_mode * posterior.asDiagonal() * by_mode.transpose();
-  const VectorXd modes =
-      -(spectrum.eigenvectors().transpose() * slides.gradient).cwiseProduct(posterior) /
-      (scale * scale);
+  const double slide2 = slide_variance(spectrum, slides.gradient, scale2);
+  bundle.slide_m_per_rad = std::sqrt(slide2);
+  all /= scale2;
+  all.diagonal().tail(size - own).array() += 1.0 / std::max(slide2, 1e-12);
+  const MatrixXd inverse = all.ldlt().solve(MatrixXd::Identity(size, size)).topRows(own);
+  const Knowledge knowledge{inverse.leftCols(own), inverse * parts->gradients / scale2};
   BundleSolver::Step step;
-  step.subject = VectorXd::Zero(solver.columns().size());
-  step.subject.head(own) = -by_mode * modes;
+  step.subject = VectorXd::Zero(size);
+  step.subject.head(own) =
+      -inverse.rightCols(size - own) * parts->system.gradient.tail(size - own) / scale2;
   step.postures.assign(bundle.frames.size(), PostureVector::Zero());
   if (!step.subject.allFinite()) return false;
   solver.move(step, bundle);
-  const auto variance_of = [&](int i) { return std::max(0.0, covariance(i, i)); };
+  const auto variance_of = [&](int first, int count) {
+    MatrixXd jacobian = MatrixXd::Zero(count, own);
+    jacobian.middleCols(first, count).setIdentity();
+    return knowledge.variance(jacobian) / count;
+  };
   for (int i = 0; i < kLengthCount; ++i) {
-    bundle.length_sigma_m[static_cast<std::size_t>(i)] = std::sqrt(variance_of(i));
+    bundle.length_sigma_m[static_cast<std::size_t>(i)] = std::sqrt(variance_of(i, 1));
   }
   for (const auto& [tag, pose] : bundle.model.segment_from_tag) {
-    const auto rms = [&](int from) {
-      return std::sqrt(
-          (variance_of(from) + variance_of(from + 1) + variance_of(from + 2)) / 3.0);
-    };
     const int column = solver.columns().of_tag(tag);
-    bundle.tag_sigma[tag] = {rms(column + 3), rms(column)};
+    bundle.tag_sigma[tag] = {std::sqrt(variance_of(column + 3, 3)),
+                             std::sqrt(variance_of(column, 3))};
   }
-  fill_centre_sigmas(covariance, 1.0, bundle);
+  fill_centre_sigmas(knowledge, bundle);
   return true;
 }
 
