@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "reconstruct/bundle_frames.h"
+#include "reconstruct/limb_bundle.h"
 #include "reconstruct/locate_rigid.h"
 #include "reconstruct/tag_clusters.h"
 
@@ -30,36 +31,6 @@ constexpr double kElsewhere_m = 0.02;
 double apart(const RigidTransform& x, const RigidTransform& y) {
   return glm::distance(x.translation, y.translation) +
          0.1 * glm::length(rotation_vector(glm::conjugate(x.rotation) * y.rotation));
-}
-
-/// The limb's share of a bundle: frames that show it, with its sightings alone.
-struct LimbBundle {
-  SubjectBundle bundle;
-  std::vector<std::vector<TagSighting>> sightings;
-  std::vector<std::size_t> frames;  ///< Of the whole bundle.
-};
-
-bool is_of(const HumanLimb& limb, HumanBone bone) {
-  return bone == limb.upper || bone == limb.lower || bone == limb.end;
-}
-
-void cut_out(std::size_t limb, const SubjectBundle& whole, LimbBundle& out) {
-  const HumanLimb& bones = human_limbs()[limb];
-  out.bundle = whole;
-  out.bundle.frames.clear();
-  for (std::size_t f = 0; f < whole.frames.size(); ++f) {
-    std::vector<TagSighting> own;
-    for (const TagSighting& s : whole.frames[f].sightings) {
-      if (is_of(bones, whole.model.bone(s.tag))) own.push_back(s);
-    }
-    if (own.empty()) continue;
-    out.frames.push_back(f);
-    out.sightings.push_back(std::move(own));
-    out.bundle.frames.push_back(whole.frames[f]);
-  }
-  for (std::size_t i = 0; i < out.sightings.size(); ++i) {
-    out.bundle.frames[i].sightings = out.sightings[i];
-  }
 }
 
 /// How the extremity is turned when nothing is known of it but the bone before.
@@ -201,20 +172,6 @@ double ends_apart_m(std::size_t limb, const SubjectBundle& a, const SubjectBundl
     sum += glm::distance(place(a), place(b));
   }
   return sum / static_cast<double>(a.frames.size());
-}
-
-void take_back(std::size_t limb, const LimbBundle& from, SubjectBundle& whole) {
-  const LimbSlots& s = kLimbSlots[limb];
-  whole.model.lengths = from.bundle.model.lengths;
-  whole.model.segment_from_tag = from.bundle.model.segment_from_tag;
-  for (std::size_t i = 0; i < from.frames.size(); ++i) {
-    Posture& posture = whole.frames[from.frames[i]].posture;
-    for (const Slot slot :
-         {s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity}) {
-      const double* now = from.bundle.frames[i].posture.block(slot);
-      std::copy_n(now, block_size(slot), posture.block(slot));
-    }
-  }
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ int settle(SubjectBundle& bundle, std::span<const Camera> cameras) {
 bool refine_coarse_to_fine(SubjectBundle& bundle, std::span<const Camera> cameras) {
   for (const double scale : {10.0, 3.0, 1.0}) {
     bundle.noise_scale = scale;
-    if (!adjust(bundle, cameras, 12)) return false;
+    if (!adjust(bundle, cameras, 12, {{}, true})) return false;
     if (scale == 3.0) place_on_body(bundle, cameras);
     settle(bundle, cameras);
   }
@@ -221,7 +221,9 @@ bool refine_subject(std::span<const Camera> cameras,
   place_on_body(bundle, cameras);
   if (!refine_rounds(bundle, cameras, 2)) return false;
   place_extremities(cameras, guesses, bundle, evidence);
-  if (!refine_rounds(bundle, cameras, 3)) return false;
+  if (!refine_rounds(bundle, cameras, 2)) return false;
+  bundle.twists = kTrialTwists;
+  if (!refine_rounds(bundle, cameras, 2)) return false;
   const std::vector<std::size_t> lost = unexplained_tags(bundle, cameras);
   for (const std::size_t tag : lost) bundle.model.segment_from_tag.erase(tag);
   if (!lost.empty()) {

@@ -82,7 +82,10 @@ class FrameFinder {
               std::span<const ClusterPoses> moving,
               const Proportions& average)
       : average_(average), standing_(typical(standing)) {
-    for (const TagCluster& cluster : clusters) inside_[cluster.segment] = inside(cluster);
+    for (const TagCluster& cluster : clusters) {
+      inside_[cluster.segment] = inside(cluster);
+      clusters_[cluster.segment] = &cluster;
+    }
     frames_.assign(standing.begin(), standing.end());
     frames_.insert(frames_.end(), moving.begin(), moving.end());
     out_.lengths = lengths_of(average);
@@ -95,6 +98,7 @@ class FrameFinder {
     }
     for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
       if (const Status ok = find_limb_centres(limb); !ok) return ok.error();
+      slide_along_hinge(limb);
     }
     set_hips();
     set_thorax();
@@ -106,6 +110,9 @@ class FrameFinder {
   }
 
  private:
+  // Root mean square sine of the flexion of a limb that bends at all.
+  static constexpr double kBendsAtAll = 0.1;
+
   struct LimbCentres {
     glm::dvec3 root_in_trunk{0.0};
     glm::dvec3 root_in_upper{0.0};
@@ -180,6 +187,57 @@ class FrameFinder {
     const double length_m = glm::length(average_[bones.end]);
     return c.mid_in_lower +
            glm::conjugate(standing_.at(bones.lower).rotation) * (along * length_m);
+  }
+
+  /// Squared distances between the bone's axis and the lines along its tags' normals.
+  /// [m^2]
+  double off_axis_m2(B bone, const glm::dvec3& origin, const glm::dvec3& axis) const {
+    double sum = 0.0;
+    for (const auto& [tag, cluster_from_tag] : clusters_.at(bone)->cluster_from_tag) {
+      const glm::dvec3 normal = cluster_from_tag.rotation * glm::dvec3(0, 0, 1);
+      const glm::dvec3 across = glm::cross(axis, normal);
+      // A tag that faces along the bone says nothing.
+      const double off_m = glm::dot(cluster_from_tag.translation - origin, across) /
+                           (glm::length(across) + 0.05);
+      sum += off_m * off_m;
+    }
+    return sum;
+  }
+
+  /// Movement hardly says where a knee or elbow is along its hinge: there the tags say
+  /// it, which face away from the bones.
+  void slide_along_hinge(std::size_t limb) {
+    constexpr double kFurthest_m = 0.15;
+    constexpr double kStep_m = 0.005;
+    // A metre of slide for nothing counts like this much off the axes.
+    constexpr double kInertia = 0.1;
+    const HumanLimb& bones = human_limbs()[limb];
+    if (!standing_.contains(bones.upper) || !standing_.contains(bones.lower)) return;
+    LimbCentres& c = centres_[limb];
+    const glm::dvec3 in_upper = hinge_in(bones.upper, limb);
+    const glm::dvec3 in_lower = hinge_in(bones.lower, limb);
+    if (glm::length(in_upper) < kBendsAtAll || glm::length(in_lower) < kBendsAtAll)
+      return;
+    const glm::dvec3 hinge_in_upper = glm::normalize(in_upper);
+    const glm::dvec3 hinge_in_lower = glm::normalize(in_lower);
+    double best_m = 0.0;
+    double least = std::numeric_limits<double>::infinity();
+    for (double slide_m = -kFurthest_m; slide_m <= kFurthest_m; slide_m += kStep_m) {
+      const glm::dvec3 upper =
+          glm::normalize(c.mid_in_upper + slide_m * hinge_in_upper - c.root_in_upper);
+      const glm::dvec3 lower = glm::conjugate(standing_.at(bones.lower).rotation) *
+                               (standing_.at(bones.upper).rotation * upper);
+      const double off_m2 =
+          off_axis_m2(bones.upper, c.root_in_upper, upper) +
+          off_axis_m2(bones.lower, c.mid_in_lower + slide_m * hinge_in_lower, lower) +
+          kInertia * kInertia * slide_m * slide_m;
+      if (off_m2 >= least) continue;
+      least = off_m2;
+      best_m = slide_m;
+    }
+    c.mid_in_upper += best_m * hinge_in_upper;
+    c.mid_in_lower += best_m * hinge_in_lower;
+    if (const auto straight = straight_end(limb)) c.end_in_lower = *straight;
   }
 
   void set_hips() {
@@ -261,7 +319,6 @@ class FrameFinder {
     const glm::dvec3 along = limb_axis(limb);
     const auto place = [&](B bone, const glm::dvec3& from, const glm::dvec3& to) {
       glm::dvec3 hinge = hinge_in(bone, limb);
-      constexpr double kBendsAtAll = 0.1;  // Root mean square sine of the flexion.
       if (glm::length(hinge) < kBendsAtAll) hinge = standing_hinge(bone, limb);
       const glm::dquat turn = align(to - from, hinge, along, bones.hinge_axis);
       out_.segment_from_cluster[bone] = {turn, -(turn * from)};
@@ -345,6 +402,7 @@ class FrameFinder {
   const Proportions& average_;
   std::map<B, RigidTransform> standing_;
   std::map<B, glm::dvec3> inside_;
+  std::map<B, const TagCluster*> clusters_;
   std::vector<ClusterPoses> frames_;
   std::array<LimbCentres, 4> centres_;
   SegmentFrames out_;

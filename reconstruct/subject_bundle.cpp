@@ -108,7 +108,7 @@ void BundleSolver::linearise_frame(const SubjectBundle& bundle,
   // A collar bone of this person's may well rest otherwise than usual, in all frames
   // alike: together they count as one, or they would move the shoulders' centres.
   out.posture.add_habits(
-      frame.posture, unfolded, kTrialTwists, 1.0 / frames_, std::sqrt(frames_));
+      frame.posture, unfolded, bundle.twists, 1.0 / frames_, std::sqrt(frames_));
   if (frame.standing) {
     out.posture.add_standing(frame.posture, unfolded, 1.0 / standing_);
   }
@@ -180,35 +180,41 @@ std::optional<double> adjust(SubjectBundle& bundle,
                              std::span<const Camera> cameras,
                              int max_iterations,
                              const BundleFreedom& freedom) {
-  // A step that gains less than this share of the cost is the last.
+  // Steps that gain less than this share of the cost, one after the other, are the last.
   constexpr double kGain = 1e-6;
   constexpr double kMostDamping = 1e8;
+  // Where a limb's middle joint lies along its hinge hardly changes the cost: damping in
+  // shares of the diagonal holds it, and has to go.
+  constexpr double kNearlyFree = 1e-11;
+  const double least_raised = freedom.is_first ? 1e-3 : 1e-9;
   const BundleSolver solver(bundle, cameras, freedom);
   BundleSolver::Linear now;
   BundleSolver::Linear next;
   BundleSolver::Step step;
   solver.linearise(bundle, now);
-  double damping = 1e-4;
+  double damping = freedom.is_first ? 1e-4 : 1e-6;
+  double raise = 4.0;
   for (int i = 0; i < max_iterations; ++i) {
-    if (!solver.step(now, damping, step)) {
-      damping = std::max(1e-3, 10.0 * damping);
-      if (damping > kMostDamping) return std::nullopt;
-      continue;
-    }
+    bool better = solver.step(now, damping, step);
     SubjectBundle moved = bundle;
-    solver.move(step, moved);
-    const double cost = solver.linearise(moved, next);
-    if (!(cost < now.cost)) {
-      damping = std::max(1e-3, 10.0 * damping);
+    if (better) {
+      solver.move(step, moved);
+      better = solver.linearise(moved, next) < now.cost;
+    }
+    if (!better) {
+      damping = std::max(least_raised, damping) * raise;
+      raise *= 2.0;
       if (damping > kMostDamping) break;
       continue;
     }
-    const bool last = now.cost - cost < kGain * now.cost;
+    const bool last = now.cost - next.cost < kGain * now.cost && damping < 1e-9;
     bundle = std::move(moved);
     std::swap(now, next);
-    damping = std::max(1e-9, 0.2 * damping);
+    damping = damping < kNearlyFree ? 0.0 : (freedom.is_first ? 0.2 : 0.1) * damping;
+    raise = 4.0;
     if (last) break;
   }
+  if (!std::isfinite(now.cost)) return std::nullopt;
   return now.cost;
 }
 

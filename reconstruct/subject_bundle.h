@@ -30,6 +30,12 @@ struct TagSigma {
   double rad = 0.0;
 };
 
+/// Over a range-of-motion trial, elbows bend about one axis of the arm's skin; what turns
+/// about the bone would otherwise hide where along that axis the elbow lies.
+inline constexpr TwistHabits kFirstTwists{0.1, 0.1, 0.08};
+/// Skin follows the turn of an upper arm only in part: once the joints are nearly right.
+inline constexpr TwistHabits kTrialTwists{0.3, 0.1, 0.08};
+
 struct SubjectBundle {
   BodyModel model;
   Lengths usual{};  ///< Of an average person: the prior.
@@ -37,6 +43,7 @@ struct SubjectBundle {
   /// Corners of all tags stray this many times farther than they claim.
   double noise_scale = 1.0;
   BoneSlips slips_m{};  ///< Of the tags on each segment.
+  TwistHabits twists = kFirstTwists;
 
   // Filled by measure() and fill_sigmas().
   Lengths length_sigma_m{};
@@ -59,6 +66,8 @@ struct BundleFreedom {
   /// This limb's alone: its frame, bends, twists and extremity in every frame, its two
   /// lengths and its tags. All others are held. nullopt: everything.
   std::optional<std::size_t> limb;
+  /// From a first guess: steps are held back, so that they stay in its valley.
+  bool is_first = false;
 };
 
 /// Moves lengths, tag poses and postures to the least robust cost nearby (Levenberg and

@@ -12,9 +12,6 @@
 
 namespace marey::reconstruct {
 
-// Over a range-of-motion trial, elbows bend about one axis of the arm's skin; what turns
-// about the bone would otherwise hide where along that axis the elbow lies.
-inline constexpr TwistHabits kTrialTwists{0.1, 0.1, 0.08};
 /// Of a frame by itself.
 inline constexpr TwistHabits kFrameTwists{};
 
