@@ -83,8 +83,9 @@ Result<FileMotion> read(const ConvertArguments& arguments) {
   if (kind == ".bvh") return read_bvh(arguments);
   if (kind == ".amc") return read_acclaim(arguments);
   if (!arguments.unit.empty()) {
-    return bad_input(
-        arguments.in.string(), "glTF is in metres always", "leave out --unit");
+    return bad_input(arguments.in.string(),
+                     std::string(kind == ".npz" ? "NPZ" : "glTF") + " is in metres always",
+                     "leave out --unit");
   }
   auto raw = read_raw_body(arguments.in);
   if (!raw) return raw.error();
@@ -92,7 +93,13 @@ Result<FileMotion> read(const ConvertArguments& arguments) {
     return bad_input(
         arguments.in.string(), "holds no animation", "give a file with a motion");
   }
-  return FileMotion{std::move(raw->motion), raw->ignored_translation_m, {}, raw->unit};
+  FileMotion read{std::move(raw->motion), raw->ignored_translation_m, {}, raw->unit};
+  if (kind == ".npz") {
+    read.notes.emplace_back(
+        "NPZ does not hold the ends of the last bones (head, hands, toes), and its sigmas "
+        "and contacts are not converted");
+  }
+  return read;
 }
 
 Error cannot(const ConvertArguments& arguments, std::string cause, std::string next) {
@@ -209,7 +216,7 @@ void tell(const ConvertArguments& arguments,
 
 bool is_motion(const std::filesystem::path& file) {
   const std::string kind = kind_by_extension(file);
-  return kind == ".bvh" || kind == ".amc" || is_gltf(file);
+  return kind == ".bvh" || kind == ".amc" || kind == ".npz" || is_gltf(file);
 }
 
 Exit convert_motion(const ConvertArguments& arguments, bool json, Console& console) {

@@ -132,6 +132,9 @@ Result<Json> inspect_body(const std::filesystem::path& file,
     if (!ok) return ok.error();
     console.say("picture: " + options.picture.string());
   }
+  // A map that was named and does not fit is a mistake; without one, what is known of the
+  // body is the answer.
+  if (!body && options.bone_map) return body.error();
   return out;
 }
 

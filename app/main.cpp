@@ -151,7 +151,7 @@ void add_convert(CLI::App& app, Arguments& args, Command& chosen) {
   ConvertArguments& c = args.convert;
   const CLI::IsMember axis({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
   const CLI::IsMember unit({"mm", "cm", "m"});
-  command->add_option("in", c.in, ".c3d or .trc; .bvh, .amc, .glb, .vrm or .vrma")
+  command->add_option("in", c.in, ".c3d or .trc; .bvh, .amc, .npz, .glb, .vrm or .vrma")
       ->required();
   command
       ->add_option("out",

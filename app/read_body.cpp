@@ -9,6 +9,7 @@
 #include "recordings/asf.h"
 #include "recordings/bone_map_file.h"
 #include "recordings/bvh.h"
+#include "recordings/npz.h"
 #include "retarget/body_map.h"
 #include "retarget/fit_volume.h"
 
@@ -53,6 +54,17 @@ Result<RawBody> read_acclaim(const std::filesystem::path& path) {
   raw.motion = std::move(amc->motion);
   raw.has_motion = true;
   raw.ignored_translation_m = amc->ignored_translation_m;
+  return raw;
+}
+
+/// Its poses alone: sigmas and contacts are not a body's.
+Result<RawBody> read_npz(const std::filesystem::path& path) {
+  auto npz = recordings::read_npz(path);
+  if (!npz) return npz.error();
+  RawBody raw;
+  raw.has_motion = true;
+  raw.motion = std::move(npz->motion);
+  raw.unit = {1.0, true};
   return raw;
 }
 
@@ -117,8 +129,9 @@ Result<RawBody> read_raw_body(const std::filesystem::path& path) {
   if (is_gltf(path)) return read_gltf(path);
   if (kind_by_extension(path) == ".bvh") return read_bvh(path);
   if (kind_by_extension(path) == ".amc") return read_acclaim(path);
+  if (kind_by_extension(path) == ".npz") return read_npz(path);
   return bad_input(path.string(),
-                   "is not a .bvh, .amc, .glb, .gltf, .vrm or .vrma file",
+                   "is not a .bvh, .amc, .npz, .glb, .gltf, .vrm or .vrma file",
                    "convert it to one of these");
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -32,6 +33,35 @@ recordings::FileAxes target_axes(const ConvertArguments& arguments,
   return axes;
 }
 
+/// Why what marey wrote itself cannot be converted, and what to use instead.
+std::optional<Error> no_conversion(const std::filesystem::path& in) {
+  std::error_code ignored;
+  const std::string kind = kind_by_extension(in);
+  if (std::filesystem::is_directory(in, ignored)) {
+    return bad_input(in.string(),
+                     "a folder is not converted",
+                     "name a file in it: TRIAL/motion.npz, motion.bvh, motion.glb or "
+                     "markers.c3d; marey inspect says what a folder holds");
+  }
+  if (kind == ".mot" || kind == ".sto") {
+    return bad_input(in.string(),
+                     "joint angles hold no body, whose lengths a motion needs",
+                     "convert the motion.npz, .bvh or .glb that they were written with");
+  }
+  if (kind == ".sqlite") {
+    return bad_input(in.string(),
+                     "a take holds what cameras saw, not a motion",
+                     "process the session of a recorded take (marey process), or play a "
+                     "live take (marey replay)");
+  }
+  if (kind == ".csv" || kind == ".json" || kind == ".toml") {
+    return bad_input(in.string(),
+                     "tables and settings are not converted",
+                     "convert the motion.npz, motion.bvh or markers.c3d of the same trial");
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Exit run_convert(const ConvertArguments& arguments, bool json, Console& console) {
@@ -41,13 +71,14 @@ Exit run_convert(const ConvertArguments& arguments, bool json, Console& console)
                                   "that is the file to be converted",
                                   "give the result another name"));
   }
+  if (const auto error = no_conversion(arguments.in)) return console.fail(*error);
   if (is_motion(arguments.in)) return convert_motion(arguments, json, console);
   if (arguments.rate_hz || arguments.to_rate_hz || !arguments.skeleton.empty() ||
       !arguments.bvh_dialect.empty()) {
     return console.fail(
         bad_input(arguments.in.string(),
                   "--rate, --to-rate, --skeleton and --bvh-dialect are for motions alone",
-                  "leave them out, or give a .bvh, .amc, .glb, .vrm or .vrma"));
+                  "leave them out, or give a .bvh, .amc, .npz, .glb, .vrm or .vrma"));
   }
   recordings::MarkerReadOptions read_as;
   if (!arguments.up.empty()) read_as.up = recordings::axis_of(arguments.up);

@@ -109,13 +109,15 @@ Result<ViewedRecording> any_view(const fs::path& what, const std::string& trial)
   if (is_live_take(what)) return read_live_take_view(what);
   if (fs::is_directory(what, ignored)) return folder_view(what, trial);
   const std::string kind = kind_by_extension(what);
-  if (is_gltf(what) || kind == ".bvh" || kind == ".amc") return motion_view(what);
+  if (is_gltf(what) || kind == ".bvh" || kind == ".amc" || kind == ".npz") {
+    return motion_view(what);
+  }
   if (kind == ".c3d" || kind == ".trc") return marker_view(what);
   if (kind == ".toml" && recordings::is_calibration(what)) return camera_view(what);
   return bad_input(
       what.string(),
       "is nothing that can be shown",
-      "give a motion (.bvh, .amc, .glb, .vrm, .vrma), markers (.c3d, .trc), a "
+      "give a motion (.bvh, .amc, .npz, .glb, .vrm, .vrma), markers (.c3d, .trc), a "
       "calibration.toml, a folder of results or a take of marey live");
 }
 

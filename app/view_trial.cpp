@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "app/json_file.h"
 #include "app/view_figure.h"
 #include "app/view_files.h"
 #include "core/extension.h"
@@ -18,7 +18,7 @@ namespace marey::app {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;
 
 bool is_there(const fs::path& file) {
   std::error_code ignored;
@@ -74,8 +74,9 @@ Status read_doubt(const fs::path& folder, ViewedFigure& figure, int& first_frame
 
 /// What the report says of this trial; null where there is none.
 Json report_of(const fs::path& results, const std::string& trial) {
-  std::ifstream in(results / "report.json");
-  const Json report = Json::parse(in, nullptr, false);
+  const auto read = read_json(results / "report.json");
+  if (!read) return {};
+  const Json& report = *read;
   if (!report.is_object() || !report.contains("trials")) return {};
   const Json& trials = report["trials"];
   if (!trials.is_array()) return {};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "capture/opencv_reading.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <ios>
@@ -59,6 +61,35 @@ bool is_cut_short(const std::vector<char>& bytes) {
   return scan == text.npos || end == text.npos || end < scan;
 }
 
+/// The size that a PNG or JPEG says it has, in pixels; 0: it says none.
+std::uint64_t told_pixels(const std::vector<char>& bytes) {
+  const auto word = [&](std::size_t at, std::size_t size) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      value = value << 8U | static_cast<unsigned char>(bytes[at + i]);
+    }
+    return value;
+  };
+  const std::size_t size = bytes.size();
+  // The first chunk's length and name, then width and height.
+  if (size >= 24 && word(0, 4) == 0x89504e47U) return word(16, 4) * word(20, 4);
+  if (size < 2 || word(0, 2) != 0xffd8U) return 0;
+  std::uint64_t most = 0;
+  for (std::size_t at = 2; size - at >= 9 && word(at, 1) == 0xffU;) {
+    const std::uint64_t mark = word(at + 1, 1);
+    if (mark == 0xffU) {
+      ++at;  // A mark may begin with any number of them.
+      continue;
+    }
+    // A frame's head: not the tables 0xc4, 0xc8 and 0xcc.
+    const bool is_frame = mark >= 0xc0U && mark <= 0xcfU && mark % 4 != 0;
+    if (is_frame || mark == 0xc0U) most = std::max(most, word(at + 5, 2) * word(at + 7, 2));
+    if (mark == 0xdaU || word(at + 2, 2) + 2 > size - at) break;
+    at += static_cast<std::size_t>(word(at + 2, 2)) + 2;
+  }
+  return most;
+}
+
 /// FFmpeg takes what it opens for a URL: "a:b.mkv" would be of a protocol "a".
 std::string url_of(const std::filesystem::path& path) {
   return "file:" + path.string();
@@ -97,6 +128,12 @@ Result<cv::Mat> read_image(const std::filesystem::path& path,
   try {
     // From memory: there a file that was cut short fails, where imread() would pad it.
     const std::vector<char> bytes = bytes_of(path);
+    constexpr std::uint64_t kMostPixels = 200'000'000;
+    if (told_pixels(bytes) > kMostPixels) {
+      return bad_input(name,
+                       "the image says that it has more than 200 million pixels",
+                       "copy it from the camera again, or remove it");
+    }
     if (!bytes.empty() && !is_cut_short(bytes)) image = cv::imdecode(bytes, mode);
   } catch (const cv::Exception&) {
     image.release();

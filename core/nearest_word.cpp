@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "core/assert.h"
@@ -27,6 +28,7 @@ std::size_t cost_of_change(char a, char b) {
 }
 
 std::size_t distance(std::string_view a, std::string_view b) {
+  b = b.substr(0, kLongestWord);
   std::vector<std::size_t> row(b.size() + 1);  // From a's first i letters to b's first j.
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j * kLetter;
   for (std::size_t i = 1; i <= a.size(); ++i) {
@@ -52,11 +54,15 @@ std::string suggestion(std::string_view wrong, std::span<const std::string_view>
       });
   const std::size_t letters = std::max(wrong.size(), nearest->size());
   if (5 * distance(wrong, *nearest) <= 2 * kLetter * letters) {
-    return std::string("perhaps you mean \"").append(*nearest).append("\"");
+    return std::string("perhaps you mean \"")
+        .append(nearest->substr(0, kLongestWord))
+        .append("\"");
   }
   std::string text = "choose one of ";
   for (std::size_t i = 0; i < words.size(); ++i) {
-    text.append(i == 0 ? "\"" : ", \"").append(words[i]).append("\"");
+    text.append(i == 0 ? "\"" : ", \"")
+        .append(words[i].substr(0, kLongestWord))
+        .append("\"");
   }
   return text;
 }
@@ -65,11 +71,16 @@ std::vector<std::string_view> nearest_words(std::string_view wrong,
                                             std::span<const std::string_view> words,
                                             std::size_t count) {
   wrong = wrong.substr(0, kLongestWord);
-  std::vector<std::string_view> nearest(words.begin(), words.end());
-  std::stable_sort(nearest.begin(), nearest.end(), [&](auto a, auto b) {
-    return distance(wrong, a) < distance(wrong, b);
+  // Each distance once: a body's joints may be thousands.
+  std::vector<std::pair<std::size_t, std::string_view>> ranked;
+  for (const std::string_view word : words)
+    ranked.emplace_back(distance(wrong, word), word);
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
+    return a.first < b.first;
   });
-  if (nearest.size() > count) nearest.resize(count);
+  if (ranked.size() > count) ranked.resize(count);
+  std::vector<std::string_view> nearest;
+  for (const auto& [letters, word] : ranked) nearest.push_back(word);
   return nearest;
 }
 

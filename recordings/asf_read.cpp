@@ -93,9 +93,16 @@ class Parser {
     if (in_bone_) return fail("the file ends inside a bone");
     if (file_.bones.size() == 1) return fail("the file has no bones: it is no .asf file");
     if (!has_hierarchy_) return fail("the file ends before its :hierarchy");
-    const std::vector<bool> hangs = hanging_on_root();
-    for (std::size_t i = 1; i < hangs.size(); ++i) {
-      if (hangs[i]) continue;
+    if (file_.bones.size() > kMaxJoints) {
+      return fail("there are more than " + std::to_string(kMaxJoints) + " bones");
+    }
+    const std::vector<std::size_t> levels = levels_below_root();
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+      if (levels[i] > kMaxSkeletonDepth) {
+        return fail("bones hang on bones more than " + std::to_string(kMaxSkeletonDepth) +
+                    " levels deep");
+      }
+      if (levels[i] > 0) continue;
       return fail("the bone " + shown(file_.bones[i].name) +
                   " does not hang on the root in the :hierarchy");
     }
@@ -264,17 +271,21 @@ class Parser {
     return Done{};
   }
 
-  /// Per bone. Those that hang on themselves do not.
-  [[nodiscard]] std::vector<bool> hanging_on_root() const {
-    std::vector<bool> reached(file_.bones.size(), false);
+  /// Per bone, from 1 for the root; 0 for bones that do not hang on it, such as those of
+  /// a circle.
+  [[nodiscard]] std::vector<std::size_t> levels_below_root() const {
+    std::vector<std::size_t> levels(file_.bones.size(), 0);
+    levels[0] = 1;
     std::vector<std::size_t> open{0};
     while (!open.empty()) {
-      const Bone& bone = file_.bones[open.back()];
-      reached[open.back()] = true;
+      const std::size_t above = open.back();
       open.pop_back();
-      open.insert(open.end(), bone.children.begin(), bone.children.end());
+      for (const std::size_t child : file_.bones[above].children) {
+        levels[child] = levels[above] + 1;
+        open.push_back(child);
+      }
     }
-    return reached;
+    return levels;
   }
 
   TextReader reader_;

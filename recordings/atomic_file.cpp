@@ -10,6 +10,12 @@
 #include <random>
 #include <system_error>
 #include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace marey::recordings {
 namespace fs = std::filesystem;
@@ -28,9 +34,10 @@ static_assert(std::atomic<int>::is_always_lock_free, "a handler may use it");
 // A global, because a signal's handler gets no argument.
 std::array<PartialPath, 16> partial_paths;  // NOLINT(*-non-const-global-variables)
 
-const std::string& word_of_process() {
+/// Differs between the processes of one fork, too.
+std::string word_of_process() {
   static const std::string word = std::to_string(std::random_device()());
-  return word;
+  return word + std::to_string(::getpid());
 }
 
 void remember(const std::string& path) {
@@ -63,6 +70,66 @@ Status make_parent_folder(const fs::path& path) {
                    "choose an output folder that may be written to");
 }
 
+/// A file that is open for its lock alone. The lock ends with the process, however that
+/// ends, so that an unlocked partial file has no writer.
+class Lock {
+ public:
+  explicit Lock(const fs::path& path)
+      : fd_(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)) {
+    if (fd_ < 0) return;
+    is_held_ = ::fstat(fd_, &stat_) == 0 && S_ISREG(stat_.st_mode) &&
+               ::flock(fd_, LOCK_EX | LOCK_NB) == 0 && ::fstat(fd_, &stat_) == 0;
+  }
+  ~Lock() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Lock(const Lock&) = delete;
+  Lock& operator=(const Lock&) = delete;
+
+  [[nodiscard]] bool is_held() const { return is_held_; }
+  /// Another process removed the file between its opening and its lock.
+  [[nodiscard]] bool is_removed() const { return is_held_ && stat_.st_nlink == 0; }
+  [[nodiscard]] bool is_ours_alone() const {
+    return is_held_ && stat_.st_nlink == 1 && stat_.st_uid == ::geteuid();
+  }
+  /// Hands over the open file, which keeps the lock; -1: there is no lock.
+  [[nodiscard]] int release() { return is_held_ ? std::exchange(fd_, -1) : -1; }
+
+ private:
+  int fd_ = -1;
+  bool is_held_ = false;
+  struct stat stat_ {};
+};
+
+/// "NAME.123456.partial" for the file NAME.
+bool is_partial_of(std::string_view found, std::string_view name) {
+  constexpr std::string_view kEnd = ".partial";
+  if (!found.starts_with(name) || !found.ends_with(kEnd)) return false;
+  if (found.size() < name.size() + 2 + kEnd.size()) return false;
+  const std::string_view word =
+      found.substr(name.size(), found.size() - name.size() - kEnd.size());
+  return word[0] == '.' &&
+         word.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+/// Removes what killed processes of this user left of the same file: ordinary partial
+/// files that no process holds a lock on. Links are neither followed nor removed.
+void remove_stale(const fs::path& path) {
+  std::error_code problem;
+  const std::string name = path.filename().string();
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::vector<fs::path> stale;
+  for (auto it = fs::directory_iterator(folder, problem);
+       !problem && it != fs::directory_iterator();
+       it.increment(problem)) {
+    if (is_partial_of(it->path().filename().string(), name)) stale.push_back(it->path());
+  }
+  for (const fs::path& partial : stale) {
+    const Lock lock(partial);
+    if (lock.is_ours_alone()) ::unlink(partial.c_str());
+  }
+}
+
 std::string reason(int error) {
   return error == 0 ? "" : ": " + std::generic_category().message(error);
 }
@@ -87,6 +154,7 @@ AtomicFile::AtomicFile(AtomicFile&& other) noexcept
     : path_(std::move(other.path_)),
       partial_(std::move(other.partial_)),
       stream_(std::move(other.stream_)),
+      lock_fd_(std::exchange(other.lock_fd_, -1)),
       write_errno_(other.write_errno_),
       open_(std::exchange(other.open_, false)) {}
 
@@ -100,7 +168,29 @@ void AtomicFile::discard() {
   stream_.close();
   std::error_code ignored;
   fs::remove(partial_, ignored);
+  unlock();
   forget(partial_.string());
+}
+
+void AtomicFile::unlock() {
+  const int fd = std::exchange(lock_fd_, -1);
+  if (fd >= 0) ::close(fd);
+}
+
+bool AtomicFile::open_partial() {
+  // Another process may take a file without a lock for a stale one: then once more.
+  for (int attempt = 0; attempt < 10; ++attempt) {
+    errno = 0;
+    stream_.open(partial_, std::ios::binary | std::ios::trunc);
+    if (!stream_) return false;
+    Lock lock(partial_);
+    if (!lock.is_removed()) {
+      lock_fd_ = lock.release();
+      return true;
+    }
+    stream_.close();
+  }
+  return false;
 }
 
 Result<AtomicFile> AtomicFile::create(const fs::path& path) {
@@ -117,10 +207,9 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
   }
   if (const Status made = make_parent_folder(path); !made) return made.error();
   AtomicFile file(path);
+  remove_stale(path);
   remember(file.partial_.string());  // Before it is there, so that no signal is between.
-  errno = 0;
-  file.stream_.open(file.partial_, std::ios::binary | std::ios::trunc);
-  if (!file.stream_) {
+  if (!file.open_partial()) {
     const int error = errno;
     forget(file.partial_.string());
     return bad_input(path.string(),
@@ -155,6 +244,7 @@ Status AtomicFile::commit() {
     return disk_error(path_, "the file cannot be put in place", problem.value());
   }
   open_ = false;
+  unlock();
   forget(partial_.string());
   return Done{};
 }

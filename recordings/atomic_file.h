@@ -14,6 +14,8 @@ namespace marey::recordings {
 /// A file being written beside its final place (PATH.WORD.partial, with a word of this
 /// process' own, so that two programs do not write into one). It appears at PATH, whole
 /// and at once, with commit(); without one, or after any failure, nothing is left behind.
+/// The partial file is locked while it is being written: what a killed process left is not
+/// and is removed by the next one that creates the same file.
 ///
 ///   Result<AtomicFile> file = AtomicFile::create(path);
 ///   if (!file) return file.error();
@@ -43,10 +45,13 @@ class AtomicFile {
  private:
   explicit AtomicFile(std::filesystem::path path);
   void discard();
+  void unlock();
+  [[nodiscard]] bool open_partial();
 
   std::filesystem::path path_;
   std::filesystem::path partial_;
   std::ofstream stream_;
+  int lock_fd_ = -1;     ///< Holds the partial file's lock; -1: the disk knows no locks.
   int write_errno_ = 0;  ///< Of the first append() that failed.
   bool open_ = false;    ///< The partial file is ours to commit or to remove.
 };

@@ -209,11 +209,11 @@ class Parser {
       const std::string_view word = reader_.word();
       const std::string keyword = lower(word);
       Status done = Done{};
-      // Deeper than any body, and than programs that go down the tree can.
-      constexpr std::size_t kDeepest = 1000;
-      if (keyword == "joint" && open.size() >= kDeepest) {
-        done = fail("joints hang on joints more than " + std::to_string(kDeepest) +
-                    " levels deep");
+      if (keyword == "joint" && open.size() >= kMaxSkeletonDepth) {
+        done = fail("joints hang on joints more than " +
+                    std::to_string(kMaxSkeletonDepth) + " levels deep");
+      } else if (keyword == "joint" && file_.skeleton.joints.size() >= kMaxJoints) {
+        done = fail("there are more than " + std::to_string(kMaxJoints) + " joints");
       } else if (keyword == "joint") {
         done = begin_joint(open.back());
         open.push_back(JointIndex{static_cast<int>(file_.skeleton.joints.size()) - 1});

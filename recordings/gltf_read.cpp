@@ -15,9 +15,11 @@
 #include <tiny_gltf.h>
 
 #include "recordings/atomic_file.h"
+#include "recordings/gltf_files.h"
 #include "recordings/gltf_model.h"
 #include "recordings/gltf_source.h"
 #include "recordings/motion_limits.h"
+#include "recordings/nesting.h"
 
 namespace marey::recordings {
 namespace {
@@ -61,8 +63,9 @@ Result<std::string> json_of(const NamedModel& file, std::string_view bytes) {
   return std::string(bytes.substr(kGlbHeaderBytes, json_bytes));
 }
 
-/// Keeps an image's bytes as they are: marey has no use for its pixels.
-bool keep_image(tinygltf::Image* /*image*/,
+/// Keeps an image's bytes as they are: marey has no use for its pixels. An image in a
+/// buffer is left to copy_buffered_images(): its range is not checked yet.
+bool keep_image(tinygltf::Image* image,
                 const int place,
                 std::string* /*error*/,
                 std::string* /*warning*/,
@@ -71,6 +74,7 @@ bool keep_image(tinygltf::Image* /*image*/,
                 const unsigned char* bytes,
                 int size,
                 void* images) {
+  if (image->bufferView >= 0) return true;
   auto& kept = *static_cast<std::map<int, std::string>*>(images);
   kept[place].assign(reinterpret_cast<const char*>(bytes),
                      static_cast<std::size_t>(size));
@@ -91,6 +95,8 @@ Status load_model(const NamedModel& file,
   tinygltf::TinyGLTF loader;
   std::map<int, std::string> images;
   loader.SetImageLoader(keep_image, &images);
+  ExternalFiles files;
+  read_external_files(loader, files);
   std::string error;
   std::string warning;
   const std::string folder = path.parent_path().string();
@@ -118,10 +124,11 @@ Status load_model(const NamedModel& file,
                        ", which marey cannot read");
     }
   }
+  if (Status s = check_referred_numbers(file); !s) return s;
   for (const auto& buffer : model.buffers) {
     source.buffers.emplace_back(buffer.data.begin(), buffer.data.end());
   }
-  source.images.resize(model.images.size());
+  if (Status s = copy_buffered_images(file, source.images); !s) return s;
   for (auto& [place, data] : images) {
     const auto i = static_cast<std::size_t>(place);
     if (i < source.images.size()) source.images[i] = std::move(data);
@@ -181,11 +188,19 @@ Result<NodeTree> tree_of(const NamedModel& file) {
   for (std::size_t i = nodes.size(); i-- > 0;) {
     if (!tree.parent[i]) open.push_back(i);
   }
+  std::vector<std::size_t> level(nodes.size(), 1);
   while (!open.empty()) {
     const std::size_t node = open.back();
     open.pop_back();
     tree.parents_first.push_back(node);
     const auto& children = nodes[node].children;
+    for (const int child : children) {
+      level[static_cast<std::size_t>(child)] = level[node] + 1;
+    }
+    if (level[node] > kMaxSkeletonDepth) {
+      return file.fail("its nodes are nested more than " +
+                       std::to_string(kMaxSkeletonDepth) + " deep");
+    }
     for (auto child = children.rbegin(); child != children.rend(); ++child) {
       open.push_back(static_cast<std::size_t>(*child));
     }
@@ -268,6 +283,10 @@ Result<GltfSource> parse_gltf_source(const std::string& bytes,
   auto json = json_of(file, bytes);
   if (!json) return json.error();
   source.json = *std::move(json);
+  if (json_nests_too_deep(source.json)) {
+    return file.fail("its JSON is nested more than " + std::to_string(kMaxNesting) +
+                     " deep");
+  }
   if (Status s = load_model(file, path, bytes, model, source); !s) {
     return s.error();
   }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <glm/gtc/quaternion.hpp>
 #include <tiny_gltf.h>
@@ -149,13 +151,60 @@ void apply(const Track& track, double time_s, NodePose& pose) {
   }
 }
 
+/// The nodes that joints' places depend on: joints, and what carries the root. A scene
+/// may hold any number of others, which need no place in each frame.
+struct MovingPart {
+  NodeTree tree;  ///< Parents first, so that places are in order.
+  std::vector<std::optional<std::size_t>> place_of_node;
+  std::vector<std::size_t> place_of_joint;
+};
+
+MovingPart moving_part(const NodeTree& tree, const NodeSkeleton& body) {
+  std::vector<std::size_t> nodes = body.node_of_joint;
+  for (auto above = tree.parent[nodes.front()]; above; above = tree.parent[*above]) {
+    nodes.insert(nodes.begin(), *above);
+  }
+  MovingPart part;
+  part.tree.world_from_file = tree.world_from_file;
+  part.place_of_node.resize(tree.rest.size());
+  for (const std::size_t node : nodes) {
+    const std::size_t place = part.tree.rest.size();
+    const auto& above = tree.parent[node];
+    part.place_of_node[node] = place;
+    part.tree.rest.push_back(tree.rest[node]);
+    part.tree.parent.push_back(above ? part.place_of_node[*above] : std::nullopt);
+    part.tree.parents_first.push_back(place);
+  }
+  for (const std::size_t node : body.node_of_joint) {
+    part.place_of_joint.push_back(*part.place_of_node[node]);
+  }
+  return part;
+}
+
+/// The tracks that move `part`, told by its places; of several of one property the last.
+std::vector<Track> moving_tracks(const MovingPart& part, std::vector<Track> tracks) {
+  std::map<std::pair<std::size_t, std::string>, std::size_t> last;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    last[{tracks[i].node, tracks[i].path}] = i;
+  }
+  std::vector<Track> kept;
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
+    const auto& place = part.place_of_node[tracks[i].node];
+    if (!place || last.at({tracks[i].node, tracks[i].path}) != i) continue;
+    tracks[i].node = *place;
+    kept.push_back(std::move(tracks[i]));
+  }
+  return kept;
+}
+
 /// Every joint's frame in its parent's, without scale.
 std::vector<RigidTransform> parent_from_joints(const PlacedNodes& placed,
+                                               const MovingPart& part,
                                                const NodeSkeleton& body) {
   std::vector<RigidTransform> world_from_joint;
   std::vector<RigidTransform> local;
-  for (std::size_t i = 0; i < body.node_of_joint.size(); ++i) {
-    const std::size_t node = body.node_of_joint[i];
+  for (std::size_t i = 0; i < part.place_of_joint.size(); ++i) {
+    const std::size_t node = part.place_of_joint[i];
     world_from_joint.push_back(
         {placed.rotation[node], glm::dvec3(placed.world_from_node[node][3])});
     const auto& parent = body.skeleton.joints[i].parent;
@@ -173,7 +222,7 @@ Result<ReadAnimation> read_animation(const NamedModel& file,
                                      const NodeSkeleton& body) {
   ReadAnimation result;
   if (file.model.animations.empty()) return result;
-  const auto tracks = read_tracks(file, file.model.animations.front());
+  auto tracks = read_tracks(file, file.model.animations.front());
   if (!tracks) return tracks.error();
   if (tracks->empty()) return result;
 
@@ -192,25 +241,27 @@ Result<ReadAnimation> read_animation(const NamedModel& file,
     return file.fail("the animation has frames beyond the millionth");
   }
   const auto frames = static_cast<std::size_t>(last - first) + 1;
+  const MovingPart part = moving_part(tree, body);
+  const std::vector<Track> moving = moving_tracks(part, *std::move(tracks));
   std::size_t numbers = 0;
-  for (const Track& track : *tracks) numbers += track.values.size();
-  if (too_many_rotations(body.node_of_joint.size(), frames, numbers)) {
+  for (const Track& track : moving) numbers += track.values.size();
+  if (too_many_rotations(part.tree.rest.size(), frames, numbers)) {
     return file.fail("the animation's few keys stand for " + std::to_string(frames) +
                      " frames, which do not fit into memory");
   }
   motion.first_frame = static_cast<int>(first);
-  std::vector<NodePose> poses = tree.rest;
+  std::vector<NodePose> poses = part.tree.rest;
   const auto last_frame = static_cast<int>(last);
   for (int frame = motion.first_frame; frame <= last_frame; ++frame) {
     const double time_s = frame / motion.rate.hz;
-    for (const Track& track : *tracks) apply(track, time_s, poses[track.node]);
-    const PlacedNodes placed = place_nodes(tree, poses);
-    for (const std::size_t node : body.node_of_joint) {
+    for (const Track& track : moving) apply(track, time_s, poses[track.node]);
+    const PlacedNodes placed = place_nodes(part.tree, poses);
+    for (const std::size_t node : part.place_of_joint) {
       if (is_near(placed, node)) continue;
       return file.fail("the animation takes a joint further than 10 km away");
     }
     PosedBones posed =
-        hand_travel_to_root(body.skeleton, parent_from_joints(placed, body));
+        hand_travel_to_root(body.skeleton, parent_from_joints(placed, part, body));
     motion.poses.push_back(std::move(posed.pose));
     result.ignored_translation_m =
         std::max(result.ignored_translation_m, posed.ignored_translation_m);

@@ -8,6 +8,7 @@
 #include <tiny_gltf.h>
 
 #include "recordings/gltf_model.h"
+#include "recordings/motion_limits.h"
 #include "recordings/text_reader.h"
 
 namespace marey::recordings {
@@ -149,6 +150,9 @@ Result<NodeSkeleton> skeleton_of(const NamedModel& file,
   for (const std::size_t node : tree.parents_first) {
     const bool under_root = tree.parent[node] && body.joint_of_node[*tree.parent[node]];
     if (node != *root && (!under_root || below[node] == 0)) continue;
+    if (body.skeleton.joints.size() >= kMaxJoints) {
+      return file.fail("it has more than " + std::to_string(kMaxJoints) + " joints");
+    }
     if (!is_near(placed, node)) {
       return file.fail("the node '" + file.model.nodes[node].name.substr(0, 40) +
                        "' lies further than 10 km away");

@@ -14,7 +14,8 @@ namespace marey::recordings {
 namespace {
 
 bool read_head(sqlite3* database, LiveTake& take) {
-  Statement live(database, "SELECT session, started, rate_hz, settings, finished FROM live");
+  Statement live(database,
+                 "SELECT session, started, rate_hz, settings, finished FROM live");
   if (!live.next_row()) return false;
   take.head.session = live.text(0);
   take.head.started = live.text(1);
@@ -38,6 +39,9 @@ bool read_instants(sqlite3* database, LiveTake& take) {
   while (rows.next_row()) {
     LiveTakeInstant one;
     one.seen.number = rows.integer(0);
+    if (!take.instants.empty() && one.seen.number <= take.instants.back().seen.number) {
+      return false;
+    }
     one.seen.time = Timestamp{rows.integer(1)};
     auto views = read_views(rows.bytes(2), take.head.cameras.size());
     if (!views) return false;
@@ -56,9 +60,8 @@ Result<LiveTake> read_live_take(const std::filesystem::path& path) {
   const std::string file = path.string();
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored)) {
-    return bad_input(file,
-                     "there is no live take",
-                     "name the folder that marey live --record made");
+    return bad_input(
+        file, "there is no live take", "name the folder that marey live --record made");
   }
   const Database database = open_recorded(path);
   const Error damaged =
@@ -75,7 +78,8 @@ Result<LiveTake> read_live_take(const std::filesystem::path& path) {
                      "replay it with that version");
   }
   LiveTake take;
-  if (!read_head(database.get(), take) || !read_instants(database.get(), take)) {
+  if (!has_schema(database.get(), kLiveTakeSchema) || !read_head(database.get(), take) ||
+      !read_instants(database.get(), take)) {
     return damaged;
   }
   return take;

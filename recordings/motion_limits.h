@@ -16,6 +16,12 @@ inline constexpr double kFurthest_m = 1e4;
 inline constexpr double kSlowestRateHz = 0.1;
 inline constexpr double kFastestRateHz = 2000.0;
 
+/// Maximum number of joints between a root and its farthest descendant. Programs that go
+/// down a skeleton recursively, and the indented text of a BVH, need a limit.
+inline constexpr std::size_t kMaxSkeletonDepth = 1000;
+/// Maximum number of joints of a skeleton; the largest known avatars have some thousands.
+inline constexpr std::size_t kMaxJoints = 30'000;
+
 /// Whether a motion holds more rotations than a file that says `numbers` numbers may ask
 /// for: an hour of a whole body at 120 Hz (some 600 MB), or one for each number.
 [[nodiscard]] inline bool too_many_rotations(std::size_t joints,

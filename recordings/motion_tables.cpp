@@ -105,12 +105,17 @@ std::optional<Source> source_of(std::string_view word) {
   return std::nullopt;
 }
 
-JointRow joint_row(CsvFields& fields) {
+JointRow place_row(CsvFields& fields) {
   JointRow row;
   row.frame = fields.number<int>();
   row.time_s = fields.number<double>();
   row.joint = fields.text();
   for (int i = 0; i < 3; ++i) row.p_in_world[i] = fields.number<double>();
+  return row;
+}
+
+JointRow joint_row(CsvFields& fields) {
+  JointRow row = place_row(fields);
   row.sigma_m = fields.number<double>();
   return row;
 }
@@ -220,6 +225,15 @@ Result<std::vector<SegmentRow>> read_segments_csv(const std::filesystem::path& p
   const Result<std::string> text = read_file(path);
   if (!text) return text.error();
   return parse_segments_csv(*text, path.string());
+}
+
+Result<std::vector<JointRow>> read_places_csv(const std::filesystem::path& path) {
+  const Result<std::string> text = read_file(path);
+  if (!text) return text.error();
+  return parse_table<JointRow>(
+      *text, path.string(), kPlacesHeader, [](CsvFields& fields) {
+        return std::optional(place_row(fields));
+      });
 }
 
 }  // namespace marey::recordings

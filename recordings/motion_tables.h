@@ -67,5 +67,8 @@ struct SegmentRow {
     const std::filesystem::path& path);
 [[nodiscard]] Result<std::vector<SegmentRow>> read_segments_csv(
     const std::filesystem::path& path);
+/// Reads what write_places_csv() wrote; every sigma is 0.
+[[nodiscard]] Result<std::vector<JointRow>> read_places_csv(
+    const std::filesystem::path& path);
 
 }  // namespace marey::recordings

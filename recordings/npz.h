@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/motion.h"
@@ -65,5 +66,26 @@ struct NpzExtras {
 [[nodiscard]] Status write_npz(const std::filesystem::path& path,
                                const Motion& motion,
                                const NpzExtras& extras = {});
+
+/// What read_npz() finds. Ends of bones (Joint::tip_in_joint) are not in the format.
+struct NpzMotion {
+  Motion motion;
+  std::vector<std::vector<JointDoubt>>
+      doubt;  ///< [frame][joint]; empty: not in the file.
+  NpzContacts contacts;
+  double start_s = 0.0;
+};
+
+/// Reads an archive of the layout above; arrays with other names are skipped. Array sizes
+/// are checked against the bytes that are there before anything is allocated.
+///
+/// Errors (kBadInput), with the array: no ZIP archive, or a damaged one; compressed; an
+/// array that is missing, of another type or shape, or with impossible values; a newer
+/// layout. Linear in the bytes.
+[[nodiscard]] Result<NpzMotion> parse_npz(std::string_view bytes,
+                                          const std::string& file);
+
+/// parse_npz() of the file at `path`.
+[[nodiscard]] Result<NpzMotion> read_npz(const std::filesystem::path& path);
 
 }  // namespace marey::recordings

@@ -13,11 +13,22 @@
 namespace marey::recordings {
 namespace {
 
-int line_at(std::string_view text, std::ptrdiff_t offset) {
-  const auto end =
-      std::clamp<std::ptrdiff_t>(offset, 0, static_cast<std::ptrdiff_t>(text.size()));
-  return 1 + static_cast<int>(std::count(text.begin(), text.begin() + end, '\n'));
-}
+/// Where lines begin, for any number of questions.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (text[i] == '\n') ends_.push_back(static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  [[nodiscard]] int at(std::ptrdiff_t offset) const {
+    const auto before = std::lower_bound(ends_.begin(), ends_.end(), offset);
+    return 1 + static_cast<int>(before - ends_.begin());
+  }
+
+ private:
+  std::vector<std::ptrdiff_t> ends_;
+};
 
 std::vector<TomlValue> words_of(std::string_view text, int line) {
   constexpr std::string_view kBlank = " \t\r\n";
@@ -32,15 +43,15 @@ std::vector<TomlValue> words_of(std::string_view text, int line) {
 
 /// A list where OpenCV wrote one: unnamed elements "_", several words, or a matrix's
 /// data.
-TomlValue value_of(const pugi::xml_node& node, std::string_view text, int depth) {
+TomlValue value_of(const pugi::xml_node& node, const Lines& lines, int depth) {
   constexpr int kDeepest = 32;
   TomlValue value;
-  value.line = line_at(text, node.offset_debug());
+  value.line = lines.at(node.offset_debug());
   std::vector<TomlValue> items;
   std::vector<TomlEntry> entries;
   for (const pugi::xml_node& child : node.children()) {
     if (child.type() != pugi::node_element || depth > kDeepest) continue;
-    TomlValue inner = value_of(child, text, depth + 1);
+    TomlValue inner = value_of(child, lines, depth + 1);
     const int line = inner.line;
     if (std::string_view(child.name()) == "_") {
       items.push_back(std::move(inner));
@@ -63,10 +74,11 @@ TomlValue value_of(const pugi::xml_node& node, std::string_view text, int depth)
 }  // namespace
 
 Result<TomlDocument> parse_opencv_xml(std::string_view text, const std::string& file) {
+  const Lines lines(text);
   pugi::xml_document xml;
   const pugi::xml_parse_result parsed = xml.load_buffer(text.data(), text.size());
   if (!parsed) {
-    return bad_input(file_and_line(file, line_at(text, parsed.offset)),
+    return bad_input(file_and_line(file, lines.at(parsed.offset)),
                      std::string("not valid XML: ") + parsed.description(),
                      "mend this line, or copy the file again");
   }
@@ -76,7 +88,7 @@ Result<TomlDocument> parse_opencv_xml(std::string_view text, const std::string& 
                      "has no <opencv_storage>",
                      "name a calibration that OpenCV wrote");
   }
-  TomlValue tree = value_of(root, text, 0);
+  TomlValue tree = value_of(root, lines, 0);
   if (!std::holds_alternative<std::vector<TomlEntry>>(tree.content)) {
     tree.content = std::vector<TomlEntry>();
   }

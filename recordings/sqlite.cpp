@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/sqlite.h"
 
+#include <algorithm>
 #include <system_error>
 
 namespace marey::recordings {
@@ -26,6 +27,39 @@ std::string uri_of(const std::filesystem::path& file) {
     }
   }
   return uri;
+}
+
+std::string without_blanks(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c != ' ' && c != '\n' && c != '\t' && c != '\r') out += c;
+  }
+  return out;
+}
+
+/// Of a database and its log.
+std::uintmax_t bytes_of(const std::filesystem::path& file) {
+  std::uintmax_t bytes = 0;
+  for (const char* suffix : {"", "-wal"}) {
+    std::error_code problem;
+    const auto size = std::filesystem::file_size(file.string() + suffix, problem);
+    if (!problem) bytes += size;
+  }
+  return bytes;
+}
+
+/// A database from elsewhere is not trusted: no views or triggers, and no value that is
+/// larger than the file.
+void limit_to(std::uintmax_t bytes, sqlite3* database) {
+  constexpr std::uintmax_t kMost = 1'000'000'000;
+  constexpr std::uintmax_t kLeast = 1'000'000;
+  sqlite3_limit(
+      database, SQLITE_LIMIT_LENGTH, static_cast<int>(std::clamp(bytes, kLeast, kMost)));
+  for (const int setting : {SQLITE_DBCONFIG_ENABLE_VIEW,
+                            SQLITE_DBCONFIG_ENABLE_TRIGGER,
+                            SQLITE_DBCONFIG_TRUSTED_SCHEMA}) {
+    sqlite3_db_config(database, setting, 0, nullptr);
+  }
 }
 
 }  // namespace
@@ -95,8 +129,26 @@ Result<Database> begin_recorded(const std::filesystem::path& file,
 
 Database open_recorded(const std::filesystem::path& file) {
   Database database = open_database(file, SQLITE_OPEN_READWRITE);
-  if (database && setting_of(database.get(), "schema_version") > 0) return database;
-  return open_database(file, SQLITE_OPEN_READONLY, "immutable=1");
+  if (!database || setting_of(database.get(), "schema_version") <= 0) {
+    database = open_database(file, SQLITE_OPEN_READONLY, "immutable=1");
+  }
+  if (database) limit_to(bytes_of(file), database.get());
+  return database;
+}
+
+bool has_schema(sqlite3* database, std::string_view schema) {
+  Statement rows(database, "SELECT coalesce(sql, '') FROM sqlite_schema ORDER BY rowid");
+  std::string found;
+  // Longer than the schema is another one: no more of it is read.
+  while (found.size() <= 2 * schema.size() && rows.next_row()) {
+    found += without_blanks(rows.text(0));
+    if (!found.empty() && found.back() != ';') found += ';';
+  }
+  return !rows.failed() && found == without_blanks(schema);
+}
+
+std::int64_t max_rows(const std::filesystem::path& file) {
+  return static_cast<std::int64_t>(bytes_of(file));
 }
 
 Statement::Statement(sqlite3* database, std::string_view text) {
@@ -125,8 +177,7 @@ void Statement::bind(int place, std::string_view value) {
 void Statement::bind(int place, std::span<const std::byte> value) {
   // Without a pointer it would be NULL, which a table may not take.
   const void* const bytes = value.empty() ? "" : static_cast<const void*>(value.data());
-  sqlite3_bind_blob64(
-      statement_.get(), place + 1, bytes, value.size(), SQLITE_TRANSIENT);
+  sqlite3_bind_blob64(statement_.get(), place + 1, bytes, value.size(), SQLITE_TRANSIENT);
 }
 
 bool Statement::run() {

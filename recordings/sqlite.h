@@ -53,8 +53,17 @@ struct RecordedKind {
 
 /// Opens a recording to be read; null when it cannot be. A log that was left behind is
 /// read with the file, which takes the right to write; a recording on a read-only disk is
-/// read without.
+/// read without. Views and triggers do not work in it, and no value is larger than the
+/// file.
 [[nodiscard]] Database open_recorded(const std::filesystem::path& file);
+
+/// Returns true if the tables are those of `schema` and nothing else: a table that
+/// computes its rows or columns has no end.
+[[nodiscard]] bool has_schema(sqlite3* database, std::string_view schema);
+
+/// Returns a number of rows that a table of this file cannot exceed: its pages may refer
+/// to each other in a circle.
+[[nodiscard]] std::int64_t max_rows(const std::filesystem::path& file);
 
 /// What SQLite says of a write that failed (kDevice).
 [[nodiscard]] Error disk_error(const std::string& file,

@@ -82,11 +82,11 @@ bool read_frames(sqlite3* database, Take& take) {
   return !rows.failed();
 }
 
-bool read_events(sqlite3* database, Take& take) {
+bool read_events(sqlite3* database, std::int64_t max_events, Take& take) {
   Statement rows(database, "SELECT camera, time_ns, text FROM event ORDER BY time_ns");
   while (rows.next_row()) {
     const auto camera = static_cast<std::size_t>(rows.integer(0));
-    if (camera >= take.cameras.size()) return false;
+    if (camera >= take.cameras.size() || --max_events < 0) return false;
     take.events.push_back(
         {static_cast<int>(camera), Timestamp{rows.integer(1)}, rows.text(2)});
   }
@@ -119,9 +119,9 @@ Result<Take> read_take(const std::filesystem::path& path) {
   }
   Take take;
   sqlite3* const raw = database.get();
-  const bool whole = version == kTakeVersion && read_head(raw, take) &&
-                     read_cameras(raw, take) && read_frames(raw, take) &&
-                     read_events(raw, take);
+  const bool whole = version == kTakeVersion && has_schema(raw, kTakeSchema) &&
+                     read_head(raw, take) && read_cameras(raw, take) &&
+                     read_frames(raw, take) && read_events(raw, max_rows(path), take);
   if (!whole) return damaged(file);
   return take;
 }

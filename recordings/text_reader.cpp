@@ -90,7 +90,12 @@ std::optional<int> to_integer(std::string_view word) {
 }
 
 std::string in_quotes(std::string_view word) {
-  return std::string("\"").append(word).append("\"");
+  // A broken file may hold words of megabytes; a path is shorter than this.
+  constexpr std::size_t kLongest = 200;
+  if (word.size() <= kLongest) return std::string("\"").append(word).append("\"");
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0U) == 0x80) --end;
+  return std::string("\"").append(word.substr(0, end)).append("...\"");
 }
 
 }  // namespace marey::recordings

@@ -47,7 +47,7 @@ class TextReader {
 /// The whole of `word` as an integer. nullopt otherwise.
 [[nodiscard]] std::optional<int> to_integer(std::string_view word);
 
-/// The word as messages show it: "word", quotes included.
+/// The word as messages show it: "word", quotes included, cut after 200 bytes.
 [[nodiscard]] std::string in_quotes(std::string_view word);
 
 }  // namespace marey::recordings

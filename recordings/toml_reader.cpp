@@ -9,6 +9,7 @@
 #include <toml++/toml.h>
 
 #include "core/nearest_word.h"
+#include "recordings/nesting.h"
 #include "recordings/number_text.h"
 
 namespace marey::recordings {
@@ -87,6 +88,12 @@ std::string file_and_line(const std::string& file, int line) {
 }
 
 Result<TomlDocument> parse_toml(std::string_view text, const std::string& file) {
+  if (toml_nests_too_deep(text)) {
+    return bad_input(
+        file,
+        "its tables and lists nest more than " + std::to_string(kMaxNesting) + " deep",
+        std::string(kSeeFormats));
+  }
   try {
     const toml::table table = toml::parse(text, file);
     return TomlDocument{file, TomlValue{taken_over(table, 1), 1}, std::nullopt};

@@ -53,7 +53,66 @@ void append_facts(std::string& bytes, std::string_view name, std::string_view co
   append_word(bytes, 0);  // Extra.
 }
 
+std::size_t word_at(std::string_view bytes, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + i]));
+  };
+  return byte(0) | byte(1) << 8U;
+}
+
+std::size_t double_word_at(std::string_view bytes, std::size_t at) {
+  return word_at(bytes, at) | word_at(bytes, at + 2) << 16U;
+}
+
+constexpr std::size_t kLocalHeaderBytes = 30;
+constexpr std::size_t kDirectoryEntryBytes = 46;
+constexpr std::size_t kDirectoryEndBytes = 22;
+
+/// The content that a directory's entry at `at` means; false where the archive ends
+/// before.
+bool take_entry(std::string_view archive, std::size_t at, ZipEntry& entry) {
+  const std::size_t method = word_at(archive, at + 10);
+  const std::size_t size = double_word_at(archive, at + 20);
+  const std::size_t place = double_word_at(archive, at + 42);
+  entry.name = archive.substr(at + kDirectoryEntryBytes, word_at(archive, at + 28));
+  entry.crc = static_cast<std::uint32_t>(double_word_at(archive, at + 16));
+  entry.is_compressed = method != 0;
+  if (place > archive.size() || archive.size() - place < kLocalHeaderBytes) return false;
+  if (double_word_at(archive, place) != kLocalHeader) return false;
+  const std::size_t begin = place + kLocalHeaderBytes + word_at(archive, place + 26) +
+                            word_at(archive, place + 28);
+  if (begin > archive.size() || size > archive.size() - begin) return false;
+  if (!entry.is_compressed) entry.bytes = archive.substr(begin, size);
+  return true;
+}
+
 }  // namespace
+
+std::optional<std::vector<ZipEntry>> zip_entries(std::string_view archive) {
+  if (archive.size() < kDirectoryEndBytes) return std::nullopt;
+  // A comment of 64 KiB may follow the directory's end.
+  std::size_t end = archive.size() - kDirectoryEndBytes;
+  const std::size_t first = end > 0xffff ? end - 0xffff : 0;
+  while (double_word_at(archive, end) != kDirectoryEnd) {
+    if (end == first) return std::nullopt;
+    --end;
+  }
+  const std::size_t count = word_at(archive, end + 10);
+  std::size_t at = double_word_at(archive, end + 16);
+  std::vector<ZipEntry> entries;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (at > end || end - at < kDirectoryEntryBytes) return std::nullopt;
+    if (double_word_at(archive, at) != kDirectoryEntry) return std::nullopt;
+    const std::size_t length = kDirectoryEntryBytes + word_at(archive, at + 28) +
+                               word_at(archive, at + 30) + word_at(archive, at + 32);
+    if (length > end - at) return std::nullopt;
+    ZipEntry entry;
+    if (!take_entry(archive, at, entry)) return std::nullopt;
+    entries.push_back(entry);
+    at += length;
+  }
+  return entries;
+}
 
 std::uint32_t crc32(std::string_view bytes) {
   static constexpr std::array<std::uint32_t, 256> kTable = crc_table();

@@ -29,4 +29,17 @@ class ZipStore {
   bool too_large_ = false;
 };
 
+/// A file in an archive, as its directory has it. Borrows the archive.
+struct ZipEntry {
+  std::string_view name;
+  std::string_view bytes;  ///< Empty if compressed.
+  std::uint32_t crc = 0;
+  bool is_compressed = false;
+};
+
+/// The files of a ZIP archive without ZIP64, in the order of its directory. nullopt: no
+/// such archive, or an entry reaches beyond its end. Nothing is copied or unpacked, so
+/// that memory is linear in the number of entries. Linear.
+[[nodiscard]] std::optional<std::vector<ZipEntry>> zip_entries(std::string_view archive);
+
 }  // namespace marey::recordings

@@ -19,6 +19,7 @@
 #include "recordings/trc.h"
 #include "recordings/vrma.h"
 #include "tests/fuzz/fuzz_seeds_osc.h"
+#include "tests/fuzz/fuzz_seeds_results.h"
 
 namespace {
 
@@ -200,6 +201,7 @@ bool write_all(const std::filesystem::path& folder) {
   return ok && write_file(folder / "page_message/drag", drag).has_value() &&
          write_file(folder / "page_door/request", request).has_value() &&
          write_constraint_sets(folder / "constraints") && write_motions(folder) &&
+         fuzz::write_result_seeds(folder, small_motion()) &&
          write_file(folder / "osc/pose", fuzz::osc_pose()).has_value() &&
          write_file(folder / "osc/commands", fuzz::osc_commands()).has_value() &&
          write_file(folder / "trc/odd.trc", odd).has_value() &&

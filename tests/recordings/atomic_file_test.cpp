@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "tests/support/scratch_folder.h"
@@ -104,6 +105,65 @@ TEST(AtomicFileDeathTest, IsRemovedByAHandlerThatEndsTheProcess) {
   };
   EXPECT_EXIT(write_for_ever(), ::testing::ExitedWithCode(130), "");
   EXPECT_EQ(files_in(folder), std::vector<std::string>{});
+}
+
+// A process that writes "a.txt" and is killed on the way, or waits for `stop`.
+pid_t start_writer(const fs::path& path, int ready, bool is_killed) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  Result<AtomicFile> file = AtomicFile::create(path);
+  if (file) file->append(std::string(1U << 20, 'a'));
+  (void)!write(ready, "r", 1);
+  if (is_killed) (void)raise(SIGKILL);
+  for (;;) pause();
+}
+
+TEST(AtomicFile, RemovesWhatAKilledProcessLeftOfTheSameFile) {
+  const ScratchFolder folder;
+  int pipe_ends[2] = {-1, -1};
+  ASSERT_EQ(pipe(pipe_ends), 0);
+  const pid_t killed = start_writer(folder / "a.txt", pipe_ends[1], true);
+  ASSERT_EQ(waitpid(killed, nullptr, 0), killed);
+  ASSERT_EQ(files_in(folder).size(), 1U);
+  EXPECT_NE(files_in(folder)[0].find(".partial"), std::string::npos);
+  ASSERT_TRUE(write_file(folder / "b.txt", "of another file"));
+  EXPECT_EQ(files_in(folder).size(), 2U);
+  ASSERT_TRUE(write_file(folder / "a.txt", "new"));
+  EXPECT_EQ(files_in(folder).size(), 2U);
+  EXPECT_EQ(*read_file(folder / "a.txt"), "new");
+  close(pipe_ends[0]);
+  close(pipe_ends[1]);
+}
+
+TEST(AtomicFile, LeavesWhatALivingProcessWrites) {
+  const ScratchFolder folder;
+  int pipe_ends[2] = {-1, -1};
+  ASSERT_EQ(pipe(pipe_ends), 0);
+  const pid_t living = start_writer(folder / "a.txt", pipe_ends[1], false);
+  char byte = 0;
+  ASSERT_EQ(read(pipe_ends[0], &byte, 1), 1);
+  ASSERT_TRUE(write_file(folder / "a.txt", "new"));
+  EXPECT_EQ(files_in(folder).size(), 2U);
+  kill(living, SIGKILL);
+  ASSERT_EQ(waitpid(living, nullptr, 0), living);
+  ASSERT_TRUE(write_file(folder / "a.txt", "newer"));
+  EXPECT_EQ(files_in(folder), std::vector<std::string>{"a.txt"});
+  close(pipe_ends[0]);
+  close(pipe_ends[1]);
+}
+
+TEST(AtomicFile, NeitherFollowsNorRemovesLinksAndOtherNames) {
+  const ScratchFolder folder;
+  ASSERT_TRUE(write_file(folder / "victim", "mine"));
+  fs::create_symlink(folder / "victim", folder / "a.txt.1.partial");
+  ASSERT_EQ(mkfifo((folder / "a.txt.2.partial").c_str(), 0600), 0);
+  fs::create_hard_link(folder / "victim", folder / "a.txt.3.partial");
+  for (const char* name : {"a.txt.partial", "a.txt.x1.partial", "b.txt.1.partial"}) {
+    ASSERT_TRUE(write_file(folder / name, "mine"));
+  }
+  ASSERT_TRUE(write_file(folder / "a.txt", "new"));
+  EXPECT_EQ(files_in(folder).size(), 8U);
+  EXPECT_EQ(*read_file(folder / "victim"), "mine");
 }
 
 TEST(AtomicFile, SurvivesBeingMoved) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/npz.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "recordings/atomic_file.h"
@@ -52,6 +54,76 @@ void expect_in_numpy(const std::filesystem::path& path, const std::string& asser
       assertions;
   const auto run = run_program(kPython, {"-c", script, path.string()});
   EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST(Npz, IsReadBackAsItWasWritten) {
+  const Motion motion = a_motion();
+  const std::vector<std::vector<JointDoubt>> doubt{
+      {{0.001, Source::kMeasured}, {0.002, Source::kRepaired}, {0.5, Source::kInferred}},
+      {{0.0, Source::kInferred}, {0.25, Source::kMeasured}, {0.5, Source::kRepaired}}};
+  const NpzContacts contacts{{"leftFoot", "rightFoot"}, {1, 0, 0, 1}};
+  const auto bytes = npz_bytes(motion, {doubt, contacts, 12.5});
+  ASSERT_TRUE(bytes);
+  const auto read = parse_npz(*bytes, "a.npz");
+  ASSERT_TRUE(read) << read.error().message();
+  const auto& joints = read->motion.skeleton.joints;
+  ASSERT_EQ(joints.size(), 3U);
+  EXPECT_EQ(joints[0].bone, HumanBone::kHips);
+  EXPECT_EQ(joints[1].name, motion.skeleton.joints[1].name);
+  EXPECT_EQ(joints[2].parent, JointIndex{1});
+  EXPECT_EQ(joints[1].parent_from_joint.translation, glm::dvec3(0.0, 0.25, 0.0));
+  EXPECT_EQ(read->motion.rate.hz, 29.97);
+  EXPECT_EQ(read->motion.first_frame, 5);
+  EXPECT_EQ(read->start_s, 12.5);
+  ASSERT_EQ(read->motion.poses.size(), 2U);
+  EXPECT_EQ(read->motion.poses[1].root_in_world, glm::dvec3(1.0, 2.0, 4.0));
+  const glm::dquat turned = read->motion.poses[1].parent_from_joint[0];
+  EXPECT_NEAR(std::abs(glm::dot(turned, glm::dquat(-0.6, 0.8, 0.0, 0.0))), 1.0, 1e-12);
+  ASSERT_EQ(read->doubt.size(), 2U);
+  EXPECT_EQ(read->doubt[1][1].sigma_m, 0.25);
+  EXPECT_EQ(read->doubt[0][1].source, Source::kRepaired);
+  EXPECT_EQ(read->contacts.names, contacts.names);
+  EXPECT_EQ(read->contacts.bears, contacts.bears);
+}
+
+TEST(Npz, DamagedAnywhereIsDeclinedOrRead) {
+  const auto bytes = npz_bytes(a_motion());
+  ASSERT_TRUE(bytes);
+  for (std::size_t at = 0; at < bytes->size(); at += 7) {
+    std::string damaged = *bytes;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x55);
+    const auto read = parse_npz(damaged, "a.npz");
+    if (!read) {
+      EXPECT_EQ(read.error().code, Errc::kBadInput);
+    }
+    const auto cut = parse_npz(std::string_view(*bytes).substr(0, at), "a.npz");
+    EXPECT_FALSE(cut) << at;
+  }
+}
+
+TEST(Npz, OfAnotherProgramIsReadUnlessItIsCompressed) {
+  const ScratchFolder folder;
+  const auto again = [&](const std::string& how) {
+    EXPECT_TRUE(write_npz(folder / "a.npz", a_motion()));
+    const std::string script =
+        "import sys\nimport numpy as np\na = np.load(sys.argv[1])\n"
+        "np." +
+        how + "(sys.argv[2], **{k: a[k] for k in a.files})\n";
+    const auto run = run_program(
+        kPython,
+        {"-c", script, (folder / "a.npz").string(), (folder / "b.npz").string()});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return read_npz(folder / "b.npz");
+  };
+  if (run_program(kPython, {"-c", "import numpy"}).exit_code != 0) {
+    GTEST_SKIP() << "numpy is missing; apt-get install python3-numpy";
+  }
+  const auto read = again("savez");
+  EXPECT_TRUE(read) << read.error().message();
+  const auto compressed = again("savez_compressed");
+  ASSERT_FALSE(compressed);
+  EXPECT_EQ(compressed.error().cause, "its arrays are compressed");
+  EXPECT_NE(compressed.error().next.find("numpy.savez"), std::string::npos);
 }
 
 TEST(Npz, IsReadByNumpy) {

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "recordings/gltf_model.h"
+
+namespace tinygltf {
+class TinyGLTF;
+}
+
+// Private to recordings/: bounds what a small glTF file can make its reader load.
+namespace marey::recordings {
+
+/// The files beside a glTF that it names: ordinary files alone, of a limited total size.
+struct ExternalFiles {
+  std::uint64_t bytes_left = std::uint64_t{1} << 30;
+};
+
+/// Makes `loader` read external files through `files`, which must outlive its loading.
+void read_external_files(tinygltf::TinyGLTF& loader, ExternalFiles& files);
+
+/// Checks, before any accessor is read, how many numbers the skinned meshes and the first
+/// animation refer to. A file may refer to one accessor any number of times. Errors: more
+/// than 32 million and more than two for each byte of its buffers.
+[[nodiscard]] Status check_referred_numbers(const NamedModel& file);
+
+/// Copies the bytes of the images that lie in buffers into `images`, one entry for each
+/// image. Errors: an image reaches beyond its buffer; together they are more than four
+/// times as large as the buffers.
+[[nodiscard]] Status copy_buffered_images(const NamedModel& file,
+                                          std::vector<std::string>& images);
+
+}  // namespace marey::recordings

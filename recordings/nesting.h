@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+namespace marey::recordings {
+
+/// Maximum nesting of JSON and TOML. Parsers, destructors and copies of their trees are
+/// recursive: a file of some kilobytes could exhaust the stack.
+inline constexpr std::size_t kMaxNesting = 100;
+
+/// Returns true if brackets of the JSON text nest deeper than kMaxNesting. Correct for
+/// every prefix that is valid JSON, so that a parser may run after it. Linear; allocates
+/// nothing.
+[[nodiscard]] bool json_nests_too_deep(std::string_view json);
+
+/// Returns true if tables and arrays of the TOML text nest deeper than kMaxNesting:
+/// brackets, dotted keys and headers together. Correct for every prefix that is valid
+/// TOML. Linear.
+[[nodiscard]] bool toml_nests_too_deep(std::string_view toml);
+
+}  // namespace marey::recordings
