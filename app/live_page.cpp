@@ -316,11 +316,11 @@ void LivePage::on_status(const LiveFigures& figures,
   if (const auto& now = figures.recording) {
     status.recording = live::PageRecording{now->folder, now->seconds, now->trouble};
   }
-  tell_subject(state,
-               figures,
-               state == TrackState::kTracked ? worn_.unseen(doubt_)
-                                             : std::vector<std::string>{},
-               status);
+  tell_subject(
+      state,
+      figures,
+      state == TrackState::kTracked ? worn_.unseen(doubt_) : std::vector<std::string>{},
+      status);
   if (figures.flow != Flow::kSteady) status.overload = figures.flow_text;
   status.clients = page_.server.client_count();
   status.messages = notes_;

@@ -79,7 +79,7 @@ class LivePage final : public LiveWatcher {
   std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.
   std::vector<int> tags_seen_;                                    ///< By camera.
   WornSegments worn_;
-  std::vector<JointDoubt> doubt_;  ///< Of the performer, newest.
+  std::vector<JointDoubt> doubt_;                  ///< Of the performer, newest.
   std::vector<LiveCameraFigures> cameras_before_;  ///< As last told.
   std::vector<OutputCounts> outputs_before_;       ///< Likewise.
   std::vector<live::ReceivedText> texts_;

@@ -76,7 +76,7 @@ struct LiveRequests {
   };
   std::vector<OfStream> streams;  ///< Empty: nobody asked for anything.
   std::vector<HandleRequest> handles{};
-  /// Poses do not keep up with the cameras (LiveFlow): receivers are told not to trust them.
+  /// Poses do not keep up with the cameras (LiveFlow): receivers must not trust them.
   bool behind = false;
 
   void clear() {

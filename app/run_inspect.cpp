@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <set>
 
@@ -14,6 +13,7 @@
 #include "app/lens_words.h"
 #include "app/read_body.h"
 #include "core/extension.h"
+#include "recordings/atomic_file.h"
 #include "recordings/calibration_file.h"
 #include "recordings/motion_tables.h"
 #include "recordings/subject_file.h"
@@ -101,8 +101,9 @@ Result<Json> inspect_segments(const std::filesystem::path& file) {
 }
 
 Result<Json> inspect_report(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const Json report = Json::parse(in, nullptr, false);
+  const auto text = recordings::read_file(file);
+  if (!text) return text.error();
+  const Json report = Json::parse(*text, nullptr, false);
   if (!report.is_object() || !report.contains("summary")) {
     return bad_input(file.string(),
                      "is not a report of marey's",

@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "app/inside_folder.h"
 #include "app/view_figure.h"
 #include "app/view_files.h"
 #include "core/extension.h"
+#include "recordings/atomic_file.h"
 #include "recordings/marker_file.h"
 #include "recordings/motion_tables.h"
 
@@ -74,8 +75,9 @@ Status read_doubt(const fs::path& folder, ViewedFigure& figure, int& first_frame
 
 /// What the report says of this trial; null where there is none.
 Json report_of(const fs::path& results, const std::string& trial) {
-  std::ifstream in(results / "report.json");
-  const Json report = Json::parse(in, nullptr, false);
+  const auto text = recordings::read_file(results / "report.json");
+  if (!text) return {};
+  const Json report = Json::parse(*text, nullptr, false);
   if (!report.is_object() || !report.contains("trials")) return {};
   const Json& trials = report["trials"];
   if (!trials.is_array()) return {};
@@ -167,7 +169,7 @@ std::vector<std::string> solved_trials(const fs::path& folder) {
   std::vector<std::string> out;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (is_there(entry.path() / "segments.csv")) {
+    if (is_there(entry.path() / "segments.csv") && is_inside(entry.path(), folder)) {
       out.push_back(entry.path().filename().string());
     }
   }
@@ -180,6 +182,10 @@ Result<ViewedRecording> read_trial_view(const fs::path& trial_folder) {
   const fs::path results = folder.parent_path();
   ViewedRecording out;
   out.title = folder.filename().string();
+  if (const Status ok = check_links(folder, results); !ok) return ok.error();
+  for (const char* beside : {"report.json", "calibration.toml", "fit.json"}) {
+    if (const Status ok = check_link(results / beside, results); !ok) return ok.error();
+  }
   auto figure = performer(folder, out);
   if (!figure) return figure.error();
   // A .glb has no numbers of frames; those of segments.csv count for the page.
