@@ -142,18 +142,18 @@ class WatchedLive : public ::testing::Test {
   /// What came since the last call says of tracking; nullopt: nothing came.
   std::optional<bool> heard() {
     std::optional<bool> tracking;
-    while (listener_.wait(50ms), true) {
-      const auto packet = listener_.receive();
-      if (!packet) return tracking;
+    listener_.wait(50ms);
+    for (auto packet = listener_.receive(); packet; packet = listener_.receive()) {
       assembler_.take(*packet);
       tracking = assembler_.status().tracking;
     }
+    return tracking;
   }
 
   live::UdpListener listener_ = *live::UdpListener::open({"127.0.0.1", 0});
   LiveOutputs outputs_ =
       *LiveOutputs::open({VmcStream{}}, {{{{"127.0.0.1", listener_.port()}}}});
-  Console console_{ProgressStyle::kQuiet};
+  Console console_{ProgressStyle::kAuto};
   live::VmcAssembler assembler_;
 };
 
