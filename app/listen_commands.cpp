@@ -87,7 +87,10 @@ class Listening {
         onward_(std::move(onward)),
         pose_(rest_pose(body.skeleton)) {}
 
-  void run(std::optional<double> seconds, bool keep, const Progress& progress) {
+  void run(std::optional<double> seconds,
+           bool keep,
+           const Progress& progress,
+           Console& console) {
     constexpr std::chrono::milliseconds kLook{100};
     constexpr int kMostAtOnce = 256;  // Whoever floods the port does not hold up the rest.
     const auto since_start = [begin = Clock::now()] {
@@ -102,6 +105,7 @@ class Listening {
         time_s = clock_.at_s(frame_.time_s, since_start());
         take(time_s, keep);
       }
+      tell_tracking(console);
       if (came == 0) continue;
       if (onward_) pass_on(time_s);
       if (progress) progress(static_cast<int>(frames_), kUnknownTotal);
@@ -109,13 +113,33 @@ class Listening {
   }
 
   [[nodiscard]] const HeardMotion& heard() const { return heard_; }
+  /// Frames of which the sender says that the body is not tracked.
+  [[nodiscard]] long untracked() const { return untracked_; }
   [[nodiscard]] const live::VmcReceived& received() const { return receiver_.received(); }
 
  private:
+  /// Tells when the sender says that its poses are not to be trusted, and when they are.
+  void tell_tracking(Console& console) {
+    const live::VmcStatus& status = receiver_.status();
+    const bool is_good = status.loaded && status.tracking;
+    if (is_good == is_good_) return;
+    is_good_ = is_good;
+    if (is_good) {
+      console.say("the sender tracks its body again");
+    } else {
+      console.warn(
+          status.loaded
+              ? "the sender says that its body is not tracked: the poses that come "
+                "are old or a guess"
+              : "the sender says that it has no body loaded");
+    }
+  }
+
   /// `time_s` is of our clock.
   void take(double time_s, bool keep) {
     vmc_.pose_of(frame_.pose, pose_);
     ++frames_;
+    if (!frame_.status.tracking) ++untracked_;
     if (keep) heard_.add(time_s, pose_);
   }
 
@@ -146,6 +170,8 @@ class Listening {
   HeardMotion heard_;
   std::optional<double> last_s_;
   long frames_ = 0;
+  long untracked_ = 0;
+  bool is_good_ = true;
 };
 
 Result<MotionFormat> format_of(const std::filesystem::path& out) {
@@ -157,9 +183,10 @@ Result<MotionFormat> format_of(const std::filesystem::path& out) {
                    "call it .bvh, .glb, .vrma, .npz or .csv");
 }
 
-void print(const live::VmcReceived& received, std::size_t kept) {
+void print(const live::VmcReceived& received, std::size_t kept, long untracked) {
   const nlohmann::ordered_json out{{"frames", received.frames},
                                    {"kept", kept},
+                                   {"untracked", untracked},
                                    {"incomplete", received.incomplete},
                                    {"packets", received.packets},
                                    {"malformed", received.malformed},
@@ -222,8 +249,16 @@ Exit run_listen(const ListenArguments& arguments, Console& console) {
   console.say("listening at " + live::text_of(*at) +
               (arguments.seconds ? "" : "; Ctrl-C ends it"));
   Listening listening(*body, *std::move(vmc), *std::move(receiver), std::move(onward));
-  listening.run(arguments.seconds, !arguments.out.empty(), console.stage("listen"));
-  if (arguments.json) print(listening.received(), listening.heard().size());
+  listening.run(
+      arguments.seconds, !arguments.out.empty(), console.stage("listen"), console);
+  if (arguments.json) {
+    print(listening.received(), listening.heard().size(), listening.untracked());
+  }
+  if (listening.untracked() > 0) {
+    console.warn("in " + std::to_string(listening.untracked()) + " of " +
+                 std::to_string(listening.received().frames) +
+                 " frames the sender says that its body is not tracked");
+  }
   if (arguments.out.empty()) return Exit::kOk;
   const Status ok = write(arguments, *format, *body, listening.heard());
   if (!ok) return console.fail(ok.error());

@@ -155,7 +155,7 @@ void LiveChain::drag(const LiveRequests& requests, double since_last_s) {
 
 void LiveChain::encode(Timestamp time, const LiveRequests& requests) {
   live::VmcStatus status;
-  status.tracking = result_.track.state == TrackState::kTracked;
+  status.tracking = result_.track.state == TrackState::kTracked && !requests.behind;
   for (std::size_t s = 0; s < streams_.size(); ++s) {
     Stream& stream = streams_[s];
     if (s < requests.streams.size()) {

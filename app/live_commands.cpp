@@ -48,6 +48,13 @@ void tell(const LiveFigures& figures, Console& console) {
                 1000.0 * figures.times.frame_to_packet.quantile_s(0.5),
                 1000.0 * figures.times.frame_to_packet.quantile_s(0.95));
   console.say(text);
+  if (figures.behind_s > 0.0) {
+    std::snprintf(text,
+                  sizeof text,
+                  "for %.1f s of it poses did not keep up with the cameras",
+                  figures.behind_s);
+    console.warn(text);
+  }
   for (const LiveCameraFigures& camera : figures.cameras) {
     const long lost = camera.dropped + camera.stale + camera.broken + camera.unused;
     if (lost == 0) continue;

@@ -49,6 +49,7 @@ std::string live_figures_text(const LiveFigures& figures) {
                    {"lost", figures.lost},
                    {"found_anew", figures.found_anew},
                    {"seconds", rounded(figures.seconds)},
+                   {"behind_s", rounded(figures.behind_s)},
                    {"frame_to_packet", of(times.frame_to_packet)},
                    {"stages",
                     {{"wait", of(times.wait)},

@@ -9,6 +9,7 @@
 
 #include "app/frame_feed.h"
 #include "app/latency_histogram.h"
+#include "app/live_flow.h"
 #include "app/live_outputs.h"
 #include "core/result.h"
 #include "reconstruct/track_body.h"
@@ -70,6 +71,9 @@ struct LiveFigures {
   std::vector<OutputCounts> outputs;
   std::vector<LiveMinute> minutes;
   bool seen_in_vain = false;  ///< Now: SeenInVain.
+  Flow flow = Flow::kSteady;  ///< Now.
+  std::string flow_text{};    ///< LiveFlow::text().
+  double behind_s = 0.0;      ///< For how long poses did not keep up with pictures.
   std::optional<LiveRecording> recording;  ///< Under way.
   std::vector<std::string> takes;          ///< Folders of those that are whole.
   std::optional<Error> recording_trouble;

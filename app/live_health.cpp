@@ -40,20 +40,68 @@ live::PageOutput output_status(const OutputCounts& now, const OutputCounts* befo
   return out;
 }
 
+WornSegments::WornSegments(const Body& body) {
+  for (const PlacedTag& placed : body.tags) {
+    HumanBone bone = placed.tag.segment;
+    // Toes are solved with their foot.
+    if (bone == HumanBone::kLeftToes) bone = HumanBone::kLeftFoot;
+    if (bone == HumanBone::kRightToes) bone = HumanBone::kRightFoot;
+    bones_.push_back(bone);
+  }
+  std::ranges::sort(bones_);
+  const auto same = std::ranges::unique(bones_);
+  bones_.erase(same.begin(), same.end());
+}
+
+std::vector<std::string> WornSegments::unseen(std::span<const JointDoubt> doubt) const {
+  std::vector<std::string> names;
+  for (const HumanBone bone : bones_) {
+    if (index(bone) >= doubt.size()) continue;
+    if (doubt[index(bone)].source == Source::kInferred) names.emplace_back(name(bone));
+  }
+  return names;
+}
+
+void tell_subject(reconstruct::TrackState state,
+                  const LiveFigures& figures,
+                  const std::vector<std::string>& unseen,
+                  live::PageStatus& status) {
+  using State = reconstruct::TrackState;
+  for (const live::PageCameraStatus& camera : status.cameras) {
+    if (camera.state == live::PageCameraState::kStreaming) continue;
+    const bool is_lost = camera.state == live::PageCameraState::kLost;
+    status.doubts.push_back("camera " + camera.name +
+                            (is_lost ? " is lost" : " sends no pictures"));
+  }
+  for (const std::string& segment : unseen) {
+    status.doubts.push_back(segment + " has not been seen for more than a second");
+  }
+  if (figures.seen_in_vain) status.doubts.emplace_back("tags are seen that do not fit");
+  if (figures.flow != Flow::kSteady) status.doubts.push_back(figures.flow_text);
+  if (state == State::kTracked) {
+    status.subject =
+        status.doubts.empty() ? live::PageSubject::kTracked : live::PageSubject::kPartly;
+  } else {
+    status.subject =
+        state == State::kLost ? live::PageSubject::kLost : live::PageSubject::kWaiting;
+  }
+  if (figures.flow == Flow::kBehind) status.subject = live::PageSubject::kBehind;
+  if (figures.flow == Flow::kStopped) status.subject = live::PageSubject::kStopped;
+}
+
 SeenInVain::SeenInVain(const Body& body) {
   for (const PlacedTag& tag : body.tags) worn_.push_back(tag.tag.id);
   std::ranges::sort(worn_);
 }
 
-void SeenInVain::add(const LiveInstant& instant,
-                     const reconstruct::TrackReport& found) {
+void SeenInVain::add(const LiveInstant& instant, const reconstruct::TrackReport& found) {
   const auto sees_some = [this](const CameraTags& view) {
     return std::ranges::count_if(view.tags, [this](const TagDetection& tag) {
              return std::ranges::binary_search(worn_, tag.id);
            }) >= kFewest;
   };
-  const bool fits = found.state == reconstruct::TrackState::kTracked &&
-                    found.rms_px <= kMost_px;
+  const bool fits =
+      found.state == reconstruct::TrackState::kTracked && found.rms_px <= kMost_px;
   if (fits || std::ranges::count_if(instant.views, sees_some) < 2) {
     since_.reset();
     is_so_ = false;

@@ -3,11 +3,14 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "app/live_figures.h"
 #include "core/body.h"
 #include "core/live_instant.h"
+#include "core/motion.h"
 #include "live/page_status.h"
 
 namespace marey::app {
@@ -23,9 +26,30 @@ namespace marey::app {
 [[nodiscard]] live::PageOutput output_status(const OutputCounts& now,
                                              const OutputCounts* before);
 
-/// Whether a body's tags are seen in vain: for kAfter_s at least two cameras have seen some
-/// of them each, and no body was found in them, or only one that is kMost_px beside them.
-/// So it is when cameras were swapped or moved since they were calibrated.
+/// The segments of a body that wear tags.
+class WornSegments {
+ public:
+  WornSegments() = default;
+  explicit WornSegments(const Body& body);
+  /// Names of those of which no tag was seen for longer than a tracker bridges: their
+  /// place is a guess. `doubt` is of the body's joints, in the order of HumanBone.
+  [[nodiscard]] std::vector<std::string> unseen(std::span<const JointDoubt> doubt) const;
+
+ private:
+  std::vector<HumanBone> bones_;  ///< Ascending.
+};
+
+/// Adds to a page's status how the body fares. It is tracked only where the worst camera
+/// and the worst segment are well: every camera streams and `unseen` is empty. Else
+/// PageStatus::doubts says what is not. Precondition: `status` has its cameras.
+void tell_subject(reconstruct::TrackState state,
+                  const LiveFigures& figures,
+                  const std::vector<std::string>& unseen,
+                  live::PageStatus& status);
+
+/// Whether a body's tags are seen in vain: for kAfter_s at least two cameras have seen
+/// some of them each, and no body was found in them, or only one that is kMost_px beside
+/// them. So it is when cameras were swapped or moved since they were calibrated.
 class SeenInVain {
  public:
   static constexpr double kAfter_s = 3.0;
@@ -37,7 +61,8 @@ class SeenInVain {
   [[nodiscard]] bool is_so() const { return is_so_; }
   /// What that means for who is there.
   static constexpr const char* kText =
-      "tags are seen, but no body fits them: hips and chest are hidden, cameras were moved "
+      "tags are seen, but no body fits them: hips and chest are hidden, cameras were "
+      "moved "
       "or swapped since they were calibrated, or it is another's suit. Next: show them, "
       "give each camera its name of then, or calibrate again.";
 

@@ -6,6 +6,7 @@
 
 #include "core/assert.h"
 #include "live/vmc_commands.h"
+#include "live/vmc_encoder.h"
 
 namespace marey::app {
 
@@ -57,6 +58,13 @@ void LiveOutputs::send(const LiveResult& result) {
   for (std::size_t s = 0; s < senders_.size(); ++s) {
     for (const auto& packet : result.packets[s]) senders_[s].send(packet);
   }
+}
+
+void LiveOutputs::send_not_tracking() {
+  live::VmcStatus status;
+  status.tracking = false;
+  const std::vector<std::uint8_t> packet = live::vmc_status_packet(status);
+  for (std::size_t s = 0; s < vmc_streams_; ++s) senders_[s].send(packet);
 }
 
 std::vector<OutputCounts> LiveOutputs::counts() const {

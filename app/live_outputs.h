@@ -35,6 +35,9 @@ class LiveOutputs {
   /// What was asked for since the last call. Reads no more than 64 packets.
   LiveRequests& take_requests();
   void send(const LiveResult& result);
+  /// Tells all receivers of VMC that the pose they have is not to be trusted: there is no
+  /// new one that could say so.
+  void send_not_tracking();
   /// By target.
   [[nodiscard]] std::vector<OutputCounts> counts() const;
 

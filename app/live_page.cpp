@@ -22,18 +22,6 @@ double now_s() {
   return seconds(std::chrono::steady_clock::now().time_since_epoch());
 }
 
-live::PageSubject subject_of(TrackState state) {
-  switch (state) {
-    case TrackState::kTracked:
-      return live::PageSubject::kTracked;
-    case TrackState::kLost:
-      return live::PageSubject::kLost;
-    case TrackState::kWaiting:
-      break;
-  }
-  return live::PageSubject::kWaiting;
-}
-
 live::PageSpread spread_of(const LatencyHistogram& times) {
   return {1000.0 * times.quantile_s(0.5), 1000.0 * times.quantile_s(0.95)};
 }
@@ -84,6 +72,7 @@ Result<std::unique_ptr<LivePage>> LivePage::open(const PageServerOptions& option
 
 Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
   constexpr double kBeside_m = 1.2;
+  if (live.body) worn_ = WornSegments(*live.body);
   scene_.title = live.session;
   scene_.rate_hz = live.settings.rate.hz;
   for (std::size_t c = 0; c < live.calibration.cameras.size(); ++c) {
@@ -134,6 +123,7 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
 }
 
 void LivePage::on_body(const Body& body, const Skeleton& performer) {
+  worn_ = WornSegments(body);
   live::PageSkeleton& shown = scene_.skeletons.front();
   if (!body.name.empty()) shown.name = body.name;
   shown.skeleton = performer;
@@ -238,6 +228,7 @@ void LivePage::on_frame(const LiveInstant& instant, const LiveResult& result) {
   }
   if (guide_ && guide_->told().step != shown_step_) show_wizard();
   stand(instant, result);
+  doubt_.assign(result.doubt.begin(), result.doubt.end());
   if (page_.server.client_count() == 0) {
     thumbnails_.forget();
     ++frame_;
@@ -304,7 +295,6 @@ void LivePage::on_status(const LiveFigures& figures,
   show_wizard();
   live::PageStatus status;
   status.clock_s = since_start_.seconds();
-  status.subject = subject_of(state);
   status.frame = static_cast<int>(frame_);
   const double lasted_s = status.clock_s - seconds_before_;
   if (lasted_s > 0.0) {
@@ -326,9 +316,16 @@ void LivePage::on_status(const LiveFigures& figures,
   if (const auto& now = figures.recording) {
     status.recording = live::PageRecording{now->folder, now->seconds, now->trouble};
   }
+  tell_subject(
+      state,
+      figures,
+      state == TrackState::kTracked ? worn_.unseen(doubt_) : std::vector<std::string>{},
+      status);
+  if (figures.flow != Flow::kSteady) status.overload = figures.flow_text;
   status.clients = page_.server.client_count();
   status.messages = notes_;
   if (figures.seen_in_vain) status.messages.emplace_back(SeenInVain::kText);
+  if (!figures.flow_text.empty()) status.messages.push_back(figures.flow_text);
   page_.server.publish_text(live::PageMessage::kStatus, live::status_json(status));
   cameras_before_ = figures.cameras;
   outputs_before_ = figures.outputs;

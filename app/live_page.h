@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/live_balance.h"
+#include "app/live_health.h"
 #include "app/live_run.h"
 #include "app/page_server.h"
 #include "app/stopwatch.h"
@@ -77,6 +78,8 @@ class LivePage final : public LiveWatcher {
   std::optional<LiveBalance> balance_;
   std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.
   std::vector<int> tags_seen_;                                    ///< By camera.
+  WornSegments worn_;
+  std::vector<JointDoubt> doubt_;                  ///< Of the performer, newest.
   std::vector<LiveCameraFigures> cameras_before_;  ///< As last told.
   std::vector<OutputCounts> outputs_before_;       ///< Likewise.
   std::vector<live::ReceivedText> texts_;

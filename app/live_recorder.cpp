@@ -22,10 +22,21 @@ constexpr std::chrono::milliseconds kCommitEvery{250};
 constexpr const char* kAvatars = "avatars";
 
 Error disk(const std::filesystem::path& path, const std::error_code& problem) {
+  if (problem == std::errc::not_a_directory || problem == std::errc::file_exists) {
+    return bad_input(path.string(),
+                     "a part of this path is a file, and a take needs a folder",
+                     "name a new folder");
+  }
+  if (problem == std::errc::permission_denied ||
+      problem == std::errc::read_only_file_system) {
+    return bad_input(path.string(),
+                     "it cannot be written: " + problem.message(),
+                     "choose a folder that may be written to");
+  }
   return {Errc::kDevice,
           path.string(),
           "it cannot be written: " + problem.message(),
-          "make room on the disk, or choose a folder that may be written to"};
+          "make room on the disk, or choose a folder on another one"};
 }
 
 /// By their places: names of files may be alike, and of any bytes.
@@ -117,10 +128,14 @@ Result<std::unique_ptr<LiveRecorder>> LiveRecorder::create(
     const LiveSettings& settings) {
   std::error_code ignored;
   const bool was_there = std::filesystem::exists(folder, ignored);
-  if (was_there && !std::filesystem::is_empty(folder, ignored)) {
+  if (was_there && !std::filesystem::is_directory(folder, ignored)) {
     return bad_input(folder.string(),
-                     "the folder is not empty, or is a file",
-                     "record into a new folder");
+                     "this is a file, and a take needs a folder",
+                     "name a new folder");
+  }
+  if (was_there && !std::filesystem::is_empty(folder, ignored)) {
+    return bad_input(
+        folder.string(), "the folder is not empty", "record into a new folder");
   }
   const auto give_up = [&](const Error& error) {
     forget(folder, was_there);

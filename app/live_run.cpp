@@ -10,6 +10,7 @@
 #include "app/live_camera.h"
 #include "app/live_groups.h"
 #include "app/live_health.h"
+#include "app/live_watchdog.h"
 #include "app/monotonic_clock.h"
 #include "app/stopwatch.h"
 
@@ -40,6 +41,15 @@ Result<Cameras> make_cameras(OpenedLive& live, const LiveRunOptions& run) {
     cameras.push_back(*std::move(one));
   }
   return cameras;
+}
+
+/// Of the camera that had the most, lost ones included.
+long most_pictures(const Cameras& cameras) {
+  long most = 0;
+  for (const auto& camera : cameras) {
+    most = std::max(most, camera->counts().pictures + camera->counts().dropped);
+  }
+  return most;
 }
 
 void take_in(const LiveGroup<DetectedPicture>& group, LiveInstant& out) {
@@ -164,7 +174,8 @@ class Loop {
         watcher_(watcher),
         console_(console),
         progress_(console.stage("live")),
-        counting_(live.feeds.size()) {
+        counting_(live.feeds.size()),
+        watchdog_(live.settings.rate, monotonic_now() + kHeadStart, outputs, console) {
     if (live.body) in_vain_.emplace(*live.body);
   }
 
@@ -182,7 +193,8 @@ class Loop {
       } else if (groups.is_over()) {
         break;
       }
-      if (watch.seconds() - last_status_s_ >= kStatusEvery_s) {
+      const bool has_changed = watchdog_.look(monotonic_now(), most_pictures(cameras));
+      if (has_changed || watch.seconds() - last_status_s_ >= kStatusEvery_s) {
         last_status_s_ = watch.seconds();
         tell(groups, cameras, false);
       }
@@ -203,11 +215,13 @@ class Loop {
     LiveRequests& requests = outputs_.take_requests();
     if (watcher_) watcher_->hear(requests);
     periods_.hear(requests);
+    requests.behind = watchdog_.is_behind();
     if (chain_ && std::exchange(is_chain_new_, false)) periods_.add_to(requests);
     const LiveResult& result =
         chain_ ? chain_->step(instant_, requests) : nobody(instant_);
     const Stopwatch sending;
     if (chain_) outputs_.send(result);
+    watchdog_.on_instant(monotonic_now(), chain_.has_value());
     counting_.add(group, result, taken_up, sending.seconds());
     counting_.add_cameras(group);
     tell_state(state_, result.track.state, console_);
@@ -285,6 +299,9 @@ class Loop {
     counting_.look_at(cameras, groups);
     warn_of_videos();
     figures.outputs = outputs_.counts();
+    figures.flow = watchdog_.flow().flow();
+    figures.flow_text = watchdog_.flow().text();
+    figures.behind_s = watchdog_.flow().troubled_s();
     counting_.end_minute(is_end);
     if (takes_) {
       figures.recording = takes_->state();
@@ -305,6 +322,7 @@ class Loop {
   Console& console_;
   Progress progress_;
   Counting counting_;
+  LiveWatchdog watchdog_;
   KeptPeriods periods_;
   bool is_chain_new_ = false;  ///< It has seen nothing.
   LiveInstant instant_;

@@ -135,7 +135,8 @@ std::optional<HandleRequest> to_handle(const json& object) {
 /// nullopt: a value is out of range.
 std::optional<LiveRequests> to_requests(const json& object) {
   LiveRequests requests;
-  // Takes of earlier versions have none.
+  // Takes of earlier versions have neither this nor handles.
+  requests.behind = object.value("behind", false);
   if (const auto handles = object.find("handles"); handles != object.end()) {
     if (handles->size() > LiveRequests::kMostHandles) return std::nullopt;
     for (const json& asked : *handles) {
@@ -230,8 +231,9 @@ std::string live_requests_text(const LiveRequests& requests) {
     }
     streams.push_back({{"info", one.info}, {"periods", std::move(periods)}});
   }
-  if (!asked && requests.handles.empty()) return {};
+  if (!asked && requests.handles.empty() && !requests.behind) return {};
   json object{{"vmc", std::move(streams)}};
+  if (requests.behind) object["behind"] = true;
   for (const HandleRequest& request : requests.handles) {
     object["handles"].push_back(to_json(request));
   }

@@ -76,10 +76,13 @@ struct LiveRequests {
   };
   std::vector<OfStream> streams;  ///< Empty: nobody asked for anything.
   std::vector<HandleRequest> handles{};
+  /// Poses do not keep up with the cameras (LiveFlow): receivers must not trust them.
+  bool behind = false;
 
   void clear() {
     streams.clear();
     handles.clear();
+    behind = false;
   }
   /// Adds a request, in place of one before it that it makes void. False: there are too
   /// many already.

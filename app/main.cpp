@@ -270,6 +270,10 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, marey::app::on_interrupt);
   std::signal(SIGTERM, marey::app::on_interrupt);
+  // Under nohup(1) the terminal's end is none of our business.
+  if (std::signal(SIGHUP, marey::app::on_interrupt) == SIG_IGN) {
+    std::signal(SIGHUP, SIG_IGN);
+  }
   try {
     return marey::app::run(argc, argv);
   } catch (const std::exception& error) {

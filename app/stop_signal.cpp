@@ -25,6 +25,11 @@ void catch_stop_signals() {
   is_wanted = false;
   std::signal(SIGINT, on_stop);
   std::signal(SIGTERM, on_stop);
+  // Of a terminal that was closed; nohup(1) has it ignored, and that stays so.
+  if (std::signal(SIGHUP, on_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  // Whoever read our messages may end with the terminal: what is recorded is finished
+  // first.
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool stop_wanted() {

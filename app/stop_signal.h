@@ -4,8 +4,9 @@
 
 namespace marey::app {
 
-/// From now on Ctrl-C and SIGTERM ask for an end, which stop_wanted() tells, and the
-/// second of them is the end, at once, with the exit code 130.
+/// From now on Ctrl-C, SIGTERM and SIGHUP ask for an end, which stop_wanted() tells, and
+/// the second of them is the end, at once, with the exit code 130. A reader of our output
+/// that is gone ends nothing.
 void catch_stop_signals();
 
 [[nodiscard]] bool stop_wanted();

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "app/inside_folder.h"
 #include "app/live_chain.h"
 #include "app/live_recorder.h"
 #include "app/view_figure.h"
@@ -98,6 +99,9 @@ bool is_live_take(const fs::path& what) {
 
 Result<ViewedRecording> read_live_take_view(const fs::path& what) {
   const fs::path folder = folder_of(what);
+  for (const fs::path& shown : {folder, folder / "avatars"}) {
+    if (const Status ok = check_links(shown, folder); !ok) return ok.error();
+  }
   const auto opened = open_live_take(folder);
   if (!opened) return opened.error();
   auto chain = LiveChain::make(

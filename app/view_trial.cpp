@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/json_file.h"
+#include "app/inside_folder.h"
 #include "app/view_figure.h"
 #include "app/view_files.h"
 #include "core/extension.h"
+#include "recordings/atomic_file.h"
 #include "recordings/marker_file.h"
 #include "recordings/motion_tables.h"
 
@@ -168,7 +170,7 @@ std::vector<std::string> solved_trials(const fs::path& folder) {
   std::vector<std::string> out;
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-    if (is_there(entry.path() / "segments.csv")) {
+    if (is_there(entry.path() / "segments.csv") && is_inside(entry.path(), folder)) {
       out.push_back(entry.path().filename().string());
     }
   }
@@ -181,6 +183,10 @@ Result<ViewedRecording> read_trial_view(const fs::path& trial_folder) {
   const fs::path results = folder.parent_path();
   ViewedRecording out;
   out.title = folder.filename().string();
+  if (const Status ok = check_links(folder, results); !ok) return ok.error();
+  for (const char* beside : {"report.json", "calibration.toml", "fit.json"}) {
+    if (const Status ok = check_link(results / beside, results); !ok) return ok.error();
+  }
   auto figure = performer(folder, out);
   if (!figure) return figure.error();
   // A .glb has no numbers of frames; those of segments.csv count for the page.

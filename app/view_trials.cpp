@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/inside_folder.h"
 #include "app/view_page.h"
 #include "live/page_scene.h"
 
@@ -28,6 +29,7 @@ std::optional<live::WebContent> report_in(const fs::path& results) {
   std::error_code ignored;
   for (const char* name : {"report.html", "fit.html"}) {
     if (!fs::is_regular_file(results / name, ignored)) continue;
+    if (!is_inside(results / name, results)) continue;
     auto content =
         file_content(results / name, ViewTrials::kReport, "text/html; charset=utf-8");
     if (!content) return std::nullopt;

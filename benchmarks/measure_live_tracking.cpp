@@ -8,11 +8,14 @@
 // OUT is what `marey process` wrote: its calibration and subject are used. TRUTH holds
 // TRIAL/cam0.mp4... and TRIAL/truth/joints.csv (see the recording's README). KEEP is a
 // folder in which detected tags are kept from run to run. Cameras' lags are told to
-// nobody. Prints, for tags of the full detector and as live cameras are searched, of all cameras and
-// of the first two: mean and 95 % errors of the twelve joints of the limbs, live over batch
-// in brackets, the same of joints of which the tracker says that it knows them to 20 mm,
-// and milliseconds of processor time of BodyTracker::step() per frame (median, 95 %,
-// worst); then joint by joint.
+// nobody. Prints, for tags of the full detector and as live cameras are searched, of all
+// cameras and of the first two: mean and 95 % errors of the twelve joints of the limbs,
+// live over batch in brackets, the same of joints of which the tracker says that it knows
+// them to 20 mm, and milliseconds of processor time of BodyTracker::step() per frame
+// (median, 95 %, worst); then joint by joint. Then, of each trial, by how much the body
+// trails the mean instant of the cameras' pictures [ms], no camera being the reference,
+// with all pictures and with half of them passed over in three ways
+// (tests/support/motion_delay.h).
 
 #include <cstdio>
 #include <ctime>
@@ -22,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/live_trails.h"
 #include <glm/geometric.hpp>
 
 #include "capture/detect_videos.h"
@@ -198,6 +202,27 @@ std::optional<Errors> solve(const Scene& scene,
   return errors;
 }
 
+bool print_trails(const Scene& scene,
+                  const std::string& trial,
+                  const marey::testing::TruthJoints& truth,
+                  const std::vector<CameraDetections>& detections) {
+  const auto cameras =
+      marey::testing::truth_cameras(scene.truth / trial / "truth" / "cameras.json");
+  double mean_ms = 0.0;
+  for (std::size_t c = 0; cameras && c < detections.size(); ++c) {
+    mean_ms += 1e3 * (*cameras)[c].offset_s / static_cast<double>(detections.size());
+  }
+  const auto trails = marey::benchmarks::live_trails(
+      scene.body, std::span(scene.cameras).first(detections.size()), truth, detections);
+  if (!trails) return fail(trails.error());
+  std::printf("    trails its stamps, ms:");
+  for (const auto& trail : *trails) {
+    std::printf(" %s %.2f;", trail.pictures, trail.delay_ms + mean_ms);
+  }
+  std::printf("\n");
+  return true;
+}
+
 void print(const std::string& trial,
            const char* tags,
            std::size_t cameras,
@@ -259,6 +284,7 @@ bool measure(const Scene& scene, const std::vector<std::string>& trials) {
         if (!batch || !live) return false;
         print(trial, tags, cameras, *batch, *live);
         print_joints(*batch, *live);
+        if (!print_trails(scene, trial, *truth, *detections)) return false;
         all_batch.add(*batch);
         all_live.errors.add(live->errors);
         all_live.missed += live->missed;

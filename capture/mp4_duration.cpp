@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/extension.h"
+#include "core/input_file.h"
 
 namespace marey::capture {
 namespace {
@@ -54,6 +55,7 @@ bool is_mp4(const std::filesystem::path& path) {
 }
 
 std::optional<double> mp4_duration_s(const std::filesystem::path& path) {
+  if (!check_input_file(path)) return std::nullopt;
   std::ifstream in(path, std::ios::binary);
   if (!enter_box(in, "moov") || !enter_box(in, "mvhd")) return std::nullopt;
   const auto version = read_number(in, 1);

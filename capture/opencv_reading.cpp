@@ -14,6 +14,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/input_file.h"
+
 namespace marey::capture {
 namespace {
 
@@ -38,6 +40,7 @@ Error cannot_open(const std::string& name) {
 }
 
 std::vector<char> bytes_of(const std::filesystem::path& path) {
+  if (!check_input_file(path)) return {};
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in) return {};
   const std::streamoff size = in.tellg();
@@ -99,6 +102,7 @@ std::string url_of(const std::filesystem::path& path) {
 
 Result<cv::VideoCapture> open_capture(const std::filesystem::path& path,
                                       const std::string& name) {
+  if (const Status ok = check_input_file(path, name); !ok) return ok.error();
   silence_opencv();
   try {
     cv::VideoCapture video(url_of(path), cv::CAP_FFMPEG);
@@ -110,6 +114,7 @@ Result<cv::VideoCapture> open_capture(const std::filesystem::path& path,
 }
 
 std::optional<cv::VideoCapture> open_packets(const std::filesystem::path& path) {
+  if (!check_input_file(path)) return std::nullopt;
   silence_opencv();
   try {
     cv::VideoCapture video(url_of(path), cv::CAP_FFMPEG, {cv::CAP_PROP_FORMAT, -1});

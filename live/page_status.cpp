@@ -13,6 +13,12 @@ const char* word(PageSubject subject) {
       return "waiting";
     case PageSubject::kTracked:
       return "tracked";
+    case PageSubject::kPartly:
+      return "partly";
+    case PageSubject::kBehind:
+      return "behind";
+    case PageSubject::kStopped:
+      return "stopped";
     case PageSubject::kLost:
       return "lost";
   }
@@ -67,6 +73,7 @@ std::string status_json(const PageStatus& status) {
       {{"type", "status"},
        {"clock_s", status.clock_s},
        {"subject", word(status.subject)},
+       {"doubts", status.doubts},
        {"frame", status.frame},
        {"rate_hz", status.rate_hz},
        {"latency_ms", {{"p50", status.latency.p50_ms}, {"p95", status.latency.p95_ms}}},

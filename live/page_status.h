@@ -9,7 +9,14 @@
 
 namespace marey::live {
 
-enum class PageSubject { kWaiting, kTracked, kLost };
+enum class PageSubject {
+  kWaiting,
+  kTracked,  ///< All is well: every camera streams, every segment with tags is seen.
+  kPartly,   ///< Tracked, but PageStatus::doubts is not empty.
+  kBehind,   ///< Poses do not keep up with the cameras.
+  kStopped,  ///< No pose has come out for a while.
+  kLost,
+};
 
 /// How long something takes: half the time no longer than p50, nearly always than p95.
 struct PageSpread {
@@ -50,6 +57,7 @@ struct PageRecording {
 struct PageStatus {
   double clock_s = 0.0;
   PageSubject subject = PageSubject::kWaiting;
+  std::vector<std::string> doubts{};  ///< Why the subject is not well, part by part.
   int frame = 0;
   double rate_hz = 0.0;
   PageSpread latency;

@@ -53,6 +53,8 @@ class VmcAssembler {
   [[nodiscard]] bool take_frame(VmcFrame& out);
 
   [[nodiscard]] const VmcReceived& received() const { return received_; }
+  /// As told last, though no frame came with it.
+  [[nodiscard]] const VmcStatus& status() const { return open_.status; }
 
  private:
   using Bones = std::bitset<kUnityBoneCount>;

@@ -23,7 +23,22 @@ int sound(int period) {
   return std::clamp(period, 1, 600);
 }
 
+void write_status(const VmcStatus& status, OscWriter& writer) {
+  writer.begin("/VMC/Ext/OK", "iiii")
+      .add(std::int32_t{status.loaded})
+      .add(std::int32_t{status.calibration})
+      .add(std::int32_t{status.mode})
+      .add(std::int32_t{status.tracking});
+}
+
 }  // namespace
+
+std::vector<std::uint8_t> vmc_status_packet(const VmcStatus& status) {
+  OscWriter writer;
+  write_status(status, writer);
+  const auto packet = writer.packets().front();
+  return {packet.begin(), packet.end()};
+}
 
 VmcEncoder::VmcEncoder(const VmcEncoderOptions& options, std::size_t limit_bytes)
     : info_(options.info), writer_(limit_bytes), first_(options.begin) {}
@@ -87,13 +102,7 @@ std::span<const std::span<const std::uint8_t>> VmcEncoder::encode(
   writer_.clear();
   if (!status_due && !root_due && !bones_due && !info_due) return writer_.packets();
 
-  if (status_due) {
-    writer_.begin("/VMC/Ext/OK", "iiii")
-        .add(std::int32_t{status.loaded})
-        .add(std::int32_t{status.calibration})
-        .add(std::int32_t{status.mode})
-        .add(std::int32_t{status.tracking});
-  }
+  if (status_due) write_status(status, writer_);
   writer_.begin("/VMC/Ext/T", "f").add(static_cast<float>(seconds(time - *first_)));
   if (root_due) write_transform("/VMC/Ext/Root/Pos", "root", pose.root);
   for (int i = 0; bones_due && i < kUnityBoneCount; ++i) {

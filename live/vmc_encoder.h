@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/result.h"
 #include "core/time.h"
@@ -21,6 +22,9 @@ struct VmcStatus {
   int calibration = 3;   ///< 0 none, 1 asked for, 2 under way, 3 done.
   int mode = 0;          ///< Of calibration: 0 normal, 1 and 2 mixed reality.
 };
+
+/// Returns a packet with /VMC/Ext/OK alone: of a sender that has no new pose to send.
+[[nodiscard]] std::vector<std::uint8_t> vmc_status_packet(const VmcStatus& status);
 
 /// What is sent in every n-th frame only, as /VMC/Ext/Set/Period asks.
 struct VmcPeriods {

@@ -31,6 +31,8 @@ class VmcReceiver {
   void wait(std::chrono::milliseconds longest) const { listener_.wait(longest); }
 
   [[nodiscard]] const VmcReceived& received() const { return assembler_.received(); }
+  /// As the sender told it last, though no frame came with it.
+  [[nodiscard]] const VmcStatus& status() const { return assembler_.status(); }
   [[nodiscard]] int port() const { return listener_.port(); }
 
  private:

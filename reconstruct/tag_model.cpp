@@ -37,6 +37,41 @@ PostureVector in_unknowns(const PostureVector& step,
   return out;
 }
 
+/// The step per frame of a body in this posture, as in move_bones().
+PostureVector step_at(const Posture& posture,
+                      const Drift& drift,
+                      const Lengths& lengths) {
+  const PostureVector moved = bone_step_between(*drift.expected, posture, lengths);
+  PostureVector step = drift.step;
+  for (const Slot slot : kAllSlots) {
+    const int column = column_of(slot);
+    const Matrix3d& gain = drift.gain[index(slot)];
+    if (tangent_size(slot) == 3) {
+      step.segment<3>(column) += gain * moved.segment<3>(column);
+    } else {
+      step[column] += gain(0, 0) * moved[column];
+    }
+  }
+  return step;
+}
+
+/// `prior` of which it is not known how far the body is in its movement, slot by slot.
+PosturePrior without_phase(const PosturePrior& prior, const PostureVector& step) {
+  // More than any lag, and enough to keep the equations regular.
+  constexpr double kPhaseSigma_frames = 10.0;
+  PosturePrior out = prior;
+  for (const Slot slot : kAllSlots) {
+    const int column = column_of(slot);
+    Vector3d along = Vector3d::Zero();
+    along.head(tangent_size(slot)) = step.segment(column, tangent_size(slot));
+    Matrix3d& information = out.information[index(slot)];
+    const Vector3d known = information * along;
+    information -= known * known.transpose() /
+                   (along.dot(known) + 1.0 / (kPhaseSigma_frames * kPhaseSigma_frames));
+  }
+  return out;
+}
+
 }  // namespace
 
 TagModel to_tag_model(const Body& body, std::span<const Camera> cameras) {
@@ -79,20 +114,7 @@ const UnfoldedPosture& TagFrameSolver::unfold(const Posture& posture) {
 
 void TagFrameSolver::unfold_all(const Posture& posture, const Drift* drift) {
   PostureVector step;
-  if (drift) {
-    const PostureVector moved =
-        bone_step_between(*drift->expected, posture, model_->lengths);
-    step = drift->step;
-    for (const Slot slot : kAllSlots) {
-      const int column = column_of(slot);
-      const Matrix3d& gain = drift->gain[index(slot)];
-      if (tangent_size(slot) == 3) {
-        step.segment<3>(column) += gain * moved.segment<3>(column);
-      } else {
-        step[column] += gain(0, 0) * moved[column];
-      }
-    }
-  }
+  if (drift) step = step_at(posture, *drift, model_->lengths);
   unfold(posture);
   if (drift) {
     step_ = in_unknowns(step, posture, model_->lengths);
@@ -272,9 +294,15 @@ void TagFrameSolver::lateness(std::span<const SeenTag> seen,
   std::fill(out.begin(), out.end(), Lateness{});
   if (!beside.drift) return;
   Drift drift = *beside.drift;
-  // Whose doubt is what this is for.
+  // The uncertainty of lags is what is estimated here.
   drift.late_sigma_frames = {};
-  const Beside own{beside.prior, &drift, beside.slips_m};
+  // The prediction follows from earlier pictures with the same lags, so it does not
+  // measure how late a picture is. Without this, one lag of all cameras seems observable.
+  drift.step = step_at(posture, drift, model_->lengths);
+  for (Matrix3d& gain : drift.gain) gain.setZero();
+  std::optional<PosturePrior> prior;
+  if (beside.prior) prior = without_phase(*beside.prior, drift.step);
+  const Beside own{prior ? &*prior : nullptr, &drift, beside.slips_m};
   accumulate(seen, own, posture, limits, judged_);
   if (!late_factor_.factor(judged_.hessian, 0.0)) return;
   TagSighted sighted;

@@ -47,6 +47,7 @@ struct TrackBodyOptions {
   double camera_sigma_m = 0.0;
   /// Per camera whether CameraView::late_s is the whole truth; others are followed by
   /// the constant lag that they have beside it, which takes a second or two of movement.
+  /// Where no camera is known, stamps are right on average: the lags' mean is zero.
   /// Cameras beyond the end are unknown, but for the first: its clock is the frames'.
   std::vector<bool> lag_known{};
 };

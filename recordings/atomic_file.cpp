@@ -17,6 +17,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "core/input_file.h"
+
 namespace marey::recordings {
 namespace fs = std::filesystem;
 
@@ -263,20 +265,7 @@ Status write_file(const fs::path& path, std::string_view bytes) {
 }
 
 Result<std::string> read_file(const fs::path& path) {
-  std::error_code problem;
-  const fs::file_status status = fs::status(path, problem);
-  if (status.type() == fs::file_type::none) {
-    return bad_input(path.string(),
-                     "the file cannot be read: " + problem.message(),
-                     "check the name and its folder's permissions");
-  }
-  if (!fs::exists(status)) {
-    return bad_input(
-        path.string(), "the file does not exist", "check the name and the folder");
-  }
-  if (fs::is_directory(status)) {
-    return bad_input(path.string(), "this is a folder, not a file", "name a file in it");
-  }
+  if (const Status ok = check_input_file(path); !ok) return ok.error();
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
@@ -284,11 +273,19 @@ Result<std::string> read_file(const fs::path& path) {
                      "the file cannot be read" + reason(errno),
                      "check its permissions");
   }
-  // In pieces rather than one of file_size(), which is 0 for pipes and /proc.
+  // In pieces rather than one of file_size(), which is 0 for files of /proc.
   constexpr std::size_t kPiece = std::size_t{1} << 20;
+  // What is read whole is a table, a text or a body: none comes near this.
+  constexpr std::uintmax_t kLargest = std::uintmax_t{4} << 30;
   std::string bytes;
-  if (const auto size = fs::file_size(path, problem); !problem)
-    bytes.reserve(size + kPiece);
+  std::error_code problem;
+  const std::uintmax_t size = fs::file_size(path, problem);
+  if (!problem && size > kLargest) {
+    return bad_input(path.string(),
+                     "the file is larger than 4 GiB",
+                     "name the file that was meant, or a shorter recording");
+  }
+  if (!problem) bytes.reserve(size + kPiece);
   for (std::size_t got = kPiece; got == kPiece;) {
     const std::size_t at = bytes.size();
     bytes.resize(at + kPiece);

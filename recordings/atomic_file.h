@@ -67,8 +67,8 @@ void visit_partial_files(void (*visit)(const char* path)) noexcept;
 [[nodiscard]] Status write_file(const std::filesystem::path& path,
                                 std::string_view bytes);
 
-/// The bytes of the file at `path`. Errors: it does not exist, is a folder or may not be
-/// read (kBadInput); the disk failed (kDevice).
+/// Returns the bytes of the file at `path`. Errors: check_input_file()'s, it may not be
+/// read, or is larger than 4 GiB (kBadInput); the disk failed (kDevice).
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 
 }  // namespace marey::recordings

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/input_file.h"
 #include "recordings/c3d.h"
 #include "recordings/c3d_layout.h"
 #include "recordings/c3d_parameters.h"
@@ -74,13 +75,8 @@ C3dReader::~C3dReader() = default;
 Result<C3dReader> C3dReader::open(const std::filesystem::path& path) {
   auto state = std::make_unique<State>();
   state->file = path.string();
+  if (const Status ok = check_input_file(path); !ok) return ok.error();
   std::error_code problem;
-  if (!std::filesystem::is_regular_file(path, problem)) {
-    // Pipes have no size and folders no bytes: read_file() knows what to say.
-    Result<std::string> bytes = read_file(path);
-    if (!bytes) return bytes.error();
-    return of_bytes(*std::move(bytes), path.string());
-  }
   state->size = std::filesystem::file_size(path, problem);
   auto stream = std::make_unique<std::ifstream>(path, std::ios::binary);
   if (problem || !*stream) {

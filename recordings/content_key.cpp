@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/input_file.h"
 #include "core/name_pattern.h"
 
 namespace marey::recordings {
@@ -44,6 +45,7 @@ Error unreadable(const fs::path& path) {
 }
 
 Result<std::string> key_of_file(const fs::path& path) {
+  if (const Status ok = check_input_file(path); !ok) return ok.error();
   std::error_code problem;
   const std::uintmax_t size = fs::file_size(path, problem);
   std::ifstream stream(path, std::ios::binary);

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <system_error>
@@ -22,7 +23,8 @@ bool read_head(sqlite3* database, LiveTake& take) {
   take.head.rate.hz = live.number(2);
   take.head.settings = live.text(3);
   take.finished = live.integer(4) != 0;
-  if (!(take.head.rate.hz > 0.0) || !std::isfinite(take.head.rate.hz)) return false;
+  constexpr double kFastest_hz = 1e4;  // Of any camera.
+  if (!(take.head.rate.hz > 0.0 && take.head.rate.hz <= kFastest_hz)) return false;
   Statement cameras(database, "SELECT camera, name FROM camera ORDER BY camera");
   while (cameras.next_row()) {
     const auto next = static_cast<std::int64_t>(take.head.cameras.size());
@@ -30,6 +32,23 @@ bool read_head(sqlite3* database, LiveTake& take) {
     take.head.cameras.push_back(cameras.text(1));
   }
   return !cameras.failed();
+}
+
+/// Of an instant behind those that were read.
+bool is_impossible(const LiveInstant& instant, const LiveTake& take) {
+  // Of clocks that count from when a computer started: 30 years; and of frames in that
+  // time, at 1000 a second.
+  constexpr Timestamp kMost_time = std::chrono::hours(24 * 366 * 30);
+  constexpr std::int64_t kMost_number = 1'000'000'000'000;
+  if (instant.number < -kMost_number || instant.number > kMost_number) return true;
+  if (instant.time < -kMost_time || instant.time > kMost_time) return true;
+  constexpr Timestamp kMost_apart = std::chrono::seconds(10);
+  for (const CameraTags& view : instant.views) {
+    if (view.time < instant.time - kMost_apart || view.time > instant.time + kMost_apart) {
+      return true;
+    }
+  }
+  return !take.instants.empty() && instant.number <= take.instants.back().seen.number;
 }
 
 bool read_instants(sqlite3* database, LiveTake& take) {
@@ -46,6 +65,7 @@ bool read_instants(sqlite3* database, LiveTake& take) {
     auto views = read_views(rows.bytes(2), take.head.cameras.size());
     if (!views) return false;
     one.seen.views = *std::move(views);
+    if (is_impossible(one.seen, take)) return false;
     one.requests = rows.text(3);
     const auto results = rows.bytes(4);
     one.results.assign(results.begin(), results.end());
@@ -63,7 +83,9 @@ Result<LiveTake> read_live_take(const std::filesystem::path& path) {
     return bad_input(
         file, "there is no live take", "name the folder that marey live --record made");
   }
-  const Database database = open_recorded(path);
+  const auto opened = open_recorded(path);
+  if (!opened) return opened.error();
+  const Database& database = *opened;
   const Error damaged =
       bad_input(file,
                 "it is not the database of a live take, or it is damaged",

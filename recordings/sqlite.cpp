@@ -3,10 +3,15 @@
 #include "recordings/sqlite.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <system_error>
+
+#include "core/input_file.h"
 
 namespace marey::recordings {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// The file as a URI: "#", "?" and "%" mean something there, and Debian's SQLite takes
 /// every name for one that looks like it.
@@ -60,6 +65,43 @@ void limit_to(std::uintmax_t bytes, sqlite3* database) {
                             SQLITE_DBCONFIG_TRUSTED_SCHEMA}) {
     sqlite3_db_config(database, setting, 0, nullptr);
   }
+}
+
+/// A new folder that is removed with all that is in it. Its path is empty where none
+/// could be made.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::error_code problem;
+    std::string name = (fs::temp_directory_path(problem) / "marey-XXXXXX").string();
+    if (!problem && mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  [[nodiscard]] const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// Copies a database and its log, which may be written to meanwhile: the file itself
+/// changes only where the log is moved into it, and then both are copied again.
+bool copy_with_log(const fs::path& file, const fs::path& log, const fs::path& copy) {
+  constexpr int kTries = 5;
+  const auto options = fs::copy_options::overwrite_existing;
+  std::error_code problem;
+  for (int i = 0; i < kTries; ++i) {
+    const auto before = fs::last_write_time(file, problem);
+    if (problem) return false;
+    if (!fs::copy_file(file, copy, options, problem)) return false;
+    if (!fs::copy_file(log, copy.string() + "-wal", options, problem)) return false;
+    if (fs::last_write_time(file, problem) == before && !problem) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -127,11 +169,34 @@ Result<Database> begin_recorded(const std::filesystem::path& file,
   return error;
 }
 
-Database open_recorded(const std::filesystem::path& file) {
-  Database database = open_database(file, SQLITE_OPEN_READWRITE);
-  if (!database || setting_of(database.get(), "schema_version") <= 0) {
-    database = open_database(file, SQLITE_OPEN_READONLY, "immutable=1");
+Result<Database> open_recorded(const fs::path& file) {
+  if (const Status ok = check_input_file(file); !ok) return ok.error();
+  const fs::path log = file.string() + "-wal";
+  std::error_code ignored;
+  const bool has_log =
+      fs::is_regular_file(log, ignored) && fs::file_size(log, ignored) > 0;
+  if (!has_log) {
+    Database database = open_database(file, SQLITE_OPEN_READONLY, "immutable=1");
+    if (database) limit_to(bytes_of(file), database.get());
+    return database;
   }
+  const TemporaryFolder folder;
+  const fs::path copy = folder.path() / "take.sqlite";
+  if (folder.path().empty() || !copy_with_log(file, log, copy)) {
+    return Error{Errc::kDevice,
+                 file.string(),
+                 "its writer was killed, and there is no room for the copy in which its "
+                 "log is put in order",
+                 "make room in " + fs::temp_directory_path(ignored).string() +
+                     ", or set TMPDIR to a folder that has"};
+  }
+  {
+    // Takes the log in.
+    const Database whole = open_database(copy, SQLITE_OPEN_READWRITE);
+    if (!whole || !execute(whole.get(), "PRAGMA journal_mode=DELETE")) return Database();
+  }
+  // The folder goes; what is open stays readable.
+  Database database = open_database(copy, SQLITE_OPEN_READONLY, "immutable=1");
   if (database) limit_to(bytes_of(file), database.get());
   return database;
 }

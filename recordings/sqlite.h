@@ -51,11 +51,12 @@ struct RecordedKind {
     const std::string& instead,
     const std::function<bool(sqlite3*)>& write_head);
 
-/// Opens a recording to be read; null when it cannot be. A log that was left behind is
-/// read with the file, which takes the right to write; a recording on a read-only disk is
-/// read without. Views and triggers do not work in it, and no value is larger than the
-/// file.
-[[nodiscard]] Database open_recorded(const std::filesystem::path& file);
+/// Opens a recording to be read; null inside when it is no database. Nothing beside or in
+/// it is written: where a process was killed and left its log behind, both are put
+/// together in a copy in the folder for temporary files, which is gone once it is open.
+/// Views and triggers do not work in it, and no value is larger than the file.
+/// Errors: check_input_file()'s; the copy cannot be made (kDevice).
+[[nodiscard]] Result<Database> open_recorded(const std::filesystem::path& file);
 
 /// Returns true if the tables are those of `schema` and nothing else: a table that
 /// computes its rows or columns has no end.

@@ -43,7 +43,12 @@ bool read_cameras(sqlite3* database, Take& take) {
     camera.rate.hz = rows.number(5);
     camera.device = rows.text(6);
     camera.settings = rows.text(7);
-    const bool can_be = camera.rate.hz > 0.0 && std::isfinite(camera.rate.hz) &&
+    // Of any camera; a size of zero is that of one that never sent a picture.
+    constexpr double kFastest_hz = 1e4;
+    constexpr std::int64_t kLargest_px = 100'000;
+    const auto is_side = [](std::int64_t px) { return px >= 0 && px <= kLargest_px; };
+    const bool can_be = camera.rate.hz > 0.0 && camera.rate.hz <= kFastest_hz &&
+                        is_side(rows.integer(3)) && is_side(rows.integer(4)) &&
                         camera.file.find('/') == std::string::npos;
     if (!can_be) return false;
     take.cameras.push_back(std::move(camera));
@@ -105,7 +110,9 @@ Result<Take> read_take(const std::filesystem::path& path) {
                      "the trial's `videos`, elsewhere than in the take: then frames are "
                      "matched by their numbers");
   }
-  const Database database = open_recorded(path);
+  const auto opened = open_recorded(path);
+  if (!opened) return opened.error();
+  const Database& database = *opened;
   if (!database || setting_of(database.get(), "application_id") != kTakeApplication) {
     return damaged(file);
   }

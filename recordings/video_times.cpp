@@ -14,6 +14,8 @@ extern "C" {
 #include <libavutil/mathematics.h>
 }
 
+#include "core/input_file.h"
+
 namespace marey::recordings {
 namespace {
 
@@ -30,6 +32,7 @@ struct FreePacket {
 
 std::unique_ptr<AVFormatContext, CloseInput> open_input(
     const std::filesystem::path& path) {
+  if (!check_input_file(path)) return nullptr;
   // A library does not print: who calls is told.
   av_log_set_level(AV_LOG_QUIET);
   AVFormatContext* raw = nullptr;

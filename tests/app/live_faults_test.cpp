@@ -106,8 +106,10 @@ class LiveFaults : public ::testing::Test {
     }
   }
 
-  Frame step(LiveChain& chain, const LiveInstant& instant) const {
-    const LiveResult& result = chain.step(instant, {});
+  Frame step(LiveChain& chain,
+             const LiveInstant& instant,
+             const LiveRequests& requests = {}) const {
+    const LiveResult& result = chain.step(instant, requests);
     Frame frame;
     frame.state = result.track.state;
     look_at(result, frame);
@@ -168,6 +170,18 @@ class LiveFaults : public ::testing::Test {
   std::vector<double> lags_s_;
   std::function<bool(const TagOnSegment&, int)> hidden_;
 };
+
+TEST_F(LiveFaults, PosesThatDoNotKeepUpAreNotTrackedToReceivers) {
+  const auto instants = film(40);
+  LiveChain chain = make_chain();
+  for (std::size_t f = 0; f < instants.size(); ++f) {
+    LiveRequests requests;
+    requests.behind = f >= 20 && f < 30;
+    const Frame frame = step(chain, instants[f], requests);
+    EXPECT_EQ(frame.state, TrackState::kTracked) << f;
+    EXPECT_EQ(frame.tracking, requests.behind ? 0 : 1) << f;
+  }
+}
 
 TEST_F(LiveFaults, TwoSecondsHiddenAreOverWithinOne) {
   const auto unharmed = follow(film(165));

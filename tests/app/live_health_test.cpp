@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +16,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using live::PageCameraState;
+using live::PageSubject;
+using reconstruct::TrackState;
 
 TEST(LiveHealth, TellsOfACameraThatIsLostAndBack) {
   LiveCameraFigures before;
@@ -29,6 +33,67 @@ TEST(LiveHealth, TellsOfACameraThatIsLostAndBack) {
   now.health = {};
   EXPECT_EQ(camera_status(now, &before, 3).state, PageCameraState::kStreaming);
   EXPECT_EQ(camera_status(now, &before, 3).detail, "");
+}
+
+class LiveSubject : public ::testing::Test {
+ protected:
+  LiveSubject() : figures_(2) {
+    status_.cameras = {{"left", PageCameraState::kStreaming, 9, 0, 3, ""},
+                       {"right", PageCameraState::kStreaming, 9, 0, 3, ""}};
+  }
+  [[nodiscard]] live::PageStatus told(TrackState state,
+                                      const std::vector<std::string>& unseen = {}) {
+    live::PageStatus status = status_;
+    tell_subject(state, figures_, unseen, status);
+    return status;
+  }
+  LiveFigures figures_;
+  live::PageStatus status_;
+};
+
+TEST_F(LiveSubject, IsWellOnlyWhereTheWorstCameraAndSegmentAre) {
+  EXPECT_EQ(told(TrackState::kTracked).subject, PageSubject::kTracked);
+  EXPECT_TRUE(told(TrackState::kTracked).doubts.empty());
+  const auto unseen = told(TrackState::kTracked, {"leftFoot"});
+  EXPECT_EQ(unseen.subject, PageSubject::kPartly);
+  ASSERT_EQ(unseen.doubts.size(), 1U);
+  EXPECT_EQ(unseen.doubts[0], "leftFoot has not been seen for more than a second");
+  for (const auto state : {PageCameraState::kSilent, PageCameraState::kLost}) {
+    status_.cameras[1].state = state;
+    EXPECT_EQ(told(TrackState::kTracked).subject, PageSubject::kPartly);
+    EXPECT_NE(told(TrackState::kTracked).doubts.at(0).find("right"), std::string::npos);
+  }
+}
+
+TEST_F(LiveSubject, IsNotTrackedWherePosesDoNotKeepUp) {
+  figures_.flow_text = "poses fall behind";
+  for (const auto state : {TrackState::kWaiting, TrackState::kTracked, TrackState::kLost}) {
+    figures_.flow = Flow::kBehind;
+    EXPECT_EQ(told(state).subject, PageSubject::kBehind);
+    EXPECT_EQ(told(state).doubts.back(), "poses fall behind");
+    figures_.flow = Flow::kStopped;
+    EXPECT_EQ(told(state).subject, PageSubject::kStopped);
+  }
+  figures_.flow = Flow::kSteady;
+  EXPECT_EQ(told(TrackState::kLost).subject, PageSubject::kLost);
+  EXPECT_EQ(told(TrackState::kWaiting).subject, PageSubject::kWaiting);
+}
+
+TEST(WornSegments, AreUnseenWhereTheirPlaceIsAGuess) {
+  Body body;
+  for (const HumanBone bone : {HumanBone::kHips, HumanBone::kLeftToes, HumanBone::kHead}) {
+    PlacedTag tag;
+    tag.tag.segment = bone;
+    body.tags.push_back(tag);
+    body.tags.push_back(tag);
+  }
+  std::vector<JointDoubt> doubt(kHumanBoneCount, {0.01, Source::kMeasured});
+  EXPECT_TRUE(WornSegments(body).unseen(doubt).empty());
+  doubt[index(HumanBone::kLeftFoot)].source = Source::kInferred;
+  doubt[index(HumanBone::kHead)].source = Source::kRepaired;
+  doubt[index(HumanBone::kRightHand)].source = Source::kInferred;  // Wears nothing.
+  EXPECT_EQ(WornSegments(body).unseen(doubt), std::vector<std::string>{"leftFoot"});
+  EXPECT_TRUE(WornSegments(body).unseen({}).empty());
 }
 
 /// Packets of one stream.

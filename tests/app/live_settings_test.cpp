@@ -113,7 +113,14 @@ TEST(LiveRequests, AreKeptAndAreNothingWhenNobodyAsked) {
   EXPECT_FALSE(back->streams[0].periods);
   EXPECT_EQ(back->streams[1].periods->bone, 3);
   EXPECT_TRUE(back->streams[1].info);
+  EXPECT_FALSE(back->behind);
+  LiveRequests late;
+  late.behind = true;
+  const auto late_back = parse_live_requests(live_requests_text(late), "take");
+  ASSERT_TRUE(late_back);
+  EXPECT_TRUE(late_back->behind);
   EXPECT_FALSE(parse_live_requests("{\"vmc\":7}", "take"));
+  EXPECT_FALSE(parse_live_requests("{\"vmc\":[],\"behind\":7}", "take"));
 }
 
 // A chain that comes later hears what was asked for before it.

@@ -132,6 +132,21 @@ TEST_F(TakesOfARun, OfAllOfItAreTakenAwayWithoutAFrame) {
   EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
+// The disk has room: it is the name that is wrong.
+TEST_F(TakesOfARun, AreNotRecordedIntoFiles) {
+  const auto file = folder_ / "taken";
+  std::ofstream(file).flush();
+  for (const auto& folder : {file, file / "take"}) {
+    const Status ok = takes_->begin_with_run(folder);
+    ASSERT_FALSE(ok);
+    EXPECT_EQ(ok.error().code, Errc::kBadInput);
+    EXPECT_NE(ok.error().cause.find("file, and a take needs a folder"), std::string::npos)
+        << ok.error().message();
+    EXPECT_EQ(ok.error().next.find("disk"), std::string::npos);
+  }
+  EXPECT_TRUE(std::filesystem::is_regular_file(file));
+}
+
 TEST_F(TakesOfARun, EndWithTheirBody) {
   takes_->want(true);
   ASSERT_TRUE(play_until_recorded());

@@ -12,7 +12,7 @@ namespace marey::app {
 namespace {
 
 TEST(StopSignal, AsksTheFirstTimeAndEndsTheSecond) {
-  for (const int signal : {SIGINT, SIGTERM}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
@@ -28,6 +28,23 @@ TEST(StopSignal, AsksTheFirstTimeAndEndsTheSecond) {
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 130);
   }
+}
+
+// nohup(1) starts programs so.
+TEST(StopSignal, LeavesAnIgnoredHangUpIgnored) {
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    (void)std::signal(SIGHUP, SIG_IGN);
+    catch_stop_signals();
+    raise(SIGHUP);
+    raise(SIGPIPE);
+    _exit(stop_wanted() ? 1 : 0);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 }  // namespace

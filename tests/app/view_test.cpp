@@ -247,6 +247,34 @@ TEST_F(View, SaysWhatItCannotShow) {
             "is nothing that can be shown");
 }
 
+// Somebody else's results: what they link to is ours, and not theirs to have served.
+TEST_F(View, DoesNotFollowLinksOutOfTheFolder) {
+  const fs::path secret = in_folder("secret.html");
+  std::ofstream(secret) << "secret";
+  fs::create_symlink(secret, out() / "report.html");
+  const ViewChoice choice{.what = out(), .trial = {}, .avatars = {}};
+  auto page = ViewTrials::open(choice, {});
+  ASSERT_TRUE(page) << page.error().message();
+  EXPECT_EQ(page->first().scene.find("report.html"), std::string::npos);
+  fs::create_directories(in_folder("other"));
+  fs::create_directory_symlink(out() / "walk", in_folder("other/walk"));
+  EXPECT_TRUE(solved_trials(in_folder("other")).empty());
+  fs::rename(out() / "walk/motion.bvh", in_folder("motion.bvh"));
+  fs::create_symlink(in_folder("motion.bvh"), out() / "walk/motion.bvh");
+  const auto view = read_view(choice);
+  ASSERT_FALSE(view);
+  EXPECT_NE(view.error().where.find("motion.bvh"), std::string::npos);
+  EXPECT_NE(view.error().cause.find("leads out of the folder"), std::string::npos);
+}
+
+// Links that stay in the folder are the user's affair.
+TEST_F(View, FollowsLinksInsideTheFolder) {
+  fs::create_directories(out() / "shared");
+  fs::rename(out() / "walk/motion.bvh", out() / "shared/motion.bvh");
+  fs::create_symlink("../shared/motion.bvh", out() / "walk/motion.bvh");
+  EXPECT_TRUE(read_view({.what = out(), .trial = {}, .avatars = {}}));
+}
+
 TEST_F(View, ServesUntilItsTimeIsOver) {
   const std::string what = (out() / "walk/motion.bvh").string();
   const ProgramRun run = run_program(

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sys/stat.h>
 
 #include "capture/image_folder.h"
 #include "tests/capture/scratch_video.h"
@@ -28,6 +29,20 @@ std::unique_ptr<FrameSource> open(const fs::path& path, const std::string& name 
   auto source = open_frames(path, name);
   EXPECT_TRUE(source) << source.error().message();
   return source ? std::move(*source) : nullptr;
+}
+
+// Before, a pipe was waited for for ever.
+TEST(OpenFrames, DeclinesPipesAndDevices) {
+  const ScratchFolder folder;
+  ASSERT_EQ(mkfifo((folder / "cam0.mp4").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder / "cam1.mp4");
+  for (const char* name : {"cam0.mp4", "cam1.mp4"}) {
+    const auto source = open_frames(folder / name, name);
+    ASSERT_FALSE(source) << name;
+    EXPECT_EQ(source.error().code, Errc::kBadInput);
+    EXPECT_NE(source.error().cause.find("not a file"), std::string::npos)
+        << source.error().message();
+  }
 }
 
 struct ReadThrough {

@@ -155,6 +155,7 @@ TEST(PageStatus, HasTheMembersOfTheProtocol) {
             (Keys{"type",
                   "clock_s",
                   "subject",
+                  "doubts",
                   "frame",
                   "rate_hz",
                   "latency_ms",
@@ -166,6 +167,17 @@ TEST(PageStatus, HasTheMembersOfTheProtocol) {
                   "clients",
                   "messages"}));
   EXPECT_EQ(empty["subject"], "waiting");
+  for (const auto& [subject, word] : {std::pair{PageSubject::kTracked, "tracked"},
+                                      std::pair{PageSubject::kPartly, "partly"},
+                                      std::pair{PageSubject::kBehind, "behind"},
+                                      std::pair{PageSubject::kStopped, "stopped"},
+                                      std::pair{PageSubject::kLost, "lost"}}) {
+    PageStatus told;
+    told.subject = subject;
+    told.doubts = {"leftFoot has not been seen"};
+    EXPECT_EQ(Json::parse(status_json(told))["subject"], word);
+    EXPECT_EQ(Json::parse(status_json(told))["doubts"][0], told.doubts[0]);
+  }
   EXPECT_EQ(empty["stages"][0],
             Json::parse(R"({"name":"detect cam0","p50_ms":1.0,"p95_ms":2.0})"));
   EXPECT_EQ(keys(empty["cameras"][0]),

@@ -196,6 +196,20 @@ TEST(AtomicFile, LeavesPipesAndDevicesAsTheyAre) {
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
+// Before, a pipe was waited for, and a device filled the memory.
+TEST(ReadFile, DeclinesPipesDevicesAndWhatIsTooLarge) {
+  const ScratchFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  fs::create_symlink("/dev/zero", folder / "zero");
+  std::ofstream(folder / "large") << "a";
+  fs::resize_file(folder / "large", std::uintmax_t{1} << 40);  // Of holes.
+  for (const char* name : {"pipe", "zero", "large"}) {
+    const auto bytes = read_file(folder / name);
+    ASSERT_FALSE(bytes) << name;
+    EXPECT_EQ(bytes.error().code, Errc::kBadInput) << name;
+  }
+}
+
 TEST(AtomicFile, DeclinesAFolderWhereAFileIs) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_file(folder / "taken", "a"));

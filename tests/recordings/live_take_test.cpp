@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -105,6 +107,69 @@ TEST(LiveTake, HasWhatWasCommittedWhenItWasCutOff) {
   EXPECT_FALSE(take->finished);
   ASSERT_EQ(take->instants.size(), 1U);
   expect_same(take->instants[0], instant(1));
+}
+
+std::map<std::string, std::string> content_of(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::ifstream in(entry.path(), std::ios::binary);
+    files[entry.path().filename().string()] = {std::istreambuf_iterator<char>(in), {}};
+  }
+  return files;
+}
+
+// What a killed process left is read as often as one likes, and stays as it was left.
+TEST(LiveTake, IsReadWithoutAWriteWhetherItWasFinishedOrKilled) {
+  const testing::ScratchFolder folder;
+  const auto file = folder.path() / kLiveTakeFile;
+  auto writer = LiveTakeWriter::create(file, head());
+  ASSERT_TRUE(writer);
+  EXPECT_TRUE(writer->add(instant(1)));
+  ASSERT_TRUE(writer->commit());
+  // As a kill leaves it: the file, and a log with what was committed.
+  const testing::ScratchFolder killed;
+  for (const auto& [name, bytes] : content_of(folder.path())) {
+    if (name.ends_with("-shm")) continue;
+    std::ofstream(killed / name, std::ios::binary) << bytes;
+  }
+  ASSERT_TRUE(writer->finish());
+  for (const auto* where : {&folder, &killed}) {
+    const auto before = content_of(where->path());
+    for (int i = 0; i < 2; ++i) {
+      const auto take = read_live_take(where->path() / kLiveTakeFile);
+      ASSERT_TRUE(take) << take.error().message();
+      EXPECT_EQ(take->finished, where == &folder);
+      ASSERT_EQ(take->instants.size(), 1U);
+      expect_same(take->instants[0], instant(1));
+    }
+    EXPECT_EQ(content_of(where->path()), before);
+  }
+  EXPECT_EQ(content_of(killed.path()).size(), 2U) << "the file and its log";
+}
+
+TEST(LiveTake, DeclinesNumbersAndTimesThatNoRunHas) {
+  for (const char* change : {"UPDATE instant SET number = 9000000000000000000",
+                             "UPDATE instant SET number = -9000000000000000000",
+                             "UPDATE instant SET time_ns = 9000000000000000000",
+                             "UPDATE instant SET time_ns = 3600000000000",
+                             "UPDATE live SET rate_hz = 1e30",
+                             "UPDATE live SET rate_hz = 9e999"}) {
+    const testing::ScratchFolder folder;
+    const auto file = folder.path() / kLiveTakeFile;
+    {
+      auto writer = LiveTakeWriter::create(file, head());
+      ASSERT_TRUE(writer);
+      EXPECT_TRUE(writer->add(instant(1)));
+      ASSERT_TRUE(writer->finish());
+    }
+    {
+      const Database database = open_database(file, SQLITE_OPEN_READWRITE);
+      ASSERT_TRUE(execute(database.get(), change)) << change;
+    }
+    const auto take = read_live_take(file);
+    ASSERT_FALSE(take) << change;
+    EXPECT_EQ(take.error().code, Errc::kBadInput);
+  }
 }
 
 TEST(LiveTake, NeverWritesOverAnother) {

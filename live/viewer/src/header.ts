@@ -4,11 +4,10 @@
 // The bar at the top: what this is, how it does, what can be called up.
 
 import {el, setText} from './elements';
+import {pillOf} from './pill';
 import type {SceneWords, StatusWords} from './protocol';
 import type {Theme} from './theme';
 import {milliseconds} from './status_panel';
-
-const SUBJECT_WORDS = {waiting: 'waiting for a performer', tracked: 'tracked', lost: 'lost'};
 
 /** What pressing the button does, and how the take does that there is. */
 function recordWords(recording: StatusWords['recording']): string {
@@ -26,7 +25,8 @@ export class Header {
   private live = false;
   private connected = false;
   private recording = false;
-  private subject: StatusWords['subject'] = 'waiting';
+  private status: StatusWords | null = null;
+  private statusAt_ms = 0;
 
   constructor(element: HTMLElement, stage: HTMLElement, theme: Theme,
     buttons: HTMLElement[], record: (on: boolean) => void) {
@@ -52,6 +52,8 @@ export class Header {
 
   setConnected(connected: boolean): void {
     this.connected = connected;
+    // What was said before the line was lost is old.
+    if (!connected) this.status = null;
     this.banner.hidden = connected;
     setText(this.banner, connected ? ''
       : 'The connection to marey is lost. Trying again twice a second; is it still running?');
@@ -59,7 +61,8 @@ export class Header {
   }
 
   setStatus(status: StatusWords): void {
-    this.subject = status.subject;
+    this.status = status;
+    this.statusAt_ms = performance.now();
     const latency = status.latency_ms ? ` · ${milliseconds(status.latency_ms.p50)}` : '';
     setText(this.figures, `${status.rate_hz.toFixed(0)} Hz${latency}`);
     this.recording = status.recording !== null;
@@ -69,10 +72,13 @@ export class Header {
     this.tell();
   }
 
-  private tell(): void {
-    const state = !this.connected ? 'offline' : this.live ? this.subject : 'file';
-    setText(this.pill, state === 'offline' ? 'not connected'
-      : state === 'file' ? 'from a file' : SUBJECT_WORDS[state]);
-    this.pill.className = `pill pill-${state}`;
+  /** Also some times a second: a status that does not come shows, too. */
+  tell(): void {
+    const {state, words, why} = pillOf(this.connected, this.live, this.status,
+      performance.now() - this.statusAt_ms);
+    setText(this.pill, words);
+    if (this.pill.title !== why) this.pill.title = why;
+    const name = `pill pill-${state}`;
+    if (this.pill.className !== name) this.pill.className = name;
   }
 }

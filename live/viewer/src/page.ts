@@ -91,7 +91,10 @@ class Page implements Listener, StageListener {
     giveFocusBack();
     this.connection = new Connection(this);
     window.setInterval(() => this.second(), 1000);
-    window.setInterval(() => this.repaintLive(), REPAINT_EVERY_MS);
+    window.setInterval(() => {
+      this.repaintLive();
+      this.header.tell();
+    }, REPAINT_EVERY_MS);
   }
 
   // --- From marey ---

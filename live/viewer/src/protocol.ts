@@ -124,7 +124,9 @@ export interface SceneWords {
 export interface StatusWords {
   type: 'status';
   clock_s: number;
-  subject: 'waiting' | 'tracked' | 'lost';
+  subject: 'waiting' | 'tracked' | 'partly' | 'behind' | 'stopped' | 'lost';
+  /** Why the subject is not well. */
+  doubts: string[];
   frame: number;
   rate_hz: number;
   latency_ms: {p50: number; p95: number} | null;

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The badge at the top: how the subject is. Good only where all of it is.
+
+import type {StatusWords} from './protocol';
+
+/** marey sends its status twice a second: without one for so long nothing is known. */
+export const STATUS_SILENCE_MS = 1250;
+
+const WORDS: Record<StatusWords['subject'], string> = {
+  waiting: 'waiting for a performer', tracked: 'tracked', partly: 'tracked in part',
+  behind: 'falling behind', stopped: 'no new poses', lost: 'lost',
+};
+
+export interface Pill {
+  /** Ends the class: pill-tracked. */
+  state: StatusWords['subject'] | 'offline' | 'file' | 'silent';
+  words: string;
+  /** Why it is not good; empty where there is nothing to say. */
+  why: string;
+}
+
+/** `silent_ms`: since the status came. Null: none has come yet. */
+export function pillOf(connected: boolean, live: boolean,
+  status: Pick<StatusWords, 'subject' | 'doubts'> | null, silent_ms: number): Pill {
+  if (!connected) return {state: 'offline', words: 'not connected', why: ''};
+  if (!live) return {state: 'file', words: 'from a file', why: ''};
+  if (!status) return {state: 'waiting', words: WORDS.waiting, why: ''};
+  if (silent_ms > STATUS_SILENCE_MS) {
+    return {state: 'silent', words: 'marey is silent',
+      why: 'marey has not said how it does for more than a second: the computer may be too busy'};
+  }
+  const {subject, doubts} = status;
+  return {state: subject, words: WORDS[subject] ?? subject, why: (doubts ?? []).join('\n')};
+}
