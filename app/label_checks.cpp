@@ -18,6 +18,8 @@ using reconstruct::LabelFinding;
 constexpr double kFarElsewhere_m = 0.040;
 // Labels that the fit left out: a single one changes little.
 constexpr std::size_t kMaxLeftOut = 1;
+// Of a label that is seen often enough to be placed.
+constexpr std::size_t kLeastSamples = 3;
 constexpr std::size_t kShown = 4;
 
 std::string in_mm(double length_m) {
@@ -150,17 +152,20 @@ LabelChecks check_labels(const Body& body,
   checks.of_trials = reconstruct::check_trials(body, markers, checked);
   if (subject == nullptr) return checks;
   checks.of_fit = reconstruct::check_fit(subject->fit, markers);
-  // Labels that are never seen are told elsewhere.
+  // Labels that are hardly seen are not left out for how they move.
+  const std::size_t most =
+      *std::max_element(labels.samples.begin(), labels.samples.end());
+  const std::size_t least = std::max<std::size_t>(kLeastSamples, most / 20);
   std::erase_if(checks.of_fit, [&](const LabelFinding& finding) {
     const auto at = std::find(labels.labels.begin(), labels.labels.end(), finding.label);
     return at != labels.labels.end() &&
-           labels.samples[static_cast<std::size_t>(at - labels.labels.begin())] == 0;
+           labels.samples[static_cast<std::size_t>(at - labels.labels.begin())] < least;
   });
   const bool is_explained = std::any_of(
       checks.of_trials.begin(), checks.of_trials.end(), [](const LabelFinding& finding) {
         return finding.fault == LabelFault::kExchanged;
       });
-  if (is_explained) return checks;
+  if (is_explained || subject->mirrored_places_off) return checks;
   std::vector<MarkerTracks> tracks;
   for (const MarkerTrial& trial : trials) tracks.push_back(trial.repair.repaired.tracks);
   checks.exchange = reconstruct::find_exchange(asked, tracks, markers, subject->fit);

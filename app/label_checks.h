@@ -23,7 +23,7 @@ struct LabelChecks {
 
 /// Checks every label of the solved trials. `subject` may be null: an earlier fit was
 /// used. Looks for an exchange in all trials where single trials show none and the fit is
-/// suspicious, which costs up to a dozen small fits.
+/// suspicious, which costs up to nine small fits.
 [[nodiscard]] LabelChecks check_labels(const Body& body,
                                        const reconstruct::MarkerSubject& asked,
                                        const SubjectFit* subject,

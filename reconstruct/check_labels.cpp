@@ -36,6 +36,22 @@ struct TrialPlace {
   std::size_t frames = 0;
 };
 
+/// Bones with markers of their own, and those between two of them: a thigh whose markers
+/// were all left out still lies between pelvis and shank.
+std::array<bool, kHumanBoneCount> posed_bones(const std::vector<JointDoubt>& doubt) {
+  std::array<bool, kHumanBoneCount> measured{};
+  for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
+    measured[b] = doubt[b].source == Source::kMeasured;
+  }
+  std::array<bool, kHumanBoneCount> posed = measured;
+  for (const HumanBone bone : human_bones()) {
+    const auto up = parent(bone);
+    if (!up || !parent(*up)) continue;
+    if (measured[index(bone)] && measured[index(*parent(*up))]) posed[index(*up)] = true;
+  }
+  return posed;
+}
+
 /// The frames of one trial that are looked at.
 class TrialFrames {
  public:
@@ -49,9 +65,7 @@ class TrialFrames {
       world_.push_back(
           world_from_joints(estimate.motion.skeleton, estimate.motion.poses[f]));
       measured_.emplace_back();
-      for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
-        measured_.back()[b] = estimate.doubt[f][b].source == Source::kMeasured;
-      }
+      measured_.back() = posed_bones(estimate.doubt[f]);
     }
   }
 

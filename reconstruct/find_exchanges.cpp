@@ -26,8 +26,8 @@ constexpr double kMaxSigmas = 8.0;
 constexpr double kUnusedCost = 50.0;
 constexpr double kStray_m = 0.010;
 constexpr std::size_t kSuspectsOfLimbs = 4;
-constexpr std::size_t kMaxPairs = 9;
-constexpr std::size_t kThinnedFrames = 60;
+constexpr std::size_t kMaxPairs = 6;
+constexpr std::size_t kThinnedFrames = 24;
 // An exchange is reported when it lowers the cost by both.
 constexpr double kFarBetter = 0.75;
 constexpr double kBetterBy = 15.0;

@@ -31,8 +31,8 @@ struct LabelExchange {
 
 /// Finds the exchange of labels that explains the markers far better than `fit` does, if
 /// there is one: left and right legs or arms, or two single labels, of which one is where
-/// the other should be. Every candidate is fitted anew and costs a fit; there are none
-/// where no label is suspicious, and at most twelve.
+/// the other should be. Every candidate is fitted again to some frames of every trial;
+/// there are none where no label is suspicious, and at most eight.
 ///
 /// Deterministic. Precondition: `fit` is that of these trials and labels.
 [[nodiscard]] std::optional<LabelExchange> find_exchange(
