@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // How often is a fit to labelled markers wrong without a word? Simulated people by seed
-// (tests/reconstruct/labelled_wearer.h), half of them with a mistake that people make:
+// (tests/support/labelled_wearer.h), half of them with a mistake that people make:
 //
 //   measure_fits FIRST COUNT
 //
@@ -24,14 +24,35 @@
 #include "core/pose.h"
 #include "reconstruct/check_labels.h"
 #include "reconstruct/find_exchanges.h"
-#include "tests/reconstruct/labelled_wearer.h"
+#include "tests/support/labelled_wearer.h"
 
 namespace marey {
 namespace {
 
+using reconstruct::find_landmark;
 using reconstruct::LabelFault;
-using reconstruct::testing::exchange;
-using reconstruct::testing::LabelledWearer;
+using reconstruct::Landmark;
+using reconstruct::NamedMarker;
+using testing::exchange;
+
+/// A wearer with the names that its labels mean.
+struct NamedWearer : testing::LabelledWearer {
+  std::vector<NamedMarker> labels;
+};
+
+NamedWearer wearer(int seed) {
+  const auto place_of = [](const std::string& name) {
+    const Landmark* landmark = find_landmark(name);
+    return testing::WornPlace{landmark->segment,
+                              landmark->p_in_segment_per_stature,
+                              landmark->sigma_per_stature};
+  };
+  NamedWearer out{testing::wearer(seed, place_of), {}};
+  for (const auto& worn : out.LabelledWearer::labels) {
+    out.labels.push_back({worn.label, find_landmark(worn.landmark)});
+  }
+  return out;
+}
 
 /// What is done to a session.
 enum class Mistake { kNone, kInTrial, kInAll, kLegs, kMovedMarker, kUnknown };
@@ -54,7 +75,7 @@ Mistake mistake_of(int seed) {
   return static_cast<Mistake>(1 + (seed / 2) % 5);
 }
 
-void make(Mistake mistake, int seed, LabelledWearer& one) {
+void make(Mistake mistake, int seed, NamedWearer& one) {
   const auto& [a, b] = kPairs[static_cast<std::size_t>(seed / 10) % kPairs.size()];
   switch (mistake) {
     case Mistake::kNone:
@@ -101,7 +122,7 @@ struct Outcome {
 };
 
 /// The ninth tenth of a joint's errors over the frames that call it measured.
-void judge_joints(const LabelledWearer& one,
+void judge_joints(const NamedWearer& one,
                   std::size_t trial,
                   const reconstruct::SolvedMarkers& solved,
                   Outcome& out) {
@@ -140,7 +161,7 @@ void refuse(Outcome& out, const std::string& cause) {
 }
 
 Outcome run(int seed, Mistake mistake) {
-  LabelledWearer one = reconstruct::testing::wearer(seed);
+  NamedWearer one = wearer(seed);
   make(mistake, seed, one);
   Outcome out;
   const auto fit = reconstruct::fit_markers({}, one.trials, one.labels);

@@ -13,14 +13,31 @@
 
 #include "core/pose.h"
 #include "reconstruct/find_exchanges.h"
-#include "tests/reconstruct/labelled_wearer.h"
+#include "tests/support/labelled_wearer.h"
 
 namespace marey::reconstruct {
 namespace {
 
-using testing::exchange;
-using testing::LabelledWearer;
-using testing::wearer;
+using marey::testing::exchange;
+
+/// A wearer with the names that its labels mean.
+struct NamedWearer : marey::testing::LabelledWearer {
+  std::vector<NamedMarker> labels;
+};
+
+NamedWearer wearer(int seed) {
+  const auto place_of = [](const std::string& name) {
+    const Landmark* landmark = find_landmark(name);
+    return marey::testing::WornPlace{landmark->segment,
+                                     landmark->p_in_segment_per_stature,
+                                     landmark->sigma_per_stature};
+  };
+  NamedWearer out{marey::testing::wearer(seed, place_of), {}};
+  for (const auto& worn : out.LabelledWearer::labels) {
+    out.labels.push_back({worn.label, find_landmark(worn.landmark)});
+  }
+  return out;
+}
 
 struct Checked {
   MarkersFit fit;
@@ -28,7 +45,7 @@ struct Checked {
   std::vector<LabelFinding> of_trials;
 };
 
-Checked check(const LabelledWearer& one) {
+Checked check(const NamedWearer& one) {
   Checked out;
   auto fit = fit_markers({}, one.trials, one.labels);
   EXPECT_TRUE(fit);
@@ -52,7 +69,7 @@ Checked check(const LabelledWearer& one) {
 
 TEST(CheckLabels, FindsNothingInRightLabels) {
   for (const int seed : {1, 2}) {
-    const LabelledWearer one = wearer(seed);
+    const NamedWearer one = wearer(seed);
     const Checked checked = check(one);
     EXPECT_TRUE(checked.of_trials.empty()) << seed;
     EXPECT_TRUE(checked.of_fit.empty()) << seed;
@@ -65,7 +82,7 @@ TEST(CheckLabels, FindsNothingInRightLabels) {
 TEST(CheckLabels, NamesTwoMarkersThatAreExchangedInATrial) {
   for (const auto& [a, b] : std::array<std::pair<const char*, const char*>, 3>{
            {{"LTHI", "LKNE"}, {"RANK", "RTOE"}, {"LKNE", "RKNE"}}}) {
-    LabelledWearer one = wearer(4);
+    NamedWearer one = wearer(4);
     exchange(one.trials[1], a, b);
     const Checked checked = check(one);
     const auto found = std::find_if(
@@ -83,7 +100,7 @@ TEST(CheckLabels, NamesTwoMarkersThatAreExchangedInATrial) {
 TEST(CheckLabels, ProposesTheExchangeOfLabelsThatAreWrongInAllTrials) {
   for (const auto& [a, b] : std::array<std::pair<const char*, const char*>, 2>{
            {{"LKNE", "RKNE"}, {"LASI", "LPSI"}}}) {
-    LabelledWearer one = wearer(5);
+    NamedWearer one = wearer(5);
     for (MarkerTracks& tracks : one.trials) exchange(tracks, a, b);
     const auto fit = fit_markers({}, one.trials, one.labels);
     ASSERT_TRUE(fit);
@@ -98,7 +115,7 @@ TEST(CheckLabels, ProposesTheExchangeOfLabelsThatAreWrongInAllTrials) {
 
 // docs/open-points.md had it that this goes unnoticed.
 TEST(CheckLabels, ProposesToExchangeTheLegsOfAStandingTrial) {
-  LabelledWearer one = wearer(6);
+  NamedWearer one = wearer(6);
   one.trials.resize(1);
   for (const char* label : {"THI", "KNE", "KNM", "TIB", "ANK", "MED", "HEE", "TOE"}) {
     exchange(one.trials[0], std::string("L") + label, std::string("R") + label);
@@ -113,7 +130,7 @@ TEST(CheckLabels, ProposesToExchangeTheLegsOfAStandingTrial) {
 // A hand without named markers follows whatever is put on it: a shoulder's marker without
 // a meaning once sat there, measured.
 TEST(CheckLabels, NoMarkerIsFoundOnALimbThatNothingPoses) {
-  LabelledWearer one = wearer(7);
+  NamedWearer one = wearer(7);
   for (NamedMarker& marker : one.labels) {
     if (marker.landmark == nullptr) continue;
     const HumanBone bone = marker.landmark->segment;
@@ -133,7 +150,7 @@ TEST(FitMarkers, MeasuresHowTallPeopleAre) {
   int within = 0;
   constexpr int kPeople = 8;
   for (int seed = 10; seed < 10 + kPeople; ++seed) {
-    LabelledWearer one = wearer(seed);
+    NamedWearer one = wearer(seed);
     one.trials.resize(1);
     const auto fit = fit_markers({}, one.trials, one.labels);
     ASSERT_TRUE(fit) << seed;

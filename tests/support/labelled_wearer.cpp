@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/reconstruct/labelled_wearer.h"
+#include "tests/support/labelled_wearer.h"
 
 #include <algorithm>
 #include <array>
@@ -11,11 +11,9 @@
 #include "core/pose.h"
 #include "tests/support/random_bodies.h"
 
-namespace marey::reconstruct::testing {
+namespace marey::testing {
 namespace {
 
-using marey::testing::Dice;
-using marey::testing::Movement;
 using B = HumanBone;
 
 struct Glued {
@@ -75,19 +73,19 @@ Body draw_person(Dice& dice) {
 }
 
 void glue(LabelledWearer& wearer,
+          const PlaceOf& place_of,
           Dice& dice,
           const std::string& label,
           const std::string& name) {
-  const Landmark* landmark = find_landmark(name);
-  if (landmark == nullptr) throw std::runtime_error(name + " is no landmark");
+  const WornPlace place = place_of(name);
   const double stature_m = wearer.person.stature_m;
   // Where a landmark is anywhere on a segment, its marker is still near the table's
   // place.
-  const double miss_m = stature_m * std::min(0.7 * landmark->sigma_per_stature, 0.012);
-  glm::dvec3 p = stature_m * landmark->p_in_segment_per_stature;
+  const double miss_m = stature_m * std::min(0.7 * place.sigma_per_stature, 0.012);
+  glm::dvec3 p = stature_m * place.p_in_segment_per_stature;
   for (int axis = 0; axis < 3; ++axis) p[axis] += dice.noise(miss_m);
-  wearer.person.markers.push_back({label, landmark->segment, p, 0.0, 0.0, 1});
-  wearer.labels.push_back({label, landmark});
+  wearer.person.markers.push_back({label, place.segment, p, 0.0, 0.0, 1});
+  wearer.labels.push_back({label, name});
 }
 
 /// The markers' places while the person moves, with what goes wrong in laboratories.
@@ -125,22 +123,26 @@ MarkerTracks film(const Body& person, const Movement& movement, int frames, Dice
 
 }  // namespace
 
-LabelledWearer wearer(int seed) {
+LabelledWearer wearer(int seed, const PlaceOf& place_of) {
   Dice dice(1000 + static_cast<std::uint64_t>(seed));
   LabelledWearer out;
   out.person = draw_person(dice);
-  for (const Glued& glued : kMiddle) glue(out, dice, glued.label, glued.landmark);
+  for (const Glued& glued : kMiddle)
+    glue(out, place_of, dice, glued.label, glued.landmark);
   for (const Glued& glued : kEachSide) {
-    glue(
-        out, dice, std::string("L") + glued.label, std::string("left_") + glued.landmark);
     glue(out,
+         place_of,
+         dice,
+         std::string("L") + glued.label,
+         std::string("left_") + glued.landmark);
+    glue(out,
+         place_of,
          dice,
          std::string("R") + glued.label,
          std::string("right_") + glued.landmark);
   }
-  out.movements = {marey::testing::standing(out.person),
-                   marey::testing::range_of_motion(out.person),
-                   marey::testing::walking(out.person)};
+  out.movements = {
+      standing(out.person), range_of_motion(out.person), walking(out.person)};
   out.trials = {film(out.person, out.movements[0], 60, dice),
                 film(out.person, out.movements[1], 300, dice),
                 film(out.person, out.movements[2], 150, dice)};
@@ -156,4 +158,4 @@ void exchange(MarkerTracks& tracks, const std::string& a, const std::string& b) 
   std::swap(*at_a, *at_b);
 }
 
-}  // namespace marey::reconstruct::testing
+}  // namespace marey::testing
