@@ -12,6 +12,7 @@
 #include "app/fit_results.h"
 #include "app/fit_words.h"
 #include "app/judge_fit.h"
+#include "app/label_checks.h"
 #include "app/marker_report.h"
 #include "app/option_checks.h"
 #include "app/stopwatch.h"
@@ -52,15 +53,20 @@ Status take_subject(const FitArguments& args, FitRun& run) {
   return Done{};
 }
 
-Status find_subject(const FitArguments& args,
-                    std::span<const MarkerTracks> checked,
-                    const Progress& progress,
-                    FitRun& run) {
+/// What the user says of the subject.
+reconstruct::MarkerSubject subject_asked(const FitArguments& args, const FitRun& run) {
   reconstruct::MarkerSubject subject;
   subject.name = name_of_subject(args, run.trials);
   subject.stature_m = args.stature_m;
   subject.mass_kg = args.mass_kg;
-  auto fit = fit_subject_to(subject, checked, run.labels, progress);
+  return subject;
+}
+
+Status find_subject(const FitArguments& args,
+                    std::span<const MarkerTracks> checked,
+                    const Progress& progress,
+                    FitRun& run) {
+  auto fit = fit_subject_to(subject_asked(args, run), checked, run.labels, progress);
   if (!fit) return fit.error();
   run.body = fit->fit.body;
   run.subject = std::move(*fit);
@@ -158,8 +164,13 @@ Exit run_fit(const FitArguments& args, Console& console) {
   if (const Status ok = solve_all(args, map, console, run); !ok) {
     return console.fail(ok.error());
   }
-  const std::vector<Error> failures =
-      judge_fit(run.trials, run.subject ? &*run.subject : nullptr);
+  const SubjectFit* subject = run.subject ? &*run.subject : nullptr;
+  run.checks =
+      check_labels(run.body, subject_asked(args, run), subject, run.labels, run.trials);
+  std::vector<Error> failures = judge_fit(run.trials, subject, run.body, args.stature_m);
+  for (Error& failure : judge_labels(run.checks, run.trials)) {
+    failures.push_back(std::move(failure));
+  }
   run.warnings = fit_warnings(run);
   const std::vector<std::string> warnings = run.warnings;
   for (const Error& failure : failures) run.warnings.push_back(failure.message());

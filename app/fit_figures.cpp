@@ -55,6 +55,25 @@ Json label_figures(const FitRun& run, std::size_t i) {
   return out;
 }
 
+Json finding_figures(const FitRun& run) {
+  Json findings = Json::array();
+  const auto add = [&](const reconstruct::LabelFinding& one) {
+    const auto trial = [&](const std::optional<std::size_t>& at) {
+      return at ? Json(run.trials[*at].name) : Json();
+    };
+    findings.push_back({{"fault", name(one.fault)},
+                        {"label", one.label},
+                        {"other", one.other.empty() ? Json() : Json(one.other)},
+                        {"trial", trial(one.trial)},
+                        {"or_trial", trial(one.or_trial)},
+                        {"off_mm", mm(one.off_m)},
+                        {"exchanged_mm", mm(one.exchanged_m)}});
+  };
+  for (const auto& one : run.checks.of_fit) add(one);
+  for (const auto& one : run.checks.of_trials) add(one);
+  return findings;
+}
+
 Json joint_figures(const FitRun& run) {
   Json joints = Json::array();
   for (const reconstruct::JointEvidence& joint : run.subject->fit.joints) {
@@ -120,6 +139,9 @@ Json fit_figures(const FitRun& run) {
            {"label_set", run.labels.names.set}};
   if (run.subject) {
     const SubjectFit& subject = *run.subject;
+    const auto& measured = subject.fit.measured_stature;
+    out["measured_stature_m"] = measured ? Json(rounded(measured->stature_m, 4)) : Json();
+    out["stature_sigma_m"] = measured ? Json(rounded(measured->sigma_m, 4)) : Json();
     out["stature_pairs"] = subject.fit.stature_pairs;
     out["fit_rms_mm"] = mm(subject.fit.rms_m);
     out["places_off"] = rounded(subject.places_off, 3);
@@ -128,6 +150,7 @@ Json fit_figures(const FitRun& run) {
                                      : Json();
   }
   out["labels"] = std::move(labels);
+  out["label_findings"] = finding_figures(run);
   out["joints"] = run.subject ? joint_figures(run) : Json::array();
   out["trials"] = std::move(trials);
   out["warnings"] = run.warnings;

@@ -9,6 +9,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/fit_labels.h"
+#include "app/label_checks.h"
 #include "app/marker_trials.h"
 #include "core/body.h"
 
@@ -28,6 +29,7 @@ struct FitRun {
   FitLabels labels;
   std::optional<SubjectFit> subject;  ///< None: an earlier fit was used.
   Body body;
+  LabelChecks checks;
   std::vector<MarkerTrial> trials;
   std::vector<std::string> warnings;
   FitTimes times;

@@ -53,16 +53,6 @@ std::string some_of(std::span<const std::string> labels) {
   return labels.size() > kShown ? text + ", ..." : text;
 }
 
-std::vector<NamedMarker> used_labels(const FitLabels& labels) {
-  std::vector<NamedMarker> used;
-  for (std::size_t i = 0; i < labels.labels.size(); ++i) {
-    const auto& ignored = labels.names.is_ignored;
-    if ((!ignored.empty() && ignored[i]) || labels.names.is_computed[i]) continue;
-    used.push_back({labels.labels[i], labels.names.landmarks[i]});
-  }
-  return used;
-}
-
 /// How far markers are from where their landmarks are on others, over how far these
 /// differ between people: the median over markers whose landmark is a place. nullopt
 /// where there is none.
@@ -128,6 +118,16 @@ Status check_size(std::span<const MarkerTracks> trials,
 }
 
 }  // namespace
+
+std::vector<NamedMarker> used_labels(const FitLabels& labels) {
+  std::vector<NamedMarker> used;
+  for (std::size_t i = 0; i < labels.labels.size(); ++i) {
+    const auto& ignored = labels.names.is_ignored;
+    if ((!ignored.empty() && ignored[i]) || labels.names.is_computed[i]) continue;
+    used.push_back({labels.labels[i], labels.names.landmarks[i]});
+  }
+  return used;
+}
 
 Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
                               std::span<const std::string> prefixes,

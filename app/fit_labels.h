@@ -30,6 +30,9 @@ struct FitLabels {
                                             std::span<const std::string> prefixes,
                                             const std::optional<MarkerMap>& map);
 
+/// Returns the labels that a fit looks at: without those to be ignored and computed ones.
+[[nodiscard]] std::vector<reconstruct::NamedMarker> used_labels(const FitLabels& labels);
+
 /// A subject, and what speaks against the labels.
 struct SubjectFit {
   reconstruct::MarkersFit fit;

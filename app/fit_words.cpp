@@ -68,6 +68,23 @@ std::vector<std::string> unused_words(const FitRun& run) {
   return lines;
 }
 
+/// How tall the subject is, and how well that is known.
+std::string stature_words(const SubjectFit& subject, const Body& body) {
+  const auto& measured = subject.fit.measured_stature;
+  if (!measured) {
+    return formatted("subject: %.3f m tall (as given, or average: no markers tell)",
+                     body.stature_m);
+  }
+  if (measured->stature_m != body.stature_m) {
+    return formatted("subject: %.3f m tall as given (%.2f by its markers)",
+                     body.stature_m,
+                     measured->stature_m);
+  }
+  return formatted("subject: %.3f m tall (standard deviation %.2f m)",
+                   body.stature_m,
+                   measured->sigma_m);
+}
+
 void add_fit_words(const SubjectFit& subject,
                    const Body& body,
                    std::vector<std::string>& lines) {
@@ -78,9 +95,7 @@ void add_fit_words(const SubjectFit& subject,
   }
   if (!found.empty()) lines.push_back("found by how they move: " + listed(found));
   lines.push_back(
-      formatted("subject: %.3f m tall", body.stature_m) +
-      (subject.fit.stature_pairs == 0 ? " (as given, or average: no distances tell)"
-                                      : "") +
+      stature_words(subject, body) +
       formatted(", markers %.1f mm from the body (RMS)", 1e3 * subject.fit.rms_m));
   std::vector<std::string> average;
   for (const auto& joint : subject.fit.joints) {

@@ -14,12 +14,15 @@
 namespace marey::app {
 
 /// Whether the body shows what the markers did. Empty when all is well. Each is kQuality
-/// with the trial's file: left and right exchanged, markers far off the body, frames in
-/// which it is not known; or
+/// with the trial's file: left and right exchanged, markers far off the body (all, those
+/// of one segment, or one alone), a given stature that the markers contradict, frames in
+/// which the body is not known; or
 /// kBadInput: a trial without enough markers of the body's.
-/// `subject` may be null: an earlier fit was used.
+/// `subject` may be null: an earlier fit was used. `stature_m` is the given one.
 [[nodiscard]] std::vector<Error> judge_fit(std::span<const MarkerTrial> trials,
-                                           const SubjectFit* subject);
+                                           const SubjectFit* subject,
+                                           const Body& body,
+                                           std::optional<double> stature_m);
 
 /// The share of the frames that show any marker in which the body is known; 0 of a trial
 /// that is not solved.

@@ -6,9 +6,11 @@
 #include <cmath>
 
 #include "core/quantile.h"
+#include "reconstruct/body_stature.h"
 #include "reconstruct/hip_regression.h"
 #include "reconstruct/joint_evidence.h"
 #include "reconstruct/length_terms.h"
+#include "reconstruct/marker_beliefs.h"
 #include "reconstruct/marker_instants.h"
 #include "reconstruct/marker_places.h"
 #include "reconstruct/sightings.h"
@@ -23,23 +25,18 @@ using Eigen::Vector3d;
 constexpr std::size_t kSnapshots = 240;
 constexpr std::size_t kFirstInstants = 24;
 constexpr std::size_t kInstants = 60;
-// How far a marker strays with skin before anything is measured, and the least it is
-// believed to. [m]
-constexpr double kUsualStray_m = 0.010;
-constexpr double kLeastStray_m = 0.002;
 // Before the bundle: of markers named exactly, and of rough ones.
 constexpr double kFirstStray_m = 0.014;
 constexpr double kRoughStray_m = 0.04;
 // Where landmarks say nothing of it.
 constexpr double kAverageStature_m = 1.70;
-// As many samples as that belief counts for.
-constexpr double kBeliefSamples = 10.0;
 // A marker that strays farther from where it should be moves with another segment.
 constexpr double kOffSegment_m = 0.035;
 constexpr double kSureSegment_m = 0.02;  // Less is sure to move with that one.
 constexpr double kFoundPlaceSigma_m = 0.05;
 constexpr std::size_t kFewestLabels = 6;
 constexpr double kTrunkSigma_m = 0.03;
+constexpr double kHeldLength_m = 1e-4;
 
 /// A label on its way into the body.
 struct Candidate {
@@ -63,13 +60,14 @@ class Fit {
  private:
   [[nodiscard]] Status check();
   void believe_lengths();
-  [[nodiscard]] std::optional<PlaceBelief> on_measured_pelvis(
-      const Landmark& landmark) const;
+  void scale_to(double stature_m);
+  void refine_stature();
+  [[nodiscard]] std::optional<MeasuredStature> measured_stature() const;
   void begin();
   void use(const Candidate& candidate, const Vector3d& p_in_bone, double stray_m);
   [[nodiscard]] bool bundle(std::size_t instants, int iterations, bool sigmas);
   void place_candidates();
-  void measure_stray();
+  [[nodiscard]] SegmentRules segment_rules() const;
   void move_misplaced();
   [[nodiscard]] MarkersFit result();
 
@@ -127,27 +125,55 @@ void Fit::believe_lengths() {
   bundle_.usual_sigma_m[index(Length::kHalfHipWidth)] = kHipRegressionSigma_m;
   hips_ = hips_from_markers(trials_, labels_);
   if (hips_) bundle_.usual[index(Length::kHalfHipWidth)] = hips_->half_hip_width_m;
-  bundle_.model.lengths = bundle_.usual;
 }
 
-/// Where the spines of the pelvis are, if it was measured across them.
-std::optional<PlaceBelief> Fit::on_measured_pelvis(const Landmark& landmark) const {
-  if (!hips_) return std::nullopt;
-  const double side = landmark.p_in_segment_per_stature.x > 0.0   ? 1.0
-                      : landmark.p_in_segment_per_stature.x < 0.0 ? -1.0
-                                                                  : 0.0;
-  glm::dvec3 p(0.0);
-  if (landmark.name.ends_with("_asis")) {
-    p = hips_->anterior_in_hips;
-    p.x = side * hips_->half_anterior_width_m;
-  } else if (landmark.name.ends_with("_psis") || landmark.name == "sacrum") {
-    p = hips_->posterior_in_hips;
-    p.x = stature_.stature_m * landmark.p_in_segment_per_stature.x;
-  } else {
-    return std::nullopt;
+/// Priors of a body of this stature.
+void Fit::scale_to(double stature_m) {
+  stature_.stature_m = stature_m;
+  average_ = average_proportions(stature_m);
+  bundle_.usual = lengths_of(average_);
+  bundle_.model.body = frame_of(average_);
+  believe_lengths();
+}
+
+std::optional<MeasuredStature> Fit::measured_stature() const {
+  std::vector<const Landmark*> landmarks;
+  for (const Candidate& candidate : used_) {
+    if (candidate.somewhere || candidate.use != LabelUse::kNamed) continue;
+    landmarks.push_back(labels_[candidate.label].landmark);
   }
-  p.y -= bundle_.model.body.hips_above_hip_centres_m;
-  return PlaceBelief{eigen(p), kHipRegressionSigma_m};
+  return stature_of_body(
+      to_proportions(bundle_.model.lengths, bundle_.model.body, average_),
+      bones_between(landmarks));
+}
+
+/// Distances between single markers differ more between people than whole legs and trunks
+/// do: the priors of the first bundle are replaced by those of the body that it found.
+void Fit::refine_stature() {
+  if (subject_->stature_m) return;
+  const auto measured = measured_stature();
+  if (!measured) return;
+  const Lengths held = bundle_.usual;
+  scale_to(measured->stature_m);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    // Lengths that nothing measured stay as in an average body.
+    if (std::abs(bundle_.model.lengths[i] - held[i]) < kHeldLength_m) {
+      bundle_.model.lengths[i] = bundle_.usual[i];
+    }
+  }
+  for (std::size_t m = 0; m < used_.size(); ++m) {
+    const Landmark* landmark = labels_[used_[m].label].landmark;
+    used_[m].belief = landmark_belief(
+        *landmark, stature_.stature_m, average_, hips_, bundle_.model.body);
+    bundle_.places[m] = used_[m].belief;
+  }
+  for (Candidate& candidate : waiting_) {
+    candidate.belief = landmark_belief(*labels_[candidate.label].landmark,
+                                       stature_.stature_m,
+                                       average_,
+                                       hips_,
+                                       bundle_.model.body);
+  }
 }
 
 /// The average person of this stature, with the markers whose places their names tell.
@@ -155,10 +181,8 @@ void Fit::begin() {
   const auto estimate = estimate_stature(trials_, labels_);
   stature_ = estimate.value_or(StatureEstimate{kAverageStature_m, 0});
   if (subject_->stature_m) stature_.stature_m = *subject_->stature_m;
-  average_ = average_proportions(stature_.stature_m);
-  bundle_.usual = lengths_of(average_);
-  bundle_.model.body = frame_of(average_);
-  believe_lengths();
+  scale_to(stature_.stature_m);
+  bundle_.model.lengths = bundle_.usual;
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     verdicts_.push_back(
         {labels_[i].label, LabelUse::kLeftOut, HumanBone::kHips, 0.0, {}});
@@ -168,14 +192,8 @@ void Fit::begin() {
     Candidate candidate;
     candidate.label = i;
     candidate.bone = solved_segment(landmark->segment);
-    Vector3d p = eigen(landmark->p_in_segment_per_stature);
-    if (candidate.bone != landmark->segment) {
-      // Toes move with their foot.
-      p += eigen(average_[landmark->segment] / stature_.stature_m);
-    }
-    candidate.belief = {stature_.stature_m * p,
-                        stature_.stature_m * landmark->sigma_per_stature};
-    if (const auto measured = on_measured_pelvis(*landmark)) candidate.belief = *measured;
+    candidate.belief = landmark_belief(
+        *landmark, stature_.stature_m, average_, hips_, bundle_.model.body);
     candidate.somewhere = landmark->sigma_per_stature >= kSomewhereSigma;
     if (candidate.somewhere) {
       waiting_.push_back(candidate);
@@ -207,6 +225,20 @@ bool Fit::bundle(std::size_t instants, int iterations, bool sigmas) {
   return true;
 }
 
+/// Only segments that named markers pose can tell whether another one moves with them.
+SegmentRules Fit::segment_rules() const {
+  SegmentRules rules;
+  rules.proportions = to_proportions(bundle_.model.lengths, bundle_.model.body, average_);
+  rules.stature_m = stature_.stature_m;
+  for (std::size_t m = 0; m < used_.size(); ++m) {
+    if (used_[m].use != LabelUse::kNamed) continue;
+    if (bundle_.model.markers[m].sigma_m < kOffSegment_m) {
+      ++rules.named_markers[index(used_[m].bone)];
+    }
+  }
+  return rules;
+}
+
 /// Markers of which only the segment is known, or nothing, find their place on a body
 /// that the others have posed.
 void Fit::place_candidates() {
@@ -219,8 +251,8 @@ void Fit::place_candidates() {
   waiting_.clear();
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     if (labels_[i].landmark) continue;
-    const auto best = best_segment(snapshots_, bundle_.model, i);
-    if (!best || best->stray_m > kOffSegment_m || !within_reach(*best)) continue;
+    const auto best = best_segment(snapshots_, bundle_.model, i, segment_rules());
+    if (!best || best->stray_m > kOffSegment_m) continue;
     Candidate candidate;
     candidate.label = i;
     candidate.bone = best->bone;
@@ -231,42 +263,10 @@ void Fit::place_candidates() {
   }
 }
 
-/// How far every marker strays from its place, over all snapshots that are solved.
-void Fit::measure_stray() {
-  double sum = 0.0;
-  double count = 0.0;
-  UnfoldedPosture unfolded;
-  std::vector<std::vector<double>> squares(used_.size());
-  for (const Snapshot& snapshot : snapshots_) {
-    if (!snapshot.solved) continue;
-    unfolded.unfold(snapshot.posture, bundle_.model.lengths, bundle_.model.body);
-    for (std::size_t m = 0; m < used_.size(); ++m) {
-      const auto& p = snapshot.p_in_world[model_labels_[m]];
-      if (!p) continue;
-      const ModelMarker& marker = bundle_.model.markers[m];
-      squares[m].push_back(
-          (unfolded.point(marker.bone, marker.p_in_bone) - *p).squaredNorm());
-      sum += squares[m].back();
-      count += 1.0;
-    }
-  }
-  rms_m_ = count > 0.0 ? std::sqrt(sum / count) : 0.0;
-  for (std::size_t m = 0; m < used_.size(); ++m) {
-    std::sort(squares[m].begin(), squares[m].end());
-    const std::size_t most = squares[m].size() - squares[m].size() / 20;
-    double own = 0.0;
-    for (std::size_t i = 0; i < most; ++i) own += squares[m][i];
-    const double samples = static_cast<double>(most);
-    const double belief = 3.0 * kUsualStray_m * kUsualStray_m;
-    const double variance =
-        (own + kBeliefSamples * belief) / (3.0 * (samples + kBeliefSamples));
-    bundle_.model.markers[m].sigma_m = std::max(kLeastStray_m, std::sqrt(variance));
-  }
-}
-
 /// Markers that do not move with the segment of their name are given to the one they move
 /// with, or left out.
 void Fit::move_misplaced() {
+  const SegmentRules rules = segment_rules();
   const std::vector<ModelMarker> markers = std::move(bundle_.model.markers);
   const std::vector<Candidate> used = std::move(used_);
   bundle_.model.markers.clear();
@@ -278,8 +278,8 @@ void Fit::move_misplaced() {
       use(used[m], markers[m].p_in_bone, markers[m].sigma_m);
       continue;
     }
-    const auto best = best_segment(snapshots_, bundle_.model, used[m].label);
-    if (!best || best->stray_m > kSureSegment_m || !within_reach(*best)) continue;
+    const auto best = best_segment(snapshots_, bundle_.model, used[m].label, rules);
+    if (!best || best->stray_m > kSureSegment_m) continue;
     Candidate moved = used[m];
     if (moved.bone != best->bone) moved.use = LabelUse::kMoved;
     moved.bone = best->bone;
@@ -293,7 +293,10 @@ MarkersFit Fit::result() {
   MarkersFit fit;
   Body& body = fit.body;
   body.name = subject_->name;
-  body.stature_m = stature_.stature_m;
+  fit.measured_stature = measured_stature();
+  body.stature_m = !subject_->stature_m && fit.measured_stature
+                       ? fit.measured_stature->stature_m
+                       : stature_.stature_m;
   body.mass_kg = subject_->mass_kg;
   body.proportions = to_proportions(bundle_.model.lengths, bundle_.model.body, average_);
   // Soles stay as thick as the average's: the hips are as high as the legs are long.
@@ -355,40 +358,27 @@ Result<MarkersFit> Fit::run(const Progress& progress) {
                      "see the labels in `marey inspect FILE`");
   }
   tell(1);
+  refine_stature();
   pose_snapshots(bundle_.model, model_labels_, snapshots_);
   place_candidates();
-  measure_stray();
+  rms_m_ = measure_strays(snapshots_, model_labels_, bundle_.model);
   if (!bundle(kInstants, 15, false)) return no_body();
   tell(2);
   pose_snapshots(bundle_.model, model_labels_, snapshots_);
-  measure_stray();
+  rms_m_ = measure_strays(snapshots_, model_labels_, bundle_.model);
   move_misplaced();
   if (used_.size() < kFewestLabels || !bundle(kInstants, 15, false)) return no_body();
   tell(3);
   pose_snapshots(bundle_.model, model_labels_, snapshots_);
-  measure_stray();
+  rms_m_ = measure_strays(snapshots_, model_labels_, bundle_.model);
   if (!bundle(kInstants, 20, true)) return no_body();
   pose_snapshots(bundle_.model, model_labels_, snapshots_);
-  measure_stray();
+  rms_m_ = measure_strays(snapshots_, model_labels_, bundle_.model);
   tell(4);
   return result();
 }
 
 }  // namespace
-
-std::string_view name(LabelUse use) {
-  switch (use) {
-    case LabelUse::kNamed:
-      return "named";
-    case LabelUse::kFound:
-      return "found";
-    case LabelUse::kMoved:
-      return "moved";
-    case LabelUse::kLeftOut:
-      return "left-out";
-  }
-  return "left-out";
-}
 
 Result<MarkersFit> fit_markers(const MarkerSubject& subject,
                                std::span<const MarkerTracks> trials,

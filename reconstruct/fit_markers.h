@@ -13,6 +13,7 @@
 #include "core/marker_tracks.h"
 #include "core/progress.h"
 #include "core/result.h"
+#include "reconstruct/body_stature.h"
 #include "reconstruct/landmarks.h"
 
 namespace marey::reconstruct {
@@ -74,8 +75,11 @@ struct MarkersFit {
   std::vector<JointEvidence> joints;  ///< Every bone but the hips.
   double rms_m =
       0.0;  ///< Distance of markers from the body, over the instants looked at.
-  /// What of the stature was estimated: how many pairs of markers agreed on it.
+  /// How many pairs of markers the first estimate of the stature is the median of.
   int stature_pairs = 0;
+  /// The stature that the markers show, whether or not one was given; nullopt where they
+  /// show none: body.stature_m is then the given or an average one.
+  std::optional<MeasuredStature> measured_stature;
 };
 
 /// Measures a person from labelled markers: segment lengths, joint centres, and where
@@ -85,9 +89,11 @@ struct MarkersFit {
 /// owes what to movement is told. Hip joint centres lie where the spines of the pelvis
 /// say (Harrington et al. 2007) as far as movement does not say otherwise.
 ///
-/// Labels without a landmark are given to the segment with which they move. Markers that
-/// move with another segment than the one they are named for are moved there; those that
-/// move with none are left out.
+/// Labels without a landmark are given to the segment with which they move, if two named
+/// markers show how it moves and the place is within its flesh; those of which several
+/// segments are possible are left out. Markers that move with another segment than the
+/// one they are named for are moved there by the same rules; those that move with none
+/// are left out.
 ///
 /// Deterministic. Cost: some seconds, whatever the trials' lengths, and more
 /// with hundreds of trials. Errors (kBadInput,

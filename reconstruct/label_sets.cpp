@@ -12,6 +12,7 @@ std::span<const LabelSet> label_sets() {
     for (const auto part : {gait_label_sets(),
                             model_label_sets(),
                             animation_label_sets(),
+                            studio_label_sets(),
                             palpated_label_sets()}) {
       all.insert(all.end(), part.begin(), part.end());
     }

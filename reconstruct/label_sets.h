@@ -35,5 +35,6 @@ struct LabelSet {
 [[nodiscard]] std::span<const LabelSet> model_label_sets();
 [[nodiscard]] std::span<const LabelSet> palpated_label_sets();
 [[nodiscard]] std::span<const LabelSet> animation_label_sets();
+[[nodiscard]] std::span<const LabelSet> studio_label_sets();
 
 }  // namespace marey::reconstruct

@@ -7,11 +7,60 @@
 #include <vector>
 
 #include "core/quantile.h"
+#include "reconstruct/flesh.h"
 #include "reconstruct/sightings.h"
 
 namespace marey::reconstruct {
 
 using Eigen::Vector3d;
+
+namespace {
+
+/// Whether one bone is the other's parent.
+bool are_neighbours(HumanBone a, HumanBone b) {
+  const auto up_a = parent(a);
+  const auto up_b = parent(b);
+  return up_a == b || up_b == a;
+}
+
+}  // namespace
+
+double measure_strays(std::span<const Snapshot> snapshots,
+                      const ModelLabels& labels,
+                      MarkerModel& model) {
+  // The least that a marker is taken to stray, and for how many samples the usual counts.
+  constexpr double kLeastStray_m = 0.002;
+  constexpr double kUsualSamples = 10.0;
+  double sum = 0.0;
+  double count = 0.0;
+  UnfoldedPosture unfolded;
+  std::vector<std::vector<double>> squares(model.markers.size());
+  for (const Snapshot& snapshot : snapshots) {
+    if (!snapshot.solved) continue;
+    unfolded.unfold(snapshot.posture, model.lengths, model.body);
+    for (std::size_t m = 0; m < model.markers.size(); ++m) {
+      const auto& p = snapshot.p_in_world[labels[m]];
+      if (!p) continue;
+      const ModelMarker& marker = model.markers[m];
+      squares[m].push_back(
+          (unfolded.point(marker.bone, marker.p_in_bone) - *p).squaredNorm());
+      sum += squares[m].back();
+      count += 1.0;
+    }
+  }
+  for (std::size_t m = 0; m < model.markers.size(); ++m) {
+    std::sort(squares[m].begin(), squares[m].end());
+    const std::size_t most = squares[m].size() - squares[m].size() / 20;
+    double own = 0.0;
+    for (std::size_t i = 0; i < most; ++i) own += squares[m][i];
+    const double samples = static_cast<double>(most);
+    const double usual = 3.0 * kUsualStray_m * kUsualStray_m;
+    const double variance =
+        (own + kUsualSamples * usual) / (3.0 * (samples + kUsualSamples));
+    model.markers[m].sigma_m = std::max(kLeastStray_m, std::sqrt(variance));
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
 
 std::optional<MarkerPlace> place_on(std::span<const Snapshot> snapshots,
                                     const MarkerModel& model,
@@ -46,12 +95,35 @@ std::optional<MarkerPlace> place_on(std::span<const Snapshot> snapshots,
 
 std::optional<MarkerPlace> best_segment(std::span<const Snapshot> snapshots,
                                         const MarkerModel& model,
-                                        std::size_t label) {
-  std::optional<MarkerPlace> best;
+                                        std::size_t label,
+                                        const SegmentRules& rules) {
+  // Fewer markers follow the one that is asked about.
+  constexpr int kNamedMarkers = 2;
+  // Strays that differ by less do not tell segments apart.
+  constexpr double kAlike = 1.5;
+  constexpr double kAlike_m = 0.003;
+  constexpr double kOutside_m = 0.02;
+  std::vector<MarkerPlace> places;
   for (const HumanBone bone : human_bones()) {
     if (solved_segment(bone) != bone) continue;
+    if (rules.named_markers[index(bone)] < kNamedMarkers) continue;
     const auto place = place_on(snapshots, model, label, bone);
-    if (place && (!best || place->stray_m < best->stray_m)) best = place;
+    if (!place) continue;
+    const Vector3d& p = place->p_in_bone;
+    const double outside_m =
+        outside_flesh_m(bone, {p.x(), p.y(), p.z()}, rules.proportions, rules.stature_m);
+    if (outside_m < kOutside_m) places.push_back(*place);
+  }
+  if (places.empty()) return std::nullopt;
+  const auto less = [](const MarkerPlace& a, const MarkerPlace& b) {
+    return a.stray_m < b.stray_m;
+  };
+  const MarkerPlace best = *std::min_element(places.begin(), places.end(), less);
+  for (const MarkerPlace& other : places) {
+    const bool alike = other.stray_m < kAlike * best.stray_m + kAlike_m;
+    if (alike && other.bone != best.bone && !are_neighbours(other.bone, best.bone)) {
+      return std::nullopt;
+    }
   }
   return best;
 }

@@ -4,10 +4,12 @@
 
 // Private to reconstruct: with which bone a marker moves, and where on it.
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
 
+#include "core/skeleton.h"
 #include "reconstruct/marker_instants.h"
 
 namespace marey::reconstruct {
@@ -21,12 +23,22 @@ struct MarkerPlace {
   double stray_m = 0.0;
 };
 
-/// What moves with a segment but lies farther from it than a limb is long is on somebody
-/// else, or on the floor.
-[[nodiscard]] inline bool within_reach(const MarkerPlace& place) {
-  constexpr double kReach_m = 0.6;
-  return place.p_in_bone.norm() < kReach_m;
-}
+/// How far a marker strays with skin before anything is measured. [m]
+inline constexpr double kUsualStray_m = 0.010;
+
+/// Measures how far every marker of the model strays from its place over the solved
+/// snapshots, into its sigma. Returns the distance of all of them, root mean square. [m]
+double measure_strays(std::span<const Snapshot> snapshots,
+                      const ModelLabels& labels,
+                      MarkerModel& model);
+
+/// Which segments a marker without a known place may belong to.
+struct SegmentRules {
+  Proportions proportions;
+  double stature_m = 0.0;
+  /// Per bone: markers that were named for it and move with it.
+  std::array<int, kHumanBoneCount> named_markers{};
+};
 
 /// Of a label's marker on a bone; nullopt where fewer than three solved snapshots show
 /// it.
@@ -35,9 +47,12 @@ struct MarkerPlace {
                                                   std::size_t label,
                                                   HumanBone bone);
 
-/// On the bone from which it strays least.
+/// Returns the place on the bone from which the marker strays least, among bones with two
+/// named markers at least and with the place within their flesh. Returns nullopt where
+/// there is none, and where it strays as little from two bones that are no neighbours.
 [[nodiscard]] std::optional<MarkerPlace> best_segment(std::span<const Snapshot> snapshots,
                                                       const MarkerModel& model,
-                                                      std::size_t label);
+                                                      std::size_t label,
+                                                      const SegmentRules& rules);
 
 }  // namespace marey::reconstruct

@@ -71,8 +71,10 @@ FileKind kind_of_table(std::string_view text) {
   return FileKind::kUnknown;
 }
 
-FileKind kind_of_database(const std::filesystem::path& path) {
-  const Database database = open_recorded(path);
+Result<FileKind> kind_of_database(const std::filesystem::path& path) {
+  const auto opened = open_recorded(path);
+  if (!opened) return opened.error();
+  const Database& database = *opened;
   if (!database) return FileKind::kUnknown;
   const std::int64_t application = setting_of(database.get(), "application_id");
   if (application == kTakeApplication) return FileKind::kTake;

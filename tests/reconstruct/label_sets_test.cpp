@@ -59,6 +59,60 @@ TEST(NameMarkers, KnowsPlugInGait) {
                 {"LWRA", "left_wrist_thumb_side"}});
 }
 
+// Both sides of wrists, hands and shoulders: hands were left without a name once, and a
+// shoulder's marker was put on one.
+TEST(NameMarkers, KnowsStudiosWithBothSidesOfWristsAndShoulders) {
+  const auto labels =
+      words("ARIEL LFHD LBHD RFHD RBHD C7 T8 T10 CLAV STRN LBAC RBAC LSHO RSHO LFSH LBSH "
+            "RFSH RBSH LUPA RUPA LELB LIEL RELB RIEL LFRM RFRM LIWR LOWR RIWR ROWR "
+            "LIHAND LOHAND RIHAND ROHAND LFWT RFWT LBWT RBWT MBWT LTHI RTHI LKNE LKNI "
+            "RKNE RKNI LSHN RSHN LANK RANK LHEL RHEL LMT5 RMT5");
+  EXPECT_TRUE(unnamed(labels).empty());
+  expect_names(labels,
+               "ACCAD",
+               {{"LIWR", "left_wrist_thumb_side"},
+                {"ROWR", "right_wrist_little_finger_side"},
+                {"LIHAND", "left_thumb"},
+                {"ROHAND", "right_metacarpal_5_head"},
+                {"LFSH", "left_shoulder_front"},
+                {"RBSH", "right_shoulder_back"},
+                {"LIEL", "left_medial_epicondyle_humerus"},
+                {"RKNI", "right_medial_epicondyle_femur"},
+                {"MBWT", "sacrum"}});
+}
+
+TEST(NameMarkers, KnowsTheSurfaceMarkersOfSoma) {
+  const auto labels = words(
+      "C7 CLAV LANK LFWT LBAK LUPA LBHD LSCAP LBUM LBUST LCHEECK LELB LELBIN LFHD LFIN "
+      "LFRM LFTHI LFTHIIN LHEE LWRA LKNE LKNEIN LMT1 LMT5 LNWST LWRB LBWT LRSTBEEF LSHO "
+      "LTHI LTHMB LSHIN LTOE MBLLY RANK RFWT RBAK RUPA RBHD RSCAP RBUM RBUST RCHEECK "
+      "RELB RELBIN RFHD RFIN RFRM RWRA RFTHI RFTHIIN RHEE RKNE RKNEIN RMT1 RMT5 RNWST "
+      "RWRB RBWT RRSTBEEF RSHO RTHI RTHMB RSHIN RTOE STRN T10");
+  EXPECT_TRUE(unnamed(labels).empty());
+  expect_names(labels,
+               "SOMA",
+               {{"LELBIN", "left_medial_epicondyle_humerus"},
+                {"RFIN", "right_metacarpal_5_head"},
+                {"LFTHIIN", "left_thigh"},
+                {"RRSTBEEF", "right_lateral_midfoot"}});
+}
+
+TEST(NameMarkers, KnowsTheHumanBodyModel) {
+  const auto labels =
+      words("LASIS RASIS LPSIS RPSIS LGTRO RGTRO LLEK RLEK LLM RLM RTOE LTOE LSHO RSHO "
+            "LLEE RLEE LMEE RMEE LLW RLW LMW RMW XYPH C7 THEAD RHEAD LHEAD SACR T10 NAVE "
+            "STRN LDELT RDELT RFIN LFIN BBAC FRTHI FLTHI RATI LATI RHEE LHEE RMT5 LMT5 "
+            "RFRM LFRM FHEAD");
+  EXPECT_TRUE(unnamed(labels).empty());
+  expect_names(labels,
+               "Human Body Model",
+               {{"LLEK", "left_lateral_epicondyle_femur"},
+                {"RLEE", "right_lateral_epicondyle_humerus"},
+                {"RLM", "right_lateral_malleolus"},
+                {"FLTHI", "left_thigh"},
+                {"LMW", "left_ulnar_styloid"}});
+}
+
 // c3d_org_samples/sample_03/gait-pig.c3d and sample_07/16bitanalog.c3d.
 TEST(NameMarkers, LeavesOutWhatPlugInGaitComputes) {
   const auto labels = words(
