@@ -36,8 +36,9 @@ Status check_stands(const Motion& motion,
                     const std::string& what) {
   if (retarget::stands_at_rest(motion.skeleton, found)) return Done{};
   return bad_input("",
-                   what + " is no neutral: its feet are not below its hips and its head "
-                          "above",
+                   what +
+                       " is no neutral: its feet are not below its hips and its head "
+                       "above",
                    "give another frame or file in which the body stands, or --neutral "
                    "t-pose");
 }
@@ -46,8 +47,10 @@ Status take_frame(int frame, const retarget::FoundBones& found, Motion& motion) 
   const std::size_t count = motion.poses.size();
   if (frame < 0 || static_cast<std::size_t>(frame) >= count) {
     return bad_input("",
-                     "there is no frame " + std::to_string(frame) + " to be the neutral: "
-                     "the motion has " + std::to_string(count) + " frames, from 0",
+                     "there is no frame " + std::to_string(frame) +
+                         " to be the neutral: "
+                         "the motion has " +
+                         std::to_string(count) + " frames, from 0",
                      "give a frame from 0 to " + std::to_string(count - 1));
   }
   const Pose pose = motion.poses[static_cast<std::size_t>(frame)];

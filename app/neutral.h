@@ -33,9 +33,9 @@ struct Neutral {
 /// "rest", "t-pose", "frame 12", "file", "bandai".
 [[nodiscard]] std::string name(NeutralKind kind);
 
-/// Reads "auto", "rest", "t-pose", "frame:N", a name of retarget::named_neutrals(), or the
-/// path of a .bvh, .amc, .glb, .gltf, .vrm or .vrma file.
-/// Errors: none of these, with what there is; a frame that is no number.
+/// Reads "auto", "rest", "t-pose", "frame:N", a name of retarget::named_neutrals(), or
+/// the path of a .bvh, .amc, .glb, .gltf, .vrm or .vrma file. Errors: none of these, with
+/// what there is; a frame that is no number.
 [[nodiscard]] Result<Neutral> read_neutral(const std::string& word);
 
 /// Gives a motion its neutral: makes it the rest of its skeleton. The kind that was taken

@@ -46,7 +46,8 @@ Exit run_convert(const ConvertArguments& arguments, bool json, Console& console)
       !arguments.bvh_dialect.empty() || !arguments.neutral.empty()) {
     return console.fail(
         bad_input(arguments.in.string(),
-                  "--rate, --to-rate, --skeleton, --neutral and --bvh-dialect are for motions alone",
+                  "--rate, --to-rate, --skeleton, --neutral and --bvh-dialect are for "
+                  "motions alone",
                   "leave them out, or give a .bvh, .amc, .glb, .vrm or .vrma"));
   }
   recordings::MarkerReadOptions read_as;

@@ -94,8 +94,8 @@ struct ChangedFrame {
   std::vector<std::optional<JointIndex>> read_joint = {};
   /// The body rests as Character::bound.
   bool rests_as_bound = false;
-  /// The scene of the file that is written stands as the body does: a node above its roots
-  /// turns it. Else the file keeps its own axes.
+  /// The scene of the file that is written stands as the body does: a node above its
+  /// roots turns it. Else the file keeps its own axes.
   bool turns_scene = false;
 };
 

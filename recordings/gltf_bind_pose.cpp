@@ -154,7 +154,8 @@ Result<std::optional<std::vector<NodePose>>> bound_poses(const NamedModel& file,
   std::vector<NodePose> poses = tree.rest;
   for (const std::size_t node : tree.parents_first) {
     const auto above = tree.parent[node];
-    const glm::dmat4 parent = above ? *world[*above] : glm::mat4_cast(tree.world_from_file);
+    const glm::dmat4 parent =
+        above ? *world[*above] : glm::mat4_cast(tree.world_from_file);
     if (world[node]) {
       poses[node] = local_pose(parent, *world[node]);
     } else {

@@ -76,8 +76,8 @@ struct NamedModel {
     const std::map<std::size_t, HumanBone>& bones);
 
 /// The nodes' poses when the joints of the skins are where these were bound; nullopt when
-/// they rest there already (to 5 degrees), or when no place of the skin in the world gives
-/// its bones the lengths that the nodes have.
+/// they rest there already (to 5 degrees), or when no place of the skin in the world
+/// gives its bones the lengths that the nodes have.
 [[nodiscard]] Result<std::optional<std::vector<NodePose>>> bound_poses(
     const NamedModel& file, const NodeTree& tree, const NodeSkeleton& body);
 

@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include <glm/geometric.hpp>
@@ -31,8 +34,8 @@ Result<std::vector<bool>> wanted_nodes(const NamedModel& file,
   return wanted;
 }
 
-/// The deepest node that carries all wanted ones of its tree, for each tree of nodes: that
-/// of the most wanted first. `below` gets the count of wanted at or below each.
+/// The deepest node that carries all wanted ones of its tree, for each tree of nodes:
+/// that of the most wanted first. `below` gets the count of wanted at or below each.
 std::vector<std::size_t> roots_of(const NodeTree& tree,
                                   const std::vector<bool>& wanted,
                                   std::vector<std::size_t>& below) {
@@ -87,6 +90,33 @@ Status check_scales(const NamedModel& file,
     if (const Status ok = check_scale(file, tree, *tree.parent[node]); !ok) return ok;
   }
   return Done{};
+}
+
+std::size_t top_of(const NodeTree& tree, std::size_t node) {
+  while (tree.parent[node]) node = *tree.parent[node];
+  return node;
+}
+
+/// Whether a second node that is the same bone is another body's: of another tree, and
+/// elsewhere. Armatures of one body's clothes repeat its bones where they are.
+bool is_other_body(const NodeTree& tree,
+                   const PlacedNodes& placed,
+                   std::size_t first,
+                   std::size_t second) {
+  constexpr double kSamePlace_m = 0.01;
+  if (top_of(tree, first) == top_of(tree, second)) return false;
+  return glm::distance(glm::dvec3(placed.world_from_node[first][3]),
+                       glm::dvec3(placed.world_from_node[second][3])) > kSamePlace_m;
+}
+
+Error two_bodies(const NamedModel& file,
+                 const NodeTree& tree,
+                 std::size_t first,
+                 std::size_t second) {
+  return file.fail("the file holds two bodies: there is a joint " +
+                   shown_name(file.model, first) + " below the node " +
+                   shown_name(file.model, top_of(tree, first)) + " and one below " +
+                   shown_name(file.model, top_of(tree, second)));
 }
 
 /// Parents first, the first root's tree before all others.
@@ -155,7 +185,7 @@ Result<NodeSkeleton> skeleton_of(const NamedModel& file,
   const PlacedNodes placed = place_nodes(tree, tree.rest);
   NodeSkeleton body;
   body.joint_of_node.resize(tree.rest.size());
-  std::vector<bool> bone_seen(kHumanBoneCount, false);
+  std::array<std::optional<std::size_t>, kHumanBoneCount> bone_node{};
   for (const std::size_t node : in_order(tree, roots)) {
     const bool is_root = std::ranges::find(roots, node) != roots.end();
     const bool under_root = tree.parent[node] && body.joint_of_node[*tree.parent[node]];
@@ -177,8 +207,12 @@ Result<NodeSkeleton> skeleton_of(const NamedModel& file,
                                 joint.parent_from_joint;
     }
     if (const auto bone = bones.find(node); bone != bones.end()) {
-      if (!bone_seen[index(bone->second)]) joint.bone = bone->second;
-      bone_seen[index(bone->second)] = true;
+      auto& first = bone_node[index(bone->second)];
+      if (!first) joint.bone = bone->second;
+      if (first && is_other_body(tree, placed, *first, node)) {
+        return two_bodies(file, tree, *first, node);
+      }
+      if (!first) first = node;
     }
     body.joint_of_node[node] = JointIndex{static_cast<int>(body.node_of_joint.size())};
     body.node_of_joint.push_back(node);

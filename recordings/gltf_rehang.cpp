@@ -113,6 +113,25 @@ std::vector<NodeTrack> tracks_against_nodes(const GltfSource& source,
   return tracks;
 }
 
+void rest_nodes_as_bound(const Skeleton& body,
+                         const ChangedFrame& changed,
+                         GltfSource& source,
+                         Json& document) {
+  const Motion rest{body, FrameRate{30.0}, 0, {}};
+  ReadPlaces places(rest, changed, source.nodes.size());
+  const auto& world = places.at(rest_pose(body));
+  for (std::size_t i = 0; i < source.nodes.size(); ++i) {
+    const RigidTransform local = in_node(source, world, i);
+    const glm::dquat turn = glm::normalize(local.rotation);
+    const glm::dvec3& t = local.translation;
+    Json& node = document["nodes"].at(static_cast<std::size_t>(source.node_of_joint[i]));
+    node["rotation"] = Json::array({turn.x, turn.y, turn.z, turn.w});
+    node["translation"] = Json::array({t.x, t.y, t.z});
+    source.nodes[i].rotation = turn;
+    source.nodes[i].translation = t;
+  }
+}
+
 void turn_scenes(Json& document, const glm::dquat& turn) {
   const bool is_turned = std::abs(turn.w) < 1.0 - 1e-12;
   if (!is_turned || !document.contains("scenes")) return;
@@ -131,9 +150,10 @@ void turn_scenes(Json& document, const glm::dquat& turn) {
       }
     }
     if (!children.empty()) {
-      document["nodes"].push_back({{"name", "facing"},
-                                   {"rotation", Json::array({turn.x, turn.y, turn.z, turn.w})},
-                                   {"children", std::move(children)}});
+      document["nodes"].push_back(
+          {{"name", "facing"},
+           {"rotation", Json::array({turn.x, turn.y, turn.z, turn.w})},
+           {"children", std::move(children)}});
       nodes.push_back(above);
     }
     scene["nodes"] = std::move(nodes);

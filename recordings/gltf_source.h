@@ -39,7 +39,7 @@ struct GltfSource {
   glm::dmat4 world_from_root_parent{1.0};
   /// The rotations in it.
   glm::dquat world_from_root_parent_rotation{1.0, 0.0, 0.0, 0.0};
-  std::vector<NodeOfJoint> nodes;  ///< One per joint.
+  std::vector<NodeOfJoint> nodes;                  ///< One per joint.
   glm::dquat world_from_file{1.0, 0.0, 0.0, 0.0};  ///< The half turn of a VRM 0.x.
 };
 
@@ -58,6 +58,13 @@ struct GltfSource {
 [[nodiscard]] std::vector<NodeTrack> tracks_against_nodes(const GltfSource& source,
                                                           const Motion& motion,
                                                           const ChangedFrame& changed);
+
+/// The nodes of a body that rests as its skin was bound rest so in the document, too, as
+/// source.nodes does then.
+void rest_nodes_as_bound(const Skeleton& body,
+                         const ChangedFrame& changed,
+                         GltfSource& source,
+                         Json& document);
 
 /// Puts a node above the roots of each scene that turns them.
 void turn_scenes(Json& document, const glm::dquat& turn);

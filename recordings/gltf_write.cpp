@@ -302,7 +302,7 @@ void take_in_images(Json& document,
   }
 }
 
-std::string retargeted_glb(const GltfSource& source,
+std::string retargeted_glb(GltfSource& source,
                            const Motion& motion,
                            std::string_view clip,
                            const ChangedFrame& changed) {
@@ -311,12 +311,15 @@ std::string retargeted_glb(const GltfSource& source,
   GltfBuilder builder(document, buffer);
   take_in_images(document, builder, source.images);
   document.erase("animations");
-  const std::vector<NodeTrack> tracks = hangs_as_nodes(source, changed)
-                                            ? tracks_in_source(source, motion)
-                                            : tracks_against_nodes(source, motion, changed);
-  for (const NodeTrack& track : tracks) {
-    split_matrix(document["nodes"].at(static_cast<std::size_t>(track.node)));
+  for (const int node : source.node_of_joint) {
+    split_matrix(document["nodes"].at(static_cast<std::size_t>(node)));
   }
+  if (changed.rests_as_bound) {
+    rest_nodes_as_bound(motion.skeleton, changed, source, document);
+  }
+  const std::vector<NodeTrack> tracks =
+      hangs_as_nodes(source, changed) ? tracks_in_source(source, motion)
+                                      : tracks_against_nodes(source, motion, changed);
   if (!motion.poses.empty()) {
     document["animations"] = Json::array(
         {make_animation(builder, tracks, motion.poses.size(), motion.rate, clip)});

@@ -23,9 +23,9 @@ using B = HumanBone;
 
 /// The joint on which a bone is to hang.
 std::optional<JointIndex> wanted_carrier(const FoundBones& found, B bone) {
-  const bool leaves_spine =
-      bone == B::kNeck || bone == B::kHead || bone == B::kLeftShoulder ||
-      bone == B::kRightShoulder || bone == B::kLeftUpperArm || bone == B::kRightUpperArm;
+  const bool leaves_spine = bone == B::kNeck || bone == B::kHead ||
+                            bone == B::kLeftShoulder || bone == B::kRightShoulder ||
+                            bone == B::kLeftUpperArm || bone == B::kRightUpperArm;
   for (auto next = parent(bone); next; next = parent(*next)) {
     if (const auto joint = found.joint(*next)) return joint;
     if (!leaves_spine && *next == B::kHips) break;
@@ -68,14 +68,12 @@ class Hanger {
         children[index(*parent_[i])].push_back(JointIndex{static_cast<int>(i)});
       }
     }
-    const auto world =
-        world_from_joints(tree_.skeleton(), rest_pose(tree_.skeleton()));
+    const auto world = world_from_joints(tree_.skeleton(), rest_pose(tree_.skeleton()));
     std::vector<JointIndex> open{JointIndex{0}};
     while (!open.empty()) {
       const JointIndex old = open.back();
       open.pop_back();
-      new_joint[index(old)] =
-          JointIndex{static_cast<int>(body.skeleton.joints.size())};
+      new_joint[index(old)] = JointIndex{static_cast<int>(body.skeleton.joints.size())};
       Joint joint = tree_.skeleton()[old];
       if (const auto above = parent_[index(old)]) {
         joint.parent = new_joint[index(*above)];
@@ -118,8 +116,7 @@ class Hanger {
       const glm::dvec3 along = tree_.place(*end) - from;
       const double length2 = glm::dot(along, along);
       if (length2 <= 0.0) continue;
-      const double share =
-          std::clamp(glm::dot(place - from, along) / length2, 0.0, 1.0);
+      const double share = std::clamp(glm::dot(place - from, along) / length2, 0.0, 1.0);
       nearest = std::min(nearest, glm::distance(place, from + share * along));
     }
     // A head is as broad as it is long, and its bone ends nowhere.

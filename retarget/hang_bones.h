@@ -29,13 +29,13 @@ struct HungBody {
 
 /// Hangs the bones that a file hangs elsewhere (on its root, on controls for inverse
 /// kinematics, on another armature) on the bones that carry them. What else is below
-/// neither the hips nor a bone goes to the nearest bone at rest, if it carries skin. A leg
-/// without a foot gets one: at the end of its shin, where the file says where that is,
-/// else as far below the knee as that is below the hip.
+/// neither the hips nor a bone goes to the nearest bone at rest, if it carries skin. A
+/// leg without a foot gets one: at the end of its shin, where the file says where that
+/// is, else as far below the knee as that is below the hip.
 ///
-/// `carries_skin` is empty or says of each joint whether vertices hang on it. nullopt when
-/// there is nothing to hang. Precondition: `found` passed the checks of identify_bones().
-/// Errors (bad input): bones that carry each other.
+/// `carries_skin` is empty or says of each joint whether vertices hang on it. nullopt
+/// when there is nothing to hang. Precondition: `found` passed the checks of
+/// identify_bones(). Errors (bad input): bones that carry each other.
 [[nodiscard]] Result<std::optional<HungBody>> hang_bones(
     const Skeleton& skeleton,
     const FoundBones& found,

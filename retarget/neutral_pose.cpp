@@ -86,7 +86,8 @@ Status rest_as_other(const Skeleton& other, const FoundBones& found, Motion& mot
   }
   for (Joint& joint : skeleton.joints) {
     const auto there = other.find(joint.name);
-    if (there) joint.parent_from_joint.rotation = other[*there].parent_from_joint.rotation;
+    if (there)
+      joint.parent_from_joint.rotation = other[*there].parent_from_joint.rotation;
   }
   rest_as_pose(motion, found, rest_pose(skeleton));
   return Done{};

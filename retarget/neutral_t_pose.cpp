@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -29,7 +30,7 @@ constexpr double kAverageFootPitch = 19.3 * kRadians;
 constexpr double kBallHeightInLegs = 0.024;
 constexpr double kAnkleHeightInLegs = 0.08;
 // A bone that is this near to an axis of its own joint is meant to lie along it.
-constexpr double kNearAxis = 0.82;      // Cosine of 35 degrees.
+constexpr double kNearAxis = 0.82;       // Cosine of 35 degrees.
 constexpr double kNearSideAxis = 0.966;  // Of 15.
 // Bones of a limb that lie within 35 degrees of one line are straight in the file's rest.
 constexpr double kStraight = 0.82;
@@ -85,8 +86,8 @@ Evidence evidence_of(const Motion& motion, const FoundBones& found) {
           glm::transpose(glm::mat3_cast(pose.parent_from_joint[i]));
     }
     add_limbs(found, world, evidence);
-    const Places p =
-        places_of(found, [&](JointIndex joint) { return world[index(joint)].translation; });
+    const Places p = places_of(
+        found, [&](JointIndex joint) { return world[index(joint)].translation; });
     evidence.up += unit_of(p.mid_hip() - p.mid_foot());
     evidence.frames += 1.0;
   }
@@ -135,8 +136,15 @@ class TPose {
   }
 
  private:
-  /// From a joint to another below it, in the joint's own frame, as the file rests.
+  /// From a joint to another below it, in the joint's own frame, as the file rests. Bone
+  /// by bone: where the file has its root makes no difference, not even of rounding.
   [[nodiscard]] glm::dvec3 way(JointIndex from, JointIndex to) const {
+    glm::dvec3 place(0.0);
+    auto at = std::optional(to);
+    for (; at && *at != from; at = tree_.parent(*at)) {
+      place = tree_.skeleton()[*at].parent_from_joint * place;
+    }
+    if (at) return place;
     return glm::conjugate(zero_[index(from)].rotation) *
            (zero_[index(to)].translation - zero_[index(from)].translation);
   }
@@ -223,8 +231,8 @@ class TPose {
   }
 
   /// `along` lies along `to`; about it, as the joint lies beside its parent. Motions with
-  /// spoiled joints leave that open: then it is as `prior` has it, the likely direction of
-  /// `side` in the joint's frame, if that is not zero.
+  /// spoiled joints leave that open: then it is as `prior` has it, the likely direction
+  /// of `side` in the joint's frame, if that is not zero.
   void set_beside_parent(JointIndex joint,
                          const glm::dvec3& along,
                          const glm::dvec3& to,
@@ -330,9 +338,9 @@ class TPose {
     const glm::dvec3 lower_bone = unit_of(way(*lower, *end));
     if (upper_bone == glm::dvec3(0.0) || lower_bone == glm::dvec3(0.0)) return;
     place_hinged(*upper, upper_bone, to, limb.hinge_axis, evidence_.hinge[which][0]);
-    const glm::dvec3 straight = t_pose_of(*upper) *
-                                (glm::conjugate(zero_[index(*upper)].rotation) *
-                                 (zero_[index(*lower)].rotation * lower_bone));
+    const glm::dvec3 straight =
+        t_pose_of(*upper) * (glm::conjugate(zero_[index(*upper)].rotation) *
+                             (zero_[index(*lower)].rotation * lower_bone));
     if (glm::dot(straight, to) > kStraight) {
       set(*lower, rotation_between(straight, to) * t_pose_of(*lower));
     } else {
@@ -361,7 +369,8 @@ class TPose {
                     const glm::dvec3& hinge_axis,
                     const glm::dvec3& hinge) {
     glm::dvec3 likely = hinge;
-    if (glm::length(hinge) < kBends * evidence_.frames) likely = expected(joint, hinge_axis);
+    if (glm::length(hinge) < kBends * evidence_.frames)
+      likely = expected(joint, hinge_axis);
     const auto choices = turns_about(along, 30.0 * kRadians);
     set(joint, turned(along, to, likeliest(choices, likely), hinge_axis));
   }
@@ -395,13 +404,12 @@ class TPose {
       set_beside_parent(foot, own_axis(foot, kFront), kFront, kLeft);
       return;
     }
-    const glm::dvec3 down =
-        std::cos(foot_pitch_) * kFront - std::sin(foot_pitch_) * kUp;
+    const glm::dvec3 down = std::cos(foot_pitch_) * kFront - std::sin(foot_pitch_) * kUp;
     // An ankle bends about the axis about which its knee does.
     const JointIndex shin = *tree_.parent(foot);
-    const glm::dvec3 hinge = glm::conjugate(zero_[index(foot)].rotation) *
-                             (zero_[index(shin)].rotation *
-                              (glm::conjugate(t_pose_of(shin)) * kLeft));
+    const glm::dvec3 hinge =
+        glm::conjugate(zero_[index(foot)].rotation) *
+        (zero_[index(shin)].rotation * (glm::conjugate(t_pose_of(shin)) * kLeft));
     const glm::dvec3 prior =
         std::abs(glm::dot(hinge, bone)) < 0.3 ? across(hinge, bone) : glm::dvec3(0.0);
     set_beside_parent(foot, bone, down, kLeft, prior);
@@ -445,11 +453,9 @@ double root_height(const FoundBones& found,
                    std::span<const RigidTransform> world,
                    const glm::dvec3& up,
                    double ball_height_in_legs) {
-  const auto place = [&](B bone) {
-    return world[index(*found.joint(bone))].translation;
-  };
-  double lowest = std::min(glm::dot(place(B::kLeftFoot), up),
-                           glm::dot(place(B::kRightFoot), up));
+  const auto place = [&](B bone) { return world[index(*found.joint(bone))].translation; };
+  double lowest =
+      std::min(glm::dot(place(B::kLeftFoot), up), glm::dot(place(B::kRightFoot), up));
   double height = kAnkleHeightInLegs;
   for (const B toes : {B::kLeftToes, B::kRightToes}) {
     if (!found.joint(toes)) continue;
@@ -472,16 +478,15 @@ void rest_as_t_pose(Motion& motion, const FoundBones& found, const NamedNeutral*
   const glm::dvec3 up = snapped(unit_of(evidence.up), 0.8);
   // Most files have their bodies look to +Z, or -Y where Z is up.
   const glm::dvec3 front = up.z > 0.5 ? glm::dvec3(0, -1, 0) : across(kFront, up);
-  const glm::dquat file_from_marey = glm::normalize(
-      glm::quat_cast(glm::dmat3(glm::cross(up, front), up, front)));
+  const glm::dquat file_from_marey =
+      glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(up, front), up, front)));
   for (glm::dquat& turn : rest) {
     turn = glm::normalize(file_from_marey * turn);
     if (turn.w < 0.0) turn = -turn;
   }
   const Pose pose = pose_from_world(skeleton, glm::dvec3(0.0), rest);
   const auto world = world_from_joints(skeleton, pose);
-  const double ball =
-      known != nullptr ? known->ball_height_in_legs : kBallHeightInLegs;
+  const double ball = known != nullptr ? known->ball_height_in_legs : kBallHeightInLegs;
   const glm::dvec3 hips = world[index(*found.joint(B::kHips))].translation;
   const double height = root_height(found, world, up, ball);
   for (std::size_t i = 0; i < rest.size(); ++i) {

@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/hang_bones.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>

@@ -103,10 +103,15 @@ Motion walk(const Rig& rig, double lean_rad, double bend_rad, double turn_rad) {
     };
     const glm::dquat hips = about(turn_rad, kY) * about(0.3 * lean_rad, kX);
     for (const B bone : human_bones()) turned[index(bone)] = hips;
-    const glm::dquat trunk = about(turn_rad, kY) * about(lean_rad, kX) *
-                             about(0.1 * swing, kY);
-    for (const B bone : {B::kSpine, B::kChest, B::kUpperChest, B::kNeck, B::kHead,
-                         B::kLeftShoulder, B::kRightShoulder}) {
+    const glm::dquat trunk =
+        about(turn_rad, kY) * about(lean_rad, kX) * about(0.1 * swing, kY);
+    for (const B bone : {B::kSpine,
+                         B::kChest,
+                         B::kUpperChest,
+                         B::kNeck,
+                         B::kHead,
+                         B::kLeftShoulder,
+                         B::kRightShoulder}) {
       turned[index(bone)] = trunk;
     }
     for (const bool left : {true, false}) {
@@ -142,8 +147,7 @@ TEST(RestAsTPose, FindsTheTPoseOfBonesThatLieAlongTheirOwnAxes) {
       rest_as_t_pose(motion, rig.found);
       const auto now = world_from_joints(motion.skeleton, rest_pose(motion.skeleton));
       for (const B bone : human_bones()) {
-        const glm::dquat off =
-            glm::conjugate(along_x(bone)) * now[index(bone)].rotation;
+        const glm::dquat off = glm::conjugate(along_x(bone)) * now[index(bone)].rotation;
         const bool is_foot = bone == B::kLeftFoot || bone == B::kRightFoot;
         // The slope of a foot's bone is an average one's, which this body has.
         EXPECT_LT(glm::length(rotation_vector(off)), (is_foot ? 1.0 : 1e-4) * kDegree)
@@ -219,7 +223,8 @@ TEST(RestAsPose, TakesAFrameAndFacesAlongAnAxis) {
   const glm::dvec3 front =
       testing::facing_of(motion.skeleton, joints, rest_pose(motion.skeleton));
   EXPECT_GT(front.z, 1.0 - 1e-9);
-  const auto now = testing::directions_of(motion.skeleton, joints, rest_pose(motion.skeleton));
+  const auto now =
+      testing::directions_of(motion.skeleton, joints, rest_pose(motion.skeleton));
   const auto then = testing::directions_of(motion.skeleton, joints, pose);
   for (std::size_t i = 0; i < testing::kSegmentCount; ++i) {
     EXPECT_NEAR(now[i]->y, then[i]->y, 1e-9);

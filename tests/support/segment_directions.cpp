@@ -55,8 +55,8 @@ Directions directions_of(const Posed& posed) {
   Directions out;
   const auto hips = posed.between(B::kLeftUpperLeg, B::kRightUpperLeg);
   const auto neck = posed.place(B::kNeck);
-  out[0] = direction(
-      hips, neck ? neck : posed.between(B::kLeftUpperArm, B::kRightUpperArm));
+  out[0] =
+      direction(hips, neck ? neck : posed.between(B::kLeftUpperArm, B::kRightUpperArm));
   for (std::size_t i = 1; i < kSegmentCount; ++i) {
     out[i] = direction(posed.place(kEnds[i].first), posed.place(kEnds[i].second));
   }

@@ -23,7 +23,8 @@ namespace marey::testing {
 
 /// The segments whose directions make a posture.
 enum class Segment : unsigned char {
-  kTrunk,  ///< From between the thighs' joints to the neck (without one, between the arms).
+  kTrunk,  ///< From between the thighs' joints to the neck (without one, between the
+           ///< arms).
   kNeck,   ///< From the neck to the head.
   kLeftUpperArm,
   kLeftForearm,
