@@ -75,7 +75,10 @@ Result<std::vector<MotionFormat>> formats_of(Work& work, const OpenedAvatar& bod
       continue;
     }
     const Error error = of_file(body.file, ok.error());
-    if (work.plan.formats_are_wanted && work.plan.file.empty()) {
+    // A body without a mesh has no .glb, of course; one without the bones of a humanoid is
+    // to be looked at.
+    const bool is_told = work.plan.formats_are_wanted || format == MotionFormat::kVrma;
+    if (is_told && work.plan.file.empty()) {
       work.console.warn(body.file.string() + ": no ." + std::string(name(format)) + ": " +
                         error.cause);
     }

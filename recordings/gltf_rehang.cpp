@@ -142,6 +142,12 @@ void turn_scenes(Json& document, const glm::dquat& turn) {
     Json children = Json::array();
     Json nodes = Json::array();
     for (const Json& root : scene["nodes"]) {
+      // A skinned mesh ignores what is above it, and is best at the scene's root.
+      const Json& node = document["nodes"].at(root.get<std::size_t>());
+      if (node.contains("skin") && !node.contains("children")) {
+        nodes.push_back(root);
+        continue;
+      }
       const auto [it, is_new] = turned.emplace(root.get<std::size_t>(), above);
       if (is_new) {
         children.push_back(root);
