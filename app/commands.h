@@ -45,6 +45,7 @@ struct ConvertArguments {
   std::optional<double> rate_hz;   ///< What IN's rate is, if not as it says.
   std::optional<double> to_rate_hz;
   std::string bvh_dialect;  ///< A BvhDialect's name, or empty.
+  std::string neutral;      ///< read_neutral()'s word, or empty.
 };
 
 /// `marey convert IN OUT`: labelled markers, or the motion of a skeleton, from one kind

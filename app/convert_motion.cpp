@@ -14,6 +14,7 @@
 
 #include "app/angle_table.h"
 #include "app/motion_files.h"
+#include "app/neutral.h"
 #include "app/read_body.h"
 #include "app/retarget_files.h"
 #include "core/extension.h"
@@ -102,6 +103,18 @@ Result<FileMotion> read(const ConvertArguments& arguments) {
   return read;
 }
 
+/// Rests as --neutral says; in the file's own frame.
+Status take_neutral(const ConvertArguments& arguments, Motion& motion) {
+  const auto neutral = read_neutral(arguments.neutral);
+  if (!neutral) return neutral.error();
+  const auto bones = retarget::identify_bones(motion.skeleton);
+  const auto taken = bones ? set_neutral(*neutral, *bones, motion) : bones.error();
+  if (taken) return Done{};
+  Error error = taken.error();
+  error.where = arguments.in.string() + (error.where.empty() ? "" : ": " + error.where);
+  return error;
+}
+
 Error cannot(const ConvertArguments& arguments, std::string cause, std::string next) {
   return bad_input(arguments.out.string(), std::move(cause), std::move(next));
 }
@@ -140,7 +153,13 @@ Status write_as_vrma(const ConvertArguments& arguments,
   raw.motion = file.motion;
   raw.has_motion = true;
   raw.unit = file.unit;
-  const auto body = identify_body(std::move(raw), arguments.in);
+  BodyFile in(arguments.in);
+  if (!arguments.neutral.empty()) {
+    const auto neutral = read_neutral(arguments.neutral);
+    if (!neutral) return neutral.error();
+    in.neutral = *neutral;
+  }
+  const auto body = identify_body(std::move(raw), in);
   if (!body) return body.error();
   for (const std::string& remark : body->remarks()) {
     console.warn(arguments.in.string() + ": " + remark);
@@ -241,6 +260,12 @@ Exit convert_motion(const ConvertArguments& arguments, bool json, Console& conso
       return console.fail(bad_input(arguments.in.string(),
                                     "the motion is shorter than a frame at that rate",
                                     "give a higher --to-rate"));
+    }
+  }
+  const bool is_vrma = kind_by_extension(arguments.out) == ".vrma";
+  if (!arguments.neutral.empty() && !is_vrma) {
+    if (const Status ok = take_neutral(arguments, motion); !ok) {
+      return console.fail(ok.error());
     }
   }
   const Status written = write(arguments, *file, console);

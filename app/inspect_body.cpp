@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "app/neutral.h"
 #include "app/read_body.h"
 #include "core/bone_map.h"
 #include "core/extension.h"
@@ -38,6 +39,7 @@ Json describe(const ReadBody& body) {
            {"up", retarget::axis_word(body.frame.up_in_file)},
            {"front", retarget::axis_word(body.frame.front_in_file)},
            {"stature_m", body.frame.stature_m},
+           {"neutral", name(body.neutral)},
            {"bone_map", body.bone_map ? Json(body.bone_map->string()) : Json()},
            {"bones", bones_of(body)},
            {"warnings", body.remarks()}};
@@ -48,7 +50,10 @@ Json describe(const ReadBody& body) {
 BoneMap map_of(const ReadBody& body) {
   BoneMap map;
   for (const HumanBone bone : human_bones()) {
-    map.bones[index(bone)] = {true, body.bones.joint(bone)};
+    auto joint = body.bones.joint(bone);
+    // A joint that the file does not have has no name there.
+    if (joint && !body.read_joint.empty() && !body.read_joint[index(*joint)]) joint.reset();
+    map.bones[index(bone)] = {true, joint};
   }
   map.unit_m = body.frame.unit_m;
   map.up = body.frame.up_in_file;
@@ -56,12 +61,18 @@ BoneMap map_of(const ReadBody& body) {
   return map;
 }
 
-/// All bones, to be filled in: a body that was declined. They are comments: "" would say
-/// that the body has no such bone.
-std::string empty_map_text(const Skeleton& skeleton) {
-  std::string text = recordings::bone_map_text({}, skeleton);
+/// All bones of a body that was declined, to be corrected: those that were found, and as
+/// comments those that were not. "" would say that the body has no such bone.
+std::string begun_map_text(const Skeleton& skeleton) {
+  const retarget::FoundBones found = retarget::guess_bones(skeleton);
+  BoneMap map;
   for (const HumanBone bone : human_bones()) {
-    text += "# " + std::string(name(bone)) + " = \"\"\n";
+    const auto joint = found.joint(bone);
+    if (joint) map.bones[index(bone)] = {true, joint};
+  }
+  std::string text = recordings::bone_map_text(map, skeleton);
+  for (const HumanBone bone : human_bones()) {
+    if (!found.joint(bone)) text += "# " + std::string(name(bone)) + " = \"\"\n";
   }
   text += "\n# The joints:\n";
   for (const Joint& joint : skeleton.joints) {
@@ -87,7 +98,7 @@ Status write_map(const std::filesystem::path& file,
   }
   const Status ok = body
                         ? recordings::write_bone_map(out, map_of(*body), body->skeleton())
-                        : recordings::write_file(out, empty_map_text(raw));
+                        : recordings::write_file(out, begun_map_text(raw));
   if (ok) console.say("bone map: " + out.string());
   return ok;
 }
@@ -101,8 +112,13 @@ Result<Json> inspect_body(const std::filesystem::path& file,
   if (!raw) return raw.error();
   Json out{{"kind", is_gltf(file) ? "character" : kind_by_extension(file).substr(1)}};
   const RawBody kept = *raw;
-  const Result<ReadBody> body =
-      identify_body(*std::move(raw), BodyFile(file, options.bone_map));
+  BodyFile body_file(file, options.bone_map);
+  if (!options.neutral.empty()) {
+    const auto neutral = read_neutral(options.neutral);
+    if (!neutral) return neutral.error();
+    body_file.neutral = *neutral;
+  }
+  const Result<ReadBody> body = identify_body(*std::move(raw), body_file);
   Json bones = Json::array();
   for (const Joint& joint : (body ? body->raw : kept).motion.skeleton.joints) {
     if (joint.bone) bones.push_back(name(*joint.bone));

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include <nlohmann/json.hpp>
 
@@ -14,11 +15,12 @@ namespace marey::app {
 
 struct InspectBodyOptions {
   std::optional<std::filesystem::path> bone_map;  ///< Instead of the one beside the body.
+  std::string neutral;                            ///< read_neutral()'s word, or empty.
   bool write_map = false;                         ///< Store FILE's map beside it.
   std::filesystem::path picture;                  ///< .svg or .png; empty for none.
 
   [[nodiscard]] bool asks() const {
-    return bone_map.has_value() || write_map || !picture.empty();
+    return bone_map.has_value() || write_map || !neutral.empty() || !picture.empty();
   }
 };
 

@@ -13,6 +13,7 @@
 #include "app/fit_commands.h"
 #include "app/listen_commands.h"
 #include "app/live_commands.h"
+#include "app/neutral.h"
 #include "app/option_checks.h"
 #include "app/plan_commands.h"
 #include "app/print_commands.h"
@@ -171,6 +172,7 @@ void add_convert(CLI::App& app, Arguments& args, Command& chosen) {
       ->check(between(0.1, 2000.0));
   command->add_option("--bvh-dialect", c.bvh_dialect, "For whom a .bvh is")
       ->check(CLI::IsMember({"blender", "mobu", "maya", "unity"}));
+  command->add_option("--neutral", c.neutral, kNeutralHelp)->check(neutral_mistake);
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
   command->callback([&] {
     chosen = [&args](Console& console) {
@@ -187,6 +189,8 @@ void add_small_commands(CLI::App& app, Arguments& args, Command& chosen) {
       "--bones", args.inspect_body.bone_map, "Bone map of the body (TOML)");
   inspect->add_flag(
       "--write-map", args.inspect_body.write_map, "Store the bone map beside the body");
+  inspect->add_option("--neutral", args.inspect_body.neutral, kNeutralHelp)
+      ->check(neutral_mistake);
   inspect->add_option(
       "--picture", args.inspect_body.picture, "Draw the body's bones: .svg or .png");
   inspect->callback([&] {

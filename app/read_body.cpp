@@ -12,6 +12,7 @@
 #include "recordings/npz.h"
 #include "retarget/body_map.h"
 #include "retarget/fit_volume.h"
+#include "retarget/hang_bones.h"
 
 namespace marey::app {
 namespace {
@@ -77,6 +78,8 @@ Result<RawBody> read_gltf(const std::filesystem::path& path) {
   raw.mesh = std::move(character->mesh);
   raw.node_of_joint = std::move(character->node_of_joint);
   raw.faces_back = character->faces_back;
+  raw.carries_skin = std::move(character->carries_skin);
+  raw.bound = std::move(character->bound);
   if (raw.has_motion) {
     raw.motion = *std::move(character->motion);
   } else {
@@ -118,6 +121,67 @@ Result<BoneMap> told_of(const BodyFile& file, ReadBody& body) {
   return recordings::read_bone_map(*body.bone_map, body.skeleton());
 }
 
+/// A body whose nodes hold a frame of an animation rests as its skin was bound.
+void take_bound_pose(ReadBody& body) {
+  if (!body.raw.bound) return;
+  Skeleton& skeleton = body.raw.motion.skeleton;
+  recordings::BoundBody& bound = *body.raw.bound;
+  constexpr double kAsAlike = 0.03;
+  const double now = retarget::asymmetry(skeleton, body.bones);
+  const double then = retarget::asymmetry(bound.skeleton, body.bones);
+  const bool stands = retarget::stands_at_rest(skeleton, body.bones);
+  const bool bound_stands = retarget::stands_at_rest(bound.skeleton, body.bones);
+  const bool is_better = bound_stands && (!stands || now > 3.0 * then + kAsAlike);
+  if (!is_better) return;
+  skeleton = std::move(bound.skeleton);
+  body.raw.mesh = std::move(bound.mesh);
+  body.raw.bound.reset();
+  body.rests_as_bound = true;
+}
+
+template <class T>
+std::vector<T> reordered(const std::vector<T>& list,
+                         const std::vector<std::optional<JointIndex>>& read_joint,
+                         T otherwise) {
+  std::vector<T> out;
+  for (const auto& joint : read_joint) {
+    out.push_back(joint ? list[index(*joint)] : otherwise);
+  }
+  return out;
+}
+
+/// Hangs the bones on each other that the file hangs elsewhere.
+Status hang(ReadBody& body) {
+  RawBody& raw = body.raw;
+  auto hung =
+      retarget::hang_bones(raw.motion.skeleton, body.bones, raw.carries_skin);
+  if (!hung) return hung.error();
+  if (!*hung) return Done{};
+  retarget::HungBody& made = **hung;
+  std::vector<std::size_t> new_joint(raw.motion.skeleton.joints.size());
+  for (std::size_t i = 0; i < made.read_joint.size(); ++i) {
+    if (made.read_joint[i]) new_joint[index(*made.read_joint[i])] = i;
+  }
+  retarget::put_on_hung(made, raw.motion);
+  body.bones = std::move(made.found);
+  if (!raw.node_of_joint.empty()) {
+    raw.node_of_joint = reordered(raw.node_of_joint, made.read_joint, -1);
+  }
+  if (!raw.carries_skin.empty()) {
+    raw.carries_skin = reordered(raw.carries_skin, made.read_joint, false);
+  }
+  if (raw.mesh) {
+    for (recordings::SkinWeights& skin : raw.mesh->skin) {
+      for (JointIndex& joint : skin.joints) {
+        joint = JointIndex{static_cast<int>(new_joint[index(joint)])};
+      }
+    }
+  }
+  raw.bound.reset();
+  body.read_joint = std::move(made.read_joint);
+  return Done{};
+}
+
 }  // namespace
 
 bool is_gltf(const std::filesystem::path& path) {
@@ -138,10 +202,15 @@ Result<RawBody> read_raw_body(const std::filesystem::path& path) {
 std::vector<std::string> ReadBody::remarks() const {
   std::vector<std::string> all = bones.remarks;
   all.insert(all.end(), frame.remarks.begin(), frame.remarks.end());
-  if (rests_as_in_motion) {
+  if (neutral == NeutralKind::kTPose) {
     all.push_back(
-        "its rest is no posture of a body: one that stands is made of its "
-        "motion");
+        "its rest is no posture of a body: a T-pose made of the directions of its bones "
+        "is its neutral, the slope of its feet is an average one's; --neutral sets "
+        "another");
+  }
+  if (rests_as_bound) {
+    all.push_back(
+        "its nodes rest in another posture than its skin was bound in, which is taken");
   }
   if (std::ranges::any_of(bones.bones, [](const auto& found) {
         return found && found->evidence == retarget::BoneEvidence::kShape;
@@ -169,10 +238,12 @@ Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
   auto bones = retarget::identify_bones(motion.skeleton, *told);
   if (!bones) return of_file(file.path, bones.error());
   body.bones = *std::move(bones);
-  if (!motion.poses.empty() && !retarget::stands_at_rest(motion.skeleton, body.bones)) {
-    retarget::rest_as_standing(motion, body.bones);
-    body.rests_as_in_motion = true;
-  }
+  take_bound_pose(body);
+  if (const Status ok = hang(body); !ok) return of_file(file.path, ok.error());
+  const auto neutral =
+      set_neutral(file.neutral.value_or(Neutral{}), body.bones, motion);
+  if (!neutral) return of_file(file.path, neutral.error());
+  body.neutral = *neutral;
   auto frame =
       retarget::find_body_frame(motion.skeleton, body.raw.unit, *told, body.bones);
   if (!frame) return of_file(file.path, frame.error());

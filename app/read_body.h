@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/neutral.h"
 #include "core/bone_map.h"
 #include "core/motion.h"
 #include "core/result.h"
@@ -32,6 +33,7 @@ struct BodyFile {
 
   std::filesystem::path path;
   std::optional<std::filesystem::path> bone_map;
+  std::optional<Neutral> neutral = std::nullopt;  ///< Of a file with a motion.
 };
 
 /// What a .bvh, .amc (its .asf beside it), .glb, .gltf, .vrm or .vrma file holds, in its own frame.
@@ -44,6 +46,8 @@ struct RawBody {
   retarget::FileUnit unit;
   std::vector<int> node_of_joint;  ///< Of glTF: recordings::Character's.
   bool faces_back = false;         ///< Likewise.
+  std::vector<bool> carries_skin;  ///< Likewise.
+  std::optional<recordings::BoundBody> bound;  ///< Likewise.
 };
 
 /// Errors: unreadable; another kind of file; an .amc without its .asf.
@@ -55,8 +59,10 @@ struct ReadBody {
   retarget::FoundBones bones;
   retarget::BodyFrame frame;
   std::optional<std::filesystem::path> bone_map;  ///< That counted.
-  /// The rest is made of the motion's frames, the file's being no posture of a body.
-  bool rests_as_in_motion = false;
+  NeutralKind neutral = NeutralKind::kRest;  ///< What the rest is.
+  /// The joints hang otherwise than in the file: recordings::ChangedFrame's.
+  std::vector<std::optional<JointIndex>> read_joint;
+  bool rests_as_bound = false;  ///< As its skin was bound, not as its nodes rest.
   retarget::Soles soles;  ///< By its skin, in marey's frame.
   /// What it takes up of space, by its skin; nullopt: nobody knows.
   std::optional<retarget::BodyVolume> volume;
@@ -64,7 +70,7 @@ struct ReadBody {
   [[nodiscard]] const Skeleton& skeleton() const { return raw.motion.skeleton; }
   /// What write_retargeted() has to know.
   [[nodiscard]] recordings::ChangedFrame changed() const {
-    return {frame.marey_from_file, frame.scale};
+    return {frame.marey_from_file, frame.scale, read_joint, rests_as_bound, true};
   }
   /// What was assumed of it, and which bones a user should look at.
   [[nodiscard]] std::vector<std::string> remarks() const;
@@ -72,8 +78,11 @@ struct ReadBody {
 
 /// Tells the bones of a body and how it stands, and puts it into marey's frame: the one
 /// place that does.
-/// Errors, naming the file: those of identify_bones() and find_body_frame(), of reading
-/// the bone map.
+/// A motion without a rest that stands gets a T-pose by its geometry, or the neutral that
+/// `file` names. A body whose nodes rest less alike on its two sides than its skin was
+/// bound rests as that was.
+/// Errors, naming the file: those of identify_bones(), hang_bones(), set_neutral() and
+/// find_body_frame(), of reading the bone map.
 [[nodiscard]] Result<ReadBody> identify_body(RawBody raw, const BodyFile& file);
 
 /// identify_body() of read_raw_body().

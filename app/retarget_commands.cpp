@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/neutral.h"
 #include "app/option_checks.h"
 #include "app/retarget_figures.h"
 #include "app/retarget_files.h"
@@ -74,7 +75,10 @@ Result<std::vector<MotionFormat>> formats_of(Work& work, const OpenedAvatar& bod
       continue;
     }
     const Error error = of_file(body.file, ok.error());
-    if (work.plan.formats_are_wanted && work.plan.file.empty()) {
+    // A body without a mesh has no .glb, of course; one without the bones of a humanoid is
+    // to be looked at.
+    const bool is_told = work.plan.formats_are_wanted || format == MotionFormat::kVrma;
+    if (is_told && work.plan.file.empty()) {
       work.console.warn(body.file.string() + ": no ." + std::string(name(format)) + ": " +
                         error.cause);
     }
@@ -278,6 +282,7 @@ void add_body_options(CLI::App& command, RetargetArguments& args) {
                                           {"none", Root::kNone}};
   command.add_option("--bones", args.bones, "Bone map of the avatar (TOML)");
   command.add_option("--motion-bones", args.motion_bones, "Bone map of the motion");
+  command.add_option("--neutral", args.neutral, kNeutralHelp)->check(neutral_mistake);
   command
       .add_option_function<std::string>(
           "--root",
@@ -329,7 +334,13 @@ Exit run_retarget(const RetargetArguments& args, Console& console) {
   work.run.live = args.options.live;
   open_avatars(work);
   if (!has_any(work.run)) return work.exit;
-  const auto source = identify_body(*std::move(raw), {args.motion, args.motion_bones});
+  BodyFile file(args.motion, args.motion_bones);
+  if (!args.neutral.empty()) {
+    const auto neutral = read_neutral(args.neutral);
+    if (!neutral) return console.fail(neutral.error());
+    file.neutral = *neutral;
+  }
+  const auto source = identify_body(*std::move(raw), file);
   if (!source) return console.fail(source.error());
   for (const std::string& remark : source->remarks()) {
     console.warn(args.motion.string() + ": " + remark);

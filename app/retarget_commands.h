@@ -19,6 +19,7 @@ namespace marey::app {
 struct RetargetArguments {
   std::filesystem::path motion;
   std::optional<std::filesystem::path> motion_bones;
+  std::string neutral;  ///< Of the motion: read_neutral()'s word, or empty.
   std::vector<std::filesystem::path> avatars;
   std::vector<std::filesystem::path> more_avatars;  ///< Those of --avatar.
   std::optional<std::filesystem::path> bones;       ///< Of the only avatar.

@@ -74,10 +74,11 @@ Exit run_convert(const ConvertArguments& arguments, bool json, Console& console)
   if (const auto error = no_conversion(arguments.in)) return console.fail(*error);
   if (is_motion(arguments.in)) return convert_motion(arguments, json, console);
   if (arguments.rate_hz || arguments.to_rate_hz || !arguments.skeleton.empty() ||
-      !arguments.bvh_dialect.empty()) {
+      !arguments.bvh_dialect.empty() || !arguments.neutral.empty()) {
     return console.fail(
         bad_input(arguments.in.string(),
-                  "--rate, --to-rate, --skeleton and --bvh-dialect are for motions alone",
+                  "--rate, --to-rate, --skeleton, --neutral and --bvh-dialect are for "
+                  "motions alone",
                   "leave them out, or give a .bvh, .amc, .npz, .glb, .vrm or .vrma"));
   }
   recordings::MarkerReadOptions read_as;

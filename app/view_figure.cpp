@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/view_figure.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "app/foot_contacts.h"
@@ -49,7 +50,11 @@ void add_remarks(const std::filesystem::path& file,
 
 std::optional<FigureSkin> skin_of(const std::filesystem::path& file,
                                   const ReadBody& body) {
-  const bool fits = body.raw.mesh && !body.rests_as_in_motion && is_fetched_alone(file);
+  const auto& nodes = body.raw.node_of_joint;
+  const bool has_nodes = std::ranges::find(nodes, -1) == nodes.end();
+  const bool rests_as_file =
+      body.neutral == NeutralKind::kRest && !body.rests_as_bound && has_nodes;
+  const bool fits = body.raw.mesh && rests_as_file && is_fetched_alone(file);
   if (!fits) return std::nullopt;
   return FigureSkin{file,
                     body.raw.node_of_joint,

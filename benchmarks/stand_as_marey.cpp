@@ -3,6 +3,7 @@
 #include "benchmarks/stand_as_marey.h"
 
 #include "retarget/identify_bones.h"
+#include "retarget/neutral_t_pose.h"
 
 namespace marey {
 
@@ -11,7 +12,8 @@ Result<retarget::BodyFrame> stand_as_marey(const retarget::FileUnit& unit,
   auto bones = retarget::identify_bones(motion.skeleton);
   if (!bones) return bones.error();
   if (!motion.poses.empty() && !retarget::stands_at_rest(motion.skeleton, *bones)) {
-    retarget::rest_as_standing(motion, *bones);
+    const auto* const known = retarget::named_neutral(motion.skeleton);
+    retarget::rest_as_t_pose(motion, *bones, known);
   }
   auto frame = retarget::find_body_frame(motion.skeleton, unit, {}, *bones);
   if (!frame) return frame.error();

@@ -17,11 +17,19 @@
 
 namespace marey::recordings {
 
+/// A body in the pose in which its skin was bound.
+struct BoundBody {
+  Skeleton skeleton;  ///< The character's joints, with another rest.
+  std::optional<SkinnedMesh> mesh;
+};
+
 /// A rigged body from a glTF file.
 struct Character {
   /// The smallest tree of nodes that holds the skins' joints and the humanoid's bones; of
-  /// all nodes when there are neither. Rests as the file's nodes do, turned to face +Z
-  /// when the file is a VRM 0.x, in which bodies face -Z.
+  /// all nodes when there are neither. Trees of nodes that have nothing in common are one
+  /// skeleton, that of the most joints first: the others hang on its root. Rests as the
+  /// file's nodes do, turned to face +Z when the file is a VRM 0.x, in which bodies face
+  /// -Z.
   Skeleton skeleton;
   /// All skinned triangles, brought to the skeleton's rest pose; nullopt without a skin.
   std::optional<SkinnedMesh> mesh;
@@ -34,6 +42,11 @@ struct Character {
   bool faces_back = false;  ///< In the file, a VRM 0.x; here it was turned round.
   /// Which of the file's nodes each joint is.
   std::vector<int> node_of_joint;
+  /// Whether vertices hang on each joint; empty without a mesh.
+  std::vector<bool> carries_skin;
+  /// The body as its skin's inverse bind matrices have it, where the nodes rest otherwise
+  /// (in a frame of an animation): a joint by more than 5 degrees.
+  std::optional<BoundBody> bound;
 };
 
 /// Reads a .glb, .vrm, .vrma or .gltf (2.0) file.
@@ -47,8 +60,9 @@ struct Character {
 ///
 /// Errors (kBadInput): as read_file()'s; not glTF 2.0, or cut short; a node that carries
 /// joints and mirrors them or scales them unevenly (by more than 1 %); compressed or
-/// sparse data; indices, accessors or buffers that do not fit together; nodes without one
-/// root; a skin without joints; anything further than 10 km away; an animation of too
+/// sparse data, any other extension that the file requires and marey does not read, by
+/// name; indices, accessors or buffers that do not fit together; nodes without a root; a
+/// skin without joints; anything further than 10 km away; an animation of too
 /// many frames for memory. Cost: linear in vertices, and in frames times nodes.
 [[nodiscard]] Result<Character> read_character(const std::filesystem::path& path);
 
@@ -75,13 +89,23 @@ struct Character {
 struct ChangedFrame {
   glm::dquat new_from_read{1.0, 0.0, 0.0, 0.0};
   double scale = 1.0;
+  /// The joint as read that each joint of the body is; nullopt: the file has none. Empty:
+  /// the body's joints are those that were read, on the parents that they had.
+  std::vector<std::optional<JointIndex>> read_joint = {};
+  /// The body rests as Character::bound.
+  bool rests_as_bound = false;
+  /// The scene of the file that is written stands as the body does: a node above its
+  /// roots turns it. Else the file keeps its own axes.
+  bool turns_scene = false;
 };
 
 /// Writes the asset at `source` again as a GLB with `motion`, called `clip`, as its only
 /// animation. All
 /// else is kept as it is: meshes, materials, textures, extensions. Data of removed
 /// animations stay in the file unused. Buffers and images beside a .gltf are taken in.
-/// The motion is of the body as `changed` says; the file keeps its own frame and unit.
+/// The motion is of the body as `changed` says; the file keeps its own unit, and its own
+/// frame unless `changed` turns its scene. Joints that hang elsewhere in the file move
+/// against their nodes' parents: they get translations, too.
 /// Fails as read_character() does, and when the motion is not of the skeleton that
 /// read_character(source) gives.
 [[nodiscard]] Status write_retargeted(const std::filesystem::path& source,

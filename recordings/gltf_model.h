@@ -75,6 +75,12 @@ struct NamedModel {
     const NodeTree& tree,
     const std::map<std::size_t, HumanBone>& bones);
 
+/// The nodes' poses when the joints of the skins are where these were bound; nullopt when
+/// they rest there already (to 5 degrees), or when no place of the skin in the world
+/// gives its bones the lengths that the nodes have.
+[[nodiscard]] Result<std::optional<std::vector<NodePose>>> bound_poses(
+    const NamedModel& file, const NodeTree& tree, const NodeSkeleton& body);
+
 /// The numbers of an accessor, row after row, `components` each; normalized integers as
 /// fractions. Checks that they lie within their buffer.
 [[nodiscard]] Result<std::vector<double>> accessor_values(const NamedModel& file,

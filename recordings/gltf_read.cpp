@@ -87,6 +87,43 @@ std::string one_line(std::string text) {
   return text.empty() ? "the file is not valid glTF" : text;
 }
 
+/// What an extension that the file requires means, and what to do about it. Extensions of
+/// materials and textures change nothing that marey reads.
+Status check_extensions(const NamedModel& file) {
+  for (const std::string& extension : file.model.extensionsRequired) {
+    if (extension == "KHR_draco_mesh_compression") {
+      return bad_input(
+          file.file,
+          "the meshes are compressed with KHR_draco_mesh_compression (Draco), "
+          "which marey does not read",
+          "export it without compression (in Blender: glTF export, Data, "
+          "Compression off), or run: npx @gltf-transform/cli copy IN.glb "
+          "OUT.glb");
+    }
+    if (extension == "EXT_meshopt_compression" ||
+        extension == "KHR_meshopt_compression") {
+      return bad_input(
+          file.file,
+          "the data are compressed with " + extension +
+              " (meshoptimizer), which marey does not read",
+          "export it without compression (gltfpack: leave out -c and -cc), or "
+          "run: npx @gltf-transform/cli copy IN.glb OUT.glb");
+    }
+    const bool is_look =
+        extension.starts_with("KHR_materials_") ||
+        extension.starts_with("KHR_texture_") || extension.starts_with("EXT_texture_") ||
+        extension.starts_with("MSFT_texture_") || extension.starts_with("KHR_lights_") ||
+        extension == "VRM" || extension.starts_with("VRMC_") ||
+        extension == "KHR_mesh_quantization";
+    if (is_look) continue;
+    return bad_input(file.file,
+                     "the file requires the extension " + extension.substr(0, 80) +
+                         ", which marey does not read",
+                     "export it without this extension");
+  }
+  return Done{};
+}
+
 Status load_model(const NamedModel& file,
                   const std::filesystem::path& path,
                   const std::string& bytes,
@@ -117,13 +154,7 @@ Status load_model(const NamedModel& file,
     error = problem.what();
   }
   if (!loaded) return file.fail(one_line(error));
-  for (const std::string& extension : model.extensionsRequired) {
-    if (extension == "KHR_draco_mesh_compression" ||
-        extension == "EXT_meshopt_compression") {
-      return file.fail("the file is compressed with " + extension +
-                       ", which marey cannot read");
-    }
-  }
+  if (const Status ok = check_extensions(file); !ok) return ok;
   if (Status s = check_referred_numbers(file); !s) return s;
   for (const auto& buffer : model.buffers) {
     source.buffers.emplace_back(buffer.data.begin(), buffer.data.end());
@@ -211,6 +242,60 @@ Result<NodeTree> tree_of(const NamedModel& file) {
   return tree;
 }
 
+/// The joints' nodes as write_retargeted() needs them.
+std::vector<NodeOfJoint> nodes_of_joints(const NodeTree& tree, const NodeSkeleton& body) {
+  const PlacedNodes placed = place_nodes(tree, tree.rest);
+  std::vector<NodeOfJoint> nodes;
+  for (const std::size_t node : body.node_of_joint) {
+    NodeOfJoint out;
+    out.rotation = tree.rest[node].rotation;
+    out.translation = tree.rest[node].translation;
+    out.world_scale = glm::length(glm::dvec3(placed.world_from_node[node][0]));
+    const auto above = tree.parent[node];
+    if (above && body.joint_of_node[*above]) {
+      out.parent_joint = index(*body.joint_of_node[*above]);
+    }
+    out.world_from_parent =
+        above ? placed.world_from_node[*above] : glm::mat4_cast(tree.world_from_file);
+    out.parent_rotation = above ? placed.rotation[*above] : tree.world_from_file;
+    nodes.push_back(out);
+  }
+  return nodes;
+}
+
+/// The joints that vertices hang on.
+std::vector<bool> carriers_of(const std::optional<SkinnedMesh>& mesh,
+                              std::size_t joints) {
+  if (!mesh) return {};
+  std::vector<bool> carries(joints, false);
+  for (const SkinWeights& skin : mesh->skin) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (skin.weights[k] > 0.0) carries[index(skin.joints[k])] = true;
+    }
+  }
+  return carries;
+}
+
+/// The body as its skin was bound, where it rests otherwise.
+Result<std::optional<BoundBody>> bound_body(
+    const NamedModel& file,
+    const NodeTree& tree,
+    const NodeSkeleton& body,
+    const std::map<std::size_t, HumanBone>& bones) {
+  auto poses = bound_poses(file, tree, body);
+  if (!poses) return poses.error();
+  if (!*poses) return std::optional<BoundBody>{};
+  NodeTree bound = tree;
+  bound.rest = **std::move(poses);
+  auto skeleton = skeleton_of(file, bound, bones);
+  // Bind matrices of no use, with which nothing but the skin is wrong.
+  if (!skeleton) return std::optional<BoundBody>{};
+  auto mesh = read_skinned_mesh(file, bound, *skeleton);
+  if (!mesh) return mesh.error();
+  return std::optional<BoundBody>{
+      BoundBody{std::move(skeleton->skeleton), *std::move(mesh)}};
+}
+
 Status fill_source(const NamedModel& file, GltfSource& source) {
   bool faces_back = false;
   const auto bones = bones_of(file.model, faces_back);
@@ -224,6 +309,12 @@ Status fill_source(const NamedModel& file, GltfSource& source) {
   auto animation = read_animation(file, *tree, *body);
   if (!animation) return animation.error();
 
+  auto bound = bound_body(file, *tree, *body, bones);
+  if (!bound) return bound.error();
+
+  source.nodes = nodes_of_joints(*tree, *body);
+  source.world_from_file = tree->world_from_file;
+  const std::vector<bool> carries_skin = carriers_of(*mesh, body->node_of_joint.size());
   const auto above = tree->parent[body->node_of_joint[0]];
   const PlacedNodes placed = place_nodes(*tree, tree->rest);
   source.world_from_root_parent =
@@ -238,7 +329,9 @@ Status fill_source(const NamedModel& file, GltfSource& source) {
                       std::move(animation->motion),
                       animation->ignored_translation_m,
                       faces_back,
-                      source.node_of_joint};
+                      source.node_of_joint,
+                      carries_skin,
+                      *std::move(bound)};
   return Done{};
 }
 

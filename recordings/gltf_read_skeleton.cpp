@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include <glm/geometric.hpp>
@@ -32,42 +35,35 @@ Result<std::vector<bool>> wanted_nodes(const NamedModel& file,
   return wanted;
 }
 
-/// The deepest node above or at all wanted ones, and the count of wanted at or below
-/// each.
-std::optional<std::size_t> common_root(const NodeTree& tree,
-                                       const std::vector<bool>& wanted,
-                                       std::vector<std::size_t>& below) {
+/// The deepest node that carries all wanted ones of its tree, for each tree of nodes:
+/// that of the most wanted first. `below` gets the count of wanted at or below each.
+std::vector<std::size_t> roots_of(const NodeTree& tree,
+                                  const std::vector<bool>& wanted,
+                                  std::vector<std::size_t>& below) {
   below.assign(wanted.size(), 0);
-  std::size_t total = 0;
-  std::optional<std::size_t> root;
+  std::vector<std::size_t> top(wanted.size(), 0);
+  std::vector<std::size_t> tops;
   for (auto it = tree.parents_first.rbegin(); it != tree.parents_first.rend(); ++it) {
-    if (wanted[*it]) ++below[*it], ++total;
+    if (wanted[*it]) ++below[*it];
     if (tree.parent[*it]) below[*tree.parent[*it]] += below[*it];
   }
+  std::vector<std::size_t> deepest(wanted.size(), 0);
   for (const std::size_t node : tree.parents_first) {
-    if (total > 0 && below[node] == total) root = node;
+    top[node] = tree.parent[node] ? top[*tree.parent[node]] : node;
+    if (!tree.parent[node] && below[node] > 0) tops.push_back(node);
+    if (below[node] > 0 && below[node] == below[top[node]]) deepest[top[node]] = node;
   }
-  return root;
+  std::ranges::stable_sort(
+      tops, std::greater<>{}, [&](std::size_t node) { return below[node]; });
+  std::vector<std::size_t> roots;
+  for (const std::size_t node : tops) roots.push_back(deepest[node]);
+  return roots;
 }
 
 std::string shown_name(const tinygltf::Model& model, std::size_t node) {
   const std::string& name = model.nodes[node].name;
   return name.empty() ? "number " + std::to_string(node)
                       : in_quotes(std::string_view(name).substr(0, 40));
-}
-
-/// Two trees with joints in them, by name.
-Error apart(const NamedModel& file,
-            const NodeTree& tree,
-            const std::vector<std::size_t>& below) {
-  std::string roots;
-  int count = 0;
-  for (const std::size_t node : tree.parents_first) {
-    if (tree.parent[node] || below[node] == 0 || ++count > 2) continue;
-    roots += (count > 1 ? " and " : "") + shown_name(file.model, node);
-  }
-  const std::string where = count > 1 ? ": some are below the node " + roots : "";
-  return file.fail("the joints do not hang together under one root" + where);
 }
 
 /// Bones keep their lengths and turn as rigid ones: a node that carries others may be
@@ -95,6 +91,46 @@ Status check_scales(const NamedModel& file,
     if (const Status ok = check_scale(file, tree, *tree.parent[node]); !ok) return ok;
   }
   return Done{};
+}
+
+std::size_t top_of(const NodeTree& tree, std::size_t node) {
+  while (tree.parent[node]) node = *tree.parent[node];
+  return node;
+}
+
+/// Whether a second node that is the same bone is another body's: of another tree, and
+/// elsewhere. Armatures of one body's clothes repeat its bones where they are.
+bool is_other_body(const NodeTree& tree,
+                   const PlacedNodes& placed,
+                   std::size_t first,
+                   std::size_t second) {
+  constexpr double kSamePlace_m = 0.01;
+  if (top_of(tree, first) == top_of(tree, second)) return false;
+  return glm::distance(glm::dvec3(placed.world_from_node[first][3]),
+                       glm::dvec3(placed.world_from_node[second][3])) > kSamePlace_m;
+}
+
+Error two_bodies(const NamedModel& file,
+                 const NodeTree& tree,
+                 std::size_t first,
+                 std::size_t second) {
+  return file.fail("the file holds two bodies: there is a joint " +
+                   shown_name(file.model, first) + " below the node " +
+                   shown_name(file.model, top_of(tree, first)) + " and one below " +
+                   shown_name(file.model, top_of(tree, second)));
+}
+
+/// Parents first, the first root's tree before all others.
+std::vector<std::size_t> in_order(const NodeTree& tree,
+                                  const std::vector<std::size_t>& roots) {
+  std::vector<bool> is_first(tree.rest.size(), false);
+  for (const std::size_t node : tree.parents_first) {
+    is_first[node] =
+        node == roots.front() || (tree.parent[node] && is_first[*tree.parent[node]]);
+  }
+  std::vector<std::size_t> order = tree.parents_first;
+  std::ranges::stable_partition(order, [&](std::size_t node) { return is_first[node]; });
+  return order;
 }
 
 }  // namespace
@@ -141,15 +177,20 @@ Result<NodeSkeleton> skeleton_of(const NamedModel& file,
   const auto wanted = wanted_nodes(file, bones);
   if (!wanted) return wanted.error();
   std::vector<std::size_t> below;
-  const auto root = common_root(tree, *wanted, below);
-  if (!root) return apart(file, tree, below);
+  // Trees that hold no bone and no skin are no part of a body that has them elsewhere.
+  const std::vector<std::size_t> roots = roots_of(tree, *wanted, below);
+  const bool has_body = !bones.empty() || !file.model.skins.empty();
+  if (roots.empty() || (roots.size() > 1 && !has_body)) {
+    return file.fail("the joints do not hang together under one root");
+  }
   const PlacedNodes placed = place_nodes(tree, tree.rest);
   NodeSkeleton body;
   body.joint_of_node.resize(tree.rest.size());
-  std::vector<bool> bone_seen(kHumanBoneCount, false);
-  for (const std::size_t node : tree.parents_first) {
+  std::array<std::optional<std::size_t>, kHumanBoneCount> bone_node{};
+  for (const std::size_t node : in_order(tree, roots)) {
+    const bool is_root = std::ranges::find(roots, node) != roots.end();
     const bool under_root = tree.parent[node] && body.joint_of_node[*tree.parent[node]];
-    if (node != *root && (!under_root || below[node] == 0)) continue;
+    if (!is_root && (!under_root || below[node] == 0)) continue;
     if (body.skeleton.joints.size() >= kMaxJoints) {
       return file.fail("it has more than " + std::to_string(kMaxJoints) + " joints");
     }
@@ -162,16 +203,20 @@ Result<NodeSkeleton> skeleton_of(const NamedModel& file,
     if (joint.name.empty()) joint.name = "node_" + std::to_string(node);
     const glm::dvec3 place(placed.world_from_node[node][3]);
     joint.parent_from_joint = {placed.rotation[node], place};
-    if (under_root) {
-      const std::size_t above = *tree.parent[node];
+    if (node != roots.front()) {
+      const std::size_t above = under_root ? *tree.parent[node] : roots.front();
       joint.parent = body.joint_of_node[above];
       joint.parent_from_joint = inverse({placed.rotation[above],
                                          glm::dvec3(placed.world_from_node[above][3])}) *
                                 joint.parent_from_joint;
     }
     if (const auto bone = bones.find(node); bone != bones.end()) {
-      if (!bone_seen[index(bone->second)]) joint.bone = bone->second;
-      bone_seen[index(bone->second)] = true;
+      auto& first = bone_node[index(bone->second)];
+      if (!first) joint.bone = bone->second;
+      if (first && is_other_body(tree, placed, *first, node)) {
+        return two_bodies(file, tree, *first, node);
+      }
+      if (!first) first = node;
     }
     body.joint_of_node[node] = JointIndex{static_cast<int>(body.node_of_joint.size())};
     body.node_of_joint.push_back(node);

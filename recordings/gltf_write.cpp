@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <exception>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -176,10 +177,37 @@ bool is_changed_so(const Skeleton& avatar,
   return !rests_alike || std::abs(glm::dot(root, now)) > 1.0 - kSame;
 }
 
+/// Of a body whose joints hang or rest otherwise than in the file: they are the file's.
+Status check_read_joints(const std::filesystem::path& source,
+                         const Skeleton& avatar,
+                         const Skeleton& motion,
+                         const ChangedFrame& changed) {
+  const auto& read_joint = changed.read_joint;
+  std::size_t there = 0;
+  for (std::size_t i = 0; i < motion.joints.size(); ++i) {
+    auto read = std::optional(JointIndex{static_cast<int>(i)});
+    if (!read_joint.empty()) read = i < read_joint.size() ? read_joint[i] : std::nullopt;
+    if (!read) continue;
+    ++there;
+    const bool is_same = index(*read) < avatar.joints.size() &&
+                         avatar[*read].name == motion.joints[i].name;
+    if (is_same) continue;
+    return not_of_this_body(
+        source, "the motion's joint '" + motion.joints[i].name + "' is not the avatar's");
+  }
+  if (there == avatar.joints.size()) return Done{};
+  return not_of_this_body(source,
+                          "the avatar has " + std::to_string(avatar.joints.size()) +
+                              " joints, the motion " + std::to_string(there));
+}
+
 Status check_body(const std::filesystem::path& source,
                   const Skeleton& avatar,
                   const Skeleton& motion,
                   const ChangedFrame& changed) {
+  if (changed.rests_as_bound || !changed.read_joint.empty()) {
+    return check_read_joints(source, avatar, motion, changed);
+  }
   if (avatar.joints.size() != motion.joints.size()) {
     return not_of_this_body(source,
                             "the avatar has " + std::to_string(avatar.joints.size()) +
@@ -274,21 +302,30 @@ void take_in_images(Json& document,
   }
 }
 
-std::string retargeted_glb(const GltfSource& source,
+std::string retargeted_glb(GltfSource& source,
                            const Motion& motion,
-                           std::string_view clip) {
+                           std::string_view clip,
+                           const ChangedFrame& changed) {
   Json document = Json::parse(source.json);
   std::string buffer = merge_buffers(document, source.buffers);
   GltfBuilder builder(document, buffer);
   take_in_images(document, builder, source.images);
   document.erase("animations");
-  const std::vector<NodeTrack> tracks = tracks_in_source(source, motion);
-  for (const NodeTrack& track : tracks) {
-    split_matrix(document["nodes"].at(static_cast<std::size_t>(track.node)));
+  for (const int node : source.node_of_joint) {
+    split_matrix(document["nodes"].at(static_cast<std::size_t>(node)));
   }
+  if (changed.rests_as_bound) {
+    rest_nodes_as_bound(motion.skeleton, changed, source, document);
+  }
+  const std::vector<NodeTrack> tracks =
+      hangs_as_nodes(source, changed) ? tracks_in_source(source, motion)
+                                      : tracks_against_nodes(source, motion, changed);
   if (!motion.poses.empty()) {
     document["animations"] = Json::array(
         {make_animation(builder, tracks, motion.poses.size(), motion.rate, clip)});
+  }
+  if (changed.turns_scene) {
+    turn_scenes(document, changed.new_from_read * source.world_from_file);
   }
   return builder.glb();
 }
@@ -341,7 +378,7 @@ Status write_retargeted(const std::filesystem::path& source,
   }
   std::string bytes;
   try {
-    bytes = retargeted_glb(*asset, motion, clip);
+    bytes = retargeted_glb(*asset, motion, clip, changed);
   } catch (const std::exception& problem) {
     return bad_input(source.string(), problem.what(), "export the avatar again as .glb");
   }

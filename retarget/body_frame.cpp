@@ -288,6 +288,25 @@ bool stands_at_rest(const Skeleton& skeleton, const FoundBones& found) {
   return stands(rest_places(SkeletonTree(skeleton), found));
 }
 
+double asymmetry(const Skeleton& skeleton, const FoundBones& found) {
+  const SkeletonTree tree(skeleton);
+  const Places p = rest_places(tree, found);
+  const glm::dvec3 left = unit_of(p.hip[0] - p.hip[1]);
+  const double leg = glm::distance(p.hip[0], p.foot[0]);
+  double sum = 0.0;
+  double count = 0.0;
+  for (const B bone : human_bones()) {
+    const auto joint = found.joint(bone);
+    const auto other = found.joint(mirrored(bone));
+    if (bone >= mirrored(bone) || !joint || !other) continue;
+    const glm::dvec3 from_middle = tree.place(*other) - p.mid_hip();
+    const glm::dvec3 image = tree.place(*other) - 2.0 * glm::dot(from_middle, left) * left;
+    sum += glm::distance(tree.place(*joint), image);
+    count += 1.0;
+  }
+  return count > 0.0 && leg > 0.0 ? sum / count / leg : 0.0;
+}
+
 Result<BodyFrame> find_body_frame(const Skeleton& skeleton,
                                   const FileUnit& unit_of_file,
                                   const BoneMap& told,

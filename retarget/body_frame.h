@@ -61,12 +61,9 @@ struct FileUnit {
 /// file of motion need not care for.
 [[nodiscard]] bool stands_at_rest(const Skeleton& skeleton, const FoundBones& found);
 
-/// Makes a standing posture the rest of a motion's skeleton: each limb, foot and the trunk
-/// turned as in the frame in which it shows best how it is built (legs upright, feet at
-/// their lowest, arms straight and at the sides, trunk upright), facing along an axis, as
-/// high as the feet are then. Poses are what they were: they do not count from the rest.
-/// Precondition: the motion has poses.
-void rest_as_standing(Motion& motion, const FoundBones& found);
+/// How unlike the two sides of a body are at rest: the mean distance of its arms' and
+/// legs' joints from the mirror image of the other side's, in leg lengths. 0 in a T-pose.
+[[nodiscard]] double asymmetry(const Skeleton& skeleton, const FoundBones& found);
 
 /// Turns and scales a motion, or a body without one, into marey's frame.
 void put_into_frame(const BodyFrame& frame, Motion& motion);

@@ -267,6 +267,9 @@ Result<JointIndex> only(const SkeletonTree& tree,
       lowest = joint;
       continue;
     }
+    // A copy of it, of another armature of the same body.
+    const double reach = tree.reach(JointIndex{0});
+    if (tree.distance(lowest, joint) < 1e-4 * reach) continue;
     return bad_input(
         "skeleton",
         "there are two joints that are called like a body's " + std::string(name(bone)) +

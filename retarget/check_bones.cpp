@@ -4,6 +4,7 @@
 #include <map>
 
 #include "retarget/complete_bones.h"
+#include "retarget/hang_bones.h"
 
 namespace marey::retarget {
 namespace {
@@ -18,7 +19,11 @@ Error bad_bones(std::string cause) {
   return bad_input("skeleton", std::move(cause), std::string(kRemedy));
 }
 
-Status check_there(const FoundBones& found) {
+bool is_foot(B bone) {
+  return bone == B::kLeftFoot || bone == B::kRightFoot;
+}
+
+Status check_there(const BoneMap& told, const FoundBones& found) {
   std::string missing;
   for (const B bone : {B::kHips,
                        B::kLeftUpperLeg,
@@ -27,7 +32,9 @@ Status check_there(const FoundBones& found) {
                        B::kRightUpperLeg,
                        B::kRightLowerLeg,
                        B::kRightFoot}) {
-    if (found.joint(bone)) continue;
+    // A leg may end without a joint: hang_bones() makes one.
+    const bool is_told_away = is_foot(bone) && told.bones[index(bone)].told;
+    if (found.joint(bone) || is_told_away) continue;
     missing += (missing.empty() ? "" : ", ") + std::string(name(bone));
   }
   if (missing.empty()) return Done{};
@@ -48,26 +55,30 @@ Status check_once(const SkeletonTree& tree, const FoundBones& found) {
   return Done{};
 }
 
-/// The nearest bone above that is found. Arms may hang on any vertebra.
-std::optional<B> above(const FoundBones& found, B bone) {
-  auto next = parent(bone);
-  const bool leaves_spine =
-      next == B::kUpperChest && bone != B::kNeck && bone != B::kUpperChest;
-  if (leaves_spine) return B::kHips;
-  while (next && !found.joint(*next)) {
-    const bool left_the_arm = *next == B::kLeftShoulder || *next == B::kRightShoulder;
-    next = left_the_arm ? std::optional(B::kHips) : parent(*next);
-  }
-  return next;
+/// Bones that files hang elsewhere, on a root or a control: hang_bones() hangs them where
+/// they belong. Shins and forearms are hung only when the user names them.
+bool may_hang_elsewhere(const BoneMap& told, B bone) {
+  const auto is_lower = [&](const HumanLimb& limb) { return limb.lower == bone; };
+  const bool is_spine = bone == B::kSpine || bone == B::kChest || bone == B::kUpperChest;
+  const bool is_middle = is_spine || std::ranges::any_of(human_limbs(), is_lower);
+  return !is_middle || told.bones[index(bone)].told;
 }
 
-Status check_order(const SkeletonTree& tree, const FoundBones& found) {
+Status check_order(const SkeletonTree& tree,
+                   const BoneMap& told,
+                   const FoundBones& found) {
   for (const B bone : human_bones()) {
     const auto joint = found.joint(bone);
-    const auto upper = joint ? above(found, bone) : std::nullopt;
+    const auto upper = joint ? carrier_of(found, bone) : std::nullopt;
     if (!upper) continue;
     const JointIndex carrier = *found.joint(*upper);
     if (tree.hangs_on(*joint, carrier)) continue;
+    if (tree.hangs_on(carrier, *joint)) {
+      return bad_bones(tree.quoted(*joint) + " would be " + std::string(name(bone)) +
+                       " and carries " + tree.quoted(carrier) + ", the " +
+                       std::string(name(*upper)));
+    }
+    if (may_hang_elsewhere(told, bone)) continue;
     return bad_bones(tree.quoted(*joint) + " would be " + std::string(name(bone)) +
                      " and does not hang on " + tree.quoted(carrier) + ", the " +
                      std::string(name(*upper)));
@@ -83,6 +94,7 @@ double leg_length(const SkeletonTree& tree, const FoundBones& found, bool left) 
 }
 
 Status check_legs(const SkeletonTree& tree, const FoundBones& found) {
+  if (!found.joint(B::kLeftFoot) || !found.joint(B::kRightFoot)) return Done{};
   const double left = leg_length(tree, found, true);
   const double right = leg_length(tree, found, false);
   if (std::min(left, right) > kLeastAlikeLegs * std::max(left, right)) return Done{};
@@ -97,10 +109,12 @@ Status check_legs(const SkeletonTree& tree, const FoundBones& found) {
 
 }  // namespace
 
-Status check_bones(const SkeletonTree& tree, const FoundBones& found) {
-  if (const Status ok = check_there(found); !ok) return ok;
+Status check_bones(const SkeletonTree& tree,
+                   const BoneMap& told,
+                   const FoundBones& found) {
+  if (const Status ok = check_there(told, found); !ok) return ok;
   if (const Status ok = check_once(tree, found); !ok) return ok;
-  if (const Status ok = check_order(tree, found); !ok) return ok;
+  if (const Status ok = check_order(tree, told, found); !ok) return ok;
   return check_legs(tree, found);
 }
 

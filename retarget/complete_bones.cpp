@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "retarget/bone_shape.h"
 
 namespace marey::retarget {
@@ -44,8 +46,27 @@ struct Completion {
   }
 };
 
+/// Whether a hand or foot that hangs elsewhere is where its limb ends: the bone itself,
+/// moved by inverse kinematics, and not a handle for it.
+bool ends_limb(const Completion& c,
+               const HumanLimb& limb,
+               JointIndex lower,
+               JointIndex end,
+               const std::vector<JointIndex>& way) {
+  constexpr double kNear = 0.2;  // Of the lower bone.
+  if (c.tree.hangs_on(lower, end)) return false;
+  const double length = c.tree.distance(lower, end);
+  // What the limb itself leads to goes on: it is a foot with toes, a hand with fingers.
+  if (way.size() > 2) return false;
+  if (way.size() == 2) return c.tree.distance(way[1], end) < kNear * length;
+  const auto upper = c.found.joint(limb.upper);
+  if (!upper) return false;
+  const double above = c.tree.distance(*upper, lower);
+  return length > 0.5 * above && length < 2.0 * above;
+}
+
 /// A hand or foot that controls inverse kinematics hangs on the root; the limb's own end
-/// is what its lower bone leads to.
+/// is what its lower bone leads to, or that joint itself.
 void find_ends(Completion& c) {
   for (const HumanLimb& limb : human_limbs()) {
     const auto lower = c.found.joint(limb.lower);
@@ -53,6 +74,11 @@ void find_ends(Completion& c) {
     if (!lower || c.is_told(limb.end)) continue;
     if (end && c.tree.hangs_on(*end, *lower)) continue;
     const std::vector<JointIndex> way = c.tree.longest_way(*lower);
+    if (end && ends_limb(c, limb, *lower, *end, way)) {
+      c.remark(c.tree.quoted(*end) + ", the " + std::string(name(limb.end)) +
+               ", does not hang on " + c.tree.quoted(*lower) + ": it is hung there");
+      continue;
+    }
     if (way.size() < 2) continue;
     if (end) {
       c.remark(c.tree.quoted(*end) + " bears the name of the " +
@@ -81,6 +107,42 @@ void find_head(Completion& c) {
   if (head) c.set(B::kHead, *head, BoneEvidence::kChain, 0.6);
 }
 
+glm::dvec3 mid_hip(const Completion& c) {
+  return 0.5 * (c.tree.place(*c.found.joint(B::kLeftUpperLeg)) +
+                c.tree.place(*c.found.joint(B::kRightUpperLeg)));
+}
+
+/// Half a leg: hips are nearer to where the legs begin.
+double half_leg(const Completion& c) {
+  const auto upper = c.found.joint(B::kLeftUpperLeg);
+  const auto lower = c.found.joint(B::kLeftLowerLeg);
+  if (!lower) return 0.5 * c.tree.reach(*upper);
+  const auto foot = c.found.joint(B::kLeftFoot);
+  const double thigh = c.tree.distance(*upper, *lower);
+  return 0.5 * (thigh + (foot ? c.tree.distance(*lower, *foot) : thigh));
+}
+
+/// Of a body whose legs and spine part on the floor, at its root: the joint that carries
+/// the spine and is nearest to where the legs begin.
+std::optional<JointIndex> hips_of_spine(const Completion& c, JointIndex root) {
+  const glm::dvec3 place = mid_hip(c);
+  const auto off = [&](JointIndex joint) {
+    return glm::distance(c.tree.place(joint), place);
+  };
+  const double most = half_leg(c);
+  const auto named = c.found.joint(B::kHips);
+  if (named && off(*named) < most && named != root) return named;
+  std::optional<JointIndex> nearest;
+  for (const B bone : {B::kHead, B::kNeck, B::kLeftUpperArm}) {
+    const auto top = c.found.joint(bone);
+    if (!top || !c.tree.hangs_on(*top, root)) continue;
+    for (const JointIndex joint : c.tree.between(root, *top)) {
+      if (off(joint) < most && (!nearest || off(joint) < off(*nearest))) nearest = joint;
+    }
+  }
+  return nearest;
+}
+
 void find_hips(Completion& c) {
   const auto joints = found_of(c.found,
                                {B::kLeftUpperLeg,
@@ -89,15 +151,24 @@ void find_hips(Completion& c) {
                                 B::kNeck,
                                 B::kLeftUpperArm,
                                 B::kRightUpperArm});
-  const JointIndex hips = c.tree.common(joints);
+  const JointIndex parting = c.tree.common(joints);
   const auto named = c.found.joint(B::kHips);
-  if (named == hips || c.is_told(B::kHips)) return;
+  if (named == parting || c.is_told(B::kHips)) return;
+  if (glm::distance(c.tree.place(parting), mid_hip(c)) > half_leg(c)) {
+    if (const auto hips = hips_of_spine(c, parting)) {
+      c.remark("legs and spine part at " + c.tree.quoted(parting) +
+               ", far from where the legs begin: " + c.tree.quoted(*hips) +
+               " is taken for the hips, and the legs are hung on it");
+      if (named != hips) c.set(B::kHips, *hips, BoneEvidence::kChain, 0.7);
+      return;
+    }
+  }
   if (named) {
     c.remark(c.tree.quoted(*named) +
              " bears the name of the hips; legs and spine part at " +
-             c.tree.quoted(hips) + ", which is taken");
+             c.tree.quoted(parting) + ", which is taken");
   }
-  c.set(B::kHips, hips, BoneEvidence::kChain, 0.85);
+  c.set(B::kHips, parting, BoneEvidence::kChain, 0.85);
 }
 
 /// The joint that carries both arms, if it is one of the spine's.
@@ -204,6 +275,9 @@ void find_shoulders(Completion& c) {
     const auto named = c.found.joint(bone);
     if (!arm || c.is_told(bone)) continue;
     if (named && c.tree.hangs_on(*arm, *named)) continue;
+    // Of an arm that hangs elsewhere, the name alone tells.
+    const auto hips = c.found.joint(B::kHips);
+    if (named && hips && !c.tree.hangs_on(*arm, *hips)) continue;
     c.drop(bone);
     if (!arms || !c.tree.hangs_on(*arm, *arms)) continue;
     const std::vector<JointIndex> between = c.tree.between(*arms, *arm);

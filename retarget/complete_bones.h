@@ -19,6 +19,8 @@ void complete_bones(const SkeletonTree& tree,
                     FoundBones& found);
 
 /// The errors of identify_bones() that a complete set of bones can have.
-[[nodiscard]] Status check_bones(const SkeletonTree& tree, const FoundBones& found);
+[[nodiscard]] Status check_bones(const SkeletonTree& tree,
+                                 const BoneMap& told,
+                                 const FoundBones& found);
 
 }  // namespace marey::retarget

@@ -114,6 +114,23 @@ std::string_view name(BoneEvidence evidence) {
   return "";
 }
 
+FoundBones guess_bones(const Skeleton& skeleton, const BoneMap& told) {
+  FoundBones found;
+  if (skeleton.joints.empty()) return found;
+  const SkeletonTree tree(skeleton);
+  if (const auto named = name_bones(tree)) found = named_bones(*named);
+  put_told(told, found);
+  if (!found.joint(B::kLeftUpperLeg) || !found.joint(B::kRightUpperLeg)) {
+    if (auto shape = shape_bones(tree)) found = *std::move(shape);
+    put_told(told, found);
+  }
+  const ToldBone& hips = told.bones[index(B::kHips)];
+  const bool can_complete = found.joint(B::kLeftUpperLeg) &&
+                            found.joint(B::kRightUpperLeg) && (!hips.told || hips.joint);
+  if (can_complete) complete_bones(tree, joint_words(skeleton), told, found);
+  return found;
+}
+
 Result<FoundBones> identify_bones(const Skeleton& skeleton, const BoneMap& told) {
   if (skeleton.joints.empty()) {
     return bad_input("skeleton", "it has no joints", "give a file with a skeleton");
@@ -134,7 +151,7 @@ Result<FoundBones> identify_bones(const Skeleton& skeleton, const BoneMap& told)
     // Where names say most of a body, what they lack is the better reason.
     const bool is_named = found->joint(B::kHips) && found->joint(B::kLeftUpperLeg) &&
                           found->joint(B::kRightUpperLeg);
-    if (!shape && is_named) return check_bones(tree, *found).error();
+    if (!shape && is_named) return check_bones(tree, told, *found).error();
     if (!shape) return shape.error();
     found = std::move(shape);
     put_told(told, *found);
@@ -145,7 +162,7 @@ Result<FoundBones> identify_bones(const Skeleton& skeleton, const BoneMap& told)
                             found->joint(B::kRightUpperLeg) &&
                             (!told_hips.told || told_hips.joint);
   if (!is_marked && can_complete) complete_bones(tree, words, told, *found);
-  if (const Status ok = check_bones(tree, *found); !ok) return ok.error();
+  if (const Status ok = check_bones(tree, told, *found); !ok) return ok.error();
   remark_missing(*found);
   return found;
 }

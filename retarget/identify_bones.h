@@ -68,6 +68,10 @@ struct FoundBones {
 [[nodiscard]] Result<FoundBones> identify_bones(const Skeleton& skeleton,
                                                 const BoneMap& told = {});
 
+/// What identify_bones() found before it declined a body: nothing is checked, bones may
+/// be missing. For a user to correct.
+[[nodiscard]] FoundBones guess_bones(const Skeleton& skeleton, const BoneMap& told = {});
+
 /// Sets Joint::bone of every joint, or clears it.
 void mark(const FoundBones& found, Skeleton& skeleton);
 

@@ -3,6 +3,9 @@
 //
 // Nodes as other programs leave them: scaled, mirrored, nameless; and bodies that were
 // turned and scaled since they were read.
+#include <cstdint>
+#include <cstring>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -69,9 +72,145 @@ TEST(GltfNodes, NamesTheTreesOfTwoBodies) {
   EXPECT_EQ(refusal(folder,
                     R"({"asset":{"version":"2.0"},
  "nodes":[{"name":"Ann","children":[1]},{"name":"hips"},
-          {"name":"Bob","children":[3]},{"name":"spine"}]})"),
-            "the joints do not hang together under one root: some are below the node "
-            "\"Ann\" and \"Bob\"");
+          {"name":"Bob","children":[3]},{"name":"hips","translation":[1,0,0]}]})"),
+            "the file holds two bodies: there is a joint \"hips\" below the node "
+            "\"Ann\" and one below \"Bob\"");
+}
+
+// As clothes and hair come with armatures of their own.
+TEST(GltfNodes, JoinsTheTreesOfOneBody) {
+  const ScratchFolder folder;
+  const auto character = read(folder, R"({"asset":{"version":"2.0"},
+ "nodes":[{"name":"Dress","children":[1]},{"name":"hips","translation":[0,1,0]},
+          {"name":"Body","translation":[0,1,0],"children":[3]},
+          {"name":"hips","children":[4]},{"name":"spine","translation":[0,0.2,0]}]})");
+  ASSERT_TRUE(character) << character.error().message();
+  const auto& joints = character->skeleton.joints;
+  ASSERT_EQ(joints.size(), 3U);
+  EXPECT_EQ(character->node_of_joint, (std::vector<int>{3, 4, 1}));
+  EXPECT_EQ(joints[2].parent, JointIndex{0});
+  EXPECT_EQ(joints[0].parent_from_joint.translation, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(joints[2].parent_from_joint.translation, glm::dvec3(0, 0, 0));
+  EXPECT_EQ(joints[0].bone, HumanBone::kHips);
+  EXPECT_FALSE(joints[2].bone);
+}
+
+/// A mesh-less file that requires an extension.
+std::string required(const std::string& extension) {
+  return R"({"asset":{"version":"2.0"},"extensionsUsed":[")" + extension +
+         R"("],"extensionsRequired":[")" + extension +
+         R"("],"nodes":[{"name":"hips","children":[1]},{"name":"spine"}]})";
+}
+
+TEST(GltfNodes, NamesTheExtensionThatItDoesNotRead) {
+  const ScratchFolder folder;
+  for (const char* extension : {"KHR_draco_mesh_compression",
+                                "EXT_meshopt_compression",
+                                "KHR_meshopt_compression",
+                                "EXT_made_up"}) {
+    const auto character = read(folder, required(extension));
+    ASSERT_FALSE(character) << extension;
+    EXPECT_NE(character.error().cause.find(extension), std::string::npos);
+    EXPECT_NE(character.error().next.find("export it without"), std::string::npos);
+  }
+  EXPECT_TRUE(read(folder, required("KHR_texture_transform")));
+}
+
+/// A foot that hangs on the root in its file, and on the shin in the body.
+TEST(GltfNodes, WritesABodyThatHangsOtherwiseThanItsFile) {
+  const ScratchFolder folder;
+  const Proportions proportions = mannequin_proportions({});
+  Skeleton own = make_humanoid(proportions);
+  const auto rest = world_from_joints(own, rest_pose(own));
+  const JointIndex foot = *own.find(HumanBone::kLeftFoot);
+  Skeleton detached = own;
+  detached.joints[index(foot)].parent = JointIndex{0};
+  detached.joints[index(foot)].parent_from_joint = inverse(rest[0]) * rest[index(foot)];
+  ASSERT_TRUE(write_character(
+      folder / "own.glb", detached, make_mannequin_mesh(proportions), nullptr));
+  ChangedFrame changed;
+  changed.new_from_read = glm::angleAxis(3.0, glm::dvec3(0, 1, 0));
+  changed.scale = 2.0;
+  for (std::size_t i = 0; i < own.joints.size(); ++i) {
+    changed.read_joint.emplace_back(JointIndex{static_cast<int>(i)});
+    own.joints[i].parent_from_joint.translation *= changed.scale;
+  }
+  Motion motion{own, FrameRate{30.0}, 0, {}};
+  Pose pose = rest_pose(own);
+  pose.root_in_world = {0.3, 2.1, -0.2};
+  for (std::size_t i = 0; i < own.joints.size(); ++i) {
+    pose.parent_from_joint[i] =
+        glm::angleAxis(0.1 * static_cast<double>(i % 7), glm::dvec3(1, 0, 0));
+  }
+  pose.parent_from_joint[0] = changed.new_from_read * pose.parent_from_joint[0];
+  motion.poses.assign(2, pose);
+  for (const bool turns : {false, true}) {
+    changed.turns_scene = turns;
+    const Status ok = write_retargeted(
+        folder / "own.glb", folder / "out.glb", motion, "motion", changed);
+    ASSERT_TRUE(ok) << ok.error().message();
+    const auto back = read_character(folder / "out.glb");
+    ASSERT_TRUE(back && back->motion);
+    const auto a = world_from_joints(own, pose);
+    const auto b = world_from_joints(back->skeleton, back->motion->poses[1]);
+    const glm::dquat here =
+        turns ? glm::dquat(1, 0, 0, 0) : glm::conjugate(changed.new_from_read);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      if (i == index(foot) || i == index(*own.find(HumanBone::kLeftToes))) continue;
+      EXPECT_LT(glm::distance(b[i].translation, here * (a[i].translation / 2.0)), 5e-6);
+    }
+    // A Pose has no room for the way of the foot against the root, and so leaves it out:
+    // its length is the only word of where the foot is.
+    const glm::dvec3 foot_in_root = inverse(a[0]) * a[index(foot)].translation / 2.0;
+    const glm::dvec3 at_rest = detached.joints[index(foot)].parent_from_joint.translation;
+    EXPECT_NEAR(back->ignored_translation_m, glm::distance(foot_in_root, at_rest), 5e-6);
+  }
+}
+
+// Nodes that hold a frame of an animation; the skin says where it was bound.
+TEST(GltfNodes, ReadsThePoseInWhichTheSkinWasBound) {
+  const ScratchFolder folder;
+  const Proportions proportions = mannequin_proportions({});
+  const Skeleton bound = make_humanoid(proportions);
+  ASSERT_TRUE(write_character(
+      folder / "bound.glb", bound, make_mannequin_mesh(proportions), nullptr));
+  const auto same = read_character(folder / "bound.glb");
+  ASSERT_TRUE(same);
+  EXPECT_FALSE(same->bound);
+  EXPECT_TRUE(same->carries_skin[index(*bound.find(HumanBone::kLeftUpperLeg))]);
+  // The left thigh's node is turned by hand in the file's text, as long as it was.
+  std::string bytes = *read_file(folder / "bound.glb");
+  const std::string node = R"({"name":"leftUpperLeg","translation":)";
+  const auto at = bytes.find(node);
+  ASSERT_NE(at, std::string::npos);
+  const auto spare = bytes.find(R"("generator":"marey")");
+  ASSERT_NE(spare, std::string::npos);
+  const std::string turn = R"("rotation":[0.5,0,0,0.8660254],)";
+  // Room for it: blanks in its place would do for JSON, so the chunk grows by them.
+  std::string json_length = bytes.substr(12, 4);
+  std::uint32_t length = 0;
+  std::memcpy(&length, json_length.data(), 4);
+  std::string insert = turn;
+  while (insert.size() % 4 != 0) insert += ' ';
+  length += static_cast<std::uint32_t>(insert.size());
+  std::memcpy(bytes.data() + 12, &length, 4);
+  bytes.insert(at + 1, insert);
+  const auto whole = static_cast<std::uint32_t>(bytes.size());
+  std::memcpy(bytes.data() + 8, &whole, 4);
+  ASSERT_TRUE(write_file(folder / "posed.glb", bytes));
+  const auto posed = read_character(folder / "posed.glb");
+  ASSERT_TRUE(posed) << posed.error().message();
+  ASSERT_TRUE(posed->bound);
+  const auto a = world_from_joints(bound, rest_pose(bound));
+  const auto b =
+      world_from_joints(posed->bound->skeleton, rest_pose(posed->bound->skeleton));
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_LT(glm::distance(a[i].translation, b[i].translation), 5e-6);
+  }
+  ASSERT_TRUE(posed->bound->mesh && same->mesh);
+  EXPECT_LT(
+      glm::distance(posed->bound->mesh->p_in_world[100], same->mesh->p_in_world[100]),
+      5e-6);
 }
 
 TEST(GltfNodes, KnowsANoteOfGitLfs) {

@@ -190,38 +190,5 @@ TEST(BodyFrame, DeclinesARestThatIsNoPosture) {
   EXPECT_NE(cause(body).find("at rest the feet 'leftFoot'"), std::string::npos);
 }
 
-// A file whose rest is a heap of bones, with a motion that stands up in it.
-TEST(BodyFrame, RestsAsItsMotionStands) {
-  const Skeleton truth = adult();
-  testing::Dice dice(9);
-  Motion motion;
-  motion.skeleton = truth;
-  for (Joint& joint : motion.skeleton.joints) {
-    joint.parent_from_joint.rotation = dice.turn(3.0);
-  }
-  for (int i = 0; i < 20; ++i) {
-    Pose pose = rest_pose(truth);
-    for (glm::dquat& turn : pose.parent_from_joint) turn = turn * dice.turn(0.5);
-    pose.parent_from_joint[0] = glm::angleAxis(dice.between(-3, 3), glm::dvec3(0, 1, 0));
-    // In the air, so that one frame alone has its feet on the floor.
-    pose.root_in_world.y += 0.3;
-    motion.poses.push_back(pose);
-  }
-  motion.poses[13] = rest_pose(truth);
-  const FoundBones found = bones_of(motion.skeleton);
-  rest_as_standing(motion, found);
-  EXPECT_TRUE(stands_at_rest(motion.skeleton, found));
-  EXPECT_TRUE(map_body(motion.skeleton));
-  // Feet as flat as in the frame that stands.
-  const auto now = world_from_joints(motion.skeleton, rest_pose(motion.skeleton));
-  const auto then = world_from_joints(truth, rest_pose(truth));
-  for (const B bone : {B::kLeftFoot, B::kRightFoot}) {
-    const std::size_t joint = index(*truth.find(bone));
-    EXPECT_LT(glm::length(rotation_vector(glm::conjugate(now[joint].rotation) *
-                                          then[joint].rotation)),
-              1e-6);
-  }
-}
-
 }  // namespace
 }  // namespace marey::retarget

@@ -1,0 +1,380 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Whether bodies from elsewhere keep the posture of captured motions, by the files that
+// are written, and judged by places of joints that this test names itself.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "app/neutral.h"
+#include "app/read_body.h"
+#include "app/retarget_files.h"
+#include "core/pose.h"
+#include "recordings/bvh.h"
+#include "recordings/gltf.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/support/segment_directions.h"
+
+namespace marey::app {
+namespace {
+
+using B = HumanBone;
+using testing::BoneJoints;
+using testing::ScratchFolder;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+std::filesystem::path shared(const std::string& name) {
+  return std::filesystem::path(MAREY_SHARED_DATA) / name;
+}
+
+/// The names of a body's joints, as this test read them in its file.
+struct Names {
+  const char* hips;
+  const char* neck;
+  const char* head;
+  const char* thigh;
+  const char* shank;
+  const char* foot;
+  const char* arm;
+  const char* forearm;
+  const char* hand;
+  const char* left;
+  const char* right;
+};
+
+BoneJoints joints_of(const Skeleton& skeleton, const Names& n) {
+  return testing::named_joints(skeleton,
+                               {n.left, n.right},
+                               {{B::kHips, n.hips},
+                                {B::kNeck, n.neck},
+                                {B::kHead, n.head},
+                                {B::kLeftUpperLeg, n.thigh},
+                                {B::kLeftLowerLeg, n.shank},
+                                {B::kLeftFoot, n.foot},
+                                {B::kLeftUpperArm, n.arm},
+                                {B::kLeftLowerArm, n.forearm},
+                                {B::kLeftHand, n.hand}});
+}
+
+constexpr Names kBandai{"Hips",
+                        "Neck",
+                        "Head",
+                        "UpperLeg_{}",
+                        "LowerLeg_{}",
+                        "Foot_{}",
+                        "UpperArm_{}",
+                        "LowerArm_{}",
+                        "Hand_{}",
+                        "L",
+                        "R"};
+constexpr Names kMixamo{"mixamorig:Hips",
+                        "mixamorig:Neck",
+                        "mixamorig:Head",
+                        "mixamorig:{}UpLeg",
+                        "mixamorig:{}Leg",
+                        "mixamorig:{}Foot",
+                        "mixamorig:{}Arm",
+                        "mixamorig:{}ForeArm",
+                        "mixamorig:{}Hand",
+                        "Left",
+                        "Right"};
+constexpr Names kQuaternius{"Hips",
+                            "Neck",
+                            "Head",
+                            "UpperLeg.{}",
+                            "LowerLeg.{}",
+                            "Foot.{}",
+                            "UpperArm.{}",
+                            "LowerArm.{}",
+                            "Palm.{}",
+                            "L",
+                            "R"};
+constexpr Names kRigify{"DEF-spine",
+                        "DEF-spine.004",
+                        "DEF-spine.006",
+                        "DEF-thigh.{}",
+                        "DEF-shin.{}",
+                        "DEF-foot.{}",
+                        "DEF-upper_arm.{}",
+                        "DEF-forearm.{}",
+                        "DEF-hand.{}",
+                        "L",
+                        "R"};
+constexpr Names kMannequiny{"pelvis",
+                            "neck_01",
+                            "head",
+                            "thigh.{}",
+                            "calf.{}",
+                            "foot.{}",
+                            "upperarm.{}",
+                            "lowerarm.{}",
+                            "hand.{}",
+                            "l",
+                            "r"};
+constexpr Names kVoxels{"Hips",
+                        "Neck",
+                        "Head",
+                        "{} leg",
+                        "{} knee",
+                        "{} ankle",
+                        "{} arm",
+                        "{} elbow",
+                        "{} wrist",
+                        "Left",
+                        "Right"};
+
+struct Body {
+  const char* file;
+  Names names;
+  /// How far limbs may be off on the mean: they keep feet where these stand and arms out
+  /// of the body, on a body of proportions that ask for it. [degrees]
+  double limbs_off = 8.0;
+};
+
+const std::array kBodies{
+    Body{"avatars/makehuman/adult_male_mixamo_unity.glb", kMixamo},
+    Body{"avatars/vrm/cryptovoxels.vrm", kVoxels},
+    // A skirt, and shanks half as long again as the thighs.
+    Body{"avatars/hard/f_female_dress.glb", kQuaternius, 12.0},
+    // Legs of half a metre that begin a metre apart, below a trunk as broad.
+    Body{"avatars/hard/q_humanoid.glb", kQuaternius, 45.0},
+    Body{"avatars/hard/rigify_def.glb", kRigify},
+    // Arms kept out of a broad trunk.
+    Body{"avatars/hard/mannequiny.glb", kMannequiny, 10.0},
+};
+
+class EveryBody : public ::testing::TestWithParam<Body> {};
+
+Names with_hands_of(const Body& body) {
+  Names names = body.names;
+  if (std::string(body.file).ends_with("q_humanoid.glb")) names.hand = "Fist.{}";
+  return names;
+}
+
+/// The mean angles between segments, at most: how a body rests is its own, by as much as
+/// its segments' directions in the T-poses differ.
+void expect_kept(const Motion& source,
+                 const BoneJoints& source_joints,
+                 const Motion& result,
+                 const BoneJoints& result_joints,
+                 double limbs_off) {
+  const auto errors =
+      testing::compare_directions(source, source_joints, result, result_joints);
+  const auto own =
+      testing::directions_of(source.skeleton, source_joints, rest_pose(source.skeleton));
+  const auto rest =
+      testing::directions_of(result.skeleton, result_joints, rest_pose(result.skeleton));
+  for (std::size_t i = 0; i < testing::kSegmentCount; ++i) {
+    const auto segment = static_cast<testing::Segment>(i);
+    ASSERT_TRUE(errors.mean_rad[i]) << testing::name(segment);
+    double most = limbs_off * kDegree;
+    if (i < 2) {
+      most = 8.0 * kDegree + std::acos(std::min(1.0, glm::dot(*own[i], *rest[i])));
+    }
+    EXPECT_LT(*errors.mean_rad[i] / kDegree, most / kDegree) << testing::name(segment);
+  }
+}
+
+TEST_P(EveryBody, KeepsThePostureOfAWalkAKickAndADance) {
+  const Body& body = GetParam();
+  for (const char* clip : {"walk", "kick", "dance-short"}) {
+    const auto source_file =
+        shared("mocap/bandai/dataset-1_" + std::string(clip) + "_normal_001.bvh");
+    if (!std::filesystem::exists(source_file) ||
+        !std::filesystem::exists(shared(body.file))) {
+      GTEST_SKIP() << "the files are not there";
+    }
+    SCOPED_TRACE(clip);
+    const ScratchFolder folder;
+    const auto source = read_motion(source_file);
+    ASSERT_TRUE(source) << source.error().message();
+    const auto made =
+        retarget_to_files(source->motion, shared(body.file), folder / "out");
+    ASSERT_TRUE(made) << made.error().message();
+    EXPECT_EQ(made->files.size(), 3U);
+    const Motion& result = made->retargeted.motion;
+    expect_kept(source->motion,
+                joints_of(source->motion.skeleton, kBandai),
+                result,
+                joints_of(result.skeleton, with_hands_of(body)),
+                body.limbs_off);
+    // Hips travel as far as legs are long, and hang where the legs begin.
+    const auto hips = result.skeleton.find(B::kHips);
+    ASSERT_TRUE(hips);
+    const auto world = world_from_joints(result.skeleton, rest_pose(result.skeleton));
+    const double leg =
+        glm::distance(world[index(*result.skeleton.find(B::kLeftUpperLeg))].translation,
+                      world[index(*result.skeleton.find(B::kLeftFoot))].translation);
+    EXPECT_GT(world[index(*hips)].translation.y, 0.7 * leg);
+    // Feet go with their shins.
+    for (const B foot : {B::kLeftFoot, B::kRightFoot}) {
+      const B shin = foot == B::kLeftFoot ? B::kLeftLowerLeg : B::kRightLowerLeg;
+      auto above = result.skeleton[*result.skeleton.find(foot)].parent;
+      while (above && above != result.skeleton.find(shin)) {
+        above = result.skeleton[*above].parent;
+      }
+      EXPECT_TRUE(above) << name(foot);
+    }
+  }
+}
+
+/// Where a body faces: at rest by its thighs, in a pose as its hips' joint is turned. Of
+/// files whose thighs do not hang on the hips, a pose has no more than turns.
+glm::dvec3 facing(const Skeleton& skeleton, const BoneJoints& joints, const Pose& pose) {
+  const std::size_t hips = index(*joints[index(B::kHips)]);
+  const Pose rest = rest_pose(skeleton);
+  const glm::dquat turned =
+      world_from_joints(skeleton, pose)[hips].rotation *
+      glm::conjugate(world_from_joints(skeleton, rest)[hips].rotation);
+  const glm::dvec3 front = turned * testing::facing_of(skeleton, joints, rest);
+  return glm::normalize(glm::dvec3(front.x, 0.0, front.z));
+}
+
+// One clip, one heading: whatever the body's file, and in every kind of file.
+TEST_P(EveryBody, FacesTheSameWayInEveryFile) {
+  const Body& body = GetParam();
+  const auto source_file = shared("mocap/bandai/dataset-1_walk_normal_001.bvh");
+  if (!std::filesystem::exists(source_file) ||
+      !std::filesystem::exists(shared(body.file))) {
+    GTEST_SKIP() << "the files are not there";
+  }
+  const ScratchFolder folder;
+  const auto source = read_motion(source_file);
+  ASSERT_TRUE(source) << source.error().message();
+  ASSERT_TRUE(retarget_to_files(source->motion, shared(body.file), folder / "out"));
+  auto glb = recordings::read_character(folder / "out.glb");
+  ASSERT_TRUE(glb && glb->motion);
+  // What a reader does to a VRM 0.x is undone: this asks what the file says.
+  const glm::dquat as_in_file =
+      glb->faces_back ? glm::dquat(0.0, 0.0, 1.0, 0.0) : glm::dquat(1.0, 0.0, 0.0, 0.0);
+  const auto bvh = recordings::read_bvh(folder / "out.bvh");
+  ASSERT_TRUE(bvh);
+  const auto vrma = recordings::read_character(folder / "out.vrma");
+  ASSERT_TRUE(vrma && vrma->motion);
+  Names names = with_hands_of(body);
+  const auto source_joints = joints_of(source->motion.skeleton, kBandai);
+  const auto glb_joints = joints_of(glb->skeleton, names);
+  std::string thigh = names.thigh;  // A .bvh has no blanks in names.
+  std::ranges::replace(thigh, ' ', '_');
+  names.thigh = thigh.c_str();
+  const auto bvh_joints = joints_of(bvh->motion.skeleton, names);
+  const auto vrma_joints = testing::marked_joints(vrma->skeleton);
+  const std::size_t last = source->motion.poses.size() - 1;
+  for (const std::size_t frame : {std::size_t{0}, last / 2, last}) {
+    const glm::dvec3 truth =
+        facing(source->motion.skeleton, source_joints, source->motion.poses[frame]);
+    const auto expect_same = [&](const glm::dvec3& front, const char* what) {
+      EXPECT_GT(glm::dot(front, truth), std::cos(3.0 * kDegree)) << what;
+    };
+    expect_same(as_in_file * facing(glb->skeleton, glb_joints, glb->motion->poses[frame]),
+                "glb");
+    expect_same(facing(bvh->motion.skeleton, bvh_joints, bvh->motion.poses[frame]),
+                "bvh");
+    expect_same(facing(vrma->skeleton, vrma_joints, vrma->motion->poses[frame]), "vrma");
+  }
+  // At rest, too.
+  for (const glm::dvec3& front :
+       {as_in_file *
+            testing::facing_of(glb->skeleton, glb_joints, rest_pose(glb->skeleton)),
+        testing::facing_of(
+            bvh->motion.skeleton, bvh_joints, rest_pose(bvh->motion.skeleton))}) {
+    EXPECT_GT(front.z, 0.999);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    KeptPosture, EveryBody, ::testing::ValuesIn(kBodies), [](const auto& case_info) {
+      std::string text = case_info.param.file;
+      std::erase_if(text, [](char c) { return std::isalnum(c) == 0; });
+      return text;
+    });
+
+// Clips of one skeleton, one neutral: bit by bit, and with others behind them.
+TEST(KeptPosture, HasOneNeutralForAllClipsOfASkeleton) {
+  std::vector<Motion> clips;
+  for (const char* clip : {"walk", "kick", "dance-short"}) {
+    const auto file =
+        shared("mocap/bandai/dataset-1_" + std::string(clip) + "_normal_001.bvh");
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "the files are not there";
+    auto raw = read_raw_body(file);
+    ASSERT_TRUE(raw);
+    clips.push_back(std::move(raw->motion));
+    const auto body = read_body(file);
+    ASSERT_TRUE(body);
+    EXPECT_EQ(body->neutral, NeutralKind::kNamed);
+  }
+  clips.push_back(clips[0]);
+  for (int i = 0; i < 6; ++i) {
+    clips[3].poses.insert(
+        clips[3].poses.end(), clips[1].poses.begin(), clips[1].poses.end());
+  }
+  // Named, and by geometry alone.
+  for (const auto* named : {retarget::named_neutral("bandai"),
+                            static_cast<const retarget::NamedNeutral*>(nullptr)}) {
+    std::vector<Motion> motions = clips;
+    for (Motion& motion : motions) {
+      const auto bones = retarget::identify_bones(motion.skeleton);
+      ASSERT_TRUE(bones);
+      retarget::rest_as_t_pose(motion, *bones, named);
+    }
+    for (std::size_t i = 0; i < motions[0].skeleton.joints.size(); ++i) {
+      const auto turn = [&](std::size_t clip) {
+        return motions[clip].skeleton.joints[i].parent_from_joint.rotation;
+      };
+      EXPECT_EQ(turn(3), turn(0));
+      // Lengths of bones have few digits, which differ from file to file.
+      for (const std::size_t clip : {1U, 2U}) {
+        EXPECT_GT(std::abs(glm::dot(turn(clip), turn(0))), 1.0 - 1e-9);
+      }
+    }
+  }
+}
+
+TEST(KeptPosture, TakesTheNeutralThatIsAskedFor) {
+  const auto file = shared("mocap/bandai/dataset-1_kick_normal_001.bvh");
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "the file is not there";
+  const auto with = [&](const std::string& word) {
+    BodyFile body(file);
+    const auto neutral = read_neutral(word);
+    EXPECT_TRUE(neutral) << neutral.error().message();
+    if (neutral) body.neutral = *neutral;
+    return read_body(body);
+  };
+  for (const auto& [word, kind] : std::vector<std::pair<std::string, NeutralKind>>{
+           {"auto", NeutralKind::kNamed},
+           {"t-pose", NeutralKind::kTPose},
+           {"frame:0", NeutralKind::kFrame},
+           {"bandai", NeutralKind::kNamed},
+           {shared("mocap/bandai/dataset-1_walk_normal_001.bvh").string(),
+            NeutralKind::kFile}}) {
+    const auto body = with(word);
+    ASSERT_TRUE(body) << body.error().message();
+    EXPECT_EQ(body->neutral, kind) << word;
+  }
+  const auto refused = [&](const std::string& word) {
+    const auto body = with(word);
+    EXPECT_FALSE(body) << word;
+    return body ? "" : body.error().message();
+  };
+  EXPECT_NE(refused("rest").find("the file's rest is no neutral"), std::string::npos);
+  EXPECT_NE(refused("frame:100000").find("there is no frame 100000"), std::string::npos);
+  EXPECT_NE(refused(shared("mocap/cmu_bvh_tmoco/rest.bvh").string())
+                .find("of the same skeleton"),
+            std::string::npos);
+  EXPECT_EQ(read_neutral("frame:x").error().cause, "\"frame:x\" is no neutral");
+  EXPECT_NE(neutral_mistake("nobody").find("bandai"), std::string::npos);
+  EXPECT_EQ(neutral_mistake("t-pose"), "");
+}
+
+}  // namespace
+}  // namespace marey::app
