@@ -133,6 +133,7 @@ Status put_on_one(const Motion& source,
   if (!formats) return formats.error();
   PutOnOptions options = work.args.options;
   options.retarget.soles = avatar.soles = body.soles;
+  options.retarget.skin = &body.skin;
   if (options.retarget.hands) {
     options.retarget.hands->source_volume = work.source_volume;
     options.retarget.hands->avatar_volume = body.volume;

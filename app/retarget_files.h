@@ -15,6 +15,7 @@
 #include "retarget/body_volume.h"
 #include "retarget/find_soles.h"
 #include "retarget/retarget_motion.h"
+#include "retarget/skin.h"
 
 namespace marey::app {
 
@@ -25,6 +26,7 @@ struct OpenedAvatar {
   BodyLook look;                     ///< Without a file when there is no mesh.
   retarget::Soles soles;             ///< ReadBody::soles.
   std::optional<retarget::BodyVolume> volume;  ///< ReadBody::volume.
+  retarget::Skin skin;                         ///< ReadBody::skin.
   std::vector<std::string> remarks;  ///< ReadBody::remarks().
   /// The file is a VRM 0.x: `skeleton` was turned half about Y.
   bool file_faces_back = false;
