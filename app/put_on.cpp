@@ -130,6 +130,12 @@ Result<RetargetedMotion> put_on(const Motion& source,
   kept.count = static_cast<int>(out->motion.poses.size());
   out->report.contacts = kept_of(out->report.contacts, kept);
   out->report.hands.touches = kept_of(out->report.hands.touches, kept);
+  std::vector<double> depth_m;
+  for (int t = 0; t < kept.count; ++t) {
+    const auto dense = static_cast<std::size_t>(kept.before + kept.multiple * t);
+    depth_m.push_back(out->report.source_depth_m[dense]);
+  }
+  out->report.source_depth_m = std::move(depth_m);
   auto map = retarget::map_body(avatar);
   if (!map) return map.error();
   retarget::wear(options.retarget.soles, *map);

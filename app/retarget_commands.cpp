@@ -123,6 +123,30 @@ Status write_contacts(const RetargetArguments& args,
   return recordings::write_constraints(args.constraints_out, set);
 }
 
+/// Judges what was made of an avatar, and warns of what is wrong with it.
+Status judge(const OpenedAvatar& body, Work& work, AvatarResult& avatar) {
+  const auto map = retarget::map_body(avatar.retargeted.motion.skeleton);
+  if (!map) return map.error();
+  const auto source_map = retarget::map_body(work.run.source.skeleton);
+  if (!source_map) return source_map.error();
+  avatar.verdict = judge_avatar(body.file.string(),
+                                work.run.source,
+                                *source_map,
+                                avatar.retargeted,
+                                *map,
+                                body.skin,
+                                !work.args.no_ground);
+  for (const AvatarProblem& problem : avatar.verdict.problems) {
+    if (!problem.is_poor) {
+      work.console.warn(problem.error.message());
+    } else if (const Exit poor = work.console.fail(problem.error);
+               work.exit == Exit::kOk) {
+      work.exit = poor;
+    }
+  }
+  return Done{};
+}
+
 /// Everything of one avatar: its motion, then its files.
 Status put_on_one(const Motion& source,
                   const OpenedAvatar& body,
@@ -151,7 +175,7 @@ Status put_on_one(const Motion& source,
   if (!work.args.constraints_out.empty()) {
     if (const Status ok = write_contacts(work.args, body, avatar); !ok) return ok;
   }
-  return Done{};
+  return judge(body, work, avatar);
 }
 
 void put_on_all(const Motion& source, Work& work) {
@@ -184,11 +208,8 @@ bool has_any(const RetargetRun& run) {
 }
 
 /// What avatars are held against, and how they do.
-Status measure(const Motion& source, Work& work) {
+Status measure(Work& work) {
   RetargetRun& run = work.run;
-  run.source = work.args.options.rate_hz
-                   ? resample(source, FrameRate{*work.args.options.rate_hz})
-                   : source;
   for (const AvatarResult& avatar : run.avatars) {
     if (!avatar.error) run.contacts = avatar.retargeted.report.contacts;
   }
@@ -336,9 +357,12 @@ Exit run_retarget(const RetargetArguments& args, Console& console) {
     console.warn(args.motion.string() + ": " + remark);
   }
   work.source_volume = volume_of_source(*source);
-  put_on_all(source->raw.motion, work);
+  const Motion& motion = source->raw.motion;
+  work.run.source =
+      args.options.rate_hz ? resample(motion, FrameRate{*args.options.rate_hz}) : motion;
+  put_on_all(motion, work);
   if (!has_any(work.run)) return work.exit;
-  if (const Status ok = measure(source->raw.motion, work); !ok) {
+  if (const Status ok = measure(work); !ok) {
     return console.fail(of_file(args.motion, ok.error()));
   }
   if (!plan->page.empty()) {

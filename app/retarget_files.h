@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/judge_avatar.h"
 #include "app/motion_files.h"
 #include "app/read_body.h"
 #include "core/motion.h"
@@ -39,6 +40,7 @@ struct RetargetedFiles {
   retarget::RetargetedMotion retargeted;
   std::vector<std::filesystem::path> files;
   std::vector<std::string> remarks = {};  ///< ReadBody::remarks() of the avatar.
+  AvatarVerdict verdict = {};
 };
 
 /// Puts a motion on an avatar, with its soles, and with what hands do to the body

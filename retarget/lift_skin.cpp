@@ -17,6 +17,9 @@ namespace marey::retarget {
 namespace {
 
 constexpr double kNoLift_m = 1e-9;
+// In so many passes bearing feet stay; what legs of held feet keep in the floor after
+// that rises with them.
+constexpr int kPassesWithFeet = 4;
 // Parts that raise the whole body. A shank takes its own foot along.
 constexpr std::array kBodyParts{SkinPart::kHead,
                                 SkinPart::kTrunk,
@@ -56,10 +59,7 @@ struct Needs {
   std::array<std::vector<double>, 2> hand;
 
   explicit Needs(std::size_t count)
-      : body(count, 0.0),
-        shank{body, body},
-        foot{body, body},
-        hand{body, body} {}
+      : body(count, 0.0), shank{body, body}, foot{body, body}, hand{body, body} {}
 };
 
 class Lifting {
@@ -121,8 +121,8 @@ class Lifting {
     return out;
   }
 
-  // Raises what needs it, over all frames.
-  void raise(Needs needs, LiftSkinReport& report) {
+  // Raises what needs it, over all frames. Unless feet are held, they go with the body.
+  void raise(Needs needs, bool holds_feet, LiftSkinReport& report) {
     const std::size_t count = lows_.size();
     const std::vector<double> body = smooth_cover(needs.body, half_);
     std::array<std::vector<double>, 2> ankle;
@@ -132,7 +132,7 @@ class Lifting {
       const std::vector<double> shank = smooth_cover(needs.shank[s], half_);
       ankle[s].resize(count);
       for (std::size_t t = 0; t < count; ++t) {
-        const double pinned = pinned_[s][t];
+        const double pinned = holds_feet ? pinned_[s][t] : 0.0;
         ankle[s][t] = (1.0 - pinned) * body[t] + pinned * std::min(shank[t], body[t]);
         needs.foot[s][t] = std::max(0.0, needs.foot[s][t] - ankle[s][t]);
         needs.hand[s][t] = std::max(0.0, needs.hand[s][t] - body[t]);
@@ -259,7 +259,7 @@ LiftSkinReport lift_skin(const Skin& skin,
   Lifting lifting(skin, map, contacts, allowed_m, options, motion);
   report.before = report.after = lifting.deepest();
   while (report.after.depth_m > options.slack_m && report.passes < options.max_passes) {
-    lifting.raise(lifting.needs(), report);
+    lifting.raise(lifting.needs(), report.passes < kPassesWithFeet, report);
     report.after = lifting.deepest();
     ++report.passes;
   }

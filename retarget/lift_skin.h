@@ -40,21 +40,22 @@ struct LiftSkinReport {
   int passes = 0;
 };
 
-/// The deepest skin of a motion below the floor Y = 0, exact. `allowed_m` is how far below
-/// it skin may be, one value a frame; empty: not at all.
-/// Precondition: `skin` was made from the motion's skeleton.
+/// The deepest skin of a motion below the floor Y = 0, exact. `allowed_m` is how far
+/// below it skin may be, one value a frame; empty: not at all. Precondition: `skin` was
+/// made from the motion's skeleton.
 [[nodiscard]] SkinDepth deepest_skin(const Motion& motion,
                                      const Skin& skin,
                                      std::span<const double> allowed_m = {});
 
 /// Raises a body until its skin is above the floor Y = 0, in place.
 ///
-/// Head, trunk, thighs, shanks, upper arms and forearms raise the whole body; bearing feet
-/// stay where they are as far as legs reach; a foot that is too low rises by its leg, a
-/// hand by its arm. The rises are smooth over time (retarget/smooth_cover.h) and vertical;
-/// feet and hands keep their orientation. Passes are made until no skin is lower than the
-/// slack. Frames far from any that needs it keep their bytes. Same input, same bytes. Some
-/// ten microseconds a frame for the first pass, as much again for each frame that is moved.
+/// Head, trunk, thighs, shanks, upper arms and forearms raise the whole body; bearing
+/// feet stay where they are as far as legs reach and that helps; a foot that is too low
+/// rises by its leg, a hand by its arm. The rises are smooth over time
+/// (retarget/smooth_cover.h) and vertical; feet and hands keep their orientation. Passes
+/// are made until no skin is lower than the slack. Frames far from any that needs it keep
+/// their bytes. Same input, same bytes. Some ten microseconds a frame for the first pass,
+/// as much again for each frame that is moved.
 ///
 /// `allowed_m` is how far below the floor the source is in each frame, at this body's
 /// size: that much is left. Empty: nothing. Precondition: `map` and `skin` were made from

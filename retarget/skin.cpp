@@ -68,11 +68,21 @@ glm::dvec4 height_row(const RigidTransform& world_from_joint) {
 }  // namespace
 
 std::string_view name(SkinPart part) {
-  constexpr std::array<std::string_view, kSkinPartCount> kNames{
-      "head",          "trunk",       "hair or clothes", "left upper arm",
-      "left forearm",  "left hand",   "left thigh",      "left shank",
-      "left foot",     "right upper arm", "right forearm", "right hand",
-      "right thigh",   "right shank", "right foot"};
+  constexpr std::array<std::string_view, kSkinPartCount> kNames{"head",
+                                                                "trunk",
+                                                                "hair or clothes",
+                                                                "left upper arm",
+                                                                "left forearm",
+                                                                "left hand",
+                                                                "left thigh",
+                                                                "left shank",
+                                                                "left foot",
+                                                                "right upper arm",
+                                                                "right forearm",
+                                                                "right hand",
+                                                                "right thigh",
+                                                                "right shank",
+                                                                "right foot"};
   return kNames[index(part)];
 }
 
@@ -114,9 +124,8 @@ Skin::Skin(const Skeleton& skeleton,
   for (RigidTransform& frame : joint_from_world) frame = inverse(frame);
   std::vector<std::uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t v) {
-    return main_carrier(vertices[v]);
-  });
+  std::ranges::stable_sort(
+      order, {}, [&](std::uint32_t v) { return main_carrier(vertices[v]); });
   std::optional<std::size_t> carrier;
   for (const std::uint32_t v : order) {
     const SkinVertex& vertex = vertices[v];
@@ -186,8 +195,7 @@ void Skin::lows(std::span<const RigidTransform> world_from_joint,
     }
     if (bound_m >= std::min(lowest_m, ceiling_m)) continue;
     for (std::uint32_t v = group.first; v < group.last; ++v) {
-      const std::size_t end =
-          v + 1 < first_.size() ? first_[v + 1] : influences_.size();
+      const std::size_t end = v + 1 < first_.size() ? first_[v + 1] : influences_.size();
       double y_m = 0.0;
       for (std::size_t k = first_[v]; k < end; ++k) {
         y_m += glm::dot(rows[influences_[k].joint], influences_[k].weighted);

@@ -50,7 +50,7 @@ inline constexpr int kSkinPartCount = 15;
 
 /// A vertex of a skin at rest: its place, and the joints that carry it.
 struct SkinVertex {
-  glm::dvec3 p_in_world{0.0};       ///< In the rest pose. [m]
+  glm::dvec3 p_in_world{0.0};  ///< In the rest pose. [m]
   std::array<JointIndex, 4> joints{};
   std::array<double, 4> weights{};  ///< >= 0, they sum to 1.
 };
@@ -75,9 +75,9 @@ class Skin {
   [[nodiscard]] std::size_t vertex_count() const { return first_.size(); }
 
   /// The lowest point of every part in a posture, exact for all that is below
-  /// `ceiling_m`. `rows` is scratch, one entry per joint. Allocates nothing; linear in the
-  /// vertices near the ceiling and below.
-  /// Precondition: one frame and one row per joint of the skeleton.
+  /// `ceiling_m`. `rows` is scratch, one entry per joint. Allocates nothing; linear in
+  /// the vertices near the ceiling and below. Precondition: one frame and one row per
+  /// joint of the skeleton.
   void lows(std::span<const RigidTransform> world_from_joint,
             double ceiling_m,
             std::span<glm::dvec4> rows,

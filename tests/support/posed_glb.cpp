@@ -225,7 +225,8 @@ void PosedGlb::pose(double time_s) {
     const auto after = std::ranges::upper_bound(times, time_s);
     const auto high =
         std::min(static_cast<std::size_t>(after - times.begin()), times.size() - 1);
-    const std::size_t low = after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
+    const std::size_t low =
+        after == times.begin() ? 0 : static_cast<std::size_t>(after - times.begin()) - 1;
     double share = 0.0;
     if (high > low && !channel.steps) {
       share = (time_s - times[low]) / (times[high] - times[low]);
@@ -235,9 +236,8 @@ void PosedGlb::pose(double time_s) {
     Node& node = posed[channel.node];
     node.matrix.reset();
     if (channel.path == 'r') {
-      node.rotation = glm::slerp(glm::dquat(a[3], a[0], a[1], a[2]),
-                                 glm::dquat(b[3], b[0], b[1], b[2]),
-                                 share);
+      node.rotation = glm::slerp(
+          glm::dquat(a[3], a[0], a[1], a[2]), glm::dquat(b[3], b[0], b[1], b[2]), share);
     } else {
       const glm::dvec3 value =
           glm::mix(glm::dvec3(a[0], a[1], a[2]), glm::dvec3(b[0], b[1], b[2]), share);
@@ -281,7 +281,8 @@ PosedGlb::Lowest PosedGlb::lowest() const {
       }
       if (part.influences[v].empty() || y_m >= out.y_m) continue;
       out.y_m = y_m;
-      const auto most = std::ranges::max_element(part.influences[v], {}, &Influence::weight);
+      const auto most =
+          std::ranges::max_element(part.influences[v], {}, &Influence::weight);
       out.node = names_[part.joints[most->joint]];
     }
   }
