@@ -97,13 +97,15 @@ double AvatarVerdict::penetration_mm(const retarget::RetargetReport& report) con
   return skin ? 1e3 * skin->depth_m : report.after.deepest_penetration_mm;
 }
 
-AvatarVerdict judge_avatar(const std::string& name,
-                           const Motion& source,
-                           const retarget::BodyMap& source_map,
-                           const retarget::RetargetedMotion& made,
-                           const retarget::BodyMap& map,
-                           const retarget::Skin& skin,
-                           bool grounded) {
+Result<AvatarVerdict> judge_avatar(const std::string& name,
+                                   const Motion& source,
+                                   const retarget::RetargetedMotion& made,
+                                   const retarget::Skin& skin,
+                                   bool grounded) {
+  const auto source_map = retarget::map_body(source.skeleton);
+  if (!source_map) return source_map.error();
+  const auto map = retarget::map_body(made.motion.skeleton);
+  if (!map) return map.error();
   AvatarVerdict out;
   for (const double depth_m : made.report.source_depth_m) {
     out.source_depth_m = std::max(out.source_depth_m, depth_m);
@@ -113,7 +115,7 @@ AvatarVerdict judge_avatar(const std::string& name,
     out.beyond_source =
         retarget::deepest_skin(made.motion, skin, made.report.source_depth_m);
   }
-  out.posture = retarget::compare_postures(source, source_map, made.motion, map);
+  out.posture = retarget::compare_postures(source, *source_map, made.motion, *map);
   out.arms_in_body_mm = 1e3 * made.report.hands.arms.deepest_after_m;
   if (grounded) judge_skin(name, out);
   judge_posture(name, out);

@@ -62,14 +62,12 @@ struct AvatarVerdict {
 /// `name` is what messages call the body. Where feet were not kept to the floor
 /// (`grounded` is false), skin below it is measured and no problem. Costs a forward
 /// kinematics of both bodies and the skin near the floor, some ten microseconds a frame.
-/// Precondition: the maps were made from the skeletons; `skin` from the motion's; as many
-/// frames in `source` as in the motion.
-[[nodiscard]] AvatarVerdict judge_avatar(const std::string& name,
-                                         const Motion& source,
-                                         const retarget::BodyMap& source_map,
-                                         const retarget::RetargetedMotion& made,
-                                         const retarget::BodyMap& map,
-                                         const retarget::Skin& skin,
-                                         bool grounded);
+/// Errors: map_body()'s. Precondition: `skin` was made from the motion's skeleton; as
+/// many frames in `source` as in the motion.
+[[nodiscard]] Result<AvatarVerdict> judge_avatar(const std::string& name,
+                                                 const Motion& source,
+                                                 const retarget::RetargetedMotion& made,
+                                                 const retarget::Skin& skin,
+                                                 bool grounded);
 
 }  // namespace marey::app

@@ -30,11 +30,12 @@ Result<RetargetedMotion> put_on_live(const Motion& source,
   live.hold_feet = options.adapt_ground;
   live.stance.contacts = options.contacts;
   live.soles = options.soles;
-  live.hands.reset();
+  if (options.skin != nullptr) live.skin = *options.skin;
   if (options.hands) {
-    auto& hands = live.hands.emplace();
-    hands.source_volume = options.hands->source_volume;
-    hands.avatar_volume = options.hands->avatar_volume;
+    live.hands->source_volume = options.hands->source_volume;
+    live.hands->avatar_volume = options.hands->avatar_volume;
+  } else {
+    live.hands.reset();
   }
   auto stage = retarget::LiveRetarget::make(source.skeleton, avatar, live);
   if (!stage) return stage.error();

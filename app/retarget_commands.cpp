@@ -40,9 +40,12 @@ struct Work {
   Exit exit = Exit::kOk;                            ///< The first failure's.
   std::optional<retarget::BodyVolume> source_volume = std::nullopt;
 
-  void fail(AvatarResult& avatar, const Error& error) {
+  void fail(const Error& error) {
     const Exit told = console.fail(error);
     if (exit == Exit::kOk) exit = told;
+  }
+  void fail(AvatarResult& avatar, const Error& error) {
+    fail(error);
     avatar.error = error;
   }
 };
@@ -125,23 +128,18 @@ Status write_contacts(const RetargetArguments& args,
 
 /// Judges what was made of an avatar, and warns of what is wrong with it.
 Status judge(const OpenedAvatar& body, Work& work, AvatarResult& avatar) {
-  const auto map = retarget::map_body(avatar.retargeted.motion.skeleton);
-  if (!map) return map.error();
-  const auto source_map = retarget::map_body(work.run.source.skeleton);
-  if (!source_map) return source_map.error();
-  avatar.verdict = judge_avatar(body.file.string(),
-                                work.run.source,
-                                *source_map,
-                                avatar.retargeted,
-                                *map,
-                                body.skin,
-                                !work.args.no_ground);
+  auto verdict = judge_avatar(body.file.string(),
+                              work.run.source,
+                              avatar.retargeted,
+                              body.skin,
+                              !work.args.no_ground);
+  if (!verdict) return verdict.error();
+  avatar.verdict = *std::move(verdict);
   for (const AvatarProblem& problem : avatar.verdict.problems) {
-    if (!problem.is_poor) {
+    if (problem.is_poor) {
+      work.fail(problem.error);
+    } else {
       work.console.warn(problem.error.message());
-    } else if (const Exit poor = work.console.fail(problem.error);
-               work.exit == Exit::kOk) {
-      work.exit = poor;
     }
   }
   return Done{};
@@ -201,10 +199,7 @@ void put_on_all(const Motion& source, Work& work) {
 }
 
 bool has_any(const RetargetRun& run) {
-  for (const AvatarResult& avatar : run.avatars) {
-    if (!avatar.error) return true;
-  }
-  return false;
+  return std::ranges::any_of(run.avatars, [](const auto& avatar) { return !avatar.error; });
 }
 
 /// What avatars are held against, and how they do.

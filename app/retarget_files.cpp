@@ -49,12 +49,10 @@ Result<RetargetedFiles> retarget_to_files(const Motion& motion,
   auto retargeted = retarget::retarget_motion(motion, opened->skeleton, options);
   if (!retargeted) return of_file(avatar.path, retargeted.error());
   RetargetedFiles result{*std::move(retargeted), {}, opened->remarks};
-  const auto from = retarget::map_body(motion.skeleton);
-  const auto to = retarget::map_body(opened->skeleton);
-  if (!from) return from.error();
-  if (!to) return of_file(avatar.path, to.error());
-  result.verdict = judge_avatar(
-      avatar.path.string(), motion, *from, result.retargeted, *to, opened->skin, true);
+  auto verdict = judge_avatar(
+      avatar.path.string(), motion, result.retargeted, opened->skin, true);
+  if (!verdict) return of_file(avatar.path, verdict.error());
+  result.verdict = *std::move(verdict);
   for (const MotionFormat format :
        {MotionFormat::kGlb, MotionFormat::kBvh, MotionFormat::kVrma}) {
     if (!can_hold(format, opened->skeleton, opened->look)) continue;

@@ -20,18 +20,6 @@ constexpr double kNoLift_m = 1e-9;
 // In so many passes bearing feet stay; what legs of held feet keep in the floor after
 // that rises with them.
 constexpr int kPassesWithFeet = 4;
-// Parts that raise the whole body. A shank takes its own foot along.
-constexpr std::array kBodyParts{SkinPart::kHead,
-                                SkinPart::kTrunk,
-                                SkinPart::kLeftUpperArm,
-                                SkinPart::kLeftForearm,
-                                SkinPart::kLeftThigh,
-                                SkinPart::kLeftShank,
-                                SkinPart::kRightUpperArm,
-                                SkinPart::kRightForearm,
-                                SkinPart::kRightThigh,
-                                SkinPart::kRightShank};
-
 double allowed_at(std::span<const double> allowed_m, std::size_t t) {
   return allowed_m.empty() ? 0.0 : allowed_m[t];
 }
@@ -105,7 +93,7 @@ class Lifting {
         const double m = depth_of(lows_[t], part, allowed_at(allowed_m_, t));
         return m > options_.slack_m ? m : 0.0;
       };
-      for (const SkinPart part : kBodyParts) {
+      for (const SkinPart part : lifting_parts()) {
         out.body[t] = std::max(out.body[t], depth_m(part));
       }
       const double worn_left_m = std::max(0.0, max_worn_m - raised_[t]);
@@ -183,6 +171,20 @@ class Lifting {
 };
 
 }  // namespace
+
+std::span<const SkinPart> lifting_parts() {
+  static constexpr std::array kParts{SkinPart::kHead,
+                                     SkinPart::kTrunk,
+                                     SkinPart::kLeftUpperArm,
+                                     SkinPart::kLeftForearm,
+                                     SkinPart::kLeftThigh,
+                                     SkinPart::kLeftShank,
+                                     SkinPart::kRightUpperArm,
+                                     SkinPart::kRightForearm,
+                                     SkinPart::kRightThigh,
+                                     SkinPart::kRightShank};
+  return kParts;
+}
 
 bool SkinLift::is_zero() const {
   return root_m < kNoLift_m && ankle_m[0] < kNoLift_m && ankle_m[1] < kNoLift_m &&

@@ -67,6 +67,9 @@ LiftSkinReport lift_skin(const Skin& skin,
                          const LiftSkinOptions& options,
                          Motion& motion);
 
+/// Head, trunk and limbs but for feet and hands: parts that raise the whole body.
+[[nodiscard]] std::span<const SkinPart> lifting_parts();
+
 /// How far parts of one posture are moved up. [m]
 struct SkinLift {
   double root_m = 0.0;

@@ -37,7 +37,8 @@ std::vector<std::string> gross_errors(const CampaignResult& result) {
 std::vector<CampaignResult> run_campaign(const std::filesystem::path& program,
                                          const std::filesystem::path& folder,
                                          const std::filesystem::path& clip,
-                                         const std::vector<CampaignBody>& bodies) {
+                                         const std::vector<CampaignBody>& bodies,
+                                         const std::vector<std::string>& more) {
   const std::vector<Landmarks> source = read_landmarks(clip);
   const std::string out_name = "out-" + clip.stem().string();
   std::vector<std::string> arguments{"retarget", clip.string()};
@@ -46,6 +47,7 @@ std::vector<CampaignResult> run_campaign(const std::filesystem::path& program,
     arguments.emplace_back(word);
   }
   arguments.push_back(out_name);
+  arguments.insert(arguments.end(), more.begin(), more.end());
   const ProgramRun run =
       run_program(program, arguments, {.folder = folder, .interrupt_at = {}});
   const auto json = nlohmann::json::parse(run.out, nullptr, false);

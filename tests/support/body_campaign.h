@@ -32,19 +32,20 @@ struct CampaignResult {
 };
 
 /// How a result is wrong beyond doubt, in a word or two; empty: it is not. Skin more than
-/// 5 mm below the floor where the source is not, a leg's segment or a trunk whose median is
-/// more than 25 degrees away from the source's, an arm's 60 (arms give way to wide
+/// 5 mm below the floor where the source is not, a leg's segment or a trunk whose median
+/// is more than 25 degrees away from the source's, an arm's 60 (arms give way to wide
 /// bodies), left and right exchanged, speeds over twice the
 /// source's and 12 heights a second, a figure that is not the judge's.
 [[nodiscard]] std::vector<std::string> gross_errors(const CampaignResult& result);
 
-/// Runs `marey retarget CLIP BODIES... --formats glb --json` in `folder` once and judges
-/// each file that leaves.
+/// Runs `marey retarget CLIP BODIES... --formats glb --json` in `folder` once, with
+/// `more` arguments, and judges each file that leaves.
 [[nodiscard]] std::vector<CampaignResult> run_campaign(
     const std::filesystem::path& program,
     const std::filesystem::path& folder,
     const std::filesystem::path& clip,
-    const std::vector<CampaignBody>& bodies);
+    const std::vector<CampaignBody>& bodies,
+    const std::vector<std::string>& more = {});
 
 /// Generated bodies of these seeds, written into `folder`.
 [[nodiscard]] std::vector<CampaignBody> made_bodies(const std::filesystem::path& folder,

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -23,84 +22,6 @@ namespace {
 
 using B = HumanBone;
 
-constexpr std::array<const char*, 5> kSchemes{
-    "mixamo", "unreal", "vrm", "blender", "cmu"};
-
-// Per scheme: the names of bones from the hips down the list of human_bones(), left only.
-std::string name_of(int scheme, B bone) {
-  const std::string vrm(name(bone));
-  const bool left = vrm.starts_with("left");
-  const bool right = vrm.starts_with("right");
-  const std::string part = left ? vrm.substr(4) : right ? vrm.substr(5) : vrm;
-  using Names = std::map<std::string, std::string>;
-  static const Names kMixamo{{"hips", "Hips"},
-                             {"neck", "Neck"},
-                             {"head", "Head"},
-                             {"Shoulder", "Shoulder"},
-                             {"UpperArm", "Arm"},
-                             {"LowerArm", "ForeArm"},
-                             {"Hand", "Hand"},
-                             {"UpperLeg", "UpLeg"},
-                             {"LowerLeg", "Leg"},
-                             {"Foot", "Foot"},
-                             {"Toes", "ToeBase"}};
-  static const Names kUnreal{{"hips", "pelvis"},
-                             {"neck", "neck_01"},
-                             {"head", "head"},
-                             {"Shoulder", "clavicle"},
-                             {"UpperArm", "upperarm"},
-                             {"LowerArm", "lowerarm"},
-                             {"Hand", "hand"},
-                             {"UpperLeg", "thigh"},
-                             {"LowerLeg", "calf"},
-                             {"Foot", "foot"},
-                             {"Toes", "ball"}};
-  static const Names kBlender{{"hips", "hips"},
-                              {"neck", "neck"},
-                              {"head", "head"},
-                              {"Shoulder", "shoulder"},
-                              {"UpperArm", "upper_arm"},
-                              {"LowerArm", "forearm"},
-                              {"Hand", "hand"},
-                              {"UpperLeg", "thigh"},
-                              {"LowerLeg", "shin"},
-                              {"Foot", "foot"},
-                              {"Toes", "toe"}};
-  const std::string side = left ? "Left" : right ? "Right" : "";
-  const std::string letter = left ? "l" : "r";
-  switch (scheme) {
-    case 0:
-      return "mixamorig:" + side + kMixamo.at(part);
-    case 1:
-      return side.empty() ? kUnreal.at(part) : kUnreal.at(part) + "_" + letter;
-    case 3:
-      return side.empty() ? kBlender.at(part) : kBlender.at(part) + (left ? ".L" : ".R");
-    case 4:
-      return side + kMixamo.at(part);
-    default:
-      return vrm;
-  }
-}
-
-std::string spine_name(int scheme, int i) {
-  const std::string number = std::to_string(i);
-  switch (scheme) {
-    case 0:
-      return "mixamorig:Spine" + (i == 0 ? "" : number);
-    case 1:
-      return "spine_0" + std::to_string(i + 1);
-    case 3:
-      return i == 0 ? "spine" : "spine.00" + number;
-    case 4:
-      return i == 0 ? "LowerBack" : i == 1 ? "Spine" : "Spine" + std::to_string(i - 1);
-    default:
-      return i == 0   ? "spine"
-             : i == 1 ? "chest"
-             : i == 2 ? "upperChest"
-                      : "spine" + number;
-  }
-}
-
 struct Bone {
   std::string name;
   int parent = -1;
@@ -117,7 +38,8 @@ class Maker {
       lay_leg(x);
       lay_arm(x);
     }
-    if (rule.hair) lay_hair();
+    if (rule.hair) lay_chain("hair_", {0, -0.04, -0.0175});
+    if (rule.ears) lay_chain("ear_", {0, 0.1, 0});
     skin_trunk();
     for (const double x : {1.0, -1.0}) {
       skin_leg(x);
@@ -136,7 +58,7 @@ class Maker {
     return static_cast<int>(bones_.size()) - 1;
   }
   int add(B bone, int parent, const glm::dvec3& place) {
-    const int at = add(name_of(rule_.naming, bone), parent, place);
+    const int at = add(made_bone_name(rule_.naming, bone), parent, place);
     of_[bone] = at;
     return at;
   }
@@ -171,8 +93,9 @@ class Maker {
     int at = add(B::kHips, root, {0, hips_y, 0});
     for (int i = 0; i < rule_.spine_bones; ++i) {
       const double up = (i + 0.5) / rule_.spine_bones;
-      at =
-          add(spine_name(rule_.naming, i), at, {0, hips_y + trunk * 0.9 * up, -0.01 * s});
+      at = add(made_spine_name(rule_.naming, i),
+               at,
+               {0, hips_y + trunk * 0.9 * up, -0.01 * s});
     }
     chest_ = at;
     shoulder_y_ = hips_y + 0.92 * trunk;
@@ -226,13 +149,14 @@ class Maker {
     add(std::string(bone_name) + (x > 0 ? "_l" : "_r"), upper, 0.5 * (start + end));
   }
 
-  void lay_hair() {
+  // Four bones that hang on the head, each so far from the one before, in statures.
+  void lay_chain(const std::string& bone_name, const glm::dvec3& step) {
     int at = id(B::kHead);
-    for (int k = 1; k <= 4; ++k) {
-      at = add(
-          "hair_" + std::to_string(k),
-          at,
-          this->at(B::kHead) + rule_.stature_m * glm::dvec3(0, 0.08 - 0.04 * k, -0.07));
+    const glm::dvec3 start =
+        this->at(B::kHead) + rule_.stature_m * glm::dvec3(0, 0.08, -0.05);
+    for (int k = 0; k < 4; ++k) {
+      at = add(bone_name + std::to_string(k), at, start + rule_.stature_m * k * step);
+      chains_.push_back({at, k > 0});
     }
   }
 
@@ -292,13 +216,11 @@ class Maker {
     const int head = id(B::kHead);
     const glm::dvec3 top = at(B::kHead) + glm::dvec3(0, 2.2 * head_r, 0);
     tube(0, at(B::kNeck), top, head_r, id(B::kNeck), head, head);
-    if (!rule_.hair) return;
-    for (std::size_t b = 0; b + 1 < bones_.size(); ++b) {
-      if (!bones_[b].name.starts_with("hair_") ||
-          !bones_[b + 1].name.starts_with("hair_"))
-        continue;
-      const int i = static_cast<int>(b);
-      tube(0, bones_[b].place, bones_[b + 1].place, 0.02 * s, i, i, i + 1);
+    for (const auto& [bone, has_before] : chains_) {
+      const auto b = static_cast<std::size_t>(bone);
+      if (has_before) {
+        tube(0, bones_[b - 1].place, bones_[b].place, 0.02 * s, bone - 1, bone - 1, bone);
+      }
     }
   }
 
@@ -365,75 +287,13 @@ class Maker {
          hand);
   }
 
+  std::vector<std::pair<int, bool>> chains_;  // A bone, and whether one is before it.
   double hip_y_ = 0.0;
   double shoulder_y_ = 0.0;
   int chest_ = 0;
 };
 
 }  // namespace
-
-MadeBodyRule made_body_rule(std::uint64_t seed) {
-  Dice dice(seed * 7919 + 13);
-  const auto one_in = [&](double n) { return dice.between(0.0, n) < 1.0; };
-  MadeBodyRule rule;
-  rule.seed = seed;
-  rule.stature_m = dice.between(0.6, 2.5);
-  rule.legs = dice.between(0.75, 1.2);
-  rule.trunk = dice.between(0.85, 1.2);
-  rule.arms = dice.between(0.8, 1.2);
-  rule.head = one_in(4.0) ? dice.between(1.5, 3.0) : dice.between(0.8, 1.2);
-  rule.thick = dice.between(0.7, 1.6);
-  rule.shoes = dice.between(0.8, 1.6);
-  rule.naming = static_cast<int>(dice.between(0.0, 4.999));
-  const double rest = dice.between(0.0, 3.0);
-  rule.arms_down_deg = rest < 1.0 ? 0.0 : rest < 2.0 ? 45.0 : dice.between(55.0, 80.0);
-  rule.knees_deg = rest < 2.0 ? 0.0 : dice.between(0.0, 15.0);
-  rule.facing_deg = 90.0 * std::floor(dice.between(0.0, 3.999));
-  rule.centimetres = one_in(2.5);
-  rule.z_up = one_in(3.0);
-  rule.root_scale = one_in(4.0) ? dice.between(0.5, 2.0) : 1.0;
-  rule.root_at_floor = one_in(2.0);
-  rule.twist_bones = one_in(2.5);
-  rule.ik_bones = one_in(3.0);
-  rule.fingers = one_in(2.0);
-  rule.hair = one_in(3.0);
-  rule.spine_bones = static_cast<int>(dice.between(1.0, 5.0));
-  rule.random_axes = one_in(2.0);
-  rule.two_skins = one_in(2.0);
-  rule.byte_weights = one_in(3.0);
-  return rule;
-}
-
-std::string words(const MadeBodyRule& rule) {
-  std::array<char, 160> text{};
-  std::snprintf(text.data(),
-                text.size(),
-                "%.2f m legs %.2f trunk %.2f arms %.2f head %.1f thick %.1f, %s, arms "
-                "%.0f knees %.0f, faces %.0f",
-                rule.stature_m,
-                rule.legs,
-                rule.trunk,
-                rule.arms,
-                rule.head,
-                rule.thick,
-                kSchemes.at(static_cast<std::size_t>(rule.naming)),
-                rule.arms_down_deg,
-                rule.knees_deg,
-                rule.facing_deg);
-  std::string out = text.data();
-  const auto add = [&](bool is, const char* word) {
-    if (is) out += std::string(", ") + word;
-  };
-  add(rule.centimetres, "cm");
-  add(rule.z_up, "z-up");
-  add(rule.root_scale != 1.0, "scaled root");
-  add(rule.root_at_floor, "root at floor");
-  add(rule.root_at_floor && rule.ik_bones, "IK");
-  add(rule.twist_bones, "twist");
-  add(rule.hair, "hair");
-  add(rule.random_axes, "random axes");
-  return out;
-}
 
 std::map<HumanBone, std::string> write_made_body(const MadeBodyRule& rule,
                                                  const std::filesystem::path& path) {

@@ -33,7 +33,8 @@ struct MadeBodyRule {
       false;  ///< Feet's targets and knees' poles below the root, without skin.
   bool fingers = false;
   bool hair = false;
-  int spine_bones = 3;        ///< Between hips and neck, 1 to 6.
+  bool ears = false;    ///< A chain of bones above the head, a third of the stature long.
+  int spine_bones = 3;  ///< Between hips and neck, 1 to 6.
   bool random_axes = false;   ///< Each joint's axes turned at random.
   bool two_skins = false;     ///< Limbs in a mesh with a skin of their own.
   bool byte_weights = false;  ///< Normalized bytes.
@@ -45,6 +46,11 @@ struct MadeBodyRule {
 
 /// "1.21 m, unreal, A 45, faces 90, cm, twist".
 [[nodiscard]] std::string words(const MadeBodyRule& rule);
+
+/// What a naming scheme calls a bone, and the i-th bone of its spine. Precondition:
+/// `bone` is none of the spine; 0 <= scheme <= 4.
+[[nodiscard]] std::string made_bone_name(int scheme, HumanBone bone);
+[[nodiscard]] std::string made_spine_name(int scheme, int i);
 
 /// Writes the body as a GLB whose sole is the floor at rest, with its own writer. Returns
 /// the name of the node that is each bone. Throws std::runtime_error when the disk fails.

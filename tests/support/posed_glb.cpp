@@ -11,14 +11,15 @@
 #include <nlohmann/json.hpp>
 
 namespace marey::testing {
+
+struct GlbFile {
+  nlohmann::json json;
+  std::string bin;
+};
+
 namespace {
 
 using Json = nlohmann::json;
-
-struct GlbFile {
-  Json json;
-  std::string bin;
-};
 
 std::uint32_t word(const std::string& bytes, std::size_t at) {
   std::uint32_t out = 0;
@@ -110,6 +111,18 @@ glm::dmat4 matrix_of(const double* m) {
 
 PosedGlb::PosedGlb(const std::filesystem::path& path) {
   const GlbFile file = read_glb(path);
+  read_nodes(file);
+  for (const Json& node : file.json["nodes"]) {
+    if (node.contains("mesh") && node.contains("skin")) read_skin(file, node);
+  }
+  if (parts_.empty()) throw std::runtime_error(path.string() + ": no skin");
+  if (file.json.contains("animations") && !file.json["animations"].empty()) {
+    read_animation(file, file.json["animations"][0]);
+  }
+  pose(0.0);
+}
+
+void PosedGlb::read_nodes(const GlbFile& file) {
   for (const Json& node : file.json.at("nodes")) {
     Node out;
     if (const auto v = node.value("translation", std::vector<double>{}); v.size() == 3) {
@@ -146,69 +159,67 @@ PosedGlb::PosedGlb(const std::filesystem::path& path) {
     }
     if (order_.size() == before) throw std::runtime_error("nodes are no tree");
   }
-  for (const Json& node : file.json["nodes"]) {
-    if (!node.contains("mesh") || !node.contains("skin")) continue;
-    const Json& skin = file.json.at("skins").at(node["skin"].get<std::size_t>());
-    const Json& mesh = file.json.at("meshes").at(node["mesh"].get<std::size_t>());
-    std::vector<double> binds;
-    if (skin.contains("inverseBindMatrices")) {
-      binds = numbers(file, skin["inverseBindMatrices"]);
-    }
-    for (const Json& primitive : mesh.at("primitives")) {
-      SkinnedPart part;
-      for (const Json& joint : skin.at("joints")) {
-        part.inverse_bind.push_back(
-            binds.empty() ? glm::dmat4(1.0)
-                          : matrix_of(binds.data() + 16 * part.joints.size()));
-        part.joints.push_back(joint);
-      }
-      const Json& attributes = primitive.at("attributes");
-      const auto positions = numbers(file, attributes.at("POSITION"));
-      part.influences.resize(positions.size() / 3);
-      for (std::size_t v = 0; v < positions.size(); v += 3) {
-        part.places.emplace_back(positions[v], positions[v + 1], positions[v + 2]);
-      }
-      for (int set = 0;; ++set) {
-        const std::string number = std::to_string(set);
-        if (!attributes.contains("JOINTS_" + number)) break;
-        const auto joints = numbers(file, attributes["JOINTS_" + number]);
-        const auto weights = numbers(file, attributes.at("WEIGHTS_" + number));
-        for (std::size_t k = 0; k < weights.size(); ++k) {
-          if (weights[k] <= 0.0) continue;
-          part.influences.at(k / 4).push_back(
-              {static_cast<std::size_t>(joints[k]), weights[k]});
-        }
-      }
-      for (auto& influences : part.influences) {
-        double sum = 0.0;
-        for (const Influence& one : influences) sum += one.weight;
-        for (Influence& one : influences) one.weight /= sum;
-      }
-      parts_.push_back(std::move(part));
-    }
+}
+
+void PosedGlb::read_skin(const GlbFile& file, const Json& node) {
+  const Json& skin = file.json.at("skins").at(node["skin"].get<std::size_t>());
+  const Json& mesh = file.json.at("meshes").at(node["mesh"].get<std::size_t>());
+  std::vector<double> binds;
+  if (skin.contains("inverseBindMatrices")) {
+    binds = numbers(file, skin["inverseBindMatrices"]);
   }
-  if (parts_.empty()) throw std::runtime_error(path.string() + ": no skin");
-  if (file.json.contains("animations") && !file.json["animations"].empty()) {
-    const Json& animation = file.json["animations"][0];
-    for (const Json& channel : animation.at("channels")) {
-      if (!channel.at("target").contains("node")) continue;
-      const std::string path_name = channel["target"].at("path");
-      if (path_name == "weights") continue;
-      const Json& sampler =
-          animation.at("samplers").at(channel.at("sampler").get<std::size_t>());
-      const std::string way = sampler.value("interpolation", "LINEAR");
-      if (way == "CUBICSPLINE") throw std::runtime_error("cubic spline");
-      Channel out;
-      out.node = channel["target"]["node"];
-      out.path = path_name[0];
-      out.steps = way == "STEP";
-      out.times = numbers(file, sampler.at("input"));
-      out.values = numbers(file, sampler.at("output"));
-      if (out.times.size() > times_.size()) times_ = out.times;
-      channels_.push_back(std::move(out));
+  for (const Json& primitive : mesh.at("primitives")) {
+    SkinnedPart part;
+    for (const Json& joint : skin.at("joints")) {
+      part.inverse_bind.push_back(
+          binds.empty() ? glm::dmat4(1.0)
+                        : matrix_of(binds.data() + 16 * part.joints.size()));
+      part.joints.push_back(joint);
     }
+    const Json& attributes = primitive.at("attributes");
+    const auto positions = numbers(file, attributes.at("POSITION"));
+    part.influences.resize(positions.size() / 3);
+    for (std::size_t v = 0; v < positions.size(); v += 3) {
+      part.places.emplace_back(positions[v], positions[v + 1], positions[v + 2]);
+    }
+    for (int set = 0;; ++set) {
+      const std::string number = std::to_string(set);
+      if (!attributes.contains("JOINTS_" + number)) break;
+      const auto joints = numbers(file, attributes["JOINTS_" + number]);
+      const auto weights = numbers(file, attributes.at("WEIGHTS_" + number));
+      for (std::size_t k = 0; k < weights.size(); ++k) {
+        if (weights[k] <= 0.0) continue;
+        part.influences.at(k / 4).push_back(
+            {static_cast<std::size_t>(joints[k]), weights[k]});
+      }
+    }
+    for (auto& influences : part.influences) {
+      double sum = 0.0;
+      for (const Influence& one : influences) sum += one.weight;
+      for (Influence& one : influences) one.weight /= sum;
+    }
+    parts_.push_back(std::move(part));
   }
-  pose(0.0);
+}
+
+void PosedGlb::read_animation(const GlbFile& file, const Json& animation) {
+  for (const Json& channel : animation.at("channels")) {
+    if (!channel.at("target").contains("node")) continue;
+    const std::string path_name = channel["target"].at("path");
+    if (path_name == "weights") continue;
+    const Json& sampler =
+        animation.at("samplers").at(channel.at("sampler").get<std::size_t>());
+    const std::string way = sampler.value("interpolation", "LINEAR");
+    if (way == "CUBICSPLINE") throw std::runtime_error("cubic spline");
+    Channel out;
+    out.node = channel["target"]["node"];
+    out.path = path_name[0];
+    out.steps = way == "STEP";
+    out.times = numbers(file, sampler.at("input"));
+    out.values = numbers(file, sampler.at("output"));
+    if (out.times.size() > times_.size()) times_ = out.times;
+    channels_.push_back(std::move(out));
+  }
 }
 
 std::optional<std::size_t> PosedGlb::node(const std::string& name) const {

@@ -13,8 +13,11 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace marey::testing {
+
+struct GlbFile;
 
 /// A GLB file moved by its first animation, evaluated from the file's own numbers by the
 /// glTF specification: node matrices, linear blend skinning of all skins and primitives
@@ -70,6 +73,10 @@ class PosedGlb {
     std::vector<glm::dvec3> places;
     std::vector<std::vector<Influence>> influences;
   };
+
+  void read_nodes(const GlbFile& file);
+  void read_skin(const GlbFile& file, const nlohmann::json& node);
+  void read_animation(const GlbFile& file, const nlohmann::json& animation);
 
   std::vector<std::string> names_;
   std::vector<Node> nodes_;
