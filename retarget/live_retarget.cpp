@@ -135,7 +135,8 @@ Result<LiveRetarget> LiveRetarget::make(const Skeleton& source,
   state->stance = LiveStance(options.stance);
   state->scale =
       root_unit_m(state->to, options.root) / root_unit_m(state->from, options.root);
-  state->skin = LiveSkinLift(std::move(state->options.skin), options.rise_s);
+  state->skin = LiveSkinLift(
+      std::move(state->options.skin), options.rise_s, options.land_s);
   state->wrists_to_keep = spines_differ(state->from, state->to);
   if (options.hands) {
     const LiveHandsOptions& hands = *options.hands;

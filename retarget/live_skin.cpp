@@ -51,8 +51,8 @@ void add(const SkinLift& more, SkinLift& lift) {
 
 }  // namespace
 
-LiveSkinLift::LiveSkinLift(Skin skin, double fall_s)
-    : skin_(std::move(skin)), fall_s_(fall_s) {}
+LiveSkinLift::LiveSkinLift(Skin skin, double fall_s, double limb_fall_s)
+    : skin_(std::move(skin)), fall_s_(fall_s), limb_fall_s_(limb_fall_s) {}
 
 void LiveSkinLift::step(const Skeleton& body,
                         const BodyMap& map,
@@ -66,11 +66,14 @@ void LiveSkinLift::step(const Skeleton& body,
   // What is left of the last lift; what is needed beyond is added.
   SkinLift lift = last_;
   const double left = std::exp(-since_last_s / fall_s_);
-  lift.root_m *= left;
+  const double limb_left = std::exp(-since_last_s / limb_fall_s_);
   for (std::size_t s = 0; s < 2; ++s) {
-    lift.ankle_m[s] *= left;
-    lift.wrist_m[s] *= left;
+    // What an ankle is raised with the body comes down with it.
+    const double own_m = lift.ankle_m[s] - lift.root_m;
+    lift.ankle_m[s] = left * lift.root_m + limb_left * own_m;
+    lift.wrist_m[s] *= limb_left;
   }
+  lift.root_m *= left;
   if (!lift.is_zero()) lift_posture(body, map, lift, world_from_joint, scratch_, pose);
   for (int pass = 0; pass < kMaxPasses; ++pass) {
     world_from_joints(body, pose, world_from_joint);

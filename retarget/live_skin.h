@@ -23,8 +23,9 @@ namespace marey::retarget {
 class LiveSkinLift {
  public:
   LiveSkinLift() = default;
-  /// `skin` is of the body that step() is given.
-  LiveSkinLift(Skin skin, double fall_s);
+  /// `skin` is of the body that step() is given. The body comes down with the time
+  /// constant `fall_s`, feet and hands with `limb_fall_s`.
+  LiveSkinLift(Skin skin, double fall_s, double limb_fall_s);
 
   /// Raises `pose` out of the floor Y = 0, as far as it is deeper than `allowed_m`.
   /// `world_from_joint` are its joints, before and after. Allocates nothing but in the
@@ -41,6 +42,7 @@ class LiveSkinLift {
  private:
   Skin skin_;
   double fall_s_ = 0.3;
+  double limb_fall_s_ = 0.08;
   std::vector<glm::dvec4> rows_;
   Pose scratch_;
   SkinLift last_;

@@ -19,11 +19,20 @@
 namespace marey::retarget {
 namespace {
 
-// A ball of skin about the middle of every bone, and feet that end at the floor.
+// A ball of skin about every joint, as far as it is over the floor, and shoes that are
+// longer than feet.
 Skin skin_of(const Skeleton& body, const BodyMap& map, double radius_m) {
   testing::Dice dice(5);
   const auto rest = world_from_joints(body, rest_pose(body));
   std::vector<SkinVertex> vertices;
+  for (const HumanBone bone : {HumanBone::kLeftToes, HumanBone::kRightToes}) {
+    SkinVertex tip;
+    tip.p_in_world = rest[index(bone)].translation + glm::dvec3(0.0, 0.0, 4.0 * radius_m);
+    tip.p_in_world.y = 0.0;
+    tip.joints[0] = static_cast<JointIndex>(index(bone));
+    tip.weights[0] = 1.0;
+    vertices.push_back(tip);
+  }
   for (std::size_t j = 0; j < body.joints.size(); ++j) {
     for (int k = 0; k < 60; ++k) {
       SkinVertex v;
