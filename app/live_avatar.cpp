@@ -21,7 +21,8 @@ Result<retarget::LiveRetarget> make_live_retarget(const Skeleton& performer,
                                                   const OpenedAvatar& avatar) {
   retarget::LiveRetargetOptions options;
   options.soles = avatar.soles;
-  options.hands.emplace().avatar_volume = avatar.volume;
+  options.skin = avatar.skin;
+  options.hands->avatar_volume = avatar.volume;
   auto made = retarget::LiveRetarget::make(performer, avatar.skeleton, options);
   if (!made) return of_avatar(avatar, made.error());
   return made;

@@ -3,6 +3,9 @@
 
 // What the line makes of solved motions: other bodies, and the report.
 #include <algorithm>
+#include <utility>
+
+#include <glm/trigonometric.hpp>
 
 #include "app/judge_quality.h"
 #include "app/pipeline.h"
@@ -38,7 +41,23 @@ Result<ReportBody> Pipeline::retarget_one(SolvedMotion& motion,
   body.motion = written->retargeted.motion;
   body.slide_before_cm_per_s = written->retargeted.report.before.mean_slide_cm_per_s;
   body.slide_after_cm_per_s = written->retargeted.report.after.mean_slide_cm_per_s;
-  body.penetration_mm = written->retargeted.report.after.deepest_penetration_mm;
+  const AvatarVerdict& verdict = written->verdict;
+  body.penetration_mm = verdict.penetration_mm(written->retargeted.report);
+  if (verdict.skin && verdict.skin->frame >= 0) {
+    body.penetration_part = retarget::name(verdict.skin->part);
+    body.penetration_frame = verdict.skin->frame;
+  }
+  body.source_depth_mm = 1e3 * verdict.source_depth_m;
+  body.legs_deg = glm::degrees(verdict.posture.legs.median_rad);
+  body.arms_deg = glm::degrees(verdict.posture.arms.median_rad);
+  body.trunk_deg = glm::degrees(verdict.posture.trunk.median_rad);
+  for (const AvatarProblem& problem : verdict.problems) {
+    Error error = problem.error;
+    error.where = "trial " + folder.string() + ", " + error.where;
+    body.problems.push_back(error.message());
+    report_.warnings.push_back(error.message());
+    if (problem.is_poor) failures_.push_back(std::move(error));
+  }
   for (const auto& file : written->files) {
     body.files.push_back((folder / file.filename()).string());
   }

@@ -30,11 +30,12 @@ Result<RetargetedMotion> put_on_live(const Motion& source,
   live.hold_feet = options.adapt_ground;
   live.stance.contacts = options.contacts;
   live.soles = options.soles;
-  live.hands.reset();
+  if (options.skin != nullptr) live.skin = *options.skin;
   if (options.hands) {
-    auto& hands = live.hands.emplace();
-    hands.source_volume = options.hands->source_volume;
-    hands.avatar_volume = options.hands->avatar_volume;
+    live.hands->source_volume = options.hands->source_volume;
+    live.hands->avatar_volume = options.hands->avatar_volume;
+  } else {
+    live.hands.reset();
   }
   auto stage = retarget::LiveRetarget::make(source.skeleton, avatar, live);
   if (!stage) return stage.error();
@@ -130,6 +131,12 @@ Result<RetargetedMotion> put_on(const Motion& source,
   kept.count = static_cast<int>(out->motion.poses.size());
   out->report.contacts = kept_of(out->report.contacts, kept);
   out->report.hands.touches = kept_of(out->report.hands.touches, kept);
+  std::vector<double> depth_m;
+  for (int t = 0; t < kept.count; ++t) {
+    const auto dense = static_cast<std::size_t>(kept.before + kept.multiple * t);
+    depth_m.push_back(out->report.source_depth_m[dense]);
+  }
+  out->report.source_depth_m = std::move(depth_m);
   auto map = retarget::map_body(avatar);
   if (!map) return map.error();
   retarget::wear(options.retarget.soles, *map);

@@ -106,6 +106,12 @@ void look_at_skin(const recordings::SkinnedMesh& mesh, ReadBody& body) {
   }
   body.soles = retarget::find_soles(skeleton, *map, mesh.p_in_world, carriers);
   if (!skin.empty()) body.volume = retarget::volume_of_skin(skeleton, *map, skin);
+  std::vector<retarget::SkinVertex> vertices;
+  for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
+    vertices.push_back(
+        {mesh.p_in_world[i], mesh.skin[i].joints, mesh.skin[i].weights});
+  }
+  body.skin = retarget::Skin(skeleton, *map, vertices);
 }
 
 Result<BoneMap> told_of(const BodyFile& file, ReadBody& body) {

@@ -19,6 +19,7 @@
 #include "retarget/body_volume.h"
 #include "retarget/find_soles.h"
 #include "retarget/identify_bones.h"
+#include "retarget/skin.h"
 
 namespace marey::app {
 
@@ -66,6 +67,7 @@ struct ReadBody {
   retarget::Soles soles;  ///< By its skin, in marey's frame.
   /// What it takes up of space, by its skin; nullopt: nobody knows.
   std::optional<retarget::BodyVolume> volume;
+  retarget::Skin skin;  ///< In marey's frame; empty: none, or no body to hang it on.
 
   [[nodiscard]] const Skeleton& skeleton() const { return raw.motion.skeleton; }
   /// What write_retargeted() has to know.

@@ -81,7 +81,14 @@ struct ReportBody {
   // Of avatars only.
   double slide_before_cm_per_s = 0.0;
   double slide_after_cm_per_s = 0.0;
-  double penetration_mm = 0.0;
+  double penetration_mm = 0.0;    ///< Of its skin; of its feet's ends without one.
+  std::string penetration_part;   ///< Of the skin; empty: none is below the floor.
+  int penetration_frame = -1;     ///< Likewise; counted from the motion's first frame.
+  double source_depth_mm = 0.0;   ///< How far the subject's joints are below the floor.
+  double legs_deg = 0.0;  ///< From the subject's: the largest median of a segment.
+  double arms_deg = 0.0;
+  double trunk_deg = 0.0;
+  std::vector<std::string> problems;
   std::vector<std::string> files;  ///< Written for it, relative to the report.
 };
 

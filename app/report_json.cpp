@@ -205,6 +205,17 @@ Json avatar_figures(const ReportTrial& trial) {
                        {"slide_before_cm_per_s", rounded(body.slide_before_cm_per_s, 2)},
                        {"slide_after_cm_per_s", rounded(body.slide_after_cm_per_s, 2)},
                        {"penetration_mm", rounded(body.penetration_mm, 2)},
+                       {"penetration_part",
+                        body.penetration_part.empty() ? Json(nullptr)
+                                                      : Json(body.penetration_part)},
+                       {"penetration_frame",
+                        body.penetration_frame < 0 ? Json(nullptr)
+                                                   : Json(body.penetration_frame)},
+                       {"source_depth_mm", rounded(body.source_depth_mm, 2)},
+                       {"legs_deg", rounded(body.legs_deg, 2)},
+                       {"arms_deg", rounded(body.arms_deg, 2)},
+                       {"trunk_deg", rounded(body.trunk_deg, 2)},
+                       {"problems", body.problems},
                        {"files", body.files}});
   }
   return avatars;

@@ -41,9 +41,12 @@ struct Work {
   Exit exit = Exit::kOk;                            ///< The first failure's.
   std::optional<retarget::BodyVolume> source_volume = std::nullopt;
 
-  void fail(AvatarResult& avatar, const Error& error) {
+  void fail(const Error& error) {
     const Exit told = console.fail(error);
     if (exit == Exit::kOk) exit = told;
+  }
+  void fail(AvatarResult& avatar, const Error& error) {
+    fail(error);
     avatar.error = error;
   }
 };
@@ -127,6 +130,25 @@ Status write_contacts(const RetargetArguments& args,
   return recordings::write_constraints(args.constraints_out, set);
 }
 
+/// Judges what was made of an avatar, and warns of what is wrong with it.
+Status judge(const OpenedAvatar& body, Work& work, AvatarResult& avatar) {
+  auto verdict = judge_avatar(body.file.string(),
+                              work.run.source,
+                              avatar.retargeted,
+                              body.skin,
+                              !work.args.no_ground);
+  if (!verdict) return verdict.error();
+  avatar.verdict = *std::move(verdict);
+  for (const AvatarProblem& problem : avatar.verdict.problems) {
+    if (problem.is_poor) {
+      work.fail(problem.error);
+    } else {
+      work.console.warn(problem.error.message());
+    }
+  }
+  return Done{};
+}
+
 /// Everything of one avatar: its motion, then its files.
 Status put_on_one(const Motion& source,
                   const OpenedAvatar& body,
@@ -137,6 +159,7 @@ Status put_on_one(const Motion& source,
   if (!formats) return formats.error();
   PutOnOptions options = work.args.options;
   options.retarget.soles = avatar.soles = body.soles;
+  options.retarget.skin = &body.skin;
   if (options.retarget.hands) {
     options.retarget.hands->source_volume = work.source_volume;
     options.retarget.hands->avatar_volume = body.volume;
@@ -154,7 +177,7 @@ Status put_on_one(const Motion& source,
   if (!work.args.constraints_out.empty()) {
     if (const Status ok = write_contacts(work.args, body, avatar); !ok) return ok;
   }
-  return Done{};
+  return judge(body, work, avatar);
 }
 
 void put_on_all(const Motion& source, Work& work) {
@@ -180,18 +203,12 @@ void put_on_all(const Motion& source, Work& work) {
 }
 
 bool has_any(const RetargetRun& run) {
-  for (const AvatarResult& avatar : run.avatars) {
-    if (!avatar.error) return true;
-  }
-  return false;
+  return std::ranges::any_of(run.avatars, [](const auto& avatar) { return !avatar.error; });
 }
 
 /// What avatars are held against, and how they do.
-Status measure(const Motion& source, Work& work) {
+Status measure(Work& work) {
   RetargetRun& run = work.run;
-  run.source = work.args.options.rate_hz
-                   ? resample(source, FrameRate{*work.args.options.rate_hz})
-                   : source;
   for (const AvatarResult& avatar : run.avatars) {
     if (!avatar.error) run.contacts = avatar.retargeted.report.contacts;
   }
@@ -346,9 +363,12 @@ Exit run_retarget(const RetargetArguments& args, Console& console) {
     console.warn(args.motion.string() + ": " + remark);
   }
   work.source_volume = volume_of_source(*source);
-  put_on_all(source->raw.motion, work);
+  const Motion& motion = source->raw.motion;
+  work.run.source =
+      args.options.rate_hz ? resample(motion, FrameRate{*args.options.rate_hz}) : motion;
+  put_on_all(motion, work);
   if (!has_any(work.run)) return work.exit;
-  if (const Status ok = measure(source->raw.motion, work); !ok) {
+  if (const Status ok = measure(work); !ok) {
     return console.fail(of_file(args.motion, ok.error()));
   }
   if (!plan->page.empty()) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include <glm/trigonometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "app/report_figures.h"
@@ -72,6 +73,43 @@ Json balance_json(const RetargetRun& run, const AvatarResult& avatar) {
   return out;
 }
 
+/// What the motion is judged by, as it leaves.
+void add_verdict(const AvatarVerdict& verdict,
+                 const retarget::RetargetReport& report,
+                 Json& out) {
+  out["deepest_penetration_mm"] = rounded(verdict.penetration_mm(report), 3);
+  out["skin"] = nullptr;
+  if (verdict.skin) {
+    const retarget::SkinDepth& skin = *verdict.skin;
+    const bool is_low = skin.frame >= 0;
+    out["skin"] = {{"part", is_low ? Json(retarget::name(skin.part)) : Json(nullptr)},
+                   {"frame", is_low ? Json(skin.frame) : Json(nullptr)},
+                   {"beyond_source_mm", rounded(1e3 * verdict.beyond_source.depth_m, 3)},
+                   {"before_mm", rounded(1e3 * report.skin.before.depth_m, 3)},
+                   {"body_raised_mm", rounded(1e3 * report.skin.max_root_m, 3)},
+                   {"foot_raised_mm", rounded(1e3 * report.skin.max_foot_m, 3)}};
+  }
+  out["source_depth_mm"] = rounded(1e3 * verdict.source_depth_m, 3);
+  const retarget::PostureFigures& posture = verdict.posture;
+  const auto direction = [](const retarget::DirectionFigures& figures) {
+    return Json{{"segment", retarget::segment_name(figures)},
+                {"median_deg", rounded(glm::degrees(figures.median_rad), 2)},
+                {"worst_deg", rounded(glm::degrees(figures.worst_rad), 2)},
+                {"worst_frame", figures.worst_frame}};
+  };
+  out["posture"] = {{"legs", direction(posture.legs)},
+                    {"arms", direction(posture.arms)},
+                    {"trunk", direction(posture.trunk)},
+                    {"exchanged_percent", rounded(100.0 * posture.exchanged_share, 2)},
+                    {"fastest_heights_per_s", rounded(posture.fastest, 3)},
+                    {"source_fastest_heights_per_s", rounded(posture.source_fastest, 3)},
+                    {"arms_in_body_mm", rounded(verdict.arms_in_body_mm, 2)}};
+  out["problems"] = Json::array();
+  for (const AvatarProblem& problem : verdict.problems) {
+    out["problems"].push_back(problem.error.message());
+  }
+}
+
 }  // namespace
 
 Status measure_source(RetargetRun& run) {
@@ -88,8 +126,8 @@ Status measure_source(RetargetRun& run) {
     rest_heights_m[side] = foot.ankle_height_m;
     rest_heights_m[side + 2] = foot.ball_height_m;
   }
-  run.figures = retarget::measure_contacts(
-      paths, run.labels, rest_heights_m, run.source.rate.hz);
+  run.figures =
+      retarget::measure_contacts(paths, run.labels, rest_heights_m, run.source.rate.hz);
   auto balance = balance_of(run.source, run.map, run.contacts);
   if (!balance) return balance.error();
   run.balance = *std::move(balance);
@@ -136,7 +174,7 @@ Json avatar_figures(const RetargetRun& run, const AvatarResult& avatar) {
   out["live"] = run.live;
   out["slide_before_cm_per_s"] = report.before.mean_slide_cm_per_s;
   out["slide_after_cm_per_s"] = report.after.mean_slide_cm_per_s;
-  out["deepest_penetration_mm"] = report.after.deepest_penetration_mm;
+  add_verdict(avatar.verdict, report, out);
   out["unreachable_frames"] = report.ground.unreachable_frames;
   const retarget::HandReport& hands = report.hands;
   out["worst_touch_error_mm"] = rounded(1e3 * hands.worst_touch_error_m, 3);
@@ -177,11 +215,11 @@ std::string summary_of(const AvatarResult& avatar) {
   std::snprintf(text.data(),
                 text.size(),
                 ": %zu frames, stance feet slide %.2f cm/s (%.2f before the ground), "
-                "deepest foot %.1f mm",
+                "deepest skin %.1f mm",
                 avatar.retargeted.motion.poses.size(),
                 report.after.mean_slide_cm_per_s,
                 report.before.mean_slide_cm_per_s,
-                report.after.deepest_penetration_mm);
+                avatar.verdict.penetration_mm(report));
   return files + text.data();
 }
 

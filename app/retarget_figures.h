@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "app/judge_avatar.h"
 #include "core/motion.h"
 #include "core/result.h"
 #include "retarget/body_map.h"
@@ -28,7 +29,8 @@ struct AvatarResult {
   // Without an error:
   retarget::Soles soles;  ///< By its skin.
   retarget::RetargetedMotion retargeted;
-  retarget::BodyMap map;  ///< That wears the soles.
+  AvatarVerdict verdict;
+  retarget::BodyMap map;            ///< That wears the soles.
   retarget::Contacts own_contacts;  ///< As detect_contacts() has them on the avatar.
   retarget::ContactFigures contacts;
   /// Mean jerk of the bones that both bodies have, over the source's at this height.

@@ -24,7 +24,13 @@ Result<OpenedAvatar> open_avatar(const BodyFile& avatar) {
   if (const auto map = retarget::map_body(body->skeleton()); !map) {
     return of_file(avatar.path, map.error());
   }
-  OpenedAvatar opened{avatar.path, {}, {}, body->soles, body->volume, body->remarks(),
+  OpenedAvatar opened{avatar.path,
+                      {},
+                      {},
+                      body->soles,
+                      body->volume,
+                      std::move(body->skin),
+                      body->remarks(),
                       body->raw.faces_back};
   if (is_gltf(avatar.path)) opened.look = {avatar.path, body->changed()};
   opened.skeleton = std::move(body->raw.motion.skeleton);
@@ -38,10 +44,15 @@ Result<RetargetedFiles> retarget_to_files(const Motion& motion,
   if (!opened) return opened.error();
   retarget::RetargetOptions options;
   options.soles = opened->soles;
+  options.skin = &opened->skin;
   options.hands.emplace().avatar_volume = opened->volume;
   auto retargeted = retarget::retarget_motion(motion, opened->skeleton, options);
   if (!retargeted) return of_file(avatar.path, retargeted.error());
   RetargetedFiles result{*std::move(retargeted), {}, opened->remarks};
+  auto verdict = judge_avatar(
+      avatar.path.string(), motion, result.retargeted, opened->skin, true);
+  if (!verdict) return of_file(avatar.path, verdict.error());
+  result.verdict = *std::move(verdict);
   for (const MotionFormat format :
        {MotionFormat::kGlb, MotionFormat::kBvh, MotionFormat::kVrma}) {
     if (!can_hold(format, opened->skeleton, opened->look)) continue;

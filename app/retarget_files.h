@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/judge_avatar.h"
 #include "app/motion_files.h"
 #include "app/read_body.h"
 #include "core/motion.h"
@@ -15,6 +16,7 @@
 #include "retarget/body_volume.h"
 #include "retarget/find_soles.h"
 #include "retarget/retarget_motion.h"
+#include "retarget/skin.h"
 
 namespace marey::app {
 
@@ -25,6 +27,7 @@ struct OpenedAvatar {
   BodyLook look;                     ///< Without a file when there is no mesh.
   retarget::Soles soles;             ///< ReadBody::soles.
   std::optional<retarget::BodyVolume> volume;  ///< ReadBody::volume.
+  retarget::Skin skin;                         ///< ReadBody::skin.
   std::vector<std::string> remarks;  ///< ReadBody::remarks().
   /// The file is a VRM 0.x: `skeleton` was turned half about Y.
   bool file_faces_back = false;
@@ -37,6 +40,7 @@ struct RetargetedFiles {
   retarget::RetargetedMotion retargeted;
   std::vector<std::filesystem::path> files;
   std::vector<std::string> remarks = {};  ///< ReadBody::remarks() of the avatar.
+  AvatarVerdict verdict = {};
 };
 
 /// Puts a motion on an avatar, with its soles, and with what hands do to the body

@@ -96,6 +96,7 @@ Result<ViewedFigure> figure_on_avatar(const Motion& motion,
   add_remarks(avatar, body->remarks(), remarks);
   retarget::RetargetOptions options;
   options.soles = body->soles;
+  options.skin = &body->skin;
   options.hands.emplace().avatar_volume = body->volume;
   auto put_on = retarget::retarget_motion(motion, body->skeleton(), options);
   if (!put_on) {

@@ -12,6 +12,7 @@
 #include "retarget/keep_wrists.h"
 #include "retarget/leg_on_foot.h"
 #include "retarget/live_foot.h"
+#include "retarget/live_skin.h"
 #include "retarget/retarget_motion.h"
 
 namespace marey::retarget {
@@ -30,12 +31,15 @@ struct LiveRetarget::State {
   BodyVolume source_volume;
   BodyVolume avatar_volume;
   LiveHands hands;
+  LiveSkinLift skin;
   NormalizedPose posture;
   std::vector<RigidTransform> source_world;
   std::vector<RigidTransform> avatar_world;
 
   [[nodiscard]] double rise_m() const;
+  [[nodiscard]] double depth_m() const;
   void hold_feet(double since_last_s);
+  void move_hands(double rise_m, double since_last_s, Pose& out);
 };
 
 // By how much the root that was scaled with the legs must rise for ankles that rest as
@@ -82,6 +86,35 @@ void LiveRetarget::State::hold_feet(double since_last_s) {
   }
 }
 
+// How far joints of the source other than the feet's are below its floor, Y = 0, at the
+// avatar's size: as deep its skin may be.
+double LiveRetarget::State::depth_m() const {
+  double lowest_m = 0.0;
+  for (const HumanBone bone : human_bones()) {
+    const auto joint = from.joint_of[index(bone)];
+    const bool is_foot = bone == foot_bone(0) || bone == foot_bone(1) ||
+                         bone == toes_bone(0) || bone == toes_bone(1);
+    if (!joint || is_foot) continue;
+    lowest_m = std::min(lowest_m, source_world[index(*joint)].translation.y);
+  }
+  return -scale * lowest_m;
+}
+
+void LiveRetarget::State::move_hands(double rise_m, double since_last_s, Pose& out) {
+  std::optional<double> source_floor_m;
+  std::optional<double> floor_m;
+  if (options.hold_feet) {
+    source_floor_m = -rise_m / scale;
+    floor_m = 0.0;
+  }
+  hands.move({from, source_volume, source_world, source_floor_m},
+             {to, avatar_volume, avatar_world, floor_m},
+             *options.hands,
+             since_last_s,
+             posture);
+  expand(posture, avatar, to, avatar_world, out);
+}
+
 LiveRetarget::LiveRetarget(std::unique_ptr<State> state) : state_(std::move(state)) {}
 LiveRetarget::LiveRetarget(LiveRetarget&&) noexcept = default;
 LiveRetarget& LiveRetarget::operator=(LiveRetarget&&) noexcept = default;
@@ -102,6 +135,8 @@ Result<LiveRetarget> LiveRetarget::make(const Skeleton& source,
   state->stance = LiveStance(options.stance);
   state->scale =
       root_unit_m(state->to, options.root) / root_unit_m(state->from, options.root);
+  state->skin = LiveSkinLift(
+      std::move(state->options.skin), options.rise_s, options.land_s);
   state->wrists_to_keep = spines_differ(state->from, state->to);
   if (options.hands) {
     const LiveHandsOptions& hands = *options.hands;
@@ -130,25 +165,23 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
   if (s.wrists_to_keep || s.options.hold_feet) {
     expand(s.posture, s.avatar, s.to, s.avatar_world, out);
   }
-  if (!s.options.hands) return;
-  std::optional<double> source_floor_m;
-  std::optional<double> floor_m;
+  if (s.options.hands) s.move_hands(rise_m, since_last_s, out);
   if (s.options.hold_feet) {
-    source_floor_m = -rise_m / s.scale;
-    floor_m = 0.0;
+    s.skin.step(s.avatar,
+                s.to,
+                s.stance.standing(),
+                s.depth_m(),
+                since_last_s,
+                s.avatar_world,
+                out);
   }
-  s.hands.move({s.from, s.source_volume, s.source_world, source_floor_m},
-               {s.to, s.avatar_volume, s.avatar_world, floor_m},
-               *s.options.hands,
-               since_last_s,
-               s.posture);
-  expand(s.posture, s.avatar, s.to, s.avatar_world, out);
 }
 
 void LiveRetarget::forget() {
   state_->stance.forget();
   for (LiveFoot& foot : state_->feet) foot.forget();
   state_->hands.forget();
+  state_->skin.forget();
   state_->sink_m = 0.0;
 }
 

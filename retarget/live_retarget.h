@@ -15,12 +15,16 @@
 #include "retarget/live_hands.h"
 #include "retarget/live_stance.h"
 #include "retarget/normalized_skeleton.h"
+#include "retarget/skin.h"
 
 namespace marey::retarget {
 
 struct LiveRetargetOptions {
   RootNormalization root = RootNormalization::kLegLength;
   Soles soles;            ///< Of the avatar, where its skin is known.
+  /// The avatar's skin, which is raised out of the floor while feet are held
+  /// (retarget/live_skin.h); empty: unknown.
+  Skin skin;
   bool hold_feet = true;  ///< Feet that stand in the source stand still on the avatar.
   LiveStanceOptions stance;
   double land_s = 0.08;     ///< A landing foot takes this long to lie flat.
@@ -37,7 +41,8 @@ struct LiveRetargetOptions {
 /// future: what retarget_motion() is for whole motions. A foot that comes to rest in the
 /// source stands where it is on the avatar, to the micrometre, until it leaves; hips sink
 /// at once where a standing leg would not reach, and rise again slowly. Hands that are near
-/// the body stay as near on the avatar, arms out of it (retarget/live_hands.h).
+/// the body stay as near on the avatar, arms out of it (retarget/live_hands.h). Skin that
+/// would be in the floor is raised out of it, feet that stand with it.
 ///
 /// Same postures and time steps, same answers, to the bit. The source's floor is Y = 0.
 /// Costs some ten microseconds a posture; allocates nothing after make().

@@ -285,6 +285,25 @@ Status settle(const Task& task,
   return Done{};
 }
 
+// See RetargetReport::source_depth_m.
+std::vector<double> source_depth_m(const Task& task, double floor_m) {
+  std::vector<double> out;
+  std::vector<RigidTransform> world_from_joint(task.source.skeleton.joints.size());
+  for (const Pose& pose : task.source.poses) {
+    world_from_joints(task.source.skeleton, pose, world_from_joint);
+    double depth_m = 0.0;
+    for (const HumanBone bone : human_bones()) {
+      const auto joint = task.from.joint_of[index(bone)];
+      const bool is_foot = bone == foot_bone(0) || bone == foot_bone(1) ||
+                           bone == toes_bone(0) || bone == toes_bone(1);
+      if (!joint || is_foot) continue;
+      depth_m = std::max(depth_m, floor_m - world_from_joint[index(*joint)].translation.y);
+    }
+    out.push_back(task.world.scale * depth_m);
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<RetargetedMotion> retarget_motion(const Motion& source,
@@ -326,6 +345,17 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
     RefineHandsOptions hands = *options.hands;
     hands.clear.over_floor = hands.clear.over_floor && options.adapt_ground;
     out.report.hands = refine_hands(source, from, to, world, hands, out.motion);
+  }
+  out.report.source_depth_m =
+      source_depth_m(task, floor_height_m(from, ankles_rest_m(from, out.report.contacts)));
+  if (options.adapt_ground && options.skin != nullptr && !options.skin->empty()) {
+    out.report.skin = lift_skin(*options.skin,
+                                to,
+                                out.report.contacts,
+                                out.report.source_depth_m,
+                                options.lift,
+                                out.motion);
+    out.report.after = measure_feet(out.motion, to, out.report.contacts);
   }
   return out;
 }

@@ -11,6 +11,7 @@
 #include "retarget/find_soles.h"
 #include "retarget/ground.h"
 #include "retarget/keep_balance.h"
+#include "retarget/lift_skin.h"
 #include "retarget/normalized_skeleton.h"
 #include "retarget/refine_hands.h"
 
@@ -32,6 +33,10 @@ struct RetargetOptions {
   WorldLengths heights = WorldLengths::kScaled;
   bool adapt_ground = true;
   Soles soles;  ///< Of the avatar, where its skin is known.
+  /// The avatar's skin, which is raised out of the floor (retarget/lift_skin.h) when
+  /// adapt_ground is set; null or empty: unknown. It must outlive the call.
+  const Skin* skin = nullptr;
+  LiftSkinOptions lift;
   DetectContactsOptions contacts;
   GroundOptions ground;
   /// What hands do to the body is kept, arms stay out of it (retarget/refine_hands.h);
@@ -76,6 +81,10 @@ struct RetargetReport {
   GroundReport ground;
   HandReport hands;                      ///< Empty unless asked for.
   std::optional<BalanceReport> balance;  ///< If asked for.
+  LiftSkinReport skin;                   ///< Empty unless there is a skin.
+  /// How far joints of the source other than the feet's are below its floor, frame by
+  /// frame, at the avatar's size: what its skin may be, too. [m]
+  std::vector<double> source_depth_m;
 };
 
 struct RetargetedMotion {

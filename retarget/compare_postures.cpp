@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/compare_postures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "core/assert.h"
+#include "core/pose.h"
+#include "core/quantile.h"
+#include "retarget/contact_figures.h"
+
+namespace marey::retarget {
+namespace {
+
+using B = HumanBone;
+using Frames = std::vector<RigidTransform>;
+
+constexpr std::array<std::array<B, 2>, 8> kSegments{
+    {{B::kLeftUpperArm, B::kLeftLowerArm},
+     {B::kLeftLowerArm, B::kLeftHand},
+     {B::kLeftUpperLeg, B::kLeftLowerLeg},
+     {B::kLeftLowerLeg, B::kLeftFoot},
+     {B::kRightUpperArm, B::kRightLowerArm},
+     {B::kRightLowerArm, B::kRightHand},
+     {B::kRightUpperLeg, B::kRightLowerLeg},
+     {B::kRightLowerLeg, B::kRightFoot}}};
+
+std::optional<glm::dvec3> place_of(const BodyMap& map, const Frames& frames, B bone) {
+  const auto joint = map.joint_of[index(bone)];
+  if (!joint) return std::nullopt;
+  return frames[index(*joint)].translation;
+}
+
+std::optional<glm::dvec3> middle_of(const BodyMap& map, const Frames& frames, B left) {
+  const auto a = place_of(map, frames, left);
+  const auto b = place_of(map, frames, mirrored(left));
+  if (!a || !b) return std::nullopt;
+  return 0.5 * (*a + *b);
+}
+
+std::optional<glm::dvec3> way(std::optional<glm::dvec3> from,
+                              std::optional<glm::dvec3> to) {
+  if (!from || !to || glm::distance(*from, *to) < 1e-6) return std::nullopt;
+  return glm::normalize(*to - *from);
+}
+
+std::optional<glm::dvec3> trunk_of(const BodyMap& map, const Frames& frames) {
+  return way(middle_of(map, frames, B::kLeftUpperLeg),
+             middle_of(map, frames, B::kLeftUpperArm));
+}
+
+/// Whether the feet point against the front that hips and trunk have.
+std::optional<bool> feet_backwards(const BodyMap& map, const Frames& frames) {
+  const auto up = trunk_of(map, frames);
+  const auto across = way(place_of(map, frames, B::kRightUpperLeg),
+                          place_of(map, frames, B::kLeftUpperLeg));
+  const auto feet =
+      way(middle_of(map, frames, B::kLeftFoot), middle_of(map, frames, B::kLeftToes));
+  if (!up || !across || !feet) return std::nullopt;
+  return glm::dot(glm::cross(*across, *up), *feet) < 0.0;
+}
+
+struct Fastest {
+  double speed_m_per_s = 0.0;
+  B bone{};
+  int frame = -1;
+};
+
+void keep_faster(const BodyMap& map,
+                 const Frames& before,
+                 const Frames& now,
+                 double hz,
+                 int frame,
+                 Fastest& fastest) {
+  for (const B bone : human_bones()) {
+    const auto a = place_of(map, before, bone);
+    const auto b = place_of(map, now, bone);
+    if (!a || !b) continue;
+    const double speed = glm::distance(*a, *b) * hz;
+    if (speed > fastest.speed_m_per_s) fastest = {speed, bone, frame};
+  }
+}
+
+/// The angles between a segment's directions on both bodies, over frames.
+struct Apart {
+  std::vector<double> angles_rad;
+  double worst_rad = 0.0;
+  int worst_frame = -1;
+
+  void add(const glm::dvec3& a, const glm::dvec3& b, int frame) {
+    angles_rad.push_back(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+    if (angles_rad.back() < worst_rad) return;
+    worst_rad = angles_rad.back();
+    worst_frame = frame;
+  }
+  void keep_larger(B bone, DirectionFigures& out) const {
+    if (angles_rad.empty()) return;
+    const double median_rad = median(angles_rad);
+    if (out.worst_frame >= 0 && median_rad <= out.median_rad) return;
+    out = {bone, median_rad, worst_rad, worst_frame};
+  }
+};
+
+}  // namespace
+
+std::string_view segment_name(const DirectionFigures& direction) {
+  return direction.bone == B::kSpine ? "trunk" : name(direction.bone);
+}
+
+PostureFigures compare_postures(const Motion& source,
+                                const BodyMap& from,
+                                const Motion& made,
+                                const BodyMap& to) {
+  MAREY_ASSERT(source.poses.size() == made.poses.size());
+  std::array<Apart, kSegments.size()> segments;
+  Apart trunk;
+  Frames a(source.skeleton.joints.size());
+  Frames b(made.skeleton.joints.size());
+  Frames a_before;
+  Frames b_before;
+  Fastest fastest;
+  Fastest source_fastest;
+  double exchanged = 0.0;
+  for (std::size_t t = 0; t < source.poses.size(); ++t) {
+    world_from_joints(source.skeleton, source.poses[t], a);
+    world_from_joints(made.skeleton, made.poses[t], b);
+    const int frame = static_cast<int>(t);
+    for (std::size_t s = 0; s < kSegments.size(); ++s) {
+      const auto [upper, lower] = kSegments[s];
+      const auto u = way(place_of(from, a, upper), place_of(from, a, lower));
+      const auto v = way(place_of(to, b, upper), place_of(to, b, lower));
+      if (u && v) segments[s].add(*u, *v, frame);
+    }
+    const auto lean = trunk_of(from, a);
+    const auto own_lean = trunk_of(to, b);
+    if (lean && own_lean) trunk.add(*lean, *own_lean, frame);
+    const auto back = feet_backwards(from, a);
+    const auto own_back = feet_backwards(to, b);
+    if (back && own_back && *back != *own_back) exchanged += 1.0;
+    if (t > 0) {
+      keep_faster(from, a_before, a, source.rate.hz, frame, source_fastest);
+      keep_faster(to, b_before, b, made.rate.hz, frame, fastest);
+    }
+    a_before = a;
+    b_before = b;
+  }
+  PostureFigures out;
+  for (std::size_t s = 0; s < kSegments.size(); ++s) {
+    // Four of each side: the arm's two, then the leg's.
+    segments[s].keep_larger(kSegments[s][0], s % 4 < 2 ? out.arms : out.legs);
+  }
+  trunk.keep_larger(B::kSpine, out.trunk);
+  if (!source.poses.empty()) {
+    out.exchanged_share = exchanged / static_cast<double>(source.poses.size());
+  }
+  out.fastest = fastest.speed_m_per_s / head_height_m(made.skeleton, to);
+  out.fastest_bone = fastest.bone;
+  out.fastest_frame = fastest.frame;
+  out.source_fastest =
+      source_fastest.speed_m_per_s / head_height_m(source.skeleton, from);
+  return out;
+}
+
+}  // namespace marey::retarget

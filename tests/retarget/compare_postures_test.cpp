@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "retarget/compare_postures.h"
+
+#include <utility>
+
+#include <glm/trigonometric.hpp>
+#include <gtest/gtest.h>
+
+#include "core/pose.h"
+#include "tests/support/random_bodies.h"
+#include "tests/support/synthetic_walk.h"
+
+namespace marey::retarget {
+namespace {
+
+TEST(ComparePostures, FindsNothingBetweenAMotionAndItself) {
+  const Motion walk = testing::synthetic_walk(60, 60.0).motion;
+  const BodyMap map = *map_body(walk.skeleton);
+  const PostureFigures figures = compare_postures(walk, map, walk, map);
+  EXPECT_LT(figures.legs.median_rad, 1e-7);
+  EXPECT_LT(figures.trunk.median_rad, 1e-7);
+  EXPECT_EQ(figures.exchanged_share, 0.0);
+  EXPECT_EQ(figures.fastest, figures.source_fastest);
+}
+
+TEST(ComparePostures, NamesTheLegThatIsOff) {
+  const Motion walk = testing::synthetic_walk(60, 60.0).motion;
+  Motion made = walk;
+  for (Pose& pose : made.poses) {
+    glm::dquat& hip = pose.parent_from_joint[index(HumanBone::kRightUpperLeg)];
+    hip = glm::angleAxis(glm::radians(50.0), glm::dvec3(0, 0, 1)) * hip;
+  }
+  const BodyMap map = *map_body(walk.skeleton);
+  const PostureFigures figures = compare_postures(walk, map, made, map);
+  EXPECT_TRUE(figures.legs.bone == HumanBone::kRightUpperLeg ||
+              figures.legs.bone == HumanBone::kRightLowerLeg);
+  EXPECT_GT(glm::degrees(figures.legs.median_rad), 40.0);
+  EXPECT_LT(figures.arms.median_rad, 1e-7);
+  EXPECT_EQ(segment_name(figures.trunk), "trunk");
+}
+
+TEST(ComparePostures, FindsLeftAndRightExchanged) {
+  const Motion walk = testing::synthetic_walk(60, 60.0).motion;
+  const BodyMap map = *map_body(walk.skeleton);
+  BodyMap exchanged = map;
+  for (const HumanBone bone : human_bones()) {
+    exchanged.joint_of[index(bone)] = map.joint_of[index(mirrored(bone))];
+  }
+  EXPECT_EQ(compare_postures(walk, map, walk, exchanged).exchanged_share, 1.0);
+}
+
+TEST(ComparePostures, FindsAJointFasterThanTheSourcesAndSaysWhen) {
+  const Motion walk = testing::synthetic_walk(60, 60.0).motion;
+  Motion made = walk;
+  glm::dquat& elbow = made.poses[31].parent_from_joint[index(HumanBone::kLeftLowerArm)];
+  elbow = glm::angleAxis(glm::radians(120.0), glm::dvec3(0, 1, 0)) * elbow;
+  const BodyMap map = *map_body(walk.skeleton);
+  const PostureFigures figures = compare_postures(walk, map, made, map);
+  EXPECT_GT(figures.fastest, 3.0 * figures.source_fastest);
+  EXPECT_EQ(figures.fastest_bone, HumanBone::kLeftHand);
+  EXPECT_TRUE(figures.fastest_frame == 31 || figures.fastest_frame == 32);
+}
+
+}  // namespace
+}  // namespace marey::retarget
