@@ -54,7 +54,7 @@ TEST(FindTags, DeclinesARecordedTrialOfAnotherKindThatLacksAVideo) {
 struct FloorScene {
   explicit FloorScene(std::array<int, 3> tags) {
     session.cameras = {"left", "middle", "right"};
-    session.families = {{"tag36h11", {}}};
+    session.families = {{"tag36h11", {TagId{0}}}};
     session.target = AprilGrid{6, 6, 0.1, 0.03, 0, 0.0};
     trial.name = "floor";
     trial.kind = TrialKind::kFloor;
