@@ -25,7 +25,7 @@
 #include "recordings/calibration_file.h"
 #include "recordings/detections_file.h"
 #include "recordings/session.h"
-#include "tests/support/judged_calibration.h"
+#include "tests/app/judged_calibration.h"
 
 namespace {
 

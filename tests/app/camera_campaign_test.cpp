@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/judged_calibration.h"
+#include "tests/app/judged_calibration.h"
 
 namespace marey::testing {
 namespace {

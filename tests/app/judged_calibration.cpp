@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/support/judged_calibration.h"
+#include "tests/app/judged_calibration.h"
 
 #include <algorithm>
 #include <cmath>
