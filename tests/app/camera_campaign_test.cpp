@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A small part of benchmarks/measure_rigs.cpp: calibrations that are simulated at the
+// A small part of measure_rigs.cpp: calibrations that are simulated at the
 // level of corners, some with a fault, judged as the program does.
 #include <string>
 
