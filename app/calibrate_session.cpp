@@ -33,7 +33,7 @@ Result<Lenses> given_lenses(const recordings::Session& session,
   Lenses lenses(session.cameras.size());
   if (!session.calibration.lenses) return lenses;
   const auto& file = *session.calibration.lenses;
-  const auto known = recordings::read_calibration(file);
+  const auto known = recordings::read_lenses(file);
   if (!known) return known.error();
   std::string found;
   for (std::size_t c = 0; c < lenses.size(); ++c) {
@@ -158,8 +158,10 @@ void tell_findings(const recordings::Session& session,
 
 Result<calib::CalibratedRig> solve(const recordings::Session& session,
                                    const CalibrationSights& sights,
-                                   Lenses lenses) {
-  const auto options = options_for(session.calibration, std::move(lenses));
+                                   Lenses lenses,
+                                   const Progress& progress) {
+  auto options = options_for(session.calibration, std::move(lenses));
+  options.progress = progress;
   const auto* wand = std::get_if<Wand>(&session.target);
   if (wand == nullptr) {
     return calib::calibrate_cameras(
@@ -175,6 +177,7 @@ Result<calib::CalibratedRig> solve(const recordings::Session& session,
   wand_options.solve_line_delays = options.solve_line_delays;
   wand_options.most_offset_s = options.most_offset_s;
   wand_options.cross_validate = options.cross_validate;
+  wand_options.progress = options.progress;
   auto calibrated =
       calib::calibrate_wand(session.cameras, sights.waved, *wand, wand_options);
   if (!calibrated) return calibrated.error();
@@ -184,11 +187,12 @@ Result<calib::CalibratedRig> solve(const recordings::Session& session,
 }  // namespace
 
 Result<SessionRig> calibrate_session(const recordings::Session& session,
-                                     const CalibrationSights& sights) {
+                                     const CalibrationSights& sights,
+                                     const Progress& progress) {
   SessionRig out;
   auto lenses = given_lenses(session, sights.waved, out.notes);
   if (!lenses) return lenses.error();
-  auto rig = solve(session, sights, *lenses);
+  auto rig = solve(session, sights, *lenses, progress);
   if (!rig) return rig.error();
   out.rig = std::move(*rig);
   tell_findings(session, *lenses, out.rig, out.notes);

@@ -7,6 +7,7 @@
 
 #include "calib/calibrated_rig.h"
 #include "core/detection.h"
+#include "core/progress.h"
 #include "core/result.h"
 #include "recordings/session.h"
 
@@ -35,6 +36,7 @@ struct SessionRig {
 /// stand_on_floor()'s; lenses whose file cannot be read, or is of
 /// none of the cameras, or of pictures of another size.
 [[nodiscard]] Result<SessionRig> calibrate_session(const recordings::Session& session,
-                                                   const CalibrationSights& sights);
+                                                   const CalibrationSights& sights,
+                                                   const Progress& progress = {});
 
 }  // namespace marey::app

@@ -227,9 +227,12 @@ Json cross_validation_figures(const CalibrationReport& report) {
   const auto& check = report.rig.cross_validation;
   if (!check) return nullptr;
   Json cameras = Json::array();
+  const bool has_time = check->time_apart_m.size() == report.rig.cameras.size();
   for (std::size_t c = 0; c < report.rig.cameras.size(); ++c) {
     cameras.push_back(
         {{"name", report.rig.cameras[c].name},
+         {"time_apart_mm", has_time ? mm(check->time_apart_m[c]) : Json(nullptr)},
+         {"time_expected_mm", has_time ? mm(check->time_expected_m[c]) : Json(nullptr)},
          {"centre_apart_mm", mm(check->centre_apart_m[c])},
          {"turn_apart_deg", rounded(kDegrees * check->turn_apart_rad[c], 4)},
          {"focal_apart_px", px(check->focal_apart_px[c])},
@@ -240,6 +243,30 @@ Json cross_validation_figures(const CalibrationReport& report) {
   return {{"seen_rms_px", px(check->seen_rms_px)},
           {"held_out_rms_px", px(check->held_out_rms_px)},
           {"cameras", cameras}};
+}
+
+Json move_figures(const CalibrationReport& report) {
+  const auto& move = report.rig.apparent_move;
+  if (!move) return nullptr;
+  return {{"camera", report.rig.cameras[index(move->camera)].name},
+          {"from_frame", move->from_frame ? Json(*move->from_frame) : Json(nullptr)},
+          {"moved_px", px(move->moved_px)},
+          {"turn_deg", rounded(kDegrees * move->turn_rad, 4)},
+          {"shift_mm", mm(move->shift_m)},
+          {"gain", rounded(move->gain, 0)}};
+}
+
+Json delay_figures(const CalibrationReport& report) {
+  const auto& delays = report.rig.apparent_line_delays;
+  if (!delays) return nullptr;
+  Json cameras = Json::array();
+  for (std::size_t c = 0; c < delays->delay_s.size(); ++c) {
+    cameras.push_back({{"name", report.rig.cameras[c].name},
+                       {"line_delay_us", rounded(1e6 * delays->delay_s[c], 2)},
+                       {"sigma_us", rounded(1e6 * delays->sigma_s[c], 2)},
+                       {"shift_mm", mm(delays->shift_m[c])}});
+  }
+  return {{"gain", rounded(delays->gain, 0)}, {"cameras", cameras}};
 }
 
 Json outlier_figures(const CalibrationReport& report) {
@@ -310,6 +337,8 @@ Json calibration_figures(const CalibrationReport& report) {
       {"shared_views", shared_figures(report)},
       {"cameras", cameras},
       {"cross_validation", cross_validation_figures(report)},
+      {"apparent_move", move_figures(report)},
+      {"apparent_line_delays", delay_figures(report)},
       {"outlier_frames", outlier_figures(report)},
       {"error_map", map_figures(report.map)}};
 }

@@ -10,9 +10,8 @@
 #include <string>
 #include <variant>
 
-#include "app/board_elsewhere.h"
+#include "app/check_sights.h"
 #include "capture/detect_videos.h"
-#include "capture/look_for_boards.h"
 #include "core/assert.h"
 #include "recordings/content_key.h"
 #include "recordings/detections_file.h"
@@ -29,16 +28,6 @@ std::vector<TagFamilyUse> families_to_find(const recordings::Session& session) {
   if (session.families.size() == 1) return {{session.families.front().name, {}}};
   return session.families;
 }
-
-/// What a trial's frames are searched for. A board of squares is in the trials that are
-/// about it; tags are everywhere, when there are any.
-struct Wanted {
-  std::vector<TagFamilyUse> families;       ///< Empty: no tags.
-  std::optional<CalibrationTarget> target;  ///< Of squares: its points.
-  bool shows_grid = false;                  ///< The trial is about an AprilGrid.
-  /// The AprilGrid that every camera must see.
-  std::optional<AprilGrid> grid;
-};
 
 Wanted wanted_in(const recordings::Session& session, const Trial& trial) {
   Wanted wanted;
@@ -137,90 +126,6 @@ Status tell_broken(const Trial& trial,
   return troubles.failures.back();
 }
 
-/// The tags that bodies in view wear.
-std::vector<TagFamilyUse> worn_tags(const recordings::Session& session) {
-  std::vector<TagFamilyUse> worn;
-  for (const TagOnSegment& tag : session.tags) {
-    worn.push_back({session.family_of(tag.id), {tag.id}});
-  }
-  return worn;
-}
-
-/// Before all frames are searched for what is not there: another board that was filmed.
-Status check_board(const recordings::Session& session,
-                   const std::vector<capture::CameraInput>& inputs,
-                   const std::optional<CalibrationTarget>& target) {
-  if (!target) return Done{};
-  const auto other = capture::glance_for_other_board(inputs, *target, worn_tags(session));
-  if (!other) return Done{};
-  return bad_input(inputs[other->input].path.string(),
-                   "no " + name_of(*target) + " is seen in " +
-                       std::to_string(other->frames) + " frames from all over it, but " +
-                       other->seen.what,
-                   other->seen.remedy);
-}
-
-Error no_board(const CameraDetections& camera,
-               const CalibrationTarget& target,
-               const std::vector<TagFamilyUse>& worn) {
-  const std::string frames = std::to_string(camera.frames.size());
-  const auto seen = capture::look_for_boards(camera.source, target, worn);
-  return bad_input(
-      camera.source,
-      "no " + name_of(target) + " is seen in its " + frames + " frames" +
-          (seen ? ", but " + seen->what : std::string()),
-      seen
-          ? seen->remedy
-          : "check that the video is of this trial, sharp and bright enough, and [board] "
-            "in session.toml: rows and columns count squares");
-}
-
-Status check_seen(const recordings::Session& session,
-                  const Trial& trial,
-                  const CameraDetections& camera,
-                  const Wanted& wanted) {
-  const auto in_any = [&](const auto& shows) {
-    return std::any_of(camera.frames.begin(), camera.frames.end(), shows);
-  };
-  const bool sees_tags = in_any([](const FrameDetections& f) { return !f.tags.empty(); });
-  const bool sees_it = in_any([&](const FrameDetections& f) {
-    if (wanted.target) return !f.points.empty();
-    return std::any_of(f.tags.begin(), f.tags.end(), [&](const TagDetection& tag) {
-      return !wanted.grid || wanted.grid->contains(tag.id);
-    });
-  });
-  if (sees_it) return Done{};
-  if (wanted.target || wanted.shows_grid) {
-    if (const auto other = board_elsewhere(session, trial, camera)) return *other;
-  }
-  if (wanted.target) return no_board(camera, *wanted.target, worn_tags(session));
-  if (wanted.grid && sees_tags) {
-    // Who holds the board wears tags. Other tags than the declared are told later.
-    const auto seen = capture::look_for_boards(camera.source, AprilGrid{});
-    const auto says = [&](const char* word) {
-      return seen->what.find(word) != std::string::npos;
-    };
-    if (!seen || (says("APRILTAG_36h11") && !says("mirrored"))) return Done{};
-    return bad_input(camera.source,
-                     "no tag of the " + name_of(*wanted.grid) + " is seen in its " +
-                         std::to_string(camera.frames.size()) + " frames, but " +
-                         seen->what,
-                     seen->remedy);
-  }
-  std::string cause = "not a single tag is seen in its " +
-                      std::to_string(camera.frames.size()) + " frames";
-  if (wanted.shows_grid) {
-    if (const auto seen = capture::look_for_boards(camera.source, AprilGrid{})) {
-      return bad_input(camera.source, cause + ", but " + seen->what, seen->remedy);
-    }
-  }
-  return bad_input(
-      camera.source,
-      cause,
-      "check that the video is of this trial and sharp, and the tag family in "
-      "session.toml; or leave this camera out of the trial");
-}
-
 /// Offsets are taken as motion between frames, not as frames to skip.
 Status check_offset(const recordings::Session& session,
                     const TrialVideo& video,
@@ -272,6 +177,27 @@ Status check_rates(const recordings::Session& session,
   return Done{};
 }
 
+/// Searches the videos of which nothing is kept.
+Result<std::vector<CameraDetections>> detect(
+    const recordings::Session& session,
+    const Trial& trial,
+    const std::vector<capture::CameraInput>& missing,
+    const Wanted& wanted,
+    Console& console) {
+  if (const Status ok = check_board(session, missing, wanted.target); !ok) {
+    return ok.error();
+  }
+  capture::DetectVideosOptions detector;
+  detector.find_tags = !wanted.families.empty();
+  if (detector.find_tags) detector.tracker.detector.families = wanted.families;
+  detector.target = wanted.target;
+  detector.keep_broken = true;
+  return capture::detect_tags_in_videos(
+      missing,
+      detector,
+      console.stage((wanted.target ? "board in " : "tags in ") + trial.name));
+}
+
 }  // namespace
 
 Result<std::vector<CameraDetections>> find_tags(const recordings::Session& session,
@@ -312,18 +238,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
     missing.push_back(std::move(input));
   }
   if (!missing.empty()) {
-    if (const Status ok = check_board(session, missing, wanted.target); !ok) {
-      return ok.error();
-    }
-    capture::DetectVideosOptions detector;
-    detector.find_tags = !wanted.families.empty();
-    if (detector.find_tags) detector.tracker.detector.families = wanted.families;
-    detector.target = wanted.target;
-    detector.keep_broken = true;
-    auto made = capture::detect_tags_in_videos(
-        missing,
-        detector,
-        console.stage((wanted.target ? "board in " : "tags in ") + trial.name));
+    auto made = detect(session, trial, missing, wanted, console);
     if (!made) return made.error();
     for (CameraDetections& camera : *made) {
       const auto file = folder / (session.cameras[index(camera.camera)] + ".csv");
@@ -343,11 +258,19 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
     camera.source = video.path.string();
     camera.offset = video.offset;
     if (trial.rate) camera.rate = *trial.rate;
-    if (const Status ok = check_seen(session, trial, camera, wanted); !ok)
+    const bool is_floor = trial.kind == recordings::TrialKind::kFloor;
+    if (const Status ok =
+            is_floor ? Status(Done{}) : check_seen(session, trial, camera, wanted);
+        !ok) {
       return ok.error();
+    }
     if (const Status ok = check_offset(session, video, camera.rate); !ok) {
       return ok.error();
     }
+  }
+  if (trial.kind == recordings::TrialKind::kFloor) {
+    const Status ok = check_floor_seen(session, trial, found, wanted, troubles);
+    if (!ok) return ok.error();
   }
   if (const Status ok = match_times(trial, found, troubles); !ok) return ok.error();
   if (const Status ok = check_rates(session, trial, found); !ok) return ok.error();

@@ -6,6 +6,7 @@
 
 #include "app/finding_list.h"
 #include "app/judge_clocks.h"
+#include "app/judge_faults.h"
 #include "app/judge_print.h"
 #include "app/judge_residuals.h"
 #include "app/judge_trust.h"
@@ -57,6 +58,7 @@ std::vector<Finding> judge_calibration(const CalibrationReport& report) {
   FindingList list{report, {}};
   judge_print(list);
   judge_trust(list);
+  judge_faults(list);
   judge_clocks(list);
   judge_residuals(list);
   judge_views(list);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/calibration_limits.h"
+#include "app/judge_faults.h"
 
 namespace marey::app {
 namespace {
@@ -75,7 +76,7 @@ void judge_drift(FindingList& list, std::size_t c) {
 void judge_slip(FindingList& list, std::size_t c) {
   const auto& slip = list.report.cameras[c].slip;
   const double scale = pixel_scale(list.report.rig.cameras[c]);
-  if (!slip || slip->moved_px < 0.3 * scale) return;
+  if (!slip || slip->moved_px < 0.3 * scale || seems_moved(list.report, c)) return;
   list.add(graver(slip->moved_px, scale),
            "slip",
            list.camera(c),

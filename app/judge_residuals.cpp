@@ -8,6 +8,7 @@
 #include <set>
 
 #include "app/calibration_limits.h"
+#include "app/judge_faults.h"
 #include "core/quantile.h"
 
 namespace marey::app {
@@ -18,9 +19,9 @@ constexpr double kPoorRmsPx = kResidualLimitsPx[1];
 constexpr double kPoorMedianPx = 2.0;
 constexpr double kWorseThanOthers = 2.5;
 constexpr double kWorthSayingPx = 0.4;
-// A few wrong tags in a hundred are usual and do no harm; when a third does not fit, it
+// A few wrong tags in a hundred are usual and do no harm; when a quarter does not fit, it
 // is no longer clear who is right.
-constexpr double kPoorOutliers = 0.33;
+constexpr double kPoorOutliers = 0.25;
 constexpr double kFairOutliers = 0.05;
 constexpr double kFairPatternPx = 0.3;
 
@@ -78,6 +79,8 @@ void judge_level(FindingList& list, std::size_t c) {
 void judge_outliers(FindingList& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
   const double share = share_of_outliers(list.report, c);
+  // Told with its amount (judge_faults.h).
+  if (seems_moved(list.report, c)) return;
   // A camera that is out of step loses whole stretches too: where the board was fast.
   if ((camera.astray_from || camera.astray_until) && !is_late(list.report, c)) {
     list.add(Severity::kPoor,

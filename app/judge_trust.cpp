@@ -137,6 +137,29 @@ void judge_halves(FindingList& list, std::size_t c, double apart_m) {
                " was shown, and show it longer, together with another camera");
 }
 
+/// The first half of the recording against the second.
+void judge_halves_in_time(FindingList& list, std::size_t c) {
+  const calib::CrossValidation& check = *list.report.rig.cross_validation;
+  if (c >= check.time_apart_m.size() || !(check.time_expected_m[c] > 0.0)) return;
+  constexpr double kFairRatio = 2.0;
+  constexpr double kPoorRatio = 3.0;
+  const double apart_m = check.time_apart_m[c];
+  const double ratio = apart_m / check.time_expected_m[c];
+  if (ratio <= kFairRatio || apart_m <= fair_error_m(list.report)) return;
+  const bool is_poor = ratio > kPoorRatio && apart_m > poor_error_m(list.report);
+  list.add(is_poor ? Severity::kPoor : Severity::kFair,
+           "halves",
+           list.camera(c),
+           worded("the first half of the recording puts it %.0f mm from where the second "
+                  "does, and %.0f mm are expected: it was moved, its clock or its lens "
+                  "changed, or a half shows too little (its sigma counts for as much more)",
+                  1e3 * apart_m,
+                  1e3 * check.time_expected_m[c]),
+           "check that nothing was touched or refocused while the " +
+               std::string(list.target()) +
+               " was shown, and show it to every camera early and late");
+}
+
 void judge_held_out(FindingList& list) {
   const auto& check = list.report.rig.cross_validation;
   if (!check) return;
@@ -177,6 +200,7 @@ void judge_held_out(FindingList& list) {
                       list.target()));
     }
     judge_halves(list, c, check->centre_apart_m[c]);
+    judge_halves_in_time(list, c);
   }
 }
 

@@ -8,12 +8,13 @@
 #include <cstdint>
 #include <cstdio>
 #include <system_error>
+#include <utility>
 
 #include "app/align_frames.h"
+#include "app/uneven_videos.h"
 #include "core/assert.h"
 #include "recordings/frame_stamps.h"
 #include "recordings/take_file.h"
-#include "recordings/video_times.h"
 
 namespace marey::app {
 namespace {
@@ -263,61 +264,6 @@ void tell_unused_take(const Trial& trial, RecordingTroubles& troubles) {
                                 trial.name + " lie in several folders");
     return;
   }
-}
-
-struct UnevenVideo {
-  CameraTimes own;
-  double worst_s = 0.0;  ///< How far a frame is from the steady rate.
-};
-
-/// nullopt of a video that is steady, or does not tell.
-std::optional<UnevenVideo> uneven_video(const TrialVideo& video, FrameRate rate) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(video.path, ignored)) return std::nullopt;
-  auto times = recordings::video_times(video.path);
-  if (!times || !measured_rate(*times)) return std::nullopt;
-  // What a container rounds away is less than this; what is more is a camera's doing.
-  constexpr double kSteady = 0.25;
-  double worst_s = 0.0;
-  for (std::size_t i = 0; i < times->size(); ++i) {
-    const double even_s = static_cast<double>(i) / rate.hz;
-    worst_s = std::max(worst_s, std::abs(seconds((*times)[i] - times->front()) - even_s));
-  }
-  if (worst_s * rate.hz < kSteady) return std::nullopt;
-  return UnevenVideo{{video.camera, std::move(*times)}, worst_s};
-}
-
-std::string how_uneven(const UnevenVideo& video, FrameRate rate) {
-  return format(
-      "its frame rate varies: frames are up to %.1f ms away from a steady %.2f "
-      "Hz",
-      1e3 * video.worst_s,
-      rate.hz);
-}
-
-/// The frames to use are chosen by number, or the session says their rate: an uneven
-/// video's own times cannot be used.
-Status check_even(const Trial& trial,
-                  std::span<const CameraDetections> found,
-                  RecordingTroubles& troubles) {
-  for (const TrialVideo& video : trial.videos) {
-    const CameraDetections& camera = found[index(video.camera)];
-    if (camera.frames.empty()) continue;
-    const FrameRate rate = trial.rate.value_or(camera.rate);
-    const auto uneven = uneven_video(video, rate);
-    if (!uneven) continue;
-    if (!trial.rate) {
-      return bad_input(camera.source,
-                       how_uneven(*uneven, rate) +
-                           ", so that numbers of frames say nothing of their times",
-                       "leave out \"frames\" of trial " + trial.name +
-                           ", and its own times are used; or give the trial an \"fps\", "
-                           "if frames of one number belong together all the same");
-    }
-    troubles.warnings.push_back(camera.source + ": " + how_uneven(*uneven, rate) +
-                                "; the session's fps is used all the same");
-  }
-  return Done{};
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/camera_doubt.h"
+#include "app/find_moved_cameras.h"
 #include "app/find_tags.h"
 #include "app/retarget_files.h"
 #include "app/stopwatch.h"
@@ -176,6 +177,11 @@ Status Pipeline::check_trials() {
     if (!detections) return detections.error();
     const Status ok = reconstruct::check_views(cameras_, *detections, session_.tags);
     if (!ok) return in_session(ok.error());
+    const auto moved =
+        find_moved_cameras(trial.name, cameras_, *detections, session_.tags);
+    if (!moved) continue;
+    report_.warnings.push_back(moved->error.message());
+    if (moved->is_poor) failures_.push_back(moved->error);
   }
   return Done{};
 }

@@ -64,14 +64,12 @@ Status Pipeline::calibrate() {
   if (!sights) return sights.error();
   const Stopwatch watch;
   const Progress progress = console_->stage("cameras");
-  progress(0, 1);
-  auto found = calibrate_session(session_, *sights);
+  auto found = calibrate_session(session_, *sights, progress);
   if (!found) return in_session(found.error());
   const calib::CalibratedRig& rig = found->rig;
   if (const Status ok = check_subject(*found, std::move(sights->standing)); !ok) {
     return in_session(ok.error());
   }
-  progress(1, 1);
   for (const std::string& note : found->notes) console_->say(note);
   recordings::Calibration calibration{rig.cameras, rig.quality, {}, rig.rms_px};
   for (const calib::SolvedClock& clock : rig.clocks) {

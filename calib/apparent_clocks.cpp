@@ -10,52 +10,12 @@
 #include <glm/geometric.hpp>
 
 #include "calib/see_point.h"
+#include "calib/target_velocity.h"
 #include "core/assert.h"
 #include "core/quantile.h"
 
 namespace marey::calib {
 namespace {
-
-// Between its neighbours in time, a hand changes its speed.
-constexpr double kNear_s = 0.25;
-constexpr double kFastest_m_s = 5.0;
-constexpr double kFastest_rad_s = 12.0;
-
-/// How a target moves at one instant, in the world.
-struct Velocity {
-  Eigen::Vector3d turn_rad_s;
-  Eigen::Vector3d move_m_s;
-};
-
-Eigen::Vector3d to_vector(const glm::dvec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-std::optional<Velocity> velocity_at(const RigidTarget& target,
-                                    int instant,
-                                    double rate_hz) {
-  const auto at = target.world_from_target.find(instant);
-  if (at == target.world_from_target.end() || at == target.world_from_target.begin()) {
-    return std::nullopt;
-  }
-  const auto before = std::prev(at);
-  const auto after = std::next(at);
-  if (after == target.world_from_target.end()) return std::nullopt;
-  const double before_s = (instant - before->first) / rate_hz;
-  const double after_s = (after->first - instant) / rate_hz;
-  if (before_s > kNear_s || after_s > kNear_s) return std::nullopt;
-  const RigidTransform& a = before->second;
-  const RigidTransform& b = after->second;
-  const double run_s = before_s + after_s;
-  const Velocity v{
-      to_vector(rotation_vector(b.rotation * glm::conjugate(a.rotation))) / run_s,
-      to_vector(b.translation - a.translation) / run_s};
-  // A view of a plane that was read the wrong way round.
-  if (v.move_m_s.norm() > kFastest_m_s || v.turn_rad_s.norm() > kFastest_rad_s) {
-    return std::nullopt;
-  }
-  return v;
-}
 
 /// The normal equations of one instant: the target's place, then the cameras' clocks.
 struct Normal {
@@ -82,7 +42,7 @@ std::optional<Row> row_of(const RigModel& model,
   const glm::dvec3 p_in_target =
       corner_in_target(model.targets[sighting.target], sighting, corner);
   const Eigen::Vector3d arm =
-      to_eigen(world_from_target.rotation) * to_vector(p_in_target);
+      to_eigen(world_from_target.rotation) * to_eigen(p_in_target);
   const RigidTransform camera_from_world = inverse(camera.world_from_camera);
   const glm::dvec3 p_in_camera = camera_from_world * (world_from_target * p_in_target);
   Eigen::Matrix<double, 2, 3> by_point;

@@ -34,7 +34,9 @@ BundleProblem::BundleProblem(const RigModel& model,
                              const RefineOptions& options,
                              bool robust)
     // The robust pass only gives the other a start.
-    : shrinks_(options.shrinkage), tolerance_(robust ? 1e-6 : 1e-9) {
+    : shrinks_(options.shrinkage),
+      tolerance_(robust || options.quick ? 1e-6 : 1e-9),
+      max_iterations_(options.quick ? 40 : 100) {
   for (const RigCamera& camera : model.cameras) {
     CameraBlock block;
     block.lens = camera.intrinsics.parameters();
@@ -243,7 +245,7 @@ bool BundleProblem::solve() {
   // SuiteSparse calls whatever BLAS the machine has, whose order of summation may follow
   // where memory lies.
   options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
-  options.max_num_iterations = 100;
+  options.max_num_iterations = max_iterations_;
   options.function_tolerance = tolerance_;
   options.num_threads = 1;  // One order of summation: the same bytes every time.
   options.logging_type = ceres::SILENT;

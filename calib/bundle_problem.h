@@ -66,6 +66,7 @@ class BundleProblem {
   std::vector<TargetBlock> targets_;
   bool shrinks_ = false;
   double tolerance_ = 1e-9;  ///< Relative, of the cost.
+  int max_iterations_ = 100;
   ceres::Problem problem_;
   int residuals_ = 0;
 };

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "calib/apparent_faults.h"
 #include "calib/board_model.h"
 #include "calib/board_views.h"
 #include "calib/check_rig.h"
@@ -14,9 +15,11 @@
 #include "calib/coarse_clocks.h"
 #include "calib/cross_validate.h"
 #include "calib/estimate_intrinsics.h"
+#include "calib/flipped_camera.h"
 #include "calib/judge_rig.h"
 #include "calib/place_cameras.h"
 #include "calib/refine_rig.h"
+#include "calib/steps.h"
 #include "core/assert.h"
 
 namespace marey::calib {
@@ -166,14 +169,19 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
   MAREY_ASSERT(!std::holds_alternative<Wand>(board));
   Work work{names, waved, floor, &board, options, board_views(waved, floor, board), {}};
   for (std::size_t c = 0; c < waved.size(); ++c) MAREY_ASSERT(is_fit(work, c));
+  Steps steps(options.progress, calibration_steps(names.size(), options.cross_validate));
   auto solved = options.choose_clocks
-                    ? solve_choosing_clocks(
-                          names,
-                          waved,
-                          false,
-                          options.solve_line_delays,
-                          [&](const Clocks& clocks) { return solve_with(work, clocks); })
+                    ? solve_choosing_clocks(names,
+                                            waved,
+                                            false,
+                                            options.solve_line_delays,
+                                            [&](const Clocks& clocks) {
+                                              auto one = solve_with(work, clocks);
+                                              steps.step();
+                                              return one;
+                                            })
                     : solve(work);
+  steps.reach(kSolveSteps);
   if (!solved) return solved.error();
   if (!solved->doubt) {
     return bad_input("",
@@ -188,9 +196,17 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
   }
   if (const Status ok = check_rig(rig, work.views, waved, floor, board); !ok)
     return ok.error();
+  const double rate_hz = waved.front().rate.hz;
+  rig.apparent_line_delays = apparent_line_delays(model, solved->refine, rate_hz);
+  steps.step();
+  rig.apparent_move = apparent_move(model, solved->refine, rate_hz);
+  rig.ambiguous = ambiguous_camera(model);
+  steps.step();
   if (options.cross_validate) {
-    rig.cross_validation = cross_validate(model, solved->refine);
+    rig.cross_validation = cross_validate(model, solved->refine, steps);
+    widen_by_halves(rig);
   }
+  steps.finish();
   return rig;
 }
 

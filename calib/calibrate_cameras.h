@@ -11,6 +11,7 @@
 #include "core/board.h"
 #include "core/camera.h"
 #include "core/detection.h"
+#include "core/progress.h"
 #include "core/result.h"
 
 namespace marey::calib {
@@ -36,6 +37,8 @@ struct CalibrateOptions {
   bool find_warp = false;
   /// Fills CalibratedRig::cross_validation: some times the time.
   bool cross_validate = false;
+  /// Called as parts of the work are done.
+  Progress progress{};
 };
 
 /// Calibrates all cameras together from a board waved through the volume and then lying

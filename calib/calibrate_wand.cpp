@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "calib/apparent_faults.h"
 #include "calib/check_rig.h"
 #include "calib/choose_model.h"
 #include "calib/coarse_clocks.h"
@@ -17,6 +18,7 @@
 #include "calib/planar_pose.h"
 #include "calib/refine_rig.h"
 #include "calib/rig_model.h"
+#include "calib/steps.h"
 #include "calib/wand_model.h"
 #include "core/assert.h"
 #include "core/quantile.h"
@@ -215,14 +217,19 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
                                        const WandOptions& options) {
   MAREY_ASSERT(names.size() == waved.size() && !wand.tags.empty());
   const Work work{names, waved, &wand, options};
+  Steps steps(options.progress, calibration_steps(names.size(), options.cross_validate));
   auto solved = options.choose_clocks
-                    ? solve_choosing_clocks(
-                          names,
-                          waved,
-                          true,
-                          options.solve_line_delays,
-                          [&](const Clocks& clocks) { return solve_with(work, clocks); })
+                    ? solve_choosing_clocks(names,
+                                            waved,
+                                            true,
+                                            options.solve_line_delays,
+                                            [&](const Clocks& clocks) {
+                                              auto one = solve_with(work, clocks);
+                                              steps.step();
+                                              return one;
+                                            })
                     : solve(work);
+  steps.reach(kSolveSteps);
   if (!solved) return solved.error();
   if (!solved->doubt) {
     return bad_input("",
@@ -236,9 +243,16 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
              *solved->doubt);
   WandCalibration out = to_calibration(names, model, *solved->doubt);
   if (is_hopeless(out.rig)) return too_far_off(out.rig);
+  const double rate_hz = waved.front().rate.hz;
+  out.rig.apparent_line_delays = apparent_line_delays(model, solved->refine, rate_hz);
+  steps.step();
+  out.rig.apparent_move = apparent_move(model, solved->refine, rate_hz);
+  steps.step();
   if (options.cross_validate) {
-    out.rig.cross_validation = cross_validate(model, solved->refine);
+    out.rig.cross_validation = cross_validate(model, solved->refine, steps);
+    widen_by_halves(out.rig);
   }
+  steps.finish();
   return out;
 }
 

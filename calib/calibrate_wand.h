@@ -12,6 +12,7 @@
 #include "core/board.h"
 #include "core/camera.h"
 #include "core/detection.h"
+#include "core/progress.h"
 #include "core/result.h"
 #include "core/transform.h"
 
@@ -36,6 +37,7 @@ struct WandOptions {
   bool choose_clocks = false;
   double most_offset_s = 5.0;
   bool cross_validate = false;
+  Progress progress{};
 };
 
 struct WandCalibration {

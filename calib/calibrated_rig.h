@@ -45,6 +45,11 @@ struct CrossValidation {
   std::vector<double> centre_apart_m;
   std::vector<double> turn_apart_rad;
   std::vector<double> focal_apart_px;
+  /// Likewise of the first half of the recording in time and the second: the distance of
+  /// the centres, and its expectation by both halves' covariances. Empty where a half
+  /// says too little.
+  std::vector<double> time_apart_m;
+  std::vector<double> time_expected_m;
   /// Per camera: median error of its sightings when the board's places come from the
   /// other cameras alone; nullopt when it shares none.
   std::vector<std::optional<double>> held_out_camera_px;
@@ -67,6 +72,38 @@ struct TargetView {
   /// As the camera met it. z is out of a board's face.
   RigidTransform world_from_target;
   std::vector<SeenCorner> corners;
+};
+
+/// A rolling shutter that the errors of cameras without one suggest, to first order.
+struct ApparentLineDelays {
+  std::vector<double> delay_s;  ///< Per camera, from one row to the next.
+  std::vector<double> sigma_s;
+  /// Per camera, how far its centre would go if delays were solved for. [m]
+  std::vector<double> shift_m;
+  double gain = 0.0;  ///< By how much the cost falls, in squared sigmas.
+};
+
+/// A camera that seems to have been moved during the recording.
+struct ApparentMove {
+  CameraId camera{};
+  /// From that frame on; nullopt: between the waving and the floor trial.
+  std::optional<int> from_frame;
+  double moved_px = 0.0;  ///< Of what it sees, root mean square.
+  double turn_rad = 0.0;
+  double shift_m = 0.0;
+  double gain = 0.0;  ///< By how much the cost falls, in squared sigmas.
+  /// Other cameras whose move would explain nearly as much.
+  std::vector<CameraId> instead;
+};
+
+/// A camera that may as well stand elsewhere: what it shares with the others reads two
+/// ways.
+struct AmbiguousCamera {
+  CameraId camera{};
+  int instants = 0;      ///< That it shares with others.
+  double apart_m = 0.0;  ///< Of its two places.
+  double rms_px = 0.0;   ///< Of those instants, where it stands.
+  double other_rms_px = 0.0;
 };
 
 /// Cameras, and how sure we are of them.
@@ -93,6 +130,11 @@ struct CalibratedRig {
   /// Every sighting that has a place, ordered by camera, frame and target; some 20 bytes
   /// a corner.
   std::vector<TargetView> views;
+  /// nullopt where line delays were solved for, or nothing tells.
+  std::optional<ApparentLineDelays> apparent_line_delays;
+  /// The most likely one, however small; nullopt where nothing tells.
+  std::optional<ApparentMove> apparent_move;
+  std::optional<AmbiguousCamera> ambiguous;
   /// At how many instants cameras a and b saw the moving board (or wand) together:
   /// [a * cameras + b], and [a * cameras + a] at how many a saw it at all.
   std::vector<int> shared_views;

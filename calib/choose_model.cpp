@@ -3,7 +3,9 @@
 #include "calib/choose_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "calib/check_rig.h"
 #include "calib/cross_validate.h"
 #include "calib/judge_rig.h"
+#include "core/quantile.h"
 
 namespace marey::calib {
 namespace {
@@ -56,6 +59,41 @@ bool any_astray(const CalibratedRig& rig) {
     if (out[c] > kMostOutliers * all[c]) return true;
   }
   return false;
+}
+
+/// Cameras of several rates that clocks do not explain: whether their frames go together
+/// one by one. Then a video states its rate wrongly.
+std::optional<Error> rate_misstated(
+    std::span<const std::string> names,
+    std::span<const CameraDetections> waved,
+    const CalibratedRig& by_time,
+    const std::function<Result<SolvedRig>(const Clocks&)>& solve) {
+  const auto by_number = solve({});
+  if (!by_number || !by_number->doubt) return std::nullopt;
+  const CalibratedRig rig = judge_rig(names, by_number->model, {});
+  if (is_hopeless(rig) || any_astray(rig) ||
+      (!by_time.views.empty() && misfit(rig) > 0.5 * misfit(by_time))) {
+    return std::nullopt;
+  }
+  std::vector<double> rates;
+  for (const CameraDetections& camera : waved) rates.push_back(camera.rate.hz);
+  const double usual = median(rates);
+  const auto other = std::find_if(waved.begin(), waved.end(), [&](const auto& camera) {
+    return std::abs(camera.rate.hz / usual - 1.0) > 1e-3;
+  });
+  if (other == waved.end()) return std::nullopt;
+  std::array<char, 160> text{};
+  std::snprintf(text.data(),
+                text.size(),
+                "it states %.2f frames per second, but its frames go with the other "
+                "cameras' (%.2f) one by one",
+                other->rate.hz,
+                usual);
+  return bad_input(
+      other->source,
+      text.data(),
+      "its rate is stated wrongly: give the trial an fps in session.toml, or "
+      "correct the file");
 }
 
 }  // namespace
@@ -110,6 +148,14 @@ Result<SolvedRig> solve_choosing_clocks(
   const CameraDetections& first = waved.front();
   const bool is_long = static_cast<double>(first.frames.size()) / first.rate.hz > kLong_s;
   auto solved = solve({true, is_long, line_delays});
+  if (!of_one_rate(waved)) {
+    const bool is_solved = solved && solved->doubt;
+    const CalibratedRig by_time =
+        is_solved ? judge_rig(names, solved->model, {}) : CalibratedRig{};
+    if (is_solved && !is_hopeless(by_time) && !any_astray(by_time)) return solved;
+    const auto misstated = rate_misstated(names, waved, by_time, solve);
+    if (misstated) return *misstated;
+  }
   if (!shared) return solved;
   if (!solved || !solved->doubt) return solve_shared();
   const CalibratedRig rig = judge_rig(names, solved->model, {});

@@ -54,7 +54,41 @@ RefineOptions places_only() {
   options.intrinsics = false;
   options.camera_poses = false;
   options.covariance = false;
+  options.quick = true;
   return options;
+}
+
+/// Of the centre's distance from its place, the expected square. [m^2]
+double centre_variance(const RigCovariance& covariance, std::size_t camera) {
+  constexpr std::size_t kCentre = Intrinsics::kParameterCount + 3;
+  const std::size_t at = RigCovariance::kPerCamera * camera + kCentre;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) sum += covariance.at(at + i, at + i);
+  return sum;
+}
+
+/// Fills what the halves in time say, if both say enough.
+void compare_in_time(const RigModel& model,
+                     const RefineOptions& options,
+                     Steps& steps,
+                     CrossValidation& out) {
+  RigModel first = half_in_time(model, 0);
+  RigModel second = half_in_time(model, 1);
+  RefineOptions refine = options;
+  refine.covariance = true;
+  refine.quick = true;
+  const auto doubt = refine_rig(first, refine);
+  steps.step();
+  if (!doubt || doubt->covariance.values.empty()) return;
+  const auto other = refine_rig(second, refine);
+  if (!other || other->covariance.values.empty()) return;
+  for (std::size_t c = 0; c < model.cameras.size(); ++c) {
+    out.time_apart_m.push_back(
+        glm::distance(first.cameras[c].world_from_camera.translation,
+                      second.cameras[c].world_from_camera.translation));
+    out.time_expected_m.push_back(std::sqrt(centre_variance(doubt->covariance, c) +
+                                            centre_variance(other->covariance, c)));
+  }
 }
 
 std::optional<double> without_camera_px(const RigModel& model, std::size_t camera) {
@@ -83,6 +117,21 @@ RigModel half_of(const RigModel& model, int parity) {
     return !model.targets[s.target].stays && std::abs(s.frame) % 2 != parity;
   });
   return half;
+}
+
+RigModel half_in_time(const RigModel& model, int half) {
+  std::vector<int> frames;
+  for (const Sighting& s : model.sightings) {
+    if (!model.targets[s.target].stays) frames.push_back(s.frame);
+  }
+  RigModel out = model;
+  if (frames.empty()) return out;
+  const auto middle = frames.begin() + static_cast<std::ptrdiff_t>(frames.size() / 2);
+  std::nth_element(frames.begin(), middle, frames.end());
+  std::erase_if(out.sightings, [&](const Sighting& s) {
+    return !model.targets[s.target].stays && (s.frame < *middle ? 0 : 1) != half;
+  });
+  return out;
 }
 
 std::optional<RigModel> held_out_model(const RigModel& solved, const RigModel& held_out) {
@@ -118,14 +167,20 @@ bool predicts_better(const RigModel& model, const RigModel& simpler) {
 }
 
 std::optional<CrossValidation> cross_validate(const RigModel& model,
-                                              const RefineOptions& options) {
+                                              const RefineOptions& options,
+                                              Steps& steps) {
   RefineOptions quick = options;
   quick.covariance = false;
+  quick.quick = true;
   RigModel even = half_of(model, 0);
   RigModel odd = half_of(model, 1);
-  if (!refine_rig(even, quick) || !refine_rig(odd, quick)) return std::nullopt;
+  if (!refine_rig(even, quick)) return std::nullopt;
+  steps.step();
+  if (!refine_rig(odd, quick)) return std::nullopt;
+  steps.step();
   const auto held_out = held_out_model(even, half_of(model, 1));
   if (!held_out) return std::nullopt;
+  steps.step();
   CrossValidation out;
   out.seen_rms_px = inlier_rms_px(even);
   out.held_out_rms_px = inlier_rms_px(*held_out);
@@ -138,8 +193,35 @@ std::optional<CrossValidation> cross_validate(const RigModel& model,
         glm::conjugate(a.world_from_camera.rotation) * b.world_from_camera.rotation)));
     out.focal_apart_px.push_back(a.intrinsics.focal_px.x - b.intrinsics.focal_px.x);
     out.held_out_camera_px.push_back(without_camera_px(model, c));
+    steps.step();
   }
+  compare_in_time(model, options, steps, out);
   return out;
+}
+
+void widen_by_halves(CalibratedRig& rig) {
+  constexpr double kByChance = 2.0;
+  if (!rig.cross_validation || rig.cross_validation->time_apart_m.empty()) return;
+  std::vector<double> factors(rig.covariance.size(), 1.0);
+  for (std::size_t c = 0; c < rig.cameras.size(); ++c) {
+    const double expected_m = rig.cross_validation->time_expected_m[c];
+    if (!(expected_m > 0.0)) continue;
+    const double ratio = rig.cross_validation->time_apart_m[c] / expected_m;
+    if (ratio <= kByChance) continue;
+    rig.quality[c].centre_sigma_m *= ratio;
+    rig.quality[c].focal_sigma_px *= ratio;
+    if (rig.covariance.values.empty()) continue;
+    std::fill_n(
+        factors.begin() + static_cast<std::ptrdiff_t>(RigCovariance::kPerCamera * c),
+        RigCovariance::kPerCamera,
+        ratio);
+  }
+  const std::size_t size = rig.covariance.values.empty() ? 0 : rig.covariance.size();
+  for (std::size_t row = 0; row < size; ++row) {
+    for (std::size_t column = 0; column < size; ++column) {
+      rig.covariance.values[row * size + column] *= factors[row] * factors[column];
+    }
+  }
 }
 
 bool find_warp(RigModel& model, const RefineOptions& options) {
@@ -147,6 +229,7 @@ bool find_warp(RigModel& model, const RefineOptions& options) {
   for (RigidTarget& target : bent.targets) target.bends = !target.stays;
   RefineOptions quick = options;
   quick.covariance = false;
+  quick.quick = true;
   std::array<std::array<double, 3>, 2> warp_m{};
   for (int parity = 0; parity < 2; ++parity) {
     RigModel half = half_of(bent, parity);

@@ -28,6 +28,8 @@ struct RefineOptions {
   double acceleration_m_s2 = 15.0;
   double acceleration_rad_s2 = 60.0;
   bool covariance = true;
+  /// For comparisons: as coarse as the robust pass, of at most 40 iterations.
+  bool quick = false;
 };
 
 /// Standard deviations beside those of RigCovariance.

@@ -145,12 +145,15 @@ bool is_camchain(const TomlReader& root) {
 
 Status import_camchain(TomlReader& root,
                        const std::filesystem::path& path,
+                       CameraParts parts,
                        Calibration& out) {
   RigidTransform camera_from_first;
   const bool is_chain = root.is_table("cam1") && root.table("cam1").has(kFromPrevious);
   const std::filesystem::path poses = path.parent_path() / "camera_poses.yaml";
   std::error_code ignored;
-  const bool is_placed = !is_chain && std::filesystem::exists(poses, ignored);
+  const bool wants_places = parts == CameraParts::kAll;
+  const bool is_placed =
+      wants_places && !is_chain && std::filesystem::exists(poses, ignored);
   const std::size_t count = root.keys().size();
   for (std::size_t i = 0; i < count && root.ok(); ++i) {
     // By number: in the file cam10 may come before cam2.
@@ -160,7 +163,7 @@ Status import_camchain(TomlReader& root,
     Camera camera;
     camera.name = key;
     camera.intrinsics = read_lens(in);
-    if (i > 0 && !is_placed) {
+    if (i > 0 && wants_places && !is_placed) {
       if (!in.has(kFromPrevious)) {
         in.fail("",
                 "where " + key + " stands is not in it: it has no T_cn_cnm1",

@@ -294,11 +294,23 @@ Result<Calibration> parse_calibration(std::string_view text, const std::string& 
   return calibration;
 }
 
-Result<Calibration> read_calibration(const std::filesystem::path& path) {
+namespace {
+
+Result<Calibration> read_parts(const std::filesystem::path& path, CameraParts parts) {
   const Result<std::string> text = read_file(path);
   if (!text) return text.error();
-  if (is_yaml_or_xml(*text)) return import_calibration(*text, path);
+  if (is_yaml_or_xml(*text)) return import_calibration(*text, path, parts);
   return parse_calibration(*text, path.string());
+}
+
+}  // namespace
+
+Result<Calibration> read_calibration(const std::filesystem::path& path) {
+  return read_parts(path, CameraParts::kAll);
+}
+
+Result<Calibration> read_lenses(const std::filesystem::path& path) {
+  return read_parts(path, CameraParts::kLenses);
 }
 
 bool is_calibration(const std::filesystem::path& path) {

@@ -68,6 +68,11 @@ struct Calibration {
 /// the pictures; places that cannot be metres.
 [[nodiscard]] Result<Calibration> read_calibration(const std::filesystem::path& path);
 
+/// The same, of which only the lenses are wanted: of several cameras in YAML it need not
+/// say where they stand (Kalibr's and TagSLAM's cameras.yaml), nor are poses beside the
+/// file read. A camera without a pose stands at the origin.
+[[nodiscard]] Result<Calibration> read_lenses(const std::filesystem::path& path);
+
 /// The file holds cameras rather than a session, by its content: YAML, XML, or TOML with
 /// a lens's matrix in it. Cost: reads it.
 [[nodiscard]] bool is_calibration(const std::filesystem::path& path);

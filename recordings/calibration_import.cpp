@@ -40,7 +40,8 @@ bool is_yaml_or_xml(std::string_view text) {
 }
 
 Result<Calibration> import_calibration(std::string_view text,
-                                       const std::filesystem::path& path) {
+                                       const std::filesystem::path& path,
+                                       CameraParts parts) {
   const std::string file = path.string();
   Result<TomlDocument> document = first_line(text).starts_with('<')
                                       ? parse_opencv_xml(text, file)
@@ -52,7 +53,7 @@ Result<Calibration> import_calibration(std::string_view text,
   if (is_opencv(root)) {
     status = import_opencv(root, path, calibration);
   } else if (is_camchain(root)) {
-    status = import_camchain(root, path, calibration);
+    status = import_camchain(root, path, parts, calibration);
   } else {
     root.fail("",
               "no camera in it: neither OpenCV's camera_matrix, or M1 and M2, nor cam0, "

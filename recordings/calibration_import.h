@@ -14,11 +14,15 @@ namespace marey::recordings {
 /// The text is YAML or XML, not TOML, by how it begins.
 [[nodiscard]] bool is_yaml_or_xml(std::string_view text);
 
+/// What is wanted of a file of cameras.
+enum class CameraParts { kAll, kLenses };
+
 /// Reads what others than marey write in YAML or XML; read_calibration() says which and
-/// in what world. `path` names the file in messages; files that belong to it are looked
+/// in what world, read_lenses() what need not be there. `path` names the file in messages; files that belong to it are looked
 /// for beside it.
 [[nodiscard]] Result<Calibration> import_calibration(std::string_view text,
-                                                     const std::filesystem::path& path);
+                                                     const std::filesystem::path& path,
+                                                     CameraParts parts);
 
 // What import_calibration() tells apart. `root` is the whole file; a mistake stays in its
 // document, one in a file beside it is returned.
@@ -33,6 +37,7 @@ namespace marey::recordings {
 [[nodiscard]] bool is_camchain(const TomlReader& root);
 [[nodiscard]] Status import_camchain(TomlReader& root,
                                      const std::filesystem::path& path,
+                                     CameraParts parts,
                                      Calibration& out);
 
 }  // namespace marey::recordings

@@ -144,6 +144,73 @@ TEST(JudgeCalibration, NamesACameraThatWasMoved) {
   expect(only(report), Severity::kPoor, "moved", "camera left", "frame 71");
 }
 
+TEST(JudgeCalibration, NamesACameraThatWasNudgedAndByHowMuch) {
+  CalibrationReport report = decent();
+  report.rig.apparent_move =
+      calib::ApparentMove{CameraId{1}, 77, 3.8, 0.0042, 0.003, 9000.0, {}};
+  expect(only(report), Severity::kPoor, "moved", "camera middle", "moved by 3.8 px");
+  EXPECT_NE(only(report).cause.find("from frame 77"), std::string::npos);
+  // What else it makes of that is not told again.
+  report.cameras[1].outlier_corners = 1500;
+  report.cameras[1].slip = CameraSlip{40, 0.9, 5.0};
+  EXPECT_EQ(only(report).kind, "moved");
+  report.rig.apparent_move->instead = {CameraId{2}};
+  EXPECT_EQ(only(report).where, "camera middle or right");
+}
+
+TEST(JudgeCalibration, SaysNothingOfMovesThatLensesMake) {
+  CalibrationReport report = decent();
+  report.rig.apparent_move =
+      calib::ApparentMove{CameraId{1}, 77, 0.3, 0.0003, 0.001, 9000.0, {}};
+  EXPECT_TRUE(judge_calibration(report).empty());
+  report.rig.apparent_move =
+      calib::ApparentMove{CameraId{1}, 77, 3.0, 0.003, 0.001, 90.0, {}};
+  EXPECT_TRUE(judge_calibration(report).empty());
+}
+
+TEST(JudgeCalibration, NamesLineDelaysOfARollingShutter) {
+  CalibrationReport report = decent();
+  report.rig.apparent_line_delays = calib::ApparentLineDelays{
+      {40e-6, 42e-6, 1e-6}, {2e-7, 2e-7, 2e-7}, {0.02, 0.03, 0.001}, 20000.0};
+  const Finding found = only(report);
+  expect(found,
+         Severity::kPoor,
+         "rolling-shutter",
+         "cameras left (29 ms), middle (30 ms)",
+         "30 mm elsewhere");
+  EXPECT_NE(found.next.find("line_delays = true"), std::string::npos);
+  // It looks a little like a camera that was moved, and that like it.
+  report.rig.apparent_move =
+      calib::ApparentMove{CameraId{1}, 77, 3.8, 0.0042, 0.003, 9000.0, {}};
+  EXPECT_EQ(only(report).kind, "rolling-shutter");
+  report.rig.apparent_move->gain = 50000.0;
+  EXPECT_EQ(only(report).kind, "moved");
+}
+
+TEST(JudgeCalibration, NamesACameraWhosePlaceReadsTwoWays) {
+  CalibrationReport report = decent();
+  report.rig.ambiguous = calib::AmbiguousCamera{CameraId{2}, 2, 0.8, 0.21, 0.24};
+  expect(only(report), Severity::kPoor, "ambiguous", "camera right", "0.80 m elsewhere");
+}
+
+TEST(JudgeCalibration, NamesACameraWhoseHalvesInTimeDisagree) {
+  CalibrationReport report = decent();
+  calib::CrossValidation check{0.3,
+                               0.32,
+                               {0.002, 0.002, 0.002},
+                               {0.0, 0.0, 0.0},
+                               {0.0, 0.0, 0.0},
+                               {0.005, 0.045, 0.005},
+                               {0.006, 0.006, 0.006},
+                               {0.3, 0.3, 0.3}};
+  report.rig.cross_validation = check;
+  expect(only(report), Severity::kPoor, "halves", "camera middle", "45 mm");
+  report.rig.cross_validation->time_apart_m[1] = 0.015;
+  expect(only(report), Severity::kFair, "halves", "camera middle", "15 mm");
+  report.rig.cross_validation->time_apart_m[1] = 0.011;
+  EXPECT_TRUE(judge_calibration(report).empty());
+}
+
 TEST(JudgeCalibration, NamesACameraThatIsOutOfStepAndBlamesNothingElse) {
   CalibrationReport report = decent();
   report.cameras[1].lag = CameraLag{0.6, 0.02, 1.5};
@@ -179,6 +246,8 @@ TEST(JudgeCalibration, SpeaksOfAWandWhereThereIsNoBoard) {
                                                        {0.002, 0.002, 0.002},
                                                        {0.0, 0.0, 0.0},
                                                        {0.0, 0.0, 0.0},
+                                                       {},
+                                                       {},
                                                        {0.3, 0.3, 7.0}};
   const auto found = judge_calibration(report);
   EXPECT_EQ(found.size(), 6U);
@@ -260,6 +329,8 @@ TEST(JudgeCalibration, DoubtsWhatDoesNotPredict) {
                                {0.002, 0.002, 0.002},
                                {0.0, 0.0, 0.0},
                                {0.0, 0.0, 0.0},
+                               {},
+                               {},
                                {0.3, 0.3, 0.3}};
   report.rig.cross_validation = check;
   EXPECT_TRUE(judge_calibration(report).empty());

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include "app/uneven_videos.h"
 #include "recordings/atomic_file.h"
 #include "recordings/take_file.h"
 #include "tests/support/scratch_folder.h"
@@ -182,6 +183,57 @@ TEST(MatchTimes, LeavesATakeAloneThatHasNotAllVideosAndSaysSo) {
   EXPECT_NE(take.troubles.warnings[0].find("it is not used"), std::string::npos);
   std::swap(take.trial.videos[0], take.trial.videos[1]);
   EXPECT_FALSE(has_take(take.trial));
+}
+
+/// Videos of the sample: of the walk at 30 frames per second, of the calibration at 5.
+struct RatedVideos {
+  RatedVideos(std::vector<std::string> files, double hz) {
+    trial.name = "walk";
+    trial.rate = FrameRate{hz};
+    for (std::size_t c = 0; c < files.size(); ++c) {
+      const fs::path path =
+          fs::path(MAREY_SOURCE_DIR) / "recordings/samples/first-light" / files[c];
+      trial.videos.push_back({CameraId{static_cast<int>(c)}, path, {}, 0});
+      CameraDetections& camera = found.emplace_back();
+      camera.camera = CameraId{static_cast<int>(c)};
+      camera.source = path.string();
+      camera.rate = FrameRate{hz};
+      camera.frames.emplace_back();
+    }
+  }
+  Trial trial;
+  std::vector<CameraDetections> found;
+  RecordingTroubles troubles;
+};
+
+TEST(CheckEven, NamesAnFpsThatIsNotTheVideos) {
+  RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 60.0);
+  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.troubles));
+  EXPECT_TRUE(videos.troubles.warnings.empty());
+  ASSERT_EQ(videos.troubles.failures.size(), 1U);
+  const Error& failure = videos.troubles.failures[0];
+  EXPECT_EQ(failure.code, Errc::kQuality);
+  EXPECT_NE(failure.cause.find("a steady 30.00 frames per second"), std::string::npos);
+  EXPECT_NE(failure.cause.find("fps of trial walk is 60.00"), std::string::npos);
+  EXPECT_NE(failure.cause.find("2.00 times as fast"), std::string::npos);
+}
+
+TEST(CheckEven, DeclinesAVideoOfAnotherRateAmongOthers) {
+  RatedVideos videos({"walk/cam0.mp4", "calib/cam1.mp4"}, 30.0);
+  const Status checked = check_even(videos.trial, videos.found, videos.troubles);
+  ASSERT_FALSE(checked);
+  EXPECT_EQ(checked.error().code, Errc::kBadInput);
+  EXPECT_NE(checked.error().where.find("calib/cam1.mp4"), std::string::npos);
+  EXPECT_NE(checked.error().cause.find("a steady 5.00 frames per second"),
+            std::string::npos)
+      << checked.error().cause;
+}
+
+TEST(CheckEven, SaysNothingOfVideosOfTheRateThatIsGiven) {
+  RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 30.0);
+  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.troubles));
+  EXPECT_TRUE(videos.troubles.warnings.empty());
+  EXPECT_TRUE(videos.troubles.failures.empty());
 }
 
 }  // namespace

@@ -223,6 +223,25 @@ TEST_F(CalibrationImport, FollowsKalibrsChain) {
   EXPECT_NEAR(p.x, -1.25, 1e-12 /* m, rounding */);
 }
 
+// Kalibr's and TagSLAM's cameras.yaml of several cameras, without camera_poses.yaml.
+TEST_F(CalibrationImport, TakesLensesOfCamerasThatStandNowhere) {
+  constexpr std::string_view kLenses =
+      "cam0:\n  camera_model: pinhole\n  distortion_coeffs: [-0.2, 0.1, 0.001, -0.002]\n"
+      "  distortion_model: radtan\n  intrinsics: [460.5, 459.25, 320.0, 240.0]\n"
+      "  resolution: [640, 480]\n  rig_body: left\n"
+      "cam1:\n  camera_model: pinhole\n  distortion_coeffs: [0.1, 0.0, 0.0, 0.0]\n"
+      "  distortion_model: equidistant\n  intrinsics: [300.0, 301.0, 320.0, 240.0]\n"
+      "  resolution: [640, 480]\n  rig_body: right\n";
+  EXPECT_TRUE(write_file(folder_ / "cameras.yaml", kLenses));
+  EXPECT_FALSE(read_calibration(folder_ / "cameras.yaml"));
+  const auto lenses = read_lenses(folder_ / "cameras.yaml");
+  ASSERT_TRUE(lenses) << lenses.error().message();
+  ASSERT_EQ(lenses->cameras.size(), 2U);
+  EXPECT_EQ(lenses->cameras[0].intrinsics.focal_px, glm::dvec2(460.5, 459.25));
+  EXPECT_EQ(lenses->cameras[1].name, "cam1");
+  EXPECT_EQ(lenses->cameras[1].intrinsics.lens, LensModel::kFisheye);
+}
+
 TEST_F(CalibrationImport, TakesCaliscopesArray) {
   const auto calibration = read("camera_array.toml", kCaliscope);
   ASSERT_TRUE(calibration) << calibration.error().message();

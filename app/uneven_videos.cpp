@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/uneven_videos.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "recordings/video_times.h"
+
+namespace marey::app {
+
+using recordings::Trial;
+using recordings::TrialVideo;
+
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  std::va_list values;
+  va_start(values, pattern);
+  std::va_list again;
+  va_copy(again, values);
+  const int size = std::vsnprintf(nullptr, 0, pattern, values);
+  va_end(values);
+  std::string text(static_cast<std::size_t>(std::max(size, 0)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, pattern, again);
+  va_end(again);
+  return text;
+}
+
+/// How far a frame is from that rate, at most. [s]
+double furthest_s(const std::vector<Timestamp>& times, double hz, double first_s) {
+  double worst_s = 0.0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double even_s = first_s + static_cast<double>(i) / hz;
+    worst_s = std::max(worst_s, std::abs(seconds(times[i] - times.front()) - even_s));
+  }
+  return worst_s;
+}
+
+/// The rate of times that are as even as a container lets them be.
+std::optional<FrameRate> even_rate(const std::vector<Timestamp>& times) {
+  constexpr double kEven = 0.25;
+  if (times.size() < 3) return std::nullopt;
+  const double length_s = seconds(times.back() - times.front());
+  const double hz = static_cast<double>(times.size() - 1) / length_s;
+  if (!(length_s > 0.0) || furthest_s(times, hz, 0.0) * hz > kEven) return std::nullopt;
+  return FrameRate{hz};
+}
+
+/// Videos that run evenly at another rate than the trial's fps. All alike, they may be
+/// slow motion, or the fps is wrong: whoever knows must say. One among others of the
+/// right rate is another recording, or was converted.
+Status check_stated(const Trial& trial,
+                    const std::vector<std::pair<std::string, FrameRate>>& others,
+                    const std::string& steady,
+                    RecordingTroubles& troubles) {
+  if (others.empty()) return Done{};
+  const auto& [source, rate] = others.front();
+  const auto is_alike = [&](const auto& other) {
+    return std::abs(other.second.hz / rate.hz - 1.0) < 1e-3;
+  };
+  const std::string own =
+      format("its own times say a steady %.2f frames per second", rate.hz);
+  const std::string said =
+      format("fps of trial %s is %.2f", trial.name.c_str(), trial.rate->hz);
+  if (!steady.empty() || !std::all_of(others.begin(), others.end(), is_alike)) {
+    return bad_input(source,
+                     own + ", and " + said +
+                         (steady.empty() ? std::string(", as no other video has it")
+                                         : ", at which " + steady + " runs"),
+                     "record all cameras at one rate; if this file states its rate "
+                     "wrongly, correct the file");
+  }
+  troubles.failures.push_back(
+      {Errc::kQuality,
+       source,
+       own + " (as the others do), and " + said +
+           format(": movements are taken to be %.2f times as fast as the video shows",
+                  trial.rate->hz / rate.hz),
+       "correct fps in session.toml, or leave it out; of slow motion, write the true "
+       "rate into the videos"});
+  return Done{};
+}
+
+}  // namespace
+
+std::optional<UnevenVideo> uneven_video(const TrialVideo& video, FrameRate rate) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(video.path, ignored)) return std::nullopt;
+  auto times = recordings::video_times(video.path);
+  if (!times || !measured_rate(*times)) return std::nullopt;
+  // What a container rounds away is less than this; what is more is a camera's doing.
+  constexpr double kSteady = 0.25;
+  const double worst_s = furthest_s(*times, rate.hz, 0.0);
+  if (worst_s * rate.hz < kSteady) return std::nullopt;
+  auto other = even_rate(*times);
+  constexpr double kSameRate = 2e-3;
+  if (other && std::abs(other->hz / rate.hz - 1.0) < kSameRate) other.reset();
+  return UnevenVideo{{video.camera, std::move(*times)}, worst_s, other};
+}
+
+std::string how_uneven(const UnevenVideo& video, FrameRate rate) {
+  return format(
+      "its frame rate varies: frames are up to %.1f ms away from a steady %.2f "
+      "Hz",
+      1e3 * video.worst_s,
+      rate.hz);
+}
+
+Status check_even(const Trial& trial,
+                  std::span<const CameraDetections> found,
+                  RecordingTroubles& troubles) {
+  std::vector<std::pair<std::string, FrameRate>> others;  // Sources of another rate.
+  std::string steady;  // A source of the trial's own rate.
+  for (const TrialVideo& video : trial.videos) {
+    const CameraDetections& camera = found[index(video.camera)];
+    std::error_code ignored;
+    // A folder of images has no times of its own.
+    if (camera.frames.empty() || std::filesystem::is_directory(video.path, ignored)) {
+      continue;
+    }
+    const FrameRate rate = trial.rate.value_or(camera.rate);
+    const auto uneven = uneven_video(video, rate);
+    if (!uneven) {
+      steady = camera.source;
+      continue;
+    }
+    if (trial.rate && uneven->other_rate) {
+      others.emplace_back(camera.source, *uneven->other_rate);
+      continue;
+    }
+    if (!trial.rate) {
+      return bad_input(camera.source,
+                       how_uneven(*uneven, rate) +
+                           ", so that numbers of frames say nothing of their times",
+                       "leave out \"frames\" of trial " + trial.name +
+                           ", and its own times are used; or give the trial an \"fps\", "
+                           "if frames of one number belong together all the same");
+    }
+    troubles.warnings.push_back(camera.source + ": " + how_uneven(*uneven, rate) +
+                                "; the session's fps is used all the same");
+  }
+  return check_stated(trial, others, steady, troubles);
+}
+
+}  // namespace marey::app

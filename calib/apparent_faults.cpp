@@ -1,0 +1,319 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "calib/apparent_faults.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "calib/rig_normal.h"
+
+namespace marey::calib {
+namespace {
+
+constexpr int kWindows = 12;  ///< Of the waving; the floor is one more.
+constexpr int kFine = 8;      ///< Windows within two coarse ones.
+// A second camera whose move explains this share of the first's is not ruled out.
+constexpr double kNearlyAsMuch = 0.8;
+
+/// Each unknown of a hypothesis is a sum of columns.
+using Hypothesis = std::vector<std::vector<int>>;
+
+struct Verdict {
+  Eigen::VectorXd step;
+  Eigen::MatrixXd covariance;
+  Eigen::VectorXd base_step;  ///< What the base does then.
+  double gain = 0.0;
+};
+
+/// Normal equations whose base is eliminated once for all hypotheses.
+class Tester {
+ public:
+  Tester(RigNormal normal, int base) : normal_(std::move(normal)), base_(base) {
+    const Eigen::MatrixXd information = normal_.information.topLeftCorner(base, base);
+    scale_ = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    factor_.compute(scale_.asDiagonal() * information * scale_.asDiagonal());
+    const Eigen::Index rest = normal_.information.cols() - base;
+    solved_ = solve(normal_.information.topRightCorner(base, rest));
+    solved_right_ = solve(normal_.right.head(base));
+    const Eigen::MatrixXd mixed = normal_.information.bottomLeftCorner(rest, base);
+    information_ = normal_.information.bottomRightCorner(rest, rest) - mixed * solved_;
+    right_ = normal_.right.tail(rest) - mixed * solved_right_;
+  }
+
+  [[nodiscard]] bool ok() const { return factor_.info() == Eigen::Success; }
+
+  [[nodiscard]] std::optional<Verdict> test(const Hypothesis& hypothesis) const {
+    const auto size = static_cast<Eigen::Index>(hypothesis.size());
+    Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      for (const int a : hypothesis[static_cast<std::size_t>(i)]) {
+        right[i] += right_[a - base_];
+        for (Eigen::Index k = 0; k < size; ++k) {
+          for (const int b : hypothesis[static_cast<std::size_t>(k)]) {
+            information(i, k) += information_(a - base_, b - base_);
+          }
+        }
+      }
+    }
+    const Eigen::VectorXd scale =
+        information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    const Eigen::LLT<Eigen::MatrixXd> factor(
+        Eigen::MatrixXd(scale.asDiagonal() * information * scale.asDiagonal()));
+    if (factor.info() != Eigen::Success) return std::nullopt;
+    Verdict out;
+    out.covariance =
+        scale.asDiagonal() *
+        Eigen::MatrixXd(factor.solve(Eigen::MatrixXd::Identity(size, size))) *
+        scale.asDiagonal();
+    out.step = out.covariance * right;
+    out.gain = out.step.dot(right);
+    out.base_step = Eigen::VectorXd::Zero(base_);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      for (const int a : hypothesis[static_cast<std::size_t>(i)]) {
+        out.base_step -= solved_.col(a - base_) * out.step[i];
+      }
+    }
+    return out;
+  }
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& of) const {
+    return scale_.asDiagonal() * Eigen::MatrixXd(factor_.solve(scale_.asDiagonal() * of));
+  }
+
+  RigNormal normal_;
+  int base_;
+  Eigen::VectorXd scale_;
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+  Eigen::MatrixXd solved_;
+  Eigen::VectorXd solved_right_;
+  Eigen::MatrixXd information_;  ///< Of the hypotheses' columns, the base eliminated.
+  Eigen::VectorXd right_;
+};
+
+/// The model with sightings of some thousand at most, of frames evenly chosen: many more
+/// tell nothing new. How targets move is known by all their poses.
+RigModel thinned(const RigModel& model) {
+  constexpr std::size_t kMost = 12000;
+  const auto every = static_cast<int>(1 + model.sightings.size() / kMost);
+  RigModel out = model;
+  if (every == 1) return out;
+  std::erase_if(out.sightings, [&](const Sighting& s) {
+    return !model.targets[s.target].stays && s.frame % every != 0;
+  });
+  return out;
+}
+
+/// The frames of the waving.
+struct Span {
+  int first = std::numeric_limits<int>::max();
+  int last = std::numeric_limits<int>::min();
+};
+
+Span frames_of(const RigModel& model) {
+  Span span;
+  for (const Sighting& s : model.sightings) {
+    if (model.targets[s.target].stays || s.frame == kFloorInstant) continue;
+    span.first = std::min(span.first, s.frame);
+    span.last = std::max(span.last, s.frame);
+  }
+  return span;
+}
+
+/// Windows of equal length between two frames; before and after, one each.
+struct Windows {
+  int first = 0;  ///< Frame.
+  int last = 0;
+  int count = 0;  ///< Between them.
+  bool has_ends = false;
+
+  [[nodiscard]] int floor() const { return count + (has_ends ? 2 : 0); }
+  [[nodiscard]] int all() const { return floor() + 1; }
+  [[nodiscard]] int of(const RigModel& model, const Sighting& s) const {
+    if (s.frame == kFloorInstant) return s.target == 0 ? floor() : -1;
+    if (model.targets[s.target].stays) return -1;
+    const int shift = has_ends ? 1 : 0;
+    if (s.frame < first) return 0;
+    if (s.frame > last) return count + 1;
+    const double share = (s.frame - first) / static_cast<double>(last - first + 1);
+    return shift + std::min(count - 1, static_cast<int>(share * count));
+  }
+  /// The first frame of a window.
+  [[nodiscard]] int frame(int window) const {
+    const int shift = has_ends ? 1 : 0;
+    const double share = (window - shift) / static_cast<double>(count);
+    return first + static_cast<int>(std::ceil(share * (last - first + 1)));
+  }
+};
+
+/// A camera's move from a window on.
+struct Candidate {
+  std::size_t camera = 0;
+  int from = 0;
+  bool with_floor = false;  ///< The floor was seen after it; else before.
+  Verdict verdict;
+};
+
+Hypothesis move_of(const RigColumns& columns,
+                   const Windows& windows,
+                   std::size_t camera,
+                   int from,
+                   bool with_floor) {
+  Hypothesis out(6);
+  for (int w = from; w < windows.all(); ++w) {
+    if (w == windows.floor() && !with_floor) continue;
+    for (int i = 0; i < 6; ++i) {
+      out[static_cast<std::size_t>(i)].push_back(columns.window(camera, w) + i);
+    }
+  }
+  return out;
+}
+
+/// The best move of each camera.
+std::vector<Candidate> best_moves(const RigModel& model,
+                                  const RefineOptions& refine,
+                                  double rate_hz,
+                                  const Windows& windows,
+                                  MoveStart start) {
+  const RigColumns columns(model, refine, windows.all());
+  RigRowOptions options;
+  options.rate_hz = rate_hz;
+  options.window_of = [&](const Sighting& s) { return windows.of(model, s); };
+  auto normal = rig_normal(model, columns, refine, options);
+  if (!normal) return {};
+  const Tester tester(std::move(*normal), columns.base());
+  if (!tester.ok()) return {};
+  std::vector<bool> sees_floor(model.cameras.size(), false);
+  for (const Sighting& s : model.sightings) {
+    if (windows.of(model, s) == windows.floor()) sees_floor[s.camera] = true;
+  }
+  std::vector<Candidate> out;
+  for (std::size_t c = 0; c < model.cameras.size(); ++c) {
+    std::optional<Candidate> best;
+    const auto consider = [&](int from, bool with_floor) {
+      auto verdict = tester.test(move_of(columns, windows, c, from, with_floor));
+      if (!verdict || (best && verdict->gain <= best->verdict.gain)) return;
+      best = Candidate{c, from, with_floor, std::move(*verdict)};
+    };
+    const int first = start == MoveStart::kAnywhere ? 0 : 1;
+    for (int from = first; from < windows.floor(); ++from) {
+      consider(from, false);
+      if (sees_floor[c]) consider(from, true);
+    }
+    if (sees_floor[c]) consider(windows.floor(), true);
+    if (best) out.push_back(std::move(*best));
+  }
+  std::stable_sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
+    return a.verdict.gain > b.verdict.gain;
+  });
+  return out;
+}
+
+double moved_px(const RigModel& model,
+                const RefineOptions& refine,
+                const Windows& windows,
+                const Candidate& move) {
+  const RigColumns columns(model, refine, windows.all());
+  RigRowOptions options;
+  options.window_of = [&](const Sighting& s) {
+    return s.camera == move.camera ? windows.of(model, s) : -1;
+  };
+  double sum = 0.0;
+  double count = 0.0;
+  const auto by_camera = pixels_by_pose(model, columns, refine, options);
+  for (const PixelsByPose& pixels : by_camera[move.camera]) {
+    if (pixels.isZero()) continue;
+    sum += move.verdict.step.dot(pixels * move.verdict.step);
+    count += 1.0;
+  }
+  return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+}  // namespace
+
+std::optional<ApparentLineDelays> apparent_line_delays(const RigModel& whole,
+                                                       const RefineOptions& refine,
+                                                       double rate_hz) {
+  if (refine.line_delays || !(rate_hz > 0.0)) return std::nullopt;
+  const RigModel model = thinned(whole);
+  const RigColumns columns(model, refine, 0);
+  auto normal = rig_normal(model, columns, refine, {rate_hz, {}});
+  if (!normal) return std::nullopt;
+  const Tester tester(std::move(*normal), columns.base());
+  if (!tester.ok()) return std::nullopt;
+  const std::size_t cameras = model.cameras.size();
+  Hypothesis clocks;
+  for (std::size_t c = 1; c < cameras; ++c) {
+    if (columns.offset(c) >= columns.base()) clocks.push_back({columns.offset(c)});
+  }
+  const auto without =
+      clocks.empty() ? Verdict{} : tester.test(clocks).value_or(Verdict{});
+  Hypothesis all;
+  for (std::size_t c = 0; c < cameras; ++c) all.push_back({columns.line_delay(c)});
+  all.insert(all.end(), clocks.begin(), clocks.end());
+  const auto found = tester.test(all);
+  if (!found) return std::nullopt;
+  ApparentLineDelays out;
+  for (std::size_t c = 0; c < cameras; ++c) {
+    const auto i = static_cast<Eigen::Index>(c);
+    out.delay_s.push_back(found->step[i]);
+    out.sigma_s.push_back(std::sqrt(found->covariance(i, i)));
+    const int pose = columns.pose(c);
+    out.shift_m.push_back(pose < 0 ? 0.0 : found->base_step.segment<3>(pose + 3).norm());
+  }
+  out.gain = found->gain - without.gain;
+  return out;
+}
+
+std::optional<ApparentMove> apparent_move(const RigModel& whole,
+                                          const RefineOptions& refine,
+                                          double rate_hz,
+                                          MoveStart start) {
+  const RigModel model = thinned(whole);
+  const Span span = frames_of(model);
+  if (span.first >= span.last) return std::nullopt;
+  Windows windows{span.first, span.last, kWindows, false};
+  auto moves = best_moves(model, refine, rate_hz, windows, start);
+  if (moves.empty()) return std::nullopt;
+  ApparentMove out;
+  for (std::size_t i = 1; i < moves.size(); ++i) {
+    if (moves[i].verdict.gain > kNearlyAsMuch * moves[0].verdict.gain) {
+      out.instead.push_back(CameraId{static_cast<int>(moves[i].camera)});
+    }
+  }
+  // Once more between the windows beside the best one.
+  if (moves[0].from > 0 && moves[0].from < windows.floor()) {
+    const Windows fine{windows.frame(moves[0].from - 1),
+                       moves[0].from + 1 < windows.floor()
+                           ? windows.frame(moves[0].from + 1) - 1
+                           : span.last,
+                       kFine,
+                       true};
+    if (fine.last - fine.first >= kFine) {
+      for (Candidate& finer : best_moves(model, refine, rate_hz, fine, start)) {
+        const bool is_same = finer.camera == moves[0].camera &&
+                             finer.from < fine.floor() &&
+                             finer.verdict.gain > moves[0].verdict.gain;
+        if (!is_same) continue;
+        moves[0] = std::move(finer);
+        windows = fine;
+        break;
+      }
+    }
+  }
+  const Candidate& best = moves[0];
+  out.camera = CameraId{static_cast<int>(best.camera)};
+  if (best.from > 0 && best.from < windows.floor())
+    out.from_frame = windows.frame(best.from);
+  out.turn_rad = best.verdict.step.head<3>().norm();
+  out.shift_m = best.verdict.step.tail<3>().norm();
+  out.moved_px = moved_px(model, refine, windows, best);
+  out.gain = best.verdict.gain;
+  return out;
+}
+
+}  // namespace marey::calib
