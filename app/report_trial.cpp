@@ -43,7 +43,10 @@ Result<ReportTrial> report_trial(const recordings::Trial& trial,
   auto pictures = draw_frames(trial, cameras, detections, solved.estimate);
   if (!pictures) return pictures.error();
   out.pictures = std::move(*pictures);
-  out.bodies.push_back({"subject", poses, solved.estimate.doubt, 0, 0, 0, {}});
+  ReportBody& subject = out.bodies.emplace_back();
+  subject.name = "subject";
+  subject.motion = poses;
+  subject.doubt = solved.estimate.doubt;
   for (const char* file : {"motion.bvh",
                            "motion.glb",
                            "motion.npz",
@@ -51,7 +54,7 @@ Result<ReportTrial> report_trial(const recordings::Trial& trial,
                            "segments.csv",
                            "markers.c3d",
                            "markers.trc"}) {
-    out.bodies.front().files.push_back(trial.name + "/" + file);
+    subject.files.push_back(trial.name + "/" + file);
   }
   return out;
 }
