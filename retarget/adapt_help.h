@@ -30,7 +30,7 @@ inline constexpr double kFarTravel = 0.05;
 /// Hips sink by no more at once, in units.
 inline constexpr double kDeepestSink = 0.1;
 /// A trunk of this mobility goes its own way.
-inline constexpr double kOwnWay = 0.25;
+inline constexpr double kOwnWay = 0.05;
 
 /// How often limbs that a limit stopped are closed again,
 inline constexpr int kMoreClosings = 6;

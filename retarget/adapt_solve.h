@@ -43,6 +43,9 @@ inline constexpr double kStalledSteps = 2.5;
 /// The trunk's mobility with balance, at first. It grows with every step that leaves
 /// something missing: what a turned trunk is not needed for does without.
 inline constexpr double kBalancedMobility = 0.05;
+/// Mobility per help that is needed, up to there: an arm is relieved before it is
+/// straight.
+inline constexpr double kHelpBalanced = 0.5;
 inline constexpr double kMobilityGrows = 2.0;
 inline constexpr double kMobilityGrowsBy = 0.02;
 
@@ -69,11 +72,11 @@ template <class F>
     const F leans = fade_between(s.com_travel, kNearTravel, kFarTravel);
     const Mask<F> tries = mask & (leans < one);
     if (any(tries)) share = balance_by_root(plan, settings, level, tries, errors, s);
-    share = num<F>(kBalancedMobility) * share;
+    share = min(num<F>(kHelpBalanced) * share, num<F>(kBalancedMobility));
     share = select(leans < one, share + leans * (one - share), one);
   } else {
     share = help_needed(plan, settings, true, level, s);
-    close_limbs_patiently(plan, settings, level, mask & (share < one), s);
+    close_limbs(plan, settings, level, mask & (share < one), s);
     errors = measure(plan, false, level, s);
     share = max(share, help_missing(errors));
   }
@@ -93,8 +96,7 @@ template <class F>
     p.merit = select(light, sqrt(errors.square) + num<F>(4) * errors.balance, p.merit);
     p.square = select(light, errors.square, p.square);
     p.homing = select(light, zero, p.homing);
-    loops = loops | (light & !((errors.worst_over_precision <= one) &
-                               (errors.balance <= s.balance_precision)));
+    loops = loops | light;
   }
   if (any(loops)) {
     // Where no step is any good, what limbs did alone is the answer.
