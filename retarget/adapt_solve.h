@@ -42,7 +42,7 @@ inline constexpr double kHomingFades = 0.5;
 inline constexpr double kStalledSteps = 2.5;
 /// The trunk's mobility with balance, at first. It grows with every step that leaves
 /// something missing: what a turned trunk is not needed for does without.
-inline constexpr double kBalancedMobility = 0.05;
+inline constexpr double kBalancedMobility = 0.045;
 /// Mobility per help that is needed, up to there: an arm is relieved before it is
 /// straight.
 inline constexpr double kHelpBalanced = 0.5;
