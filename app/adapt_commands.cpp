@@ -133,6 +133,19 @@ Status adapt_all(const AdaptArguments& args,
   }
   run.adapt_s = watch.seconds();
   run.adapted = std::move(*adapted);
+  run.departure =
+      measure_adapt_departure(body.reference, run.adapted.motion, run.constraints);
+  if (run.departure.far_frames == 0 ||
+      options.adapt.balance == retarget::BalanceMode::kOff) {
+    return Done{};
+  }
+  // Would limbs have done without balance? The other hypothesis says whether it was worth
+  // the trunk's turn.
+  options.adapt.balance = retarget::BalanceMode::kOff;
+  const auto without = retarget::adapt_motion(
+      body.reference, body.character, run.constraints, supports, options);
+  if (!without) return without.error();
+  compare_without_balance(body.reference, run.adapted, *without, run.departure);
   return Done{};
 }
 

@@ -123,12 +123,21 @@ std::string more_iterations(const AdaptArguments& args) {
          " with --max-iterations";
 }
 
+/// Whether more iterations are likely to help with a constraint that they ended: there
+/// were few, or little is missing. A target far out of reach stays so, however many.
+bool is_nearly_there(const KeptConstraint& kept, const AdaptArguments& args) {
+  constexpr double kLittle_m = 0.02;
+  constexpr double kLittle_deg = 5.0;
+  if (args.options.max_iterations < retarget::AdaptOptions{}.max_iterations) return true;
+  return kept.worst_error_m < kLittle_m && kDegrees * kept.worst_error_rad < kLittle_deg;
+}
+
 /// What stands in the way of a constraint, most likely first.
 std::string advice_for(const KeptConstraint& kept,
                        const AdaptArguments& args,
                        const AdaptRun& run) {
   const Constraint* own = run.constraints.find(kept.id);
-  if (kept.ran_out) return more_iterations(args);
+  if (kept.ran_out && is_nearly_there(kept, args)) return more_iterations(args);
   if (own != nullptr && own->range) {
     return "let more segments turn for it: a greater <range>, or none";
   }
@@ -163,6 +172,9 @@ std::string miss_of(const KeptConstraint& kept, const AdaptRun& run) {
       time_of(run, kept.worst_frame));
 }
 
+constexpr const char* kDepartureAdvice =
+    "move targets nearer, or do without --balance, or use --method thesis";
+
 /// What brings a centre of mass back that is off.
 std::string balance_advice(const AdaptArguments& args, const AdaptRun& run) {
   if (run.adapted.capped_frames > 0) return more_iterations(args);
@@ -196,6 +208,7 @@ Json adapt_figures(const AdaptArguments& args, const AdaptRun& run) {
   out["added_acceleration"] = {{"m_per_s2", added.m_per_s2},
                                {"joint", adapted.motion.skeleton[added.joint].name},
                                {"time_s", time_of(run, added.frame)}};
+  out["departure"] = departure_figures(run.departure, adapted.motion);
   out["iterations"] = {{"mean", adapted.mean_iterations},
                        {"most", adapted.most_iterations},
                        {"frames_at_cap", adapted.capped_frames}};
@@ -225,6 +238,7 @@ std::string adapt_summary(const AdaptArguments& args, const AdaptRun& run) {
   if (args.options.balance != retarget::BalanceMode::kOff) {
     text += text_of(", balance within %.1f mm", 1e3 * adapted.worst_balance_error_m);
   }
+  text += departure_summary(run.departure);
   return text +
          text_of(", %.0f us a frame",
                  frames > 0 ? 1e6 * run.adapt_s / static_cast<double>(frames) : 0.0);
@@ -246,7 +260,13 @@ const KeptConstraint* find_failure(const AdaptArguments& args, const AdaptRun& r
 
 Status judge_adapted(const AdaptArguments& args, const AdaptRun& run) {
   const KeptConstraint* failure = find_failure(args, run);
-  if (failure == nullptr) return Done{};
+  if (failure == nullptr) {
+    if (!is_needlessly_far(run.departure)) return Done{};
+    return Error{Errc::kQuality,
+                 args.out.string(),
+                 departure_text(run.departure, run.adapted.motion),
+                 kDepartureAdvice};
+  }
   return Error{Errc::kQuality,
                args.out.string(),
                (failure->is_support ? "support \"" : "constraint \"") + failure->id +
@@ -302,6 +322,12 @@ std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptR
                 adapted.motion.skeleton[adapted.added.joint].name.c_str(),
                 time_of(run, adapted.added.frame),
                 adapted.added.m_per_s2));
+  }
+  const std::string far = departure_text(run.departure, adapted.motion);
+  if (!far.empty() && (failure != nullptr || !is_needlessly_far(run.departure))) {
+    const bool balances = args.options.balance != retarget::BalanceMode::kOff;
+    out.push_back(args.out.string() + ": " + far + ". Next: " +
+                  (balances ? kDepartureAdvice : "move targets nearer to the body"));
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/adapt_commands.h"
+#include "app/adapt_departure.h"
 #include "core/constraint.h"
 #include "core/floor.h"
 #include "core/result.h"
@@ -28,7 +29,8 @@ struct AdaptRun {
   /// Frames in which no height of the hips lets all standing legs reach that floor.
   int out_of_reach_frames = 0;
   std::vector<std::vector<retarget::SupportSlide>> slides;  ///< As adapted.supports.
-  double adapt_s = 0.0;  ///< Wall clock, of the postures alone.
+  AdaptDeparture departure;  ///< From the motion on the character's body.
+  double adapt_s = 0.0;      ///< Wall clock, of the postures alone.
 };
 
 /// The report (docs/formats.md, "What marey adapt writes").
@@ -44,12 +46,14 @@ struct AdaptRun {
 [[nodiscard]] const retarget::KeptConstraint* find_failure(const AdaptArguments& args,
                                                            const AdaptRun& run);
 
-/// The same as an error (kQuality), or done.
+/// The same as an error (kQuality), or done; and a trunk that balance turns further from
+/// its source than kMostTrunk_deg although the constraints are met without.
 [[nodiscard]] Status judge_adapted(const AdaptArguments& args, const AdaptRun& run);
 
 /// What else was not kept, each with when, by how much and what would help; and
 /// constraints that never were active; a floor that legs do not reach; balance that is
-/// off by more than 10 mm; joints that are thrown about by more than 100 m/s2.
+/// off by more than 10 mm; joints that are thrown about by more than 100 m/s2; a trunk
+/// that is further from its source than kFarTrunk_deg.
 [[nodiscard]] std::vector<std::string> adapt_warnings(const AdaptArguments& args,
                                                       const AdaptRun& run);
 

@@ -252,6 +252,7 @@ int run(int argc, char** argv) {
   add_fit_command(app, args.fit, chosen);
   add_view_command(app, args.view, chosen);
   add_small_commands(app, args, chosen);
+  refuse_absurd_numbers(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -19,4 +19,12 @@ namespace marey::app {
       range.get_description());
 }
 
+/// Beyond this no length, time, rate or share of any command makes sense.
+inline constexpr double kLargestNumber = 1e9;
+
+/// Refuses, for every option of `app` and of its subcommands that takes a floating-point
+/// number, words that are no number (nan), not finite (inf, 1e999) or absurd (beyond
+/// kLargestNumber), whatever else the option checks. Call it once all options are added.
+void refuse_absurd_numbers(CLI::App& app);
+
 }  // namespace marey::app

@@ -71,6 +71,8 @@ Result<Motion> read_motion(const std::filesystem::path& file) {
   return std::move(amc->motion);
 }
 
+}  // namespace
+
 Result<CapturedClip> read_clip(const std::filesystem::path& file, std::string name) {
   auto motion = read_motion(file);
   if (!motion) return motion.error();
@@ -80,8 +82,6 @@ Result<CapturedClip> read_clip(const std::filesystem::path& file, std::string na
   if (!ok) return ok.error();
   return clip_of(std::move(name), without_helpers(*motion));
 }
-
-}  // namespace
 
 Result<std::vector<CapturedClip>> read_clips(const std::filesystem::path& mocap,
                                              ClipSet set) {

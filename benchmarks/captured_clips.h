@@ -21,6 +21,11 @@ struct CapturedClip {
   std::vector<Pose> poses;
 };
 
+/// Reads one clip: a .bvh in centimetres, or an .amc with its .asf beside it.
+/// Errors: the file cannot be read, or is no human's.
+[[nodiscard]] Result<CapturedClip> read_clip(const std::filesystem::path& file,
+                                             std::string name);
+
 enum class ClipSet {
   kReaches,  ///< Of hands and feet: punch, scoop, kick, dance, walk.
   kAll,      ///< And CMU's run and jump (02_03, 02_04).

@@ -73,8 +73,9 @@ struct Lanes {
   Vec3<F> com;
   Vec3<F> com_target;
   Vec3<F> given_com_target;
-  F balance{};   ///< 1: the centre of mass is wanted somewhere.
-  F vertical{};  ///< 1: in height, too.
+  F com_travel{};  ///< From the reference's own, as `balance` measures it.
+  F balance{};     ///< 1: the centre of mass is wanted somewhere.
+  F vertical{};    ///< 1: in height, too.
   F balance_precision{};
   F threshold{};  ///< Of changes of error.
   F balance_threshold{};

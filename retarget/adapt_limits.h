@@ -6,9 +6,40 @@
 
 namespace marey::retarget {
 
+/// The turn of joint `j` away from rest, as tangents of quarter angles (modified
+/// Rodrigues parameters) about the axes of its limits.
+template <class F>
+[[nodiscard]] Vec3<F> turn_from_rest(const Lanes<F>& s,
+                                     std::size_t j,
+                                     const Quat<F>& parent_from_joint) {
+  const F one = num<F>(1);
+  const Quat<F>& t = s.limit_from_joint[j];
+  const Quat<F> turned =
+      t * (conjugate(s.rest_from_joint[j]) * parent_from_joint) * conjugate(t);
+  const F sign = select(turned.w < num<F>(0), -one, one);
+  const F scale = sign / (one + abs(turned.w));
+  return scale * vector_part(turned);
+}
+
+/// A joint that the reference has beyond its limits may stay there, in the lanes of
+/// `mask`: what nobody asks for is left as it was captured. Precondition: limits are the
+/// body's own, `reference_local` is what was given.
+template <class F>
+void widen_limits(const Plan& plan, const Mask<F>& mask, Lanes<F>& s) {
+  for (const int joint : plan.limited) {
+    const auto j = static_cast<std::size_t>(joint);
+    const Vec3<F> v = turn_from_rest(s, j, s.reference_local[j]);
+    Vec3<F>& low = s.limit_min[j];
+    Vec3<F>& high = s.limit_max[j];
+    low = select(mask, Vec3<F>{min(low.x, v.x), min(low.y, v.y), min(low.z, v.z)}, low);
+    high =
+        select(mask, Vec3<F>{max(high.x, v.x), max(high.y, v.y), max(high.z, v.z)}, high);
+  }
+}
+
 /// The nearest rotation of joint `j` in its parent that its limits allow: each axis of
-/// the turn away from rest on its own, as tangents of quarter angles (modified Rodrigues
-/// parameters), so that it needs no trigonometry and is exact about a single axis.
+/// the turn away from rest on its own, as tangents of quarter angles, so that it needs no
+/// trigonometry and is exact about a single axis.
 template <class F>
 [[nodiscard]] Quat<F> within_limits(const Lanes<F>& s,
                                     std::size_t j,
@@ -16,10 +47,7 @@ template <class F>
   const F one = num<F>(1);
   const Quat<F>& t = s.limit_from_joint[j];
   const Quat<F>& rest = s.rest_from_joint[j];
-  const Quat<F> turned = t * (conjugate(rest) * parent_from_joint) * conjugate(t);
-  const F sign = select(turned.w < num<F>(0), -one, one);
-  const F scale = sign / (one + abs(turned.w));
-  const Vec3<F> v = scale * vector_part(turned);
+  const Vec3<F> v = turn_from_rest(s, j, parent_from_joint);
   const Vec3<F>& low = s.limit_min[j];
   const Vec3<F>& high = s.limit_max[j];
   const Vec3<F> kept{

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "retarget/adapt_lanes.h"
+#include "retarget/adapt_limits.h"
 #include "retarget/adapt_measure.h"
 
 /// Numbers into lanes and out of them. What comes in is copied, no more: kernels for wide
@@ -116,6 +117,7 @@ void stand_reference(const Plan& plan, bool balance, const Mask<F>& mask, Lanes<
     s.given_place[j] = select(mask, place, s.given_place[j]);
     s.given_local[j] = select(mask, s.reference_local[j], s.given_local[j]);
   }
+  if (plan.has_limits) widen_limits(plan, mask, s);
   if (!balance) return;
   const auto& given_rotation =
       plan.has_supports ? s.given_rotation : s.reference_rotation;
@@ -157,6 +159,10 @@ void stand_reference(const Plan& plan, bool balance, const Mask<F>& mask, Lanes<
   com = (num<F>(1) / max(own, num<F>(1e-9))) * com;
   s.com_target = select(mask & (s.com_from_reference > num<F>(0.5)), com, s.com_target);
   s.given_com_target = select(mask, s.com_target, s.given_com_target);
+  const Vec3<F> travel = s.com_target - com;
+  const F along = travel.x * travel.x + travel.z * travel.z;
+  const F far = sqrt(along + s.vertical * travel.y * travel.y);
+  s.com_travel = select(mask, far, s.com_travel);
 }
 
 /// Every joint of a posture whose live joints are done: those that hang rigidly take

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "retarget/adapt_ground.h"
-#include "retarget/adapt_levels.h"
+#include "retarget/adapt_help.h"
 
 /// The strict method, over lanes.
 ///
@@ -19,6 +18,12 @@
 /// 3. Between a limb's comfortable reach and kFullHelp the trunk's mobility fades in: it
 ///    starts to help before an arm is straight, and by nothing at first.
 ///
+/// With balance limbs and the root alone come first, too: the root moves by what the
+/// limbs' wishes take of balance. The trunk begins with kBalancedMobility at most, which
+/// grows with every step that leaves something missing: a posture far from the reference
+/// is what is taken last. Only a centre of mass that is sent elsewhere has the whole body
+/// lean at once.
+///
 /// All levels of importance are tried at once. Where that does not meet every wish, and
 /// importance is priority, the last is left out and the others are tried from the
 /// reference again, until all that are left are met or one level is left: to the bit what
@@ -28,10 +33,6 @@
 /// before constraints.
 namespace marey::retarget {
 
-/// Up to here, in reaches of its limb, a wish is the limb's alone.
-inline constexpr double kComfortableReach = 0.96;
-/// A wish this far, in reaches of its limb, has all of the trunk's mobility.
-inline constexpr double kFullHelp = 1.08;
 /// These two are promised to callers (retarget/adapter.h).
 inline constexpr int kHomingSteps = 4;
 /// With balance fewer, that end more gently: the centre of mass has to be met, too.
@@ -39,66 +40,14 @@ inline constexpr int kHomingStepsBalanced = 3;
 inline constexpr double kHomingFades = 0.5;
 /// The third step in a row that hardly helps ends the loop.
 inline constexpr double kStalledSteps = 2.5;
-/// Mobility per unit of an error that limbs cannot mend.
-inline constexpr double kHelpPerUnit = 10.0;
-inline constexpr double kHelpPerUnitMissing = 2.0;
-
-/// How much the trunk has to help, before limbs moved: 0 while every limb stays in
-/// comfortable reach of its wish, or no further stretched or folded than in the
-/// reference; 1 beyond.
-template <class F>
-[[nodiscard]] F help_needed(const Plan& plan,
-                            const SolveSettings& settings,
-                            const F& level,
-                            const Lanes<F>& s) {
-  const F one = num<F>(1);
-  F share = num<F>(0);
-  for (std::size_t k = 0; k < plan.points.size(); ++k) {
-    const PointPlan& point = plan.points[k];
-    const LanePoint<F>& p = s.points[k];
-    const Mask<F> asked = is_served(point, p, level);
-    // The distance of a point on the upper bone is what it is.
-    if (point.direct || (point.limb >= 0 && point.place == LimbPlace::kUpper)) continue;
-    if (point.limb < 0) {
-      const F beyond = max(length(p.error) - num<F>(1e-6), num<F>(0));
-      const F whole = min(num<F>(kHelpPerUnit) * beyond, one);
-      share = select(asked, max(share, whole), share);
-      continue;
-    }
-    const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(point.limb)];
-    const Extremity<F> extremity = extremity_of(limb, settings.keeps_orientation, s);
-    const LimbWish<F> wish = wish_of(limb, point, p, extremity, s);
-    const Vec3<F> root = s.place[static_cast<std::size_t>(limb.upper)];
-    const Vec3<F> middle = s.place[static_cast<std::size_t>(limb.lower)];
-    const F near_bone = length(middle - root);
-    const F far_bone = length(wish.place - middle);
-    const F over_reach = one / max(near_bone + far_bone, num<F>(1e-6));
-    const F wanted = length(wish.target - root) * over_reach;
-    const F now = length(wish.place - root) * over_reach;
-    const F begin = min(max(now, num<F>(kComfortableReach)), num<F>(0.998));
-    const F stretch = smooth((wanted - begin) / (num<F>(kFullHelp) - begin));
-    const F least = abs(near_bone - far_bone) * over_reach;
-    const F fold = min(now, least + num<F>(0.12));
-    const F tight = min((fold - wanted) / max(fold - least, num<F>(0.002)), one);
-    // A folded limb has next to no lever: a thousandth of the trunk's mobility outdoes
-    // it.
-    const F folded = tight * tight * tight * smooth(tight);
-    share = select(asked, max(share, max(stretch, folded)), share);
-  }
-  // Less than this is rounding's.
-  return select(share < num<F>(1e-7), num<F>(0), share);
-}
-
-/// What limbs leave the trunk has to do: nothing up to half of the precision, and from
-/// there on in proportion, gently at first.
-template <class F>
-[[nodiscard]] F help_missing(const Errors<F>& errors) {
-  const F one = num<F>(1);
-  const F beyond =
-      max(one - num<F>(0.5) / max(errors.worst_over_precision, num<F>(1e-6)), num<F>(0));
-  const F help = num<F>(kHelpPerUnitMissing) * errors.worst * beyond * beyond;
-  return min(select(help < num<F>(1e-7), num<F>(0), help), one);
-}
+/// The trunk's mobility with balance, at first. It grows with every step that leaves
+/// something missing: what a turned trunk is not needed for does without.
+inline constexpr double kBalancedMobility = 0.045;
+/// Mobility per help that is needed, up to there: an arm is relieved before it is
+/// straight.
+inline constexpr double kHelpBalanced = 0.5;
+inline constexpr double kMobilityGrows = 2.0;
+inline constexpr double kMobilityGrowsBy = 0.02;
 
 /// Starts lanes of `mask` from their reference, for wishes up to `level`: as if there
 /// were no others. Those that need the whole body are told, and measured if there are
@@ -117,10 +66,18 @@ template <class F>
   Progress<F>& p = solve.progress;
   measure_points(plan, s, level);
   F share = one;
-  if (!shape.rows.balance) {
-    share = help_needed(plan, settings, level, s);
+  Errors<F> errors{};
+  if (shape.rows.balance) {
+    // A centre of mass that is sent elsewhere has the whole body lean.
+    const F leans = fade_between(s.com_travel, kNearTravel, kFarTravel);
+    const Mask<F> tries = mask & (leans < one);
+    if (any(tries)) share = balance_by_root(plan, settings, level, tries, errors, s);
+    share = min(num<F>(kHelpBalanced) * share, num<F>(kBalancedMobility));
+    share = select(leans < one, share + leans * (one - share), one);
+  } else {
+    share = help_needed(plan, settings, true, level, s);
     close_limbs(plan, settings, level, mask & (share < one), s);
-    const Errors<F> errors = measure(plan, false, level, s);
+    errors = measure(plan, false, level, s);
     share = max(share, help_missing(errors));
   }
   s.mobility = select(mask, share, s.mobility);
@@ -131,11 +88,20 @@ template <class F>
   p.damping = select(mask, num<F>(kLeastDamping), p.damping);
   p.homing = select(mask, one, p.homing);
   p.level = select(mask, level, p.level);
-  const Mask<F> loops = mask & (share > zero);
+  Mask<F> loops = mask & (share > zero);
+  Mask<F> homes = loops;
+  if (shape.rows.balance) {
+    // Limbs and root did it but for what the root's own way changed: steps from there.
+    const Mask<F> light = mask & !loops;
+    p.merit = select(light, sqrt(errors.square) + num<F>(4) * errors.balance, p.merit);
+    p.square = select(light, errors.square, p.square);
+    p.homing = select(light, zero, p.homing);
+    loops = loops | light;
+  }
   if (any(loops)) {
     // Where no step is any good, what limbs did alone is the answer.
     keep_as_best(plan, loops, s);
-    take_posture(s.reference_rotation, s.reference_place, plan, loops, s);
+    take_posture(s.reference_rotation, s.reference_place, plan, homes, s);
     static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
   }
   return loops;
@@ -210,11 +176,20 @@ template <class F>
   if (any(closes)) {
     // On a trunk that hardly moved limbs do what they would do alone.
     const Mask<F> first = closes & was_homing;
+    if (balance && any(first)) rest_on_root(plan, first, s);
     if (!balance && any(first)) rest_limbs(plan, p.level, first, s);
     measure_points(plan, s, p.level);
     SolveSettings told = settings;
     told.mixes = false;
+    if (balance) {
+      sink_to_supports(plan, told, closes, s);
+      measure_points(plan, s, p.level);
+    }
     close_limbs(plan, told, p.level, closes, s);
+    if (balance) {
+      const F more = num<F>(kMobilityGrows) * s.mobility + num<F>(kMobilityGrowsBy);
+      s.mobility = select(closes, min(more, one), s.mobility);
+    }
   }
   const Errors<F> errors = measure(plan, balance, p.level, s);
 

@@ -249,10 +249,9 @@ void apply_step(const Plan& plan,
         plan.turning[i] == Turning::kHinge ? rotation_within(by) : rotation_by(by);
   }
   const Vec3<F> from_reference = s.place[0] - s.reference_place[0];
+  const Vec3<F> root = root_share(s);
   s.place[0] = s.reference_place[0] + (num<F>(1) - homing) * from_reference +
-               s.mobility * Vec3<F>{s.root_weight_on_floor * travel.x,
-                                    s.root_weight * travel.y,
-                                    s.root_weight_on_floor * travel.z};
+               Vec3<F>{root.x * travel.x, root.y * travel.y, root.z * travel.z};
   for (const int j : plan.live) {
     const auto i = static_cast<std::size_t>(j);
     const bool turns = plan.turning[i] != Turning::kRigid;

@@ -34,6 +34,19 @@ template <class F>
   return select(num<F>(plan.turns_from[i]) <= level, share, num<F>(0));
 }
 
+/// The root's share of its travel upwards while balance wants it moved along the floor:
+/// a straight leg lets it go nowhere else.
+inline constexpr double kRiseForBalance = 0.1;
+
+/// How willingly the root moves, along x, y and z. Balance has all of the root's weight
+/// along the axes that it uses, whatever the trunk's mobility is.
+template <class F>
+[[nodiscard]] inline Vec3<F> root_share(const Lanes<F>& s) {
+  const F floor = max(s.mobility, s.balance) * s.root_weight_on_floor;
+  const F rises = s.balance * max(s.vertical, num<F>(kRiseForBalance));
+  return {floor, max(s.mobility, rises) * s.root_weight, floor};
+}
+
 /// Sums along the way from the root to each live joint, over joints that turn. Places
 /// count from where the root is now: footprints may have taken the body far from where
 /// the reference was, and squares of far places leave nothing of the near ones between
@@ -199,6 +212,7 @@ struct RowOrder {
 
 template <class F>
 void form_point_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes<F>& s) {
+  const Vec3<F> root = root_share(s);
   const int n = static_cast<int>(plan.points.size());
   for (int a = 0; a < n; ++a) {
     for (int b = 0; b <= a; ++b) {
@@ -217,9 +231,9 @@ void form_point_blocks(const Plan& plan, const RowOrder& rows, int side, Lanes<F
         for (F& x : block) x = num<F>(0);
       }
       if (run.root && !plan.points[ia].turns_only() && !plan.points[ib].turns_only()) {
-        block[0] = block[0] + s.mobility * s.root_weight_on_floor;
-        block[4] = block[4] + s.mobility * s.root_weight;
-        block[8] = block[8] + s.mobility * s.root_weight_on_floor;
+        block[0] = block[0] + root.x;
+        block[4] = block[4] + root.y;
+        block[8] = block[8] + root.z;
       }
       F* out = &s.blocks[static_cast<std::size_t>(
           9 * (rows.row_of(a) * side + rows.row_of(b)))];
@@ -248,9 +262,10 @@ void form_own_balance_block(
     own[4] = own[4] + square;
     own[8] = own[8] + square;
   }
-  own[0] = own[0] + s.mobility * s.root_weight_on_floor;
-  own[4] = own[4] + s.mobility * s.root_weight;
-  own[8] = own[8] + s.mobility * s.root_weight_on_floor;
+  const Vec3<F> root = root_share(s);
+  own[0] = own[0] + root.x;
+  own[4] = own[4] + root.y;
+  own[8] = own[8] + root.z;
   F* out = &s.blocks[static_cast<std::size_t>(9 * (row * side + row))];
   for (std::size_t e = 0; e < 9; ++e) out[e] = own[e];
 }
@@ -263,6 +278,7 @@ void form_balance_blocks(
   const int n = static_cast<int>(plan.points.size());
   const int row = rows.supports;
   const F zero = num<F>(0);
+  const Vec3<F> root = root_share(s);
   for (int k = 0; k < n; ++k) {
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
     const Vec3<F> p = s.points[static_cast<std::size_t>(k)].place - s.place[0];
@@ -307,9 +323,9 @@ void form_balance_blocks(
       block[4] = block[4] + dots;
       block[8] = block[8] + dots;
       if (point.moves_root) {
-        block[0] = block[0] + s.mobility * s.root_weight_on_floor;
-        block[4] = block[4] + s.mobility * s.root_weight;
-        block[8] = block[8] + s.mobility * s.root_weight_on_floor;
+        block[0] = block[0] + root.x;
+        block[4] = block[4] + root.y;
+        block[8] = block[8] + root.z;
       }
     }
     // The lower triangle wants the later row first.

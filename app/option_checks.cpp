@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/option_checks.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+
+namespace marey::app {
+namespace {
+
+/// The error of a word, or nothing. Words that are no numbers at all are left to CLI11.
+std::string absurdity_of(const std::string& word) {
+  char* end = nullptr;
+  const double number = std::strtod(word.c_str(), &end);
+  if (end == word.c_str()) return {};
+  if (std::isnan(number)) return "Value " + word + " is no number";
+  if (!std::isfinite(number)) return "Value " + word + " is not finite";
+  if (std::abs(number) > kLargestNumber) return "Value " + word + " is absurdly large";
+  return {};
+}
+
+bool takes_a_float(const CLI::Option& option) {
+  return option.get_type_name().find("FLOAT") != std::string::npos;
+}
+
+}  // namespace
+
+void refuse_absurd_numbers(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (!takes_a_float(*option)) continue;
+    option->check(
+        CLI::Validator([](std::string& word) { return absurdity_of(word); }, ""));
+  }
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+    refuse_absurd_numbers(*command);
+  }
+}
+
+}  // namespace marey::app
