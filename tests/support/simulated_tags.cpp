@@ -249,7 +249,7 @@ std::vector<GluedTag> glue_tags(const SimulatedBody& body,
       tag.segment_from_tag = glue(skin, dice.between(0.003, 0.015), dice);
       // Where another one is glued already there is no room.
       if (!has_room(tag, tags)) continue;
-      const double slide_m = habit.slide * style.slide_m * dice.between(0.5, 1.5);
+      const double slide_m = habit.slide * style.slide_m * dice.between(0.5, 1.0);
       add_skin(tag, std::max(0.0, share), slide_m, range, reference, dice);
       tags.push_back(std::move(tag));
       --count;
