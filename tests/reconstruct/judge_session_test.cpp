@@ -135,7 +135,7 @@ TEST(JudgeSession, NamesATagThatTheFitPlacedWrong) {
   const SessionVerdict verdict = judge(session(), answer);
   const GrossJoint* knee = find(verdict, B::kLeftLowerLeg);
   ASSERT_NE(knee, nullptr);
-  EXPECT_EQ(knee->cause, "one tag");
+  EXPECT_EQ(knee->cause, "one-tag");
 }
 
 TEST(SimulatedSession, IsTheSameTwice) {
