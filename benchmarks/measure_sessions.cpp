@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iostream>
 #include <mutex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -210,11 +211,20 @@ bool read_options(int argc, char** argv, Options& options) {
 
 int sum(const std::vector<std::string>& files) {
   std::vector<SessionRow> rows;
+  std::set<std::uint64_t> seeds;
   for (const std::string& file : files) {
     std::ifstream in(file);
     auto more = read_rows(in);
     if (!more) {
       std::fprintf(stderr, "%s: not a table of measure_sessions\n", file.c_str());
+      return 1;
+    }
+    for (const SessionRow& row : *more) {
+      if (seeds.insert(row.seed).second) continue;
+      std::fprintf(stderr,
+                   "%s: session %llu is in it for the second time\n",
+                   file.c_str(),
+                   static_cast<unsigned long long>(row.seed));
       return 1;
     }
     rows.insert(rows.end(), more->begin(), more->end());

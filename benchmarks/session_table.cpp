@@ -68,21 +68,25 @@ void print_all_outcomes(const Rows& rows) {
     print_outcomes((std::to_string(cameras) + " cameras").c_str(),
                    some(rows, [&](const SessionRow& r) { return r.cameras == cameras; }));
   }
-  for (const char* words : {"(ring",
-                            "(arc",
-                            "up to 1 a",
-                            "up to 2 a",
-                            "up to 3 a",
-                            "; range of motion",
-                            "; lazy range",
-                            "slide 0.0",
-                            "T pose",
-                            "A pose",
-                            "walk",
-                            "reach",
-                            "squat",
-                            "arm swings"}) {
-    print_outcomes(words, some(rows, [&](const SessionRow& r) { return has(r, words); }));
+  // Words of SimulatedSession::summary(), and what they mean.
+  constexpr std::array<std::array<const char*, 2>, 14> kParts{
+      {{"(ring", "all around"},
+       {"(arc", "in an arc"},
+       {"up to 1 a", "1 tag a segment"},
+       {"up to 2 a", "1 to 2 tags"},
+       {"up to 3 a", "1 to 3 tags"},
+       {"; range of motion", "good exercise"},
+       {"; lazy range", "lazy exercise"},
+       {"slide 0.0", "firm skin"},
+       {"T pose", "T pose"},
+       {"A pose", "A pose"},
+       {"walk", "walk"},
+       {"reach", "reach"},
+       {"squat", "squat"},
+       {"arm swings", "arm swings"}}};
+  for (const auto& [words, meaning] : kParts) {
+    print_outcomes(meaning,
+                   some(rows, [&, w = words](const SessionRow& r) { return has(r, w); }));
   }
 }
 

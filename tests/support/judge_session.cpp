@@ -185,7 +185,7 @@ void explain(const SimulatedSession& session,
   } else if (misplaced == 0) {
     gross.cause = "motion";
   } else if (misplaced == 1 && errors.off_m.size() > 1) {
-    gross.cause = "one tag";
+    gross.cause = "one-tag";
   } else {
     gross.cause = "fit";
   }

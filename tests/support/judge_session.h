@@ -48,7 +48,7 @@ struct GrossJoint {
   double worst_m = 0.0;
   double sigma_m = 0.0;  ///< In the worst frame.
   /// "flip": a segment at the joint is turned by more than 60 degrees in half of the
-  /// gross frames or more. "one tag": the fit placed one tag of a segment at the joint
+  /// gross frames or more. "one-tag": the fit placed one tag of a segment at the joint
   /// more than 20 mm wrong, its others not. "fit": all of them. "motion": none.
   std::string cause;
   std::string details;

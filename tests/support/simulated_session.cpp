@@ -51,7 +51,7 @@ struct Recorder {
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       how.offsets_s.push_back(c == 0 ? 0.0 : dice.between(-most_offset_s, most_offset_s));
     }
-    return {exercise, hz, film(scene, exercise, cameras, how, dice)};
+    return {exercise, hz, how.offsets_s, film(scene, exercise, cameras, how, dice)};
   }
 };
 

@@ -19,7 +19,8 @@ namespace marey::testing {
 struct SimulatedTrial {
   Exercise exercise;
   double hz = 30.0;
-  std::vector<CameraDetections> detections;  ///< One per camera.
+  std::vector<double> offsets_s;  ///< Per camera: frame k was exposed at k / hz + this.
+  std::vector<CameraDetections> detections;  ///< One per camera; told nothing of clocks.
 };
 
 /// A whole session at corner level, with its truth.

@@ -201,7 +201,7 @@ bool has_room(const GluedTag& tag, const std::vector<GluedTag>& others) {
     return other.tag.segment == tag.tag.segment &&
            glm::distance(other.segment_from_tag.translation,
                          tag.segment_from_tag.translation) <
-               0.65 * (other.tag.size_m + tag.tag.size_m);
+               0.55 * (other.tag.size_m + tag.tag.size_m);
   });
 }
 
@@ -233,7 +233,8 @@ std::vector<GluedTag> glue_tags(const SimulatedBody& body,
     if (count > 1 && dice.between(0, 1) < 0.25) --count;
     if (!habit.is_needed && dice.between(0, 1) < 0.3) count = 0;
     std::vector<glm::dvec3> used;
-    for (int i = 0; i < count; ++i) {
+    constexpr int kAttempts = 6;
+    for (int attempt = 0; attempt < kAttempts && count > 0; ++attempt) {
       glm::dvec3 side = next_side(habit.sides, used, dice);
       used.push_back(side);
       side = dice.turn(0.25) * side;
@@ -246,10 +247,12 @@ std::vector<GluedTag> glue_tags(const SimulatedBody& body,
                  segment,
                  std::max(0.05, std::round(1e3 * habit.size * style.size_m) * 1e-3)};
       tag.segment_from_tag = glue(skin, dice.between(0.003, 0.015), dice);
-      const double slide_m = habit.slide * style.slide_m * dice.between(0.5, 1.5);
-      add_skin(tag, std::max(0.0, share), slide_m, range, reference, dice);
       // Where another one is glued already there is no room.
-      if (has_room(tag, tags)) tags.push_back(std::move(tag));
+      if (!has_room(tag, tags)) continue;
+      const double slide_m = habit.slide * style.slide_m * dice.between(0.5, 1.0);
+      add_skin(tag, std::max(0.0, share), slide_m, range, reference, dice);
+      tags.push_back(std::move(tag));
+      --count;
     }
   };
   for (const Habit& habit : habits()) {

@@ -34,7 +34,7 @@ struct GluedTag {
 struct TagStyle {
   int most_per_segment = 2;  ///< 1 to 3; at least one is on each needed segment.
   double size_m = 0.08;      ///< On trunk and thighs; less on smaller segments.
-  double slide_m = 0.0;      ///< On thighs: root mean square over the range of motion.
+  double slide_m = 0.0;      ///< At most, on thighs: RMS over the range of motion.
 };
 
 /// Glues tags as a person would: on the sides of segments that can be seen, facing
