@@ -208,6 +208,11 @@ Status Pipeline::fit() {
   body_ = fit->body;
   report_.subject_rms_px = fit->rms_px;
   report_.limb_ratio = fit->limb_ratio;
+  for (const Error& doubt : fit->doubts) {
+    const Error told = in_session(doubt);
+    report_.warnings.push_back(told.message());
+    failures_.push_back(told);
+  }
   for (const TagId id : fit->unplaced) {
     report_.unplaced_tags.push_back(number(id));
     report_.warnings.push_back(

@@ -67,6 +67,7 @@ SessionAnswer answer(const SimulatedSession& session) {
       prior, cameras, session.standing.detections, session.moving.detections);
   out.fit_s = processor_s() - start;
   if (!fit) return refuse("fit_subject", fit.error());
+  if (!fit->doubts.empty()) return refuse("fit_subject", fit->doubts.front());
   out.body = std::move(fit->body);
   start = processor_s();
   reconstruct::SolveMotionOptions options;

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/assert.h"
+#include "reconstruct/doubt_subject.h"
 #include "reconstruct/initial_posture.h"
 #include "reconstruct/refine_subject.h"
 #include "reconstruct/segment_frames.h"
@@ -306,6 +307,7 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
   if (const Status ok = check_size(fit.limb_ratio, prior.stature_m); !ok) {
     return ok.error();
   }
+  fit.doubts = doubts_of(bundle, evidence);
   return fit;
 }
 

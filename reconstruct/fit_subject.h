@@ -30,6 +30,10 @@ struct SubjectFit {
   double limb_ratio = 0.0;
   /// Tags that were never seen well enough to be placed; the body does without them.
   std::vector<TagId> unplaced;
+  /// Reasons not to trust the fit (kQuality), each with the segment and the next step:
+  /// sightings that no place of a tag explains, hands and feet that fit in two ways,
+  /// lengths that no person has. Empty when all sightings go together.
+  std::vector<Error> doubts;
 };
 
 /// Measures a person from a trial of standing still and one of moving every joint: joint
