@@ -75,6 +75,9 @@ std::vector<live::WizardQuality> quality_of(const reconstruct::SubjectFit& fit) 
                  format("%.0f %%", 100.0 * fit.limb_ratio),
                  std::abs(fit.limb_ratio - 1.0) <= kPoorRatio});
   out.push_back(unplaced_of(fit));
+  for (const Error& doubt : fit.doubts) {
+    out.push_back({"measurement", doubt.cause + ". Next: " + doubt.next, false});
+  }
   return out;
 }
 
