@@ -23,6 +23,9 @@ constexpr double kSidesDiffer_m = 0.03;
 constexpr double kShortest = 0.7;
 constexpr double kLongest = 1.35;
 
+// Hips, knees, shoulders and elbows known no better make no motion, per coordinate. [m]
+constexpr double kKnownJoint_m = 0.025;
+
 std::string millimetres(double m) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.0f mm", 1e3 * m);
@@ -107,6 +110,20 @@ void doubt_lengths(const SubjectBundle& bundle, std::vector<Error>& out) {
   check(Length::kLeftLowerLeg, Length::kRightLowerLeg, HumanBone::kLeftLowerLeg);
 }
 
+void doubt_joints(const SubjectBundle& bundle, std::vector<Error>& out) {
+  for (const HumanLimb& limb : human_limbs()) {
+    for (const HumanBone bone : {limb.upper, limb.lower}) {
+      const std::optional<double>& sigma_m = bundle.centre_sigma_m[index(bone)];
+      if (sigma_m && *sigma_m < kKnownJoint_m) continue;
+      out.push_back(doubt("the joint at the near end of segment " + in_quotes(bone) +
+                              " is known to " +
+                              (sigma_m ? millimetres(*sigma_m) : "nothing") + " only",
+                          "record the range of motion again, bending that joint far "
+                          "before two cameras at once"));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Error> doubts_of(const SubjectBundle& bundle,
@@ -115,6 +132,7 @@ std::vector<Error> doubts_of(const SubjectBundle& bundle,
   doubt_tags(bundle, evidence, doubts);
   doubt_extremities(evidence, doubts);
   doubt_lengths(bundle, doubts);
+  doubt_joints(bundle, doubts);
   return doubts;
 }
 

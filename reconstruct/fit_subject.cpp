@@ -146,15 +146,32 @@ std::string text(const char* format, double a, double b) {
   return buffer.data();
 }
 
-double limb_ratio(const Lengths& measured, const Lengths& usual) {
+/// The median ratio of measured limb segments to an average person's.
+double limb_ratio(const Lengths& measured,
+                  const Lengths& usual,
+                  std::span<const Length> segments) {
   std::vector<double> ratios;
-  for (int i = static_cast<int>(Length::kLeftUpperArm); i < kLengthCount; ++i) {
-    const auto place = static_cast<std::size_t>(i);
-    ratios.push_back(measured[place] / usual[place]);
+  for (const Length length : segments) {
+    ratios.push_back(measured[index(length)] / usual[index(length)]);
   }
-  std::nth_element(ratios.begin(), ratios.begin() + 4, ratios.end());
-  return ratios[4];
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return *middle;
 }
+
+constexpr std::array<Length, 8> kSegments{Length::kLeftUpperArm,
+                                          Length::kRightUpperArm,
+                                          Length::kLeftLowerArm,
+                                          Length::kRightLowerArm,
+                                          Length::kLeftUpperLeg,
+                                          Length::kRightUpperLeg,
+                                          Length::kLeftLowerLeg,
+                                          Length::kRightLowerLeg};
+/// Those that the first guess measures; it takes the lower ones as usual.
+constexpr std::array<Length, 4> kFirstSegments{Length::kLeftUpperArm,
+                                               Length::kRightUpperArm,
+                                               Length::kLeftUpperLeg,
+                                               Length::kRightUpperLeg};
 
 Status check_size(double ratio, double stature_m) {
   if (ratio > 0.75 && ratio < 1.35) return Done{};
@@ -245,7 +262,7 @@ SubjectFit to_fit(const SubjectPrior& prior,
     fit.body.tags.push_back(placed);
   }
   fit.rms_px = bundle.rms_px;
-  fit.limb_ratio = limb_ratio(bundle.model.lengths, bundle.usual);
+  fit.limb_ratio = limb_ratio(bundle.model.lengths, bundle.usual, kSegments);
   return fit;
 }
 
@@ -277,7 +294,8 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
   bundle.model.body = frames->body;
   bundle.model.tags = prior.tags;
   if (const Status ok =
-          check_size(limb_ratio(bundle.model.lengths, bundle.usual), prior.stature_m);
+          check_size(limb_ratio(bundle.model.lengths, bundle.usual, kFirstSegments),
+                     prior.stature_m);
       !ok) {
     return ok.error();
   }

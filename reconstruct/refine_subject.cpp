@@ -3,6 +3,7 @@
 #include "reconstruct/refine_subject.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -93,6 +94,22 @@ bool refine_rounds(SubjectBundle& bundle, std::span<const Camera> cameras, int r
     if (settle(bundle, cameras) == 0) break;
   }
   return true;
+}
+
+/// How far the skin of the upper arms turns about their bones, root mean square over the
+/// trials: at least 3 degrees, at most what is allowed.
+double upper_arm_twist_rad(const SubjectBundle& bundle) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const Slot slot : {Slot::kLeftUpperArmTwist, Slot::kRightUpperArmTwist}) {
+    for (const BundleFrame& frame : bundle.frames) {
+      const double twist = *frame.posture.block(slot);
+      sum += twist * twist;
+      count += 1.0;
+    }
+  }
+  constexpr double kLeast_rad = 0.05;
+  return std::clamp(std::sqrt(sum / count), kLeast_rad, kTrialTwists.upper_arm);
 }
 
 std::vector<std::size_t> unexplained_tags(const SubjectBundle& bundle,
@@ -224,6 +241,7 @@ bool refine_subject(std::span<const Camera> cameras,
   if (!refine_rounds(bundle, cameras, 2)) return false;
   bundle.twists = kTrialTwists;
   if (!refine_rounds(bundle, cameras, 2)) return false;
+  bundle.twists.upper_arm = upper_arm_twist_rad(bundle);
   const std::vector<std::size_t> lost = unexplained_tags(bundle, cameras);
   for (const std::size_t tag : lost) bundle.model.segment_from_tag.erase(tag);
   if (!lost.empty()) {

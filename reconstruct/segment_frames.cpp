@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "reconstruct/cluster_geometry.h"
 #include "reconstruct/find_joint_centres.h"
 
 namespace marey::reconstruct {
@@ -19,71 +20,15 @@ namespace {
 
 using B = HumanBone;
 
-/// Rotation that takes the directions a1, a2 (to be made perpendicular, a1 kept) of one
-/// frame onto b1, b2 of another.
-glm::dquat align(glm::dvec3 a1, glm::dvec3 a2, glm::dvec3 b1, glm::dvec3 b2) {
-  const auto basis = [](const glm::dvec3& first, const glm::dvec3& second) {
-    const glm::dvec3 x = glm::normalize(first);
-    const glm::dvec3 y = glm::normalize(second - glm::dot(second, x) * x);
-    return glm::dmat3(x, y, glm::cross(x, y));
-  };
-  return glm::normalize(glm::quat_cast(basis(b1, b2) * glm::transpose(basis(a1, a2))));
-}
-
-/// A place inside the body: where the lines through the tags' middles along their normals
-/// come nearest to each other, some 7 cm under the tags.
-glm::dvec3 inside(const TagCluster& cluster) {
-  constexpr double kDepth_m = 0.07;
-  constexpr double kDepthWeight = 0.05;
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const auto& [tag, cluster_from_tag] : cluster.cluster_from_tag) {
-    const glm::dvec3 z = cluster_from_tag.rotation * glm::dvec3(0, 0, 1);
-    const glm::dvec3& c = cluster_from_tag.translation;
-    const Eigen::Vector3d into(z.x, z.y, z.z);
-    const Eigen::Vector3d middle(c.x, c.y, c.z);
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - into * into.transpose();
-    normal += across + kDepthWeight * Eigen::Matrix3d::Identity();
-    right += across * middle + kDepthWeight * (middle + kDepth_m * into);
-  }
-  const Eigen::Vector3d place = normal.ldlt().solve(right);
-  return {place.x(), place.y(), place.z()};
-}
-
-/// The pose that all others are nearest to: a person standing still has one.
-std::map<B, RigidTransform> typical(std::span<const ClusterPoses> frames) {
-  std::map<B, std::vector<RigidTransform>> by_bone;
-  for (const ClusterPoses& frame : frames) {
-    for (const auto& [bone, pose] : frame) by_bone[bone].push_back(pose);
-  }
-  std::map<B, RigidTransform> out;
-  for (const auto& [bone, poses] : by_bone) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const RigidTransform& candidate : poses) {
-      double sum = 0.0;
-      for (const RigidTransform& other : poses) {
-        sum += glm::length(candidate.translation - other.translation) +
-               glm::length(
-                   rotation_vector(glm::conjugate(candidate.rotation) * other.rotation));
-      }
-      if (sum < least) {
-        least = sum;
-        out[bone] = candidate;
-      }
-    }
-  }
-  return out;
-}
-
 class FrameFinder {
  public:
   FrameFinder(std::span<const TagCluster> clusters,
               std::span<const ClusterPoses> standing,
               std::span<const ClusterPoses> moving,
               const Proportions& average)
-      : average_(average), standing_(typical(standing)) {
+      : average_(average), standing_(medoid_poses(standing)) {
     for (const TagCluster& cluster : clusters) {
-      inside_[cluster.segment] = inside(cluster);
+      inside_[cluster.segment] = place_inside(cluster);
       clusters_[cluster.segment] = &cluster;
     }
     frames_.assign(standing.begin(), standing.end());
@@ -245,7 +190,7 @@ class FrameFinder {
     const glm::dvec3 left = centres_[2].root_in_trunk;
     const glm::dvec3 right = centres_[3].root_in_trunk;
     const glm::dvec3 up = glm::conjugate(world.rotation) * glm::dvec3(0, 1, 0);
-    const glm::dquat turn = align(left - right, up, {1, 0, 0}, {0, 1, 0});
+    const glm::dquat turn = rotation_onto(left - right, up, {1, 0, 0}, {0, 1, 0});
     const glm::dvec3 origin = turn * (0.5 * (left + right)) +
                               glm::dvec3(0, out_.body.hips_above_hip_centres_m, 0);
     out_.segment_from_cluster[B::kHips] = {turn, -origin};
@@ -257,7 +202,7 @@ class FrameFinder {
     const glm::dvec3 left = centres_[0].root_in_trunk;
     const glm::dvec3 right = centres_[1].root_in_trunk;
     const glm::dvec3 up = glm::conjugate(world.rotation) * glm::dvec3(0, 1, 0);
-    const glm::dquat turn = align(left - right, up, {1, 0, 0}, {0, 1, 0});
+    const glm::dquat turn = rotation_onto(left - right, up, {1, 0, 0}, {0, 1, 0});
     const auto usual_m = [&](Length length) { return out_.lengths[index(length)]; };
     const glm::dvec3 base(usual_m(Length::kShoulderOut),
                           usual_m(Length::kShoulderUp),
@@ -320,7 +265,7 @@ class FrameFinder {
     const auto place = [&](B bone, const glm::dvec3& from, const glm::dvec3& to) {
       glm::dvec3 hinge = hinge_in(bone, limb);
       if (glm::length(hinge) < kBendsAtAll) hinge = standing_hinge(bone, limb);
-      const glm::dquat turn = align(to - from, hinge, along, bones.hinge_axis);
+      const glm::dquat turn = rotation_onto(to - from, hinge, along, bones.hinge_axis);
       out_.segment_from_cluster[bone] = {turn, -(turn * from)};
     };
     place(bones.upper, c.root_in_upper, c.mid_in_upper);
@@ -358,7 +303,8 @@ class FrameFinder {
         out_.lengths[index(Length::kNeck)] + out_.lengths[index(Length::kHead)];
     place_standing(
         B::kHead,
-        align({0, 1, 0}, {1, 0, 0}, {0, 1, 0}, thorax.rotation * glm::dvec3(1, 0, 0)),
+        rotation_onto(
+            {0, 1, 0}, {1, 0, 0}, {0, 1, 0}, thorax.rotation * glm::dvec3(1, 0, 0)),
         thorax * glm::dvec3(0, neck_m, 0));
   }
 
@@ -372,7 +318,7 @@ class FrameFinder {
     }
     const glm::dquat lower = standing_rotation(bones.lower);
     const glm::dquat flat =
-        align({0, 1, 0}, {1, 0, 0}, {0, 1, 0}, lower * glm::dvec3(1, 0, 0));
+        rotation_onto({0, 1, 0}, {1, 0, 0}, {0, 1, 0}, lower * glm::dvec3(1, 0, 0));
     const glm::dquat world = limb < 2 ? lower : flat;
     const glm::dquat turn = glm::conjugate(world) * standing_.at(bones.end).rotation;
     out_.segment_from_cluster[bones.end] = {turn, -(turn * *c.end_in_extremity)};

@@ -21,6 +21,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+// What people do says much the same in all frames of a trial.
+constexpr double kHabitShare = 0.05;
+
 constexpr double kLoss2 = kDoubtfulTag * kDoubtfulTag;
 }  // namespace
 
@@ -108,7 +111,7 @@ void BundleSolver::linearise_frame(const SubjectBundle& bundle,
   // A collar bone of this person's may well rest otherwise than usual, in all frames
   // alike: together they count as one, or they would move the shoulders' centres.
   out.posture.add_habits(
-      frame.posture, unfolded, bundle.twists, 1.0 / frames_, std::sqrt(frames_));
+      frame.posture, unfolded, bundle.twists, kHabitShare, std::sqrt(frames_));
   if (frame.standing) {
     out.posture.add_standing(frame.posture, unfolded, 1.0 / standing_);
   }

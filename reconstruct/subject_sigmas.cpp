@@ -84,14 +84,16 @@ struct Knowledge {
   MatrixXd covariance;  ///< Of lengths and tags.
   MatrixXd moves;       ///< Of lengths and tags, by each part's equations alone.
 
-  /// Of a linear function of them: the larger of what the covariance and the scatter of
-  /// the parts make of it (White 1982: a model that is not quite right makes residuals
-  /// that go together, and its covariance too small).
+  /// Of a linear function of them: what the covariance makes of it, or the scatter of the
+  /// parts where that is surely larger (White 1982: a model that is not quite right makes
+  /// residuals that go together, and its covariance too small).
   [[nodiscard]] double variance(const MatrixXd& jacobian) const {
     const double model = (jacobian * covariance * jacobian.transpose()).trace();
     const double parts = static_cast<double>(moves.cols());
     const double scatter = (jacobian * moves).squaredNorm() * parts / (parts - 1.0);
-    return std::max(0.0, std::max(model, scatter));
+    // Two standard deviations of a mean of three squares from twelve parts.
+    constexpr double kSurely = 1.5;
+    return std::max(0.0, scatter > kSurely * model ? scatter : model);
   }
 };
 

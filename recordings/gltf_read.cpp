@@ -15,6 +15,7 @@
 #include <tiny_gltf.h>
 
 #include "recordings/atomic_file.h"
+#include "recordings/gltf_extensions.h"
 #include "recordings/gltf_files.h"
 #include "recordings/gltf_model.h"
 #include "recordings/gltf_source.h"
@@ -85,43 +86,6 @@ std::string one_line(std::string text) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
   std::ranges::replace(text, '\n', ' ');
   return text.empty() ? "the file is not valid glTF" : text;
-}
-
-/// What an extension that the file requires means, and what to do about it. Extensions of
-/// materials and textures change nothing that marey reads.
-Status check_extensions(const NamedModel& file) {
-  for (const std::string& extension : file.model.extensionsRequired) {
-    if (extension == "KHR_draco_mesh_compression") {
-      return bad_input(
-          file.file,
-          "the meshes are compressed with KHR_draco_mesh_compression (Draco), "
-          "which marey does not read",
-          "export it without compression (in Blender: glTF export, Data, "
-          "Compression off), or run: npx @gltf-transform/cli copy IN.glb "
-          "OUT.glb");
-    }
-    if (extension == "EXT_meshopt_compression" ||
-        extension == "KHR_meshopt_compression") {
-      return bad_input(
-          file.file,
-          "the data are compressed with " + extension +
-              " (meshoptimizer), which marey does not read",
-          "export it without compression (gltfpack: leave out -c and -cc), or "
-          "run: npx @gltf-transform/cli copy IN.glb OUT.glb");
-    }
-    const bool is_look =
-        extension.starts_with("KHR_materials_") ||
-        extension.starts_with("KHR_texture_") || extension.starts_with("EXT_texture_") ||
-        extension.starts_with("MSFT_texture_") || extension.starts_with("KHR_lights_") ||
-        extension == "VRM" || extension.starts_with("VRMC_") ||
-        extension == "KHR_mesh_quantization";
-    if (is_look) continue;
-    return bad_input(file.file,
-                     "the file requires the extension " + extension.substr(0, 80) +
-                         ", which marey does not read",
-                     "export it without this extension");
-  }
-  return Done{};
 }
 
 Status load_model(const NamedModel& file,

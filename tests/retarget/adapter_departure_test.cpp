@@ -88,7 +88,7 @@ TEST(AdapterDepartureFromBeyond, LeavesWhatIsBeyondItsLimitsAsItWas) {
   const Character body = human(true);
   Pose reference = waiting(body);
   glm::dquat& elbow = reference.parent_from_joint[joint_at(body, "rightLowerArm")];
-  elbow = elbow * glm::angleAxis(-0.5, glm::dvec3(1, 0, 0));
+  elbow = glm::angleAxis(-0.5, human_limbs()[1].hinge_axis);
   ASSERT_GT(beyond_limits_rad(body, reference, {}), 0.2);
   Dice dice(62);
   for (int i = 0; i < 50; ++i) {
