@@ -41,10 +41,14 @@ class TomlLevels {
       case ' ':
       case '\t':
       case '\r':
+        is_after_blank_ = true;
         return;
       case '.':
         ++dots_;
-        break;
+        is_after_dot_ = true;
+        is_after_blank_ = false;
+        is_line_start_ = false;
+        return;
       case '=':
         key_ = dots_ + 1;
         dots_ = 0;
@@ -61,8 +65,12 @@ class TomlLevels {
         close();
         break;
       default:
+        // Words side by side are no key: a table of numbers, say.
+        if (is_after_blank_ && !is_after_dot_) dots_ = 0;
         break;
     }
+    is_after_blank_ = false;
+    is_after_dot_ = false;
     is_line_start_ = false;
   }
 
@@ -136,6 +144,8 @@ class TomlLevels {
   std::size_t dots_ = 0;             ///< Since the last mark that separates.
   bool in_header_ = false;
   bool is_line_start_ = true;
+  bool is_after_blank_ = false;
+  bool is_after_dot_ = false;
 };
 
 }  // namespace

@@ -144,8 +144,9 @@ struct Body {
 const std::array kBodies{
     Body{"avatars/makehuman/adult_male_mixamo_unity.glb", kMixamo},
     Body{"avatars/vrm/cryptovoxels.vrm", kVoxels},
-    // A skirt, and shanks half as long again as the thighs.
-    Body{"avatars/hard/f_female_dress.glb", kQuaternius, 12.0},
+    // A skirt, and shanks half as long again as the thighs: lifting its skin out of the
+    // floor turns the thighs further.
+    Body{"avatars/hard/f_female_dress.glb", kQuaternius, 18.0},
     // Legs of half a metre that begin a metre apart, below a trunk as broad.
     Body{"avatars/hard/q_humanoid.glb", kQuaternius, 45.0},
     Body{"avatars/hard/rigify_def.glb", kRigify},
