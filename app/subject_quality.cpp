@@ -68,16 +68,15 @@ std::vector<live::WizardQuality> quality_of(const reconstruct::SubjectFit& fit) 
     out.push_back(length_of(fit.body, limb.upper, limb.lower));
     out.push_back(length_of(fit.body, limb.lower, limb.end));
   }
+  std::string distance = format("%.2f px", fit.rms_px);
+  for (const Error& doubt : fit.doubts) distance += "; " + doubt.cause;
   out.push_back({"distance from what was seen",
-                 format("%.2f px", fit.rms_px),
-                 fit.rms_px <= kPoorRms_px});
+                 distance,
+                 fit.rms_px <= kPoorRms_px && fit.doubts.empty()});
   out.push_back({"limbs to an average person's",
                  format("%.0f %%", 100.0 * fit.limb_ratio),
                  std::abs(fit.limb_ratio - 1.0) <= kPoorRatio});
   out.push_back(unplaced_of(fit));
-  for (const Error& doubt : fit.doubts) {
-    out.push_back({"measurement", doubt.cause + ". Next: " + doubt.next, false});
-  }
   return out;
 }
 
