@@ -253,6 +253,7 @@ Json move_figures(const CalibrationReport& report) {
           {"moved_px", px(move->moved_px)},
           {"turn_deg", rounded(kDegrees * move->turn_rad, 4)},
           {"shift_mm", mm(move->shift_m)},
+          {"rig_shift_mm", mm(move->rig_shift_m)},
           {"gain", rounded(move->gain, 0)}};
 }
 

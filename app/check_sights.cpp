@@ -42,6 +42,20 @@ Error no_board(const CameraDetections& camera,
             "in session.toml: rows and columns count squares");
 }
 
+/// Returns whether most of the frames show tags of the body.
+bool shows_body(const recordings::Session& session, const CameraDetections& camera) {
+  const auto is_worn = [&](const TagDetection& seen) {
+    return std::any_of(session.tags.begin(), session.tags.end(), [&](const auto& tag) {
+      return tag.id == seen.id;
+    });
+  };
+  const auto frames = std::count_if(
+      camera.frames.begin(), camera.frames.end(), [&](const FrameDetections& frame) {
+        return std::any_of(frame.tags.begin(), frame.tags.end(), is_worn);
+      });
+  return 2 * frames > static_cast<std::ptrdiff_t>(camera.frames.size());
+}
+
 /// Tags of the board in the frame that shows most of them; points of a board of squares;
 /// tags of any kind where a wand is carried.
 int most_seen(const CameraDetections& camera, const CalibrationTarget& target) {
@@ -100,6 +114,14 @@ Status check_seen(const recordings::Session& session,
       return seen->what.find(word) != std::string::npos;
     };
     if (!seen || (says("APRILTAG_36h11") && !says("mirrored"))) return Done{};
+    // Floors and windows look like chessboards; a body throughout means another trial.
+    if (says("chessboard") && shows_body(session, camera)) {
+      return bad_input(camera.source,
+                       "no tag of the " + name_of(*wanted.grid) +
+                           " is seen, but tags of the body are: it looks like the video "
+                           "of another trial",
+                       "name the camera's own video in `videos` of trial " + trial.name);
+    }
     return bad_input(camera.source,
                      "no tag of the " + name_of(*wanted.grid) + " is seen in its " +
                          std::to_string(camera.frames.size()) + " frames, but " +

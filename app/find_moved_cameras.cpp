@@ -14,11 +14,13 @@ namespace marey::app {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-// Calibrations err by some tenths of a pixel where the body is, lenses by as much.
-constexpr double kFairPx = 0.8;
-constexpr double kPoorPx = 1.5;
-// In squared sigmas: views of one tag share their errors, chance alone reaches hundreds.
-constexpr double kSureGain = 1000.0;
+// Calibrations and lenses err by some tenths of a pixel where the body is. A move
+// of 1 px doubles the error of joints (docs/measurements.md, "Simulated camera faults").
+constexpr double kFairPx = 0.5;
+constexpr double kPoorPx = 0.8;
+// In squared sigmas. Views of one tag share their errors: chance alone reaches 100, moves
+// that are too small to matter reach 300.
+constexpr double kSureGain = 400.0;
 
 }  // namespace
 

@@ -204,11 +204,14 @@ Result<Json> inspect_calibration(const fs::path& file) {
 Result<Json> inspect_subject(const fs::path& file) {
   const auto body = recordings::read_subject(file);
   if (!body) return body.error();
+  Json doubts = Json::array();
+  for (const BodyDoubt& doubt : body->doubts) doubts.push_back(doubt.cause);
   return Json{{"kind", "subject"},
               {"name", body->name},
               {"stature_m", body->stature_m},
               {"leg_length_m", leg_length_m(body->proportions)},
-              {"tags", body->tags.size()}};
+              {"tags", body->tags.size()},
+              {"doubts", doubts}};
 }
 
 Result<Json> inspect_table(const fs::path& file) {

@@ -8,6 +8,9 @@
 #include <utility>
 
 #include <glm/trigonometric.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/pose.h"
 
 namespace marey::app {
 namespace {
@@ -78,6 +81,10 @@ void judge_posture(const std::string& name, AvatarVerdict& out) {
   judge_direction(name, posture.legs, kFarPosture_deg, kPoorPosture_deg, out);
   judge_direction(name, posture.trunk, kFarPosture_deg, kPoorPosture_deg, out);
   judge_direction(name, posture.arms, kFarArms_deg, kPoorArms_deg, out);
+  for (const retarget::DirectionFigures& segment : posture.segments) {
+    if (segment.bone != HumanBone::kNeck) continue;
+    judge_direction(name, segment, kFarPosture_deg, kPoorPosture_deg, out);
+  }
   if (posture.fastest > kPoorSpeed && posture.fastest > 2.0 * posture.source_fastest) {
     add(name + ", frame " + std::to_string(posture.fastest_frame),
         text("%s moves at %.0f body heights per second, the source at most at %.0f",
@@ -91,6 +98,115 @@ void judge_posture(const std::string& name, AvatarVerdict& out) {
   }
 }
 
+/// Returns the reason for a far segment: the first step after which it was too far.
+std::string reason_for(std::size_t segment, const retarget::RetargetReport& report) {
+  using retarget::RetargetStep;
+  for (const auto& [step, posture] : report.steps) {
+    if (glm::degrees(posture.segments[segment].median_rad) <= kNamedPosture_deg) continue;
+    switch (step) {
+      case RetargetStep::kPosture:
+        return "its bones have other proportions than the source's";
+      case RetargetStep::kGround:
+        return "feet are kept on the floor, with legs and hips of other proportions";
+      case RetargetStep::kHands:
+        return "hands touch what the source's touch, and arms are kept out of the body";
+      case RetargetStep::kSkin:
+        return "the skin is raised out of the floor";
+    }
+  }
+  return "the steps were not compared";
+}
+
+void name_far_segments(const retarget::RetargetReport& report, AvatarVerdict& out) {
+  for (std::size_t i = 0; i < out.posture.segments.size(); ++i) {
+    const retarget::DirectionFigures& direction = out.posture.segments[i];
+    if (glm::degrees(direction.median_rad) <= kNamedPosture_deg) continue;
+    out.far_segments.push_back({direction, reason_for(i, report)});
+  }
+}
+
+/// Reports joints that are mapped as feet while other skin stands on the floor at rest.
+void judge_feet(const std::string& name,
+                const Skeleton& body,
+                const retarget::BodyMap& map,
+                const retarget::Skin& skin,
+                AvatarVerdict& out) {
+  using retarget::SkinPart;
+  const auto world = world_from_joints(body, rest_pose(body));
+  std::vector<glm::dvec4> rows(body.joints.size());
+  retarget::SkinLows lows{};
+  skin.lows(world, retarget::kNoSkin_m, rows, lows);
+  for (int side = 0; side < 2; ++side) {
+    const auto low = [&](SkinPart left) {
+      return lows[retarget::index(retarget::on_side(left, side))];
+    };
+    const double leg_m = std::min(low(SkinPart::kLeftThigh), low(SkinPart::kLeftShank));
+    const double above_m = low(SkinPart::kLeftFoot) - leg_m;
+    if (leg_m >= retarget::kNoSkin_m || above_m <= kFootAboveSkin * map.leg_length_m) {
+      continue;
+    }
+    const bool is_bare = low(SkinPart::kLeftFoot) >= retarget::kNoSkin_m;
+    // Skin of another part below the leg's is the real foot's, which stays behind.
+    const double lowest_m = *std::ranges::min_element(lows);
+    const bool stays_behind = lowest_m < leg_m - kFootAboveSkin * map.leg_length_m / 4.0;
+    const std::string bone(
+        marey::name(side == 0 ? HumanBone::kLeftFoot : HumanBone::kRightFoot));
+    const std::string& joint =
+        body[*map.joint_of[index(side == 0 ? HumanBone::kLeftFoot
+                                           : HumanBone::kRightFoot)]]
+            .name;
+    add(name,
+        "the joint '" + joint + "' is mapped as " + bone + ", but " +
+            (is_bare ? std::string("no skin is bound to it")
+                     : text("at rest the leg's skin is %.0f mm lower than its own skin",
+                            1e3 * above_m)),
+        "give the body a bone map that names the foot's joint: marey inspect FILE "
+        "--write-map stores one to edit",
+        !is_bare || stays_behind,
+        out);
+  }
+}
+
+/// Reads the written files again and reports bones that are not where they were solved.
+Status judge_files(const Motion& made,
+                   std::span<const double> allowed_m,
+                   std::span<const WrittenFile> files,
+                   AvatarVerdict& out) {
+  for (const WrittenFile& file : files) {
+    const auto reread = reread_motion(file, made);
+    if (!reread) return reread.error();
+    if (!*reread) continue;
+    const RereadFigures& figures = **reread;
+    const double off_mm = 1e3 * figures.worst_place_m;
+    out.reread_off_mm = std::max(out.reread_off_mm.value_or(0.0), off_mm);
+    if (off_mm > kRereadPlace_mm) {
+      add(file.path.string() + ", frame " + std::to_string(figures.worst_frame),
+          text("the file has %s %.0f mm from where it was solved",
+               std::string(marey::name(figures.worst_bone)).c_str(),
+               off_mm),
+          "do not use this file; report this as a bug, with the body's file",
+          true,
+          out);
+    }
+    if (figures.lowest_skin_m.empty()) continue;
+    retarget::SkinDepth deepest;
+    retarget::SkinDepth beyond;
+    for (std::size_t t = 0; t < figures.lowest_skin_m.size(); ++t) {
+      const double depth_m = -figures.lowest_skin_m[t];
+      const double beyond_m = depth_m - (t < allowed_m.size() ? allowed_m[t] : 0.0);
+      const int frame = static_cast<int>(t);
+      if (depth_m > deepest.depth_m) deepest = {depth_m, {}, frame};
+      if (beyond_m > beyond.depth_m) beyond = {beyond_m, {}, frame};
+    }
+    // The file's depths count. Its skin has no named parts: the body's are kept.
+    if (out.skin) deepest.part = out.skin->part;
+    beyond.part = out.beyond_source.part;
+    out.skin = deepest;
+    out.beyond_source = beyond;
+  }
+  return Done{};
+}
+
 }  // namespace
 
 double AvatarVerdict::penetration_mm(const retarget::RetargetReport& report) const {
@@ -101,7 +217,8 @@ Result<AvatarVerdict> judge_avatar(const std::string& name,
                                    const Motion& source,
                                    const retarget::RetargetedMotion& made,
                                    const retarget::Skin& skin,
-                                   bool grounded) {
+                                   bool grounded,
+                                   std::span<const WrittenFile> files) {
   const auto source_map = retarget::map_body(source.skeleton);
   if (!source_map) return source_map.error();
   const auto map = retarget::map_body(made.motion.skeleton);
@@ -115,8 +232,14 @@ Result<AvatarVerdict> judge_avatar(const std::string& name,
     out.beyond_source =
         retarget::deepest_skin(made.motion, skin, made.report.source_depth_m);
   }
+  if (const Status ok = judge_files(made.motion, made.report.source_depth_m, files, out);
+      !ok) {
+    return ok.error();
+  }
   out.posture = retarget::compare_postures(source, *source_map, made.motion, *map);
+  name_far_segments(made.report, out);
   out.arms_in_body_mm = 1e3 * made.report.hands.arms.deepest_after_m;
+  if (!skin.empty()) judge_feet(name, made.motion.skeleton, *map, skin, out);
   if (grounded) judge_skin(name, out);
   judge_posture(name, out);
   if (out.arms_in_body_mm > kDeepArms_mm) {

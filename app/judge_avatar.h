@@ -3,9 +3,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "app/reread_motion.h"
 #include "core/motion.h"
 #include "core/result.h"
 #include "retarget/body_map.h"
@@ -22,7 +24,7 @@ namespace marey::app {
 /// Skin below the floor, deeper than the source's joints are. [mm]
 inline constexpr double kDeepSkin_mm = 5.0;
 inline constexpr double kPoorSkin_mm = 30.0;
-/// Median over frames of the angle between a leg's segment, or the trunk, and the
+/// Median over frames of the angle between a leg segment, the trunk or the neck and the
 /// source's. [deg]
 inline constexpr double kFarPosture_deg = 25.0;
 inline constexpr double kPoorPosture_deg = 45.0;
@@ -37,10 +39,26 @@ inline constexpr double kPoorExchanged = 0.5;
 /// Arms and hands in trunk and thighs, deeper than the source's. [mm]
 inline constexpr double kDeepArms_mm = 60.0;
 
+/// A segment whose angle to the source's is larger is reported, with the reason (median
+/// over frames). [deg]
+inline constexpr double kNamedPosture_deg = 8.0;
+/// Distance of a bone in a written file from its solved place: beyond, the file is
+/// wrong. [mm]
+inline constexpr double kRereadPlace_mm = 2.0;
+/// Height of a foot's lowest skin at rest above the lowest skin of its leg, in lengths of
+/// the leg: beyond, another joint is mapped as the foot.
+inline constexpr double kFootAboveSkin = 0.1;
+
 /// One thing that is wrong with an avatar's motion.
 struct AvatarProblem {
   Error error;  ///< kQuality; names the body, the part, the frame, the next step.
   bool is_poor = false;  ///< Beyond the gate.
+};
+
+/// A segment that points elsewhere than the source's, and the reason.
+struct FarSegment {
+  retarget::DirectionFigures direction;
+  std::string because;  ///< The reason: "arms are kept out of the body".
 };
 
 /// What a retargeted motion shows.
@@ -50,6 +68,11 @@ struct AvatarVerdict {
   retarget::SkinDepth beyond_source;  ///< The same, beyond what the source's joints are.
   double source_depth_m = 0.0;        ///< The largest RetargetReport::source_depth_m.
   retarget::PostureFigures posture;
+  /// Beyond kNamedPosture_deg, in the order of PostureFigures::segments.
+  std::vector<FarSegment> far_segments;
+  /// The largest distance of a bone's place in a written file from where it was solved
+  /// [mm]; nullopt: no file was read again.
+  std::optional<double> reread_off_mm;
   double arms_in_body_mm = 0.0;  ///< ClearArmsReport::deepest_after_m.
   std::vector<AvatarProblem> problems;
 
@@ -57,17 +80,19 @@ struct AvatarVerdict {
   [[nodiscard]] double penetration_mm(const retarget::RetargetReport& report) const;
 };
 
-/// Judges a motion as it is delivered.
+/// Judges a motion by its written files: they are read again (reread_motion()), and the
+/// skin is that of the .glb.
 ///
 /// `name` is what messages call the body. Where feet were not kept to the floor
-/// (`grounded` is false), skin below it is measured and no problem. Costs a forward
-/// kinematics of both bodies and the skin near the floor, some ten microseconds a frame.
-/// Errors: map_body()'s. Precondition: `skin` was made from the motion's skeleton; as
-/// many frames in `source` as in the motion.
+/// (`grounded` is false), skin below it is measured and no problem. Cost: reread_motion()
+/// of each file, and forward kinematics of both bodies and the skin, some 10 us a frame.
+/// Errors: map_body()'s, reread_motion()'s. Precondition: `skin` was made from the
+/// motion's skeleton; as many frames in `source` as in the motion.
 [[nodiscard]] Result<AvatarVerdict> judge_avatar(const std::string& name,
                                                  const Motion& source,
                                                  const retarget::RetargetedMotion& made,
                                                  const retarget::Skin& skin,
-                                                 bool grounded);
+                                                 bool grounded,
+                                                 std::span<const WrittenFile> files);
 
 }  // namespace marey::app

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "app/calibration_limits.h"
 #include "app/judge_faults.h"
@@ -217,6 +219,50 @@ void judge_floor(FindingList& list, std::size_t c) {
            "still: record both again without touching anything");
 }
 
+/// Reports an implausible floor. Cameras are above it, and so is a board that is waved.
+void judge_ground(FindingList& list) {
+  constexpr double kBelow_m = 0.3;
+  if (!list.report.board_on_floor) return;
+  std::vector<double> heights_m;
+  std::set<std::size_t> witnesses;  // Cameras that see the board on the floor.
+  for (const calib::TargetView& view : list.report.rig.views) {
+    if (!view.stays) heights_m.push_back(view.world_from_target.translation.y);
+    if (view.frame == calib::kFloorInstant) witnesses.insert(index(view.camera));
+  }
+  if (witnesses.size() == 1) {
+    list.add(Severity::kFair,
+             "floor",
+             list.camera(*witnesses.begin()),
+             "no other camera sees the board on the floor: an exchanged video or a floor "
+             "that is not level would go unnoticed",
+             "record the floor trial with the board where two cameras see it");
+  }
+  const char* next =
+      "check that each floor video is from its own camera, and that the board lay on the "
+      "floor";
+  if (!heights_m.empty()) {
+    const double lowest_m = quantile(std::move(heights_m), 0.05);
+    if (lowest_m < -kBelow_m) {
+      list.add(Severity::kPoor,
+               "floor",
+               "all cameras",
+               worded("the board was waved %.1f m below the floor of the floor trial",
+                      -lowest_m),
+               next);
+    }
+  }
+  for (std::size_t c = 0; c < list.report.rig.cameras.size(); ++c) {
+    const double height_m = centre_in_world(list.report.rig.cameras[c]).y;
+    if (height_m > -kBelow_m) continue;
+    list.add(
+        Severity::kPoor,
+        "floor",
+        list.camera(c),
+        worded("it would stand %.1f m below the floor of the floor trial", -height_m),
+        next);
+  }
+}
+
 void judge_warp(FindingList& list) {
   if (!list.report.rig.warp_m) return;
   double most_m = 0.0;
@@ -252,6 +298,7 @@ void judge_residuals(FindingList& list) {
     judge_floor(list, c);
   }
   judge_frames(list);
+  judge_ground(list);
   judge_warp(list);
 }
 

@@ -72,7 +72,7 @@ Result<std::unique_ptr<LivePage>> LivePage::open(const PageServerOptions& option
 
 Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
   constexpr double kBeside_m = 1.2;
-  if (live.body) worn_ = WornSegments(*live.body);
+  if (live.body) watch(*live.body);
   scene_.title = live.session;
   scene_.rate_hz = live.settings.rate.hz;
   for (std::size_t c = 0; c < live.calibration.cameras.size(); ++c) {
@@ -122,8 +122,18 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
   return Done{};
 }
 
-void LivePage::on_body(const Body& body, const Skeleton& performer) {
+/// Reports the segments and the doubts of this body from now on.
+void LivePage::watch(const Body& body) {
   worn_ = WornSegments(body);
+  body_doubts_.clear();
+  for (const BodyDoubt& doubt : body.doubts) {
+    body_doubts_.push_back("the body is not to be trusted: " + doubt.cause +
+                           "; measure it again");
+  }
+}
+
+void LivePage::on_body(const Body& body, const Skeleton& performer) {
+  watch(body);
   live::PageSkeleton& shown = scene_.skeletons.front();
   if (!body.name.empty()) shown.name = body.name;
   shown.skeleton = performer;
@@ -160,7 +170,9 @@ LivePage::Answer LivePage::answer(const std::string& text,
     return {ask({hold->id, action, {}}, requests)};
   }
   if (const auto* record = std::get_if<live::RecordRequest>(&*request)) {
-    if (record->on && !has_body_) return {"nobody was measured yet, whom takes could follow"};
+    if (record->on && !has_body_) {
+      return {"no subject was measured yet: measure one before recording"};
+    }
     wish_ = record->on;
     return {};
   }
@@ -195,8 +207,7 @@ void LivePage::tell_handles(std::span<const HandleState> handles) {
   for (std::size_t i = 0; i < handles.size(); ++i) {
     live::PageConstraint& told = scene_.constraints[i];
     const HandleState& now = handles[i];
-    if (told.active == now.active &&
-        (!now.active || told.p_in_world == now.p_in_world)) {
+    if (told.active == now.active && (!now.active || told.p_in_world == now.p_in_world)) {
       continue;
     }
     changed = true;
@@ -316,6 +327,7 @@ void LivePage::on_status(const LiveFigures& figures,
   if (const auto& now = figures.recording) {
     status.recording = live::PageRecording{now->folder, now->seconds, now->trouble};
   }
+  status.doubts = body_doubts_;
   tell_subject(
       state,
       figures,

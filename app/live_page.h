@@ -61,6 +61,7 @@ class LivePage final : public LiveWatcher {
                               live::ClientId from,
                               LiveRequests& requests);
   [[nodiscard]] std::string ask(HandleRequest request, LiveRequests& requests);
+  void watch(const Body& body);
   void weigh_bodies();
   void stand(const LiveInstant& instant, const LiveResult& result);
   void pose_figures(const LiveResult& result);
@@ -79,6 +80,7 @@ class LivePage final : public LiveWatcher {
   std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.
   std::vector<int> tags_seen_;                                    ///< By camera.
   WornSegments worn_;
+  std::vector<std::string> body_doubts_;
   std::vector<JointDoubt> doubt_;                  ///< Of the performer, newest.
   std::vector<LiveCameraFigures> cameras_before_;  ///< As last told.
   std::vector<OutputCounts> outputs_before_;       ///< Likewise.

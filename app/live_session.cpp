@@ -201,6 +201,7 @@ Status open_feeds(const Session& session,
 Status find_body(const Session& session,
                  const std::filesystem::path& results,
                  const LiveArguments& arguments,
+                 Console& console,
                  OpenedLive& out) {
   out.subject_file = results / "subject.toml";
   out.prior = {session.subject.name,
@@ -221,6 +222,10 @@ Status find_body(const Session& session,
   }
   auto body = recordings::read_subject(out.subject_file);
   if (!body) return body.error();
+  for (const BodyDoubt& doubt : body->doubts) {
+    console.warn(out.subject_file.string() + ": " + doubt.cause +
+                 ". Next: " + doubt.next);
+  }
   out.body = *std::move(body);
   return Done{};
 }
@@ -249,7 +254,7 @@ Result<OpenedLive> open_live(const LiveArguments& arguments, Console& console) {
   auto calibration = calibration_of(*session, *chosen, results / "calibration.toml");
   if (!calibration) return calibration.error();
   out.calibration = *std::move(calibration);
-  if (const Status ok = find_body(*session, results, arguments, out); !ok) {
+  if (const Status ok = find_body(*session, results, arguments, console, out); !ok) {
     return ok.error();
   }
   for (const auto& path : arguments.avatars) {

@@ -280,6 +280,12 @@ bool has_take(const Trial& trial) {
 Status match_times(const Trial& trial,
                    std::vector<CameraDetections>& found,
                    RecordingTroubles& troubles) {
+  if (has_take(trial) && trial.slow_motion != 1.0) {
+    return bad_input(take_beside(trial.videos.front()).string(),
+                     "it states when the frames of trial " + trial.name +
+                         " were taken, so that slow_motion has no meaning",
+                     "remove slow_motion of that trial from session.toml");
+  }
   if (has_take(trial)) return match_take(trial, found, troubles);
   tell_unused_take(trial, troubles);
   if (trial.rate || trial.frames) return check_even(trial, found, troubles);

@@ -7,6 +7,10 @@
 #include <utility>
 
 #include "app/camera_doubt.h"
+#include "app/check_ids.h"
+#include "app/check_session.h"
+#include "app/check_standing.h"
+#include "app/check_stature.h"
 #include "app/find_moved_cameras.h"
 #include "app/find_tags.h"
 #include "app/retarget_files.h"
@@ -43,6 +47,36 @@ void leave_out_unrecorded(recordings::Session& session, Console& console) {
   });
 }
 
+/// Removes the trials that a calibration does not need, as cameras are calibrated before
+/// the others are recorded. With a floor trial, the static trial may be missing too.
+void keep_for_calibration(recordings::Session& session, Console& console) {
+  const bool has_floor = session.find(TrialKind::kFloor) != nullptr;
+  std::erase_if(session.trials, [&](const Trial& trial) {
+    if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor) {
+      return false;
+    }
+    if (trial.kind != TrialKind::kStatic) return true;
+    const bool is_left_out =
+        has_floor && (trial.is_recorded ? !recordings::has_recording(trial)
+                                        : !recordings::has_video(trial));
+    if (is_left_out) {
+      console.warn("trial " + trial.name +
+                   " is not recorded yet: the floor is not checked against a standing "
+                   "subject");
+    }
+    return is_left_out;
+  });
+}
+
+/// Reports what session.toml alone shows to be missing.
+Status check_before(Stage stage, const recordings::Session& session) {
+  if (stage == Stage::kTrack) return Done{};
+  if (stage != Stage::kSolve) {
+    if (const Status ok = check_calibrated_cameras(session); !ok) return ok;
+  }
+  return stage == Stage::kCalibrate ? Status(Done{}) : check_worn_segments(session);
+}
+
 /// What a stage, and those before it, must find in the session.
 std::vector<TrialKind> kinds_for(Stage stage) {
   switch (stage) {
@@ -74,12 +108,14 @@ Result<Pipeline> Pipeline::open(Stage stage,
   auto session = recordings::read_session(options.session, {options.media});
   if (!session) return session.error();
   leave_out_unrecorded(*session, console);
+  if (stage == Stage::kCalibrate) keep_for_calibration(*session, console);
   for (const auto& [word, lens] : recordings::kLensWords) {
     if (options.lens == word) session->calibration.lens = lens;
   }
   for (const TrialKind kind : kinds_for(stage)) {
     if (!session->find(kind)) return missing_trial(*session, kind);
   }
+  if (const Status ok = check_before(stage, *session); !ok) return ok.error();
   if (const Status ok = recordings::check_files(*session); !ok) return ok.error();
   std::set<std::string> names{"motion"};
   for (const auto& avatar : options.avatars) {
@@ -134,7 +170,12 @@ Status Pipeline::track() {
     return error;
   }
   time_stage("tags", watch.seconds());
-  return Done{};
+  RecordingTroubles troubles;
+  const Status ok = check_ids(session_, detections_, troubles);
+  for (std::string& warning : troubles.warnings) {
+    report_.warnings.push_back(std::move(warning));
+  }
+  return ok;
 }
 
 Status Pipeline::track_trial(const Trial& trial) {
@@ -197,6 +238,9 @@ Status Pipeline::fit() {
   if (!moving) return moving.error();
   // Every trial, before the long work: who swapped two videos wants to know now.
   if (const Status ok = check_trials(); !ok) return ok;
+  if (const auto warning = exchanged_exercise_warning(session_, detections_)) {
+    report_.warnings.push_back(*warning);
+  }
   const Stopwatch watch;
   const reconstruct::SubjectPrior prior{session_.subject.name,
                                         session_.subject.stature_m,
@@ -212,6 +256,9 @@ Status Pipeline::fit() {
     const Error told = in_session(doubt);
     report_.warnings.push_back(told.message());
     failures_.push_back(told);
+  }
+  if (const auto warning = stature_warning(*body_)) {
+    report_.warnings.push_back(session_.file.string() + ": " + *warning);
   }
   for (const TagId id : fit->unplaced) {
     report_.unplaced_tags.push_back(number(id));

@@ -7,6 +7,7 @@
 
 #include "app/calibrate_session.h"
 #include "app/calibration_report.h"
+#include "app/check_standing.h"
 #include "app/find_tags.h"
 #include "app/judge_calibration.h"
 #include "app/pipeline.h"
@@ -62,6 +63,8 @@ Status Pipeline::check_subject(const SessionRig& found,
 Status Pipeline::calibrate() {
   auto sights = calibration_sights();
   if (!sights) return sights.error();
+  // First, as a subject that walks would look like a tilted floor.
+  if (const Status ok = check_standing(session_, detections_); !ok) return ok;
   const Stopwatch watch;
   const Progress progress = console_->stage("cameras");
   auto found = calibrate_session(session_, *sights, progress);

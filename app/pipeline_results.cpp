@@ -90,6 +90,8 @@ Status Pipeline::write_report() {
     report_.warnings.push_back(poor.message());
     failures_.push_back(poor);
   }
+  report_.poor.clear();
+  for (const Error& failure : failures_) report_.poor.push_back(failure.message());
   std::error_code ignored;
   report_.has_calibration_page =
       std::filesystem::exists(options_.out / "calibration.html", ignored);

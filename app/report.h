@@ -130,6 +130,8 @@ struct Report {
   std::vector<ReportTiming> timings;
   double recorded_s = 0.0;  ///< Duration of all trials together.
   std::vector<std::string> warnings;
+  /// Those of them that are reasons not to trust the results: exit code 4.
+  std::vector<std::string> poor;
 };
 
 /// The figures as JSON, without pictures and motions: report.json.

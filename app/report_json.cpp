@@ -201,22 +201,21 @@ Json avatar_figures(const ReportTrial& trial) {
   Json avatars = Json::array();
   for (std::size_t i = 1; i < trial.bodies.size(); ++i) {
     const ReportBody& body = trial.bodies[i];
-    avatars.push_back({{"name", body.name},
-                       {"slide_before_cm_per_s", rounded(body.slide_before_cm_per_s, 2)},
-                       {"slide_after_cm_per_s", rounded(body.slide_after_cm_per_s, 2)},
-                       {"penetration_mm", rounded(body.penetration_mm, 2)},
-                       {"penetration_part",
-                        body.penetration_part.empty() ? Json(nullptr)
-                                                      : Json(body.penetration_part)},
-                       {"penetration_frame",
-                        body.penetration_frame < 0 ? Json(nullptr)
-                                                   : Json(body.penetration_frame)},
-                       {"source_depth_mm", rounded(body.source_depth_mm, 2)},
-                       {"legs_deg", rounded(body.legs_deg, 2)},
-                       {"arms_deg", rounded(body.arms_deg, 2)},
-                       {"trunk_deg", rounded(body.trunk_deg, 2)},
-                       {"problems", body.problems},
-                       {"files", body.files}});
+    avatars.push_back(
+        {{"name", body.name},
+         {"slide_before_cm_per_s", rounded(body.slide_before_cm_per_s, 2)},
+         {"slide_after_cm_per_s", rounded(body.slide_after_cm_per_s, 2)},
+         {"penetration_mm", rounded(body.penetration_mm, 2)},
+         {"penetration_part",
+          body.penetration_part.empty() ? Json(nullptr) : Json(body.penetration_part)},
+         {"penetration_frame",
+          body.penetration_frame < 0 ? Json(nullptr) : Json(body.penetration_frame)},
+         {"source_depth_mm", rounded(body.source_depth_mm, 2)},
+         {"legs_deg", rounded(body.legs_deg, 2)},
+         {"arms_deg", rounded(body.arms_deg, 2)},
+         {"trunk_deg", rounded(body.trunk_deg, 2)},
+         {"problems", body.problems},
+         {"files", body.files}});
   }
   return avatars;
 }
@@ -264,6 +263,35 @@ double solve_rms_px(const Report& report) {
   return corners > 0.0 ? std::sqrt(squares / corners) : 0.0;
 }
 
+/// The worst camera, frame and joint; averages may hide them.
+Json worst_figures(const Report& report) {
+  Json worst{{"camera", nullptr}, {"frame", nullptr}, {"joint", nullptr}};
+  const auto raise = [&](const char* kind, double value, Json row) {
+    if (worst[kind].is_null() || value > worst[kind].at("value").get<double>()) {
+      row["value"] = value;
+      worst[kind] = std::move(row);
+    }
+  };
+  for (const ReportTrial& trial : report.trials) {
+    for (const ReportTrialCamera& camera : trial.cameras) {
+      if (camera.corners == 0) continue;
+      raise("camera", px(camera.rms_px), {{"trial", trial.name}, {"name", camera.name}});
+    }
+    for (std::size_t i = 0; i < trial.frame_rms_px.size(); ++i) {
+      raise("frame",
+            px(trial.frame_rms_px[i]),
+            {{"trial", trial.name}, {"name", trial.first_frame + static_cast<int>(i)}});
+    }
+    for (const Json& joint : joint_figures(trial)) {
+      if (!joint.at("median_sigma_mm").is_number()) continue;
+      raise("joint",
+            joint.at("median_sigma_mm").get<double>(),
+            {{"trial", trial.name}, {"name", joint.at("joint")}});
+    }
+  }
+  return worst;
+}
+
 Json summary_figures(const Report& report) {
   int frames = 0;
   int solved = 0;
@@ -284,6 +312,8 @@ Json summary_figures(const Report& report) {
           {"solve_rms_px", px(solve_rms_px(report))},
           {"joint_sigma_median_mm", quantile_mm(sigmas_m, 0.5)},
           {"joint_sigma_p95_mm", quantile_mm(sigmas_m, 0.95)},
+          {"worst", worst_figures(report)},
+          {"poor", report.poor},
           {"recorded_s", rounded(recorded_s, 3)},
           {"processing_s", rounded(processing_s, 3)},
           {"times_real_time",

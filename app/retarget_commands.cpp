@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iterator>
 #include <map>
+#include <span>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -130,12 +131,16 @@ Status write_contacts(const RetargetArguments& args,
 }
 
 /// Judges what was made of an avatar, and warns of what is wrong with it.
-Status judge(const OpenedAvatar& body, Work& work, AvatarResult& avatar) {
+Status judge(const OpenedAvatar& body,
+             std::span<const WrittenFile> files,
+             Work& work,
+             AvatarResult& avatar) {
   auto verdict = judge_avatar(body.file.string(),
                               work.run.source,
                               avatar.retargeted,
                               body.skin,
-                              !work.args.no_ground);
+                              !work.args.no_ground,
+                              files);
   if (!verdict) return verdict.error();
   avatar.verdict = *std::move(verdict);
   for (const AvatarProblem& problem : avatar.verdict.problems) {
@@ -159,6 +164,7 @@ Status put_on_one(const Motion& source,
   PutOnOptions options = work.args.options;
   options.retarget.soles = avatar.soles = body.soles;
   options.retarget.skin = &body.skin;
+  options.retarget.compare_steps = true;
   if (options.retarget.hands) {
     options.retarget.hands->source_volume = work.source_volume;
     options.retarget.hands->avatar_volume = body.volume;
@@ -166,17 +172,19 @@ Status put_on_one(const Motion& source,
   auto retargeted = put_on(source, body.skeleton, options);
   if (!retargeted) return of_file(body.file, retargeted.error());
   avatar.retargeted = *std::move(retargeted);
+  std::vector<WrittenFile> written;
   for (const MotionFormat format : *formats) {
     const auto out = work.plan.out(work.plan.avatars[i], format);
     const Status ok = write_motion_file(
         out, format, avatar.retargeted.motion, body.look, file_options(work.args));
     if (!ok) return ok;
     avatar.files.push_back(out);
+    written.push_back(written_file(out, format, body.look, file_options(work.args)));
   }
   if (!work.args.constraints_out.empty()) {
     if (const Status ok = write_contacts(work.args, body, avatar); !ok) return ok;
   }
-  return judge(body, work, avatar);
+  return judge(body, written, work, avatar);
 }
 
 void put_on_all(const Motion& source, Work& work) {

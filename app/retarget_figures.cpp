@@ -104,6 +104,14 @@ void add_verdict(const AvatarVerdict& verdict,
                     {"fastest_heights_per_s", rounded(posture.fastest, 3)},
                     {"source_fastest_heights_per_s", rounded(posture.source_fastest, 3)},
                     {"arms_in_body_mm", rounded(verdict.arms_in_body_mm, 2)}};
+  out["far_segments"] = Json::array();
+  for (const FarSegment& far : verdict.far_segments) {
+    Json one = direction(far.direction);
+    one["because"] = far.because;
+    out["far_segments"].push_back(std::move(one));
+  }
+  out["reread_off_mm"] = nullptr;
+  if (verdict.reread_off_mm) out["reread_off_mm"] = rounded(*verdict.reread_off_mm, 4);
   out["problems"] = Json::array();
   for (const AvatarProblem& problem : verdict.problems) {
     out["problems"].push_back(problem.error.message());

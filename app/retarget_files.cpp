@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "app/reread_motion.h"
 #include "retarget/body_map.h"
 
 namespace marey::app {
@@ -45,14 +46,12 @@ Result<RetargetedFiles> retarget_to_files(const Motion& motion,
   retarget::RetargetOptions options;
   options.soles = opened->soles;
   options.skin = &opened->skin;
+  options.compare_steps = true;
   options.hands.emplace().avatar_volume = opened->volume;
   auto retargeted = retarget::retarget_motion(motion, opened->skeleton, options);
   if (!retargeted) return of_file(avatar.path, retargeted.error());
   RetargetedFiles result{*std::move(retargeted), {}, opened->remarks};
-  auto verdict = judge_avatar(
-      avatar.path.string(), motion, result.retargeted, opened->skin, true);
-  if (!verdict) return of_file(avatar.path, verdict.error());
-  result.verdict = *std::move(verdict);
+  std::vector<WrittenFile> files;
   for (const MotionFormat format :
        {MotionFormat::kGlb, MotionFormat::kBvh, MotionFormat::kVrma}) {
     if (!can_hold(format, opened->skeleton, opened->look)) continue;
@@ -61,7 +60,12 @@ Result<RetargetedFiles> retarget_to_files(const Motion& motion,
         write_motion_file(out, format, result.retargeted.motion, opened->look);
     if (!ok) return ok.error();
     result.files.push_back(out);
+    files.push_back(written_file(out, format, opened->look));
   }
+  auto verdict = judge_avatar(
+      avatar.path.string(), motion, result.retargeted, opened->skin, true, files);
+  if (!verdict) return of_file(avatar.path, verdict.error());
+  result.verdict = *std::move(verdict);
   return result;
 }
 

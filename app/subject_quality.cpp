@@ -69,7 +69,9 @@ std::vector<live::WizardQuality> quality_of(const reconstruct::SubjectFit& fit) 
     out.push_back(length_of(fit.body, limb.lower, limb.end));
   }
   std::string distance = format("%.2f px", fit.rms_px);
-  for (const Error& doubt : fit.doubts) distance += "; " + doubt.cause;
+  for (const Error& doubt : fit.doubts) {
+    distance += "; " + doubt.cause + ": " + doubt.next;
+  }
   out.push_back({"distance from what was seen",
                  distance,
                  fit.rms_px <= kPoorRms_px && fit.doubts.empty()});

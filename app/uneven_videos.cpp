@@ -53,6 +53,45 @@ std::optional<FrameRate> even_rate(const std::vector<Timestamp>& times) {
   return FrameRate{hz};
 }
 
+/// Checks the rates that videos state against "fps" and "slow_motion". Errors: rates that
+/// differ between videos; declared slow motion that contradicts them.
+Status check_slow_motion(const Trial& trial,
+                         const std::vector<std::pair<std::string, FrameRate>>& others,
+                         const std::string& steady) {
+  // Cameras of 120 Hz write 29.97 Hz as well as 30.
+  constexpr double kSameRate = 0.01;
+  const std::string said = format("fps = %.2f and slow_motion = %.4g of trial %s",
+                                  trial.rate->hz,
+                                  trial.slow_motion,
+                                  trial.name.c_str());
+  const double expected_hz = trial.rate->hz / trial.slow_motion;
+  const char* next =
+      "correct both in session.toml: fps is the rate at which pictures were taken, "
+      "slow_motion how many times slower the video plays; remove slow_motion if the "
+      "video plays at normal speed";
+  if (!steady.empty() || others.empty()) {
+    const std::string expected =
+        format(" mean videos that play at %.2f frames per second", expected_hz);
+    return bad_input(
+        steady.empty() ? "trial " + trial.name : steady,
+        said + expected +
+            (steady.empty() ? ", but none of them states an even rate"
+                            : format(", but it plays at %.2f", trial.rate->hz)),
+        next);
+  }
+  for (const auto& [source, rate] : others) {
+    if (std::abs(rate.hz / expected_hz - 1.0) < kSameRate) continue;
+    return bad_input(
+        source,
+        said + format(" mean a video that plays at %.2f frames per second, but its own "
+                      "times give %.2f",
+                      expected_hz,
+                      rate.hz),
+        next);
+  }
+  return Done{};
+}
+
 /// Videos that run evenly at another rate than the trial's fps. All alike, they may be
 /// slow motion, or the fps is wrong: whoever knows must say. One among others of the
 /// right rate is another recording, or was converted.
@@ -83,8 +122,9 @@ Status check_stated(const Trial& trial,
        own + " (as the others do), and " + said +
            format(": movements are taken to be %.2f times as fast as the video shows",
                   trial.rate->hz / rate.hz),
-       "correct fps in session.toml, or leave it out; of slow motion, write the true "
-       "rate into the videos"});
+       format("correct fps in session.toml, or leave it out; if the videos play in slow "
+              "motion, add slow_motion = %.3g to the trial",
+              trial.rate->hz / rate.hz)});
   return Done{};
 }
 
@@ -146,7 +186,8 @@ Status check_even(const Trial& trial,
     troubles.warnings.push_back(camera.source + ": " + how_uneven(*uneven, rate) +
                                 "; the session's fps is used all the same");
   }
-  return check_stated(trial, others, steady, troubles);
+  return trial.slow_motion != 1.0 ? check_slow_motion(trial, others, steady)
+                                  : check_stated(trial, others, steady, troubles);
 }
 
 }  // namespace marey::app

@@ -32,7 +32,8 @@ struct UnevenVideo {
 
 /// Whether frames can be matched by number, as a trial's `frames` or its fps ask for.
 /// Errors (kBadInput): an uneven video without an fps; one that runs evenly at another
-/// rate than the fps while others do not. All alike at another rate is a failure.
+/// rate than the fps while others do not; declared slow motion that contradicts the
+/// videos' rates. All alike at another rate is a failure, unless it is declared.
 [[nodiscard]] Status check_even(const recordings::Trial& trial,
                                 std::span<const CameraDetections> found,
                                 RecordingTroubles& troubles);

@@ -59,6 +59,8 @@ struct Arguments {
 /// other segment by more.
 constexpr double kAlone_deg = 0.1;
 constexpr double kMet_mm = 1.0;
+/// Answers of the strict method beyond this angle are listed one by one.
+constexpr double kFar_deg = 30.0;
 
 glm::dvec3 random_direction(std::mt19937& random) {
   std::normal_distribution<double> any;
@@ -137,6 +139,16 @@ void ask_reaches(const CapturedClip& clip,
           free.other_deg.back() <= kAlone_deg && free.target_mm.back() <= kMet_mm;
       for (std::size_t a = 0; a < one.size(); ++a) {
         (is_alone ? alone : helped)[a].add(one[a]);
+      }
+      if (is_alone && one[0].other_deg.back() > kFar_deg) {
+        std::printf("%s, frame %zu, %s to %.3f %.3f %.3f m: %.1f degrees\n",
+                    clip.name.c_str(),
+                    stances.frames[n],
+                    skeleton[wrist].name.c_str(),
+                    target.x,
+                    target.y,
+                    target.z,
+                    one[0].other_deg.back());
       }
     }
   }

@@ -18,6 +18,9 @@
 namespace marey::testing {
 namespace {
 
+/// A segment whose median angle to the source's is larger is listed. [deg]
+constexpr double kBar_deg = 8.0;
+
 std::string one_line(const std::string& text) {
   return text.substr(0, std::min<std::size_t>(text.find('\n'), 150));
 }
@@ -52,11 +55,17 @@ void print(const CampaignResult& r) {
       j.source_max_speed,
       errors.c_str(),
       r.told_problems.empty() ? "" : (" TOLD: " + r.told_problems.front()).c_str());
+  for (const auto& [segment, median_deg] : j.medians_deg) {
+    if (median_deg > kBar_deg) std::printf("    %s %.1f", segment.c_str(), median_deg);
+  }
+  std::printf("\n");
 }
 
 struct Tally {
   int cases = 0, refused = 0, wrong = 0, silent = 0;
   std::map<std::string, int> causes;
+  std::map<std::string, int> beyond;  ///< Results by segment beyond kBar_deg.
+  int directions = 0;                 ///< Segments of all results.
   std::map<std::string, int> refusals;
 
   void add(const CampaignResult& r) {
@@ -67,6 +76,10 @@ struct Tally {
       ++refusals[one_line(colon == std::string::npos ? r.error
                                                      : r.error.substr(colon + 2))];
       return;
+    }
+    for (const auto& [segment, median_deg] : r.judged->medians_deg) {
+      ++directions;
+      if (median_deg > kBar_deg) ++beyond[segment];
     }
     const auto errors = gross_errors(r);
     for (const std::string& error : errors) ++causes[error];
@@ -82,6 +95,9 @@ struct Tally {
                 silent);
     for (const auto& [cause, count] : causes)
       std::printf("%5d  %s\n", count, cause.c_str());
+    std::printf("%d directions, medians beyond %.0f degrees:\n", directions, kBar_deg);
+    for (const auto& [segment, count] : beyond)
+      std::printf("%5d  %s\n", count, segment.c_str());
     for (const auto& [cause, count] : refusals) {
       std::printf("%5d  refused: %s\n", count, cause.c_str());
     }

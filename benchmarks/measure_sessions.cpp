@@ -23,9 +23,7 @@
 #include <time.h>
 
 #include "core/parallel.h"
-#include "reconstruct/check_views.h"
-#include "reconstruct/fit_subject.h"
-#include "reconstruct/solve_motion.h"
+#include "tests/reconstruct/answer_session.h"
 
 namespace marey::benchmarks {
 namespace {
@@ -38,46 +36,6 @@ double processor_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// As app/camera_doubt.h takes it from a calibration.
-double common_sigma_m(const SimulatedSession& session) {
-  double sum_m2 = 0.0;
-  for (const double sigma_m : session.rig.centre_sigma_m) sum_m2 += sigma_m * sigma_m;
-  return std::sqrt(sum_m2) / static_cast<double>(session.rig.centre_sigma_m.size());
-}
-
-/// What `marey solve` does with a session.
-SessionAnswer answer(const SimulatedSession& session) {
-  SessionAnswer out;
-  const auto refuse = [&](const char* by, const Error& error) {
-    out.refused_by = by;
-    out.refusal = error;
-    return out;
-  };
-  const std::vector<Camera>& cameras = session.rig.calibrated;
-  const reconstruct::SubjectPrior prior{
-      "simulated", session.body.declared_stature_m, {}, session.declared_tags()};
-  for (const auto* trial : {&session.standing, &session.moving, &session.motion}) {
-    const Status ok = reconstruct::check_views(cameras, trial->detections, prior.tags);
-    if (!ok) return refuse("check_views", ok.error());
-  }
-  double start = processor_s();
-  auto fit = reconstruct::fit_subject(
-      prior, cameras, session.standing.detections, session.moving.detections);
-  out.fit_s = processor_s() - start;
-  if (!fit) return refuse("fit_subject", fit.error());
-  if (!fit->doubts.empty()) return refuse("fit_subject", fit->doubts.front());
-  out.body = std::move(fit->body);
-  start = processor_s();
-  reconstruct::SolveMotionOptions options;
-  options.camera_sigma_m = common_sigma_m(session);
-  auto solved =
-      reconstruct::solve_motion(out.body, cameras, session.motion.detections, options);
-  out.solve_s = processor_s() - start;
-  if (!solved) return refuse("solve_motion", solved.error());
-  out.motion = std::move(solved->estimate);
-  return out;
 }
 
 struct Options {
@@ -150,7 +108,7 @@ SessionRow measure(std::uint64_t seed, const Options& options) {
         enough.is_sufficient ? "sufficient" : ("lacks " + enough.lacking).c_str());
   }
   if (options.is_simulation_only) return row;
-  const SessionAnswer answered = answer(session);
+  const SessionAnswer answered = testing::answer_session(session);
   row.verdict = testing::judge(session, answered);
   row.fit_s = answered.fit_s;
   row.solve_s = answered.solve_s;

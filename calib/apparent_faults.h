@@ -27,7 +27,8 @@ enum class MoveStart {
 /// Of all cameras and frames, the move that explains most: one rotation and translation
 /// of one camera from one frame on, or between the waving and the floor. To first order;
 /// good to a tenth up to some ten pixels. `from_frame` is nullopt, too, where it holds
-/// for the whole recording. nullopt where nothing tells.
+/// for the whole recording: with kAnywhere always unless a start within it gains more
+/// than chance does. Returns nullopt without evidence.
 [[nodiscard]] std::optional<ApparentMove> apparent_move(
     const RigModel& model,
     const RefineOptions& refine,

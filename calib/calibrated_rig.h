@@ -94,6 +94,10 @@ struct ApparentMove {
   double gain = 0.0;  ///< By how much the cost falls, in squared sigmas.
   /// Other cameras whose move would explain nearly as much.
   std::vector<CameraId> instead;
+  /// Largest shift of a camera's centre if the move is solved for [m]: the effect on the
+  /// calibration, which may be large for a move of few pixels (a focal length that drifts
+  /// looks like a small move).
+  double rig_shift_m = 0.0;
 };
 
 /// A camera that may as well stand elsewhere: what it shares with the others reads two

@@ -109,8 +109,8 @@ Status check_floor(std::span<const Camera> cameras,
   return bad_input(
       source(as_given.worst),
       text.data(),
-      "check that this file is this camera's, that the board lay still, and "
-      "that no camera was moved between the calibration and the floor trial");
+      "check that this file is this camera's, that the board lay still in the `frames` of "
+      "the floor trial, and that no camera was moved between the calibration and it");
 }
 
 }  // namespace marey::calib

@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "calib/apparent_clocks.h"
 #include "calib/apparent_faults.h"
 #include "calib/planar_pose.h"
 #include "calib/refine_rig.h"
@@ -89,28 +90,30 @@ std::optional<RigidTransform> place(std::span<const Camera> cameras,
   return best;
 }
 
-}  // namespace
-
-std::optional<ApparentMove> find_moved_camera(
-    std::span<const Camera> cameras,
-    std::span<const CameraDetections> detections,
-    const std::map<TagId, double>& sizes_m) {
-  MAREY_ASSERT(cameras.size() == detections.size());
-  const SeenTags seen = look(detections, sizes_m);
-  if (seen.size() < kFewest) return std::nullopt;
-  RigModel model;
+/// The inputs of find_moved_camera().
+struct Trial {
+  std::span<const Camera> cameras;
+  std::span<const CameraDetections> detections;
+  const std::map<TagId, double>* sizes_m = nullptr;
   double rate_hz = 0.0;
-  for (std::size_t c = 0; c < cameras.size(); ++c) {
-    RigCamera camera;
-    camera.intrinsics = cameras[c].intrinsics;
-    camera.world_from_camera = inverse(cameras[c].camera_from_world);
-    model.cameras.push_back(camera);
-    if (!detections[c].frames.empty()) rate_hz = detections[c].rate.hz;
+};
+
+/// Builds the rig of the cameras at their places and of each tag's place in each frame;
+/// without sightings if fewer than kFewest tags are seen.
+RigModel model_of(const Trial& trial, std::span<const CameraDetections> detections) {
+  RigModel model;
+  for (const Camera& camera : trial.cameras) {
+    RigCamera one;
+    one.intrinsics = camera.intrinsics;
+    one.world_from_camera = inverse(camera.camera_from_world);
+    model.cameras.push_back(one);
   }
+  const SeenTags seen = look(detections, *trial.sizes_m);
+  if (seen.size() < kFewest) return model;
   std::map<TagId, std::size_t> target_of;
   for (const auto& [key, views] : seen) {
-    const double size_m = sizes_m.at(key.first);
-    const auto pose = place(cameras, views, size_m);
+    const double size_m = trial.sizes_m->at(key.first);
+    const auto pose = place(trial.cameras, views, size_m);
     if (!pose) continue;
     const auto [target, is_new] = target_of.try_emplace(key.first, model.targets.size());
     if (is_new) {
@@ -127,6 +130,109 @@ std::optional<ApparentMove> find_moved_camera(
       model.sightings.push_back(sighting);
     }
   }
+  return model;
+}
+
+/// Returns a tag's corners `by` frames later, interpolated between the frames before and
+/// after; nullopt if neither shows the tag.
+std::optional<std::array<glm::dvec2, 4>> corners_at(const TagDetection* before,
+                                                    const TagDetection& now,
+                                                    const TagDetection* after,
+                                                    double by) {
+  if (before == nullptr && after == nullptr) return std::nullopt;
+  std::array<glm::dvec2, 4> out = now.corners_px;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const glm::dvec2& at = now.corners_px[i];
+    if (before != nullptr && after != nullptr) {
+      const glm::dvec2& a = before->corners_px[i];
+      const glm::dvec2& b = after->corners_px[i];
+      out[i] += 0.5 * by * (b - a) + 0.5 * by * by * (b - 2.0 * at + a);
+    } else {
+      out[i] += by * (before != nullptr ? at - before->corners_px[i]
+                                        : after->corners_px[i] - at);
+    }
+  }
+  return out;
+}
+
+const TagDetection* tag_in(const CameraDetections& camera,
+                           const std::map<int, std::size_t>& places,
+                           int frame,
+                           TagId id) {
+  const auto found = places.find(frame);
+  if (found == places.end()) return nullptr;
+  for (const TagDetection& tag : camera.frames[found->second].tags) {
+    if (tag.id == id) return &tag;
+  }
+  return nullptr;
+}
+
+/// Returns the detections as of the first camera's instants.
+CameraDetections at_one_time(const CameraDetections& camera, double frames_late) {
+  std::map<int, std::size_t> places;
+  for (std::size_t i = 0; i < camera.frames.size(); ++i) {
+    places[camera.frames[i].frame] = i;
+  }
+  CameraDetections out = camera;
+  for (FrameDetections& frame : out.frames) {
+    std::vector<TagDetection> kept;
+    for (TagDetection& tag : frame.tags) {
+      const auto corners = corners_at(tag_in(camera, places, frame.frame - 1, tag.id),
+                                      tag,
+                                      tag_in(camera, places, frame.frame + 1, tag.id),
+                                      -frames_late);
+      if (!corners) continue;
+      tag.corners_px = *corners;
+      kept.push_back(tag);
+    }
+    frame.tags = std::move(kept);
+  }
+  return out;
+}
+
+/// Returns the detections as of synchronous cameras, by the clock offsets of their tags.
+std::vector<CameraDetections> in_step(const Trial& trial) {
+  constexpr double kLatest = 1.5;   // Frames. Beyond, cameras were never synchronous.
+  constexpr double kInStep = 0.01;  // Frames.
+  constexpr int kRounds = 2;        // The second finds a tenth of the first.
+  std::vector<CameraDetections> out(trial.detections.begin(), trial.detections.end());
+  std::vector<double> late(trial.cameras.size(), 0.0);  // Frames.
+  RefineOptions refine;
+  refine.intrinsics = false;
+  refine.camera_poses = false;
+  refine.covariance = false;
+  refine.quick = true;
+  for (int round = 0; round < kRounds; ++round) {
+    RigModel model = model_of(trial, out);
+    if (model.sightings.empty() || !refine_rig(model, refine)) return out;
+    const auto clocks = apparent_clocks(model, trial.rate_hz);
+    bool is_in_step = true;
+    for (std::size_t c = 0; c < late.size(); ++c) {
+      const double by = trial.rate_hz * clocks[c].offset_s;
+      const double sigma = trial.rate_hz * clocks[c].sigma_s;
+      if (std::abs(by) < std::max(kInStep, 3.0 * sigma)) continue;
+      if (std::abs(late[c] + by) > kLatest) continue;
+      late[c] += by;
+      out[c] = at_one_time(trial.detections[c], late[c]);
+      is_in_step = false;
+    }
+    if (is_in_step) break;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::optional<ApparentMove> find_moved_camera(
+    std::span<const Camera> cameras,
+    std::span<const CameraDetections> detections,
+    const std::map<TagId, double>& sizes_m) {
+  MAREY_ASSERT(cameras.size() == detections.size());
+  Trial trial{cameras, detections, &sizes_m, 0.0};
+  for (const CameraDetections& camera : detections) {
+    if (!camera.frames.empty()) trial.rate_hz = camera.rate.hz;
+  }
+  RigModel model = model_of(trial, in_step(trial));
   RefineOptions refine;
   refine.intrinsics = false;
   refine.camera_poses = false;
@@ -134,7 +240,7 @@ std::optional<ApparentMove> find_moved_camera(
   if (model.sightings.empty() || !refine_rig(model, refine)) return std::nullopt;
   // Clocks are in the base, so that no hypothesis is held for what they do.
   refine.offsets = true;
-  return apparent_move(model, refine, rate_hz, MoveStart::kAnywhere);
+  return apparent_move(model, refine, trial.rate_hz, MoveStart::kAnywhere);
 }
 
 }  // namespace marey::calib

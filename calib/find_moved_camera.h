@@ -19,8 +19,8 @@ namespace marey::calib {
 ///
 /// Returns the move (one rotation and translation of one camera from one frame on) that
 /// explains most of what is left, however small it is: ApparentMove with `from_frame`
-/// nullopt where it holds for the whole trial. nullopt where fewer than 30 tags were seen
-/// by two cameras at once.
+/// nullopt where it holds for the whole trial, or no start within it is certain. Returns
+/// nullopt if fewer than 30 tags were seen by two cameras at once.
 ///
 /// `detections` one entry per camera, in the order of `cameras`, with their rates and tag
 /// shrinkage taken off; `sizes_m` by tag: others are left out. Cost: a second or two.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,16 +40,37 @@ struct PlacedMarker {
   int frames = 0;        ///< Of the fit, in which it was seen.
 };
 
-/// One person: lengths, joint centres and where tags and markers sit, each with its doubt.
+/// How an elbow or a knee differs from a straight hinge. Bent by an angle, the lower bone
+/// is turned in the upper bone's frame by R(c, upper_rad) R(h, angle) R(c, lower_rad),
+/// where h is HumanLimb::hinge_axis and c is +Z on the left, -Z on the right. A straight
+/// limb deviates by the sum: the carrying angle of an elbow, the valgus of a knee. The
+/// hinge's centre moves by rollback_m * (1 - cos angle) along -Z of the upper bone
+/// (femoral rollback).
+struct HingeShape {
+  double upper_rad = 0.0;  ///< Of the hinge against the upper bone.
+  double lower_rad = 0.0;  ///< Of the lower bone against the hinge.
+  double rollback_m = 0.0;
+};
+
+/// A reason not to trust a measured body, in words for its user.
+struct BodyDoubt {
+  std::string cause;
+  std::string next;  ///< What to do about it.
+};
+
+/// One person: lengths, joint centres and where tags and markers sit, each with its
+/// doubt.
 struct Body {
   std::string name;
   double stature_m = 0.0;
   std::optional<double> mass_kg;
   Proportions proportions;
+  std::array<HingeShape, 4> hinges{};  ///< In the order of human_limbs().
   /// Standard deviation of each bone's origin in its parent's frame, per coordinate. [m]
   std::array<double, kHumanBoneCount> joint_centre_sigma_m{};
   std::vector<PlacedTag> tags;
   std::vector<PlacedMarker> markers;  ///< Labels all different.
+  std::vector<BodyDoubt> doubts;      ///< Empty of one that may be trusted.
 };
 
 }  // namespace marey

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include <glm/geometric.hpp>
+
 #include "reconstruct/initial_posture.h"
 #include "reconstruct/locate_rigid.h"
 #include "reconstruct/posture_descent.h"
@@ -20,6 +22,15 @@ constexpr double kMisfit2 = 40.0;
 constexpr double kGain = 2.0;
 
 constexpr DescentLimits kSettle{15, 1e-3};
+
+/// Returns whether descents from both end at the same place, as tags and cameras agree.
+bool is_near(const RigidTransform& a, const RigidTransform& b) {
+  constexpr double kSameTurn_rad = 0.3;
+  constexpr double kSamePlace_m = 0.06;
+  return glm::distance(a.translation, b.translation) < kSamePlace_m &&
+         glm::length(rotation_vector(glm::conjugate(a.rotation) * b.rotation)) <
+             kSameTurn_rad;
+}
 
 bool is_of(const HumanLimb& limb, HumanBone bone) {
   return bone == limb.upper || bone == limb.lower || bone == limb.end;
@@ -40,7 +51,8 @@ void BundleFrameSolver::evaluate(const BundleFrame& frame,
   SightedTag sighted;
   for (const TagSighting& s : frame.sightings) {
     if (!bundle_->model.place(s.tag)) continue;
-    if (!sight_.look(bundle_->model, unfolded, s, bundle_->noise(s.tag), true, sighted)) {
+    const SightingNoise noise = bundle_->noise(s.tag, posture, unfolded);
+    if (!sight_.look(bundle_->model, unfolded, s, noise, true, sighted)) {
       out.cost += robust_cost(kBehind2);
       continue;
     }
@@ -79,8 +91,8 @@ double BundleFrameSolver::worst_misfit(const BundleFrame& frame,
   for (const TagSighting& s : frame.sightings) {
     if (!bundle_->model.place(s.tag)) continue;
     if (limb && !is_of(human_limbs()[*limb], bundle_->model.bone(s.tag))) continue;
-    const bool seen =
-        sight_.look(bundle_->model, unfolded, s, bundle_->noise(s.tag), false, sighted);
+    const SightingNoise noise = bundle_->noise(s.tag, posture, unfolded);
+    const bool seen = sight_.look(bundle_->model, unfolded, s, noise, false, sighted);
     worst = std::max(worst, seen ? sighted.residual.squaredNorm() : kBehind2);
   }
   return worst;
@@ -99,7 +111,12 @@ std::vector<BundleFrameSolver::Start> BundleFrameSolver::readings(
          planar_candidates(cameras_[index(s.camera)],
                            *s.detection,
                            bundle_->model.tags[s.tag].size_m)) {
-      starts.push_back({bone, world_from_tag * inverse(*segment_from_tag)});
+      const RigidTransform world_from_bone = world_from_tag * inverse(*segment_from_tag);
+      const bool is_known =
+          std::any_of(starts.begin(), starts.end(), [&](const Start& start) {
+            return start.bone == bone && is_near(start.world_from_bone, world_from_bone);
+          });
+      if (!is_known) starts.push_back({bone, world_from_bone});
     }
   }
   return starts;

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/assert.h"
+#include "reconstruct/check_worn.h"
 #include "reconstruct/doubt_subject.h"
 #include "reconstruct/initial_posture.h"
 #include "reconstruct/refine_subject.h"
@@ -130,6 +131,23 @@ void add_frames(const Sightings& trial,
   }
 }
 
+std::array<double, kHumanBoneCount> seen_twice_share(const Sightings& trial,
+                                                     std::span<const TagOnSegment> tags) {
+  std::array<double, kHumanBoneCount> shares{};
+  const double share =
+      1.0 / static_cast<double>(std::max<std::size_t>(trial.frames.size(), 1));
+  for (const auto& frame : trial.frames) {
+    std::array<std::set<CameraId>, kHumanBoneCount> cameras;
+    for (const TagSighting& s : frame) {
+      cameras[index(solved_segment(tags[s.tag].segment))].insert(s.camera);
+    }
+    for (std::size_t bone = 0; bone < shares.size(); ++bone) {
+      if (cameras[bone].size() >= 2) shares[bone] += share;
+    }
+  }
+  return shares;
+}
+
 /// A tag that none of the frames shows has no say, and would be as doubtful as can be.
 void keep_sighted(SubjectBundle& bundle) {
   std::erase_if(bundle.model.segment_from_tag, [&](const auto& placed) {
@@ -242,6 +260,7 @@ SubjectFit to_fit(const SubjectPrior& prior,
   fit.body.stature_m = prior.stature_m;
   fit.body.mass_kg = prior.mass_kg;
   fit.body.proportions = finish(bundle, average);
+  fit.body.hinges = bundle.model.body.hinges;
   fit.body.joint_centre_sigma_m = centre_sigmas(bundle);
   for (std::size_t i = 0; i < bundle.model.tags.size(); ++i) {
     const auto pose = bundle.model.segment_from_tag.find(i);
@@ -285,6 +304,8 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
   const LocatedTrial stood = locate_trial(trials[0], clusters, cameras, prior.tags);
   const LocatedTrial moved = locate_trial(trials[1], clusters, cameras, prior.tags);
   tell(1);
+  const WornTags worn{cameras, prior.tags, trials, clusters, stood.poses, moved.poses};
+  if (const Status ok = check_worn(worn, average); !ok) return ok.error();
   const auto frames = find_segment_frames(clusters, stood.poses, moved.poses, average);
   if (!frames) return frames.error();
 
@@ -319,13 +340,18 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
     return unfitted();
   }
   measure(bundle, cameras);
-  if (!fill_sigmas(bundle, cameras)) return unfitted();
+  tell(3);
+  if (!refine_slides(bundle, cameras) || !fill_sigmas(bundle, cameras)) return unfitted();
   tell(kSteps);
   SubjectFit fit = to_fit(prior, bundle, average);
   if (const Status ok = check_size(fit.limb_ratio, prior.stature_m); !ok) {
     return ok.error();
   }
+  evidence.seen_twice_share = seen_twice_share(trials[1], prior.tags);
   fit.doubts = doubts_of(bundle, evidence);
+  for (const Error& doubt : fit.doubts) {
+    fit.body.doubts.push_back({doubt.cause, doubt.next});
+  }
   return fit;
 }
 

@@ -32,7 +32,8 @@ struct SubjectFit {
   std::vector<TagId> unplaced;
   /// Reasons not to trust the fit (kQuality), each with the segment and the next step:
   /// sightings that no place of a tag explains, hands and feet that fit in two ways,
-  /// lengths that no person has. Empty when all sightings go together.
+  /// lengths that no person has. Empty when all sightings go together. In words also in
+  /// body.doubts.
   std::vector<Error> doubts;
 };
 

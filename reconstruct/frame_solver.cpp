@@ -107,25 +107,6 @@ void FrameSolver::track_back(std::span<const TagSighting> frame,
   }
 }
 
-bool FrameSolver::settle(std::span<const TagSighting> frame, Posture& posture) const {
-  double worst_px = 0.0;
-  for (const TagSighting& s : frame) {
-    worst_px = std::max(worst_px, misfit_px(s, posture));
-  }
-  if (worst_px < kLostPx) return false;
-  Posture mended = posture;
-  retry_limbs(frame, locate(frame), nullptr, mended);
-  Posture fresh = track(frame, nullptr, nullptr);
-  const double mended_cost = refine(frame, nullptr, mended);
-  const double fresh_cost = refine(frame, nullptr, fresh);
-  Posture as_it_was = posture;
-  if (std::min(mended_cost, fresh_cost) >= refine(frame, nullptr, as_it_was)) {
-    return false;
-  }
-  posture = mended_cost <= fresh_cost ? mended : fresh;
-  return true;
-}
-
 double FrameSolver::refine(std::span<const TagSighting> frame,
                            const Posture* predicted,
                            Posture& posture) const {

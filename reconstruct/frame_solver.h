@@ -39,10 +39,6 @@ class FrameSolver {
                   const Posture* later,
                   Posture& posture) const;
 
-  /// Gives a posture in which a tag does not fit a fresh start, and keeps what fits
-  /// better. Returns whether it changed.
-  bool settle(std::span<const TagSighting> frame, Posture& posture) const;
-
  private:
   [[nodiscard]] double refine(std::span<const TagSighting> frame,
                               const Posture* predicted,

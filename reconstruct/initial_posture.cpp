@@ -64,6 +64,7 @@ struct LimbInput {
 void set_limb(const LimbInput& input,
               const Found& found,
               const Lengths& lengths,
+              const HingeShape& shape,
               const Posture& fallback,
               Posture& posture) {
   const LimbSlots& s = kLimbSlots[input.limb];
@@ -80,20 +81,28 @@ void set_limb(const LimbInput& input,
   const auto lean = [&] {
     return std::atan2(l2 * std::sin(flexion), l1 + l2 * std::cos(flexion));
   };
+  const glm::dquat at_hinge =
+      rotation_from_vector(shape.upper_rad * tilt_axis(input.limb));
+  const glm::dquat past_hinge =
+      rotation_from_vector(shape.lower_rad * tilt_axis(input.limb));
   glm::dquat frame;
   if (upper && lower) {
-    const glm::dquat bend = glm::conjugate(upper->rotation) * lower->rotation;
+    // As if the hinge were straight; exact where neither bone is twisted.
+    const glm::dquat bend = glm::conjugate(at_hinge) * glm::conjugate(upper->rotation) *
+                            lower->rotation * glm::conjugate(past_hinge);
     set_bend(bend, along, hinge, flexion, upper_twist);
     const glm::dquat plane = upper->rotation * rotation_from_vector(-upper_twist * along);
     frame = plane * rotation_from_vector(lean() * hinge);
-    const glm::dquat untwisted = plane * rotation_from_vector(flexion * hinge);
+    const glm::dquat untwisted =
+        plane * at_hinge * rotation_from_vector(flexion * hinge) * past_hinge;
     lower_twist = signed_angle(glm::conjugate(untwisted) * lower->rotation, along);
   } else if (upper) {
     frame = upper->rotation * rotation_from_vector(-upper_twist * along) *
             rotation_from_vector(lean() * hinge);
   } else if (lower) {
     frame = lower->rotation * rotation_from_vector(-lower_twist * along) *
-            rotation_from_vector(-(flexion - lean()) * hinge);
+            glm::conjugate(past_hinge) * rotation_from_vector(-flexion * hinge) *
+            glm::conjugate(at_hinge) * rotation_from_vector(lean() * hinge);
   } else {
     frame = carried(fallback.rotation(input.parent),
                     fallback.rotation(s.frame),
@@ -173,10 +182,10 @@ Posture posture_from_segments(const Found& found,
   set_trunk(found, fallback, posture);
   set_shoulder(true, found, lengths, body, fallback, posture);
   set_shoulder(false, found, lengths, body, fallback, posture);
-  set_limb({0, Slot::kThorax}, found, lengths, fallback, posture);
-  set_limb({1, Slot::kThorax}, found, lengths, fallback, posture);
-  set_limb({2, Slot::kHips}, found, lengths, fallback, posture);
-  set_limb({3, Slot::kHips}, found, lengths, fallback, posture);
+  set_limb({0, Slot::kThorax}, found, lengths, body.hinges[0], fallback, posture);
+  set_limb({1, Slot::kThorax}, found, lengths, body.hinges[1], fallback, posture);
+  set_limb({2, Slot::kHips}, found, lengths, body.hinges[2], fallback, posture);
+  set_limb({3, Slot::kHips}, found, lengths, body.hinges[3], fallback, posture);
   return posture;
 }
 

@@ -36,6 +36,7 @@ void cut_out(std::size_t limb, const SubjectBundle& whole, LimbBundle& out) {
 void take_back(std::size_t limb, const LimbBundle& from, SubjectBundle& whole) {
   const LimbSlots& s = kLimbSlots[limb];
   whole.model.lengths = from.bundle.model.lengths;
+  whole.model.body = from.bundle.model.body;
   whole.model.segment_from_tag = from.bundle.model.segment_from_tag;
   for (std::size_t i = 0; i < from.frames.size(); ++i) {
     Posture& posture = whole.frames[from.frames[i]].posture;

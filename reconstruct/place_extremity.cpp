@@ -151,10 +151,14 @@ double explained_share(std::span<const std::size_t> tags,
     for (const TagSighting& s : frame.sightings) {
       if (std::find(tags.begin(), tags.end(), s.tag) == tags.end()) continue;
       ++sightings;
-      explained +=
-          bundle.model.place(s.tag) &&
-          sight.look(bundle.model, unfolded, s, bundle.noise(s.tag), false, sighted) &&
-          sighted.residual.squaredNorm() < kExplained2;
+      explained += bundle.model.place(s.tag) &&
+                   sight.look(bundle.model,
+                              unfolded,
+                              s,
+                              bundle.noise(s.tag, frame.posture, unfolded),
+                              false,
+                              sighted) &&
+                   sighted.residual.squaredNorm() < kExplained2;
     }
   }
   return sightings == 0 ? 0.0 : static_cast<double>(explained) / sightings;

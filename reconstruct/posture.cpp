@@ -158,7 +158,13 @@ std::optional<Length> length_of(HumanBone bone) {
 }
 
 BodyFrame frame_of(const Proportions& proportions) {
-  return {-proportions[B::kLeftUpperLeg].y};
+  return {-proportions[B::kLeftUpperLeg].y, {}};
+}
+
+BodyFrame frame_of(const Body& body) {
+  BodyFrame frame = frame_of(body.proportions);
+  frame.hinges = body.hinges;
+  return frame;
 }
 
 RigidTransform world_from_bone(HumanBone bone,

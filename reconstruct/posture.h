@@ -20,67 +20,13 @@
 
 #include <Eigen/Geometry>
 
+#include "core/body.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
+#include "reconstruct/posture_slots.h"
 
 namespace marey::reconstruct {
-
-/// The unknowns of a posture, one solver block each. Order is that of Posture's storage.
-enum class Slot : int {
-  kHipsPosition,  ///< 3 numbers, [m]
-  // Rotations, 4 numbers (x, y, z, w).
-  kHips,
-  kAbdomenEnd,  ///< Where the abdomen's spline meets the torso's.
-  kThorax,      ///< Upper end of the torso's spline: the rib cage.
-  kNeck,
-  kHead,
-  kLeftShoulder,
-  kRightShoulder,
-  kLeftArm,  ///< The limb's frame.
-  kRightArm,
-  kLeftLeg,
-  kRightLeg,
-  kLeftHand,
-  kRightHand,
-  kLeftFoot,
-  kRightFoot,
-  // Scalars, [rad].
-  kLeftElbow,  ///< Flexion: 0 is straight.
-  kRightElbow,
-  kLeftKnee,
-  kRightKnee,
-  kLeftForearmTwist,  ///< Of the lower bone about its own axis, off the limb's plane.
-  kRightForearmTwist,
-  kLeftShankTwist,
-  kRightShankTwist,
-  kLeftUpperArmTwist,  ///< Likewise of the upper bone: its skin follows it only half way.
-  kRightUpperArmTwist,
-  kLeftThighTwist,
-  kRightThighTwist,
-};
-inline constexpr int kSlotCount = 28;
-
-[[nodiscard]] constexpr std::size_t index(Slot slot) {
-  return static_cast<std::size_t>(slot);
-}
-[[nodiscard]] constexpr bool is_rotation(Slot slot) {
-  return slot >= Slot::kHips && slot <= Slot::kRightFoot;
-}
-[[nodiscard]] constexpr int block_size(Slot slot) {
-  return slot == Slot::kHipsPosition ? 3 : (is_rotation(slot) ? 4 : 1);
-}
-/// Degrees of freedom of a block.
-[[nodiscard]] constexpr int tangent_size(Slot slot) {
-  return slot == Slot::kHipsPosition || is_rotation(slot) ? 3 : 1;
-}
-[[nodiscard]] constexpr int storage_offset(Slot slot) {
-  int offset = 0;
-  for (int i = 0; i < static_cast<int>(slot); ++i) offset += block_size(Slot{i});
-  return offset;
-}
-inline constexpr int kPostureStorage = 3 + 15 * 4 + 12;
-inline constexpr int kPostureFreedom = 3 + 15 * 3 + 12;
 
 /// One posture: plain numbers that a solver can point into.
 struct Posture {
@@ -99,97 +45,11 @@ struct Posture {
   }
 };
 
-inline constexpr std::array<Slot, kSlotCount> kAllSlots = [] {
-  std::array<Slot, kSlotCount> slots{};
-  for (int i = 0; i < kSlotCount; ++i) slots[static_cast<std::size_t>(i)] = Slot{i};
-  return slots;
-}();
-
-/// The lengths that a subject's fit moves. [m]
-enum class Length : int {
-  kSpine,  ///< hips to spine joint; likewise the next four.
-  kChest,
-  kUpperChest,
-  kNeck,
-  kHead,
-  kHalfHipWidth,  ///< The hips' X axis runs through both hip centres by definition.
-  kShoulderOut,   ///< Where the left clavicle turns, in the rib cage's frame; the right
-  kShoulderUp,    ///< one mirrors it.
-  kShoulderForward,
-  kNeckForward,
-  kLeftShoulder,  ///< Inner to outer end of the clavicle.
-  kRightShoulder,
-  kLeftUpperArm,
-  kRightUpperArm,
-  kLeftLowerArm,
-  kRightLowerArm,
-  kLeftUpperLeg,
-  kRightUpperLeg,
-  kLeftLowerLeg,
-  kRightLowerLeg,
-};
-inline constexpr int kLengthCount = 20;
-using Lengths = std::array<double, kLengthCount>;
-
-[[nodiscard]] constexpr std::size_t index(Length length) {
-  return static_cast<std::size_t>(length);
-}
-
-/// How the posture's numbers make bones: one row per limb.
-struct LimbSlots {
-  Slot frame;
-  Slot flexion;
-  Slot upper_twist;
-  Slot lower_twist;
-  Slot extremity;
-  Length upper;
-  Length lower;
-};
-/// In the order of human_limbs().
-inline constexpr std::array<LimbSlots, 4> kLimbSlots{{
-    {Slot::kLeftArm,
-     Slot::kLeftElbow,
-     Slot::kLeftUpperArmTwist,
-     Slot::kLeftForearmTwist,
-     Slot::kLeftHand,
-     Length::kLeftUpperArm,
-     Length::kLeftLowerArm},
-    {Slot::kRightArm,
-     Slot::kRightElbow,
-     Slot::kRightUpperArmTwist,
-     Slot::kRightForearmTwist,
-     Slot::kRightHand,
-     Length::kRightUpperArm,
-     Length::kRightLowerArm},
-    {Slot::kLeftLeg,
-     Slot::kLeftKnee,
-     Slot::kLeftThighTwist,
-     Slot::kLeftShankTwist,
-     Slot::kLeftFoot,
-     Length::kLeftUpperLeg,
-     Length::kLeftLowerLeg},
-    {Slot::kRightLeg,
-     Slot::kRightKnee,
-     Slot::kRightThighTwist,
-     Slot::kRightShankTwist,
-     Slot::kRightFoot,
-     Length::kRightUpperLeg,
-     Length::kRightLowerLeg},
-}};
-
-/// The limb's direction in the T-pose, root to end.
-[[nodiscard]] inline glm::dvec3 limb_axis(std::size_t limb) {
-  if (limb == 0) return {1, 0, 0};
-  return limb == 1 ? glm::dvec3(-1, 0, 0) : glm::dvec3(0, -1, 0);
-}
-
-/// The slots that a bone's frame in the world depends on, in slot order.
-[[nodiscard]] std::vector<Slot> slots_of(HumanBone bone);
-
-/// What stays fixed while lengths and postures move: how high the hips' own joint lies
-/// above the hip centres.
+/// What postures leave as it is, beside lengths: how high the hips' own joint lies above
+/// the hip centres, which is a definition, and how askew each limb's hinge is.
 struct BodyFrame {
   double hips_above_hip_centres_m = 0.0;
+  std::array<HingeShape, 4> hinges{};  ///< In the order of human_limbs().
 };
 
 /// Rest offsets from lengths and back. `like` gives what lengths do not say: toes, tips.
@@ -201,6 +61,8 @@ struct BodyFrame {
 /// and of what the fit does not move.
 [[nodiscard]] std::optional<Length> length_of(HumanBone bone);
 [[nodiscard]] BodyFrame frame_of(const Proportions& proportions);
+/// The same with the body's hinges; those of proportions alone are straight.
+[[nodiscard]] BodyFrame frame_of(const Body& body);
 
 /// A bone's frame in the world, on whatever scalar the solver uses.
 template <class T>
@@ -249,7 +111,8 @@ BoneFrame<T> limb_bone(std::size_t limb,
                        int place,
                        const Vec3<T>& root,
                        std::span<const T* const, kSlotCount> blocks,
-                       const L* lengths) {
+                       const L* lengths,
+                       const HingeShape& shape) {
   using Quaternion = Eigen::Quaternion<T>;
   using std::atan2;
   using std::cos;
@@ -264,15 +127,19 @@ BoneFrame<T> limb_bone(std::size_t limb,
   const T l1 = T(lengths[index(s.upper)]);
   const T l2 = T(lengths[index(s.lower)]);
   // The upper bone leans back by alpha and the lower forward by the rest of the flexion,
-  // so that the end stays on the frame's axis.
+  // so that the end of a limb with a straight hinge stays on the frame's axis.
   const T alpha = atan2(l2 * sin(flexion), l1 + l2 * cos(flexion));
   const Quaternion frame = rotation(s.frame);
   const Quaternion upper = frame * about_axis(hinge, T(-alpha));
   if (place == 0) {
     return {upper * about_axis(along, *blocks[index(s.upper_twist)]), root};
   }
-  const Vec3<T> p_mid = root + upper * (vec<T>(along) * l1);
-  const Quaternion lower = frame * about_axis(hinge, T(flexion - alpha));
+  const Vec3<T> back(T(0), T(0), T(-shape.rollback_m) * (T(1) - cos(flexion)));
+  const Vec3<T> p_mid = root + upper * (vec<T>(along) * l1 + back);
+  const glm::dvec3 tilted = tilt_axis(limb);
+  const Quaternion lower = upper * about_axis(tilted, T(shape.upper_rad)) *
+                           about_axis(hinge, flexion) *
+                           about_axis(tilted, T(shape.lower_rad));
   if (place == 1) {
     return {lower * about_axis(along, *blocks[index(s.lower_twist)]), p_mid};
   }
@@ -305,7 +172,7 @@ BoneFrame<T> bone_frame(HumanBone bone,
   if (bone == B::kHips) return {hips, p_hips};
 
   const auto limb_bone = [&](std::size_t limb, const Vec3<T>& root, int place) {
-    return detail::limb_bone<T, L>(limb, place, root, blocks, lengths);
+    return detail::limb_bone<T, L>(limb, place, root, blocks, lengths, body.hinges[limb]);
   };
   const auto leg = [&](std::size_t limb, double side, int place) {
     const Vec3<T> hip(

@@ -7,53 +7,11 @@
 #include "core/assert.h"
 
 namespace marey::reconstruct {
-namespace {
 
 using B = HumanBone;
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-
-/// Of a limb's bone which one it is: 0 upper, 1 lower, 2 hand or foot. Nullopt elsewhere.
-struct InLimb {
-  std::size_t limb = 4;  ///< 4: in none.
-  int place = 0;
-};
-
-constexpr InLimb in_limb(B bone) {
-  switch (bone) {
-    case B::kLeftUpperArm:
-      return {0, 0};
-    case B::kLeftLowerArm:
-      return {0, 1};
-    case B::kLeftHand:
-      return {0, 2};
-    case B::kRightUpperArm:
-      return {1, 0};
-    case B::kRightLowerArm:
-      return {1, 1};
-    case B::kRightHand:
-      return {1, 2};
-    case B::kLeftUpperLeg:
-      return {2, 0};
-    case B::kLeftLowerLeg:
-      return {2, 1};
-    case B::kLeftFoot:
-    case B::kLeftToes:
-      return {2, 2};
-    case B::kRightUpperLeg:
-      return {3, 0};
-    case B::kRightLowerLeg:
-      return {3, 1};
-    case B::kRightFoot:
-    case B::kRightToes:
-      return {3, 2};
-    default:
-      return {};
-  }
-}
-
-}  // namespace
 
 void SparseDerivative::add(int first_column, const Matrix3d& block) {
   MAREY_ASSERT(columns + 3 <= kMost);
@@ -107,7 +65,8 @@ void UnfoldedPosture::unfold(const Posture& posture,
       const Vector3d hip(side * lengths[index(Length::kHalfHipWidth)],
                          -body.hips_above_hip_centres_m,
                          0.0);
-      unfold_limb(limb, hips.origin + hips.rotation * hip, posture, lengths);
+      unfold_limb(
+          limb, hips.origin + hips.rotation * hip, posture, lengths, body.hinges[limb]);
       continue;
     }
     Bone& shoulder = bones_[index(limb == 0 ? B::kLeftShoulder : B::kRightShoulder)];
@@ -121,7 +80,7 @@ void UnfoldedPosture::unfold(const Posture& posture,
     const double clavicle =
         lengths[index(limb == 0 ? Length::kLeftShoulder : Length::kRightShoulder)];
     const Vector3d root = shoulder.origin + side * clavicle * shoulder.rotation.col(0);
-    unfold_limb(limb, root, posture, lengths);
+    unfold_limb(limb, root, posture, lengths, body.hinges[limb]);
   }
 }
 
@@ -165,7 +124,8 @@ void UnfoldedPosture::unfold_trunk(const Posture& posture, const Lengths& length
 void UnfoldedPosture::unfold_limb(std::size_t limb,
                                   const Vector3d& root,
                                   const Posture& posture,
-                                  const Lengths& lengths) {
+                                  const Lengths& lengths,
+                                  const HingeShape& shape) {
   const LimbSlots& s = kLimbSlots[limb];
   const HumanLimb& bones = human_limbs()[limb];
   const glm::dvec3 along = limb_axis(limb);
@@ -174,12 +134,18 @@ void UnfoldedPosture::unfold_limb(std::size_t limb,
   const double l2 = lengths[index(s.lower)];
   const auto [alpha, lean_rate] = lean_of(limb, flexion, lengths);
   const Quaterniond frame = quaternion(posture, s.frame);
-  const Matrix3d upper =
-      (frame * detail::about_axis(bones.hinge_axis, -alpha)).toRotationMatrix();
+  const glm::dvec3 tilted = tilt_axis(limb);
+  const Quaterniond q_upper = frame * detail::about_axis(bones.hinge_axis, -alpha);
+  const Quaterniond q_hinge = q_upper * detail::about_axis(tilted, shape.upper_rad);
+  const Quaterniond q_bent = q_hinge * detail::about_axis(bones.hinge_axis, flexion);
+  const Matrix3d upper = q_upper.toRotationMatrix();
   const Matrix3d lower =
-      (frame * detail::about_axis(bones.hinge_axis, flexion - alpha)).toRotationMatrix();
+      (q_bent * detail::about_axis(tilted, shape.lower_rad)).toRotationMatrix();
   Limb& own = limbs_[limb];
-  own.hinge_in_world = frame * eigen(bones.hinge_axis);
+  own.lean_axis_in_world = frame * eigen(bones.hinge_axis);
+  own.hinge_in_world = q_hinge * eigen(bones.hinge_axis);
+  own.upper_tilt_in_world = q_upper * eigen(tilted);
+  own.lower_tilt_in_world = q_bent * eigen(tilted);
   own.upper_axis_in_world = upper * eigen(along);
   own.lower_axis_in_world = lower * eigen(along);
   own.lean_rate = lean_rate;
@@ -188,7 +154,12 @@ void UnfoldedPosture::unfold_limb(std::size_t limb,
   const double by_sine = reach2 > 1e-12 ? std::sin(flexion) / reach2 : 0.0;
   own.lean_by_upper = -l2 * by_sine;
   own.lean_by_lower = l1 * by_sine;
-  const Vector3d p_mid = root + l1 * own.upper_axis_in_world;
+  own.back_in_world = -upper.col(2);
+  own.rolled = 1.0 - std::cos(flexion);
+  own.rolled_rate = std::sin(flexion);
+  own.rollback_m = shape.rollback_m;
+  const Vector3d p_mid = root + l1 * own.upper_axis_in_world +
+                         shape.rollback_m * own.rolled * own.back_in_world;
   const auto twist = [&](Slot slot) {
     return detail::about_axis(along, *posture.block(slot)).toRotationMatrix();
   };
@@ -224,9 +195,10 @@ void UnfoldedPosture::limb_derivative(std::size_t limb,
   out.add(column_of(s.frame), Matrix3d(-cross_matrix(carried - root)));
   const Vector3d by_upper = place == 0 ? Vector3d(p - root) : Vector3d(mid - root);
   const Vector3d by_lower = place == 0 ? Vector3d::Zero() : Vector3d(carried - mid);
-  out.add(column_of(s.flexion),
-          Vector3d(own.hinge_in_world.cross((1.0 - own.lean_rate) * by_lower -
-                                            own.lean_rate * by_upper)));
+  Vector3d by_flexion = own.hinge_in_world.cross(by_lower) -
+                        own.lean_rate * own.lean_axis_in_world.cross(by_upper + by_lower);
+  if (place > 0) by_flexion += own.rollback_m * own.rolled_rate * own.back_in_world;
+  out.add(column_of(s.flexion), by_flexion);
   if (place == 0) {
     out.add(column_of(s.upper_twist), Vector3d(own.upper_axis_in_world.cross(p - root)));
   } else if (place == 1) {
@@ -236,27 +208,32 @@ void UnfoldedPosture::limb_derivative(std::size_t limb,
   }
 }
 
-void UnfoldedPosture::limb_length_derivative(std::size_t limb,
-                                             int place,
-                                             const Vector3d& p,
-                                             SparseDerivative& out) const {
+void UnfoldedPosture::limb_shape_derivative(std::size_t limb,
+                                            int place,
+                                            const Vector3d& p,
+                                            SparseDerivative& out) const {
   const LimbSlots& s = kLimbSlots[limb];
   const HumanLimb& bones = human_limbs()[limb];
   const Limb& own = limbs_[limb];
   // Both bones lean back about the hinge; the extremity's own rotation stays.
   const Vector3d carried = place == 2 ? origin(bones.end) : p;
-  const Vector3d by_lean = -own.hinge_in_world.cross(carried - origin(bones.upper));
+  const Vector3d by_lean = -own.lean_axis_in_world.cross(carried - origin(bones.upper));
   Vector3d by_upper = own.lean_by_upper * by_lean;
   Vector3d by_lower = own.lean_by_lower * by_lean;
   if (place >= 1) by_upper += own.upper_axis_in_world;
   if (place == 2) by_lower += own.lower_axis_in_world;
   out.add(static_cast<int>(s.upper), by_upper);
   out.add(static_cast<int>(s.lower), by_lower);
+  if (place == 0) return;
+  const Vector3d from_mid = carried - origin(bones.lower);
+  out.add(hinge_column(limb), Vector3d(own.upper_tilt_in_world.cross(from_mid)));
+  out.add(hinge_column(limb) + 1, Vector3d(own.lower_tilt_in_world.cross(from_mid)));
+  out.add(hinge_column(limb) + 2, Vector3d(own.rolled * own.back_in_world));
 }
 
-void UnfoldedPosture::length_derivative(HumanBone bone,
-                                        const Vector3d& p,
-                                        SparseDerivative& out) const {
+void UnfoldedPosture::shape_derivative(HumanBone bone,
+                                       const Vector3d& p,
+                                       SparseDerivative& out) const {
   out.clear();
   const auto add = [&](Length length, const Vector3d& direction) {
     out.add(static_cast<int>(length), direction);
@@ -265,7 +242,7 @@ void UnfoldedPosture::length_derivative(HumanBone bone,
   const double side = where.limb % 2 == 0 ? 1.0 : -1.0;
   if (where.limb == 2 || where.limb == 3) {
     add(Length::kHalfHipWidth, side * rotation(B::kHips).col(0));
-    return limb_length_derivative(where.limb, where.place, p, out);
+    return limb_shape_derivative(where.limb, where.place, p, out);
   }
   if (bone == B::kHips) return;
   add(Length::kSpine, rotation(B::kHips).col(1));
@@ -290,7 +267,7 @@ void UnfoldedPosture::length_derivative(HumanBone bone,
   const B shoulder = left ? B::kLeftShoulder : B::kRightShoulder;
   add(left ? Length::kLeftShoulder : Length::kRightShoulder,
       outward * rotation(shoulder).col(0));
-  limb_length_derivative(where.limb, where.place, p, out);
+  limb_shape_derivative(where.limb, where.place, p, out);
 }
 
 void UnfoldedPosture::derivative(HumanBone bone,
@@ -363,9 +340,9 @@ void UnfoldedPosture::turn_derivative(HumanBone bone, SparseDerivative& out) con
     const Limb& own = limbs_[where.limb];
     const bool upper = where.place == 0;
     out.add(column_of(s.frame), identity);
-    out.add(
-        column_of(s.flexion),
-        Vector3d((upper ? -own.lean_rate : 1.0 - own.lean_rate) * own.hinge_in_world));
+    Vector3d by_flexion = -own.lean_rate * own.lean_axis_in_world;
+    if (!upper) by_flexion += own.hinge_in_world;
+    out.add(column_of(s.flexion), by_flexion);
     out.add(column_of(upper ? s.upper_twist : s.lower_twist),
             upper ? own.upper_axis_in_world : own.lower_axis_in_world);
     return;

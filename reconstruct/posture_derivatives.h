@@ -54,10 +54,10 @@ class UnfoldedPosture {
   void turn_derivative(HumanBone bone, SparseDerivative& out) const;
 
   /// Computes how a point that moves with `bone`, now at `p_in_world`, follows the body's
-  /// lengths; columns are positions in Lengths.
-  void length_derivative(HumanBone bone,
-                         const Eigen::Vector3d& p_in_world,
-                         SparseDerivative& out) const;
+  /// shape; columns are positions in Lengths, then hinge_column().
+  void shape_derivative(HumanBone bone,
+                        const Eigen::Vector3d& p_in_world,
+                        SparseDerivative& out) const;
 
  private:
   struct Bone {
@@ -65,9 +65,16 @@ class UnfoldedPosture {
     Eigen::Vector3d origin;
   };
   struct Limb {
-    Eigen::Vector3d hinge_in_world;
+    Eigen::Vector3d lean_axis_in_world;   ///< Upper bones lean about it.
+    Eigen::Vector3d hinge_in_world;       ///< Lower bones bend about it.
+    Eigen::Vector3d upper_tilt_in_world;  ///< HingeShape's axis before the bend,
+    Eigen::Vector3d lower_tilt_in_world;  ///< and after it.
     Eigen::Vector3d upper_axis_in_world;
     Eigen::Vector3d lower_axis_in_world;
+    Eigen::Vector3d back_in_world;  ///< Of the rollback.
+    double rolled = 0.0;  ///< Share of the rollback, and how it follows flexion.
+    double rolled_rate = 0.0;
+    double rollback_m = 0.0;
     double lean_rate = 0.0;      ///< Of the upper bone, by flexion.
     double lean_by_upper = 0.0;  ///< Of the upper bone, by its own length. [rad/m]
     double lean_by_lower = 0.0;  ///< Of the upper bone, by the lower bone's. [rad/m]
@@ -77,16 +84,17 @@ class UnfoldedPosture {
   void unfold_limb(std::size_t limb,
                    const Eigen::Vector3d& root,
                    const Posture& posture,
-                   const Lengths& lengths);
+                   const Lengths& lengths,
+                   const HingeShape& shape);
   void limb_derivative(std::size_t limb,
                        int place,
                        const Eigen::Vector3d& p_in_world,
                        SparseDerivative& out) const;
   void thorax_base(SparseDerivative& out) const;
-  void limb_length_derivative(std::size_t limb,
-                              int place,
-                              const Eigen::Vector3d& p_in_world,
-                              SparseDerivative& out) const;
+  void limb_shape_derivative(std::size_t limb,
+                             int place,
+                             const Eigen::Vector3d& p_in_world,
+                             SparseDerivative& out) const;
 
   std::array<Bone, kHumanBoneCount> bones_;
   std::array<Limb, 4> limbs_;

@@ -144,33 +144,6 @@ struct LateTagResidual : KnownTagResidual {
   }
 };
 
-/// Reprojection of one tag of a body that is being measured: further blocks are the
-/// lengths, the tag's rotation (x, y, z, w) and place on its segment.
-struct UnknownTagResidual {
-  HumanBone bone;
-  std::vector<Slot> slots;
-  BodyFrame body;
-  TagImage image;
-  double size_m = 0.0;
-
-  template <class... A>
-  bool operator()(A... arguments) const {
-    auto in = unpack(slots, arguments...);
-    using T = std::remove_pointer_t<decltype(in.residual)>;
-    const BoneFrame<T> frame = bone_frame<T, T>(
-        bone, std::span<const T* const, kSlotCount>(in.blocks), in.extra[0], body);
-    const Eigen::Map<const Eigen::Quaternion<T>> rotation(in.extra[1]);
-    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> origin(in.extra[2]);
-    std::array<Eigen::Matrix<T, 3, 1>, 4> corners;
-    for (int i = 0; i < 4; ++i) {
-      corners[static_cast<std::size_t>(i)] =
-          rotation * detail::vec<T>(corner_in_tag(i, size_m)) + origin;
-    }
-    image.residual(frame, corners, in.residual);
-    return true;
-  }
-};
-
 /// Blocks of `residual` are slots_of(bone), then `Extra...`. Each kind of bone has its
 /// own list of block sizes, which Ceres wants at compile time.
 template <int Residuals, int... Extra, class Functor>

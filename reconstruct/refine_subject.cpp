@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -123,6 +124,14 @@ std::vector<std::size_t> unexplained_tags(const SubjectBundle& bundle,
   return tags;
 }
 
+/// Takes their places from them, and says which they were.
+std::set<std::size_t> take_unexplained(SubjectBundle& bundle,
+                                       std::span<const Camera> cameras) {
+  const std::vector<std::size_t> tags = unexplained_tags(bundle, cameras);
+  for (const std::size_t tag : tags) bundle.model.segment_from_tag.erase(tag);
+  return {tags.begin(), tags.end()};
+}
+
 void place_extremities(std::span<const Camera> cameras,
                        const Places& guesses,
                        SubjectBundle& bundle,
@@ -168,7 +177,7 @@ void estimate_slips(std::span<const Camera> cameras, SubjectBundle& bundle) {
     unfolded.unfold(frame.posture, bundle.model.lengths, bundle.model.body);
     for (const TagSighting& s : frame.sightings) {
       if (!bundle.model.place(s.tag)) continue;
-      const SightingNoise noise = bundle.noise(s.tag);
+      const SightingNoise noise = bundle.noise(s.tag, frame.posture, unfolded);
       if (!sight.look(bundle.model, unfolded, s, noise, false, sighted)) continue;
       Score& score = scores[index(bundle.model.bone(s.tag))];
       ++score.sightings;
@@ -211,8 +220,12 @@ std::vector<TagEvidence> tag_evidence(std::span<const Camera> cameras,
     unfolded.unfold(frame.posture, bundle.model.lengths, bundle.model.body);
     for (const TagSighting& s : frame.sightings) {
       if (!bundle.model.place(s.tag)) continue;
-      const bool seen =
-          sight.look(bundle.model, unfolded, s, bundle.noise(s.tag), false, sighted);
+      const bool seen = sight.look(bundle.model,
+                                   unfolded,
+                                   s,
+                                   bundle.noise(s.tag, frame.posture, unfolded),
+                                   false,
+                                   sighted);
       squares[s.tag].push_back(seen ? sighted.residual.squaredNorm() : 1e6);
     }
   }
@@ -233,6 +246,7 @@ std::vector<TagEvidence> tag_evidence(std::span<const Camera> cameras,
 bool refine_subject(std::span<const Camera> cameras,
                     SubjectBundle& bundle,
                     SubjectEvidence& evidence) {
+  bundle.prior_weight = variance_scale(bundle);
   const Places guesses = take_extremities(bundle);
   if (!refine_coarse_to_fine(bundle, cameras)) return false;
   place_on_body(bundle, cameras);
@@ -242,15 +256,13 @@ bool refine_subject(std::span<const Camera> cameras,
   bundle.twists = kTrialTwists;
   if (!refine_rounds(bundle, cameras, 2)) return false;
   bundle.twists.upper_arm = upper_arm_twist_rad(bundle);
-  const std::vector<std::size_t> lost = unexplained_tags(bundle, cameras);
-  for (const std::size_t tag : lost) bundle.model.segment_from_tag.erase(tag);
+  std::set<std::size_t> lost = take_unexplained(bundle, cameras);
   if (!lost.empty()) {
     if (!refine_rounds(bundle, cameras, 2)) return false;
     place_on_body(bundle, cameras);
     if (!refine_rounds(bundle, cameras, 2)) return false;
-    for (const std::size_t tag : unexplained_tags(bundle, cameras)) {
-      bundle.model.segment_from_tag.erase(tag);
-    }
+    // One that found a place may leave none for another of its segment.
+    lost.merge(take_unexplained(bundle, cameras));
   }
   if (!adjust(bundle, cameras, 60)) return false;
   for (const std::size_t tag : lost) {

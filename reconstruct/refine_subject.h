@@ -26,6 +26,8 @@ struct SubjectEvidence {
   std::vector<TagEvidence> tags;            ///< Placed ones.
   std::vector<std::size_t> unexplained;     ///< Tags that no place explains; not placed.
   std::array<ExtremityFit, 4> extremities;  ///< Of limbs whose extremity has tags.
+  /// By segment: share of the moving trial's frames in which two cameras see its tags.
+  std::array<double, kHumanBoneCount> seen_twice_share{};
 };
 
 /// Refines `bundle`: first the trunk and the limbs' two bones, with a loss that tightens

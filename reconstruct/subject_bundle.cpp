@@ -25,6 +25,35 @@ using Eigen::VectorXd;
 constexpr double kHabitShare = 0.05;
 
 constexpr double kLoss2 = kDoubtfulTag * kDoubtfulTag;
+
+/// Returns the factors of the tag's slide rates in this frame. [rad]
+SlideAngles slide_moves(const SubjectBundle& bundle,
+                        std::size_t tag,
+                        const BundleFrame& frame,
+                        const UnfoldedPosture& unfolded) {
+  const TagSlide& slide = bundle.slides.at(tag);
+  SlideAngles angles = slide_angles(bundle.model.bone(tag), frame.posture, unfolded);
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    angles[i] = slide.share * (angles[i] - slide.mean[i]);
+  }
+  return angles;
+}
+
+void add_slide_priors(const SubjectBundle& bundle,
+                      const SubjectColumns& columns,
+                      SubjectSystem& out) {
+  const double weight = 1.0 / (bundle.slide_m_per_rad * bundle.slide_m_per_rad);
+  for (const auto& [tag, slide] : bundle.slides) {
+    for (int i = 0; i < kSlideColumns; ++i) {
+      const int column = columns.of_slide(tag) + i;
+      const double rate = slide.rate(i % 3, i / 3);
+      out.hessian(column, column) += weight;
+      out.gradient[column] += weight * rate;
+      out.cost += 0.5 * weight * rate * rate;
+    }
+  }
+}
+
 }  // namespace
 
 double robust_cost(double squared) {
@@ -35,11 +64,24 @@ double robust_weight(double squared) {
   return 1.0 / (1.0 + squared / kLoss2);
 }
 
+SightingNoise SubjectBundle::noise(std::size_t tag,
+                                   const Posture& posture,
+                                   const UnfoldedPosture& unfolded) const {
+  const HumanBone bone = model.bone(tag);
+  SightingNoise noise{noise_scale, slips_m[index(bone)], Eigen::Vector3d::Zero()};
+  const auto slide = slides.find(tag);
+  if (slide != slides.end()) {
+    noise.slide_m = slide->second.at(slide_angles(bone, posture, unfolded));
+  }
+  return noise;
+}
+
 BundleSolver::BundleSolver(const SubjectBundle& bundle,
                            std::span<const Camera> cameras,
-                           const BundleFreedom& freedom,
-                           bool slides)
-    : sight_(cameras), columns_(bundle.model, slides), slides_(slides) {
+                           const BundleFreedom& freedom)
+    : sight_(cameras),
+      columns_(bundle.model, !bundle.slides.empty()),
+      slides_(!bundle.slides.empty()) {
   MAREY_ASSERT(!bundle.frames.empty());
   frames_ = static_cast<double>(bundle.frames.size());
   standing_ = static_cast<double>(std::max<std::ptrdiff_t>(
@@ -63,6 +105,9 @@ void BundleSolver::hold_all_but(std::size_t limb, const BodyModel& model) {
   held_subject_.assign(static_cast<std::size_t>(columns_.size()), true);
   held_subject_[index(s.upper)] = false;
   held_subject_[index(s.lower)] = false;
+  for (int i = 0; i < 3; ++i) {
+    held_subject_[static_cast<std::size_t>(hinge_column(limb) + i)] = false;
+  }
   for (const auto& [tag, pose] : model.segment_from_tag) {
     const HumanBone bone = model.bone(tag);
     if (bone != bones.upper && bone != bones.lower && bone != bones.end) continue;
@@ -76,7 +121,7 @@ void BundleSolver::linearise_frame(const SubjectBundle& bundle,
                                    const BundleFrame& frame,
                                    FrameEquations& out) const {
   std::vector<int> columns;
-  for (int i = 0; i < kLengthCount; ++i) columns.push_back(i);
+  for (int i = 0; i < kShapeCount; ++i) columns.push_back(i);
   std::optional<std::size_t> last;
   for (const TagSighting& s : frame.sightings) {
     // Sightings are in order of tags.
@@ -93,15 +138,15 @@ void BundleSolver::linearise_frame(const SubjectBundle& bundle,
   SightedTag sighted;
   for (const TagSighting& s : frame.sightings) {
     if (!bundle.model.place(s.tag)) continue;
-    if (!sight_.look(bundle.model, unfolded, s, bundle.noise(s.tag), true, sighted)) {
+    const SightingNoise noise = bundle.noise(s.tag, frame.posture, unfolded);
+    if (!sight_.look(bundle.model, unfolded, s, noise, true, sighted)) {
       out.posture.cost += robust_cost(kBehind2);
       continue;
     }
     const double squared = sighted.residual.squaredNorm();
     out.posture.cost += robust_cost(squared);
     const SlideAngles angles =
-        slides_ ? slide_angles(bundle.model.bone(s.tag), frame.posture, unfolded)
-                : SlideAngles{};
+        slides_ ? slide_moves(bundle, s.tag, frame, unfolded) : SlideAngles{};
     out.add(sighted,
             columns_.of_tag(s.tag),
             robust_weight(squared),
@@ -124,6 +169,10 @@ double BundleSolver::linearise(const SubjectBundle& bundle, Linear& out) const {
   out.subject.gradient.setZero(columns_.size());
   out.subject.cost = 0.0;
   add_subject_priors(bundle.model, bundle.usual, columns_, out.subject);
+  add_slide_priors(bundle, columns_, out.subject);
+  out.subject.hessian *= bundle.prior_weight;
+  out.subject.gradient *= bundle.prior_weight;
+  out.subject.cost *= bundle.prior_weight;
   out.cost = out.subject.cost;
   for (std::size_t f = 0; f < bundle.frames.size(); ++f) {
     linearise_frame(bundle, bundle.frames[f], out.frames[f]);
@@ -168,11 +217,22 @@ void BundleSolver::move(const Step& step, SubjectBundle& bundle) const {
     double& length = bundle.model.lengths[static_cast<std::size_t>(i)];
     length += step.subject[i];
   }
+  for (std::size_t limb = 0; limb < bundle.model.body.hinges.size(); ++limb) {
+    HingeShape& hinge = bundle.model.body.hinges[limb];
+    hinge.upper_rad += step.subject[hinge_column(limb)];
+    hinge.lower_rad += step.subject[hinge_column(limb) + 1];
+    hinge.rollback_m += step.subject[hinge_column(limb) + 2];
+  }
   for (auto& [tag, pose] : bundle.model.segment_from_tag) {
     const auto own = step.subject.segment<6>(columns_.of_tag(tag));
     pose.rotation =
         glm::normalize(rotation_from_vector({own[0], own[1], own[2]}) * pose.rotation);
     pose.translation += glm::dvec3(own[3], own[4], own[5]);
+  }
+  for (auto& [tag, slide] : bundle.slides) {
+    for (int i = 0; i < kSlideColumns; ++i) {
+      slide.rate(i % 3, i / 3) += step.subject[columns_.of_slide(tag) + i];
+    }
   }
   for (std::size_t f = 0; f < bundle.frames.size(); ++f) {
     reconstruct::move(bundle.frames[f].posture, step.postures[f]);

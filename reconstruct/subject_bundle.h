@@ -42,8 +42,19 @@ struct SubjectBundle {
   std::vector<BundleFrame> frames;
   /// Corners of all tags stray this many times farther than they claim.
   double noise_scale = 1.0;
+  /// Weight of the priors, as if all sightings had less weight: errors of cameras, clocks
+  /// and skin are common to many sightings, which so carry less information than as many
+  /// independent ones.
+  double prior_weight = 1.0;
+  /// Share of the variance of corners' errors that is the same in all frames in which one
+  /// camera sees one tag. That of simulated sessions until refine_slides() estimates it.
+  double common_share = 0.08;
   BoneSlips slips_m{};  ///< Of the tags on each segment.
   TwistHabits twists = kFirstTwists;
+  /// Of all tags with a place; empty while skin is assumed to be firm.
+  std::map<std::size_t, TagSlide> slides;
+  /// Prior of the slides' rates, standard deviation. [m/rad]
+  double slide_m_per_rad = 0.0;
 
   // Filled by measure() and fill_sigmas().
   Lengths length_sigma_m{};
@@ -53,12 +64,11 @@ struct SubjectBundle {
   std::array<std::optional<double>, kHumanBoneCount> centre_sigma_m{};
   double rms_px = 0.0;
   double median_px = 0.0;
-  /// How far skin slides under tags per radian of the joints beside, standard deviation.
-  double slide_m_per_rad = 0.0;
 
-  [[nodiscard]] SightingNoise noise(std::size_t tag) const {
-    return {noise_scale, slips_m[index(model.bone(tag))]};
-  }
+  /// Returns the noise of a sighting of the tag in this posture.
+  [[nodiscard]] SightingNoise noise(std::size_t tag,
+                                    const Posture& posture,
+                                    const UnfoldedPosture& unfolded) const;
 };
 
 /// Which unknowns a solve may move.
@@ -87,12 +97,21 @@ std::optional<double> adjust(SubjectBundle& bundle,
 /// Reprojection of all tag corners: rms_px and median_px.
 void measure(SubjectBundle& bundle, std::span<const Camera> cameras);
 
-/// Covariances of lengths, tags and joint centres, with many sightings of one tag by one
-/// camera not counted as so many independent ones, and with skin that slides under the
-/// tags as joints turn: a slide in proportion to an angle looks like a joint elsewhere,
-/// so that residuals hardly show it. Its size is estimated as the variance of random
-/// effects (restricted maximum likelihood), and the lengths and tags are moved by what it
-/// explains. False when the equations have no solution.
+/// Returns the factor by which covariances are too small: residuals may be larger than
+/// expected, and many sightings of one tag by one camera are not as many independent
+/// ones. At least 1. Before measure() by the number of sightings alone.
+[[nodiscard]] double variance_scale(const SubjectBundle& bundle);
+
+/// Frees the tags to slide with the adjacent joints: a slide in proportion to an angle
+/// looks like a joint elsewhere, so that residuals hardly show it. The size of slides is
+/// estimated as the variance of random effects (restricted maximum likelihood; Patterson
+/// & Thompson 1971). Corners are given the noise that the fit shows, with many sightings
+/// of one tag by one camera not counted as so many independent ones. Some 2 s. False if
+/// the equations have no solution. Precondition: adjust() has converged.
+[[nodiscard]] bool refine_slides(SubjectBundle& bundle, std::span<const Camera> cameras);
+
+/// Covariances of lengths, tags and joint centres. False when the equations have no
+/// solution. Precondition: refine_slides().
 [[nodiscard]] bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras);
 
 }  // namespace marey::reconstruct

@@ -93,6 +93,32 @@ SlideAngles slide_angles(HumanBone bone,
   return {};
 }
 
+double slide_share(HumanBone bone) {
+  using B = HumanBone;
+  switch (bone) {
+    case B::kLeftUpperLeg:
+    case B::kRightUpperLeg:
+      return 1.0;
+    case B::kLeftUpperArm:
+    case B::kRightUpperArm:
+      return 0.7;
+    case B::kHips:
+    case B::kSpine:
+    case B::kChest:
+    case B::kUpperChest:
+    case B::kLeftShoulder:
+    case B::kRightShoulder:
+      return 0.5;
+    case B::kLeftLowerLeg:
+    case B::kRightLowerLeg:
+    case B::kLeftLowerArm:
+    case B::kRightLowerArm:
+      return 0.4;
+    default:
+      return 0.15;
+  }
+}
+
 SubjectColumns::SubjectColumns(const BodyModel& model, bool slides)
     : of_tag_(model.tags.size(), -1), of_slide_(model.tags.size(), -1) {
   for (const auto& [tag, pose] : model.segment_from_tag) {
@@ -124,12 +150,13 @@ bool SubjectSight::look(const BodyModel& model,
   const double scale = 1.0 / (noise.scale * sighting.detection->sigma_px);
   const double size_m = model.tags[sighting.tag].size_m;
   const Matrix3d& world_from_bone = unfolded.rotation(bone);
-  const Vector3d place = eigen(segment_from_tag->translation);
+  const Vector3d place = eigen(segment_from_tag->translation) + noise.slide_m;
   Eigen::Matrix<double, 8, 3> by_shift;
   SparseDerivative point;
-  SparseDerivative length;
+  SparseDerivative shape;
   for (int c = 0; c < 4; ++c) {
-    const Vector3d p_in_bone = eigen(*segment_from_tag * corner_in_tag(c, size_m));
+    const Vector3d p_in_bone =
+        eigen(*segment_from_tag * corner_in_tag(c, size_m)) + noise.slide_m;
     const Vector3d p_in_world = unfolded.point(bone, p_in_bone);
     Eigen::Vector2d pixel;
     Eigen::Matrix<double, 2, 3> px_by_world;
@@ -143,17 +170,17 @@ bool SubjectSight::look(const BodyModel& model,
     unfolded.derivative(bone, p_in_world, point);
     out.by_posture.middleRows<2>(row).leftCols(point.columns).noalias() =
         by_world.lazyProduct(point.value.leftCols(point.columns));
-    unfolded.length_derivative(bone, p_in_world, length);
-    out.by_length.middleRows<2>(row).leftCols(length.columns).noalias() =
-        by_world.lazyProduct(length.value.leftCols(length.columns));
+    unfolded.shape_derivative(bone, p_in_world, shape);
+    out.by_shape.middleRows<2>(row).leftCols(shape.columns).noalias() =
+        by_world.lazyProduct(shape.value.leftCols(shape.columns));
     const Eigen::Matrix<double, 2, 3> by_bone = by_world * world_from_bone;
     out.by_tag.block<2, 3>(row, 0) = -by_bone * cross_matrix(p_in_bone - place);
     out.by_tag.block<2, 3>(row, 3) = by_bone;
   }
   out.posture_columns = derivatives ? point.columns : 0;
   out.posture_column = point.column;
-  out.length_columns = derivatives ? length.columns : 0;
-  out.length_column = length.column;
+  out.shape_columns = derivatives ? shape.columns : 0;
+  out.shape_column = shape.column;
   set_slip(by_shift, out);
   if (noise.slip_m <= 0.0) return true;
   const Eigen::Array3d stretch =
@@ -163,8 +190,8 @@ bool SubjectSight::look(const BodyModel& model,
   if (!derivatives) return true;
   auto by_posture = out.by_posture.leftCols(out.posture_columns);
   whiten(out.slip_directions, shrink, by_posture);
-  auto by_length = out.by_length.leftCols(out.length_columns);
-  whiten(out.slip_directions, shrink, by_length);
+  auto by_shape = out.by_shape.leftCols(out.shape_columns);
+  whiten(out.slip_directions, shrink, by_shape);
   whiten(out.slip_directions, shrink, out.by_tag);
   return true;
 }
@@ -188,7 +215,7 @@ void FrameEquations::add(const SightedTag& s,
                          double weight,
                          int slide_column,
                          const SlideAngles* slides) {
-  // All columns of the sighting side by side: the posture's, lengths, the tag's.
+  // All columns of the sighting side by side: the posture's, the shape's, the tag's.
   constexpr int kMost = 2 * SparseDerivative::kMost + 6 + kSlideColumns;
   Eigen::Matrix<double, 8, kMost> all;
   std::array<int, kMost> where{};
@@ -208,8 +235,8 @@ void FrameEquations::add(const SightedTag& s,
     where[static_cast<std::size_t>(count++)] = at;
     if (limb < 4) follows_[limb][static_cast<std::size_t>(at)] = true;
   };
-  for (int i = 0; i < s.length_columns; ++i) {
-    append(s.by_length.col(i), subject(s.length_column[static_cast<std::size_t>(i)]));
+  for (int i = 0; i < s.shape_columns; ++i) {
+    append(s.by_shape.col(i), subject(s.shape_column[static_cast<std::size_t>(i)]));
   }
   for (int i = 0; i < 6; ++i) append(s.by_tag.col(i), subject(tag_column + i));
   for (int i = 0; slides && i < kSlideColumns; ++i) {

@@ -32,16 +32,40 @@ using SlideAngles = std::array<double, kSlideAngles>;
                                        const UnfoldedPosture& unfolded);
 inline constexpr int kSlideColumns = 3 * kSlideAngles;
 
-/// The columns of a subject's unknowns: kLengthCount lengths [m], then six of each placed
-/// tag: a small turn of the tag in its segment's frame [rad], and its place there [m].
-/// With `slides` then kSlideColumns of each placed tag: how far the tag slides along the
-/// segment's axes per radian of each of slide_angles(). [m/rad]
+/// Soft-tissue artefact: a tag's slide on its segment, linear in the joints' angles.
+struct TagSlide {
+  SlideAngles mean{};  ///< Angles at which the tag is in its place: their means. [rad]
+  /// Along the segment's axes, as a thigh's skin would slide. [m/rad]
+  Eigen::Matrix<double, 3, kSlideAngles> rate =
+      Eigen::Matrix<double, 3, kSlideAngles>::Zero();
+  /// Slide of the segment's skin over a thigh's: slide_share().
+  double share = 1.0;
+
+  /// Returns the shift from the tag's place, in the segment's frame. [m]
+  [[nodiscard]] Eigen::Vector3d at(const SlideAngles& angles) const {
+    Eigen::Vector3d slide = Eigen::Vector3d::Zero();
+    for (int i = 0; i < kSlideAngles; ++i) {
+      const auto place = static_cast<std::size_t>(i);
+      slide += (angles[place] - mean[place]) * rate.col(i);
+    }
+    return share * slide;
+  }
+};
+
+/// Returns a segment's slide of skin over a thigh's: less on upper arms and the trunk,
+/// hardly any on hands, feet and the head (Leardini et al. 2005).
+[[nodiscard]] double slide_share(HumanBone bone);
+
+/// The columns of a subject's unknowns: kShapeCount of its shape [m, rad], then six of
+/// each placed tag: a small turn of the tag in its segment's frame [rad], and its place
+/// there [m]. With `slides` then kSlideColumns of each placed tag: how far the tag slides
+/// along the segment's axes per radian of each of slide_angles(). [m/rad]
 class SubjectColumns {
  public:
   explicit SubjectColumns(const BodyModel& model, bool slides = false);
   /// First of the tag's slide columns; -1 without.
   [[nodiscard]] int of_slide(std::size_t tag) const { return of_slide_[tag]; }
-  /// Of lengths and tags, which come first.
+  /// Of shape and tags, which come first.
   [[nodiscard]] int without_slides() const { return without_slides_; }
   [[nodiscard]] int size() const { return size_; }
   /// First of the tag's six columns; -1 of a tag without a place.
@@ -50,14 +74,15 @@ class SubjectColumns {
  private:
   std::vector<int> of_tag_;
   std::vector<int> of_slide_;
-  int without_slides_ = kLengthCount;
-  int size_ = kLengthCount;
+  int without_slides_ = kShapeCount;
+  int size_ = kShapeCount;
 };
 
 /// How one sighting's residuals are scaled.
 struct SightingNoise {
   double scale = 1.0;   ///< Of the corners' own sigma.
   double slip_m = 0.0;  ///< Of the tag on its segment, standard deviation per coordinate.
+  Eigen::Vector3d slide_m = Eigen::Vector3d::Zero();  ///< In the segment.
 };
 
 /// A sighting's eight residuals, of unit variance when all is well, and how they follow
@@ -68,9 +93,9 @@ struct SightedTag {
   int posture_columns = 0;
   std::array<int, SparseDerivative::kMost> posture_column{};
   Eigen::Matrix<double, 8, SparseDerivative::kMost> by_posture;
-  int length_columns = 0;
-  std::array<int, SparseDerivative::kMost> length_column{};
-  Eigen::Matrix<double, 8, SparseDerivative::kMost> by_length;
+  int shape_columns = 0;
+  std::array<int, SparseDerivative::kMost> shape_column{};
+  Eigen::Matrix<double, 8, SparseDerivative::kMost> by_shape;
   Eigen::Matrix<double, 8, 6> by_tag;
   /// What moves together when the tag slips: orthonormal columns, and the residual per
   /// metre along each before it was scaled. [1/m]
@@ -104,7 +129,7 @@ class FrameEquations {
 
   /// Empties the equations; `columns` are the subject's that the frame's tags follow.
   void begin(std::vector<int> columns, int subject_size);
-  /// `slides` are the slide_angles() of the sighting's bone, null without slides.
+  /// `slides` are the factors of the tag's slide rates [rad], null without slides.
   void add(const SightedTag& sighted,
            int tag_column,
            double weight,

@@ -8,6 +8,7 @@
 
 #include <Eigen/Dense>
 
+#include "reconstruct/common_error.h"
 #include "reconstruct/subject_bundle.h"
 #include "reconstruct/subject_solve.h"
 
@@ -17,38 +18,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Share of the variance of a corner's error that is the same in all pictures that one
-// camera takes of the tag: lens, print and light. A choice: rendered tags that move show
-// up to a seventh (docs/measurements.md).
-constexpr double kCommonShare = 0.03;
-
-// Skin that slides further per radian is a strap that came loose. [m^2]
-constexpr double kMostSlide2 = 0.06 * 0.06;
+// Of a thigh's skin. More is a strap that came loose; less is not accepted, as errors of
+// cameras and clocks look like skin that slides.
+constexpr double kUsualSlide_m_per_rad = 0.006;
+constexpr double kLeastSlide_m_per_rad = 0.002;
+constexpr double kMostSlide_m_per_rad = 0.06;
 
 // The median length of a two-dimensional error whose coordinates have unit sigma.
 constexpr double kMedianOfUnitNoise = 1.177;
-
-/// By how much sigmas are too small: residuals may be larger than expected, and many
-/// sightings of one tag by one camera are not as many independent ones.
-double sigma_scale(const SubjectBundle& bundle) {
-  double sum_px = 0.0;
-  double count = 0.0;
-  std::map<std::pair<std::size_t, CameraId>, double> repeated;
-  for (const BundleFrame& frame : bundle.frames) {
-    for (const TagSighting& s : frame.sightings) {
-      sum_px += s.detection->sigma_px;
-      count += 1.0;
-      repeated[{s.tag, s.camera}] += 1.0;
-    }
-  }
-  if (count == 0.0) return 1.0;
-  // The design effect of cluster sampling (Kish 1965, 5.4).
-  double squares = 0.0;
-  for (const auto& [pair, times] : repeated) squares += times * times;
-  const double effect = 1.0 + (squares / count - 1.0) * kCommonShare;
-  return std::sqrt(effect) *
-         std::max(1.0, bundle.median_px * count / (kMedianOfUnitNoise * sum_px));
-}
 
 /// How a joint centre moves against the tags of `side`, over the subject's unknowns: the
 /// mean over these tags, in the bone's axes. `offset` is the joint's place on the bone.
@@ -60,7 +37,7 @@ std::optional<Eigen::MatrixXd> centre_jacobian(const SubjectBundle& bundle,
   Eigen::MatrixXd jacobian =
       Eigen::MatrixXd::Zero(offset_jacobian.rows(), offset_jacobian.cols());
   int tags = 0;
-  int column = kLengthCount;
+  int column = kShapeCount;
   for (const auto& [tag, pose] : bundle.model.segment_from_tag) {
     if (bundle.model.bone(tag) == side) {
       const glm::dvec3 arm = offset - pose.translation;
@@ -141,11 +118,12 @@ SlideSystem slides_of(const MatrixXd& all, const VectorXd& gradient, int own) {
           gradient.tail(slides) - by_slide.transpose() * gradient.head(own)};
 }
 
-/// Variance of the slides, of which the scores along the eigenvectors of their
-/// information have the variance `noise` l + v l^2: maximum likelihood by scoring.
+/// Variance v of the slides' rates, of which the scores along the eigenvectors of their
+/// information l have the variance noise l + v l^2: maximum likelihood by scoring.
 double slide_variance(const Eigen::SelfAdjointEigenSolver<MatrixXd>& spectrum,
                       const VectorXd& gradient,
                       double noise) {
+  constexpr double kMost = kMostSlide_m_per_rad * kMostSlide_m_per_rad;
   const VectorXd scores = spectrum.eigenvectors().transpose() * gradient;
   double variance = 1e-6;
   for (int round = 0; round < 50; ++round) {
@@ -160,7 +138,7 @@ double slide_variance(const Eigen::SelfAdjointEigenSolver<MatrixXd>& spectrum,
       information += rate * rate;
     }
     if (information <= 0.0) return 0.0;
-    const double next = std::clamp(variance + excess / information, 0.0, kMostSlide2);
+    const double next = std::clamp(variance + excess / information, 0.0, kMost);
     if (std::abs(next - variance) < 1e-3 * variance + 1e-12) return next;
     variance = next;
   }
@@ -201,10 +179,98 @@ std::optional<Parts> in_parts(const SubjectBundle& bundle,
   return out;
 }
 
+/// Sets each tag's mean angles over its sightings, and no slide.
+void begin_slides(SubjectBundle& bundle) {
+  bundle.slides.clear();
+  std::map<std::size_t, double> counts;
+  for (const auto& [tag, place] : bundle.model.segment_from_tag) {
+    bundle.slides[tag].share = slide_share(bundle.model.bone(tag));
+  }
+  UnfoldedPosture unfolded;
+  for (const BundleFrame& frame : bundle.frames) {
+    unfolded.unfold(frame.posture, bundle.model.lengths, bundle.model.body);
+    for (const TagSighting& s : frame.sightings) {
+      const auto slide = bundle.slides.find(s.tag);
+      if (slide == bundle.slides.end()) continue;
+      const SlideAngles angles =
+          slide_angles(bundle.model.bone(s.tag), frame.posture, unfolded);
+      for (std::size_t i = 0; i < angles.size(); ++i) slide->second.mean[i] += angles[i];
+      counts[s.tag] += 1.0;
+    }
+  }
+  for (auto& [tag, slide] : bundle.slides) {
+    for (double& angle : slide.mean) angle /= std::max(1.0, counts[tag]);
+  }
+}
+
+/// Estimates how far skin slides; returns the present value if the equations have no
+/// solution.
+double estimated_slide_m_per_rad(const SubjectBundle& bundle,
+                                 std::span<const Camera> cameras) {
+  const BundleSolver solver(bundle, cameras, {});
+  BundleSolver::Linear linear;
+  solver.linearise(bundle, linear);
+  SubjectSystem system;
+  if (!solver.reduce(linear, 0.0, system)) return bundle.slide_m_per_rad;
+  const int own = solver.columns().without_slides();
+  MatrixXd all = system.hessian.selfadjointView<Eigen::Lower>();
+  all.diagonal().array() += 1e-9;
+  // Without the slides' own prior, and as if nothing slid.
+  const double prior =
+      bundle.prior_weight / (bundle.slide_m_per_rad * bundle.slide_m_per_rad);
+  VectorXd rates = VectorXd::Zero(all.rows() - own);
+  for (const auto& [tag, slide] : bundle.slides) {
+    for (int i = 0; i < kSlideColumns; ++i) {
+      rates[solver.columns().of_slide(tag) + i - own] = slide.rate(i % 3, i / 3);
+    }
+  }
+  all.diagonal().tail(rates.size()).array() -= prior;
+  system.gradient.tail(rates.size()) -= prior * rates;
+  SlideSystem slides = slides_of(all, system.gradient, own);
+  slides.gradient -= slides.information * rates;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(slides.information);
+  const double variance = slide_variance(spectrum, slides.gradient, bundle.prior_weight);
+  return std::clamp(std::sqrt(variance), kLeastSlide_m_per_rad, kMostSlide_m_per_rad);
+}
+
 }  // namespace
 
+double variance_scale(const SubjectBundle& bundle) {
+  double sum_px = 0.0;
+  double count = 0.0;
+  std::map<std::pair<std::size_t, CameraId>, double> repeated;
+  for (const BundleFrame& frame : bundle.frames) {
+    for (const TagSighting& s : frame.sightings) {
+      sum_px += s.detection->sigma_px;
+      count += 1.0;
+      repeated[{s.tag, s.camera}] += 1.0;
+    }
+  }
+  if (count == 0.0) return 1.0;
+  // The design effect of cluster sampling (Kish 1965, 5.4).
+  double squares = 0.0;
+  for (const auto& [pair, times] : repeated) squares += times * times;
+  const double effect = 1.0 + (squares / count - 1.0) * bundle.common_share;
+  const double stray =
+      std::max(1.0, bundle.median_px * count / (kMedianOfUnitNoise * sum_px));
+  return effect * stray * stray;
+}
+
+bool refine_slides(SubjectBundle& bundle, std::span<const Camera> cameras) {
+  constexpr int kIterations = 4;
+  begin_slides(bundle);
+  bundle.common_share = estimated_common_share(bundle, cameras);
+  bundle.prior_weight = variance_scale(bundle);
+  bundle.slide_m_per_rad = kUsualSlide_m_per_rad;
+  for (int round = 0; round < 2; ++round) {
+    if (!adjust(bundle, cameras, kIterations)) return false;
+    bundle.slide_m_per_rad = estimated_slide_m_per_rad(bundle, cameras);
+  }
+  return adjust(bundle, cameras, kIterations).has_value();
+}
+
 bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras) {
-  const BundleSolver solver(bundle, cameras, {}, true);
+  const BundleSolver solver(bundle, cameras, {});
   BundleSolver::Linear linear;
   solver.linearise(bundle, linear);
   const auto parts = in_parts(bundle, solver, linear);
@@ -213,23 +279,11 @@ bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras) {
   const int size = solver.columns().size();
   MatrixXd all = parts->system.hessian.selfadjointView<Eigen::Lower>();
   all.diagonal().array() += 1e-9;
-  const double scale = sigma_scale(bundle);
-  const double scale2 = scale * scale;
-  const SlideSystem slides = slides_of(all, parts->system.gradient, own);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(slides.information);
-  const double slide2 = slide_variance(spectrum, slides.gradient, scale2);
-  bundle.slide_m_per_rad = std::sqrt(slide2);
-  all /= scale2;
-  all.diagonal().tail(size - own).array() += 1.0 / std::max(slide2, 1e-12);
+  all /= bundle.prior_weight;
   const MatrixXd inverse = all.ldlt().solve(MatrixXd::Identity(size, size)).topRows(own);
-  const Knowledge knowledge{inverse.leftCols(own), inverse * parts->gradients / scale2};
-  BundleSolver::Step step;
-  step.subject = VectorXd::Zero(size);
-  step.subject.head(own) =
-      -inverse.rightCols(size - own) * parts->system.gradient.tail(size - own) / scale2;
-  step.postures.assign(bundle.frames.size(), PostureVector::Zero());
-  if (!step.subject.allFinite()) return false;
-  solver.move(step, bundle);
+  if (!inverse.allFinite()) return false;
+  const Knowledge knowledge{inverse.leftCols(own),
+                            inverse * parts->gradients / bundle.prior_weight};
   const auto variance_of = [&](int first, int count) {
     MatrixXd jacobian = MatrixXd::Zero(count, own);
     jacobian.middleCols(first, count).setIdentity();

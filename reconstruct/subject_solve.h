@@ -27,8 +27,7 @@ class BundleSolver {
  public:
   BundleSolver(const SubjectBundle& bundle,
                std::span<const Camera> cameras,
-               const BundleFreedom& freedom,
-               bool slides = false);
+               const BundleFreedom& freedom);
 
   /// All equations at one state of the bundle.
   struct Linear {

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/gtc/quaternion.hpp>
@@ -91,6 +95,29 @@ struct NamedModel {
 [[nodiscard]] Result<std::optional<SkinnedMesh>> read_skinned_mesh(
     const NamedModel& file, const NodeTree& tree, const NodeSkeleton& body);
 
+/// The vertices of one skinned mesh in their bind pose.
+struct BoundSkin {
+  std::vector<glm::dmat4> joint_from_bound;  ///< One per joint of the skin.
+  std::vector<JointIndex> joints;            ///< Likewise, in the body's skeleton.
+  std::vector<glm::dvec3> p_in_bound;
+  /// Per vertex: weights, which sum to 1, and places in `joints`.
+  std::vector<std::array<std::pair<double, std::size_t>, 4>> carriers;
+};
+/// Reads the vertices of all skinned meshes. Errors: read_skinned_mesh()'s.
+[[nodiscard]] Result<std::vector<BoundSkin>> read_bound_skins(const NamedModel& file,
+                                                              const NodeSkeleton& body);
+
+/// Parses the bytes of a file into a model, its nodes and its skeleton with the bones.
+/// Errors: read_character()'s.
+[[nodiscard]] Status load_nodes(const std::string& bytes,
+                                const std::filesystem::path& path,
+                                tinygltf::Model& model,
+                                NodeTree& tree,
+                                NodeSkeleton& body);
+
+/// Receives world_from_joint of all joints of one frame, scale included.
+using EachFrame = std::function<void(std::span<const glm::dmat4> world_from_joint)>;
+
 /// The first animation, as Character explains it; no poses when there is none.
 struct ReadAnimation {
   std::optional<Motion> motion;
@@ -98,6 +125,7 @@ struct ReadAnimation {
 };
 [[nodiscard]] Result<ReadAnimation> read_animation(const NamedModel& file,
                                                    const NodeTree& tree,
-                                                   const NodeSkeleton& body);
+                                                   const NodeSkeleton& body,
+                                                   const EachFrame& each = {});
 
 }  // namespace marey::recordings

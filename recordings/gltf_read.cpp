@@ -260,6 +260,22 @@ Result<std::optional<BoundBody>> bound_body(
       BoundBody{std::move(skeleton->skeleton), *std::move(mesh)}};
 }
 
+/// Loads a model after a check that its JSON does not nest too deep.
+Status load_checked(const NamedModel& file,
+                    const std::filesystem::path& path,
+                    const std::string& bytes,
+                    tinygltf::Model& model,
+                    GltfSource& source) {
+  auto json = json_of(file, bytes);
+  if (!json) return json.error();
+  source.json = *std::move(json);
+  if (json_nests_too_deep(source.json)) {
+    return file.fail("its JSON is nested more than " + std::to_string(kMaxNesting) +
+                     " deep");
+  }
+  return load_model(file, path, bytes, model, source);
+}
+
 Status fill_source(const NamedModel& file, GltfSource& source) {
   bool faces_back = false;
   const auto bones = bones_of(file.model, faces_back);
@@ -337,18 +353,28 @@ Result<GltfSource> parse_gltf_source(const std::string& bytes,
   tinygltf::Model model;
   const NamedModel file{model, path.string()};
   GltfSource source;
-  auto json = json_of(file, bytes);
-  if (!json) return json.error();
-  source.json = *std::move(json);
-  if (json_nests_too_deep(source.json)) {
-    return file.fail("its JSON is nested more than " + std::to_string(kMaxNesting) +
-                     " deep");
-  }
-  if (Status s = load_model(file, path, bytes, model, source); !s) {
-    return s.error();
-  }
+  if (Status s = load_checked(file, path, bytes, model, source); !s) return s.error();
   if (Status s = fill_source(file, source); !s) return s.error();
   return source;
+}
+
+Status load_nodes(const std::string& bytes,
+                  const std::filesystem::path& path,
+                  tinygltf::Model& model,
+                  NodeTree& tree,
+                  NodeSkeleton& body) {
+  const NamedModel file{model, path.string()};
+  GltfSource source;
+  if (Status s = load_checked(file, path, bytes, model, source); !s) return s;
+  bool faces_back = false;
+  const auto bones = bones_of(model, faces_back);
+  auto nodes = tree_of(file);
+  if (!nodes) return nodes.error();
+  tree = *std::move(nodes);
+  auto skeleton = skeleton_of(file, tree, bones);
+  if (!skeleton) return skeleton.error();
+  body = *std::move(skeleton);
+  return Done{};
 }
 
 Result<Character> read_character(const std::filesystem::path& path) {

@@ -219,7 +219,8 @@ std::vector<RigidTransform> parent_from_joints(const PlacedNodes& placed,
 
 Result<ReadAnimation> read_animation(const NamedModel& file,
                                      const NodeTree& tree,
-                                     const NodeSkeleton& body) {
+                                     const NodeSkeleton& body,
+                                     const EachFrame& each) {
   ReadAnimation result;
   if (file.model.animations.empty()) return result;
   auto tracks = read_tracks(file, file.model.animations.front());
@@ -251,6 +252,7 @@ Result<ReadAnimation> read_animation(const NamedModel& file,
   }
   motion.first_frame = static_cast<int>(first);
   std::vector<NodePose> poses = part.tree.rest;
+  std::vector<glm::dmat4> world_from_joint(each ? part.place_of_joint.size() : 0);
   const auto last_frame = static_cast<int>(last);
   for (int frame = motion.first_frame; frame <= last_frame; ++frame) {
     const double time_s = frame / motion.rate.hz;
@@ -259,6 +261,12 @@ Result<ReadAnimation> read_animation(const NamedModel& file,
     for (const std::size_t node : part.place_of_joint) {
       if (is_near(placed, node)) continue;
       return file.fail("the animation takes a joint further than 10 km away");
+    }
+    if (each) {
+      for (std::size_t i = 0; i < part.place_of_joint.size(); ++i) {
+        world_from_joint[i] = placed.world_from_node[part.place_of_joint[i]];
+      }
+      each(world_from_joint);
     }
     PosedBones posed =
         hand_travel_to_root(body.skeleton, parent_from_joints(placed, part, body));

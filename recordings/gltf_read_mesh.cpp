@@ -20,12 +20,12 @@ struct Binding {
   std::vector<JointIndex> joints;
 };
 
-Result<Binding> bind(const NamedModel& file,
-                     const tinygltf::Skin& skin,
-                     const PlacedNodes& placed,
-                     const NodeSkeleton& body) {
+/// Reads the joints of a skin, without vertices.
+Result<BoundSkin> joints_of(const NamedModel& file,
+                            const tinygltf::Skin& skin,
+                            const NodeSkeleton& body) {
   if (skin.joints.empty()) return file.fail("a skin has no joints");
-  Binding binding;
+  BoundSkin out;
   std::vector<double> inverse_binds;
   if (skin.inverseBindMatrices >= 0) {
     auto values = accessor_values(file, skin.inverseBindMatrices, 16);
@@ -42,8 +42,23 @@ Result<Binding> bind(const NamedModel& file,
       joint_from_bound[static_cast<int>(k / 4)][static_cast<int>(k % 4)] =
           inverse_binds[16 * i + k];
     }
-    binding.world_from_bound.push_back(placed.world_from_node[node] * joint_from_bound);
-    binding.joints.push_back(*body.joint_of_node[node]);
+    out.joint_from_bound.push_back(joint_from_bound);
+    out.joints.push_back(*body.joint_of_node[node]);
+  }
+  return out;
+}
+
+Result<Binding> bind(const NamedModel& file,
+                     const tinygltf::Skin& skin,
+                     const PlacedNodes& placed,
+                     const NodeSkeleton& body) {
+  auto bound = joints_of(file, skin, body);
+  if (!bound) return bound.error();
+  Binding binding{{}, std::move(bound->joints)};
+  for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+    const auto node = static_cast<std::size_t>(skin.joints[i]);
+    binding.world_from_bound.push_back(placed.world_from_node[node] *
+                                       bound->joint_from_bound[i]);
   }
   return binding;
 }
@@ -192,26 +207,67 @@ Status add_mesh(const NamedModel& file,
   return Done{};
 }
 
-}  // namespace
+Status add_bound(const NamedModel& file, const tinygltf::Mesh& source, BoundSkin& skin) {
+  for (const tinygltf::Primitive& primitive : source.primitives) {
+    if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) continue;
+    const auto vertices = read_vertices(file, primitive);
+    if (!vertices) return vertices.error();
+    for (std::size_t v = 0; v < vertices->count(); ++v) {
+      const auto carriers = weights_of(file, *vertices, v, skin.joints.size());
+      if (!carriers) return carriers.error();
+      const double* p = &vertices->positions[3 * v];
+      skin.p_in_bound.emplace_back(p[0], p[1], p[2]);
+      skin.carriers.push_back(*carriers);
+    }
+  }
+  return Done{};
+}
 
-Result<std::optional<SkinnedMesh>> read_skinned_mesh(const NamedModel& file,
-                                                     const NodeTree& tree,
-                                                     const NodeSkeleton& body) {
+/// Calls `use` with every skinned mesh and its skin.
+template <class Use>
+Status each_skinned_mesh(const NamedModel& file, const Use& use) {
   const tinygltf::Model& model = file.model;
-  const PlacedNodes placed = place_nodes(tree, tree.rest);
-  SkinnedMesh mesh;
   for (const tinygltf::Node& node : model.nodes) {
     if (node.mesh < 0 || node.skin < 0) continue;
     if (static_cast<std::size_t>(node.mesh) >= model.meshes.size() ||
         static_cast<std::size_t>(node.skin) >= model.skins.size()) {
       return file.fail("the node '" + node.name + "' has a mesh that does not exist");
     }
-    const auto& skin = model.skins[static_cast<std::size_t>(node.skin)];
-    const auto binding = bind(file, skin, placed, body);
-    if (!binding) return binding.error();
-    const auto& source = model.meshes[static_cast<std::size_t>(node.mesh)];
-    if (auto s = add_mesh(file, source, *binding, mesh); !s) return s.error();
+    const Status ok = use(model.meshes[static_cast<std::size_t>(node.mesh)],
+                          model.skins[static_cast<std::size_t>(node.skin)]);
+    if (!ok) return ok;
   }
+  return Done{};
+}
+
+}  // namespace
+
+Result<std::vector<BoundSkin>> read_bound_skins(const NamedModel& file,
+                                                const NodeSkeleton& body) {
+  std::vector<BoundSkin> out;
+  const Status ok = each_skinned_mesh(
+      file, [&](const tinygltf::Mesh& mesh, const tinygltf::Skin& skin) -> Status {
+        auto bound = joints_of(file, skin, body);
+        if (!bound) return bound.error();
+        out.push_back(*std::move(bound));
+        return add_bound(file, mesh, out.back());
+      });
+  if (!ok) return ok.error();
+  return out;
+}
+
+Result<std::optional<SkinnedMesh>> read_skinned_mesh(const NamedModel& file,
+                                                     const NodeTree& tree,
+                                                     const NodeSkeleton& body) {
+  const PlacedNodes placed = place_nodes(tree, tree.rest);
+  SkinnedMesh mesh;
+  const Status ok = each_skinned_mesh(
+      file, [&](const tinygltf::Mesh& source, const tinygltf::Skin& skin) -> Status {
+        const auto binding = bind(file, skin, placed, body);
+        if (!binding) return binding.error();
+        return add_mesh(file, source, *binding, mesh);
+      });
+  if (!ok) return ok.error();
   if (mesh.parts.empty()) return std::optional<SkinnedMesh>{};
   return std::optional<SkinnedMesh>{std::move(mesh)};
 }

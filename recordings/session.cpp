@@ -12,6 +12,15 @@
 #include "recordings/toml_reader.h"
 
 namespace marey::recordings {
+namespace {
+
+bool is_there(const TrialVideo& video) {
+  const bool many = is_name_pattern(video.path);
+  std::error_code ignored;
+  return std::filesystem::exists(many ? video.path.parent_path() : video.path, ignored);
+}
+
+}  // namespace
 
 std::string_view name(TrialKind kind) {
   switch (kind) {
@@ -60,6 +69,10 @@ bool has_recording(const Trial& trial) {
          });
 }
 
+bool has_video(const Trial& trial) {
+  return std::any_of(trial.videos.begin(), trial.videos.end(), is_there);
+}
+
 Status check_files(const Session& session) {
   for (const Trial& trial : session.trials) {
     if (trial.is_recorded) {
@@ -70,10 +83,7 @@ Status check_files(const Session& session) {
                            ", and process that folder; or name the trial's videos");
     }
     for (const TrialVideo& video : trial.videos) {
-      std::error_code ignored;
-      const bool many = is_name_pattern(video.path);
-      const auto there = many ? video.path.parent_path() : video.path;
-      if (std::filesystem::exists(there, ignored)) continue;
+      if (is_there(video)) continue;
       return bad_input(file_and_line(session.file.string(), video.line),
                        "trial " + trial.name + ": there is no " + video.path.string(),
                        "copy the video there, or correct its path or `media`");

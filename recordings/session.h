@@ -65,7 +65,10 @@ struct SessionDevice {
 struct Trial {
   std::string name;  ///< Safe as the name of a folder.
   TrialKind kind = TrialKind::kMotion;
-  std::optional<FrameRate> rate;     ///< nullopt: as the video says.
+  std::optional<FrameRate> rate;  ///< nullopt: as the video says.
+  /// Factor by which its videos play slower than life. Above 1 only with a rate, which is
+  /// then that of the camera.
+  double slow_motion = 1.0;
   std::optional<FrameRange> frames;  ///< nullopt: all.
   std::vector<TrialVideo> videos;    ///< At least one; ascending cameras, each once.
   /// The table of when their frames were taken (recordings/frame_stamps.h), where the
@@ -162,6 +165,9 @@ struct ReadSessionOptions {
 
 /// Whether anything of a trial to be recorded is there. Precondition: is_recorded.
 [[nodiscard]] bool has_recording(const Trial& trial);
+
+/// Returns whether at least one of the videos that a trial names exists.
+[[nodiscard]] bool has_video(const Trial& trial);
 
 /// Whether every video is there. Errors (kBadInput): the first that is not, with the line
 /// that names it; a trial to be recorded that was not. That one of its cameras has no

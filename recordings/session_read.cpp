@@ -35,6 +35,7 @@ constexpr Limits kTagSize{0.005, 1.0, "m"};
 constexpr Limits kStature{0.3, 2.8, "m"};
 constexpr Limits kMass{2.0, 500.0, "kg"};
 constexpr Limits kRate{0.1, 2000.0, "frames per second"};
+constexpr Limits kSlowMotion{1.01, 100.0, "times"};
 constexpr Limits kOffset{-60.0, 60.0, "s"};
 
 std::string with_number(std::string text, int number) {
@@ -156,8 +157,14 @@ void SessionReader::read_tags() {
 void SessionReader::read_tag(TomlReader& reader) {
   reader.allow({"id", "family", "segment", "size_m"});
   const KnownFamily family = read_family(reader, usual_family_);
-  const Limits ids{0, family.tags - 1.0};
-  const auto id = TagId{reader.integer("id", ids)};
+  const auto id = TagId{reader.integer("id", {0, 1e6})};
+  if (reader.ok() && number(id) >= family.tags) {
+    reader.fail("id",
+                with_number("\"id\" is ", number(id)) +
+                    with_number(", but " + std::string(family.name) + " ends at ",
+                                family.tags - 1),
+                "correct the id, or the `family`: tag36h11 is the usual one");
+  }
   const std::string segment = reader.text("segment");
   const double size_m = reader.number("size_m", kTagSize);
   if (!reader.ok()) return;
@@ -261,8 +268,10 @@ Trial SessionReader::read_trial(TomlReader& reader) {
   // What the program writes beside the trials' folders.
   constexpr std::array<std::string_view, 4> kReserved{
       "calibration.toml", "subject.toml", "report.json", "report.html"};
-  reader.allow(
-      {"name", "kind", "fps", "frames", "videos", "timestamps", "time_offset_s"});
+  constexpr std::array<std::string_view, 8> kKeys{
+      "name",   "kind",   "fps",        "slow_motion",
+      "frames", "videos", "timestamps", "time_offset_s"};
+  reader.allow(kKeys);
   std::vector<std::string> taken;
   for (const Trial& earlier : session_.trials) taken.push_back(earlier.name);
   Trial trial;
@@ -270,6 +279,9 @@ Trial SessionReader::read_trial(TomlReader& reader) {
   trial.name = read_name(reader, "trial", taken, kReserved);
   trial.kind = read_kind(reader);
   if (reader.has("fps")) trial.rate = FrameRate{reader.number("fps", kRate)};
+  if (reader.has("slow_motion")) {
+    trial.slow_motion = reader.number("slow_motion", kSlowMotion);
+  }
   if (reader.has("frames")) trial.frames = read_frames(reader);
   read_videos(reader, trial);
   if (reader.has("timestamps")) {

@@ -80,7 +80,7 @@ AprilGrid read_aprilgrid(TomlReader& reader,
         "first_id",
         with_number("the board would need tags up to id ", last_on_board) +
             with_number(", but " + std::string(family.name) + " ends at ", last_id),
-        "correct rows, columns or first_id");
+        "correct rows, columns or first_id, or the `family` of [tags]");
   }
   if (!reader.ok()) return board;
   for (int i = 0; i < board.tag_count(); ++i) {

@@ -57,6 +57,30 @@ void write_joint(TomlWriter& out, const Body& body, HumanBone bone) {
   out.number("sigma_m", body.joint_centre_sigma_m[index(bone)]);
 }
 
+/// The keys of [hinge], in the order of human_limbs().
+constexpr std::array<std::string_view, 4> kHingeKeys{
+    "left_elbow", "right_elbow", "left_knee", "right_knee"};
+
+void write_hinges(TomlWriter& out, const Body& body) {
+  out.table({"hinge"});
+  for (std::size_t limb = 0; limb < kHingeKeys.size(); ++limb) {
+    const HingeShape& hinge = body.hinges[limb];
+    out.numbers(kHingeKeys[limb], {hinge.upper_rad, hinge.lower_rad, hinge.rollback_m});
+  }
+}
+
+/// Reads [hinge]. Hinges that the file does not name are straight.
+void read_hinges(TomlReader& root, Body& body) {
+  if (!root.has("hinge")) return;
+  TomlReader in = root.table("hinge");
+  in.allow(kHingeKeys);
+  for (std::size_t limb = 0; limb < kHingeKeys.size(); ++limb) {
+    if (!in.has(kHingeKeys[limb])) continue;
+    const std::vector<double> shape = in.numbers(kHingeKeys[limb], 3);
+    body.hinges[limb] = {shape[0], shape[1], shape[2]};
+  }
+}
+
 void write_tag(TomlWriter& out, const PlacedTag& placed) {
   const glm::dquat& q = placed.segment_from_tag.rotation;
   out.array_table("tag");
@@ -78,6 +102,17 @@ void write_marker(TomlWriter& out, const PlacedMarker& placed) {
   out.number("sigma_m", placed.sigma_m);
   out.number("stray_m", placed.stray_m);
   out.integer("frames", placed.frames);
+}
+
+void write_doubt(TomlWriter& out, const BodyDoubt& doubt) {
+  out.array_table("doubt");
+  out.text("cause", doubt.cause);
+  out.text("next", doubt.next);
+}
+
+void read_doubt(TomlReader& in, Body& body) {
+  in.allow({"cause", "next"});
+  body.doubts.push_back({in.text("cause"), in.text("next")});
 }
 
 void read_joint(TomlReader& in, HumanBone bone, Body& body) {
@@ -195,8 +230,10 @@ std::string subject_text(const Body& body) {
     write_vector(out, tip.key, body.proportions.*tip.p_in_bone);
   }
   for (const HumanBone bone : human_bones()) write_joint(out, body, bone);
+  write_hinges(out, body);
   for (const PlacedTag& placed : body.tags) write_tag(out, placed);
   for (const PlacedMarker& placed : body.markers) write_marker(out, placed);
+  for (const BodyDoubt& doubt : body.doubts) write_doubt(out, doubt);
   return out.str();
 }
 
@@ -208,8 +245,16 @@ Result<Body> parse_subject(std::string_view text, const std::string& file) {
   Result<TomlDocument> document = parse_toml(text, file);
   if (!document) return document.error();
   TomlReader root(*document);
-  root.allow(
-      {"format", "name", "stature_m", "mass_kg", "tips", "joint", "tag", "marker"});
+  root.allow({"format",
+              "name",
+              "stature_m",
+              "mass_kg",
+              "tips",
+              "joint",
+              "hinge",
+              "tag",
+              "marker",
+              "doubt"});
   (void)root.integer("format", {1, 1});
   Body body;
   body.name = root.text("name");
@@ -224,8 +269,10 @@ Result<Body> parse_subject(std::string_view text, const std::string& file) {
     body.proportions.*tip.p_in_bone = read_vector(tips, tip.key);
   }
   read_joints(root, body);
+  read_hinges(root, body);
   for (TomlReader& tag : root.tables("tag")) read_tag(tag, body);
   for (TomlReader& marker : root.tables("marker")) read_marker(marker, body);
+  for (TomlReader& doubt : root.tables("doubt")) read_doubt(doubt, body);
   if (document->mistake) return *document->mistake;
   return body;
 }

@@ -12,7 +12,8 @@
 namespace marey::recordings {
 
 /// The text of subject.toml (docs/formats.md): every joint centre in its parent's frame,
-/// tips, and where tags and markers sit, each with its standard deviation.
+/// tips, and where tags and markers sit, each with its standard deviation; reasons not to
+/// trust it.
 /// parse_subject() gives the same doubles. Precondition: every number finite.
 [[nodiscard]] std::string subject_text(const Body& body);
 

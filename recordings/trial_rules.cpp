@@ -16,9 +16,28 @@ bool share_a_video(const Trial& a, const Trial& b) {
   return false;
 }
 
+std::optional<TrialMistake> mistake_in_slow_motion(const Trial& trial) {
+  if (trial.slow_motion == 1.0) return std::nullopt;
+  if (!trial.rate) {
+    return TrialMistake{
+        "slow_motion",
+        "\"slow_motion\" has no \"fps\" in the same trial",
+        "add the rate at which the camera took the pictures: for 120 pictures per second "
+        "that play at 30, fps = 120 and slow_motion = 4"};
+  }
+  if (trial.timestamps) {
+    return TrialMistake{
+        "slow_motion",
+        "\"slow_motion\" and \"timestamps\" exclude each other",
+        "remove \"slow_motion\": the table states when frames were taken"};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<TrialMistake> mistake_of(const Trial& trial, const Session& session) {
+  if (auto mistake = mistake_in_slow_motion(trial)) return mistake;
   if (trial.kind == TrialKind::kMotion) return std::nullopt;
   if (const Trial* twin = session.find(trial.kind)) {
     return TrialMistake{"kind",

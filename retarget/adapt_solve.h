@@ -21,8 +21,8 @@
 /// With balance limbs and the root alone come first, too: the root moves by what the
 /// limbs' wishes take of balance. The trunk begins with kBalancedMobility at most, which
 /// grows with every step that leaves something missing: a posture far from the reference
-/// is what is taken last. Only a centre of mass that is sent elsewhere has the whole body
-/// lean at once.
+/// is what is taken last. No loop ends before the trunk has its full mobility. Only a
+/// centre of mass that is sent elsewhere has the whole body lean at once.
 ///
 /// All levels of importance are tried at once. Where that does not meet every wish, and
 /// importance is priority, the last is left out and the others are tried from the
@@ -41,8 +41,10 @@ inline constexpr double kHomingFades = 0.5;
 /// The third step in a row that hardly helps ends the loop.
 inline constexpr double kStalledSteps = 2.5;
 /// The trunk's mobility with balance, at first. It grows with every step that leaves
-/// something missing: what a turned trunk is not needed for does without.
-inline constexpr double kBalancedMobility = 0.045;
+/// something missing: what a turned trunk is not needed for does without. A smaller
+/// value keeps postures nearer, but arms straighten further before they are relieved, so
+/// that elbows open faster (both figures: docs/measurements.md).
+inline constexpr double kBalancedMobility = 0.0295;
 /// Mobility per help that is needed, up to there: an arm is relieved before it is
 /// straight.
 inline constexpr double kHelpBalanced = 0.5;
@@ -216,7 +218,11 @@ template <class F>
   const Mask<F> idle = gain < max(s.threshold, num<F>(0.002) * p.merit);
   // A step that would help, but not without cost to what is held, may be too long.
   const F counts = select(kept, one, num<F>(0.5));
-  p.stalled = select(idle & !homes, p.stalled + counts, zero);
+  // With balance the trunk's mobility still grows until it is the limbs': the next step
+  // may help where this one did not.
+  Mask<F> stalls = idle & !homes;
+  if (balance) stalls = stalls & (s.mobility >= one);
+  p.stalled = select(stalls, p.stalled + counts, zero);
   // Homing is never cut short: a posture on its way is nobody's answer.
   const Mask<F> capped =
       (p.iterations - solve.begun >= num<F>(settings.max_iterations)) & !homes;

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/check_constraints.h"
 
+#include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/humanoid.h"
 #include "retarget/check_goal.h"
@@ -12,6 +15,9 @@
 
 namespace marey::retarget {
 namespace {
+
+/// Constraints with a later start wait until a caller starts them.
+constexpr double kStartedByHand_s = 1e8;
 
 Refusal check_ids(const ConstraintSet& set) {
   std::set<std::string_view> ids;
@@ -70,11 +76,46 @@ Refusal check_one(const Constraint& c,
   return check_goal(c, set, character);
 }
 
+/// Checks the number of constraints. A solve costs the cube of it: without a limit a file
+/// of some hundred keeps a processor busy for hours.
+Refusal check_count(const ConstraintSet& set) {
+  const std::size_t count = set.constraints.size();
+  if (count > kMaxConstraints) {
+    return bad_input("the constraints",
+                     "there are " + std::to_string(count) + ", but at most " +
+                         std::to_string(kMaxConstraints) + " can be solved",
+                     "divide them by time into several files, and the motion with them");
+  }
+  // Ends come before starts of the same time.
+  std::vector<std::pair<double, int>> changes;
+  for (const Constraint& c : set.constraints) {
+    const Activation& a = c.activation;
+    const double start_s = a.start_s.value_or(-kLatest_s);
+    if (start_s >= kStartedByHand_s) continue;
+    changes.emplace_back(start_s, 1);
+    if (a.stop_s) changes.emplace_back(*a.stop_s + a.stop_duration_s, -1);
+  }
+  std::ranges::sort(changes);
+  int active = 0;
+  for (const auto& [time_s, change] : changes) {
+    active += change;
+    if (active <= kMaxActiveConstraints) continue;
+    const std::string when =
+        time_s <= -kLatest_s ? "from the start on" : "at " + digits(time_s) + " s";
+    return bad_input("the constraints",
+                     "more than " + std::to_string(kMaxActiveConstraints) +
+                         " are active " + when + ", the most that one solve can hold",
+                     "give some of them other times, or remove some");
+  }
+  return std::nullopt;
+}
+
 Refusal check_all(const ConstraintSet& set, const Character& character) {
   if (auto wrong = check_ids(set)) return wrong;
   for (const Constraint& c : set.constraints) {
     if (auto wrong = check_one(c, set, character)) return wrong;
   }
+  if (auto wrong = check_count(set)) return wrong;
   if (auto wrong = check_circles(set)) return wrong;
   return check_contradictions(set, character.skeleton);
 }

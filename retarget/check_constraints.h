@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
@@ -18,10 +19,16 @@ namespace marey::retarget {
 [[nodiscard]] std::optional<JointIndex> resolve_segment(const Skeleton& skeleton,
                                                         std::string_view name);
 
+/// Maximum numbers of constraints in one set, and active at one time, ramps included.
+inline constexpr std::size_t kMaxConstraints = 1000;
+inline constexpr int kMaxActiveConstraints = 64;
+
 /// Whether a character can be adapted to these constraints: done, or the first mistake.
 ///
 /// Errors (kBadInput) name the constraint and say what to do:
 /// - an id that is empty, or another's;
+/// - more constraints than kMaxConstraints, or than kMaxActiveConstraints at one time; a
+///   constraint that a caller starts (start from 1e8 s on) counts as active at none;
 /// - numbers that are not finite; lengths beyond 10 km, times beyond 1e9 s, an importance
 ///   outside 1e-6 to 1e6 (single precision must hold their squares);
 /// - precision, distance or durations below 0, a range below 1, stop before start;

@@ -120,6 +120,7 @@ PostureFigures compare_postures(const Motion& source,
   MAREY_ASSERT(source.poses.size() == made.poses.size());
   std::array<Apart, kSegments.size()> segments;
   Apart trunk;
+  Apart neck;
   Frames a(source.skeleton.joints.size());
   Frames b(made.skeleton.joints.size());
   Frames a_before;
@@ -140,6 +141,9 @@ PostureFigures compare_postures(const Motion& source,
     const auto lean = trunk_of(from, a);
     const auto own_lean = trunk_of(to, b);
     if (lean && own_lean) trunk.add(*lean, *own_lean, frame);
+    const auto nape = way(place_of(from, a, B::kNeck), place_of(from, a, B::kHead));
+    const auto own_nape = way(place_of(to, b, B::kNeck), place_of(to, b, B::kHead));
+    if (nape && own_nape) neck.add(*nape, *own_nape, frame);
     const auto back = feet_backwards(from, a);
     const auto own_back = feet_backwards(to, b);
     if (back && own_back && *back != *own_back) exchanged += 1.0;
@@ -154,8 +158,11 @@ PostureFigures compare_postures(const Motion& source,
   for (std::size_t s = 0; s < kSegments.size(); ++s) {
     // Four of each side: the arm's two, then the leg's.
     segments[s].keep_larger(kSegments[s][0], s % 4 < 2 ? out.arms : out.legs);
+    segments[s].keep_larger(kSegments[s][0], out.segments[s]);
   }
   trunk.keep_larger(B::kSpine, out.trunk);
+  out.segments[kSegments.size()] = out.trunk;
+  neck.keep_larger(B::kNeck, out.segments[kSegments.size() + 1]);
   if (!source.poses.empty()) {
     out.exchanged_share = exchanged / static_cast<double>(source.poses.size());
   }

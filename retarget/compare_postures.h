@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string_view>
 
 #include "core/humanoid.h"
@@ -21,8 +23,14 @@ struct DirectionFigures {
 /// "leftUpperLeg", "trunk".
 [[nodiscard]] std::string_view segment_name(const DirectionFigures& direction);
 
+/// Segments that are compared: two of each limb, the trunk, the neck.
+inline constexpr std::size_t kComparedSegments = 10;
+
 /// How far a retargeted motion's postures are from the source's.
 struct PostureFigures {
+  /// Each segment by itself: upper arm, forearm, thigh and shank of the left side, then
+  /// of the right side, the trunk (kSpine), the line from neck to head (kNeck).
+  std::array<DirectionFigures, kComparedSegments> segments{};
   DirectionFigures legs;   ///< Thighs and shanks.
   DirectionFigures arms;   ///< Upper arms and forearms.
   DirectionFigures trunk;  ///< The line from mid-hip to mid-shoulder.

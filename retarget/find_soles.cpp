@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/assert.h"
+#include "core/humanoid.h"
 #include "core/pose.h"
 
 namespace marey::retarget {
@@ -40,11 +41,16 @@ Soles find_soles(const Skeleton& skeleton,
     const glm::dquat t_pose_from_world =
         map.joints[index(ankle)].t_pose_from_joint * glm::conjugate(at.rotation);
     const std::vector<char> is_foot = below(skeleton, ankle);
+    const auto toes =
+        map.joint_of[index(side == 0 ? HumanBone::kLeftToes : HumanBone::kRightToes)];
+    const std::vector<char> is_toes = toes ? below(skeleton, *toes) : std::vector<char>();
+    bool toes_bend = false;
     const double floor_m = -foot.ankle_height_m;
     std::optional<glm::dvec3> heel;
     std::optional<glm::dvec3> tip;
     for (std::size_t i = 0; i < p_in_world.size(); ++i) {
       if (!is_foot[index(carrier[i])]) continue;
+      toes_bend = toes_bend || (toes && is_toes[index(carrier[i])]);
       const glm::dvec3 p = t_pose_from_world * (p_in_world[i] - at.translation);
       if (p.y > floor_m + kSoleInLegs * map.leg_length_m) continue;
       if (!heel || p.z < heel->z) heel = p;
@@ -55,7 +61,8 @@ Soles find_soles(const Skeleton& skeleton,
     // Both ends are taken on the floor: a round end that is a little above it at rest
     // comes down as the foot rolls.
     soles[side] = SoleEnds{{0.0, floor_m, std::min(heel->z, 0.0)},
-                           {0.0, -foot.ball_height_m, std::max(from_ball.z, 0.0)}};
+                           {0.0, -foot.ball_height_m, std::max(from_ball.z, 0.0)},
+                           toes_bend};
   }
   return soles;
 }
@@ -65,6 +72,7 @@ void wear(const Soles& soles, BodyMap& map) {
     if (!soles[side]) continue;
     map.feet[side].heel_from_ankle_in_t_pose = soles[side]->heel_from_ankle_in_t_pose;
     map.feet[side].tip_from_ball_in_t_pose = soles[side]->tip_from_ball_in_t_pose;
+    map.feet[side].has_toes = map.feet[side].has_toes && soles[side]->toes_bend;
   }
 }
 

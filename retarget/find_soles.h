@@ -18,6 +18,8 @@ namespace marey::retarget {
 struct SoleEnds {
   glm::dvec3 heel_from_ankle_in_t_pose{0.0};
   glm::dvec3 tip_from_ball_in_t_pose{0.0};
+  /// Skin hangs on the toe joint: the front of the foot bends there.
+  bool toes_bend = true;
 };
 using Soles = std::array<std::optional<SoleEnds>, 2>;  ///< Left, right.
 

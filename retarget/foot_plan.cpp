@@ -55,11 +55,7 @@ glm::dvec3 fading(const Edge& edge, double since_s, double fade_s) {
 }
 
 // Fills the frames first..last, whose neighbours are prescribed (or the motion's ends).
-void bridge_gap(Prescribed& p,
-                int first,
-                int last,
-                double hz,
-                const FootPlanOptions& o) {
+void bridge_gap(Prescribed& p, int first, int last, double hz, const FootPlanOptions& o) {
   const int count = static_cast<int>(p.size());
   std::optional<Edge> before;
   std::optional<Edge> after;
@@ -117,7 +113,7 @@ struct Task {
   std::vector<char> heel;  // Per frame: does it bear?
   std::vector<char> ball;
   std::vector<FrameInterval> heel_up;  // In which a foot on its ball keeps still.
-  std::vector<Footprint> print;  // Of the stance that the frame is in.
+  std::vector<Footprint> print;        // Of the stance that the frame is in.
 
   [[nodiscard]] bool bears(std::size_t t) const { return heel[t] || ball[t]; }
   [[nodiscard]] bool flat(std::size_t t) const { return heel[t] && ball[t]; }
@@ -239,6 +235,7 @@ void place_ankles(const Task& task, std::vector<FootPlace>& out) {
         task.heel[t]
             ? print.ankle_in_world
             : print.ball_in_world - out[t].foot * task.foot.ball_from_ankle_in_t_pose;
+    if (!task.foot.has_toes && !task.heel[t]) keep_tip_up(task.foot, out[t]);
     // What rolls over its heel rises on it.
     if (!task.flat(t)) lift_over_floor(task.foot, 0.0, out[t]);
     if (!task.ball[t]) keep_toes_up(task.foot, out[t]);
@@ -250,10 +247,11 @@ void place_ankles(const Task& task, std::vector<FootPlace>& out) {
     if (task.bears(t)) continue;
     out[t].ankle_in_world = task.reference[t].ankle_in_world + shifts[t];
     constexpr double kSoftnessInLegs = 0.01;
-    lift_over_floor(
-        task.foot,
-        kSoftnessInLegs * task.leg_length_m * smooth_step(away_s[t] / task.options.blend_s),
-        out[t]);
+    if (!task.foot.has_toes) keep_tip_up(task.foot, out[t]);
+    lift_over_floor(task.foot,
+                    kSoftnessInLegs * task.leg_length_m *
+                        smooth_step(away_s[t] / task.options.blend_s),
+                    out[t]);
     keep_toes_up(task.foot, out[t]);
   }
 }

@@ -31,8 +31,8 @@ double sink_m(const glm::dvec3& hip_in_world,
               const glm::dvec3& ankle_in_world,
               double length_m) {
   constexpr double kMostSinkInLegs = 0.5;
-  const double aside = glm::length(glm::dvec2(hip_in_world.x - ankle_in_world.x,
-                                              hip_in_world.z - ankle_in_world.z));
+  const double aside = glm::length(
+      glm::dvec2(hip_in_world.x - ankle_in_world.x, hip_in_world.z - ankle_in_world.z));
   const double rise = std::sqrt(std::max(length_m * length_m - aside * aside, 0.0));
   return std::clamp(
       hip_in_world.y - (ankle_in_world.y + rise), 0.0, kMostSinkInLegs * length_m);
@@ -65,6 +65,19 @@ void keep_other_joint_up(const FootMap& foot, bool on_heel, FootPlace& place) {
       glm::normalize(rotation_between(now, {ahead.x, flat.y, ahead.y}) * place.foot);
 }
 
+void keep_tip_up(const FootMap& foot, FootPlace& place) {
+  const glm::dvec3 tip =
+      place.foot * (foot.ball_from_ankle_in_t_pose + foot.tip_from_ball_in_t_pose);
+  if (place.ankle_in_world.y + tip.y >= 0.0) return;
+  const glm::dvec2 ground(tip.x, tip.z);
+  const double ahead = glm::length(ground);
+  const double length_m = glm::length(tip);
+  if (ahead < 1e-6) return;
+  const double y = std::clamp(-place.ankle_in_world.y, -length_m, length_m);
+  const glm::dvec2 level = ground * (std::sqrt(length_m * length_m - y * y) / ahead);
+  place.foot = glm::normalize(rotation_between(tip, {level.x, y, level.y}) * place.foot);
+}
+
 void keep_toes_up(const FootMap& foot, FootPlace& place) {
   const glm::dvec3 tip = place.toes * foot.tip_from_ball_in_t_pose;
   const double ball_m =
@@ -76,8 +89,7 @@ void keep_toes_up(const FootMap& foot, FootPlace& place) {
   const double ahead = glm::length(ground);
   if (ahead < 1e-6) return;
   const double y = std::clamp(tip.y + under_m, -length_m, length_m);
-  const glm::dvec2 level =
-      ground * (std::sqrt(length_m * length_m - y * y) / ahead);
+  const glm::dvec2 level = ground * (std::sqrt(length_m * length_m - y * y) / ahead);
   place.toes = glm::normalize(rotation_between(tip, {level.x, y, level.y}) * place.toes);
 }
 
@@ -92,8 +104,8 @@ void lift_over_floor(const FootMap& foot, double softness_m, FootPlace& place) {
         std::min(clearance_m, ball_m + (place.foot * foot.tip_from_ball_in_t_pose).y);
   }
   const double wanted_m =
-      0.5 * (clearance_m +
-             std::sqrt(clearance_m * clearance_m + softness_m * softness_m));
+      0.5 *
+      (clearance_m + std::sqrt(clearance_m * clearance_m + softness_m * softness_m));
   place.ankle_in_world.y += wanted_m - clearance_m;
 }
 

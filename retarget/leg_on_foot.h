@@ -41,9 +41,14 @@ double aim_leg(const glm::dvec3& hip_in_world,
                double length_m,
                NormalizedLimb& leg);
 
-/// Pitches a foot that bears on one joint (heel: the ankle; else the ball) until the other
-/// is not below its own height.
+/// Pitches a foot that bears on one joint (heel: the ankle; else the ball) until the
+/// other is not below its own height.
 void keep_other_joint_up(const FootMap& foot, bool on_heel, FootPlace& place);
+
+/// Pitches a foot whose front does not bend at the ball until the sole's end in front is
+/// on the floor Y = 0; the ankle stays. Nothing happens while that end is above the
+/// floor.
+void keep_tip_up(const FootMap& foot, FootPlace& place);
 
 /// Bends toes up at the ball as far as their tip would be below the floor Y = 0.
 void keep_toes_up(const FootMap& foot, FootPlace& place);

@@ -14,6 +14,7 @@
 #include "retarget/keep_heights.h"
 #include "retarget/keep_wrists.h"
 #include "retarget/leg_on_foot.h"
+#include "retarget/match_carriage.h"
 #include "retarget/place_masses.h"
 #include "retarget/t_pose_turn.h"
 
@@ -122,6 +123,7 @@ Result<MappedBodies> map_bodies(const Skeleton& source,
                      "it has no complete arm to measure the root's path in",
                      "normalize the root by leg length");
   }
+  match_carriage(source, *from, avatar, *to);
   return MappedBodies{std::move(*from), std::move(*to)};
 }
 
@@ -297,7 +299,8 @@ std::vector<double> source_depth_m(const Task& task, double floor_m) {
       const bool is_foot = bone == foot_bone(0) || bone == foot_bone(1) ||
                            bone == toes_bone(0) || bone == toes_bone(1);
       if (!joint || is_foot) continue;
-      depth_m = std::max(depth_m, floor_m - world_from_joint[index(*joint)].translation.y);
+      depth_m =
+          std::max(depth_m, floor_m - world_from_joint[index(*joint)].translation.y);
     }
     out.push_back(task.world.scale * depth_m);
   }
@@ -338,16 +341,23 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
   out.motion = expand_all(poses, source, avatar, to);
   out.report.before = measure_feet(out.motion, to, out.report.contacts);
   out.report.after = out.report.before;
+  const auto taken = [&](RetargetStep step) {
+    if (!options.compare_steps) return;
+    out.report.steps.emplace_back(step, compare_postures(source, from, out.motion, to));
+  };
+  taken(RetargetStep::kPosture);
   if (options.adapt_ground) {
     if (const Status ok = settle(task, poses, out); !ok) return ok.error();
+    taken(RetargetStep::kGround);
   }
   if (options.hands) {
     RefineHandsOptions hands = *options.hands;
     hands.clear.over_floor = hands.clear.over_floor && options.adapt_ground;
     out.report.hands = refine_hands(source, from, to, world, hands, out.motion);
+    taken(RetargetStep::kHands);
   }
-  out.report.source_depth_m =
-      source_depth_m(task, floor_height_m(from, ankles_rest_m(from, out.report.contacts)));
+  out.report.source_depth_m = source_depth_m(
+      task, floor_height_m(from, ankles_rest_m(from, out.report.contacts)));
   if (options.adapt_ground && options.skin != nullptr && !options.skin->empty()) {
     out.report.skin = lift_skin(*options.skin,
                                 to,
@@ -356,6 +366,7 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
                                 options.lift,
                                 out.motion);
     out.report.after = measure_feet(out.motion, to, out.report.contacts);
+    taken(RetargetStep::kSkin);
   }
   return out;
 }

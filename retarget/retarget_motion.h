@@ -3,10 +3,12 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/motion.h"
 #include "core/result.h"
+#include "retarget/compare_postures.h"
 #include "retarget/detect_contacts.h"
 #include "retarget/find_soles.h"
 #include "retarget/ground.h"
@@ -45,6 +47,16 @@ struct RetargetOptions {
   /// The centre of mass is kept over what bears (retarget/keep_balance.h); nullopt: it is
   /// where the posture brings it. Needs adapt_ground.
   std::optional<BalanceOptions> balance;
+  /// Fills in RetargetReport::steps. Costs two forward kinematics a step and frame.
+  bool compare_steps = false;
+};
+
+/// The steps of retarget_motion(), in order.
+enum class RetargetStep {
+  kPosture,  ///< The source's posture on bones of other lengths.
+  kGround,   ///< Feet stand; the centre of mass is over them if requested.
+  kHands,    ///< Hands keep the source's touches, arms stay out of the body.
+  kSkin,     ///< The skin is raised out of the floor.
 };
 
 /// Who moves, and who is to.
@@ -52,7 +64,8 @@ struct MappedBodies {
   BodyMap source;
   BodyMap avatar;
 };
-/// map_body() of both, and whether the root can be normalized so.
+/// Maps both bodies, the avatar's with match_carriage(), and checks that the root can be
+/// normalized with them.
 /// Errors: map_body()'s, of the source ("source skeleton") or the avatar ("avatar"); no
 /// arms to normalize the root with.
 [[nodiscard]] Result<MappedBodies> map_bodies(const Skeleton& source,
@@ -82,6 +95,9 @@ struct RetargetReport {
   HandReport hands;                      ///< Empty unless asked for.
   std::optional<BalanceReport> balance;  ///< If asked for.
   LiftSkinReport skin;                   ///< Empty unless there is a skin.
+  /// How far segments point away from the source's after each step that was taken, in the
+  /// order of the steps; empty unless RetargetOptions::compare_steps is set.
+  std::vector<std::pair<RetargetStep, PostureFigures>> steps;
   /// How far joints of the source other than the feet's are below its floor, frame by
   /// frame, at the avatar's size: what its skin may be, too. [m]
   std::vector<double> source_depth_m;

@@ -6,13 +6,51 @@
 /** Up to which value a figure is good, and up to which fair. */
 const GRADES = {
   unsolved_percent: [2, 10], calibration_px: [0.5, 1.0], solve_px: [1.0, 2.0],
-  sigma_mm: [10, 20],
+  sigma_mm: [10, 20], worst_camera_px: [2.0, 4.0], worst_frame_px: [6.0, 12.0],
+  worst_sigma_mm: [20, 40],
 };
+
+const WORDS = ['good', 'fair', 'look closer'];
 
 function grade(kind, value) {
   const [good, fair] = GRADES[kind];
   if (value <= good) return {word: 'good', mark: '●'};
   return value <= fair ? {word: 'fair', mark: '◐'} : {word: 'look closer', mark: '○'};
+}
+
+/** The worst of several grades: what is good on the whole may hide what is not. */
+function worstGrade(...grades) {
+  return grades.reduce((a, b) => (WORDS.indexOf(b.word) > WORDS.indexOf(a.word) ? b : a));
+}
+
+/** The grade of summary.worst[kind], and whose it is. */
+function worstOf(worst, kind, gradeKind) {
+  const found = worst[kind];
+  return found === null ? grade(gradeKind, 0) : grade(gradeKind, found.value);
+}
+
+function named(worst, kind, unit, digits) {
+  const found = worst[kind];
+  if (found === null) return '';
+  return `; worst ${kind} ${found.name} (${found.trial}): ` +
+    `${fixed(found.value, digits)} ${unit}`;
+}
+
+/** Results that the program itself does not trust have no good figure. */
+function trust(summary) {
+  const reasons = summary.poor.length;
+  return reasons === 0 ? {word: 'good', mark: '●'} : {word: 'look closer', mark: '○'};
+}
+
+function trustVerdict(summary) {
+  const reasons = summary.poor.length;
+  const {word, mark} = trust(summary);
+  return el('li', {class: `verdict grade-${word.replace(' ', '-')}`},
+    el('span', {class: 'title'}, 'Trust'),
+    el('span', {class: 'value'}, reasons === 0 ? 'yes' : 'no'),
+    el('span', {class: 'grade'}, el('span', {'aria-hidden': 'true'}, `${mark} `), word),
+    el('span', {class: 'what'}, reasons === 0 ? 'no check speaks against these results'
+      : `${plural(reasons, 'reason', 'reasons')} not to: ${summary.poor[0]}`));
 }
 
 function verdict(title, value, unit, what, {word, mark}, kind) {
@@ -29,7 +67,9 @@ function verdict(title, value, unit, what, {word, mark}, kind) {
 
 function verdicts(summary) {
   const unsolved = 100 - summary.solved_percent;
+  const {worst} = summary;
   return el('ul', {class: 'verdicts'},
+    trustVerdict(summary),
     verdict('Solved', fixed(summary.solved_percent, 1), '%',
       `${summary.frames_solved} of ${plural(summary.frames, 'frame', 'frames')}`,
       grade('unsolved_percent', unsolved), 'unsolved_percent'),
@@ -37,11 +77,16 @@ function verdicts(summary) {
       'how far the board is from where the cameras expect it',
       grade('calibration_px', summary.calibration_rms_px), 'calibration_px'),
     verdict('Motion', fixed(summary.solve_rms_px, 2), 'px',
-      'how far tags are from where the solved body has them',
-      grade('solve_px', summary.solve_rms_px), 'solve_px'),
+      'how far tags are from where the solved body has them' +
+        named(worst, 'camera', 'px', 2) + named(worst, 'frame', 'px', 2),
+      worstGrade(trust(summary), grade('solve_px', summary.solve_rms_px),
+        worstOf(worst, 'camera', 'worst_camera_px'),
+        worstOf(worst, 'frame', 'worst_frame_px')), 'solve_px'),
     verdict('Joints', `± ${fixed(summary.joint_sigma_median_mm, 1)}`, 'mm',
-      'typical doubt (sigma) of a joint centre in a frame',
-      grade('sigma_mm', summary.joint_sigma_median_mm), 'sigma_mm'));
+      'typical doubt (sigma) of a joint centre in a frame' +
+        named(worst, 'joint', 'mm', 1),
+      worstGrade(trust(summary), grade('sigma_mm', summary.joint_sigma_median_mm),
+        worstOf(worst, 'joint', 'worst_sigma_mm')), 'sigma_mm'));
 }
 
 function headSection({summary, warnings, session, trials}) {

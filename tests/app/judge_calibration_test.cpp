@@ -4,71 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/app/calibration_findings.h"
+
 namespace marey::app {
 namespace {
 
-/// Three webcams that were calibrated as one should.
-CalibrationReport decent() {
-  CalibrationReport report;
-  report.extent = calib::BoardExtent{};
-  report.has_floor = true;
-  report.rate_hz = 30.0;
-  for (const char* name : {"left", "middle", "right"}) {
-    Camera camera;
-    camera.name = name;
-    camera.intrinsics.width_px = 1280;
-    camera.intrinsics.height_px = 720;
-    report.rig.cameras.push_back(camera);
-    CameraQuality quality;
-    quality.corners = 4000;
-    quality.views = 40;
-    quality.coverage = 0.6;
-    quality.centre_sigma_m = 0.002;
-    report.rig.quality.push_back(quality);
-    CameraMeasures measures;
-    measures.inlier_rms_px = 0.3;
-    measures.median_px = 0.2;
-    measures.outlier_corners = 40;
-    measures.instants = 40;
-    measures.half_coverage = {0.6, 0.6, 0.6, 0.6};
-    measures.tilts = {{0.7, 0.0, 2.0}};
-    measures.p90_tilt_rad = 0.7;
-    measures.lag = CameraLag{0.01, 0.01, 0.02};
-    measures.floor_median_px = 0.3;
-    report.cameras.push_back(measures);
-  }
-  report.rig.median_px = 0.2;
-  report.rig.shared_views = {40, 30, 2, 30, 40, 25, 2, 25, 40};
-  report.map.distance_m = 3.0;
-  report.map.middle_error_m = 0.003;
-  report.map.grid = {{-1.0, 0.0, -1.0}, {1.0, 0.0, 1.0}, 0.5, {0.9}};
-  report.map.height_names = {"hip"};
-  for (int i = 0; i < 25; ++i) {
-    report.map.places.push_back(
-        {{-1.0 + 0.5 * (i % 5), 0.9, -1.0 + 0.5 * (i / 5)}, 3, 0.004});
-  }
-  report.map.middle_in_world = {0.0, 0.9, 0.0};
-  return report;
-}
-
-/// The one finding; a test fails where there are none or several.
-Finding only(const CalibrationReport& report) {
-  const auto found = judge_calibration(report);
-  EXPECT_EQ(found.size(), 1U);
-  return found.empty() ? Finding{} : found.front();
-}
-
-void expect(const Finding& found,
-            Severity severity,
-            const std::string& kind,
-            const std::string& where,
-            const std::string& figure) {
-  EXPECT_EQ(found.severity, severity) << found.cause;
-  EXPECT_EQ(found.kind, kind);
-  EXPECT_EQ(found.where, where);
-  EXPECT_NE(found.cause.find(figure), std::string::npos) << found.cause;
-  EXPECT_FALSE(found.next.empty());
-}
+using testing::decent;
+using testing::expect;
+using testing::only;
 
 TEST(JudgeCalibration, HasNothingToSayOfADecentOne) {
   const CalibrationReport report = decent();
@@ -138,36 +81,6 @@ TEST(JudgeCalibration, TakesThePicturesSizeIntoAccount) {
   EXPECT_TRUE(judge_calibration(report).empty());
 }
 
-TEST(JudgeCalibration, NamesACameraThatWasMoved) {
-  CalibrationReport report = decent();
-  report.cameras[0].astray_from = 71;
-  expect(only(report), Severity::kPoor, "moved", "camera left", "frame 71");
-}
-
-TEST(JudgeCalibration, NamesACameraThatWasNudgedAndByHowMuch) {
-  CalibrationReport report = decent();
-  report.rig.apparent_move =
-      calib::ApparentMove{CameraId{1}, 77, 3.8, 0.0042, 0.003, 9000.0, {}};
-  expect(only(report), Severity::kPoor, "moved", "camera middle", "moved by 3.8 px");
-  EXPECT_NE(only(report).cause.find("from frame 77"), std::string::npos);
-  // What else it makes of that is not told again.
-  report.cameras[1].outlier_corners = 1500;
-  report.cameras[1].slip = CameraSlip{40, 0.9, 5.0};
-  EXPECT_EQ(only(report).kind, "moved");
-  report.rig.apparent_move->instead = {CameraId{2}};
-  EXPECT_EQ(only(report).where, "camera middle or right");
-}
-
-TEST(JudgeCalibration, SaysNothingOfMovesThatLensesMake) {
-  CalibrationReport report = decent();
-  report.rig.apparent_move =
-      calib::ApparentMove{CameraId{1}, 77, 0.3, 0.0003, 0.001, 9000.0, {}};
-  EXPECT_TRUE(judge_calibration(report).empty());
-  report.rig.apparent_move =
-      calib::ApparentMove{CameraId{1}, 77, 3.0, 0.003, 0.001, 90.0, {}};
-  EXPECT_TRUE(judge_calibration(report).empty());
-}
-
 TEST(JudgeCalibration, NamesLineDelaysOfARollingShutter) {
   CalibrationReport report = decent();
   report.rig.apparent_line_delays = calib::ApparentLineDelays{
@@ -216,16 +129,6 @@ TEST(JudgeCalibration, NamesACameraThatIsOutOfStepAndBlamesNothingElse) {
   report.cameras[1].lag = CameraLag{0.6, 0.02, 1.5};
   report.cameras[1].astray_until = 30;
   expect(only(report), Severity::kFair, "clock", "camera middle", "20 ms or more later");
-}
-
-// On 4K half a pixel of lag is no lag: whole stretches that do not fit have another
-// cause.
-TEST(JudgeCalibration, ExcusesNoMovedCameraByALagThatItDoesNotTell) {
-  CalibrationReport report = decent();
-  report.rig.cameras[1].intrinsics.width_px = 3840;
-  report.cameras[1].lag = CameraLag{0.2, 0.01, 0.5};
-  report.cameras[1].astray_from = 71;
-  expect(only(report), Severity::kPoor, "moved", "camera middle", "frame 71");
 }
 
 TEST(JudgeCalibration, SpeaksOfAWandWhereThereIsNoBoard) {
@@ -297,12 +200,6 @@ TEST(JudgeCalibration, SeesALensThatItsModelDoesNotFit) {
   report.cameras[0].pattern_px = 0.32;
   report.cameras[0].inlier_rms_px = 0.45;
   expect(only(report), Severity::kFair, "lens", "camera left", "0.32 px");
-}
-
-TEST(JudgeCalibration, NamesTheCameraThatTheFloorDoesNotAgreeWith) {
-  CalibrationReport report = decent();
-  report.cameras[2].floor_median_px = 2.5;
-  expect(only(report), Severity::kFair, "floor", "camera right", "2.5 px");
 }
 
 TEST(JudgeCalibration, DoubtsPointsThatStandCentimetresOff) {

@@ -3,14 +3,23 @@
 #include "tests/app/judged_calibration.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "app/calibration_report.h"
+#include "app/find_moved_cameras.h"
 #include "app/finding_list.h"
 #include "app/judge_calibration.h"
 #include "calib/calibrate_cameras.h"
+#include "calib/calibrate_wand.h"
+#include "calib/find_moved_camera.h"
+#include "core/quantile.h"
+#include "reconstruct/check_views.h"
+#include "reconstruct/triangulate.h"
 #include "tests/support/synthetic_rig.h"
 
 namespace marey::testing {
@@ -22,7 +31,17 @@ std::vector<std::string> words_for(RigFault fault) {
     case RigFault::kNone:
       return {};
     case RigFault::kNudged:
+    case RigFault::kNudgedAfter:
       return {"moved", "touched"};
+    case RigFault::kFlipped:
+      return {"upside down", "turned by 180"};
+    case RigFault::kFocalDrift:
+    case RigFault::kRefocused:
+      return {"focus"};
+    case RigFault::kRarelySeen:
+      return {"it saw the", "together at", "instants"};
+    case RigFault::kSwappedTrial:
+      return {"swapped"};
     case RigFault::kRollingShutter:
       return {"line_delays"};
     case RigFault::kLate:
@@ -52,6 +71,119 @@ bool names(const SimulatedCalibration& scene, const std::string& message) {
   return !scene.camera || has("cam" + std::to_string(*scene.camera));
 }
 
+/// Counts how many components of a camera's rotation are within 1.96 of their sigmas.
+void count_turns(const Camera& truth,
+                 const calib::CalibratedRig& rig,
+                 std::size_t c,
+                 const RigidTransform& world_from_truth,
+                 JudgedCalibration& out) {
+  const RigidTransform is = inverse(rig.cameras[c].camera_from_world);
+  const RigidTransform was = world_from_truth * inverse(truth.camera_from_world);
+  const glm::dvec3 turn = rotation_vector(is.rotation * glm::conjugate(was.rotation));
+  const std::size_t at = calib::RigCovariance::kPerCamera * c + 12;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = at + static_cast<std::size_t>(i);
+    const double sigma_rad = std::sqrt(rig.covariance.at(k, k));
+    if (!(sigma_rad > 0.0)) continue;
+    ++out.turns;
+    out.turns_inside += std::abs(turn[i]) < 1.96 * sigma_rad;
+  }
+}
+
+/// Returns the median distance of tags that `cameras` triangulate from those that `truth`
+/// does. [m]
+double body_off_m(const std::vector<Camera>& cameras,
+                  const std::vector<Camera>& truth,
+                  const std::vector<CameraDetections>& detections) {
+  std::map<std::pair<int, TagId>, std::array<std::vector<reconstruct::PointView>, 2>>
+      seen;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    for (const FrameDetections& frame : detections[c].frames) {
+      for (const TagDetection& tag : frame.tags) {
+        auto& [ours, theirs] = seen[{frame.frame, tag.id}];
+        glm::dvec2 middle(0.0);
+        for (const glm::dvec2& corner : tag.corners_px) middle += 0.25 * corner;
+        ours.push_back({&cameras[c], middle});
+        theirs.push_back({&truth[c], middle});
+      }
+    }
+  }
+  std::vector<double> errors;
+  for (const auto& [key, views] : seen) {
+    const auto ours = reconstruct::triangulate(views[0]);
+    const auto theirs = reconstruct::triangulate(views[1]);
+    if (ours && theirs) {
+      errors.push_back(glm::distance(ours->p_in_world, theirs->p_in_world));
+    }
+  }
+  return errors.empty() ? 0.0 : median(std::move(errors));
+}
+
+/// Returns the calibrated cameras as they stood when the motions were filmed: against
+/// them a body shows the effect of a fault after the calibration.
+std::vector<Camera> filmed_with(const SimulatedCalibration& scene,
+                                const calib::CalibratedRig& rig) {
+  std::vector<Camera> cameras = rig.cameras;
+  if (scene.fault == RigFault::kSwappedTrial) {
+    const std::size_t other = (*scene.camera + 1) % cameras.size();
+    std::swap(cameras[*scene.camera], cameras[other]);
+  } else if (scene.fault == RigFault::kNudgedAfter) {
+    const Camera& before = scene.truth[*scene.camera];
+    cameras[*scene.camera].camera_from_world = scene.moved->camera_from_world *
+                                               inverse(before.camera_from_world) *
+                                               cameras[*scene.camera].camera_from_world;
+  }
+  return cameras;
+}
+
+std::map<TagId, double> sizes_of(const std::vector<TagOnSegment>& tags) {
+  std::map<TagId, double> sizes_m;
+  for (const TagOnSegment& tag : tags) sizes_m[tag.id] = tag.size_m;
+  return sizes_m;
+}
+
+/// Judges the trials that follow as check_trials() of the program does.
+void judge_motions(const SimulatedCalibration& scene,
+                   const calib::CalibratedRig& rig,
+                   JudgedCalibration& out) {
+  std::vector<TagOnSegment> tags;
+  for (const WornTag& worn : scene.worn) {
+    tags.push_back({worn.id, HumanBone::kHips, worn.size_m});
+  }
+  const std::vector<Camera> truth = filmed_with(scene, rig);
+  for (const auto* trial : {&scene.standing, &scene.walk}) {
+    std::vector<CameraDetections> detections = *trial;
+    for (std::size_t c = 0; c < detections.size(); ++c) {
+      for (FrameDetections& frame : detections[c].frames) {
+        for (TagDetection& tag : frame.tags) {
+          tag.corners_px = unshrunk(tag.corners_px, rig.cameras[c].tag_shrinkage);
+        }
+      }
+    }
+    out.body_off_m = body_off_m(rig.cameras, truth, detections);
+    const bool is_walk = trial == &scene.walk;
+    if (const Status ok = reconstruct::check_views(rig.cameras, detections, tags); !ok) {
+      out.exit_code = 3;
+      out.words.push_back(ok.error().message());
+      break;
+    }
+    const std::string name = is_walk ? "walk" : "static";
+    if (auto moved = calib::find_moved_camera(rig.cameras, detections, sizes_of(tags))) {
+      out.figures += app::worded("; %s: cam%d %.2f px gain %.0f from %d",
+                                 name.c_str(),
+                                 index(moved->camera),
+                                 moved->moved_px,
+                                 moved->gain,
+                                 moved->from_frame.value_or(-1));
+    }
+    const auto moved = app::find_moved_cameras(name, rig.cameras, detections, tags);
+    if (!moved) continue;
+    if (moved->is_poor && out.exit_code == 0) out.exit_code = 4;
+    out.words.push_back(std::string(moved->is_poor ? "poor " : "fair ") +
+                        "moved: " + moved->error.message());
+  }
+}
+
 void compare(const SimulatedCalibration& scene,
              const calib::CalibratedRig& rig,
              JudgedCalibration& out) {
@@ -75,7 +207,9 @@ void compare(const SimulatedCalibration& scene,
       worst = std::max(worst, std::abs(off[i]) / sigma_m);
       ++out.coordinates;
       out.beyond_3_sigma += std::abs(off[i]) > 3.0 * sigma_m;
+      out.inside_95 += std::abs(off[i]) < 1.96 * sigma_m;
     }
+    count_turns(scene.truth[c], rig, c, world_from_truth, out);
     out.worst_sigmas = std::max(out.worst_sigmas, worst);
     if (worst > 3.0)
       out.worst_by_sigma_m = std::max(out.worst_by_sigma_m, glm::length(off));
@@ -86,10 +220,11 @@ void compare(const SimulatedCalibration& scene,
 std::string figures_of(const calib::CalibratedRig& rig) {
   std::string out = app::worded("inliers %.3f px", rig.inlier_rms_px);
   if (const auto& move = rig.apparent_move) {
-    out += app::worded("; move of %s from %d: %.2f px, gain %.0f",
+    out += app::worded("; move of %s from %d: %.2f px, %.1f mm of cameras, gain %.0f",
                        rig.cameras[index(move->camera)].name.c_str(),
                        move->from_frame.value_or(-1),
                        move->moved_px,
+                       1e3 * move->rig_shift_m,
                        move->gain);
   }
   if (const auto& delays = rig.apparent_line_delays) {
@@ -108,6 +243,27 @@ std::string figures_of(const calib::CalibratedRig& rig) {
   return out;
 }
 
+Result<calib::CalibratedRig> calibrate(const SimulatedCalibration& scene,
+                                       const calib::CalibrateOptions& options) {
+  if (!scene.wand) {
+    return calib::calibrate_cameras(
+        names_of(scene.truth), scene.waved, scene.floor, scene.board, options);
+  }
+  calib::WandOptions wand_options;
+  wand_options.choose_clocks = options.choose_clocks;
+  wand_options.cross_validate = options.cross_validate;
+  auto found = calib::calibrate_wand(
+      names_of(scene.truth), scene.waved, *scene.wand, wand_options);
+  if (!found) return found.error();
+  return std::move(found->rig);
+}
+
+bool is_about_views(const app::Finding& finding) {
+  const std::string kind = finding.kind;
+  return kind == "coverage" || kind == "views" || kind == "tilt" || kind == "volume" ||
+         kind == "shared";
+}
+
 }  // namespace
 
 JudgedCalibration judge(const SimulatedCalibration& scene) {
@@ -115,10 +271,10 @@ JudgedCalibration judge(const SimulatedCalibration& scene) {
   calib::CalibrateOptions options;
   options.choose_clocks = true;
   options.cross_validate = true;
-  auto rig = calib::calibrate_cameras(
-      names_of(scene.truth), scene.waved, scene.floor, scene.board, options);
-  const bool is_good_input =
-      scene.fault == RigFault::kNone || scene.fault == RigFault::kLate;
+  auto rig = calibrate(scene, options);
+  const bool is_good_input = scene.fault == RigFault::kNone ||
+                             scene.fault == RigFault::kLate ||
+                             scene.fault == RigFault::kFlipped;
   if (!rig) {
     out.exit_code = 3;
     out.words.push_back(rig.error().message());
@@ -127,7 +283,9 @@ JudgedCalibration judge(const SimulatedCalibration& scene) {
     compare(scene, *rig, out);
     out.rms_px = rig->rms_px;
     out.figures = figures_of(*rig);
-    const CalibrationTarget target = scene.board;
+    const calib::CalibratedRig cameras = *rig;
+    CalibrationTarget target = scene.board;
+    if (scene.wand) target = *scene.wand;
     const app::CalibrationReport report = app::report_calibration(
         {"simulated", "1.0", &target, 1.75, scene.rate_hz, !scene.floor.empty()},
         std::move(*rig));
@@ -137,12 +295,15 @@ JudgedCalibration judge(const SimulatedCalibration& scene) {
       if (is_poor) out.exit_code = 4;
       out.words.push_back(std::string(is_poor ? "poor " : "fair ") + finding.kind + ": " +
                           finding.where + ": " + finding.cause + ": " + finding.next);
+      out.is_noticed = out.is_noticed || is_poor || !is_about_views(finding);
     }
+    judge_motions(scene, cameras, out);
     out.refused_though_good = out.exit_code == 4 && is_good_input && out.worst_m < 0.010;
   }
   for (const std::string& word : out.words) {
     out.names_fault = out.names_fault || names(scene, word);
   }
+  out.is_noticed = out.is_noticed || out.exit_code != 0 || out.names_fault;
   return out;
 }
 

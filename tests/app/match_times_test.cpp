@@ -218,6 +218,35 @@ TEST(CheckEven, NamesAnFpsThatIsNotTheVideos) {
   EXPECT_NE(failure.cause.find("2.00 times as fast"), std::string::npos);
 }
 
+TEST(CheckEven, NamesSlowMotionAsAReasonForAnotherRate) {
+  RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 120.0);
+  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.troubles));
+  ASSERT_EQ(videos.troubles.failures.size(), 1U);
+  EXPECT_NE(videos.troubles.failures[0].next.find("slow_motion = 4"), std::string::npos)
+      << videos.troubles.failures[0].next;
+}
+
+TEST(CheckEven, TakesSlowMotionThatIsDeclared) {
+  RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 120.0);
+  videos.trial.slow_motion = 4.0;
+  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.troubles));
+  EXPECT_TRUE(videos.troubles.warnings.empty());
+  EXPECT_TRUE(videos.troubles.failures.empty());
+}
+
+TEST(CheckEven, DeclinesSlowMotionThatTheVideosDoNotState) {
+  for (const auto& [hz, slow] : {std::pair(120.0, 8.0), std::pair(30.0, 4.0)}) {
+    RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, hz);
+    videos.trial.slow_motion = slow;
+    const Status checked = check_even(videos.trial, videos.found, videos.troubles);
+    ASSERT_FALSE(checked) << hz;
+    EXPECT_EQ(checked.error().code, Errc::kBadInput);
+    EXPECT_NE(checked.error().where.find("walk/cam"), std::string::npos)
+        << checked.error().where;
+    EXPECT_NE(checked.error().cause.find("slow_motion"), std::string::npos);
+  }
+}
+
 TEST(CheckEven, DeclinesAVideoOfAnotherRateAmongOthers) {
   RatedVideos videos({"walk/cam0.mp4", "calib/cam1.mp4"}, 30.0);
   const Status checked = check_even(videos.trial, videos.found, videos.troubles);

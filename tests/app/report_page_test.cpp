@@ -49,6 +49,39 @@ TEST_F(ReportInABrowser, MakesNoElementOutOfAName) {
   EXPECT_EQ(shown.page.find("<b>x"), std::string::npos);
 }
 
+/// How many of the cards at the top ask to look closer.
+int cards_to_look_at(const Report& value) {
+  const std::string page = show(value, "check").page;
+  const std::string sign = "verdict grade-look-closer";
+  int count = 0;
+  for (std::size_t at = page.find(sign); at != std::string::npos;
+       at = page.find(sign, at + 1)) {
+    ++count;
+  }
+  return count;
+}
+
+TEST_F(ReportInABrowser, CallsNoFigureGoodThatOneFrameOrJointSpoils) {
+  Report good = report();
+  for (ReportTrial& trial : good.trials) {
+    if (trial.bodies.empty()) continue;
+    for (auto& frame : trial.bodies.front().doubt) {
+      for (JointDoubt& joint : frame) joint.sigma_m = 0.004;
+    }
+  }
+  const int usual = cards_to_look_at(good);
+  Report spoiled = good;
+  spoiled.trials.front().frame_rms_px.at(3) = 40.0;
+  EXPECT_EQ(cards_to_look_at(spoiled), usual + 1);
+  for (auto& frame : spoiled.trials.front().bodies.front().doubt) {
+    frame.front().sigma_m = 0.3;
+  }
+  EXPECT_EQ(cards_to_look_at(spoiled), usual + 2);
+  Report doubted = good;
+  doubted.poor = {"subject.toml: the tags on segment \"leftFoot\" fit in two ways"};
+  EXPECT_EQ(cards_to_look_at(doubted), usual + 3);
+}
+
 TEST_F(ReportInABrowser, OpensWithoutATrial) {
   const ShownPage shown = show(Report{}, "check");
   EXPECT_EQ(shown.status("status"), "ready");

@@ -49,6 +49,31 @@ TEST(ReportJson, SumsUpTheTrials) {
   EXPECT_EQ(summary.at("times_real_time"), 2.0);
 }
 
+TEST(ReportJson, NamesTheWorstCameraFrameAndJoint) {
+  Report told = report();
+  ReportTrial& trial = told.trials.front();
+  trial.cameras.back().rms_px = 7.5;
+  trial.cameras.back().corners = 100;
+  trial.first_frame = 10;
+  trial.frame_rms_px.at(3) = 40.25;
+  constexpr std::size_t kJoint = 4;
+  for (auto& frame : trial.bodies.front().doubt) {
+    if (frame.size() > kJoint) frame[kJoint].sigma_m = 0.345;
+  }
+  told.poor = {"tag 7 does not move with its segment"};
+  const json summary = parsed(told).at("summary");
+  const json& worst = summary.at("worst");
+  EXPECT_EQ(worst.at("camera").at("trial"), trial.name);
+  EXPECT_EQ(worst.at("camera").at("name"), trial.cameras.back().name);
+  EXPECT_EQ(worst.at("camera").at("value"), 7.5);
+  EXPECT_EQ(worst.at("frame").at("name"), 13);
+  EXPECT_EQ(worst.at("frame").at("value"), 40.25);
+  EXPECT_EQ(worst.at("joint").at("name"),
+            trial.bodies.front().motion.skeleton.joints[kJoint].name);
+  EXPECT_EQ(worst.at("joint").at("value"), 345.0);
+  EXPECT_EQ(summary.at("poor"), json(told.poor));
+}
+
 TEST(ReportJson, RoundsPixelsToThreeDecimalsAndMillimetresToTwo) {
   const json figures = parsed(report());
   EXPECT_EQ(figures.at("calibration").at("rms_px"), 0.215);

@@ -4,6 +4,7 @@
 // Second hypotheses: a camera that was moved, a rolling shutter, a place that reads two
 // ways.
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -73,23 +74,26 @@ TEST(ApparentFaults, FindARollingShutter) {
   EXPECT_GT(worst_m, 0.010);
 }
 
-/// Tags that fly through the volume, each on its own way.
+/// Simulates tags that fly through the volume, each on its own way; each camera is
+/// `late_s` later than the one before. `brisk` scales the speed: 1 is up to 0.7 m/s.
 std::vector<CameraDetections> flying_tags(const std::vector<Camera>& cameras,
                                           int frames,
-                                          double noise_px) {
+                                          double noise_px,
+                                          double late_s = 0.004,
+                                          double brisk = 1.0,
+                                          std::uint64_t seed = 12) {
   auto out = marey::testing::unseeing(cameras, frames, 30.0, "walk");
-  marey::testing::Dice dice(12);
+  marey::testing::Dice dice(seed);
   for (int f = 0; f < frames; ++f) {
     for (std::size_t c = 0; c < cameras.size(); ++c) {
-      // Cameras are some milliseconds apart.
-      const double time_s = f / 30.0 + 0.004 * static_cast<double>(c);
+      const double time_s = f / 30.0 + late_s * static_cast<double>(c);
       for (int tag = 0; tag < 8; ++tag) {
         const RigidTransform pose{
             rotation_from_vector({0.0, 0.8 * tag + 0.7 * time_s, 0.0}) *
                 rotation_from_vector({kPi, 0.0, 0.0}),
-            {0.5 * std::sin(1.3 * time_s + tag),
+            {0.5 * std::sin(brisk * 1.3 * time_s + tag),
              0.5 + 0.15 * tag,
-             0.5 * std::cos(1.1 * time_s + 2.0 * tag)}};
+             0.5 * std::cos(brisk * 1.1 * time_s + 2.0 * tag)}};
         const auto seen = marey::testing::see_tag(cameras[c], pose, TagId{tag}, 0.09);
         if (!seen) continue;
         out[c].frames[static_cast<std::size_t>(f)].tags.push_back(
@@ -127,6 +131,49 @@ TEST(FindMovedCamera, FindsNothingWorthSayingOfCamerasThatStand) {
   const auto found = find_moved_camera(cameras, flying_tags(cameras, 90, 0.1), sizes());
   ASSERT_TRUE(found);
   EXPECT_LT(found->moved_px, 0.3);
+}
+
+// The best of many hypotheses is some move by chance, and a large one where few frames
+// follow it: 0.8 to 1.5 px in three of these recordings if any start is accepted.
+TEST(FindMovedCamera, FindsNoMoveByChanceInEightRecordings) {
+  const auto cameras = ring_of_cameras();
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    const auto seen = flying_tags(cameras, 90, 0.1, 0.004, 1.0, seed);
+    const auto found = find_moved_camera(cameras, seen, sizes());
+    ASSERT_TRUE(found) << seed;
+    EXPECT_LT(found->moved_px, 0.3) << seed;
+    EXPECT_FALSE(found->from_frame) << seed;
+  }
+}
+
+TEST(FindMovedCamera, FindsWhenACameraWasMovedWithinATrial) {
+  const auto cameras = ring_of_cameras();
+  auto moved = cameras;
+  moved[1].camera_from_world =
+      RigidTransform{
+          rotation_from_vector({0.0, 2.0 / cameras[1].intrinsics.focal_px.x, 0.0}),
+          glm::dvec3(0.0)} *
+      moved[1].camera_from_world;
+  for (const std::size_t start : {25U, 50U, 70U}) {
+    auto seen = flying_tags(cameras, 90, 0.1);
+    const auto after = flying_tags(moved, 90, 0.1);
+    for (std::size_t f = start; f < 90; ++f) seen[1].frames[f] = after[1].frames[f];
+    const auto found = find_moved_camera(cameras, seen, sizes());
+    ASSERT_TRUE(found) << start;
+    EXPECT_EQ(index(found->camera), 1U) << start;
+    ASSERT_TRUE(found->from_frame) << start;
+    EXPECT_NEAR(*found->from_frame, static_cast<int>(start), 3) << start;
+    EXPECT_NEAR(found->moved_px, 2.0, 0.5) << start;
+  }
+}
+
+// Limbs swing at 3 m/s; the last camera is 12 ms late.
+TEST(FindMovedCamera, MistakesNoClockOffsetForAMove) {
+  const auto cameras = ring_of_cameras();
+  const auto seen = flying_tags(cameras, 90, 0.1, 0.004, 5.0);
+  const auto found = find_moved_camera(cameras, seen, sizes());
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->moved_px, 0.5);  // app/find_moved_cameras.cpp warns from here on.
 }
 
 TEST(FindMovedCamera, SaysNothingOfTagsThatOneCameraSees) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -147,6 +148,43 @@ TEST(FitSubject, DoesWithoutATagThatIsNeverSeen) {
   EXPECT_EQ(fit->body.tags.size(), scene.truth.tags.size() - 1);
 }
 
+// A strap that slips by some centimetres in the middle of the range of motion.
+TEST(FitSubject, NamesATagThatShiftedDuringTheTrial) {
+  const Scene scene(0.2);
+  Body shifted = scene.truth;
+  const auto tag =
+      std::find_if(shifted.tags.begin(), shifted.tags.end(), [](const PlacedTag& placed) {
+        return placed.tag.segment == HumanBone::kLeftLowerLeg;
+      });
+  ASSERT_NE(tag, shifted.tags.end());
+  tag->segment_from_tag.translation.y -= 0.06;
+  const Body& truth = scene.truth;
+  auto moving = marey::testing::film(
+      truth, marey::testing::range_of_motion(truth), scene.cameras, scene.moving);
+  const auto later = marey::testing::film(
+      shifted, marey::testing::range_of_motion(truth), scene.cameras, scene.moving);
+  for (std::size_t camera = 0; camera < moving.size(); ++camera) {
+    auto& frames = moving[camera].frames;
+    for (std::size_t i = 3 * frames.size() / 5; i < frames.size(); ++i) {
+      frames[i] = later[camera].frames[i];
+    }
+  }
+  const auto fit = fit_subject(
+      scene.prior,
+      scene.cameras,
+      marey::testing::film(
+          truth, marey::testing::standing(truth), scene.cameras, scene.standing),
+      moving);
+  const std::string id = "tag " + std::to_string(number(tag->tag.id)) + " ";
+  if (!fit) {
+    EXPECT_NE(fit.error().message().find(id), std::string::npos) << fit.error().message();
+    return;
+  }
+  ASSERT_FALSE(fit->doubts.empty());
+  EXPECT_NE(fit->doubts.front().cause.find(id), std::string::npos)
+      << fit->doubts.front().cause;
+}
+
 TEST(FitSubject, GivesTheSameBytesTwice) {
   Scene scene(0.2);
   scene.moving.frames = kFew;
@@ -195,6 +233,75 @@ TEST(FitSubject, DoesNotBelieveAWrongStature) {
   EXPECT_TRUE(fit.error().cause.starts_with("the limbs measure 1.5"))
       << fit.error().cause;
   EXPECT_TRUE(fit.error().cause.ends_with("times those of a person of 1.20 m"));
+}
+
+// Tags that are declared on other segments than they are worn on.
+
+/// Returns the error of a fit of the scene with its tags declared by `declare`; empty if
+/// there is none.
+std::string error_with(Scene scene, const std::function<HumanBone(HumanBone)>& declare) {
+  scene.moving.frames = 60;
+  for (TagOnSegment& tag : scene.prior.tags) tag.segment = declare(tag.segment);
+  const auto fit = scene.fit();
+  return fit ? std::string() : fit.error().message();
+}
+
+bool is_of(HumanBone bone, std::initializer_list<HumanBone> left_bones) {
+  return std::any_of(left_bones.begin(), left_bones.end(), [&](HumanBone left) {
+    return bone == left || bone == mirrored(left);
+  });
+}
+
+TEST(FitSubject, NamesLeftAndRightExchangedOnTheWholeBody) {
+  const std::string error = error_with(Scene(0.2), mirrored);
+  EXPECT_NE(error.find("left and right look exchanged on the arms and legs"),
+            std::string::npos)
+      << error;
+}
+
+TEST(FitSubject, NamesExchangedLegs) {
+  using B = HumanBone;
+  const std::string error = error_with(Scene(0.2), [](B bone) {
+    const bool is_leg = is_of(bone, {B::kLeftUpperLeg, B::kLeftLowerLeg, B::kLeftFoot});
+    return is_leg ? mirrored(bone) : bone;
+  });
+  EXPECT_NE(error.find("exchanged on the legs:"), std::string::npos) << error;
+}
+
+TEST(FitSubject, NamesExchangedArms) {
+  using B = HumanBone;
+  const std::string error = error_with(Scene(0.2), [](B bone) {
+    const bool is_arm = is_of(bone, {B::kLeftUpperArm, B::kLeftLowerArm, B::kLeftHand});
+    return is_arm ? mirrored(bone) : bone;
+  });
+  EXPECT_NE(error.find("exchanged on the arms:"), std::string::npos) << error;
+}
+
+TEST(FitSubject, NamesSegmentsExchangedBetweenTheSides) {
+  using B = HumanBone;
+  for (const B left : {B::kLeftUpperArm,
+                       B::kLeftLowerArm,
+                       B::kLeftHand,
+                       B::kLeftUpperLeg,
+                       B::kLeftLowerLeg,
+                       B::kLeftFoot}) {
+    const std::string error = error_with(
+        Scene(0.2), [&](B bone) { return is_of(bone, {left}) ? mirrored(bone) : bone; });
+    for (const B side : {left, mirrored(left)}) {
+      EXPECT_NE(error.find('"' + std::string(name(side)) + '"'), std::string::npos)
+          << name(left) << ": " << error;
+    }
+    EXPECT_NE(error.find("look exchanged"), std::string::npos) << error;
+  }
+}
+
+TEST(FitSubject, NamesHipsAndChestExchanged) {
+  using B = HumanBone;
+  const std::string error = error_with(Scene(0.2), [](B bone) {
+    return bone == B::kHips ? B::kUpperChest : bone == B::kUpperChest ? B::kHips : bone;
+  });
+  EXPECT_NE(error.find("\"hips\" and \"upperChest\" look exchanged"), std::string::npos)
+      << error;
 }
 
 }  // namespace

@@ -27,7 +27,9 @@ struct Scene {
 
 Scene random_scene(unsigned seed) {
   Dice dice(seed);
-  return {random_lengths(dice), average_frame(), random_posture(dice)};
+  const Lengths lengths = random_lengths(dice);
+  const BodyFrame frame = askew_frame(dice);
+  return {lengths, frame, random_posture(dice)};
 }
 
 UnfoldedPosture moved(const Scene& scene, int column, double by) {
@@ -55,13 +57,11 @@ TEST(UnfoldedPosture, AgreesWithTheForwardKinematicsOfEveryBone) {
     UnfoldedPosture unfolded;
     unfolded.unfold(scene.posture, scene.lengths, scene.frame);
     for (const HumanBone bone : human_bones()) {
-      const RigidTransform frame =
-          world_from_bone(
-              solved_segment(bone), scene.posture, scene.lengths, scene.frame);
+      const RigidTransform frame = world_from_bone(
+          solved_segment(bone), scene.posture, scene.lengths, scene.frame);
       const glm::dvec3 p = frame * glm::dvec3(0.1, 0.2, 0.3);
-      EXPECT_LT(
-          (unfolded.point(bone, {0.1, 0.2, 0.3}) - Vector3d(p.x, p.y, p.z)).norm(),
-          1e-13)
+      EXPECT_LT((unfolded.point(bone, {0.1, 0.2, 0.3}) - Vector3d(p.x, p.y, p.z)).norm(),
+                1e-13)
           << name(bone);
     }
   }
@@ -108,6 +108,46 @@ TEST(UnfoldedPosture, GivesTheDerivativesOfTurns) {
   }
 }
 
+TEST(UnfoldedPosture, GivesTheDerivativesByTheBodysShape) {
+  for (unsigned seed = 21; seed <= 25; ++seed) {
+    const Scene scene = random_scene(seed);
+    UnfoldedPosture unfolded;
+    unfolded.unfold(scene.posture, scene.lengths, scene.frame);
+    const Vector3d p_in_bone(0.05, -0.1, 0.07);
+    const auto moved_by = [&](int column, double by, HumanBone bone) {
+      Lengths lengths = scene.lengths;
+      BodyFrame frame = scene.frame;
+      if (column < kLengthCount) {
+        lengths[static_cast<std::size_t>(column)] += by;
+      } else {
+        HingeShape& hinge =
+            frame.hinges[static_cast<std::size_t>(column - kLengthCount) / 3];
+        const std::array numbers{&hinge.upper_rad, &hinge.lower_rad, &hinge.rollback_m};
+        *numbers[static_cast<std::size_t>(column - kLengthCount) % 3] += by;
+      }
+      UnfoldedPosture other;
+      other.unfold(scene.posture, lengths, frame);
+      return other.point(bone, p_in_bone);
+    };
+    for (const HumanBone bone : human_bones()) {
+      SparseDerivative d;
+      unfolded.shape_derivative(bone, unfolded.point(bone, p_in_bone), d);
+      Eigen::Matrix<double, 3, kShapeCount> all;
+      all.setZero();
+      for (int i = 0; i < d.columns; ++i) {
+        all.col(d.column[static_cast<std::size_t>(i)]) += d.value.col(i);
+      }
+      for (int column = 0; column < kShapeCount; ++column) {
+        const Vector3d difference =
+            (moved_by(column, kStep, bone) - moved_by(column, -kStep, bone)) /
+            (2.0 * kStep);
+        EXPECT_LT((difference - all.col(column)).norm(), kExact)
+            << name(bone) << ", column " << column;
+      }
+    }
+  }
+}
+
 TEST(StepBetween, IsUndoneByMove) {
   const Scene from = random_scene(12);
   Dice dice(13);
@@ -120,9 +160,9 @@ TEST(StepBetween, IsUndoneByMove) {
 
 TEST(InverseLeftJacobian, IsTheDerivativeOfTheLogarithm) {
   for (const Vector3d& r : {Vector3d(0.0, 0.0, 0.0),
-                           Vector3d(1e-3, -2e-3, 5e-4),
-                           Vector3d(0.7, -1.1, 0.4),
-                           Vector3d(-1.2, 2.0, 1.5)}) {
+                            Vector3d(1e-3, -2e-3, 5e-4),
+                            Vector3d(0.7, -1.1, 0.4),
+                            Vector3d(-1.2, 2.0, 1.5)}) {
     const Matrix3d jacobian = inverse_left_jacobian(r);
     const auto log_of_moved = [&](int i, double by) {
       glm::dvec3 x(0.0);

@@ -18,6 +18,14 @@ BodyFrame average_frame() {
   return frame_of(average_proportions(1.75));
 }
 
+BodyFrame askew_frame(Dice& dice) {
+  BodyFrame frame = average_frame();
+  for (HingeShape& hinge : frame.hinges) {
+    hinge = {dice.between(-0.2, 0.2), dice.between(-0.2, 0.2), dice.between(0, 0.02)};
+  }
+  return frame;
+}
+
 Posture random_posture(Dice& dice) {
   Posture posture;
   for (int i = 0; i < 3; ++i) {

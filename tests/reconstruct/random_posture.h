@@ -12,6 +12,8 @@ namespace marey::reconstruct {
 
 /// The body frame that goes with random_lengths().
 [[nodiscard]] BodyFrame average_frame();
+/// The same with hinges that are askew by up to 0.2 rad.
+[[nodiscard]] BodyFrame askew_frame(marey::testing::Dice& dice);
 
 /// A posture that a body could take: hips anywhere, trunk bent by up to half a radian per
 /// joint, limbs anywhere, elbows and knees bent by 0.3 to 2.3 rad, every bone twisted.

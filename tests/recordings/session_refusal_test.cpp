@@ -76,6 +76,13 @@ TEST(Session, RefusesARateOfZero) {
                   .starts_with("session.toml:33: \"fps\" is 0, not between"));
 }
 
+TEST(Session, RefusesSlowMotionWithoutTheRateOfThePictures) {
+  EXPECT_TRUE(mistake(with("fps = 10", "slow_motion = 4"))
+                  .starts_with("session.toml:33: \"slow_motion\" has no \"fps\""));
+  EXPECT_TRUE(mistake(with("fps = 10", "fps = 10\nslow_motion = 1"))
+                  .starts_with("session.toml:34: \"slow_motion\" is 1, not between"));
+}
+
 TEST(Session, RefusesABoardWithoutRows) {
   EXPECT_TRUE(mistake(with("rows = 6", "rows = 0"))
                   .starts_with("session.toml:20: \"rows\" is 0, not between"));

@@ -22,6 +22,10 @@ Body a_body() {
   for (std::size_t i = 0; i < body.joint_centre_sigma_m.size(); ++i) {
     body.joint_centre_sigma_m[i] = 0.001 * static_cast<double>(i) / 7.0;
   }
+  for (std::size_t limb = 0; limb < body.hinges.size(); ++limb) {
+    const double number = static_cast<double>(limb + 1);
+    body.hinges[limb] = {0.1 / (3.0 * number), -0.2 / (7.0 * number), 1e-3 / number};
+  }
   const glm::dquat rotation = rotation_from_vector({0.1, -0.2, 3.0});
   body.tags.push_back(
       {.tag = {TagId{41}, HumanBone::kHips, 0.09},
@@ -39,6 +43,8 @@ Body a_body() {
                           0.009 / 7.0,
                           4321});
   body.markers.push_back({"RTOE", HumanBone::kRightFoot});
+  body.doubts.push_back({"the tags on segment \"leftFoot\" fit in two ways",
+                         "turn that segment slowly before two cameras"});
   return body;
 }
 
@@ -66,6 +72,29 @@ TEST(SubjectFile, GivesBackEveryDoubleOfTheSkeleton) {
   EXPECT_EQ(a.left_toe_tip_in_toes, b.left_toe_tip_in_toes);
   EXPECT_EQ(a.right_toe_tip_in_toes, b.right_toe_tip_in_toes);
   EXPECT_EQ(written.joint_centre_sigma_m, read->joint_centre_sigma_m);
+  ASSERT_EQ(read->doubts.size(), written.doubts.size());
+  EXPECT_EQ(read->doubts.front().cause, written.doubts.front().cause);
+  EXPECT_EQ(read->doubts.front().next, written.doubts.front().next);
+  for (std::size_t limb = 0; limb < written.hinges.size(); ++limb) {
+    EXPECT_EQ(written.hinges[limb].upper_rad, read->hinges[limb].upper_rad);
+    EXPECT_EQ(written.hinges[limb].lower_rad, read->hinges[limb].lower_rad);
+    EXPECT_EQ(written.hinges[limb].rollback_m, read->hinges[limb].rollback_m);
+  }
+}
+
+TEST(SubjectFile, ReadsMissingHingesAsStraight) {
+  std::string text = subject_text(a_body());
+  const std::size_t from = text.find("[hinge]");
+  ASSERT_NE(from, std::string::npos);
+  text.erase(from, text.find("[[tag]]", from) - from);
+  const Result<Body> read = parse_subject(text, "s.toml");
+  ASSERT_TRUE(read) << read.error().message();
+  for (const HingeShape& hinge : read->hinges) EXPECT_EQ(hinge.upper_rad, 0.0);
+}
+
+TEST(SubjectFile, DeclinesAHingeOfAnotherJoint) {
+  EXPECT_NE(mistake("left_knee", "left_hip").find("unknown key \"left_hip\""),
+            std::string::npos);
 }
 
 TEST(SubjectFile, GivesBackEveryDoubleOfTheTags) {

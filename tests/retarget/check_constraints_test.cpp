@@ -114,6 +114,31 @@ TEST(CheckConstraints, RefusesIdsThatAreEmptyOrTwice) {
             "its own, or remove one.");
 }
 
+// A solve costs the cube of their number: 3000 of them kept a processor busy for hours.
+TEST(CheckConstraints, RefusesMoreThanCanBeSolvedFor) {
+  const auto wrong = [](int count, double apart_s) {
+    ConstraintSet set;
+    for (int i = 0; i < count; ++i) {
+      Constraint c =
+          constraint("c" + std::to_string(i), "head", DistanceToPoint{0.1, {0, 1, 1}});
+      if (apart_s > 0.0) {
+        c.activation.start_s = apart_s * i;
+        c.activation.stop_s = apart_s * (i + 1);
+      }
+      set.constraints.push_back(std::move(c));
+    }
+    const Status ok = check_constraints(set, person());
+    return ok ? std::string() : ok.error().message();
+  };
+  EXPECT_NE(wrong(3000, 0.0).find("there are 3000, but at most 1000"), std::string::npos);
+  EXPECT_NE(wrong(3000, 0.1).find("divide them by time"), std::string::npos);
+  EXPECT_NE(wrong(65, 0.0).find("more than 64 are active from the start on"),
+            std::string::npos);
+  EXPECT_EQ(wrong(64, 0.0), "");
+  // One hands over to the next.
+  EXPECT_EQ(wrong(900, 0.1), "");
+}
+
 TEST(CheckConstraints, OffersTheNearestSegment) {
   EXPECT_EQ(reach_with([](Constraint& c) { c.point.segment = "rigthHand"; }),
             "constraint \"reach\": the character has no segment \"rigthHand\". Next: "

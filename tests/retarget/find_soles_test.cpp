@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/find_soles.h"
 
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
+#include "retarget/leg_on_foot.h"
 #include "retarget/live_retarget.h"
 #include "retarget/retarget_motion.h"
 #include "tests/support/random_bodies.h"
@@ -62,6 +64,46 @@ TEST(FindSoles, EndWhereTheSkinDoes) {
                   1e-9);
     }
   }
+}
+
+// A toe joint that carries no skin bends no shoe: its end in front turns with the foot.
+TEST(FindSoles, ShoesWithoutSkinOnTheToesDoNotBend) {
+  Shoes shoes(testing::giant());
+  Soles soles = find_soles(shoes.body, shoes.map, shoes.places, shoes.carriers);
+  ASSERT_TRUE(soles[0]);
+  EXPECT_TRUE(soles[0]->toes_bend);
+  for (const HumanBone toes : {HumanBone::kLeftToes, HumanBone::kRightToes}) {
+    const JointIndex joint = *shoes.map.joint_of[index(toes)];
+    for (JointIndex& carrier : shoes.carriers) {
+      if (carrier == joint) carrier = *shoes.body[joint].parent;
+    }
+  }
+  soles = find_soles(shoes.body, shoes.map, shoes.places, shoes.carriers);
+  for (std::size_t side = 0; side < 2; ++side) {
+    ASSERT_TRUE(soles[side]);
+    EXPECT_FALSE(soles[side]->toes_bend);
+    EXPECT_NEAR(soles[side]->tip_from_ball_in_t_pose.z, 0.12, 1e-9);
+  }
+  wear(soles, shoes.map);
+  EXPECT_FALSE(shoes.map.feet[0].has_toes);
+  // On its ball with the heel up: the tip comes to the floor, the ankle stays.
+  const FootMap& foot = shoes.map.feet[0];
+  const glm::dquat pitch = glm::angleAxis(0.7, glm::dvec3(1, 0, 0));
+  FootPlace place{-(pitch * foot.ball_from_ankle_in_t_pose), pitch, pitch};
+  place.ankle_in_world.y += foot.ball_height_m;
+  const glm::dvec3 ankle = place.ankle_in_world;
+  const auto tip_m = [&] {
+    return place.ankle_in_world.y +
+           (place.foot * (foot.ball_from_ankle_in_t_pose + foot.tip_from_ball_in_t_pose))
+               .y;
+  };
+  EXPECT_LT(tip_m(), -0.02);
+  keep_tip_up(foot, place);
+  EXPECT_NEAR(tip_m(), 0.0, 1e-9);
+  EXPECT_EQ(place.ankle_in_world, ankle);
+  const glm::dquat before = place.foot;
+  keep_tip_up(foot, place);
+  EXPECT_GT(std::abs(glm::dot(before, place.foot)), 1.0 - 1e-12);
 }
 
 TEST(FindSoles, NoneWithoutSkin) {

@@ -45,21 +45,30 @@ constexpr std::array kBones{B::kHips,
 // where the side stands.
 const std::map<B, std::vector<std::string>>& aliases() {
   static const std::map<B, std::vector<std::string>> kNames{
-      {B::kHips, {"hips", "pelvis", "defspine", "root"}},
-      {B::kNeck, {"neck", "neck01", "defspine004", "lowerneck"}},
-      {B::kHead, {"head", "defspine006"}},
-      {B::kLeftUpperArm, {"@arm", "upperarm@", "@upperarm", "defupperarm@", "@humerus"}},
+      {B::kHips, {"hips", "pelvis", "defspine", "ccbasehip", "root"}},
+      {B::kNeck, {"neck", "neck01", "defspine004", "lowerneck", "ccbasenecktwist01"}},
+      {B::kHead, {"head", "defspine006", "ccbasehead"}},
+      {B::kLeftUpperArm,
+       {"@arm", "upperarm@", "@upperarm", "defupperarm@", "ccbase@upperarm", "@humerus"}},
       {B::kLeftLowerArm,
        {"@forearm",
         "lowerarm@",
         "@lowerarm",
         "forearm@",
         "defforearm@",
+        "ccbase@forearm",
         "@elbow",
         "@radius"}},
-      {B::kLeftHand, {"@hand", "hand@", "defhand@", "palm@", "wrist@", "@wrist"}},
+      {B::kLeftHand,
+       {"@hand", "hand@", "defhand@", "palm@", "ccbase@hand", "wrist@", "@wrist"}},
       {B::kLeftUpperLeg,
-       {"@upleg", "thigh@", "@upperleg", "upperleg@", "defthigh@", "@femur"}},
+       {"@upleg",
+        "thigh@",
+        "@upperleg",
+        "upperleg@",
+        "defthigh@",
+        "ccbase@thigh",
+        "@femur"}},
       {B::kLeftLowerLeg,
        {"@leg",
         "calf@",
@@ -67,10 +76,19 @@ const std::map<B, std::vector<std::string>>& aliases() {
         "lowerleg@",
         "shin@",
         "defshin@",
+        "ccbase@calf",
         "@knee",
         "@tibia"}},
-      {B::kLeftFoot, {"@foot", "foot@", "deffoot@", "@ankle"}},
-      {B::kLeftToes, {"@toebase", "ball@", "@toes", "toes@", "toe@", "deftoe@", "@toe"}}};
+      {B::kLeftFoot, {"@foot", "foot@", "deffoot@", "ccbase@foot", "@ankle"}},
+      {B::kLeftToes,
+       {"@toebase",
+        "ball@",
+        "@toes",
+        "toes@",
+        "toe@",
+        "ccbase@toebase",
+        "deftoe@",
+        "@toe"}}};
   return kNames;
 }
 
@@ -200,6 +218,7 @@ std::map<std::string, glm::dvec3> directions(const Landmarks& marks) {
     out["trunk"] =
         glm::normalize(middle(marks, B::kLeftUpperArm) - middle(marks, B::kLeftUpperLeg));
   }
+  add(B::kNeck, B::kHead);
   return out;
 }
 
@@ -277,6 +296,8 @@ void compare(const std::vector<Landmarks>& source,
   out.exchanged_share = exchanged / static_cast<double>(source.size());
   for (const auto& [segment, values] : apart_deg) {
     const double median = quantile_of(values, 0.5);
+    out.medians_deg[segment] = median;
+    if (segment == "neck") continue;
     if (segment == "trunk") out.trunk_median_deg = median;
     if (segment.find("Arm") != std::string::npos) {
       out.arms_median_deg = std::max(out.arms_median_deg, median);

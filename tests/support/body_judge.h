@@ -34,7 +34,8 @@ struct BodyFigures {
   double skin_depth_mm = 0.0;  ///< Deepest vertex below Y = 0; 0: none is.
   int skin_frame = -1;
   std::string skin_node;
-  /// Lowest landmark of the source, feet left out, below the floor that its ankles stand on. [mm]
+  /// Lowest landmark of the source, feet left out, below the floor that its ankles stand
+  /// on. [mm]
   double source_depth_mm = 0.0;
   /// Directions of leg segments against the source's at the same time, and of the line
   /// from mid-hip to mid-shoulder: the largest median, which, and the largest 95th
@@ -44,7 +45,9 @@ struct BodyFigures {
   double worst_p95_deg = 0.0;
   double trunk_median_deg = 0.0;
   double arms_median_deg = 0.0;  ///< The largest of arms, which `worst_...` leave out.
-  double heading_deg = 0.0;      ///< By which the body is turned against the source.
+  /// The median of each segment: "leftUpperLeg", ..., "trunk", "neck". [deg]
+  std::map<std::string, double> medians_deg;
+  double heading_deg = 0.0;  ///< By which the body is turned against the source.
   /// Share of frames in which left and right are exchanged: feet that point backwards
   /// where the source's do not.
   double exchanged_share = 0.0;

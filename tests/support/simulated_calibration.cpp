@@ -9,6 +9,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/support/filmed_tags.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_rig.h"
 
@@ -63,15 +64,6 @@ struct Wave {
   }
 };
 
-struct Draw {
-  Dice dice;
-  SimulationOptions options;
-  SimulatedCalibration out;
-  double line_delay_s = 0.0;  ///< Per row, of every camera.
-  AprilGrid real_board;
-  Camera moved;  ///< kNudged: the camera afterwards.
-};
-
 Camera draw_camera(Dice& dice, std::size_t c, double heading_rad, double width_px) {
   const double away_m = dice.between(2.2, 3.8);
   const glm::dvec3 place(away_m * std::sin(heading_rad),
@@ -95,7 +87,7 @@ Camera draw_camera(Dice& dice, std::size_t c, double heading_rad, double width_p
   return camera;
 }
 
-void draw_rig(Draw& draw) {
+void draw_rig(SimulationDraw& draw) {
   Dice& dice = draw.dice;
   const auto count = static_cast<std::size_t>(dice.between(2.0, 6.99));
   const std::array<double, 3> widths{640.0, 1280.0, 1920.0};
@@ -121,7 +113,7 @@ void draw_rig(Draw& draw) {
   draw.real_board = board;
 }
 
-Wave draw_wave(Draw& draw, double seconds) {
+Wave draw_wave(SimulationDraw& draw, double seconds) {
   Dice& dice = draw.dice;
   const double brisk = dice.between(0.7, 1.4);
   Wave wave{Swing(dice, 0.5, 1.6 * brisk),
@@ -155,17 +147,17 @@ Wave draw_wave(Draw& draw, double seconds) {
   return wave;
 }
 
-void draw_fault(Draw& draw, int frames) {
+void draw_fault(SimulationDraw& draw, int frames) {
   Dice& dice = draw.dice;
   SimulatedCalibration& out = draw.out;
   const RigFault fault = out.fault;
   const auto any = static_cast<std::size_t>(
       dice.between(0.0, static_cast<double>(out.truth.size()) - 0.01));
   out.late_s.assign(out.truth.size(), 0.0);
-  if (fault == RigFault::kNudged) {
+  if (fault == RigFault::kNudged || fault == RigFault::kNudgedAfter) {
     out.camera = any;
     out.from_frame = static_cast<int>(dice.between(0.25, 0.75) * frames);
-    out.amount_px = draw.options.amount_px.value_or(dice.between(1.5, 8.0));
+    out.amount_px = draw.options.amount_px.value_or(dice.between(1.0, 10.0));
     const Intrinsics& k = out.truth[any].intrinsics;
     // Turned across its view, pixels move alike; a knock also shifts it.
     const double way_rad = dice.between(0.0, 2.0 * kPi);
@@ -177,15 +169,22 @@ void draw_fault(Draw& draw, int frames) {
     draw.moved = out.truth[any];
     draw.moved.camera_from_world = moved_from_camera * draw.moved.camera_from_world;
   } else if (fault == RigFault::kRollingShutter) {
-    out.picture_s = draw.options.picture_s.value_or(dice.between(0.01, 0.035));
+    out.picture_s = draw.options.picture_s.value_or(dice.between(0.005, 0.03));
     draw.line_delay_s = out.picture_s / out.truth[0].intrinsics.height_px;
   } else if (fault == RigFault::kLate) {
     for (std::size_t c = 1; c < out.truth.size(); ++c) {
       out.late_s[c] = dice.between(-1.0, 1.0);
     }
   } else if (fault == RigFault::kWrongRate || fault == RigFault::kMirrored ||
-             fault == RigFault::kStrayTags || fault == RigFault::kSwappedFloor) {
+             fault == RigFault::kStrayTags || fault == RigFault::kSwappedFloor ||
+             fault == RigFault::kSwappedTrial || fault == RigFault::kFlipped ||
+             fault == RigFault::kRarelySeen) {
     out.camera = any;
+    out.from_frame = static_cast<int>(dice.between(0.1, 0.8) * frames);
+  } else if (fault == RigFault::kFocalDrift || fault == RigFault::kRefocused) {
+    out.camera = any;
+    out.from_frame = static_cast<int>(dice.between(0.3, 0.7) * frames);
+    out.focal_share = dice.between(0.003, 0.03) * (dice.between(0.0, 1.0) < 0.5 ? -1 : 1);
   } else if (fault == RigFault::kWrongSize) {
     out.board.tag_size_m *= 1.03;
     out.board.gap_m -= 0.03 * draw.real_board.tag_size_m;
@@ -194,105 +193,71 @@ void draw_fault(Draw& draw, int frames) {
   }
 }
 
-RigidTransform board_from_tag(const AprilGrid& board, int tag) {
-  const TagId id{tag};
-  const glm::dvec3 centre =
-      0.5 * (*board.corner_in_board(id, 0) + *board.corner_in_board(id, 2));
-  return {rotation_from_vector({kPi, 0.0, 0.0}), centre};
-}
-
-double side_of(const TagDetection& tag) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    sum += glm::distance(tag.corners_px[i], tag.corners_px[(i + 1) % 4]);
-  }
-  return 0.25 * sum;
-}
-
-/// What a camera sees of a tag on its board, each row at its own time.
-template <class BoardAt>
-std::optional<TagDetection> see(const Draw& draw,
-                                const Camera& camera,
-                                int tag,
-                                double time_s,
-                                const BoardAt& board_at) {
-  const RigidTransform on_board = board_from_tag(draw.real_board, tag);
-  const double size_m = draw.real_board.tag_size_m;
-  auto seen = see_tag(camera, board_at(time_s) * on_board, TagId{tag}, size_m);
-  if (!seen) return std::nullopt;
-  const double middle = 0.5 * (camera.intrinsics.height_px - 1);
-  for (int round = 0; round < 3 && draw.line_delay_s > 0.0; ++round) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const double row_s = time_s + draw.line_delay_s * (seen->corners_px[i].y - middle);
-      const auto pixel = project(
-          camera,
-          board_at(row_s) * on_board * corner_in_tag(static_cast<int>(i), size_m));
-      if (!pixel) return std::nullopt;
-      seen->corners_px[i] = *pixel;
-    }
-  }
-  return seen;
-}
-
-/// The smooth part of an error that a lens model does not have.
-glm::dvec2 field_px(const Camera& camera, const glm::dvec2& pixel_px) {
-  const double u = 2.0 * kPi * pixel_px.x / camera.intrinsics.width_px;
-  const double v = 2.0 * kPi * pixel_px.y / camera.intrinsics.height_px;
-  const double phase = 40.0 * camera.intrinsics.distortion[0];
-  return 0.02 * glm::dvec2(std::sin(u + 2.0 * v + phase), std::cos(2.0 * u - v + phase));
-}
-
-/// As a detector finds it; nullopt of a tag that it misses.
-std::optional<TagDetection> found(Draw& draw,
-                                  const Camera& camera,
-                                  std::size_t c,
-                                  const TagDetection& seen) {
+/// Films a body that stands, then walks about, with the cameras as they are by then.
+void film_motions(SimulationDraw& draw) {
+  constexpr double kStanding_s = 3.0;
+  constexpr double kWalk_s = 5.0;
   Dice& dice = draw.dice;
-  const double side_px = side_of(seen);
-  const bool is_missed =
-      dice.between(0.0, 1.0) < 0.03 || side_px < dice.between(9.0, 14.0);
-  const double sigma_px = 0.39 / std::sqrt(side_px);
-  Disturbance law;
-  law.noise_px = sigma_px;
-  law.shrinkage = camera.tag_shrinkage;
-  law.declared_px = sigma_px * dice.between(0.9, 1.2);
-  TagDetection out = disturbed(seen, law, dice);
-  for (glm::dvec2& corner : out.corners_px) corner += field_px(camera, corner);
-  const bool strays = draw.out.fault == RigFault::kStrayTags && draw.out.camera == c;
-  if (dice.between(0.0, 1.0) < (strays ? 1.0 / 12.0 : 1.0 / 200.0)) {
-    const double angle_rad = dice.between(0.0, 2.0 * kPi);
-    const glm::dvec2 wrong =
-        dice.between(5.0, 30.0) * glm::dvec2(std::cos(angle_rad), std::sin(angle_rad));
-    for (glm::dvec2& corner : out.corners_px) corner += wrong;
-  }
-  if (draw.out.fault == RigFault::kMirrored && draw.out.camera == c) {
-    for (glm::dvec2& corner : out.corners_px) {
-      corner.x = camera.intrinsics.width_px - 1 - corner.x;
-    }
-  }
-  if (is_missed) return std::nullopt;
-  return out;
+  const double size = draw.out.truth[0].intrinsics.width_px < 700 ? 1.5 : 1.0;
+  std::vector<FilmedTag> tags = worn_tags(dice, size);
+  for (const FilmedTag& tag : tags) draw.out.worn.push_back({tag.id, tag.size_m});
+  const Swing sway(dice, 0.01, 2.0);
+  const double heading_rad = dice.between(0.0, 2.0 * kPi);
+  const auto frames = [&](double seconds) {
+    return static_cast<int>(seconds * draw.out.rate_hz);
+  };
+  draw.out.standing =
+      unseeing(draw.out.truth, frames(kStanding_s), draw.out.rate_hz, "static");
+  film(
+      draw,
+      tags,
+      [&](double time_s) {
+        return RigidTransform{rotation_from_vector({0.0, heading_rad, 0.0}),
+                              {sway.at(time_s), 0.0, 0.0}};
+      },
+      Reel::kMotion,
+      draw.out.standing);
+  const Swing x(dice, 0.6, 1.5);
+  const Swing z(dice, 0.6, 1.5);
+  draw.out.walk = unseeing(draw.out.truth, frames(kWalk_s), draw.out.rate_hz, "walk");
+  film(
+      draw,
+      tags,
+      [&](double time_s) {
+        return RigidTransform{
+            rotation_from_vector({0.0, heading_rad + 1.2 * time_s, 0.0}),
+            {x.at(time_s), 0.02 * std::sin(12.0 * time_s), z.at(time_s)}};
+      },
+      Reel::kMotion,
+      draw.out.walk);
 }
 
-template <class BoardAt>
-void film(Draw& draw,
-          const BoardAt& board_at,
-          bool is_waved,
-          std::vector<CameraDetections>& out) {
-  for (std::size_t c = 0; c < out.size(); ++c) {
-    for (FrameDetections& frame : out[c].frames) {
-      const bool is_moved = draw.out.fault == RigFault::kNudged && draw.out.camera == c &&
-                            (!is_waved || frame.frame >= draw.out.from_frame);
-      const Camera& camera = is_moved ? draw.moved : draw.out.truth[c];
-      const double time_s = frame.frame / draw.out.rate_hz + draw.out.late_s[c];
-      for (int tag = 0; tag < draw.real_board.tag_count(); ++tag) {
-        const auto seen = see(draw, camera, tag, time_s, board_at);
-        if (!seen) continue;
-        if (const auto tag_found = found(draw, camera, c, *seen)) {
-          frame.tags.push_back(*tag_found);
-        }
-      }
-    }
+/// Returns the camera whose pictures are those of `camera`, turned by 180 degrees.
+Camera flipped(Camera camera) {
+  const RigidTransform turn{rotation_from_vector({0.0, 0.0, kPi}), glm::dvec3(0.0)};
+  camera.camera_from_world = turn * camera.camera_from_world;
+  Intrinsics& k = camera.intrinsics;
+  k.centre_px = {k.width_px - 1 - k.centre_px.x, k.height_px - 1 - k.centre_px.y};
+  k.distortion[2] *= -1.0;
+  k.distortion[3] *= -1.0;
+  return camera;
+}
+
+/// Applies the faults of files, not of cameras.
+void spoil_files(SimulationDraw& draw) {
+  SimulatedCalibration& out = draw.out;
+  if (!out.camera) return;
+  const std::size_t c = *out.camera;
+  const std::size_t other = (c + 1) % out.truth.size();
+  if (out.fault == RigFault::kSwappedFloor) {
+    std::swap(out.floor[c].frames, out.floor[other].frames);
+  } else if (out.fault == RigFault::kSwappedTrial) {
+    std::swap(out.walk[c].frames, out.walk[other].frames);
+    std::swap(out.standing[c].frames, out.standing[other].frames);
+  } else if (out.fault == RigFault::kWrongRate) {
+    out.waved[c].rate.hz *= 5.0 / 6.0;
+  } else if (out.fault == RigFault::kFlipped) {
+    out.truth[c] = flipped(out.truth[c]);
   }
 }
 
@@ -320,6 +285,18 @@ const char* name_of(RigFault fault) {
       return "wrong-ids";
     case RigFault::kStrayTags:
       return "stray-tags";
+    case RigFault::kNudgedAfter:
+      return "nudged-after";
+    case RigFault::kFlipped:
+      return "flipped";
+    case RigFault::kFocalDrift:
+      return "focal-drift";
+    case RigFault::kRefocused:
+      return "refocused";
+    case RigFault::kRarelySeen:
+      return "rarely-seen";
+    case RigFault::kSwappedTrial:
+      return "swapped-trial";
   }
   return "";
 }
@@ -327,7 +304,7 @@ const char* name_of(RigFault fault) {
 SimulatedCalibration simulate_calibration(std::uint64_t seed,
                                           const SimulationOptions& options) {
   constexpr int kFloorFrames = 8;
-  Draw draw{Dice(seed * 7919 + 17), options, {}, 0.0, {}, {}};
+  SimulationDraw draw{Dice(seed * 7919 + 17), options, {}, 0.0, {}, {}, 0};
   Dice& dice = draw.dice;
   draw.out.fault = options.fault;
   draw_rig(draw);
@@ -339,25 +316,42 @@ SimulatedCalibration simulate_calibration(std::uint64_t seed,
       std::max(drawn_s, 2.0 * static_cast<double>(draw.out.truth.size())));
   const int frames = static_cast<int>(seconds * draw.out.rate_hz);
   const Wave wave = draw_wave(draw, seconds);
+  draw.frames = frames;
   draw_fault(draw, frames);
   const bool has_floor =
-      options.fault == RigFault::kSwappedFloor || dice.between(0.0, 1.0) < 0.7;
+      !options.with_wand &&
+      (options.fault == RigFault::kSwappedFloor || dice.between(0.0, 1.0) < 0.7);
+  std::vector<FilmedTag> tags = tags_of(draw.real_board);
+  if (options.with_wand) {
+    tags = wand_tags(draw.out.truth[0].intrinsics.width_px < 700 ? 0.22 : 0.16);
+    draw.out.wand.emplace();
+    for (const FilmedTag& tag : tags) draw.out.wand->tags.push_back({tag.id, tag.size_m});
+  }
   draw.out.waved = unseeing(draw.out.truth, frames, draw.out.rate_hz, "calibration");
   film(
-      draw, [&](double time_s) { return wave.at(time_s); }, true, draw.out.waved);
+      draw,
+      tags,
+      [&](double time_s) {
+        const RigidTransform world_from_board = wave.at(time_s);
+        if (!options.with_wand) return world_from_board;
+        return RigidTransform{world_from_board.rotation,
+                              world_from_board * wave.middle_in_board};
+      },
+      Reel::kWaved,
+      draw.out.waved);
   if (has_floor) {
     draw.out.floor = unseeing(draw.out.truth, kFloorFrames, draw.out.rate_hz, "floor");
     const RigidTransform on_floor{rotation_from_vector({-0.5 * kPi, 0.0, 0.0}),
                                   {0.0, draw.real_board.thickness_m, 0.0}};
     film(
-        draw, [&](double) { return on_floor; }, false, draw.out.floor);
+        draw, tags, [&](double) { return on_floor; }, Reel::kFloor, draw.out.floor);
   }
-  if (options.fault == RigFault::kSwappedFloor) {
-    const std::size_t other = (*draw.out.camera + 1) % draw.out.truth.size();
-    std::swap(draw.out.floor[*draw.out.camera].frames, draw.out.floor[other].frames);
-  } else if (options.fault == RigFault::kWrongRate) {
-    draw.out.waved[*draw.out.camera].rate.hz *= 5.0 / 6.0;
+  film_motions(draw);
+  if (draw.out.camera) {
+    draw.out.moved = camera_in(draw, *draw.out.camera, Reel::kMotion, 0);
   }
+  spoil_files(draw);
+  if (options.fault == RigFault::kFlipped) draw.out.moved = flipped(*draw.out.moved);
   return draw.out;
 }
 

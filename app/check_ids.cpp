@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/check_ids.h"
+
+#include <algorithm>
+#include <set>
+
+namespace marey::app {
+namespace {
+
+using recordings::Session;
+using recordings::Trial;
+using recordings::TrialKind;
+
+// Share of the pictures. Misread tags and passers-by are seen less often.
+constexpr double kAllTheTime = 0.05;
+
+/// Number of pictures that show each tag, and of all pictures, in the trials of a body.
+struct Seen {
+  std::map<TagId, int> pictures;
+  int of = 0;
+};
+
+Seen count_seen(const Session& session,
+                const std::map<std::string, std::vector<CameraDetections>>& found) {
+  Seen seen;
+  for (const Trial& trial : session.trials) {
+    const auto cameras = found.find(trial.name);
+    if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor ||
+        cameras == found.end()) {
+      continue;
+    }
+    for (const CameraDetections& camera : cameras->second) {
+      seen.of += static_cast<int>(camera.frames.size());
+      for (const FrameDetections& frame : camera.frames) {
+        for (const TagDetection& tag : frame.tags) ++seen.pictures[tag.id];
+      }
+    }
+  }
+  return seen;
+}
+
+/// Returns whether the session lists the tag, on the body or the calibration target.
+bool is_listed(const Session& session, TagId id) {
+  return std::any_of(
+      session.families.begin(), session.families.end(), [&](const TagFamilyUse& use) {
+        return std::find(use.ids.begin(), use.ids.end(), id) != use.ids.end();
+      });
+}
+
+std::string in_words(const std::vector<TagId>& ids) {
+  std::string words = ids.size() == 1 ? "tag " : "tags ";
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    words += (i == 0 ? "" : ", ") + std::to_string(number(ids[i]));
+  }
+  return words;
+}
+
+}  // namespace
+
+Status check_ids(const Session& session,
+                 const std::map<std::string, std::vector<CameraDetections>>& found,
+                 RecordingTroubles& troubles) {
+  const Trial* moving = session.find(TrialKind::kRangeOfMotion);
+  // A body that stands still may hide a tag throughout; one that moves shows all.
+  if (session.tags.empty() || session.families.size() != 1 || !moving ||
+      !found.contains(moving->name)) {
+    return Done{};
+  }
+  const Seen seen = count_seen(session, found);
+  if (seen.of == 0) return Done{};
+  std::vector<TagId> never;
+  for (const TagOnSegment& tag : session.tags) {
+    if (!seen.pictures.contains(tag.id)) never.push_back(tag.id);
+  }
+  std::vector<TagId> strangers;
+  for (const auto& [id, pictures] : seen.pictures) {
+    if (pictures > kAllTheTime * seen.of && !is_listed(session, id)) {
+      strangers.push_back(id);
+    }
+  }
+  if (strangers.empty()) return Done{};
+  const char* one = strangers.size() == 1 ? " is" : " are";
+  if (never.empty()) {
+    troubles.warnings.push_back(
+        session.file.string() + ": [[tags.tag]]: " + in_words(strangers) + one +
+        " often seen but not listed, and therefore not used. Next: list " +
+        (strangers.size() == 1 ? "it" : "them") + " if the subject wears " +
+        (strangers.size() == 1 ? "it." : "them."));
+    return Done{};
+  }
+  return bad_input(session.file.string() + ": [[tags.tag]]",
+                   in_words(never) + (never.size() == 1 ? " is" : " are") +
+                       " listed but never seen; " + in_words(strangers) + one +
+                       " often seen but not listed",
+                   "correct the `id` of the listed tags to what is printed on the tags "
+                   "of that segment, or remove the entries of tags that are not worn");
+}
+
+}  // namespace marey::app

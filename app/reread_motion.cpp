@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/reread_motion.h"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "core/pose.h"
+#include "recordings/bvh.h"
+#include "recordings/npz.h"
+#include "recordings/posed_places.h"
+
+namespace marey::app {
+namespace {
+
+using Places = std::vector<std::vector<glm::dvec3>>;
+
+Places places_of(const Motion& motion) {
+  Places out;
+  for (const Pose& pose : motion.poses) {
+    std::vector<glm::dvec3>& places = out.emplace_back();
+    for (const RigidTransform& joint : world_from_joints(motion.skeleton, pose)) {
+      places.push_back(joint.translation);
+    }
+  }
+  return out;
+}
+
+/// Reads the places of a file's joints and of its lowest skin. [m]
+Result<recordings::PosedPlaces> read_places(const WrittenFile& file) {
+  if (file.format == MotionFormat::kBvh) {
+    const auto read = recordings::read_bvh(file.path, {.unit_m = file.unit_m});
+    if (!read) return read.error();
+    return recordings::PosedPlaces{places_of(read->motion), {}};
+  }
+  if (file.format == MotionFormat::kNpz) {
+    const auto read = recordings::read_npz(file.path);
+    if (!read) return read.error();
+    return recordings::PosedPlaces{places_of(read->motion), {}};
+  }
+  auto read = recordings::read_posed_places(file.path);
+  if (!read) return read.error();
+  for (auto& places : read->joints) {
+    for (glm::dvec3& place : places) place *= file.unit_m;
+  }
+  for (double& lowest : read->lowest_skin) lowest *= file.unit_m;
+  return read;
+}
+
+double nearest_m(const glm::dvec3& place, const std::vector<glm::dvec3>& others) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const glm::dvec3& other : others) {
+    nearest = std::min(nearest, glm::distance(place, other));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+WrittenFile written_file(const std::filesystem::path& out,
+                         MotionFormat format,
+                         const BodyLook& look,
+                         const MotionFileOptions& options) {
+  WrittenFile file{out, format, 1.0};
+  if (format == MotionFormat::kGlb) file.unit_m = look.changed.scale;
+  if (format == MotionFormat::kBvh) file.unit_m = options.bvh.unit_m;
+  return file;
+}
+
+Result<std::optional<RereadFigures>> reread_motion(const WrittenFile& file,
+                                                   const Motion& motion) {
+  if (file.format == MotionFormat::kCsv || file.format == MotionFormat::kMot) {
+    return std::optional<RereadFigures>{};
+  }
+  auto read = read_places(file);
+  if (!read) return read.error();
+  if (read->joints.size() != motion.poses.size()) {
+    return Error{Errc::kInternal,
+                 file.path.string(),
+                 "the written file has " + std::to_string(read->joints.size()) +
+                     " frames instead of " + std::to_string(motion.poses.size()),
+                 "report this as a bug, with the body's file"};
+  }
+  RereadFigures out;
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+    const auto world = world_from_joints(motion.skeleton, motion.poses[t]);
+    for (std::size_t j = 0; j < world.size(); ++j) {
+      const auto& bone = motion.skeleton.joints[j].bone;
+      if (!bone) continue;
+      const double off_m = nearest_m(world[j].translation, read->joints[t]);
+      if (out.worst_frame >= 0 && off_m <= out.worst_place_m) continue;
+      out.worst_place_m = off_m;
+      out.worst_bone = *bone;
+      out.worst_frame = static_cast<int>(t);
+    }
+  }
+  out.lowest_skin_m = std::move(read->lowest_skin);
+  return std::optional<RereadFigures>{std::move(out)};
+}
+
+}  // namespace marey::app

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+// How often are exchanged segments found, and how often falsely?
+//
+//   measure_worn FIRST LAST
+//
+// simulates the sessions of these seeds (tests/support/simulated_session.h) and runs
+// check_worn() on each, as it is and with exchanges of segments. "reported": an error.
+// "named": it names the segments, or the limbs, that were exchanged.
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reconstruct/check_worn.h"
+#include "reconstruct/sightings.h"
+#include "tests/support/simulated_session.h"
+
+namespace {
+
+using marey::HumanBone;
+using marey::mirrored;
+using marey::TagOnSegment;
+using B = HumanBone;
+
+struct Exchange {
+  std::string name;
+  std::function<B(B)> declared;
+  std::vector<std::string> words;  ///< A message that names it has one of them.
+};
+
+std::function<B(B)> sides_of(std::vector<B> left) {
+  return [left](B bone) {
+    const bool is_meant = std::count(left.begin(), left.end(), bone) +
+                              std::count(left.begin(), left.end(), mirrored(bone)) >
+                          0;
+    return is_meant ? mirrored(bone) : bone;
+  };
+}
+
+std::vector<Exchange> exchanges() {
+  std::vector<Exchange> out;
+  out.push_back({"right", [](B bone) { return bone; }, {}});
+  out.push_back({"sides", [](B bone) { return mirrored(bone); }, {"arms and legs"}});
+  out.push_back({"arms",
+                 sides_of({B::kLeftUpperArm, B::kLeftLowerArm, B::kLeftHand}),
+                 {"on the arms"}});
+  out.push_back({"legs",
+                 sides_of({B::kLeftUpperLeg, B::kLeftLowerLeg, B::kLeftFoot}),
+                 {"on the legs"}});
+  for (const B left : {B::kLeftUpperArm,
+                       B::kLeftLowerArm,
+                       B::kLeftHand,
+                       B::kLeftUpperLeg,
+                       B::kLeftLowerLeg,
+                       B::kLeftFoot}) {
+    out.push_back({std::string(name(left)), sides_of({left}), {std::string(name(left))}});
+  }
+  out.push_back({"hips-chest",
+                 [](B bone) {
+                   return bone == B::kHips         ? B::kUpperChest
+                          : bone == B::kUpperChest ? B::kHips
+                                                   : bone;
+                 },
+                 {"\"hips\" and \"upperChest\""}});
+  return out;
+}
+
+/// Runs check_worn() on a session as fit_subject() does.
+marey::Status check(const marey::testing::SimulatedSession& session,
+                    const std::vector<TagOnSegment>& tags) {
+  using namespace marey::reconstruct;
+  const std::vector<marey::Camera>& cameras = session.rig.cameras;
+  const std::array<Sightings, 2> trials{
+      group_sightings(session.standing.detections, tags),
+      group_sightings(session.moving.detections, tags)};
+  const auto clusters = cluster_tags(cameras, tags, trials);
+  std::array<std::vector<ClusterPoses>, 2> located;
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    const std::size_t step = 1 + trials[t].frames.size() / 300;
+    for (std::size_t f = 0; f < trials[t].frames.size(); f += step) {
+      ClusterPoses& poses = located[t].emplace_back();
+      for (const TagCluster& cluster : clusters) {
+        const auto pose = locate_cluster(cluster, cameras, tags, trials[t].frames[f]);
+        if (pose) poses[cluster.segment] = *pose;
+      }
+    }
+  }
+  return check_worn({cameras, tags, trials, clusters, located[0], located[1]},
+                    marey::average_proportions(session.body.declared_stature_m));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: measure_worn FIRST LAST\n");
+    return 2;
+  }
+  std::map<std::string, std::array<int, 3>> counts;  // Made, reported, named.
+  for (int seed = std::atoi(argv[1]); seed <= std::atoi(argv[2]); ++seed) {
+    const auto session =
+        marey::testing::simulate_session(static_cast<std::uint64_t>(seed));
+    for (const Exchange& exchange : exchanges()) {
+      std::vector<TagOnSegment> tags = session.declared_tags();
+      for (TagOnSegment& tag : tags) tag.segment = exchange.declared(tag.segment);
+      const marey::Status ok = check(session, tags);
+      auto& [made, told, named] = counts[exchange.name];
+      ++made;
+      if (ok) continue;
+      ++told;
+      const std::string error = ok.error().message();
+      const bool is_named = std::any_of(
+          exchange.words.begin(), exchange.words.end(), [&](const std::string& word) {
+            return error.find(word) != std::string::npos;
+          });
+      if (is_named) ++named;
+      if (!is_named) {
+        std::printf("seed %d, %s: %s\n", seed, exchange.name.c_str(), error.c_str());
+        std::fflush(stdout);
+      }
+    }
+  }
+  std::printf("%-16s %6s %8s %6s\n", "exchanged", "made", "reported", "named");
+  for (const auto& [name, count] : counts) {
+    std::printf("%-16s %6d %8d %6d\n", name.c_str(), count[0], count[1], count[2]);
+  }
+  return 0;
+}

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "core/result.h"
+
+namespace marey::recordings {
+
+/// Places of the joints and of the lowest skin while a glTF file's first animation plays.
+struct PosedPlaces {
+  /// World places of the joints, frame by frame, in the file's unit and axes.
+  std::vector<std::vector<glm::dvec3>> joints;
+  /// World Y of the lowest vertex of all skins, frame by frame; empty: no skin.
+  std::vector<double> lowest_skin;
+};
+
+/// Plays a .glb, .vrm, .vrma or .gltf file as the specification of glTF 2.0 defines it:
+/// with translations and scales of all nodes, each skin by its inverse bind matrices. The
+/// result is what other programs show, while read_character() gives a skeleton of rigid
+/// bones. Frames are read_character()'s; none without an animation. A VRM 0.x is not
+/// turned. Vertices keep four joints.
+///
+/// Errors: read_character()'s. Cost: linear in frames times vertices.
+[[nodiscard]] Result<PosedPlaces> read_posed_places(const std::filesystem::path& path);
+
+}  // namespace marey::recordings

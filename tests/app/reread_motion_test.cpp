@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// An avatar is judged by its written files.
+#include "app/reread_motion.h"
+
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "app/motion_files.h"
+#include "recordings/posed_places.h"
+#include "tests/app/retarget_scene.h"
+#include "tests/support/made_body.h"
+#include "tests/support/posed_glb.h"
+
+namespace marey::app {
+namespace {
+
+using testing::RetargetScene;
+
+Motion turned_round(Motion motion) {
+  const glm::dquat half(0.0, 0.0, 1.0, 0.0);
+  for (Pose& pose : motion.poses) {
+    pose.root_in_world = half * pose.root_in_world;
+    pose.parent_from_joint[0] = half * pose.parent_from_joint[0];
+  }
+  return motion;
+}
+
+// All formats that hold joints agree in place, heading and size.
+TEST(RereadMotion, FindsTheMotionInEveryKindOfFile) {
+  const RetargetScene scene;
+  testing::MadeBodyRule rule;
+  rule.centimetres = true;
+  rule.facing_deg = 90.0;
+  rule.z_up = true;
+  testing::write_made_body(rule, scene / "body.glb");
+  const auto run = scene.retarget(
+      {"body.glb", "small.glb", "--formats", "glb,bvh,vrma,npz", "--json", "--out", "o"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  for (const auto& avatar : json.at("avatars")) {
+    ASSERT_EQ(avatar.at("files").size(), 4U) << avatar;
+    EXPECT_LT(avatar.at("reread_off_mm").get<double>(), 0.1) << avatar.at("avatar");
+  }
+}
+
+TEST(RereadMotion, DetectsAFileOfAnotherFacingOrUnit) {
+  const RetargetScene scene;
+  const Motion motion = scene.motion("walk.bvh");
+  const Motion turned = turned_round(motion);
+  for (const MotionFormat format :
+       {MotionFormat::kBvh, MotionFormat::kNpz, MotionFormat::kVrma}) {
+    const auto out = scene / ("turned." + std::string(name(format)));
+    ASSERT_TRUE(write_motion_file(out, format, turned, {}));
+    const auto same = reread_motion(written_file(out, format, {}), turned);
+    ASSERT_TRUE(same && *same) << (same ? "" : same.error().message());
+    EXPECT_LT((*same)->worst_place_m, 1e-4) << name(format);
+    const auto other = reread_motion(written_file(out, format, {}), motion);
+    ASSERT_TRUE(other && *other);
+    EXPECT_GT((*other)->worst_place_m, 0.05) << name(format);
+    EXPECT_GE((*other)->worst_frame, 0);
+  }
+  const auto bvh = reread_motion({scene / "turned.bvh", MotionFormat::kBvh, 1.0}, turned);
+  ASSERT_TRUE(bvh && *bvh);
+  EXPECT_GT((*bvh)->worst_place_m, 10.0);
+  Motion shorter = turned;
+  shorter.poses.pop_back();
+  EXPECT_FALSE(
+      reread_motion(written_file(scene / "turned.bvh", MotionFormat::kBvh, {}), shorter));
+}
+
+// The skin of the file, by code that shares nothing with the program.
+TEST(RereadMotion, MeasuresTheSkinsDepthInTheFile) {
+  const RetargetScene scene;
+  testing::MadeBodyRule rule;
+  rule.thick = 1.4;
+  rule.two_skins = true;
+  testing::write_made_body(rule, scene / "body.glb");
+  ASSERT_EQ(scene.retarget({"body.glb", "--no-ground", "--formats", "glb", "--out", "o"})
+                .exit_code,
+            0);
+  const auto read = recordings::read_posed_places(scene / "o/body.glb");
+  ASSERT_TRUE(read) << read.error().message();
+  testing::PosedGlb glb(scene / "o/body.glb");
+  ASSERT_EQ(read->lowest_skin.size(), glb.times().size());
+  for (std::size_t t = 0; t < glb.times().size(); t += 7) {
+    glb.pose(glb.times()[t]);
+    EXPECT_NEAR(read->lowest_skin[t], glb.lowest().y_m, 1e-4) << t;
+  }
+}
+
+// Other joints are mapped as feet: the legs' skin stands on the floor, not the feet's.
+TEST(RereadMotion, ReportsOtherJointsThatAreMappedAsFeet) {
+  const RetargetScene scene;
+  testing::MadeBodyRule rule;
+  auto nodes = testing::write_made_body(rule, scene / "body.glb");
+  std::ofstream map(scene / "body.bones.toml");
+  map << "[bones]\n";
+  for (const auto& [bone, node] : nodes) {
+    const bool is_toes = bone == HumanBone::kLeftToes || bone == HumanBone::kRightToes;
+    if (is_toes) continue;
+    // Hands for feet: far above the floor.
+    const bool is_foot = bone == HumanBone::kLeftFoot || bone == HumanBone::kRightFoot;
+    const HumanBone hand =
+        bone == HumanBone::kLeftFoot ? HumanBone::kLeftHand : HumanBone::kRightHand;
+    if (bone == HumanBone::kLeftHand || bone == HumanBone::kRightHand) continue;
+    map << name(bone) << " = \"" << (is_foot ? nodes.at(hand) : node) << "\"\n";
+  }
+  map.close();
+  const auto run = scene.retarget({"body.glb", "--out", "o.glb"});
+  EXPECT_NE(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.err.find("Foot"), std::string::npos) << run.err;
+}
+
+}  // namespace
+}  // namespace marey::app

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/doubt_subject.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace marey::reconstruct {
+namespace {
+
+/// A fit that nothing speaks against: four tags, all joints known, all seen by two
+/// cameras.
+struct Fitted {
+  SubjectBundle bundle;
+  SubjectEvidence evidence;
+
+  Fitted() {
+    bundle.usual.fill(0.4);
+    bundle.model.lengths.fill(0.4);
+    bundle.length_sigma_m.fill(0.003);
+    bundle.centre_sigma_m.fill(0.004);
+    bundle.prior_weight = 10.0;
+    bundle.model.tags = {{TagId{10}, HumanBone::kLeftLowerLeg, 0.08},
+                         {TagId{11}, HumanBone::kLeftFoot, 0.08},
+                         {TagId{12}, HumanBone::kRightHand, 0.08},
+                         {TagId{13}, HumanBone::kHips, 0.08}};
+    for (std::size_t tag = 0; tag < bundle.model.tags.size(); ++tag) {
+      bundle.model.segment_from_tag[tag] = {};
+      evidence.tags.push_back({tag, 100, 0.95, 1.0});
+    }
+    for (ExtremityFit& fit : evidence.extremities) {
+      fit = {true, 1.0, 100, 1000.0, 0.2};
+    }
+    evidence.seen_twice_share.fill(0.5);
+  }
+
+  /// The doubts, one a line.
+  [[nodiscard]] std::string told() const {
+    std::string text;
+    for (const Error& doubt : doubts_of(bundle, evidence)) {
+      EXPECT_EQ(doubt.code, Errc::kQuality);
+      EXPECT_FALSE(doubt.next.empty()) << doubt.cause;
+      text += doubt.cause + "\n";
+    }
+    return text;
+  }
+};
+
+constexpr std::size_t kLeftLeg = 2;
+
+TEST(DoubtSubject, HasNothingToSayOfADecentFit) {
+  EXPECT_EQ(Fitted().told(), "");
+}
+
+TEST(DoubtSubject, NamesATagThatNoPlaceExplains) {
+  Fitted fit;
+  fit.bundle.model.segment_from_tag.erase(3);
+  fit.evidence.unexplained = {3};
+  EXPECT_EQ(fit.told(), "") << "it was hardly seen";
+  std::vector<TagSighting> sightings(12);
+  for (TagSighting& sighting : sightings) sighting.tag = 3;
+  BundleFrame frame;
+  frame.sightings = sightings;
+  fit.bundle.frames.push_back(frame);
+  EXPECT_EQ(fit.told(), "tag 13 does not move with segment \"hips\"\n");
+}
+
+TEST(DoubtSubject, NamesATagWhoseSightingsAreTwoPopulations) {
+  Fitted fit;
+  fit.evidence.tags[0].explained_share = 0.6;
+  EXPECT_NE(fit.told().find("tag 10 on segment \"leftLowerLeg\""), std::string::npos);
+  EXPECT_NE(fit.told().find("40 % of its sightings"), std::string::npos) << fit.told();
+  fit.evidence.tags[0] = {0, 100, 0.95, 6.0};
+  EXPECT_NE(fit.told().find("tag 10"), std::string::npos);
+  fit.evidence.tags[0] = {0, 10, 0.6, 6.0};
+  EXPECT_EQ(fit.told(), "") << "too few sightings to judge by";
+}
+
+TEST(DoubtSubject, NamesAFootThatFitsInTwoWays) {
+  Fitted fit;
+  ExtremityFit& foot = fit.evidence.extremities[kLeftLeg];
+  // Weighted sightings: ten times as much as of independent ones.
+  foot.runner_up_cost = 40.0;
+  EXPECT_NE(fit.told().find("\"leftFoot\" fit in two ways, 200 mm apart"),
+            std::string::npos)
+      << fit.told();
+  foot.sightings = 4;
+  EXPECT_NE(fit.told().find("\"leftFoot\" fit in two ways"), std::string::npos);
+  foot.runner_up_m = 0.02;
+  EXPECT_EQ(fit.told(), "") << "both ways are one answer";
+  foot = {false, 0.0, 100, 0.0, 0.0};
+  EXPECT_NE(fit.told().find("no place of the tags on segment \"leftFoot\""),
+            std::string::npos);
+}
+
+TEST(DoubtSubject, NamesALimbThatTwoCamerasHardlySee) {
+  Fitted fit;
+  fit.evidence.seen_twice_share[index(HumanBone::kRightHand)] = 0.01;
+  EXPECT_EQ(fit.told(), "");
+  fit.evidence.seen_twice_share[index(HumanBone::kRightLowerArm)] = 0.05;
+  EXPECT_NE(fit.told().find("\"rightLowerArm\" and \"rightHand\""), std::string::npos)
+      << fit.told();
+}
+
+TEST(DoubtSubject, NamesSidesThatDifferAndLengthsThatNobodyHas) {
+  Fitted fit;
+  fit.bundle.model.lengths[index(Length::kRightLowerLeg)] = 0.455;
+  EXPECT_NE(fit.told().find("\"leftLowerLeg\" is 400 mm long on the left and 455 mm on "
+                            "the right"),
+            std::string::npos)
+      << fit.told();
+  fit = {};
+  fit.bundle.model.lengths[index(Length::kLeftUpperArm)] = 0.6;
+  fit.bundle.model.lengths[index(Length::kRightUpperArm)] = 0.6;
+  EXPECT_NE(fit.told().find("\"leftUpperArm\" is 600 mm long"), std::string::npos);
+}
+
+TEST(DoubtSubject, NamesAJointThatIsHardlyKnown) {
+  Fitted fit;
+  fit.bundle.centre_sigma_m[index(HumanBone::kRightLowerLeg)] = 0.021;
+  EXPECT_NE(fit.told().find("near end of segment \"rightLowerLeg\" is known to 21 mm"),
+            std::string::npos)
+      << fit.told();
+  fit.bundle.centre_sigma_m[index(HumanBone::kRightLowerLeg)].reset();
+  EXPECT_NE(fit.told().find("is known to nothing"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace marey::reconstruct
