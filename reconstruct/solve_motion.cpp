@@ -11,6 +11,7 @@
 #include "core/pose.h"
 #include "core/quantile.h"
 #include "reconstruct/frame_solver.h"
+#include "reconstruct/second_readings.h"
 #include "reconstruct/window_solver.h"
 
 namespace marey::reconstruct {
@@ -136,6 +137,7 @@ void fill_doubts(const Body& body,
                  const BodyModel& model,
                  const Sightings& sightings,
                  const WindowSolver& windows,
+                 const ReadingSigmas& readings,
                  const SolveMotionOptions& options,
                  SolvedTrial& trial) {
   const std::vector<BoneSigmas>& sigmas = windows.sigmas();
@@ -153,6 +155,7 @@ void fill_doubts(const Body& body,
       doubts[b].source = sources[b][f];
       doubts[b].sigma_m =
           std::hypot(std::hypot(sigmas[f][b], body.joint_centre_sigma_m[b]),
+                     readings.bones[f][b],
                      std::hypot(options.camera_sigma_m, clock_s * speeds[f][b]));
     }
     const auto known = [&](HumanBone bone) {
@@ -166,6 +169,7 @@ void fill_doubts(const Body& body,
 void fill_tags(const BodyModel& model,
                const Sightings& sightings,
                const WindowSolver& windows,
+               const ReadingSigmas& readings,
                const SolveMotionOptions& options,
                SolvedTrial& trial) {
   constexpr std::size_t kCamerasInFiles = 7;
@@ -183,6 +187,7 @@ void fill_tags(const BodyModel& model,
       const std::size_t bone = index(model.bone(t));
       tags[t].sigma_m = static_cast<float>(
           std::hypot(std::hypot(windows.tag_sigmas()[f][t], windows.slips_m()[bone]),
+                     readings.tags[f][t],
                      std::hypot(options.camera_sigma_m, clock_s * speeds[f][bone])));
     }
     trial.tags.push_back(std::move(tags));
@@ -241,6 +246,8 @@ Result<SolvedTrial> solve_motion(const Body& body,
     return not_found(detections, "the solver finds no motion that explains the tags");
   }
 
+  const ReadingSigmas readings =
+      try_second_readings(model, cameras, sightings, windows, *postures);
   SolvedTrial trial;
   measure_fit(windows, sightings, cameras.size(), trial);
   Motion& motion = trial.estimate.motion;
@@ -250,8 +257,8 @@ Result<SolvedTrial> solve_motion(const Body& body,
   for (const Posture& posture : *postures) {
     motion.poses.push_back(to_pose(posture, motion.skeleton, model.lengths, model.body));
   }
-  fill_doubts(body, model, sightings, windows, options, trial);
-  fill_tags(model, sightings, windows, options, trial);
+  fill_doubts(body, model, sightings, windows, readings, options, trial);
+  fill_tags(model, sightings, windows, readings, options, trial);
   return trial;
 }
 

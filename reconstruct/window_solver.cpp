@@ -249,6 +249,30 @@ bool WindowSolver::pass(const WindowSize& size,
   return true;
 }
 
+std::optional<double> WindowSolver::solve_again(std::size_t first,
+                                                std::vector<Posture>& candidate) {
+  std::vector<Posture>& postures = *postures_;
+  const std::size_t before = std::min<std::size_t>(2, first);
+  const std::size_t end = first + candidate.size();
+  const std::size_t after = std::min<std::size_t>(2, postures.size() - end);
+  ceres::Problem problem;
+  build(first - before, before + candidate.size() + after, before, problem);
+  for (std::size_t f = end; f < end + after; ++f) hold(postures[f], problem);
+  hold_offsets(true, problem);
+  double cost_now = 0.0;
+  if (!problem.Evaluate({}, &cost_now, nullptr, nullptr, nullptr)) return std::nullopt;
+  const auto own = postures.begin() + static_cast<std::ptrdiff_t>(first);
+  // The problem points into the postures.
+  std::swap_ranges(candidate.begin(), candidate.end(), own);
+  ceres::Solver::Options solver = solver_options(kWindowIterations);
+  solver.function_tolerance = 1e-5;
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver, &problem, &summary);
+  std::swap_ranges(candidate.begin(), candidate.end(), own);
+  if (!summary.IsSolutionUsable()) return std::nullopt;
+  return summary.final_cost - cost_now;
+}
+
 /// What the final frames' sightings say of slips.
 bool WindowSolver::weigh(std::size_t first,
                          std::span<const Eigen::MatrixXd> covariances,

@@ -4,6 +4,7 @@
 
 // Private to reconstruct: all frames of a trial together, window by window.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,14 @@ class WindowSolver {
   /// by then. Then again, with what was found of how tags slip. `progress` counts frames.
   /// False when a window has no usable minimum.
   [[nodiscard]] bool solve(const WindowSize& size, const Progress& progress);
+
+  /// Solves the frames from `first` on again, starting from `candidate`, with the two
+  /// neighbours on each side held; `candidate` becomes the solution, the postures stay.
+  /// Returns by how much it costs more than they do (half of the sum of squares in
+  /// sigmas): negative where it explains the frames better. nullopt when it has no usable
+  /// minimum. Precondition: solve() has returned true.
+  [[nodiscard]] std::optional<double> solve_again(std::size_t first,
+                                                  std::vector<Posture>& candidate);
 
   /// Distance from where the camera saw each corner of a sighting to where it should have
   /// at its own time; empty for a tag behind the camera. [px]
