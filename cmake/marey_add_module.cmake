@@ -1,20 +1,24 @@
 # SPDX-FileCopyrightText: The marey authors
 # SPDX-License-Identifier: Apache-2.0
 
-# marey_add_module(<name> HEADERS ... SOURCES ... [USES public...] [HIDES private...])
+include(${CMAKE_CURRENT_LIST_DIR}/marey_precompile.cmake)
+
+# marey_add_module(<name> HEADERS ... SOURCES ... [USES public...] [HIDES private...]
+#                  [PRECOMPILES header...])
 #
 # One room of the house. HEADERS are public: each must compile alone (the target
 # all_verify_interface_header_sets tries it) and name no heavy library
 # (tests/layering.cmake). USES is seen by the room's includers, HIDES only by its .cpp files
-# and by the headers that are not listed.
+# and by the headers that are not listed. PRECOMPILES: see marey_precompile().
 function(marey_add_module name)
-  cmake_parse_arguments(M "" "" "HEADERS;SOURCES;USES;HIDES" ${ARGN})
+  cmake_parse_arguments(M "" "" "HEADERS;SOURCES;USES;HIDES;PRECOMPILES" ${ARGN})
   add_library(marey_${name} STATIC ${M_SOURCES})
   add_library(marey::${name} ALIAS marey_${name})
   target_sources(marey_${name} PUBLIC
     FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${M_HEADERS})
   target_link_libraries(marey_${name} PUBLIC ${M_USES} PRIVATE ${M_HIDES})
   set_target_properties(marey_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  marey_precompile(marey_${name} ${M_PRECOMPILES})
 endfunction()
 
 # marey_find_package(<package> <version> DEBIAN <package that brings it> [COMPONENTS ...])

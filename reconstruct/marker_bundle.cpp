@@ -25,15 +25,14 @@ struct MarkerResidual {
   Eigen::Vector3d p_in_world;
   double sigma_m;
 
-  template <class... A>
-  bool operator()(A... arguments) const {
-    auto in = unpack(slots, arguments...);
-    using T = std::remove_pointer_t<decltype(in.residual)>;
+  template <class T>
+  bool operator()(const T* const* list, T* residual) const {
+    const PostureBlocks<T> blocks(slots, list, 2);
     const BoneFrame<T> frame = bone_frame<T, T>(
-        bone, std::span<const T* const, kSlotCount>(in.blocks), in.extra[0], body);
-    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> place(in.extra[1]);
+        bone, std::span<const T* const, kSlotCount>(blocks.of), blocks.extra[0], body);
+    const Eigen::Map<const Eigen::Matrix<T, 3, 1>> place(blocks.extra[1]);
     const Eigen::Matrix<T, 3, 1> p = frame.rotation * place + frame.origin;
-    for (int i = 0; i < 3; ++i) in.residual[i] = (p[i] - p_in_world[i]) / sigma_m;
+    for (int i = 0; i < 3; ++i) residual[i] = (p[i] - p_in_world[i]) / sigma_m;
     return true;
   }
 };

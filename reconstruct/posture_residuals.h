@@ -6,8 +6,8 @@
 
 #include <array>
 #include <memory>
-#include <tuple>
-#include <utility>
+#include <span>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <ceres/ceres.h>
@@ -68,28 +68,17 @@ struct TagImage {
   }
 };
 
-/// Splits Ceres' argument list (blocks..., residual) into the posture's blocks, `extra`
-/// further blocks and the residual.
+/// Ceres' list of blocks, told apart: the posture's, then `extra` further ones.
 template <class T>
-struct Arguments {
-  std::array<const T*, kSlotCount> blocks{};
-  std::array<const T*, 3> extra{};
-  T* residual = nullptr;
-};
+struct PostureBlocks {
+  std::array<const T*, kSlotCount> of{};
+  std::array<const T*, 2> extra{};
 
-template <class... A>
-auto unpack(const std::vector<Slot>& slots, A... arguments) {
-  using T =
-      std::remove_pointer_t<std::tuple_element_t<sizeof...(A) - 1, std::tuple<A...>>>;
-  const std::array<const T*, sizeof...(A)> list{arguments...};
-  Arguments<T> out;
-  for (std::size_t i = 0; i < slots.size(); ++i) out.blocks[index(slots[i])] = list[i];
-  for (std::size_t i = slots.size(); i + 1 < list.size(); ++i) {
-    out.extra[i - slots.size()] = list[i];
+  PostureBlocks(std::span<const Slot> slots, const T* const* list, std::size_t extras) {
+    for (std::size_t i = 0; i < slots.size(); ++i) of[index(slots[i])] = list[i];
+    for (std::size_t i = 0; i < extras; ++i) extra[i] = list[slots.size() + i];
   }
-  out.residual = std::get<sizeof...(A) - 1>(std::tuple<A...>(arguments...));
-  return out;
-}
+};
 
 /// Reprojection of one tag of a known body.
 struct KnownTagResidual {
@@ -100,16 +89,15 @@ struct KnownTagResidual {
   TagImage image;
   std::array<glm::dvec3, 4> corners_in_segment{};
 
-  template <class... A>
-  bool operator()(A... arguments) const {
-    auto in = unpack(slots, arguments...);
-    using T = std::remove_pointer_t<decltype(in.residual)>;
+  template <class T>
+  bool operator()(const T* const* list, T* residual) const {
+    const PostureBlocks<T> blocks(slots, list, 0);
     const BoneFrame<T> frame = bone_frame<T, double>(
-        bone, std::span<const T* const, kSlotCount>(in.blocks), lengths.data(), body);
+        bone, std::span<const T* const, kSlotCount>(blocks.of), lengths.data(), body);
     std::array<Eigen::Matrix<T, 3, 1>, 4> corners;
     for (std::size_t i = 0; i < 4; ++i)
       corners[i] = detail::vec<T>(corners_in_segment[i]);
-    image.residual(frame, corners, in.residual);
+    image.residual(frame, corners, residual);
     return true;
   }
 };
@@ -122,17 +110,15 @@ struct LateTagResidual : KnownTagResidual {
   Eigen::Matrix<double, 8, 3> slip_directions = Eigen::Matrix<double, 8, 3>::Zero();
   Eigen::Vector3d slip_shrink = Eigen::Vector3d::Zero();
 
-  template <class... A>
-  bool operator()(A... arguments) const {
-    auto in = unpack(slots, arguments...);
-    if (!KnownTagResidual::operator()(arguments...)) return false;
+  template <class T>
+  bool operator()(const T* const* list, T* out) const {
+    if (!KnownTagResidual::operator()(list, out)) return false;
+    const T offset_s = *list[slots.size()];
     for (std::size_t i = 0; i < 4; ++i) {
-      in.residual[2 * i] += in.extra[0][0] * (image.velocity_px_s[i].x / image.sigma_px);
-      in.residual[2 * i + 1] +=
-          in.extra[0][0] * (image.velocity_px_s[i].y / image.sigma_px);
+      out[2 * i] += offset_s * (image.velocity_px_s[i].x / image.sigma_px);
+      out[2 * i + 1] += offset_s * (image.velocity_px_s[i].y / image.sigma_px);
     }
-    using T = std::remove_pointer_t<decltype(in.residual)>;
-    Eigen::Map<Eigen::Matrix<T, 8, 1>> residual(in.residual);
+    Eigen::Map<Eigen::Matrix<T, 8, 1>> residual(out);
     for (int k = 0; k < 3; ++k) {
       if (slip_shrink[k] == 0.0) continue;
       T along(0.0);
@@ -144,52 +130,18 @@ struct LateTagResidual : KnownTagResidual {
   }
 };
 
-/// Blocks of `residual` are slots_of(bone), then `Extra...`. Each kind of bone has its
-/// own list of block sizes, which Ceres wants at compile time.
+/// Blocks are functor->slots, which are slots_of(its bone), then `Extra...`. Of blocks that
+/// are held nothing is derived.
 template <int Residuals, int... Extra, class Functor>
 ceres::CostFunction* bone_cost(std::unique_ptr<Functor> functor) {
-  using B = HumanBone;
-  Functor* f = functor.release();
-  switch (f->bone) {
-    case B::kHips:
-      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, Extra...>(f);
-    case B::kSpine:
-    case B::kChest:
-      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, Extra...>(f);
-    case B::kUpperChest:
-      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, Extra...>(f);
-    case B::kNeck:
-    case B::kLeftShoulder:
-    case B::kRightShoulder:
-      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 4, Extra...>(
-          f);
-    case B::kHead:
-      return new ceres::
-          AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 4, 4, Extra...>(f);
-    case B::kLeftUpperArm:
-    case B::kRightUpperArm:
-    case B::kLeftLowerArm:
-    case B::kRightLowerArm:
-      return new ceres::
-          AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 4, 4, 1, 1, Extra...>(f);
-    case B::kLeftHand:
-    case B::kRightHand:
-      return new ceres::
-          AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 4, 4, 4, 1, Extra...>(f);
-    case B::kLeftUpperLeg:
-    case B::kRightUpperLeg:
-    case B::kLeftLowerLeg:
-    case B::kRightLowerLeg:
-      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 1, 1, Extra...>(
-          f);
-    case B::kLeftFoot:
-    case B::kRightFoot:
-    case B::kLeftToes:
-    case B::kRightToes:
-      return new ceres::AutoDiffCostFunction<Functor, Residuals, 3, 4, 4, 4, 1, Extra...>(
-          f);
-  }
-  return nullptr;
+  const std::vector<Slot> slots = functor->slots;
+  // Passes of eight: most bones follow 16 to 32 numbers.
+  auto cost = std::make_unique<ceres::DynamicAutoDiffCostFunction<Functor, 8>>(
+      functor.release());
+  for (const Slot slot : slots) cost->AddParameterBlock(block_size(slot));
+  (cost->AddParameterBlock(Extra), ...);
+  cost->SetNumResiduals(Residuals);
+  return cost.release();
 }
 
 /// Change of a rotation's speed over three frames, in sigmas. Speeds die out: of the
