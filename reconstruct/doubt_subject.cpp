@@ -36,6 +36,9 @@ constexpr double kKnownJoint_m = 0.02;
 // never see, on a forearm that two seldom see, may get a wrong one. Shares of the frames.
 constexpr double kSeenTwice = 0.03;
 constexpr double kBoneSeenTwice = 0.08;
+// A limb's bone that fewer frames locate can be fitted turned over, with all that hangs
+// on it: half a second of a slow movement.
+constexpr int kFewestLocated = 15;
 
 std::string millimetres(double m) {
   std::array<char, 32> text{};
@@ -133,6 +136,27 @@ void doubt_views(const SubjectEvidence& evidence, std::vector<Error>& out) {
   }
 }
 
+void doubt_locations(const SubjectBundle& bundle,
+                     const SubjectEvidence& evidence,
+                     std::vector<Error>& out) {
+  for (const HumanLimb& limb : human_limbs()) {
+    for (const HumanBone bone : {limb.upper, limb.lower}) {
+      const bool has_tags = std::ranges::any_of(
+          bundle.model.segment_from_tag,
+          [&](const auto& placed) { return bundle.model.bone(placed.first) == bone; });
+      const int frames = evidence.located_frames[index(bone)];
+      if (!has_tags || frames >= kFewestLocated) continue;
+      out.push_back(doubt(
+          "segment " + in_quotes(bone) + " is seen well enough in only " +
+              std::to_string(frames) +
+              " frames of the range of motion: elsewhere one camera sees one of its "
+              "tags, and nearly face on",
+          "record the range of motion again, turning that limb slowly before two "
+          "cameras, or glue tags to other sides of it"));
+    }
+  }
+}
+
 void doubt_lengths(const SubjectBundle& bundle, std::vector<Error>& out) {
   const auto length = [&](Length which) { return bundle.model.lengths[index(which)]; };
   const auto sigma = [&](Length which) { return bundle.length_sigma_m[index(which)]; };
@@ -185,6 +209,7 @@ std::vector<Error> doubts_of(const SubjectBundle& bundle,
   doubt_sightings(bundle, evidence, doubts);
   doubt_extremities(bundle, evidence, doubts);
   doubt_views(evidence, doubts);
+  doubt_locations(bundle, evidence, doubts);
   doubt_lengths(bundle, doubts);
   doubt_joints(bundle, doubts);
   return doubts;

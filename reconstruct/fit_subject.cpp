@@ -14,6 +14,7 @@
 #include "reconstruct/check_worn.h"
 #include "reconstruct/doubt_subject.h"
 #include "reconstruct/initial_posture.h"
+#include "reconstruct/located_frames.h"
 #include "reconstruct/refine_subject.h"
 #include "reconstruct/segment_frames.h"
 #include "reconstruct/sightings.h"
@@ -348,6 +349,7 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
     return ok.error();
   }
   evidence.seen_twice_share = seen_twice_share(trials[1], prior.tags);
+  evidence.located_frames = located_frames(trials[1], prior.tags, cameras);
   fit.doubts = doubts_of(bundle, evidence);
   for (const Error& doubt : fit.doubts) {
     fit.body.doubts.push_back({doubt.cause, doubt.next});

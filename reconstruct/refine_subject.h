@@ -28,6 +28,8 @@ struct SubjectEvidence {
   std::array<ExtremityFit, 4> extremities;  ///< Of limbs whose extremity has tags.
   /// By segment: share of the moving trial's frames in which two cameras see its tags.
   std::array<double, kHumanBoneCount> seen_twice_share{};
+  /// By segment: frames of the moving trial that locate it (located_frames.h).
+  std::array<int, kHumanBoneCount> located_frames{};
 };
 
 /// Refines `bundle`: first the trunk and the limbs' two bones, with a loss that tightens

@@ -33,6 +33,7 @@ struct Fitted {
       fit = {true, 1.0, 100, 1000.0, 0.2};
     }
     evidence.seen_twice_share.fill(0.5);
+    evidence.located_frames.fill(300);
   }
 
   /// The doubts, one a line.
@@ -100,6 +101,18 @@ TEST(DoubtSubject, NamesALimbThatTwoCamerasHardlySee) {
   EXPECT_EQ(fit.told(), "");
   fit.evidence.seen_twice_share[index(HumanBone::kRightLowerArm)] = 0.05;
   EXPECT_NE(fit.told().find("\"rightLowerArm\" and \"rightHand\""), std::string::npos)
+      << fit.told();
+}
+
+TEST(DoubtSubject, NamesABoneThatHardlyAnyFrameLocates) {
+  Fitted fit;
+  fit.evidence.located_frames[index(HumanBone::kLeftUpperArm)] = 0;
+  EXPECT_EQ(fit.told(), "") << "it has no tags";
+  fit.evidence.located_frames[index(HumanBone::kLeftLowerLeg)] = 15;
+  EXPECT_EQ(fit.told(), "");
+  fit.evidence.located_frames[index(HumanBone::kLeftLowerLeg)] = 14;
+  EXPECT_NE(fit.told().find("segment \"leftLowerLeg\" is seen well enough in only 14"),
+            std::string::npos)
       << fit.told();
 }
 
