@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <set>
 
+#include <glm/geometric.hpp>
+
+#include "core/quantile.h"
+
 namespace marey::app {
 namespace {
 
@@ -13,13 +17,41 @@ using recordings::Trial;
 using recordings::TrialKind;
 
 // Share of the pictures. Misread tags and passers-by are seen less often.
-constexpr double kAllTheTime = 0.05;
+constexpr double kOftenShare = 0.05;
 
 /// Number of pictures that show each tag, and of all pictures, in the trials of a body.
 struct Seen {
   std::map<TagId, int> pictures;
+  std::set<TagId> moving;  ///< Those that travel by more than their own side.
   int of = 0;
 };
+
+/// Returns whether a tag moved in one camera's pictures: by more than its side, the tenth
+/// that is farthest left or right, up or down left out. Tags on walls do not.
+bool travels(const std::vector<glm::dvec2>& centres_px, double side_px) {
+  for (int axis = 0; axis < 2; ++axis) {
+    std::vector<double> places_px;
+    for (const glm::dvec2& centre_px : centres_px) places_px.push_back(centre_px[axis]);
+    const double left_px = quantile(places_px, 0.1);
+    if (quantile(std::move(places_px), 0.9) - left_px > side_px) return true;
+  }
+  return false;
+}
+
+void add_moving(const CameraDetections& camera, std::set<TagId>& moving) {
+  std::map<TagId, std::vector<glm::dvec2>> centres_px;
+  std::map<TagId, double> side_px;
+  for (const FrameDetections& frame : camera.frames) {
+    for (const TagDetection& tag : frame.tags) {
+      const auto& p = tag.corners_px;
+      centres_px[tag.id].push_back(0.25 * (p[0] + p[1] + p[2] + p[3]));
+      side_px[tag.id] = std::max(side_px[tag.id], glm::distance(p[0], p[1]));
+    }
+  }
+  for (const auto& [id, centres] : centres_px) {
+    if (travels(centres, side_px[id])) moving.insert(id);
+  }
+}
 
 Seen count_seen(const Session& session,
                 const std::map<std::string, std::vector<CameraDetections>>& found) {
@@ -32,6 +64,7 @@ Seen count_seen(const Session& session,
     }
     for (const CameraDetections& camera : cameras->second) {
       seen.of += static_cast<int>(camera.frames.size());
+      add_moving(camera, seen.moving);
       for (const FrameDetections& frame : camera.frames) {
         for (const TagDetection& tag : frame.tags) ++seen.pictures[tag.id];
       }
@@ -75,7 +108,8 @@ Status check_ids(const Session& session,
   }
   std::vector<TagId> strangers;
   for (const auto& [id, pictures] : seen.pictures) {
-    if (pictures > kAllTheTime * seen.of && !is_listed(session, id)) {
+    if (pictures > kOftenShare * seen.of && seen.moving.contains(id) &&
+        !is_listed(session, id)) {
       strangers.push_back(id);
     }
   }

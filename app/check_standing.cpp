@@ -36,6 +36,12 @@ std::optional<double> travel_in(const Trial& trial,
   return reconstruct::measure_travel(at->second, tags);
 }
 
+std::string in_metres(double m, int decimals) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.*f m", decimals, m);
+  return text.data();
+}
+
 /// The tags on hips and chest: limbs move in one place too.
 std::vector<TagOnSegment> trunk_tags(const Session& session) {
   std::vector<TagOnSegment> tags;
@@ -55,14 +61,10 @@ Status check_standing(const Session& session,
   if (!standing || session.tags.empty()) return Done{};
   const auto travel_m = travel_in(*standing, session.tags, found);
   if (!travel_m || *travel_m < kMoves_m) return Done{};
-  std::array<char, 160> text{};
-  std::snprintf(text.data(),
-                text.size(),
-                "the subject of static trial %s does not stand still: a quarter of the "
-                "tags travel by more than %.2f m",
-                standing->name.c_str(),
-                *travel_m);
-  std::string cause = text.data();
+  std::string cause =
+      "the subject of static trial " + standing->name +
+      " does not stand still: a quarter of the tags travel by more than " +
+      in_metres(*travel_m, 2);
   std::string next =
       "record it again, with the subject standing still for some seconds; or correct "
       "`videos`, if these are another trial's";
@@ -94,17 +96,10 @@ std::optional<std::string> exchanged_exercise_warning(
     if (trial.kind != TrialKind::kMotion) continue;
     const auto other_m = travel_in(trial, tags, found);
     if (!other_m || *other_m > kStays_m) continue;
-    std::array<char, 200> text{};
-    std::snprintf(
-        text.data(),
-        text.size(),
-        "in trial %s, the range of motion, the subject walks about (%.1f m), and "
-        "in trial %s it stays in one place",
-        exercise->name.c_str(),
-        *travel_m,
-        trial.name.c_str());
-    return session.file.string() + ":" + std::to_string(exercise->line) + ": " +
-           text.data() + ". Next: if the videos of " + exercise->name + " and " +
+    return session.file.string() + ":" + std::to_string(exercise->line) + ": in trial " +
+           exercise->name + ", the range of motion, the subject walks about (" +
+           in_metres(*travel_m, 1) + "), and in trial " + trial.name +
+           " it stays in one place. Next: if the videos of " + exercise->name + " and " +
            trial.name + " are exchanged, correct `videos`, or the trials' `kind`.";
   }
   return std::nullopt;

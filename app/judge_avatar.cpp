@@ -34,9 +34,12 @@ void add(const std::string& where,
 void judge_skin(const std::string& name, AvatarVerdict& out) {
   const double deep_mm = 1e3 * out.beyond_source.depth_m;
   if (deep_mm <= kDeepSkin_mm) return;
-  const std::string part(retarget::name(out.beyond_source.part));
+  std::string part;
+  if (out.beyond_part_known) {
+    part = " of the " + std::string(retarget::name(out.beyond_source.part));
+  }
   add(name + ", frame " + std::to_string(out.beyond_source.frame),
-      text("the skin of the %s is %.0f mm below the floor, where the source is not",
+      text("the skin%s is %.0f mm below the floor, where the source is not",
            part.c_str(),
            deep_mm),
       "look at it with marey view; adapt the result with a constraint on that part, or "
@@ -201,6 +204,7 @@ Status judge_files(const Motion& made,
     // The file's depths count. Its skin has no named parts: the body's are kept.
     if (out.skin) deepest.part = out.skin->part;
     beyond.part = out.beyond_source.part;
+    out.beyond_part_known = out.beyond_source.frame >= 0;
     out.skin = deepest;
     out.beyond_source = beyond;
   }

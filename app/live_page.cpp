@@ -127,8 +127,8 @@ void LivePage::watch(const Body& body) {
   worn_ = WornSegments(body);
   body_doubts_.clear();
   for (const BodyDoubt& doubt : body.doubts) {
-    body_doubts_.push_back("the body is not to be trusted: " + doubt.cause +
-                           "; measure it again");
+    body_doubts_.push_back("the measured body may be wrong: " + doubt.cause +
+                           ". Next: " + doubt.next);
   }
 }
 
@@ -327,12 +327,14 @@ void LivePage::on_status(const LiveFigures& figures,
   if (const auto& now = figures.recording) {
     status.recording = live::PageRecording{now->folder, now->seconds, now->trouble};
   }
-  status.doubts = body_doubts_;
   tell_subject(
       state,
       figures,
       state == TrackState::kTracked ? worn_.unseen(doubt_) : std::vector<std::string>{},
       status);
+  // After the subject's state, which is of this moment: who was measured badly can be
+  // tracked well.
+  status.doubts.insert(status.doubts.end(), body_doubts_.begin(), body_doubts_.end());
   if (figures.flow != Flow::kSteady) status.overload = figures.flow_text;
   status.clients = page_.server.client_count();
   status.messages = notes_;

@@ -141,7 +141,7 @@ void add_exchanges_of_segments(const PlainSession& right, Mistakes& out) {
 void add_exchanges_of_videos(const PlainSession& right, Mistakes& out) {
   out.push_back({"static-rom",
                  exchange_videos("static", "range-of-motion"),
-                 {{"static"}, {"rom"}}});
+                 {{"static"}, {"and rom", "trial rom"}}});
   out.push_back({"static-walk", exchange_videos("static", "motion"), {{"static"}}});
   out.push_back({"static-walks-too",
                  [](PlainSession& session) {

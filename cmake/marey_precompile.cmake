@@ -1,19 +1,27 @@
 # SPDX-FileCopyrightText: The marey authors
 # SPDX-License-Identifier: Apache-2.0
 
+# clang-tidy and the fuzzers' clang do not read what g++ precompiles.
+set(MAREY_PRECOMPILES ON)
+if(CMAKE_CXX_COMPILER_LAUNCHER OR CMAKE_CXX_CLANG_TIDY OR MAREY_FUZZ
+   OR NOT CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  set(MAREY_PRECOMPILES OFF)
+endif()
+# g++ 12 no longer knows precompiled system headers as such, and warns of what it suspects
+# in std::string (bugs 105329, 105651).
+set(MAREY_PRECOMPILED_WARNINGS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow
+                               -Wno-stringop-overread)
+
 # marey_precompile(<target> [<header>...])
 #
 # Compiles what nearly every file of a target includes once: half of a cold build is
 # spent reading the same headers. Not with a compiler cache, which does not know such
 # objects again; such a build is also the check that each file includes what it uses.
 function(marey_precompile target)
-  if(CMAKE_CXX_COMPILER_LAUNCHER OR MAREY_FUZZ)
+  if(NOT MAREY_PRECOMPILES)
     return()
   endif()
-  # g++ 12 no longer knows precompiled system headers as such, and warns of what it
-  # suspects in std::string (bugs 105329, 105651).
-  target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict
-                         -Wno-stringop-overflow -Wno-stringop-overread)
+  target_compile_options(${target} PRIVATE ${MAREY_PRECOMPILED_WARNINGS})
   target_precompile_headers(${target} PRIVATE
     <algorithm> <array> <cmath> <cstddef> <cstdint> <cstdio> <filesystem> <functional>
     <limits> <map> <memory> <numbers> <optional> <set> <span> <string> <string_view>
@@ -25,10 +33,9 @@ endfunction()
 # marey_reuse_precompiled(<target> <other>): what marey_precompile(<other> ...) compiled,
 # for a target with the same options.
 function(marey_reuse_precompiled target other)
-  if(CMAKE_CXX_COMPILER_LAUNCHER OR MAREY_FUZZ)
+  if(NOT MAREY_PRECOMPILES)
     return()
   endif()
-  target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict
-                         -Wno-stringop-overflow -Wno-stringop-overread)
+  target_compile_options(${target} PRIVATE ${MAREY_PRECOMPILED_WARNINGS})
   target_precompile_headers(${target} REUSE_FROM ${other})
 endfunction()

@@ -87,10 +87,14 @@ void doubt_sightings(const SubjectBundle& bundle,
         e.explained_share >= kLeastExplained && e.median_ratio <= kMostMedianRatio;
     if (e.sightings < kFewestToJudge || is_explained) continue;
     const TagOnSegment& tag = bundle.model.tags[e.tag];
+    const std::string how =
+        e.explained_share < kLeastExplained
+            ? " lies away from its fitted place in " + percent(1.0 - e.explained_share) +
+                  " of its sightings"
+            : " fits its place worse than its corners' noise explains, in most of its "
+              "sightings";
     out.push_back(doubt("tag " + std::to_string(number(tag.id)) + " on segment " +
-                            in_quotes(tag.segment) +
-                            " is not where the body carries it " + "in " +
-                            percent(1.0 - e.explained_share) + " of its sightings",
+                            in_quotes(tag.segment) + how,
                         "check that it is glued firmly and did not shift during the "
                         "trials; then record the range of motion again"));
   }
@@ -192,8 +196,8 @@ void doubt_joints(const SubjectBundle& bundle, std::vector<Error>& out) {
       const std::optional<double>& sigma_m = bundle.centre_sigma_m[index(bone)];
       if (sigma_m && *sigma_m < kKnownJoint_m) continue;
       out.push_back(doubt("the joint at the near end of segment " + in_quotes(bone) +
-                              " is known to " +
-                              (sigma_m ? millimetres(*sigma_m) : "nothing") + " only",
+                              (sigma_m ? " is known to " + millimetres(*sigma_m) + " only"
+                                       : " could not be determined"),
                           "record the range of motion again, bending that joint far "
                           "before two cameras at once"));
     }

@@ -13,7 +13,8 @@ namespace marey::reconstruct {
 
 /// Compares the fitted subject with what it would look like if it were wrong: tags whose
 /// sightings it does not explain, a second place of a hand's or foot's tags that explains
-/// them as well, left and right sides that differ, lengths far from a person's of the
+/// them as well, limbs that two cameras hardly ever see or that hardly any frame locates,
+/// left and right sides that differ, lengths far from a person's of the
 /// stature, hips, knees, shoulders and elbows that are hardly known. Each is kQuality;
 /// empty when nothing speaks against the fit.
 [[nodiscard]] std::vector<Error> doubts_of(const SubjectBundle& bundle,

@@ -46,10 +46,11 @@ struct SubjectFit {
 /// Sigmas come from the bundle's covariance, scaled by its residuals.
 /// A tag that faces away from the others of its segment, or sits on a segment that the
 /// bundle does not need (neck, collar bones, spine), is placed on the body that the
-/// others found, then refined with it. Errors (kBadInput, `where` empty): segments
-/// without a usable tag; too few frames that show the hips, standing or moving; limbs
-/// whose lengths are absurd for the declared stature (a wrong tag or board size). Cost:
-/// some seconds; memory independent of the trials' lengths beyond the detections.
+/// others found, then refined with it. Errors (kBadInput; `where` is empty or
+/// [[tags.tag]]): segments without a usable tag; tags declared on segments that they do
+/// not move with (check_worn.h); too few frames that show the hips, standing or moving;
+/// limbs whose lengths are absurd for the declared stature (a wrong tag or board size).
+/// Cost: some seconds; memory independent of the trials' lengths beyond the detections.
 [[nodiscard]] Result<SubjectFit> fit_subject(const SubjectPrior& prior,
                                              std::span<const Camera> cameras,
                                              std::span<const CameraDetections> standing,

@@ -36,8 +36,10 @@ struct ReadingSigmas {
 };
 
 /// Solves every stretch again from the other readings of each bone's tags, neighbours
-/// held, and keeps what explains the sightings better. Precondition: `windows` has solved
-/// `postures`. Cost: that of solving the stretches' frames up to three times more.
+/// held, and keeps what explains the sightings better; its covariance is then still that
+/// of the first answer. The chances of a limb's three bones add up. Precondition:
+/// `windows` has solved `postures`. Cost: that of solving the stretches' frames up to
+/// three times more.
 [[nodiscard]] ReadingSigmas try_second_readings(const BodyModel& model,
                                                 std::span<const Camera> cameras,
                                                 const Sightings& sightings,

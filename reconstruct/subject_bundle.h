@@ -107,7 +107,8 @@ void measure(SubjectBundle& bundle, std::span<const Camera> cameras);
 /// estimated as the variance of random effects (restricted maximum likelihood; Patterson
 /// & Thompson 1971). Corners are given the noise that the fit shows, with many sightings
 /// of one tag by one camera not counted as so many independent ones. Some 2 s. False if
-/// the equations have no solution. Precondition: adjust() has converged.
+/// the equations have no solution. Preconditions: adjust() has converged, and the median
+/// errors of tags are measured.
 [[nodiscard]] bool refine_slides(SubjectBundle& bundle, std::span<const Camera> cameras);
 
 /// Covariances of lengths, tags and joint centres. False when the equations have no

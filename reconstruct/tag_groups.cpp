@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -187,21 +188,24 @@ class Grouping {
   /// Gives each group the segment that most of its tags were declared on, and each
   /// segment to one group. Tags of the other groups keep the declared segments.
   std::vector<HumanBone> labelled() const {
-    std::vector<std::pair<std::ptrdiff_t, std::pair<std::size_t, HumanBone>>> votes;
+    // Most tags first, then the group with the fewest others: a group of two segments'
+    // tags leaves a segment to the one that is of it alone.
+    std::vector<std::tuple<std::ptrdiff_t, std::size_t, std::size_t, HumanBone>> votes;
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       std::map<HumanBone, std::ptrdiff_t> counts;
       for (const std::size_t tag : groups_[g]) {
         ++counts[solved_segment(tags_[tag].segment)];
       }
-      for (const auto& [segment, count] : counts) votes.push_back({-count, {g, segment}});
+      for (const auto& [segment, count] : counts) {
+        votes.emplace_back(-count, groups_[g].size(), g, segment);
+      }
     }
     std::sort(votes.begin(), votes.end());
     std::vector<HumanBone> segments;
     for (const TagOnSegment& tag : tags_) segments.push_back(solved_segment(tag.segment));
     std::map<std::size_t, HumanBone> given;
     std::vector<HumanBone> taken;
-    for (const auto& [count, vote] : votes) {
-      const auto& [group, segment] = vote;
+    for (const auto& [count, size, group, segment] : votes) {
       if (given.contains(group) || std::count(taken.begin(), taken.end(), segment) > 0) {
         continue;
       }

@@ -205,11 +205,12 @@ Renaming exchanged_segments(std::span<const TagCluster> clusters,
   for (bool is_better = true; is_better;) {
     is_better = false;
     const Renaming so_far = best;
+    const double so_far_m = best_m;
     for (const auto& exchange : exchanges) {
       Renaming names = so_far;
       for (const auto& [a, b] : exchange) names = with_exchanged(names, a, b);
       const double cost_m = drifts.cost(names);
-      if (cost_m > best_m - kLeastGain_m) continue;
+      if (cost_m > so_far_m - kLeastGain_m || cost_m >= best_m) continue;
       best = std::move(names);
       best_m = cost_m;
       is_better = true;

@@ -44,6 +44,7 @@ TEST(JudgeCalibration, GradesASmallMoveAsFairWhereFramesAreNotSimultaneous) {
   report.rig.apparent_move = move;
   expect(only(report), Severity::kPoor, "moved", "camera middle", "1.6 px");
   for (const std::size_t c : {0U, 2U}) report.cameras[c].outlier_corners = 600;
+  ASSERT_FALSE(judge_calibration(report).empty());
   for (const Finding& finding : judge_calibration(report)) {
     EXPECT_EQ(finding.severity, Severity::kFair) << finding.cause;
   }

@@ -40,11 +40,15 @@ TEST_P(SimulatedCampaign, IsNeverSilentlyWrong) {
   }
   // A program that refuses every session is never silently wrong either.
   EXPECT_GT(count, 0);
+  // Five sessions are no sample for the bars of 2 % and 93 %: these limits tell a program
+  // that refuses, or errs by more than it says, much more often than over eighty.
   EXPECT_LE(refused_though_sufficient, 1);
   EXPECT_GE(inside, 0.85 * count);
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, SimulatedCampaign, ::testing::Range<std::uint64_t>(8, 14));
+INSTANTIATE_TEST_SUITE_P(Seeds,
+                         SimulatedCampaign,
+                         ::testing::Range<std::uint64_t>(8, 14));
 
 }  // namespace
 }  // namespace marey::testing
