@@ -32,6 +32,14 @@ bool is_near(const RigidTransform& a, const RigidTransform& b) {
              kSameTurn_rad;
 }
 
+void copy_limb(std::size_t limb, const Posture& from, Posture& to) {
+  const LimbSlots& s = kLimbSlots[limb];
+  for (const Slot slot :
+       {s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity}) {
+    std::copy_n(from.block(slot), block_size(slot), to.block(slot));
+  }
+}
+
 bool is_of(const HumanLimb& limb, HumanBone bone) {
   return bone == limb.upper || bone == limb.lower || bone == limb.end;
 }
@@ -39,8 +47,11 @@ bool is_of(const HumanLimb& limb, HumanBone bone) {
 }  // namespace
 
 BundleFrameSolver::BundleFrameSolver(const SubjectBundle& bundle,
-                                     std::span<const Camera> cameras)
-    : bundle_(&bundle), cameras_(cameras), sight_(cameras) {}
+                                     std::span<const Camera> cameras,
+                                     std::optional<std::size_t> limb)
+    : bundle_(&bundle), cameras_(cameras), sight_(cameras), limb_(limb) {
+  if (limb) held_ = columns_outside(*limb);
+}
 
 void BundleFrameSolver::evaluate(const BundleFrame& frame,
                                  const Posture& posture,
@@ -71,6 +82,12 @@ void BundleFrameSolver::evaluate(const BundleFrame& frame,
   }
   out.add_habits(posture, unfolded, kFrameTwists);
   if (frame.standing) out.add_standing(posture, unfolded);
+  for (const int column : held_) {
+    out.hessian.row(column).setZero();
+    out.hessian.col(column).setZero();
+    out.hessian(column, column) = 1.0;
+    out.gradient[column] = 0.0;
+  }
 }
 
 double BundleFrameSolver::descend(const BundleFrame& frame, Posture& posture) const {
@@ -123,14 +140,17 @@ std::vector<BundleFrameSolver::Start> BundleFrameSolver::readings(
 }
 
 bool BundleFrameSolver::settle_limb(std::size_t limb, BundleFrame& frame) const {
+  if (worst_misfit(frame, frame.posture, limb) < kMisfit2) return false;
   const HumanLimb& bones = human_limbs()[limb];
   const BodyModel& model = bundle_->model;
   Posture best = frame.posture;
   double least = descend(frame, best) - kGain;
   bool changed = false;
   const auto try_start = [&](const FoundSegments& found) {
-    Posture candidate =
+    const Posture start =
         posture_from_segments(found, model.lengths, model.body, frame.posture);
+    Posture candidate = limb_ ? frame.posture : start;
+    if (limb_) copy_limb(limb, start, candidate);
     const double cost = descend(frame, candidate);
     if (cost >= least) return;
     least = cost;
@@ -179,7 +199,6 @@ void BundleFrameSolver::settle_extremity(std::size_t limb, BundleFrame& frame) c
 bool BundleFrameSolver::settle(BundleFrame& frame) const {
   bool changed = false;
   for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
-    if (worst_misfit(frame, frame.posture, limb) < kMisfit2) continue;
     changed = settle_limb(limb, frame) || changed;
   }
   return changed;

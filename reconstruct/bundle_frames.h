@@ -16,7 +16,11 @@ namespace marey::reconstruct {
 /// Solves the posture of one frame of a bundle. Borrows the bundle and the cameras.
 class BundleFrameSolver {
  public:
-  BundleFrameSolver(const SubjectBundle& bundle, std::span<const Camera> cameras);
+  /// With `limb` that limb's unknowns alone move: its sightings say too little of the
+  /// trunk.
+  BundleFrameSolver(const SubjectBundle& bundle,
+                    std::span<const Camera> cameras,
+                    std::optional<std::size_t> limb = std::nullopt);
 
   /// Moves `posture` to the least cost nearby; returns that cost. Some 0.5 ms.
   double descend(const BundleFrame& frame, Posture& posture) const;
@@ -52,6 +56,8 @@ class BundleFrameSolver {
   const SubjectBundle* bundle_;
   std::span<const Camera> cameras_;
   SubjectSight sight_;
+  std::optional<std::size_t> limb_;
+  std::vector<int> held_;  ///< Columns of the posture.
 };
 
 }  // namespace marey::reconstruct

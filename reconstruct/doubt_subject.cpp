@@ -8,6 +8,11 @@
 #include <cstdio>
 #include <string>
 
+#include <glm/trigonometric.hpp>
+
+#include "reconstruct/subject_priors.h"
+#include "reconstruct/turned_limbs.h"
+
 namespace marey::reconstruct {
 namespace {
 
@@ -39,11 +44,19 @@ constexpr double kBoneSeenTwice = 0.08;
 // A limb's bone that fewer frames locate can be fitted turned over, with all that hangs
 // on it: half a second of a slow movement.
 constexpr int kFewestLocated = 15;
+// Sigmas of the prior of a tag's place on its segment.
+constexpr double kMostOffFlesh = 3.0;
+// Nobody stands with a thigh or an upper arm turned so far. [rad]
+constexpr double kMostStandingTurn_rad = 1.75;
 
 std::string millimetres(double m) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.0f mm", 1e3 * m);
   return text.data();
+}
+
+std::string degrees(double rad) {
+  return std::to_string(std::lround(glm::degrees(std::abs(rad)))) + " degrees";
 }
 
 std::string percent(double share) {
@@ -161,6 +174,35 @@ void doubt_locations(const SubjectBundle& bundle,
   }
 }
 
+/// Tags that the fit placed where no flesh of their segment is.
+void doubt_places(const SubjectBundle& bundle, std::vector<Error>& out) {
+  for (const auto& [tag, place] : bundle.model.segment_from_tag) {
+    if (off_flesh(bundle.model, tag) < kMostOffFlesh) continue;
+    const TagOnSegment& declared = bundle.model.tags[tag];
+    out.push_back(doubt("tag " + std::to_string(number(declared.id)) +
+                            " is fitted to a place where segment " +
+                            in_quotes(declared.segment) + " has no skin",
+                        "check its `segment` and `size_m` under [[tags.tag]]; then "
+                        "record the range of motion again, turning that segment slowly "
+                        "before two cameras"));
+  }
+}
+
+void doubt_turns(const SubjectBundle& bundle, std::vector<Error>& out) {
+  for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
+    const auto turn_rad = standing_turn_rad(limb, bundle);
+    if (!turn_rad || std::abs(*turn_rad) < kMostStandingTurn_rad) continue;
+    out.push_back(
+        doubt("segment " + in_quotes(human_limbs()[limb].upper) +
+                  " is fitted turned about its own axis by " + degrees(*turn_rad) +
+                  " in the static trial",
+              "check that its tags and the next segment's are declared on the "
+              "right segments; then record the range of motion again, bending " +
+                  std::string(limb < 2 ? "that elbow" : "that knee") +
+                  " far before two cameras"));
+  }
+}
+
 void doubt_lengths(const SubjectBundle& bundle, std::vector<Error>& out) {
   const auto length = [&](Length which) { return bundle.model.lengths[index(which)]; };
   const auto sigma = [&](Length which) { return bundle.length_sigma_m[index(which)]; };
@@ -214,6 +256,8 @@ std::vector<Error> doubts_of(const SubjectBundle& bundle,
   doubt_extremities(bundle, evidence, doubts);
   doubt_views(evidence, doubts);
   doubt_locations(bundle, evidence, doubts);
+  doubt_places(bundle, doubts);
+  doubt_turns(bundle, doubts);
   doubt_lengths(bundle, doubts);
   doubt_joints(bundle, doubts);
   return doubts;

@@ -149,13 +149,10 @@ std::array<double, kHumanBoneCount> seen_twice_share(const Sightings& trial,
   return shares;
 }
 
-/// A tag that none of the frames shows has no say, and would be as doubtful as can be.
+/// A tag that none of the frames shows would be as doubtful as can be.
 void keep_sighted(SubjectBundle& bundle) {
   std::erase_if(bundle.model.segment_from_tag, [&](const auto& placed) {
-    return std::none_of(
-        bundle.frames.begin(), bundle.frames.end(), [&](const BundleFrame& frame) {
-          return shows(frame.sightings, placed.first);
-        });
+    return sightings_of(placed.first, bundle) == 0 || has_no_say(placed.first, bundle);
   });
 }
 
@@ -273,12 +270,7 @@ SubjectFit to_fit(const SubjectPrior& prior,
     const TagSigma& sigma = bundle.tag_sigma.at(i);
     placed.sigma_m = sigma.m;
     placed.sigma_rad = sigma.rad;
-    for (const BundleFrame& frame : bundle.frames) {
-      placed.sightings += static_cast<int>(std::count_if(
-          frame.sightings.begin(), frame.sightings.end(), [&](const TagSighting& s) {
-            return s.tag == i;
-          }));
-    }
+    placed.sightings = sightings_of(i, bundle);
     fit.body.tags.push_back(placed);
   }
   fit.rms_px = bundle.rms_px;

@@ -127,7 +127,7 @@ std::optional<double> solve_hypothesis(std::size_t limb,
   // A loose loss first: what is far off still pulls.
   for (const double looser : {5.0, 1.0}) {
     bundle.noise_scale = looser * noise_scale;
-    const BundleFrameSolver solver(bundle, cameras);
+    const BundleFrameSolver solver(bundle, cameras, limb);
     for (BundleFrame& frame : bundle.frames) solver.settle_extremity(limb, frame);
     cost = adjust(bundle, cameras, looser > 1.0 ? 8 : 15, {limb});
     if (!cost) break;

@@ -14,6 +14,7 @@
 #include "reconstruct/bundle_frames.h"
 #include "reconstruct/subject_priors.h"
 #include "reconstruct/tag_clusters.h"
+#include "reconstruct/turned_limbs.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -53,7 +54,9 @@ Places take_extremities(SubjectBundle& bundle) {
 void place_on_body(SubjectBundle& bundle, std::span<const Camera> cameras) {
   BodyModel& model = bundle.model;
   for (std::size_t tag = 0; tag < model.tags.size(); ++tag) {
-    if (model.place(tag) || is_extremity(model.bone(tag))) continue;
+    if (model.place(tag) || is_extremity(model.bone(tag)) || has_no_say(tag, bundle)) {
+      continue;
+    }
     std::vector<RigidTransform> segment_from_tag;
     for (const BundleFrame& frame : bundle.frames) {
       const auto world_from_tag = locate_tag(tag, cameras, model.tags, frame.sightings);
@@ -160,6 +163,26 @@ void place_extremities(std::span<const Camera> cameras,
 
 }  // namespace
 
+int sightings_of(std::size_t tag, const SubjectBundle& bundle) {
+  std::ptrdiff_t count = 0;
+  for (const BundleFrame& frame : bundle.frames) {
+    count += std::ranges::count(frame.sightings, tag, &TagSighting::tag);
+  }
+  return static_cast<int>(count);
+}
+
+bool has_no_say(std::size_t tag, const SubjectBundle& bundle) {
+  constexpr int kFewest = 6;
+  if (sightings_of(tag, bundle) >= kFewest) return false;
+  const BodyModel& model = bundle.model;
+  for (std::size_t other = 0; other < model.tags.size(); ++other) {
+    if (model.bone(other) == model.bone(tag) && sightings_of(other, bundle) >= kFewest) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void estimate_slips(std::span<const Camera> cameras, SubjectBundle& bundle) {
   // One component of one sighting says no more than this: blunders are not slips.
   constexpr double kMostSquare = 9.0;
@@ -251,6 +274,10 @@ bool refine_subject(std::span<const Camera> cameras,
   if (!refine_coarse_to_fine(bundle, cameras)) return false;
   place_on_body(bundle, cameras);
   if (!refine_rounds(bundle, cameras, 2)) return false;
+  if (!turn_limbs(cameras, bundle).empty()) {
+    place_on_body(bundle, cameras);
+    if (!refine_rounds(bundle, cameras, 2)) return false;
+  }
   place_extremities(cameras, guesses, bundle, evidence);
   if (!refine_rounds(bundle, cameras, 2)) return false;
   bundle.twists = kTrialTwists;

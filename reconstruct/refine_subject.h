@@ -32,6 +32,14 @@ struct SubjectEvidence {
   std::array<int, kHumanBoneCount> located_frames{};
 };
 
+/// Returns in how many pictures of the bundle's frames the tag is seen.
+[[nodiscard]] int sightings_of(std::size_t tag, const SubjectBundle& bundle);
+
+/// Returns whether the tag is seen too seldom to be placed beside other tags of its
+/// segment that are seen more often: one wrong reading would place it and turn the
+/// segment.
+[[nodiscard]] bool has_no_say(std::size_t tag, const SubjectBundle& bundle);
+
 /// Refines `bundle`: first the trunk and the limbs' two bones, with a loss that tightens
 /// step by step, then hands and feet, each by hypotheses, then everything together. Tags
 /// whose sightings the body does not explain are taken out and placed anew, or left out.

@@ -64,6 +64,20 @@ double robust_weight(double squared) {
   return 1.0 / (1.0 + squared / kLoss2);
 }
 
+std::vector<int> columns_outside(std::size_t limb) {
+  const LimbSlots& s = kLimbSlots[limb];
+  std::set<int> own;
+  for (const Slot slot :
+       {s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity}) {
+    for (int i = 0; i < tangent_size(slot); ++i) own.insert(column_of(slot) + i);
+  }
+  std::vector<int> others;
+  for (int column = 0; column < kPostureFreedom; ++column) {
+    if (!own.contains(column)) others.push_back(column);
+  }
+  return others;
+}
+
 SightingNoise SubjectBundle::noise(std::size_t tag,
                                    const Posture& posture,
                                    const UnfoldedPosture& unfolded) const {
@@ -94,14 +108,7 @@ BundleSolver::BundleSolver(const SubjectBundle& bundle,
 void BundleSolver::hold_all_but(std::size_t limb, const BodyModel& model) {
   const LimbSlots& s = kLimbSlots[limb];
   const HumanLimb& bones = human_limbs()[limb];
-  std::set<int> free;
-  for (const Slot slot :
-       {s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity}) {
-    for (int i = 0; i < tangent_size(slot); ++i) free.insert(column_of(slot) + i);
-  }
-  for (int column = 0; column < kPostureFreedom; ++column) {
-    if (!free.contains(column)) held_posture_.push_back(column);
-  }
+  held_posture_ = columns_outside(limb);
   held_subject_.assign(static_cast<std::size_t>(columns_.size()), true);
   held_subject_[index(s.upper)] = false;
   held_subject_[index(s.lower)] = false;

@@ -20,11 +20,27 @@ constexpr double kShoulderBase_m = 0.05;
 constexpr double kNeckForward_m = 0.012;
 constexpr double kSidesDiffer_m = 0.008;
 
-// A tag's plate lies on the flesh: at least the bone's own radius from its axis, at most
-// the radius of a heavy thigh and a plate on a strap.
+// A tag's plate lies on the flesh: at least the bone's own radius from its axis, on the
+// side that it faces, at most the radius of a heavy limb and a plate on a strap.
 constexpr double kLeastRadius_m = 0.02;
-constexpr double kMostRadius_m = 0.14;
 constexpr double kRadiusSigma_m = 0.015;
+/// Distance of a tag from a bone's axis.
+struct UsualRadius {
+  double usual_m = 0.0;  ///< Of an adult's flesh at half the bone's length, and a plate.
+  double sigma_m = 0.0;  ///< Slim to stout, and along the bone.
+  double most_m = 0.0;
+};
+/// Upper arm, forearm, thigh, shank.
+constexpr std::array<UsualRadius, 4> kUsualRadius{{{0.058, 0.022, 0.11},
+                                                   {0.045, 0.018, 0.09},
+                                                   {0.090, 0.028, 0.14},
+                                                   {0.062, 0.022, 0.11}}};
+// Sine of the angle between a tag's normal and the bone: below, the normal does not say
+// on which side of the bone the tag is.
+constexpr double kLeastSine = 0.3;
+// A hand's tag lies on a strap about wrist or palm at most this far from the line through
+// the hand. [m]
+constexpr double kMostHandRadius_m = 0.07;
 constexpr double kPastEnd_m = 0.03;
 constexpr double kAlongSigma_m = 0.03;
 // Distance of the line along a limb tag's normal from the bone's axis: its standard
@@ -56,12 +72,18 @@ using JetVector = Eigen::Matrix<Jet, 3, 1>;
 struct LimbBone {
   std::size_t limb = 0;
   Length length{};
+  const UsualRadius* radius = nullptr;
 };
 
 std::optional<LimbBone> limb_bone_of(HumanBone bone) {
   for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
-    if (bone == human_limbs()[limb].upper) return LimbBone{limb, kLimbSlots[limb].upper};
-    if (bone == human_limbs()[limb].lower) return LimbBone{limb, kLimbSlots[limb].lower};
+    const std::size_t first = limb < 2 ? 0 : 2;
+    if (bone == human_limbs()[limb].upper) {
+      return LimbBone{limb, kLimbSlots[limb].upper, &kUsualRadius[first]};
+    }
+    if (bone == human_limbs()[limb].lower) {
+      return LimbBone{limb, kLimbSlots[limb].lower, &kUsualRadius[first + 1]};
+    }
   }
   return std::nullopt;
 }
@@ -87,8 +109,25 @@ Jet excess(const Jet& value, double limit, double sigma) {
 }
 
 struct TagTerms {
-  std::array<Jet, 4> residual{};  ///< Too far off, too near, past an end, facing.
+  /// Too far off, too near, past an end, facing, radius.
+  std::array<Jet, 5> residual{};
 };
+
+/// The tag's normal, which points into the flesh.
+JetVector normal_of(const RigidTransform& pose) {
+  const Eigen::Vector3d n = eigen(pose.rotation * glm::dvec3(0, 0, 1));
+  const Eigen::Matrix3d by_turn = -cross_matrix(n);
+  JetVector normal;
+  for (int i = 0; i < 3; ++i) {
+    normal[i] = Jet(n[i]);
+    for (int k = 0; k < 3; ++k) normal[i].v[k] = by_turn(i, k);
+  }
+  return normal;
+}
+
+Jet length_of(const JetVector& v) {
+  return sqrt(v.squaredNorm() + 1e-12);
+}
 
 TagTerms tag_terms(const BodyModel& model, std::size_t tag) {
   const RigidTransform& pose = *model.place(tag);
@@ -98,32 +137,34 @@ TagTerms tag_terms(const BodyModel& model, std::size_t tag) {
   TagTerms terms;
   const auto limb = limb_bone_of(bone);
   if (!limb) {
-    const Jet reach = sqrt(p.squaredNorm() + 1e-12);
+    const Jet reach = length_of(p);
     terms.residual[0] = excess(reach, most_reach_m(bone), kAlongSigma_m);
+    if (bone == HumanBone::kLeftHand || bone == HumanBone::kRightHand) {
+      p[0] = Jet(0.0);
+      terms.residual[1] = excess(length_of(p), kMostHandRadius_m, kRadiusSigma_m);
+    }
     return terms;
   }
   const glm::dvec3 axis = limb_axis(limb->limb);
   const JetVector along(Jet(axis.x), Jet(axis.y), Jet(axis.z));
   const Jet height = p.dot(along);
-  const Jet radius = sqrt((p - height * along).squaredNorm() + 1e-12);
-  terms.residual[0] = excess(radius, kMostRadius_m, kRadiusSigma_m);
-  terms.residual[1] = excess(-radius, -kLeastRadius_m, kRadiusSigma_m);
+  const JetVector off_axis = p - height * along;
+  const Jet radius = length_of(off_axis);
+  const JetVector normal = normal_of(pose);
+  const JetVector off_normal = normal - normal.dot(along) * along;
+  const Jet sine = length_of(off_normal);
+  // A tag that faces its bone is on the wrong side of it.
+  const Jet outside = sine.a > kLeastSine ? -off_axis.dot(off_normal) / sine : radius;
+  terms.residual[0] = excess(radius, limb->radius->most_m, kRadiusSigma_m);
+  terms.residual[1] = excess(-outside, -kLeastRadius_m, kRadiusSigma_m);
+  terms.residual[4] = (outside - limb->radius->usual_m) / limb->radius->sigma_m;
   const Jet length(model.lengths[index(limb->length)], 6);
   const Jet past = height.a < 0.5 * length.a ? -height : height - length;
   terms.residual[2] = excess(past, kPastEnd_m, kAlongSigma_m);
-  // The line through the tag's middle along its normal passes the bone's axis nearby.
-  const glm::dvec3 normal = pose.rotation * glm::dvec3(0, 0, 1);
-  JetVector turned;
-  const Eigen::Vector3d n = eigen(normal);
-  const Eigen::Matrix3d by_turn = -cross_matrix(n);
-  for (int i = 0; i < 3; ++i) {
-    turned[i] = Jet(n[i]);
-    for (int k = 0; k < 3; ++k) turned[i].v[k] = by_turn(i, k);
-  }
-  const JetVector across = along.cross(turned);
-  // A tag that faces along the bone says nothing.
-  const Jet sine = sqrt(across.squaredNorm() + 1e-12) + 0.05;
-  terms.residual[3] = p.dot(across) / (sine * (kFacing_m + kFacing_rad * radius.a));
+  // The line through the tag's middle along its normal passes the bone's axis nearby. A
+  // tag that faces along the bone says nothing.
+  terms.residual[3] =
+      p.dot(along.cross(normal)) / ((sine + 0.05) * (kFacing_m + kFacing_rad * radius.a));
   return terms;
 }
 

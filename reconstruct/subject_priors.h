@@ -21,9 +21,10 @@ struct SubjectSystem {
 };
 
 /// Adds the terms of a body of which an average person's lengths are `usual`. Limb tags:
-/// 2 to 14 cm off the bone's axis, between its ends, facing away from it; tags elsewhere
-/// within 0.2 to 0.4 m of their joint. Constant inside, quadratic outside (but for the
-/// facing term, a Gaussian of 2 cm).
+/// at least 2 cm off the bone's axis on the side that they face, at most 9 cm (forearms)
+/// to 14 cm (thighs), between the bone's ends; tags elsewhere within 0.2 to 0.4 m of
+/// their joint, a hand's within 7 cm of its line. Constant inside, quadratic outside (but
+/// for the facing term, a Gaussian of 2 cm).
 void add_subject_priors(const BodyModel& model,
                         const Lengths& usual,
                         const SubjectColumns& columns,

@@ -23,6 +23,10 @@ inline constexpr double kBehind2 = 8e6;
 [[nodiscard]] double robust_cost(double squared);
 [[nodiscard]] double robust_weight(double squared);
 
+/// The posture's columns that are not of the limb: neither its frame, its bends and
+/// twists nor its extremity.
+[[nodiscard]] std::vector<int> columns_outside(std::size_t limb);
+
 class BundleSolver {
  public:
   BundleSolver(const SubjectBundle& bundle,

@@ -117,6 +117,29 @@ TEST(DoubtSubject, NamesABoneThatHardlyAnyFrameLocates) {
       << fit.told();
 }
 
+TEST(DoubtSubject, NamesATagThatIsNotOnItsSegmentsSkin) {
+  Fitted fit;
+  fit.bundle.model.segment_from_tag[0].translation = glm::dvec3(0.0, -0.2, 0.2);
+  EXPECT_NE(fit.told().find("tag 10 is fitted to a place where segment \"leftLowerLeg\""),
+            std::string::npos)
+      << fit.told();
+}
+
+TEST(DoubtSubject, NamesALimbThatStandsTurnedAboutItself) {
+  Fitted fit;
+  BundleFrame frame;
+  frame.standing = true;
+  fit.bundle.frames.push_back(frame);
+  EXPECT_EQ(fit.told(), "");
+  fit.bundle.frames[0].posture.set_rotation(
+      Slot::kLeftLeg, rotation_from_vector(glm::dvec3(0.0, 2.5, 0.0)));
+  EXPECT_NE(
+      fit.told().find("segment \"leftUpperLeg\" is fitted turned about its own axis "
+                      "by 143 degrees"),
+      std::string::npos)
+      << fit.told();
+}
+
 TEST(DoubtSubject, NamesSidesThatDifferAndLengthsThatNobodyHas) {
   Fitted fit;
   fit.bundle.model.lengths[index(Length::kRightLowerLeg)] = 0.455;
