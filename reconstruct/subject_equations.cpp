@@ -99,9 +99,6 @@ double slide_share(HumanBone bone) {
     case B::kLeftUpperLeg:
     case B::kRightUpperLeg:
       return 1.0;
-    case B::kLeftUpperArm:
-    case B::kRightUpperArm:
-      return 0.7;
     case B::kHips:
     case B::kSpine:
     case B::kChest:
@@ -109,11 +106,14 @@ double slide_share(HumanBone bone) {
     case B::kLeftShoulder:
     case B::kRightShoulder:
       return 0.5;
+    case B::kLeftUpperArm:
+    case B::kRightUpperArm:
     case B::kLeftLowerLeg:
     case B::kRightLowerLeg:
+      return 0.4;
     case B::kLeftLowerArm:
     case B::kRightLowerArm:
-      return 0.4;
+      return 0.2;
     default:
       return 0.15;
   }
