@@ -203,8 +203,25 @@ void begin_slides(SubjectBundle& bundle) {
   }
 }
 
-/// Estimates how far skin slides; returns the present value if the equations have no
-/// solution.
+/// How much larger the variance of corners is than they claim: at least 1.
+double stray2(const SubjectBundle& bundle) {
+  double sum_px = 0.0;
+  double count = 0.0;
+  for (const BundleFrame& frame : bundle.frames) {
+    for (const TagSighting& s : frame.sightings) {
+      sum_px += s.detection->sigma_px;
+      count += 1.0;
+    }
+  }
+  if (count == 0.0) return 1.0;
+  const double stray =
+      std::max(1.0, bundle.median_px * count / (kMedianOfUnitNoise * sum_px));
+  return stray * stray;
+}
+
+/// Estimates how far skin slides. What is the same in all sightings of one tag by one
+/// camera is no noise here: slides count from the tag's mean angles. Returns the present
+/// value if the equations have no solution.
 double estimated_slide_m_per_rad(const SubjectBundle& bundle,
                                  std::span<const Camera> cameras) {
   const BundleSolver solver(bundle, cameras, {});
@@ -229,19 +246,17 @@ double estimated_slide_m_per_rad(const SubjectBundle& bundle,
   SlideSystem slides = slides_of(all, system.gradient, own);
   slides.gradient -= slides.information * rates;
   const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(slides.information);
-  const double variance = slide_variance(spectrum, slides.gradient, bundle.prior_weight);
+  const double variance = slide_variance(spectrum, slides.gradient, stray2(bundle));
   return std::clamp(std::sqrt(variance), kLeastSlide_m_per_rad, kMostSlide_m_per_rad);
 }
 
 }  // namespace
 
 double variance_scale(const SubjectBundle& bundle) {
-  double sum_px = 0.0;
   double count = 0.0;
   std::map<std::pair<std::size_t, CameraId>, double> repeated;
   for (const BundleFrame& frame : bundle.frames) {
     for (const TagSighting& s : frame.sightings) {
-      sum_px += s.detection->sigma_px;
       count += 1.0;
       repeated[{s.tag, s.camera}] += 1.0;
     }
@@ -251,9 +266,7 @@ double variance_scale(const SubjectBundle& bundle) {
   double squares = 0.0;
   for (const auto& [pair, times] : repeated) squares += times * times;
   const double effect = 1.0 + (squares / count - 1.0) * bundle.common_share;
-  const double stray =
-      std::max(1.0, bundle.median_px * count / (kMedianOfUnitNoise * sum_px));
-  return effect * stray * stray;
+  return effect * stray2(bundle);
 }
 
 bool refine_slides(SubjectBundle& bundle, std::span<const Camera> cameras) {
