@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "app/judge_motion.h"
+
 namespace marey::app {
 namespace {
 
@@ -16,6 +18,8 @@ constexpr double kPoorSubjectPx = 5.0;
 constexpr double kPoorTrialPx = 8.0;
 constexpr double kPoorMedianPx = 3.0;
 constexpr double kPoorCameraMedianPx = 5.0;
+constexpr double kPoorTagMedianPx = 5.0;
+constexpr int kFewestCorners = 80;  // 20 pictures.
 constexpr double kLeastSolved = 0.9;
 
 std::string text(const char* pattern, double a, double b = 0.0) {
@@ -26,6 +30,24 @@ std::string text(const char* pattern, double a, double b = 0.0) {
 
 Error poor(std::string where, std::string cause, std::string next) {
   return {Errc::kQuality, std::move(where), std::move(cause), std::move(next)};
+}
+
+/// The tag that is farthest from its place on the body, of those that are often seen: a
+/// trial's figures hide one among thirty.
+void judge_tags(const ReportTrial& trial, std::vector<Error>& found) {
+  const ReportTag* worst = nullptr;
+  for (const ReportTag& tag : trial.tags) {
+    if (!tag.median_px || tag.corners < kFewestCorners) continue;
+    if (!worst || *tag.median_px > *worst->median_px) worst = &tag;
+  }
+  if (!worst || *worst->median_px < kPoorTagMedianPx) return;
+  found.push_back(
+      poor("trial " + trial.name + ", tag " + std::to_string(worst->id),
+           text("it is seen %.0f px away from its place on segment ", *worst->median_px) +
+               worst->segment + " (median; good: under 1)",
+           "check that it did not shift after the range of motion, and that "
+           "nobody else wears its number; then record again, or remove it "
+           "from session.toml"));
 }
 
 void judge_trial(const ReportTrial& trial, std::vector<Error>& found) {
@@ -49,7 +71,11 @@ void judge_trial(const ReportTrial& trial, std::vector<Error>& found) {
                          "check that this is its video of this trial, that its frames "
                          "are evenly spaced, and that it was not moved"));
   }
-  if (told || (trial.rms_px < kPoorTrialPx && trial.median_px < kPoorMedianPx)) return;
+  if (told) return;
+  if (trial.rms_px < kPoorTrialPx && trial.median_px < kPoorMedianPx) {
+    judge_tags(trial, found);
+    return;
+  }
   found.push_back(poor(where,
                        text("the motion is %.1f px away from what the cameras saw "
                             "(median %.1f; good: under 2)",
@@ -80,7 +106,10 @@ std::vector<Error> judge_quality(const Report& report) {
                          "that tags are glued firmly, and that both trials show the same "
                          "person"));
   }
-  for (const ReportTrial& trial : report.trials) judge_trial(trial, found);
+  for (const ReportTrial& trial : report.trials) {
+    judge_trial(trial, found);
+    for (Error& error : judge_motion(trial)) found.push_back(std::move(error));
+  }
   return found;
 }
 

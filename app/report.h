@@ -50,6 +50,11 @@ struct ReportTag {
   int id = 0;
   std::string segment;
   std::vector<int> cameras_seeing;  ///< Per frame: how many cameras saw it.
+  /// How far the solved motion is from its corners: root mean square and median; none of
+  /// a tag that the body does without.
+  std::optional<double> rms_px = std::nullopt;
+  std::optional<double> median_px = std::nullopt;
+  int corners = 0;
 };
 
 /// A video frame with the solved skeleton and the detected tags drawn over it. Lines and
@@ -81,11 +86,11 @@ struct ReportBody {
   // Of avatars only.
   double slide_before_cm_per_s = 0.0;
   double slide_after_cm_per_s = 0.0;
-  double penetration_mm = 0.0;    ///< Of its skin; of its feet's ends without one.
-  std::string penetration_part;   ///< Of the skin; empty: none is below the floor.
-  int penetration_frame = -1;     ///< Likewise; counted from the motion's first frame.
-  double source_depth_mm = 0.0;   ///< How far the subject's joints are below the floor.
-  double legs_deg = 0.0;  ///< From the subject's: the largest median of a segment.
+  double penetration_mm = 0.0;   ///< Of its skin; of its feet's ends without one.
+  std::string penetration_part;  ///< Of the skin; empty: none is below the floor.
+  int penetration_frame = -1;    ///< Likewise; counted from the motion's first frame.
+  double source_depth_mm = 0.0;  ///< How far the subject's joints are below the floor.
+  double legs_deg = 0.0;         ///< From the subject's: the largest median of a segment.
   double arms_deg = 0.0;
   double trunk_deg = 0.0;
   std::vector<std::string> problems;
@@ -122,7 +127,7 @@ struct Report {
   /// This run calibrated them: it said what there is to say (app/judge_calibration.h).
   bool cameras_are_judged = false;
   bool has_calibration_page = false;  ///< calibration.html lies beside the report.
-  std::optional<Body> subject;  ///< Once it is measured.
+  std::optional<Body> subject;        ///< Once it is measured.
   double subject_rms_px = 0.0;
   double limb_ratio = 0.0;  ///< Limb lengths over an average person's of that stature.
   std::vector<int> unplaced_tags;

@@ -151,10 +151,13 @@ Json tag_figures(const ReportTrial& trial) {
         std::count(tag.cameras_seeing.begin(), tag.cameras_seeing.end(), 0);
     const auto frames = static_cast<int>(tag.cameras_seeing.size());
     const int seen = frames - static_cast<int>(unseen);
-    tags.push_back({{"id", tag.id},
-                    {"segment", tag.segment},
-                    {"seen_frames", seen},
-                    {"seen_percent", percent(seen, frames)}});
+    tags.push_back(
+        {{"id", tag.id},
+         {"segment", tag.segment},
+         {"seen_frames", seen},
+         {"seen_percent", percent(seen, frames)},
+         {"rms_px", tag.rms_px ? Json(px(*tag.rms_px)) : Json(nullptr)},
+         {"median_px", tag.median_px ? Json(px(*tag.median_px)) : Json(nullptr)}});
   }
   return tags;
 }
@@ -263,9 +266,10 @@ double solve_rms_px(const Report& report) {
   return corners > 0.0 ? std::sqrt(squares / corners) : 0.0;
 }
 
-/// The worst camera, frame and joint; averages may hide them.
+/// The worst camera, tag, frame and joint; averages may hide them.
 Json worst_figures(const Report& report) {
-  Json worst{{"camera", nullptr}, {"frame", nullptr}, {"joint", nullptr}};
+  Json worst{
+      {"camera", nullptr}, {"tag", nullptr}, {"frame", nullptr}, {"joint", nullptr}};
   const auto raise = [&](const char* kind, double value, Json row) {
     if (worst[kind].is_null() || value > worst[kind].at("value").get<double>()) {
       row["value"] = value;
@@ -276,6 +280,12 @@ Json worst_figures(const Report& report) {
     for (const ReportTrialCamera& camera : trial.cameras) {
       if (camera.corners == 0) continue;
       raise("camera", px(camera.rms_px), {{"trial", trial.name}, {"name", camera.name}});
+    }
+    for (const ReportTag& tag : trial.tags) {
+      if (!tag.median_px || tag.corners == 0) continue;
+      raise("tag",
+            px(*tag.median_px),
+            {{"trial", trial.name}, {"name", tag.id}, {"segment", tag.segment}});
     }
     for (std::size_t i = 0; i < trial.frame_rms_px.size(); ++i) {
       raise("frame",

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/report_trial.h"
 
+#include <algorithm>
 #include <string>
 
 #include "app/draw_frames.h"
@@ -40,6 +41,13 @@ Result<ReportTrial> report_trial(const recordings::Trial& trial,
                         gap.bridged_as});
   }
   out.tags = tags_over_time(tags, detections, poses);
+  for (const reconstruct::TagFit& fit : solved.tag_fits) {
+    const auto tag = std::ranges::find(out.tags, number(fit.id), &ReportTag::id);
+    if (tag == out.tags.end() || fit.corners == 0) continue;
+    tag->rms_px = fit.rms_px;
+    tag->median_px = fit.median_px;
+    tag->corners = fit.corners;
+  }
   auto pictures = draw_frames(trial, cameras, detections, solved.estimate);
   if (!pictures) return pictures.error();
   out.pictures = std::move(*pictures);

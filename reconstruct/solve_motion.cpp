@@ -31,15 +31,19 @@ ClockSource clock_of(std::size_t camera, const WindowSolver& windows) {
 void measure_fit(const WindowSolver& windows,
                  const Sightings& sightings,
                  std::size_t cameras,
+                 std::span<const TagOnSegment> tags,
                  SolvedTrial& trial) {
   std::vector<std::vector<double>> by_camera(cameras);
+  std::vector<std::vector<double>> by_tag(tags.size());
   std::vector<double> all;
   for (std::size_t f = 0; f < sightings.frames.size(); ++f) {
     std::vector<double> here;
     for (std::size_t i = 0; i < sightings.frames[f].size(); ++i) {
       const std::vector<double> errors = windows.errors_px(f, i);
-      auto& own = by_camera[index(sightings.frames[f][i].camera)];
-      own.insert(own.end(), errors.begin(), errors.end());
+      const TagSighting& s = sightings.frames[f][i];
+      for (auto* of : {&by_camera[index(s.camera)], &by_tag[s.tag]}) {
+        of->insert(of->end(), errors.begin(), errors.end());
+      }
       here.insert(here.end(), errors.begin(), errors.end());
     }
     trial.frame_rms_px.push_back(root_mean_square(here));
@@ -52,6 +56,13 @@ void measure_fit(const WindowSolver& windows,
                              static_cast<int>(by_camera[c].size()),
                              windows.offsets_s()[c],
                              clock_of(c, windows)});
+  }
+  for (std::size_t tag = 0; tag < tags.size(); ++tag) {
+    const std::vector<double>& errors = by_tag[tag];
+    trial.tag_fits.push_back({tags[tag].id,
+                              root_mean_square(errors),
+                              errors.empty() ? 0.0 : median(errors),
+                              static_cast<int>(errors.size())});
   }
   trial.rms_px = root_mean_square(all);
   if (!all.empty()) trial.median_px = median(std::move(all));
@@ -249,7 +260,7 @@ Result<SolvedTrial> solve_motion(const Body& body,
   const ReadingSigmas readings =
       try_second_readings(model, cameras, sightings, windows, *postures);
   SolvedTrial trial;
-  measure_fit(windows, sightings, cameras.size(), trial);
+  measure_fit(windows, sightings, cameras.size(), model.tags, trial);
   Motion& motion = trial.estimate.motion;
   motion.skeleton = make_humanoid(body.proportions);
   motion.rate = sightings.rate;

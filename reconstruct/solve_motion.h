@@ -48,6 +48,14 @@ struct CameraFit {
   ClockSource clock = ClockSource::kEstimated;
 };
 
+/// Reprojection of one tag of the body, over all cameras and frames.
+struct TagFit {
+  TagId id{};
+  double rms_px = 0.0;
+  double median_px = 0.0;
+  int corners = 0;
+};
+
 /// How well one tag of the body is known in one frame.
 struct TagDoubt {
   /// Standard deviation of its centre, root mean square over coordinates, its slip on the
@@ -61,6 +69,7 @@ struct SolvedTrial {
   EstimatedMotion estimate;
   std::vector<std::vector<TagDoubt>> tags;  ///< [frame][tag of the body]
   std::vector<CameraFit> cameras;
+  std::vector<TagFit> tag_fits;      ///< In the order of the body's tags.
   std::vector<double> frame_rms_px;  ///< Per frame; 0 where no tag was seen.
   std::vector<int> tags_seen;        ///< Per frame: sightings over all cameras.
   std::vector<Gap> gaps;             ///< By segment, then frame. Tagged segments only.

@@ -55,6 +55,20 @@ TEST(JudgeQuality, CountsFramesWithoutAnAnswer) {
   EXPECT_EQ(found[0].cause, "only 89 of 100 frames could be solved");
 }
 
+TEST(JudgeQuality, NamesATagThatSitsElsewhere) {
+  Report report = decent();
+  report.trials[0].tags = {{10, "leftFoot", {}, 0.9, 0.6, 400},
+                           {11, "leftLowerLeg", {}, 14.0, 12.3, 400},
+                           {12, "leftHand", {}, 80.0, 70.0, 76}};
+  const auto found = judge_quality(report);
+  ASSERT_EQ(found.size(), 1U) << "of a tag that is hardly seen nothing is said";
+  EXPECT_EQ(found[0].code, Errc::kQuality);
+  EXPECT_EQ(found[0].where, "trial walk, tag 11");
+  EXPECT_EQ(found[0].cause,
+            "it is seen 12 px away from its place on segment leftLowerLeg (median; good: "
+            "under 1)");
+}
+
 TEST(JudgeQuality, DoubtsASubjectWithExchangedTags) {
   Report report = decent();
   report.subject_rms_px = 10.0;

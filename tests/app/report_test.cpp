@@ -49,9 +49,13 @@ TEST(ReportJson, SumsUpTheTrials) {
   EXPECT_EQ(summary.at("times_real_time"), 2.0);
 }
 
-TEST(ReportJson, NamesTheWorstCameraFrameAndJoint) {
+TEST(ReportJson, NamesTheWorstCameraTagFrameAndJoint) {
   Report told = report();
   ReportTrial& trial = told.trials.front();
+  ASSERT_FALSE(trial.tags.empty());
+  trial.tags.back().median_px = 3.25;
+  trial.tags.back().rms_px = 4.5;
+  trial.tags.back().corners = 40;
   trial.cameras.back().rms_px = 7.5;
   trial.cameras.back().corners = 100;
   trial.first_frame = 10;
@@ -66,6 +70,10 @@ TEST(ReportJson, NamesTheWorstCameraFrameAndJoint) {
   EXPECT_EQ(worst.at("camera").at("trial"), trial.name);
   EXPECT_EQ(worst.at("camera").at("name"), trial.cameras.back().name);
   EXPECT_EQ(worst.at("camera").at("value"), 7.5);
+  EXPECT_EQ(worst.at("tag").at("name"), trial.tags.back().id);
+  EXPECT_EQ(worst.at("tag").at("segment"), trial.tags.back().segment);
+  EXPECT_EQ(worst.at("tag").at("value"), 3.25);
+  EXPECT_EQ(parsed(told).at("trials")[0].at("tags").back().at("rms_px"), 4.5);
   EXPECT_EQ(worst.at("frame").at("name"), 13);
   EXPECT_EQ(worst.at("frame").at("value"), 40.25);
   EXPECT_EQ(worst.at("joint").at("name"),

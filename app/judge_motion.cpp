@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/judge_motion.h"
+
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "core/humanoid.h"
+#include "core/pose.h"
+#include "core/transform.h"
+
+namespace marey::app {
+namespace {
+
+constexpr double kMostTurn_rad_s = 45.0;
+constexpr double kMostSpeed_m_s = 25.0;
+
+/// The worst step from one frame to the next, in limits.
+struct Leap {
+  double in_limits = 1.0;
+  std::string what;
+  std::size_t frame = 0;  ///< The second of the two, counted from the trial's first.
+  int steps = 0;          ///< Beyond the limits, of all segments and joints.
+
+  void look(double here_in_limits, std::size_t at, const auto& words) {
+    if (here_in_limits <= 1.0) return;
+    ++steps;
+    if (here_in_limits <= in_limits) return;
+    in_limits = here_in_limits;
+    frame = at;
+    what = words();
+  }
+};
+
+std::string in_quotes(HumanBone bone) {
+  std::string text(1, '"');
+  text += name(bone);
+  text += '"';
+  return text;
+}
+
+}  // namespace
+
+std::vector<Error> judge_motion(const ReportTrial& trial) {
+  if (trial.bodies.empty()) return {};
+  const ReportBody& body = trial.bodies.front();
+  const Motion& motion = body.motion;
+  if (body.doubt.size() != motion.poses.size()) return {};
+  const double hz = trial.rate.hz;
+  Leap leap;
+  std::vector<RigidTransform> before;
+  for (std::size_t f = 0; f < motion.poses.size(); ++f) {
+    std::vector<RigidTransform> now = world_from_joints(motion.skeleton, motion.poses[f]);
+    for (std::size_t b = 0; f > 0 && b < kHumanBoneCount; ++b) {
+      const auto is_measured = [&](std::size_t frame) {
+        return body.doubt[frame].size() > b &&
+               body.doubt[frame][b].source == Source::kMeasured;
+      };
+      if (!is_measured(f - 1) || !is_measured(f)) continue;
+      const HumanBone bone = human_bones()[b];
+      const double turn_rad = glm::length(
+          rotation_vector(glm::conjugate(before[b].rotation) * now[b].rotation));
+      leap.look(turn_rad * hz / kMostTurn_rad_s, f, [&] {
+        return "segment " + in_quotes(bone) + " turns by " +
+               std::to_string(std::lround(glm::degrees(turn_rad))) + " degrees";
+      });
+      const double moved_m = glm::distance(before[b].translation, now[b].translation);
+      leap.look(moved_m * hz / kMostSpeed_m_s, f, [&] {
+        return "joint " + in_quotes(bone) + " travels by " +
+               std::to_string(std::lround(1e3 * moved_m)) + " mm";
+      });
+    }
+    before = std::move(now);
+  }
+  if (leap.steps == 0) return {};
+  const int second = trial.first_frame + static_cast<int>(leap.frame);
+  std::string cause = leap.what + " between frames " + std::to_string(second - 1) +
+                      " and " + std::to_string(second) + ", faster than a body can";
+  if (leap.steps > 1) {
+    cause += " (and " + std::to_string(leap.steps - 1) + " more such steps)";
+  }
+  return {
+      {Errc::kQuality,
+       "trial " + trial.name,
+       std::move(cause),
+       "look at these frames in report.html; a second tag on that segment, or another "
+       "camera that sees it, tells its sides apart"}};
+}
+
+}  // namespace marey::app
