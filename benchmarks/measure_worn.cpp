@@ -3,10 +3,13 @@
 // How often are exchanged segments found, and how often falsely?
 //
 //   measure_worn FIRST LAST
+//   measure_worn --tags FIRST LAST
 //
 // simulates the sessions of these seeds (tests/support/simulated_session.h) and runs
 // check_worn() on each, as it is and with exchanges of segments. "reported": an error.
-// "named": it names the segments, or the limbs, that were exchanged.
+// "named": it names the segments, or the limbs, that were exchanged. With --tags one tag
+// of a segment with several is declared on another segment instead, and fit_subject() is
+// run: "named" then is an error or a doubt that names the tag or one of the two segments.
 
 #include <algorithm>
 #include <array>
@@ -14,10 +17,12 @@
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "reconstruct/check_worn.h"
+#include "reconstruct/fit_subject.h"
 #include "reconstruct/sightings.h"
 #include "tests/support/simulated_session.h"
 
@@ -91,15 +96,94 @@ marey::Status check(const marey::testing::SimulatedSession& session,
       }
     }
   }
-  return check_worn({cameras, tags, trials, clusters, located[0], located[1]},
-                    marey::average_proportions(session.body.declared_stature_m));
+  const auto worn =
+      check_worn({cameras, tags, trials, clusters, located[0], located[1]},
+                 marey::average_proportions(session.body.declared_stature_m));
+  if (!worn) return worn.error();
+  if (*worn) return (*worn)->error;
+  return marey::Done{};
+}
+
+/// One tag of a segment with several, declared on another segment; drawn by the seed.
+struct Misdeclared {
+  std::size_t tag = 0;
+  B segment{};
+};
+
+Misdeclared misdeclared(const std::vector<TagOnSegment>& tags, int seed) {
+  std::mt19937 dice(static_cast<std::mt19937::result_type>(seed));
+  std::vector<std::size_t> several;
+  std::vector<B> segments;
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    const auto same = [&](const TagOnSegment& t) { return t.segment == tags[i].segment; };
+    if (std::count_if(tags.begin(), tags.end(), same) > 1) several.push_back(i);
+    if (std::count(segments.begin(), segments.end(), tags[i].segment) == 0) {
+      segments.push_back(tags[i].segment);
+    }
+  }
+  if (several.empty()) return {tags.size(), {}};
+  const std::size_t tag = several[dice() % several.size()];
+  std::erase(segments, tags[tag].segment);
+  return {tag, segments[dice() % segments.size()]};
+}
+
+int measure_single_tags(int first, int last) {
+  int made = 0;
+  int told = 0;
+  int named = 0;
+  for (int seed = first; seed <= last; ++seed) {
+    const auto session =
+        marey::testing::simulate_session(static_cast<std::uint64_t>(seed));
+    std::vector<TagOnSegment> tags = session.declared_tags();
+    const Misdeclared change = misdeclared(tags, seed);
+    if (change.tag == tags.size()) continue;
+    const auto fit_with = [&](const std::vector<TagOnSegment>& declared) {
+      return marey::reconstruct::fit_subject(
+          {"someone", session.body.declared_stature_m, {}, declared},
+          session.rig.cameras,
+          session.standing.detections,
+          session.moving.detections);
+    };
+    // Of a session that is refused anyway nothing is learnt.
+    const auto right = fit_with(tags);
+    if (!right || !right->doubts.empty()) continue;
+    const B worn = tags[change.tag].segment;
+    tags[change.tag].segment = change.segment;
+    ++made;
+    std::string words;
+    const auto fit = fit_with(tags);
+    if (!fit) words = fit.error().message();
+    for (std::size_t i = 0; fit && i < fit->doubts.size(); ++i) {
+      words += fit->doubts[i].message() + "\n";
+    }
+    told += words.empty() ? 0 : 1;
+    const bool is_named =
+        words.find("tag " + std::to_string(number(tags[change.tag].id))) !=
+            std::string::npos ||
+        words.find(name(worn)) != std::string::npos ||
+        words.find(name(change.segment)) != std::string::npos;
+    named += is_named ? 1 : 0;
+    if (is_named) continue;
+    std::printf("seed %d, tag %d of %s declared on %s: %s\n",
+                seed,
+                number(tags[change.tag].id),
+                std::string(name(worn)).c_str(),
+                std::string(name(change.segment)).c_str(),
+                words.empty() ? "nothing is reported" : words.c_str());
+    std::fflush(stdout);
+  }
+  std::printf("%d made, %d reported, %d named\n", made, told, named);
+  return 0;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (argc == 4 && std::string(argv[1]) == "--tags") {
+    return measure_single_tags(std::atoi(argv[2]), std::atoi(argv[3]));
+  }
   if (argc != 3) {
-    std::fprintf(stderr, "usage: measure_worn FIRST LAST\n");
+    std::fprintf(stderr, "usage: measure_worn [--tags] FIRST LAST\n");
     return 2;
   }
   std::map<std::string, std::array<int, 3>> counts;  // Made, reported, named.

@@ -57,12 +57,24 @@ void rename_all(const Renaming& names, Renamed& body, std::vector<HumanBone>& se
   }
 }
 
+/// Tags whose segment is not the declared one.
+std::vector<std::size_t> moved(const WornTags& worn,
+                               std::span<const HumanBone> segments) {
+  std::vector<std::size_t> tags;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (segments[i] != solved_segment(worn.tags[i].segment)) tags.push_back(i);
+  }
+  return tags;
+}
+
 }  // namespace
 
-Status check_worn(const WornTags& worn, const Proportions& average) {
+Result<std::optional<WornDoubt>> check_worn(const WornTags& worn,
+                                            const Proportions& average) {
   MAREY_ASSERT(worn.trials.size() == 2);
   const auto singles = locate_single_tags(worn.cameras, worn.tags, worn.trials[1]);
   std::vector<HumanBone> segments = segments_by_rigidity(worn.tags, singles);
+  const std::vector<HumanBone> by_rigidity = segments;
   const bool as_declared =
       std::ranges::equal(segments, worn.tags, {}, {}, [](const auto& t) {
         return solved_segment(t.segment);
@@ -89,9 +101,13 @@ Status check_worn(const WornTags& worn, const Proportions& average) {
       undecided = sides.error();
     }
   }
-  if (auto error = exchange_error(worn.tags, segments)) return *error;
+  const auto error = exchange_error(worn.tags, segments);
+  if (error && segments == by_rigidity) {
+    return std::optional(WornDoubt{*error, moved(worn, segments)});
+  }
+  if (error) return *error;
   if (undecided) return *undecided;
-  return Done{};
+  return std::optional<WornDoubt>();
 }
 
 }  // namespace marey::reconstruct

@@ -4,6 +4,7 @@
 
 // Private to reconstruct: a check that tags are worn on the segments that list them.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,13 +25,22 @@ struct WornTags {
   std::span<const ClusterPoses> moving;
 };
 
+/// Single tags that seem to move as another segment than theirs does. Where few frames
+/// show two tags together, a limb that was still in all of them looks the same, so that a
+/// body that explains these tags as declared refutes it.
+struct WornDoubt {
+  Error error;                    ///< kBadInput, "[[tags.tag]]", with what to correct.
+  std::vector<std::size_t> tags;  ///< By position in WornTags::tags.
+};
+
 /// Checks by their movement that tags are worn on the segments that they are declared on.
+/// Returns a doubt about single tags, or nullopt.
 ///
-/// Errors (kBadInput, `where` "[[tags.tag]]"): tags that move as another segment does,
-/// segments that are exchanged with each other, left and right exchanged on the arms, the
-/// legs or both; each with what to correct. Only exchanges with which the body moves far
-/// better are reported: a body that hardly moved passes. Cost: some seconds.
-/// Precondition: two trials.
-[[nodiscard]] Status check_worn(const WornTags& worn, const Proportions& average);
+/// Errors (kBadInput, `where` "[[tags.tag]]"): segments that are exchanged with each
+/// other, left and right exchanged on the arms, the legs or both; each with what to
+/// correct. Only exchanges with which the body moves far better are reported: a body that
+/// hardly moved passes. Cost: some seconds. Precondition: two trials.
+[[nodiscard]] Result<std::optional<WornDoubt>> check_worn(const WornTags& worn,
+                                                          const Proportions& average);
 
 }  // namespace marey::reconstruct

@@ -30,6 +30,7 @@ constexpr std::size_t kMovingFrames = 90;
 constexpr std::size_t kLocatedFrames = 300;
 constexpr std::size_t kFramesPerTag = 3;
 constexpr std::size_t kFewestMovingFrames = 10;
+constexpr int kSteps = 4;  // Of the progress.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
   std::vector<std::size_t> chosen;
   const std::size_t n = std::min(count, wanted);
@@ -278,27 +279,21 @@ SubjectFit to_fit(const SubjectPrior& prior,
   return fit;
 }
 
-}  // namespace
+/// The trials as the fit starts from them.
+struct LocatedTrials {
+  std::span<const Sightings> trials;  ///< Standing, moving; likewise the next two.
+  std::span<const TagCluster> clusters;
+  const LocatedTrial& stood;
+  const LocatedTrial& moved;
+};
 
-Result<SubjectFit> fit_subject(const SubjectPrior& prior,
+Result<SubjectFit> fit_located(const SubjectPrior& prior,
                                std::span<const Camera> cameras,
-                               std::span<const CameraDetections> standing,
-                               std::span<const CameraDetections> moving,
-                               const Progress& progress) {
-  constexpr int kSteps = 4;
-  const auto tell = [&](int step) {
-    if (progress) progress(step, kSteps);
-  };
-  tell(0);
+                               const LocatedTrials& located,
+                               const Progress& tell,
+                               SubjectEvidence& evidence) {
+  const auto& [trials, clusters, stood, moved] = located;
   const Proportions average = average_proportions(prior.stature_m);
-  const std::array<Sightings, 2> trials{group_sightings(standing, prior.tags),
-                                        group_sightings(moving, prior.tags)};
-  const auto clusters = cluster_tags(cameras, prior.tags, trials);
-  const LocatedTrial stood = locate_trial(trials[0], clusters, cameras, prior.tags);
-  const LocatedTrial moved = locate_trial(trials[1], clusters, cameras, prior.tags);
-  tell(1);
-  const WornTags worn{cameras, prior.tags, trials, clusters, stood.poses, moved.poses};
-  if (const Status ok = check_worn(worn, average); !ok) return ok.error();
   const auto frames = find_segment_frames(clusters, stood.poses, moved.poses, average);
   if (!frames) return frames.error();
 
@@ -326,16 +321,15 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
   add_frames(trials[0], stood, still, true, *frames, bundle);
   add_frames(trials[1], moved, lively, false, *frames, bundle);
   keep_sighted(bundle);
-  tell(2);
-  SubjectEvidence evidence;
+  tell(2, kSteps);
   if (still.empty() || lively.size() < kFewestMovingFrames ||
       !refine_subject(cameras, bundle, evidence)) {
     return unfitted();
   }
   measure(bundle, cameras);
-  tell(3);
+  tell(3, kSteps);
   if (!refine_slides(bundle, cameras) || !fill_sigmas(bundle, cameras)) return unfitted();
-  tell(kSteps);
+  tell(kSteps, kSteps);
   SubjectFit fit = to_fit(prior, bundle, average);
   if (const Status ok = check_size(fit.limb_ratio, prior.stature_m); !ok) {
     return ok.error();
@@ -346,6 +340,48 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
   for (const Error& doubt : fit.doubts) {
     fit.body.doubts.push_back({doubt.cause, doubt.next});
   }
+  return fit;
+}
+
+/// Returns whether the body explains these tags on the segments that they are declared
+/// on: as well as tags in their right places are explained (doubt_subject.cpp).
+bool explains(std::span<const std::size_t> tags, const SubjectEvidence& evidence) {
+  constexpr double kLeastExplained = 0.85;
+  constexpr double kMostMedianRatio = 2.5;
+  return std::ranges::all_of(tags, [&](std::size_t tag) {
+    const auto found = std::ranges::find(evidence.tags, tag, &TagEvidence::tag);
+    return found != evidence.tags.end() && found->explained_share >= kLeastExplained &&
+           found->median_ratio <= kMostMedianRatio;
+  });
+}
+
+}  // namespace
+
+Result<SubjectFit> fit_subject(const SubjectPrior& prior,
+                               std::span<const Camera> cameras,
+                               std::span<const CameraDetections> standing,
+                               std::span<const CameraDetections> moving,
+                               const Progress& progress) {
+  const Progress tell = [&](int step, int steps) {
+    if (progress) progress(step, steps);
+  };
+  tell(0, kSteps);
+  const Proportions average = average_proportions(prior.stature_m);
+  const std::array<Sightings, 2> trials{group_sightings(standing, prior.tags),
+                                        group_sightings(moving, prior.tags)};
+  const auto clusters = cluster_tags(cameras, prior.tags, trials);
+  const LocatedTrial stood = locate_trial(trials[0], clusters, cameras, prior.tags);
+  const LocatedTrial moved = locate_trial(trials[1], clusters, cameras, prior.tags);
+  tell(1, kSteps);
+  const WornTags worn{cameras, prior.tags, trials, clusters, stood.poses, moved.poses};
+  const auto doubt = check_worn(worn, average);
+  if (!doubt) return doubt.error();
+  SubjectEvidence evidence;
+  auto fit =
+      fit_located(prior, cameras, {trials, clusters, stood, moved}, tell, evidence);
+  const bool is_refuted =
+      *doubt && fit && fit->doubts.empty() && explains((*doubt)->tags, evidence);
+  if (*doubt && !is_refuted) return (*doubt)->error;
   return fit;
 }
 
