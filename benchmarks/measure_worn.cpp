@@ -9,7 +9,8 @@
 // check_worn() on each, as it is and with exchanges of segments. "reported": an error.
 // "named": it names the segments, or the limbs, that were exchanged. With --tags one tag
 // of a segment with several is declared on another segment instead, and fit_subject() is
-// run: "named" then is an error or a doubt that names the tag or one of the two segments.
+// run: "named" then is an error or a doubt that names the tag or one of the two segments,
+// or a fit that leaves the tag out.
 
 #include <algorithm>
 #include <array>
@@ -156,6 +157,11 @@ int measure_single_tags(int first, int last) {
     for (std::size_t i = 0; fit && i < fit->doubts.size(); ++i) {
       words += fit->doubts[i].message() + "\n";
     }
+    // The program warns of those.
+    const TagOnSegment& changed = tags[change.tag];
+    const bool is_left_out =
+        fit && std::count(fit->unplaced.begin(), fit->unplaced.end(), changed.id) > 0;
+    if (is_left_out) words += "tag " + std::to_string(number(changed.id)) + " left out";
     told += words.empty() ? 0 : 1;
     const bool is_named =
         words.find("tag " + std::to_string(number(tags[change.tag].id))) !=

@@ -21,8 +21,9 @@ struct Motion {
 
 /// How well one joint of one frame is known.
 struct JointDoubt {
-  double sigma_m = 0.0;  ///< Standard deviation of the joint centre, root mean square of
-                         ///< its three coordinates'.
+  /// Standard deviation of the joint centre, per coordinate: 95 % of its errors are within
+  /// 2.8 times that. [m]
+  double sigma_m = 0.0;
   Source source = Source::kInferred;
 };
 

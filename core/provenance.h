@@ -10,7 +10,9 @@ namespace marey {
 enum class Source {
   kMeasured,  ///< Seen by at least one camera at this very instant.
   kRepaired,  ///< Seen shortly before and after; bridged between.
-  kInferred,  ///< Never or long not seen: follows from its neighbours and priors.
+  /// Never or long not seen, or a limb's joint that is known to no better than 20 mm by
+  /// what is seen of the body's tags: follows from its neighbours and priors.
+  kInferred,
 };
 
 /// "measured", "repaired", "inferred": the words of segments.csv.

@@ -9,6 +9,7 @@
 #include <Eigen/Sparse>
 
 #include "reconstruct/normal_matrix.h"
+#include "reconstruct/point_sigma.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -88,11 +89,14 @@ class PostureJets {
   std::array<const Jet*, kSlotCount> blocks_{};
 };
 
-/// Of a point, root mean square over its coordinates. [m]
+/// Of a point. [m]
 double sigma_of(const Eigen::Matrix<PostureJets::Jet, 3, 1>& p, const Dense& covariance) {
-  double trace = 0.0;
-  for (int axis = 0; axis < 3; ++axis) trace += p[axis].v.dot(covariance * p[axis].v);
-  return std::sqrt(std::max(0.0, trace) / 3.0);
+  Eigen::Matrix3d of_point;
+  for (int column = 0; column < 3; ++column) {
+    const auto spread = (covariance * p[column].v).eval();
+    for (int row = 0; row < 3; ++row) of_point(row, column) = p[row].v.dot(spread);
+  }
+  return point_sigma_m(of_point);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 
 namespace marey::reconstruct {
 
-/// Standard deviation of every bone's origin (root mean square over coordinates). [m]
+/// Standard deviation of every bone's origin, per coordinate (point_sigma.h). [m]
 using BoneSigmas = std::array<double, kHumanBoneCount>;
 
 /// Of every tag's centre, likewise, by position in BodyModel::tags. [m]

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reconstruct/point_sigma.h"
 #include "reconstruct/sightings.h"
 
 namespace marey::reconstruct {
@@ -98,8 +99,7 @@ void joint_sigmas(const UnfoldedPosture& unfolded,
     Eigen::Vector3d origin = unfolded.origin(mover);
     if (mover != bone) origin = unfolded.point(mover, eigen(body.proportions[bone]));
     unfolded.derivative(mover, origin, derivative);
-    const double variance = covariance.of(derivative).trace() / 3.0;
-    out[index(bone)] = std::hypot(std::sqrt(std::max(0.0, variance)),
+    out[index(bone)] = std::hypot(point_sigma_m(covariance.of(derivative)),
                                   body.joint_centre_sigma_m[index(bone)]);
   }
 }

@@ -11,6 +11,7 @@
 #include "core/pose.h"
 #include "core/quantile.h"
 #include "reconstruct/frame_solver.h"
+#include "reconstruct/point_sigma.h"
 #include "reconstruct/second_readings.h"
 #include "reconstruct/window_solver.h"
 
@@ -162,17 +163,18 @@ void fill_doubts(const Body& body,
   }
   for (std::size_t f = 0; f < sigmas.size(); ++f) {
     std::vector<JointDoubt> doubts(kHumanBoneCount);
+    const auto known = [&](HumanBone bone) {
+      return sources[index(bone)][f] != Source::kInferred;
+    };
+    trial.frames_solved += known(HumanBone::kHips) || known(HumanBone::kUpperChest);
     for (std::size_t b = 0; b < doubts.size(); ++b) {
-      doubts[b].source = sources[b][f];
       doubts[b].sigma_m =
           std::hypot(std::hypot(sigmas[f][b], body.joint_centre_sigma_m[b]),
                      readings.bones[f][b],
                      std::hypot(options.camera_sigma_m, clock_s * speeds[f][b]));
+      doubts[b].source =
+          source_of_joint(human_bones()[b], sources[b][f], doubts[b].sigma_m);
     }
-    const auto known = [&](HumanBone bone) {
-      return doubts[index(bone)].source != Source::kInferred;
-    };
-    trial.frames_solved += known(HumanBone::kHips) || known(HumanBone::kUpperChest);
     trial.estimate.doubt.push_back(std::move(doubts));
   }
 }

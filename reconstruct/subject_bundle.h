@@ -60,7 +60,7 @@ struct SubjectBundle {
   Lengths length_sigma_m{};
   std::map<std::size_t, TagSigma> tag_sigma;
   /// Of each joint centre against the tags of its own bone or of its parent's, whichever
-  /// knows it better, per coordinate; none where neither has tags. [m]
+  /// knows it better, per coordinate (point_sigma.h); none where neither has tags. [m]
   std::array<std::optional<double>, kHumanBoneCount> centre_sigma_m{};
   double rms_px = 0.0;
   double median_px = 0.0;

@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "reconstruct/common_error.h"
+#include "reconstruct/point_sigma.h"
 #include "reconstruct/subject_bundle.h"
 #include "reconstruct/subject_solve.h"
 
@@ -64,13 +65,14 @@ struct Knowledge {
   /// Of a linear function of them: what the covariance makes of it, or the scatter of the
   /// parts where that is surely larger (White 1982: a model that is not quite right makes
   /// residuals that go together, and its covariance too small).
-  [[nodiscard]] double variance(const MatrixXd& jacobian) const {
-    const double model = (jacobian * covariance * jacobian.transpose()).trace();
+  [[nodiscard]] MatrixXd covariance_of(const MatrixXd& jacobian) const {
+    const MatrixXd model = jacobian * covariance * jacobian.transpose();
     const double parts = static_cast<double>(moves.cols());
-    const double scatter = (jacobian * moves).squaredNorm() * parts / (parts - 1.0);
+    const MatrixXd moved = jacobian * moves;
+    const MatrixXd scatter = moved * moved.transpose() * (parts / (parts - 1.0));
     // Two standard deviations of a mean of three squares from twelve parts.
     constexpr double kSurely = 1.5;
-    return std::max(0.0, scatter > kSurely * model ? scatter : model);
+    return scatter.trace() > kSurely * model.trace() ? scatter : model;
   }
 };
 
@@ -86,7 +88,7 @@ void fill_centre_sigmas(const Knowledge& knowledge, SubjectBundle& bundle) {
         [&](HumanBone side, const glm::dvec3& offset, const MatrixXd& offset_jacobian) {
           const auto j = centre_jacobian(bundle, side, offset, offset_jacobian);
           if (!j) return;
-          const double sigma_m = std::sqrt(knowledge.variance(*j) / 3.0);
+          const double sigma_m = point_sigma_m(knowledge.covariance_of(*j));
           if (!least || sigma_m < *least) least = sigma_m;
         };
     look(bone, glm::dvec3(0.0), MatrixXd::Zero(3, columns));
@@ -300,7 +302,7 @@ bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras) {
   const auto variance_of = [&](int first, int count) {
     MatrixXd jacobian = MatrixXd::Zero(count, own);
     jacobian.middleCols(first, count).setIdentity();
-    return knowledge.variance(jacobian) / count;
+    return std::max(0.0, knowledge.covariance_of(jacobian).trace()) / count;
   };
   for (int i = 0; i < kLengthCount; ++i) {
     bundle.length_sigma_m[static_cast<std::size_t>(i)] = std::sqrt(variance_of(i, 1));

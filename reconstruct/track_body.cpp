@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/assert.h"
+#include "reconstruct/point_sigma.h"
 #include "reconstruct/posture_output.h"
 #include "reconstruct/sightings.h"
 #include "reconstruct/tag_filter.h"
@@ -129,7 +130,8 @@ void BodyTracker::Inside::fill_doubt(const UnfoldedPosture& unfolded,
     if (unseen_s[b] <= options.longest_repair_s) source = Source::kRepaired;
     if (unseen_s[b] == 0.0) source = Source::kMeasured;
     if (report.state == TrackState::kLost) source = Source::kInferred;
-    doubt[b] = {std::hypot(sigmas[b], options.camera_sigma_m), source};
+    const double sigma_m = std::hypot(sigmas[b], options.camera_sigma_m);
+    doubt[b] = {sigma_m, source_of_joint(human_bones()[b], source, sigma_m)};
   }
 }
 
