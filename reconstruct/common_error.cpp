@@ -18,7 +18,7 @@
 namespace marey::reconstruct {
 namespace {
 
-constexpr double kLeastShare = 0.03;
+constexpr double kLeastShare = 0.01;
 constexpr double kMostShare = 1.0 / 7.0;
 constexpr double kOutlierMedians = 6.0;
 constexpr double kCoordinates = 8.0;

@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 // Of a thigh's skin. More is a strap that came loose; less is not accepted, as errors of
 // cameras and clocks look like skin that slides.
 constexpr double kUsualSlide_m_per_rad = 0.006;
-constexpr double kLeastSlide_m_per_rad = 0.002;
+constexpr double kLeastSlide_m_per_rad = 0.001;
 constexpr double kMostSlide_m_per_rad = 0.06;
 
 // The median length of a two-dimensional error whose coordinates have unit sigma.
