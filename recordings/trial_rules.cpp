@@ -16,6 +16,45 @@ bool share_a_video(const Trial& a, const Trial& b) {
   return false;
 }
 
+bool same_frames(const Trial& a, const Trial& b) {
+  if (a.frames.has_value() != b.frames.has_value()) return false;
+  return !a.frames ||
+         (a.frames->first == b.frames->first && a.frames->last == b.frames->last);
+}
+
+/// A floor is cut out of the calibration's videos.
+bool may_share_videos(const Trial& a, const Trial& b) {
+  const auto is = [&](TrialKind kind) { return a.kind == kind || b.kind == kind; };
+  return is(TrialKind::kCalibration) && is(TrialKind::kFloor);
+}
+
+/// A line that was copied and not changed.
+std::optional<TrialMistake> mistake_in_videos(const Trial& trial,
+                                              const Session& session) {
+  for (const Trial& earlier : session.trials) {
+    for (const TrialVideo& video : trial.videos) {
+      for (const TrialVideo& other : earlier.videos) {
+        if (video.path != other.path) continue;
+        if (video.camera != other.camera) {
+          return TrialMistake{"videos",
+                              "trial " + in_quotes(earlier.name) + " has the video " +
+                                  in_quotes(video.path.filename().string()) +
+                                  " for another camera",
+                              "give both trials the videos of the same camera"};
+        }
+        if (!same_frames(trial, earlier) || may_share_videos(trial, earlier)) continue;
+        return TrialMistake{"videos",
+                            "trial " + in_quotes(earlier.name) +
+                                " has the same frames of " +
+                                in_quotes(video.path.filename().string()),
+                            "name this trial's own videos; where one video holds several "
+                            "trials, give each of them its frames = [FIRST, LAST]"};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<TrialMistake> mistake_in_slow_motion(const Trial& trial) {
   if (trial.slow_motion == 1.0) return std::nullopt;
   if (!trial.rate) {
@@ -38,13 +77,14 @@ std::optional<TrialMistake> mistake_in_slow_motion(const Trial& trial) {
 
 std::optional<TrialMistake> mistake_of(const Trial& trial, const Session& session) {
   if (auto mistake = mistake_in_slow_motion(trial)) return mistake;
-  if (trial.kind == TrialKind::kMotion) return std::nullopt;
+  if (trial.kind == TrialKind::kMotion) return mistake_in_videos(trial, session);
   if (const Trial* twin = session.find(trial.kind)) {
     return TrialMistake{"kind",
                         "trial " + in_quotes(twin->name) + " already has the kind " +
                             in_quotes(std::string(name(trial.kind))),
                         "keep the better one: only motion trials can be many"};
   }
+  if (auto mistake = mistake_in_videos(trial, session)) return mistake;
   if (trial.kind != TrialKind::kFloor || trial.frames) return std::nullopt;
   const Trial* waved = session.find(TrialKind::kCalibration);
   if (!waved || waved->frames || !share_a_video(trial, *waved)) return std::nullopt;

@@ -18,7 +18,8 @@ struct TrialMistake {
 };
 
 /// Whether `trial` can follow the trials that `session` has: one trial of each kind but
-/// motion; a floor cut out of the calibration's own videos says which frames it is.
+/// motion; no frames of a video in two trials, and no video of one camera as another's; a
+/// floor cut out of the calibration's own videos says which frames it is.
 [[nodiscard]] std::optional<TrialMistake> mistake_of(const Trial& trial,
                                                      const Session& session);
 

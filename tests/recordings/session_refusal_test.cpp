@@ -171,6 +171,32 @@ TEST(Session, RefusesOneVideoForTwoCameras) {
                   .starts_with("session.toml:43: two cameras have the same video"));
 }
 
+/// kSession with a second motion trial of these keys.
+std::string with_run(std::string_view keys) {
+  return std::string(kSession) + "[[trial]]\nname = \"run\"\nkind = \"motion\"\n" +
+         std::string(keys);
+}
+
+TEST(Session, RefusesTheSameFramesInTwoTrials) {
+  EXPECT_EQ(
+      mistake(with_run("videos = { left = \"walk/left.mp4\" }\n")),
+      "session.toml:49: trial \"walk\" has the same frames of \"left.mp4\". Next: "
+      "name this trial's own videos; where one video holds several trials, give each "
+      "of them its frames = [FIRST, LAST].");
+  EXPECT_NE(mistake(with("\"floor\"\nframes = [0, 7]\n", "\"static\"\n")), "");
+}
+
+TEST(Session, AcceptsOneVideoCutIntoTrials) {
+  EXPECT_EQ(
+      mistake(with_run("frames = [0, 99]\nvideos = { left = \"walk/left.mp4\" }\n")), "");
+}
+
+TEST(Session, RefusesACamerasVideoAsAnothersOfAnotherTrial) {
+  EXPECT_TRUE(mistake(with_run("videos = { right = \"walk/left.mp4\" }\n"))
+                  .starts_with("session.toml:49: trial \"walk\" has the video "
+                               "\"left.mp4\" for another camera"));
+}
+
 TEST(Session, RefusesFramesTheWrongWayRound) {
   EXPECT_TRUE(mistake(with("[0, 7]", "[7, 0]"))
                   .starts_with("session.toml:38: the first frame comes after the last"));
