@@ -52,7 +52,8 @@ BoneMap map_of(const ReadBody& body) {
   for (const HumanBone bone : human_bones()) {
     auto joint = body.bones.joint(bone);
     // A joint that the file does not have has no name there.
-    if (joint && !body.read_joint.empty() && !body.read_joint[index(*joint)]) joint.reset();
+    if (joint && !body.read_joint.empty() && !body.read_joint[index(*joint)])
+      joint.reset();
     map.bones[index(bone)] = {true, joint};
   }
   map.unit_m = body.frame.unit_m;
@@ -148,9 +149,10 @@ Result<Json> inspect_body(const std::filesystem::path& file,
     if (!ok) return ok.error();
     console.say("picture: " + options.picture.string());
   }
-  // A map that was named and does not fit is a mistake; without one, what is known of the
-  // body is the answer.
-  if (!body && options.bone_map) return body.error();
+  // A map or a neutral that was named and does not fit is a mistake; without one, what is
+  // known of the body is the answer.
+  const bool names_more = options.bone_map || !options.neutral.empty();
+  if (!body && names_more) return body.error();
   return out;
 }
 

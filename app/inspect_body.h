@@ -27,8 +27,9 @@ struct InspectBodyOptions {
 /// What a body's file holds: joints, motion, and under "body" which joint is which bone,
 /// why and how surely, its unit, up, front, stature and warnings, or "declined" with the
 /// reason. Writes the map and the picture.
-/// Errors: the file cannot be read; a map or a picture is asked for and there is none of
-/// the body, or the disk has no room.
+/// Errors: the file cannot be read; the map or the neutral that is given does not fit the
+/// body; a map or a picture is asked for and there is none of the body, or the disk has no
+/// room.
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_body(
     const std::filesystem::path& file,
     const InspectBodyOptions& options,

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/trial_rules.h"
 
+#include <algorithm>
+#include <string>
+
 #include "recordings/text_reader.h"
 
 namespace marey::recordings {
@@ -22,34 +25,34 @@ bool same_frames(const Trial& a, const Trial& b) {
          (a.frames->first == b.frames->first && a.frames->last == b.frames->last);
 }
 
-/// A floor is cut out of the calibration's videos.
+/// A floor is cut out of the calibration's videos; swapped cameras are found there by
+/// what they see.
 bool may_share_videos(const Trial& a, const Trial& b) {
   const auto is = [&](TrialKind kind) { return a.kind == kind || b.kind == kind; };
   return is(TrialKind::kCalibration) && is(TrialKind::kFloor);
 }
 
-/// A line that was copied and not changed.
+/// Videos of an earlier trial: a line that was copied and not changed.
 std::optional<TrialMistake> mistake_in_videos(const Trial& trial,
                                               const Session& session) {
   for (const Trial& earlier : session.trials) {
+    if (may_share_videos(trial, earlier)) continue;
     for (const TrialVideo& video : trial.videos) {
-      for (const TrialVideo& other : earlier.videos) {
-        if (video.path != other.path) continue;
-        if (video.camera != other.camera) {
-          return TrialMistake{"videos",
-                              "trial " + in_quotes(earlier.name) + " has the video " +
-                                  in_quotes(video.path.filename().string()) +
-                                  " for another camera",
-                              "give both trials the videos of the same camera"};
-        }
-        if (!same_frames(trial, earlier) || may_share_videos(trial, earlier)) continue;
+      const auto twin = std::ranges::find(earlier.videos, video.path, &TrialVideo::path);
+      if (twin == earlier.videos.end()) continue;
+      const std::string file = in_quotes(video.path.filename().string());
+      if (twin->camera != video.camera) {
         return TrialMistake{"videos",
-                            "trial " + in_quotes(earlier.name) +
-                                " has the same frames of " +
-                                in_quotes(video.path.filename().string()),
-                            "name this trial's own videos; where one video holds several "
-                            "trials, give each of them its frames = [FIRST, LAST]"};
+                            "trial " + in_quotes(earlier.name) + " has the video " +
+                                file + " for another camera",
+                            "give both trials the videos of the same camera"};
       }
+      if (!same_frames(trial, earlier)) continue;
+      return TrialMistake{
+          "videos",
+          "trial " + in_quotes(earlier.name) + " has the same frames of " + file,
+          "name this trial's own videos; where one video holds several "
+          "trials, give each of them its frames = [FIRST, LAST]"};
     }
   }
   return std::nullopt;

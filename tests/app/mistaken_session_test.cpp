@@ -127,9 +127,9 @@ TEST(MistakenSession, WithACameraThatSeesNoBoardIsDeclinedBeforeAnyWork) {
 
 TEST(MistakenSession, IsCalibratedBeforeItsOtherTrialsAreRecorded) {
   SpoiledSession session;
-  session.replace("\"static/", "\"not-yet/");
-  session.replace("\"rom/", "\"not-yet/");
-  session.replace("\"walk/", "\"not-yet/");
+  session.replace("\"static/", "\"not-yet-static/");
+  session.replace("\"rom/", "\"not-yet-rom/");
+  session.replace("\"walk/", "\"not-yet-walk/");
   const ProgramRun run = session.run("calibrate");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(session.has_result("calibration.toml"));

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "recordings/gltf.h"
 #include "tests/support/run_program.h"
@@ -101,6 +102,20 @@ TEST_F(Inspect, DeclinesAFileOfAnotherKind) {
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("README.md: is not a kind of file"), std::string::npos)
       << run.err;
+}
+
+TEST_F(Inspect, FailsWhereTheNeutralThatIsGivenDoesNotFit) {
+  const std::string motion = (kResults / "walk/motion.bvh").string();
+  const ProgramRun late = marey({"inspect", motion, "--neutral", "frame:99999"});
+  EXPECT_EQ(late.exit_code, 3);
+  EXPECT_EQ(late.out, "");
+  EXPECT_NE(late.err.find("give a frame from 0 to 89"), std::string::npos) << late.err;
+
+  const fs::path pipe = in_folder("neutral.bvh");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const ProgramRun piped = marey({"inspect", motion, "--neutral", pipe.string()});
+  EXPECT_EQ(piped.exit_code, 3);
+  EXPECT_NE(piped.err.find("this is a pipe"), std::string::npos) << piped.err;
 }
 
 TEST_F(Mannequin, HasTheStatureThatWasAskedFor) {

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Thirty of the sessions that benchmarks/measure_sessions measures in hundreds, of those
-// that nothing was tuned on.
+// Thirty of the sessions that benchmarks/measure_sessions measures in hundreds. Constants
+// of the fit were chosen with these among others; docs/measurements.md has sessions that
+// were kept apart.
 #include <cstdint>
 
 #include <gtest/gtest.h>

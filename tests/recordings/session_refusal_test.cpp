@@ -180,7 +180,7 @@ std::string with_run(std::string_view keys) {
 TEST(Session, RefusesTheSameFramesInTwoTrials) {
   EXPECT_EQ(
       mistake(with_run("videos = { left = \"walk/left.mp4\" }\n")),
-      "session.toml:49: trial \"walk\" has the same frames of \"left.mp4\". Next: "
+      "session.toml:48: trial \"walk\" has the same frames of \"left.mp4\". Next: "
       "name this trial's own videos; where one video holds several trials, give each "
       "of them its frames = [FIRST, LAST].");
   EXPECT_NE(mistake(with("\"floor\"\nframes = [0, 7]\n", "\"static\"\n")), "");
@@ -193,7 +193,7 @@ TEST(Session, AcceptsOneVideoCutIntoTrials) {
 
 TEST(Session, RefusesACamerasVideoAsAnothersOfAnotherTrial) {
   EXPECT_TRUE(mistake(with_run("videos = { right = \"walk/left.mp4\" }\n"))
-                  .starts_with("session.toml:49: trial \"walk\" has the video "
+                  .starts_with("session.toml:48: trial \"walk\" has the video "
                                "\"left.mp4\" for another camera"));
 }
 
