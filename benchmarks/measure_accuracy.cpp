@@ -9,10 +9,14 @@
 // cameras.json in TRIAL/truth (see the recording's README). The truth's world is Z up;
 // nothing else is aligned but each segment's axes (accuracy_parts.h).
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/accuracy_parts.h"
@@ -28,6 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using marey::HumanBone;
 using marey::quantile;
 
 bool measure_cameras(const fs::path& out, const fs::path& truth) {
@@ -100,6 +105,56 @@ bool measure_trial(const fs::path& out, const fs::path& truth, const std::string
   return true;
 }
 
+using Places = std::map<std::pair<int, HumanBone>, glm::dvec3>;
+
+/// Median distance of two joints over all frames that have both; nullopt without. [m]
+std::optional<double> distance_m(const Places& places, HumanBone from, HumanBone to) {
+  std::vector<double> lengths_m;
+  for (const auto& [key, p_in_world] : places) {
+    if (key.second != from) continue;
+    const auto other = places.find({key.first, to});
+    if (other == places.end()) continue;
+    lengths_m.push_back(glm::distance(p_in_world, other->second));
+  }
+  if (lengths_m.empty()) return std::nullopt;
+  return quantile(lengths_m, 0.5);
+}
+
+/// Lengths of the limbs' segments, which one trial tells.
+bool measure_lengths(const fs::path& out,
+                     const fs::path& truth,
+                     const std::string& trial) {
+  const auto rows = marey::recordings::read_joints_csv(out / trial / "joints.csv");
+  const auto places =
+      marey::testing::truth_joints(truth / trial / "truth" / "joints.csv");
+  if (!rows || !places) return false;
+  Places found;
+  for (const auto& row : *rows) {
+    if (const auto bone = marey::human_bone(row.joint)) {
+      found[{row.frame, *bone}] = row.p_in_world;
+    }
+  }
+  double worst_percent = 0.0;
+  std::printf("lengths of segments:\n");
+  for (const marey::HumanLimb& limb : marey::human_limbs()) {
+    for (const auto& [from, to] :
+         {std::pair(limb.upper, limb.lower), std::pair(limb.lower, limb.end)}) {
+      const auto length_m = distance_m(found, from, to);
+      const auto true_m = distance_m(*places, from, to);
+      if (!length_m || !true_m) return false;
+      const double off_percent = 100.0 * (*length_m / *true_m - 1.0);
+      worst_percent = std::max(worst_percent, std::abs(off_percent));
+      std::printf("  %-14s %5.1f mm, true %5.1f, off by %+.1f %%\n",
+                  std::string(name(from)).c_str(),
+                  1e3 * *length_m,
+                  1e3 * *true_m,
+                  off_percent);
+    }
+  }
+  std::printf("  worst off by %.1f %%\n", worst_percent);
+  return true;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -111,6 +166,7 @@ int main(int argc, char** argv) {
   const fs::path truth = argv[2];
   bool ok = measure_cameras(out, truth / argv[3] / "truth");
   for (int i = 3; i < argc; ++i) ok = measure_trial(out, truth, argv[i]) && ok;
+  ok = measure_lengths(out, truth, argv[3]) && ok;
   const marey::benchmarks::AccuracyCase a{out, truth, {argv + 3, argv + argc}};
   ok = measure_segments(a) && ok;
   ok = measure_honesty(a) && ok;
