@@ -22,12 +22,12 @@ constexpr double kOftenShare = 0.05;
 /// Number of pictures that show each tag, and of all pictures, in the trials of a body.
 struct Seen {
   std::map<TagId, int> pictures;
-  std::set<TagId> moving;  ///< Those that travel by more than their own side.
+  std::set<TagId> moving;  ///< Tags that travel by more than their own side.
   int of = 0;
 };
 
-/// Returns whether a tag moved in one camera's pictures: by more than its side, the tenth
-/// that is farthest left or right, up or down left out. Tags on walls do not.
+/// Returns whether the tag's centre moves by more than its side in one camera's pictures,
+/// between the 10 % and 90 % quantiles of x or y. Tags on walls do not.
 bool travels(const std::vector<glm::dvec2>& centres_px, double side_px) {
   for (int axis = 0; axis < 2; ++axis) {
     std::vector<double> places_px;

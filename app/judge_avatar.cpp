@@ -34,16 +34,16 @@ void add(const std::string& where,
 void judge_skin(const std::string& name, AvatarVerdict& out) {
   const double deep_mm = 1e3 * out.beyond_source.depth_m;
   if (deep_mm <= kDeepSkin_mm) return;
-  std::string part;
-  if (out.beyond_part_known) {
-    part = " of the " + std::string(retarget::name(out.beyond_source.part));
-  }
+  const std::optional<retarget::SkinPart> part = out.beyond_source.part;
+  const std::string words =
+      part ? " of the " + std::string(retarget::name(*part)) : std::string();
   add(name + ", frame " + std::to_string(out.beyond_source.frame),
       text("the skin%s is %.0f mm below the floor, where the source is not",
-           part.c_str(),
+           words.c_str(),
            deep_mm),
-      "look at it with marey view; adapt the result with a constraint on that part, or "
-      "give the body a bone map if its bones are mistaken",
+      "look at it with marey view; adapt the result with a constraint on what is too "
+      "low, "
+      "or give the body a bone map if its bones are mistaken",
       deep_mm > kPoorSkin_mm,
       out);
 }
@@ -201,10 +201,10 @@ Status judge_files(const Motion& made,
       if (depth_m > deepest.depth_m) deepest = {depth_m, {}, frame};
       if (beyond_m > beyond.depth_m) beyond = {beyond_m, {}, frame};
     }
-    // The file's depths count. Its skin has no named parts: the body's are kept.
+    // The file's depths count. Its skin has no named parts: the body's are kept, unknown
+    // where the body's skin is not too low.
     if (out.skin) deepest.part = out.skin->part;
     beyond.part = out.beyond_source.part;
-    out.beyond_part_known = out.beyond_source.frame >= 0;
     out.skin = deepest;
     out.beyond_source = beyond;
   }

@@ -66,7 +66,6 @@ struct AvatarVerdict {
   /// Of the deformed skin, against the floor; nullopt: the body has no skin.
   std::optional<retarget::SkinDepth> skin;
   retarget::SkinDepth beyond_source;  ///< The same, beyond what the source's joints are.
-  bool beyond_part_known = true;      ///< False where the file's skin alone is too deep.
   double source_depth_m = 0.0;        ///< The largest RetargetReport::source_depth_m.
   retarget::PostureFigures posture;
   /// Beyond kNamedPosture_deg, in the order of PostureFigures::segments.

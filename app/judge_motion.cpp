@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/judge_motion.h"
 
+#include <cmath>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -14,20 +16,24 @@
 namespace marey::app {
 namespace {
 
-constexpr double kMostTurn_rad_s = 45.0;
-constexpr double kMostSpeed_m_s = 25.0;
+constexpr double kMaxTurn_rad_s = 45.0;
+constexpr double kMaxSpeed_m_s = 25.0;
 
 /// The worst step from one frame to the next, in limits.
 struct Leap {
   double in_limits = 1.0;
   std::string what;
   std::size_t frame = 0;  ///< The second of the two, counted from the trial's first.
-  int steps = 0;          ///< Beyond the limits, of all segments and joints.
+  int frames = 0;         ///< With a step beyond the limits.
+  std::size_t last = 0;   ///< The last of them.
 
+  /// Steps of one frame are given from parents to children.
   void look(double here_in_limits, std::size_t at, const auto& words) {
     if (here_in_limits <= 1.0) return;
-    ++steps;
-    if (here_in_limits <= in_limits) return;
+    frames += at != last ? 1 : 0;
+    last = at;
+    // What hangs on a segment that turns, turns as far: the parent is named.
+    if (here_in_limits <= in_limits * (1.0 + 1e-9)) return;
     in_limits = here_in_limits;
     frame = at;
     what = words();
@@ -62,31 +68,33 @@ std::vector<Error> judge_motion(const ReportTrial& trial) {
       const HumanBone bone = human_bones()[b];
       const double turn_rad = glm::length(
           rotation_vector(glm::conjugate(before[b].rotation) * now[b].rotation));
-      leap.look(turn_rad * hz / kMostTurn_rad_s, f, [&] {
+      leap.look(turn_rad * hz / kMaxTurn_rad_s, f, [&] {
         return "segment " + in_quotes(bone) + " turns by " +
                std::to_string(std::lround(glm::degrees(turn_rad))) + " degrees";
       });
       const double moved_m = glm::distance(before[b].translation, now[b].translation);
-      leap.look(moved_m * hz / kMostSpeed_m_s, f, [&] {
+      leap.look(moved_m * hz / kMaxSpeed_m_s, f, [&] {
         return "joint " + in_quotes(bone) + " travels by " +
                std::to_string(std::lround(1e3 * moved_m)) + " mm";
       });
     }
     before = std::move(now);
   }
-  if (leap.steps == 0) return {};
+  if (leap.frames == 0) return {};
   const int second = trial.first_frame + static_cast<int>(leap.frame);
   std::string cause = leap.what + " between frames " + std::to_string(second - 1) +
-                      " and " + std::to_string(second) + ", faster than a body can";
-  if (leap.steps > 1) {
-    cause += " (and " + std::to_string(leap.steps - 1) + " more such steps)";
+                      " and " + std::to_string(second) + ", faster than a body can move";
+  const int others = leap.frames - 1;
+  if (others > 0) {
+    cause += " (" + std::to_string(others) + " other frame" + (others > 1 ? "s" : "") +
+             " also)";
   }
   return {
       {Errc::kQuality,
        "trial " + trial.name,
        std::move(cause),
-       "look at these frames in report.html; a second tag on that segment, or another "
-       "camera that sees it, tells its sides apart"}};
+       "look at these frames in report.html, and check that two cameras see the tags of "
+       "that segment there; a second tag on it helps"}};
 }
 
 }  // namespace marey::app

@@ -9,11 +9,11 @@
 
 namespace marey::app {
 
-/// What of a trial's solved motion no body does, whatever its residuals are: segments
-/// that turn by more than 45 rad/s, joints that travel by more than 25 m/s, from one
-/// frame to the next and measured in both. (Fast kicks turn a shank by 35 rad/s, sprints
-/// move a foot by 20 m/s.) One entry per trial, kQuality, with the worst segment or joint
-/// and its frames; empty when all is well. Cost: linear in frames.
+/// Detects motion that no body makes, whatever the residuals are: a segment that turns by
+/// more than 45 rad/s or a joint that travels by more than 25 m/s between two frames in
+/// which both are measured. (Fast kicks turn a shank by 35 rad/s, sprints move a foot by
+/// 20 m/s.) Below 14.3 Hz no turn can exceed the limit. Returns at most one entry,
+/// kQuality, with the worst step of the first body. Cost: linear in frames.
 [[nodiscard]] std::vector<Error> judge_motion(const ReportTrial& trial);
 
 }  // namespace marey::app

@@ -32,8 +32,8 @@ Error poor(std::string where, std::string cause, std::string next) {
   return {Errc::kQuality, std::move(where), std::move(cause), std::move(next)};
 }
 
-/// The tag that is farthest from its place on the body, of those that are often seen: a
-/// trial's figures hide one among thirty.
+/// Reports the worst tag among those that are often seen: a trial's averages hide one tag
+/// among thirty.
 void judge_tags(const ReportTrial& trial, std::vector<Error>& found) {
   const ReportTag* worst = nullptr;
   for (const ReportTag& tag : trial.tags) {
@@ -41,13 +41,13 @@ void judge_tags(const ReportTrial& trial, std::vector<Error>& found) {
     if (!worst || *tag.median_px > *worst->median_px) worst = &tag;
   }
   if (!worst || *worst->median_px < kPoorTagMedianPx) return;
-  found.push_back(
-      poor("trial " + trial.name + ", tag " + std::to_string(worst->id),
-           text("it is seen %.0f px away from its place on segment ", *worst->median_px) +
-               worst->segment + " (median; good: under 1)",
-           "check that it did not shift after the range of motion, and that "
-           "nobody else wears its number; then record again, or remove it "
-           "from session.toml"));
+  found.push_back(poor(
+      "trial " + trial.name + ", tag " + std::to_string(worst->id),
+      text("it is seen %.0f px away from its place on segment ", *worst->median_px) +
+          worst->segment + " (median; good: under 1)",
+      "check that it did not shift after the range of motion, and that "
+      "no other person wears a tag with this number; then record again, or remove it "
+      "from session.toml"));
 }
 
 void judge_trial(const ReportTrial& trial, std::vector<Error>& found) {

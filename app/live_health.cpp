@@ -57,7 +57,8 @@ std::vector<std::string> WornSegments::unseen(std::span<const JointDoubt> doubt)
   std::vector<std::string> names;
   for (const HumanBone bone : bones_) {
     if (index(bone) >= doubt.size()) continue;
-    if (doubt[index(bone)].source == Source::kInferred) names.emplace_back(name(bone));
+    if (doubt[index(bone)].segment_source != Source::kInferred) continue;
+    names.emplace_back(name(bone));
   }
   return names;
 }

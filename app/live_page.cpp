@@ -332,8 +332,8 @@ void LivePage::on_status(const LiveFigures& figures,
       figures,
       state == TrackState::kTracked ? worn_.unseen(doubt_) : std::vector<std::string>{},
       status);
-  // After the subject's state, which is of this moment: who was measured badly can be
-  // tracked well.
+  // Doubts about the measured body do not change the state: a badly measured body can
+  // still be tracked well.
   status.doubts.insert(status.doubts.end(), body_doubts_.begin(), body_doubts_.end());
   if (figures.flow != Flow::kSteady) status.overload = figures.flow_text;
   status.clients = page_.server.client_count();

@@ -44,7 +44,7 @@ Result<ReportBody> Pipeline::retarget_one(SolvedMotion& motion,
   const AvatarVerdict& verdict = written->verdict;
   body.penetration_mm = verdict.penetration_mm(written->retargeted.report);
   if (verdict.skin && verdict.skin->frame >= 0) {
-    body.penetration_part = retarget::name(verdict.skin->part);
+    if (verdict.skin->part) body.penetration_part = retarget::name(*verdict.skin->part);
     body.penetration_frame = verdict.skin->frame;
   }
   body.source_depth_mm = 1e3 * verdict.source_depth_m;

@@ -50,8 +50,8 @@ struct ReportTag {
   int id = 0;
   std::string segment;
   std::vector<int> cameras_seeing;  ///< Per frame: how many cameras saw it.
-  /// How far the solved motion is from its corners: root mean square and median; none of
-  /// a tag that the body does without.
+  /// Distance of the solved motion from the tag's corners: root mean square and median.
+  /// nullopt: the tag is not placed on the body or was not seen.
   std::optional<double> rms_px = std::nullopt;
   std::optional<double> median_px = std::nullopt;
   int corners = 0;
@@ -87,7 +87,7 @@ struct ReportBody {
   double slide_before_cm_per_s = 0.0;
   double slide_after_cm_per_s = 0.0;
   double penetration_mm = 0.0;   ///< Of its skin; of its feet's ends without one.
-  std::string penetration_part;  ///< Of the skin; empty: none is below the floor.
+  std::string penetration_part;  ///< Of the skin; empty: not known, or none is low.
   int penetration_frame = -1;    ///< Likewise; counted from the motion's first frame.
   double source_depth_mm = 0.0;  ///< How far the subject's joints are below the floor.
   double legs_deg = 0.0;         ///< From the subject's: the largest median of a segment.

@@ -82,7 +82,7 @@ void add_verdict(const AvatarVerdict& verdict,
   if (verdict.skin) {
     const retarget::SkinDepth& skin = *verdict.skin;
     const bool is_low = skin.frame >= 0;
-    out["skin"] = {{"part", is_low ? Json(retarget::name(skin.part)) : Json(nullptr)},
+    out["skin"] = {{"part", skin.part ? Json(retarget::name(*skin.part)) : Json(nullptr)},
                    {"frame", is_low ? Json(skin.frame) : Json(nullptr)},
                    {"beyond_source_mm", rounded(1e3 * verdict.beyond_source.depth_m, 3)},
                    {"before_mm", rounded(1e3 * report.skin.before.depth_m, 3)},

@@ -77,7 +77,8 @@ std::vector<Exchange> exchanges() {
   return out;
 }
 
-/// Runs check_worn() on a session as fit_subject() does.
+/// Runs check_worn() on a session. A WornDoubt counts as an error here, although
+/// fit_subject() may refute it.
 marey::Status check(const marey::testing::SimulatedSession& session,
                     const std::vector<TagOnSegment>& tags) {
   using namespace marey::reconstruct;
@@ -164,7 +165,7 @@ int measure_single_tags(int first, int last) {
     if (is_left_out) words += "tag " + std::to_string(number(changed.id)) + " left out";
     told += words.empty() ? 0 : 1;
     const bool is_named =
-        words.find("tag " + std::to_string(number(tags[change.tag].id))) !=
+        words.find("tag " + std::to_string(number(tags[change.tag].id)) + " ") !=
             std::string::npos ||
         words.find(name(worn)) != std::string::npos ||
         words.find(name(change.segment)) != std::string::npos;

@@ -21,10 +21,13 @@ struct Motion {
 
 /// How well one joint of one frame is known.
 struct JointDoubt {
-  /// Standard deviation of the joint centre, per coordinate: 95 % of its errors are within
-  /// 2.8 times that. [m]
+  /// Standard deviation of the joint centre, per coordinate: 95 % of its errors are
+  /// within 2.8 times that. [m]
   double sigma_m = 0.0;
   Source source = Source::kInferred;
+  /// Of the segment that begins at the joint, whatever sigma_m is: set where segments are
+  /// solved from tags.
+  Source segment_source = Source::kInferred;
 };
 
 /// A motion that was estimated from sightings. doubt[frame][joint].

@@ -12,7 +12,7 @@ namespace marey::live {
 enum class PageSubject {
   kWaiting,
   kTracked,  ///< All is well: every camera streams, every segment with tags is seen.
-  kPartly,   ///< Tracked, but PageStatus::doubts is not empty.
+  kPartly,   ///< Tracked, but a camera or a segment is not well: PageStatus::doubts.
   kBehind,   ///< Poses do not keep up with the cameras.
   kStopped,  ///< No pose has come out for a while.
   kLost,
@@ -57,7 +57,8 @@ struct PageRecording {
 struct PageStatus {
   double clock_s = 0.0;
   PageSubject subject = PageSubject::kWaiting;
-  std::vector<std::string> doubts{};  ///< Why the subject is not well, part by part.
+  /// What is not well now, part by part; then what is doubtful about the measured body.
+  std::vector<std::string> doubts{};
   int frame = 0;
   double rate_hz = 0.0;
   PageSpread latency;
@@ -73,8 +74,8 @@ struct PageStatus {
 /// As scene_json().
 [[nodiscard]] std::string status_json(const PageStatus& status);
 
-/// The answer to a message that was not understood, or asks for what cannot be. `about` is
-/// the type of that message where the page says it beside what was asked; else empty.
+/// The answer to a message that was not understood, or asks for what cannot be. `about`
+/// is the type of that message where the page says it beside what was asked; else empty.
 [[nodiscard]] std::string error_json(const std::string& text,
                                      const std::string& about = {});
 

@@ -16,8 +16,8 @@ namespace marey::reconstruct {
 /// Solves the posture of one frame of a bundle. Borrows the bundle and the cameras.
 class BundleFrameSolver {
  public:
-  /// With `limb` that limb's unknowns alone move: its sightings say too little of the
-  /// trunk.
+  /// With `limb` only that limb's unknowns move, since its sightings do not determine the
+  /// trunk. Precondition: limbs are then settled for this limb only.
   BundleFrameSolver(const SubjectBundle& bundle,
                     std::span<const Camera> cameras,
                     std::optional<std::size_t> limb = std::nullopt);

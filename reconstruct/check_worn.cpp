@@ -67,47 +67,76 @@ std::vector<std::size_t> moved(const WornTags& worn,
   return tags;
 }
 
+/// Where the movement of segments puts the tags.
+struct Movement {
+  std::vector<HumanBone> segments;  ///< By position in WornTags::tags.
+  std::optional<Error> undecided;   ///< The body has moved too little to say.
+};
+
+/// Looks for exchanged segments and sides of a body with its tags on `segments`.
+Movement find_movement(const Proportions& average,
+                       std::vector<HumanBone> segments,
+                       Renamed body) {
+  Movement out{std::move(segments), std::nullopt};
+  std::vector<ClusterPoses> frames = body.standing;
+  frames.insert(frames.end(), body.moving.begin(), body.moving.end());
+  rename_all(exchanged_segments(body.clusters, frames), body, out.segments);
+  const auto found =
+      find_segment_frames(body.clusters, body.standing, body.moving, average);
+  if (!found) return out;
+  const auto sides = exchanged_sides(*found, body.clusters, body.standing, body.moving);
+  if (sides) {
+    rename_all(*sides, body, out.segments);
+  } else {
+    out.undecided = sides.error();
+  }
+  return out;
+}
+
+/// Returns what is wrong with the tags on the segments that they are declared on, or why
+/// that cannot be said; nullopt of a body that moves right.
+std::optional<Error> mistake_as_declared(const WornTags& worn,
+                                         const Proportions& average) {
+  std::vector<HumanBone> segments;
+  for (const TagOnSegment& tag : worn.tags) {
+    segments.push_back(solved_segment(tag.segment));
+  }
+  Renamed body;
+  body.clusters.assign(worn.clusters.begin(), worn.clusters.end());
+  body.standing.assign(worn.standing.begin(), worn.standing.end());
+  body.moving.assign(worn.moving.begin(), worn.moving.end());
+  Movement found = find_movement(average, std::move(segments), std::move(body));
+  if (auto error = exchange_error(worn.tags, found.segments)) return error;
+  return std::move(found.undecided);
+}
+
 }  // namespace
 
 Result<std::optional<WornDoubt>> check_worn(const WornTags& worn,
                                             const Proportions& average) {
   MAREY_ASSERT(worn.trials.size() == 2);
   const auto singles = locate_single_tags(worn.cameras, worn.tags, worn.trials[1]);
-  std::vector<HumanBone> segments = segments_by_rigidity(worn.tags, singles);
-  const std::vector<HumanBone> by_rigidity = segments;
+  const std::vector<HumanBone> by_rigidity = segments_by_rigidity(worn.tags, singles);
   const bool as_declared =
-      std::ranges::equal(segments, worn.tags, {}, {}, [](const auto& t) {
+      std::ranges::equal(by_rigidity, worn.tags, {}, {}, [](const auto& t) {
         return solved_segment(t.segment);
       });
-  Renamed body;
   if (as_declared) {
-    body.clusters.assign(worn.clusters.begin(), worn.clusters.end());
-    body.standing.assign(worn.standing.begin(), worn.standing.end());
-    body.moving.assign(worn.moving.begin(), worn.moving.end());
-  } else {
-    body = regrouped(worn, segments);
+    const auto mistake = mistake_as_declared(worn, average);
+    if (mistake) return *mistake;
+    return std::optional<WornDoubt>();
   }
-  std::vector<ClusterPoses> frames = body.standing;
-  frames.insert(frames.end(), body.moving.begin(), body.moving.end());
-  rename_all(exchanged_segments(body.clusters, frames), body, segments);
-  const auto found =
-      find_segment_frames(body.clusters, body.standing, body.moving, average);
-  std::optional<Error> undecided;
-  if (found) {
-    const auto sides = exchanged_sides(*found, body.clusters, body.standing, body.moving);
-    if (sides) {
-      rename_all(*sides, body, segments);
-    } else {
-      undecided = sides.error();
-    }
+  const Movement found =
+      find_movement(average, by_rigidity, regrouped(worn, by_rigidity));
+  const auto error = exchange_error(worn.tags, found.segments);
+  if (!error) {
+    if (found.undecided) return *found.undecided;
+    return std::optional<WornDoubt>();
   }
-  const auto error = exchange_error(worn.tags, segments);
-  if (error && segments == by_rigidity) {
-    return std::optional(WornDoubt{*error, moved(worn, segments)});
-  }
-  if (error) return *error;
-  if (undecided) return *undecided;
-  return std::optional<WornDoubt>();
+  // What is said of single tags a fit may refute, but only of a body that moves right.
+  const bool is_of_single_tags = found.segments == by_rigidity && !found.undecided;
+  if (!is_of_single_tags || mistake_as_declared(worn, average)) return *error;
+  return std::optional(WornDoubt{*error, moved(worn, by_rigidity)});
 }
 
 }  // namespace marey::reconstruct

@@ -18,6 +18,7 @@
 namespace marey::reconstruct {
 namespace {
 
+// Simulated sessions with errors of cameras show 0.03 and more, corners without any 0.01.
 constexpr double kLeastShare = 0.01;
 constexpr double kMostShare = 1.0 / 7.0;
 constexpr double kOutlierMedians = 6.0;

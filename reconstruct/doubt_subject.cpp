@@ -46,7 +46,7 @@ constexpr double kBoneSeenTwice = 0.08;
 constexpr int kFewestLocated = 15;
 // Sigmas of the prior of a tag's place on its segment.
 constexpr double kMostOffFlesh = 3.0;
-// Nobody stands with a thigh or an upper arm turned so far. [rad]
+// No person stands with a thigh or an upper arm turned further. [rad]
 constexpr double kMostStandingTurn_rad = 1.75;
 
 std::string millimetres(double m) {

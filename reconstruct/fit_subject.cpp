@@ -150,10 +150,11 @@ std::array<double, kHumanBoneCount> seen_twice_share(const Sightings& trial,
   return shares;
 }
 
-/// A tag that none of the frames shows would be as doubtful as can be.
+/// Removes tags that no frame shows, or that are seen too seldom.
 void keep_sighted(SubjectBundle& bundle) {
   std::erase_if(bundle.model.segment_from_tag, [&](const auto& placed) {
-    return sightings_of(placed.first, bundle) == 0 || has_no_say(placed.first, bundle);
+    return sightings_of(placed.first, bundle) == 0 ||
+           is_seen_too_seldom(placed.first, bundle);
   });
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/assert.h"
+
 namespace marey::reconstruct {
 namespace {
 
@@ -19,20 +21,21 @@ double quantile95_per_freedom(double freedom) {
 }  // namespace
 
 double point_sigma_m(const Eigen::Matrix3d& covariance) {
-  const double mean = covariance.trace();
+  MAREY_ASSERT(covariance.allFinite());
+  const double trace = covariance.trace();
   const double squares = covariance.squaredNorm();  // Of the eigenvalues.
-  if (!(mean > 0.0) || !(squares > 0.0)) return 0.0;
-  const double freedom = mean * mean / squares;
-  return std::sqrt(mean / 3.0 * quantile95_per_freedom(freedom) /
+  if (trace <= 0.0 || squares <= 0.0) return 0.0;
+  const double freedom = trace * trace / squares;
+  return std::sqrt(trace / 3.0 * quantile95_per_freedom(freedom) /
                    quantile95_per_freedom(3.0));
 }
 
-Source source_of_joint(HumanBone joint, Source seen, double sigma_m) {
+Source source_of_joint(HumanBone joint, Source segment_source, double sigma_m) {
   constexpr double kKnown_m = 0.02;
   const bool is_of_limb = std::ranges::any_of(human_limbs(), [&](const HumanLimb& limb) {
     return joint == limb.upper || joint == limb.lower || joint == limb.end;
   });
-  return is_of_limb && sigma_m > kKnown_m ? Source::kInferred : seen;
+  return is_of_limb && sigma_m > kKnown_m ? Source::kInferred : segment_source;
 }
 
 }  // namespace marey::reconstruct

@@ -11,18 +11,19 @@
 
 namespace marey::reconstruct {
 
-/// Returns the standard deviation per coordinate of the error that is alike in all
-/// directions and within whose 95 % ball 95 % of the errors of this covariance are: the
-/// root mean square over coordinates where they are alike, up to 1.21 times that where
-/// one direction is much less known than the others, as a knee along its hinge.
+/// Returns the sigma per coordinate of the isotropic error whose 95 % ball has the same
+/// radius as that of this covariance: the root mean square over coordinates where all
+/// directions are alike, up to 1.20 times that where one is much less known than the
+/// others, as for a knee along its hinge.
 /// The sum of squares has a chi-square distribution with Satterthwaite's (1946) degrees
 /// of freedom; its quantile is Wilson & Hilferty's (1931). [m]
-/// Precondition: positive semidefinite but for rounding.
+/// Preconditions: finite, positive semidefinite but for rounding.
 [[nodiscard]] double point_sigma_m(const Eigen::Matrix3d& covariance);
 
-/// Returns what a joint's place comes from, when `seen` is what is known of its segment:
-/// limbs' joints that are known to no better than 20 mm are inferred (core/provenance.h),
-/// as 95 % of their errors reach 56 mm.
-[[nodiscard]] Source source_of_joint(HumanBone joint, Source seen, double sigma_m);
+/// Returns the source of a joint: that of its segment, or kInferred for a limb's joint
+/// with a sigma above 20 mm, as 95 % of its errors reach 56 mm (core/provenance.h).
+[[nodiscard]] Source source_of_joint(HumanBone joint,
+                                     Source segment_source,
+                                     double sigma_m);
 
 }  // namespace marey::reconstruct

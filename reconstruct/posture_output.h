@@ -39,7 +39,7 @@ using BoneSources = std::array<Source, kHumanBoneCount>;
 /// The pose of make_humanoid() in this posture. Keeps the storage of `out`.
 void to_pose(const UnfoldedPosture& unfolded, const Skeleton& skeleton, Pose& out);
 
-/// Standard deviation of every bone's origin, root mean square over coordinates, the
+/// Standard deviation of every bone's origin, per coordinate (point_sigma.h), the
 /// body's own doubt added. [m]
 void joint_sigmas(const UnfoldedPosture& unfolded,
                   const Body& body,

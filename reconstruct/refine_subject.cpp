@@ -54,7 +54,8 @@ Places take_extremities(SubjectBundle& bundle) {
 void place_on_body(SubjectBundle& bundle, std::span<const Camera> cameras) {
   BodyModel& model = bundle.model;
   for (std::size_t tag = 0; tag < model.tags.size(); ++tag) {
-    if (model.place(tag) || is_extremity(model.bone(tag)) || has_no_say(tag, bundle)) {
+    if (model.place(tag) || is_extremity(model.bone(tag)) ||
+        is_seen_too_seldom(tag, bundle)) {
       continue;
     }
     std::vector<RigidTransform> segment_from_tag;
@@ -171,7 +172,7 @@ int sightings_of(std::size_t tag, const SubjectBundle& bundle) {
   return static_cast<int>(count);
 }
 
-bool has_no_say(std::size_t tag, const SubjectBundle& bundle) {
+bool is_seen_too_seldom(std::size_t tag, const SubjectBundle& bundle) {
   constexpr int kFewest = 6;
   if (sightings_of(tag, bundle) >= kFewest) return false;
   const BodyModel& model = bundle.model;

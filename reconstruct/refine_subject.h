@@ -35,10 +35,10 @@ struct SubjectEvidence {
 /// Returns in how many pictures of the bundle's frames the tag is seen.
 [[nodiscard]] int sightings_of(std::size_t tag, const SubjectBundle& bundle);
 
-/// Returns whether the tag is seen too seldom to be placed beside other tags of its
-/// segment that are seen more often: one wrong reading would place it and turn the
-/// segment.
-[[nodiscard]] bool has_no_say(std::size_t tag, const SubjectBundle& bundle);
+/// Returns whether the tag has fewer than 6 sightings while another tag of its segment
+/// has 6 or more. Such a tag of a trunk or limb bone is not placed: one wrong reading
+/// would turn the segment.
+[[nodiscard]] bool is_seen_too_seldom(std::size_t tag, const SubjectBundle& bundle);
 
 /// Refines `bundle`: first the trunk and the limbs' two bones, with a loss that tightens
 /// step by step, then hands and feet, each by hypotheses, then everything together. Tags

@@ -172,6 +172,7 @@ void fill_doubts(const Body& body,
           std::hypot(std::hypot(sigmas[f][b], body.joint_centre_sigma_m[b]),
                      readings.bones[f][b],
                      std::hypot(options.camera_sigma_m, clock_s * speeds[f][b]));
+      doubts[b].segment_source = sources[b][f];
       doubts[b].source =
           source_of_joint(human_bones()[b], sources[b][f], doubts[b].sigma_m);
     }

@@ -58,7 +58,7 @@ struct TagFit {
 
 /// How well one tag of the body is known in one frame.
 struct TagDoubt {
-  /// Standard deviation of its centre, root mean square over coordinates, its slip on the
+  /// Standard deviation of its centre, per coordinate, its slip on the
   /// segment included. [m]
   float sigma_m = 0.0F;
   std::uint8_t cameras = 0;  ///< Bit i: camera i saw it; of the first seven cameras.

@@ -105,10 +105,9 @@ void measure(SubjectBundle& bundle, std::span<const Camera> cameras);
 /// Frees the tags to slide with the adjacent joints: a slide in proportion to an angle
 /// looks like a joint elsewhere, so that residuals hardly show it. The size of slides is
 /// estimated as the variance of random effects (restricted maximum likelihood; Patterson
-/// & Thompson 1971). Corners are given the noise that the fit shows, with many sightings
-/// of one tag by one camera not counted as so many independent ones. Some 2 s. False if
-/// the equations have no solution. Preconditions: adjust() has converged, and the median
-/// errors of tags are measured.
+/// & Thompson 1971), with the corners' noise that the fit shows; the weight of the priors
+/// also counts sightings of one tag by one camera as dependent. Some 2 s. False if the
+/// equations have no solution. Preconditions: adjust() has converged, then measure().
 [[nodiscard]] bool refine_slides(SubjectBundle& bundle, std::span<const Camera> cameras);
 
 /// Covariances of lengths, tags and joint centres. False when the equations have no

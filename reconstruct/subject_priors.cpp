@@ -109,7 +109,8 @@ Jet excess(const Jet& value, double limit, double sigma) {
 }
 
 struct TagTerms {
-  /// Too far off, too near, past an end, facing, radius.
+  /// Too far off, too near (of a hand: too far from its line), past an end, facing,
+  /// distance from the axis.
   std::array<Jet, 5> residual{};
 };
 

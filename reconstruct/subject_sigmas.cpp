@@ -19,8 +19,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of a thigh's skin. More is a strap that came loose; less is not accepted, as errors of
-// cameras and clocks look like skin that slides.
+// Of a thigh's skin. More is a strap that came loose. The least is what firm skin and the
+// errors of good cameras and clocks show in simulated sessions.
 constexpr double kUsualSlide_m_per_rad = 0.006;
 constexpr double kLeastSlide_m_per_rad = 0.001;
 constexpr double kMostSlide_m_per_rad = 0.06;
@@ -62,9 +62,9 @@ struct Knowledge {
   MatrixXd covariance;  ///< Of lengths and tags.
   MatrixXd moves;       ///< Of lengths and tags, by each part's equations alone.
 
-  /// Of a linear function of them: what the covariance makes of it, or the scatter of the
-  /// parts where that is surely larger (White 1982: a model that is not quite right makes
-  /// residuals that go together, and its covariance too small).
+  /// Returns the covariance of a linear function of them: the model's, or the scatter of
+  /// the parts where its trace is clearly larger (White 1982: a model that is not quite
+  /// right makes residuals that go together, and its covariance too small).
   [[nodiscard]] MatrixXd covariance_of(const MatrixXd& jacobian) const {
     const MatrixXd model = jacobian * covariance * jacobian.transpose();
     const double parts = static_cast<double>(moves.cols());
@@ -205,7 +205,8 @@ void begin_slides(SubjectBundle& bundle) {
   }
 }
 
-/// How much larger the variance of corners is than they claim: at least 1.
+/// Returns the variance of corner errors over the claimed variance, at least 1.
+/// Precondition: measure().
 double stray2(const SubjectBundle& bundle) {
   double sum_px = 0.0;
   double count = 0.0;
@@ -221,8 +222,8 @@ double stray2(const SubjectBundle& bundle) {
   return stray * stray;
 }
 
-/// Estimates how far skin slides. What is the same in all sightings of one tag by one
-/// camera is no noise here: slides count from the tag's mean angles. Returns the present
+/// Estimates how far skin slides per radian. Errors common to all sightings of one tag by
+/// one camera are ignored: slides count from the tag's mean angles. Returns the present
 /// value if the equations have no solution.
 double estimated_slide_m_per_rad(const SubjectBundle& bundle,
                                  std::span<const Camera> cameras) {

@@ -23,8 +23,8 @@ inline constexpr double kBehind2 = 8e6;
 [[nodiscard]] double robust_cost(double squared);
 [[nodiscard]] double robust_weight(double squared);
 
-/// The posture's columns that are not of the limb: neither its frame, its bends and
-/// twists nor its extremity.
+/// Returns the posture's columns that do not belong to the limb: neither to its frame,
+/// its bends and twists nor to its extremity.
 [[nodiscard]] std::vector<int> columns_outside(std::size_t limb);
 
 class BundleSolver {

@@ -49,7 +49,8 @@ MarkerTracks tag_tracks(const Body& body, const SolvedTrial& trial) {
       const PlacedTag& placed = body.tags[t];
       const std::size_t bone = index(solved_segment(placed.tag.segment));
       const TagDoubt& doubt = trial.tags[f][t];
-      const bool known = trial.estimate.doubt[f][bone].source != Source::kInferred;
+      const bool known =
+          trial.estimate.doubt[f][bone].segment_source != Source::kInferred;
       if (!seen[t] || (!doubt.seen && !known)) continue;
       const RigidTransform world_from_tag = world[bone] * placed.segment_from_tag;
       for (int c = 0; c < kCorners; ++c) {

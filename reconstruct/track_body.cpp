@@ -131,7 +131,7 @@ void BodyTracker::Inside::fill_doubt(const UnfoldedPosture& unfolded,
     if (unseen_s[b] == 0.0) source = Source::kMeasured;
     if (report.state == TrackState::kLost) source = Source::kInferred;
     const double sigma_m = std::hypot(sigmas[b], options.camera_sigma_m);
-    doubt[b] = {sigma_m, source_of_joint(human_bones()[b], source, sigma_m)};
+    doubt[b] = {sigma_m, source_of_joint(human_bones()[b], source, sigma_m), source};
   }
 }
 

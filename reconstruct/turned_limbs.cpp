@@ -156,7 +156,7 @@ std::vector<std::size_t> turn_limbs(std::span<const Camera> cameras,
     const auto cost = solve(limb, cameras, some.bundle);
     const auto other_cost = solve(limb, cameras, other);
     if (!cost || !other_cost || *other_cost >= *cost) continue;
-    // The few frames' answer is a guess for all of them.
+    // The few frames only screen; all frames decide.
     LimbBundle then = now;
     turn(limb, then.bundle);
     const auto now_cost = solve(limb, cameras, now.bundle);

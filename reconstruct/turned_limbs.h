@@ -25,8 +25,9 @@ namespace marey::reconstruct {
 /// Solves the two bones of each limb that does not look right (turned while standing, a
 /// tag off its skin) again from half a turn about their axes, and keeps what costs less.
 /// Tags of extremities are not looked at. Returns the limbs that were turned, in the
-/// order of human_limbs(). Cost: some 0.5 s per limb that is solved again, 2 s more where
-/// it is turned. Precondition: the bundle was adjusted.
+/// order of human_limbs(). Limbs without a standing frame are always solved again. Cost:
+/// some 0.5 s per limb that is solved again, 2 s more where few frames prefer it turned.
+/// Precondition: the bundle was adjusted.
 [[nodiscard]] std::vector<std::size_t> turn_limbs(std::span<const Camera> cameras,
                                                   SubjectBundle& bundle);
 

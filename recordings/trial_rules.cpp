@@ -25,8 +25,8 @@ bool same_frames(const Trial& a, const Trial& b) {
          (a.frames->first == b.frames->first && a.frames->last == b.frames->last);
 }
 
-/// A floor is cut out of the calibration's videos; swapped cameras are found there by
-/// what they see.
+/// A floor trial may be cut out of the calibration's videos. Swapped cameras are detected
+/// there later, by what they see.
 bool may_share_videos(const Trial& a, const Trial& b) {
   const auto is = [&](TrialKind kind) { return a.kind == kind || b.kind == kind; };
   return is(TrialKind::kCalibration) && is(TrialKind::kFloor);

@@ -18,8 +18,9 @@ struct TrialMistake {
 };
 
 /// Whether `trial` can follow the trials that `session` has: one trial of each kind but
-/// motion; no frames of a video in two trials, and no video of one camera as another's; a
-/// floor cut out of the calibration's own videos says which frames it is.
+/// motion; no two trials with exactly the same frames of a video (ranges may overlap),
+/// and no video of one camera as another's; a floor cut out of the calibration's own
+/// videos says which frames it is.
 [[nodiscard]] std::optional<TrialMistake> mistake_of(const Trial& trial,
                                                      const Session& session);
 

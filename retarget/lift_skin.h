@@ -27,9 +27,9 @@ struct LiftSkinOptions {
 
 /// The lowest skin of a motion, below what is allowed.
 struct SkinDepth {
-  double depth_m = 0.0;  ///< Below the floor, beyond what is allowed; 0: none is.
-  SkinPart part{};
-  int frame = -1;  ///< -1: none.
+  double depth_m = 0.0;          ///< Below the floor, beyond what is allowed; 0: none is.
+  std::optional<SkinPart> part;  ///< nullopt: none, or not known.
+  int frame = -1;                ///< -1: none.
 };
 
 struct LiftSkinReport {

@@ -12,9 +12,9 @@ namespace {
 
 constexpr int kFrames = 30;
 
-/// Somebody at 30 frames a second whose left forearm turns by 20 degrees a frame, which
-/// is quick, from frame 100 on.
-ReportTrial quick() {
+/// A person at 30 frames a second whose left forearm turns to and fro by `turn_rad` and
+/// whose root moves to and fro by `step_m` from each frame to the next.
+ReportTrial quick(double turn_rad = 1.3, double step_m = 0.7) {
   ReportTrial trial;
   trial.name = "walk";
   trial.rate = FrameRate{30.0};
@@ -24,8 +24,9 @@ ReportTrial quick() {
   body.motion.rate = trial.rate;
   for (int f = 0; f < kFrames; ++f) {
     Pose pose = rest_pose(body.motion.skeleton);
-    pose.parent_from_joint[index(HumanBone::kLeftLowerArm)] = rotation_from_vector(
-        glm::dvec3(0.0, -0.35 * (f % 4 < 2 ? f % 2 : 1 - f % 2), 0.0));
+    pose.parent_from_joint[index(HumanBone::kLeftLowerArm)] =
+        rotation_from_vector(glm::dvec3(0.0, -turn_rad * (f % 2), 0.0));
+    pose.root_in_world.x += step_m * (f % 2);
     body.motion.poses.push_back(pose);
     body.doubt.emplace_back(kHumanBoneCount, JointDoubt{0.005, Source::kMeasured});
   }
@@ -39,12 +40,22 @@ void turn(ReportTrial& trial, HumanBone bone, std::size_t frame, double rad) {
 }
 
 TEST(JudgeMotion, LetsQuickMovementPass) {
-  EXPECT_TRUE(judge_motion(quick()).empty());
+  EXPECT_TRUE(judge_motion(quick()).empty()) << "39 rad/s, 21 m/s";
   EXPECT_TRUE(judge_motion(ReportTrial{}).empty());
 }
 
+TEST(JudgeMotion, NamesMovementThatIsQuickerThanAnyBody) {
+  const auto turning = judge_motion(quick(1.6, 0.0));
+  ASSERT_EQ(turning.size(), 1U) << "48 rad/s";
+  EXPECT_TRUE(
+      turning[0].cause.starts_with("segment \"leftLowerArm\" turns by 92 degrees"))
+      << turning[0].cause;
+  EXPECT_NE(turning[0].cause.find("(28 other frames also)"), std::string::npos);
+  EXPECT_EQ(judge_motion(quick(0.0, 0.9)).size(), 1U) << "27 m/s";
+}
+
 TEST(JudgeMotion, NamesASegmentThatTurnsAboutInOneFrame) {
-  ReportTrial trial = quick();
+  ReportTrial trial = quick(0.3, 0.0);
   turn(trial, HumanBone::kRightHand, 12, 3.0);
   const auto found = judge_motion(trial);
   ASSERT_EQ(found.size(), 1U);
@@ -52,11 +63,11 @@ TEST(JudgeMotion, NamesASegmentThatTurnsAboutInOneFrame) {
   EXPECT_EQ(found[0].where, "trial walk");
   EXPECT_EQ(found[0].cause,
             "segment \"rightHand\" turns by 172 degrees between frames 111 and 112, "
-            "faster than a body can (and 1 more such steps)");
+            "faster than a body can move (1 other frame also)");
 }
 
 TEST(JudgeMotion, NamesABodyThatLeaps) {
-  ReportTrial trial = quick();
+  ReportTrial trial = quick(0.0, 0.0);
   for (std::size_t f = 20; f < kFrames; ++f) {
     trial.bodies[0].motion.poses[f].root_in_world.x += 1.5;
   }
@@ -68,7 +79,7 @@ TEST(JudgeMotion, NamesABodyThatLeaps) {
 }
 
 TEST(JudgeMotion, SaysNothingOfWhatNobodySaw) {
-  ReportTrial trial = quick();
+  ReportTrial trial = quick(0.3, 0.0);
   turn(trial, HumanBone::kRightHand, 12, 3.0);
   trial.bodies[0].doubt[12][index(HumanBone::kRightHand)].source = Source::kInferred;
   EXPECT_TRUE(judge_motion(trial).empty());

@@ -67,7 +67,8 @@ TEST_F(LiveSubject, IsWellOnlyWhereTheWorstCameraAndSegmentAre) {
 
 TEST_F(LiveSubject, IsNotTrackedWherePosesDoNotKeepUp) {
   figures_.flow_text = "poses fall behind";
-  for (const auto state : {TrackState::kWaiting, TrackState::kTracked, TrackState::kLost}) {
+  for (const auto state :
+       {TrackState::kWaiting, TrackState::kTracked, TrackState::kLost}) {
     figures_.flow = Flow::kBehind;
     EXPECT_EQ(told(state).subject, PageSubject::kBehind);
     EXPECT_EQ(told(state).doubts.back(), "poses fall behind");
@@ -81,17 +82,21 @@ TEST_F(LiveSubject, IsNotTrackedWherePosesDoNotKeepUp) {
 
 TEST(WornSegments, AreUnseenWhereTheirPlaceIsAGuess) {
   Body body;
-  for (const HumanBone bone : {HumanBone::kHips, HumanBone::kLeftToes, HumanBone::kHead}) {
+  for (const HumanBone bone :
+       {HumanBone::kHips, HumanBone::kLeftToes, HumanBone::kHead}) {
     PlacedTag tag;
     tag.tag.segment = bone;
     body.tags.push_back(tag);
     body.tags.push_back(tag);
   }
-  std::vector<JointDoubt> doubt(kHumanBoneCount, {0.01, Source::kMeasured});
+  std::vector<JointDoubt> doubt(kHumanBoneCount,
+                                {0.01, Source::kMeasured, Source::kMeasured});
   EXPECT_TRUE(WornSegments(body).unseen(doubt).empty());
-  doubt[index(HumanBone::kLeftFoot)].source = Source::kInferred;
-  doubt[index(HumanBone::kHead)].source = Source::kRepaired;
-  doubt[index(HumanBone::kRightHand)].source = Source::kInferred;  // Wears nothing.
+  doubt[index(HumanBone::kLeftFoot)].segment_source = Source::kInferred;
+  doubt[index(HumanBone::kHead)].segment_source = Source::kRepaired;
+  doubt[index(HumanBone::kRightHand)].segment_source = Source::kInferred;  // No tag.
+  // Seen, but its joint is known badly.
+  doubt[index(HumanBone::kHips)] = {0.03, Source::kInferred, Source::kMeasured};
   EXPECT_EQ(WornSegments(body).unseen(doubt), std::vector<std::string>{"leftFoot"});
   EXPECT_TRUE(WornSegments(body).unseen({}).empty());
 }

@@ -295,6 +295,27 @@ TEST(FitSubject, NamesSegmentsExchangedBetweenTheSides) {
   }
 }
 
+TEST(FitSubject, NamesATagThatMovesWithAnotherSegment) {
+  Scene scene(0.2);
+  scene.moving.frames = 60;
+  const auto tag = std::ranges::find(
+      scene.prior.tags, HumanBone::kLeftLowerLeg, &TagOnSegment::segment);
+  ASSERT_NE(tag, scene.prior.tags.end());
+  tag->segment = HumanBone::kLeftUpperLeg;
+  const auto fit = scene.fit();
+  const std::string id = "tag " + std::to_string(number(tag->id)) + " ";
+  if (!fit) {
+    EXPECT_NE(fit.error().message().find(id), std::string::npos) << fit.error().message();
+    return;
+  }
+  const bool is_doubted = std::ranges::any_of(fit->doubts, [&](const Error& doubt) {
+    return doubt.cause.find(id) != std::string::npos;
+  });
+  const bool is_left_out =
+      std::ranges::find(fit->unplaced, tag->id) != fit->unplaced.end();
+  EXPECT_TRUE(is_doubted || is_left_out);
+}
+
 TEST(FitSubject, NamesHipsAndChestExchanged) {
   using B = HumanBone;
   const std::string error = error_with(Scene(0.2), [](B bone) {

@@ -41,10 +41,18 @@ TEST_P(SimulatedCampaign, IsNeverSilentlyWrong) {
   }
   // A program that refuses every session is never silently wrong either.
   EXPECT_GT(count, 0);
-  // Five sessions are no sample for the bars of 2 % and 93 %: these limits tell a program
-  // that refuses, or errs by more than it says, much more often than over eighty.
+  // Five sessions are too few to test the real limits (2 % refused, 93 % inside), which
+  // are measured over hundreds. These looser limits catch gross regressions only.
   EXPECT_LE(refused_though_sufficient, 1);
   EXPECT_GE(inside, 0.85 * count);
+}
+
+// Movement alone puts single tags of this session on another segment.
+TEST(SimulatedSession, IsAcceptedWhereTheFitRefutesADoubtAboutTags) {
+  const SimulatedSession session = simulate_session(127);
+  const SessionAnswer answer = answer_session(session);
+  ASSERT_FALSE(answer.refusal) << answer.refusal->message();
+  EXPECT_FALSE(judge(session, answer).is_silently_wrong);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds,

@@ -24,7 +24,7 @@ const LAYERS: [keyof Shown, string, string][] = [
 const MEANINGS = {
   measured: 'cameras saw it in this frame',
   repaired: 'out of sight for a while, filled in from before and after',
-  inferred: 'no tag on it, or out of sight for long: the skeleton’s guess',
+  inferred: 'no tag on it, out of sight for long, or a limb’s joint known to no better than 20 mm',
 };
 
 export class ViewPanel {
