@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <variant>
 
 #include <glm/geometric.hpp>
 
@@ -18,6 +19,8 @@ using recordings::TrialKind;
 
 // Share of the pictures. Misread tags and passers-by are seen less often.
 constexpr double kOftenShare = 0.05;
+// The same of the pictures that show a board, of tags that are printed on it.
+constexpr double kBesideBoardShare = 0.2;
 
 /// Number of pictures that show each tag, and of all pictures, in the trials of a body.
 struct Seen {
@@ -89,11 +92,48 @@ std::string in_words(const std::vector<TagId>& ids) {
   return words;
 }
 
+/// Tags that move about with an AprilGrid and are not of it: more rows or columns are
+/// printed than the session says. Cameras are right without them.
+void look_beside_board(const Session& session,
+                       const std::map<std::string, std::vector<CameraDetections>>& found,
+                       RecordingTroubles& troubles) {
+  const Trial* waved = session.find(TrialKind::kCalibration);
+  if (!waved || !found.contains(waved->name) || session.families.size() != 1 ||
+      !std::holds_alternative<AprilGrid>(session.target)) {
+    return;
+  }
+  std::map<TagId, int> pictures;
+  std::set<TagId> moving;
+  int with_board = 0;
+  for (const CameraDetections& camera : found.at(waved->name)) {
+    add_moving(camera, moving);
+    for (const FrameDetections& frame : camera.frames) {
+      with_board += frame.tags.empty() ? 0 : 1;
+      for (const TagDetection& tag : frame.tags) ++pictures[tag.id];
+    }
+  }
+  std::vector<TagId> strangers;
+  for (const auto& [id, count] : pictures) {
+    if (count > kBesideBoardShare * with_board && moving.contains(id) &&
+        !is_listed(session, id)) {
+      strangers.push_back(id);
+    }
+  }
+  if (strangers.empty()) return;
+  troubles.warnings.push_back(
+      session.file.string() + ": [board]: " + in_words(strangers) +
+      (strangers.size() == 1 ? " moves" : " move") + " with the board in trial \"" +
+      waved->name + "\" but " + (strangers.size() == 1 ? "is" : "are") +
+      " not of it, and not used. Next: correct `rows`, `columns` and `first_id` to what "
+      "is printed.");
+}
+
 }  // namespace
 
 Status check_ids(const Session& session,
                  const std::map<std::string, std::vector<CameraDetections>>& found,
                  RecordingTroubles& troubles) {
+  look_beside_board(session, found, troubles);
   const Trial* moving = session.find(TrialKind::kRangeOfMotion);
   // A body that stands still may hide a tag throughout; one that moves shows all.
   if (session.tags.empty() || session.families.size() != 1 || !moving ||

@@ -13,11 +13,12 @@
 
 namespace marey::app {
 
-/// Checks that the tags seen on a body are those that the session lists. `found` is by
-/// name of the trial. Linear in the detections.
+/// Checks that the tags seen on a body, and beside an AprilGrid that is waved, are those
+/// that the session lists. `found` is by name of the trial. Linear in the detections.
 ///
 /// Errors (kBadInput): listed tags that are never seen, while unlisted tags of the family
-/// are often seen: mistyped ids. Unlisted tags alone are a warning in `troubles`. Passes
+/// are often seen: mistyped ids. Unlisted tags alone, and tags that move with
+/// the board and are not of it, are warnings in `troubles`. Passes
 /// without a check if the session has several tag families (only listed tags are searched
 /// for then) or no range-of-motion trial.
 [[nodiscard]] Status check_ids(

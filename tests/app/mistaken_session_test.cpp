@@ -125,6 +125,14 @@ TEST(MistakenSession, WithACameraThatSeesNoBoardIsDeclinedBeforeAnyWork) {
   EXPECT_FALSE(says(run, "tags in")) << run.err;
 }
 
+TEST(MistakenSession, WithFewerRowsThanTheBoardHasIsToldOfTheOthers) {
+  SpoiledSession session;
+  session.replace("rows = 6\n", "rows = 5\n");
+  const ProgramRun run = session.run();
+  EXPECT_TRUE(says(run, "[board]: tags 30, 31, 32, 33, 34, 35 move with the board"))
+      << run.err;
+}
+
 TEST(MistakenSession, IsCalibratedBeforeItsOtherTrialsAreRecorded) {
   SpoiledSession session;
   session.replace("\"static/", "\"not-yet-static/");
