@@ -3,6 +3,7 @@
 #include "app/reread_motion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -16,6 +17,9 @@
 
 namespace marey::app {
 namespace {
+
+// Slower keys are read as meant to be blended.
+constexpr double kSlowestKeysHz = 10.0;
 
 using Places = std::vector<std::vector<glm::dvec3>>;
 
@@ -51,6 +55,22 @@ Result<recordings::PosedPlaces> read_places(const WrittenFile& file) {
   return read;
 }
 
+bool is_gltf(MotionFormat format) {
+  return format == MotionFormat::kGlb || format == MotionFormat::kVrma;
+}
+
+/// Keys slower than 10 Hz are read as meant to be blended, at 30 Hz
+/// (recordings/gltf_read_animation.cpp): every so many frames of that are the motion's.
+/// Returns 0 where none are.
+std::size_t step_between_keys(const Motion& motion, std::size_t read_frames) {
+  constexpr double kBlendedHz = 30.0;
+  const double step = kBlendedHz / motion.rate.hz;
+  const double whole = std::round(step);
+  if (whole < 1.0 || std::abs(step - whole) > 1e-6 * step) return 0;
+  const auto frames = static_cast<std::size_t>(whole) * (motion.poses.size() - 1) + 1;
+  return frames == read_frames ? static_cast<std::size_t>(whole) : 0;
+}
+
 double nearest_m(const glm::dvec3& place, const std::vector<glm::dvec3>& others) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const glm::dvec3& other : others) {
@@ -78,7 +98,12 @@ Result<std::optional<RereadFigures>> reread_motion(const WrittenFile& file,
   }
   auto read = read_places(file);
   if (!read) return read.error();
-  if (read->joints.size() != motion.poses.size()) {
+  std::size_t step = 1;
+  if (read->joints.size() != motion.poses.size() && is_gltf(file.format) &&
+      motion.rate.hz < kSlowestKeysHz) {
+    step = step_between_keys(motion, read->joints.size());
+    if (step == 0) return std::optional<RereadFigures>{};
+  } else if (read->joints.size() != motion.poses.size()) {
     return Error{Errc::kInternal,
                  file.path.string(),
                  "the written file has " + std::to_string(read->joints.size()) +
@@ -91,14 +116,16 @@ Result<std::optional<RereadFigures>> reread_motion(const WrittenFile& file,
     for (std::size_t j = 0; j < world.size(); ++j) {
       const auto& bone = motion.skeleton.joints[j].bone;
       if (!bone) continue;
-      const double off_m = nearest_m(world[j].translation, read->joints[t]);
+      const double off_m = nearest_m(world[j].translation, read->joints[step * t]);
       if (out.worst_frame >= 0 && off_m <= out.worst_place_m) continue;
       out.worst_place_m = off_m;
       out.worst_bone = *bone;
       out.worst_frame = static_cast<int>(t);
     }
   }
-  out.lowest_skin_m = std::move(read->lowest_skin);
+  for (std::size_t t = 0; t < read->lowest_skin.size(); t += step) {
+    out.lowest_skin_m.push_back(read->lowest_skin[t]);
+  }
   return std::optional<RereadFigures>{std::move(out)};
 }
 

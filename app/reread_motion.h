@@ -40,7 +40,8 @@ struct RereadFigures {
 };
 
 /// Reads a written file again and compares each bone's place in the world with the
-/// nearest joint of the file. Returns nullopt for .csv and .mot, which hold no joints.
+/// nearest joint of the file. Returns nullopt for .csv and .mot, which hold no joints, and
+/// for .glb and .vrma of motions slower than 10 Hz whose rate does not divide 30 Hz.
 /// Cost: that of the reader; of a .glb also linear in frames times vertices.
 /// Errors: the readers'; a number of frames that is not the motion's.
 [[nodiscard]] Result<std::optional<RereadFigures>> reread_motion(const WrittenFile& file,

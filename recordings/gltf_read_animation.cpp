@@ -135,9 +135,9 @@ double rate_of(const std::vector<Track>& tracks) {
     if (std::abs(times[i] - even) > 0.01 * step) return kUsualRateHz;
   }
   const double hz = 1.0 / step;
-  if (hz < kSlowestKeysHz || hz > kFastestRateHz) return kUsualRateHz;
   // Times are floats, so the step is not quite what was meant.
-  return meant_rate(hz, 2e-7);
+  if (hz < kSlowestKeysHz || hz > 1.001 * kFastestRateHz) return kUsualRateHz;
+  return std::min(meant_rate(hz, 2e-7), kFastestRateHz);
 }
 
 void apply(const Track& track, double time_s, NodePose& pose) {

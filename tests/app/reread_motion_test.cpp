@@ -48,6 +48,22 @@ TEST(RereadMotion, FindsTheMotionInEveryKindOfFile) {
   }
 }
 
+TEST(RereadMotion, FindsSlowAndFastMotions) {
+  const RetargetScene scene;
+  Motion motion = scene.motion("walk.bvh");
+  for (const double hz : {0.1, 5.0, 7.0, 7.5, 1000.0, 2000.0}) {
+    motion.rate = FrameRate{hz};
+    const auto out = scene / "rate.vrma";
+    ASSERT_TRUE(write_motion_file(out, MotionFormat::kVrma, motion, {}));
+    const auto same = reread_motion(written_file(out, MotionFormat::kVrma, {}), motion);
+    ASSERT_TRUE(same) << hz << " Hz: " << same.error().message();
+    EXPECT_EQ(same->has_value(), hz != 7.0) << hz;
+    if (*same) {
+      EXPECT_LT((*same)->worst_place_m, 1e-4) << hz;
+    }
+  }
+}
+
 TEST(RereadMotion, DetectsAFileOfAnotherFacingOrUnit) {
   const RetargetScene scene;
   const Motion motion = scene.motion("walk.bvh");
