@@ -42,8 +42,7 @@ void judge_skin(const std::string& name, AvatarVerdict& out) {
            words.c_str(),
            deep_mm),
       "look at it with marey view; adapt the result with a constraint on what is too "
-      "low, "
-      "or give the body a bone map if its bones are mistaken",
+      "low, or give the body a bone map if its bones are mistaken",
       deep_mm > kPoorSkin_mm,
       out);
 }

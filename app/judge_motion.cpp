@@ -32,7 +32,7 @@ struct Leap {
     if (here_in_limits <= 1.0) return;
     frames += at != last ? 1 : 0;
     last = at;
-    // What hangs on a segment that turns, turns as far: the parent is named.
+    // Children of a turning segment turn by the same angle: the parent is named.
     if (here_in_limits <= in_limits * (1.0 + 1e-9)) return;
     in_limits = here_in_limits;
     frame = at;

@@ -87,7 +87,7 @@ struct ReportBody {
   double slide_before_cm_per_s = 0.0;
   double slide_after_cm_per_s = 0.0;
   double penetration_mm = 0.0;   ///< Of its skin; of its feet's ends without one.
-  std::string penetration_part;  ///< Of the skin; empty: not known, or none is low.
+  std::string penetration_part;  ///< Of the skin; empty: unknown, or none is too low.
   int penetration_frame = -1;    ///< Likewise; counted from the motion's first frame.
   double source_depth_mm = 0.0;  ///< How far the subject's joints are below the floor.
   double legs_deg = 0.0;         ///< From the subject's: the largest median of a segment.

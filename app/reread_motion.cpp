@@ -12,14 +12,12 @@
 
 #include "core/pose.h"
 #include "recordings/bvh.h"
+#include "recordings/motion_limits.h"
 #include "recordings/npz.h"
 #include "recordings/posed_places.h"
 
 namespace marey::app {
 namespace {
-
-// Slower keys are read as meant to be blended.
-constexpr double kSlowestKeysHz = 10.0;
 
 using Places = std::vector<std::vector<glm::dvec3>>;
 
@@ -59,12 +57,10 @@ bool is_gltf(MotionFormat format) {
   return format == MotionFormat::kGlb || format == MotionFormat::kVrma;
 }
 
-/// Keys slower than 10 Hz are read as meant to be blended, at 30 Hz
-/// (recordings/gltf_read_animation.cpp): every so many frames of that are the motion's.
-/// Returns 0 where none are.
+/// Slow keys are read at 30 Hz (recordings/motion_limits.h). Returns which of the read
+/// frames are the motion's: every first, second, third...; 0: none are.
 std::size_t step_between_keys(const Motion& motion, std::size_t read_frames) {
-  constexpr double kBlendedHz = 30.0;
-  const double step = kBlendedHz / motion.rate.hz;
+  const double step = recordings::kBlendedKeysHz / motion.rate.hz;
   const double whole = std::round(step);
   if (whole < 1.0 || std::abs(step - whole) > 1e-6 * step) return 0;
   const auto frames = static_cast<std::size_t>(whole) * (motion.poses.size() - 1) + 1;
@@ -100,7 +96,7 @@ Result<std::optional<RereadFigures>> reread_motion(const WrittenFile& file,
   if (!read) return read.error();
   std::size_t step = 1;
   if (read->joints.size() != motion.poses.size() && is_gltf(file.format) &&
-      motion.rate.hz < kSlowestKeysHz) {
+      motion.rate.hz < recordings::kSlowestKeysHz) {
     step = step_between_keys(motion, read->joints.size());
     if (step == 0) return std::optional<RereadFigures>{};
   } else if (read->joints.size() != motion.poses.size()) {

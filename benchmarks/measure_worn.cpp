@@ -146,7 +146,7 @@ int measure_single_tags(int first, int last) {
           session.standing.detections,
           session.moving.detections);
     };
-    // Of a session that is refused anyway nothing is learnt.
+    // A session that is refused without the mistake shows nothing.
     const auto right = fit_with(tags);
     if (!right || !right->doubts.empty()) continue;
     const B worn = tags[change.tag].segment;

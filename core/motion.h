@@ -25,8 +25,8 @@ struct JointDoubt {
   /// within 2.8 times that. [m]
   double sigma_m = 0.0;
   Source source = Source::kInferred;
-  /// Of the segment that begins at the joint, whatever sigma_m is: set where segments are
-  /// solved from tags.
+  /// Source of the segment that begins at the joint, which does not depend on sigma_m.
+  /// Set only where segments are solved from tags.
   Source segment_source = Source::kInferred;
 };
 

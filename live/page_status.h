@@ -57,7 +57,8 @@ struct PageRecording {
 struct PageStatus {
   double clock_s = 0.0;
   PageSubject subject = PageSubject::kWaiting;
-  /// What is not well now, part by part; then what is doubtful about the measured body.
+  /// Present faults, one text for each camera and segment; then doubts about the measured
+  /// body.
   std::vector<std::string> doubts{};
   int frame = 0;
   double rate_hz = 0.0;

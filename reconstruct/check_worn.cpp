@@ -133,7 +133,7 @@ Result<std::optional<WornDoubt>> check_worn(const WornTags& worn,
     if (found.undecided) return *found.undecided;
     return std::optional<WornDoubt>();
   }
-  // What is said of single tags a fit may refute, but only of a body that moves right.
+  // A fit may refute a doubt about single tags, but only if the rest moves as declared.
   const bool is_of_single_tags = found.segments == by_rigidity && !found.undecided;
   if (!is_of_single_tags || mistake_as_declared(worn, average)) return *error;
   return std::optional(WornDoubt{*error, moved(worn, by_rigidity)});

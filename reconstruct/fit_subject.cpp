@@ -30,7 +30,7 @@ constexpr std::size_t kMovingFrames = 90;
 constexpr std::size_t kLocatedFrames = 300;
 constexpr std::size_t kFramesPerTag = 3;
 constexpr std::size_t kFewestMovingFrames = 10;
-constexpr int kSteps = 4;  // Of the progress.
+constexpr int kSteps = 4;  // That progress reports.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t wanted) {
   std::vector<std::size_t> chosen;
   const std::size_t n = std::min(count, wanted);
@@ -280,9 +280,9 @@ SubjectFit to_fit(const SubjectPrior& prior,
   return fit;
 }
 
-/// The trials as the fit starts from them.
+/// The static and the range-of-motion trial as the fit starts from them.
 struct LocatedTrials {
-  std::span<const Sightings> trials;  ///< Standing, moving; likewise the next two.
+  std::span<const Sightings> trials;  ///< The static one, then the other.
   std::span<const TagCluster> clusters;
   const LocatedTrial& stood;
   const LocatedTrial& moved;

@@ -23,7 +23,7 @@ double quantile95_per_freedom(double freedom) {
 double point_sigma_m(const Eigen::Matrix3d& covariance) {
   MAREY_ASSERT(covariance.allFinite());
   const double trace = covariance.trace();
-  const double squares = covariance.squaredNorm();  // Of the eigenvalues.
+  const double squares = covariance.squaredNorm();  // Sum of squared eigenvalues.
   if (trace <= 0.0 || squares <= 0.0) return 0.0;
   const double freedom = trace * trace / squares;
   return std::sqrt(trace / 3.0 * quantile95_per_freedom(freedom) /

@@ -16,8 +16,6 @@
 namespace marey::recordings {
 namespace {
 
-constexpr double kUsualRateHz = 30.0;
-constexpr double kSlowestKeysHz = 10.0;  // Slower keys are meant to be blended.
 constexpr double kLatestFrame = 1e6;
 
 enum class Blend { kStep, kLinear, kCubic };
@@ -127,16 +125,16 @@ double rate_of(const std::vector<Track>& tracks) {
   const auto& times = std::ranges::max_element(tracks, {}, [](const Track& track) {
                         return track.times_s.size();
                       })->times_s;
-  if (times.size() < 2) return kUsualRateHz;
+  if (times.size() < 2) return kBlendedKeysHz;
   const double step =
       (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   for (std::size_t i = 0; i < times.size(); ++i) {
     const double even = times.front() + step * static_cast<double>(i);
-    if (std::abs(times[i] - even) > 0.01 * step) return kUsualRateHz;
+    if (std::abs(times[i] - even) > 0.01 * step) return kBlendedKeysHz;
   }
   const double hz = 1.0 / step;
   // Times are floats, so the step is not quite what was meant.
-  if (hz < kSlowestKeysHz || hz > 1.001 * kFastestRateHz) return kUsualRateHz;
+  if (hz < kSlowestKeysHz || hz > 1.001 * kFastestRateHz) return kBlendedKeysHz;
   return std::min(meant_rate(hz, 2e-7), kFastestRateHz);
 }
 

@@ -15,6 +15,10 @@ inline constexpr double kFurthest_m = 1e4;
 
 inline constexpr double kSlowestRateHz = 0.1;
 inline constexpr double kFastestRateHz = 2000.0;
+/// Animations of glTF with slower keys are meant to be blended: they are read at
+/// kBlendedKeysHz.
+inline constexpr double kSlowestKeysHz = 10.0;
+inline constexpr double kBlendedKeysHz = 30.0;
 
 /// Maximum number of joints between a root and its farthest descendant. Programs that go
 /// down a skeleton recursively, and the indented text of a BVH, need a limit.
