@@ -84,6 +84,7 @@ Status read_all(const FitArguments& args,
                 FitRun& run,
                 std::optional<MarkerMap>& map) {
   const Stopwatch watch;
+  if (const Status ok = check_out_folder(args.out); !ok) return ok;
   if (const Status ok = check_avatars(args.avatars); !ok) return ok;
   if (!args.map.empty()) {
     auto read = recordings::read_marker_map(args.map);
