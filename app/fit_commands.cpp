@@ -16,6 +16,7 @@
 #include "app/marker_report.h"
 #include "app/option_checks.h"
 #include "app/stopwatch.h"
+#include "app/trial_checks.h"
 #include "recordings/atomic_file.h"
 #include "recordings/marker_map.h"
 #include "recordings/subject_file.h"
@@ -66,6 +67,10 @@ Status find_subject(const FitArguments& args,
                     std::span<const MarkerTracks> checked,
                     const Progress& progress,
                     FitRun& run) {
+  const auto size = reconstruct::estimate_stature(checked, used_labels(run.labels));
+  if (size) {
+    if (const Status ok = check_size(run.trials, size->stature_m); !ok) return ok;
+  }
   auto fit = fit_subject_to(subject_asked(args, run), checked, run.labels, progress);
   if (!fit) return fit.error();
   run.body = fit->fit.body;
@@ -79,6 +84,7 @@ Status read_all(const FitArguments& args,
                 FitRun& run,
                 std::optional<MarkerMap>& map) {
   const Stopwatch watch;
+  if (const Status ok = check_out_folder(args.out); !ok) return ok;
   if (const Status ok = check_avatars(args.avatars); !ok) return ok;
   if (!args.map.empty()) {
     auto read = recordings::read_marker_map(args.map);
@@ -96,6 +102,33 @@ Status read_all(const FitArguments& args,
   run.trials = std::move(*trials);
   run.times.read_s = watch.seconds();
   return Done{};
+}
+
+/// Of a fit that failed: exchanged sides or a wrong axis, where there are any.
+Error cause_of(const FitRun& run, Error error) {
+  const std::vector<Error> causes = side_and_axis_errors(run.trials, run.geometry);
+  if (causes.empty()) return error;
+  return bad_input(causes.front().where, causes.front().cause, causes.front().next);
+}
+
+/// What speaks against the answer. Exchanged sides and wrong axes explain what else is
+/// off: they come alone.
+std::vector<Error> judge_all(const FitArguments& args, FitRun& run) {
+  std::vector<Error> failures = side_and_axis_errors(run.trials, run.geometry);
+  if (!failures.empty()) return failures;
+  const SubjectFit* subject = run.subject ? &*run.subject : nullptr;
+  run.checks =
+      check_labels(run.body, subject_asked(args, run), subject, run.labels, run.trials);
+  failures = judge_fit(run.trials, subject, run.body, args.stature_m);
+  if (subject != nullptr && subject->fit.measured_stature) {
+    auto small =
+        small_stature(run.trials, *subject->fit.measured_stature, args.stature_m);
+    if (small) failures.push_back(std::move(*small));
+  }
+  for (Error& failure : judge_labels(run.checks, run.trials)) {
+    failures.push_back(std::move(failure));
+  }
+  return failures;
 }
 
 Status solve_all(const FitArguments& args,
@@ -118,9 +151,12 @@ Status solve_all(const FitArguments& args,
   } else if (args.subject.empty()) {
     return somewhere(labels.error());
   }
+  run.geometry = reconstruct::compare_trials(checked, used_labels(run.labels));
+  const std::vector<Error> other_units = unit_errors(run.trials, run.geometry);
+  if (!other_units.empty()) return other_units.front();
   if (args.subject.empty()) {
     const Status ok = find_subject(args, checked, console.stage("fit"), run);
-    if (!ok) return somewhere(ok.error());
+    if (!ok) return cause_of(run, somewhere(ok.error()));
   }
   checked.clear();
   run.times.fit_s = fitting.seconds();
@@ -164,13 +200,7 @@ Exit run_fit(const FitArguments& args, Console& console) {
   if (const Status ok = solve_all(args, map, console, run); !ok) {
     return console.fail(ok.error());
   }
-  const SubjectFit* subject = run.subject ? &*run.subject : nullptr;
-  run.checks =
-      check_labels(run.body, subject_asked(args, run), subject, run.labels, run.trials);
-  std::vector<Error> failures = judge_fit(run.trials, subject, run.body, args.stature_m);
-  for (Error& failure : judge_labels(run.checks, run.trials)) {
-    failures.push_back(std::move(failure));
-  }
+  const std::vector<Error> failures = judge_all(args, run);
   run.warnings = fit_warnings(run);
   const std::vector<std::string> warnings = run.warnings;
   for (const Error& failure : failures) run.warnings.push_back(failure.message());
@@ -214,7 +244,7 @@ void add_fit_command(CLI::App& app,
   command->add_option("--up", args.up, "Axis of the files that is up, if not as found")
       ->check(CLI::IsMember({"+X", "+Y", "+Z", "-X", "-Y", "-Z"}));
   command->add_option("--unit", args.unit, "Unit of the files, if not as they say")
-      ->check(CLI::IsMember({"mm", "cm", "m"}));
+      ->check(CLI::IsMember({"mm", "cm", "m", "in", "ft"}));
   command->add_flag("--json", args.json, "Print fit.json on standard output");
   command->callback(
       [&] { chosen = [&args](Console& console) { return run_fit(args, console); }; });

@@ -12,6 +12,7 @@
 #include "app/label_checks.h"
 #include "app/marker_trials.h"
 #include "core/body.h"
+#include "reconstruct/compare_trials.h"
 
 namespace marey::app {
 
@@ -29,6 +30,7 @@ struct FitRun {
   FitLabels labels;
   std::optional<SubjectFit> subject;  ///< None: an earlier fit was used.
   Body body;
+  std::vector<reconstruct::TrialGeometry> geometry;  ///< Of every trial.
   LabelChecks checks;
   std::vector<MarkerTrial> trials;
   std::vector<std::string> warnings;

@@ -18,10 +18,6 @@ namespace {
 using reconstruct::Landmark;
 using reconstruct::NamedMarker;
 
-// Of people, children too; a wrong unit is a factor of ten at least. [m]
-constexpr double kLeastStature_m = 0.4;
-constexpr double kGreatestStature_m = 2.7;
-
 // Of right labels places_off() was 0.6 to 1.4 in recordings of twenty laboratories, and
 // 1.5 to 4 with left and right exchanged, while the distances of markers from that body
 // often tell nothing. Above the first the mirror is looked into, and is right when it is
@@ -100,23 +96,6 @@ void leave_out(std::span<const std::string> prefixes,
   }
 }
 
-Status check_size(std::span<const MarkerTracks> trials,
-                  std::span<const NamedMarker> markers) {
-  const auto estimate = reconstruct::estimate_stature(trials, markers);
-  if (!estimate) return Done{};
-  const double stature_m = estimate->stature_m;
-  if (stature_m > kLeastStature_m && stature_m < kGreatestStature_m) return Done{};
-  std::array<char, 120> text{};
-  std::snprintf(text.data(),
-                text.size(),
-                "by the distances of its markers this body is %.3g m tall",
-                stature_m);
-  return bad_input("",
-                   text.data(),
-                   "see the unit, which --unit corrects, and the labels, which --markers "
-                   "MAP.toml corrects");
-}
-
 }  // namespace
 
 std::vector<NamedMarker> used_labels(const FitLabels& labels) {
@@ -171,7 +150,6 @@ Result<SubjectFit> fit_subject_to(const reconstruct::MarkerSubject& subject,
                                   const FitLabels& labels,
                                   const Progress& progress) {
   std::vector<NamedMarker> markers = used_labels(labels);
-  if (const Status ok = check_size(trials, markers); !ok) return ok.error();
   auto fit = reconstruct::fit_markers(subject, trials, markers, progress);
   SubjectFit out;
   if (fit) {

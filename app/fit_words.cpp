@@ -10,6 +10,7 @@
 #include <span>
 
 #include "app/judge_fit.h"
+#include "app/trial_checks.h"
 
 namespace marey::app {
 namespace {
@@ -142,11 +143,9 @@ std::vector<std::string> fit_warnings(const FitRun& run) {
                       " of wrong samples (swapped, ghosts, jumps) put right or taken "
                       "out: fit.json lists them");
     }
-    if (is_upside_down(trial)) {
-      lines.push_back(trial.path.string() +
-                      ": the body is head down all the time. Next: if it is not so, say "
-                      "with --up which axis of the file is up");
-    }
+  }
+  for (std::string& line : axis_warnings(run.trials, run.geometry)) {
+    lines.push_back(std::move(line));
   }
   return lines;
 }

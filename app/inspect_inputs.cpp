@@ -109,7 +109,11 @@ Result<Json> inspect_marker_map(const fs::path& file) {
   const auto map = recordings::read_marker_map(file);
   if (!map) return map.error();
   Json labels = Json::object();
-  for (const MarkerMapEntry& entry : map->entries) labels[entry.label] = entry.name;
+  // Labels are all different; operator[] would look each up among all before it.
+  Json::object_t::Container& list = *labels.get_ptr<Json::object_t*>();
+  for (const MarkerMapEntry& entry : map->entries) {
+    list.emplace_back(entry.label, entry.name);
+  }
   return Json{{"kind", "marker map"}, {"markers", labels}};
 }
 

@@ -19,6 +19,12 @@ Result<nlohmann::ordered_json> read_json(const std::filesystem::path& path) {
                          std::to_string(recordings::kMaxNesting) + " deep",
                      "give a file that marey wrote");
   }
+  if (recordings::json_has_too_many_keys(*text)) {
+    return bad_input(path.string(),
+                     "one of its objects has more than " +
+                         std::to_string(recordings::kMaxKeys) + " keys",
+                     "give a file that marey wrote");
+  }
   auto json = nlohmann::ordered_json::parse(*text, nullptr, false);
   if (!json.is_discarded()) return json;
   return bad_input(path.string(), "it is not valid JSON", "copy the file again");

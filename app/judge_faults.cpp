@@ -69,16 +69,27 @@ void judge_move(FindingList& list) {
           : std::string("what it saw of the floor fits a camera");
   const bool is_doubtful =
       move->moved_px < kClearMovePx * scale && others_are_loose(list.report, *move);
-  list.add(is_doubtful ? Severity::kFair : graver(move->moved_px, kPoorMovePx * scale),
+  // A change of focus moves the picture little and the cameras much.
+  const double poor_shift_m = limits_of(list.report).error_m[1];
+  const bool is_harmful =
+      move->moved_px > kPoorMovePx * scale || move->rig_shift_m > poor_shift_m;
+  std::string effect;
+  if (move->rig_shift_m > poor_shift_m) {
+    effect = worded("; if that is taken into account, cameras shift by up to %.0f mm",
+                    1e3 * move->rig_shift_m);
+  }
+  list.add(is_doubtful || !is_harmful ? Severity::kFair : Severity::kPoor,
            "moved",
            list.camera(c) + others,
-           when + worded(" that was moved by %.1f px (%.2f degrees, %.0f mm) %s",
-                         move->moved_px,
-                         move->turn_rad * kDegrees,
-                         1e3 * move->shift_m,
-                         move->from_frame
-                             ? "than before"
-                             : worded("since the %s was waved", list.target()).c_str()),
+           when +
+               worded(" that was moved by %.1f px (%.2f degrees, %.0f mm) %s",
+                      move->moved_px,
+                      move->turn_rad * kDegrees,
+                      1e3 * move->shift_m,
+                      move->from_frame
+                          ? "than before"
+                          : worded("since the %s was waved", list.target()).c_str()) +
+               effect,
            is_doubtful
                ? "synchronize the cameras first, as skipped frames look like a small "
                  "move; then fix it firmly, and record the calibration again"

@@ -23,8 +23,6 @@ constexpr double kOtherStatureSigmas = 4.0;
 constexpr double kMostFrames = 0.8;
 // Of right labels places_off is 0.6 to 1.4 (fit_labels.cpp).
 constexpr double kNobodysPlaces = 2.0;
-// Somersaults are shorter.
-constexpr double kNearlyAlways = 0.9;
 
 std::string with_number(const char* format, double value) {
   std::array<char, 160> text{};
@@ -111,30 +109,6 @@ double share_solved(const MarkerTrial& trial) {
   const std::size_t frames = frames_with_markers(trial);
   if (!trial.solved || frames == 0) return 0.0;
   return std::min(1.0, trial.solved->frames_solved / static_cast<double>(frames));
-}
-
-bool is_upside_down(const MarkerTrial& trial) {
-  if (!trial.solved) return false;
-  const EstimatedMotion& estimate = trial.solved->estimate;
-  std::size_t known = 0;
-  std::size_t tipped = 0;
-  std::vector<RigidTransform> world_from_joint(kHumanBoneCount);
-  for (std::size_t f = 0; f < estimate.motion.poses.size(); ++f) {
-    const auto source = [&](HumanBone bone) {
-      return estimate.doubt[f][index(bone)].source;
-    };
-    if (source(HumanBone::kHips) == Source::kInferred) continue;
-    world_from_joints(
-        estimate.motion.skeleton, estimate.motion.poses[f], world_from_joint);
-    const auto height = [&](HumanBone bone) {
-      return world_from_joint[index(bone)].translation.y;
-    };
-    ++known;
-    const double head = height(HumanBone::kHead);
-    tipped += head < height(HumanBone::kLeftFoot) && head < height(HumanBone::kRightFoot);
-  }
-  return known > 0 &&
-         static_cast<double>(tipped) > kNearlyAlways * static_cast<double>(known);
 }
 
 std::vector<Error> judge_fit(std::span<const MarkerTrial> trials,

@@ -28,7 +28,4 @@ namespace marey::app {
 /// that is not solved.
 [[nodiscard]] double share_solved(const MarkerTrial& trial);
 
-/// Whether the head is below the feet all the time: a capture that is upside down.
-[[nodiscard]] bool is_upside_down(const MarkerTrial& trial);
-
 }  // namespace marey::app

@@ -151,7 +151,7 @@ void add_convert(CLI::App& app, Arguments& args, Command& chosen) {
       app.add_subcommand("convert", "Markers or a motion as another kind of file");
   ConvertArguments& c = args.convert;
   const CLI::IsMember axis({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
-  const CLI::IsMember unit({"mm", "cm", "m"});
+  const CLI::IsMember unit({"mm", "cm", "m", "in", "ft"});
   command->add_option("in", c.in, ".c3d or .trc; .bvh, .amc, .npz, .glb, .vrm or .vrma")
       ->required();
   command

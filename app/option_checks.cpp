@@ -37,4 +37,18 @@ void refuse_absurd_numbers(CLI::App& app) {
   }
 }
 
+Status check_out_folder(const std::filesystem::path& out) {
+  namespace fs = std::filesystem;
+  std::error_code problem;
+  fs::path at = fs::absolute(out, problem).lexically_normal();
+  // Up to what is there: symlinks that lead nowhere are.
+  while (!fs::exists(fs::symlink_status(at, problem)) && at.has_relative_path()) {
+    at = at.parent_path();
+  }
+  if (fs::is_directory(at, problem)) return Done{};
+  return bad_input(out.string(),
+                   "results cannot be written here: " + at.string() + " is not a folder",
+                   "choose another folder with --out");
+}
+
 }  // namespace marey::app

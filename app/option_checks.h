@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include <CLI/CLI.hpp>
+
+#include "core/result.h"
 
 namespace marey::app {
 
@@ -26,5 +29,10 @@ inline constexpr double kLargestNumber = 1e9;
 /// number, words that are no number (nan), not finite (inf, 1e999) or absurd (beyond
 /// kLargestNumber), whatever else the option checks. Call it once all options are added.
 void refuse_absurd_numbers(CLI::App& app);
+
+/// Checks a folder for results before the work begins. Error (kBadInput): it, or what
+/// should hold it, is there and is not a folder. A folder that is missing is no error:
+/// it is made when results are written.
+[[nodiscard]] Status check_out_folder(const std::filesystem::path& out);
 
 }  // namespace marey::app

@@ -9,6 +9,7 @@
 #include "app/commands.h"
 #include "app/earlier_calibration.h"
 #include "app/judge_quality.h"
+#include "app/option_checks.h"
 
 namespace marey::app {
 namespace {
@@ -75,6 +76,9 @@ Exit run_session(Stage stage,
                  const PipelineOptions& options,
                  bool json,
                  Console& console) {
+  if (const Status ok = check_out_folder(options.out); !ok) {
+    return console.fail(ok.error());
+  }
   const EarlierCalibration earlier = find_calibration(options.out);
   // Results of an earlier run stay: who changes a session may want to go back.
   const auto tell_kept = [&] {

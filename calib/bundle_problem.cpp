@@ -28,6 +28,19 @@ RigidTransform to_transform(const Block& b) {
   return {{b[3], b[0], b[1], b[2]}, {b[4], b[5], b[6]}};
 }
 
+/// Calls a function after each iteration.
+class IterationReport : public ceres::IterationCallback {
+ public:
+  explicit IterationReport(const std::function<void()>& report) : report_(report) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    if (report_) report_();
+    return ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const std::function<void()>& report_;
+};
+
 }  // namespace
 
 BundleProblem::BundleProblem(const RigModel& model,
@@ -36,7 +49,8 @@ BundleProblem::BundleProblem(const RigModel& model,
     // The robust pass only gives the other a start.
     : shrinks_(options.shrinkage),
       tolerance_(robust || options.quick ? 1e-6 : 1e-9),
-      max_iterations_(options.quick ? 40 : 100) {
+      max_iterations_(options.quick ? 40 : 100),
+      on_iteration_(options.on_iteration) {
   for (const RigCamera& camera : model.cameras) {
     CameraBlock block;
     block.lens = camera.intrinsics.parameters();
@@ -249,6 +263,8 @@ bool BundleProblem::solve() {
   options.function_tolerance = tolerance_;
   options.num_threads = 1;  // One order of summation: the same bytes every time.
   options.logging_type = ceres::SILENT;
+  IterationReport report(on_iteration_);
+  options.callbacks.push_back(&report);
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem_, &summary);
   return summary.IsSolutionUsable();

@@ -4,6 +4,7 @@
 
 // Private to calib: a RigModel as Ceres sees it.
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -67,6 +68,7 @@ class BundleProblem {
   bool shrinks_ = false;
   double tolerance_ = 1e-9;  ///< Relative, of the cost.
   int max_iterations_ = 100;
+  std::function<void()> on_iteration_;
   ceres::Problem problem_;
   int residuals_ = 0;
 };

@@ -34,6 +34,7 @@ struct Work {
   CalibrateOptions options;
   std::vector<BoardView> views;
   std::vector<double> offsets_s;
+  std::function<void()> on_iteration;
 };
 
 bool has_lens(const Work& work, std::size_t camera) {
@@ -76,6 +77,7 @@ Result<std::vector<Intrinsics>> first_intrinsics(const Work& work, LensModel len
 
 RefineOptions refine_options(const Work& work, const RigModel& model) {
   RefineOptions refine;
+  refine.on_iteration = work.on_iteration;
   refine.shrinkage = std::holds_alternative<AprilGrid>(*work.board);
   refine.offsets = work.options.solve_offsets;
   refine.drifts = work.options.solve_drifts;
@@ -167,9 +169,16 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
                                         const CalibrateOptions& options) {
   MAREY_ASSERT(names.size() == waved.size());
   MAREY_ASSERT(!std::holds_alternative<Wand>(board));
-  Work work{names, waved, floor, &board, options, board_views(waved, floor, board), {}};
-  for (std::size_t c = 0; c < waved.size(); ++c) MAREY_ASSERT(is_fit(work, c));
   Steps steps(options.progress, calibration_steps(names.size(), options.cross_validate));
+  Work work{names,
+            waved,
+            floor,
+            &board,
+            options,
+            board_views(waved, floor, board),
+            {},
+            [&steps] { steps.tick(); }};
+  for (std::size_t c = 0; c < waved.size(); ++c) MAREY_ASSERT(is_fit(work, c));
   auto solved = options.choose_clocks
                     ? solve_choosing_clocks(names,
                                             waved,

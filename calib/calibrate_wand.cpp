@@ -32,6 +32,7 @@ struct Work {
   std::span<const CameraDetections> waved;
   const Wand* wand = nullptr;
   WandOptions options;
+  std::function<void()> on_iteration;
 };
 
 bool has_lens(const WandOptions& options, std::size_t camera) {
@@ -171,6 +172,7 @@ Result<SolvedRig> first_rig(const Work& work, LensModel lens) {
   }
   if (is_moving) model = wand_in_motion(std::move(model), work.waved, offsets_s);
   SolvedRig first{std::move(model), {}, {}};
+  first.refine.on_iteration = work.on_iteration;
   first.refine.fixed_camera = 0;
   first.refine.offsets = options.solve_offsets;
   first.refine.drifts = options.solve_drifts;
@@ -216,8 +218,8 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
                                        const Wand& wand,
                                        const WandOptions& options) {
   MAREY_ASSERT(names.size() == waved.size() && !wand.tags.empty());
-  const Work work{names, waved, &wand, options};
   Steps steps(options.progress, calibration_steps(names.size(), options.cross_validate));
+  const Work work{names, waved, &wand, options, [&steps] { steps.tick(); }};
   auto solved = options.choose_clocks
                     ? solve_choosing_clocks(names,
                                             waved,

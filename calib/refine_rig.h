@@ -4,6 +4,7 @@
 
 // Private to calib: the joint refinement behind every calibration.
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,8 @@ struct RefineOptions {
   bool covariance = true;
   /// For comparisons: as coarse as the robust pass, of at most 40 iterations.
   bool quick = false;
+  /// Called after each of the solver's iterations. May be empty.
+  std::function<void()> on_iteration;
 };
 
 /// Standard deviations beside those of RigCovariance.

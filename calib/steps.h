@@ -11,31 +11,45 @@
 
 namespace marey::calib {
 
+/// Each step is reported as kParts.
 class Steps {
  public:
+  static constexpr int kParts = 10;
+
   Steps() = default;
   Steps(Progress progress, int total) : progress_(std::move(progress)), total_(total) {
     report();
   }
-  void step() {
-    done_ = std::min(done_ + 1, total_);
-    report();
-  }
+  void step() { reach(done_ + 1); }
   /// To that step, unless it is further already.
   void reach(int done) {
-    done_ = std::max(done_, std::min(done, total_));
+    const int reached = std::max(done_, std::min(done, total_));
+    if (reached > done_) parts_ = ticks_ = 0;
+    done_ = reached;
     report();
   }
   void finish() { reach(total_); }
+  /// Reports a sign of life within a step of unknown length: one part after two calls, the
+  /// next after twice as many, and never the whole step.
+  void tick() {
+    constexpr int kFirstPart = 2;
+    if (done_ == total_ || parts_ == kParts - 1) return;
+    if (++ticks_ < kFirstPart << parts_) return;
+    ++parts_;
+    ticks_ = 0;
+    report();
+  }
 
  private:
   void report() const {
-    if (progress_) progress_(done_, total_);
+    if (progress_) progress_(kParts * done_ + parts_, kParts * total_);
   }
 
   Progress progress_;
   int done_ = 0;
   int total_ = 1;
+  int parts_ = 0;  ///< Of the present step.
+  int ticks_ = 0;  ///< Of the present part.
 };
 
 /// Of a calibration of that many cameras: one or two solutions, two tests of other

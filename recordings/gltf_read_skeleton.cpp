@@ -129,7 +129,9 @@ std::vector<std::size_t> in_order(const NodeTree& tree,
         node == roots.front() || (tree.parent[node] && is_first[*tree.parent[node]]);
   }
   std::vector<std::size_t> order = tree.parents_first;
-  std::ranges::stable_partition(order, [&](std::size_t node) { return is_first[node]; });
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t node) {
+    return is_first[node];
+  });
   return order;
 }
 

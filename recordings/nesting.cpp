@@ -169,6 +169,27 @@ bool json_nests_too_deep(std::string_view json) {
   return false;
 }
 
+bool json_has_too_many_keys(std::string_view json) {
+  std::vector<std::size_t> keys{0};  // Of each open bracket.
+  bool in_text = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_text) {
+      if (c == '\\') ++i;
+      if (c == '"') in_text = false;
+    } else if (c == '"') {
+      in_text = true;
+    } else if (c == '[' || c == '{') {
+      keys.push_back(0);
+    } else if ((c == ']' || c == '}') && keys.size() > 1) {
+      keys.pop_back();
+    } else if (c == ':' && ++keys.back() > kMaxKeys) {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool toml_nests_too_deep(std::string_view toml) {
   return TomlLevels(toml).too_deep();
 }

@@ -16,6 +16,14 @@ inline constexpr std::size_t kMaxNesting = 100;
 /// nothing.
 [[nodiscard]] bool json_nests_too_deep(std::string_view json);
 
+/// Maximum keys of one JSON object. Objects that keep the order of the file look each key
+/// up among those before it.
+inline constexpr std::size_t kMaxKeys = 10'000;
+
+/// Returns true if an object of the JSON text has more than kMaxKeys keys. Correct for
+/// every prefix that is valid JSON. Linear. Precondition: json_nests_too_deep() is false.
+[[nodiscard]] bool json_has_too_many_keys(std::string_view json);
+
 /// Returns true if tables and arrays of the TOML text nest deeper than kMaxNesting:
 /// brackets, dotted keys and headers together. Correct for every prefix that is valid
 /// TOML. Linear.

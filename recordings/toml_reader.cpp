@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <toml++/toml.h>
@@ -107,13 +108,32 @@ Result<TomlDocument> parse_toml(std::string_view text, const std::string& file) 
 TomlReader::TomlReader(TomlDocument& document)
     : TomlReader(document, &document.root, "") {}
 
-const TomlValue* TomlReader::find(std::string_view key) const {
+TomlReader::TomlReader(TomlDocument& document, const TomlValue* value, std::string name)
+    : document_(&document), value_(value), name_(std::move(name)) {
+  const Table* table = value_ ? std::get_if<Table>(&value_->content) : nullptr;
+  if (table == nullptr) return;
+  by_key_.resize(table->size());
+  std::iota(by_key_.begin(), by_key_.end(), std::size_t{0});
+  // Stable: of equal keys, which YAML may have, the first counts.
+  std::stable_sort(by_key_.begin(), by_key_.end(), [&](std::size_t a, std::size_t b) {
+    return (*table)[a].key < (*table)[b].key;
+  });
+}
+
+const TomlEntry* TomlReader::entry(std::string_view key) const {
   const Table* table = value_ ? std::get_if<Table>(&value_->content) : nullptr;
   if (table == nullptr) return nullptr;
-  for (const TomlEntry& entry : *table) {
-    if (entry.key == key) return &entry.value;
-  }
-  return nullptr;
+  const auto at = std::lower_bound(
+      by_key_.begin(), by_key_.end(), key, [&](std::size_t i, std::string_view wanted) {
+        return (*table)[i].key < wanted;
+      });
+  if (at == by_key_.end() || (*table)[*at].key != key) return nullptr;
+  return &(*table)[*at];
+}
+
+const TomlValue* TomlReader::find(std::string_view key) const {
+  const TomlEntry* found = entry(key);
+  return found ? &found->value : nullptr;
 }
 
 bool TomlReader::is_table(std::string_view key) const {
@@ -122,12 +142,9 @@ bool TomlReader::is_table(std::string_view key) const {
 }
 
 int TomlReader::line(std::string_view key) const {
-  const Table* table = value_ ? std::get_if<Table>(&value_->content) : nullptr;
-  if (table == nullptr) return 1;
-  for (const TomlEntry& entry : *table) {
-    if (entry.key == key) return entry.line;
-  }
-  return value_->line;
+  if (const TomlEntry* found = entry(key)) return found->line;
+  const bool is_table = value_ && std::holds_alternative<Table>(value_->content);
+  return is_table ? value_->line : 1;
 }
 
 void TomlReader::fail(std::string_view key, std::string cause, std::string next) {

@@ -60,7 +60,8 @@ struct Limits {
 /// Reads one table of a document. A mistake is kept in the document and everything read
 /// after it is empty or zero, so that a caller reads on and looks at
 /// `document.mistake` once, at the end, or where a wrong value would do harm. Of several
-/// mistakes the first met counts. The document must stay in place.
+/// mistakes the first met counts. The document must stay in place. Cost: a sort of the
+/// table's keys to make one, their logarithm for each value.
 class TomlReader {
  public:
   /// The whole file.
@@ -106,9 +107,9 @@ class TomlReader {
   [[nodiscard]] int line(std::string_view key = "") const;
 
  private:
-  TomlReader(TomlDocument& document, const TomlValue* value, std::string name)
-      : document_(&document), value_(value), name_(std::move(name)) {}
+  TomlReader(TomlDocument& document, const TomlValue* value, std::string name);
 
+  [[nodiscard]] const TomlEntry* entry(std::string_view key) const;
   [[nodiscard]] const TomlValue* find(std::string_view key) const;
   [[nodiscard]] const TomlValue* require(std::string_view key);
   template <class T>
@@ -120,6 +121,7 @@ class TomlReader {
 
   TomlDocument* document_;
   const TomlValue* value_;  ///< Null below a mistake.
+  std::vector<std::size_t> by_key_;  ///< Entries in the order of their keys.
   std::string name_;        ///< "[subject]"; empty for the root.
 };
 

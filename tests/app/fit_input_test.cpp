@@ -129,11 +129,12 @@ TEST(FitProgram, NoticesThatLeftIsRight) {
   EXPECT_NE(run.err.find("left and right seem exchanged"), std::string::npos) << run.err;
 }
 
-TEST(FitProgram, WarnsOfABodyThatHangsHeadDown) {
+TEST(FitProgram, DeclinesABodyThatHangsHeadDown) {
   const ScratchFolder folder;
   const fs::path in = write_static(folder, "pose.trc");
   const ProgramRun run =
       fit({in.string(), "--up", "-Y", "--out", (folder / "out").string()});
+  EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_NE(run.err.find("the body is head down all the time"), std::string::npos)
       << run.err;
 }

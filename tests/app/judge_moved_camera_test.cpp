@@ -34,6 +34,26 @@ TEST(JudgeCalibration, NamesADriftingFocusThatHardlyMovesThePicture) {
   EXPECT_TRUE(judge_calibration(report).empty());
 }
 
+// A focal length that jumps by 0.6 % moves the picture by 0.8 px and the cameras by
+// 50 mm.
+TEST(JudgeCalibration, GradesASmallMoveByWhatItDoesToTheCameras) {
+  CalibrationReport report = decent();
+  calib::ApparentMove move;
+  move.camera = CameraId{1};
+  move.from_frame = 46;
+  move.moved_px = 0.8;
+  move.gain = 15600.0;
+  move.rig_shift_m = 0.003;
+  report.rig.apparent_move = move;
+  expect(only(report), Severity::kFair, "moved", "camera middle", "0.8 px");
+  report.rig.apparent_move->rig_shift_m = 0.044;
+  expect(only(report),
+         Severity::kPoor,
+         "moved",
+         "camera middle",
+         "cameras shift by up to 44 mm");
+}
+
 TEST(JudgeCalibration, GradesASmallMoveAsFairWhereFramesAreNotSimultaneous) {
   CalibrationReport report = decent();
   calib::ApparentMove move;

@@ -250,6 +250,22 @@ TEST_F(Exit, IsThreeForAPlaceThatCannotHoldResults) {
   EXPECT_NE(run.err.find("Next: "), std::string::npos) << run.err;
 }
 
+// Before the work begins: finding tags takes minutes.
+TEST_F(Exit, IsThreeAtOnceForResultsWhereAFileIs) {
+  std::ofstream(in_folder("taken")) << "in the way";
+  for (const char* out : {"taken", "taken/below"}) {
+    const ProgramRun run = marey({"process",
+                                  kSample.string(),
+                                  "--out",
+                                  in_folder(out).string(),
+                                  "--progress",
+                                  "json"});
+    EXPECT_EQ(run.exit_code, 3) << run.err;
+    EXPECT_NE(run.err.find("is not a folder"), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find("tags in"), std::string::npos) << run.err;
+  }
+}
+
 // That files half written go is tests/recordings/atomic_file_test.cpp's matter: nothing
 // here tells when one is being written.
 TEST_F(Exit, Is130WhenInterrupted) {

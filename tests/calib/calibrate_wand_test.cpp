@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/calibrate_wand.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -103,6 +104,28 @@ TEST(CalibrateWand, StaysNearUnderNoise) {
   // A few hundred tags of 45 px: a fifth of a pixel is half a percent of each.
   EXPECT_LT(worst_distance_m(found->rig, cameras), 0.03);
   EXPECT_NEAR(found->rig.inlier_rms_px, 0.28, 0.05);
+}
+
+// A solution of a long recording takes minutes: its iterations show that it goes on.
+TEST(CalibrateWand, ReportsProgressWithinASolution) {
+  const auto cameras = ring_of_cameras();
+  std::vector<int> reports;
+  int total = 0;
+  WandOptions options;
+  options.progress = [&](int done, int all) {
+    reports.push_back(done);
+    total = all;
+  };
+  const auto found =
+      calibrate_wand(names_of(cameras), wave_wand(cameras, 60, 0.2), kWand, options);
+  ASSERT_TRUE(found) << found.error().message();
+  EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
+  EXPECT_EQ(reports.back(), total);
+  // Before half of the work is done, which is the solution: not only its end.
+  const auto during = std::count_if(reports.begin(), reports.end(), [&](int done) {
+    return done > 0 && 2 * done < total;
+  });
+  EXPECT_GE(during, 3);
 }
 
 // Ten frames a second: as far apart as half a second and more.

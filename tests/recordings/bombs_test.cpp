@@ -266,6 +266,20 @@ TEST(Nesting, OfJsonCountsBracketsOutsideOfText) {
   EXPECT_FALSE(json_nests_too_deep(flat));
 }
 
+TEST(Nesting, CountsTheKeysOfEachJsonObject) {
+  const auto object = [](std::size_t keys) {
+    std::string text = "{";
+    for (std::size_t i = 0; i < keys; ++i) text += "\":{\":1,";
+    return text + "\"last\":1}";
+  };
+  EXPECT_FALSE(json_has_too_many_keys(object(kMaxKeys - 1)));
+  EXPECT_TRUE(json_has_too_many_keys(object(kMaxKeys)));
+  std::string many;
+  for (int i = 0; i < 3; ++i) many += object(kMaxKeys - 1) + ",";
+  EXPECT_FALSE(json_has_too_many_keys("[" + many + "1]"));
+  EXPECT_TRUE(json_has_too_many_keys("{\"a\":" + object(kMaxKeys)));
+}
+
 TEST(Nesting, OfTomlCountsKeysHeadersAndBrackets) {
   const auto dots = [](std::size_t count) {
     std::string key;

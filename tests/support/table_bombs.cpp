@@ -96,11 +96,25 @@ std::vector<Bomb> toml_bombs() {
       {"both.toml",
        "a = " + nested("{" + repeated("a.", 90) + "a = ", "1", "}", 200) + "\n"});
   std::string many;
-  for (int i = 0; i < 20'000; ++i) many += "k" + std::to_string(i) + " = 1\n";
+  for (int i = 0; i < 200'000; ++i) many += "k" + std::to_string(i) + " = 1\n";
   bombs.push_back({"keys.toml", many});
+  std::string headers;
+  for (int i = 0; i < 200'000; ++i) headers += "[k" + std::to_string(i) + "]\na = 1\n";
+  bombs.push_back({"headers_many.toml", headers});
   std::string tables;
-  for (int i = 0; i < 10'000; ++i) tables += "[camera.c" + std::to_string(i) + "]\n";
+  for (int i = 0; i < 100'000; ++i) tables += "[camera.c" + std::to_string(i) + "]\n";
   bombs.push_back({"tables_many.toml", tables});
+  std::string listed_tables;
+  for (int i = 0; i < 200'000; ++i) listed_tables += "[[camera]]\nname = \"a\"\n";
+  bombs.push_back({"lists_many.toml", listed_tables});
+  std::string labels = "[markers]\n";
+  for (int i = 0; i < 200'000; ++i) {
+    labels += "k" + std::to_string(i) + " = \"left_asis\"\n";
+  }
+  bombs.push_back({"labels.toml", labels, true});
+  std::string numbers = "a = [";
+  for (int i = 0; i < 300'000; ++i) numbers += "1, ";
+  bombs.push_back({"numbers.toml", numbers + "1]\n"});
   bombs.push_back(
       {"long_text.toml", "a = \"\"\"" + repeated("[[a.b.", 100'000) + "\"\"\"\n"});
   bombs.push_back({"long_key.toml", std::string(3'000'000, 'k') + " = 1\n"});
@@ -215,6 +229,9 @@ std::vector<Bomb> json_bombs() {
   bombs.push_back({"deep_lists.json", report(nested("[", "1", "]", 68'000))});
   bombs.push_back({"deep_objects.json", report(nested("{\"a\":", "1", "}", 68'000))});
   bombs.push_back({"open.json", repeated("[", 1'000'000)});
+  bombs.push_back({"many_keys.json", "{" + listed(200'000, [](std::size_t i) {
+                                       return "\"k" + std::to_string(i) + "\":1";
+                                     }) + "}"});
   bombs.push_back({"no_report.json", "[" + listed(200'000, [](std::size_t) {
                                        return std::string("1");
                                      }) + "]"});
