@@ -42,9 +42,9 @@ struct PostureFigures {
   DirectionFigures legs;   ///< Thighs and shanks.
   DirectionFigures arms;   ///< Upper arms and forearms.
   DirectionFigures trunk;  ///< The line from mid-hip to mid-shoulder.
-  /// The lines from ankle to toe joint, each against its own median slope: how high an
-  /// ankle lies over the toes is the body's. Bodies without toe joints: where the foot
-  /// points by its joint's turn from the T-pose. Of the foot that is off for longest.
+  /// Where the lines from ankle to toe joint point over the floor: how high an ankle lies
+  /// over the toes is the body's. Bodies without toe joints: where the foot points by its
+  /// joint's turn from the T-pose. Of the foot with the larger `sustained_rad`.
   DirectionFigures feet;
   /// Share of frames in which the feet point backwards on one body and not on the other:
   /// left and right are exchanged.
