@@ -15,6 +15,7 @@
 
 #include "app/adapt_body.h"
 #include "app/adapt_figures.h"
+#include "app/adapt_iterations.h"
 #include "app/option_checks.h"
 #include "app/retarget_files.h"
 #include "app/stopwatch.h"
@@ -135,6 +136,12 @@ Status adapt_all(const AdaptArguments& args,
   run.adapted = std::move(*adapted);
   run.departure =
       measure_adapt_departure(body.reference, run.adapted.motion, run.constraints);
+  run.posture = measure_adapt_posture(body.reference,
+                                      run.adapted.motion,
+                                      body.map,
+                                      {run.floor, run.floor_height_m});
+  run.more_iterations_help = try_more_iterations(
+      body, supports, options, run.constraints, run.adapted.constraints);
   if (run.departure.far_frames == 0 ||
       options.adapt.balance == retarget::BalanceMode::kOff) {
     return Done{};
@@ -200,6 +207,8 @@ Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
   if (const auto note = left_out(*source)) {
     console.warn(args.motion.string() + ": " + *note);
   }
+  run.source_error = exchanged_sides_error(
+      args.motion, source->exchanged, "a .bones.toml file beside the motion");
   AdaptBodyOptions options;
   options.motion = args.motion;
   options.character = args.character;

@@ -124,11 +124,17 @@ std::string more_iterations(const AdaptArguments& args) {
 }
 
 /// Whether more iterations are likely to help with a constraint that they ended: there
-/// were few, or little is missing. A target far out of reach stays so, however many.
-bool is_nearly_there(const KeptConstraint& kept, const AdaptArguments& args) {
+/// were few and more were found to help, or little is missing. A target far out of reach stays so, however many.
+bool is_nearly_there(const KeptConstraint& kept,
+                     const AdaptArguments& args,
+                     const AdaptRun& run) {
   constexpr double kLittle_m = 0.02;
   constexpr double kLittle_deg = 5.0;
-  if (args.options.max_iterations < retarget::AdaptOptions{}.max_iterations) return true;
+  const std::size_t at =
+      static_cast<std::size_t>(&kept - run.adapted.constraints.data());
+  if (args.options.max_iterations < retarget::AdaptOptions{}.max_iterations) {
+    return at < run.more_iterations_help.size() && run.more_iterations_help[at];
+  }
   return kept.worst_error_m < kLittle_m && kDegrees * kept.worst_error_rad < kLittle_deg;
 }
 
@@ -137,7 +143,7 @@ std::string advice_for(const KeptConstraint& kept,
                        const AdaptArguments& args,
                        const AdaptRun& run) {
   const Constraint* own = run.constraints.find(kept.id);
-  if (kept.ran_out && is_nearly_there(kept, args)) return more_iterations(args);
+  if (kept.ran_out && is_nearly_there(kept, args, run)) return more_iterations(args);
   if (own != nullptr && own->range) {
     return "let more segments turn for it: a greater <range>, or none";
   }
@@ -209,6 +215,7 @@ Json adapt_figures(const AdaptArguments& args, const AdaptRun& run) {
                                {"joint", adapted.motion.skeleton[added.joint].name},
                                {"time_s", time_of(run, added.frame)}};
   out["departure"] = departure_figures(run.departure, adapted.motion);
+  out["posture"] = posture_figures(run.posture, adapted.motion);
   out["iterations"] = {{"mean", adapted.mean_iterations},
                        {"most", adapted.most_iterations},
                        {"frames_at_cap", adapted.capped_frames}};
@@ -261,6 +268,10 @@ const KeptConstraint* find_failure(const AdaptArguments& args, const AdaptRun& r
 Status judge_adapted(const AdaptArguments& args, const AdaptRun& run) {
   const KeptConstraint* failure = find_failure(args, run);
   if (failure == nullptr) {
+    if (run.source_error) return *run.source_error;
+    const auto problem = posture_problem(
+        args.out.string(), run.posture, run.adapted.motion, run.constraints);
+    if (problem && problem->is_poor) return problem->error;
     if (!is_needlessly_far(run.departure)) return Done{};
     return Error{Errc::kQuality,
                  args.out.string(),
@@ -322,6 +333,12 @@ std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptR
                 adapted.motion.skeleton[adapted.added.joint].name.c_str(),
                 time_of(run, adapted.added.frame),
                 adapted.added.m_per_s2));
+  }
+  const auto problem = posture_problem(
+      args.out.string(), run.posture, adapted.motion, run.constraints);
+  if (run.source_error && failure != nullptr) out.push_back(run.source_error->message());
+  if (problem && (!problem->is_poor || failure != nullptr || run.source_error)) {
+    out.push_back(problem->error.message());
   }
   const std::string far = departure_text(run.departure, adapted.motion);
   if (!far.empty() && (failure != nullptr || !is_needlessly_far(run.departure))) {

@@ -11,6 +11,7 @@
 
 #include "app/adapt_commands.h"
 #include "app/adapt_departure.h"
+#include "app/adapt_posture.h"
 #include "core/constraint.h"
 #include "core/floor.h"
 #include "core/result.h"
@@ -22,6 +23,7 @@ namespace marey::app {
 /// All that is told of one run of `marey adapt`.
 struct AdaptRun {
   std::string character;
+  std::optional<Error> source_error;  ///< exchanged_sides_error() of the motion.
   ConstraintSet constraints;  ///< As they were asked of the adapter.
   retarget::AdaptedMotion adapted;
   double floor_height_m = 0.0;
@@ -30,6 +32,10 @@ struct AdaptRun {
   int out_of_reach_frames = 0;
   std::vector<std::vector<retarget::SupportSlide>> slides;  ///< As adapted.supports.
   AdaptDeparture departure;  ///< From the motion on the character's body.
+  AdaptPosture posture;
+  /// Of constraints that ran out of few iterations: the default number meets them in
+  /// their worst frame. One per constraint.
+  std::vector<char> more_iterations_help;
   double adapt_s = 0.0;      ///< Wall clock, of the postures alone.
 };
 
@@ -47,7 +53,8 @@ struct AdaptRun {
                                                            const AdaptRun& run);
 
 /// The same as an error (kQuality), or done; and a trunk that balance turns further from
-/// its source than kMostTrunk_deg although the constraints are met without.
+/// its source than kMostTrunk_deg although the constraints are met without; a motion
+/// whose left and right are exchanged; posture_problem().
 [[nodiscard]] Status judge_adapted(const AdaptArguments& args, const AdaptRun& run);
 
 /// What else was not kept, each with when, by how much and what would help; and

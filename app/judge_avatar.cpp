@@ -11,6 +11,8 @@
 #include <glm/vec4.hpp>
 
 #include "core/pose.h"
+#include "retarget/normalized_skeleton.h"
+#include "retarget/unroll_feet.h"
 
 namespace marey::app {
 namespace {
@@ -68,8 +70,27 @@ void judge_direction(const std::string& name,
       out);
 }
 
+void judge_foot(const std::string& name,
+                const retarget::DirectionFigures& foot,
+                AvatarVerdict& out) {
+  const double apart_deg = glm::degrees(foot.sustained_rad);
+  if (apart_deg <= kFarFoot_deg) return;
+  add(name + ", frame " + std::to_string(foot.sustained_frame),
+      text("the %s points %.0f degrees or more away from the source's for %.2f s (at most "
+           "%.0f, in frame %d)",
+           std::string(retarget::segment_name(foot)).c_str(),
+           apart_deg,
+           retarget::kSustained_s,
+           glm::degrees(foot.worst_rad),
+           foot.worst_frame),
+      "look at that frame with marey view; --no-ground keeps feet as the source has them",
+      apart_deg > kPoorFoot_deg,
+      out);
+}
+
 void judge_posture(const std::string& name, AvatarVerdict& out) {
   const retarget::PostureFigures& posture = out.posture;
+  judge_foot(name, posture.feet, out);
   if (posture.exchanged_share > kPoorExchanged) {
     add(name,
         text("left and right are exchanged in %.0f %% of the frames: its feet point "
@@ -169,6 +190,34 @@ void judge_feet(const std::string& name,
   }
 }
 
+/// Reports feet that the source has upside down: they were turned back.
+void judge_source_feet(const Motion& source,
+                       const retarget::BodyMap& map,
+                       AvatarVerdict& out) {
+  retarget::FootUnroller unroller;
+  std::vector<RigidTransform> world(source.skeleton.joints.size());
+  retarget::NormalizedPose posture;
+  for (const Pose& pose : source.poses) {
+    world_from_joints(source.skeleton, pose, world);
+    retarget::normalize(map, world, posture);
+    unroller.step(map, world, posture);
+  }
+  const retarget::RolledFeet& rolled = unroller.found();
+  for (std::size_t side = 0; side < 2; ++side) {
+    if (rolled.frames[side] == 0) continue;
+    const HumanBone foot = side == 0 ? HumanBone::kLeftFoot : HumanBone::kRightFoot;
+    add("the motion, frame " + std::to_string(rolled.first_frame[side]),
+        text("its %s is upside down against its shin in %d of %zu frames; it was turned "
+             "the right way up",
+             std::string(marey::name(foot)).c_str(),
+             rolled.frames[side],
+             source.poses.size()),
+        "look at the motion there with marey view, and correct its ankle",
+        false,
+        out);
+  }
+}
+
 /// Reads the written files again and reports bones that are not where they were solved.
 Status judge_files(const Motion& made,
                    std::span<const double> allowed_m,
@@ -188,6 +237,17 @@ Status judge_files(const Motion& made,
                off_mm),
           "do not use this file; report this as a bug, with the body's file",
           true,
+          out);
+    }
+    const double lost_mm = 1e3 * figures.lost_m;
+    if (lost_mm > kLostPlace_mm) {
+      add(file.path.string() + ", frame " + std::to_string(figures.lost_frame),
+          text("the file has %s %.0f mm from where it was solved: a joint above it is no "
+               "bone of VRM",
+               std::string(marey::name(figures.lost_bone)).c_str(),
+               lost_mm),
+          "use the .glb or .bvh where that matters",
+          false,
           out);
     }
     if (figures.lowest_skin_m.empty()) continue;
@@ -243,6 +303,7 @@ Result<AvatarVerdict> judge_avatar(const std::string& name,
   name_far_segments(made.report, out);
   out.arms_in_body_mm = 1e3 * made.report.hands.arms.deepest_after_m;
   if (!skin.empty()) judge_feet(name, made.motion.skeleton, *map, skin, out);
+  judge_source_feet(source, *source_map, out);
   if (grounded) judge_skin(name, out);
   judge_posture(name, out);
   if (out.arms_in_body_mm > kDeepArms_mm) {

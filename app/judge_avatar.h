@@ -31,6 +31,10 @@ inline constexpr double kPoorPosture_deg = 45.0;
 /// The same of arms, which give way to wide bodies. [deg]
 inline constexpr double kFarArms_deg = 60.0;
 inline constexpr double kPoorArms_deg = 90.0;
+/// Angle of a foot to the source's that is exceeded for retarget::kSustained_s on end.
+/// [deg]
+inline constexpr double kFarFoot_deg = 25.0;
+inline constexpr double kPoorFoot_deg = 45.0;
 /// The fastest joint in body heights per second, where it is also over twice as fast as
 /// the source's.
 inline constexpr double kPoorSpeed = 12.0;
@@ -45,6 +49,9 @@ inline constexpr double kNamedPosture_deg = 8.0;
 /// Distance of a bone in a written file from its solved place: beyond, the file is
 /// wrong. [mm]
 inline constexpr double kRereadPlace_mm = 2.0;
+/// Distance of a bone in a .vrma from its solved place that the format cannot hold:
+/// beyond, a warning. [mm]
+inline constexpr double kLostPlace_mm = 10.0;
 /// Height of a foot's lowest skin at rest above the lowest skin of its leg, in lengths of
 /// the leg: beyond, another joint is mapped as the foot.
 inline constexpr double kFootAboveSkin = 0.1;

@@ -208,7 +208,11 @@ Result<RawBody> read_raw_body(const std::filesystem::path& path) {
 std::vector<std::string> ReadBody::remarks() const {
   std::vector<std::string> all = bones.remarks;
   all.insert(all.end(), frame.remarks.begin(), frame.remarks.end());
-  if (neutral == NeutralKind::kTPose) {
+  if (neutral == NeutralKind::kTPose && file_rest_stands) {
+    all.push_back(
+        "a T-pose made of the directions of its bones is its neutral, as --neutral says, "
+        "and not its rest, in which it stands");
+  } else if (neutral == NeutralKind::kTPose) {
     all.push_back(
         "its rest is no posture of a body: a T-pose made of the directions of its bones "
         "is its neutral, the slope of its feet is an average one's; --neutral sets "
@@ -246,6 +250,11 @@ Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
   body.bones = *std::move(bones);
   take_bound_pose(body);
   if (const Status ok = hang(body); !ok) return of_file(file.path, ok.error());
+  if (!motion.poses.empty()) {
+    body.file_rest_stands = retarget::stands_at_rest(motion.skeleton, body.bones);
+    body.exchanged =
+        retarget::exchanged_sides(retarget::side_evidence(motion, body.bones));
+  }
   const auto neutral =
       set_neutral(file.neutral.value_or(Neutral{}), body.bones, motion);
   if (!neutral) return of_file(file.path, neutral.error());
@@ -262,6 +271,28 @@ Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
     look_at_skin(*body.raw.mesh, body);
   }
   return body;
+}
+
+std::optional<Error> exchanged_sides_error(const std::filesystem::path& path,
+                                           retarget::ExchangedSides exchanged,
+                                           const std::string& map_option) {
+  using retarget::ExchangedSides;
+  if (exchanged == ExchangedSides::kNone) return std::nullopt;
+  const bool is_arms = exchanged == ExchangedSides::kArms;
+  const std::string cause =
+      is_arms ? "the arms have their left on the legs' right side: left and right of the "
+                "arms are exchanged"
+      : exchanged == ExchangedSides::kLegs
+          ? "knees bend and feet point backwards, and the arms have their left on the "
+            "other side: left and right of the legs are exchanged"
+          : "knees bend, feet point or the body walks backwards, against the front that "
+            "its left and right give: left and right are exchanged";
+  return Error{Errc::kQuality,
+               path.string(),
+               cause,
+               "exchange the names in a bone map (marey inspect " + path.string() +
+                   " --write-map MAP.toml stores one to edit) and give it with " +
+                   map_option};
 }
 
 Result<ReadBody> read_body(const BodyFile& file) {

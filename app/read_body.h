@@ -17,6 +17,7 @@
 #include "recordings/mesh.h"
 #include "retarget/body_frame.h"
 #include "retarget/body_volume.h"
+#include "retarget/exchanged_sides.h"
 #include "retarget/find_soles.h"
 #include "retarget/identify_bones.h"
 #include "retarget/skin.h"
@@ -61,6 +62,9 @@ struct ReadBody {
   retarget::BodyFrame frame;
   std::optional<std::filesystem::path> bone_map;  ///< That counted.
   NeutralKind neutral = NeutralKind::kRest;  ///< What the rest is.
+  bool file_rest_stands = false;             ///< Of a file with a motion.
+  /// Of a file with a motion: what of it bears the other side's names.
+  retarget::ExchangedSides exchanged = retarget::ExchangedSides::kNone;
   /// The joints hang otherwise than in the file: recordings::ChangedFrame's.
   std::vector<std::optional<JointIndex>> read_joint;
   bool rests_as_bound = false;  ///< As its skin was bound, not as its nodes rest.
@@ -86,6 +90,14 @@ struct ReadBody {
 /// Errors, naming the file: those of identify_bones(), hang_bones(), set_neutral() and
 /// find_body_frame(), of reading the bone map.
 [[nodiscard]] Result<ReadBody> identify_body(RawBody raw, const BodyFile& file);
+
+/// The error (kQuality) of a motion whose left and right are exchanged, with the way to
+/// correct it; nullopt: they are not. `path` is the motion's, `map_option` the command
+/// line's option for its bone map.
+[[nodiscard]] std::optional<Error> exchanged_sides_error(
+    const std::filesystem::path& path,
+    retarget::ExchangedSides exchanged,
+    const std::string& map_option);
 
 /// identify_body() of read_raw_body().
 [[nodiscard]] Result<ReadBody> read_body(const BodyFile& file);

@@ -75,6 +75,33 @@ double nearest_m(const glm::dvec3& place, const std::vector<glm::dvec3>& others)
   return nearest;
 }
 
+/// By how much the distances of a bone and those above it from the next bone above are
+/// others than at rest: what bones alone cannot hold. [m]
+class LostDistance {
+ public:
+  explicit LostDistance(const Skeleton& skeleton)
+      : skeleton_(skeleton), rest_(world_from_joints(skeleton, rest_pose(skeleton))) {}
+
+  [[nodiscard]] double of(std::size_t joint,
+                          std::span<const RigidTransform> world) const {
+    double lost_m = 0.0;
+    std::size_t below = joint;
+    for (auto at = skeleton_.joints[joint].parent; at; at = skeleton_[*at].parent) {
+      if (!skeleton_[*at].bone) continue;
+      lost_m += std::abs(glm::distance(world[below].translation,
+                                       world[index(*at)].translation) -
+                         glm::distance(rest_[below].translation,
+                                       rest_[index(*at)].translation));
+      below = index(*at);
+    }
+    return lost_m;
+  }
+
+ private:
+  const Skeleton& skeleton_;
+  std::vector<RigidTransform> rest_;
+};
+
 }  // namespace
 
 WrittenFile written_file(const std::filesystem::path& out,
@@ -107,12 +134,22 @@ Result<std::optional<RereadFigures>> reread_motion(const WrittenFile& file,
                  "report this as a bug, with the body's file"};
   }
   RereadFigures out;
+  const LostDistance lost(motion.skeleton);
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     const auto world = world_from_joints(motion.skeleton, motion.poses[t]);
     for (std::size_t j = 0; j < world.size(); ++j) {
       const auto& bone = motion.skeleton.joints[j].bone;
       if (!bone) continue;
-      const double off_m = nearest_m(world[j].translation, read->joints[step * t]);
+      double off_m = nearest_m(world[j].translation, read->joints[step * t]);
+      if (file.format == MotionFormat::kVrma) {
+        const double lost_m = std::min(off_m, lost.of(j, world));
+        off_m -= lost_m;
+        if (lost_m > out.lost_m) {
+          out.lost_m = lost_m;
+          out.lost_bone = *bone;
+          out.lost_frame = static_cast<int>(t);
+        }
+      }
       if (out.worst_frame >= 0 && off_m <= out.worst_place_m) continue;
       out.worst_place_m = off_m;
       out.worst_bone = *bone;

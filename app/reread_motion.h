@@ -34,6 +34,12 @@ struct RereadFigures {
   double worst_place_m = 0.0;
   HumanBone worst_bone{};
   int worst_frame = -1;  ///< -1: no joint was compared.
+  /// Of a .vrma: the largest distance that the format cannot hold, as joints that are no
+  /// bones of VRM move the bones below them nearer to those above. It is left out of
+  /// worst_place_m. [m]
+  double lost_m = 0.0;
+  HumanBone lost_bone{};
+  int lost_frame = -1;
   /// World Y of the lowest vertex of the deformed skin in each frame [m]; empty: this
   /// kind of file has no skin.
   std::vector<double> lowest_skin_m;

@@ -39,6 +39,7 @@ struct Work {
   RetargetRun run;
   std::vector<std::optional<OpenedAvatar>> opened;  ///< One per avatar of the plan.
   Exit exit = Exit::kOk;                            ///< The first failure's.
+  std::optional<Error> source_error = std::nullopt;  ///< Makes every result poor.
   std::optional<retarget::BodyVolume> source_volume = std::nullopt;
 
   void fail(const Error& error) {
@@ -149,6 +150,10 @@ Status judge(const OpenedAvatar& body,
     } else {
       work.console.warn(problem.error.message());
     }
+  }
+  // The console has it already.
+  if (work.source_error) {
+    avatar.verdict.problems.push_back({*work.source_error, true});
   }
   return Done{};
 }
@@ -286,6 +291,9 @@ Exit run_retarget(const RetargetArguments& args, Console& console) {
   for (const std::string& remark : source->remarks()) {
     console.warn(args.motion.string() + ": " + remark);
   }
+  work.source_error =
+      exchanged_sides_error(args.motion, source->exchanged, "--motion-bones");
+  if (work.source_error) work.fail(*work.source_error);
   work.source_volume = volume_of_source(*source);
   const Motion& motion = source->raw.motion;
   work.run.source =

@@ -95,11 +95,14 @@ void add_verdict(const AvatarVerdict& verdict,
     return Json{{"segment", retarget::segment_name(figures)},
                 {"median_deg", rounded(glm::degrees(figures.median_rad), 2)},
                 {"worst_deg", rounded(glm::degrees(figures.worst_rad), 2)},
-                {"worst_frame", figures.worst_frame}};
+                {"worst_frame", figures.worst_frame},
+                {"sustained_deg", rounded(glm::degrees(figures.sustained_rad), 2)},
+                {"sustained_frame", figures.sustained_frame}};
   };
   out["posture"] = {{"legs", direction(posture.legs)},
                     {"arms", direction(posture.arms)},
                     {"trunk", direction(posture.trunk)},
+                    {"feet", direction(posture.feet)},
                     {"exchanged_percent", rounded(100.0 * posture.exchanged_share, 2)},
                     {"fastest_heights_per_s", rounded(posture.fastest, 3)},
                     {"source_fastest_heights_per_s", rounded(posture.source_fastest, 3)},

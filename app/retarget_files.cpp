@@ -102,8 +102,10 @@ Result<ReadMotion> read_motion(const BodyFile& file) {
   auto body = identify_body(*std::move(raw), file);
   if (!body) return body.error();
   std::vector<std::string> remarks = body->remarks();
-  return ReadMotion{
-      std::move(body->raw.motion), body->raw.ignored_translation_m, std::move(remarks)};
+  return ReadMotion{std::move(body->raw.motion),
+                    body->raw.ignored_translation_m,
+                    std::move(remarks),
+                    body->exchanged};
 }
 
 }  // namespace marey::app

@@ -64,6 +64,7 @@ struct ReadMotion {
   /// The largest movement of a bone against its parent that was left out. [m]
   double ignored_translation_m = 0.0;
   std::vector<std::string> remarks = {};  ///< ReadBody::remarks().
+  retarget::ExchangedSides exchanged = retarget::ExchangedSides::kNone;  ///< ReadBody's.
 };
 
 /// What a user should know of movement that was left out, if it can be seen.

@@ -38,7 +38,8 @@ void print(const CampaignResult& r) {
   const BodyFigures& j = *r.judged;
   std::printf(
       "%-22s %-30s skin %7.1f mm (told %7.1f, source %5.1f) at %4d %-18s trunk %5.1f "
-      "segment %5.1f/%5.1f %-14s heading %6.1f speed %5.1f/%5.1f%s%s\n",
+      "segment %5.1f/%5.1f %-14s feet %5.1f (told %5.1f) at %4d heading %6.1f speed "
+      "%5.1f/%5.1f%s%s\n",
       r.body.c_str(),
       r.clip.c_str(),
       j.skin_depth_mm,
@@ -50,6 +51,9 @@ void print(const CampaignResult& r) {
       j.worst_median_deg,
       j.worst_p95_deg,
       j.worst_segment.c_str(),
+      j.foot_yaw_deg,
+      r.told_foot_deg.value_or(-1.0),
+      j.foot_yaw_frame,
       j.heading_deg,
       j.max_speed,
       j.source_max_speed,

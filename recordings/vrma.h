@@ -27,7 +27,8 @@ struct VrmaOptions {
 /// so that a bone's rotation is how far its parent and it turned away from the T-pose.
 /// The hips alone are moved; nothing is scaled. Linear keys at the motion's rate, the
 /// first at time 0; neighbouring quaternions on the same side. Joints that are no human
-/// bones are not kept: what they turn, the bones below them have, what they move is lost.
+/// bones are not kept: what they turn, the bones below them have; the bone above them is
+/// turned so that what they move is in its direction, and its distance is lost.
 /// glTF's own validator finds neither errors nor warnings. Same input, same bytes.
 ///
 /// Errors (kBadInput): one of the 15 bones that VRM requires is not there, or does not

@@ -6,11 +6,16 @@
 #include <optional>
 #include <vector>
 
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/assert.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
+#include "core/transform.h"
 #include "recordings/atomic_file.h"
 #include "recordings/gltf_builder.h"
 #include "recordings/vrma.h"
@@ -132,6 +137,58 @@ void add_nodes(Json& document,
        {{"specVersion", "1.0"}, {"humanoid", {{"humanBones", std::move(bones)}}}}}};
 }
 
+/// Where a child node is to be from its parent, as it rests and in the posture.
+struct ChildWay {
+  glm::dvec3 rest{0.0};
+  glm::dvec3 posed{0.0};
+};
+
+/// The turn nearest to `turn` that brings the children's ways at rest nearest to those of
+/// the posture: joints between that are no bones have moved them.
+glm::dquat aimed(glm::dquat turn, std::span<const ChildWay> ways) {
+  constexpr int kSteps = 8;
+  constexpr double kExact_m = 1e-9;
+  for (int step = 0; step < kSteps; ++step) {
+    glm::dvec3 moment(0.0);
+    glm::dmat3 inertia(0.0);
+    double away_m = 0.0;
+    double size_m2 = 0.0;
+    for (const ChildWay& way : ways) {
+      const glm::dvec3 now = turn * way.rest;
+      moment += glm::cross(now, way.posed - now);
+      inertia += glm::dmat3(glm::dot(now, now)) - glm::outerProduct(now, now);
+      away_m = std::max(away_m, glm::distance(now, way.posed));
+      size_m2 += glm::dot(now, now);
+    }
+    if (away_m < kExact_m || size_m2 <= 0.0) break;
+    // About the one child's own way nothing turns.
+    inertia += glm::dmat3(1e-9 * size_m2);
+    turn = glm::normalize(rotation_from_vector(glm::inverse(inertia) * moment) * turn);
+  }
+  return turn;
+}
+
+/// The children of each node.
+std::vector<std::vector<std::size_t>> children_of(std::span<const BoneNode> nodes) {
+  std::vector<std::vector<std::size_t>> out(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].parent) out[*nodes[i].parent].push_back(i);
+  }
+  return out;
+}
+
+/// Whether joints that are no bones lie between a node and a child of it.
+std::vector<bool> has_joints_between(const Skeleton& skeleton,
+                                     std::span<const BoneNode> nodes) {
+  std::vector<bool> out(nodes.size(), false);
+  for (const BoneNode& node : nodes) {
+    if (!node.parent) continue;
+    const auto& above = skeleton.joints[node.joint].parent;
+    if (above && index(*above) != nodes[*node.parent].joint) out[*node.parent] = true;
+  }
+  return out;
+}
+
 std::vector<NodeTrack> tracks_of(const Motion& motion,
                                  std::span<const BoneNode> nodes,
                                  std::span<const RigidTransform> t_pose) {
@@ -139,12 +196,32 @@ std::vector<NodeTrack> tracks_of(const Motion& motion,
   for (std::size_t i = 0; i < tracks.size(); ++i) tracks[i].node = static_cast<int>(i);
   std::vector<RigidTransform> world_from_joint(t_pose.size());
   std::vector<glm::dquat> turned(nodes.size());
+  const auto children = children_of(nodes);
+  const auto is_aimed = has_joints_between(motion.skeleton, nodes);
+  std::vector<glm::dvec3> place(nodes.size());  // As the file has it.
+  std::vector<ChildWay> ways;
   for (const Pose& pose : motion.poses) {
     world_from_joints(motion.skeleton, pose, world_from_joint);
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto& [bone, joint, parent] = nodes[i];
       turned[i] =
           world_from_joint[joint].rotation * glm::conjugate(t_pose[joint].rotation);
+      const glm::dvec3 rests_at = t_pose[joint].translation;
+      if (parent) {
+        place[i] = place[*parent] +
+                   turned[*parent] * (rests_at - t_pose[nodes[*parent].joint].translation);
+      } else {
+        place[i] = world_from_joint[joint].translation;
+      }
+      if (is_aimed[i]) {
+        ways.clear();
+        for (const std::size_t child : children[i]) {
+          const std::size_t own = nodes[child].joint;
+          ways.push_back({t_pose[own].translation - rests_at,
+                          world_from_joint[own].translation - place[i]});
+        }
+        turned[i] = aimed(turned[i], ways);
+      }
       tracks[i].rotations.push_back(parent ? glm::conjugate(turned[*parent]) * turned[i]
                                            : turned[i]);
     }

@@ -14,6 +14,8 @@
 #include "core/pose.h"
 #include "core/quantile.h"
 #include "retarget/contact_figures.h"
+#include "retarget/leg_on_foot.h"
+#include "retarget/t_pose_turn.h"
 
 namespace marey::retarget {
 namespace {
@@ -90,21 +92,91 @@ void keep_faster(const BodyMap& map,
 /// The angles between a segment's directions on both bodies, over frames.
 struct Apart {
   std::vector<double> angles_rad;
+  std::vector<int> frames;
   double worst_rad = 0.0;
   int worst_frame = -1;
 
   void add(const glm::dvec3& a, const glm::dvec3& b, int frame) {
     angles_rad.push_back(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+    frames.push_back(frame);
     if (angles_rad.back() < worst_rad) return;
     worst_rad = angles_rad.back();
     worst_frame = frame;
   }
-  void keep_larger(B bone, DirectionFigures& out) const {
-    if (angles_rad.empty()) return;
-    const double median_rad = median(angles_rad);
-    if (out.worst_frame >= 0 && median_rad <= out.median_rad) return;
-    out = {bone, median_rad, worst_rad, worst_frame};
+  DirectionFigures figures(B bone, double hz) const {
+    DirectionFigures out{bone};
+    if (angles_rad.empty()) return out;
+    out.median_rad = median(angles_rad);
+    out.worst_rad = worst_rad;
+    out.worst_frame = worst_frame;
+    // The least angle of each so long run of frames.
+    const std::size_t count = angles_rad.size();
+    const std::size_t run = std::clamp<std::size_t>(
+        static_cast<std::size_t>(std::ceil(kSustained_s * hz)), 1, count);
+    for (std::size_t first = 0; first + run <= count; ++first) {
+      const bool is_on_end =
+          frames[first + run - 1] - frames[first] == static_cast<int>(run) - 1;
+      if (!is_on_end || angles_rad[first] <= out.sustained_rad) continue;
+      const auto from = angles_rad.begin() + static_cast<std::ptrdiff_t>(first);
+      const double least = *std::min_element(from, from + static_cast<std::ptrdiff_t>(run));
+      if (least <= out.sustained_rad) continue;
+      out.sustained_rad = least;
+      out.sustained_frame = frames[first];
+    }
+    return out;
   }
+};
+
+void keep_larger(const DirectionFigures& one, DirectionFigures& out) {
+  if (one.worst_frame < 0) return;
+  if (out.worst_frame < 0 || one.median_rad > out.median_rad) out = one;
+}
+
+/// A foot's direction over the floor; nullopt: it is too steep to have one.
+std::optional<glm::dvec3> level_foot(const glm::dvec3& ahead) {
+  if (std::abs(std::asin(std::clamp(ahead.y, -1.0, 1.0))) > kSteepFoot_rad) {
+    return std::nullopt;
+  }
+  return glm::normalize(glm::dvec3(ahead.x, 0.0, ahead.z));
+}
+
+/// Both feet: by their toe joints if both bodies have them, else by their ankles' turns.
+class FeetComparison {
+ public:
+  FeetComparison(const BodyMap& from, const BodyMap& to) : from_(from), to_(to) {}
+
+  void add(const Frames& a, const Frames& b, int frame) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const B foot = foot_bone(static_cast<int>(side));
+      const B toes = toes_bone(static_cast<int>(side));
+      auto u = way(place_of(from_, a, foot), place_of(from_, a, toes));
+      auto v = way(place_of(to_, b, foot), place_of(to_, b, toes));
+      if (!u || !v) {
+        u = ahead(from_, a, foot);
+        v = ahead(to_, b, foot);
+      }
+      if (!u || !v) continue;
+      u = level_foot(*u);
+      v = level_foot(*v);
+      if (u && v) feet_[side].add(*u, *v, frame);
+    }
+  }
+  [[nodiscard]] DirectionFigures figures(std::size_t side, double hz) const {
+    return feet_[side].figures(foot_bone(static_cast<int>(side)), hz);
+  }
+
+ private:
+  static std::optional<glm::dvec3> ahead(const BodyMap& map,
+                                         const Frames& frames,
+                                         B foot) {
+    const auto joint = map.joint_of[index(foot)];
+    if (!joint) return std::nullopt;
+    return turn_off_t_pose(map, frames, *joint) * glm::dvec3(0, 0, 1);
+  }
+
+  const BodyMap& from_;
+  const BodyMap& to_;
+  std::array<Apart, 2> feet_;
 };
 
 }  // namespace
@@ -127,6 +199,7 @@ PostureFigures compare_postures(const Motion& source,
   Frames b_before;
   Fastest fastest;
   Fastest source_fastest;
+  FeetComparison feet(from, to);
   double exchanged = 0.0;
   for (std::size_t t = 0; t < source.poses.size(); ++t) {
     world_from_joints(source.skeleton, source.poses[t], a);
@@ -144,6 +217,7 @@ PostureFigures compare_postures(const Motion& source,
     const auto nape = way(place_of(from, a, B::kNeck), place_of(from, a, B::kHead));
     const auto own_nape = way(place_of(to, b, B::kNeck), place_of(to, b, B::kHead));
     if (nape && own_nape) neck.add(*nape, *own_nape, frame);
+    feet.add(a, b, frame);
     const auto back = feet_backwards(from, a);
     const auto own_back = feet_backwards(to, b);
     if (back && own_back && *back != *own_back) exchanged += 1.0;
@@ -155,14 +229,21 @@ PostureFigures compare_postures(const Motion& source,
     b_before = b;
   }
   PostureFigures out;
+  const double hz = source.rate.hz;
   for (std::size_t s = 0; s < kSegments.size(); ++s) {
+    out.segments[s] = segments[s].figures(kSegments[s][0], hz);
     // Four of each side: the arm's two, then the leg's.
-    segments[s].keep_larger(kSegments[s][0], s % 4 < 2 ? out.arms : out.legs);
-    segments[s].keep_larger(kSegments[s][0], out.segments[s]);
+    keep_larger(out.segments[s], s % 4 < 2 ? out.arms : out.legs);
   }
-  trunk.keep_larger(B::kSpine, out.trunk);
-  out.segments[kSegments.size()] = out.trunk;
-  neck.keep_larger(B::kNeck, out.segments[kSegments.size() + 1]);
+  std::size_t next = kSegments.size();
+  out.trunk = out.segments[next++] = trunk.figures(B::kSpine, hz);
+  out.segments[next++] = neck.figures(B::kNeck, hz);
+  for (std::size_t side = 0; side < 2; ++side) {
+    const DirectionFigures foot = out.segments[next++] = feet.figures(side, hz);
+    if (out.feet.worst_frame < 0 || foot.sustained_rad > out.feet.sustained_rad) {
+      out.feet = foot;
+    }
+  }
   if (!source.poses.empty()) {
     out.exchanged_share = exchanged / static_cast<double>(source.poses.size());
   }

@@ -10,6 +10,7 @@
 
 #include "core/assert.h"
 #include "core/transform.h"
+#include "retarget/footprint.h"
 #include "retarget/frame_marks.h"
 #include "retarget/leg_on_foot.h"
 #include "retarget/smooth_step.h"
@@ -96,13 +97,6 @@ std::vector<glm::dvec3> bridge(Prescribed p, double hz, const FootPlanOptions& o
   return out;
 }
 
-// One stance's place on the floor.
-struct Footprint {
-  glm::dquat heading{1.0, 0.0, 0.0, 0.0};
-  glm::dvec3 ankle_in_world{0.0};
-  glm::dvec3 ball_in_world{0.0};
-};
-
 // Everything the steps below share about one foot.
 struct Task {
   std::span<const FootPlace> reference;
@@ -113,100 +107,76 @@ struct Task {
   std::vector<char> heel;  // Per frame: does it bear?
   std::vector<char> ball;
   std::vector<FrameInterval> heel_up;  // In which a foot on its ball keeps still.
-  std::vector<Footprint> print;        // Of the stance that the frame is in.
+  std::vector<Footprint> print;        // Of the frame, where it is in a stance.
 
   [[nodiscard]] bool bears(std::size_t t) const { return heel[t] || ball[t]; }
   [[nodiscard]] bool flat(std::size_t t) const { return heel[t] && ball[t]; }
 };
 
-// Mean of a point of the reference foot over the frames of `run` that count.
-template <class Counts, class Point>
-std::optional<glm::dvec3> mean(const Task& task,
-                               const FrameInterval& run,
-                               const Counts& counts,
-                               const Point& point) {
-  glm::dvec3 sum(0.0);
-  int n = 0;
-  for (int k = run.first; k <= run.last; ++k) {
-    const auto t = static_cast<std::size_t>(k);
-    if (!counts(t)) continue;
-    sum += point(task.reference[t]);
-    ++n;
-  }
-  if (n == 0) return std::nullopt;
-  return sum / static_cast<double>(n);
-}
-
-// Where the reference foot stands flat, on average; a stance on the ball or the heel
-// alone goes by that joint.
-Footprint footprint(const Task& task, const FrameInterval& run) {
-  const glm::dvec3& ball_from_ankle = task.foot.ball_from_ankle_in_t_pose;
-  const auto ankle = [](const FootPlace& place) { return place.ankle_in_world; };
-  const auto ball = [&](const FootPlace& place) {
-    return place.ankle_in_world + place.foot * ball_from_ankle;
-  };
-  const auto ahead = [](const FootPlace& place) {
-    return place.foot * glm::dvec3(0, 0, 1);
-  };
-  const auto flat = [&](std::size_t t) { return task.flat(t); };
-  const auto on_ball = [&](std::size_t t) { return task.ball[t] != 0; };
-  const auto any = [](std::size_t) { return true; };
-
-  Footprint print;
-  auto heading = mean(task, run, flat, ahead);
-  if (!heading) heading = mean(task, run, any, ahead);
-  print.heading = glm::angleAxis(std::atan2(heading->x, heading->z), glm::dvec3(0, 1, 0));
-  const glm::dvec3 flat_ball_from_ankle = print.heading * ball_from_ankle;
-  if (const auto place = mean(task, run, flat, ankle)) {
-    print.ankle_in_world = *place;
-  } else if (const auto place_of_ball = mean(task, run, on_ball, ball)) {
-    print.ankle_in_world = *place_of_ball - flat_ball_from_ankle;
-  } else {
-    print.ankle_in_world = *mean(task, run, any, ankle);
-  }
-  print.ankle_in_world.y = task.foot.ankle_height_m;
-  print.ball_in_world = print.ankle_in_world + flat_ball_from_ankle;
-  return print;
-}
-
-// Mean rotation of the reference foot over a run in which it hardly turns.
+// Mean rotation of the reference foot over a run in which it hardly turns but with its
+// footprint: off the footprint's heading.
 glm::dquat mean_foot(const Task& task, const FrameInterval& run) {
-  const glm::dquat first = task.reference[static_cast<std::size_t>(run.first)].foot;
+  const auto off_print = [&](int k) {
+    const auto t = static_cast<std::size_t>(k);
+    return glm::conjugate(task.print[t].heading) * task.reference[t].foot;
+  };
+  const glm::dquat first = off_print(run.first);
   glm::dvec3 turn(0.0);
   for (int k = run.first; k <= run.last; ++k) {
-    turn += rotation_vector(task.reference[static_cast<std::size_t>(k)].foot *
-                            glm::conjugate(first));
+    turn += rotation_vector(off_print(k) * glm::conjugate(first));
   }
   return rotation_from_vector(turn / static_cast<double>(run.last - run.first + 1)) *
          first;
+}
+
+// How the reference foot is turned about Y: what is left when the least turn has made it
+// level. Corrections of a foot are bridged against it, so that a heel that is lowered by
+// as much before a turn and after it is lowered, not rolled, within it.
+std::vector<glm::dquat> headings_of(std::span<const FootPlace> reference) {
+  std::vector<glm::dquat> out;
+  glm::dquat last(1.0, 0.0, 0.0, 0.0);
+  for (const FootPlace& place : reference) {
+    const glm::dquat twist(place.foot.w, 0.0, place.foot.y, 0.0);
+    constexpr double kNone = 1e-6;  // Upside down.
+    if (glm::length(twist) > kNone) last = glm::normalize(twist);
+    out.push_back(last);
+  }
+  return out;
 }
 
 // Turns foot and toes flat where they must be, and as little as possible elsewhere.
 void turn(const Task& task, std::vector<FootPlace>& out) {
   Prescribed foot_turn(out.size());
   Prescribed toes_turn(out.size());
+  const std::vector<glm::dquat> headings = headings_of(task.reference);
+  // Against the reference's heading.
+  const auto turn_to =
+      [&](std::size_t t, const glm::dquat& wanted, const glm::dquat& reference) {
+        return glm::conjugate(headings[t]) *
+               rotation_vector(wanted * glm::conjugate(reference));
+      };
   for (std::size_t t = 0; t < out.size(); ++t) {
     const glm::dquat& heading = task.print[t].heading;
     const FootPlace& reference = task.reference[t];
-    if (task.flat(t)) {
-      foot_turn[t] = rotation_vector(heading * glm::conjugate(reference.foot));
-    }
-    if (task.ball[t]) {
-      toes_turn[t] = rotation_vector(heading * glm::conjugate(reference.toes));
-    }
+    if (task.flat(t)) foot_turn[t] = turn_to(t, heading, reference.foot);
+    if (task.ball[t]) toes_turn[t] = turn_to(t, heading, reference.toes);
   }
   for (const FrameInterval& run : task.heel_up) {
     const glm::dquat still = mean_foot(task, run);
     for (int k = run.first; k <= run.last; ++k) {
       const auto t = static_cast<std::size_t>(k);
-      foot_turn[t] = rotation_vector(still * glm::conjugate(task.reference[t].foot));
+      foot_turn[t] =
+          turn_to(t, task.print[t].heading * still, task.reference[t].foot);
     }
   }
   const auto foot = bridge(std::move(foot_turn), task.hz, task.options);
   const auto toes = bridge(std::move(toes_turn), task.hz, task.options);
   for (std::size_t t = 0; t < out.size(); ++t) {
-    out[t].foot = glm::normalize(rotation_from_vector(foot[t]) * task.reference[t].foot);
-    out[t].toes = glm::normalize(rotation_from_vector(toes[t]) * task.reference[t].toes);
+    const FootPlace& reference = task.reference[t];
+    out[t].foot =
+        glm::normalize(rotation_from_vector(headings[t] * foot[t]) * reference.foot);
+    out[t].toes =
+        glm::normalize(rotation_from_vector(headings[t] * toes[t]) * reference.toes);
   }
 }
 
@@ -276,8 +246,9 @@ std::vector<FootPlace> plan_foot(std::span<const FootPlace> reference,
             contacts.heel_up,
             std::vector<Footprint>(count)};
   for (const FrameInterval& run : contacts.stance) {
-    const Footprint print = footprint(task, run);
-    std::fill(task.print.begin() + run.first, task.print.begin() + run.last + 1, print);
+    const auto prints =
+        footprints({reference, task.heel, task.ball}, run, foot, rate);
+    std::ranges::copy(prints, task.print.begin() + run.first);
   }
   std::vector<FootPlace> out(count);
   turn(task, out);

@@ -31,10 +31,11 @@ struct FootPlanOptions {
 /// Moves a foot's path onto its footprints.
 ///
 /// Every stance gets one footprint, the mean of where the reference foot stands flat in
-/// it. While heel and ball bear, the foot is exactly flat and still on the floor Y = 0,
-/// its ankle and toe joint at their own resting heights; while only one bears, the foot
-/// turns about that joint as the reference does, or, while a raised heel keeps still, not
-/// at all. Between stances the reference's path is
+/// it; of a foot that turns while it stands, one that turns with it about the point that
+/// stays (retarget/footprint.h). While heel and ball bear, the foot is exactly flat and
+/// on its footprint on the floor Y = 0, its ankle and toe joint at their own resting
+/// heights; while only one bears, the foot turns about that joint as the reference does,
+/// or, while a raised heel keeps still, not but with its footprint. Between stances the reference's path is
 /// kept but for a displacement that joins the two stances' own with continuous position
 /// and speed. The ankle and the toe joint are never lower than they rest.
 ///

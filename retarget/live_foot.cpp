@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/live_foot.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -47,6 +48,22 @@ void LiveFoot::begin(Mode mode, const FootMap& foot, const FootPlace& reference)
     anchor_in_world_ = from.ankle_in_world;
   }
   anchor_in_world_.y = foot.ankle_height_m;
+}
+
+void LiveFoot::turn_along(const FootMap& foot, const FootPlace& reference) {
+  // As FootprintOptions::flat_rad. Steeper than 70 degrees a foot has no yaw.
+  constexpr double kPlay_rad = 0.07;
+  constexpr double kSteepest = 0.34;
+  const glm::dvec3 ahead = reference.foot * glm::dvec3(0, 0, 1);
+  if (glm::length(glm::dvec2(ahead.x, ahead.z)) < kSteepest) return;
+  const glm::dvec3 now = glm::conjugate(heading_) * ahead;
+  const double apart_rad = std::atan2(now.x, now.z);
+  const double turn_rad = apart_rad - std::clamp(apart_rad, -kPlay_rad, kPlay_rad);
+  if (turn_rad == 0.0) return;
+  const glm::dvec3 flat = foot.ball_from_ankle_in_t_pose;
+  const glm::dquat before = heading_;
+  heading_ = glm::normalize(glm::angleAxis(turn_rad, glm::dvec3(0, 1, 0)) * heading_);
+  anchor_in_world_ += before * flat - heading_ * flat;
 }
 
 // Where the mode wants the foot, nothing left over.
@@ -99,6 +116,7 @@ void LiveFoot::hold(const StandingFoot& stands,
     foot_left_over_rad_ = rotation_vector(was.foot * glm::conjugate(aimed.foot));
     toes_left_over_rad_ = rotation_vector(was.toes * glm::conjugate(aimed.toes));
   }
+  if (mode_ == Mode::kFlat) turn_along(foot, reference);
   const double fade_s = mode_ == Mode::kFree ? options.release_s : options.land_s;
   const double left = 1.0 - smooth_step(since_change_s_ / fade_s);
   const FootPlace aimed = aim(foot, reference);

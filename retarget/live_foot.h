@@ -27,6 +27,8 @@ class LiveFoot {
   static Mode mode_of(const StandingFoot& stands);
 
   void begin(Mode mode, const FootMap& foot, const FootPlace& reference);
+  /// Turns the flat foot about its ball until its yaw is the reference's to some degrees.
+  void turn_along(const FootMap& foot, const FootPlace& reference);
   [[nodiscard]] FootPlace aim(const FootMap& foot, const FootPlace& reference) const;
 
   bool is_known_ = false;

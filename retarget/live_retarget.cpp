@@ -14,6 +14,7 @@
 #include "retarget/live_foot.h"
 #include "retarget/live_skin.h"
 #include "retarget/retarget_motion.h"
+#include "retarget/unroll_feet.h"
 
 namespace marey::retarget {
 
@@ -33,6 +34,7 @@ struct LiveRetarget::State {
   LiveHands hands;
   LiveSkinLift skin;
   NormalizedPose posture;
+  FootUnroller unroller;
   std::vector<RigidTransform> source_world;
   std::vector<RigidTransform> avatar_world;
 
@@ -156,6 +158,7 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
   MAREY_ASSERT(source.parent_from_joint.size() == s.source.joints.size());
   world_from_joints(s.source, source, s.source_world);
   normalize(s.from, s.source_world, s.posture, s.options.root);
+  s.unroller.step(s.from, s.source_world, s.posture);
   s.stance.step(s.from, s.source_world, since_last_s);
   const double rise_m = s.options.hold_feet ? s.rise_m() : 0.0;
   s.posture.root.y += rise_m / root_unit_m(s.to, s.options.root);
@@ -179,6 +182,7 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
 
 void LiveRetarget::forget() {
   state_->stance.forget();
+  state_->unroller = FootUnroller();
   for (LiveFoot& foot : state_->feet) foot.forget();
   state_->hands.forget();
   state_->skin.forget();

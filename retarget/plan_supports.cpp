@@ -138,6 +138,7 @@ std::vector<SupportTrack> plan_supports(const Motion& reference,
       track.stands = standing(way.runs, plan.stances);
       const std::string segment(name(kFeet[side]));
       track.constraint.id = id_of(segment, way);
+      track.ball_in_t_pose = ball;
       track.constraint.point = {segment, way.offset_in_t_pose};
       track.constraint.goal = Support{glm::dvec3(0.0), std::nullopt, way.turns};
       track.constraint.activation = {kNever_s, std::nullopt, in_s, out_s};

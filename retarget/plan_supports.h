@@ -32,6 +32,9 @@ struct SupportTrack {
   /// elsewhere, so that what fades in or out does it beside a foot that moves.
   std::vector<glm::dvec3> p_in_world;
   std::vector<glm::dquat> world_from_t_pose;
+  /// The ball, from the joint, as the constraint's offset is: a flat foot that turns while
+  /// it stands turns about it or about the ankle.
+  glm::dvec3 ball_in_t_pose{0.0};
 };
 
 struct PlanSupportsOptions {

@@ -17,6 +17,7 @@
 #include "retarget/match_carriage.h"
 #include "retarget/place_masses.h"
 #include "retarget/t_pose_turn.h"
+#include "retarget/unroll_feet.h"
 
 namespace marey::retarget {
 namespace {
@@ -186,10 +187,12 @@ std::vector<NormalizedPose> posed(const Task& task, const Contacts& contacts) {
   const double avatar_floor_m = floor_m - world.source_floor_m;
   std::vector<NormalizedPose> poses(source.poses.size());
   std::vector<RigidTransform> world_from_joint(source.skeleton.joints.size());
+  FootUnroller unroller;
   for (std::size_t t = 0; t < poses.size(); ++t) {
     world_from_joints(source.skeleton, source.poses[t], world_from_joint);
     glm::dvec3& root = poses[t].root;
     normalize(task.from, world_from_joint, poses[t], task.options.root);
+    unroller.step(task.from, world_from_joint, poses[t]);
     if (world.keeps_path) root = {root.x / world.scale, root.y, root.z / world.scale};
     if (world.keeps_heights) {
       const double y_m = world_from_joint[index(task.from.hips())].translation.y;

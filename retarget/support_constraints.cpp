@@ -13,8 +13,11 @@
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include "core/assert.h"
+#include "core/transform.h"
 
 namespace marey::retarget {
 namespace {
@@ -118,6 +121,33 @@ std::vector<std::size_t> footprint_frames(const std::vector<Stance>& stances) {
   return out;
 }
 
+// How far a point of the foot gets from where it began, over a stance. [m]
+double travel_m(const Stance& stance, const glm::dvec3& offset_in_t_pose) {
+  const SupportTrack& track = *stance.track;
+  const auto place = [&](int frame) {
+    const auto t = static_cast<std::size_t>(frame);
+    return track.p_in_world[t] + track.world_from_t_pose[t] * offset_in_t_pose;
+  };
+  double most_m = 0.0;
+  for (int t = stance.frames.first; t <= stance.frames.last; ++t) {
+    most_m = std::max(most_m, glm::distance(place(t), place(stance.frames.first)));
+  }
+  return most_m;
+}
+
+// Whether a flat foot turns while it stands.
+bool turns_standing(const Stance& stance) {
+  constexpr double kTurned_rad = 0.15;
+  const auto& turn = stance.track->world_from_t_pose;
+  const glm::dquat from =
+      glm::conjugate(turn[static_cast<std::size_t>(stance.frames.first)]);
+  for (int t = stance.frames.first; t <= stance.frames.last; ++t) {
+    const glm::dquat turned = turn[static_cast<std::size_t>(t)] * from;
+    if (glm::length(rotation_vector(turned)) > kTurned_rad) return true;
+  }
+  return false;
+}
+
 Constraint constraint_of(const Stance& stance,
                          std::size_t at,
                          const Room& room,
@@ -126,7 +156,16 @@ Constraint constraint_of(const Stance& stance,
   Constraint out = track.constraint;
   auto& support = std::get<Support>(out.goal);
   support.footprint_in_world = rounded(track.p_in_world[at]);
-  if (!support.turns) support.world_from_t_pose = track.world_from_t_pose[at];
+  if (!support.turns && turns_standing(stance)) {
+    support.turns = true;
+    if (travel_m(stance, track.ball_in_t_pose) <= travel_m(stance, glm::dvec3(0.0))) {
+      out.point.offset_in_t_pose = track.ball_in_t_pose;
+      support.footprint_in_world = rounded(
+          track.p_in_world[at] + track.world_from_t_pose[at] * track.ball_in_t_pose);
+    }
+  } else if (!support.turns) {
+    support.world_from_t_pose = track.world_from_t_pose[at];
+  }
   out.point.offset_in_t_pose = rounded(out.point.offset_in_t_pose);
   Activation& when = out.activation;
   when.start_duration_s =

@@ -22,7 +22,9 @@ namespace marey::retarget {
 /// over from the other it is at once: both hold for a moment, so that stances that take
 /// over from each other have the footprints of one posture, the foot's in the first frame
 /// in which it is flat. A foot that turns on its heel may rise by some millimetres; its
-/// footprint does not. On a floor that moves, footprints are where they are in that
+/// footprint does not. A flat foot that turns by more than 0.15 rad while it stands (a
+/// dancer's) may turn about its ball, or its ankle if that moves less: a constraint holds
+/// still. On a floor that moves, footprints are where they are in that
 /// frame, those of other stances where they are when these begin. Flat feet come first,
 /// so that where both hold the foot is flat. Costs stances squared. Precondition: the
 /// rate is positive; tracks have one motion's frames.

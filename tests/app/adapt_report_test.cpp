@@ -16,6 +16,7 @@ namespace marey::testing {
 namespace {
 
 namespace fs = std::filesystem;
+using B = HumanBone;
 using Json = nlohmann::json;
 
 /// A captured walk, its bones called as VRM does. nullopt: it is not at hand.
@@ -109,6 +110,58 @@ TEST(Adapt, AdvisesMoreIterationsOnlyWhereTheyWereShort) {
   const std::string patient = advice("2000");
   EXPECT_EQ(patient.find("--max-iterations"), std::string::npos) << patient;
   EXPECT_NE(patient.find("--balance-root-share 1"), std::string::npos) << patient;
+}
+
+/// Constraints of both hands and nothing else, while hand_at()'s is active.
+std::string both_hands_at(const glm::dvec3& left, const glm::dvec3& right) {
+  std::string second = hand_at(right, "", "rightHand");
+  second.replace(second.find("<name>hand<"), 11, "<name>other<");
+  return hand_at(left) + second;
+}
+
+// Met, and a hand through the floor.
+TEST(Adapt, DoesNotTrustAHandBelowTheFloor) {
+  const AdaptScene scene;
+  // The root goes down with it, and nothing else is far.
+  glm::dvec3 low = place_of(scene.walk().motion, 36, B::kLeftHand);
+  low.y = -0.2;
+  const ProgramRun run = scene.adapt(
+      {"--constraints", scene.constraints(hand_at(low)), "--supports", "none"});
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  for (const char* word : {" mm below the floor", "frame ", "\"hand\""}) {
+    EXPECT_NE(run.err.find(word), std::string::npos) << word << " in " << run.err;
+  }
+  EXPECT_GT(Json::parse(run.out).at("posture").at("below_floor_mm").get<double>(), 150.0);
+}
+
+TEST(Adapt, DoesNotTrustATrunkUpsideDown) {
+  const AdaptScene scene;
+  const glm::dvec3 foot = place_of(scene.walk().motion, 36, B::kLeftFoot);
+  const ProgramRun run =
+      scene.adapt({"--constraints",
+                   scene.constraints(both_hands_at({foot.x, -1.2, foot.z - 0.4},
+                                                   {foot.x - 0.3, -1.2, foot.z - 0.4})),
+                   "--control",
+                   "blend"});
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  for (const char* word : {"the trunk is upside down", "\"hand\", \"other\"", "frame "}) {
+    EXPECT_NE(run.err.find(word), std::string::npos) << word << " in " << run.err;
+  }
+  EXPECT_GT(Json::parse(run.out).at("posture").at("upside_down_frames").get<int>(), 0);
+}
+
+// Few iterations are not what a target out of reach lacks.
+TEST(Adapt, AdvisesNoIterationsForATargetOutOfReach) {
+  const AdaptScene scene;
+  for (const double height_m : {5.0, 2.4}) {
+    const ProgramRun run = scene.adapt({"--constraints",
+                                        scene.constraints(hand_at({0.0, height_m, 1.0})),
+                                        "--max-iterations",
+                                        "1"});
+    EXPECT_EQ(run.exit_code, 4) << run.err;
+    EXPECT_EQ(run.err.find("--max-iterations"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("nearer"), std::string::npos) << run.err;
+  }
 }
 
 }  // namespace

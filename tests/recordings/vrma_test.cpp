@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/vrma.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 
@@ -9,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/pose.h"
 #include "recordings/atomic_file.h"
 #include "recordings/gltf.h"
 #include "tests/recordings/wild_motion.h"
@@ -70,6 +73,40 @@ TEST(Vrma, RestsWithoutRotationsWhateverTheSkeletonRestsWith) {
     EXPECT_EQ(joint.parent_from_joint.rotation, glm::dquat(1, 0, 0, 0)) << joint.name;
   }
   EXPECT_LT(largest_distance_m(motion, read), kRounding_m);
+}
+
+// A neck of two joints, of which VRM has one: the head is in its direction.
+TEST(Vrma, TurnsABoneForJointsThatVrmDoesNotHave) {
+  const ScratchFolder folder;
+  Motion motion = wild_motion(uneven_body(), 40);
+  Skeleton& body = motion.skeleton;
+  const JointIndex upper_neck = *body.find(HumanBone::kHead);
+  const JointIndex neck = *body.find(HumanBone::kNeck);
+  Joint head = body[upper_neck];
+  Joint& between = body.joints[index(upper_neck)];
+  between.name = "neck1";
+  between.bone.reset();
+  between.parent_from_joint.translation *= 0.5;
+  between.tip_in_joint.reset();
+  head.parent = upper_neck;
+  head.parent_from_joint = {between.parent_from_joint.translation, {1, 0, 0, 0}};
+  body.joints.push_back(head);
+  for (Pose& pose : motion.poses) pose.parent_from_joint.push_back({1, 0, 0, 0});
+  const Motion read = read_again(folder, motion);
+  ASSERT_EQ(read.poses.size(), motion.poses.size());
+  double most_m = 0.0;
+  for (std::size_t t = 0; t < motion.poses.size(); ++t) {
+    const auto solved = world_from_joints(body, motion.poses[t]);
+    const auto file = world_from_joints(read.skeleton, read.poses[t]);
+    const glm::dvec3 base = solved[index(neck)].translation;
+    const glm::dvec3 way = solved.back().translation - base;
+    const glm::dvec3 own =
+        file[index(*read.skeleton.find(HumanBone::kHead))].translation - base;
+    EXPECT_LT(glm::length(glm::cross(glm::normalize(way), own)), 1e-5);
+    EXPECT_GT(glm::dot(way, own), 0.0);
+    most_m = std::max(most_m, std::abs(glm::length(way) - glm::length(own)));
+  }
+  EXPECT_GT(most_m, 0.0) << "its distance is what the format cannot hold";
 }
 
 // A body that rests with its left arm hanging, told how its T-pose is.

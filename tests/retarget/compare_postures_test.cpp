@@ -40,6 +40,40 @@ TEST(ComparePostures, NamesTheLegThatIsOff) {
   EXPECT_EQ(segment_name(figures.trunk), "trunk");
 }
 
+// A quarter of a second in a motion: no median shows it.
+TEST(ComparePostures, FindsAFootThatIsTurnedForAWhile) {
+  const Motion walk = testing::synthetic_walk(120, 60.0).motion;
+  Motion made = walk;
+  for (std::size_t t = 60; t < 80; ++t) {
+    glm::dquat& ankle = made.poses[t].parent_from_joint[index(HumanBone::kRightFoot)];
+    ankle = glm::angleAxis(glm::radians(70.0), glm::dvec3(0, 1, 0)) * ankle;
+  }
+  const BodyMap map = *map_body(walk.skeleton);
+  const PostureFigures figures = compare_postures(walk, map, made, map);
+  EXPECT_EQ(figures.feet.bone, HumanBone::kRightFoot);
+  EXPECT_EQ(segment_name(figures.feet), "rightFoot");
+  EXPECT_LT(figures.feet.median_rad, 1e-7);
+  EXPECT_GT(glm::degrees(figures.feet.sustained_rad), 50.0);
+  EXPECT_GE(figures.feet.sustained_frame, 60);
+  EXPECT_LE(figures.feet.sustained_frame, 65);
+  // For less long it is a movement.
+  for (std::size_t t = 70; t < 80; ++t) made.poses[t] = walk.poses[t];
+  EXPECT_LT(compare_postures(walk, map, made, map).feet.sustained_rad, 1e-7);
+}
+
+// A shoe with a heel slopes otherwise than a bare foot, and is no turned foot.
+TEST(ComparePostures, LeavesOutHowHighAnAnkleLies) {
+  const Motion walk = testing::synthetic_walk(120, 60.0).motion;
+  Motion made = walk;
+  for (const HumanBone toes : {HumanBone::kLeftToes, HumanBone::kRightToes}) {
+    glm::dvec3& bone = made.skeleton.joints[index(toes)].parent_from_joint.translation;
+    bone.y -= 0.4 * bone.z;
+  }
+  const PostureFigures figures = compare_postures(
+      walk, *map_body(walk.skeleton), made, *map_body(made.skeleton));
+  EXPECT_LT(glm::degrees(figures.feet.median_rad), 3.0);
+}
+
 TEST(ComparePostures, FindsLeftAndRightExchanged) {
   const Motion walk = testing::synthetic_walk(60, 60.0).motion;
   const BodyMap map = *map_body(walk.skeleton);

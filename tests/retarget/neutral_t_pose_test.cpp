@@ -227,6 +227,8 @@ TEST(RestAsPose, TakesAFrameAndFacesAlongAnAxis) {
       testing::directions_of(motion.skeleton, joints, rest_pose(motion.skeleton));
   const auto then = testing::directions_of(motion.skeleton, joints, pose);
   for (std::size_t i = 0; i < testing::kSegmentCount; ++i) {
+    if (!then[i]) continue;  // A steep foot.
+    ASSERT_TRUE(now[i]);
     EXPECT_NEAR(now[i]->y, then[i]->y, 1e-9);
   }
 }

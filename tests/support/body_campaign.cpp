@@ -23,6 +23,7 @@ std::vector<std::string> gross_errors(const CampaignResult& result) {
   }
   if (judged.worst_median_deg > 25.0) out.emplace_back("leg or trunk direction");
   if (judged.arms_median_deg > 60.0) out.emplace_back("arm direction");
+  if (judged.foot_yaw_deg > 45.0) out.emplace_back("foot direction");
   if (judged.exchanged_share > 0.5) out.emplace_back("left and right exchanged");
   if (judged.max_speed > 12.0 && judged.max_speed > 2.0 * judged.source_max_speed) {
     out.emplace_back("speed");
@@ -66,6 +67,9 @@ std::vector<CampaignResult> run_campaign(const std::filesystem::path& program,
     result.error = figures.value("error", "");
     if (figures.contains("deepest_penetration_mm")) {
       result.told_depth_mm = figures["deepest_penetration_mm"].get<double>();
+    }
+    if (figures.contains("posture")) {
+      result.told_foot_deg = figures["posture"]["feet"]["sustained_deg"].get<double>();
     }
     if (figures.contains("problems")) {
       for (const auto& problem : figures["problems"]) {

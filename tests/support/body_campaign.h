@@ -26,6 +26,7 @@ struct CampaignResult {
   /// What the program says of it: an error, or "" with its figures.
   std::string error;
   std::optional<double> told_depth_mm;     ///< deepest_penetration_mm.
+  std::optional<double> told_foot_deg;     ///< posture.feet.sustained_deg.
   std::vector<std::string> told_problems;  ///< The report's findings of this body.
   std::optional<BodyFigures> judged;
   int exit_code = -1;  ///< Of the run that made all bodies.
@@ -35,7 +36,8 @@ struct CampaignResult {
 /// 5 mm below the floor where the source is not, a leg's segment or a trunk whose median
 /// is more than 25 degrees away from the source's, an arm's 60 (arms give way to wide
 /// bodies), left and right exchanged, speeds over twice the
-/// source's and 12 heights a second, a figure that is not the judge's.
+/// source's and 12 heights a second, a foot whose yaw is over 45 degrees off the source's
+/// for a quarter of a second, a figure that is not the judge's.
 [[nodiscard]] std::vector<std::string> gross_errors(const CampaignResult& result);
 
 /// Runs `marey retarget CLIP BODIES... --formats glb --json` in `folder` once, with

@@ -16,6 +16,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "tests/support/acclaim.h"
+#include "tests/support/foot_judge.h"
 #include "tests/support/plain_bvh.h"
 
 namespace marey::testing {
@@ -88,6 +89,7 @@ const std::map<B, std::vector<std::string>>& aliases() {
         "toe@",
         "ccbase@toebase",
         "deftoe@",
+        "foot@end",
         "@toe"}}};
   return kNames;
 }
@@ -368,6 +370,7 @@ BodyFigures judge_body(PosedGlb& body,
   out.max_speed = fastest(frames, hz);
   out.source_max_speed = fastest(source, hz);
   compare(source, frames, out);
+  compare_feet(source, frames, hz, out);
   return out;
 }
 

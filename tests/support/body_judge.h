@@ -45,6 +45,12 @@ struct BodyFigures {
   double worst_p95_deg = 0.0;
   double trunk_median_deg = 0.0;
   double arms_median_deg = 0.0;  ///< The largest of arms, which `worst_...` leave out.
+  /// Yaw of each foot (ankle to toe joint) against the source's, where both are less
+  /// steep than 60 degrees: the largest that is exceeded for a quarter of a second on end,
+  /// of which foot, from which frame on. 0 without toe joints. [deg]
+  double foot_yaw_deg = 0.0;
+  std::string foot_yaw_bone;
+  int foot_yaw_frame = -1;
   /// The median of each segment: "leftUpperLeg", ..., "trunk", "neck". [deg]
   std::map<std::string, double> medians_deg;
   double heading_deg = 0.0;  ///< By which the body is turned against the source.

@@ -27,6 +27,8 @@ constexpr std::array<std::pair<B, B>, kSegmentCount> kEnds{{
     {B::kLeftLowerLeg, B::kLeftFoot},
     {B::kRightUpperLeg, B::kRightLowerLeg},
     {B::kRightLowerLeg, B::kRightFoot},
+    {B::kLeftFoot, B::kLeftToes},
+    {B::kRightFoot, B::kRightToes},
 }};
 
 /// Places of bones in one posture.
@@ -51,6 +53,13 @@ std::optional<glm::dvec3> direction(const std::optional<glm::dvec3>& from,
   return glm::normalize(*to - *from);
 }
 
+/// Over the floor: how high an ankle lies above the toes is the body's own. nullopt where
+/// a foot is steeper than 60 degrees.
+std::optional<glm::dvec3> level(const std::optional<glm::dvec3>& foot) {
+  if (!foot || std::hypot(foot->x, foot->z) < 0.5) return std::nullopt;
+  return glm::normalize(glm::dvec3(foot->x, 0.0, foot->z));
+}
+
 Directions directions_of(const Posed& posed) {
   Directions out;
   const auto hips = posed.between(B::kLeftUpperLeg, B::kRightUpperLeg);
@@ -59,6 +68,7 @@ Directions directions_of(const Posed& posed) {
       direction(hips, neck ? neck : posed.between(B::kLeftUpperArm, B::kRightUpperArm));
   for (std::size_t i = 1; i < kSegmentCount; ++i) {
     out[i] = direction(posed.place(kEnds[i].first), posed.place(kEnds[i].second));
+    if (i >= static_cast<std::size_t>(Segment::kLeftFoot)) out[i] = level(out[i]);
   }
   return out;
 }
@@ -75,7 +85,9 @@ std::string_view name(Segment segment) {
                                                                "left thigh",
                                                                "left shank",
                                                                "right thigh",
-                                                               "right shank"};
+                                                               "right shank",
+                                                               "left foot",
+                                                               "right foot"};
   return kNames[static_cast<std::size_t>(segment)];
 }
 

@@ -34,8 +34,10 @@ enum class Segment : unsigned char {
   kLeftShank,
   kRightThigh,
   kRightShank,
+  kLeftFoot,  ///< From the ankle to the toe joint, level; missing where that is steep.
+  kRightFoot,
 };
-inline constexpr std::size_t kSegmentCount = 10;
+inline constexpr std::size_t kSegmentCount = 12;
 
 [[nodiscard]] std::string_view name(Segment segment);
 
