@@ -69,9 +69,9 @@ std::string next_step(const Session& session,
   }
   if (thickness_m > 0.5 * standing.height_m) {
     return worded("measure the thickness of the board and correct thickness_m under "
-                  "[board] (%.3f now; %.3f would fit)",
+                  "[board] (%.3f now, some %.0f mm too much)",
                   thickness_m,
-                  std::max(0.0, thickness_m - standing.height_m));
+                  1e3 * standing.height_m);
   }
   return "check that the subject stood on the floor itself in trial " + standing.trial +
          ", and that the board lay on it in " + floor;

@@ -236,7 +236,7 @@ TEST(JudgeSoles, NamesTheThicknessOfTheBoard) {
   EXPECT_TRUE(doubt->is_poor);
   EXPECT_TRUE(says(doubt->error, "95 mm above the floor, and as high in the motions"))
       << doubt->error.message();
-  EXPECT_TRUE(says(doubt->error, "thickness_m under [board] (0.100 now; 0.005 would fit"))
+  EXPECT_TRUE(says(doubt->error, "thickness_m under [board] (0.100 now, some 95 mm too much"))
       << doubt->error.message();
 }
 
@@ -266,7 +266,9 @@ TEST(SoleHeight, IsThatOfWhoStandsOnTheFloor) {
   EXPECT_NEAR(*on_floor, 0.0, 0.02);
   for (Pose& pose : estimate.motion.poses) pose.root_in_world.y += 0.095;
   EXPECT_NEAR(*sole_height_m(estimate, walk.body.stature_m), *on_floor + 0.095, 1e-9);
-  for (auto& doubts : estimate.doubt) doubts.assign(kHumanBoneCount, JointDoubt{});
+  for (auto& doubts : estimate.doubt) {
+    doubts.assign(kHumanBoneCount, JointDoubt{0.05, Source::kInferred});
+  }
   EXPECT_FALSE(sole_height_m(estimate, walk.body.stature_m)) << "nobody saw the feet";
 }
 
