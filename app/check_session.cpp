@@ -3,7 +3,9 @@
 #include "app/check_session.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/humanoid.h"
@@ -13,6 +15,49 @@ namespace marey::app {
 using recordings::Session;
 using recordings::Trial;
 using recordings::TrialKind;
+
+namespace {
+
+std::vector<int> ids_on(const Session& session, HumanBone bone) {
+  std::vector<int> ids;
+  for (const TagOnSegment& tag : session.tags) {
+    if (tag.segment == bone) ids.push_back(number(tag.id));
+  }
+  return ids;
+}
+
+/// How many more tags a segment has than its other side.
+int surplus(const Session& session, HumanBone bone) {
+  return static_cast<int>(ids_on(session, bone).size()) -
+         static_cast<int>(ids_on(session, mirrored(bone)).size());
+}
+
+std::string in_quotes(HumanBone bone) {
+  return '"' + std::string(name(bone)) + '"';
+}
+
+}  // namespace
+
+std::optional<std::string> uneven_sides_warning(const Session& session) {
+  for (const HumanLimb& limb : human_limbs()) {
+    const std::array<std::pair<HumanBone, HumanBone>, 2> neighbours{
+        {{limb.upper, limb.lower}, {limb.lower, limb.end}}};
+    for (auto [more, fewer] : neighbours) {
+      if (surplus(session, more) < 0) std::swap(more, fewer);
+      if (surplus(session, more) <= 0 || surplus(session, fewer) >= 0) continue;
+      std::string ids;
+      for (const int id : ids_on(session, more)) {
+        ids += (ids.empty() ? "" : ", ") + std::to_string(id);
+      }
+      return session.file.string() + ": [[tags.tag]]: segment " + in_quotes(fewer) +
+             " has fewer tags than the other side, and " + in_quotes(more) +
+             " more. Next: check which of the tags " + ids + " are worn on " +
+             in_quotes(more) + "; correct the `segment` of one that is worn on " +
+             in_quotes(fewer) + ".";
+    }
+  }
+  return std::nullopt;
+}
 
 Status check_worn_segments(const Session& session) {
   std::vector<HumanBone> needed{HumanBone::kHips, HumanBone::kUpperChest};

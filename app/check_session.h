@@ -4,6 +4,9 @@
 
 // Checks of a session that need no decoded video.
 
+#include <optional>
+#include <string>
+
 #include "core/result.h"
 #include "recordings/session.h"
 
@@ -13,6 +16,12 @@ namespace marey::app {
 /// upper chest and both bones of each limb. Errors (kBadInput): the first segment without
 /// a tag.
 [[nodiscard]] Status check_worn_segments(const recordings::Session& session);
+
+/// Warns of a segment that has fewer tags than its other side while a neighbour of it has
+/// more than its own: one of these may be declared on the wrong segment. Names the
+/// segments and the ids. nullopt where both sides have as many, or differ elsewise.
+[[nodiscard]] std::optional<std::string> uneven_sides_warning(
+    const recordings::Session& session);
 
 /// Checks that every camera has a video in the calibration trial. Errors (kBadInput): the
 /// first camera without one. Passes if there is no such trial, or if `marey record` names

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "app/check_sights.h"
+#include "app/check_videos.h"
 #include "capture/detect_videos.h"
 #include "core/assert.h"
 #include "recordings/content_key.h"
@@ -272,6 +273,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
     const Status ok = check_floor_seen(session, trial, found, wanted, troubles);
     if (!ok) return ok.error();
   }
+  tell_short_videos(session, trial, found, troubles);
   if (const Status ok = match_times(trial, found, troubles); !ok) return ok.error();
   if (const Status ok = check_rates(session, trial, found); !ok) return ok.error();
   return found;

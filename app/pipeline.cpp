@@ -7,14 +7,17 @@
 #include <utility>
 
 #include "app/camera_doubt.h"
+#include "app/check_clocks.h"
 #include "app/check_ids.h"
 #include "app/check_session.h"
 #include "app/check_standing.h"
 #include "app/check_stature.h"
+#include "app/check_videos.h"
 #include "app/find_moved_cameras.h"
 #include "app/find_tags.h"
 #include "app/retarget_files.h"
 #include "app/stopwatch.h"
+#include "app/turned_video.h"
 #include "app/version.h"
 #include "app/write_motion.h"
 #include "core/assert.h"
@@ -117,6 +120,10 @@ Result<Pipeline> Pipeline::open(Stage stage,
   }
   if (const Status ok = check_before(stage, *session); !ok) return ok.error();
   if (const Status ok = recordings::check_files(*session); !ok) return ok.error();
+  if (const auto warning = uneven_sides_warning(*session)) console.warn(*warning);
+  RecordingTroubles troubles;
+  if (const Status ok = check_videos(*session, troubles); !ok) return ok.error();
+  for (const std::string& warning : troubles.warnings) console.warn(warning);
   std::set<std::string> names{"motion"};
   for (const auto& avatar : options.avatars) {
     if (!names.insert(avatar.stem().string()).second) {
@@ -211,13 +218,25 @@ Result<std::vector<CameraDetections>> Pipeline::unshrunk_detections_of(
 }
 
 Status Pipeline::check_trials() {
+  double least_known_m = 0.0;
+  for (const ReportCamera& camera : report_.cameras) {
+    least_known_m = std::max(least_known_m, camera.quality.centre_sigma_m);
+  }
   for (const Trial& trial : session_.trials) {
     if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor)
       continue;
     const auto detections = unshrunk_detections_of(trial);
     if (!detections) return detections.error();
     const Status ok = reconstruct::check_views(cameras_, *detections, session_.tags);
-    if (!ok) return in_session(ok.error());
+    if (!ok) {
+      const auto turned = find_turned_video(cameras_, *detections, session_.tags);
+      return in_session(turned ? *turned : ok.error());
+    }
+    if (auto wrong =
+            check_offsets(session_, trial, cameras_, *detections, least_known_m)) {
+      report_.warnings.push_back(wrong->message());
+      failures_.push_back(std::move(*wrong));
+    }
     const auto moved =
         find_moved_cameras(trial.name, cameras_, *detections, session_.tags);
     if (!moved) continue;
@@ -320,7 +339,7 @@ Status Pipeline::solve() {
     if (!tags) return tags;
   }
   time_stage("files", writing.seconds());
-  return Done{};
+  return judge_standing();
 }
 
 }  // namespace marey::app

@@ -97,6 +97,8 @@ class Pipeline {
   [[nodiscard]] Status check_trials();
   [[nodiscard]] Result<reconstruct::SolvedTrial> solve_trial(
       const recordings::Trial& trial, const Progress& progress);
+  [[nodiscard]] Status judge_standing();
+  [[nodiscard]] Status judge_trials();
   [[nodiscard]] Result<ReportBody> retarget_one(SolvedMotion& motion,
                                                 const std::filesystem::path& avatar);
   [[nodiscard]] std::vector<const recordings::Trial*> motion_trials() const;

@@ -8,13 +8,56 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/judge_quality.h"
+#include "app/judge_soles.h"
+#include "app/judge_trial.h"
 #include "app/pipeline.h"
 #include "app/report_trial.h"
 #include "app/retarget_files.h"
 #include "app/stopwatch.h"
+#include "reconstruct/solve_motion.h"
+#include "reconstruct/trial_residuals.h"
 #include "recordings/atomic_file.h"
 
 namespace marey::app {
+
+namespace {
+
+/// Some frames from the middle of a trial.
+std::vector<CameraDetections> middle_frames(std::vector<CameraDetections> detections) {
+  constexpr std::size_t kFrames = 12;
+  for (CameraDetections& camera : detections) {
+    if (camera.frames.size() <= kFrames) continue;
+    const auto first = static_cast<std::ptrdiff_t>((camera.frames.size() - kFrames) / 2);
+    const auto end = first + static_cast<std::ptrdiff_t>(kFrames);
+    camera.frames = {camera.frames.begin() + first, camera.frames.begin() + end};
+    camera.in_recording.clear();
+  }
+  return detections;
+}
+
+}  // namespace
+
+Status Pipeline::judge_standing() {
+  const recordings::Trial* trial = session_.find(recordings::TrialKind::kStatic);
+  if (!trial) return Done{};
+  const auto detections = unshrunk_detections_of(*trial);
+  if (!detections) return detections.error();
+  const auto standing =
+      reconstruct::solve_motion(*body_, cameras_, middle_frames(*detections));
+  if (!standing) return Done{};  // The motions could be solved; this adds nothing.
+  const auto height_m = sole_height_m(standing->estimate, body_->stature_m);
+  if (!height_m) return Done{};
+  std::vector<SoleHeight> motions;
+  for (const SolvedMotion& motion : motions_) {
+    const auto lowest_m = sole_height_m(motion.solved.estimate, body_->stature_m);
+    if (lowest_m) motions.push_back({motion.trial->name, *lowest_m});
+  }
+  auto doubt = judge_soles(session_, {trial->name, *height_m}, motions);
+  if (!doubt) return Done{};
+  report_.warnings.push_back(doubt->error.message());
+  if (doubt->is_poor) failures_.push_back(std::move(doubt->error));
+  return Done{};
+}
 
 Status Pipeline::retarget() {
   const Stopwatch watch;
@@ -64,6 +107,34 @@ Result<ReportBody> Pipeline::retarget_one(SolvedMotion& motion,
   return body;
 }
 
+Status Pipeline::judge_trials() {
+  std::vector<Error> found = judge_quality(report_);
+  for (const SolvedMotion& motion : motions_) {
+    // What is far off has been told, and so have wrong offsets.
+    const std::string trial = "trial " + motion.trial->name;
+    const auto is_of_trial = [&](const Error& error) {
+      return error.where == trial || error.where.ends_with(": " + trial) ||
+             error.where.starts_with(trial + ",");
+    };
+    if (std::any_of(found.begin(), found.end(), is_of_trial) ||
+        std::any_of(failures_.begin(), failures_.end(), is_of_trial)) {
+      continue;
+    }
+    const auto detections = unshrunk_detections_of(*motion.trial);
+    if (!detections) return detections.error();
+    const auto residuals =
+        reconstruct::trial_residuals(*body_, cameras_, *detections, motion.solved);
+    for (Error& poor : judge_trial(session_, *motion.trial, residuals)) {
+      found.push_back(std::move(poor));
+    }
+  }
+  for (Error& poor : found) {
+    report_.warnings.push_back(poor.message());
+    failures_.push_back(std::move(poor));
+  }
+  return Done{};
+}
+
 Status Pipeline::write_report() {
   const Stopwatch watch;
   report_.trials.clear();
@@ -86,10 +157,7 @@ Status Pipeline::write_report() {
     }
     report_.recorded_s += longest_s;
   }
-  for (const Error& poor : judge_quality(report_)) {
-    report_.warnings.push_back(poor.message());
-    failures_.push_back(poor);
-  }
+  if (const Status ok = judge_trials(); !ok) return ok;
   report_.poor.clear();
   for (const Error& failure : failures_) report_.poor.push_back(failure.message());
   std::error_code ignored;

@@ -2,237 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calib/find_moved_camera.h"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <utility>
 #include <vector>
 
-#include <glm/geometric.hpp>
-
-#include "calib/apparent_clocks.h"
 #include "calib/apparent_faults.h"
-#include "calib/planar_pose.h"
+#include "calib/free_tags.h"
 #include "calib/refine_rig.h"
-#include "calib/rig_model.h"
-#include "core/assert.h"
 
 namespace marey::calib {
-namespace {
-
-constexpr std::size_t kFewest = 30;  ///< Tags seen by two cameras at once.
-constexpr std::size_t kMost = 1200;  ///< Likewise: more tell nothing new.
-constexpr int kStretch = 6;          ///< Frames in a row: neighbours tell speeds.
-
-/// A tag in one frame, by camera.
-using Seen = std::map<std::size_t, const TagDetection*>;
-using SeenTags = std::map<std::pair<TagId, int>, Seen>;
-
-SeenTags look(std::span<const CameraDetections> detections,
-              const std::map<TagId, double>& sizes_m) {
-  SeenTags seen;
-  for (std::size_t c = 0; c < detections.size(); ++c) {
-    for (const FrameDetections& frame : detections[c].frames) {
-      for (const TagDetection& tag : frame.tags) {
-        if (sizes_m.contains(tag.id)) seen[{tag.id, frame.frame}][c] = &tag;
-      }
-    }
-  }
-  std::erase_if(seen, [](const auto& one) { return one.second.size() < 2; });
-  // Whole stretches, evenly chosen.
-  const auto every = static_cast<int>(1 + seen.size() / kMost);
-  std::erase_if(
-      seen, [&](const auto& one) { return one.first.second / kStretch % every != 0; });
-  return seen;
-}
-
-double misfit_px(const Camera& camera,
-                 const TagDetection& tag,
-                 double size_m,
-                 const RigidTransform& world_from_tag) {
-  constexpr double kFar_px = 50.0;
-  double sum = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    const auto pixel = project(camera, world_from_tag * corner_in_tag(i, size_m));
-    sum += pixel ? std::min(
-                       kFar_px,
-                       glm::distance(*pixel, tag.corners_px[static_cast<std::size_t>(i)]))
-                 : kFar_px;
-  }
-  return sum;
-}
-
-/// Of the places that its views propose, the one that suits all of them best.
-std::optional<RigidTransform> place(std::span<const Camera> cameras,
-                                    const Seen& seen,
-                                    double size_m) {
-  std::array<glm::dvec3, 4> corners{};
-  for (int i = 0; i < 4; ++i) {
-    corners[static_cast<std::size_t>(i)] = corner_in_tag(i, size_m);
-  }
-  std::optional<RigidTransform> best;
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& [c, tag] : seen) {
-    for (const PlacedPlane& plane :
-         place_plane(cameras[c].intrinsics, corners, tag->corners_px)) {
-      const RigidTransform candidate =
-          inverse(cameras[c].camera_from_world) * plane.camera_from_plane;
-      double sum = 0.0;
-      for (const auto& [other, view] : seen) {
-        sum += misfit_px(cameras[other], *view, size_m, candidate);
-      }
-      if (sum >= least) continue;
-      least = sum;
-      best = candidate;
-    }
-  }
-  return best;
-}
-
-/// The inputs of find_moved_camera().
-struct Trial {
-  std::span<const Camera> cameras;
-  std::span<const CameraDetections> detections;
-  const std::map<TagId, double>* sizes_m = nullptr;
-  double rate_hz = 0.0;
-};
-
-/// Builds the rig of the cameras at their places and of each tag's place in each frame;
-/// without sightings if fewer than kFewest tags are seen.
-RigModel model_of(const Trial& trial, std::span<const CameraDetections> detections) {
-  RigModel model;
-  for (const Camera& camera : trial.cameras) {
-    RigCamera one;
-    one.intrinsics = camera.intrinsics;
-    one.world_from_camera = inverse(camera.camera_from_world);
-    model.cameras.push_back(one);
-  }
-  const SeenTags seen = look(detections, *trial.sizes_m);
-  if (seen.size() < kFewest) return model;
-  std::map<TagId, std::size_t> target_of;
-  for (const auto& [key, views] : seen) {
-    const double size_m = trial.sizes_m->at(key.first);
-    const auto pose = place(trial.cameras, views, size_m);
-    if (!pose) continue;
-    const auto [target, is_new] = target_of.try_emplace(key.first, model.targets.size());
-    if (is_new) {
-      model.targets.emplace_back();
-      model.targets.back().pieces.push_back({key.first, {}, size_m, true, true});
-    }
-    model.targets[target->second].world_from_target[key.second] = *pose;
-    for (const auto& [c, tag] : views) {
-      Sighting sighting = sighting_of(*tag);
-      sighting.camera = c;
-      sighting.target = target->second;
-      sighting.instant = key.second;
-      sighting.frame = key.second;
-      model.sightings.push_back(sighting);
-    }
-  }
-  return model;
-}
-
-/// Returns a tag's corners `by` frames later, interpolated between the frames before and
-/// after; nullopt if neither shows the tag.
-std::optional<std::array<glm::dvec2, 4>> corners_at(const TagDetection* before,
-                                                    const TagDetection& now,
-                                                    const TagDetection* after,
-                                                    double by) {
-  if (before == nullptr && after == nullptr) return std::nullopt;
-  std::array<glm::dvec2, 4> out = now.corners_px;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const glm::dvec2& at = now.corners_px[i];
-    if (before != nullptr && after != nullptr) {
-      const glm::dvec2& a = before->corners_px[i];
-      const glm::dvec2& b = after->corners_px[i];
-      out[i] += 0.5 * by * (b - a) + 0.5 * by * by * (b - 2.0 * at + a);
-    } else {
-      out[i] += by * (before != nullptr ? at - before->corners_px[i]
-                                        : after->corners_px[i] - at);
-    }
-  }
-  return out;
-}
-
-const TagDetection* tag_in(const CameraDetections& camera,
-                           const std::map<int, std::size_t>& places,
-                           int frame,
-                           TagId id) {
-  const auto found = places.find(frame);
-  if (found == places.end()) return nullptr;
-  for (const TagDetection& tag : camera.frames[found->second].tags) {
-    if (tag.id == id) return &tag;
-  }
-  return nullptr;
-}
-
-/// Returns the detections as of the first camera's instants.
-CameraDetections at_one_time(const CameraDetections& camera, double frames_late) {
-  std::map<int, std::size_t> places;
-  for (std::size_t i = 0; i < camera.frames.size(); ++i) {
-    places[camera.frames[i].frame] = i;
-  }
-  CameraDetections out = camera;
-  for (FrameDetections& frame : out.frames) {
-    std::vector<TagDetection> kept;
-    for (TagDetection& tag : frame.tags) {
-      const auto corners = corners_at(tag_in(camera, places, frame.frame - 1, tag.id),
-                                      tag,
-                                      tag_in(camera, places, frame.frame + 1, tag.id),
-                                      -frames_late);
-      if (!corners) continue;
-      tag.corners_px = *corners;
-      kept.push_back(tag);
-    }
-    frame.tags = std::move(kept);
-  }
-  return out;
-}
-
-/// Returns the detections as of synchronous cameras, by the clock offsets of their tags.
-std::vector<CameraDetections> in_step(const Trial& trial) {
-  constexpr double kLatest = 1.5;   // Frames. Beyond, cameras were never synchronous.
-  constexpr double kInStep = 0.01;  // Frames.
-  constexpr int kRounds = 2;        // The second finds a tenth of the first.
-  std::vector<CameraDetections> out(trial.detections.begin(), trial.detections.end());
-  std::vector<double> late(trial.cameras.size(), 0.0);  // Frames.
-  RefineOptions refine;
-  refine.intrinsics = false;
-  refine.camera_poses = false;
-  refine.covariance = false;
-  refine.quick = true;
-  for (int round = 0; round < kRounds; ++round) {
-    RigModel model = model_of(trial, out);
-    if (model.sightings.empty() || !refine_rig(model, refine)) return out;
-    const auto clocks = apparent_clocks(model, trial.rate_hz);
-    bool is_in_step = true;
-    for (std::size_t c = 0; c < late.size(); ++c) {
-      const double by = trial.rate_hz * clocks[c].offset_s;
-      const double sigma = trial.rate_hz * clocks[c].sigma_s;
-      if (std::abs(by) < std::max(kInStep, 3.0 * sigma)) continue;
-      if (std::abs(late[c] + by) > kLatest) continue;
-      late[c] += by;
-      out[c] = at_one_time(trial.detections[c], late[c]);
-      is_in_step = false;
-    }
-    if (is_in_step) break;
-  }
-  return out;
-}
-
-}  // namespace
 
 std::optional<ApparentMove> find_moved_camera(
     std::span<const Camera> cameras,
     std::span<const CameraDetections> detections,
     const std::map<TagId, double>& sizes_m) {
-  MAREY_ASSERT(cameras.size() == detections.size());
-  Trial trial{cameras, detections, &sizes_m, 0.0};
-  for (const CameraDetections& camera : detections) {
-    if (!camera.frames.empty()) trial.rate_hz = camera.rate.hz;
-  }
-  RigModel model = model_of(trial, in_step(trial));
+  const FreeTags tags = free_tags(cameras, detections, sizes_m);
+  const std::vector<double> start_s(cameras.size(), 0.0);
+  RigModel model = free_tag_model(tags, in_step(tags, start_s).detections);
   RefineOptions refine;
   refine.intrinsics = false;
   refine.camera_poses = false;
@@ -240,7 +24,7 @@ std::optional<ApparentMove> find_moved_camera(
   if (model.sightings.empty() || !refine_rig(model, refine)) return std::nullopt;
   // Clocks are in the base, so that no hypothesis is held for what they do.
   refine.offsets = true;
-  return apparent_move(model, refine, trial.rate_hz, MoveStart::kAnywhere);
+  return apparent_move(model, refine, tags.rate_hz, MoveStart::kAnywhere);
 }
 
 }  // namespace marey::calib

@@ -32,6 +32,9 @@ struct StreamInfo {
   int height_px = 0;
   std::optional<FrameRate> rate;       ///< nullopt when the stream does not know.
   std::optional<int> expected_frames;  ///< nullopt when only the end will tell.
+  /// By how much its rotation mark has turned every frame, clockwise; its size is after
+  /// that. [degrees] 0, 90, 180 or 270.
+  int turned_deg = 0;
 };
 
 /// Frames in the order of their exposure.

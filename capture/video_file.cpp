@@ -114,6 +114,8 @@ Result<std::unique_ptr<FrameSource>> open_video_file(const std::filesystem::path
   info.name = std::move(name);
   info.width_px = static_cast<int>(video->get(cv::CAP_PROP_FRAME_WIDTH));
   info.height_px = static_cast<int>(video->get(cv::CAP_PROP_FRAME_HEIGHT));
+  const auto turned_deg = static_cast<int>(video->get(cv::CAP_PROP_ORIENTATION_META));
+  info.turned_deg = (turned_deg % 360 + 360) % 360;
   const double rate_hz = video->get(cv::CAP_PROP_FPS);
   if (std::isfinite(rate_hz) && rate_hz > 0.0) info.rate = FrameRate{rate_hz};
   const auto promise = promise_of(path, *video, info.rate ? rate_hz : 0.0);

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
 namespace marey::testing {
@@ -106,6 +108,52 @@ void copy_late(const fs::path& from, const fs::path& to, int late) {
   cv::Mat picture;
   for (int frame = 0; in.read(picture); ++frame) {
     if (frame >= late) out.write(picture);
+  }
+}
+
+void copy_turned(const fs::path& from, const fs::path& to, int degrees, int frames) {
+  cv::VideoCapture in = opened(from);
+  std::optional<cv::VideoWriter> out;
+  cv::Mat picture;
+  cv::Mat turned;
+  for (int frame = 0; frame < frames && in.read(picture); ++frame) {
+    cv::rotate(
+        picture, turned, degrees == 180 ? cv::ROTATE_180 : cv::ROTATE_90_CLOCKWISE);
+    if (!out) {
+      out.emplace(to.string(),
+                  cv::CAP_FFMPEG,
+                  cv::VideoWriter::fourcc('m', 'p', '4', 'v'),
+                  in.get(cv::CAP_PROP_FPS),
+                  turned.size());
+      if (!out->isOpened()) throw std::runtime_error("cannot write " + to.string());
+    }
+    out->write(turned);
+  }
+}
+
+void copy_marked_upside_down(const fs::path& from, const fs::path& to) {
+  // ISO/IEC 14496-12, 8.3.2: the matrix is 40 bytes behind the type of a track's header.
+  std::string bytes = bytes_of(from);
+  const std::size_t header = bytes.find("tkhd");
+  if (header == std::string::npos) throw std::runtime_error("no track in " + from.string());
+  for (const std::size_t element : {0U, 4U}) {
+    const std::size_t place = header + 4 + 40 + 4 * element;
+    bytes.replace(place, 4, std::string("\xFF\xFF\x00\x00", 4));  // -1 in 16.16.
+  }
+  write_part(bytes, to, 1.0);
+}
+
+void write_images_with_a_gap(const fs::path& like, const fs::path& folder) {
+  const cv::VideoCapture in = opened(like);
+  fs::create_directories(folder);
+  const cv::Mat grey(static_cast<int>(in.get(cv::CAP_PROP_FRAME_HEIGHT)),
+                     static_cast<int>(in.get(cv::CAP_PROP_FRAME_WIDTH)),
+                     CV_8UC1,
+                     cv::Scalar::all(128));
+  for (int i = 0; i < 13; ++i) {
+    if (i == 7 || i == 8) continue;
+    const std::string number = std::to_string(1000 + i).substr(1);
+    cv::imwrite((folder / ("frame_" + number + ".png")).string(), grey);
   }
 }
 

@@ -33,4 +33,19 @@ void copy_late(const std::filesystem::path& from,
                const std::filesystem::path& to,
                int late);
 
+/// A copy whose pictures are turned by a quarter (their size is, too) or by half.
+void copy_turned(const std::filesystem::path& from,
+                 const std::filesystem::path& to,
+                 int degrees,
+                 int frames);
+
+/// A copy of an MP4 with a mark that its pictures are to be shown upside down.
+void copy_marked_upside_down(const std::filesystem::path& from,
+                             const std::filesystem::path& to);
+
+/// Grey images of the size of `like`, named frame_000.png to frame_012.png, without those
+/// of the numbers 7 and 8.
+void write_images_with_a_gap(const std::filesystem::path& like,
+                             const std::filesystem::path& folder);
+
 }  // namespace marey::testing

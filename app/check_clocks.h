@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "calib/find_clock_offsets.h"
+#include "core/camera.h"
+#include "core/detection.h"
+#include "core/result.h"
+#include "recordings/session.h"
+
+namespace marey::app {
+
+/// Compares the time offsets that a session gives for a trial with those that the tags
+/// show. `seen` one entry per camera of the session. Returns nullopt where they agree
+/// within four milliseconds and six sigmas, or nothing tells; else kQuality, with the
+/// cameras, by how much, whether all have the other sign, and the offsets that fit.
+[[nodiscard]] std::optional<Error> judge_offsets(
+    const recordings::Session& session,
+    const recordings::Trial& trial,
+    std::span<const calib::ClockOffset> seen);
+
+/// The same, from the trial's tags: `detections` one entry per camera, shrinkage taken
+/// off; `centre_sigma_m` of the camera that is least known: where something moves in one
+/// direction, a camera that is misplaced looks late. Costs nothing for a trial without
+/// offsets, else some seconds.
+[[nodiscard]] std::optional<Error> check_offsets(
+    const recordings::Session& session,
+    const recordings::Trial& trial,
+    std::span<const Camera> cameras,
+    std::span<const CameraDetections> detections,
+    double centre_sigma_m);
+
+}  // namespace marey::app
