@@ -4,9 +4,10 @@
 // Simulated sessions, judged: docs/measurements.md says what the table means.
 //
 //   measure_sessions --seeds 0..99 [--threads 2] [--csv FILE]
-//   measure_sessions --only SEED --verbose
+//   measure_sessions --only SEED,SEED... [--verbose] [--joints FILE]
 //   measure_sessions --sum FILE...
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +15,7 @@
 #include <iostream>
 #include <mutex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -39,12 +41,12 @@ double processor_s() {
 }
 
 struct Options {
-  std::uint64_t first = 0;
-  std::uint64_t last = 9;
+  std::vector<std::uint64_t> seeds;
   std::size_t threads = 1;
   bool is_verbose = false;
   bool is_simulation_only = false;
   std::string csv;
+  std::string joints;  ///< File for one row per session, joint and source.
   std::vector<std::string> sum;
 };
 
@@ -110,6 +112,12 @@ SessionRow measure(std::uint64_t seed, const Options& options) {
   if (options.is_simulation_only) return row;
   const SessionAnswer answered = testing::answer_session(session);
   row.verdict = testing::judge(session, answered);
+  for (const HumanBone segment : answered.left_out) {
+    row.left_out += std::string(name(segment)) + " ";
+  }
+  for (const HumanBone bone : human_bones()) {
+    row.fit_sigma_m[index(bone)] = answered.body.joint_centre_sigma_m[index(bone)];
+  }
   row.fit_s = answered.fit_s;
   row.solve_s = answered.solve_s;
   if (answered.refusal) {
@@ -148,16 +156,25 @@ bool read_options(int argc, char** argv, Options& options) {
     } else if (words[i] == "--seeds" && has_more) {
       const std::string& range = words[++i];
       const std::size_t dots = range.find("..");
-      options.first = std::strtoull(range.c_str(), nullptr, 10);
-      options.last = dots == std::string::npos
-                         ? options.first
-                         : std::strtoull(range.c_str() + dots + 2, nullptr, 10);
+      const std::uint64_t first = std::strtoull(range.c_str(), nullptr, 10);
+      const std::uint64_t last =
+          dots == std::string::npos
+              ? first
+              : std::strtoull(range.c_str() + dots + 2, nullptr, 10);
+      for (std::uint64_t seed = first; seed <= last; ++seed)
+        options.seeds.push_back(seed);
     } else if (words[i] == "--only" && has_more) {
-      options.first = options.last = std::strtoull(words[++i].c_str(), nullptr, 10);
+      std::istringstream list(words[++i]);
+      std::string seed;
+      while (std::getline(list, seed, ',')) {
+        options.seeds.push_back(std::strtoull(seed.c_str(), nullptr, 10));
+      }
     } else if (words[i] == "--threads" && has_more) {
       options.threads = std::strtoull(words[++i].c_str(), nullptr, 10);
     } else if (words[i] == "--csv" && has_more) {
       options.csv = words[++i];
+    } else if (words[i] == "--joints" && has_more) {
+      options.joints = words[++i];
     } else if (words[i] == "--sum" && has_more) {
       options.sum.assign(words.begin() + static_cast<std::ptrdiff_t>(i) + 1, words.end());
       break;
@@ -165,7 +182,19 @@ bool read_options(int argc, char** argv, Options& options) {
       return false;
     }
   }
-  return options.first <= options.last;
+  return !options.seeds.empty() || !options.sum.empty();
+}
+
+void write_joints(std::ostream& out, const SessionRow& row) {
+  constexpr std::array<const char*, 3> kSourceNames{"measured", "repaired", "inferred"};
+  for (const testing::JointFigures& joint : row.verdict.joints) {
+    out << row.seed << ',' << name(joint.joint) << ','
+        << kSourceNames[static_cast<std::size_t>(joint.source)] << ','
+        << joint.honest.count << ',' << joint.honest.inside << ',' << joint.median_error_m
+        << ',' << joint.median_sigma_m << ',' << row.fit_sigma_m[index(joint.joint)]
+        << '\n';
+  }
+  out.flush();
 }
 
 int sum(const std::vector<std::string>& files) {
@@ -202,13 +231,20 @@ int run(const Options& options) {
     }
     write_header(csv);
   }
-  std::vector<SessionRow> rows(options.last - options.first + 1);
+  std::ofstream joints;
+  if (!options.joints.empty()) {
+    joints.open(options.joints);
+    joints
+        << "seed,joint,source,count,inside,median_error_m,median_sigma_m,fit_sigma_m\n";
+  }
+  std::vector<SessionRow> rows(options.seeds.size());
   std::mutex writing;
   in_parallel(rows.size(), options.threads, [&](std::size_t i) {
-    rows[i] = measure(options.first + i, options);
+    rows[i] = measure(options.seeds[i], options);
     const std::lock_guard lock(writing);
     // A run that is broken off leaves what it has measured.
     if (csv) write_row(csv, rows[i]);
+    if (joints) write_joints(joints, rows[i]);
   });
   for (SessionRow& row : rows) {
     // As the file has it, so that sums of files print the same.
@@ -228,7 +264,8 @@ int main(int argc, char** argv) {
     std::fprintf(
         stderr,
         "usage: measure_sessions --seeds FIRST..LAST [--threads N] [--csv FILE]\n"
-        "       measure_sessions --only SEED [--verbose] [--simulate]\n"
+        "       measure_sessions --only SEED,SEED... [--verbose] [--simulate] "
+        "[--joints FILE]\n"
         "       measure_sessions --sum FILE...\n");
     return 2;
   }

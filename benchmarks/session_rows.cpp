@@ -55,7 +55,7 @@ void write_header(std::ostream& out) {
       out << source << '_' << joint << ',' << source << '_' << joint << "_inside,";
     }
   }
-  out << "refused_by,message_class,lacking,causes,session\n";
+  out << "refused_by,message_class,lacking,causes,left_out,session\n";
 }
 
 void write_row(std::ostream& out, const SessionRow& row) {
@@ -69,8 +69,8 @@ void write_row(std::ostream& out, const SessionRow& row) {
     for (const Tally& tally : joints) out << tally.count << ',' << tally.inside << ',';
   }
   out << plain(row.refused_by) << ',' << plain(row.message_class) << ','
-      << plain(row.lacking) << ',' << plain(row.causes) << ',' << plain(row.session)
-      << std::endl;
+      << plain(row.lacking) << ',' << plain(row.causes) << ',' << plain(row.left_out)
+      << ',' << plain(row.session) << std::endl;
 }
 
 std::optional<std::vector<SessionRow>> read_rows(std::istream& in) {
@@ -106,6 +106,8 @@ std::optional<std::vector<SessionRow>> read_rows(std::istream& in) {
     row.message_class = cells.text();
     row.lacking = cells.text();
     row.causes = cells.text();
+    row.left_out = cells.text();
+    v.is_partial = !row.left_out.empty() && !v.is_refused && !v.is_silently_wrong;
     row.session = cells.text();
     rows.push_back(std::move(row));
   }

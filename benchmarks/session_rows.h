@@ -4,6 +4,7 @@
 
 // Part of measure_sessions: one row per session, in files whose tables add up.
 
+#include <array>
 #include <cstdint>
 #include <iosfwd>
 #include <optional>
@@ -23,9 +24,12 @@ struct SessionRow {
   std::string lacking;
   std::string refused_by;
   std::string message_class;
-  std::string causes;   ///< Of persistent gross errors: "leftFoot:fit leftHand:flip".
-  std::string session;  ///< SimulatedSession::summary().
+  std::string causes;    ///< Of persistent gross errors: "leftFoot:fit leftHand:flip".
+  std::string left_out;  ///< Hands and feet that the body does without.
+  std::string session;   ///< SimulatedSession::summary().
   int cameras = 0;
+  /// Body::joint_centre_sigma_m; not in the table.
+  std::array<double, kHumanBoneCount> fit_sigma_m{};
   double fit_s = 0.0;
   double solve_s = 0.0;
 };

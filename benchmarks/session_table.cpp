@@ -34,14 +34,16 @@ void print_outcomes(const char* what, const Rows& rows) {
   const auto wrong_and_sufficient = [](const SessionRow& r) {
     return r.verdict.is_silently_wrong && r.is_sufficient;
   };
-  std::printf("%-22s %8zu %10zu %14zu %16zu %8zu %20zu\n",
+  const auto partial = [](const SessionRow& r) { return r.verdict.is_partial; };
+  std::printf("%-22s %8zu %10zu %14zu %16zu %8zu %20zu %20zu\n",
               what,
               rows.size(),
               count_if(rows, sufficient),
               count_if(rows, wrong),
               count_if(rows, wrong_and_sufficient),
               count_if(rows, refused),
-              count_if(rows, wrongly));
+              count_if(rows, wrongly),
+              count_if(rows, partial));
 }
 
 Rows some(const Rows& rows, const std::function<bool(const SessionRow&)>& is) {
@@ -55,14 +57,15 @@ bool has(const SessionRow& row, const char* words) {
 }
 
 void print_all_outcomes(const Rows& rows) {
-  std::printf("%-22s %8s %10s %14s %16s %8s %20s\n",
+  std::printf("%-22s %8s %10s %14s %16s %8s %20s %20s\n",
               "sessions",
               "number",
               "sufficient",
               "silently wrong",
               "of sufficient",
               "refused",
-              "though sufficient");
+              "though sufficient",
+              "without hand or foot");
   print_outcomes("all", rows);
   for (const int cameras : {2, 3, 4, 5, 6}) {
     print_outcomes((std::to_string(cameras) + " cameras").c_str(),
@@ -177,16 +180,21 @@ void print_causes(const Rows& rows) {
   std::map<std::string, int> gross;
   std::map<std::string, int> messages;
   std::map<std::string, int> wrongly;
+  std::map<std::string, int> left_out;
   for (const SessionRow& row : rows) {
     std::istringstream causes(row.causes);
     std::string cause;
     while (causes >> cause) ++gross[cause];
+    std::istringstream segments(row.left_out);
+    std::string segment;
+    while (!row.verdict.is_refused && segments >> segment) ++left_out[segment];
     if (!row.verdict.is_refused) continue;
     const std::string message = row.refused_by + ": " + row.message_class;
     ++messages[message];
     if (row.is_sufficient) ++wrongly[message];
   }
   print_counts("persistent gross errors by joint and cause", gross);
+  print_counts("segments left out of accepted sessions", left_out);
   print_counts("refusals by message", messages);
   print_counts("refusals of sufficient sessions by message", wrongly);
 }

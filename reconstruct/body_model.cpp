@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/body_model.h"
 
+#include <memory>
+
 #include <glm/geometric.hpp>
 
 #include "core/assert.h"
 #include "reconstruct/locate_rigid.h"
 #include "reconstruct/posture_terms.h"
+#include "reconstruct/sighting_cost.h"
 #include "reconstruct/tag_slip.h"
 
 namespace marey::reconstruct {
@@ -78,26 +81,6 @@ std::vector<glm::dquat> readings_of(const BodyModel& model,
   return readings;
 }
 
-/// Precondition: the tag has a place.
-KnownTagResidual known_tag(const BodyModel& model,
-                           const TagSighting& sighting,
-                           std::span<const Camera> cameras) {
-  const RigidTransform* segment_from_tag = model.place(sighting.tag);
-  MAREY_ASSERT(segment_from_tag);
-  const HumanBone bone = model.bone(sighting.tag);
-  KnownTagResidual known{bone,
-                         slots_of(bone),
-                         model.lengths,
-                         model.body,
-                         tag_image(cameras[index(sighting.camera)], *sighting.detection),
-                         {}};
-  for (int c = 0; c < 4; ++c) {
-    known.corners_in_segment[static_cast<std::size_t>(c)] =
-        *segment_from_tag * corner_in_tag(c, model.tags[sighting.tag].size_m);
-  }
-  return known;
-}
-
 }  // namespace
 
 const RigidTransform* BodyModel::place(std::size_t tag) const {
@@ -126,10 +109,9 @@ void add_sighting(const BodyModel& model,
                   Posture& posture,
                   ceres::Problem& problem) {
   if (!model.place(sighting.tag)) return;
-  const KnownTagResidual known = known_tag(model, sighting, cameras);
-  problem.AddResidualBlock(bone_cost<8>(std::make_unique<KnownTagResidual>(known)),
+  problem.AddResidualBlock(new SightingCost(model, sighting, cameras),
                            tag_loss(),
-                           blocks_of(posture, known.bone));
+                           blocks_of(posture, model.bone(sighting.tag)));
 }
 
 ceres::ResidualBlockId add_late_sighting(const BodyModel& model,
@@ -140,14 +122,11 @@ ceres::ResidualBlockId add_late_sighting(const BodyModel& model,
                                          double* offset_s,
                                          const std::array<glm::dvec2, 4>& velocity_px_s,
                                          const TagSlip& slip) {
-  LateTagResidual late{known_tag(model, sighting, cameras)};
-  late.image.velocity_px_s = velocity_px_s;
-  late.slip_directions = slip.directions;
-  late.slip_shrink = 1.0 - slip.stretch().inverse();
-  std::vector<double*> blocks = blocks_of(posture, late.bone);
+  auto cost = std::make_unique<SightingCost>(model, sighting, cameras);
+  cost->set_late(velocity_px_s, slip);
+  std::vector<double*> blocks = blocks_of(posture, model.bone(sighting.tag));
   blocks.push_back(offset_s);
-  return problem.AddResidualBlock(
-      bone_cost<8, 1>(std::make_unique<LateTagResidual>(late)), tag_loss(), blocks);
+  return problem.AddResidualBlock(cost.release(), tag_loss(), blocks);
 }
 
 std::optional<std::array<glm::dvec2, 4>> predicted_corners_px(

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 
 #include <glm/trigonometric.hpp>
@@ -113,43 +114,45 @@ void doubt_sightings(const SubjectBundle& bundle,
   }
 }
 
-void doubt_extremities(const SubjectBundle& bundle,
-                       const SubjectEvidence& evidence,
-                       std::vector<Error>& out) {
-  for (std::size_t limb = 0; limb < evidence.extremities.size(); ++limb) {
-    const ExtremityFit& fit = evidence.extremities[limb];
-    const std::string segment = in_quotes(human_limbs()[limb].end);
-    if (!fit.placed && fit.sightings < kFewestSightings) continue;
-    if (!fit.placed) {
-      out.push_back(
-          doubt("no place of the tags on segment " + segment +
-                    " explains what the cameras saw of them",
-                "check their `segment` and `size_m` under [[tags.tag]]; then record the "
-                "range of motion again, turning that segment before two cameras"));
-      continue;
-    }
-    const double sure_gain = kSureGain * bundle.prior_weight;
-    if (fit.runner_up_cost > sure_gain || fit.runner_up_m < kElsewhere_m) continue;
-    out.push_back(doubt("the tags on segment " + segment + " fit in two ways, " +
-                            millimetres(fit.runner_up_m) + " apart",
-                        "record the range of motion again, turning that segment slowly "
-                        "before two cameras, or glue a second tag to it"));
+/// Returns why the tags of a limb's hand or foot have no certain place.
+std::optional<Error> doubt_of_place(std::size_t limb,
+                                    const SubjectBundle& bundle,
+                                    const SubjectEvidence& evidence) {
+  const ExtremityFit& fit = evidence.extremities[limb];
+  const std::string segment = in_quotes(human_limbs()[limb].end);
+  if (!fit.placed && fit.sightings < kFewestSightings) return std::nullopt;
+  if (!fit.placed) {
+    return doubt("no place of the tags on segment " + segment +
+                     " explains what the cameras saw of them",
+                 "check their `segment` and `size_m` under [[tags.tag]]; then record the "
+                 "range of motion again, turning that segment before two cameras");
   }
+  const double sure_gain = kSureGain * bundle.prior_weight;
+  if (fit.runner_up_cost > sure_gain || fit.runner_up_m < kElsewhere_m) {
+    return std::nullopt;
+  }
+  return doubt("the tags on segment " + segment + " fit in two ways, " +
+                   millimetres(fit.runner_up_m) + " apart",
+               "record the range of motion again, turning that segment slowly before two "
+               "cameras, or glue a second tag to it");
 }
 
-void doubt_views(const SubjectEvidence& evidence, std::vector<Error>& out) {
-  for (std::size_t limb = 0; limb < evidence.extremities.size(); ++limb) {
-    const HumanLimb& bones = human_limbs()[limb];
-    if (evidence.extremities[limb].sightings < kFewestSightings) continue;
-    const double end = evidence.seen_twice_share[index(bones.end)];
-    const double lower = evidence.seen_twice_share[index(bones.lower)];
-    if (end >= kSeenTwice || lower >= kBoneSeenTwice) continue;
-    out.push_back(doubt("two cameras at once see segments " + in_quotes(bones.lower) +
-                            " and " + in_quotes(bones.end) + " in only " +
-                            percent(lower) + " and " + percent(end) +
-                            " of the range of motion",
-                        "record the range of motion again, turning that limb slowly "
-                        "before two cameras, or glue tags to other sides of it"));
+std::optional<Error> doubt_of_views(std::size_t limb, const SubjectEvidence& evidence) {
+  const HumanLimb& bones = human_limbs()[limb];
+  if (evidence.extremities[limb].sightings < kFewestSightings) return std::nullopt;
+  const double end = evidence.seen_twice_share[index(bones.end)];
+  const double lower = evidence.seen_twice_share[index(bones.lower)];
+  if (end >= kSeenTwice || lower >= kBoneSeenTwice) return std::nullopt;
+  return doubt("two cameras at once see segments " + in_quotes(bones.lower) + " and " +
+                   in_quotes(bones.end) + " in only " + percent(lower) + " and " +
+                   percent(end) + " of the range of motion",
+               "record the range of motion again, turning that limb slowly before two "
+               "cameras, or glue tags to other sides of it");
+}
+
+void doubt_extremities(const SubjectEvidence& evidence, std::vector<Error>& out) {
+  for (const std::optional<Error>& reason : evidence.left_out) {
+    if (reason) out.push_back(*reason);
   }
 }
 
@@ -248,13 +251,31 @@ void doubt_joints(const SubjectBundle& bundle, std::vector<Error>& out) {
 
 }  // namespace
 
+bool leave_out_extremities(SubjectBundle& bundle, SubjectEvidence& evidence) {
+  bool has_changed = false;
+  for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
+    std::optional<Error>& reason = evidence.left_out[limb];
+    reason = doubt_of_place(limb, bundle, evidence);
+    if (!reason) reason = doubt_of_views(limb, evidence);
+    if (!reason) continue;
+    const HumanBone end = human_limbs()[limb].end;
+    reason->cause += "; they are left out, and the joint " + in_quotes(end) +
+                     " is inferred from the other segments";
+    has_changed |= std::erase_if(bundle.model.segment_from_tag, [&](const auto& placed) {
+                     return bundle.model.bone(placed.first) == end;
+                   }) > 0;
+    std::erase_if(evidence.unexplained,
+                  [&](std::size_t tag) { return bundle.model.bone(tag) == end; });
+  }
+  return has_changed;
+}
+
 std::vector<Error> doubts_of(const SubjectBundle& bundle,
                              const SubjectEvidence& evidence) {
   std::vector<Error> doubts;
   doubt_tags(bundle, evidence, doubts);
   doubt_sightings(bundle, evidence, doubts);
-  doubt_extremities(bundle, evidence, doubts);
-  doubt_views(evidence, doubts);
+  doubt_extremities(evidence, doubts);
   doubt_locations(bundle, evidence, doubts);
   doubt_places(bundle, doubts);
   doubt_turns(bundle, doubts);

@@ -19,6 +19,7 @@
 #include "reconstruct/segment_frames.h"
 #include "reconstruct/sightings.h"
 #include "reconstruct/subject_bundle.h"
+#include "reconstruct/subject_output.h"
 #include "reconstruct/tag_clusters.h"
 
 namespace marey::reconstruct {
@@ -164,27 +165,6 @@ std::string text(const char* format, double a, double b) {
   return buffer.data();
 }
 
-/// The median ratio of measured limb segments to an average person's.
-double limb_ratio(const Lengths& measured,
-                  const Lengths& usual,
-                  std::span<const Length> segments) {
-  std::vector<double> ratios;
-  for (const Length length : segments) {
-    ratios.push_back(measured[index(length)] / usual[index(length)]);
-  }
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  return *middle;
-}
-
-constexpr std::array<Length, 8> kSegments{Length::kLeftUpperArm,
-                                          Length::kRightUpperArm,
-                                          Length::kLeftLowerArm,
-                                          Length::kRightLowerArm,
-                                          Length::kLeftUpperLeg,
-                                          Length::kRightUpperLeg,
-                                          Length::kLeftLowerLeg,
-                                          Length::kRightLowerLeg};
 /// Those that the first guess measures; it takes the lower ones as usual.
 constexpr std::array<Length, 4> kFirstSegments{Length::kLeftUpperArm,
                                                Length::kRightUpperArm,
@@ -200,84 +180,12 @@ Status check_size(double ratio, double stature_m) {
       "black square, in metres), and stature_m of [subject]");
 }
 
-/// Toes and tips, which no tag shows: average, with the soles on the floor while
-/// standing.
-Proportions finish(const SubjectBundle& bundle, const Proportions& average) {
-  Proportions p = to_proportions(bundle.model.lengths, bundle.model.body, average);
-  const auto ankle_height = [&](HumanBone foot) {
-    double sum = 0.0;
-    int count = 0;
-    for (const BundleFrame& frame : bundle.frames) {
-      if (!frame.standing) continue;
-      sum += world_from_bone(foot, frame.posture, bundle.model.lengths, bundle.model.body)
-                 .translation.y;
-      ++count;
-    }
-    MAREY_ASSERT(count > 0);
-    return sum / count;
-  };
-  const double toe_height_m =
-      average[HumanBone::kHips].y + average[HumanBone::kLeftUpperLeg].y +
-      average[HumanBone::kLeftLowerLeg].y + average[HumanBone::kLeftFoot].y +
-      average[HumanBone::kLeftToes].y;
-  const auto set_toes = [&](HumanBone foot, HumanBone toes) {
-    p[toes].y = -std::clamp(ankle_height(foot) - toe_height_m, 0.01, 0.15);
-  };
-  set_toes(HumanBone::kLeftFoot, HumanBone::kLeftToes);
-  set_toes(HumanBone::kRightFoot, HumanBone::kRightToes);
-  const double leg_m = leg_length_m(p);
-  p[HumanBone::kHips].y =
-      -p[HumanBone::kLeftUpperLeg].y + leg_m - p[HumanBone::kLeftToes].y + toe_height_m;
-  return p;
-}
-
-std::array<double, kHumanBoneCount> centre_sigmas(const SubjectBundle& bundle) {
-  // Where neither a joint's bone nor its parent has tags, its centre is known no better
-  // than any length.
-  const double unknown_m =
-      *std::max_element(bundle.length_sigma_m.begin(), bundle.length_sigma_m.end());
-  std::array<double, kHumanBoneCount> sigmas{};
-  sigmas.fill(unknown_m);
-  for (std::size_t b = 0; b < sigmas.size(); ++b) {
-    sigmas[b] = bundle.centre_sigma_m[b].value_or(unknown_m);
-  }
-  return sigmas;
-}
-
 Error unfitted() {
   return bad_input(
       "",
       "the body cannot be fitted: too few frames show enough tags",
       "record the static and the range-of-motion trial longer, moving every joint in "
       "view of at least two cameras, and the hips always");
-}
-
-SubjectFit to_fit(const SubjectPrior& prior,
-                  const SubjectBundle& bundle,
-                  const Proportions& average) {
-  SubjectFit fit;
-  fit.body.name = prior.name;
-  fit.body.stature_m = prior.stature_m;
-  fit.body.mass_kg = prior.mass_kg;
-  fit.body.proportions = finish(bundle, average);
-  fit.body.hinges = bundle.model.body.hinges;
-  fit.body.joint_centre_sigma_m = centre_sigmas(bundle);
-  for (std::size_t i = 0; i < bundle.model.tags.size(); ++i) {
-    const auto pose = bundle.model.segment_from_tag.find(i);
-    if (pose == bundle.model.segment_from_tag.end()) {
-      fit.unplaced.push_back(bundle.model.tags[i].id);
-      continue;
-    }
-    PlacedTag placed{bundle.model.tags[i], pose->second, 0.0, 0.0, 0};
-    const TagSigma& sigma = bundle.tag_sigma.at(i);
-    placed.sigma_m = sigma.m;
-    placed.sigma_rad = sigma.rad;
-    placed.sightings = sightings_of(i, bundle);
-    fit.body.tags.push_back(placed);
-  }
-  fit.rms_px = bundle.rms_px;
-  fit.limb_ratio = limb_ratio(bundle.model.lengths, bundle.usual, kSegments);
-  return fit;
 }
 
 /// The static and the range-of-motion trial as the fit starts from them.
@@ -329,14 +237,20 @@ Result<SubjectFit> fit_located(const SubjectPrior& prior,
   }
   measure(bundle, cameras);
   tell(3, kSteps);
-  if (!refine_slides(bundle, cameras) || !fill_sigmas(bundle, cameras)) return unfitted();
+  if (!refine_slides(bundle, cameras)) return unfitted();
+  evidence.seen_twice_share = seen_twice_share(trials[1], prior.tags);
+  evidence.located_frames = located_frames(trials[1], prior.tags, cameras);
+  if (leave_out_extremities(bundle, evidence)) {
+    if (!refine_again(cameras, bundle, evidence)) return unfitted();
+    measure(bundle, cameras);
+    if (!refine_slides(bundle, cameras)) return unfitted();
+  }
+  if (!fill_sigmas(bundle, cameras)) return unfitted();
   tell(kSteps, kSteps);
-  SubjectFit fit = to_fit(prior, bundle, average);
+  SubjectFit fit = to_fit(prior, bundle, evidence, average);
   if (const Status ok = check_size(fit.limb_ratio, prior.stature_m); !ok) {
     return ok.error();
   }
-  evidence.seen_twice_share = seen_twice_share(trials[1], prior.tags);
-  evidence.located_frames = located_frames(trials[1], prior.tags, cameras);
   fit.doubts = doubts_of(bundle, evidence);
   for (const Error& doubt : fit.doubts) {
     fit.body.doubts.push_back({doubt.cause, doubt.next});

@@ -23,13 +23,25 @@ struct SubjectPrior {
   std::vector<TagOnSegment> tags;
 };
 
+/// A hand or foot that the body does without: its tags fit in two ways, in no way, or
+/// were never seen well enough to tell. Its joint is found from the other segments alone,
+/// and no motion has it as measured.
+struct LeftOutSegment {
+  HumanBone segment{};
+  Error reason;  ///< kQuality: the cause and the movement to record.
+};
+
 struct SubjectFit {
   Body body;
   double rms_px = 0.0;  ///< Reprojection of all tag corners used, inliers and not.
   /// Measured limb lengths over an average person's of the declared stature.
   double limb_ratio = 0.0;
   /// Tags that were never seen well enough to be placed; the body does without them.
+  /// Those of `left_out` are not among them.
   std::vector<TagId> unplaced;
+  /// In the order of human_limbs(). Each reason is also one of `doubts`; where `doubts`
+  /// has no others, the rest of the body is trusted.
+  std::vector<LeftOutSegment> left_out;
   /// Reasons not to trust the fit (kQuality), each with the segment and the next step:
   /// sightings that no place of a tag explains, hands and feet that fit in two ways,
   /// lengths that no person has. Empty when all sightings go together. In words also in

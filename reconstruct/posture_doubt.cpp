@@ -10,6 +10,7 @@
 
 #include "reconstruct/normal_matrix.h"
 #include "reconstruct/point_sigma.h"
+#include "reconstruct/posture_derivatives.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -18,7 +19,8 @@ using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 using Dense = Eigen::MatrixXd;
 constexpr int kN = kPostureFreedom;
 
-/// Diagonal blocks of the inverse of a symmetric block-tridiagonal matrix.
+/// Diagonal blocks of the inverse of a symmetric block-tridiagonal matrix; none where it
+/// is not positive definite.
 std::vector<Dense> inverse_diagonal(const Sparse& matrix, int block) {
   const int size = static_cast<int>(matrix.rows());
   const int count = (size + block - 1) / block;
@@ -36,7 +38,9 @@ std::vector<Dense> inverse_diagonal(const Sparse& matrix, int block) {
     } else {
       factor.emplace_back();
     }
-    pivot_inverse.push_back(pivot.ldlt().solve(Dense::Identity(width(i), width(i))));
+    const Eigen::LLT<Dense> factored(pivot);
+    if (factored.info() != Eigen::Success) return {};
+    pivot_inverse.push_back(factored.solve(Dense::Identity(width(i), width(i))));
   }
   std::vector<Dense> diagonal(static_cast<std::size_t>(count));
   for (int i = count - 1; i >= 0; --i) {
@@ -49,52 +53,39 @@ std::vector<Dense> inverse_diagonal(const Sparse& matrix, int block) {
   return diagonal;
 }
 
-/// A posture over its tangent, Ceres' own.
-class PostureJets {
- public:
-  using Jet = ceres::Jet<double, kN>;
-
-  explicit PostureJets(const Posture& posture) {
-    const ceres::EigenQuaternionManifold manifold;
-    int column = 0;
-    for (const Slot slot : kAllSlots) {
-      const int offset = storage_offset(slot);
-      blocks_[index(slot)] = &values_[static_cast<std::size_t>(offset)];
-      Eigen::Matrix<double, 4, 3, Eigen::RowMajor> plus;
-      if (is_rotation(slot)) manifold.PlusJacobian(posture.block(slot), plus.data());
-      for (int i = 0; i < block_size(slot); ++i) {
-        Jet& value = values_[static_cast<std::size_t>(offset + i)];
-        value = Jet(posture.block(slot)[i]);
-        if (is_rotation(slot)) {
-          value.v.segment<3>(column) = plus.row(i);
-        } else {
-          value.v[column + i] = 1.0;
-        }
-      }
-      column += tangent_size(slot);
-    }
-  }
-  PostureJets(const PostureJets&) = delete;  // blocks_ points into values_.
-  PostureJets& operator=(const PostureJets&) = delete;
-
-  [[nodiscard]] BoneFrame<Jet> frame(const BodyModel& model, HumanBone bone) const {
-    return bone_frame<Jet, double>(solved_segment(bone),
-                                   std::span<const Jet* const, kSlotCount>(blocks_),
-                                   model.lengths.data(),
-                                   model.body);
-  }
-
- private:
-  std::array<Jet, kPostureStorage> values_;
-  std::array<const Jet*, kSlotCount> blocks_{};
+/// Where Ceres has a column of column_of(), and by how much its steps are larger there.
+struct CeresColumn {
+  int column = 0;
+  double scale = 1.0;
 };
 
+std::array<CeresColumn, kN> ceres_columns() {
+  std::array<CeresColumn, kN> columns{};
+  int column = 0;
+  for (const Slot slot : kAllSlots) {
+    for (int i = 0; i < tangent_size(slot); ++i) {
+      // A rotation turns by twice the step of EigenQuaternionManifold.
+      columns[static_cast<std::size_t>(column_of(slot) + i)] = {
+          column + i, is_rotation(slot) ? 2.0 : 1.0};
+    }
+    column += tangent_size(slot);
+  }
+  return columns;
+}
+
 /// Of a point. [m]
-double sigma_of(const Eigen::Matrix<PostureJets::Jet, 3, 1>& p, const Dense& covariance) {
-  Eigen::Matrix3d of_point;
-  for (int column = 0; column < 3; ++column) {
-    const auto spread = (covariance * p[column].v).eval();
-    for (int row = 0; row < 3; ++row) of_point(row, column) = p[row].v.dot(spread);
+double sigma_of(const SparseDerivative& point, const Dense& covariance) {
+  static const std::array<CeresColumn, kN> columns = ceres_columns();
+  const auto at = [&](int i) {
+    return columns[static_cast<std::size_t>(point.column[static_cast<std::size_t>(i)])];
+  };
+  Eigen::Matrix3d of_point = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < point.columns; ++i) {
+    Eigen::Vector3d spread = Eigen::Vector3d::Zero();
+    for (int j = 0; j < point.columns; ++j) {
+      spread += at(j).scale * covariance(at(i).column, at(j).column) * point.value.col(j);
+    }
+    of_point += at(i).scale * point.value.col(i) * spread.transpose();
   }
   return point_sigma_m(of_point);
 }
@@ -110,6 +101,7 @@ std::optional<std::vector<Dense>> posture_covariances(std::span<Posture> posture
   const auto normal = normal_matrix(problem, std::move(blocks));
   if (!normal) return std::nullopt;
   const std::vector<Dense> pairs = inverse_diagonal(*normal, 2 * kN);
+  if (pairs.empty()) return std::nullopt;
   std::vector<Dense> covariances;
   for (std::size_t f = 0; f < postures.size(); ++f) {
     const int within = static_cast<int>(f % 2) * kN;
@@ -121,10 +113,14 @@ std::optional<std::vector<Dense>> posture_covariances(std::span<Posture> posture
 BoneSigmas bone_sigmas(const BodyModel& model,
                        const Posture& posture,
                        const Dense& covariance) {
-  const PostureJets jets(posture);
+  UnfoldedPosture unfolded;
+  unfolded.unfold(posture, model.lengths, model.body);
+  SparseDerivative point;
   BoneSigmas sigmas{};
   for (const HumanBone bone : human_bones()) {
-    sigmas[index(bone)] = sigma_of(jets.frame(model, bone).origin, covariance);
+    const HumanBone mover = solved_segment(bone);
+    unfolded.derivative(mover, unfolded.origin(mover), point);
+    sigmas[index(bone)] = sigma_of(point, covariance);
   }
   return sigmas;
 }
@@ -132,14 +128,15 @@ BoneSigmas bone_sigmas(const BodyModel& model,
 TagSigmas tag_sigmas(const BodyModel& model,
                      const Posture& posture,
                      const Dense& covariance) {
-  const PostureJets jets(posture);
+  UnfoldedPosture unfolded;
+  unfolded.unfold(posture, model.lengths, model.body);
+  SparseDerivative point;
   TagSigmas sigmas(model.tags.size(), 0.0);
   for (const auto& [tag, segment_from_tag] : model.segment_from_tag) {
-    const auto frame = jets.frame(model, model.bone(tag));
-    const Eigen::Matrix<PostureJets::Jet, 3, 1> centre =
-        frame.origin +
-        frame.rotation * detail::vec<PostureJets::Jet>(segment_from_tag.translation);
-    sigmas[tag] = sigma_of(centre, covariance);
+    const HumanBone bone = model.bone(tag);
+    unfolded.derivative(
+        bone, unfolded.point(bone, eigen(segment_from_tag.translation)), point);
+    sigmas[tag] = sigma_of(point, covariance);
   }
   return sigmas;
 }

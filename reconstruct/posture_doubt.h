@@ -25,7 +25,7 @@ using TagSigmas = std::vector<double>;
 /// diagonal blocks of the inverse of the problem's normal matrix. That matrix is block
 /// pentadiagonal in time, so it is inverted by blocks of two frames in one forward and
 /// one backward pass (Takahashi's equations). `postures` are the moving ones, in time
-/// order. nullopt when Ceres cannot evaluate.
+/// order. nullopt when Ceres cannot evaluate or the matrix is not positive definite.
 [[nodiscard]] std::optional<std::vector<Eigen::MatrixXd>> posture_covariances(
     std::span<Posture> postures, ceres::Problem& problem);
 

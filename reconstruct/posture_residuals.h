@@ -13,8 +13,6 @@
 #include <ceres/ceres.h>
 #include <ceres/rotation.h>
 
-#include "core/camera.h"
-#include "core/detection.h"
 #include "reconstruct/posture.h"
 
 namespace marey::reconstruct {
@@ -28,46 +26,6 @@ Eigen::Matrix<T, 3, 1> log_rotation(const Eigen::Quaternion<T>& q) {
   return vector;
 }
 
-/// What one camera saw of one tag: the constant part of a reprojection residual.
-struct TagImage {
-  Intrinsics intrinsics;
-  RigidTransform camera_from_world;
-  std::array<glm::dvec2, 4> corners_px{};
-  double sigma_px = 0.3;
-  /// How fast each corner crosses the image. [px/s] Used with a time offset only.
-  std::array<glm::dvec2, 4> velocity_px_s{};
-
-  /// Eight residuals in sigmas: predicted minus seen. A corner behind the camera costs a
-  /// constant: such a posture is wrong, but not impossible to leave.
-  template <class T>
-  void residual(const BoneFrame<T>& world_from_segment,
-                const std::array<Eigen::Matrix<T, 3, 1>, 4>& corners_in_segment,
-                T* out) const {
-    const Eigen::Quaterniond q(camera_from_world.rotation.w,
-                               camera_from_world.rotation.x,
-                               camera_from_world.rotation.y,
-                               camera_from_world.rotation.z);
-    const Eigen::Matrix<T, 3, 3> rotation = q.toRotationMatrix().cast<T>();
-    const Eigen::Matrix<T, 3, 1> shift = detail::vec<T>(camera_from_world.translation);
-    // One matrix for the four corners.
-    const Eigen::Matrix<T, 3, 3> camera_from_segment =
-        rotation * world_from_segment.rotation.toRotationMatrix();
-    const Eigen::Matrix<T, 3, 1> origin = rotation * world_from_segment.origin + shift;
-    const auto k = intrinsics.parameters();
-    for (std::size_t i = 0; i < 4; ++i) {
-      const Eigen::Matrix<T, 3, 1> p =
-          camera_from_segment * corners_in_segment[i] + origin;
-      std::array<T, 2> pixel{};
-      if (!project(intrinsics.lens, k.data(), p.data(), pixel.data())) {
-        out[2 * i] = out[2 * i + 1] = T(1e3);
-        continue;
-      }
-      out[2 * i] = (pixel[0] - corners_px[i].x) / sigma_px;
-      out[2 * i + 1] = (pixel[1] - corners_px[i].y) / sigma_px;
-    }
-  }
-};
-
 /// Ceres' list of blocks, told apart: the posture's, then `extra` further ones.
 template <class T>
 struct PostureBlocks {
@@ -80,64 +38,14 @@ struct PostureBlocks {
   }
 };
 
-/// Reprojection of one tag of a known body.
-struct KnownTagResidual {
-  HumanBone bone;
-  std::vector<Slot> slots;  ///< slots_of(bone)
-  Lengths lengths;
-  BodyFrame body;
-  TagImage image;
-  std::array<glm::dvec3, 4> corners_in_segment{};
-
-  template <class T>
-  bool operator()(const T* const* list, T* residual) const {
-    const PostureBlocks<T> blocks(slots, list, 0);
-    const BoneFrame<T> frame = bone_frame<T, double>(
-        bone, std::span<const T* const, kSlotCount>(blocks.of), lengths.data(), body);
-    std::array<Eigen::Matrix<T, 3, 1>, 4> corners;
-    for (std::size_t i = 0; i < 4; ++i)
-      corners[i] = detail::vec<T>(corners_in_segment[i]);
-    image.residual(frame, corners, residual);
-    return true;
-  }
-};
-
-/// KnownTagResidual for a camera whose clock is off by an unknown time: a further block
-/// holds the offset [s], and what the camera saw is where the corner was that much later.
-struct LateTagResidual : KnownTagResidual {
-  /// What tags slip by along these directions is no error of their corners: residuals
-  /// along them shrink by these shares, so that all have unit variance (tag_slip.h).
-  Eigen::Matrix<double, 8, 3> slip_directions = Eigen::Matrix<double, 8, 3>::Zero();
-  Eigen::Vector3d slip_shrink = Eigen::Vector3d::Zero();
-
-  template <class T>
-  bool operator()(const T* const* list, T* out) const {
-    if (!KnownTagResidual::operator()(list, out)) return false;
-    const T offset_s = *list[slots.size()];
-    for (std::size_t i = 0; i < 4; ++i) {
-      out[2 * i] += offset_s * (image.velocity_px_s[i].x / image.sigma_px);
-      out[2 * i + 1] += offset_s * (image.velocity_px_s[i].y / image.sigma_px);
-    }
-    Eigen::Map<Eigen::Matrix<T, 8, 1>> residual(out);
-    for (int k = 0; k < 3; ++k) {
-      if (slip_shrink[k] == 0.0) continue;
-      T along(0.0);
-      for (int i = 0; i < 8; ++i) along += slip_directions(i, k) * residual[i];
-      along *= slip_shrink[k];
-      for (int i = 0; i < 8; ++i) residual[i] -= slip_directions(i, k) * along;
-    }
-    return true;
-  }
-};
-
-/// Blocks are functor->slots, which are slots_of(its bone), then `Extra...`. Of blocks that
-/// are held nothing is derived.
+/// Blocks are functor->slots, which are slots_of(its bone), then `Extra...`. Of blocks
+/// that are held nothing is derived.
 template <int Residuals, int... Extra, class Functor>
 ceres::CostFunction* bone_cost(std::unique_ptr<Functor> functor) {
   const std::vector<Slot> slots = functor->slots;
   // Passes of eight: most bones follow 16 to 32 numbers.
-  auto cost = std::make_unique<ceres::DynamicAutoDiffCostFunction<Functor, 8>>(
-      functor.release());
+  auto cost =
+      std::make_unique<ceres::DynamicAutoDiffCostFunction<Functor, 8>>(functor.release());
   for (const Slot slot : slots) cost->AddParameterBlock(block_size(slot));
   (cost->AddParameterBlock(Extra), ...);
   cost->SetNumResiduals(Residuals);

@@ -97,10 +97,6 @@ void add_upright(double* rotation, double sigma_rad, bool roll, ceres::Problem& 
 
 }  // namespace
 
-TagImage tag_image(const Camera& camera, const TagDetection& tag) {
-  return {camera.intrinsics, camera.camera_from_world, tag.corners_px, tag.sigma_px};
-}
-
 std::vector<double*> blocks_of(Posture& posture, HumanBone bone) {
   std::vector<double*> blocks;
   for (const Slot slot : slots_of(bone)) blocks.push_back(posture.block(slot));

@@ -14,9 +14,6 @@
 
 namespace marey::reconstruct {
 
-/// One tag in one image as a residual's constant part.
-[[nodiscard]] TagImage tag_image(const Camera& camera, const TagDetection& tag);
-
 /// The bone's blocks in `posture`, in slots_of() order.
 [[nodiscard]] std::vector<double*> blocks_of(Posture& posture, HumanBone bone);
 

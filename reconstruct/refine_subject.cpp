@@ -300,4 +300,14 @@ bool refine_subject(std::span<const Camera> cameras,
   return true;
 }
 
+bool refine_again(std::span<const Camera> cameras,
+                  SubjectBundle& bundle,
+                  SubjectEvidence& evidence) {
+  bundle.slides.clear();
+  if (!refine_rounds(bundle, cameras, 2)) return false;
+  if (!adjust(bundle, cameras, 60)) return false;
+  evidence.tags = tag_evidence(cameras, bundle);
+  return true;
+}
+
 }  // namespace marey::reconstruct

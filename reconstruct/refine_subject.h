@@ -5,9 +5,11 @@
 // Private to reconstruct: from a first guess of a subject to the bundle's answer, by way
 // of hypotheses where one tag has several readings.
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "core/result.h"
 #include "reconstruct/place_extremity.h"
 #include "reconstruct/subject_bundle.h"
 
@@ -30,6 +32,8 @@ struct SubjectEvidence {
   std::array<double, kHumanBoneCount> seen_twice_share{};
   /// By segment: frames of the moving trial that locate it (located_frames.h).
   std::array<int, kHumanBoneCount> located_frames{};
+  /// By limb: why the fit does without the tags of its hand or foot.
+  std::array<std::optional<Error>, 4> left_out;
 };
 
 /// Returns in how many pictures of the bundle's frames the tag is seen.
@@ -47,6 +51,12 @@ struct SubjectEvidence {
 [[nodiscard]] bool refine_subject(std::span<const Camera> cameras,
                                   SubjectBundle& bundle,
                                   SubjectEvidence& evidence);
+
+/// Refines a bundle again of which tags were taken out. Slides begin anew, and the
+/// evidence of tags is that of the result. False when the equations have no solution.
+[[nodiscard]] bool refine_again(std::span<const Camera> cameras,
+                                SubjectBundle& bundle,
+                                SubjectEvidence& evidence);
 
 /// How far tags slip on their segments (bundle.slips_m) by what the sightings leave
 /// unexplained: one step of Fisher scoring on the slips' variances.

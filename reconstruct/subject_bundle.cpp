@@ -42,8 +42,10 @@ SlideAngles slide_moves(const SubjectBundle& bundle,
 void add_slide_priors(const SubjectBundle& bundle,
                       const SubjectColumns& columns,
                       SubjectSystem& out) {
-  const double weight = 1.0 / (bundle.slide_m_per_rad * bundle.slide_m_per_rad);
   for (const auto& [tag, slide] : bundle.slides) {
+    const auto group = static_cast<std::size_t>(slide_group(bundle.model.bone(tag)));
+    const double size = bundle.slide_m_per_rad[group];
+    const double weight = 1.0 / (size * size);
     for (int i = 0; i < kSlideColumns; ++i) {
       const int column = columns.of_slide(tag) + i;
       const double rate = slide.rate(i % 3, i / 3);
@@ -129,19 +131,21 @@ void BundleSolver::linearise_frame(const SubjectBundle& bundle,
                                    FrameEquations& out) const {
   std::vector<int> columns;
   for (int i = 0; i < kShapeCount; ++i) columns.push_back(i);
+  UnfoldedPosture unfolded;
+  unfolded.unfold(frame.posture, bundle.model.lengths, bundle.model.body);
+  std::vector<FrameSlide> slides;
   std::optional<std::size_t> last;
   for (const TagSighting& s : frame.sightings) {
     // Sightings are in order of tags.
     if (!bundle.model.place(s.tag) || last == s.tag) continue;
     last = s.tag;
     for (int i = 0; i < 6; ++i) columns.push_back(columns_.of_tag(s.tag) + i);
-    for (int i = 0; slides_ && i < kSlideColumns; ++i) {
-      columns.push_back(columns_.of_slide(s.tag) + i);
-    }
+    if (!slides_) continue;
+    slides.push_back({columns_.of_tag(s.tag),
+                      columns_.of_slide(s.tag),
+                      slide_moves(bundle, s.tag, frame, unfolded)});
   }
-  out.begin(std::move(columns), columns_.size());
-  UnfoldedPosture unfolded;
-  unfolded.unfold(frame.posture, bundle.model.lengths, bundle.model.body);
+  out.begin(std::move(columns), std::move(slides), columns_.size());
   SightedTag sighted;
   for (const TagSighting& s : frame.sightings) {
     if (!bundle.model.place(s.tag)) continue;
@@ -152,13 +156,7 @@ void BundleSolver::linearise_frame(const SubjectBundle& bundle,
     }
     const double squared = sighted.residual.squaredNorm();
     out.posture.cost += robust_cost(squared);
-    const SlideAngles angles =
-        slides_ ? slide_moves(bundle, s.tag, frame, unfolded) : SlideAngles{};
-    out.add(sighted,
-            columns_.of_tag(s.tag),
-            robust_weight(squared),
-            columns_.of_slide(s.tag),
-            slides_ ? &angles : nullptr);
+    out.add(sighted, columns_.of_tag(s.tag), robust_weight(squared));
   }
   // A collar bone of this person's may well rest otherwise than usual, in all frames
   // alike: together they count as one, or they would move the shoulders' centres.

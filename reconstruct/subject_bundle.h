@@ -53,8 +53,8 @@ struct SubjectBundle {
   TwistHabits twists = kFirstTwists;
   /// Of all tags with a place; empty while skin is assumed to be firm.
   std::map<std::size_t, TagSlide> slides;
-  /// Prior of the slides' rates, standard deviation. [m/rad]
-  double slide_m_per_rad = 0.0;
+  /// Prior of the slides' rates, standard deviation, by SlideGroup. [m/rad]
+  std::array<double, kSlideGroups> slide_m_per_rad{};
 
   // Filled by measure() and fill_sigmas().
   Lengths length_sigma_m{};

@@ -4,9 +4,8 @@
 
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
-
-#include <Eigen/Eigenvalues>
 
 #include "core/assert.h"
 
@@ -30,193 +29,45 @@ std::size_t limb_of_column(int column) {
   return 4;
 }
 
-/// Directions and gains of a tag's slip from how the residuals follow a shift of it.
-void set_slip(const Eigen::Matrix<double, 8, 3>& by_shift, SightedTag& out) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3d> spectrum(by_shift.transpose() * by_shift);
-  for (int k = 0; k < 3; ++k) {
-    const double gain = std::sqrt(std::max(0.0, spectrum.eigenvalues()[k]));
-    out.slip_gains[k] = gain;
-    if (gain < 1e-9) {
-      out.slip_directions.col(k).setZero();
-    } else {
-      out.slip_directions.col(k) = by_shift * spectrum.eigenvectors().col(k) / gain;
-    }
-  }
-}
-
-/// Scales what a slip explains to unit variance.
-template <class Derived>
-void whiten(const Eigen::Matrix<double, 8, 3>& directions,
-            const Vector3d& shrink,
-            Eigen::MatrixBase<Derived>& rows) {
-  for (int k = 0; k < 3; ++k) {
-    if (shrink[k] == 0.0) continue;
-    const Eigen::Matrix<double, 1, Eigen::Dynamic> along =
-        shrink[k] * (directions.col(k).transpose() * rows);
-    rows.noalias() -= directions.col(k) * along;
-  }
-}
-
 }  // namespace
 
-SlideAngles slide_angles(HumanBone bone,
-                         const Posture& posture,
-                         const UnfoldedPosture& unfolded) {
-  const auto against = [&](Slot parent, Slot child) {
-    return log_of(quaternion(posture, parent).conjugate() * quaternion(posture, child));
-  };
-  for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
-    const LimbSlots& s = kLimbSlots[limb];
-    const HumanLimb& bones = human_limbs()[limb];
-    const double flexion = *posture.block(s.flexion);
-    if (bone == bones.upper) {
-      const Vector3d r = against(limb < 2 ? Slot::kThorax : Slot::kHips, s.frame);
-      return {flexion, r.x(), r.y(), r.z()};
-    }
-    if (bone == bones.lower) {
-      const Eigen::Quaterniond lower(unfolded.rotation(bone));
-      const Vector3d r = log_of(lower.conjugate() * quaternion(posture, s.extremity));
-      return {flexion, *posture.block(s.lower_twist), r.x(), r.z()};
-    }
-  }
-  if (bone == HumanBone::kHips) {
-    return {against(Slot::kHips, Slot::kLeftLeg).x(),
-            against(Slot::kHips, Slot::kRightLeg).x(),
-            against(Slot::kHips, Slot::kThorax).x(),
-            0.0};
-  }
-  if (bone == HumanBone::kUpperChest) {
-    const Vector3d left = against(Slot::kThorax, Slot::kLeftArm);
-    const Vector3d right = against(Slot::kThorax, Slot::kRightArm);
-    return {left.y(), left.z(), right.y(), right.z()};
-  }
-  return {};
-}
-
-double slide_share(HumanBone bone) {
-  using B = HumanBone;
-  switch (bone) {
-    case B::kLeftUpperLeg:
-    case B::kRightUpperLeg:
-      return 1.0;
-    case B::kHips:
-    case B::kSpine:
-    case B::kChest:
-    case B::kUpperChest:
-    case B::kLeftShoulder:
-    case B::kRightShoulder:
-      return 0.5;
-    case B::kLeftUpperArm:
-    case B::kRightUpperArm:
-    case B::kLeftLowerLeg:
-    case B::kRightLowerLeg:
-      return 0.4;
-    case B::kLeftLowerArm:
-    case B::kRightLowerArm:
-      return 0.2;
-    default:
-      return 0.15;
-  }
-}
-
-SubjectColumns::SubjectColumns(const BodyModel& model, bool slides)
-    : of_tag_(model.tags.size(), -1), of_slide_(model.tags.size(), -1) {
-  for (const auto& [tag, pose] : model.segment_from_tag) {
-    of_tag_[tag] = size_;
-    size_ += 6;
-  }
-  without_slides_ = size_;
-  if (!slides) return;
-  for (const auto& [tag, pose] : model.segment_from_tag) {
-    of_slide_[tag] = size_;
-    size_ += kSlideColumns;
-  }
-}
-
-SubjectSight::SubjectSight(std::span<const Camera> cameras) {
-  for (const Camera& camera : cameras) sights_.emplace_back(camera);
-}
-
-bool SubjectSight::look(const BodyModel& model,
-                        const UnfoldedPosture& unfolded,
-                        const TagSighting& sighting,
-                        const SightingNoise& noise,
-                        bool derivatives,
-                        SightedTag& out) const {
-  const RigidTransform* segment_from_tag = model.place(sighting.tag);
-  MAREY_ASSERT(segment_from_tag);
-  const HumanBone bone = model.bone(sighting.tag);
-  const TagSight& sight = sights_[index(sighting.camera)];
-  const double scale = 1.0 / (noise.scale * sighting.detection->sigma_px);
-  const double size_m = model.tags[sighting.tag].size_m;
-  const Matrix3d& world_from_bone = unfolded.rotation(bone);
-  const Vector3d place = eigen(segment_from_tag->translation) + noise.slide_m;
-  Eigen::Matrix<double, 8, 3> by_shift;
-  SparseDerivative point;
-  SparseDerivative shape;
-  for (int c = 0; c < 4; ++c) {
-    const Vector3d p_in_bone =
-        eigen(*segment_from_tag * corner_in_tag(c, size_m)) + noise.slide_m;
-    const Vector3d p_in_world = unfolded.point(bone, p_in_bone);
-    Eigen::Vector2d pixel;
-    Eigen::Matrix<double, 2, 3> px_by_world;
-    if (!sight.project(p_in_world, pixel, px_by_world)) return false;
-    const glm::dvec2& seen = sighting.detection->corners_px[static_cast<std::size_t>(c)];
-    const Eigen::Index row = 2 * c;
-    out.residual.segment<2>(row) = scale * (pixel - Eigen::Vector2d(seen.x, seen.y));
-    by_shift.middleRows<2>(row) = scale * px_by_world;
-    if (!derivatives) continue;
-    const auto by_world = by_shift.middleRows<2>(row);
-    unfolded.derivative(bone, p_in_world, point);
-    out.by_posture.middleRows<2>(row).leftCols(point.columns).noalias() =
-        by_world.lazyProduct(point.value.leftCols(point.columns));
-    unfolded.shape_derivative(bone, p_in_world, shape);
-    out.by_shape.middleRows<2>(row).leftCols(shape.columns).noalias() =
-        by_world.lazyProduct(shape.value.leftCols(shape.columns));
-    const Eigen::Matrix<double, 2, 3> by_bone = by_world * world_from_bone;
-    out.by_tag.block<2, 3>(row, 0) = -by_bone * cross_matrix(p_in_bone - place);
-    out.by_tag.block<2, 3>(row, 3) = by_bone;
-  }
-  out.posture_columns = derivatives ? point.columns : 0;
-  out.posture_column = point.column;
-  out.shape_columns = derivatives ? shape.columns : 0;
-  out.shape_column = shape.column;
-  set_slip(by_shift, out);
-  if (noise.slip_m <= 0.0) return true;
-  const Eigen::Array3d stretch =
-      (1.0 + (noise.slip_m * out.slip_gains.array()).square()).sqrt();
-  const Vector3d shrink = 1.0 - stretch.inverse();
-  whiten(out.slip_directions, shrink, out.residual);
-  if (!derivatives) return true;
-  auto by_posture = out.by_posture.leftCols(out.posture_columns);
-  whiten(out.slip_directions, shrink, by_posture);
-  auto by_shape = out.by_shape.leftCols(out.shape_columns);
-  whiten(out.slip_directions, shrink, by_shape);
-  whiten(out.slip_directions, shrink, out.by_tag);
-  return true;
-}
-
-void FrameEquations::begin(std::vector<int> columns, int subject_size) {
+void FrameEquations::begin(std::vector<int> columns,
+                           std::vector<FrameSlide> slides,
+                           int subject_size) {
   columns_ = std::move(columns);
+  slides_ = std::move(slides);
   local_.assign(static_cast<std::size_t>(subject_size), -1);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     local_[static_cast<std::size_t>(columns_[i])] = static_cast<int>(i);
   }
+  targets_.clear();
+  first_target_.clear();
+  for (const int column : columns_) {
+    first_target_.push_back(targets_.size());
+    targets_.push_back({column, 1.0});
+    for (const FrameSlide& slide : slides_) {
+      const int axis = column - slide.tag_column - 3;
+      if (axis < 0 || axis >= 3) continue;
+      for (int i = 0; i < kSlideAngles; ++i) {
+        targets_.push_back({slide.slide_column + 3 * i + axis,
+                            slide.factors[static_cast<std::size_t>(i)]});
+      }
+    }
+  }
+  first_target_.push_back(targets_.size());
   const auto count = static_cast<Eigen::Index>(columns_.size());
   posture.clear();
   cross_.setZero(kPostureFreedom, count);
   subject_.setZero(count, count);
   gradient_.setZero(count);
   for (auto& follows : follows_) follows.assign(columns_.size(), false);
+  for (Pull& by_root : posture_by_root_) by_root.setZero();
+  for (MatrixXd& by_root : subject_by_root_) by_root.setZero(count, 3);
 }
 
-void FrameEquations::add(const SightedTag& s,
-                         int tag_column,
-                         double weight,
-                         int slide_column,
-                         const SlideAngles* slides) {
+void FrameEquations::add(const SightedTag& s, int tag_column, double weight) {
   // All columns of the sighting side by side: the posture's, the shape's, the tag's.
-  constexpr int kMost = 2 * SparseDerivative::kMost + 6 + kSlideColumns;
+  constexpr int kMost = 2 * SparseDerivative::kMost + 6;
   Eigen::Matrix<double, 8, kMost> all;
   std::array<int, kMost> where{};
   const int own = s.posture_columns;
@@ -239,14 +90,17 @@ void FrameEquations::add(const SightedTag& s,
     append(s.by_shape.col(i), subject(s.shape_column[static_cast<std::size_t>(i)]));
   }
   for (int i = 0; i < 6; ++i) append(s.by_tag.col(i), subject(tag_column + i));
-  for (int i = 0; slides && i < kSlideColumns; ++i) {
-    const double angle = (*slides)[static_cast<std::size_t>(i / 3)];
-    append(angle * s.by_tag.col(3 + i % 3), subject(slide_column + i));
-  }
   const SightedTag::Vector8 pull = weight * s.residual;
+  // The first three columns are a shift of the whole body.
+  const Eigen::Matrix<double, 8, 3> shift = s.by_posture.leftCols<3>();
   for (int i = 0; i < count; ++i) {
     const int row = where[static_cast<std::size_t>(i)];
     const SightedTag::Vector8 weighed = weight * all.col(i);
+    if (limb < 4 && i < own) {
+      posture_by_root_[limb].row(row) += weighed.transpose() * shift;
+    } else if (limb < 4) {
+      subject_by_root_[limb].row(row) += weighed.transpose() * shift;
+    }
     if (i < own) {
       posture.gradient[row] += all.col(i).dot(pull);
     } else {
@@ -344,14 +198,7 @@ bool FrameEquations::eliminate(double damping, MatrixXd& hessian, VectorXd& grad
     const auto by_subject = trunk_.solved.leftCols(count);
     subject_.selfadjointView<Eigen::Lower>().rankUpdate(by_subject.transpose(), -1.0);
     gradient_ -= by_subject.transpose() * trunk_.solved.rightCols(1);
-    for (Eigen::Index i = 0; i < count; ++i) {
-      const int row = columns_[static_cast<std::size_t>(i)];
-      gradient[row] += gradient_[i];
-      for (Eigen::Index j = 0; j <= i; ++j) {
-        const int column = columns_[static_cast<std::size_t>(j)];
-        hessian(std::max(row, column), std::min(row, column)) += subject_(i, j);
-      }
-    }
+    add_to(hessian, gradient);
   } else {
     determined = false;
   }
@@ -361,10 +208,33 @@ bool FrameEquations::eliminate(double damping, MatrixXd& hessian, VectorXd& grad
   return determined;
 }
 
+/// Adds the frame's part of the subject's equations to them.
+void FrameEquations::add_to(MatrixXd& hessian, VectorXd& gradient) const {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (const Target& to : targets_of(i)) {
+      gradient[to.column] += to.factor * gradient_[row];
+      for (std::size_t j = 0; j < i; ++j) {
+        const double value = to.factor * subject_(row, static_cast<Eigen::Index>(j));
+        for (const Target& other : targets_of(j)) {
+          hessian(std::max(to.column, other.column), std::min(to.column, other.column)) +=
+              value * other.factor;
+        }
+      }
+      for (const Target& other : targets_of(i)) {
+        if (other.column > to.column) continue;
+        hessian(to.column, other.column) += to.factor * other.factor * subject_(row, row);
+      }
+    }
+  }
+}
+
 void FrameEquations::step(const VectorXd& subject, PostureVector& out) const {
   VectorXd own(static_cast<Eigen::Index>(columns_.size()));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    own[static_cast<Eigen::Index>(i)] = subject[columns_[i]];
+    double sum = 0.0;
+    for (const Target& to : targets_of(i)) sum += to.factor * subject[to.column];
+    own[static_cast<Eigen::Index>(i)] = sum;
   }
   const auto count = own.size();
   Eigen::Matrix<double, kTrunkFreedom, 1> trunk =
@@ -383,6 +253,61 @@ void FrameEquations::step(const VectorXd& subject, PostureVector& out) const {
     part.own.matrixU().solveInPlace(right);
     out.segment(kLimbColumn[limb], kLimbFreedom[limb]) = right;
   }
+}
+
+/// Adds what the subject's gradient becomes once the posture has given way to a gradient
+/// of its own.
+void FrameEquations::add_pull(const Pull& pull, MatrixXd& local) const {
+  const auto count = static_cast<Eigen::Index>(columns_.size());
+  Eigen::Matrix<double, kTrunkFreedom, 3> trunk =
+      pull.middleRows<kTrunkFreedom>(kTrunkColumn);
+  for (std::size_t limb = 0; limb < 4; ++limb) {
+    const Part& part = limbs_[limb];
+    MatrixXd own = pull.middleRows(kLimbColumn[limb], kLimbFreedom[limb]);
+    if (own.isZero(0.0)) continue;
+    part.own.matrixL().solveInPlace(own);
+    trunk -= part.solved.leftCols(kTrunkFreedom).transpose() * own;
+    for (std::size_t i = 0; i < part.columns.size(); ++i) {
+      local.col(part.columns[i]) -=
+          own.transpose() * part.solved.col(kTrunkFreedom + static_cast<Eigen::Index>(i));
+    }
+  }
+  trunk_.own.matrixL().solveInPlace(trunk);
+  local -= trunk.transpose() * trunk_.solved.leftCols(count);
+}
+
+/// Adds local columns to those of the subject.
+void FrameEquations::spread(const MatrixXd& local, MatrixXd& out) const {
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    for (const Target& to : targets_of(i)) {
+      out.col(to.column) += to.factor * local.col(static_cast<Eigen::Index>(i));
+    }
+  }
+}
+
+void FrameEquations::add_response(const SparseDerivative& by_posture,
+                                  const SparseDerivative& by_shape,
+                                  MatrixXd& out) const {
+  // The point's derivative by the posture, transposed, goes back through the elimination.
+  Pull pull = Pull::Zero();
+  for (int i = 0; i < by_posture.columns; ++i) {
+    pull.row(by_posture.column[static_cast<std::size_t>(i)]) =
+        by_posture.value.col(i).transpose();
+  }
+  MatrixXd local = MatrixXd::Zero(3, static_cast<Eigen::Index>(columns_.size()));
+  add_pull(pull, local);
+  spread(local, out);
+  for (int i = 0; i < by_shape.columns; ++i) {
+    out.col(by_shape.column[static_cast<std::size_t>(i)]) += by_shape.value.col(i);
+  }
+}
+
+void FrameEquations::add_root_shift(std::size_t limb,
+                                    const Matrix3d& shifts_in_world,
+                                    MatrixXd& out) const {
+  MatrixXd local = (subject_by_root_[limb] * shifts_in_world).transpose();
+  add_pull(posture_by_root_[limb] * shifts_in_world, local);
+  spread(local, out);
 }
 
 }  // namespace marey::reconstruct

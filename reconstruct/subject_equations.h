@@ -56,6 +56,11 @@ struct TagSlide {
 /// hardly any on hands, feet and the head (Leardini et al. 2005).
 [[nodiscard]] double slide_share(HumanBone bone);
 
+/// Parts of the body whose skin slides by sizes of their own: trunk and head, arms, legs.
+enum class SlideGroup : int { kTrunk, kArms, kLegs };
+inline constexpr std::size_t kSlideGroups = 3;
+[[nodiscard]] SlideGroup slide_group(HumanBone bone);
+
 /// The columns of a subject's unknowns: kShapeCount of its shape [m, rad], then six of
 /// each placed tag: a small turn of the tag in its segment's frame [rad], and its place
 /// there [m]. With `slides` then kSlideColumns of each placed tag: how far the tag slides
@@ -121,20 +126,24 @@ class SubjectSight {
   std::vector<TagSight> sights_;
 };
 
+/// How far a tag's place follows its slide rates in one frame.
+struct FrameSlide {
+  int tag_column = 0;
+  int slide_column = 0;
+  SlideAngles factors{};  ///< [rad]
+};
+
 /// One frame's equations over its posture and the subject's unknowns, and the frame's
-/// elimination from them.
+/// elimination from them. In one frame a tag's slide is a shift of its place: its rates
+/// come in only where the frame's equations are added to the subject's.
 class FrameEquations {
  public:
   PostureEquations posture;
 
-  /// Empties the equations; `columns` are the subject's that the frame's tags follow.
-  void begin(std::vector<int> columns, int subject_size);
-  /// `slides` are the factors of the tag's slide rates [rad], null without slides.
-  void add(const SightedTag& sighted,
-           int tag_column,
-           double weight,
-           int slide_column = -1,
-           const SlideAngles* slides = nullptr);
+  /// Empties the equations; `columns` are the subject's that the frame's tags follow,
+  /// slides aside.
+  void begin(std::vector<int> columns, std::vector<FrameSlide> slides, int subject_size);
+  void add(const SightedTag& sighted, int tag_column, double weight);
   /// Keeps these unknowns of the posture as they are.
   void hold(std::span<const int> posture_columns);
 
@@ -146,7 +155,25 @@ class FrameEquations {
   /// The posture's step that goes with the subject's. After eliminate().
   void step(const Eigen::VectorXd& subject, PostureVector& out) const;
 
+  /// Adds to `out`, a derivative by the subject's unknowns (three rows), how a point of
+  /// the body follows them: by itself (`by_shape`), and as the frame's posture follows
+  /// them while its sightings stay as they are. After eliminate().
+  void add_response(const SparseDerivative& by_posture,
+                    const SparseDerivative& by_shape,
+                    Eigen::MatrixXd& out) const;
+  /// Adds to `out`, three rows, the subject's gradient when the root of a limb is shifted
+  /// by each column of `shifts_in_world` [m] while the model leaves it where it is. After
+  /// eliminate().
+  void add_root_shift(std::size_t limb,
+                      const Eigen::Matrix3d& shifts_in_world,
+                      Eigen::MatrixXd& out) const;
+
  private:
+  /// What a local column adds to: columns of the subject, each with a factor.
+  struct Target {
+    int column = 0;
+    double factor = 1.0;
+  };
   struct Part {
     Eigen::LLT<Eigen::MatrixXd> own;
     std::vector<int> columns;  ///< Local ones, of columns_, that the part follows.
@@ -155,13 +182,27 @@ class FrameEquations {
   [[nodiscard]] bool eliminate_limb(std::size_t limb,
                                     double damping,
                                     Eigen::MatrixXd& trunk);
+  void add_to(Eigen::MatrixXd& hessian, Eigen::VectorXd& gradient) const;
+  using Pull = Eigen::Matrix<double, kPostureFreedom, 3>;
+  void add_pull(const Pull& pull, Eigen::MatrixXd& local) const;
+  void spread(const Eigen::MatrixXd& local, Eigen::MatrixXd& out) const;
+  [[nodiscard]] std::span<const Target> targets_of(std::size_t local) const {
+    return std::span(targets_).subspan(first_target_[local],
+                                       first_target_[local + 1] - first_target_[local]);
+  }
 
   std::vector<int> columns_;  ///< Of the subject.
+  std::vector<FrameSlide> slides_;
+  std::vector<Target> targets_;
+  std::vector<std::size_t> first_target_;  ///< Of each of columns_, and the end.
   std::vector<int> local_;    ///< Of the subject's columns where in columns_; -1.
   Eigen::MatrixXd cross_;     ///< Posture's unknowns by columns_.
   Eigen::MatrixXd subject_;   ///< columns_ by columns_, lower triangle.
   Eigen::VectorXd gradient_;  ///< Of columns_.
   std::array<std::vector<bool>, 4> follows_;  ///< Which of columns_ each limb follows.
+  /// How the posture's and the subject's gradients follow a shift of each limb's root.
+  std::array<Pull, 4> posture_by_root_;
+  std::array<Eigen::MatrixXd, 4> subject_by_root_;
   std::array<Part, 4> limbs_;
   Part trunk_;
 };

@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Dense>
 
 #include "reconstruct/common_error.h"
-#include "reconstruct/point_sigma.h"
 #include "reconstruct/subject_bundle.h"
+#include "reconstruct/subject_centres.h"
 #include "reconstruct/subject_solve.h"
 
 namespace marey::reconstruct {
@@ -28,121 +30,56 @@ constexpr double kMostSlide_m_per_rad = 0.06;
 // The median length of a two-dimensional error whose coordinates have unit sigma.
 constexpr double kMedianOfUnitNoise = 1.177;
 
-/// How a joint centre moves against the tags of `side`, over the subject's unknowns: the
-/// mean over these tags, in the bone's axes. `offset` is the joint's place on the bone.
-/// nullopt without tags.
-std::optional<Eigen::MatrixXd> centre_jacobian(const SubjectBundle& bundle,
-                                               HumanBone side,
-                                               const glm::dvec3& offset,
-                                               const Eigen::MatrixXd& offset_jacobian) {
-  Eigen::MatrixXd jacobian =
-      Eigen::MatrixXd::Zero(offset_jacobian.rows(), offset_jacobian.cols());
-  int tags = 0;
-  int column = kShapeCount;
-  for (const auto& [tag, pose] : bundle.model.segment_from_tag) {
-    if (bundle.model.bone(tag) == side) {
-      const glm::dvec3 arm = offset - pose.translation;
-      Eigen::Matrix3d cross;
-      cross << 0.0, -arm.z, arm.y, arm.z, 0.0, -arm.x, -arm.y, arm.x, 0.0;
-      jacobian += offset_jacobian;
-      // -turn x arm = arm x turn, the turn being in the segment's frame.
-      jacobian.middleCols<3>(column) += cross;
-      jacobian.middleCols<3>(column + 3) -= Eigen::Matrix3d::Identity();
-      ++tags;
-    }
-    column += 6;
-  }
-  if (tags == 0) return std::nullopt;
-  return jacobian / tags;
-}
-
-/// What the bundle's equations say of its unknowns, and how far apart what it says in
-/// different parts of the trials is.
-struct Knowledge {
-  MatrixXd covariance;  ///< Of lengths and tags.
-  MatrixXd moves;       ///< Of lengths and tags, by each part's equations alone.
-
-  /// Returns the covariance of a linear function of them: the model's, or the scatter of
-  /// the parts where its trace is clearly larger (White 1982: a model that is not quite
-  /// right makes residuals that go together, and its covariance too small).
-  [[nodiscard]] MatrixXd covariance_of(const MatrixXd& jacobian) const {
-    const MatrixXd model = jacobian * covariance * jacobian.transpose();
-    const double parts = static_cast<double>(moves.cols());
-    const MatrixXd moved = jacobian * moves;
-    const MatrixXd scatter = moved * moved.transpose() * (parts / (parts - 1.0));
-    // Two standard deviations of a mean of three squares from twelve parts.
-    constexpr double kSurely = 1.5;
-    return scatter.trace() > kSurely * model.trace() ? scatter : model;
-  }
-};
-
-void fill_centre_sigmas(const Knowledge& knowledge, SubjectBundle& bundle) {
-  const Lengths& lengths = bundle.model.lengths;
-  const auto offset_of = [&](const Lengths& some, HumanBone bone) {
-    return to_proportions(some, bundle.model.body, Proportions{})[bone];
-  };
-  const auto columns = knowledge.covariance.cols();
-  for (const HumanBone bone : human_bones()) {
-    std::optional<double>& least = bundle.centre_sigma_m[index(bone)];
-    const auto look =
-        [&](HumanBone side, const glm::dvec3& offset, const MatrixXd& offset_jacobian) {
-          const auto j = centre_jacobian(bundle, side, offset, offset_jacobian);
-          if (!j) return;
-          const double sigma_m = point_sigma_m(knowledge.covariance_of(*j));
-          if (!least || sigma_m < *least) least = sigma_m;
-        };
-    look(bone, glm::dvec3(0.0), MatrixXd::Zero(3, columns));
-    if (bone == HumanBone::kHips) continue;
-    // Offsets are linear in lengths.
-    MatrixXd offset_jacobian = MatrixXd::Zero(3, columns);
-    for (int i = 0; i < kLengthCount; ++i) {
-      Lengths longer = lengths;
-      longer[static_cast<std::size_t>(i)] += 1.0;
-      const glm::dvec3 d = offset_of(longer, bone) - offset_of(lengths, bone);
-      offset_jacobian.col(i) = Eigen::Vector3d(d.x, d.y, d.z);
-    }
-    look(*parent(bone), offset_of(lengths, bone), offset_jacobian);
-  }
-}
-
-/// Information on the slides, and their gradient, once lengths and tags are free.
+/// Information on some slides, and their gradient, once all other unknowns are free.
 struct SlideSystem {
   MatrixXd information;
   VectorXd gradient;
 };
 
-SlideSystem slides_of(const MatrixXd& all, const VectorXd& gradient, int own) {
-  const auto slides = all.rows() - own;
-  const Eigen::LDLT<MatrixXd> subject(all.topLeftCorner(own, own));
-  const MatrixXd by_slide = subject.solve(all.topRightCorner(own, slides));
-  return {all.bottomRightCorner(slides, slides) -
-              all.bottomLeftCorner(slides, own) * by_slide,
-          gradient.tail(slides) - by_slide.transpose() * gradient.head(own)};
+SlideSystem slides_of(const MatrixXd& all,
+                      const VectorXd& gradient,
+                      const std::vector<int>& columns) {
+  std::vector<int> others;
+  for (int column = 0; column < all.rows(); ++column) {
+    if (!std::ranges::binary_search(columns, column)) others.push_back(column);
+  }
+  const MatrixXd cross = all(others, columns);
+  const Eigen::LDLT<MatrixXd> subject(all(others, others));
+  const MatrixXd by_slide = subject.solve(cross);
+  return {all(columns, columns) - cross.transpose() * by_slide,
+          gradient(columns) - by_slide.transpose() * gradient(others)};
 }
+
+/// A variance and the Fisher information on it.
+struct Variance {
+  double value = 0.0;
+  double information = 0.0;
+};
 
 /// Variance v of the slides' rates, of which the scores along the eigenvectors of their
 /// information l have the variance noise l + v l^2: maximum likelihood by scoring.
-double slide_variance(const Eigen::SelfAdjointEigenSolver<MatrixXd>& spectrum,
-                      const VectorXd& gradient,
-                      double noise) {
+Variance slide_variance(const SlideSystem& slides, double noise) {
   constexpr double kMost = kMostSlide_m_per_rad * kMostSlide_m_per_rad;
-  const VectorXd scores = spectrum.eigenvectors().transpose() * gradient;
-  double variance = 1e-6;
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(slides.information);
+  const VectorXd scores = spectrum.eigenvectors().transpose() * slides.gradient;
+  Variance variance{1e-6, 0.0};
   for (int round = 0; round < 50; ++round) {
     double excess = 0.0;
     double information = 0.0;
     for (Eigen::Index i = 0; i < scores.size(); ++i) {
       const double l = spectrum.eigenvalues()[i];
       if (l < 1.0) continue;
-      const double expected = noise * l + variance * l * l;
+      const double expected = noise * l + variance.value * l * l;
       const double rate = l * l / expected;
       excess += rate * (scores[i] * scores[i] / expected - 1.0);
       information += rate * rate;
     }
-    if (information <= 0.0) return 0.0;
-    const double next = std::clamp(variance + excess / information, 0.0, kMost);
-    if (std::abs(next - variance) < 1e-3 * variance + 1e-12) return next;
-    variance = next;
+    variance.information = 0.5 * information;
+    if (information <= 0.0) return {};
+    const double next = std::clamp(variance.value + excess / information, 0.0, kMost);
+    const bool is_last = std::abs(next - variance.value) < 1e-3 * variance.value + 1e-12;
+    variance.value = next;
+    if (is_last) break;
   }
   return variance;
 }
@@ -222,35 +159,75 @@ double stray2(const SubjectBundle& bundle) {
   return stray * stray;
 }
 
+/// The columns of the slides of one group's tags, or of all, in rising order.
+std::vector<int> slide_columns(const SubjectBundle& bundle,
+                               const SubjectColumns& columns,
+                               std::optional<SlideGroup> group) {
+  std::vector<int> out;
+  for (const auto& [tag, slide] : bundle.slides) {
+    if (group && slide_group(bundle.model.bone(tag)) != *group) continue;
+    for (int i = 0; i < kSlideColumns; ++i) out.push_back(columns.of_slide(tag) + i);
+  }
+  std::ranges::sort(out);
+  return out;
+}
+
+using SlideSizes = std::array<double, kSlideGroups>;
+
 /// Estimates how far skin slides per radian. Errors common to all sightings of one tag by
-/// one camera are ignored: slides count from the tag's mean angles. Returns the present
-/// value if the equations have no solution.
-double estimated_slide_m_per_rad(const SubjectBundle& bundle,
-                                 std::span<const Camera> cameras) {
+/// one camera are ignored: slides count from the tag's mean angles. A group that its
+/// sightings hardly show slides like the others. Returns the present values if the
+/// equations have no solution.
+SlideSizes estimated_slides_m_per_rad(const SubjectBundle& bundle,
+                                      std::span<const Camera> cameras) {
   const BundleSolver solver(bundle, cameras, {});
   BundleSolver::Linear linear;
   solver.linearise(bundle, linear);
   SubjectSystem system;
   if (!solver.reduce(linear, 0.0, system)) return bundle.slide_m_per_rad;
-  const int own = solver.columns().without_slides();
   MatrixXd all = system.hessian.selfadjointView<Eigen::Lower>();
   all.diagonal().array() += 1e-9;
-  // Without the slides' own prior, and as if nothing slid.
-  const double prior =
-      bundle.prior_weight / (bundle.slide_m_per_rad * bundle.slide_m_per_rad);
-  VectorXd rates = VectorXd::Zero(all.rows() - own);
+  const double noise = stray2(bundle);
+  VectorXd rates = VectorXd::Zero(all.rows());
   for (const auto& [tag, slide] : bundle.slides) {
     for (int i = 0; i < kSlideColumns; ++i) {
-      rates[solver.columns().of_slide(tag) + i - own] = slide.rate(i % 3, i / 3);
+      rates[solver.columns().of_slide(tag) + i] = slide.rate(i % 3, i / 3);
     }
   }
-  all.diagonal().tail(rates.size()).array() -= prior;
-  system.gradient.tail(rates.size()) -= prior * rates;
-  SlideSystem slides = slides_of(all, system.gradient, own);
-  slides.gradient -= slides.information * rates;
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> spectrum(slides.information);
-  const double variance = slide_variance(spectrum, slides.gradient, stray2(bundle));
-  return std::clamp(std::sqrt(variance), kLeastSlide_m_per_rad, kMostSlide_m_per_rad);
+  const auto variance_of = [&](std::optional<SlideGroup> group) {
+    // Without these slides' own prior, and as if nothing of them slid.
+    MatrixXd free = all;
+    VectorXd gradient = system.gradient;
+    const std::vector<int> columns = slide_columns(bundle, solver.columns(), group);
+    if (columns.empty()) return Variance{};
+    for (const auto& [tag, slide] : bundle.slides) {
+      const SlideGroup own = slide_group(bundle.model.bone(tag));
+      if (group && own != *group) continue;
+      const double size = bundle.slide_m_per_rad[static_cast<std::size_t>(own)];
+      const double prior = bundle.prior_weight / (size * size);
+      for (int i = 0; i < kSlideColumns; ++i) {
+        const int column = solver.columns().of_slide(tag) + i;
+        free(column, column) -= prior;
+        gradient[column] -= prior * rates[column];
+      }
+    }
+    SlideSystem slides = slides_of(free, gradient, columns);
+    slides.gradient -= slides.information * rates(columns);
+    return slide_variance(slides, noise);
+  };
+  constexpr double kLeast2 = kLeastSlide_m_per_rad * kLeastSlide_m_per_rad;
+  const double usual = std::max(kLeast2, variance_of(std::nullopt).value);
+  SlideSizes sizes{};
+  for (std::size_t group = 0; group < kSlideGroups; ++group) {
+    // Groups' variances differ from that of all by as much as it is.
+    const Variance own = variance_of(static_cast<SlideGroup>(group));
+    const double prior = 1.0 / (usual * usual);
+    const double variance =
+        (own.information * own.value + prior * usual) / (own.information + prior);
+    sizes[group] =
+        std::clamp(std::sqrt(variance), kLeastSlide_m_per_rad, kMostSlide_m_per_rad);
+  }
+  return sizes;
 }
 
 }  // namespace
@@ -277,10 +254,10 @@ bool refine_slides(SubjectBundle& bundle, std::span<const Camera> cameras) {
   begin_slides(bundle);
   bundle.common_share = estimated_common_share(bundle, cameras);
   bundle.prior_weight = variance_scale(bundle);
-  bundle.slide_m_per_rad = kUsualSlide_m_per_rad;
+  bundle.slide_m_per_rad.fill(kUsualSlide_m_per_rad);
   for (int round = 0; round < 2; ++round) {
     if (!adjust(bundle, cameras, kIterations)) return false;
-    bundle.slide_m_per_rad = estimated_slide_m_per_rad(bundle, cameras);
+    bundle.slide_m_per_rad = estimated_slides_m_per_rad(bundle, cameras);
   }
   return adjust(bundle, cameras, kIterations).has_value();
 }
@@ -291,17 +268,17 @@ bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras) {
   solver.linearise(bundle, linear);
   const auto parts = in_parts(bundle, solver, linear);
   if (!parts) return false;
-  const int own = solver.columns().without_slides();
   const int size = solver.columns().size();
   MatrixXd all = parts->system.hessian.selfadjointView<Eigen::Lower>();
   all.diagonal().array() += 1e-9;
   all /= bundle.prior_weight;
-  const MatrixXd inverse = all.ldlt().solve(MatrixXd::Identity(size, size)).topRows(own);
-  if (!inverse.allFinite()) return false;
-  const Knowledge knowledge{inverse.leftCols(own),
-                            inverse * parts->gradients / bundle.prior_weight};
+  const Knowledge knowledge = knowledge_of(
+      all,
+      parts->gradients / bundle.prior_weight,
+      root_glides(bundle, solver.columns(), linear.frames) / bundle.prior_weight);
+  if (!knowledge.covariance.allFinite()) return false;
   const auto variance_of = [&](int first, int count) {
-    MatrixXd jacobian = MatrixXd::Zero(count, own);
+    MatrixXd jacobian = MatrixXd::Zero(count, size);
     jacobian.middleCols(first, count).setIdentity();
     return std::max(0.0, knowledge.covariance_of(jacobian).trace()) / count;
   };
@@ -313,7 +290,7 @@ bool fill_sigmas(SubjectBundle& bundle, std::span<const Camera> cameras) {
     bundle.tag_sigma[tag] = {std::sqrt(variance_of(column + 3, 3)),
                              std::sqrt(variance_of(column, 3))};
   }
-  fill_centre_sigmas(knowledge, bundle);
+  fill_centre_sigmas(knowledge, solver.columns(), linear.frames, bundle);
   return true;
 }
 

@@ -49,6 +49,11 @@ SessionAnswer answer_session(const SimulatedSession& session) {
       prior, cameras, session.standing.detections, session.moving.detections);
   out.fit_s = processor_s() - start;
   if (!fit) return refuse("fit_subject", fit.error());
+  for (const reconstruct::LeftOutSegment& left : fit->left_out) {
+    out.left_out.push_back(left.segment);
+    std::erase_if(fit->doubts,
+                  [&](const Error& doubt) { return doubt.cause == left.reason.cause; });
+  }
   if (!fit->doubts.empty()) return refuse("fit_subject", fit->doubts.front());
   out.body = std::move(fit->body);
   start = processor_s();

@@ -39,7 +39,9 @@ struct Fitted {
   /// The doubts, one a line.
   [[nodiscard]] std::string told() const {
     std::string text;
-    for (const Error& doubt : doubts_of(bundle, evidence)) {
+    Fitted left = *this;
+    (void)leave_out_extremities(left.bundle, left.evidence);
+    for (const Error& doubt : doubts_of(left.bundle, left.evidence)) {
       EXPECT_EQ(doubt.code, Errc::kQuality);
       EXPECT_FALSE(doubt.next.empty()) << doubt.cause;
       text += doubt.cause + "\n";
@@ -94,6 +96,21 @@ TEST(DoubtSubject, NamesAFootThatFitsInTwoWays) {
   foot = {false, 0.0, 100, 0.0, 0.0};
   EXPECT_NE(fit.told().find("no place of the tags on segment \"leftFoot\""),
             std::string::npos);
+}
+
+TEST(DoubtSubject, LeavesTheTagsOfAFootOutWhoseTwoPlacesAreNotToldApart) {
+  Fitted fit;
+  EXPECT_FALSE(leave_out_extremities(fit.bundle, fit.evidence));
+  fit.evidence.extremities[kLeftLeg].runner_up_cost = 40.0;
+  EXPECT_TRUE(leave_out_extremities(fit.bundle, fit.evidence));
+  EXPECT_FALSE(fit.bundle.model.place(1)) << "the left foot's tag";
+  for (const std::size_t other : {0, 2, 3}) EXPECT_TRUE(fit.bundle.model.place(other));
+  const auto& reason = fit.evidence.left_out[kLeftLeg];
+  ASSERT_TRUE(reason);
+  EXPECT_NE(reason->cause.find("the joint \"leftFoot\" is inferred"), std::string::npos)
+      << reason->cause;
+  EXPECT_NE(reason->next.find("turning that segment slowly"), std::string::npos);
+  EXPECT_EQ(doubts_of(fit.bundle, fit.evidence).size(), 1U);
 }
 
 TEST(DoubtSubject, NamesALimbThatTwoCamerasHardlySee) {

@@ -250,6 +250,33 @@ void judge_lengths(const SimulatedSession& session,
   }
 }
 
+bool is_inside(const JointSample& sample) {
+  const double in_sigmas = sample.error_m / sample.sigma_m;
+  return in_sigmas * in_sigmas <= kChi2At95;
+}
+
+void judge_joints(const JointSamples& samples, SessionVerdict& verdict) {
+  for (const auto& [joint, of_joint] : samples) {
+    for (const Source source :
+         {Source::kMeasured, Source::kRepaired, Source::kInferred}) {
+      JointFigures figures{joint, source, {}, 0.0, 0.0};
+      std::vector<double> errors_m;
+      std::vector<double> sigmas_m;
+      for (const JointSample& s : of_joint) {
+        if (s.source != source) continue;
+        errors_m.push_back(s.error_m);
+        sigmas_m.push_back(s.sigma_m);
+        ++figures.honest.count;
+        figures.honest.inside += is_inside(s) ? 1 : 0;
+      }
+      if (errors_m.empty()) continue;
+      figures.median_error_m = median(std::move(errors_m));
+      figures.median_sigma_m = median(std::move(sigmas_m));
+      verdict.joints.push_back(figures);
+    }
+  }
+}
+
 void judge_sigmas(const JointSamples& samples, SessionVerdict& verdict) {
   std::vector<double> measured_m;
   for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
@@ -260,8 +287,7 @@ void judge_sigmas(const JointSamples& samples, SessionVerdict& verdict) {
       for (const JointSample& s : samples.at(joints[place])) {
         Tally& tally = verdict.honest[static_cast<std::size_t>(s.source)][kind];
         ++tally.count;
-        const double in_sigmas = s.error_m / s.sigma_m;
-        tally.inside += in_sigmas * in_sigmas <= kChi2At95 ? 1 : 0;
+        tally.inside += is_inside(s) ? 1 : 0;
         if (s.source == Source::kMeasured) measured_m.push_back(s.error_m);
       }
     }
@@ -280,6 +306,7 @@ SessionVerdict judge(const SimulatedSession& session, const SessionAnswer& answe
   if (verdict.is_refused || answer.motion.motion.poses.empty()) return verdict;
   const JointSamples samples = sample(session, answer.motion, verdict);
   judge_sigmas(samples, verdict);
+  judge_joints(samples, verdict);
   judge_lengths(session, answer.body, verdict);
   for (const auto& [joint, of_joint] : samples) {
     auto gross = gross_joint(joint, of_joint);
@@ -292,6 +319,7 @@ SessionVerdict judge(const SimulatedSession& session, const SessionAnswer& answe
     }
     verdict.gross.push_back(std::move(*gross));
   }
+  verdict.is_partial = !answer.left_out.empty() && !verdict.is_silently_wrong;
   return verdict;
 }
 

@@ -18,6 +18,8 @@ namespace marey::testing {
 struct SessionAnswer {
   std::optional<Error> refusal;
   std::string refused_by;  ///< The step that ended with the error.
+  /// Hands and feet whose tags the body does without, each with its reason.
+  std::vector<HumanBone> left_out;
   Body body;
   EstimatedMotion motion;
   double fit_s = 0.0;
@@ -54,14 +56,26 @@ struct GrossJoint {
   std::string details;
 };
 
+/// One joint centre over the frames of a trial in which it has one source.
+struct JointFigures {
+  HumanBone joint{};
+  Source source = Source::kInferred;
+  Tally honest;  ///< Inside the 95 % region of its sigma.
+  double median_error_m = 0.0;
+  double median_sigma_m = 0.0;
+};
+
 struct SessionVerdict {
   bool is_refused = false;
   bool is_silently_wrong = false;  ///< Accepted, with a persistent gross error.
+  /// Accepted, with hands or feet left out. Refused and silently wrong ones are not.
+  bool is_partial = false;
   std::vector<GrossJoint> gross;
   int spike_frames = 0;    ///< Gross frames of joints that are not persistently wrong.
   int flipped_frames = 0;  ///< Segments called measured, off by more than 60 degrees.
   /// Squared errors of joint centres over sigma squared, by source and joint.
   std::array<std::array<Tally, kJointKinds>, kSources> honest{};
+  std::vector<JointFigures> joints;
   Tally lengths;                    ///< Of limb segments, against 1.96 sigma.
   double worst_length_share = 0.0;  ///< Largest error of a limb segment's length over it.
   double median_m = 0.0;            ///< Of measured limb joint centres.
