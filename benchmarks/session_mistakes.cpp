@@ -251,6 +251,46 @@ void add_renames_and_omissions(const PlainSession& right, Mistakes& out) {
        true});
 }
 
+/// Clocks, floors and single tags: mistakes that once ended with exit code 0.
+void add_once_silent(const PlainSession& right, Mistakes& out) {
+  out.push_back({"offset-25ms",
+                 add_to("motion",
+                        "time_offset_s = { " + right.cameras[0] + " = 0.0, " +
+                            right.cameras[1] + " = 0.025 }"),
+                 {{"time_offset_s"}, {right.cameras[1]}}});
+  out.push_back({"board-thickness",
+                 [](PlainSession& session) { session.board.thickness_m += 0.095; },
+                 {{"thickness_m"}}});
+  const int foot = right.ids_on(B::kLeftFoot)[0];
+  out.push_back(
+      {"foot-id-on-shin",
+       [=](PlainSession& session) { session.tag(foot).segment = B::kLeftLowerLeg; },
+       {{std::to_string(foot)}, {"leftFoot"}}});
+  const int hips = right.ids_on(B::kHips)[0];
+  const int shin = right.ids_on(B::kRightLowerLeg)[0];
+  out.push_back({"hip-and-shin-ids",
+                 [=](PlainSession& session) {
+                   std::swap(session.tag(hips).segment, session.tag(shin).segment);
+                 },
+                 {{std::to_string(hips)}, {std::to_string(shin)}}});
+  out.push_back(
+      {"frames-beyond", add_to("motion", "frames = [0, 9999]"), {{"frames"}}, true});
+}
+
+/// Sessions that are as good as the right one.
+void add_harmless(const PlainSession& right, Mistakes& out) {
+  const auto harmless = [&](std::string name, std::function<void(PlainSession&)> make) {
+    out.push_back({std::move(name), std::move(make), {}, false, true});
+  };
+  harmless("stature+0.02", [](PlainSession& session) { session.stature_m += 0.02; });
+  harmless("cameras-reversed", [](PlainSession& session) {
+    std::reverse(session.cameras.begin(), session.cameras.end());
+  });
+  harmless("unlisted-hip-tag", [id = right.ids_on(B::kHips)[0]](PlainSession& session) {
+    std::erase_if(session.tags, [&](const auto& tag) { return tag.id == id; });
+  });
+}
+
 }  // namespace
 
 PlainSession::Trial& PlainSession::of_kind(std::string_view kind) {
@@ -339,6 +379,8 @@ std::vector<SessionMistake> session_mistakes(const PlainSession& right) {
   add_exchanges_of_videos(right, mistakes);
   add_scales(right, mistakes);
   add_renames_and_omissions(right, mistakes);
+  add_once_silent(right, mistakes);
+  add_harmless(right, mistakes);
   return mistakes;
 }
 

@@ -63,10 +63,10 @@ struct SessionMistake {
   bool is_harmless = false;
 };
 
-/// Returns 54 mistakes of exchange, renaming, scale, order and omission. Preconditions of
-/// their use: fifteen segments with tags, three tags on the hips, two on each bone of the
-/// limbs, one on hands and feet; a calibration, floor, static and range-of-motion trial;
-/// the first motion is a walk; three cameras.
+/// Returns 59 mistakes of exchange, renaming, scale, order and omission, and three
+/// harmless changes. Preconditions of their use: fifteen segments with tags, three tags
+/// on the hips, two on each bone of the limbs, one on hands and feet; a calibration,
+/// floor, static and range-of-motion trial; the first motion is a walk; three cameras.
 [[nodiscard]] std::vector<SessionMistake> session_mistakes(const PlainSession& right);
 
 }  // namespace marey::benchmarks

@@ -10,13 +10,14 @@
 
 namespace marey::calib {
 
-std::optional<ApparentMove> find_moved_camera(
-    std::span<const Camera> cameras,
-    std::span<const CameraDetections> detections,
-    const std::map<TagId, double>& sizes_m) {
-  const FreeTags tags = free_tags(cameras, detections, sizes_m);
-  const std::vector<double> start_s(cameras.size(), 0.0);
-  RigModel model = free_tag_model(tags, in_step(tags, start_s).detections);
+namespace {
+
+/// Below, a move is none, nor can it have passed for a clock.
+constexpr double kWorthASecondLook_px = 0.5;
+
+std::optional<ApparentMove> move_at(const FreeTags& tags,
+                                    std::span<const CameraDetections> in_step) {
+  RigModel model = free_tag_model(tags, in_step);
   RefineOptions refine;
   refine.intrinsics = false;
   refine.camera_poses = false;
@@ -25,6 +26,27 @@ std::optional<ApparentMove> find_moved_camera(
   // Clocks are in the base, so that no hypothesis is held for what they do.
   refine.offsets = true;
   return apparent_move(model, refine, tags.rate_hz, MoveStart::kAnywhere);
+}
+
+}  // namespace
+
+std::optional<ApparentMove> find_moved_camera(
+    std::span<const Camera> cameras,
+    std::span<const CameraDetections> detections,
+    const std::map<TagId, double>& sizes_m) {
+  const std::vector<double> start_s(cameras.size(), 0.0);
+  const FreeTags tags = free_tags(cameras, detections, sizes_m);
+  auto first = move_at(tags, in_step(tags, start_s).detections);
+  if (!first || first->moved_px < kWorthASecondLook_px) return first;
+  // A camera that was moved looks late where most that it sees goes one way: its clock is
+  // left alone, and solved for together with its move.
+  std::vector<CameraDetections> others(detections.begin(), detections.end());
+  others[index(first->camera)].frames.clear();
+  std::vector<CameraDetections> again =
+      in_step(free_tags(cameras, others, sizes_m), start_s).detections;
+  again[index(first->camera)] = detections[index(first->camera)];
+  auto second = move_at(tags, again);
+  return second && second->camera == first->camera ? second : first;
 }
 
 }  // namespace marey::calib

@@ -124,7 +124,7 @@ TEST_F(Guiding, WhatWasShownIsWhatIsSolved) {
 TEST_F(Guiding, WhatIsGoodIsAcceptedAndWhatIsPoorIsToldSo) {
   stand();
   show(filmed(marey::testing::range_of_motion(truth_), 7.0));
-  reconstruct::SubjectFit fit{truth_, 0.5, 1.02, {}, {}};
+  reconstruct::SubjectFit fit{truth_, 0.5, 1.02, {}, {}, {}};
   fit.body.joint_centre_sigma_m.fill(0.002);
   SubjectGuide other = guide_;
   guide_.finish(fit);

@@ -89,7 +89,8 @@ TEST(Vrma, TurnsABoneForJointsThatVrmDoesNotHave) {
   between.parent_from_joint.translation *= 0.5;
   between.tip_in_joint.reset();
   head.parent = upper_neck;
-  head.parent_from_joint = {between.parent_from_joint.translation, {1, 0, 0, 0}};
+  head.parent_from_joint.translation = between.parent_from_joint.translation;
+  head.parent_from_joint.rotation = {1, 0, 0, 0};
   body.joints.push_back(head);
   for (Pose& pose : motion.poses) pose.parent_from_joint.push_back({1, 0, 0, 0});
   const Motion read = read_again(folder, motion);
