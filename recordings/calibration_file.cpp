@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <set>
 #include <utility>
 
 #include <glm/gtc/quaternion.hpp>
@@ -220,7 +221,10 @@ CameraQuality read_quality(TomlReader& in) {
   return quality;
 }
 
-void read_camera(TomlReader& in, const std::string& key, Calibration& out) {
+void read_camera(TomlReader& in,
+                 const std::string& key,
+                 std::set<std::string>& names,
+                 Calibration& out) {
   Camera camera;
   // Caliscope's videos and timestamps are named cam_0, cam_1...
   const bool is_number = key.find_first_not_of("0123456789") == std::string::npos;
@@ -230,8 +234,7 @@ void read_camera(TomlReader& in, const std::string& key, Calibration& out) {
   read_if_there(in, "tag_shrinkage_px", kAny, camera.tag_shrinkage.offset_px);
   // Towards 1 a tag would have to be seen infinitely large.
   read_if_there(in, "tag_shrinkage_slope", {-0.5, 0.5}, camera.tag_shrinkage.slope);
-  for (const Camera& other : out.cameras) {
-    if (other.name != camera.name) continue;
+  if (!names.insert(camera.name).second) {
     in.fail("name", "two cameras have the name " + in_quotes(camera.name), "rename one");
   }
   out.cameras.push_back(std::move(camera));
@@ -277,11 +280,13 @@ Result<Calibration> parse_calibration(std::string_view text, const std::string& 
   // Caliscope's camera_array.toml has [cameras.0], [cameras.1]...
   const bool is_array = root.is_table("cameras") && !root.table("cameras").has("matrix");
   TomlReader cameras = is_array ? root.table("cameras") : root;
+  std::set<std::string> names;
   for (const std::string& key : cameras.keys()) {
+    if (!root.ok()) break;
     if (!is_camera(key) || !cameras.is_table(key)) continue;
     TomlReader camera = cameras.table(key);
     if (camera.has("ignore") && camera.boolean("ignore")) continue;
-    read_camera(camera, key, calibration);
+    read_camera(camera, key, names, calibration);
   }
   if (calibration.cameras.empty()) {
     root.fail("", "no camera in it", "run marey calibrate, or name another file");

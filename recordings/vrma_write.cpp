@@ -137,7 +137,8 @@ void add_nodes(Json& document,
        {{"specVersion", "1.0"}, {"humanoid", {{"humanBones", std::move(bones)}}}}}};
 }
 
-/// Where a child node is to be from its parent, as it rests and in the posture.
+/// Where a child node is to be from its parent, as it rests and in the posture, as far
+/// away as at rest.
 struct ChildWay {
   glm::dvec3 rest{0.0};
   glm::dvec3 posed{0.0};
@@ -146,7 +147,7 @@ struct ChildWay {
 /// The turn nearest to `turn` that brings the children's ways at rest nearest to those of
 /// the posture: joints between that are no bones have moved them.
 glm::dquat aimed(glm::dquat turn, std::span<const ChildWay> ways) {
-  constexpr int kSteps = 8;
+  constexpr int kSteps = 16;
   constexpr double kExact_m = 1e-9;
   for (int step = 0; step < kSteps; ++step) {
     glm::dvec3 moment(0.0);
@@ -208,8 +209,9 @@ std::vector<NodeTrack> tracks_of(const Motion& motion,
           world_from_joint[joint].rotation * glm::conjugate(t_pose[joint].rotation);
       const glm::dvec3 rests_at = t_pose[joint].translation;
       if (parent) {
-        place[i] = place[*parent] +
-                   turned[*parent] * (rests_at - t_pose[nodes[*parent].joint].translation);
+        place[i] =
+            place[*parent] +
+            turned[*parent] * (rests_at - t_pose[nodes[*parent].joint].translation);
       } else {
         place[i] = world_from_joint[joint].translation;
       }
@@ -217,8 +219,12 @@ std::vector<NodeTrack> tracks_of(const Motion& motion,
         ways.clear();
         for (const std::size_t child : children[i]) {
           const std::size_t own = nodes[child].joint;
-          ways.push_back({t_pose[own].translation - rests_at,
-                          world_from_joint[own].translation - place[i]});
+          const glm::dvec3 rest = t_pose[own].translation - rests_at;
+          const glm::dvec3 posed = world_from_joint[own].translation - place[i];
+          const double posed_m = glm::length(posed);
+          // The distance is not for a turn to change.
+          if (posed_m > 0.0)
+            ways.push_back({rest, posed * (glm::length(rest) / posed_m)});
         }
         turned[i] = aimed(turned[i], ways);
       }
