@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "app/camera_doubt.h"
+#include "app/check_body.h"
 #include "app/check_clocks.h"
 #include "app/check_ids.h"
 #include "app/check_session.h"
 #include "app/check_standing.h"
-#include "app/check_stature.h"
 #include "app/check_videos.h"
 #include "app/find_moved_cameras.h"
 #include "app/find_tags.h"
@@ -276,8 +276,8 @@ Status Pipeline::fit() {
     report_.warnings.push_back(told.message());
     failures_.push_back(told);
   }
-  if (const auto warning = stature_warning(*body_)) {
-    report_.warnings.push_back(session_.file.string() + ": " + *warning);
+  for (const std::string& warning : body_warnings(*body_)) {
+    report_.warnings.push_back(session_.file.string() + ": " + warning);
   }
   for (const TagId id : fit->unplaced) {
     report_.unplaced_tags.push_back(number(id));

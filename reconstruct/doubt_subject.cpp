@@ -35,8 +35,11 @@ constexpr double kSidesDiffer_m = 0.03;
 constexpr double kShortest = 0.7;
 constexpr double kLongest = 1.35;
 
-// Hips, knees, shoulders and elbows known no better make no motion, per coordinate. [m]
+// Hips, knees and elbows known no better make no motion, per coordinate. [m]
 constexpr double kKnownJoint_m = 0.02;
+// Shoulders glide on the rib cage by nearly as much, and an elbow keeps its place if its
+// shoulder is wrong: an upper arm of average length is turned by 6 degrees.
+constexpr double kKnownShoulder_m = 0.035;
 
 // A flat tag has two poses that one camera cannot tell apart: a hand that two cameras
 // never see, on a forearm that two seldom see, may get a wrong one. Shares of the frames.
@@ -236,10 +239,13 @@ void doubt_lengths(const SubjectBundle& bundle, std::vector<Error>& out) {
 }
 
 void doubt_joints(const SubjectBundle& bundle, std::vector<Error>& out) {
-  for (const HumanLimb& limb : human_limbs()) {
-    for (const HumanBone bone : {limb.upper, limb.lower}) {
+  for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
+    const HumanLimb& bones = human_limbs()[limb];
+    for (const HumanBone bone : {bones.upper, bones.lower}) {
+      const bool is_shoulder = limb < 2 && bone == bones.upper;
       const std::optional<double>& sigma_m = bundle.centre_sigma_m[index(bone)];
-      if (sigma_m && *sigma_m < kKnownJoint_m) continue;
+      if (sigma_m && *sigma_m < (is_shoulder ? kKnownShoulder_m : kKnownJoint_m))
+        continue;
       out.push_back(doubt("the joint at the near end of segment " + in_quotes(bone) +
                               (sigma_m ? " is known to " + millimetres(*sigma_m) + " only"
                                        : " could not be determined"),

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 
 #include <glm/geometric.hpp>
 
 #include "core/assert.h"
+#include "core/humanoid.h"
 #include "core/pose.h"
 #include "core/quantile.h"
 #include "reconstruct/frame_solver.h"
@@ -145,6 +148,36 @@ std::vector<BoneSigmas> bone_speeds(const Motion& motion) {
   return speeds;
 }
 
+/// Whether only one camera sees tags of the two segments.
+bool one_camera_sees(const BodyModel& model,
+                     std::span<const TagSighting> frame,
+                     HumanBone one,
+                     HumanBone other) {
+  std::optional<CameraId> only;
+  for (const TagSighting& s : frame) {
+    const HumanBone bone = model.bone(s.tag);
+    if (bone != one && bone != other) continue;
+    if (only && *only != s.camera) return false;
+    only = s.camera;
+  }
+  return only.has_value();
+}
+
+/// How deep a limb's middle joint lies before the only camera that sees it is known from
+/// where the limb begins, and takes over a part of that error.
+void add_depth(const BodyModel& model,
+               std::span<const TagSighting> frame,
+               std::span<JointDoubt> doubts) {
+  // Of the errors of elbows in 120 simulated sessions; of knees it adds nothing, as hips
+  // are well known.
+  constexpr double kShare = 0.5;
+  for (const HumanLimb& limb : human_limbs()) {
+    if (!one_camera_sees(model, frame, limb.upper, limb.lower)) continue;
+    double& sigma_m = doubts[index(limb.lower)].sigma_m;
+    sigma_m = std::hypot(sigma_m, kShare * doubts[index(limb.upper)].sigma_m);
+  }
+}
+
 void fill_doubts(const Body& body,
                  const BodyModel& model,
                  const Sightings& sightings,
@@ -172,6 +205,9 @@ void fill_doubts(const Body& body,
           std::hypot(std::hypot(sigmas[f][b], body.joint_centre_sigma_m[b]),
                      readings.bones[f][b],
                      std::hypot(options.camera_sigma_m, clock_s * speeds[f][b]));
+    }
+    add_depth(model, sightings.frames[f], doubts);
+    for (std::size_t b = 0; b < doubts.size(); ++b) {
       doubts[b].segment_source = sources[b][f];
       doubts[b].source =
           source_of_joint(human_bones()[b], sources[b][f], doubts[b].sigma_m);

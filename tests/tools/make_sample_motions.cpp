@@ -148,9 +148,15 @@ int main(int argc, char** argv) {
     const auto avatar = read_character(argv[2]);
     if (!avatar) std::cerr << avatar.error().message() << "\n";
     if (!avatar) return 1;
-    // A player loses what bones turn that the avatar lacks: here they are no bones.
-    for (Joint& joint : turned.skeleton.joints) {
-      if (joint.bone && !avatar->skeleton.find(*joint.bone)) joint.bone.reset();
+    // A player loses what bones turn that the avatar lacks: here they are no bones, and
+    // rest, as the bones above them aim at what such joints move.
+    for (std::size_t i = 0; i < turned.skeleton.joints.size(); ++i) {
+      Joint& joint = turned.skeleton.joints[i];
+      if (!joint.bone || avatar->skeleton.find(*joint.bone)) continue;
+      joint.bone.reset();
+      for (Pose& pose : turned.poses) {
+        pose.parent_from_joint[i] = joint.parent_from_joint.rotation;
+      }
     }
     ok = good(write_vrma(folder / "avatar.vrma", turned)) &&
          write_played(folder / "avatar.csv", avatar->skeleton, turned) && ok;

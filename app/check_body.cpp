@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check_stature.h"
+#include "app/check_body.h"
 
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 #include "reconstruct/body_stature.h"
 
 namespace marey::app {
+namespace {
 
 std::optional<std::string> stature_warning(const Body& body) {
   constexpr double kSigmas = 3.0;
@@ -35,6 +38,34 @@ std::optional<std::string> stature_warning(const Body& body) {
   return std::string(text.data()) +
          ". Next: correct stature_m; if it is right, check size_m of the tags and "
          "tag_size_m of [board].";
+}
+
+std::string joint_warning(HumanBone joint, double sigma_m) {
+  std::array<char, 200> text{};
+  std::snprintf(
+      text.data(),
+      text.size(),
+      "the joint \"%s\" is known to %.0f mm: motions call it inferred, and what "
+      "hangs on it is turned by as much",
+      std::string(name(joint)).c_str(),
+      1e3 * sigma_m);
+  return std::string(text.data()) +
+         ". Next: record the range of motion again, moving that limb far to all sides "
+         "before two cameras at once.";
+}
+
+}  // namespace
+
+std::vector<std::string> body_warnings(const Body& body) {
+  // As for solved motions: see Source in docs/formats.md.
+  constexpr double kMeasured_m = 0.02;
+  std::vector<std::string> warnings;
+  if (auto warning = stature_warning(body)) warnings.push_back(std::move(*warning));
+  for (const HumanLimb& limb : human_limbs()) {
+    const double sigma_m = body.joint_centre_sigma_m[index(limb.upper)];
+    if (sigma_m > kMeasured_m) warnings.push_back(joint_warning(limb.upper, sigma_m));
+  }
+  return warnings;
 }
 
 }  // namespace marey::app
