@@ -130,8 +130,10 @@ TEST(FitSubject, StaysWithinMillimetresUnderNoise) {
   // a joint 0.15 m away is known to a millimetre or two.
   EXPECT_LT(worst_limb_length_m(fit->body, scene.truth), 3e-3);
   EXPECT_LT(median_of(off, &TagOff::place_m), 2e-3);
-  // Honest would be 0.89, were the noise the 0.3 px that detections declare.
-  EXPECT_GT(median_of(off, &TagOff::in_sigmas), 0.3);
+  // Honest would be 0.89, were the noise the 0.3 px that detections declare, and were
+  // there the least slide of skin and the glide of shoulders that every fit allows for:
+  // whether sigmas are right with them is for SimulatedCampaign to judge.
+  EXPECT_GT(median_of(off, &TagOff::in_sigmas), 0.2);
   EXPECT_LT(median_of(off, &TagOff::in_sigmas), 2.0);
   // Two coordinates of 0.2 px, some of it fitted away.
   EXPECT_NEAR(fit->rms_px, 0.26, 0.03);
