@@ -58,7 +58,7 @@ std::string joint_warning(HumanBone joint, double sigma_m) {
 
 std::vector<std::string> body_warnings(const Body& body) {
   // As for solved motions: see Source in docs/formats.md.
-  constexpr double kMeasured_m = 0.02;
+  constexpr double kMeasured_m = 0.015;
   std::vector<std::string> warnings;
   if (auto warning = stature_warning(body)) warnings.push_back(std::move(*warning));
   for (const HumanLimb& limb : human_limbs()) {

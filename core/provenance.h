@@ -10,7 +10,7 @@ namespace marey {
 enum class Source {
   kMeasured,  ///< Seen by at least one camera at this instant; see kInferred for limbs.
   kRepaired,  ///< Seen shortly before and after; bridged between.
-  /// Never or long not seen, or a limb's joint that is known to no better than 20 mm by
+  /// Never or long not seen, or a limb's joint that is known to no better than 15 mm by
   /// what is seen of the body's tags: follows from its neighbours and priors.
   kInferred,
 };

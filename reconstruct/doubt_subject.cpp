@@ -43,8 +43,8 @@ constexpr double kKnownShoulder_m = 0.035;
 
 // A flat tag has two poses that one camera cannot tell apart: a hand that two cameras
 // never see, on a forearm that two seldom see, may get a wrong one. Shares of the frames.
-constexpr double kSeenTwice = 0.03;
-constexpr double kBoneSeenTwice = 0.08;
+constexpr double kSeenTwice = 0.08;
+constexpr double kBoneSeenTwice = 0.12;
 // A limb's bone that fewer frames locate can be fitted turned over, with all that hangs
 // on it: half a second of a slow movement.
 constexpr int kFewestLocated = 15;

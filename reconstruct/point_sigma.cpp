@@ -31,7 +31,7 @@ double point_sigma_m(const Eigen::Matrix3d& covariance) {
 }
 
 Source source_of_joint(HumanBone joint, Source segment_source, double sigma_m) {
-  constexpr double kKnown_m = 0.02;
+  constexpr double kKnown_m = 0.015;
   const bool is_of_limb = std::ranges::any_of(human_limbs(), [&](const HumanLimb& limb) {
     return joint == limb.upper || joint == limb.lower || joint == limb.end;
   });

@@ -48,9 +48,9 @@ TEST(PointSigma, HoldsNineteenErrorsOfTwenty) {
 
 TEST(SourceOfJoint, IsInferredWhereALimbsJointIsHardlyKnown) {
   using B = HumanBone;
-  EXPECT_EQ(source_of_joint(B::kLeftFoot, Source::kMeasured, 0.019), Source::kMeasured);
-  EXPECT_EQ(source_of_joint(B::kLeftFoot, Source::kMeasured, 0.021), Source::kInferred);
-  EXPECT_EQ(source_of_joint(B::kLeftFoot, Source::kRepaired, 0.021), Source::kInferred);
+  EXPECT_EQ(source_of_joint(B::kLeftFoot, Source::kMeasured, 0.014), Source::kMeasured);
+  EXPECT_EQ(source_of_joint(B::kLeftFoot, Source::kMeasured, 0.016), Source::kInferred);
+  EXPECT_EQ(source_of_joint(B::kLeftFoot, Source::kRepaired, 0.016), Source::kInferred);
   EXPECT_EQ(source_of_joint(B::kHead, Source::kMeasured, 0.05), Source::kMeasured)
       << "the trunk's joints are marey's own definitions";
 }
