@@ -24,7 +24,7 @@ struct Footprint {
 
 /// How far a footprint's yaw may be from the foot's own, by what bears. [rad]
 struct FootprintOptions {
-  double flat_rad = 0.07;
+  double flat_rad = 0.115;
   /// Toes on the floor turn less than a foot that rises on its ball.
   double ball_rad = 0.26;
   double heel_rad = 0.8;  ///< Nothing is turned by the footprint then.
