@@ -124,26 +124,29 @@ std::vector<CampaignBody> real_bodies(const std::filesystem::path& root) {
 }
 
 int run(const std::vector<std::string>& args) {
-  const std::filesystem::path folder = args[2];
+  // The program is run in folders of its own.
+  const auto folder = std::filesystem::absolute(args[2]);
+  const auto program = std::filesystem::absolute(args[1]);
   std::filesystem::create_directories(folder);
   std::vector<CampaignBody> bodies;
   const int count = std::atoi(args[4].c_str());
   if (count > 0)
     bodies = made_bodies(folder, std::strtoull(args[3].c_str(), nullptr, 10), count);
   if (args[5] != "-") {
-    for (CampaignBody& body : real_bodies(args[5])) bodies.push_back(std::move(body));
+    for (CampaignBody& body : real_bodies(std::filesystem::absolute(args[5])))
+      bodies.push_back(std::move(body));
   }
   for (const CampaignBody& body : bodies) {
     std::printf("%-22s %s\n", body.path.stem().c_str(), body.words.c_str());
   }
   Tally tally;
   for (std::size_t i = 6; i < args.size(); ++i) {
-    std::filesystem::path clip = args[i];
-    if (clip == "floor") {
+    std::filesystem::path clip = std::filesystem::absolute(args[i]);
+    if (args[i] == "floor") {
       clip = folder / "floor.bvh";
       write_floor_clip(clip);
     }
-    for (const CampaignResult& r : run_campaign(args[1], folder, clip, bodies)) {
+    for (const CampaignResult& r : run_campaign(program, folder, clip, bodies)) {
       print(r);
       std::fflush(stdout);
       tally.add(r);
