@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "reconstruct/body_stature.h"
+#include "reconstruct/solve_motion.h"
 
 namespace marey::app {
 namespace {
@@ -42,13 +43,12 @@ std::optional<std::string> stature_warning(const Body& body) {
 
 std::string joint_warning(HumanBone joint, double sigma_m) {
   std::array<char, 200> text{};
-  std::snprintf(
-      text.data(),
-      text.size(),
-      "the joint \"%s\" is known to %.0f mm: motions call it inferred, and what "
-      "hangs on it is turned by as much",
-      std::string(name(joint)).c_str(),
-      1e3 * sigma_m);
+  std::snprintf(text.data(),
+                text.size(),
+                "the joint \"%s\" is known to %.0f mm: motions call it inferred, and the "
+                "segments below it are as uncertain",
+                std::string(name(joint)).c_str(),
+                1e3 * sigma_m);
   return std::string(text.data()) +
          ". Next: record the range of motion again, moving that limb far to all sides "
          "before two cameras at once.";
@@ -57,13 +57,12 @@ std::string joint_warning(HumanBone joint, double sigma_m) {
 }  // namespace
 
 std::vector<std::string> body_warnings(const Body& body) {
-  // As for solved motions: see Source in docs/formats.md.
-  constexpr double kMeasured_m = 0.015;
   std::vector<std::string> warnings;
   if (auto warning = stature_warning(body)) warnings.push_back(std::move(*warning));
   for (const HumanLimb& limb : human_limbs()) {
-    const double sigma_m = body.joint_centre_sigma_m[index(limb.upper)];
-    if (sigma_m > kMeasured_m) warnings.push_back(joint_warning(limb.upper, sigma_m));
+    const double sigma_m = reconstruct::centre_sigma_in_motion_m(body, limb.upper);
+    if (sigma_m > reconstruct::kMostMeasuredSigma_m)
+      warnings.push_back(joint_warning(limb.upper, sigma_m));
   }
   return warnings;
 }

@@ -22,7 +22,7 @@ using recordings::TrialVideo;
 constexpr double kHarmless_s = 4e-3;
 constexpr double kSigmas = 6.0;
 
-/// A camera whose offset the session gives, or the first, against what tags show.
+/// A camera whose offset the session gives, against what tags show.
 struct GivenClock {
   std::size_t camera = 0;
   double given_s = 0.0;
@@ -107,12 +107,12 @@ std::optional<Error> judge_offsets(const Session& session,
     cause += ": all by the same, so that the offset of " + session.cameras.front() +
              " is wrong";
   }
-  return Error{Errc::kQuality,
-               session.file.string() + ":" + std::to_string(trial.line) + ": trial " +
-                   trial.name,
-               cause,
-               "correct time_offset_s of that trial (" + fitting(session, clocks) +
-                   " would fit), or leave it out: offsets are then found"};
+  return Error{
+      Errc::kQuality,
+      session.file.string() + ":" + std::to_string(trial.line) + ": trial " + trial.name,
+      cause,
+      "correct time_offset_s of that trial (" + fitting(session, clocks) +
+          " would fit), or leave it out: offsets are then found"};
 }
 
 std::optional<Error> check_offsets(const Session& session,
@@ -127,7 +127,8 @@ std::optional<Error> check_offsets(const Session& session,
   std::map<TagId, double> sizes_m;
   for (const TagOnSegment& tag : session.tags) sizes_m[tag.id] = tag.size_m;
   auto seen = calib::find_clock_offsets(cameras, detections, sizes_m);
-  // At a walker's speed; a third of what it may be off by.
+  // A misplaced camera looks late by its error over the speed of what it sees. Twice a
+  // walker's 1.5 m/s, as six sigmas are allowed.
   constexpr double kSpeed_m_s = 3.0;
   for (calib::ClockOffset& clock : seen) {
     clock.sigma_s = std::hypot(clock.sigma_s, centre_sigma_m / kSpeed_m_s);

@@ -16,7 +16,7 @@ namespace marey::app {
 
 /// Compares the time offsets that a session gives for a trial with those that the tags
 /// show. `seen` one entry per camera of the session. Returns nullopt where they agree
-/// within four milliseconds and six sigmas, or nothing tells; else kQuality, with the
+/// within 4 ms or 6 sigma, or no offset is observable; else kQuality, with the
 /// cameras, by how much, whether all have the other sign, and the offsets that fit.
 [[nodiscard]] std::optional<Error> judge_offsets(
     const recordings::Session& session,
@@ -24,8 +24,8 @@ namespace marey::app {
     std::span<const calib::ClockOffset> seen);
 
 /// The same, from the trial's tags: `detections` one entry per camera, shrinkage taken
-/// off; `centre_sigma_m` of the camera that is least known: where something moves in one
-/// direction, a camera that is misplaced looks late. Costs nothing for a trial without
+/// off; `centre_sigma_m` is the largest of the cameras' centres [m]: where everything
+/// moves one way, a misplaced camera looks late. Costs nothing for a trial without
 /// offsets, else some seconds.
 [[nodiscard]] std::optional<Error> check_offsets(
     const recordings::Session& session,

@@ -152,10 +152,10 @@ Status check_videos(const Session& session, RecordingTroubles& troubles) {
   for (const Trial& trial : session.trials) {
     std::error_code ignored;
     if (!trial.timestamps || fs::exists(*trial.timestamps, ignored)) continue;
-    return bad_input(line_of(session, trial.line),
-                     "trial " + trial.name + ": there is no " +
-                         trial.timestamps->string(),
-                     "correct `timestamps` of that trial, or leave it out");
+    return bad_input(
+        line_of(session, trial.line),
+        "trial " + trial.name + ": there is no " + trial.timestamps->string(),
+        "correct `timestamps` of that trial, or leave it out");
   }
   const std::vector<Opened> all = open_all(session);
   if (const Status ok = check_opened(all, troubles); !ok) return ok;
@@ -164,8 +164,7 @@ Status check_videos(const Session& session, RecordingTroubles& troubles) {
     if (!one.info) continue;
     if (const Status ok = check_range(session, one); !ok) return ok;
     if (const Status ok = check_gap(one); !ok) return ok;
-    const auto [earlier, is_first] =
-        of_camera.try_emplace(one.video->camera, &*one.info);
+    const auto [earlier, is_first] = of_camera.try_emplace(one.video->camera, &*one.info);
     if (is_first) continue;
     if (const Status ok = compare(*earlier->second, *one.info); !ok) return ok;
   }
@@ -183,7 +182,8 @@ void tell_short_videos(const Session& session,
     return;
   }
   std::size_t most = 0;
-  for (const CameraDetections& camera : found) most = std::max(most, camera.frames.size());
+  for (const CameraDetections& camera : found)
+    most = std::max(most, camera.frames.size());
   for (const TrialVideo& video : trial.videos) {
     const CameraDetections& camera = found[index(video.camera)];
     if (camera.frames.empty() || camera.broken_off) continue;
@@ -195,7 +195,7 @@ void tell_short_videos(const Session& session,
     troubles.warnings.push_back(
         camera.source + ": it has " + std::to_string(camera.frames.size()) +
         " frames, another video of trial " + trial.name + " has " + std::to_string(most) +
-        ": what follows is known without camera " +
+        ": later frames are solved without camera " +
         session.cameras[index(video.camera)] +
         ". Next: copy the file again; if it was cut at its beginning, cut the others "
         "there too.");

@@ -8,8 +8,7 @@
 
 namespace marey::app {
 
-/// Checks the videos of all trials by what they say of themselves before any is decoded,
-/// so that nobody waits for the work on the others.
+/// Checks what the headers of all trials' videos say, before any video is decoded.
 ///
 /// Errors (kBadInput): a video that cannot be opened in a trial that is not a motion, or
 /// in a motion of which fewer than two cameras are left; a trial's range of frames that
@@ -22,9 +21,10 @@ namespace marey::app {
 [[nodiscard]] Status check_videos(const recordings::Session& session,
                                   RecordingTroubles& troubles);
 
-/// Warns of videos that end before others of their trial: by more than half a second and
-/// a twentieth. `found` one entry per camera of the session, of all frames. Recordings
-/// that broke off are told elsewhere, and calibrations may begin and end as they like.
+/// Warns of videos that end before others of their trial: by more than 0.5 s and
+/// 5 % of the longest. `found` one entry per camera of the session, of all frames.
+/// Recordings that broke off are told elsewhere, and calibrations may begin and end as
+/// they like.
 void tell_short_videos(const recordings::Session& session,
                        const recordings::Trial& trial,
                        const std::vector<CameraDetections>& found,

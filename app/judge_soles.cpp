@@ -52,9 +52,10 @@ std::string next_step(const Session& session,
                       const SoleHeight& standing,
                       std::optional<bool> alike) {
   if (!session.find(TrialKind::kFloor)) {
-    return worded("raise lowest_corner_m under [calibration] by %.3f, or record a floor "
-                  "trial",
-                  -standing.height_m);
+    return worded(
+        "set lowest_corner_m under [calibration] to %.3f, or record a floor "
+        "trial",
+        session.calibration.lowest_corner_m - standing.height_m);
   }
   const std::string floor = floor_trial(session);
   const double thickness_m = calib::thickness_m(session.target);
@@ -68,10 +69,11 @@ std::string next_step(const Session& session,
            " again with the subject standing on the floor itself";
   }
   if (thickness_m > 0.5 * standing.height_m) {
-    return worded("measure the thickness of the board and correct thickness_m under "
-                  "[board] (%.3f now, some %.0f mm too much)",
-                  thickness_m,
-                  1e3 * standing.height_m);
+    return worded(
+        "measure the thickness of the board and correct thickness_m under "
+        "[board] (%.3f now, some %.0f mm too much)",
+        thickness_m,
+        1e3 * standing.height_m);
   }
   return "check that the subject stood on the floor itself in trial " + standing.trial +
          ", and that the board lay on it in " + floor;
@@ -112,9 +114,10 @@ std::optional<SoleDoubt> judge_soles(const Session& session,
   const double off_m = std::abs(standing.height_m);
   if (off_m < (is_below ? kFairBelow_m : kFairAbove_m)) return std::nullopt;
   const auto alike = are_alike(standing, motions);
-  std::string cause = worded("the soles of the subject who stands are %.0f mm %s the floor",
-                             1e3 * off_m,
-                             is_below ? "below" : "above");
+  std::string cause =
+      worded("the soles of the subject who stands are %.0f mm %s the floor",
+             1e3 * off_m,
+             is_below ? "below" : "above");
   if (alike) {
     cause += *alike ? ", and as high in the motions" : ", but not in the motions (";
     for (std::size_t i = 0; i < motions.size() && !*alike; ++i) {

@@ -19,10 +19,10 @@ struct SoleHeight {
   double height_m = 0.0;
 };
 
-/// Estimates it from the ankles, which are as high above a flat sole as an average
-/// person's of that stature; a twentieth of the frames are lower. (Where the toes are is
-/// known from who stands on the floor: they follow a floor that is wrong.) Ankles that are
-/// known to worse than 30 mm do not count. nullopt if none is known in half of the frames.
+/// Returns the 5 % quantile over frames of the lower ankle's height minus an average
+/// person's ankle height at that stature. [m] Toes are not used: the fit places them on
+/// the floor that it is given. Ankles with a sigma above 30 mm do not count. nullopt if
+/// none is known in half of the frames.
 [[nodiscard]] std::optional<double> sole_height_m(const EstimatedMotion& estimate,
                                                   double stature_m);
 
@@ -33,9 +33,10 @@ struct SoleDoubt {
 };
 
 /// Compares the floor with who stands on it in the static trial, `standing`, and with the
-/// lowest soles of the motions: they tell a floor that is wrong from a person who stood on
-/// something. nullopt where all is well. Where no floor trial tells the floor, only a
-/// warning.
+/// lowest soles of the motions: they tell a floor that is wrong from a person who stood
+/// on something. nullopt where soles are less than 50 mm above the floor and less than 25
+/// mm below it; beyond 65 and 40 mm it is poor. Where no floor trial tells the floor,
+/// only a warning.
 [[nodiscard]] std::optional<SoleDoubt> judge_soles(const recordings::Session& session,
                                                    const SoleHeight& standing,
                                                    std::span<const SoleHeight> motions);

@@ -37,10 +37,10 @@ struct Limits {
     return here_m > any_m || (here_m > least_m && here_m > times_others * others_m);
   }
 };
-constexpr Limits kCamera{20e-3, 5e-3, 4.0};   // Root mean square.
-constexpr Limits kTag{15e-3, 5e-3, 6.0};      // Median.
-constexpr Limits kStretch{30e-3, 10e-3, 5.0}; // Root mean square.
-constexpr int kFewestCorners = 80;            // 20 pictures.
+constexpr Limits kCamera{20e-3, 5e-3, 4.0};    // Root mean square.
+constexpr Limits kTag{15e-3, 5e-3, 6.0};       // Median.
+constexpr Limits kStretch{30e-3, 10e-3, 5.0};  // Root mean square.
+constexpr int kFewestCorners = 80;             // 20 pictures.
 
 std::string in_mm(double m) {
   return worded("%.1f mm", 1e3 * m);
@@ -86,7 +86,7 @@ std::optional<Error> judge_clock(const recordings::Session& session,
         return video.offset.has_value();
       });
   return poor("trial " + trial.name,
-              "what cameras saw is off along its movement: " + cause,
+              "clocks of cameras do not fit the movement: " + cause,
               is_given ? "correct time_offset_s of that trial in session.toml, or leave "
                          "it out: offsets are then found"
                        : "check that these videos skip no frames and run at one rate, "
@@ -97,16 +97,15 @@ std::optional<Error> judge_clock(const recordings::Session& session,
 std::optional<Error> judge_camera(const recordings::Session& session,
                                   const recordings::Trial& trial,
                                   const TrialResiduals& residuals) {
-  const auto worst = worst_of(residuals.cameras,
-                              [](const CameraResidual& c) { return c.size.rms_m; });
+  const auto worst =
+      worst_of(residuals.cameras, [](const CameraResidual& c) { return c.size.rms_m; });
   if (!worst || !kCamera.is_beyond(worst->first->size.rms_m, worst->second)) {
     return std::nullopt;
   }
   const auto c = static_cast<std::size_t>(worst->first - residuals.cameras.data());
   return poor("trial " + trial.name + ", camera " + session.cameras[c],
-              "the motion is " + in_mm(worst->first->size.rms_m) +
-                  " from what it saw, root mean square (the cameras' median is " +
-                  in_mm(worst->second) + ")",
+              "its reprojection error at the body is " + in_mm(worst->first->size.rms_m) +
+                  " RMS (the cameras' median is " + in_mm(worst->second) + ")",
               "check that this is its video of this trial, that it was not moved or "
               "refocused since the calibration, and that its video skips no frames");
 }
@@ -120,9 +119,9 @@ std::optional<Error> judge_tag(const recordings::Trial& trial,
   }
   return poor(
       "trial " + trial.name + ", tag " + std::to_string(number(worst->first->id)),
-      "it is seen " + in_mm(worst->first->size.median_m) +
-          " from its place on segment " + std::string(name(worst->first->segment)) +
-          " (median; that of all tags is " + in_mm(worst->second) + ")",
+      "it is seen " + in_mm(worst->first->size.median_m) + " from its place on segment " +
+          std::string(name(worst->first->segment)) + " (median; that of all tags is " +
+          in_mm(worst->second) + ")",
       "check that it did not shift after the range of motion, and that it is worn on "
       "that segment; then record again, or remove it from session.toml");
 }
@@ -134,30 +133,25 @@ std::optional<Error> judge_stretch(const recordings::Trial& trial,
   if (!worst || !kStretch.is_beyond(worst->first->size.rms_m, worst->second)) {
     return std::nullopt;
   }
-  return poor("trial " + trial.name,
-              worded("in frames %d to %d",
-                     worst->first->first_frame,
-                     worst->first->last_frame) +
-                  " the motion is " + in_mm(worst->first->size.rms_m) +
-                  " from what the cameras saw (root mean square; median of half "
-                  "seconds " +
-                  in_mm(worst->second) + ")",
-              "look at these frames in report.html: another person in view, tags that "
-              "were read wrongly, or a camera that was pushed; leave them out with "
-              "`frames`");
+  return poor(
+      "trial " + trial.name,
+      worded("in frames %d to %d", worst->first->first_frame, worst->first->last_frame) +
+          " the reprojection error at the body is " + in_mm(worst->first->size.rms_m) +
+          " RMS (median of half seconds " + in_mm(worst->second) + ")",
+      "look at these frames in report.html: another person in view, tags that "
+      "were read wrongly, or a camera that was pushed; leave them out with "
+      "`frames`");
 }
 
 }  // namespace
 
-std::vector<Error> judge_trial(const recordings::Session& session,
-                               const recordings::Trial& trial,
-                               const TrialResiduals& residuals) {
-  // What one cause does to the others is not told again.
-  if (auto error = judge_clock(session, trial, residuals)) return {std::move(*error)};
-  if (auto error = judge_camera(session, trial, residuals)) return {std::move(*error)};
-  if (auto error = judge_tag(trial, residuals)) return {std::move(*error)};
-  if (auto error = judge_stretch(trial, residuals)) return {std::move(*error)};
-  return {};
+std::optional<Error> judge_trial(const recordings::Session& session,
+                                 const recordings::Trial& trial,
+                                 const TrialResiduals& residuals) {
+  if (auto error = judge_clock(session, trial, residuals)) return error;
+  if (auto error = judge_camera(session, trial, residuals)) return error;
+  if (auto error = judge_tag(trial, residuals)) return error;
+  return judge_stretch(trial, residuals);
 }
 
 }  // namespace marey::app

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+#include <optional>
 
 #include "core/result.h"
 #include "reconstruct/trial_residuals.h"
@@ -10,10 +10,12 @@
 
 namespace marey::app {
 
-/// Judges what a solved trial leaves unexplained, at the body: errors of a camera that
-/// follow the movement (its clock), and the worst camera, tag and half second. Slips of
-/// tags on soft skin pass. Each is kQuality, with what to check; empty when all is well.
-[[nodiscard]] std::vector<Error> judge_trial(
+/// Judges what a solved trial leaves unexplained, in metres at the body: errors of a
+/// camera that follow the movement (its clock), the worst camera, the worst tag, the
+/// worst half second, each against a limit and against the others' median. Slips of tags
+/// on soft skin pass. Returns the first of these in this order that fails, as later ones
+/// are mostly its consequence: kQuality, with what to check. nullopt when all is well.
+[[nodiscard]] std::optional<Error> judge_trial(
     const recordings::Session& session,
     const recordings::Trial& trial,
     const reconstruct::TrialResiduals& residuals);

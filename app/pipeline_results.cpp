@@ -124,8 +124,8 @@ Status Pipeline::judge_trials() {
     if (!detections) return detections.error();
     const auto residuals =
         reconstruct::trial_residuals(*body_, cameras_, *detections, motion.solved);
-    for (Error& poor : judge_trial(session_, *motion.trial, residuals)) {
-      found.push_back(std::move(poor));
+    if (auto poor = judge_trial(session_, *motion.trial, residuals)) {
+      found.push_back(std::move(*poor));
     }
   }
   for (Error& poor : found) {

@@ -12,10 +12,10 @@
 
 namespace marey::app {
 
-/// Of a trial whose cameras disagree on the tags (reconstruct::check_views()): the video
-/// that is upside down against its camera's calibration, with which all would agree.
-/// nullopt if there is none. Detections one per camera, shrinkage taken off. Cost: that of
-/// check_views() for each camera.
+/// For a trial in which reconstruct::check_views() fails: finds the one video whose turn
+/// by 180 degrees makes it succeed, and returns it as kBadInput. nullopt if there is
+/// none. Detections one per camera, shrinkage taken off. Cost: that of check_views() for
+/// each camera.
 [[nodiscard]] std::optional<Error> find_turned_video(
     std::span<const Camera> cameras,
     std::span<const CameraDetections> detections,

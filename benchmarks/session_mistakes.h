@@ -63,7 +63,7 @@ struct SessionMistake {
   bool is_harmless = false;
 };
 
-/// Returns 59 mistakes of exchange, renaming, scale, order and omission, and three
+/// Returns 57 mistakes of exchange, renaming, scale, order and omission, and five
 /// harmless changes. Preconditions of their use: fifteen segments with tags, three tags
 /// on the hips, two on each bone of the limbs, one on hands and feet; a calibration,
 /// floor, static and range-of-motion trial; the first motion is a walk; three cameras.

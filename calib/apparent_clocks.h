@@ -13,7 +13,7 @@ namespace marey::calib {
 /// A clock as the residuals of cameras without clocks have it.
 struct ApparentClock {
   double offset_s = 0.0;  ///< Against the first camera's.
-  double sigma_s = 0.0;   ///< 0: nothing tells.
+  double sigma_s = 0.0;   ///< About 1 if no moving tag tells; 0 of the first camera.
 };
 
 /// By how much each camera's errors, in a refined model in which frames of one instant

@@ -12,16 +12,17 @@
 
 namespace marey::calib {
 
-/// By how much a camera sees later than the first one.
+/// Of a camera against the first one: frame k was exposed at k / rate + offset_s on the
+/// first camera's clock.
 struct ClockOffset {
   double offset_s = 0.0;
-  double sigma_s = 1.0;  ///< About 1 where nothing tells.
+  double sigma_s = 1.0;  ///< About 1 if no moving tag tells; 0 of the first camera.
 };
 
 /// Finds clock offsets between calibrated cameras from the tags of one trial that two or
 /// more of them see at once and that move, each by itself: no body is needed. Searches
 /// about the offsets that the detections carry (zero where they carry none), for one and a
-/// half frames: what is beyond is told as beyond, and its amount is a guess. Good to a
+/// half frames: larger offsets are detected, their value is unreliable. Good to a
 /// millisecond where tags move by 1 m/s.
 ///
 /// `detections` one entry per camera, in the order of `cameras`, tag shrinkage taken off;

@@ -12,8 +12,8 @@ namespace marey::calib {
 
 namespace {
 
-/// Below, a move is none, nor can it have passed for a clock.
-constexpr double kWorthASecondLook_px = 0.5;
+/// Smaller moves are not solved again with the camera's clock left free.
+constexpr double kMinMove_px = 0.5;
 
 std::optional<ApparentMove> move_at(const FreeTags& tags,
                                     std::span<const CameraDetections> in_step) {
@@ -37,7 +37,7 @@ std::optional<ApparentMove> find_moved_camera(
   const std::vector<double> start_s(cameras.size(), 0.0);
   const FreeTags tags = free_tags(cameras, detections, sizes_m);
   auto first = move_at(tags, in_step(tags, start_s).detections);
-  if (!first || first->moved_px < kWorthASecondLook_px) return first;
+  if (!first || first->moved_px < kMinMove_px) return first;
   // A camera that was moved looks late where most that it sees goes one way: its clock is
   // left alone, and solved for together with its move.
   std::vector<CameraDetections> others(detections.begin(), detections.end());

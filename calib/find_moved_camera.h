@@ -15,7 +15,8 @@ namespace marey::calib {
 
 /// Tests, for each camera, whether it stands where its calibration says, by the corners
 /// of tags that two or more cameras see at once. A tag may move as it likes from frame to
-/// frame; clocks may be a frame apart. Needs no body.
+/// frame; clocks may be one and a half frames apart, and are solved for (given offsets
+/// are ignored), once more without the suspect's. Needs no body.
 ///
 /// Returns the move (one rotation and translation of one camera from one frame on) that
 /// explains most of what is left, however small it is: ApparentMove with `from_frame`

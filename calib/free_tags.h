@@ -18,12 +18,13 @@ namespace marey::calib {
 
 struct FreeTags {
   std::span<const Camera> cameras;
-  std::span<const CameraDetections> detections;  ///< One per camera, in their order.
+  std::span<const CameraDetections> detections;      ///< One per camera, in their order.
   const std::map<TagId, double>* sizes_m = nullptr;  ///< Of the tags that are used.
   double rate_hz = 0.0;
 };
 
-/// The arguments as they are, with the rate of the last camera that has frames.
+/// Returns the arguments as they are, with their rate. Precondition: all cameras that
+/// have frames run at one rate.
 [[nodiscard]] FreeTags free_tags(std::span<const Camera> cameras,
                                  std::span<const CameraDetections> detections,
                                  const std::map<TagId, double>& sizes_m);
@@ -39,7 +40,8 @@ struct InStep {
   std::vector<CameraDetections> detections;  ///< As of the first camera's instants.
   /// Per camera, after the first: as found, though it may be beyond what can be applied.
   std::vector<double> late_s;
-  std::vector<double> sigma_s;  ///< About 1 where nothing tells.
+  std::vector<double>
+      sigma_s;  ///< About 1 if no moving tag tells; 0 of the first camera.
 };
 
 /// Finds by how much each camera sees later than the first, up to one and a half frames

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/assert.h"
+#include "reconstruct/solve_motion.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -31,11 +32,11 @@ double point_sigma_m(const Eigen::Matrix3d& covariance) {
 }
 
 Source source_of_joint(HumanBone joint, Source segment_source, double sigma_m) {
-  constexpr double kKnown_m = 0.015;
   const bool is_of_limb = std::ranges::any_of(human_limbs(), [&](const HumanLimb& limb) {
     return joint == limb.upper || joint == limb.lower || joint == limb.end;
   });
-  return is_of_limb && sigma_m > kKnown_m ? Source::kInferred : segment_source;
+  return is_of_limb && sigma_m > kMostMeasuredSigma_m ? Source::kInferred
+                                                      : segment_source;
 }
 
 }  // namespace marey::reconstruct

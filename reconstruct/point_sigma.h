@@ -21,8 +21,7 @@ namespace marey::reconstruct {
 [[nodiscard]] double point_sigma_m(const Eigen::Matrix3d& covariance);
 
 /// Returns the source of a joint: that of its segment, or kInferred for a limb's joint
-/// with a sigma above 15 mm: one in 900 of its errors then exceeds 60 mm, at 20 mm one in
-/// 34 (core/provenance.h).
+/// with a sigma above kMostMeasuredSigma_m (core/provenance.h).
 [[nodiscard]] Source source_of_joint(HumanBone joint,
                                      Source segment_source,
                                      double sigma_m);

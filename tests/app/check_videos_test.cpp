@@ -67,7 +67,7 @@ TEST(CheckVideos, DeclinesWhatIsNoVideo) {
   SpoiledSession session;
   copy_part(session.file(), session.new_video("static", "cam0"), 1.0);
   EXPECT_TRUE(declines_at_once(
-      session, {"static-cam0.mp4: ", "cannot be opened as a video", "."}));
+      session, {"static-cam0.mp4: ", "cannot be opened as a video", "Next: "}));
 }
 
 TEST(CheckVideos, DeclinesAMotionOfWhichOneVideoIsLeft) {
@@ -76,7 +76,7 @@ TEST(CheckVideos, DeclinesAMotionOfWhichOneVideoIsLeft) {
     copy_part(session.file(), session.new_video("walk", camera), 1.0);
   }
   EXPECT_TRUE(declines_at_once(
-      session, {"walk-cam0.mp4: ", "cannot be opened as a video", "."}));
+      session, {"walk-cam0.mp4: ", "cannot be opened as a video", "Next: "}));
 }
 
 TEST(TurnedVideo, ThatIsUpsideDownIsNamed) {

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/check_body.h"
 #include "app/check_clocks.h"
 #include "app/judge_soles.h"
 #include "app/judge_trial.h"
@@ -46,10 +47,8 @@ Trial walk_with(const std::vector<double>& offsets_s) {
   trial.name = "walk";
   trial.line = 7;
   for (std::size_t c = 0; c < offsets_s.size(); ++c) {
-    trial.videos.push_back({CameraId{static_cast<int>(c)},
-                            "cam.mp4",
-                            from_seconds(offsets_s[c]),
-                            0});
+    trial.videos.push_back(
+        {CameraId{static_cast<int>(c)}, "cam.mp4", from_seconds(offsets_s[c]), 0});
   }
   return trial;
 }
@@ -67,8 +66,8 @@ TEST(JudgeOffsets, PassesThoseThatTheTagsShow) {
   const Session session = session_of(testing::ring_of_cameras());
   EXPECT_FALSE(judge_offsets(session, walk_with(kTrue_s), seen(kTrue_s)));
   // Neither what is two milliseconds off, nor what nothing tells.
-  EXPECT_FALSE(judge_offsets(
-      session, walk_with(kTrue_s), seen({0.0, 0.0093, -0.0091, 0.0049})));
+  EXPECT_FALSE(
+      judge_offsets(session, walk_with(kTrue_s), seen({0.0, 0.0093, -0.0091, 0.0049})));
   auto unknown = seen({0.0, 0.0, 0.0, 0.0});
   for (ClockOffset& clock : unknown) clock.sigma_s = 1.0;
   EXPECT_FALSE(judge_offsets(session, walk_with(kTrue_s), unknown));
@@ -76,8 +75,8 @@ TEST(JudgeOffsets, PassesThoseThatTheTagsShow) {
 
 TEST(JudgeOffsets, NamesCameraAmountAndKey) {
   const Session session = session_of(testing::ring_of_cameras());
-  const auto error = judge_offsets(
-      session, walk_with({0.0, 0.0073, 0.0, 0.0049}), seen(kTrue_s));
+  const auto error =
+      judge_offsets(session, walk_with({0.0, 0.0073, 0.0, 0.0049}), seen(kTrue_s));
   ASSERT_TRUE(error);
   EXPECT_EQ(error->code, Errc::kQuality);
   EXPECT_TRUE(says(*error, "session.toml:7: trial walk")) << error->message();
@@ -89,12 +88,12 @@ TEST(JudgeOffsets, NamesCameraAmountAndKey) {
 
 TEST(JudgeOffsets, TellsTheOtherSignAndTheFirstCamera) {
   const Session session = session_of(testing::ring_of_cameras());
-  const auto sign = judge_offsets(
-      session, walk_with({0.0, -0.0073, 0.0111, -0.0049}), seen(kTrue_s));
+  const auto sign =
+      judge_offsets(session, walk_with({0.0, -0.0073, 0.0111, -0.0049}), seen(kTrue_s));
   ASSERT_TRUE(sign);
   EXPECT_TRUE(says(*sign, "with the other sign they would agree")) << sign->message();
-  const auto first = judge_offsets(
-      session, walk_with({0.02, 0.0073, -0.0111, 0.0049}), seen(kTrue_s));
+  const auto first =
+      judge_offsets(session, walk_with({0.02, 0.0073, -0.0111, 0.0049}), seen(kTrue_s));
   ASSERT_TRUE(first);
   EXPECT_TRUE(says(*first, "the offset of " + session.cameras[0] + " is wrong"))
       << first->message();
@@ -149,7 +148,8 @@ struct SolvedWalk {
   [[nodiscard]] reconstruct::TrialResiduals residuals() const {
     return reconstruct::trial_residuals(body, cameras, detections, solved);
   }
-  [[nodiscard]] std::vector<Error> verdict(const std::vector<double>& given_s = {}) const {
+  [[nodiscard]] std::optional<Error> verdict(
+      const std::vector<double>& given_s = {}) const {
     return judge_trial(session_of(cameras), walk_with(given_s), residuals());
   }
 };
@@ -164,7 +164,7 @@ TEST(TrialResiduals, AreTheDetectorsWhereNothingIsWrong) {
   }
   ASSERT_EQ(residuals.stretches.size(), 4U);
   EXPECT_EQ(residuals.stretches[1].first_frame, 15);
-  EXPECT_TRUE(SolvedWalk().verdict().empty());
+  EXPECT_FALSE(SolvedWalk().verdict());
 }
 
 TEST(TrialResiduals, TellByHowMuchACameraIsLate) {
@@ -175,14 +175,13 @@ TEST(TrialResiduals, TellByHowMuchACameraIsLate) {
 
 TEST(JudgeTrial, NamesTheCameraWhoseClockIsOff) {
   const auto found = SolvedWalk({0.0, 0.0, 0.012, 0.0}).verdict();
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].code, Errc::kQuality);
-  EXPECT_TRUE(says(found[0], "by 12 ms or more late")) << found[0].message();
-  EXPECT_TRUE(says(found[0], "skip no frames")) << found[0].message();
-  const auto given =
-      SolvedWalk({0.0, 0.0, 0.012, 0.0}).verdict({0.0, 0.0, 0.001, 0.0});
-  ASSERT_EQ(given.size(), 1U);
-  EXPECT_TRUE(says(given[0], "correct time_offset_s")) << given[0].message();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->code, Errc::kQuality);
+  EXPECT_TRUE(says(*found, "by 12 ms or more late")) << found->message();
+  EXPECT_TRUE(says(*found, "skip no frames")) << found->message();
+  const auto given = SolvedWalk({0.0, 0.0, 0.012, 0.0}).verdict({0.0, 0.0, 0.001, 0.0});
+  ASSERT_TRUE(given);
+  EXPECT_TRUE(says(*given, "correct time_offset_s")) << given->message();
 }
 
 TEST(JudgeTrial, NamesTheTagThatSitsElsewhere) {
@@ -190,9 +189,9 @@ TEST(JudgeTrial, NamesTheTagThatSitsElsewhere) {
   auto& tag = walk.body.tags[12];
   tag.segment_from_tag.translation += glm::dvec3(0.0, 0.012, 0.0);
   const auto found = walk.verdict();
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_TRUE(says(found[0], "tag " + std::to_string(number(tag.tag.id))))
-      << found[0].message();
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(says(*found, "tag " + std::to_string(number(tag.tag.id))))
+      << found->message();
 }
 
 TEST(JudgeTrial, NamesTheFramesThatDoNotFit) {
@@ -201,8 +200,8 @@ TEST(JudgeTrial, NamesTheFramesThatDoNotFit) {
     walk.solved.estimate.motion.poses[f].root_in_world.y += 0.025;
   }
   const auto found = walk.verdict();
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_TRUE(says(found[0], "in frames 30 to 44")) << found[0].message();
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(says(*found, "in frames 30 to 44")) << found->message();
 }
 
 /// Who stands with soles `height_m` above the floor.
@@ -236,8 +235,31 @@ TEST(JudgeSoles, NamesTheThicknessOfTheBoard) {
   EXPECT_TRUE(doubt->is_poor);
   EXPECT_TRUE(says(doubt->error, "95 mm above the floor, and as high in the motions"))
       << doubt->error.message();
-  EXPECT_TRUE(says(doubt->error, "thickness_m under [board] (0.100 now, some 95 mm too much"))
+  EXPECT_TRUE(
+      says(doubt->error, "thickness_m under [board] (0.100 now, some 95 mm too much"))
       << doubt->error.message();
+}
+
+TEST(JudgeSoles, NamesTheLowestCornerThatWouldFitWhereNoFloorTrialIs) {
+  Session session;
+  session.calibration.lowest_corner_m = 0.11;
+  const auto doubt = judge_soles(session, standing_at(0.06), {});
+  ASSERT_TRUE(doubt);
+  EXPECT_FALSE(doubt->is_poor);
+  EXPECT_TRUE(says(doubt->error, "set lowest_corner_m under [calibration] to 0.050"))
+      << doubt->error.message();
+}
+
+TEST(BodyWarnings, NameShouldersAndHipsThatMotionsCallInferred) {
+  Body body = testing::tagged_person();
+  EXPECT_TRUE(body_warnings(body).empty());
+  body.joint_centre_sigma_m[index(HumanBone::kLeftUpperArm)] = 0.016;
+  body.joint_centre_sigma_m[index(HumanBone::kRightUpperLeg)] = 0.0131;
+  body.joint_centre_sigma_m[index(HumanBone::kRightUpperArm)] = 0.014;
+  const auto warnings = body_warnings(body);
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("\"leftUpperArm\" is known to 16 mm"), std::string::npos);
+  EXPECT_NE(warnings[1].find("\"rightUpperLeg\" is known to 15 mm"), std::string::npos);
 }
 
 TEST(JudgeSoles, TellsWhoStoodOnSomethingFromAFloorThatIsWrong) {
