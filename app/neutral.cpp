@@ -9,6 +9,7 @@
 #include "core/pose.h"
 #include "retarget/body_frame.h"
 #include "retarget/neutral_pose.h"
+#include "retarget/up_of_motion.h"
 
 namespace marey::app {
 namespace {
@@ -43,7 +44,10 @@ Status check_stands(const Motion& motion,
                    "t-pose");
 }
 
-Status take_frame(int frame, const retarget::FoundBones& found, Motion& motion) {
+Status take_frame(int frame,
+                  const retarget::FoundBones& found,
+                  const glm::dvec3& up,
+                  Motion& motion) {
   const std::size_t count = motion.poses.size();
   if (frame < 0 || static_cast<std::size_t>(frame) >= count) {
     return bad_input("",
@@ -54,12 +58,13 @@ Status take_frame(int frame, const retarget::FoundBones& found, Motion& motion) 
                      "give a frame from 0 to " + std::to_string(count - 1));
   }
   const Pose pose = motion.poses[static_cast<std::size_t>(frame)];
-  retarget::rest_as_pose(motion, found, pose);
+  retarget::rest_as_pose(motion, found, up, pose);
   return check_stands(motion, found, "frame " + std::to_string(frame));
 }
 
 Status take_file(const std::filesystem::path& file,
                  const retarget::FoundBones& found,
+                 const glm::dvec3& up,
                  Motion& motion) {
   auto raw = read_raw_body(file);
   if (!raw) return raw.error();
@@ -72,7 +77,7 @@ Status take_file(const std::filesystem::path& file,
       other.joints[i].parent_from_joint.rotation = first.parent_from_joint[i];
     }
   }
-  if (const Status ok = retarget::rest_as_other(other, found, motion); !ok) {
+  if (const Status ok = retarget::rest_as_other(other, found, up, motion); !ok) {
     Error error = ok.error();
     error.where = file.string();
     return error;
@@ -130,14 +135,17 @@ Result<Neutral> read_neutral(const std::string& word) {
 
 Result<NeutralKind> set_neutral(const Neutral& neutral,
                                 const retarget::FoundBones& found,
-                                Motion& motion) {
+                                Motion& motion,
+                                const std::optional<glm::dvec3>& told_up) {
   if (motion.poses.empty()) return NeutralKind::kRest;
+  const glm::dvec3 up = told_up ? glm::normalize(*told_up)
+                                : retarget::up_of_motion(motion, found).axis;
   Status ok = Done{};
   switch (neutral.kind) {
     case NeutralKind::kAuto: {
       if (retarget::stands_at_rest(motion.skeleton, found)) return NeutralKind::kRest;
       const auto* const known = retarget::named_neutral(motion.skeleton);
-      retarget::rest_as_t_pose(motion, found, known);
+      retarget::rest_as_t_pose(motion, found, up, known);
       return known != nullptr ? NeutralKind::kNamed : NeutralKind::kTPose;
     }
     case NeutralKind::kRest:
@@ -145,13 +153,13 @@ Result<NeutralKind> set_neutral(const Neutral& neutral,
       break;
     case NeutralKind::kTPose:
     case NeutralKind::kNamed:
-      retarget::rest_as_t_pose(motion, found, neutral.named);
+      retarget::rest_as_t_pose(motion, found, up, neutral.named);
       break;
     case NeutralKind::kFrame:
-      ok = take_frame(neutral.frame, found, motion);
+      ok = take_frame(neutral.frame, found, up, motion);
       break;
     case NeutralKind::kFile:
-      ok = take_file(neutral.file, found, motion);
+      ok = take_file(neutral.file, found, up, motion);
       break;
   }
   if (!ok) return ok.error();

@@ -39,12 +39,15 @@ struct Neutral {
 [[nodiscard]] Result<Neutral> read_neutral(const std::string& word);
 
 /// Gives a motion its neutral: makes it the rest of its skeleton. The kind that was taken
-/// of kAuto. A body without poses keeps its rest.
+/// of kAuto. A body without poses keeps its rest. `told_up` is where up is in the file's
+/// world; nullopt: retarget::up_of_motion().
 /// Errors (bad input): a rest, frame or file in which the body does not stand; a frame
 /// that the motion does not have; a file that cannot be read or is of another skeleton.
-[[nodiscard]] Result<NeutralKind> set_neutral(const Neutral& neutral,
-                                              const retarget::FoundBones& found,
-                                              Motion& motion);
+[[nodiscard]] Result<NeutralKind> set_neutral(
+    const Neutral& neutral,
+    const retarget::FoundBones& found,
+    Motion& motion,
+    const std::optional<glm::dvec3>& told_up = {});
 
 /// For command lines: what is wrong with the word; empty when nothing is.
 [[nodiscard]] std::string neutral_mistake(const std::string& word);

@@ -218,6 +218,18 @@ std::vector<std::string> ReadBody::remarks() const {
         "is its neutral, the slope of its feet is an average one's; --neutral sets "
         "another");
   }
+  constexpr double kMostlyUpright = 0.7;
+  const bool is_usual = guessed_up && guessed_up->axis == glm::dvec3(0.0, 1.0, 0.0) &&
+                        guessed_up->share >= kMostlyUpright;
+  if (guessed_up && !is_usual) {
+    const auto percent = std::lround(100.0 * guessed_up->share);
+    all.push_back("its rest does not say where up is, and it does not stand most of the "
+                  "time: up is taken as " +
+                  retarget::axis_word(guessed_up->axis) +
+                  ", along which its hips are above its feet in " +
+                  std::to_string(percent) +
+                  " % of its frames; if that is wrong, give `up` in a bone map");
+  }
   if (rests_as_bound) {
     all.push_back(
         "its nodes rest in another posture than its skin was bound in, which is taken");
@@ -254,9 +266,12 @@ Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
     body.file_rest_stands = retarget::stands_at_rest(motion.skeleton, body.bones);
     body.exchanged =
         retarget::exchanged_sides(retarget::side_evidence(motion, body.bones));
+    if (!body.file_rest_stands && !told->up) {
+      body.guessed_up = retarget::up_of_motion(motion, body.bones);
+    }
   }
   const auto neutral =
-      set_neutral(file.neutral.value_or(Neutral{}), body.bones, motion);
+      set_neutral(file.neutral.value_or(Neutral{}), body.bones, motion, told->up);
   if (!neutral) return of_file(file.path, neutral.error());
   body.neutral = *neutral;
   auto frame =

@@ -18,6 +18,7 @@
 #include "retarget/body_frame.h"
 #include "retarget/body_volume.h"
 #include "retarget/exchanged_sides.h"
+#include "retarget/up_of_motion.h"
 #include "retarget/find_soles.h"
 #include "retarget/identify_bones.h"
 #include "retarget/skin.h"
@@ -63,6 +64,8 @@ struct ReadBody {
   std::optional<std::filesystem::path> bone_map;  ///< That counted.
   NeutralKind neutral = NeutralKind::kRest;  ///< What the rest is.
   bool file_rest_stands = false;             ///< Of a file with a motion.
+  /// Where up is, of a motion whose rest does not stand and whose bone map does not say.
+  std::optional<retarget::MotionUp> guessed_up;
   /// Of a file with a motion: what of it bears the other side's names.
   retarget::ExchangedSides exchanged = retarget::ExchangedSides::kNone;
   /// The joints hang otherwise than in the file: recordings::ChangedFrame's.

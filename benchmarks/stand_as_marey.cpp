@@ -4,6 +4,7 @@
 
 #include "retarget/identify_bones.h"
 #include "retarget/neutral_t_pose.h"
+#include "retarget/up_of_motion.h"
 
 namespace marey {
 
@@ -13,7 +14,8 @@ Result<retarget::BodyFrame> stand_as_marey(const retarget::FileUnit& unit,
   if (!bones) return bones.error();
   if (!motion.poses.empty() && !retarget::stands_at_rest(motion.skeleton, *bones)) {
     const auto* const known = retarget::named_neutral(motion.skeleton);
-    retarget::rest_as_t_pose(motion, *bones, known);
+    retarget::rest_as_t_pose(
+        motion, *bones, retarget::up_of_motion(motion, *bones).axis, known);
   }
   auto frame = retarget::find_body_frame(motion.skeleton, unit, {}, *bones);
   if (!frame) return frame.error();

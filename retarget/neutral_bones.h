@@ -22,7 +22,6 @@ struct Evidence {
   /// Of the upper and the lower bone of each limb: the elbow's or knee's hinge, times the
   /// sine of the bend, in the bone's own frame.
   std::array<std::array<glm::dvec3, 2>, 4> hinge{};
-  glm::dvec3 up{0.0};  ///< From feet to hips, in the file's world.
   double frames = 0.0;
 };
 

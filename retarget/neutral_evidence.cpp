@@ -46,9 +46,6 @@ Evidence evidence_of(const Motion& motion, const FoundBones& found) {
           glm::transpose(glm::mat3_cast(pose.parent_from_joint[i]));
     }
     add_limbs(found, world, evidence);
-    const Places p = places_of(
-        found, [&](JointIndex joint) { return world[index(joint)].translation; });
-    evidence.up += unit_of(p.mid_hip() - p.mid_foot());
     evidence.frames += 1.0;
   }
   return evidence;

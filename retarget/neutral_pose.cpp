@@ -23,18 +23,6 @@ Places places_in(const FoundBones& found, std::span<const RigidTransform> world)
                    [&](JointIndex joint) { return world[index(joint)].translation; });
 }
 
-/// Most of the time hips are above feet.
-glm::dvec3 up_of(const Motion& motion, const FoundBones& found) {
-  glm::dvec3 up(0.0);
-  std::vector<RigidTransform> world(motion.skeleton.joints.size());
-  for (const Pose& pose : motion.poses) {
-    world_from_joints(motion.skeleton, pose, world);
-    const Places p = places_in(found, world);
-    up += unit_of(p.mid_hip() - p.mid_foot());
-  }
-  return snapped(unit_of(up), 0.8);
-}
-
 /// The turn about `up` by which a body looks as most files have theirs.
 glm::dquat facing(const Places& p, const glm::dvec3& up) {
   const glm::dvec3 usual = up.z > 0.5 ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 0, 1);
@@ -47,9 +35,11 @@ glm::dquat facing(const Places& p, const glm::dvec3& up) {
 
 }  // namespace
 
-void rest_as_pose(Motion& motion, const FoundBones& found, const Pose& pose) {
+void rest_as_pose(Motion& motion,
+                  const FoundBones& found,
+                  const glm::dvec3& up,
+                  const Pose& pose) {
   Skeleton& skeleton = motion.skeleton;
-  const glm::dvec3 up = up_of(motion, found);
   const Places p = places_in(found, world_from_joints(skeleton, pose));
   const glm::dquat turn = facing(p, up);
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {
@@ -61,7 +51,10 @@ void rest_as_pose(Motion& motion, const FoundBones& found, const Pose& pose) {
   root.translation = turn * (pose.root_in_world - level);
 }
 
-Status rest_as_other(const Skeleton& other, const FoundBones& found, Motion& motion) {
+Status rest_as_other(const Skeleton& other,
+                     const FoundBones& found,
+                     const glm::dvec3& up,
+                     Motion& motion) {
   constexpr double kAlike = 0.94;  // Cosine of 20 degrees.
   Skeleton& skeleton = motion.skeleton;
   for (const B bone : human_bones()) {
@@ -89,7 +82,7 @@ Status rest_as_other(const Skeleton& other, const FoundBones& found, Motion& mot
     if (there)
       joint.parent_from_joint.rotation = other[*there].parent_from_joint.rotation;
   }
-  rest_as_pose(motion, found, rest_pose(skeleton));
+  rest_as_pose(motion, found, up, rest_pose(skeleton));
   return Done{};
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
+#include <glm/vec3.hpp>
 
 #include "core/motion.h"
 #include "core/result.h"
@@ -10,11 +10,13 @@
 
 namespace marey::retarget {
 
-/// Makes a pose the rest of a motion's skeleton, turned about the vertical to face along
-/// an axis and moved level above the origin. Poses keep their places.
-/// Precondition: the pose has as many rotations as the skeleton joints; the motion has
-/// poses, which say where up is.
-void rest_as_pose(Motion& motion, const FoundBones& found, const Pose& pose);
+/// Makes a pose the rest of a motion's skeleton, turned about `up` (unit, in the file's
+/// world) to face along an axis and moved level above the origin. Poses keep their places.
+/// Precondition: the pose has as many rotations as the skeleton joints.
+void rest_as_pose(Motion& motion,
+                  const FoundBones& found,
+                  const glm::dvec3& up,
+                  const Pose& pose);
 
 /// Gives a skeleton the rest rotations of another one with joints of the same names:
 /// those of its joints that the other has.
@@ -22,6 +24,7 @@ void rest_as_pose(Motion& motion, const FoundBones& found, const Pose& pose);
 /// or its bone lies in another direction of the joint's frame.
 [[nodiscard]] Status rest_as_other(const Skeleton& other,
                                    const FoundBones& found,
+                                   const glm::dvec3& up,
                                    Motion& motion);
 
 }  // namespace marey::retarget

@@ -58,13 +58,15 @@ double root_height(const FoundBones& found,
 
 }  // namespace
 
-void rest_as_t_pose(Motion& motion, const FoundBones& found, const NamedNeutral* known) {
+void rest_as_t_pose(Motion& motion,
+                    const FoundBones& found,
+                    const glm::dvec3& up,
+                    const NamedNeutral* known) {
   Skeleton& skeleton = motion.skeleton;
   const Evidence evidence = evidence_of(motion, found);
   const double pitch = known != nullptr ? known->foot_pitch_rad : kAverageFootPitch;
   std::vector<glm::dquat> rest = t_pose_of_bones(skeleton, found, evidence, pitch);
   if (known != nullptr) lean(*known, skeleton, rest);
-  const glm::dvec3 up = snapped(unit_of(evidence.up), 0.8);
   // Most files have their bodies look to +Z, or -Y where Z is up.
   glm::dvec3 front = up.z > 0.0 ? glm::dvec3(0, -1, 0) : glm::dvec3(0, 1, 0);
   if (std::abs(up.z) < 0.5) front = {0, 0, 1};

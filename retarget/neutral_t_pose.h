@@ -41,8 +41,8 @@ struct NamedNeutral {
 /// The one that a skeleton is by the names of its joints.
 [[nodiscard]] const NamedNeutral* named_neutral(const Skeleton& skeleton);
 
-/// Makes a T-pose the rest of a motion's skeleton, facing along an axis, feet on the
-/// floor. Poses keep their places: they do not count from the rest.
+/// Makes a T-pose the rest of a motion's skeleton, standing along `up` (unit, in the
+/// file's world), facing along an axis, feet on the floor. Poses keep their places: they do not count from the rest.
 ///
 /// The T-pose follows from the bones: arms and legs are straight along theirs, the
 /// vertebrae, the neck and the head stand along the axis of their own that is nearest to
@@ -57,6 +57,7 @@ struct NamedNeutral {
 /// Cost: linear in frames times joints.
 void rest_as_t_pose(Motion& motion,
                     const FoundBones& found,
+                    const glm::dvec3& up,
                     const NamedNeutral* known = nullptr);
 
 }  // namespace marey::retarget

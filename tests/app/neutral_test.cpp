@@ -15,6 +15,7 @@
 #include "app/read_body.h"
 #include "retarget/identify_bones.h"
 #include "retarget/neutral_t_pose.h"
+#include "retarget/up_of_motion.h"
 
 namespace marey::app {
 namespace {
@@ -49,7 +50,8 @@ TEST(Neutral, HasOneNeutralForAllClipsOfASkeleton) {
     for (Motion& motion : motions) {
       const auto bones = retarget::identify_bones(motion.skeleton);
       ASSERT_TRUE(bones);
-      retarget::rest_as_t_pose(motion, *bones, named);
+      retarget::rest_as_t_pose(
+          motion, *bones, retarget::up_of_motion(motion, *bones).axis, named);
     }
     for (std::size_t i = 0; i < motions[0].skeleton.joints.size(); ++i) {
       const auto turn = [&](std::size_t clip) {

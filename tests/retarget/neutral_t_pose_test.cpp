@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "retarget/neutral_t_pose.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -16,6 +18,7 @@
 #include "retarget/body_frame.h"
 #include "retarget/neutral_pose.h"
 #include "retarget/retarget_motion.h"
+#include "retarget/up_of_motion.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/segment_directions.h"
@@ -144,7 +147,7 @@ TEST(RestAsTPose, FindsTheTPoseOfBonesThatLieAlongTheirOwnAxes) {
     for (const double turn : {0.0, 1.5, 3.0}) {
       Motion motion = walk(rig, lean, 0.5, turn);
       ASSERT_FALSE(stands_at_rest(motion.skeleton, rig.found));
-      rest_as_t_pose(motion, rig.found);
+      rest_as_t_pose(motion, rig.found, up_of_motion(motion, rig.found).axis);
       const auto now = world_from_joints(motion.skeleton, rest_pose(motion.skeleton));
       for (const B bone : human_bones()) {
         const glm::dquat off = glm::conjugate(along_x(bone)) * now[index(bone)].rotation;
@@ -166,9 +169,9 @@ TEST(RestAsTPose, IsTheSameForAllMotionsOfASkeleton) {
   for (int i = 0; i < 6; ++i) {
     both.poses.insert(both.poses.end(), old_man.poses.begin(), old_man.poses.end());
   }
-  rest_as_t_pose(upright, rig.found);
+  rest_as_t_pose(upright, rig.found, up_of_motion(upright, rig.found).axis);
   for (Motion* motion : {&old_man, &both}) {
-    rest_as_t_pose(*motion, rig.found);
+    rest_as_t_pose(*motion, rig.found, up_of_motion(*motion, rig.found).axis);
     for (std::size_t i = 0; i < rig.heap.joints.size(); ++i) {
       EXPECT_EQ(motion->skeleton.joints[i].parent_from_joint.rotation,
                 upright.skeleton.joints[i].parent_from_joint.rotation);
@@ -178,11 +181,44 @@ TEST(RestAsTPose, IsTheSameForAllMotionsOfASkeleton) {
   }
 }
 
+/// The walk, in which the first `lying` frames lie on their backs on the floor.
+Motion walk_after_sleep(const Rig& rig, std::size_t lying) {
+  Motion motion = walk(rig, 0.0, 0.4, 0.0);
+  const glm::dquat down = glm::angleAxis(-90.0 * kDegree, glm::dvec3(1, 0, 0));
+  for (std::size_t f = 0; f < std::min(lying, motion.poses.size()); ++f) {
+    Pose& pose = motion.poses[f];
+    pose.parent_from_joint[0] = down * pose.parent_from_joint[0];
+    pose.root_in_world.y = 0.1;
+  }
+  return motion;
+}
+
+// A body that lies for most of a clip must not turn the world over.
+TEST(UpOfMotion, IsTheUsualOneWhereABodyLiesMostOfTheTime) {
+  const Rig rig = make_rig();
+  const std::size_t count = walk(rig, 0.0, 0.4, 0.0).poses.size();
+  Motion upright = walk(rig, 0.0, 0.4, 0.0);
+  rest_as_t_pose(upright, rig.found, up_of_motion(upright, rig.found).axis);
+  for (const std::size_t percent : {0U, 30U, 50U, 60U, 85U}) {
+    Motion motion = walk_after_sleep(rig, percent * count / 100);
+    const MotionUp up = up_of_motion(motion, rig.found);
+    EXPECT_EQ(up.axis, glm::dvec3(0, 1, 0)) << percent;
+    EXPECT_NEAR(up.share, 1.0 - 0.01 * static_cast<double>(percent), 0.03) << percent;
+    rest_as_t_pose(motion, rig.found, up.axis);
+    EXPECT_EQ(motion.skeleton.joints[0].parent_from_joint.rotation,
+              upright.skeleton.joints[0].parent_from_joint.rotation)
+        << percent;
+  }
+  EXPECT_NE(up_of_motion(walk_after_sleep(rig, count), rig.found).axis,
+            glm::dvec3(0, 1, 0))
+      << "nothing tells it from a file whose Z is up: a remark says what was taken";
+}
+
 // An old man's walk leans; so does it on another body.
 TEST(RestAsTPose, KeepsTheLeanOfAWalk) {
   const Rig rig = make_rig();
   Motion motion = walk(rig, 20.0 * kDegree, 0.5, 0.0);
-  rest_as_t_pose(motion, rig.found);
+  rest_as_t_pose(motion, rig.found, up_of_motion(motion, rig.found).axis);
   mark(rig.found, motion.skeleton);
   for (const Skeleton& avatar : {testing::child(), testing::giant()}) {
     RetargetOptions options;
@@ -217,7 +253,7 @@ TEST(RestAsPose, TakesAFrameAndFacesAlongAnAxis) {
   const Rig rig = make_rig();
   Motion motion = walk(rig, 0.0, 0.5, 1.1);
   const Pose pose = motion.poses[7];
-  rest_as_pose(motion, rig.found, pose);
+  rest_as_pose(motion, rig.found, {0, 1, 0}, pose);
   ASSERT_TRUE(stands_at_rest(motion.skeleton, rig.found));
   const auto joints = testing::marked_joints(rig.t_pose);
   const glm::dvec3 front =
@@ -237,15 +273,15 @@ TEST(RestAsOther, DeclinesAnotherSkeletonNamingTheJoint) {
   const Rig rig = make_rig();
   Motion motion = walk(rig, 0.0, 0.5, 0.0);
   Skeleton other = rig.t_pose;
-  EXPECT_TRUE(rest_as_other(other, rig.found, motion));
+  EXPECT_TRUE(rest_as_other(other, rig.found, {0, 1, 0}, motion));
   EXPECT_TRUE(stands_at_rest(motion.skeleton, rig.found));
   other.joints[index(B::kLeftLowerLeg)].name = "knee";
-  const Status no = rest_as_other(other, rig.found, motion);
+  const Status no = rest_as_other(other, rig.found, {0, 1, 0}, motion);
   ASSERT_FALSE(no);
   EXPECT_EQ(no.error().cause,
             "it has no joint 'leftLowerLeg', which is the motion's leftLowerLeg");
   const Skeleton turned = make_humanoid(average_proportions(1.7));
-  const Status also = rest_as_other(turned, rig.found, motion);
+  const Status also = rest_as_other(turned, rig.found, {0, 1, 0}, motion);
   ASSERT_FALSE(also);
   EXPECT_NE(also.error().cause.find("lies otherwise in its joint's axes"),
             std::string::npos);
