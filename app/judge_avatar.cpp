@@ -90,6 +90,16 @@ void judge_foot(const std::string& name,
 
 void judge_posture(const std::string& name, AvatarVerdict& out) {
   const retarget::PostureFigures& posture = out.posture;
+  if (posture.source_fastest > kPoorSourceSpeed) {
+    add(name + ", frame " + std::to_string(posture.source_fastest_frame),
+        text("the motion that was given moves its %s at %.0f body heights per second: a "
+             "sample there is wrong, and frames around it follow it",
+             std::string(marey::name(posture.source_fastest_bone)).c_str(),
+             posture.source_fastest),
+        "repair or cut that frame in the motion, then retarget it again",
+        true,
+        out);
+  }
   judge_foot(name, posture.feet, out);
   if (posture.exchanged_share > kPoorExchanged) {
     add(name,

@@ -38,6 +38,9 @@ inline constexpr double kPoorFoot_deg = 45.0;
 /// The fastest joint in body heights per second, where it is also over twice as fast as
 /// the source's.
 inline constexpr double kPoorSpeed = 12.0;
+/// The same of the motion that was given: no hand, foot or ball player reaches it, a
+/// sample that jumps by a body height at 30 Hz does.
+inline constexpr double kPoorSourceSpeed = 20.0;
 /// Share of frames with left and right exchanged.
 inline constexpr double kPoorExchanged = 0.5;
 /// Arms and hands in trunk and thighs, deeper than the source's. [mm]

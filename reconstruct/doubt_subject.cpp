@@ -45,6 +45,9 @@ constexpr double kKnownShoulder_m = 0.035;
 // never see, on a forearm that two seldom see, may get a wrong one. Shares of the frames.
 constexpr double kSeenTwice = 0.08;
 constexpr double kBoneSeenTwice = 0.12;
+// Nor does a hand that two cameras see say where its joint is, if they never see the
+// forearm.
+constexpr double kBoneHardlySeenTwice = 0.05;
 // A limb's bone that fewer frames locate can be fitted turned over, with all that hangs
 // on it: half a second of a slow movement.
 constexpr int kFewestLocated = 15;
@@ -145,7 +148,8 @@ std::optional<Error> doubt_of_views(std::size_t limb, const SubjectEvidence& evi
   if (evidence.extremities[limb].sightings < kFewestSightings) return std::nullopt;
   const double end = evidence.seen_twice_share[index(bones.end)];
   const double lower = evidence.seen_twice_share[index(bones.lower)];
-  if (end >= kSeenTwice || lower >= kBoneSeenTwice) return std::nullopt;
+  const bool is_seen = end >= kSeenTwice && lower >= kBoneHardlySeenTwice;
+  if (is_seen || lower >= kBoneSeenTwice) return std::nullopt;
   return doubt("two cameras at once see segments " + in_quotes(bones.lower) + " and " +
                    in_quotes(bones.end) + " in only " + percent(lower) + " and " +
                    percent(end) + " of the range of motion",

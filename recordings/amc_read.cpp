@@ -140,6 +140,9 @@ class Parser {
       axis[place] = 1.0;
       if (kind == AsfChannel::Kind::kTurn) {
         const double angle_rad = *value * (in_degrees_ ? kRadiansPerDegree : 1.0);
+        if (!(std::abs(angle_rad) <= kMostTurned_deg * kRadiansPerDegree)) {
+          return fail("a rotation of " + shown(word) + " is more than 1000 turns");
+        }
         turned = glm::angleAxis(angle_rad, axis) * turned;
       } else if (kind == AsfChannel::Kind::kMove) {
         moved[place] += *value * asf_.unit_m;

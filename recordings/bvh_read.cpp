@@ -308,6 +308,10 @@ class Parser {
           std::abs(*value) > furthest_) {
         return too_far("a position of " + shown(word));
       }
+      const bool is_angle = found < is_length_.size() && !is_length_[found];
+      if (is_angle && std::abs(*value) > kMostTurned_deg) {
+        return fail("a rotation of " + shown(word) + " degrees is more than 1000 turns");
+      }
       file_.values.push_back(*value);
     }
     if (found == file_.values_per_frame) return Done{};

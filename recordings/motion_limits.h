@@ -12,6 +12,9 @@ namespace marey::recordings {
 
 /// Of a joint from its parent, and of anything from the origin. [m]
 inline constexpr double kFurthest_m = 1e4;
+/// Largest angle of a rotation in a file: a thousand turns. Programs that unroll angles
+/// write some; beyond, what is left of an angle within its last turn is rounding.
+inline constexpr double kMostTurned_deg = 360e3;
 
 inline constexpr double kSlowestRateHz = 0.1;
 inline constexpr double kFastestRateHz = 2000.0;

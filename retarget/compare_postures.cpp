@@ -252,6 +252,8 @@ PostureFigures compare_postures(const Motion& source,
   out.fastest_frame = fastest.frame;
   out.source_fastest =
       source_fastest.speed_m_per_s / head_height_m(source.skeleton, from);
+  out.source_fastest_bone = source_fastest.bone;
+  out.source_fastest_frame = source_fastest.frame;
   return out;
 }
 

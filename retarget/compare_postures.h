@@ -53,7 +53,10 @@ struct PostureFigures {
   double fastest = 0.0;
   HumanBone fastest_bone{};
   int fastest_frame = -1;
-  double source_fastest = 0.0;  ///< The same of the source.
+  /// The same of the source.
+  double source_fastest = 0.0;
+  HumanBone source_fastest_bone{};
+  int source_fastest_frame = -1;
 };
 
 /// Compares by the places of joints alone, which the rest poses do not touch. Linear in

@@ -341,6 +341,7 @@ TEST(Asf, RefusesABrokenMotionWithItsLine) {
       {"1\nshank 1\nthigh 1 1\n2\n", "frame 1 ends without the bone \"root\""},
       {frame + "3\n", "tiny.amc:5: frame 3 follows frame 1"},
       {"1\nroot 1e9 0 0 0 0 0\n", "tiny.amc:2: a position of \"1e9\" goes further"},
+      {"1\nroot 0 0 0 1e30 0 0\n", "tiny.amc:2: a rotation of \"1e30\" is more than"},
       {":samples-per-second 0\n", "tiny.amc:1: a rate must be 0.1 to 2000"}};
   for (const auto& [text, message] : faults) {
     const std::string said = amc_refusal(text);

@@ -277,6 +277,13 @@ TEST(ReadBvh, RefusesLengthsThatNoBodyHas) {
             std::string::npos);
 }
 
+TEST(ReadBvh, RefusesAnglesOfWhichOnlyRoundingIsLeft) {
+  EXPECT_NE(
+      refusal(kTwoJoints + "0 0 0 1e30 0 0 0 0 0\n")
+          .find("walk.bvh:19: a rotation of \"1e30\" degrees is more than 1000 turns"),
+      std::string::npos);
+}
+
 TEST(ReadBvh, RefusesARateThatNoCameraHas) {
   for (const char* time : {"0", "-0.01", "0.0004", "11", "1e-300"}) {
     std::string text = kTwoJoints;

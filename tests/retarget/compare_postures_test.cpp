@@ -96,5 +96,15 @@ TEST(ComparePostures, FindsAJointFasterThanTheSourcesAndSaysWhen) {
   EXPECT_TRUE(figures.fastest_frame == 31 || figures.fastest_frame == 32);
 }
 
+// One bad sample of a recording, which a body that follows it cannot show.
+TEST(ComparePostures, SaysWhenTheSourceItselfJumps) {
+  Motion walk = testing::synthetic_walk(60, 60.0).motion;
+  walk.poses[20].root_in_world.x += 5.0;
+  const BodyMap map = *map_body(walk.skeleton);
+  const PostureFigures figures = compare_postures(walk, map, walk, map);
+  EXPECT_GT(figures.source_fastest, 100.0);
+  EXPECT_TRUE(figures.source_fastest_frame == 20 || figures.source_fastest_frame == 21);
+}
+
 }  // namespace
 }  // namespace marey::retarget
