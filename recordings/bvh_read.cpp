@@ -304,12 +304,11 @@ class Parser {
       if (!value) {
         return fail(shown(word) + " is not a number");
       }
-      if (found < is_length_.size() && is_length_[found] &&
-          std::abs(*value) > furthest_) {
+      const bool is_known = found < is_length_.size();
+      if (is_known && is_length_[found] && std::abs(*value) > furthest_) {
         return too_far("a position of " + shown(word));
       }
-      const bool is_angle = found < is_length_.size() && !is_length_[found];
-      if (is_angle && std::abs(*value) > kMostTurned_deg) {
+      if (is_known && !is_length_[found] && std::abs(*value) > kMostTurned_deg) {
         return fail("a rotation of " + shown(word) + " degrees is more than 1000 turns");
       }
       file_.values.push_back(*value);
