@@ -93,10 +93,10 @@ inline constexpr double kMostMeasuredSigma_m = 0.015;
 /// poses; then overlapping windows in which all frames move together (Ceres, sparse).
 /// How far the tags of each segment slip on it is found from what they leave unexplained
 /// (tag_slip.h), and the windows are solved with that. Joint sigmas combine the windows'
-/// covariance, the body's (elbows 0.65 of it, wrists and ankles 0.85, hips 1.15), other
-/// readings of tags, the cameras and their clocks. If one camera alone sees tags of both
-/// segments at an elbow or knee, half of the shoulder's or hip's sigma is added. Limb
-/// joints above kMostMeasuredSigma_m are kInferred.
+/// covariance, the body's (elbows 0.8 of it, wrists and ankles 0.85, knees 1.1, hips
+/// 1.15), other readings of tags, the cameras and their clocks. If one camera alone sees
+/// tags of both segments at an elbow or knee, half of the shoulder's or hip's sigma is
+/// added. Limb joints above kMostMeasuredSigma_m are kInferred.
 ///
 /// `detections` holds one entry per camera of `cameras`, in order; an entry with an
 /// offset keeps it. Deterministic. Errors (kBadInput, `where` the first video):
