@@ -12,8 +12,8 @@
 
 namespace marey::calib {
 
-/// Of a camera against the first one: frame k was exposed at k / rate + offset_s on the
-/// first camera's clock.
+/// The clock of a camera relative to the first camera's: frame k was exposed at
+/// k / rate + offset_s on the first camera's clock.
 struct ClockOffset {
   double offset_s = 0.0;
   double sigma_s = 1.0;  ///< About 1 if no moving tag tells; 0 of the first camera.

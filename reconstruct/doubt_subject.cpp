@@ -45,8 +45,8 @@ constexpr double kKnownShoulder_m = 0.035;
 // never see, on a forearm that two seldom see, may get a wrong one. Shares of the frames.
 constexpr double kSeenTwice = 0.08;
 constexpr double kBoneSeenTwice = 0.12;
-// Nor does a hand that two cameras see say where its joint is, if they never see the
-// forearm.
+// Share of the frames: where two cameras see the forearm or shank less often, its wrist or
+// ankle is not determined, even if both see the hand or foot.
 constexpr double kBoneHardlySeenTwice = 0.05;
 // A limb's bone that fewer frames locate can be fitted turned over, with all that hangs
 // on it: half a second of a slow movement.

@@ -185,8 +185,8 @@ double share_of_centre(HumanBone joint) {
 void add_depth(const BodyModel& model,
                std::span<const TagSighting> frame,
                std::span<JointDoubt> doubts) {
-  // Of the errors of elbows in 120 simulated sessions; of knees it adds nothing, as hips
-  // are well known.
+  // Chosen so that 95 % of the errors of elbows in 120 simulated sessions are inside. At
+  // knees it adds little, as hips have small sigmas.
   constexpr double kShare = 0.5;
   for (const HumanLimb& limb : human_limbs()) {
     if (!one_camera_sees(model, frame, limb.upper, limb.lower)) continue;

@@ -14,7 +14,7 @@
 namespace marey::retarget {
 namespace {
 
-// Of the frames; people who lie and crawl through a clip stand up to begin with.
+// Shares of the frames. Clips of lying and crawling mostly begin with a standing body.
 constexpr double kEnoughOfY = 0.1;
 constexpr double kEnoughOfOther = 0.5;
 constexpr double kWithin = 0.7071;  // Cosine of 45 degrees.

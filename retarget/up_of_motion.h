@@ -12,8 +12,8 @@ namespace marey::retarget {
 /// The axis of a file's world that is taken for up, because its rest does not stand.
 struct MotionUp {
   glm::dvec3 axis{0.0, 1.0, 0.0};  ///< Unit, one of six.
-  /// Of the frames, those in which the hips are above the feet along it, within 45
-  /// degrees.
+  /// Share of the frames in which the direction from feet to hips is within 45 degrees of
+  /// the axis.
   double share = 0.0;
 };
 

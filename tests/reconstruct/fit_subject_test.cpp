@@ -126,14 +126,20 @@ TEST(FitSubject, StaysWithinMillimetresUnderNoise) {
   const auto fit = scene.fit();
   ASSERT_TRUE(fit) << fit.error().message();
   const auto off = tags_off(fit->body, scene.truth);
+  // Sigmas of the others allow for shoulders that glide, which this person's do not.
+  Body legs_and_forearms = fit->body;
+  std::erase_if(legs_and_forearms.tags, [](const PlacedTag& tag) {
+    return tag.tag.segment == HumanBone::kUpperChest ||
+           tag.tag.segment == HumanBone::kLeftUpperArm ||
+           tag.tag.segment == HumanBone::kRightUpperArm;
+  });
+  const auto away_from_shoulders = tags_off(legs_and_forearms, scene.truth);
   // A corner is 0.8 mm off in space, a tag's tilt some degrees: averaged over the frames,
   // a joint 0.15 m away is known to a millimetre or two.
   EXPECT_LT(worst_limb_length_m(fit->body, scene.truth), 3e-3);
   EXPECT_LT(median_of(off, &TagOff::place_m), 2e-3);
-  // Honest would be 0.89, were the noise the 0.3 px that detections declare, and were
-  // there the least slide of skin and the glide of shoulders that every fit allows for:
-  // whether sigmas are right with them is for SimulatedCampaign to judge.
-  EXPECT_GT(median_of(off, &TagOff::in_sigmas), 0.2);
+  // Honest would be 0.89, were the noise the 0.3 px that detections declare.
+  EXPECT_GT(median_of(away_from_shoulders, &TagOff::in_sigmas), 0.3);
   EXPECT_LT(median_of(off, &TagOff::in_sigmas), 2.0);
   // Two coordinates of 0.2 px, some of it fitted away.
   EXPECT_NEAR(fit->rms_px, 0.26, 0.03);
