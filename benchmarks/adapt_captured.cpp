@@ -13,7 +13,7 @@
 #include "benchmarks/posture_measures.h"
 #include "benchmarks/posture_solver.h"
 
-#include "core/quantile.h"
+#include "core/base/quantile.h"
 #include "core/transform.h"
 
 namespace marey {

@@ -12,8 +12,8 @@
 #include "core/character_spec.h"
 #include "core/humanoid.h"
 #include "core/transform.h"
-#include "retarget/body_map.h"
-#include "retarget/make_character.h"
+#include "retarget/body/body_map.h"
+#include "retarget/character/make_character.h"
 
 namespace marey {
 namespace {

@@ -11,9 +11,9 @@
 #include <glm/vec3.hpp>
 
 #include "core/character.h"
-#include "core/ids.h"
+#include "core/base/ids.h"
 #include "core/pose.h"
-#include "core/result.h"
+#include "core/base/result.h"
 
 namespace marey {
 

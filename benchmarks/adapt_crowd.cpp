@@ -13,7 +13,7 @@
 #include "benchmarks/posture_measures.h"
 #include <glm/geometric.hpp>
 
-#include "core/quantile.h"
+#include "core/base/quantile.h"
 #include "core/transform.h"
 #include "tests/support/random_bodies.h"
 

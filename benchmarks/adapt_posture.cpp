@@ -23,10 +23,7 @@
 #include "benchmarks/adapt_cases.h"
 #include "benchmarks/adapt_questions.h"
 #include "benchmarks/result_table.h"
-
-#ifndef MAREY_SHARED_DATA
-#define MAREY_SHARED_DATA "../shared/data"
-#endif
+#include "tests/support/paths.h"
 
 namespace marey {
 namespace {
@@ -35,7 +32,7 @@ constexpr std::array<std::string_view, 5> kQuestions{
     "classes", "crowd", "reach", "thesis", "captured"};
 
 struct Arguments {
-  std::filesystem::path data = MAREY_SHARED_DATA;
+  std::filesystem::path data = marey::testing::shared_data();
   std::optional<std::filesystem::path> json;
   std::vector<std::string> questions;
 

@@ -16,7 +16,7 @@
 #include "benchmarks/posture_solver.h"
 #include "benchmarks/standing_scene.h"
 
-#include "core/quantile.h"
+#include "core/base/quantile.h"
 
 namespace marey {
 namespace {

@@ -10,8 +10,8 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/transform.h"
-#include "retarget/body_map.h"
-#include "retarget/make_character.h"
+#include "retarget/body/body_map.h"
+#include "retarget/character/make_character.h"
 
 namespace marey {
 namespace {

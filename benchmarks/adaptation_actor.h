@@ -14,8 +14,8 @@
 #include "core/constraint.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
-#include "recordings/mannequin.h"
-#include "retarget/adapter.h"
+#include "recordings/body/mannequin.h"
+#include "retarget/adapt/adapter.h"
 
 namespace marey {
 

@@ -103,7 +103,7 @@ PictureScene draw_flexibility() {
   int k = 0;
   for (const double least_deg : {0.0, 100.0}) {
     CharacterTraits traits;
-    traits.flexibility.least_trunk_thigh_angle_rad = least_deg * std::numbers::pi / 180.0;
+    traits.flexibility.min_trunk_thigh_angle_rad = least_deg * std::numbers::pi / 180.0;
     const Character actor = make_actor({}, traits);
     const Pose reference = standing(actor, 4);
     const glm::dvec3 right_in_world(-0.15, 0.22, 0.42);

@@ -8,9 +8,9 @@
 #include <glm/vec3.hpp>
 
 #include "core/character.h"
-#include "core/ids.h"
+#include "core/base/ids.h"
 #include "core/pose.h"
-#include "retarget/adapter.h"
+#include "retarget/adapt/adapter.h"
 
 namespace marey {
 

@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/character.h"
-#include "core/ids.h"
+#include "core/base/ids.h"
 #include "core/skeleton.h"
 
 namespace marey {

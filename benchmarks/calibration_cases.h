@@ -5,7 +5,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "calib/calibrated_rig.h"
+#include "calib/model/calibrated_rig.h"
 
 // The parts of measure_calibration: each reads its data, prints figures, and returns the
 // program's exit code.

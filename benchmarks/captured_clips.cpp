@@ -8,10 +8,10 @@
 #include "core/humanoid.h"
 #include "core/motion.h"
 #include "core/transform.h"
-#include "recordings/asf.h"
-#include "recordings/bvh.h"
-#include "retarget/body_map.h"
-#include "retarget/make_character.h"
+#include "recordings/motion/asf.h"
+#include "recordings/motion/bvh.h"
+#include "retarget/body/body_map.h"
+#include "retarget/character/make_character.h"
 
 namespace marey {
 namespace {
@@ -62,7 +62,7 @@ Result<Motion> read_motion(const std::filesystem::path& file) {
     if (!bvh) return bvh.error();
     return std::move(bvh->motion);
   }
-  const auto beside = recordings::skeleton_beside(file);
+  const auto beside = recordings::find_skeleton_file(file);
   if (!beside) return bad_input(file.string(), "no .asf beside it", "put it there");
   const auto skeleton = recordings::read_asf(*beside);
   if (!skeleton) return skeleton.error();

@@ -9,7 +9,7 @@
 
 #include "core/character.h"
 #include "core/pose.h"
-#include "core/result.h"
+#include "core/base/result.h"
 
 namespace marey {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "recordings/mot.h"
+#include "recordings/motion/mot.h"
 
 namespace marey {
 

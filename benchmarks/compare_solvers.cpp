@@ -8,7 +8,7 @@
 
 #include "benchmarks/posture_measures.h"
 
-#include "core/quantile.h"
+#include "core/base/quantile.h"
 
 namespace marey {
 namespace {

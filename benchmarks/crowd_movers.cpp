@@ -13,7 +13,7 @@
 
 #include "benchmarks/marey_posture_solver.h"
 
-#include "retarget/crowd.h"
+#include "retarget/adapt/crowd.h"
 
 namespace marey {
 namespace {

@@ -14,19 +14,17 @@
 
 #include <benchmark/benchmark.h>
 
-#include "capture/detect_tags.h"
-#include "capture/frame_source.h"
-
-#ifndef MAREY_SHARED_DATA
-#define MAREY_SHARED_DATA "../shared/data"
-#endif
+#include "capture/tags/detect_tags.h"
+#include "capture/video/frame_source.h"
+#include "capture/video/open_frames.h"
+#include "tests/support/paths.h"
 
 namespace marey::capture {
 namespace {
 
 std::string video_path() {
   const char* asked = std::getenv("MAREY_BENCH_VIDEO");
-  return asked != nullptr ? asked : MAREY_SHARED_DATA "/blender/dev/rom/cam0.mp4";
+  return asked != nullptr ? asked : marey::testing::shared_data() / "blender/dev/rom/cam0.mp4";
 }
 
 /// Frames of the video, copied out of it.

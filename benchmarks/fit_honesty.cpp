@@ -8,9 +8,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/complete_markers.h"
+#include "app/markers/complete_markers.h"
 #include "core/pose.h"
-#include "reconstruct/repair_gaps.h"
+#include "reconstruct/tracks/repair_gaps.h"
 
 namespace marey::benchmarks {
 namespace {
@@ -45,11 +45,11 @@ void FitHonesty::add_joints(const Body& person,
     const auto ours =
         world_from_joints(estimate.motion.skeleton, estimate.motion.poses[f]);
     for (const HumanBone bone : testing::limb_joints()) {
-      const JointDoubt& doubt = estimate.doubt[f][index(bone)];
-      if (doubt.source != Source::kMeasured) continue;
+      const JointUncertainty& uncertainty = estimate.uncertainty[f][index(bone)];
+      if (uncertainty.source != Source::kMeasured) continue;
       const double square =
           squared(truth[index(bone)].translation - ours[index(bone)].translation) /
-          (doubt.sigma_m * doubt.sigma_m);
+          (uncertainty.sigma_m * uncertainty.sigma_m);
       squares_["joint " + without_side(bone)].push_back(square);
       squares_["joints"].push_back(square);
     }

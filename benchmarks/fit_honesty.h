@@ -8,7 +8,7 @@
 
 #include "core/body.h"
 #include "core/marker_tracks.h"
-#include "reconstruct/solve_markers.h"
+#include "reconstruct/markers/solve_markers.h"
 #include "tests/support/synthetic_person.h"
 
 namespace marey::benchmarks {

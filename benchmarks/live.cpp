@@ -9,10 +9,10 @@
 #include <benchmark/benchmark.h>
 
 #include "core/pose.h"
-#include "live/vmc_body.h"
-#include "live/vmc_receiver.h"
-#include "live/vmc_sender.h"
-#include "live/vrchat_trackers.h"
+#include "live/vmc/vmc_body.h"
+#include "live/vmc/vmc_receiver.h"
+#include "live/vmc/vmc_sender.h"
+#include "live/vmc/vrchat_trackers.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/random_bodies.h"
 
@@ -29,7 +29,7 @@ struct Scene {
 
   Scene() {
     for (int k = 0; k < 64; ++k) poses.push_back(testing::random_pose(body, dice));
-    vmc.tell(poses[0], told);
+    vmc.to_vmc(poses[0], told);
   }
   const Pose& next_pose() {
     return poses[static_cast<std::size_t>(++frame) % poses.size()];
@@ -49,7 +49,7 @@ void tell_and_encode(benchmark::State& state) {
   (void)encoder.encode(s.time(), s.told);
   const long before = testing::allocations();
   for (auto _ : state) {
-    s.vmc.tell(s.next_pose(), s.told);
+    s.vmc.to_vmc(s.next_pose(), s.told);
     benchmark::DoNotOptimize(encoder.encode(s.time(), s.told).data());
   }
   count_since(before, state);
@@ -68,10 +68,10 @@ void send_and_receive(benchmark::State& state) {
   (void)receiver.receive(heard);
   const long before = testing::allocations();
   for (auto _ : state) {
-    s.vmc.tell(s.next_pose(), s.told);
+    s.vmc.to_vmc(s.next_pose(), s.told);
     sender.send(s.time(), s.told);
     if (!receiver.receive(heard)) continue;
-    s.vmc.pose_of(heard.pose, shown);
+    s.vmc.from_vmc(heard.pose, shown);
     benchmark::DoNotOptimize(shown.parent_from_joint.data());
   }
   count_since(before, state);

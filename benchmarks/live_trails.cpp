@@ -11,7 +11,7 @@
 #include <random>
 #include <utility>
 
-#include "reconstruct/track_body.h"
+#include "reconstruct/tags/track_body.h"
 #include "tests/support/motion_delay.h"
 
 namespace marey::benchmarks {
@@ -74,7 +74,7 @@ Result<double> trail_ms(const Body& body,
   if (!tracker) return tracker.error();
   std::map<HumanBone, std::vector<testing::TimedPlace>> found;
   Pose pose;
-  std::vector<JointDoubt> doubt;
+  std::vector<JointUncertainty> uncertainty;
   std::vector<reconstruct::CameraView> views(detections.size());
   int last = -1;
   for (std::size_t f = 0; f < detections.front().frames.size(); ++f) {
@@ -87,14 +87,14 @@ Result<double> trail_ms(const Body& body,
     }
     if (!any) continue;
     const int frame = static_cast<int>(f);
-    const bool is_found = tracker->step(views, (frame - last) / hz, pose, doubt);
+    const bool is_found = tracker->step(views, (frame - last) / hz, pose, uncertainty);
     last = frame;
     // Lags are looked for in the first second; shifts need truth on both sides.
     if (!is_found || frame < hz || f + 5 > detections.front().frames.size()) continue;
     const auto world = world_from_joints(tracker->skeleton(), pose);
     for (const HumanBone bone : human_bones()) {
       if (!truth.contains({frame, bone})) continue;
-      if (doubt[index(bone)].sigma_m >= kKnown_m) continue;
+      if (uncertainty[index(bone)].sigma_m >= kKnown_m) continue;
       found[bone].push_back({frame / hz, world[index(bone)].translation});
     }
   }

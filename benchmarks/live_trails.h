@@ -8,7 +8,7 @@
 #include "core/body.h"
 #include "core/camera.h"
 #include "core/detection.h"
-#include "core/result.h"
+#include "core/base/result.h"
 #include "tests/support/truth.h"
 
 namespace marey::benchmarks {

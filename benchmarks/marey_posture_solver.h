@@ -8,7 +8,7 @@
 #include "benchmarks/posture_solver.h"
 
 #include "core/constraint.h"
-#include "retarget/adapter.h"
+#include "retarget/adapt/adapter.h"
 
 namespace marey {
 

@@ -7,12 +7,12 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 #include "core/pose.h"
-#include "core/quantile.h"
-#include "reconstruct/joint_angles.h"
-#include "reconstruct/name_markers.h"
-#include "recordings/marker_file.h"
+#include "core/base/quantile.h"
+#include "reconstruct/motion/joint_angles.h"
+#include "reconstruct/labels/name_markers.h"
+#include "recordings/markers/marker_file.h"
 
 namespace marey {
 

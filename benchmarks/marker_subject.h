@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "core/marker_tracks.h"
-#include "reconstruct/fit_markers.h"
-#include "reconstruct/solve_markers.h"
-#include "recordings/mot.h"
+#include "reconstruct/markers/fit_markers.h"
+#include "reconstruct/markers/solve_markers.h"
+#include "recordings/motion/mot.h"
 
 namespace marey {
 

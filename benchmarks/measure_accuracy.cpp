@@ -23,9 +23,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/humanoid.h"
-#include "core/quantile.h"
-#include "recordings/calibration_file.h"
-#include "recordings/motion_tables.h"
+#include "core/base/quantile.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/motion/motion_tables.h"
 #include "tests/support/truth.h"
 
 namespace {

@@ -31,12 +31,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/humanoid.h"
-#include "core/quantile.h"
+#include "core/base/quantile.h"
 #include "core/transform.h"
-
-#ifndef MAREY_SHARED_DATA
-#define MAREY_SHARED_DATA "../shared/data"
-#endif
+#include "tests/support/paths.h"
 
 namespace marey {
 namespace {
@@ -48,7 +45,7 @@ constexpr double kNearest = 0.45;
 constexpr double kFurthest = 0.94;
 
 struct Arguments {
-  std::filesystem::path data = MAREY_SHARED_DATA;
+  std::filesystem::path data = marey::testing::shared_data();
   std::optional<std::filesystem::path> json;
   std::size_t postures = 12;
   std::size_t targets = 6;

@@ -28,7 +28,7 @@
 
 #include "benchmarks/compare_angles.h"
 
-#include "recordings/mot.h"
+#include "recordings/motion/mot.h"
 
 namespace marey {
 namespace {

@@ -17,11 +17,11 @@
 #include "benchmarks/calibration_cases.h"
 #include <glm/geometric.hpp>
 
-#include "calib/calibrate_cameras.h"
-#include "calib/estimate_clocks.h"
-#include "capture/detect_videos.h"
-#include "core/quantile.h"
-#include "reconstruct/triangulate.h"
+#include "calib/rig/calibrate_cameras.h"
+#include "calib/rig/estimate_clocks.h"
+#include "capture/search/detect_videos.h"
+#include "core/base/quantile.h"
+#include "reconstruct/clusters/triangulate.h"
 #include "tests/support/rendered_truth.h"
 
 namespace marey::calib {
@@ -295,7 +295,7 @@ int measure_webcams(const std::filesystem::path& folder) {
     CalibrateOptions options;
     options.solve_offsets = clocks;
     options.find_warp = !clocks;
-    options.most_offset_s = 1.0;
+    options.max_offset_s = 1.0;
     options.cross_validate = true;
     const Stopwatch watch;
     const auto rig = calibrate_cameras(names, waved, {}, board, options);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Do results on bodies from elsewhere hold? Generated bodies by seed and real ones, times
-// clips, judged by code that shares nothing with the program. docs/measurements.md says
+// clips, judged by code that shares nothing with the program. docs/accuracy/README.md says
 // how to run it.
 #include <cstdio>
 #include <cstdlib>

@@ -19,13 +19,14 @@
 
 #include <glm/geometric.hpp>
 
-#include "calib/plan_body.h"
-#include "calib/plan_calibration.h"
-#include "capture/detect_tags.h"
-#include "core/quantile.h"
-#include "recordings/calibration_file.h"
-#include "recordings/motion_tables.h"
-#include "recordings/session.h"
+#include "calib/plan/plan_body.h"
+#include "calib/plan/plan_calibration.h"
+#include "capture/tags/corner_sigma.h"
+#include "capture/tags/detect_tags.h"
+#include "core/base/quantile.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/motion/motion_tables.h"
+#include "recordings/session/session.h"
 #include "tests/support/rendered_truth.h"
 #include "tests/support/truth.h"
 
@@ -156,7 +157,7 @@ int main(int count, char** arguments) {
   const fs::path truth = arguments[3];
   const auto calibration = must(recordings::read_calibration(out / "calibration.toml"));
   const calib::PlannedBody body =
-      calib::dress_body(session.subject.stature_m, session.tags);
+      calib::make_planned_body(session.subject.stature_m, session.tags);
   for (int i = 4; i < count; ++i) {
     const std::string trial = arguments[i];
     const Measured measured = read_trial(out / trial, truth / trial);

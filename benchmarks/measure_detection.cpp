@@ -23,8 +23,9 @@
 #include <glm/geometric.hpp>
 #include <time.h>
 
-#include "capture/frame_source.h"
-#include "capture/track_tags.h"
+#include "capture/video/frame_source.h"
+#include "capture/tags/track_tags.h"
+#include "capture/video/open_frames.h"
 #include "tests/support/rendered_truth.h"
 
 namespace marey::capture {

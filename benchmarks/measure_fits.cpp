@@ -9,8 +9,8 @@
 // One line per seed, then the table: sessions that are wrong and pass (a limb's joint
 // more than 60 mm off, or by more than 5 of its standard deviations and 25 mm, in a tenth
 // of the frames or more that call it measured), mistakes that pass, and right sessions
-// that are refused, by cause. The verdicts are those of `marey fit`: app/trial_checks.cpp,
-// app/label_checks.cpp and app/judge_fit.cpp. At the end the shares of errors inside the
+// that are refused, by cause. The verdicts are those of `marey fit`: app/markers/trial_checks.cpp,
+// app/markers/label_checks.cpp and app/markers/assess_fit.cpp. At the end the shares of errors inside the
 // 95 % of their standard deviations: of joints, and of markers that were hidden.
 #include <algorithm>
 #include <array>
@@ -22,13 +22,13 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/complete_markers.h"
-#include "app/judge_fit.h"
-#include "app/label_checks.h"
-#include "app/trial_checks.h"
+#include "app/markers/complete_markers.h"
+#include "app/markers/assess_fit.h"
+#include "app/markers/label_checks.h"
+#include "app/markers/trial_checks.h"
 #include "benchmarks/fit_honesty.h"
 #include "core/pose.h"
-#include "reconstruct/repair_gaps.h"
+#include "reconstruct/tracks/repair_gaps.h"
 #include "tests/support/labelled_wearer.h"
 
 namespace marey {
@@ -172,7 +172,7 @@ struct Outcome {
 };
 
 /// The ninth tenth of a joint's errors over the frames that call it measured.
-void judge_joints(const NamedWearer& one,
+void assess_joints(const NamedWearer& one,
                   std::size_t trial,
                   const reconstruct::SolvedMarkers& solved,
                   Outcome& out) {
@@ -182,8 +182,8 @@ void judge_joints(const NamedWearer& one,
     std::vector<double> errors_m;
     std::vector<double> errors_sigmas;
     for (std::size_t f = 0; f < estimate.motion.poses.size(); f += 5) {
-      const JointDoubt& doubt = estimate.doubt[f][index(bone)];
-      if (doubt.source != Source::kMeasured) continue;
+      const JointUncertainty& uncertainty = estimate.uncertainty[f][index(bone)];
+      if (uncertainty.source != Source::kMeasured) continue;
       const double time_s = static_cast<double>(f) / one.trials[trial].rate.hz;
       const glm::dvec3 truth =
           world_from_joints(skeleton, one.movements[trial](time_s))[index(bone)]
@@ -192,7 +192,7 @@ void judge_joints(const NamedWearer& one,
                                                 estimate.motion.poses[f])[index(bone)]
                                   .translation;
       errors_m.push_back(glm::distance(truth, ours));
-      errors_sigmas.push_back(errors_m.back() / (1.7320508 * doubt.sigma_m));
+      errors_sigmas.push_back(errors_m.back() / (1.7320508 * uncertainty.sigma_m));
     }
     if (errors_m.size() < 5) continue;
     std::sort(errors_m.begin(), errors_m.end());
@@ -253,12 +253,12 @@ Outcome run(int seed, Mistake mistake, FitHonesty& honesty) {
   const Body& body = subject.fit.body;
   app::solve_trials(body, trials, {});
   for (std::size_t t = 0; t < trials.size(); ++t) {
-    if (trials[t].solved) judge_joints(one, t, *trials[t].solved, out);
+    if (trials[t].solved) assess_joints(one, t, *trials[t].solved, out);
   }
   if (!out.is_refused) {
-    refuse_all(out, app::judge_fit(trials, &subject, body, {}));
+    refuse_all(out, app::assess_fit(trials, &subject, body, {}));
     const auto checks = app::check_labels(body, {}, &subject, labels, trials);
-    refuse_all(out, app::judge_labels(checks, trials));
+    refuse_all(out, app::assess_labels(checks, trials));
   }
   if (mistake == Mistake::kNone && !out.is_refused) {
     for (std::size_t t = 0; t < trials.size(); ++t) {

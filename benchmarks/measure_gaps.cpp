@@ -21,11 +21,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/quantile.h"
-#include "reconstruct/repair_gaps.h"
-#include "recordings/atomic_file.h"
-#include "recordings/csv_line.h"
-#include "recordings/marker_file.h"
+#include "core/base/quantile.h"
+#include "reconstruct/tracks/repair_gaps.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/text/csv_line.h"
+#include "recordings/markers/marker_file.h"
 
 namespace marey {
 namespace {

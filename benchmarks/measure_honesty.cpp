@@ -13,8 +13,8 @@
 
 #include "core/humanoid.h"
 #include "core/provenance.h"
-#include "core/quantile.h"
-#include "recordings/motion_tables.h"
+#include "core/base/quantile.h"
+#include "recordings/motion/motion_tables.h"
 #include "tests/support/truth.h"
 
 namespace marey::benchmarks {

@@ -17,8 +17,8 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/transform.h"
-#include "reconstruct/cluster_frame.h"
-#include "reconstruct/joint_between_clusters.h"
+#include "reconstruct/clusters/cluster_frame.h"
+#include "reconstruct/clusters/joint_between_clusters.h"
 #include "tests/support/joint_simulation.h"
 
 namespace marey {

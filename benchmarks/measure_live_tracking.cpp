@@ -28,13 +28,13 @@
 #include "benchmarks/live_trails.h"
 #include <glm/geometric.hpp>
 
-#include "capture/detect_videos.h"
-#include "core/quantile.h"
-#include "reconstruct/solve_motion.h"
-#include "reconstruct/track_body.h"
-#include "recordings/calibration_file.h"
-#include "recordings/detections_file.h"
-#include "recordings/subject_file.h"
+#include "capture/search/detect_videos.h"
+#include "core/base/quantile.h"
+#include "reconstruct/tags/solve_motion.h"
+#include "reconstruct/tags/track_body.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/session/detections_file.h"
+#include "recordings/session/subject_file.h"
 #include "tests/support/truth.h"
 
 namespace {
@@ -62,7 +62,7 @@ struct Errors {
            int frame,
            const marey::Skeleton& skeleton,
            const marey::Pose& pose,
-           const std::vector<marey::JointDoubt>& doubt) {
+           const std::vector<marey::JointUncertainty>& uncertainty) {
     const auto world = world_from_joints(skeleton, pose);
     for (const HumanBone bone : marey::human_bones()) {
       const auto place = truth.find({frame, bone});
@@ -70,7 +70,7 @@ struct Errors {
       const double off_mm =
           1e3 * glm::distance(world[marey::index(bone)].translation, place->second);
       mm.push_back(off_mm);
-      if (doubt[marey::index(bone)].sigma_m < kKnown_m) known_mm.push_back(off_mm);
+      if (uncertainty[marey::index(bone)].sigma_m < kKnown_m) known_mm.push_back(off_mm);
       by_joint_mm[bone].push_back(off_mm);
     }
   }
@@ -161,7 +161,7 @@ std::optional<Live> follow(const Scene& scene,
   }
   Live live;
   marey::Pose pose;
-  std::vector<marey::JointDoubt> doubt;
+  std::vector<marey::JointUncertainty> uncertainty;
   std::vector<marey::reconstruct::CameraView> views(detections.size());
   for (std::size_t f = 0; f < detections.front().frames.size(); ++f) {
     for (std::size_t c = 0; c < detections.size(); ++c) {
@@ -170,11 +170,11 @@ std::optional<Live> follow(const Scene& scene,
     }
     const double before_ms = processor_ms();
     const bool found =
-        tracker->step(views, 1.0 / detections.front().rate.hz, pose, doubt);
+        tracker->step(views, 1.0 / detections.front().rate.hz, pose, uncertainty);
     live.step_ms.push_back(processor_ms() - before_ms);
     live.missed += tracker->last().state != marey::reconstruct::TrackState::kTracked;
     if (found) {
-      live.errors.add(truth, static_cast<int>(f), tracker->skeleton(), pose, doubt);
+      live.errors.add(truth, static_cast<int>(f), tracker->skeleton(), pose, uncertainty);
     }
   }
   for (const double lag_s : tracker->lags_s()) live.lags_ms.push_back(1e3 * lag_s);
@@ -197,7 +197,7 @@ std::optional<Errors> solve(const Scene& scene,
                motion.first_frame + static_cast<int>(f),
                motion.skeleton,
                motion.poses[f],
-               trial->estimate.doubt[f]);
+               trial->estimate.uncertainty[f]);
   }
   return errors;
 }

@@ -11,8 +11,8 @@
 #include "benchmarks/marker_subject.h"
 #include <glm/geometric.hpp>
 
-#include "reconstruct/check_tracks.h"
-#include "reconstruct/repair_gaps.h"
+#include "reconstruct/tracks/check_tracks.h"
+#include "reconstruct/tracks/repair_gaps.h"
 #include "tests/support/random_bodies.h"
 
 namespace marey {

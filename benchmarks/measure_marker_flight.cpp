@@ -9,7 +9,7 @@
 
 #include "benchmarks/marker_subject.h"
 
-#include "reconstruct/find_flights.h"
+#include "reconstruct/motion/find_flights.h"
 
 namespace marey {
 namespace {

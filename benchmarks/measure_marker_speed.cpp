@@ -14,8 +14,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "core/assert.h"
-#include "core/quantile.h"
+#include "core/base/assert.h"
+#include "core/base/quantile.h"
 #include "tests/support/count_allocations.h"
 
 namespace marey {
@@ -70,7 +70,7 @@ Live run_live(const Body& body, const MarkerTracks& tracks) {
   reconstruct::MarkerTracker tracker(body, tracks.labels, tracks.rate);
   out.motion.skeleton = tracker.skeleton();
   Pose pose;
-  std::vector<JointDoubt> doubt;
+  std::vector<JointUncertainty> uncertainty;
   bool first = true;
   out.ms.reserve(tracks.frames());
   out.numbers.reserve(tracks.frames() * (3 + 4 * kHumanBoneCount));
@@ -79,7 +79,7 @@ Live run_live(const Body& body, const MarkerTracks& tracks) {
         std::span(tracks.samples).subspan(f * tracks.markers(), tracks.markers());
     const long before = testing::allocations();
     const double start_s = now_s();
-    const bool solved = tracker.step(frame, pose, doubt);
+    const bool solved = tracker.step(frame, pose, uncertainty);
     out.ms.push_back(1e3 * (now_s() - start_s));
     if (!solved) continue;
     if (!first) out.allocations += testing::allocations() - before;

@@ -27,8 +27,8 @@
 #include "benchmarks/session_mistakes.h"
 #include <glm/geometric.hpp>
 
-#include "core/quantile.h"
-#include "recordings/motion_tables.h"
+#include "core/base/quantile.h"
+#include "recordings/motion/motion_tables.h"
 #include "tests/support/run_program.h"
 #include "tests/support/truth.h"
 

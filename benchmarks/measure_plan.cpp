@@ -25,10 +25,12 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "calib/plan_rig.h"
-#include "capture/detect_tags.h"
-#include "capture/frame_source.h"
-#include "capture/track_tags.h"
+#include "calib/plan/plan_rig.h"
+#include "capture/tags/corner_sigma.h"
+#include "capture/tags/detect_tags.h"
+#include "capture/video/frame_source.h"
+#include "capture/tags/track_tags.h"
+#include "capture/video/open_frames.h"
 #include "tests/support/fit_tag_pose.h"
 #include "tests/support/rendered_truth.h"
 
@@ -123,8 +125,8 @@ void judge(const std::vector<testing::TagView>& views,
            PlanOptions options,
            Tally& tally) {
   // Whoever found it does see it.
-  options.widest_rad = 1.55;
-  options.least_side_px = 1.0;
+  options.max_angle_rad = 1.55;
+  options.min_side_px = 1.0;
   const ExpectedTag expected = calib::expect_tag(cameras_of(views),
                                                  nullptr,
                                                  world_from_tag,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // What becomes of a file's own gaps, of which nobody knows the truth: whether bodies stay
-// rigid and nothing leaps. docs/measurements.md says how to run it.
+// rigid and nothing leaps. docs/accuracy/README.md says how to run it.
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +11,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/quantile.h"
-#include "reconstruct/check_tracks.h"
-#include "reconstruct/repair_gaps.h"
-#include "recordings/marker_file.h"
+#include "core/base/quantile.h"
+#include "reconstruct/tracks/check_tracks.h"
+#include "reconstruct/tracks/repair_gaps.h"
+#include "recordings/markers/marker_file.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 
 // Do feet stay where they stand on other bodies? Recorded motions onto bodies of other
 // proportions: slide, drift, sinking and float of the points that touch the floor in the
-// source, and jerk against the source's own. docs/measurements.md says how to run it.
+// source, and jerk against the source's own. docs/accuracy/README.md says how to run it.
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -16,10 +16,10 @@
 #include "benchmarks/scaled_bodies.h"
 
 #include "core/pose.h"
-#include "retarget/body_map.h"
-#include "retarget/contact_figures.h"
-#include "retarget/live_retarget.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/body/body_map.h"
+#include "retarget/contacts/contact_figures.h"
+#include "retarget/motion/live_retarget.h"
+#include "retarget/motion/retarget_motion.h"
 
 namespace marey {
 namespace {

@@ -4,7 +4,7 @@
 // Does a body of other proportions or other masses stay over its feet where the source
 // does? Recorded motions with and without balance: share of frames with support in which
 // the centre of mass is above it, frames in which that is lost, and what it costs.
-// docs/measurements.md says how to run it.
+// docs/accuracy/README.md says how to run it.
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -15,9 +15,9 @@
 #include "benchmarks/result_table.h"
 #include "benchmarks/scaled_bodies.h"
 
-#include "retarget/anthropometry.h"
-#include "retarget/contact_figures.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/body/anthropometry.h"
+#include "retarget/contacts/contact_figures.h"
+#include "retarget/motion/retarget_motion.h"
 
 namespace marey {
 namespace {

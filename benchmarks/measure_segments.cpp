@@ -14,9 +14,9 @@
 
 #include "core/humanoid.h"
 #include "core/provenance.h"
-#include "core/quantile.h"
+#include "core/base/quantile.h"
 #include "core/transform.h"
-#include "recordings/motion_tables.h"
+#include "recordings/motion/motion_tables.h"
 #include "tests/support/truth.h"
 
 namespace marey::benchmarks {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Simulated sessions, judged: docs/measurements.md says what the table means.
+// Simulated sessions, judged: docs/accuracy/README.md says what the table means.
 //
 //   measure_sessions --seeds 0..99 [--threads 2] [--csv FILE]
 //   measure_sessions --only SEED,SEED... [--verbose] [--joints FILE]
@@ -24,7 +24,7 @@
 #include <glm/trigonometric.hpp>
 #include <time.h>
 
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 #include "tests/reconstruct/answer_session.h"
 
 namespace marey::benchmarks {

@@ -3,7 +3,7 @@
 
 // What is seen of feet on real avatars: how far the skin is below the floor, and how far
 // feet drift while they stand, in GLB files that marey wrote; and whether the arms of a
-// T-pose are level on each body. docs/measurements.md says how to run it.
+// T-pose are level on each body. docs/accuracy/README.md says how to run it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,10 +16,10 @@
 #include "benchmarks/result_table.h"
 #include "benchmarks/stand_as_marey.h"
 #include "core/pose.h"
-#include "recordings/gltf.h"
-#include "retarget/body_map.h"
-#include "retarget/detect_contacts.h"
-#include "retarget/retarget_motion.h"
+#include "recordings/gltf/gltf.h"
+#include "retarget/body/body_map.h"
+#include "retarget/contacts/detect_contacts.h"
+#include "retarget/motion/retarget_motion.h"
 
 namespace marey {
 namespace {

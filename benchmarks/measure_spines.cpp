@@ -10,9 +10,9 @@
 #include <glm/geometric.hpp>
 
 #include "core/pose.h"
-#include "retarget/body_map.h"
-#include "retarget/contact_figures.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/body/body_map.h"
+#include "retarget/contacts/contact_figures.h"
+#include "retarget/motion/retarget_motion.h"
 
 namespace marey {
 namespace {

@@ -7,7 +7,7 @@
 #include "benchmarks/captured_clips.h"
 #include "benchmarks/result_table.h"
 
-#include "core/result.h"
+#include "core/base/result.h"
 
 namespace marey {
 

@@ -14,8 +14,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "calib/calibrate_cameras.h"
-#include "capture/find_board_points.h"
+#include "calib/rig/calibrate_cameras.h"
+#include "capture/boards/find_board_points.h"
 
 namespace marey::calib {
 namespace {

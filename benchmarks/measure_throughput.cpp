@@ -17,8 +17,9 @@
 #include <string>
 #include <vector>
 
-#include "capture/detect_videos.h"
-#include "capture/frame_source.h"
+#include "capture/search/detect_videos.h"
+#include "capture/video/frame_source.h"
+#include "capture/video/open_frames.h"
 
 namespace marey::capture {
 namespace {

@@ -19,9 +19,9 @@
 #include "benchmarks/calibration_cases.h"
 #include <glm/geometric.hpp>
 
-#include "calib/calibrate_wand.h"
-#include "core/quantile.h"
-#include "reconstruct/triangulate.h"
+#include "calib/rig/calibrate_wand.h"
+#include "core/base/quantile.h"
+#include "reconstruct/clusters/triangulate.h"
 
 namespace marey::calib {
 namespace {

@@ -22,9 +22,9 @@
 #include <string>
 #include <vector>
 
-#include "reconstruct/check_worn.h"
-#include "reconstruct/fit_subject.h"
-#include "reconstruct/sightings.h"
+#include "reconstruct/segments/check_worn.h"
+#include "reconstruct/subject/fit_subject.h"
+#include "reconstruct/clusters/sightings.h"
 #include "tests/support/simulated_session.h"
 
 namespace {
@@ -148,15 +148,15 @@ int measure_single_tags(int first, int last) {
     };
     // A session that is refused without the mistake shows nothing.
     const auto right = fit_with(tags);
-    if (!right || !right->doubts.empty()) continue;
+    if (!right || !right->warnings.empty()) continue;
     const B worn = tags[change.tag].segment;
     tags[change.tag].segment = change.segment;
     ++made;
     std::string words;
     const auto fit = fit_with(tags);
     if (!fit) words = fit.error().message();
-    for (std::size_t i = 0; fit && i < fit->doubts.size(); ++i) {
-      words += fit->doubts[i].message() + "\n";
+    for (std::size_t i = 0; fit && i < fit->warnings.size(); ++i) {
+      words += fit->warnings[i].message() + "\n";
     }
     // The program warns of those.
     const TagOnSegment& changed = tags[change.tag];

@@ -14,8 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/transform.h"
-#include "recordings/gltf.h"
-#include "recordings/mannequin.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/body/mannequin.h"
 
 namespace marey {
 namespace {

@@ -9,9 +9,9 @@
 #include <glm/vec3.hpp>
 
 #include "core/pose.h"
-#include "core/result.h"
+#include "core/base/result.h"
 #include "core/skeleton.h"
-#include "recordings/mesh.h"
+#include "recordings/text/mesh.h"
 
 namespace marey {
 

@@ -10,8 +10,8 @@
 #include <benchmark/benchmark.h>
 
 #include "core/pose.h"
-#include "retarget/normalized_skeleton.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/body/normalized_skeleton.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_walk.h"

@@ -10,7 +10,7 @@
 
 #include "core/board.h"
 #include "core/humanoid.h"
-#include "recordings/session.h"
+#include "recordings/session/session.h"
 
 namespace marey::benchmarks {
 

@@ -40,7 +40,7 @@ void write_row(std::ostream& out, const SessionRow& row);
 /// The rows of such a file. nullopt when it is not one.
 [[nodiscard]] std::optional<std::vector<SessionRow>> read_rows(std::istream& in);
 
-/// Prints the table of docs/measurements.md, "Simulated sessions".
+/// Prints the table of docs/accuracy/README.md, "Simulated sessions".
 void print_table(const std::vector<SessionRow>& rows);
 
 }  // namespace marey::benchmarks

@@ -11,7 +11,7 @@
 
 #include "benchmarks/session_rows.h"
 
-#include "core/quantile.h"
+#include "core/base/quantile.h"
 
 namespace marey::benchmarks {
 namespace {

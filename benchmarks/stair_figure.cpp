@@ -13,8 +13,8 @@
 
 #include "core/motion.h"
 #include "core/transform.h"
-#include "retarget/adapter.h"
-#include "retarget/make_character.h"
+#include "retarget/adapt/adapter.h"
+#include "retarget/character/make_character.h"
 #include "tests/support/synthetic_walk.h"
 
 namespace marey {

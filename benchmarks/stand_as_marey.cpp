@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "benchmarks/stand_as_marey.h"
 
-#include "retarget/identify_bones.h"
-#include "retarget/neutral_t_pose.h"
-#include "retarget/up_of_motion.h"
+#include "retarget/bones/identify_bones.h"
+#include "retarget/bones/neutral_t_pose.h"
+#include "retarget/bones/up_of_motion.h"
 
 namespace marey {
 

@@ -3,8 +3,9 @@
 #pragma once
 
 #include "core/motion.h"
-#include "core/result.h"
-#include "retarget/body_frame.h"
+#include "core/base/result.h"
+#include "retarget/bones/body_frame.h"
+#include "retarget/bones/identify_bones.h"
 
 namespace marey {
 

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 
 include(${CMAKE_CURRENT_LIST_DIR}/marey_precompile.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/marey_unity.cmake)
 
 # marey_add_module(<name> HEADERS ... SOURCES ... [USES public...] [HIDES private...]
 #                  [PRECOMPILES header...])
 #
-# One room of the house. HEADERS are public: each must compile alone (the target
+# One room. HEADERS are public: each must compile alone (the target
 # all_verify_interface_header_sets tries it) and name no heavy library
 # (tests/layering.cmake). USES is seen by the room's includers, HIDES only by its .cpp files
 # and by the headers that are not listed. PRECOMPILES: see marey_precompile().
@@ -19,6 +20,7 @@ function(marey_add_module name)
   target_link_libraries(marey_${name} PUBLIC ${M_USES} PRIVATE ${M_HIDES})
   set_target_properties(marey_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
   marey_precompile(marey_${name} ${M_PRECOMPILES})
+  marey_unite(marey_${name})
 endfunction()
 
 # marey_find_package(<package> <version> DEBIAN <package that brings it> [COMPONENTS ...])

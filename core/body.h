@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/ids.h"
 #include "core/humanoid.h"
-#include "core/ids.h"
 #include "core/skeleton.h"
 #include "core/transform.h"
 
@@ -25,9 +25,9 @@ struct TagOnSegment {
 struct PlacedTag {
   TagOnSegment tag;
   RigidTransform segment_from_tag;
-  double sigma_m = 0.0;    ///< Of the tag's centre, per coordinate.
-  double sigma_rad = 0.0;  ///< Of its rotation, per axis.
-  int sightings = 0;       ///< Frames times cameras that support it.
+  double sigma_m = 0.0;    ///< Standard deviation of its centre, per coordinate.
+  double sigma_rad = 0.0;  ///< Standard deviation of its rotation, per axis.
+  int sightings = 0;       ///< Sum over the frames of the cameras that support it.
 };
 
 /// A marker glued to a segment of the body, or to the skin over it.
@@ -35,31 +35,32 @@ struct PlacedMarker {
   std::string label;
   HumanBone segment{};
   glm::dvec3 p_in_segment{0.0};  ///< [m]
-  double sigma_m = 0.0;          ///< Of that place, per coordinate.
-  double stray_m = 0.0;  ///< How far it strays from there with skin and noise, likewise.
-  int frames = 0;        ///< Of the fit, in which it was seen.
+  double sigma_m = 0.0;          ///< Standard deviation of that position, per coordinate.
+  /// Standard deviation of its movement by skin and noise, per coordinate.
+  double stray_m = 0.0;
+  int frames = 0;  ///< Number of frames of the fit in which it was seen.
 };
 
-/// How an elbow or a knee differs from a straight hinge. Bent by an angle, the lower bone
-/// is turned in the upper bone's frame by R(c, upper_rad) R(h, angle) R(c, lower_rad),
-/// where h is HumanLimb::hinge_axis and c is +Z on the left, -Z on the right. A straight
-/// limb deviates by the sum: the carrying angle of an elbow, the valgus of a knee. The
-/// hinge's centre moves by rollback_m * (1 - cos angle) along -Z of the upper bone
-/// (femoral rollback).
+/// Deviation of an elbow or a knee from a straight hinge. Bent by an angle, the lower
+/// bone is turned in the upper bone's frame by R(c, upper_rad) R(h, angle) R(c,
+/// lower_rad), where h is HumanLimb::hinge_axis and c is +Z on the left, -Z on the right.
+/// A straight limb deviates by the sum: the carrying angle of an elbow, the valgus of a
+/// knee. The hinge's centre moves by rollback_m * (1 - cos angle) along -Z of the upper
+/// bone (femoral rollback).
 struct HingeShape {
-  double upper_rad = 0.0;  ///< Of the hinge against the upper bone.
-  double lower_rad = 0.0;  ///< Of the lower bone against the hinge.
+  double upper_rad = 0.0;  ///< Angle of the hinge against the upper bone.
+  double lower_rad = 0.0;  ///< Angle of the lower bone against the hinge.
   double rollback_m = 0.0;
 };
 
-/// A reason not to trust a measured body, in words for its user.
-struct BodyDoubt {
+/// A reason why a measured body may be wrong, with text for its user.
+struct BodyWarning {
   std::string cause;
-  std::string next;  ///< What to do about it.
+  std::string next;  ///< The next step for the user.
 };
 
-/// One person: lengths, joint centres and where tags and markers sit, each with its
-/// doubt.
+/// One person: lengths, joint centres and places of tags and markers, each with its
+/// uncertainty.
 struct Body {
   std::string name;
   double stature_m = 0.0;
@@ -71,7 +72,7 @@ struct Body {
   std::array<double, kHumanBoneCount> joint_centre_sigma_m{};
   std::vector<PlacedTag> tags;
   std::vector<PlacedMarker> markers;  ///< Labels all different.
-  std::vector<BodyDoubt> doubts;      ///< Empty of one that may be trusted.
+  std::vector<BodyWarning> warnings;  ///< Empty if no problem was found.
 };
 
 }  // namespace marey

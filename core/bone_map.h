@@ -7,23 +7,28 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/base/ids.h"
 #include "core/humanoid.h"
-#include "core/ids.h"
 
 namespace marey {
 
-/// What a user says of one bone. Not told: it is to be found.
-struct ToldBone {
-  bool told = false;
-  std::optional<JointIndex> joint;  ///< When told: nullopt if the body has no such bone.
+/// The user's setting for one bone. If it is not set, the bone is identified
+/// automatically.
+struct BoneOverride {
+  bool is_set = false;
+  /// If set: nullopt means that the body has no such bone.
+  std::optional<JointIndex> joint;
 };
 
-/// What a user says of a body from elsewhere, of which marey finds the rest by itself.
+/// The user's settings for a body from another program. All other properties are
+/// identified automatically.
 struct BoneMap {
-  std::array<ToldBone, kHumanBoneCount> bones{};
-  std::optional<double> unit_m;     ///< Length of the file's unit. [m]
-  std::optional<glm::dvec3> up;     ///< Of the body at rest, in the file's axes; unit.
-  std::optional<glm::dvec3> front;  ///< Where it looks, likewise.
+  std::array<BoneOverride, kHumanBoneCount> bones{};
+  std::optional<double> unit_m;  ///< Length of the file's unit. [m]
+  /// Up axis of the body at rest, in the file's axes; unit.
+  std::optional<glm::dvec3> up;
+  /// Direction that it faces at rest, in the file's axes; unit.
+  std::optional<glm::dvec3> front;
 };
 
 }  // namespace marey

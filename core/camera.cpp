@@ -11,8 +11,9 @@
 namespace marey {
 namespace {
 
-/// Whether rays further out still go to pixels further out. Past that the polynomial
-/// folds the picture over, and a pixel found there is not what a lens would show.
+/// Returns true if rays further out still go to pixels further out. Beyond, the
+/// polynomial folds the picture over, and a pixel found there is not the image of a real
+/// lens.
 bool before_the_fold(const Intrinsics& intrinsics, const glm::dvec2& ray) {
   const auto& k = intrinsics.distortion;
   const double r2 = glm::dot(ray, ray);
@@ -37,7 +38,7 @@ bool before_the_fold(const Intrinsics& intrinsics, const glm::dvec2& ray) {
   return above > 0.0 && below > 0.0 && slope > 0.0;
 }
 
-/// A ray near the one that is looked for.
+/// Returns an initial guess for the ray.
 glm::dvec2 first_ray(const Intrinsics& intrinsics, const glm::dvec2& pixel_px) {
   const glm::dvec2 flat = (pixel_px - intrinsics.centre_px) / intrinsics.focal_px;
   const double angle = glm::length(flat);

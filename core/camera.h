@@ -17,14 +17,14 @@
 
 namespace marey {
 
-/// How a lens bends the picture. The names are OpenCV's, as are the orders of the terms.
+/// Distortion model of a lens. The names and the orders of the terms are OpenCV's.
 enum class LensModel : unsigned char {
   kBrownConrady,  ///< k1, k2, p1, p2, k3
   kRational,      ///< k1, k2, p1, p2, k3, k4, k5, k6
   kFisheye,       ///< k1, k2, k3, k4 of the angle from the axis (equidistant)
 };
 
-/// Distortion terms that `lens` has.
+/// Returns the number of distortion terms of `lens`.
 [[nodiscard]] constexpr std::size_t distortion_terms(LensModel lens) {
   switch (lens) {
     case LensModel::kBrownConrady:
@@ -37,11 +37,11 @@ enum class LensModel : unsigned char {
   return 0;
 }
 
-/// What a camera does to rays. Camera frame: x right, y down, z forward. Pixel centres at
-/// integers.
+/// Intrinsic parameters of a camera. Camera frame: x right, y down, z forward. Pixel
+/// centres at integers.
 struct Intrinsics {
-  /// What a solver moves: focal x, y [px]; centre x, y [px]; the distortion terms, those
-  /// that the lens does not have at the end and zero.
+  /// The parameters that a solver estimates: focal x, y [px]; centre x, y [px]; the
+  /// distortion terms. Terms that the lens does not have are at the end and zero.
   static constexpr int kParameterCount = 12;
 
   int width_px = 0;
@@ -60,14 +60,14 @@ struct Camera {
   std::string name;
   Intrinsics intrinsics;
   RigidTransform camera_from_world;
-  TagShrinkage tag_shrinkage;  ///< Of the tags it sees.
+  TagShrinkage tag_shrinkage;  ///< Shrinkage of the tags that it sees.
 };
 
-/// Pixel of a point in the camera's frame [m]. `parameters` as in Intrinsics,
+/// Projects a point in the camera's frame [m] to a pixel. `parameters` as in Intrinsics,
 /// `p_in_camera` 3 numbers, `pixel_px` 2. P and T are double, or ceres::Jet inside a
-/// residual (P stays double when the intrinsics are not being solved for): there is no
-/// second copy of these formulas. False, with `pixel_px` untouched, when the point is not
-/// in front of the camera or the rational model has no value there. Sources: D. C. Brown,
+/// residual (P stays double if the intrinsics are not estimated): there is no second copy
+/// of these formulas. Returns false, with `pixel_px` untouched, when the point is not in
+/// front of the camera or the rational model has no value there. Sources: D. C. Brown,
 /// "Close-range camera calibration", 1971, and for fisheyes J. Kannala and S. Brandt, "A
 /// generic camera model and calibration method", 2006, eq. 6, both as OpenCV writes them.
 template <class P, class T>
@@ -77,7 +77,7 @@ template <class P, class T>
                            T* pixel_px) {
   using std::atan2;
   using std::sqrt;
-  if (!(p_in_camera[2] > T(1e-6))) return false;  // Nor is NaN in front of anything.
+  if (!(p_in_camera[2] > T(1e-6))) return false;  // Also false for NaN.
   const T x = p_in_camera[0] / p_in_camera[2];
   const T y = p_in_camera[1] / p_in_camera[2];
   const T r2 = x * x + y * y;
@@ -112,7 +112,7 @@ template <class P, class T>
   return true;
 }
 
-/// project() with fixed intrinsics.
+/// Projects with fixed intrinsics.
 template <class T>
 [[nodiscard]] bool project(const Intrinsics& intrinsics,
                            const T* p_in_camera,
@@ -120,19 +120,19 @@ template <class T>
   return project(intrinsics.lens, intrinsics.parameters().data(), p_in_camera, pixel_px);
 }
 
-/// Pixel of a world point; nullopt when it is not in front of the camera. The pixel may
-/// lie outside the image.
+/// Returns the pixel of a world point; nullopt when it is not in front of the camera. The
+/// pixel may lie outside the image.
 [[nodiscard]] std::optional<glm::dvec2> project(const Camera& camera,
                                                 const glm::dvec3& p_in_world);
 
-/// The point at z = 1 in the camera's frame whose projection is `pixel_px`: the inverse
-/// of project(), by Newton's method. nullopt when it does not converge, or only where the
-/// distortion has folded the picture over: both happen only far outside the image of a
-/// strongly distorted lens.
+/// Returns the point at z = 1 in the camera's frame whose projection is `pixel_px`: the
+/// inverse of project(), by Newton's method. nullopt when it does not converge, or only
+/// where the distortion has folded the picture over: both happen only far outside the
+/// image of a strongly distorted lens.
 [[nodiscard]] std::optional<glm::dvec2> unproject(const Intrinsics& intrinsics,
                                                   const glm::dvec2& pixel_px);
 
-/// Where the camera stands, in world coordinates [m].
+/// Returns the camera's optical centre in world coordinates [m].
 [[nodiscard]] inline glm::dvec3 centre_in_world(const Camera& camera) {
   return inverse(camera.camera_from_world).translation;
 }

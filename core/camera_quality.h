@@ -4,11 +4,11 @@
 
 namespace marey {
 
-/// How well one camera is known. Zeros where nothing is.
+/// Accuracy of one camera's calibration. Zeros if it is not known.
 struct CameraQuality {
-  double rms_px = 0.0;          ///< Root mean square distance of corners to their model.
+  double rms_px = 0.0;          ///< RMS distance of corners to their model.
   double p95_px = 0.0;          ///< 95th percentile of that distance.
-  double centre_sigma_m = 0.0;  ///< Standard deviation of its place, per coordinate.
+  double centre_sigma_m = 0.0;  ///< Standard deviation of its position, per coordinate.
   double focal_sigma_px = 0.0;
   int views = 0;    ///< Instants at which it saw the board.
   int corners = 0;  ///< Corners over all of them.

@@ -17,15 +17,15 @@
 
 namespace marey {
 
-/// Where a human's masses come from when only the total is known.
+/// Source of a human's segment masses when only the total is known.
 enum class MassTable {
-  kDempster,  ///< Dempster 1955, as in Kulpa 2005, table 5.1: a trunk that is doubtful.
+  kDempster,      ///< Dempster 1955, as in Kulpa 2005, table 5.1; its trunk is uncertain.
   kDeLevaFemale,  ///< de Leva 1996, table 4.
   kDeLevaMale,
   kDeLeva,  ///< The mean of these two.
 };
 
-/// A segment that anthropometric tables know, by the bone that it begins with.
+/// A segment of anthropometric tables, by the bone that it begins with.
 struct MassSegment {
   HumanBone bone{};
   std::string_view name;  ///< VRM's, but "trunk" for all between hips and neck.
@@ -48,49 +48,49 @@ inline constexpr std::array<MassSegment, 14> kMassSegments{{
     {HumanBone::kRightFoot, "rightFoot"},
 }};
 
-/// What a body weighs: its total, each segment, or the total and some segments, whose
-/// rest then keeps the table's proportions.
+/// The masses of a body: its total, each segment, or the total and some segments. The
+/// other segments then keep the table's proportions.
 struct MassSpec {
   MassTable table = MassTable::kDeLeva;
-  /// nullopt: the sum of the segments when all are given; 70 kg when none is, which says
-  /// where the centre of mass is as well as any.
+  /// nullopt: the sum of the segments if all are given; 70 kg if none is, since the
+  /// centre of mass does not depend on the total.
   std::optional<double> total_kg;
-  /// By MassSegment::bone; others are not looked at.
+  /// By MassSegment::bone; other entries are ignored.
   std::array<std::optional<double>, kHumanBoneCount> segment_kg{};
 };
 
-/// How far one bone turns, as JointLimit.
+/// Limits of one bone's rotation, as in JointLimit.
 struct BoneLimit {
   HumanBone bone{};
   glm::dvec3 min_rad{0.0};
   glm::dvec3 max_rad{0.0};
 };
 
-/// A load, before it is known which joint carries it.
+/// A load, before the joint that carries it is known.
 struct LoadSpec {
   std::string name;
   BodyPoint point;
   double mass_kg = 0.0;
 };
 
-/// What is a human's own beside lengths (Kulpa 2005, 4.1).
+/// Individual properties of a human other than lengths (Kulpa 2005, 4.1).
 struct CharacterTraits {
   MassSpec mass;
-  bool has_limits = true;         ///< The anatomical ones; `limits` hold anyhow.
-  std::vector<BoneLimit> limits;  ///< In place of a bone's anatomical ones.
+  bool has_limits = true;         ///< Use anatomical limits; `limits` always apply.
+  std::vector<BoneLimit> limits;  ///< They replace a bone's anatomical ones.
   Flexibility flexibility;
   std::vector<LoadSpec> loads;
 };
 
-/// Whose lengths a character has. Paths as written: relative to the character's file.
+/// Source of a character's lengths. Paths as written: relative to the character's file.
 struct AvatarBody {
-  std::string path;  ///< Of a skeleton: glTF, VRM, BVH.
+  std::string path;  ///< File of a skeleton: glTF, VRM, BVH.
 };
 struct SubjectBody {
-  std::string path;  ///< Of a subject.toml.
+  std::string path;  ///< Path of a subject.toml.
 };
 struct AverageBody {
-  double stature_m = 1.75;  ///< average_proportions() of it.
+  double stature_m = 1.75;  ///< Argument of average_proportions().
 };
 using BodySource = std::variant<AverageBody, AvatarBody, SubjectBody>;
 

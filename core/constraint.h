@@ -23,7 +23,7 @@ struct BodyPoint {
   glm::dvec3 offset_in_t_pose{0.0};
 };
 
-/// What a constraint wants of its point (Kulpa 2005, 3.1.2). Lengths in metres.
+/// Target of a constraint for its point (Kulpa 2005, 3.1.2). Lengths in metres.
 struct DistanceToPoint {
   double distance_m = 0.0;  ///< 0 is contact.
   glm::dvec3 p_in_world{0.0};
@@ -34,7 +34,7 @@ struct DistanceToBody {
 };
 struct DistanceToConstraint {
   double distance_m = 0.0;
-  std::string other_id;  ///< Whose point is kept at that distance.
+  std::string other_id;  ///< Id of the constraint whose point is the other end.
 };
 struct AllowedSpace {
   glm::dvec3 min_in_world{0.0};
@@ -48,12 +48,13 @@ struct SegmentOrientation {
   /// Rotation of the segment from the T-pose, in world axes.
   glm::dquat world_from_t_pose{1.0, 0.0, 0.0, 0.0};
 };
-/// A foot that stands. Always satisfied, whatever else is asked (Kulpa 2005, 3.1.1.1).
+/// A standing foot. Always satisfied, whatever the other constraints (Kulpa 2005,
+/// 3.1.1.1).
 struct Support {
-  /// Where the constraint's point (the ankle) stands; nullopt: where the reference
-  /// posture has it when the support begins.
+  /// Place of the constraint's point (the ankle); nullopt: its place in the reference
+  /// posture when the support begins.
   std::optional<glm::dvec3> footprint_in_world;
-  /// nullopt: as the reference posture has it.
+  /// nullopt: as in the reference posture.
   std::optional<glm::dquat> world_from_t_pose;
   /// The foot bears on its point alone (heel, ball, tip of a toe) and may turn about it.
   bool turns = false;
@@ -67,26 +68,28 @@ using Goal = std::variant<DistanceToPoint,
                           SegmentOrientation,
                           Support>;
 
-/// When a constraint holds. It fades in over `start_duration_s` from `start_s` on, and
-/// out over `stop_duration_s` from `stop_s` on, with continuous speed and acceleration.
+/// Time in which a constraint is active. It fades in over `start_duration_s` from
+/// `start_s` on, and out over `stop_duration_s` from `stop_s` on, with continuous speed
+/// and acceleration.
 struct Activation {
-  std::optional<double> start_s;  ///< nullopt: since ever.
-  std::optional<double> stop_s;   ///< nullopt: for ever.
+  std::optional<double> start_s;  ///< nullopt: from the start.
+  std::optional<double> stop_s;   ///< nullopt: to the end.
   double start_duration_s = 0.0;
   double stop_duration_s = 0.0;
 };
 
-/// One wish for a posture, as its user says it (Kulpa 2005, 3.1.1). Adaptation turns
-/// every type into points and targets.
+/// One constraint on a posture, as the user gives it (Kulpa 2005, 3.1.1). Adaptation
+/// turns every type into points and targets.
 struct Constraint {
   std::string id;
   BodyPoint point;
   Goal goal;
-  /// How many segments, its own included, may turn for it, counted up the chain. The
-  /// root moves for it when the count reaches the root's segment. nullopt: all do.
+  /// Maximum number of segments, its own included, that may turn for it, counted up the
+  /// chain. The root moves for it when the count reaches the root's segment. nullopt:
+  /// all.
   std::optional<int> range;
-  double importance = 1.0;     ///< > 0. A priority or a weight, as the solve chooses.
-  double precision_m = 0.001;  ///< Nearer than this is good enough.
+  double importance = 1.0;     ///< > 0. A priority or a weight, depending on the solver.
+  double precision_m = 0.001;  ///< Satisfied if nearer than this.
   Activation activation;
   /// Elements of a constraint file that marey does not know, kept as they were read.
   std::vector<std::string> unknown_xml;

@@ -11,10 +11,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/assert.h"
-#include "core/ids.h"
-#include "core/result.h"
-#include "core/time.h"
+#include "core/base/assert.h"
+#include "core/base/ids.h"
+#include "core/base/result.h"
+#include "core/base/time.h"
 
 namespace marey {
 
@@ -28,16 +28,16 @@ struct TagDetection {
   /// bottom left, bottom right, top right, top left of the upright tag. [px]
   std::array<glm::dvec2, 4> corners_px{};
   double sigma_px = 0.3;         ///< Standard deviation of one corner coordinate.
-  double decision_margin = 0.0;  ///< libapriltag's; higher is surer.
+  double decision_margin = 0.0;  ///< libapriltag's; higher is more certain.
   int hamming = 0;               ///< Bits corrected while decoding.
 };
 
-/// On which side of the tag's centre each corner is, along x and y of the tag frame; in
+/// Side of the tag's centre on which each corner is, along x and y of the tag frame; in
 /// the order of TagDetection::corners_px.
 inline constexpr std::array<std::array<int, 2>, 4> kCornerSides{
     {{-1, +1}, {+1, +1}, {+1, -1}, {-1, -1}}};
 
-/// Corner `corner` (order of TagDetection::corners_px) in the tag frame. [m]
+/// Returns corner `corner` (order of TagDetection::corners_px) in the tag frame. [m]
 /// Precondition: 0 <= corner < 4.
 [[nodiscard]] inline glm::dvec3 corner_in_tag(int corner, double size_m) {
   MAREY_ASSERT(corner >= 0 && corner < 4);
@@ -46,17 +46,17 @@ inline constexpr std::array<std::array<int, 2>, 4> kCornerSides{
   return {sign[0] * h, sign[1] * h, 0.0};
 }
 
-/// How much smaller than life a camera shows black squares. Light spreads into them (lens
+/// Shrinkage of black squares in the images of a camera. Light spreads into them (lens
 /// blur is linear in light, pixels are not) and the detector's edge search adds its own:
 /// two opposite edges that are s [px] apart are found s - (offset_px + slope * s) apart.
 /// A percent of the size is a percent of the distance when only one camera sees a tag, so
-/// it is measured (calib/calibrate_cameras.h) and taken off.
+/// it is measured (calib/rig/calibrate_cameras.h) and removed.
 struct TagShrinkage {
   double offset_px = 0.0;
   double slope = 0.0;
 };
 
-/// Moves opposite edges of a quadrilateral apart: `grow` gives the new distance between
+/// Moves opposite edges of a quadrilateral apart: `grow` returns the new distance between
 /// two edges for the old one. Corners as in TagDetection, x and y in turn; T is double or
 /// ceres::Jet. First order in perspective: the sides of a tag are taken as parallel.
 /// Corners that enclose no area, such as those of a tag seen edge-on, stay as they are.
@@ -73,8 +73,8 @@ void move_edges(std::array<std::array<T, 2>, 4>& corners, const Grow& grow) {
     v[i] = 0.25 * (corners[3][i] - corners[0][i] + corners[2][i] - corners[1][i]);
   }
   const T area = u[0] * v[1] - u[1] * v[0];
-  const T least_px2(1e-9);  // What rounding leaves of no area, some thousand pixels out.
-  if (!(abs(area) > least_px2)) return;
+  const T min_px2(1e-9);  // Rounding error of a zero area, some thousand pixels out.
+  if (!(abs(area) > min_px2)) return;
   const T apart_u = 2.0 * abs(area) / sqrt(v[0] * v[0] + v[1] * v[1]);
   const T apart_v = 2.0 * abs(area) / sqrt(u[0] * u[0] + u[1] * u[1]);
   const T factor_u = grow(apart_u) / apart_u;
@@ -89,8 +89,9 @@ void move_edges(std::array<std::array<T, 2>, 4>& corners, const Grow& grow) {
   }
 }
 
-/// The corners as they would be found without shrinkage. As move_edges(), it leaves
-/// corners alone that enclose no area. Precondition: slope < 1.
+/// Returns the corners without shrinkage. As move_edges(), it does not change corners
+/// that enclose no area.
+/// Precondition: slope < 1.
 [[nodiscard]] inline std::array<glm::dvec2, 4> unshrunk(
     const std::array<glm::dvec2, 4>& corners_px, const TagShrinkage& shrinkage) {
   std::array<std::array<double, 2>, 4> corners{};
@@ -112,22 +113,24 @@ struct PointDetection {
 
 /// Sightings that a detector dropped.
 struct DroppedSightings {
-  int unsure = 0;      ///< Decision margin too low.
-  int duplicated = 0;  ///< The same id in two places of one image, and no telling
-                       ///< which is right, or the one that is wrong.
+  int unsure = 0;  ///< Decision margin too low.
+  /// The same id in two places of one image (it is not known which is right), or the one
+  /// that is wrong.
+  int duplicated = 0;
 };
 
-/// All that was found in one frame of one camera.
+/// All detections in one frame of one camera.
 struct FrameDetections {
   int frame = 0;
-  std::vector<TagDetection> tags;        ///< Ascending ids, each at most once.
-  std::vector<PointDetection> points{};  ///< Of the board; likewise.
+  std::vector<TagDetection> tags;  ///< Ascending ids, each at most once.
+  /// Corners of the board; ascending numbers, each at most once.
+  std::vector<PointDetection> points{};
 };
 
-/// All frames of one camera in one trial; frames ascending, empty ones included, so that
-/// frames[i].frame - frames[0].frame == i.
+/// All frames of one camera in one trial. Frames are ascending, empty ones included, so
+/// that frames[i].frame - frames[0].frame == i.
 struct CameraDetections {
-  std::string source;  ///< The video or folder, as messages should name it.
+  std::string source;  ///< The video or folder, as named in messages.
   CameraId camera{};
   int width_px = 0;
   int height_px = 0;
@@ -135,13 +138,13 @@ struct CameraDetections {
   /// When known, frame k was exposed at k / rate + offset.
   std::optional<Timestamp> offset;
   std::vector<FrameDetections> frames;
-  DroppedSightings dropped;  ///< In all of these frames together.
+  DroppedSightings dropped;  ///< Sum over all of these frames.
   /// Frames that are damaged in the recording and could not be decoded: empty here.
   int damaged_frames = 0;
-  /// Why there are no more frames, when reading ended before the recording's end.
+  /// The error that ended reading before the recording's end; nullopt if there was none.
   std::optional<Error> broken_off;
-  /// When frames were matched by time: which of the recording's frames each of `frames`
-  /// is, nullopt where the camera took none. Empty when they have the same numbers.
+  /// If frames were matched by time: index of each of `frames` in the recording, nullopt
+  /// where the camera has none. Empty if the indices are the same.
   std::vector<std::optional<int>> in_recording;
 };
 

@@ -46,16 +46,16 @@ inline constexpr int kHumanBoneCount = 22;
 /// Every bone, parents before children.
 [[nodiscard]] const std::array<HumanBone, kHumanBoneCount>& human_bones();
 
-/// VRM's name: "leftUpperArm".
+/// Returns VRM's name: "leftUpperArm".
 [[nodiscard]] std::string_view name(HumanBone bone);
 
-/// The bone with VRM's name `vrm_name` (case-sensitive), if marey has it.
+/// Returns the bone with VRM's name `vrm_name` (case-sensitive), if marey has it.
 [[nodiscard]] std::optional<HumanBone> human_bone(std::string_view vrm_name);
 
-/// nullopt for the hips.
+/// Returns the parent bone; nullopt for the hips.
 [[nodiscard]] std::optional<HumanBone> parent(HumanBone bone);
 
-/// The same bone on the other side; the bone itself in the middle of the body.
+/// Returns the same bone on the other side; the bone itself in the middle of the body.
 [[nodiscard]] HumanBone mirrored(HumanBone bone);
 
 /// A limb of the normalized skeleton (Kulpa 2005, 1.1.2): two bones and an extremity.
@@ -68,7 +68,7 @@ struct HumanLimb {
   glm::dvec3 hinge_axis;
 };
 
-/// Left arm, right arm, left leg, right leg.
+/// Returns left arm, right arm, left leg, right leg.
 [[nodiscard]] const std::array<HumanLimb, 4>& human_limbs();
 
 }  // namespace marey

@@ -5,23 +5,24 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/ids.h"
+#include "core/base/time.h"
 #include "core/detection.h"
-#include "core/ids.h"
-#include "core/time.h"
 
 namespace marey {
 
-/// What one camera saw of an instant, as detected: shrinkage is still on it.
+/// Tags that one camera saw at one instant, as detected: shrinkage is not removed.
 struct CameraTags {
   CameraId camera{};
-  Timestamp time{0};  ///< When its picture was taken, on the clock that all share.
+  Timestamp time{0};  ///< Time of its picture, on the common clock of all cameras.
   std::vector<TagDetection> tags;  ///< Ascending ids, each at most once.
 };
 
-/// What all cameras saw of one instant: all that a live solve knows of it.
+/// Tags that all cameras saw at one instant: the whole input of a live solve.
 struct LiveInstant {
-  std::int64_t number = 0;  ///< Of the grid of instants; grows, with gaps where none came.
-  Timestamp time{0};        ///< On the same clock as the views'.
+  /// On the grid of instants; ascending, with gaps where none arrived.
+  std::int64_t number = 0;
+  Timestamp time{0};              ///< On the same clock as the views'.
   std::vector<CameraTags> views;  ///< Ascending cameras, each at most once.
 };
 

@@ -7,17 +7,17 @@
 
 namespace marey {
 
-/// What somebody says a marker's label means.
+/// The user's assignment of one marker label.
 struct MarkerMapEntry {
   std::string label;
-  /// A landmark's name or a bone's in VRM's words; empty: the marker is not to be used.
+  /// A landmark's name or a bone's VRM name; empty: the marker is not used.
   std::string name;
-  int line = 1;  ///< Of the file.
+  int line = 1;  ///< Line in the file.
 };
 
-/// Labels and what they mean, in the order of the file; labels differ.
+/// Labels and their assignments, in the order of the file; labels differ.
 struct MarkerMap {
-  std::string file;  ///< What error messages call it.
+  std::string file;  ///< Name in error messages.
   std::vector<MarkerMapEntry> entries;
 };
 

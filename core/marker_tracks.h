@@ -10,34 +10,34 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
+#include "core/base/time.h"
 #include "core/provenance.h"
-#include "core/time.h"
 
 namespace marey {
 
-/// Where a marker was at one instant.
+/// Position of a marker at one instant.
 struct MarkerSample {
   glm::dvec3 p_in_world{0.0};  ///< [m]
-  /// Standard deviation per coordinate; of a file's samples its residual, which is how
-  /// far the cameras' rays pass the point. 0 where nothing is known of it.
+  /// Standard deviation per coordinate; for samples from files the residual, which is the
+  /// distance of the cameras' rays from the point. 0 if it is not known.
   float sigma_m = 0.0F;
-  /// Bit i: camera i + 1 saw it. Files have room for seven cameras; 0 where they are
-  /// silent.
+  /// Bit i: camera i + 1 saw it. Files have room for seven cameras; 0 if the file does
+  /// not state it.
   std::uint8_t cameras = 0;
   Source source = Source::kMeasured;
 };
 
-/// Labelled markers over time, at a steady rate, in the world: Y up, metres. A marker
-/// that was not seen has no sample. Frame by frame, in each the markers in the order of
-/// their labels: what looks at whole bodies walks through memory, what looks at one
-/// marker steps by markers().
+/// Labelled markers over time, at a constant rate, in the world: Y up, metres. A marker
+/// that was not seen has no sample. Stored frame by frame, each frame's markers in the
+/// order of their labels: access to whole bodies is sequential, access to one marker has
+/// a stride of markers().
 ///
 /// Invariant: samples.size() is a multiple of labels.size(), and empty without labels.
 struct MarkerTracks {
   std::vector<std::string> labels;  ///< All different, none empty.
   FrameRate rate;
-  int first_frame = 1;   ///< The number that the recording gives the first frame.
+  int first_frame = 1;   ///< Number of the first frame in the recording.
   double start_s = 0.0;  ///< Time of the first frame on the recording's clock.
   std::vector<std::optional<MarkerSample>> samples;
 
@@ -57,7 +57,7 @@ struct MarkerTracks {
     MAREY_ASSERT(frame * labels.size() + marker < samples.size());
     return samples[frame * labels.size() + marker];
   }
-  /// Of a frame, on the recording's clock. [s]
+  /// Time of a frame on the recording's clock. [s]
   [[nodiscard]] double time_s(std::size_t frame) const {
     return start_s + static_cast<double>(frame) / rate.hz;
   }

@@ -4,14 +4,14 @@
 
 #include <vector>
 
+#include "core/base/time.h"
 #include "core/pose.h"
 #include "core/provenance.h"
 #include "core/skeleton.h"
-#include "core/time.h"
 
 namespace marey {
 
-/// Poses of one skeleton at a steady rate. Frame i is at time (first_frame + i) / rate.
+/// Poses of one skeleton at a constant rate. Frame i is at time (first_frame + i) / rate.
 struct Motion {
   Skeleton skeleton;
   FrameRate rate;
@@ -19,8 +19,8 @@ struct Motion {
   std::vector<Pose> poses;
 };
 
-/// How well one joint of one frame is known.
-struct JointDoubt {
+/// Uncertainty of one joint in one frame.
+struct JointUncertainty {
   /// Standard deviation of the joint centre, per coordinate: 95 % of its errors are
   /// within 2.8 times that. [m]
   double sigma_m = 0.0;
@@ -30,10 +30,10 @@ struct JointDoubt {
   Source segment_source = Source::kInferred;
 };
 
-/// A motion that was estimated from sightings. doubt[frame][joint].
+/// A motion estimated from detections. uncertainty[frame][joint].
 struct EstimatedMotion {
   Motion motion;
-  std::vector<std::vector<JointDoubt>> doubt;
+  std::vector<std::vector<JointUncertainty>> uncertainty;
 };
 
 }  // namespace marey

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 #include "core/humanoid.h"
 
 namespace marey {
@@ -29,7 +29,8 @@ std::size_t cost_of_change(char a, char b) {
 
 std::size_t distance(std::string_view a, std::string_view b) {
   b = b.substr(0, kLongestWord);
-  std::vector<std::size_t> row(b.size() + 1);  // From a's first i letters to b's first j.
+  // Distance from a's first i letters to b's first j.
+  std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j * kLetter;
   for (std::size_t i = 1; i <= a.size(); ++i) {
     std::size_t diagonal = row[0];
@@ -71,7 +72,7 @@ std::vector<std::string_view> nearest_words(std::string_view wrong,
                                             std::span<const std::string_view> words,
                                             std::size_t count) {
   wrong = wrong.substr(0, kLongestWord);
-  // Each distance once: a body's joints may be thousands.
+  // Each distance is computed once: a body may have thousands of joints.
   std::vector<std::pair<std::size_t, std::string_view>> ranked;
   for (const std::string_view word : words)
     ranked.emplace_back(distance(wrong, word), word);

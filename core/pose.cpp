@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/pose.h"
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 
 namespace marey {
 

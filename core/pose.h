@@ -21,22 +21,23 @@ struct Pose {
   std::vector<glm::dquat> parent_from_joint;
 };
 
-/// The rest pose of the skeleton, its root at its rest place.
+/// Returns the rest pose of the skeleton, its root at its rest place.
 [[nodiscard]] Pose rest_pose(const Skeleton& skeleton);
 
-/// Forward kinematics: every joint's frame in the world. One pass, no allocation.
+/// Computes forward kinematics: every joint's frame in the world. One pass, no
+/// allocation.
 /// Precondition: the pose and `out` have one entry per joint; the first joint is the only
 /// root.
 void world_from_joints(const Skeleton& skeleton,
                        const Pose& pose,
                        std::span<RigidTransform> out);
 
-/// The same, allocating its answer.
+/// Returns the same in a new vector.
 [[nodiscard]] std::vector<RigidTransform> world_from_joints(const Skeleton& skeleton,
                                                             const Pose& pose);
 
-/// The pose whose joints have these world rotations and whose root is at `root_in_world`.
-/// Inverse of world_from_joints(), bone lengths permitting.
+/// Returns the pose whose joints have these world rotations and whose root is at
+/// `root_in_world`. Inverse of world_from_joints() if the bone lengths agree.
 [[nodiscard]] Pose pose_from_world(const Skeleton& skeleton,
                                    const glm::dvec3& root_in_world,
                                    std::span<const glm::dquat> world_from_joint);

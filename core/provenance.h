@@ -6,16 +6,16 @@
 
 namespace marey {
 
-/// Where a value comes from.
+/// Source of a value.
 enum class Source {
   kMeasured,  ///< Seen by at least one camera at this instant; see kInferred for limbs.
   kRepaired,  ///< Seen shortly before and after; bridged between.
-  /// Never or long not seen, or a limb's joint that is known to no better than 15 mm by
-  /// what is seen of the body's tags: follows from its neighbours and priors.
+  /// Never seen, or not for a long time; or a limb's joint whose sigma from the body's
+  /// visible tags exceeds 15 mm: follows from its neighbours and priors.
   kInferred,
 };
 
-/// "measured", "repaired", "inferred": the words of segments.csv.
+/// Returns "measured", "repaired" or "inferred": the words of segments.csv.
 [[nodiscard]] constexpr std::string_view name(Source source) {
   switch (source) {
     case Source::kMeasured:

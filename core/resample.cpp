@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 
 namespace marey {
 namespace {
@@ -38,7 +38,7 @@ Motion resample(const Motion& motion, FrameRate rate) {
   const double old_per_new = motion.rate.hz / rate.hz;
   const double first = motion.first_frame;
   const double last = first + static_cast<double>(motion.poses.size() - 1);
-  // What is the same in old frames is so in new ones.
+  // The same tolerance, converted to new frames.
   const double same = kSame * std::max(1.0, new_per_old);
   const double from = std::ceil(first * new_per_old - same);
   const double to = std::floor(last * new_per_old + same);

@@ -6,13 +6,13 @@
 
 namespace marey {
 
-/// The motion at another rate: a pose at every instant k / rate from the first to the
-/// last of its frames, both included; no instant is lost or drifts, however long it is.
-/// It has no poses when no such instant lies between them.
+/// Returns the motion at another rate: a pose at every instant k / rate from the first to
+/// the last of its frames, both included. No instant is lost or drifts, for any length.
+/// There are no poses if no such instant lies between them.
 ///
-/// An instant that both rates share has its pose, bit for bit. Between frames, places go
-/// in straight lines, and rotations the shorter way at a steady speed. Movement faster
-/// than half the new rate is not smoothed away.
+/// At an instant that both rates share, the pose is bit-identical. Between frames,
+/// positions are interpolated linearly, and rotations the shorter way at constant angular
+/// speed. Movement faster than half the new rate is not smoothed (no low-pass filter).
 /// Linear in frames times joints.
 /// Precondition: both rates above 0; every pose has one rotation per joint.
 [[nodiscard]] Motion resample(const Motion& motion, FrameRate rate);

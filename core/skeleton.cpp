@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 
 namespace marey {
 
@@ -28,7 +28,7 @@ Proportions average_proportions(double stature_m) {
   // Fractions of stature. Winter's figure gives hip height 0.530, knee 0.285, ankle
   // 0.039, shoulder 0.818, upper arm 0.186, forearm 0.146, hand 0.108, foot 0.152, hip
   // breadth 0.191, shoulder breadth 0.259. The hip joint centres lie well inside the hip
-  // breadth. The trunk is shared out over the vertebrae by eye.
+  // breadth. The distribution of the trunk over the vertebrae is set by hand.
   Proportions p;
   p[B::kHips] = {0, 0.540, 0};
   p[B::kSpine] = {0, 0.050, 0};

@@ -9,8 +9,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/base/ids.h"
 #include "core/humanoid.h"
-#include "core/ids.h"
 #include "core/transform.h"
 
 namespace marey {
@@ -20,7 +20,7 @@ struct Joint {
   std::optional<JointIndex> parent;  ///< nullopt for a root. Parents come first.
   /// Rest pose of this joint in its parent's frame (a root's: in the world).
   RigidTransform parent_from_joint;
-  std::optional<HumanBone> bone;  ///< What the joint is on a human, if anything.
+  std::optional<HumanBone> bone;  ///< The human bone that this joint is, if any.
   /// End of the last bone of a chain, in this joint's frame: fingertip, top of the head.
   std::optional<glm::dvec3> tip_in_joint;
 };
@@ -31,9 +31,9 @@ struct Joint {
 struct Skeleton {
   std::vector<Joint> joints;
 
-  /// The joint that is this bone, if any. Linear in joints.
+  /// Returns the joint that is this bone, if any. Linear in joints.
   [[nodiscard]] std::optional<JointIndex> find(HumanBone bone) const;
-  /// The joint of this name, if any. Linear in joints.
+  /// Returns the joint of this name, if any. Linear in joints.
   [[nodiscard]] std::optional<JointIndex> find(std::string_view joint_name) const;
 
   [[nodiscard]] const Joint& operator[](JointIndex joint) const {
@@ -60,20 +60,22 @@ struct Proportions {
   }
 };
 
-/// An average adult of the given stature, by the segment ratios of Drillis and Contini
-/// (1966, as in Winter, "Biomechanics and Motor Control of Human Movement", fig. 4.1).
+/// Returns an average adult of the given stature, by the segment ratios of Drillis and
+/// Contini (1966, as in Winter, "Biomechanics and Motor Control of Human Movement", fig.
+/// 4.1).
 /// Precondition: stature_m > 0.
 [[nodiscard]] Proportions average_proportions(double stature_m);
 
-/// The T-pose skeleton of these proportions: the 22 bones in the order of human_bones(),
-/// so that JointIndex and HumanBone agree, with tips on head, hands and toes.
+/// Returns the T-pose skeleton of these proportions: the 22 bones in the order of
+/// human_bones(), so that JointIndex and HumanBone agree, with tips on head, hands and
+/// toes.
 [[nodiscard]] Skeleton make_humanoid(const Proportions& proportions);
 
-/// The proportions of a skeleton that make_humanoid() could have made.
+/// Returns the proportions of a skeleton that make_humanoid() could have made.
 /// Precondition: it has all 22 bones and identity rest rotations.
 [[nodiscard]] Proportions proportions_of(const Skeleton& skeleton);
 
-/// Length of hip to knee to ankle, the mean of both sides. [m]
+/// Returns the length of hip to knee to ankle, the mean of both sides. [m]
 [[nodiscard]] double leg_length_m(const Proportions& proportions);
 
 }  // namespace marey

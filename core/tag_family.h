@@ -7,17 +7,17 @@
 #include <string_view>
 #include <vector>
 
-#include "core/ids.h"
+#include "core/base/ids.h"
 
 namespace marey {
 
 /// A family of printed tags that marey reads and prints.
 struct KnownFamily {
-  std::string_view name;  ///< As libapriltag calls it.
-  int tags = 0;           ///< Ids go from 0 up to but without this.
+  std::string_view name;  ///< Name in libapriltag.
+  int tags = 0;           ///< Number of ids: 0 to tags - 1.
 };
 
-/// The usual one first. tag36h11b2 is tag36h11 in a frame of two cells, as on Kalibr's
+/// The default first. tag36h11b2 is tag36h11 in a frame of two cells, as on Kalibr's
 /// boards.
 inline constexpr std::array<KnownFamily, 10> kTagFamilies{{
     {"tag36h11", 587},
@@ -32,10 +32,10 @@ inline constexpr std::array<KnownFamily, 10> kTagFamilies{{
     {"tagStandard52h13", 48714},
 }};
 
-/// A family of printed tags, and which of it are in use.
+/// A family of printed tags, and the ids in use.
 struct TagFamilyUse {
-  std::string name = "tag36h11";  ///< As libapriltag calls it.
-  std::vector<TagId> ids;         ///< Empty: any.
+  std::string name = "tag36h11";  ///< Name in libapriltag.
+  std::vector<TagId> ids;         ///< Empty: all.
 };
 
 }  // namespace marey

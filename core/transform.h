@@ -27,19 +27,20 @@ struct RigidTransform {
   return {a_from_b, -(a_from_b * b_from_a.translation)};
 }
 
-/// The rotation vector (axis times angle, [rad], angle in [0, pi]) of a unit quaternion.
+/// Returns the rotation vector (axis times angle, [rad], angle in [0, pi]) of a unit
+/// quaternion.
 [[nodiscard]] glm::dvec3 rotation_vector(const glm::dquat& rotation);
 
-/// The unit quaternion of a rotation vector [rad]. Inverse of rotation_vector().
+/// Returns the unit quaternion of a rotation vector [rad]. Inverse of rotation_vector().
 [[nodiscard]] glm::dquat rotation_from_vector(const glm::dvec3& vector_rad);
 
-/// The smallest rotation that takes direction `from` onto direction `to`; both non-zero,
-/// any length. Opposite directions turn about any axis perpendicular to `from`.
+/// Returns the smallest rotation that takes direction `from` onto direction `to`; both
+/// non-zero, any length. Opposite directions turn about any axis perpendicular to `from`.
 [[nodiscard]] glm::dquat rotation_between(const glm::dvec3& from, const glm::dvec3& to);
 
-/// The part of `rotation` that turns about the unit `axis`: rotation = swing * twist, and
-/// the swing's axis is perpendicular to `axis`. Identity when the swing is a half turn
-/// and the twist therefore unknowable.
+/// Returns the part of `rotation` that turns about the unit `axis`: rotation = swing *
+/// twist, and the swing's axis is perpendicular to `axis`. Identity when the swing is a
+/// half turn and the twist therefore undefined.
 [[nodiscard]] glm::dquat twist_about(const glm::dquat& rotation, const glm::dvec3& axis);
 
 }  // namespace marey

@@ -3,7 +3,7 @@
 #
 # cmake -D OUT=<page.cpp> -D FOLDER=<folder of the page> -D GZIP=<gzip> -P embed_page.cmake
 #
-# Writes the definition of live/page_embedded.h: every file of the folder, gzipped, under
+# Writes the definition of live/web/page_embedded.h: every file of the folder, gzipped, under
 # its own name, index.html under "/". The same files give the same bytes.
 cmake_minimum_required(VERSION 3.25)
 
@@ -46,7 +46,7 @@ foreach(name ${names})
 endforeach()
 file(REMOVE ${OUT}.gz)
 
-file(WRITE ${OUT} "#include \"live/page_embedded.h\"
+file(WRITE ${OUT} "#include \"live/web/page_embedded.h\"
 
 #include <cstddef>
 

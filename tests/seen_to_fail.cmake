@@ -3,27 +3,27 @@
 #
 # cmake -D CASE=<name> -D SOURCE=<checkout> -D WORK=<scratch folder> -P seen_to_fail.cmake
 #
-# A guard that never fails guards nothing. Each case builds a small sound house, sees its
-# guard pass, plants one fault and wants the guard to fail for that very reason.
+# Checks the guards: each case builds a small source tree without faults, expects its guard
+# to pass, plants one fault and expects the guard to fail with the message for that fault.
 # tests/CMakeLists.txt registers every case below as a test.
 cmake_minimum_required(VERSION 3.25)
 
-set(house ${WORK}/${CASE})
+set(tree ${WORK}/${CASE})
 set(licence "SPDX-FileCopyrightText: The marey authors"
   "SPDX-License-Identifier: Apache-2.0")
 
 function(source file text)
   list(JOIN licence "\n// " lines)
-  file(WRITE ${house}/${file} "// ${lines}\n${text}\n")
+  file(WRITE ${tree}/${file} "// ${lines}\n${text}\n")
 endfunction()
 
 function(script file text)
   list(JOIN licence "\n# " lines)
-  file(WRITE ${house}/${file} "# ${lines}\n${text}\n")
+  file(WRITE ${tree}/${file} "# ${lines}\n${text}\n")
 endfunction()
 
-function(build_sound_house)
-  file(REMOVE_RECURSE ${house})
+function(build_sound_tree)
+  file(REMOVE_RECURSE ${tree})
   source(core/point.h "#pragma once
 #include <vector>
 struct Cloud { std::vector<double> points; };")
@@ -31,13 +31,17 @@ struct Cloud { std::vector<double> points; };")
   source(calib/place.h "#include \"core/point.h\"")
   source(calib/residuals.h "#include <ceres/ceres.h>")
   source(calib/place.cpp "#include \"calib/place.h\"\n#include \"calib/residuals.h\"")
+  source(calib/rig/solve.h "#pragma once")
+  source(calib/rig/solve.cpp "#include \"calib/place.h\"\n#include \"calib/rig/solve.h\"")
+  script(tests/folder_layers.cmake
+    "set(core_LAYERS .)\nset(calib_LAYERS . rig)\nset(app_LAYERS report)")
   source(app/report/page.cpp "#include \"calib/place.h\"")
   source(tests/support/scene.h "#include \"core/point.h\"")
   source(tests/calib/place_test.cpp "#include <gtest/gtest.h>
 #include \"calib/place.h\"
 #include \"tests/support/scene.h\"")
   script(CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
-project(house LANGUAGES CXX)
+project(tree LANGUAGES CXX)
 set(CMAKE_CXX_STANDARD 20)
 include(\${HELPERS}/marey_add_module.cmake)
 marey_find_package(glm 0.9 DEBIAN libglm-dev)
@@ -48,15 +52,15 @@ endif()")
     "marey_add_module(core HEADERS point.h SOURCES point.cpp)")
   script(calib/CMakeLists.txt
     "marey_add_module(calib HEADERS place.h SOURCES place.cpp USES marey::core)")
-  script(app/CMakeLists.txt "add_executable(house report/page.cpp)")
-  file(WRITE ${house}/README.md "see [the app](app/report/page.cpp#there), core/point.h\n")
+  script(app/CMakeLists.txt "add_executable(tree report/page.cpp)")
+  file(WRITE ${tree}/README.md "see [the app](app/report/page.cpp#there), core/point.h\n")
   script(run "readonly BUILD_PACKAGES=(\n  cmake libglm-dev)")
 endfunction()
 
-# Each guard, run on the small house as ctest runs it on the real one.
+# Each guard, run on the small tree as ctest runs it on the real tree.
 function(run_script script out_result out_text)
   execute_process(
-    COMMAND ${CMAKE_COMMAND} -D ROOT=${house} -P ${SOURCE}/tests/${script}
+    COMMAND ${CMAKE_COMMAND} -D ROOT=${tree} ${ARGN} -P ${SOURCE}/tests/${script}
     RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
   # Messages are wrapped and indented.
   string(REGEX REPLACE "[ \n]+" " " text "${text}")
@@ -80,20 +84,28 @@ macro(sizes out_result out_text)
   run_script(sizes.cmake ${out_result} ${out_text})
 endmacro()
 
+macro(folders out_result out_text)
+  run_script(folders.cmake ${out_result} ${out_text})
+endmacro()
+
+macro(folders_of_two out_result out_text)
+  run_script(folders.cmake ${out_result} ${out_text} -D MAX_MODULES=2)
+endmacro()
+
 macro(public_text out_result out_text)
-  set(git git -c safe.directory=* -C ${house})
+  set(git git -c safe.directory=* -C ${tree})
   execute_process(COMMAND ${git} init -q COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND ${git} add -A COMMAND_ERROR_IS_FATAL ANY)
   run_script(public_text.cmake ${out_result} ${out_text})
 endmacro()
 
-# The same helper and the same target as the real house's.
+# The same helper and the same target as the project's.
 function(headers_stand_alone out_result out_text)
   execute_process(
-    COMMAND ${CMAKE_COMMAND} -S ${house} -B ${house}/build -D HELPERS=${SOURCE}/cmake
+    COMMAND ${CMAKE_COMMAND} -S ${tree} -B ${tree}/build -D HELPERS=${SOURCE}/cmake
     OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
   execute_process(
-    COMMAND ${CMAKE_COMMAND} --build ${house}/build
+    COMMAND ${CMAKE_COMMAND} --build ${tree}/build
             --target all_verify_interface_header_sets
     RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
   set(${out_result} ${result} PARENT_SCOPE)
@@ -108,7 +120,7 @@ function(tidy out_result out_text)
   endif()
   execute_process(
     COMMAND ${CLANG_TIDY} --quiet --config-file=${SOURCE}/.clang-tidy
-            ${house}/core/point.cpp -- -std=c++20 -I${house}
+            ${tree}/core/point.cpp -- -std=c++20 -I${tree}
     RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_QUIET)
   set(${out_result} ${result} PARENT_SCOPE)
   set(${out_text} "${text}" PARENT_SCOPE)
@@ -120,12 +132,12 @@ function(fault name guard file planted says)
   if(NOT name STREQUAL CASE)
     return()
   endif()
-  build_sound_house()
+  build_sound_tree()
   cmake_language(CALL ${guard} result text)
   if(NOT result EQUAL 0)
     message(FATAL_ERROR "the guard fails before anything is planted: ${text}")
   endif()
-  file(APPEND ${house}/${file} "${planted}\n")
+  file(APPEND ${tree}/${file} "${planted}\n")
   cmake_language(CALL ${guard} result text)
   if(result EQUAL 0 OR NOT text MATCHES "${says}")
     message(FATAL_ERROR "the guard does not say \"${says}\": ${result} ${text}")
@@ -138,7 +150,7 @@ function(emptied name guard files says)
   if(NOT name STREQUAL CASE)
     return()
   endif()
-  build_sound_house()
+  build_sound_tree()
   file(GLOB taken ${files})
   file(REMOVE_RECURSE ${taken})
   cmake_language(CALL ${guard} result text)
@@ -181,6 +193,16 @@ fault(a_shared_scene_that_includes_a_room layering tests/support/scene.h
   "#include \"calib/place.h\"" "tests/support may not include calib/place.h")
 fault(a_benchmark_that_includes_tests_of_the_app layering benchmarks/frames.cpp
   "#include \"tests/app/page.h\"" "benchmarks may not include tests/app/page.h")
+fault(a_folder_that_includes_the_one_above folders calib/place.cpp
+  "#include \"calib/rig/solve.h\"" "the folder . may not include calib/rig/solve.h")
+fault(a_folder_of_too_many_modules folders_of_two calib/third.h
+  "#pragma once" "calib/.: 3 modules are more than 2")
+fault(a_folder_without_a_layer folders calib/plan/plan.h
+  "#pragma once" "the folder plan is missing in calib_LAYERS")
+fault(modules_that_include_each_other folders calib/residuals.h
+  "#include \"calib/place.h\"" "cycle of modules: calib/[a-z]+ -> calib/[a-z]+ -> calib")
+fault(a_header_that_does_not_exist folders calib/place.cpp
+  "#include \"calib/gone.h\"" "calib/gone.h does not exist")
 fault(tests_of_no_room layering tests/utils/misc_test.cpp
   "#include \"core/point.h\"" "tests/utils/: tests no room")
 fault(a_room_without_public_headers layering live/CMakeLists.txt
@@ -221,12 +243,13 @@ fault(a_function_without_end tidy core/point.cpp
   "int total() {\n  int sum = 0;\n${many_statements}  return sum;\n}"
   "readability-function-size")
 
-emptied(an_empty_house layering "${house}/*" "nothing was checked")
-emptied(a_checkout_without_files public_text "${house}/*" "nothing was checked")
-emptied(a_house_without_pages docs "${house}/README.md" "names checked: 0")
-emptied(a_house_without_sources sizes "${house}/*" "files checked: 0")
-emptied(a_house_without_packages packages "${house}/CMakeLists.txt" "packages checked: 0")
-emptied(a_house_without_rooms headers_stand_alone "${house}/core"
+emptied(an_empty_tree layering "${tree}/*" "nothing was checked")
+emptied(a_tree_without_includes folders "${tree}/*" "nothing was checked")
+emptied(a_checkout_without_files public_text "${tree}/*" "nothing was checked")
+emptied(a_tree_without_pages docs "${tree}/README.md" "names checked: 0")
+emptied(a_tree_without_sources sizes "${tree}/*" "files checked: 0")
+emptied(a_tree_without_packages packages "${tree}/CMakeLists.txt" "packages checked: 0")
+emptied(a_tree_without_rooms headers_stand_alone "${tree}/core"
   "all_verify_interface_header_sets")
 
 if(NOT seen)

@@ -6,7 +6,7 @@
 #       -D MARKERS_PAGE=... -D MARKERS_STYLE=... -D MARKERS_SCRIPT=...
 #       -P embed.cmake
 #
-# Writes the definitions of app/report_page.h. The same files give the same bytes.
+# Writes the definitions of app/pages/report_page.h. The same files give the same bytes.
 cmake_minimum_required(VERSION 3.25)
 
 # Bytes, not string literals: those may be no longer than 65536 characters.
@@ -29,7 +29,7 @@ function(add_text function files)
   set(text "${text}" PARENT_SCOPE)
 endfunction()
 
-set(text "#include \"app/report_page.h\"\n\nnamespace marey::app {\n")
+set(text "#include \"app/pages/report_page.h\"\n\nnamespace marey::app {\n")
 add_text(report_page "${PAGE}")
 add_text(report_style "${STYLE}")
 add_text(report_script "${SCRIPT}")

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/motion/bvh.h"
 #include "tests/app/adapt_scene.h"
 #include "tests/support/random_bodies.h"
 
@@ -75,7 +75,7 @@ TEST(AdaptRefuses, ConstraintsThatTheBodyCannotHave) {
                      {"\"hand\"", "leftHnad", "perhaps you mean \"leftHand\""});
   expect_refused_set(scene,
                      chained("a", "leftHand", "b") + chained("b", "rightHand", "a"),
-                     {"circle", "\"a\"", "\"b\""});
+                     {"cycle", "\"a\"", "\"b\""});
   expect_refused_set(
       scene,
       "<Support><name>handstand</name><bodyPoint><segment>leftHand</segment></bodyPoint>"

@@ -9,8 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/app/adapt_scene.h"
+#include "tests/support/paths.h"
 
 namespace marey::testing {
 namespace {
@@ -21,7 +22,7 @@ using Json = nlohmann::json;
 
 /// A captured walk, its bones called as VRM does. nullopt: it is not at hand.
 std::optional<std::string> bandai_walk() {
-  const auto text = recordings::read_file(fs::path(MAREY_SHARED_DATA) /
+  const auto text = recordings::read_file(marey::testing::shared_data() /
                                           "mocap/bandai/dataset-1_walk_normal_001.bvh");
   if (!text) return std::nullopt;
   std::string out = *text;

@@ -7,8 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/motion/bvh.h"
+#include "tests/support/paths.h"
 
 namespace marey::testing {
 
@@ -35,7 +36,7 @@ ProgramRun AdaptScene::adapt(const std::vector<std::string>& more) const {
     arguments.insert(arguments.end(), {"--out", (folder_ / "out.bvh").string()});
   }
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return run_program(MAREY_PROGRAM, arguments);
+  return run_program(marey::testing::program(), arguments);
 }
 
 Motion AdaptScene::motion(const std::string& name) const {

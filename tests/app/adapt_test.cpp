@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/gltf.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/gltf/gltf.h"
 #include "tests/app/adapt_scene.h"
 
 namespace marey::testing {

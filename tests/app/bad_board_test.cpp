@@ -177,7 +177,10 @@ TEST(BadBoard, OfOtherRowsAndColumnsIsTold) {
   grid.film(painted_april_grid());
   EXPECT_TRUE(declines(
       grid,
-      {"lie as on a board of 4 x 3", "[board]", "Next: ", "columns = 4, rows = 3"}));
+      {"are arranged as on a board of 4 x 3",
+       "[board]",
+       "Next: ",
+       "columns = 4, rows = 3"}));
 }
 
 TEST(BadBoard, OfOtherTagsIsTold) {
@@ -223,8 +226,8 @@ TEST(BadViews, ThatAreAllAlikeAreTold) {
     session.film(board, 16, [](int frame) { return 2.0 + 0.002 * frame; });
     const ProgramRun run = session.calibrate();
     EXPECT_EQ(run.exit_code, 4) << run.err;
-    EXPECT_NE(run.err.find("error: calibration, all cameras: a point in the middle of "
-                           "the volume is known to "),
+    EXPECT_NE(run.err.find("error: calibration, all cameras: the expected error of a "
+                           "point in the middle of the volume is "),
               std::string::npos)
         << run.err;
     EXPECT_NE(run.err.find("Next: show the board longer, nearer and more tilted"),
@@ -244,7 +247,10 @@ TEST(BadViews, ThatNoTwoGroupsShareNameTheGroups) {
         if ((camera == 0) != (frame % 2 == 0)) leave_grey(picture);
       });
     }
-    EXPECT_TRUE(declines(session, {"{cam0} and one of {cam1, cam2}", "Next: "}));
+    EXPECT_TRUE(declines(session,
+                         {"{cam0} sees the board at the same time as a camera of {cam1, "
+                          "cam2}",
+                          "Next: "}));
   }
 }
 
@@ -254,7 +260,7 @@ TEST(BadViews, OfOneCameraThatMirrorsFitNoneOfTheOthers) {
   session.film(painted_chessboard());
   session.change(1, mirror);
   EXPECT_TRUE(declines(
-      session, {"session.toml: ", " px away from what the cameras saw", "Next: check"}));
+      session, {"session.toml: ", "the error of the calibration is ", "Next: check"}));
 }
 
 TEST(BadFloor, WhoseBoardLiesFaceDownIsTold) {

@@ -275,7 +275,8 @@ TEST(BadCalibration, WithABoardThatNoTwoCamerasSeeTogetherNamesTheCamera) {
   EXPECT_TRUE(declines(session,
                        session.run("calibrate"),
                        {"session.toml: ",
-                        "{cam0} and one of {cam1, cam2, cam3}",
+                        "{cam0} sees the board at the same time as a camera of "
+                        "{cam1, cam2, cam3}",
                         "record the calibration again"}));
 }
 

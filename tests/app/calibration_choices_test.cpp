@@ -11,10 +11,11 @@
 #include <gtest/gtest.h>
 
 #include "core/camera.h"
-#include "recordings/calibration_file.h"
+#include "recordings/session/calibration_file.h"
 #include "tests/app/blame.h"
 #include "tests/app/broken_video.h"
 #include "tests/app/spoiled_session.h"
+#include "tests/support/paths.h"
 #include "tests/support/truth.h"
 
 namespace marey::testing {
@@ -34,7 +35,7 @@ recordings::Calibration calibration_of(const SpoiledSession& session) {
 /// The worst of the cameras' places, [mm].
 double worst_place_mm(const recordings::Calibration& found) {
   const auto truth =
-      truth_cameras(std::filesystem::path(MAREY_SAMPLE) / "walk/truth/cameras.json");
+      truth_cameras(marey::testing::sample_session() / "walk/truth/cameras.json");
   EXPECT_TRUE(truth);
   double worst = 0.0;
   for (std::size_t c = 0; truth && c < found.cameras.size(); ++c) {
@@ -48,7 +49,7 @@ double worst_place_mm(const recordings::Calibration& found) {
 /// Of distances between cameras, which know no world.
 double worst_distance_mm(const recordings::Calibration& found) {
   const auto truth =
-      truth_cameras(std::filesystem::path(MAREY_SAMPLE) / "walk/truth/cameras.json");
+      truth_cameras(marey::testing::sample_session() / "walk/truth/cameras.json");
   EXPECT_TRUE(truth);
   double worst = 0.0;
   for (std::size_t a = 0; truth && a < found.cameras.size(); ++a) {
@@ -115,7 +116,7 @@ TEST(CalibrationChoices, FindTheSimplestLensThatServes) {
 
 TEST(CalibrationChoices, TakeLensesAsTheyAre) {
   SpoiledSession session;
-  const std::string earlier = MAREY_FIRST_LIGHT "/once/calibration.toml";
+  const std::string earlier = marey::testing::sample_results() / "once/calibration.toml";
   ask(session, "lenses = \"" + earlier + "\"\nwarp = true");
   const ProgramRun run = session.run("calibrate");
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -134,7 +135,8 @@ TEST(CalibrationChoices, TakeLensesAsTheyAre) {
 /// The sample's calibration, spoiled.
 std::string spoiled_lenses(const SpoiledSession& session,
                            const std::function<void(recordings::Calibration&)>& spoil) {
-  auto known = recordings::read_calibration(MAREY_FIRST_LIGHT "/once/calibration.toml");
+  auto known = recordings::read_calibration(marey::testing::sample_results() /
+                                            "once/calibration.toml");
   EXPECT_TRUE(known);
   spoil(*known);
   const auto file = session.file().parent_path() / "lenses.toml";
@@ -184,7 +186,7 @@ TEST(CalibrationChoices, StandTheWorldOnTheSubject) {
   const auto found = calibration_of(session);
   EXPECT_LE(worst_distance_mm(found), 15.0);
   const auto truth =
-      truth_cameras(std::filesystem::path(MAREY_SAMPLE) / "walk/truth/cameras.json");
+      truth_cameras(marey::testing::sample_session() / "walk/truth/cameras.json");
   ASSERT_TRUE(truth);
   for (std::size_t c = 0; c < found.cameras.size(); ++c) {
     // Two degrees at three metres.

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "app/pages/calibration_html.h"
 #include "tests/app/browser.h"
 #include "tests/app/sample_calibration.h"
 
@@ -45,7 +46,7 @@ TEST_F(CalibrationInABrowser, DrawsThemWhereThereIsNoWebGl) {
 }
 
 TEST_F(CalibrationInABrowser, OpensWithTheLeastThereIs) {
-  CalibrationReport report = sample_calibration();
+  calib::CalibrationReport report = sample_calibration();
   report.extent.reset();
   report.has_floor = false;
   report.rig.views.clear();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/calibration_report.h"
+#include "calib/quality/calibration_report.h"
 
 #include <cmath>
 #include <filesystem>
@@ -14,10 +14,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/judge_calibration.h"
-#include "app/measure_calibration.h"
+#include "app/pages/calibration_figures.h"
+#include "app/pages/calibration_html.h"
+#include "calib/quality/check_calibration.h"
+#include "calib/quality/measure_calibration.h"
 #include "tests/app/sample_calibration.h"
 #include "tests/app/sample_report.h"
+#include "tests/support/paths.h"
 
 namespace marey::app {
 namespace {
@@ -27,8 +30,8 @@ using Json = nlohmann::ordered_json;
 constexpr double kRadians = 3.14159265358979323846 / 180.0;
 
 /// A camera at the origin that looks along +z, 1000 px of focal length, no distortion.
-CalibrationReport of_one_camera() {
-  CalibrationReport report;
+calib::CalibrationReport of_one_camera() {
+  calib::CalibrationReport report;
   report.extent = calib::BoardExtent{{-0.2, -0.2, 0.0}, {0.2, 0.2, 0.0}};
   Camera camera;
   camera.intrinsics.width_px = 1280;
@@ -56,13 +59,13 @@ calib::TargetView view_at(int frame, double x_m, glm::dvec2 error_px) {
 }
 
 TEST(MeasureCalibration, FindsTiltAndDistanceOfTheBoard) {
-  CalibrationReport report = of_one_camera();
+  calib::CalibrationReport report = of_one_camera();
   calib::TargetView view = view_at(0, 0.0, {});
   // Its right edge comes nearer: its face turns to the left.
   view.world_from_target.rotation =
       rotation_from_vector({0.0, 40.0 * kRadians, 0.0}) * view.world_from_target.rotation;
   report.rig.views = {view};
-  const auto measured = measure_cameras(report);
+  const auto measured = calib::measure_cameras(report);
   ASSERT_EQ(measured[0].tilts.size(), 1U);
   EXPECT_NEAR(measured[0].tilts[0].tilt_rad, 40.0 * kRadians, 1e-9);
   EXPECT_NEAR(std::abs(measured[0].tilts[0].azimuth_rad), 180.0 * kRadians, 1e-6);
@@ -70,59 +73,59 @@ TEST(MeasureCalibration, FindsTiltAndDistanceOfTheBoard) {
 }
 
 TEST(MeasureCalibration, FindsByHowMuchACameraIsLate) {
-  CalibrationReport report = of_one_camera();
+  calib::CalibrationReport report = of_one_camera();
   // A swing of half a metre in three seconds; half a frame late.
   const auto x_m = [](double frame) { return 0.5 * std::sin(0.07 * frame); };
   for (int frame = 0; frame < 90; ++frame) {
     const double error_px = 500.0 * (x_m(frame + 0.5) - x_m(frame));
     report.rig.views.push_back(view_at(frame, x_m(frame), {error_px, 0.0}));
   }
-  const auto measured = measure_cameras(report);
+  const auto measured = calib::measure_cameras(report);
   ASSERT_TRUE(measured[0].lag);
   // Velocities are differences over two frames, which flatten a swing by 0.1 %.
   EXPECT_NEAR(measured[0].lag->frames, 0.5, 0.02);
   EXPECT_GT(measured[0].lag->explained_px, 3.0);
   report.has_clocks = true;  // Then it has no more to say.
-  EXPECT_FALSE(measure_cameras(report)[0].lag);
+  EXPECT_FALSE(calib::measure_cameras(report)[0].lag);
 }
 
 TEST(MeasureCalibration, FindsTheFrameFromWhichACameraFitsNoMore) {
-  CalibrationReport report = of_one_camera();
+  calib::CalibrationReport report = of_one_camera();
   for (int frame = 0; frame < 60; ++frame) {
     report.rig.views.push_back(view_at(frame, 0.01 * frame, {0.1, 0.0}));
     for (auto& corner : report.rig.views.back().corners) corner.is_outlier = frame >= 43;
   }
-  const auto measured = measure_cameras(report);
-  ASSERT_TRUE(measured[0].astray_from);
-  EXPECT_EQ(*measured[0].astray_from, 43);
-  EXPECT_FALSE(measured[0].astray_until);
+  const auto measured = calib::measure_cameras(report);
+  ASSERT_TRUE(measured[0].mismatch_from);
+  EXPECT_EQ(*measured[0].mismatch_from, 43);
+  EXPECT_FALSE(measured[0].mismatch_until);
 }
 
 TEST(MeasureCalibration, TellsAPatternFromNoise) {
-  CalibrationReport report = of_one_camera();
+  calib::CalibrationReport report = of_one_camera();
   for (int frame = 0; frame < 60; ++frame) {
     // The same half pixel to the right wherever the board is, or now right, now left.
     report.rig.views.push_back(view_at(frame, 0.3 * std::sin(frame), {0.5, 0.0}));
   }
-  EXPECT_NEAR(measure_cameras(report)[0].pattern_px, 0.5, 0.01);
+  EXPECT_NEAR(calib::measure_cameras(report)[0].pattern_px, 0.5, 0.01);
   for (auto& view : report.rig.views) {
     for (auto& corner : view.corners) {
       corner.error_px.x = view.frame / 2 % 2 == 0 ? 0.5F : -0.5F;
     }
   }
-  EXPECT_LT(measure_cameras(report)[0].pattern_px, 0.15);
+  EXPECT_LT(calib::measure_cameras(report)[0].pattern_px, 0.15);
 }
 
 TEST(CalibrationReport, OfAGoodRecordingAsksForNothingMuch) {
-  const CalibrationReport& report = sample_calibration();
-  EXPECT_TRUE(poor_of(report).empty());
-  EXPECT_TRUE(warnings_of(report).empty()) << warnings_of(report).front();
+  const calib::CalibrationReport& report = sample_calibration();
+  EXPECT_TRUE(calib::poor_of(report).empty());
+  EXPECT_TRUE(calib::warnings_of(report).empty()) << calib::warnings_of(report).front();
   EXPECT_TRUE(report.has_floor);
   EXPECT_FALSE(report.has_clocks);
 }
 
 TEST(CalibrationReport, CountsEveryCornerOnce) {
-  const CalibrationReport& report = sample_calibration();
+  const calib::CalibrationReport& report = sample_calibration();
   for (std::size_t c = 0; c < report.cameras.size(); ++c) {
     const auto& cells = report.cameras[c].cells;
     EXPECT_EQ(std::accumulate(cells.begin(), cells.end(), 0),
@@ -156,7 +159,7 @@ glm::dvec3 meeting_of(const std::vector<Camera>& found,
 // Proves that the map's figure is of the size of true errors; how its sigma is made up is
 // tests/calib/expected_error_test.cpp's.
 TEST(CalibrationReport, ExpectsErrorsOfTheSizeThatPointsHave) {
-  const CalibrationReport& report = sample_calibration();
+  const calib::CalibrationReport& report = sample_calibration();
   const auto truth = sample_cameras();
   ASSERT_TRUE(report.map.middle_error_m);
   EXPECT_LT(
@@ -184,13 +187,7 @@ void collect_keys(const Json& value, std::set<std::string>& keys) {
 }
 
 TEST(CalibrationReport, HasAllItsKeysOnTheFormatsPage) {
-  std::ostringstream page;
-  page << std::ifstream(std::filesystem::path(MAREY_SOURCE_DIR) / "docs/formats.md")
-              .rdbuf();
-  const std::string text = page.str();
-  const std::size_t start = text.find("### calibration.json\n");
-  ASSERT_NE(start, std::string::npos);
-  const std::string section = text.substr(start, text.find("\n### ", start) - start);
+  const std::string section = marey::testing::formats_page("calibration");
   std::set<std::string> keys;
   collect_keys(calibration_figures(rich_calibration()), keys);
   collect_keys(calibration_figures(sample_calibration()), keys);

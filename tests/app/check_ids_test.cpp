@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check_ids.h"
+#include "app/check/check_ids.h"
 
 #include <map>
 #include <string>

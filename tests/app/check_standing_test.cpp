@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/check_standing.h"
+#include "app/check/check_standing.h"
 
 #include <gtest/gtest.h>
 

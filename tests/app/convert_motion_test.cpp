@@ -14,11 +14,12 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
-#include "recordings/gltf.h"
-#include "recordings/mot.h"
-#include "recordings/vrma.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/motion/mot.h"
+#include "recordings/gltf/vrma.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -33,7 +34,7 @@ ProgramRun convert(const fs::path& in,
                    const std::vector<std::string>& options = {}) {
   std::vector<std::string> arguments{"convert", in.string(), out.string(), "--json"};
   arguments.insert(arguments.end(), options.begin(), options.end());
-  return run_program(MAREY_PROGRAM, arguments);
+  return run_program(marey::testing::program(), arguments);
 }
 
 /// An average body of which every joint turns about an axis of its own, once around.
@@ -145,7 +146,7 @@ TEST(ConvertMotion, ChangesTheRate) {
 }
 
 TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {
-  const fs::path trial = fs::path(MAREY_SHARED_DATA) / "mocap/cmu_asfamc/02_01.amc";
+  const fs::path trial = marey::testing::shared_data() / "mocap/cmu_asfamc/02_01.amc";
   if (!fs::exists(trial)) GTEST_SKIP() << trial << " is not here";
   const ScratchFolder folder;
   const ProgramRun run = convert(trial, folder / "a.bvh");
@@ -170,7 +171,7 @@ TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {
 // Its bones are told by their names. Legs hang on the hips by joints that do not turn, so
 // that they are where the file has them.
 TEST(ConvertMotion, TellsTheBonesOfAMotionThatAVrmaOrADialectNames) {
-  const fs::path trial = fs::path(MAREY_SHARED_DATA) / "mocap/cmu_asfamc/02_01.amc";
+  const fs::path trial = marey::testing::shared_data() / "mocap/cmu_asfamc/02_01.amc";
   if (!fs::exists(trial)) GTEST_SKIP() << trial << " is not here";
   const ScratchFolder folder;
   ASSERT_EQ(convert(trial, folder / "a.bvh").exit_code, 0);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 
 namespace marey::testing {
@@ -17,7 +18,7 @@ using Json = nlohmann::json;
 
 class Doctor : public ::testing::Test {
  protected:
-  ProgramRun run_ = run_program(MAREY_PROGRAM, {"doctor", "--json"});
+  ProgramRun run_ = run_program(marey::testing::program(), {"doctor", "--json"});
   Json said_ = Json::parse(run_.out, nullptr, false);
 };
 
@@ -53,7 +54,7 @@ TEST_F(Doctor, SaysWhenThereIsNoCamera) {
 
 TEST_F(Doctor, SaysTheSameInWords) {
   ASSERT_TRUE(said_.is_object()) << run_.out;
-  const ProgramRun words = run_program(MAREY_PROGRAM, {"doctor"});
+  const ProgramRun words = run_program(marey::testing::program(), {"doctor"});
   EXPECT_EQ(words.exit_code, run_.exit_code);
   for (const Json& check : said_.at("checks")) {
     EXPECT_NE(words.out.find(check.at("check").get<std::string>()), std::string::npos);
@@ -63,7 +64,7 @@ TEST_F(Doctor, SaysTheSameInWords) {
 TEST_F(Doctor, NamesTheVersionThatTheProgramNames) {
   ASSERT_TRUE(said_.is_object()) << run_.out;
   EXPECT_EQ("marey " + said_.at("version").get<std::string>() + "\n",
-            run_program(MAREY_PROGRAM, {"--version"}).out);
+            run_program(marey::testing::program(), {"--version"}).out);
 }
 
 }  // namespace

@@ -18,9 +18,10 @@
 
 #include "core/camera.h"
 #include "core/humanoid.h"
-#include "core/quantile.h"
-#include "recordings/calibration_file.h"
-#include "recordings/motion_tables.h"
+#include "core/base/quantile.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/motion/motion_tables.h"
+#include "tests/support/paths.h"
 #include "tests/support/truth.h"
 
 namespace marey::testing {
@@ -29,8 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-const fs::path kSample = MAREY_SAMPLE;
-const fs::path kRuns = MAREY_FIRST_LIGHT;
+const fs::path kSample = marey::testing::sample_session();
+const fs::path kRuns = marey::testing::sample_results();
 constexpr int kWalkFrames = 90;
 
 std::string text_of(const fs::path& file) {

@@ -9,8 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/app/retarget_scene.h"
+#include "tests/support/paths.h"
 
 namespace marey::testing {
 namespace {
@@ -27,7 +28,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 /// A captured walk whose file has no rest, with its sides' names exchanged.
 std::string exchanged_walk() {
   const fs::path file =
-      fs::path(MAREY_SHARED_DATA) / "mocap/bandai/dataset-1_walk_normal_001.bvh";
+      marey::testing::shared_data() / "mocap/bandai/dataset-1_walk_normal_001.bvh";
   if (!fs::exists(file)) return "";
   std::string text = *recordings::read_file(file);
   replace_all(text, "_L\n", "_?\n");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/find_tags.h"
+#include "app/process/find_tags.h"
 
 #include <array>
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/check_sights.h"
-#include "recordings/atomic_file.h"
+#include "app/check/check_sights.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::app {

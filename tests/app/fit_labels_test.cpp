@@ -13,8 +13,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/app/labelled_session.h"
+#include "tests/support/paths.h"
 #include "tests/support/worn_markers.h"
 
 namespace marey::testing {
@@ -22,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kMocap = fs::path(MAREY_SHARED_DATA) / "mocap";
+const fs::path kMocap = marey::testing::shared_data() / "mocap";
 
 void exchange(MarkerTracks& tracks, const std::string& a, const std::string& b) {
   std::swap(*std::find(tracks.labels.begin(), tracks.labels.end(), a),

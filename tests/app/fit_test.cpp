@@ -12,12 +12,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/atomic_file.h"
-#include "recordings/marker_file.h"
-#include "recordings/mot.h"
-#include "recordings/motion_tables.h"
-#include "recordings/subject_file.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/markers/marker_file.h"
+#include "recordings/motion/mot.h"
+#include "recordings/motion/motion_tables.h"
+#include "recordings/session/subject_file.h"
 #include "tests/app/labelled_session.h"
+#include "tests/support/paths.h"
 #include "tests/support/worn_markers.h"
 
 namespace marey::testing {
@@ -161,7 +162,7 @@ TEST_F(FittedSession, TellsWhatItFoundInFitJson) {
 // work, everything but the durations is the same.
 TEST_F(FittedSession, GivesTheSameBytesOnOneCore) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  std::vector<std::string> arguments{"-c", "0", MAREY_PROGRAM, "fit"};
+  std::vector<std::string> arguments{"-c", "0", marey::testing::program(), "fit"};
   for (const std::string& input : inputs()) arguments.push_back(input);
   for (const char* word : {"--stature", "1.75", "--mass", "70", "--name", "Étienne"}) {
     arguments.emplace_back(word);

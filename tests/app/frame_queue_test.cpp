@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/frame_queue.h"
+#include "app/record/frame_queue.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/guide_subject.h"
+#include "app/live_chain/guide_subject.h"
 
 #include <algorithm>
 #include <cmath>
@@ -109,13 +109,13 @@ TEST_F(Guiding, WhatWasShownIsWhatIsSolved) {
   ASSERT_EQ(guide_.step(), WizardStep::kMove);
   const auto moved = filmed(marey::testing::range_of_motion(truth_), 7.0);
   show(moved);
-  ASSERT_EQ(guide_.step(), WizardStep::kSolve) << guide_.told().text;
+  ASSERT_EQ(guide_.step(), WizardStep::kSolve) << guide_.ui_state().text;
   const auto material = guide_.take_material();
   ASSERT_TRUE(material);
   EXPECT_FALSE(guide_.take_material());
   expect_shown(cameras_, material->standing, stood);
   expect_shown(cameras_, material->moving, moved);
-  for (const WizardCamera& camera : guide_.told().cameras) {
+  for (const WizardCamera& camera : guide_.ui_state().cameras) {
     EXPECT_GT(camera.coverage(), 0.05) << camera.name;
     EXPECT_EQ(camera.rms_px, 0.4);
   }
@@ -131,20 +131,20 @@ TEST_F(Guiding, WhatIsGoodIsAcceptedAndWhatIsPoorIsToldSo) {
   ASSERT_EQ(guide_.step(), WizardStep::kDone);
   EXPECT_TRUE(guide_.is_good());
   // Two bones of four limbs, residual, size, tags.
-  EXPECT_EQ(guide_.told().quality.size(), 11U);
+  EXPECT_EQ(guide_.ui_state().quality.size(), 11U);
   EXPECT_FALSE(guide_.act(WizardAction::kAccept));
   EXPECT_EQ(guide_.step(), WizardStep::kIdle);
   guide_.refuse_acceptance("the disk is full.");
   EXPECT_EQ(guide_.step(), WizardStep::kDone);
-  EXPECT_EQ(guide_.told().error, "the disk is full.");
+  EXPECT_EQ(guide_.ui_state().error, "the disk is full.");
 
   fit.body.joint_centre_sigma_m[index(HumanBone::kLeftHand)] = 0.02;
   SubjectGuide third = other;
   other.finish(fit);
   EXPECT_EQ(other.step(), WizardStep::kDone);
   EXPECT_FALSE(other.is_good());
-  const auto poor = std::find_if(other.told().quality.begin(),
-                                 other.told().quality.end(),
+  const auto poor = std::find_if(other.ui_state().quality.begin(),
+                                 other.ui_state().quality.end(),
                                  [](const auto& one) { return !one.good; });
   EXPECT_EQ(poor->name, "left lower arm");
 
@@ -159,8 +159,8 @@ TEST_F(Guiding, WhoMovesHasNotStood) {
   ASSERT_FALSE(guide_.act(WizardAction::kStart));
   show(filmed(marey::testing::walking(truth_), 4.0));
   EXPECT_EQ(guide_.step(), WizardStep::kStand);
-  EXPECT_LT(guide_.told().progress, 0.5);
-  EXPECT_NE(guide_.told().text.find("you moved"), std::string::npos);
+  EXPECT_LT(guide_.ui_state().progress, 0.5);
+  EXPECT_NE(guide_.ui_state().text.find("you moved"), std::string::npos);
   show(filmed(marey::testing::standing(truth_), 3.0));
   EXPECT_EQ(guide_.step(), WizardStep::kMove);
 }
@@ -169,15 +169,15 @@ TEST_F(Guiding, WhoIsNotSeenIsNotCounted) {
   ASSERT_FALSE(guide_.act(WizardAction::kStart));
   show_nobody(10.0);
   EXPECT_EQ(guide_.step(), WizardStep::kStand);
-  EXPECT_EQ(guide_.told().progress, 0.0);
-  EXPECT_NE(guide_.told().text.find("Missing: hips"), std::string::npos);
+  EXPECT_EQ(guide_.ui_state().progress, 0.0);
+  EXPECT_NE(guide_.ui_state().text.find("Missing: hips"), std::string::npos);
   EXPECT_TRUE(guide_.act(WizardAction::kNext));
   show(filmed(marey::testing::standing(truth_), 3.0));
   ASSERT_EQ(guide_.step(), WizardStep::kMove);
-  const double progress = guide_.told().progress;
+  const double progress = guide_.ui_state().progress;
   show_nobody(30.0);
   EXPECT_EQ(guide_.step(), WizardStep::kMove);
-  EXPECT_EQ(guide_.told().progress, progress);
+  EXPECT_EQ(guide_.ui_state().progress, progress);
 }
 
 TEST_F(Guiding, APartThatIsNeverSeenIsWaitedForButNotForEver) {
@@ -197,9 +197,9 @@ TEST_F(Guiding, APartThatIsNeverSeenIsWaitedForButNotForEver) {
   show(without(filmed(marey::testing::standing(truth_), 3.0), truth_));
   show(without(filmed(marey::testing::range_of_motion(truth_), 9.0), truth_));
   EXPECT_EQ(guide_.step(), WizardStep::kMove);
-  EXPECT_LT(guide_.told().progress, 1.0);
-  EXPECT_NE(guide_.told().text.find("Missing: left foot."), std::string::npos)
-      << guide_.told().text;
+  EXPECT_LT(guide_.ui_state().progress, 1.0);
+  EXPECT_NE(guide_.ui_state().text.find("Missing: left foot."), std::string::npos)
+      << guide_.ui_state().text;
   show(without(filmed(marey::testing::range_of_motion(truth_), 4.0), truth_));
   EXPECT_EQ(guide_.step(), WizardStep::kSolve);
 }
@@ -219,7 +219,7 @@ TEST_F(Guiding, WhatEndsTooEarlyFailsAndSaysWhatToDo) {
   ASSERT_FALSE(guide_.act(WizardAction::kStart));
   guide_.end();
   EXPECT_EQ(guide_.step(), WizardStep::kFailed);
-  EXPECT_NE(guide_.told().error.find("Next: "), std::string::npos);
+  EXPECT_NE(guide_.ui_state().error.find("Next: "), std::string::npos);
   stand();
   guide_.end();
   EXPECT_EQ(guide_.step(), WizardStep::kFailed);
@@ -232,11 +232,11 @@ TEST_F(Guiding, AFitThatFailsIsToldAndBegunAnew) {
   ASSERT_TRUE(guide_.take_material());
   guide_.finish(bad_input("", "the limbs are absurd", "measure the tags"));
   EXPECT_EQ(guide_.step(), WizardStep::kFailed);
-  EXPECT_NE(guide_.told().error.find("measure the tags"), std::string::npos);
+  EXPECT_NE(guide_.ui_state().error.find("measure the tags"), std::string::npos);
   EXPECT_TRUE(guide_.act(WizardAction::kAccept));
   EXPECT_FALSE(guide_.act(WizardAction::kStart));
   EXPECT_EQ(guide_.step(), WizardStep::kStand);
-  EXPECT_TRUE(guide_.told().error.empty());
+  EXPECT_TRUE(guide_.ui_state().error.empty());
 }
 
 TEST_F(Guiding, WhatIsCancelledIsForgotten) {

@@ -15,17 +15,18 @@
 
 #include "core/pose.h"
 #include "core/skeleton.h"
-#include "recordings/asf.h"
-#include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
-#include "recordings/character_file.h"
-#include "recordings/constraints_file.h"
-#include "recordings/floor_file.h"
-#include "recordings/live_take.h"
-#include "recordings/npz.h"
-#include "recordings/take_file.h"
+#include "recordings/motion/asf.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/body/character_file.h"
+#include "recordings/body/constraints_file.h"
+#include "recordings/body/floor_file.h"
+#include "recordings/takes/live_take.h"
+#include "recordings/motion/npz.h"
+#include "recordings/takes/take_file.h"
 #include "tests/app/labelled_session.h"
 #include "tests/support/bombs.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -35,11 +36,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-const fs::path kResults = MAREY_FIRST_LIGHT "/once";
-const fs::path kSample = MAREY_SAMPLE;
+const fs::path kResults = marey::testing::sample_results() / "once";
+const fs::path kSample = marey::testing::sample_session();
 
 ProgramRun marey(const std::vector<std::string>& arguments) {
-  return run_program(MAREY_PROGRAM, arguments);
+  return run_program(marey::testing::program(), arguments);
 }
 
 std::string kind_of(const fs::path& path) {

@@ -10,16 +10,17 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/calibration_report.h"
-#include "app/find_moved_cameras.h"
-#include "app/finding_list.h"
-#include "app/judge_calibration.h"
-#include "calib/calibrate_cameras.h"
-#include "calib/calibrate_wand.h"
-#include "calib/find_moved_camera.h"
-#include "core/quantile.h"
-#include "reconstruct/check_views.h"
-#include "reconstruct/triangulate.h"
+#include "app/check/find_moved_cameras.h"
+#include "calib/quality/calibration_report.h"
+#include "calib/quality/check_calibration.h"
+#include "calib/quality/report_calibration.h"
+#include "calib/rig/calibrate_cameras.h"
+#include "calib/rig/calibrate_wand.h"
+#include "calib/rig/find_moved_camera.h"
+#include "core/base/format_text.h"
+#include "core/base/quantile.h"
+#include "reconstruct/clusters/check_views.h"
+#include "reconstruct/clusters/triangulate.h"
 #include "tests/support/synthetic_rig.h"
 
 namespace marey::testing {
@@ -57,7 +58,7 @@ std::vector<std::string> words_for(RigFault fault) {
     case RigFault::kWrongIds:
       return {"first_id", "ids"};
     case RigFault::kStrayTags:
-      return {"does not go with the rest"};
+      return {"not fit the rest"};
   }
   return {};
 }
@@ -143,7 +144,7 @@ std::map<TagId, double> sizes_of(const std::vector<TagOnSegment>& tags) {
 }
 
 /// Judges the trials that follow as check_trials() of the program does.
-void judge_motions(const SimulatedCalibration& scene,
+void assess_motions(const SimulatedCalibration& scene,
                    const calib::CalibratedRig& rig,
                    JudgedCalibration& out) {
   std::vector<TagOnSegment> tags;
@@ -169,7 +170,7 @@ void judge_motions(const SimulatedCalibration& scene,
     }
     const std::string name = is_walk ? "walk" : "static";
     if (auto moved = calib::find_moved_camera(rig.cameras, detections, sizes_of(tags))) {
-      out.figures += app::worded("; %s: cam%d %.2f px gain %.0f from %d",
+      out.figures += format_text("; %s: cam%d %.2f px gain %.0f from %d",
                                  name.c_str(),
                                  index(moved->camera),
                                  moved->moved_px,
@@ -218,9 +219,9 @@ void compare(const SimulatedCalibration& scene,
 
 /// What its tests of other hypotheses say.
 std::string figures_of(const calib::CalibratedRig& rig) {
-  std::string out = app::worded("inliers %.3f px", rig.inlier_rms_px);
+  std::string out = format_text("inliers %.3f px", rig.inlier_rms_px);
   if (const auto& move = rig.apparent_move) {
-    out += app::worded("; move of %s from %d: %.2f px, %.1f mm of cameras, gain %.0f",
+    out += format_text("; move of %s from %d: %.2f px, %.1f mm of cameras, gain %.0f",
                        rig.cameras[index(move->camera)].name.c_str(),
                        move->from_frame.value_or(-1),
                        move->moved_px,
@@ -235,7 +236,7 @@ std::string figures_of(const calib::CalibratedRig& rig) {
       picture_s = std::max(picture_s, std::abs(own_s));
       shift_m = std::max(shift_m, delays->shift_m[c]);
     }
-    out += app::worded("; rows of %.1f ms, gain %.0f, shift %.1f mm",
+    out += format_text("; rows of %.1f ms, gain %.0f, shift %.1f mm",
                        1e3 * picture_s,
                        delays->gain,
                        1e3 * shift_m);
@@ -258,7 +259,7 @@ Result<calib::CalibratedRig> calibrate(const SimulatedCalibration& scene,
   return std::move(found->rig);
 }
 
-bool is_about_views(const app::Finding& finding) {
+bool is_about_views(const calib::Finding& finding) {
   const std::string kind = finding.kind;
   return kind == "coverage" || kind == "views" || kind == "tilt" || kind == "volume" ||
          kind == "shared";
@@ -286,18 +287,18 @@ JudgedCalibration judge(const SimulatedCalibration& scene) {
     const calib::CalibratedRig cameras = *rig;
     CalibrationTarget target = scene.board;
     if (scene.wand) target = *scene.wand;
-    const app::CalibrationReport report = app::report_calibration(
+    const calib::CalibrationReport report = calib::report_calibration(
         {"simulated", "1.0", &target, 1.75, scene.rate_hz, !scene.floor.empty()},
         std::move(*rig));
-    for (const app::Finding& finding : report.findings) {
-      if (finding.severity == app::Severity::kNote) continue;
-      const bool is_poor = finding.severity == app::Severity::kPoor;
+    for (const calib::Finding& finding : report.findings) {
+      if (finding.severity == calib::Severity::kNote) continue;
+      const bool is_poor = finding.severity == calib::Severity::kPoor;
       if (is_poor) out.exit_code = 4;
       out.words.push_back(std::string(is_poor ? "poor " : "fair ") + finding.kind + ": " +
                           finding.where + ": " + finding.cause + ": " + finding.next);
       out.is_noticed = out.is_noticed || is_poor || !is_about_views(finding);
     }
-    judge_motions(scene, cameras, out);
+    assess_motions(scene, cameras, out);
     out.refused_though_good = out.exit_code == 4 && is_good_input && out.worst_m < 0.010;
   }
   for (const std::string& word : out.words) {

@@ -15,17 +15,18 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/live_avatar.h"
-#include "app/motion_files.h"
-#include "app/neutral.h"
-#include "app/read_body.h"
-#include "app/retarget_files.h"
+#include "app/live_chain/live_avatar.h"
+#include "app/motion/motion_files.h"
+#include "app/motion/neutral.h"
+#include "app/motion/read_body.h"
+#include "app/motion/retarget_files.h"
 #include "core/pose.h"
-#include "live/vmc_body.h"
-#include "live/vmc_pose.h"
-#include "recordings/bvh.h"
-#include "recordings/gltf.h"
-#include "recordings/npz.h"
+#include "live/vmc/vmc_body.h"
+#include "live/vmc/vmc_pose.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/motion/npz.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/segment_directions.h"
 
@@ -39,7 +40,7 @@ using testing::ScratchFolder;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::filesystem::path shared(const std::string& name) {
-  return std::filesystem::path(MAREY_SHARED_DATA) / name;
+  return marey::testing::shared_data() / name;
 }
 
 /// The names of a body's joints, as this test read them in its file.
@@ -253,7 +254,7 @@ glm::dvec3 facing(const Skeleton& skeleton, const BoneJoints& joints, const Pose
 /// Where a receiver's avatar faces, in marey's axes. Its T-pose faces +Z.
 glm::dvec3 vmc_facing(const live::VmcBody& body, const Pose& pose) {
   live::VmcPose told;
-  body.tell(pose, told);
+  body.to_vmc(pose, told);
   EXPECT_TRUE(told.contains(live::UnityBone::kHips));
   const glm::dquat hips = told.root.rotation *
                           told.local[live::index(live::UnityBone::kHips)].rotation;

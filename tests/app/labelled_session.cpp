@@ -7,9 +7,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "reconstruct/landmarks.h"
-#include "recordings/marker_file.h"
-#include "recordings/motion_tables.h"
+#include "reconstruct/labels/landmarks.h"
+#include "recordings/markers/marker_file.h"
+#include "recordings/motion/motion_tables.h"
+#include "tests/support/paths.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/worn_markers.h"
 
@@ -95,7 +96,7 @@ std::filesystem::path write_static(const ScratchFolder& folder, const std::strin
 
 ProgramRun fit(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), {"fit", "--progress", "none"});
-  return run_program(MAREY_PROGRAM, arguments);
+  return run_program(marey::testing::program(), arguments);
 }
 
 std::pair<double, double> joint_errors(const std::filesystem::path& csv,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live_balance.h"
+#include "app/live_chain/live_balance.h"
 
 #include <array>
 #include <vector>
@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/humanoid.h"
-#include "retarget/detect_contacts.h"
-#include "retarget/frame_marks.h"
-#include "retarget/place_masses.h"
+#include "retarget/contacts/detect_contacts.h"
+#include "retarget/contacts/frame_marks.h"
+#include "retarget/body/place_masses.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/synthetic_walk.h"
 

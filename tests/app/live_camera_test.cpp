@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What cameras' pictures become on the way to a page.
-#include "app/live_camera.h"
+#include "capture/feeds/live_camera.h"
 
 #include <gtest/gtest.h>
 
-#include "app/thumbnail_wishes.h"
-#include "recordings/jpeg_encoder.h"
+#include "app/live/thumbnail_requests.h"
+#include "recordings/takes/jpeg_encoder.h"
 #include "tests/app/synthetic_feed.h"
 
 namespace marey::app {
@@ -25,9 +25,9 @@ TEST(LiveCamera, ShrinksPicturesOfAnyWidthToWhatAPageIsSent) {
     Camera camera;
     camera.intrinsics.width_px = width_px;
     camera.intrinsics.height_px = kHeight;
-    LiveCameraOptions options;
+    capture::LiveCameraOptions options;
     options.stale_after_s = 1e9;
-    auto live = LiveCamera::create(options, camera, feed, {});
+    auto live = capture::LiveCamera::create(options, camera, feed, {});
     ASSERT_TRUE(live) << live.error().message();
     (*live)->want_thumbnails(true);
     const std::vector<std::byte> pixels(static_cast<std::size_t>(width_px * kHeight),
@@ -35,7 +35,7 @@ TEST(LiveCamera, ShrinksPicturesOfAnyWidthToWhatAPageIsSent) {
     capture::RawFrame frame;
     frame.bytes = pixels;
     frame.time = std::chrono::steady_clock::now().time_since_epoch();
-    DetectedPicture out;
+    capture::DetectedPicture out;
     ASSERT_TRUE((*live)->make(frame, out)) << width_px;
     EXPECT_EQ(out.thumbnail_width_px % 2, 0) << width_px;
     EXPECT_LE(width_px - 4 * out.thumbnail_width_px, 7);
@@ -51,8 +51,8 @@ TEST(LiveCamera, ShrinksPicturesOfAnyWidthToWhatAPageIsSent) {
   }
 }
 
-TEST(ThumbnailWishes, OfOnePageAreNotEndedByAnother) {
-  ThumbnailWishes wishes;
+TEST(ThumbnailRequests, OfOnePageAreNotEndedByAnother) {
+  ThumbnailRequests wishes;
   wishes.ask(live::ClientId{1}, true);
   wishes.ask(live::ClientId{2}, false);
   EXPECT_TRUE(wishes.any());

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // From what cameras see to an avatar that is dragged.
-#include "app/live_chain.h"
+#include "app/live_chain/live_chain.h"
 
 #include <optional>
 #include <string>

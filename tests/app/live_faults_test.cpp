@@ -14,9 +14,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/live_chain.h"
-#include "app/live_health.h"
-#include "live/osc_parse.h"
+#include "app/live_chain/live_chain.h"
+#include "app/live_chain/live_health.h"
+#include "live/vmc/osc_parse.h"
 #include "tests/support/synthetic_person.h"
 
 namespace marey::app {
@@ -242,25 +242,25 @@ TEST_F(LiveFaults, ACameraThatIsGoneForThreeSecondsIsDoneWithout) {
 TEST_F(LiveFaults, CamerasInAnotherOrderAreTold) {
   auto instants = film(120);
   LiveChain right = make_chain();
-  SeenInVain never(body_);
+  UnmatchedTagsDetector never(body_);
   for (const LiveInstant& instant : instants) {
     never.add(instant, right.step(instant, {}).track);
-    EXPECT_FALSE(never.is_so()) << instant.number;
+    EXPECT_FALSE(never.has_unmatched()) << instant.number;
   }
   LiveChain chain = make_chain();
-  SeenInVain seen(body_);
+  UnmatchedTagsDetector seen(body_);
   for (LiveInstant& instant : instants) {
     std::swap(instant.views[0].tags, instant.views[2].tags);
     seen.add(instant, chain.step(instant, {}).track);
   }
-  EXPECT_TRUE(seen.is_so());
+  EXPECT_TRUE(seen.has_unmatched());
   // Not where nobody is.
-  SeenInVain nobody(body_);
+  UnmatchedTagsDetector nobody(body_);
   for (LiveInstant& instant : instants) {
     for (CameraTags& view : instant.views) view.tags.clear();
     nobody.add(instant, {});
   }
-  EXPECT_FALSE(nobody.is_so());
+  EXPECT_FALSE(nobody.has_unmatched());
 }
 
 // Another in a suit of other tags, and, for a second, one whose suit has the same numbers:

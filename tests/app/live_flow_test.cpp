@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A live run whose poses do not keep up, by a clock that the tests turn.
-#include "app/live_flow.h"
+#include "app/live_chain/live_flow.h"
 
 #include <chrono>
 #include <cmath>
@@ -13,9 +13,9 @@
 
 #include <gtest/gtest.h>
 
-#include "app/live_watchdog.h"
-#include "live/udp_listener.h"
-#include "live/vmc_assembler.h"
+#include "app/live/live_watchdog.h"
+#include "live/udp/udp_listener.h"
+#include "live/vmc/vmc_assembler.h"
 
 namespace marey::app {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live_handles.h"
+#include "app/live_chain/live_handles.h"
 
 #include <cmath>
 #include <string>

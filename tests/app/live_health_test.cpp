@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live_health.h"
+#include "app/live_chain/live_health.h"
 
 #include <chrono>
 #include <optional>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/live_outputs.h"
+#include "app/live_chain/live_outputs.h"
 
 namespace marey::app {
 namespace {
@@ -44,7 +44,7 @@ class LiveSubject : public ::testing::Test {
   [[nodiscard]] live::PageStatus told(TrackState state,
                                       const std::vector<std::string>& unseen = {}) {
     live::PageStatus status = status_;
-    tell_subject(state, figures_, unseen, status);
+    add_subject_status(state, figures_, unseen, status);
     return status;
   }
   LiveFigures figures_;
@@ -53,15 +53,15 @@ class LiveSubject : public ::testing::Test {
 
 TEST_F(LiveSubject, IsWellOnlyWhereTheWorstCameraAndSegmentAre) {
   EXPECT_EQ(told(TrackState::kTracked).subject, PageSubject::kTracked);
-  EXPECT_TRUE(told(TrackState::kTracked).doubts.empty());
+  EXPECT_TRUE(told(TrackState::kTracked).warnings.empty());
   const auto unseen = told(TrackState::kTracked, {"leftFoot"});
   EXPECT_EQ(unseen.subject, PageSubject::kPartly);
-  ASSERT_EQ(unseen.doubts.size(), 1U);
-  EXPECT_EQ(unseen.doubts[0], "leftFoot has not been seen for more than a second");
+  ASSERT_EQ(unseen.warnings.size(), 1U);
+  EXPECT_EQ(unseen.warnings[0], "leftFoot has not been seen for more than a second");
   for (const auto state : {PageCameraState::kSilent, PageCameraState::kLost}) {
     status_.cameras[1].state = state;
     EXPECT_EQ(told(TrackState::kTracked).subject, PageSubject::kPartly);
-    EXPECT_NE(told(TrackState::kTracked).doubts.at(0).find("right"), std::string::npos);
+    EXPECT_NE(told(TrackState::kTracked).warnings.at(0).find("right"), std::string::npos);
   }
 }
 
@@ -71,7 +71,7 @@ TEST_F(LiveSubject, IsNotTrackedWherePosesDoNotKeepUp) {
        {TrackState::kWaiting, TrackState::kTracked, TrackState::kLost}) {
     figures_.flow = Flow::kBehind;
     EXPECT_EQ(told(state).subject, PageSubject::kBehind);
-    EXPECT_EQ(told(state).doubts.back(), "poses fall behind");
+    EXPECT_EQ(told(state).warnings.back(), "poses fall behind");
     figures_.flow = Flow::kStopped;
     EXPECT_EQ(told(state).subject, PageSubject::kStopped);
   }
@@ -89,15 +89,16 @@ TEST(WornSegments, AreUnseenWhereTheirPlaceIsAGuess) {
     body.tags.push_back(tag);
     body.tags.push_back(tag);
   }
-  std::vector<JointDoubt> doubt(kHumanBoneCount,
+  std::vector<JointUncertainty> uncertainty(kHumanBoneCount,
                                 {0.01, Source::kMeasured, Source::kMeasured});
-  EXPECT_TRUE(WornSegments(body).unseen(doubt).empty());
-  doubt[index(HumanBone::kLeftFoot)].segment_source = Source::kInferred;
-  doubt[index(HumanBone::kHead)].segment_source = Source::kRepaired;
-  doubt[index(HumanBone::kRightHand)].segment_source = Source::kInferred;  // No tag.
+  EXPECT_TRUE(WornSegments(body).unseen(uncertainty).empty());
+  uncertainty[index(HumanBone::kLeftFoot)].segment_source = Source::kInferred;
+  uncertainty[index(HumanBone::kHead)].segment_source = Source::kRepaired;
+  uncertainty[index(HumanBone::kRightHand)].segment_source =
+      Source::kInferred;  // No tag.
   // Seen, but its joint is known badly.
-  doubt[index(HumanBone::kHips)] = {0.03, Source::kInferred, Source::kMeasured};
-  EXPECT_EQ(WornSegments(body).unseen(doubt), std::vector<std::string>{"leftFoot"});
+  uncertainty[index(HumanBone::kHips)] = {0.03, Source::kInferred, Source::kMeasured};
+  EXPECT_EQ(WornSegments(body).unseen(uncertainty), std::vector<std::string>{"leftFoot"});
   EXPECT_TRUE(WornSegments(body).unseen({}).empty());
 }
 

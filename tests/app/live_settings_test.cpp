@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live_settings.h"
+#include "app/live_chain/live_settings.h"
 
 #include <string>
 #include <utility>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/live_streams.h"
+#include "app/live_chain/live_streams.h"
 
 namespace marey::app {
 namespace {
@@ -129,9 +129,9 @@ TEST(KeptPeriods, AreThoseAskedForLast) {
   LiveRequests nothing;
   kept.add_to(nothing);
   EXPECT_EQ(live_requests_text(nothing), "");
-  kept.hear({{{}, {live::VmcPeriods{1, 1, 1}, true}}});
-  kept.hear({{{}, {live::VmcPeriods{2, 3, 4}, false}}});
-  kept.hear({});
+  kept.apply({{{}, {live::VmcPeriods{1, 1, 1}, true}}});
+  kept.apply({{{}, {live::VmcPeriods{2, 3, 4}, false}}});
+  kept.apply({});
   LiveRequests later;
   kept.add_to(later);
   ASSERT_EQ(later.streams.size(), 2U);
@@ -171,7 +171,7 @@ TEST(LiveRequests, RefuseHandlesThatCannotBe) {
     EXPECT_FALSE(parse_live_requests(text, "take")) << text;
   }
   LiveRequests asked;
-  for (std::size_t i = 0; i < LiveRequests::kMostHandles; ++i) {
+  for (std::size_t i = 0; i < LiveRequests::kMaxHandles; ++i) {
     EXPECT_TRUE(asked.add({"hips", HandleAction::kStop, {}}));
   }
   EXPECT_FALSE(asked.add({"hips", HandleAction::kStop, {}}));

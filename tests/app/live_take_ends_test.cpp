@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Takes that end before they began, those of another body, and what lies in their folders.
-#include "app/live_takes.h"
+#include "app/live/live_takes.h"
+#include "app/live_chain/open_live_take.h"
 
 #include <chrono>
 #include <filesystem>
@@ -13,8 +14,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/live_guide.h"
-#include "recordings/subject_file.h"
+#include "app/live/live_guide.h"
+#include "recordings/session/subject_file.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/synthetic_person.h"
 
@@ -223,7 +224,7 @@ TEST_F(TakesOfARun, MeasureNobodyAfterTheEnd) {
   LiveGuide guide(live_, {.begin = true, .by_itself = true}, console_);
   for (int i = 0; i < 5; ++i) guide.see(instant());
   guide.end();
-  EXPECT_EQ(guide.told().step, live::WizardStep::kFailed);
+  EXPECT_EQ(guide.ui_state().step, live::WizardStep::kFailed);
   EXPECT_FALSE(guide.has_measured());
 }
 

@@ -17,7 +17,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "recordings/live_take.h"
+#include "recordings/takes/live_take.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/web_socket.h"
@@ -27,9 +28,9 @@ namespace {
 
 using nlohmann::json;
 
-const std::filesystem::path kSample = MAREY_SAMPLE;
-const std::filesystem::path kResults = std::filesystem::path(MAREY_FIRST_LIGHT) / "once";
-const std::filesystem::path kProgram = MAREY_PROGRAM;
+const std::filesystem::path kSample = marey::testing::sample_session();
+const std::filesystem::path kResults = marey::testing::sample_results() / "once";
+const std::filesystem::path kProgram = marey::testing::program();
 
 /// One that nobody had a moment ago.
 int free_port() {

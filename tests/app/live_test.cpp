@@ -14,19 +14,20 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "live/osc_parse.h"
-#include "live/udp_listener.h"
-#include "live/web_server.h"
-#include "recordings/live_take.h"
+#include "live/vmc/osc_parse.h"
+#include "live/udp/udp_listener.h"
+#include "live/web/web_server.h"
+#include "recordings/takes/live_take.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::testing {
 namespace {
 
-const std::filesystem::path kSample = MAREY_SAMPLE;
-const std::filesystem::path kResults = std::filesystem::path(MAREY_FIRST_LIGHT) / "once";
-const std::filesystem::path kProgram = MAREY_PROGRAM;
+const std::filesystem::path kSample = marey::testing::sample_session();
+const std::filesystem::path kResults = marey::testing::sample_results() / "once";
+const std::filesystem::path kProgram = marey::testing::program();
 
 using Words = std::vector<std::string>;
 

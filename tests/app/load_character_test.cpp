@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/load_character.h"
+#include "app/adapt/load_character.h"
 
 #include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/character_file.h"
-#include "recordings/subject_file.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/body/character_file.h"
+#include "recordings/session/subject_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::app {
@@ -67,7 +68,7 @@ TEST(LoadCharacter, TakesTheLengthsAndTheMassOfASubject) {
 
 TEST(LoadCharacter, TakesTheSkeletonOfAnAvatar) {
   const std::filesystem::path avatar =
-      std::filesystem::path(MAREY_SHARED_DATA) / "avatars/vrm/cryptovoxels.vrm";
+      marey::testing::shared_data() / "avatars/vrm/cryptovoxels.vrm";
   if (!std::filesystem::exists(avatar)) GTEST_SKIP() << "the avatars are not there";
   const ScratchFolder folder;
   CharacterSpec spec;
@@ -101,7 +102,7 @@ TEST(LoadCharacter, NamesTheFileThatIsToBlame) {
                              "0\n"));
   spec.body = AvatarBody{"stub.bvh"};
   ASSERT_TRUE(recordings::write_character_spec(folder / "c.toml", spec));
-  EXPECT_NE(said(folder / "c.toml").find("stub.bvh: skeleton: among its 1 joints is no body"),
+  EXPECT_NE(said(folder / "c.toml").find("stub.bvh: skeleton: no body was found among its 1 joints"),
             std::string::npos);
 }
 

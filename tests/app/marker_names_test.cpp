@@ -15,15 +15,16 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "reconstruct/name_markers.h"
-#include "recordings/marker_file.h"
+#include "reconstruct/labels/name_markers.h"
+#include "recordings/markers/marker_file.h"
+#include "tests/support/paths.h"
 
 namespace marey::app {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kMocap = fs::path(MAREY_SHARED_DATA) / "mocap";
+const fs::path kMocap = marey::testing::shared_data() / "mocap";
 
 /// How many of a file's markers have a name, and by which set. Those that have none are
 /// computed, wands, devices, doubles, or points whose label says nothing.

@@ -10,10 +10,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/atomic_file.h"
-#include "recordings/marker_file.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/markers/marker_file.h"
 #include "tests/app/browser.h"
 #include "tests/app/labelled_session.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/synthetic_markers.h"
@@ -42,7 +43,7 @@ std::string repaired_page(MarkerTracks tracks) {
   const ScratchFolder folder;
   write_tracks(folder / "a.c3d", std::move(tracks));
   const ProgramRun run = run_program(
-      MAREY_PROGRAM,
+      marey::testing::program(),
       {"repair", (folder / "a.c3d").string(), "--out", (folder / "b.c3d").string()});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto page = recordings::read_file(folder / "b.c3d.repair.html");

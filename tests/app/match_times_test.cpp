@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/match_times.h"
+#include "app/check/match_times.h"
 
 #include <filesystem>
 #include <functional>
@@ -10,9 +10,10 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include "app/uneven_videos.h"
-#include "recordings/atomic_file.h"
-#include "recordings/take_file.h"
+#include "app/check/uneven_videos.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/takes/take_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::app {
@@ -192,7 +193,7 @@ struct RatedVideos {
     trial.rate = FrameRate{hz};
     for (std::size_t c = 0; c < files.size(); ++c) {
       const fs::path path =
-          fs::path(MAREY_SOURCE_DIR) / "recordings/samples/first-light" / files[c];
+          marey::testing::source_dir() / "recordings/samples/first-light" / files[c];
       trial.videos.push_back({CameraId{static_cast<int>(c)}, path, {}, 0});
       CameraDetections& camera = found.emplace_back();
       camera.camera = CameraId{static_cast<int>(c)};

@@ -27,10 +27,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "calib/find_moved_camera.h"
-#include "recordings/calibration_file.h"
-#include "recordings/detections_file.h"
-#include "recordings/session.h"
+#include "calib/rig/find_moved_camera.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/session/detections_file.h"
+#include "recordings/session/session.h"
 #include "tests/app/judged_calibration.h"
 
 namespace {
@@ -190,7 +190,7 @@ void print_move(const std::vector<marey::Camera>& cameras,
       57.29578 * move->turn_rad,
       1e3 * move->shift_m,
       move->gain,
-      move->instead.size(),
+      move->alternatives.size(),
       seconds);
 }
 

@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "capture/group_frames.h"
-#include "capture/tag_pattern.h"
-#include "capture/track_tags.h"
+#include "capture/sync/group_frames.h"
+#include "capture/tags/tag_pattern.h"
+#include "capture/tags/track_tags.h"
 
 namespace marey {
 namespace {

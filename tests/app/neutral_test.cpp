@@ -11,17 +11,18 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-#include "app/neutral.h"
-#include "app/read_body.h"
-#include "retarget/identify_bones.h"
-#include "retarget/neutral_t_pose.h"
-#include "retarget/up_of_motion.h"
+#include "app/motion/neutral.h"
+#include "app/motion/read_body.h"
+#include "retarget/bones/identify_bones.h"
+#include "retarget/bones/neutral_t_pose.h"
+#include "retarget/bones/up_of_motion.h"
+#include "tests/support/paths.h"
 
 namespace marey::app {
 namespace {
 
 std::filesystem::path shared(const std::string& name) {
-  return std::filesystem::path(MAREY_SHARED_DATA) / name;
+  return marey::testing::shared_data() / name;
 }
 
 // Clips of one skeleton, one neutral: bit by bit, and with others behind them.

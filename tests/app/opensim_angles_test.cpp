@@ -21,8 +21,9 @@
 #include <pugixml.hpp>
 
 #include "core/pose.h"
-#include "reconstruct/joint_angles.h"
-#include "recordings/mot.h"
+#include "reconstruct/motion/joint_angles.h"
+#include "recordings/motion/mot.h"
+#include "tests/support/paths.h"
 
 namespace marey {
 namespace {
@@ -190,13 +191,13 @@ struct Case {
 
 class OpenSimAngles : public ::testing::TestWithParam<Case> {
  protected:
-  static fs::path folder() { return fs::path(MAREY_SHARED_DATA) / "mocap"; }
+  static fs::path folder() { return marey::testing::shared_data() / "mocap"; }
   void SetUp() override {
     if (!fs::exists(folder())) GTEST_SKIP() << folder() << " is not there";
   }
 };
 
-/// What of a column its definition leaves out of the model: docs/formats.md. [rad]
+/// What of a column its definition leaves out of the model: docs/formats/README.md. [rad]
 double allowed(const std::string& column) {
   // Eight decimals in the file.
   constexpr double kDigits = 1e-6;

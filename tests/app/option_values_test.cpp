@@ -9,12 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/run_program.h"
+#include "tests/support/paths.h"
 
 namespace marey::testing {
 namespace {
 
 ProgramRun marey(const std::vector<std::string>& arguments) {
-  return run_program(MAREY_PROGRAM, arguments);
+  return run_program(marey::testing::program(), arguments);
 }
 
 /// The commands that `words --help` lists.

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/app/painted_session.h"
+#include "tests/support/paths.h"
 
 #include <cmath>
 #include <cstdio>
@@ -205,7 +206,7 @@ ProgramRun PaintedSession::calibrate() const {
        << videos_in("seen") << " }\n"
        << floor_ << more_;
   file.close();
-  return run_program(MAREY_PROGRAM,
+  return run_program(marey::testing::program(),
                      {"calibrate",
                       (folder_ / "session.toml").string(),
                       "--out",

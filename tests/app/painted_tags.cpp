@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "capture/tag_pattern.h"
+#include "capture/tags/tag_pattern.h"
 #include "core/detection.h"
 
 namespace marey::testing {

@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/camera.h"
-#include "core/ids.h"
+#include "core/base/ids.h"
 #include "core/tag_pattern.h"
 #include "core/transform.h"
 

@@ -11,8 +11,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/calibration_file.h"
-#include "recordings/plan_file.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/session/plan_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -49,7 +50,7 @@ class Plan : public ::testing::Test {
     std::vector<std::string> words{
         "plan", (folder_ / "plan.toml").string(), "--out", (folder_ / out).string()};
     words.insert(words.end(), more.begin(), more.end());
-    return run_program(MAREY_PROGRAM, words);
+    return run_program(marey::testing::program(), words);
   }
 
   /// What the last run wrote.

@@ -10,8 +10,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/atomic_file.h"
-#include "recordings/session.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/session/session.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -31,7 +32,7 @@ class Print : public ::testing::Test {
   /// `marey ARGUMENTS --out out.pdf`.
   [[nodiscard]] ProgramRun print(std::vector<std::string> arguments) const {
     arguments.insert(arguments.end(), {"--out", pdf()});
-    return run_program(MAREY_PROGRAM, arguments);
+    return run_program(marey::testing::program(), arguments);
   }
 
   void expect_refusal(const std::vector<std::string>& arguments,
@@ -82,7 +83,7 @@ TEST_F(Print, RefusesTagsThatThereAreNot) {
                  3,
                  "tag36h11 ends at id 586",
                  "0 to 586");
-  expect_refusal({"tags", "--session", MAREY_SAMPLE, "--ids", "500"}, 3, "500", "--ids");
+  expect_refusal({"tags", "--session", marey::testing::sample_session().string(), "--ids", "500"}, 3, "500", "--ids");
   expect_refusal({"board", "--family", "tag16h5"}, 3, "ends at id 29", "0 to 29");
   expect_refusal({"board", "--type", "charuco", "--dictionary", "DICT_9X9"},
                  3,
@@ -104,7 +105,7 @@ TEST_F(Print, RefusesWhatDoesNotFit) {
 TEST_F(Print, LeavesNothingWhereItCannotWrite) {
   std::ofstream(in_folder("file")) << "in the way";
   const ProgramRun run = run_program(
-      MAREY_PROGRAM,
+      marey::testing::program(),
       {"tags", "--ids", "1", "--size", "8cm", "--out", in_folder("file/a.pdf").string()});
   EXPECT_EQ(run.exit_code, 3) << run.err;
   EXPECT_NE(run.err.find("Next: "), std::string::npos) << run.err;

@@ -20,8 +20,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "capture/detect_tags.h"
+#include "capture/tags/detect_tags.h"
 #include "core/board.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -40,7 +41,7 @@ constexpr double kTolerance_m = 0.0001;
 class PrintToScale : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (std::string(MAREY_PDFTOPPM).find("NOTFOUND") != std::string::npos) {
+    if (marey::testing::pdftoppm().empty()) {
       GTEST_SKIP() << "skipped: pdftoppm is missing; apt-get install poppler-utils";
     }
   }
@@ -49,15 +50,16 @@ class PrintToScale : public ::testing::Test {
   /// `marey ARGUMENTS --out out.pdf --json`.
   Json print(std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--out", pdf(), "--json"});
-    const ProgramRun run = run_program(MAREY_PROGRAM, arguments);
+    const ProgramRun run = run_program(marey::testing::program(), arguments);
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return Json::parse(run.out, nullptr, false);
   }
 
   /// Its pages at 300 dots an inch.
   std::vector<cv::Mat> draw() {
-    const ProgramRun run = run_program(
-        MAREY_PDFTOPPM, {"-r", "300", "-gray", pdf(), (folder_ / "page").string()});
+    const ProgramRun run =
+        run_program(marey::testing::pdftoppm(),
+                    {"-r", "300", "-gray", pdf(), (folder_ / "page").string()});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     std::set<fs::path> files;
     for (const auto& entry : fs::directory_iterator(folder_.path())) {
@@ -244,7 +246,8 @@ TEST_F(PrintToScale, FoldedPlatesAreFound) {
 }
 
 TEST_F(PrintToScale, SessionsTagsHaveTheirOwnSizes) {
-  const Json summary = print({"tags", "--session", MAREY_SAMPLE, "--page", "A3"});
+  const Json summary = print(
+      {"tags", "--session", marey::testing::sample_session().string(), "--page", "A3"});
   std::set<int> ids;
   std::set<double> sizes_mm;
   for (const Json& page : summary.at("pages")) {

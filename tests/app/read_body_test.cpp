@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/read_body.h"
+#include "app/motion/read_body.h"
 
 #include <algorithm>
 #include <array>
@@ -9,12 +9,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/retarget_files.h"
+#include "app/motion/retarget_files.h"
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
-#include "recordings/mannequin.h"
-#include "retarget/body_map.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/body/mannequin.h"
+#include "retarget/body/body_map.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::app {
@@ -24,7 +25,7 @@ using B = HumanBone;
 using testing::ScratchFolder;
 
 std::filesystem::path shared(const std::string& name) {
-  return std::filesystem::path(MAREY_SHARED_DATA) / name;
+  return marey::testing::shared_data() / name;
 }
 
 struct FileCase {
@@ -228,7 +229,7 @@ TEST(ReadBody, NamesTheFileThatIsNoBody) {
       folder / "boxes.gltf",
       R"({"asset":{"version":"2.0"},"nodes":[{"name":"Box","children":[1]},{"name":"Lid"}]})"));
   EXPECT_NE(said(folder / "boxes.gltf")
-                .find("boxes.gltf: skeleton: among its 2 joints is no body"),
+                .find("boxes.gltf: skeleton: no body was found among its 2 joints"),
             std::string::npos);
   ASSERT_TRUE(recordings::write_file(folder / "note.glb",
                                      "version https://git-lfs.github.com/spec/v1\n"));

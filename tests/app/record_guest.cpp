@@ -19,18 +19,18 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "app/device_feed.h"
-#include "app/live_groups.h"
-#include "app/record_take.h"
-#include "recordings/take_file.h"
-#include "recordings/video_times.h"
+#include "app/record/record_take.h"
+#include "capture/feeds/device_feed.h"
+#include "capture/feeds/live_groups.h"
+#include "recordings/takes/take_file.h"
+#include "recordings/takes/video_times.h"
 #include "tests/support/vivid.h"
 
 namespace marey::guest {
 namespace {
 
 namespace fs = std::filesystem;
-using app::DeviceFeed;
+using capture::DeviceFeed;
 using recordings::Take;
 using recordings::TakeFrame;
 
@@ -51,14 +51,14 @@ bool check(bool true_, const std::string& claim, const std::string& seen = {}) {
 }
 
 /// Cameras that stream for a while before they are recorded.
-std::vector<std::unique_ptr<DeviceFeed>> open_both() {
-  std::vector<std::unique_ptr<DeviceFeed>> feeds;
+std::vector<std::unique_ptr<capture::DeviceFeed>> open_both() {
+  std::vector<std::unique_ptr<capture::DeviceFeed>> feeds;
   for (std::size_t c = 0; c < 2; ++c) {
     capture::DeviceRequest request;
     request.path = kPaths[c];
     request.width_px = 320;
     request.height_px = 180;
-    auto feed = DeviceFeed::open(kNames[c], request, [](const std::string&) {});
+    auto feed = capture::DeviceFeed::open(kNames[c], request, [](const std::string&) {});
     if (!check(feed.has_value(), kNames[c] + " is opened")) return {};
     feeds.push_back(std::move(*feed));
   }
@@ -186,16 +186,16 @@ Timestamp unplug_for_two_seconds() {
   return now;
 }
 
-Seen watch_live(const std::vector<std::unique_ptr<DeviceFeed>>& feeds,
+Seen watch_live(const std::vector<std::unique_ptr<capture::DeviceFeed>>& feeds,
                 const std::atomic<std::int64_t>& back_ns) {
   using Clock = std::chrono::steady_clock;
-  const std::array<app::FrameFeed*, 2> both{feeds[0].get(), feeds[1].get()};
+  const std::array<capture::FrameFeed*, 2> both{feeds[0].get(), feeds[1].get()};
   const std::vector<capture::ClockModel> clocks(2);
   capture::GroupFramesOptions options;
   options.mode = capture::GroupingMode::kLive;
   options.origin = std::nullopt;
   options.capacity = 8;
-  app::LiveGroups<int> groups(
+  capture::LiveGroups<int> groups(
       both, clocks, options, [](CameraId, const capture::RawFrame&, int&) {
         return true;
       });
@@ -205,7 +205,7 @@ Seen watch_live(const std::vector<std::unique_ptr<DeviceFeed>>& feeds,
   auto first_camera = begin;
   while (Clock::now() - begin < std::chrono::seconds(8)) {
     const auto* group = groups.next(std::chrono::milliseconds(100));
-    const app::FeedHealth health = feeds[0]->health();
+    const capture::FeedHealth health = feeds[0]->health();
     if (health.state == capture::CameraState::kLost) seen.told = health.trouble;
     if (!group) continue;
     const auto now = Clock::now();
@@ -239,11 +239,11 @@ void check_live() {
   check(seen.told.find(kPaths[0]) != std::string::npos,
         "live, a camera that is unplugged is told of",
         seen.told);
-  check(seen.longest_pause_s >= 2.0 && seen.back_after_s >= 0.0 &&
-            seen.back_after_s <= 3.0,
-        "it is back within 3 s of its return",
-        std::to_string(seen.back_after_s) + " s, gone for " +
-            std::to_string(seen.longest_pause_s) + " s");
+  check(
+      seen.longest_pause_s >= 2.0 && seen.back_after_s >= 0.0 && seen.back_after_s <= 3.0,
+      "it is back within 3 s of its return",
+      std::to_string(seen.back_after_s) + " s, gone for " +
+          std::to_string(seen.longest_pause_s) + " s");
   check(seen.with_second >= 225 && seen.longest_wait_s <= 0.2,
         "instants go on with its neighbour meanwhile",
         std::to_string(seen.with_second) + ", of which alone " +

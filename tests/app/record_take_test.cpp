@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/record_take.h"
+#include "app/record/record_take.h"
 
 #include <algorithm>
 #include <array>
@@ -18,8 +18,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "recordings/take_file.h"
-#include "recordings/video_times.h"
+#include "recordings/takes/take_file.h"
+#include "recordings/takes/video_times.h"
 #include "tests/app/synthetic_feed.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/video_packets.h"

@@ -15,10 +15,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "app/record_take.h"
-#include "recordings/atomic_file.h"
-#include "recordings/take_file.h"
-#include "recordings/video_times.h"
+#include "app/record/record_take.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/takes/take_file.h"
+#include "recordings/takes/video_times.h"
 #include "tests/app/synthetic_feed.h"
 #include "tests/support/scratch_folder.h"
 

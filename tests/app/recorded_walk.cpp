@@ -10,7 +10,8 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include "recordings/motion_tables.h"
+#include "recordings/motion/motion_tables.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/truth.h"
 #include "tests/support/video_packets.h"
@@ -20,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kSample = MAREY_SAMPLE;
+const fs::path kSample = marey::testing::sample_session();
 
 }  // namespace
 

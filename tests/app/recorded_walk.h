@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/time.h"
-#include "recordings/take_file.h"
+#include "core/base/time.h"
+#include "recordings/takes/take_file.h"
 #include "tests/app/spoiled_session.h"
 
 namespace marey::testing {

@@ -11,12 +11,12 @@
 
 #include <gtest/gtest.h>
 
-#include "app/read_body.h"
-#include "app/retarget_files.h"
+#include "app/motion/read_body.h"
+#include "app/motion/retarget_files.h"
 #include "core/pose.h"
-#include "recordings/gltf.h"
-#include "recordings/mannequin.h"
-#include "retarget/body_map.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/body/mannequin.h"
+#include "retarget/body/body_map.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::app {

@@ -19,8 +19,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/quantile.h"
-#include "recordings/motion_tables.h"
+#include "core/base/quantile.h"
+#include "recordings/motion/motion_tables.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/truth.h"
@@ -30,9 +31,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kShared = MAREY_SHARED_DATA;
+const fs::path kShared = marey::testing::shared_data();
 const fs::path kDevSession =
-    fs::path(MAREY_SOURCE_DIR) / "recordings/samples/blender-dev/session.toml";
+    marey::testing::source_dir() / "recordings/samples/blender-dev/session.toml";
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -118,7 +119,7 @@ class RenderedSession {
     std::ofstream(folder / "session.toml") << session_text(session_, cameras);
     take_detections(folder / "out");
     Outcome outcome;
-    outcome.run = run_program(MAREY_PROGRAM,
+    outcome.run = run_program(marey::testing::program(),
                               {"process",
                                (folder / "session.toml").string(),
                                "--media",

@@ -12,8 +12,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/atomic_file.h"
-#include "recordings/marker_file.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/markers/marker_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/synthetic_markers.h"
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 ProgramRun repair(const fs::path& in, const fs::path& out) {
-  return run_program(MAREY_PROGRAM,
+  return run_program(marey::testing::program(),
                      {"repair", in.string(), "--out", out.string(), "--json"});
 }
 

@@ -9,8 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/report_figures.h"
+#include "app/pages/report_json.h"
 #include "tests/app/sample_report.h"
+#include "tests/support/paths.h"
 
 namespace marey::app {
 namespace {
@@ -28,20 +29,8 @@ void collect_keys(const Json& value, std::set<std::string>& keys) {
   }
 }
 
-/// The page's section on report.json: from its heading to the next.
-std::string section_of_the_page() {
-  std::ostringstream page;
-  page << std::ifstream(std::filesystem::path(MAREY_SOURCE_DIR) / "docs/formats.md")
-              .rdbuf();
-  const std::string text = page.str();
-  const std::size_t start = text.find("### report.json\n");
-  if (start == std::string::npos) return "";
-  const std::size_t end = text.find("\n### ", start);
-  return text.substr(start, end == std::string::npos ? end : end - start);
-}
-
 TEST(ReportKeys, AreAllOnTheFormatsPage) {
-  const std::string section = section_of_the_page();
+  const std::string section = marey::testing::formats_page("report");
   std::set<std::string> keys;
   collect_keys(report_figures(report()), keys);
   // As many as the sample report holds of everything: far more than the top level's.

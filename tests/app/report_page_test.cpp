@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/report.h"
+#include "app/pages/report.h"
 #include "tests/app/browser.h"
 #include "tests/app/sample_report.h"
 
@@ -65,15 +65,15 @@ TEST_F(ReportInABrowser, CallsNoFigureGoodThatOneFrameOrJointSpoils) {
   Report good = report();
   for (ReportTrial& trial : good.trials) {
     if (trial.bodies.empty()) continue;
-    for (auto& frame : trial.bodies.front().doubt) {
-      for (JointDoubt& joint : frame) joint.sigma_m = 0.004;
+    for (auto& frame : trial.bodies.front().uncertainty) {
+      for (JointUncertainty& joint : frame) joint.sigma_m = 0.004;
     }
   }
   const int usual = cards_to_look_at(good);
   Report spoiled = good;
   spoiled.trials.front().frame_rms_px.at(3) = 40.0;
   EXPECT_EQ(cards_to_look_at(spoiled), usual + 1);
-  for (auto& frame : spoiled.trials.front().bodies.front().doubt) {
+  for (auto& frame : spoiled.trials.front().bodies.front().uncertainty) {
     frame.front().sigma_m = 0.3;
   }
   EXPECT_EQ(cards_to_look_at(spoiled), usual + 2);

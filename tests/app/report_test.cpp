@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/report.h"
+#include "app/pages/report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/base64.h"
+#include "app/pages/base64.h"
 #include "core/pose.h"
 #include "tests/app/sample_report.h"
 
@@ -61,7 +61,7 @@ TEST(ReportJson, NamesTheWorstCameraTagFrameAndJoint) {
   trial.first_frame = 10;
   trial.frame_rms_px.at(3) = 40.25;
   constexpr std::size_t kJoint = 4;
-  for (auto& frame : trial.bodies.front().doubt) {
+  for (auto& frame : trial.bodies.front().uncertainty) {
     if (frame.size() > kJoint) frame[kJoint].sigma_m = 0.345;
   }
   told.poor = {"tag 7 does not move with its segment"};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // An avatar is judged by its written files.
-#include "app/reread_motion.h"
+#include "app/motion/reread_motion.h"
 
 #include <fstream>
 #include <string>
@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/motion_files.h"
-#include "recordings/posed_places.h"
+#include "app/motion/motion_files.h"
+#include "recordings/gltf/posed_places.h"
 #include "tests/app/retarget_scene.h"
 #include "tests/support/made_body.h"
 #include "tests/support/posed_glb.h"

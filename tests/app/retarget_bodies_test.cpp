@@ -15,6 +15,7 @@
 #include "tests/support/body_campaign.h"
 #include "tests/support/floor_clip.h"
 #include "tests/support/made_body.h"
+#include "tests/support/paths.h"
 
 namespace marey::testing {
 namespace {
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 /// Generated bodies, and the real ones where they are.
 std::vector<CampaignBody> all_bodies(const fs::path& folder) {
   std::vector<CampaignBody> out = made_bodies(folder, 101, 10);
-  const fs::path shared = fs::path(MAREY_SHARED_DATA) / "avatars";
+  const fs::path shared = marey::testing::shared_data() / "avatars";
   for (const char* name : {"makehuman/adult_female_game_engine.glb",
                            "makehuman/adult_male_mixamo_unity.glb",
                            "makehuman/giant_cmu_mb.glb",
@@ -64,7 +65,7 @@ TEST(RetargetBodies, KeepTheirSkinAboveTheFloorAndThePosture) {
   const fs::path floor = scene / "floor.bvh";
   write_floor_clip(floor);
   for (const fs::path& clip : {floor, scene / "walk.bvh"}) {
-    expect_no_gross_errors(run_campaign(MAREY_PROGRAM, folder, clip, bodies), bodies);
+    expect_no_gross_errors(run_campaign(marey::testing::program(), folder, clip, bodies), bodies);
   }
 }
 
@@ -78,7 +79,7 @@ TEST(RetargetBodies, AreToldTheDepthThatTheirSkinHas) {
   write_floor_clip(floor);
   int deep = 0;
   for (const CampaignResult& result :
-       run_campaign(MAREY_PROGRAM, folder, floor, bodies, {"--no-ground"})) {
+       run_campaign(marey::testing::program(), folder, floor, bodies, {"--no-ground"})) {
     ASSERT_TRUE(result.judged && result.told_depth_mm) << result.error;
     EXPECT_NEAR(*result.told_depth_mm,
                 result.judged->skin_depth_mm,

@@ -8,12 +8,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/extension.h"
+#include "core/base/extension.h"
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
-#include "recordings/gltf.h"
-#include "recordings/mannequin.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/body/mannequin.h"
+#include "tests/support/paths.h"
 
 namespace marey::testing {
 namespace {
@@ -57,7 +58,7 @@ RetargetScene::RetargetScene() : walk_(synthetic_walk(120, 60.0)) {
 
 ProgramRun RetargetScene::marey(const std::vector<std::string>& arguments) const {
   return run_program(
-      MAREY_PROGRAM, arguments, {.folder = folder_.path(), .interrupt_at = {}});
+      marey::testing::program(), arguments, {.folder = folder_.path(), .interrupt_at = {}});
 }
 
 ProgramRun RetargetScene::retarget(const std::vector<std::string>& more) const {

@@ -16,10 +16,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
-#include "recordings/constraints_file.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/body/constraints_file.h"
 #include "tests/app/retarget_scene.h"
+#include "tests/support/paths.h"
 
 namespace marey::testing {
 namespace {
@@ -329,7 +330,7 @@ TEST(Retarget, ReportsEveryBodyWithItsFiguresContactsAndPictures) {
 // made.
 TEST(Retarget, IsAdaptedFurtherOnATurnedAvatar) {
   const std::filesystem::path avatar =
-      std::filesystem::path(MAREY_SHARED_DATA) / "avatars/khronos/cesium_man.gltf";
+      marey::testing::shared_data() / "avatars/khronos/cesium_man.gltf";
   if (!std::filesystem::exists(avatar)) GTEST_SKIP() << avatar << " is not there";
   const RetargetScene scene;
   ASSERT_EQ(scene.retarget({avatar.string(), "--out", "o.glb"}).exit_code, 0);

@@ -5,7 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "calib/calibrate_cameras.h"
+#include "calib/quality/report_calibration.h"
+#include "calib/rig/calibrate_cameras.h"
 #include "tests/app/sample_report.h"
 #include "tests/support/synthetic_rig.h"
 
@@ -15,8 +16,8 @@ std::vector<Camera> sample_cameras() {
   return marey::testing::ring_of_cameras();
 }
 
-const CalibrationReport& sample_calibration() {
-  static const CalibrationReport report = [] {
+const calib::CalibrationReport& sample_calibration() {
+  static const calib::CalibrationReport report = [] {
     const auto cameras = sample_cameras();
     marey::testing::Disturbance noise;
     noise.noise_px = 0.2;
@@ -30,13 +31,14 @@ const CalibrationReport& sample_calibration() {
                                         options);
     if (!rig) throw std::runtime_error(rig.error().message());
     const CalibrationTarget target = kSampleBoard;
-    return report_calibration({"sample", "1.0", &target, 1.75, 30.0, true}, std::move(*rig));
+    return calib::report_calibration({"sample", "1.0", &target, 1.75, 30.0, true},
+                                     std::move(*rig));
   }();
   return report;
 }
 
-CalibrationReport rich_calibration() {
-  CalibrationReport report = sample_calibration();
+calib::CalibrationReport rich_calibration() {
+  calib::CalibrationReport report = sample_calibration();
   report.session = kHostile;
   for (Camera& camera : report.rig.cameras) camera.name += kHostile;
   report.has_clocks = true;
@@ -47,11 +49,15 @@ CalibrationReport rich_calibration() {
   }
   report.rig.outlier_frames = {{CameraId{1}, 7, 3, 20, 9.0},
                                {CameraId{2}, calib::kFloorInstant, 1, 36, 4.0}};
-  report.cameras[1].lag = CameraLag{0.4, 0.01, 1.2};
+  report.cameras[1].lag = calib::CameraLag{0.4, 0.01, 1.2};
   report.findings = {
-      {Severity::kPoor, "error", "all cameras", kHostile, "do this"},
-      {Severity::kFair, "coverage", "camera " + std::string(kHostile), "cause", "next"},
-      {Severity::kNote, "warp", "board", "bent", "next"}};
+      {calib::Severity::kPoor, "error", "all cameras", kHostile, "do this"},
+      {calib::Severity::kFair,
+       "coverage",
+       "camera " + std::string(kHostile),
+       "cause",
+       "next"},
+      {calib::Severity::kNote, "warp", "board", "bent", "next"}};
   return report;
 }
 

@@ -22,7 +22,7 @@ ReportBody subject() {
     const auto source = frame < 20   ? Source::kMeasured
                         : frame < 30 ? Source::kRepaired
                                      : Source::kInferred;
-    body.doubt.emplace_back(joints, JointDoubt{0.001 * (frame + 1), source});
+    body.uncertainty.emplace_back(joints, JointUncertainty{0.001 * (frame + 1), source});
   }
   body.files = {"walk/motion.bvh", "javascript:alert(1)/<b>x.glb"};
   return body;
@@ -31,7 +31,7 @@ ReportBody subject() {
 ReportBody avatar(const std::string& name) {
   ReportBody body = subject();
   body.name = name;
-  body.doubt.clear();
+  body.uncertainty.clear();
   body.slide_before_cm_per_s = 12.3456;
   body.slide_after_cm_per_s = 0.1234;
   body.penetration_mm = 1.5;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/report.h"
+#include "app/pages/report.h"
 
 namespace marey::app {
 

@@ -12,9 +12,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/detection.h"
-#include "recordings/marker_file.h"
-#include "recordings/motion_tables.h"
-#include "recordings/subject_file.h"
+#include "recordings/markers/marker_file.h"
+#include "recordings/motion/motion_tables.h"
+#include "recordings/session/subject_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -23,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kWalk = MAREY_FIRST_LIGHT "/once/walk";
+const fs::path kWalk = marey::testing::sample_results() / "once/walk";
 
 // The first segments of a walk, from the file that says how the motion went: six decimals
 // of place and rotation, a tag within 0.3 m of its segment's origin; a C3D's 32-bit
@@ -97,14 +98,14 @@ TEST(SessionMarkers, CanBeInspectedAndRepaired) {
   const ScratchFolder folder;
   for (const std::string file : {"markers.c3d", "markers.trc"}) {
     const ProgramRun inspect =
-        run_program(MAREY_PROGRAM, {"inspect", (kWalk / file).string(), "--json"});
+        run_program(marey::testing::program(), {"inspect", (kWalk / file).string(), "--json"});
     ASSERT_EQ(inspect.exit_code, 0) << inspect.err;
     const auto told = nlohmann::json::parse(inspect.out, nullptr, false);
     EXPECT_EQ(told.at("frames"), 90) << file;
     EXPECT_EQ(told.at("markers").size(), 116U) << file;
     const fs::path out = folder / file;
     const ProgramRun repair = run_program(
-        MAREY_PROGRAM, {"repair", (kWalk / file).string(), "--out", out.string()});
+        marey::testing::program(), {"repair", (kWalk / file).string(), "--out", out.string()});
     EXPECT_EQ(repair.exit_code, 0) << repair.err;
     EXPECT_TRUE(fs::exists(out)) << file;
   }

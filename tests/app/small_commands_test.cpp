@@ -13,7 +13,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "recordings/gltf.h"
+#include "recordings/gltf/gltf.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 
@@ -23,11 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-const fs::path kSample = MAREY_SAMPLE;
-const fs::path kResults = MAREY_FIRST_LIGHT "/once";
+const fs::path kSample = marey::testing::sample_session();
+const fs::path kResults = marey::testing::sample_results() / "once";
 
 ProgramRun marey(const std::vector<std::string>& arguments) {
-  return run_program(MAREY_PROGRAM, arguments);
+  return run_program(marey::testing::program(), arguments);
 }
 
 /// An empty folder, gone with the test.
@@ -164,7 +165,7 @@ TEST_F(Retarget, PutsAWrittenMotionOnABody) {
   const ProgramRun run = marey({"retarget",
                                 (kResults / "walk/motion.bvh").string(),
                                 "--avatar",
-                                MAREY_FIRST_LIGHT "/avatars/child.glb",
+                                marey::testing::sample_results() / "avatars/child.glb",
                                 "--out",
                                 out.string(),
                                 "--json"});
@@ -273,7 +274,7 @@ TEST_F(Exit, Is130WhenInterrupted) {
   RunOptions options;
   options.interrupt_at = "tags in calib";
   const ProgramRun run = run_program(
-      MAREY_PROGRAM,
+      marey::testing::program(),
       {"process", kSample.string(), "--out", out.string(), "--progress", "json"},
       options);
   EXPECT_EQ(run.exit_code, 130) << run.err;

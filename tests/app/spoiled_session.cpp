@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/app/spoiled_session.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <fstream>
@@ -15,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kSample = MAREY_SAMPLE;
-const fs::path kGoodRun = MAREY_FIRST_LIGHT "/once";
+const fs::path kSample = marey::testing::sample_session();
+const fs::path kGoodRun = marey::testing::sample_results() / "once";
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -94,7 +95,7 @@ ProgramRun SpoiledSession::run(const std::string& stage,
   std::vector<std::string> arguments{
       stage, file().string(), "--out", out().string(), "--json"};
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return run_program(MAREY_PROGRAM, arguments);
+  return run_program(marey::testing::program(), arguments);
 }
 
 bool SpoiledSession::has_result(const std::string& name) const {

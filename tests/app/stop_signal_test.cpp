@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/stop_signal.h"
+#include "app/shell/stop_signal.h"
 
 #include <csignal>
 

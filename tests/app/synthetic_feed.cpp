@@ -6,7 +6,7 @@
 #include <thread>
 #include <utility>
 
-#include "recordings/jpeg_encoder.h"
+#include "recordings/takes/jpeg_encoder.h"
 
 namespace marey::testing {
 namespace {
@@ -72,7 +72,7 @@ bool SyntheticFeed::is_dropped(long k) const {
   return behaviour_.drop_every > 0 && k % behaviour_.drop_every == 3;
 }
 
-std::vector<app::FeedEvent> SyntheticFeed::events() {
+std::vector<capture::FeedEvent> SyntheticFeed::events() {
   return std::exchange(events_, {});
 }
 

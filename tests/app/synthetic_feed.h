@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "app/frame_feed.h"
-#include "app/record_take.h"
+#include "app/record/record_take.h"
+#include "capture/feeds/frame_feed.h"
 
 namespace marey::testing {
 
 /// A camera that is none: frame k of `camera` is made of its numbers alone, so that who
 /// reads a recording knows what must be in it. Its clock is its own, and goes on by a
 /// period with each frame, however long that takes.
-class SyntheticFeed final : public app::FrameFeed {
+class SyntheticFeed final : public capture::FrameFeed {
  public:
   struct Behaviour {
     double rate_hz = 100.0;
@@ -42,7 +42,7 @@ class SyntheticFeed final : public app::FrameFeed {
     return settings_;
   }
   [[nodiscard]] std::string device() const override { return "synthetic"; }
-  std::vector<app::FeedEvent> events() override;
+  std::vector<capture::FeedEvent> events() override;
 
   /// Before anything is fetched.
   [[nodiscard]] capture::DeviceSettings& settings_to_spoil() { return settings_; }
@@ -69,7 +69,7 @@ class SyntheticFeed final : public app::FrameFeed {
   std::atomic<long> next_ = 0;
   std::atomic<long> handed_out_ = 0;
   std::vector<std::byte> bytes_;
-  std::vector<app::FeedEvent> events_;
+  std::vector<capture::FeedEvent> events_;
 };
 
 /// To record the trial "walk" into `folder` on the clock of `feed`, the first of the

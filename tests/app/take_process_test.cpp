@@ -16,10 +16,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/record_take.h"
-#include "recordings/atomic_file.h"
+#include "app/record/record_take.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/app/recorded_walk.h"
 #include "tests/app/spoiled_session.h"
+#include "tests/support/paths.h"
 #include "tests/support/video_packets.h"
 
 namespace marey::testing {
@@ -172,7 +173,7 @@ TEST(RecordedTake, WithTimesThatCannotBeIsDeclined) {
 }
 
 /// A camera that shows the sample's walk.
-class WalkFeed final : public app::FrameFeed {
+class WalkFeed final : public capture::FrameFeed {
  public:
   /// `pictures` has all frames as %d.jpg.
   WalkFeed(std::size_t camera, fs::path pictures)
@@ -202,7 +203,7 @@ class WalkFeed final : public app::FrameFeed {
     return settings_;
   }
   [[nodiscard]] std::string device() const override { return "walk"; }
-  std::vector<app::FeedEvent> events() override { return {}; }
+  std::vector<capture::FeedEvent> events() override { return {}; }
 
   /// From any thread.
   [[nodiscard]] bool is_done() const { return next_ >= kWalkFrames; }
@@ -275,7 +276,7 @@ TEST(Record, TellsOfEveryCameraThatCannotBeOpened) {
                            "");
   const fs::path take = session.out() / "take";
   const ProgramRun run = run_program(
-      MAREY_PROGRAM,
+      marey::testing::program(),
       {"record", session.file().string(), "--out", take.string(), "--trial", "walk"});
   EXPECT_EQ(run.exit_code, 5) << run.err;
   EXPECT_NE(run.err.find("/dev/no-video0"), std::string::npos) << run.err;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/video_feed.h"
+#include "capture/feeds/video_feed.h"
 
 #include <array>
 #include <chrono>
@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/jpeg_encoder.h"
-#include "recordings/mjpg_video.h"
+#include "recordings/takes/jpeg_encoder.h"
+#include "recordings/takes/mjpg_video.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::app {
@@ -35,8 +35,7 @@ std::filesystem::path make_video(const testing::ScratchFolder& folder, int frame
       recordings::RawLayout::kGrey, kWidth, kHeight, kWidth);
   EXPECT_TRUE(video && encoder);
   for (int k = 0; k < frames; ++k) {
-    const std::vector<std::byte> pixels(kWidth * kHeight,
-                                        static_cast<std::byte>(20 * k));
+    const std::vector<std::byte> pixels(kWidth * kHeight, static_cast<std::byte>(20 * k));
     EXPECT_TRUE(video->write(encoder->encode(pixels), milliseconds(10 * k)));
   }
   EXPECT_TRUE(video->finish());
@@ -47,8 +46,8 @@ Timestamp now() {
   return std::chrono::steady_clock::now().time_since_epoch();
 }
 
-std::unique_ptr<VideoFeed> open(const VideoFeedOptions& options) {
-  auto feed = VideoFeed::open(options);
+std::unique_ptr<capture::VideoFeed> open(const capture::VideoFeedOptions& options) {
+  auto feed = capture::VideoFeed::open(options);
   EXPECT_TRUE(feed) << feed.error().message();
   return *std::move(feed);
 }
@@ -114,7 +113,7 @@ TEST(VideoFeed, DropsTheOldestThatNobodyFetchesAndCountsThem) {
 
 TEST(VideoFeed, PlaysARangeOverAndOver) {
   const testing::ScratchFolder folder;
-  VideoFeedOptions options{.name = "left", .path = make_video(folder, 6)};
+  capture::VideoFeedOptions options{.name = "left", .path = make_video(folder, 6)};
   options.first_frame = 2;
   options.last_frame = 4;
   options.loop = true;
@@ -133,7 +132,7 @@ TEST(VideoFeed, PlaysARangeOverAndOver) {
 TEST(VideoFeed, PlaysOneVideoAfterTheOther) {
   const testing::ScratchFolder first;
   const testing::ScratchFolder second;
-  VideoFeedOptions options{.name = "left", .path = make_video(first, 2)};
+  capture::VideoFeedOptions options{.name = "left", .path = make_video(first, 2)};
   options.then = {{make_video(second, 6), 3, 4}};
   options.loop = true;
   options.buffers = 100;
@@ -150,10 +149,11 @@ TEST(VideoFeed, PlaysOneVideoAfterTheOther) {
 
 TEST(VideoFeed, RefusesWhatIsNoVideoAndRangesBeyondTheEnd) {
   const testing::ScratchFolder folder;
-  EXPECT_FALSE(VideoFeed::open({.name = "left", .path = folder / "nothing.mkv"}));
-  VideoFeedOptions options{.name = "left", .path = make_video(folder, 3)};
+  EXPECT_FALSE(
+      capture::VideoFeed::open({.name = "left", .path = folder / "nothing.mkv"}));
+  capture::VideoFeedOptions options{.name = "left", .path = make_video(folder, 3)};
   options.first_frame = 3;
-  const auto late = VideoFeed::open(options);
+  const auto late = capture::VideoFeed::open(options);
   ASSERT_FALSE(late);
   EXPECT_NE(late.error().cause.find("ends before frame 3"), std::string::npos);
 }

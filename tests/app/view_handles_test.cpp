@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Frames of a recording that a page drags in.
-#include "app/view_handles.h"
+#include "app/view/view_handles.h"
 
 #include <fstream>
 #include <string>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A take of a live run, shown as it was.
-#include "app/view_live_take.h"
+#include "app/view/view_live_take.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +12,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "app/live_chain.h"
-#include "app/view_files.h"
-#include "recordings/calibration_file.h"
-#include "recordings/live_take.h"
-#include "recordings/subject_file.h"
+#include "app/live_chain/live_chain.h"
+#include "app/view/view_files.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/takes/live_take.h"
+#include "recordings/session/subject_file.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/synthetic_person.h"
 

@@ -10,15 +10,17 @@
 
 #include <gtest/gtest.h>
 
-#include "app/view_files.h"
-#include "app/view_page.h"
-#include "app/view_trials.h"
-#include "live/page_scene.h"
-#include "live/web_server.h"
-#include "recordings/bvh.h"
-#include "recordings/calibration_file.h"
-#include "recordings/marker_file.h"
-#include "recordings/motion_tables.h"
+#include "app/view/view_files.h"
+#include "app/view/view_trial.h"
+#include "app/view/view_page.h"
+#include "app/view/view_trials.h"
+#include "live/page/page_scene.h"
+#include "live/web/web_server.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/markers/marker_file.h"
+#include "recordings/motion/motion_tables.h"
+#include "tests/support/paths.h"
 #include "tests/support/web_socket.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
@@ -39,9 +41,10 @@ class View : public ::testing::Test {
     const Skeleton skeleton = make_humanoid(average_proportions(1.75));
     walk_.motion = walking(skeleton, kFrames);
     walk_.motion.first_frame = 7;
-    walk_.doubt.assign(kFrames, std::vector<JointDoubt>(skeleton.joints.size()));
+    walk_.uncertainty.assign(kFrames,
+                             std::vector<JointUncertainty>(skeleton.joints.size()));
     for (std::size_t i = 0; i < kFrames; ++i) {
-      walk_.doubt[i][0] = {0.001, i < 10 ? Source::kMeasured : Source::kRepaired};
+      walk_.uncertainty[i][0] = {0.001, i < 10 ? Source::kMeasured : Source::kRepaired};
     }
     fs::create_directories(out() / "walk");
     ASSERT_TRUE(recordings::write_bvh(out() / "walk/motion.bvh", walk_.motion));
@@ -77,9 +80,9 @@ TEST_F(View, ShowsWhatWasSolvedWithItsDoubt) {
   EXPECT_EQ(view->first_frame, 7);
   EXPECT_EQ(view->frames, kFrames);
   ASSERT_EQ(view->figures.size(), 1U);
-  EXPECT_EQ(view->figures[0].doubt[9][0].source, Source::kMeasured);
-  EXPECT_EQ(view->figures[0].doubt[9][0].sigma_m, 0.001);
-  EXPECT_EQ(view->figures[0].doubt[10][0].source, Source::kRepaired);
+  EXPECT_EQ(view->figures[0].uncertainty[9][0].source, Source::kMeasured);
+  EXPECT_EQ(view->figures[0].uncertainty[9][0].sigma_m, 0.001);
+  EXPECT_EQ(view->figures[0].uncertainty[10][0].source, Source::kRepaired);
   // The hips alone were ever seen.
   ASSERT_EQ(view->tracks.size(), 1U);
   EXPECT_EQ(view->tracks[0].name, "hips");
@@ -278,19 +281,19 @@ TEST_F(View, FollowsLinksInsideTheFolder) {
 TEST_F(View, ServesUntilItsTimeIsOver) {
   const std::string what = (out() / "walk/motion.bvh").string();
   const ProgramRun run = run_program(
-      MAREY_PROGRAM, {"view", what, "--port", "0", "--no-open", "--seconds", "0.05"});
+      marey::testing::program(), {"view", what, "--port", "0", "--no-open", "--seconds", "0.05"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(run.out.starts_with("http://127.0.0.1:")) << run.out;
-  const ProgramRun stopped = run_program(MAREY_PROGRAM,
+  const ProgramRun stopped = run_program(marey::testing::program(),
                                          {"view", what, "--port", "0", "--no-open"},
                                          {.folder = {}, .interrupt_at = "Ctrl-C"});
   EXPECT_EQ(stopped.exit_code, 0) << stopped.err;
   const ProgramRun lan = run_program(
-      MAREY_PROGRAM,
+      marey::testing::program(),
       {"view", what, "--port", "0", "--lan", "--no-open", "--seconds", "0.05"});
   EXPECT_EQ(lan.exit_code, 0) << lan.err;
   EXPECT_NE(lan.out.find("/?token="), std::string::npos) << lan.out;
-  EXPECT_EQ(run_program(MAREY_PROGRAM, {"view", what, "--port", "70000"}).exit_code, 2);
+  EXPECT_EQ(run_program(marey::testing::program(), {"view", what, "--port", "70000"}).exit_code, 2);
 }
 
 }  // namespace

@@ -13,8 +13,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/calibration_report.h"
-#include "calib/calibrate_wand.h"
+#include "app/pages/calibration_figures.h"
+#include "calib/quality/calibration_report.h"
+#include "calib/quality/report_calibration.h"
+#include "calib/rig/calibrate_wand.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_rig.h"
 
@@ -91,14 +93,14 @@ const Waved& waved_among_scenery() {
   return waved;
 }
 
-CalibrationReport wand_report(bool has_floor) {
+calib::CalibrationReport wand_report(bool has_floor) {
   const CalibrationTarget target = kWand;
-  return report_calibration({"sample", "1.0", &target, 1.75, 10.0, has_floor},
-                            waved_among_scenery().rig);
+  return calib::report_calibration({"sample", "1.0", &target, 1.75, 10.0, has_floor},
+                                   waved_among_scenery().rig);
 }
 
 TEST(WandReport, CountsSceneryAsNeitherWandNorFloor) {
-  const CalibrationReport report = wand_report(false);
+  const calib::CalibrationReport report = wand_report(false);
   const auto& views = report.rig.views;
   ASSERT_TRUE(std::any_of(
       views.begin(), views.end(), [](const auto& view) { return view.stays; }));
@@ -135,7 +137,7 @@ TEST(WandReport, CountsSceneryAsNeitherWandNorFloor) {
       std::any_of(report.findings.begin(), report.findings.end(), [](const auto& f) {
         return f.kind == "scenery" && f.where == "camera cam2";
       }));
-  for (const Finding& finding : report.findings) {
+  for (const calib::Finding& finding : report.findings) {
     EXPECT_NE(finding.kind, "floor") << finding.cause;
     EXPECT_EQ((finding.where + finding.cause + finding.next).find("board"),
               std::string::npos)
@@ -144,7 +146,7 @@ TEST(WandReport, CountsSceneryAsNeitherWandNorFloor) {
 }
 
 TEST(WandReport, KnowsAFloorWithoutABoardOnIt) {
-  const CalibrationReport report = wand_report(true);
+  const calib::CalibrationReport report = wand_report(true);
   EXPECT_TRUE(report.has_floor);
   EXPECT_FALSE(report.board_on_floor);
   const auto figures = calibration_figures(report);

@@ -17,8 +17,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "recordings/calibration_file.h"
+#include "recordings/session/calibration_file.h"
 #include "tests/app/painted_tags.h"
+#include "tests/support/paths.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/synthetic_rig.h"
@@ -109,7 +110,7 @@ class PaintedSession {
     std::ofstream(folder_ / "session.toml") << "format = 1\nname = \"wand\"\n"
                                             << target << cameras_ << trials_;
     return run_program(
-        MAREY_PROGRAM,
+        marey::testing::program(),
         {"calibrate", folder_.path().string(), "--out", (folder_ / "out").string()});
   }
 

@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "calib/calibrate_cameras.h"
-#include "calib/find_moved_camera.h"
+#include "calib/rig/calibrate_cameras.h"
+#include "calib/rig/find_moved_camera.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/simulated_calibration.h"
 #include "tests/support/synthetic_rig.h"
@@ -42,7 +42,7 @@ TEST(ApparentFaults, FindTheCameraThatWasMovedAndWhen) {
   EXPECT_NEAR(*rig->apparent_move->from_frame, scene.from_frame, 3);
   // A knock shifts the camera by 2 mm, too: at 3 m half a pixel.
   EXPECT_NEAR(rig->apparent_move->moved_px, 3.0, 0.8);
-  EXPECT_TRUE(rig->apparent_move->instead.empty());
+  EXPECT_TRUE(rig->apparent_move->alternatives.empty());
 }
 
 TEST(ApparentFaults, FindNoMoveWorthSayingOfAGoodRecording) {
@@ -123,7 +123,7 @@ TEST(FindMovedCamera, NamesTheOneThatWasMovedAfterTheCalibration) {
   EXPECT_FALSE(found->from_frame);
   EXPECT_NEAR(found->moved_px, 3.8, 0.6);
   EXPECT_NEAR(found->turn_rad, turn_rad, 0.3 * turn_rad);
-  EXPECT_TRUE(found->instead.empty());
+  EXPECT_TRUE(found->alternatives.empty());
 }
 
 TEST(FindMovedCamera, FindsNothingWorthSayingOfCamerasThatStand) {
@@ -173,7 +173,8 @@ TEST(FindMovedCamera, MistakesNoClockOffsetForAMove) {
   const auto seen = flying_tags(cameras, 90, 0.1, 0.004, 5.0);
   const auto found = find_moved_camera(cameras, seen, sizes());
   ASSERT_TRUE(found);
-  EXPECT_LT(found->moved_px, 0.5);  // app/find_moved_cameras.cpp warns from here on.
+  EXPECT_LT(found->moved_px,
+            0.5);  // app/check/find_moved_cameras.cpp warns from here on.
 }
 
 TEST(FindMovedCamera, SaysNothingOfTagsThatOneCameraSees) {

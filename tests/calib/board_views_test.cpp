@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/board_views.h"
+#include "calib/model/board_views.h"
 
 #include <algorithm>
 #include <utility>

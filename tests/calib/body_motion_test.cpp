@@ -11,14 +11,14 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "calib/body_freedom.h"
+#include "calib/plan/body_freedom.h"
 #include "core/pose.h"
 
 namespace marey::calib {
 namespace {
 
 TEST(BodyMotion, TurnsABodyAsForwardKinematicsDo) {
-  const PlannedBody body = dress_body(1.75, {});
+  const PlannedBody body = make_planned_body(1.75, {});
   constexpr double kTurn_rad = 1e-5;
   const BodyPlace before = walking_body(body, {0.0, 0.0}, 0.4, 1.0);
   const BodyPlace after = walking_body(body, {0.0, 0.0}, 0.4 + kTurn_rad, 1.0);
@@ -84,7 +84,7 @@ void turn(BodyPlace& place,
   }
 }
 
-/// The body after a step of one column of a posture, as calib/body_freedom.h says.
+/// The body after a step of one column of a posture, as calib/plan/body_freedom.h says.
 BodyPlace stepped(const PlannedBody& body, BodyPlace place, int column, double step) {
   using B = HumanBone;
   const int axis = column % 3;
@@ -122,7 +122,7 @@ BodyPlace stepped(const PlannedBody& body, BodyPlace place, int column, double s
 }
 
 TEST(BodyMotion, IsTheDerivativeOfForwardKinematicsByEveryColumn) {
-  const PlannedBody body = dress_body(1.75, {});
+  const PlannedBody body = make_planned_body(1.75, {});
   const BodyPlace place = walking_body(body, {0.3, -0.2}, 0.4, 1.0);
   const BodyMotion motion = motion_of(body, place);
   constexpr double kStep = 1e-5;
@@ -148,7 +148,7 @@ TEST(BodyMotion, IsTheDerivativeOfForwardKinematicsByEveryColumn) {
 
 TEST(BodyMotion, IsTheDerivativeByEveryLengthAndCollarBase) {
   using B = HumanBone;
-  const PlannedBody body = dress_body(1.75, {});
+  const PlannedBody body = make_planned_body(1.75, {});
   const BodyPlace place = walking_body(body, {0.3, -0.2}, 0.4, 1.0);
   const BodyMotion motion = motion_of(body, place);
   constexpr double kStep_m = 1e-5;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/calibrate_cameras.h"
+#include "calib/rig/calibrate_cameras.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "calib/board_views.h"
+#include "calib/model/board_views.h"
 #include "tests/support/synthetic_rig.h"
 
 namespace marey::calib {

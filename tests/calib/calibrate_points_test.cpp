@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "calib/calibrate_cameras.h"
+#include "calib/rig/calibrate_cameras.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_rig.h"
 
@@ -191,7 +191,7 @@ TEST(CalibratePoints, SolveForClocksThatStartApart) {
   const auto rig =
       calibrate(cameras,
                 {.noise_px = 0.1, .late_s = {0.0, 0.2613, -0.1471}, .seconds = 5.0},
-                {.solve_offsets = true, .most_offset_s = 0.6});
+                {.solve_offsets = true, .max_offset_s = 0.6});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_NEAR(rig->clocks[1].offset_s, 0.2613, 1e-3);
   EXPECT_NEAR(rig->clocks[2].offset_s, -0.1471, 1e-3);
@@ -208,7 +208,7 @@ TEST(CalibratePoints, FindOutThatClocksAreApart) {
     const auto rig =
         calibrate(cameras,
                   {.noise_px = 0.1, .late_s = {0.0, late_s, -0.02}, .seconds = 5.0},
-                  {.choose_clocks = true, .most_offset_s = 0.6});
+                  {.choose_clocks = true, .max_offset_s = 0.6});
     ASSERT_TRUE(rig) << rig.error().message();
     EXPECT_NEAR(rig->clocks[1].offset_s, late_s, 1e-3);
     EXPECT_NEAR(rig->clocks[2].offset_s, -0.02, 1e-3);
@@ -233,7 +233,7 @@ TEST(CalibratePoints, FindClocksOfManyFramesInALongRest) {
   const auto rig = calibrate(
       cameras,
       {.noise_px = 0.1, .late_s = {0.0, 0.0, 1.2}, .seconds = 9.0, .rest_s = 3.0},
-      {.choose_clocks = true, .most_offset_s = 2.0});
+      {.choose_clocks = true, .max_offset_s = 2.0});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_NEAR(rig->clocks[1].offset_s, 0.0, 1e-3);
   EXPECT_NEAR(rig->clocks[2].offset_s, 1.2, 1e-3);
@@ -249,7 +249,7 @@ TEST(CalibratePoints, ChooseClocksWithLineDelays) {
     const auto rig = calibrate(
         cameras,
         {.noise_px = 0.1, .late_s = {0.0, late_s, 0.0}, .seconds = 3.0},
-        {.solve_line_delays = true, .choose_clocks = true, .most_offset_s = 0.3});
+        {.solve_line_delays = true, .choose_clocks = true, .max_offset_s = 0.3});
     ASSERT_TRUE(rig) << rig.error().message();
     EXPECT_NEAR(rig->clocks[1].offset_s, late_s, 1e-3);
     EXPECT_EQ(rig->clocks[1].offset_sigma_s > 0.0, late_s > 0.0);

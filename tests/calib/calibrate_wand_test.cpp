@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/calibrate_wand.h"
+#include "calib/rig/calibrate_wand.h"
 
 #include <algorithm>
 #include <cmath>
@@ -192,7 +192,8 @@ TEST(CalibrateWand, NamesCamerasThatNothingJoins) {
   }
   const auto found = calibrate_wand(names_of(cameras), waved, kWand);
   ASSERT_FALSE(found);
-  EXPECT_NE(found.error().cause.find("nothing joins the cameras"), std::string::npos);
+  EXPECT_NE(found.error().cause.find("no shared sighting connects the cameras"),
+            std::string::npos);
 }
 
 TEST(CalibrateWand, SaysWhenNoTagOfItIsSeen) {

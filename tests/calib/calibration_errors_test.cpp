@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "calib/calibrate_cameras.h"
+#include "calib/rig/calibrate_cameras.h"
 #include "tests/support/synthetic_rig.h"
 
 namespace marey::calib {
@@ -58,7 +58,8 @@ TEST(CalibrateCameras, TellsWhichVideoShowsTheBoardTooLittle) {
   const Error error = error_of(cameras, recording);
   EXPECT_EQ(error.code, Errc::kBadInput);
   EXPECT_EQ(error.where, "calibration/cam1.mp4");
-  EXPECT_TRUE(contains(error.cause, "seen too little to calibrate this camera: 2 frames"))
+  EXPECT_TRUE(contains(error.cause,
+                       "too few views of the board to calibrate this camera: 2 frames"))
       << error.cause;
 }
 
@@ -72,7 +73,9 @@ TEST(CalibrateCameras, NamesTheGroupsThatNeverSeeTheBoardTogether) {
   }
   for (FrameDetections& frame : recording.floor[3].frames) frame.tags.clear();
   const Error error = error_of(cameras, recording);
-  EXPECT_TRUE(contains(error.cause, "{cam0, cam1, cam2} and one of {cam3}"))
+  EXPECT_TRUE(contains(error.cause,
+                       "{cam0, cam1, cam2} sees the board at the same time as a camera "
+                       "of {cam3}"))
       << error.cause;
   EXPECT_TRUE(contains(error.next, "where both groups see it")) << error.next;
 }
@@ -154,8 +157,8 @@ TEST(CalibrateCameras, NoticesAWrongGap) {
   declared.gap_m = 0.02;
   const Error error = error_of(cameras, recording, declared);
   EXPECT_EQ(error.cause,
-            "the board's black squares measure 0.92 times what the distances between "
-            "them allow");
+            "the board's black squares measure 0.92 times the size that the gaps between "
+            "them require");
   EXPECT_TRUE(contains(error.next, "correct tag_size_m or gap_m of [board]"))
       << error.next;
 }
@@ -181,7 +184,8 @@ TEST(CalibrateCameras, TellsHowTheTagsLieWhereTheBoardIsDeclaredOtherwise) {
     declared.first_id = wrong.first_id;
     const Error error = error_of(cameras, recording, declared);
     EXPECT_EQ(error.code, Errc::kBadInput);
-    EXPECT_TRUE(contains(error.cause, "lie as on a board of 6 x 6 that begins with id 0"))
+    EXPECT_TRUE(contains(error.cause,
+                         "are arranged as on a board of 6 x 6 that begins with id 0"))
         << error.cause;
     EXPECT_TRUE(contains(error.next, wrong.changes)) << error.next;
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/estimate_clocks.h"
+#include "calib/rig/estimate_clocks.h"
 
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/estimate_intrinsics.h"
+#include "calib/model/estimate_intrinsics.h"
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/expected_error.h"
+#include "calib/model/expected_error.h"
 
 #include <cmath>
 

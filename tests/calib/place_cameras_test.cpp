@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/place_cameras.h"
+#include "calib/model/place_cameras.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -83,8 +83,8 @@ TEST(PlaceCameras, NamesTheGroupsThatNeverSeeTheBoardTogether) {
   ASSERT_FALSE(guess);
   EXPECT_EQ(guess.error().code, Errc::kBadInput);
   EXPECT_EQ(guess.error().cause,
-            "no instant shows the board to a camera of {cam0, cam1} and one of {cam2, "
-            "cam3} at once");
+            "no camera of {cam0, cam1} sees the board at the same time as a camera of "
+            "{cam2, cam3}");
 }
 
 TEST(PlaceCameras, AsksForAFloor) {

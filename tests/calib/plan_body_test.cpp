@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/plan_body.h"
+#include "calib/plan/plan_body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "calib/plan_calibration.h"
-#include "calib/posture_chain.h"
+#include "calib/plan/plan_calibration.h"
+#include "calib/plan/posture_chain.h"
 #include "tests/support/synthetic_rig.h"
 
 namespace marey::calib {
@@ -38,7 +38,7 @@ PlanBodyOptions quick() {
 }
 
 TEST(DressBody, WearsTagsOffItsSkinFacingOut) {
-  const PlannedBody body = dress_body(1.75, usual_tags(0.08));
+  const PlannedBody body = make_planned_body(1.75, typical_tags(0.08));
   ASSERT_EQ(body.tags.size(), 29U);
   const BodyPlace place = standing_body(body, {0.3, -0.2}, 1.0);
   const auto flesh = flesh_of(body, place);
@@ -56,11 +56,11 @@ TEST(DressBody, WearsTagsOffItsSkinFacingOut) {
 TEST(DressBody, LeavesOutWhatItHasNoPlaceFor) {
   std::vector<TagOnSegment> tags(9, {TagId{1}, HumanBone::kHips, 0.08});
   tags.push_back({TagId{2}, HumanBone::kSpine, 0.08});
-  EXPECT_EQ(dress_body(1.75, tags).tags.size(), 4U);
+  EXPECT_EQ(make_planned_body(1.75, tags).tags.size(), 4U);
 }
 
 TEST(StandingBody, HasItsFeetOnTheFloor) {
-  const PlannedBody body = dress_body(1.75, {});
+  const PlannedBody body = make_planned_body(1.75, {});
   const BodyPlace place = standing_body(body, {2.0, 3.0}, 0.5);
   const glm::dvec3 toes = place[index(HumanBone::kLeftToes)].translation;
   EXPECT_NEAR(toes.y, 0.012 * 1.75, 1e-9);
@@ -102,7 +102,7 @@ TEST(SolveChain, IsTheInverseOfTheWholeNormalMatrix) {
   const auto doubts = solve_chain(frames, steps);
   ASSERT_EQ(doubts.size(), 4U);
   for (int f = 0; f < kFrames; ++f) {
-    const PostureDoubt& doubt = doubts[static_cast<std::size_t>(f)];
+    const PostureUncertainty& doubt = doubts[static_cast<std::size_t>(f)];
     const Eigen::MatrixXd block = inverse.block(f * kN, f * kN, kN, kN);
     EXPECT_LT((doubt.covariance - block).norm(), 1e-8 * block.norm());
     const Eigen::MatrixXd shift = follows.middleRows(f * kN, kN);
@@ -111,7 +111,7 @@ TEST(SolveChain, IsTheInverseOfTheWholeNormalMatrix) {
 }
 
 TEST(PlanBody, ErrsLessWithMoreCameras) {
-  const PlannedBody body = dress_body(1.75, usual_tags(0.1));
+  const PlannedBody body = make_planned_body(1.75, typical_tags(0.1));
   const std::vector<Camera> four = ring_of_cameras();
   const std::vector<Camera> two(four.begin(), four.begin() + 2);
   const BodyPlan by_four = plan_body(four, nullptr, body, kSmall, tenth_px, quick());
@@ -128,7 +128,7 @@ TEST(PlanBody, ErrsLessWithMoreCameras) {
 }
 
 TEST(PlanBody, IsOfTheSameWalkAtAnyRate) {
-  const PlannedBody body = dress_body(1.75, usual_tags(0.1));
+  const PlannedBody body = make_planned_body(1.75, typical_tags(0.1));
   const std::vector<Camera> cameras = ring_of_cameras();
   PlanBodyOptions options = quick();
   const BodyPlan at_30 = plan_body(cameras, nullptr, body, kSmall, tenth_px, options);
@@ -142,7 +142,7 @@ TEST(PlanBody, IsOfTheSameWalkAtAnyRate) {
 }
 
 TEST(PlanBody, TakesOverTheDoubtOfCameras) {
-  const PlannedBody body = dress_body(1.75, usual_tags(0.1));
+  const PlannedBody body = make_planned_body(1.75, typical_tags(0.1));
   const std::vector<Camera> cameras = ring_of_cameras();
   RigCovariance doubt{4, std::vector<double>(16 * 18 * 18, 0.0)};
   // All centres err together by a centimetre along each axis: so does the body.
@@ -160,7 +160,7 @@ TEST(PlanBody, TakesOverTheDoubtOfCameras) {
 }
 
 TEST(PlanBody, SaysSoWhenNobodySeesTheBody) {
-  const PlannedBody body = dress_body(1.75, usual_tags(0.01));
+  const PlannedBody body = make_planned_body(1.75, typical_tags(0.01));
   const std::vector<Camera> cameras = ring_of_cameras();
   const BodyPlan plan = plan_body(cameras, nullptr, body, kSmall, tenth_px, quick());
   EXPECT_TRUE(plan.joints.empty());
@@ -189,8 +189,12 @@ TEST(PlanBody, MeasuresLimbsOfABodyThatIsNotFound) {
   // Tags on the wrists alone: no camera finds a trunk.
   const std::vector<TagOnSegment> wrists{{TagId{0}, HumanBone::kLeftHand, 0.1},
                                          {TagId{1}, HumanBone::kRightHand, 0.1}};
-  const BodyPlan plan = plan_body(
-      ring_of_cameras(), nullptr, dress_body(1.75, wrists), kSmall, tenth_px, quick());
+  const BodyPlan plan = plan_body(ring_of_cameras(),
+                                  nullptr,
+                                  make_planned_body(1.75, wrists),
+                                  kSmall,
+                                  tenth_px,
+                                  quick());
   EXPECT_TRUE(plan.joints.empty());
   EXPECT_EQ(plan.found_share, 0.0);
   EXPECT_GT(plan.measured_share, 0.02);

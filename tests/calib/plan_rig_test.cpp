@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/plan_rig.h"
+#include "calib/plan/plan_rig.h"
 
 #include <cmath>
 #include <numbers>
@@ -187,11 +187,11 @@ TEST(GridBefore, LiesWhereTheCamerasLook) {
   std::vector<Camera> cameras{webcam_at("a", {3.0, 2.0, 1.0}, {1.0, 1.0, -1.0}),
                               webcam_at("b", {-1.0, 2.0, 1.0}, {1.0, 1.0, -1.0})};
   const ErrorMapGrid grid = grid_before(cameras);
-  const glm::dvec3 middle = 0.5 * (grid.least_in_world + grid.greatest_in_world);
+  const glm::dvec3 middle = 0.5 * (grid.min_in_world + grid.max_in_world);
   EXPECT_LT(glm::distance(middle, {1.0, 0.0, -1.0}), 1e-9);
   cameras[1] = cameras[0];  // Parallel axes: below the cameras.
   const ErrorMapGrid below = grid_before(cameras);
-  EXPECT_NEAR(0.5 * (below.least_in_world.x + below.greatest_in_world.x), 3.0, 1e-9);
+  EXPECT_NEAR(0.5 * (below.min_in_world.x + below.max_in_world.x), 3.0, 1e-9);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/align_pattern.h"
+#include "capture/tags/align_pattern.h"
 
 #include <algorithm>
 #include <array>

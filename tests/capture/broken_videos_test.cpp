@@ -14,8 +14,9 @@
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "capture/detect_videos.h"
-#include "capture/frame_source.h"
+#include "capture/search/detect_videos.h"
+#include "capture/video/frame_source.h"
+#include "capture/video/open_frames.h"
 #include "tests/capture/scratch_video.h"
 #include "tests/support/scratch_folder.h"
 

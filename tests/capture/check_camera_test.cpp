@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/check_camera.h"
+#include "capture/v4l2/check_camera.h"
 
 #include <cerrno>
 #include <string>

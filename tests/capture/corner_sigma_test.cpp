@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Whether the doubt that a tag's corners come with is honest, in drawn pictures.
+#include "capture/tags/corner_sigma.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -11,8 +13,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-#include "capture/align_pattern.h"
-#include "capture/detect_tags.h"
+#include "capture/tags/align_pattern.h"
+#include "capture/tags/detect_tags.h"
 #include "tests/capture/tag_artist.h"
 
 namespace marey::capture {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/decode_frame.h"
+#include "capture/feeds/decode_frame.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +14,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "tests/support/paths.h"
+
 namespace marey::capture {
 namespace {
 
@@ -21,8 +23,8 @@ using Bytes = std::vector<std::byte>;
 using namespace std::string_view_literals;
 
 std::string picture(int number) {
-  const std::string path = std::string(MAREY_SOURCE_DIR) + "/tests/capture/data/mjpg_" +
-                           std::to_string(number) + ".jpg";
+  const std::string path = marey::testing::source_dir().string() +
+                           "/tests/capture/data/mjpg_" + std::to_string(number) + ".jpg";
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -53,7 +55,7 @@ std::vector<int> pixels(const GrayFrame& frame) {
   return all;
 }
 
-class DecodeMjpg : public testing::Test {
+class DecodeMjpg : public ::testing::Test {
  protected:
   FrameDecoder decoder_{"cam1"};
   DeviceSettings settings_ = settings(PixelFormat::kMjpg, 320, 180);
@@ -168,7 +170,7 @@ TEST(DecodePlain, DeclinesWhatIsTooShortOrDamaged) {
   frame.damaged = true;
   const auto damaged = decoder.decode(frame, gray);
   ASSERT_FALSE(damaged);
-  EXPECT_EQ(damaged.error().cause, "the driver says that it is damaged");
+  EXPECT_EQ(damaged.error().cause, "the driver reports that it is damaged");
   EXPECT_TRUE(decoder.decode(frame_of("\1\2\3\4"), gray));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/detect_tags.h"
+#include "capture/tags/detect_tags.h"
 
 #include <numbers>
 #include <string>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "capture/tag_pattern.h"
+#include "capture/tags/tag_pattern.h"
 #include "core/tag_family.h"
 #include "tests/capture/tag_artist.h"
 
@@ -257,7 +257,7 @@ TEST(DetectTags, RefusesAnUnknownFamilyAndNamesTheKnownOnes) {
   const auto made = TagDetector::create({.families = {{"tag36h12", {}}}});
   ASSERT_FALSE(made);
   EXPECT_EQ(made.error().code, Errc::kBadInput);
-  EXPECT_EQ(made.error().cause, "\"tag36h12\" is not one that marey knows");
+  EXPECT_EQ(made.error().cause, "\"tag36h12\" is not known");
   EXPECT_NE(made.error().next.find("tag36h11"), std::string::npos);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/detect_videos.h"
+#include "capture/search/detect_videos.h"
 
 #include <fstream>
 #include <string>

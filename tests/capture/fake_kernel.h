@@ -12,7 +12,7 @@
 
 #include <linux/videodev2.h>
 
-#include "capture/v4l2_kernel.h"
+#include "capture/v4l2/v4l2_kernel.h"
 
 namespace marey::capture {
 

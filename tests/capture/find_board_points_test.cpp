@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/find_board_points.h"
+#include "capture/boards/find_board_points.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/frame_picture.h"
+#include "capture/video/frame_picture.h"
 
 #include <array>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/frame_source.h"
+#include "capture/video/frame_source.h"
 
 #include <algorithm>
 #include <fstream>
@@ -13,8 +13,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sys/stat.h>
 
-#include "capture/image_folder.h"
+#include "capture/video/image_folder.h"
+#include "capture/video/open_frames.h"
 #include "tests/capture/scratch_video.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::capture {
@@ -23,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ScratchFolder;
 
-const fs::path kData = fs::path(MAREY_SOURCE_DIR) / "tests/capture/data";
+const fs::path kData = marey::testing::source_dir() / "tests/capture/data";
 
 std::unique_ptr<FrameSource> open(const fs::path& path, const std::string& name = {}) {
   auto source = open_frames(path, name);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/group_frames.h"
+#include "capture/sync/group_frames.h"
 
 #include <algorithm>
 #include <random>

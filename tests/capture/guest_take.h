@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <string>
 
-#include "capture/v4l2_device.h"
+#include "capture/v4l2/v4l2_device.h"
 
 namespace marey::guest {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/number_gaps.h"
+#include "capture/sync/number_gaps.h"
 
 #include <functional>
 #include <vector>
@@ -41,8 +41,9 @@ TEST(NumberGap, IsFoundWithItsNeighbours) {
 TEST(NumberGap, IsNotSuspectedOfTimeStamps) {
   EXPECT_FALSE(find_number_gap(
       images([](long i) { return 1'000'000'000L + 33'333'333L * i + i * i % 7; })));
-  EXPECT_FALSE(find_number_gap(images([](long i) { return i < 12 ? 33 * i : 33 * i + 5; })))
-      << "no multiple";
+  EXPECT_FALSE(find_number_gap(images([](long i) {
+    return i < 12 ? 33 * i : 33 * i + 5;
+  }))) << "no multiple";
 }
 
 }  // namespace

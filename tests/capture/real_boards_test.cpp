@@ -12,14 +12,16 @@
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
 
-#include "capture/find_board_points.h"
-#include "capture/frame_source.h"
+#include "capture/boards/find_board_points.h"
+#include "capture/video/frame_source.h"
+#include "capture/video/open_frames.h"
+#include "tests/support/paths.h"
 
 namespace marey::capture {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kCamera = fs::path(MAREY_SHARED_DATA) / "camera";
+const fs::path kCamera = marey::testing::shared_data() / "camera";
 
 /// Views of a board for OpenCV's calibration, by frame; squares are 1 wide.
 struct Views {

@@ -18,14 +18,15 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "capture/detect_tags.h"
+#include "capture/tags/detect_tags.h"
 #include "tests/capture/tag_artist.h"
+#include "tests/support/paths.h"
 
 namespace marey::capture {
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path kCamera = fs::path(MAREY_SHARED_DATA) / "camera";
+const fs::path kCamera = marey::testing::shared_data() / "camera";
 
 std::vector<TagDetection> all_in(const cv::Mat& image,
                                  const TagDetectorOptions& options) {

@@ -11,7 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "capture/detect_videos.h"
+#include "capture/search/detect_videos.h"
+#include "tests/support/paths.h"
 
 namespace marey::capture {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using tests::CornerResidual;
 
-const fs::path kRendered = fs::path(MAREY_SHARED_DATA) / "blender/dev";
+const fs::path kRendered = marey::testing::shared_data() / "blender/dev";
 
 /// The residuals of the first frames of all cameras of a session.
 std::vector<CornerResidual> residuals_of(const std::string& session, int frames) {
@@ -49,7 +50,7 @@ double rms_px(const std::vector<CornerResidual>& residuals) {
   return std::sqrt(sum / (2.0 * static_cast<double>(residuals.size())));
 }
 
-class RenderedBody : public testing::Test {
+class RenderedBody : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!fs::exists(kRendered)) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/reopening_device.h"
+#include "capture/v4l2/reopening_device.h"
 
 #include <cerrno>
 #include <string>

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "capture/tag_pattern.h"
+#include "capture/tags/tag_pattern.h"
 
 namespace marey::tests {
 namespace {

@@ -9,8 +9,8 @@
 #include <glm/vec2.hpp>
 #include <opencv2/core.hpp>
 
-#include "capture/align_pattern.h"
-#include "capture/frame_source.h"
+#include "capture/tags/align_pattern.h"
+#include "capture/video/frame_source.h"
 #include "core/detection.h"
 #include "core/tag_pattern.h"
 

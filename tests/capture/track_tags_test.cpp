@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/track_tags.h"
+#include "capture/tags/track_tags.h"
 
 #include <cmath>
 #include <filesystem>
@@ -12,9 +12,11 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-#include "capture/frame_source.h"
+#include "capture/video/frame_source.h"
+#include "capture/video/open_frames.h"
 #include "tests/capture/tag_artist.h"
 #include "tests/support/count_allocations.h"
+#include "tests/support/paths.h"
 
 namespace marey::capture {
 namespace {
@@ -205,10 +207,10 @@ TEST(TrackTags, HurriesOnceMostOfWhatItFollowedIsGone) {
     const double left_px = f < kJump ? 40.0 : 250.0;
     std::vector<DrawnTag> tags;
     for (int i = 0; i < 4; ++i) {
-      tags.push_back({"tag36h11",
-                      i,
-                      tests::square({left_px + 55.0 * (i % 2), 60.0 + 90.0 * (i / 2)},
-                                    24.0)});
+      tags.push_back(
+          {"tag36h11",
+           i,
+           tests::square({left_px + 55.0 * (i % 2), 60.0 + 90.0 * (i / 2)}, 24.0)});
     }
     const cv::Mat image = draw(tags);
     const std::size_t found = tracker->track(numbered(image, f)).size();
@@ -279,7 +281,7 @@ TEST(TrackTags, AllocatesNothingOfItsOwnOnceWarm) {
 // Over whole trials 97 %, which benchmarks/measure_detection.cpp measures; this cut, in
 // which tags turn into view, has 95.
 TEST(TrackTags, LosesLittleOfARenderedWalk) {
-  const fs::path video = fs::path(MAREY_SHARED_DATA) / "blender/dev/walk/cam3.mp4";
+  const fs::path video = marey::testing::shared_data() / "blender/dev/walk/cam3.mp4";
   if (!fs::exists(video)) GTEST_SKIP() << "no rendered recordings at " << video;
   auto source = open_frames(video);
   ASSERT_TRUE(source);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/v4l2_device.h"
+#include "capture/v4l2/v4l2_device.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -248,7 +248,7 @@ TEST(V4l2Open, OfSomethingElseSaysWhatItIs) {
   EXPECT_EQ(refusal(kernel).cause, "it is not a capture device: it is no video device");
   kernel.cameras[0].can = V4L2_CAP_META_CAPTURE | V4L2_CAP_STREAMING;
   EXPECT_EQ(refusal(kernel).cause,
-            "it is not a capture device: it is a camera's channel for metadata");
+            "it is not a capture device: it is a metadata channel of a camera");
   kernel.cameras[0].can = V4L2_CAP_VIDEO_OUTPUT | V4L2_CAP_STREAMING;
   EXPECT_EQ(refusal(kernel).cause, "it is not a capture device: it is a video output");
 }

@@ -15,9 +15,9 @@
 
 #include <unistd.h>
 
-#include "capture/check_camera.h"
-#include "capture/reopening_device.h"
-#include "capture/v4l2_device.h"
+#include "capture/v4l2/check_camera.h"
+#include "capture/v4l2/reopening_device.h"
+#include "capture/v4l2/v4l2_device.h"
 #include "tests/capture/guest_take.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/vivid.h"

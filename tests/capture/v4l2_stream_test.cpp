@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/v4l2_stream.h"
+#include "capture/v4l2/v4l2_device.h"
+#include "capture/v4l2/v4l2_stream.h"
 
 #include <cerrno>
 #include <cstdint>

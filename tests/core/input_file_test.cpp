@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/input_file.h"
+#include "core/base/input_file.h"
 
 #include <filesystem>
 #include <fstream>

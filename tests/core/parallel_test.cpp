@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/parallel.h"
+#include "core/base/parallel.h"
 
 #include <stdexcept>
 #include <string>

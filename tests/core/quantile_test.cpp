@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/quantile.h"
+#include "core/base/quantile.h"
 
 #include <gtest/gtest.h>
 

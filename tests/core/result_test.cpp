@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/result.h"
+#include "core/base/result.h"
 
 #include <memory>
 

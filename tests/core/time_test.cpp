@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "core/time.h"
+#include "core/base/time.h"
 
 #include <gtest/gtest.h>
 

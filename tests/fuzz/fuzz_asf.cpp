@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 #include "core/pose.h"
-#include "recordings/asf.h"
+#include "recordings/motion/asf.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 #include "core/pose.h"
-#include "recordings/bvh.h"
+#include "recordings/motion/bvh.h"
 
 namespace {
 

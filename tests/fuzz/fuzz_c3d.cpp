@@ -4,11 +4,12 @@
 #include <cstdint>
 #include <string>
 
-#include "core/assert.h"
-#include "recordings/c3d.h"
-#include "recordings/force_plates.h"
-#include "recordings/marker_file.h"
-#include "recordings/trc.h"
+#include "core/base/assert.h"
+#include "recordings/markers/c3d.h"
+#include "recordings/markers/c3d_markers.h"
+#include "recordings/markers/force_plates.h"
+#include "recordings/markers/marker_file.h"
+#include "recordings/markers/trc.h"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/assert.h"
-#include "recordings/calibration_file.h"
-#include "recordings/calibration_import.h"
+#include "core/base/assert.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/session/calibration_import.h"
 
 namespace {
 

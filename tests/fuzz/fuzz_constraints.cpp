@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/assert.h"
-#include "recordings/constraints_file.h"
+#include "core/base/assert.h"
+#include "recordings/body/constraints_file.h"
 
 namespace {
 

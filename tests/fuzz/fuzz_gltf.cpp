@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <string>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 #include "core/pose.h"
-#include "recordings/gltf.h"
+#include "recordings/gltf/gltf.h"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/assert.h"
-#include "recordings/mot.h"
+#include "core/base/assert.h"
+#include "recordings/motion/mot.h"
 
 namespace {
 

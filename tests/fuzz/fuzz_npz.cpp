@@ -6,11 +6,11 @@
 #include <string>
 #include <string_view>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 #include "core/pose.h"
-#include "recordings/npy_array.h"
-#include "recordings/npz.h"
-#include "recordings/zip_store.h"
+#include "recordings/motion/npy_array.h"
+#include "recordings/motion/npz.h"
+#include "recordings/text/zip_store.h"
 
 namespace {
 
@@ -25,11 +25,13 @@ void check(const NpzMotion& read) {
       MAREY_ASSERT(std::isfinite(glm::dot(joint.translation, joint.translation)));
     }
   }
-  MAREY_ASSERT(read.doubt.empty() || read.doubt.size() == read.motion.poses.size());
+  MAREY_ASSERT(read.uncertainty.empty() ||
+               read.uncertainty.size() == read.motion.poses.size());
   MAREY_ASSERT(read.contacts.bears.size() ==
                read.contacts.names.size() * read.motion.poses.size());
   // What was read can be written and read again.
-  const auto bytes = npz_bytes(read.motion, {read.doubt, read.contacts, read.start_s});
+  const auto bytes =
+      npz_bytes(read.motion, {read.uncertainty, read.contacts, read.start_s});
   MAREY_ASSERT(bytes.has_value() && parse_npz(*bytes, "again.npz").has_value());
 }
 

@@ -13,10 +13,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/assert.h"
-#include "live/osc_parse.h"
-#include "live/vmc_assembler.h"
-#include "live/vmc_commands.h"
+#include "core/base/assert.h"
+#include "live/vmc/osc_parse.h"
+#include "live/vmc/vmc_assembler.h"
+#include "live/vmc/vmc_commands.h"
 
 namespace {
 

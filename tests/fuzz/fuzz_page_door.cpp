@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/assert.h"
-#include "live/request_check.h"
+#include "core/base/assert.h"
+#include "live/web/request_check.h"
 
 namespace {
 
@@ -23,15 +23,15 @@ std::string_view next_line(std::string_view& rest) {
   return line;
 }
 
-void check(const RequestHead& head, const DoorRules& rules) {
-  const CheckedRequest got = check_request(head, rules);
-  if (got.verdict != Verdict::kWelcome) return;
+void check(const RequestHead& head, const AccessPolicy& policy) {
+  const CheckedRequest got = check_request(head, policy);
+  if (got.verdict != Verdict::kAccepted) return;
   MAREY_ASSERT(head.method == "GET" || head.method == "HEAD");
   MAREY_ASSERT(got.path.starts_with('/') && head.target.starts_with(got.path));
   MAREY_ASSERT(head.host == "127.0.0.1:8790" || head.host == "localhost:8790" ||
                head.host == "[::1]:8790");
   MAREY_ASSERT(head.origin.empty() || head.origin.ends_with(head.host));
-  if (rules.token.empty()) return;
+  if (policy.token.empty()) return;
   MAREY_ASSERT(head.target.find(kToken) != std::string_view::npos ||
                head.cookie.find(kToken) != std::string_view::npos);
 }

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <variant>
 
-#include "core/assert.h"
-#include "live/page_request.h"
+#include "core/base/assert.h"
+#include "live/page/page_request.h"
 
 namespace {
 

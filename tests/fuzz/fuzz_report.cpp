@@ -9,8 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/assert.h"
-#include "recordings/nesting.h"
+#include "core/base/assert.h"
+#include "recordings/text/nesting.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <span>
 
-#include "live/osc_writer.h"
-#include "live/vmc_encoder.h"
+#include "live/vmc/osc_writer.h"
+#include "live/vmc/vmc_encoder.h"
 
 namespace marey::fuzz {
 namespace {

@@ -6,11 +6,11 @@
 #include <system_error>
 #include <vector>
 
-#include "recordings/atomic_file.h"
-#include "recordings/live_take.h"
-#include "recordings/npz.h"
-#include "recordings/take_file.h"
-#include "recordings/vrma.h"
+#include "recordings/gltf/vrma.h"
+#include "recordings/motion/npz.h"
+#include "recordings/takes/live_take.h"
+#include "recordings/takes/take_file.h"
+#include "recordings/text/atomic_file.h"
 
 namespace marey::fuzz {
 namespace {
@@ -22,11 +22,11 @@ bool write_npz_seeds(const fs::path& folder, Motion motion) {
   // Fuzzing is the faster the smaller its files are.
   motion.skeleton.joints.resize(3);
   for (Pose& pose : motion.poses) pose.parent_from_joint.resize(3);
-  const std::vector<std::vector<JointDoubt>> doubt(
-      motion.poses.size(), std::vector<JointDoubt>(3, {0.001, Source::kRepaired}));
+  const std::vector<std::vector<JointUncertainty>> uncertainty(
+      motion.poses.size(), std::vector<JointUncertainty>(3, {0.001, Source::kRepaired}));
   const NpzContacts contacts{{"leftFoot"}, {1, 0}};
   return write_npz(folder / "plain.npz", motion).has_value() &&
-         write_npz(folder / "all.npz", motion, {doubt, contacts, 1.5}).has_value();
+         write_npz(folder / "all.npz", motion, {uncertainty, contacts, 1.5}).has_value();
 }
 
 bool write_take_seeds(const fs::path& folder) {

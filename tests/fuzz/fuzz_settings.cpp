@@ -10,16 +10,16 @@
 #include <variant>
 #include <vector>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 #include "core/skeleton.h"
-#include "recordings/bone_map_file.h"
-#include "recordings/character_file.h"
-#include "recordings/floor_file.h"
-#include "recordings/marker_map.h"
-#include "recordings/nesting.h"
-#include "recordings/plan_file.h"
-#include "recordings/subject_file.h"
-#include "recordings/toml_reader.h"
+#include "recordings/body/bone_map_file.h"
+#include "recordings/body/character_file.h"
+#include "recordings/body/floor_file.h"
+#include "recordings/markers/marker_map.h"
+#include "recordings/session/plan_file.h"
+#include "recordings/session/subject_file.h"
+#include "recordings/text/nesting.h"
+#include "recordings/text/toml_reader.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "core/assert.h"
-#include "recordings/live_take.h"
-#include "recordings/take_file.h"
+#include "core/base/assert.h"
+#include "recordings/takes/live_take.h"
+#include "recordings/takes/take_file.h"
 
 namespace {
 

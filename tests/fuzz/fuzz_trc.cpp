@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "core/assert.h"
-#include "recordings/trc.h"
+#include "core/base/assert.h"
+#include "recordings/markers/trc.h"
 
 namespace {
 

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <string>
 
-#include "core/assert.h"
-#include "recordings/gltf.h"
-#include "recordings/vrma.h"
+#include "core/base/assert.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/gltf/vrma.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace marey::recordings;

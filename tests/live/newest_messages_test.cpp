@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/newest_messages.h"
+#include "live/web/newest_messages.h"
 
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "live/message_rate.h"
+#include "live/vmc/message_rate.h"
 #include "tests/support/count_allocations.h"
 
 namespace marey::live {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/osc_parse.h"
+#include "live/vmc/osc_parse.h"
 
 #include <cmath>
 #include <cstdlib>

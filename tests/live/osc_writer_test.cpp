@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/osc_writer.h"
+#include "live/vmc/osc_writer.h"
 
 #include <cstdlib>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/page_frame.h"
+#include "live/page/page_frame.h"
 
 #include <array>
 #include <bit>
@@ -31,12 +31,12 @@ const std::string kTwo = bytes({0, 0, 0, 0x40});
 
 TEST(PageFrame, HasTheBytesOfTheProtocol) {
   const Pose pose{{1.0, 2.0, 0.5}, {{1.0, 0.0, 0.0, 0.0}}};
-  const std::array<JointDoubt, 1> doubt{{{0.5, Source::kRepaired}}};
+  const std::array<JointUncertainty, 1> uncertainty{{{0.5, Source::kRepaired}}};
   const std::array<glm::dvec2, 1> support{{{2.0, 1.0}}};
   const std::array<PageFigure, 2> figures{{
       {.joints = 1,
        .pose = &pose,
-       .doubt = doubt,
+       .uncertainty = uncertainty,
        .balance = PageBalance{{0.5, 1.0, 2.0}, support},
        .tracking = PageTracking{0.5, {true, false, false, true}}},
       {.joints = 25},
@@ -58,8 +58,9 @@ TEST(PageFrame, HasTheBytesOfTheProtocol) {
 
 TEST(PageFrame, IsLaidOutForTypedArrays) {
   for (std::size_t joints = 1; joints <= 9; ++joints) {
-    const std::vector<JointDoubt> doubt(joints);
-    const std::array<PageFigure, 1> figures{{{.joints = joints, .doubt = doubt}}};
+    const std::vector<JointUncertainty> uncertainty(joints);
+    const std::array<PageFigure, 1> figures{
+        {{.joints = joints, .uncertainty = uncertainty}}};
     std::string out;
     append_frame({.figures = figures}, out);
     EXPECT_EQ(out.size() % 4, 0U) << joints;

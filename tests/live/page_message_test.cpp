@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "live/page_scene.h"
-#include "live/page_status.h"
-#include "live/page_wizard.h"
+#include "live/page/page_scene.h"
+#include "live/page/page_status.h"
+#include "live/page/page_wizard.h"
 
 namespace marey::live {
 namespace {
@@ -174,9 +174,9 @@ TEST(PageStatus, HasTheMembersOfTheProtocol) {
                                       std::pair{PageSubject::kLost, "lost"}}) {
     PageStatus told;
     told.subject = subject;
-    told.doubts = {"leftFoot has not been seen"};
+    told.warnings = {"leftFoot has not been seen"};
     EXPECT_EQ(Json::parse(status_json(told))["subject"], word);
-    EXPECT_EQ(Json::parse(status_json(told))["doubts"][0], told.doubts[0]);
+    EXPECT_EQ(Json::parse(status_json(told))["doubts"][0], told.warnings[0]);
   }
   EXPECT_EQ(empty["stages"][0],
             Json::parse(R"({"name":"detect cam0","p50_ms":1.0,"p95_ms":2.0})"));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/page_request.h"
+#include "live/page/page_request.h"
 
 #include <string>
 

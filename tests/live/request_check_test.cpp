@@ -1,29 +1,29 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/request_check.h"
+#include "live/web/request_check.h"
 
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "live/access_token.h"
-#include "live/web_content.h"
+#include "live/web/access_token.h"
+#include "live/web/web_content.h"
 
 namespace marey::live {
 namespace {
 
-Verdict verdict(const RequestHead& head, const DoorRules& rules) {
-  return check_request(head, rules).verdict;
+Verdict verdict(const RequestHead& head, const AccessPolicy& policy) {
+  return check_request(head, policy).verdict;
 }
 
-const DoorRules kHere{
+const AccessPolicy kHere{
     .address = "127.0.0.1", .loopback = true, .port = 8790, .token = ""};
 
 TEST(RequestCheck, FindsThePathOfWhoIsWelcome) {
   const CheckedRequest got = check_request(
       {.method = "GET", .target = "/page.js?v=2?3", .host = "127.0.0.1:8790"}, kHere);
-  EXPECT_EQ(got.verdict, Verdict::kWelcome);
+  EXPECT_EQ(got.verdict, Verdict::kAccepted);
   EXPECT_EQ(got.path, "/page.js");
   EXPECT_FALSE(got.token_in_query);
   EXPECT_EQ(verdict({.method = "GET", .target = "*", .host = "localhost:8790"}, kHere),
@@ -62,10 +62,10 @@ TEST(RequestCheck, KnowsItsOwnAddresses) {
       {"192.168.1.5", false, 8790, "192.168.1.50:8790", false},
   };
   for (const Case& c : cases) {
-    const DoorRules rules{
+    const AccessPolicy policy{
         .address = c.address, .loopback = c.loopback, .port = c.port, .token = ""};
-    EXPECT_EQ(verdict({.method = "GET", .target = "/", .host = c.host}, rules),
-              c.ours ? Verdict::kWelcome : Verdict::kWrongHost)
+    EXPECT_EQ(verdict({.method = "GET", .target = "/", .host = c.host}, policy),
+              c.ours ? Verdict::kAccepted : Verdict::kWrongHost)
         << c.host;
   }
 }
@@ -76,7 +76,7 @@ TEST(RequestCheck, WantsTheOriginOfItsOwnPage) {
         {.method = "GET", .target = "/", .host = "localhost:8790", .origin = origin},
         kHere);
   };
-  EXPECT_EQ(from("http://localhost:8790"), Verdict::kWelcome);
+  EXPECT_EQ(from("http://localhost:8790"), Verdict::kAccepted);
   for (const char* other : {"http://127.0.0.1:8790",
                             "https://localhost:8790",
                             "http://localhost",
@@ -88,17 +88,18 @@ TEST(RequestCheck, WantsTheOriginOfItsOwnPage) {
 }
 
 TEST(RequestCheck, WantsTheTokenInQueryOrCookie) {
-  DoorRules rules = kHere;
-  rules.token = "0123456789abcdef";
+  AccessPolicy policy = kHere;
+  policy.token = "0123456789abcdef";
   const auto with = [&](const char* target, const char* cookie) {
     return check_request(
         {.method = "GET", .target = target, .host = "localhost:8790", .cookie = cookie},
-        rules);
+        policy);
   };
   EXPECT_TRUE(with("/?token=0123456789abcdef", "").token_in_query);
   EXPECT_TRUE(with("/?a=b&token=0123456789abcdef&c", "").token_in_query);
-  EXPECT_EQ(with("/", "marey_token=0123456789abcdef").verdict, Verdict::kWelcome);
-  EXPECT_EQ(with("/", "a=b; marey_token=0123456789abcdef ;c").verdict, Verdict::kWelcome);
+  EXPECT_EQ(with("/", "marey_token=0123456789abcdef").verdict, Verdict::kAccepted);
+  EXPECT_EQ(with("/", "a=b; marey_token=0123456789abcdef ;c").verdict,
+            Verdict::kAccepted);
   EXPECT_FALSE(with("/", "marey_token=0123456789abcdef").token_in_query);
   const std::pair<const char*, const char*> wrong[] = {
       {"/", ""},

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/udp_sender.h"
+#include "live/udp/udp_sender.h"
 
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "live/udp_listener.h"
+#include "live/udp/udp_listener.h"
 
 namespace marey::live {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/unity_bone.h"
+#include "live/vmc/unity_bone.h"
 
 #include <set>
 #include <string>

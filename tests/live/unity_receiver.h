@@ -7,7 +7,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "core/skeleton.h"
-#include "live/vmc_pose.h"
+#include "live/vmc/vmc_pose.h"
 
 namespace marey::live {
 

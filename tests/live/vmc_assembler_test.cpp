@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/vmc_assembler.h"
+#include "live/vmc/vmc_assembler.h"
 
 #include <cmath>
 #include <limits>
@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "live/osc_writer.h"
-#include "live/vmc_body.h"
+#include "live/vmc/osc_writer.h"
+#include "live/vmc/vmc_body.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/random_bodies.h"
 
@@ -41,7 +41,7 @@ struct Performance {
     VmcEncoder encoder = *VmcEncoder::make({.mtu_bytes = mtu_bytes});
     for (int frame = 0; frame < frames; ++frame) {
       poses.push_back(testing::random_pose(body, dice));
-      vmc.tell(poses.back(), told.emplace_back());
+      vmc.to_vmc(poses.back(), told.emplace_back());
       packets.push_back(copied(encoder.encode(frame * 10ms, told.back())));
     }
   }
@@ -89,7 +89,7 @@ TEST(VmcAssembler, GivesThePoseOfTheAvatarToAMicrometre) {
   for (std::size_t i = 0; i < 5; ++i) {
     take_all(assembler, performance.packets[i]);
     if (!assembler.take_frame(frame)) continue;
-    performance.vmc.pose_of(frame.pose, shown);
+    performance.vmc.from_vmc(frame.pose, shown);
     const auto expected = world_from_joints(performance.body, performance.poses[i]);
     const auto got = world_from_joints(performance.body, shown);
     for (std::size_t k = 0; k < got.size(); ++k) {

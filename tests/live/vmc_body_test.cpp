@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/vmc_body.h"
+#include "live/vmc/vmc_body.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -104,7 +104,7 @@ TEST(VmcBody, RawIsWhatTheAvatarsOwnNodesShowInUnity) {
     const VmcBody vmc = *VmcBody::make(body, {.rest = VmcRest::kRaw});
     const Pose pose = any_pose(body, dice);
     VmcPose told;
-    vmc.tell(pose, told);
+    vmc.to_vmc(pose, told);
     expect_shown(body, pose, shown_in_unity(body, unity_nodes(body), told));
   }
 }
@@ -118,7 +118,7 @@ TEST(VmcBody, Vrm0IsWhatANormalisedAvatarShowsInUnity) {
         *VmcBody::make(rest.body, {.t_pose_from_joint = rest.t_pose_from_joint});
     const Pose pose = any_pose(rest.body, dice);
     VmcPose told;
-    vmc.tell(pose, told);
+    vmc.to_vmc(pose, told);
     expect_shown(rest.body,
                  pose,
                  shown_in_unity(t_posed, normalised_unity_nodes(t_posed), told),
@@ -145,7 +145,7 @@ TEST(VmcBody, RawOfAFileThatFacesBackIsItsNodesWithZMirrored) {
                                         .file_faces_back = true});
     const Pose pose = with_resting_others(body, any_pose(body, dice));
     VmcPose told;
-    vmc.tell(pose, told);
+    vmc.to_vmc(pose, told);
     for (std::size_t i = 0; i < body.joints.size(); ++i) {
       const Joint& joint = body.joints[i];
       if (!joint.bone || (node_above && joint.bone == HumanBone::kHips)) continue;
@@ -162,7 +162,7 @@ TEST(VmcBody, RawOfAFileThatFacesBackIsItsNodesWithZMirrored) {
           << joint.name;
     }
     Pose again;
-    vmc.pose_of(told, again);
+    vmc.from_vmc(told, again);
     const auto before = world_from_joints(body, pose);
     const auto after = world_from_joints(body, again);
     for (std::size_t k = node_above ? 1 : 0; k < after.size(); ++k) {
@@ -180,7 +180,7 @@ TEST(VmcBody, RawKnowsOfANodeAboveTheFirstJoint) {
       body, {.rest = VmcRest::kRaw, .file_from_root_parent = world_from_above});
   const Pose pose = any_pose(body, dice);
   VmcPose told;
-  vmc.tell(pose, told);
+  vmc.to_vmc(pose, told);
   const UnityTransform& hips = told.local[index(UnityBone::kHips)];
   const RigidTransform above_from_hips{mirrored_x(hips.rotation),
                                        mirrored_x(hips.position)};
@@ -190,7 +190,7 @@ TEST(VmcBody, RawKnowsOfANodeAboveTheFirstJoint) {
               1.0,
               1e-12);
   Pose again;
-  vmc.pose_of(told, again);
+  vmc.from_vmc(told, again);
   EXPECT_LT(glm::distance(again.root_in_world, pose.root_in_world), kRounding_m);
   EXPECT_NEAR(std::abs(glm::dot(again.parent_from_joint[0], pose.parent_from_joint[0])),
               1.0,
@@ -202,7 +202,7 @@ TEST(VmcBody, TellsIdentityInTheTPoseAndTheAvatarsOwnOffsets) {
   const Skeleton body = any_body(dice);
   const VmcBody vmc = *VmcBody::make(body);
   VmcPose told;
-  vmc.tell(rest_pose(body), told);
+  vmc.to_vmc(rest_pose(body), told);
   const auto nodes = normalised_unity_nodes(body);
   for (std::size_t i = 0; i < body.joints.size(); ++i) {
     if (!body.joints[i].bone) continue;
@@ -220,7 +220,7 @@ TEST(VmcBody, TellsALoweredLeftArmAsAQuarterTurnAboutZ) {
   pose.parent_from_joint[index(HumanBone::kLeftUpperArm)] =
       rotation_from_vector({0.0, 0.0, -glm::radians(90.0)});
   VmcPose told;
-  VmcBody::make(body)->tell(pose, told);
+  VmcBody::make(body)->to_vmc(pose, told);
   const glm::dquat arm = told.local[index(UnityBone::kLeftUpperArm)].rotation;
   EXPECT_NEAR(arm.w, std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(arm.z, std::sqrt(0.5), 1e-12);
@@ -234,7 +234,7 @@ TEST(VmcBody, TellsTheBonesThatThereAreAndNoOthers) {
   const VmcBody vmc = *VmcBody::make(body);
   VmcPose told;
   told.set(UnityBone::kJaw, {});
-  vmc.tell(rest_pose(body), told);
+  vmc.to_vmc(rest_pose(body), told);
   EXPECT_EQ(told.has.count(), 21U);
   EXPECT_EQ(vmc.bones().size(), 21U);
   EXPECT_FALSE(told.contains(UnityBone::kUpperChest));
@@ -264,8 +264,8 @@ TEST(VmcBody, ReadsBackWhatItTells) {
       const VmcBody vmc = *VmcBody::make(rest.body, options);
       VmcPose told;
       Pose again;
-      vmc.tell(pose, told);
-      vmc.pose_of(told, again);
+      vmc.to_vmc(pose, told);
+      vmc.from_vmc(told, again);
       const auto expected = world_from_joints(rest.body, pose);
       const auto got = world_from_joints(rest.body, again);
       for (std::size_t k = 0; k < got.size(); ++k) {
@@ -286,10 +286,10 @@ TEST(VmcBody, MovesTheWholeBodyWithTheRoot) {
     const Pose pose = with_resting_others(body, any_pose(body, dice));
     VmcPose told;
     Pose again;
-    vmc.tell(pose, told);
+    vmc.to_vmc(pose, told);
     const RigidTransform root{dice.turn(2.0), {0.3, -0.2, 0.1}};
     told.root = {mirrored_x(root.translation), mirrored_x(root.rotation)};
-    vmc.pose_of(told, again);
+    vmc.from_vmc(told, again);
     const auto before = world_from_joints(body, pose);
     const auto after = world_from_joints(body, again);
     for (std::size_t k = 1; k < after.size(); ++k) {
@@ -308,8 +308,8 @@ TEST(VmcBody, GivesWhatALackedBoneTurnsToTheBonesBelow) {
   for (glm::dquat& rotation : pose.parent_from_joint) rotation = dice.turn(1.0);
   VmcPose told;
   Pose shown;
-  VmcBody::make(whole)->tell(pose, told);
-  VmcBody::make(lacking)->pose_of(told, shown);
+  VmcBody::make(whole)->to_vmc(pose, told);
+  VmcBody::make(lacking)->from_vmc(told, shown);
   const auto expected = world_from_joints(whole, pose);
   const auto got = world_from_joints(lacking, shown);
   for (std::size_t k = 0; k < got.size(); ++k) {
@@ -325,7 +325,7 @@ TEST(VmcBody, RestsWhereNothingIsTold) {
   const auto rest = world_from_joints(body, rest_pose(body));
   for (const VmcRest kind : {VmcRest::kVrm0, VmcRest::kRaw}) {
     Pose shown;
-    VmcBody::make(body, {.rest = kind})->pose_of({}, shown);
+    VmcBody::make(body, {.rest = kind})->from_vmc({}, shown);
     const auto got = world_from_joints(body, shown);
     for (std::size_t k = 0; k < got.size(); ++k) {
       EXPECT_LT(glm::distance(got[k].translation, rest[k].translation), kRounding_m);
@@ -349,12 +349,12 @@ TEST(VmcBody, AllocatesNothingPerFrame) {
   const Pose pose = any_pose(body, dice);
   VmcPose told;
   Pose again;
-  vmc.tell(pose, told);
-  vmc.pose_of(told, again);
+  vmc.to_vmc(pose, told);
+  vmc.from_vmc(told, again);
   const long before = testing::allocations();
   for (int i = 0; i < 10; ++i) {
-    vmc.tell(pose, told);
-    vmc.pose_of(told, again);
+    vmc.to_vmc(pose, told);
+    vmc.from_vmc(told, again);
   }
   EXPECT_EQ(testing::allocations() - before, 0);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/vmc_encoder.h"
+#include "live/vmc/vmc_encoder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "live/vmc_body.h"
+#include "live/vmc/vmc_body.h"
 #include "tests/live/read_vmc.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/random_bodies.h"

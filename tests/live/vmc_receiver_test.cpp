@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/vmc_receiver.h"
+#include "live/vmc/vmc_receiver.h"
 
 #include <gtest/gtest.h>
 
-#include "live/vmc_body.h"
+#include "live/vmc/vmc_body.h"
 #include "tests/support/random_bodies.h"
 
 namespace marey::live {

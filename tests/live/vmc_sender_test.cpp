@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/vmc_sender.h"
+#include "live/vmc/vmc_sender.h"
 
 #include <algorithm>
 #include <string>
@@ -94,11 +94,11 @@ TEST(VmcSender, HandsOverCalibrationsOnce) {
   const VmcCommands commands = stage.sender.take_commands();
   EXPECT_TRUE(commands.calibration_ready);
   EXPECT_EQ(commands.calibration, 2);
-  EXPECT_EQ(commands.heard, 2);
+  EXPECT_EQ(commands.applied, 2);
   const VmcCommands again = stage.sender.take_commands();
   EXPECT_FALSE(again.calibration_ready);
   EXPECT_FALSE(again.calibration);
-  EXPECT_EQ(again.heard, 2);
+  EXPECT_EQ(again.applied, 2);
 }
 
 TEST(VmcSender, IgnoresWhatItCannotObeyAndCountsIt) {
@@ -113,7 +113,7 @@ TEST(VmcSender, IgnoresWhatItCannotObeyAndCountsIt) {
     EXPECT_EQ(count(stage.next_frame(), "/VMC/Ext/Bone/Pos"), 1);
   }
   const VmcCommands commands = stage.sender.take_commands();
-  EXPECT_EQ(commands.heard, 0);
+  EXPECT_EQ(commands.applied, 0);
   EXPECT_EQ(commands.ignored, 3);
   EXPECT_EQ(commands.malformed, 1);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/vrchat_trackers.h"
+#include "live/vmc/vrchat_trackers.h"
 
 #include <map>
 

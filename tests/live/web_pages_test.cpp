@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "live/web_server.h"
+#include "live/web/web_server.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/web_socket.h"
 
@@ -180,7 +180,7 @@ TEST(WebPages, AreClosedWhenTheyTalkTooMuch) {
   ASSERT_TRUE(end);
   EXPECT_EQ(end->opcode, kClose);
   EXPECT_EQ(end->payload.substr(0, 2), "\x03\xf0");  // 1008.
-  EXPECT_EQ(server.counts().pages_too_loud, 1U);
+  EXPECT_EQ(server.counts().pages_over_rate, 1U);
 }
 
 TEST(WebPages, AreCutOffWhenTheyPingTooMuch) {
@@ -193,9 +193,9 @@ TEST(WebPages, AreCutOffWhenTheyPingTooMuch) {
     ASSERT_TRUE(answer) << i;
     ASSERT_EQ(answer->opcode, kPong);
   }
-  EXPECT_EQ(server.counts().pages_too_loud, 0U);
+  EXPECT_EQ(server.counts().pages_over_rate, 0U);
   for (int i = 0; i < 300; ++i) page.send_frame(kPing, "");
-  EXPECT_TRUE(soon([&] { return server.counts().pages_too_loud == 1U; }));
+  EXPECT_TRUE(soon([&] { return server.counts().pages_over_rate == 1U; }));
   while (const auto answer = page.receive_message()) EXPECT_EQ(answer->opcode, kPong);
 }
 
@@ -252,7 +252,7 @@ TEST(WebPages, AreForgottenWhenTheyLeave) {
 
 TEST(WebPages, AreTurnedAwayBeyondTheirLimit) {
   WebServerOptions options;
-  options.most_clients = 2;
+  options.max_clients = 2;
   WebServer server = serve(options);
   std::vector<WebSocketClient> pages;
   for (int i = 0; i < 2; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "live/web_server.h"
+#include "live/web/web_server.h"
 
 #include <memory>
 #include <string>
@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "live/access_token.h"
-#include "live/page_embedded.h"
+#include "live/web/access_token.h"
+#include "live/web/page_embedded.h"
 #include "tests/support/web_socket.h"
 
 namespace marey::live {
@@ -252,7 +252,7 @@ TEST(WebServer, FreesItsPortWhenItStops) {
 
 TEST(WebServer, TurnsConnectionsAwayBeyondItsLimit) {
   WebServerOptions options;
-  options.most_connections = 8;
+  options.max_connections = 8;
   WebServer server = serve(options);
   std::vector<WebSocketClient> idle;
   for (int i = 0; i < 8; ++i) idle.emplace_back(server.port());

@@ -7,21 +7,23 @@
 
 #include <time.h>
 
-#include "reconstruct/check_views.h"
-#include "reconstruct/fit_subject.h"
-#include "reconstruct/solve_motion.h"
+#include "reconstruct/clusters/check_views.h"
+#include "reconstruct/subject/fit_subject.h"
+#include "reconstruct/tags/solve_motion.h"
 
 namespace marey::testing {
 namespace {
 
-/// Processor time of this thread: the machine may be busy with other things.
+/// Returns the processor time of this thread, since the machine may be busy with other
+/// work.
 double processor_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Returns SolveMotionOptions::camera_sigma_m as app/camera_doubt.h computes it. [m]
+/// Returns SolveMotionOptions::camera_sigma_m as app/check/common_sigma.h computes it.
+/// [m]
 double common_sigma_m(const SimulatedSession& session) {
   double sum_m2 = 0.0;
   for (const double sigma_m : session.rig.centre_sigma_m) sum_m2 += sigma_m * sigma_m;
@@ -51,10 +53,11 @@ SessionAnswer answer_session(const SimulatedSession& session) {
   if (!fit) return refuse("fit_subject", fit.error());
   for (const reconstruct::LeftOutSegment& left : fit->left_out) {
     out.left_out.push_back(left.segment);
-    std::erase_if(fit->doubts,
-                  [&](const Error& doubt) { return doubt.cause == left.reason.cause; });
+    std::erase_if(fit->warnings, [&](const Error& warning) {
+      return warning.cause == left.reason.cause;
+    });
   }
-  if (!fit->doubts.empty()) return refuse("fit_subject", fit->doubts.front());
+  if (!fit->warnings.empty()) return refuse("fit_subject", fit->warnings.front());
   out.body = std::move(fit->body);
   start = processor_s();
   reconstruct::SolveMotionOptions options;

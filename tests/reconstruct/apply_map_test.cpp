@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/labels/apply_map.h"
+
 #include <initializer_list>
 
 #include <gtest/gtest.h>
 
-#include "reconstruct/name_markers.h"
+#include "reconstruct/labels/name_markers.h"
 #include "tests/reconstruct/named_labels.h"
 
 namespace marey::reconstruct {
@@ -33,7 +35,7 @@ TEST(ApplyMap, CorrectsAndAddsAndLeavesOut) {
   EXPECT_TRUE(names->notes.empty());
 }
 
-TEST(ApplyMap, TellsLabelsThatTheRecordingLacks) {
+TEST(ApplyMap, ReportsLabelsThatTheRecordingLacks) {
   const auto labels = words("LASI RASI");
   const auto names = apply_map(map_of({{"LASI", "left_asis", 2}, {"LASSI", "c7", 3}}),
                                labels,
@@ -48,10 +50,11 @@ TEST(ApplyMap, RefusesAnUnknownNameWithThoseNearToIt) {
   const auto names =
       apply_map(map_of({{"LASI", "left_asia", 7}}), labels, name_markers(labels));
   ASSERT_FALSE(names);
-  EXPECT_EQ(names.error().message(),
-            "map.toml:7: no landmark and no bone is called \"left_asia\". Next: perhaps "
-            "you mean \"left_asis\", \"left_psis\" or \"left_rib\"; docs/formats.md "
-            "lists all.");
+  EXPECT_EQ(
+      names.error().message(),
+      "map.toml:7: no landmark and no bone is called \"left_asia\". Next: perhaps "
+      "you mean \"left_asis\", \"left_psis\" or \"left_rib\"; docs/formats/README.md "
+      "lists all.");
 }
 
 TEST(ApplyMap, RefusesAMapOfAnotherRecording) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/check_labels.h"
+#include "reconstruct/markers/check_labels.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "reconstruct/find_exchanges.h"
+#include "reconstruct/markers/find_exchanges.h"
 #include "tests/support/labelled_wearer.h"
 
 namespace marey::reconstruct {
@@ -20,7 +20,7 @@ namespace {
 
 using marey::testing::exchange;
 
-/// A wearer with the names that its labels mean.
+/// A subject with the names that the labels mean.
 struct NamedWearer : marey::testing::LabelledWearer {
   std::vector<NamedMarker> labels;
 };
@@ -77,8 +77,8 @@ TEST(CheckLabels, FindsNothingInRightLabels) {
   }
 }
 
-// Half of a thigh apart, for a whole trial: the distance of all markers from the body
-// hardly changes by it.
+// Half a thigh's length apart, for a whole trial: the distance of all markers from the
+// body hardly changes.
 TEST(CheckLabels, NamesTwoMarkersThatAreExchangedInATrial) {
   for (const auto& [a, b] : std::array<std::pair<const char*, const char*>, 3>{
            {{"LTHI", "LKNE"}, {"RANK", "RTOE"}, {"LKNE", "RKNE"}}}) {
@@ -113,7 +113,7 @@ TEST(CheckLabels, ProposesTheExchangeOfLabelsThatAreWrongInAllTrials) {
   }
 }
 
-// docs/open-points.md had it that this goes unnoticed.
+// Formerly listed in docs/limitations.md as undetected.
 TEST(CheckLabels, ProposesToExchangeTheLegsOfAStandingTrial) {
   NamedWearer one = wearer(6);
   one.trials.resize(1);
@@ -127,8 +127,8 @@ TEST(CheckLabels, ProposesToExchangeTheLegsOfAStandingTrial) {
   EXPECT_EQ(found->limbs, "the legs");
 }
 
-// A hand without named markers follows whatever is put on it: a shoulder's marker without
-// a meaning once sat there, measured.
+// A hand without named markers follows any marker on it: formerly a shoulder's marker
+// without a meaning was placed there as measured.
 TEST(CheckLabels, NoMarkerIsFoundOnALimbThatNothingPoses) {
   NamedWearer one = wearer(7);
   for (NamedMarker& marker : one.labels) {
@@ -157,7 +157,7 @@ TEST(FitMarkers, MeasuresHowTallPeopleAre) {
     ASSERT_TRUE(fit->measured_stature) << seed;
     const double off_m = fit->measured_stature->stature_m - one.person.stature_m;
     within += std::abs(off_m) < 2.0 * fit->measured_stature->sigma_m ? 1 : 0;
-    // A twentieth: what proportions and places of landmarks differ by.
+    // A twentieth: the deviation of proportions and of places of landmarks.
     EXPECT_LT(std::abs(off_m), 0.05 * one.person.stature_m) << seed;
   }
   EXPECT_GE(within, kPeople - 1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/check_tracks.h"
+#include "reconstruct/tracks/check_tracks.h"
 
 #include <limits>
 #include <utility>

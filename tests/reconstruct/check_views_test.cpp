@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/check_views.h"
+#include "reconstruct/clusters/check_views.h"
 
 #include <utility>
 
@@ -25,7 +25,7 @@ struct Scene {
                            cameras,
                            {60, 10.0, "rom", {0.2, {}, 0.0}, {}, {}});
 
-  /// As if the videos of two cameras had been listed in the wrong order.
+  /// Swaps the videos of two cameras, as if they were listed in the wrong order.
   void swap_files(std::size_t a, std::size_t b) {
     std::swap(detections[a], detections[b]);
     std::swap(detections[a].camera, detections[b].camera);
@@ -82,8 +82,8 @@ TEST(CheckViews, NoticesACameraThatSagged) {
 }
 
 TEST(CheckViews, DoesNotTakeACameraThatWasMovedForWrongTags) {
-  // Carried along the ring and still looking at its middle: its rays nearly meet the
-  // others', in wrong places, so that tags seem to be of wrong sizes.
+  // Moved along the ring and still looking at its middle: its rays nearly meet the
+  // others' at wrong places, so that tags seem to have wrong sizes.
   Scene scene;
   scene.cameras[1] = marey::testing::webcam_at("cam1", {2.6, 2.4, 1.8}, {0.0, 0.95, 0.0});
   const Status status = check_views(scene.cameras, scene.detections, scene.tags);
@@ -142,7 +142,7 @@ TEST(CheckViews, NoticesASwapInEightFrames) {
 }
 
 TEST(CheckViews, PassesWhenThereIsNothingToJudge) {
-  // One camera alone sees tags: wrong sizes and all, nobody can tell.
+  // If only one camera sees tags, wrong sizes cannot be detected.
   Scene scene;
   for (std::size_t c = 1; c < scene.detections.size(); ++c) {
     for (FrameDetections& frame : scene.detections[c].frames) frame.tags.clear();

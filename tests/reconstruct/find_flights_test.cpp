@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/find_flights.h"
+#include "reconstruct/motion/find_flights.h"
 
 #include <cmath>
 #include <vector>
@@ -17,8 +17,8 @@ using testing::Dice;
 
 constexpr double kGravity = 9.81;
 
-/// Someone who stands, crouches, jumps and lands. The floor lets go of the body, and
-/// takes hold of it, over 30 ms.
+/// A person who stands, crouches, jumps and lands. The floor's force decreases to zero,
+/// and increases again, over 30 ms.
 struct Jump {
   double takeoff_s = 1.0;
   double landing_s = 0.0;
@@ -38,8 +38,8 @@ struct Jump {
   }
 };
 
-/// Poses of `seconds` at a rate; the body does not bend, so that its root moves as its
-/// centre of mass.
+/// Returns poses of `seconds` at a rate; the body does not bend, so that its root moves
+/// as its centre of mass.
 Motion jumping(const Jump& jump, double rate_hz, double seconds, double noise_m) {
   Motion motion;
   motion.skeleton = make_humanoid(average_proportions(1.75));
@@ -62,7 +62,8 @@ Motion jumping(const Jump& jump, double rate_hz, double seconds, double noise_m)
   return motion;
 }
 
-// A pose, and 8 ms since a force of 30 ms is seen through a window of 50.
+// Tolerance: a pose, and 8 ms because a force with a ramp of 30 ms is seen through a
+// window of 50.
 TEST(FindFlights, AJumpsTakeOffAndLandingAreFoundToAPose) {
   const Jump jump{1.0, 1.42};
   for (const double rate_hz : {60.0, 100.0, 250.0}) {
@@ -74,16 +75,16 @@ TEST(FindFlights, AJumpsTakeOffAndLandingAreFoundToAPose) {
   }
 }
 
-// The speed at take-off is what was pushed: 14 * 0.2 + 0.03 * (14 - 9.81) / 2 less the
-// fall of 0.9 m/s before, 1.96 m/s, which rises v^2 / 2g. Take-off may be found 15 ms
-// late, in which a body as fast as that passes 3 cm.
+// The speed at take-off is the integral of the force, 14 * 0.2 + 0.03 * (14 - 9.81) / 2,
+// less the fall of 0.9 m/s before: 1.96 m/s, which rises v^2 / 2g. Take-off can be found
+// 15 ms late, in which a body at this speed moves 3 cm.
 TEST(FindFlights, TheRiseIsThatOfTheCentreOfMass) {
   const auto flights = find_flights(jumping(Jump{1.0, 1.42}, 100.0, 2.0, 0.0));
   ASSERT_EQ(flights.size(), 1U);
   EXPECT_NEAR(flights[0].rise_m, 1.963 * 1.963 / (2.0 * kGravity), 0.03);
 }
 
-// 0.1 mm makes 0.5 m/s^2 of the centre's acceleration at 100 Hz.
+// 0.1 mm gives 0.5 m/s^2 of the centre's acceleration at 100 Hz.
 TEST(FindFlights, NoiseOfATenthOfAMillimetreMovesThemByAPoseAtMost) {
   const Jump jump{1.0, 1.42};
   const auto flights = find_flights(jumping(jump, 100.0, 2.0, 1e-4));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/find_joint_centres.h"
+#include "reconstruct/clusters/find_joint_centres.h"
 
 #include <array>
 #include <cmath>
@@ -19,25 +19,25 @@ namespace {
 using marey::testing::Dice;
 
 constexpr double kPi = std::numbers::pi;
-// Where the joint is in the two segments of every scene here. [m]
+// Place of the joint in the two segments of every scene here. [m]
 const glm::dvec3 kInA(0.0, -0.15, 0.0);
 const glm::dvec3 kInB(0.0, 0.15, 0.0);
 
-/// A place of b when the joint turns by `a_from_b`.
+/// Returns the poses for a joint that is turned by `a_from_b`.
 SegmentPair turned(const RigidTransform& world_from_a, const glm::dquat& a_from_b) {
   const glm::dquat world_from_b = world_from_a.rotation * a_from_b;
   return {world_from_a, {world_from_b, world_from_a * kInA - world_from_b * kInB}};
 }
 
-/// A direction within a full cone of `cone_rad`, then a turn about it.
+/// Returns a direction within a full cone of `cone_rad`, then a turn about it.
 glm::dquat within_cone(double cone_rad, Dice& dice) {
   const double azimuth = dice.between(0.0, 2.0 * kPi);
   const double tilt = 0.5 * cone_rad * std::sqrt(dice.between(0.0, 1.0));
   return rotation_from_vector({tilt * std::cos(azimuth), 0.0, tilt * std::sin(azimuth)});
 }
 
-/// A pose as four markers give it: a tetrahedron of 50 mm half edge about the segment's
-/// origin, each coordinate off by `noise_m`.
+/// Returns a pose as measured by four markers: a tetrahedron of 50 mm half edge about the
+/// segment's origin, each coordinate with noise `noise_m`.
 RigidTransform measured(const RigidTransform& truth, double noise_m, Dice& dice) {
   constexpr std::array<std::array<double, 3>, 4> kCorners{
       {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
@@ -66,16 +66,16 @@ TEST(FindJointCentre, RecoversABallJointThatMovesExactly) {
   }
   const auto centre = find_joint_centre(instants, {0.05, -0.1, 0.02}, {0.0, 0.1, -0.05});
   ASSERT_TRUE(centre);
-  // An expectation 50 mm off weighs 0.02 of one instant of sixty, and less the more the
-  // joint turns: some tens of micrometres.
+  // An expectation 50 mm off has the weight of 0.02 of one instant of sixty, and a
+  // smaller effect with larger turns of the joint: some tens of micrometres.
   EXPECT_LT(glm::distance(centre->p_in_a, kInA), 2e-4);
   EXPECT_LT(glm::distance(centre->p_in_b, kInB), 2e-4);
   EXPECT_LT(centre->rms_m, 1e-4);
   EXPECT_GT(centre->observability, 0.2);
 }
 
-/// Root mean square error of the centre over runs of the set-up whose figures are known:
-/// two clusters of four markers 150 mm from the joint, 500 frames, 1 mm noise.
+/// Returns the root mean square error of the centre over runs of a published set-up: two
+/// clusters of four markers 150 mm from the joint, 500 frames, 1 mm noise.
 double score_rms_m(double cone_rad, int runs) {
   Dice dice(60);
   double sum = 0.0;
@@ -94,7 +94,7 @@ double score_rms_m(double cone_rad, int runs) {
 }
 
 // The known figures of plain SCoRE with the same markers are 0.39 and 0.19 mm. Sixty runs
-// of three coordinates tell a spread to 5 %: within three times that.
+// of three coordinates determine a spread to 5 %: within three times that.
 TEST(FindJointCentre, IsAsGoodAsScoreUnderNoiseInACone45DegreesWide) {
   EXPECT_NEAR(1e3 * score_rms_m(glm::radians(45.0), 60), 0.39, 0.06 /* mm */);
 }
@@ -111,14 +111,14 @@ TEST(FindJointCentre, LeavesTheAxisOfAHingeAtItsExpectation) {
     instants.push_back(
         turned(world_from_a, rotation_from_vector({dice.between(0.0, 2.0), 0.0, 0.0})));
   }
-  // Expected 30 mm along the hinge from where it was made, and 20 mm off it.
+  // The expectation is 30 mm along the hinge from the true place, and 20 mm off it.
   const glm::dvec3 along(0.03, 0.0, 0.0);
   const glm::dvec3 off(0.0, 0.02, 0.0);
   const auto centre = find_joint_centre(instants, kInA + along + off, kInB + along - off);
   ASSERT_TRUE(centre);
   EXPECT_NEAR(centre->p_in_a.x, 0.03, 1e-4);
   EXPECT_NEAR(centre->p_in_b.x, 0.03, 1e-4);
-  // Across the hinge the movement decides, but for the expectation's small weight.
+  // Across the hinge the movement decides, except for the expectation's small weight.
   EXPECT_NEAR(centre->p_in_a.y, kInA.y, 5e-4);
   EXPECT_NEAR(centre->p_in_b.y, kInB.y, 5e-4);
   EXPECT_LT(centre->observability, 1e-6);
@@ -129,7 +129,7 @@ TEST(FindJointCentre, SuffersLittleFromWrongPoses) {
   std::vector<SegmentPair> instants;
   for (int i = 0; i < 100; ++i) {
     SegmentPair pair = turned({dice.turn(3.0), dice.direction()}, dice.turn(1.0));
-    // One in ten is read 100 mm off.
+    // One in ten is off by 100 mm.
     if (i % 10 == 0) pair.world_from_b.translation += 0.1 * dice.direction();
     instants.push_back(pair);
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/fit_markers.h"
+#include "reconstruct/markers/fit_markers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "reconstruct/hip_regression.h"
-#include "reconstruct/solve_markers.h"
+#include "reconstruct/markers/hip_regression.h"
+#include "reconstruct/markers/solve_markers.h"
 #include "tests/reconstruct/moving_body.h"
 
 namespace marey::reconstruct {
@@ -39,7 +39,7 @@ TEST(FitMarkers, MeasuresSomebodyWhoMoves) {
   const MovingBody moving = moving_body(options);
   const auto fit = fit_markers({}, std::span(&moving.tracks, 1), moving.labels);
   ASSERT_TRUE(fit) << fit.error().cause;
-  // Statures are told from landmarks that lie 6 mm off and limbs that differ by 4 %.
+  // Statures are estimated from landmarks that are 6 mm off and limbs that differ by 4 %.
   EXPECT_NEAR(fit->body.stature_m, 1.75, 0.06);
   EXPECT_LT(fit->rms_m, 0.004);
   for (const HumanBone bone : kLongBones) {
@@ -81,7 +81,7 @@ TEST(FitMarkers, PutsTheJointsWhereTheyAre) {
     }
   }
   std::sort(errors.begin(), errors.end());
-  // Where along its hinge a joint lies is known from landmarks alone, to their 6 mm.
+  // The place of a joint along its hinge is determined by landmarks alone, to their 6 mm.
   EXPECT_LT(errors[errors.size() / 2], 0.008);
   EXPECT_LT(errors.back(), 0.03);
 }
@@ -104,7 +104,7 @@ TEST(FitMarkers, IsContentWithAStaticTrial) {
   }
 }
 
-TEST(FitMarkers, FindsTheSegmentOfALabelThatSaysNothing) {
+TEST(FitMarkers, FindsTheSegmentOfALabelWithoutMeaning) {
   MovingBody moving = moving_body();
   for (NamedMarker& marker : moving.labels) {
     if (marker.label == "left_tibial_tuberosity") marker.landmark = nullptr;
@@ -140,12 +140,12 @@ TEST(FitMarkers, GivesTheSameBodyAgain) {
   }
 }
 
-TEST(FitMarkers, DeclinesLabelsThatSayNothing) {
+TEST(FitMarkers, DeclinesLabelsWithoutMeaning) {
   MovingBody moving = moving_body();
   for (NamedMarker& marker : moving.labels) marker.landmark = nullptr;
   const auto fit = fit_markers({}, std::span(&moving.tracks, 1), moving.labels);
   ASSERT_FALSE(fit);
-  EXPECT_EQ(fit.error().cause, "only 0 labels say where on the body their markers are");
+  EXPECT_EQ(fit.error().cause, "only 0 labels have a known place on the body");
 }
 
 TEST(FitMarkers, DeclinesMarkersThatAreNeverSeen) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/fit_subject.h"
+#include "reconstruct/subject/fit_subject.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "reconstruct/posture.h"
+#include "reconstruct/posture/posture.h"
 #include "tests/support/synthetic_person.h"
 
 namespace marey::reconstruct {
@@ -22,7 +22,7 @@ using marey::testing::ring_of_cameras;
 using marey::testing::tagged_person;
 using marey::testing::tags_of;
 
-// Enough to fit a person by, not enough to do it well.
+// Enough to fit a person, with low accuracy.
 constexpr int kFew = 20;
 
 struct Scene {
@@ -53,7 +53,8 @@ struct Scene {
   }
 };
 
-/// The lengths that tags on both sides of a joint measure.
+/// Returns the largest error of the lengths that tags on both sides of a joint measure.
+/// [m]
 double worst_limb_length_m(const Body& found, const Body& truth) {
   const Lengths a = lengths_of(found.proportions);
   const Lengths b = lengths_of(truth.proportions);
@@ -70,8 +71,8 @@ struct TagOff {
   double in_sigmas = 0.0;
 };
 
-/// Tags whose place on the segment does not hang on how straight somebody stood: those of
-/// hips, chest, thighs, shanks and arms.
+/// Returns the errors of tags whose place on the segment does not depend on the standing
+/// posture: those of hips, chest, thighs, shanks and arms.
 std::vector<TagOff> tags_off(const Body& found, const Body& truth) {
   std::vector<TagOff> off;
   for (const PlacedTag& tag : found.tags) {
@@ -97,11 +98,12 @@ double median_of(const std::vector<TagOff>& off, double TagOff::*what) {
   return values[values.size() / 2];
 }
 
-// One fit, all its claims: it is dear.
+// One fit with all its checks, because it is expensive.
 TEST(FitSubject, RecoversAPersonFromExactCorners) {
   Scene scene;
-  // The better the corners are said to be, the less habits and average lengths pull: at
-  // 0.3 px some tenths of a millimetre, at a tenth of that a hundredth of it.
+  // With smaller declared sigmas of the corners, pose priors and average lengths have
+  // less effect: at 0.3 px some tenths of a millimetre, at a tenth of that a hundredth of
+  // it.
   scene.standing.disturbance.declared_px = 0.03;
   scene.moving.disturbance.declared_px = 0.03;
   std::vector<int> steps;
@@ -126,7 +128,7 @@ TEST(FitSubject, StaysWithinMillimetresUnderNoise) {
   const auto fit = scene.fit();
   ASSERT_TRUE(fit) << fit.error().message();
   const auto off = tags_off(fit->body, scene.truth);
-  // Sigmas of the others allow for shoulders that glide, which this person's do not.
+  // The other sigmas include the glide of shoulders, which this person's do not have.
   Body legs_and_forearms = fit->body;
   std::erase_if(legs_and_forearms.tags, [](const PlacedTag& tag) {
     return tag.tag.segment == HumanBone::kUpperChest ||
@@ -135,13 +137,13 @@ TEST(FitSubject, StaysWithinMillimetresUnderNoise) {
   });
   const auto away_from_shoulders = tags_off(legs_and_forearms, scene.truth);
   // A corner is 0.8 mm off in space, a tag's tilt some degrees: averaged over the frames,
-  // a joint 0.15 m away is known to a millimetre or two.
+  // a joint 0.15 m away is determined to a millimetre or two.
   EXPECT_LT(worst_limb_length_m(fit->body, scene.truth), 3e-3);
   EXPECT_LT(median_of(off, &TagOff::place_m), 2e-3);
-  // Honest would be 0.89, were the noise the 0.3 px that detections declare.
+  // The value would be 0.89 if the noise were the declared 0.3 px.
   EXPECT_GT(median_of(away_from_shoulders, &TagOff::in_sigmas), 0.3);
   EXPECT_LT(median_of(off, &TagOff::in_sigmas), 2.0);
-  // Two coordinates of 0.2 px, some of it fitted away.
+  // Two coordinates of 0.2 px, of which the fit absorbs a part.
   EXPECT_NEAR(fit->rms_px, 0.26, 0.03);
 }
 
@@ -188,9 +190,9 @@ TEST(FitSubject, NamesATagThatShiftedDuringTheTrial) {
     EXPECT_NE(fit.error().message().find(id), std::string::npos) << fit.error().message();
     return;
   }
-  ASSERT_FALSE(fit->doubts.empty());
-  EXPECT_NE(fit->doubts.front().cause.find(id), std::string::npos)
-      << fit->doubts.front().cause;
+  ASSERT_FALSE(fit->warnings.empty());
+  EXPECT_NE(fit->warnings.front().cause.find(id), std::string::npos)
+      << fit->warnings.front().cause;
 }
 
 TEST(FitSubject, GivesTheSameBytesTwice) {
@@ -232,7 +234,7 @@ TEST(FitSubject, NamesTheHipsWhenNothingIsSeen) {
             "range-of-motion trials");
 }
 
-TEST(FitSubject, DoesNotBelieveAWrongStature) {
+TEST(FitSubject, RejectsAWrongStature) {
   Scene scene;
   scene.prior.stature_m = 1.2;
   const auto fit = scene.fit();
@@ -316,12 +318,12 @@ TEST(FitSubject, NamesATagThatMovesWithAnotherSegment) {
     EXPECT_NE(fit.error().message().find(id), std::string::npos) << fit.error().message();
     return;
   }
-  const bool is_doubted = std::ranges::any_of(fit->doubts, [&](const Error& doubt) {
-    return doubt.cause.find(id) != std::string::npos;
+  const bool is_reported = std::ranges::any_of(fit->warnings, [&](const Error& warning) {
+    return warning.cause.find(id) != std::string::npos;
   });
   const bool is_left_out =
       std::ranges::find(fit->unplaced, tag->id) != fit->unplaced.end();
-  EXPECT_TRUE(is_doubted || is_left_out);
+  EXPECT_TRUE(is_reported || is_left_out);
 }
 
 TEST(FitSubject, NamesHipsAndChestExchanged) {

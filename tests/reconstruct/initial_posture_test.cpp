@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/initial_posture.h"
+#include "reconstruct/posture/initial_posture.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "reconstruct/sightings.h"
+#include "reconstruct/clusters/sightings.h"
 #include "tests/reconstruct/random_posture.h"
 
 namespace marey::reconstruct {
@@ -40,7 +40,7 @@ TEST(PostureFromSegments, IsExactWhenTheSegmentsFitTogether) {
       const RigidTransform placed = world_from_bone(bone, found, lengths, body);
       EXPECT_LT(glm::distance(placed.translation, expected.translation), 1e-9)
           << name(bone);
-      // Collar bones are known by where they end, not by how they are turned.
+      // The end of collar bones is determined, not their rotation.
       const bool collar =
           bone == HumanBone::kLeftShoulder || bone == HumanBone::kRightShoulder;
       if (!collar) {
@@ -56,7 +56,7 @@ TEST(PostureFromSegments, KeepsALimbThatWasNotFoundAgainstItsTrunk) {
   const BodyFrame body = average_frame();
   const Posture before = random_posture(dice);
   auto segments = segments_of(before, lengths, body);
-  // The whole body turned and moved, the left leg not seen.
+  // The whole body turned and moved; the left leg is not seen.
   const RigidTransform motion{dice.turn(1.0), {0.3, -0.1, 0.2}};
   for (auto& [bone, pose] : segments) pose = motion * pose;
   const auto all = segments;
@@ -94,17 +94,20 @@ TEST(Extrapolate, GoesOnAsBeforeAtAFullShare) {
   const Posture first = random_posture(dice);
   Posture second = first;
   const glm::dquat step = rotation_from_vector({0.05, -0.02, 0.03});
-  second.set_rotation(Slot::kLeftArm, step * first.rotation(Slot::kLeftArm));
-  second.block(Slot::kHipsPosition)[0] += 0.02;
-  *second.block(Slot::kLeftKnee) += 0.1;
+  second.set_rotation(PoseParameter::kLeftArm,
+                      step * first.rotation(PoseParameter::kLeftArm));
+  second.block(PoseParameter::kHipsPosition)[0] += 0.02;
+  *second.block(PoseParameter::kLeftKnee) += 0.1;
   const Posture third = extrapolate(first, second, 1.0);
-  EXPECT_LT(turn_rad(third.rotation(Slot::kLeftArm),
-                     step * step * first.rotation(Slot::kLeftArm)),
+  EXPECT_LT(turn_rad(third.rotation(PoseParameter::kLeftArm),
+                     step * step * first.rotation(PoseParameter::kLeftArm)),
             1e-12);
-  EXPECT_NEAR(third.block(Slot::kHipsPosition)[0],
-              first.block(Slot::kHipsPosition)[0] + 0.04,
+  EXPECT_NEAR(third.block(PoseParameter::kHipsPosition)[0],
+              first.block(PoseParameter::kHipsPosition)[0] + 0.04,
               1e-12);
-  EXPECT_NEAR(*third.block(Slot::kLeftKnee), *first.block(Slot::kLeftKnee) + 0.2, 1e-12);
+  EXPECT_NEAR(*third.block(PoseParameter::kLeftKnee),
+              *first.block(PoseParameter::kLeftKnee) + 0.2,
+              1e-12);
 }
 
 TEST(Extrapolate, StandsStillAtNoShare) {

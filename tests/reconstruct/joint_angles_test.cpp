@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/joint_angles.h"
+#include "reconstruct/motion/joint_angles.h"
 
 #include <array>
 #include <cmath>
@@ -38,7 +38,8 @@ glm::dquat about(const glm::dvec3& axis, double angle_rad) {
   return glm::angleAxis(angle_rad, axis);
 }
 
-/// Wide swings of every angle: ball joints' middle ones short of gimbal lock.
+/// Returns wide swings of every angle, with the middle ones of ball joints below gimbal
+/// lock.
 Angles swings(double phase) {
   Angles angles{};
   for (std::size_t i = 0; i < kCoordinateCount; ++i) {
@@ -87,7 +88,7 @@ TEST(JointAngles, ThoseThatAPoseWasMadeOfComeBack) {
     for (std::size_t c = 0; c < kCoordinateCount; ++c) {
       const C one{static_cast<int>(c)};
       if (!is_angle(one)) continue;
-      // One over the cosine of the middle angle, 0.17 at worst, times rounding.
+      // One over the cosine of the middle angle, at least 0.17, times rounding.
       ASSERT_NEAR(angles.at(static_cast<std::size_t>(i), one), truth[c], 1e-9)
           << name(one) << " in frame " << i;
     }
@@ -116,7 +117,7 @@ TEST(JointAngles, ThePelvisOriginIsWhereTheModelHasItForThisHipWidth) {
   }
 }
 
-/// The angles of the T-pose with these bones turned about their own axes there.
+/// Returns the angles of the T-pose with these bones turned about their own axes there.
 JointAngles turned(const std::map<B, glm::dquat>& turns) {
   Motion motion;
   motion.skeleton = make_humanoid(average_proportions(1.75));
@@ -135,7 +136,7 @@ TEST(JointAngles, TheTPoseHasArmsOutAndPalmsDown) {
     const C one{static_cast<int>(c)};
     double wanted = 0.0;
     if (one == C::kArmAdductionRight || one == C::kArmAdductionLeft) wanted = -90.0;
-    // The model's elbow axis is 13.07 degrees off the side, about which palms turn too.
+    // The model's elbow axis is 13.07 degrees from lateral; palms turn about it as well.
     if (one == C::kPronationRight || one == C::kPronationLeft) wanted = 90.0 + 13.0677;
     if (one == C::kArmRotationRight || one == C::kArmRotationLeft) wanted = -13.0677;
     if (!is_angle(one)) continue;
@@ -143,7 +144,7 @@ TEST(JointAngles, TheTPoseHasArmsOutAndPalmsDown) {
   }
 }
 
-// Which way each counts, said in plain turns of the skeleton's bones: X is its left.
+// Sign of each angle, in rotations of the skeleton's bones: X is its left.
 TEST(JointAngles, SignsAreThoseOfTheField) {
   const double a = 20.0 * kDegree;
   const JointAngles legs = turned({{B::kRightUpperLeg, about(-kX, a)},
@@ -154,7 +155,8 @@ TEST(JointAngles, SignsAreThoseOfTheField) {
   EXPECT_NEAR(legs.at(0, C::kHipFlexionRight), a, 1e-12);
   EXPECT_NEAR(legs.at(0, C::kKneeRight), 2 * a, 1e-12);
   EXPECT_NEAR(legs.at(0, C::kAnkleRight), a, 0.1 * a);      // Toes up; an oblique axis.
-  EXPECT_NEAR(legs.at(0, C::kToesRight), a, 0.2 * a);       // Toes down, likewise.
+  // Toes down; an oblique axis as well.
+  EXPECT_NEAR(legs.at(0, C::kToesRight), a, 0.2 * a);
   EXPECT_NEAR(legs.at(0, C::kHipAdductionLeft), a, 1e-12);  // To the right.
   const JointAngles turned_in = turned({{B::kRightUpperLeg, about(kY, a)},
                                         {B::kLeftUpperLeg, about(kY, a)},
@@ -222,7 +224,7 @@ TEST(JointAngles, AMirroredMotionHasLeftAndRightExchanged) {
   }
 }
 
-/// Frames in which one angle goes evenly from one value to another.
+/// Returns frames in which one angle changes linearly from one value to another.
 std::vector<Angles> sweep(const std::string& which, double from, double to, int frames) {
   std::vector<Angles> all(static_cast<std::size_t>(frames));
   for (int i = 0; i < frames; ++i) {
@@ -246,13 +248,13 @@ TEST(JointAngles, GoOnBeyondHalfATurn) {
   }
 }
 
-// Sideways past the T-pose, where gimbal lock is: frame 54 of 109 is at it exactly.
+// Sideways past the T-pose, where gimbal lock is: frame 54 of 109 is exactly at it.
 TEST(JointAngles, AnArmThatIsRaisedSidewaysGoesOnOverhead) {
   auto frames = sweep("arm_add_r", 0.0, -180.0 * kDegree, 109);
   for (Angles& angles : frames) angles[index(C::kArmFlexionRight)] = 0.2;
   const JointAngles angles = joint_angles(motion_of(frames));
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    // At the lock itself a millionth is as good as anything.
+    // At the lock itself a tolerance of a millionth is sufficient.
     EXPECT_NEAR(angles.at(i, C::kArmFlexionRight), 0.2, 1e-6) << i;
     EXPECT_NEAR(angles.at(i, C::kArmAdductionRight),
                 frames[i][index(C::kArmAdductionRight)],
@@ -273,8 +275,8 @@ TEST(JointAngles, AMotionThatBeginsInTheTPoseBeginsWithWhatComesAfter) {
 }
 
 // Noise of 0.2 degrees on every bone of every frame, arms from side to overhead and back
-// not quite through the T-pose. Within 25 degrees of the lock noise grows by up to 10 and
-// more; further away angles are those that were put in, and nothing jumped for good.
+// not quite through the T-pose. Within 25 degrees of the lock noise grows by a factor of
+// 10 and more; further away the angles equal the input, without a remaining jump.
 TEST(JointAngles, NoiseNearGimbalLockLeavesNothingBehind) {
   auto frames = sweep("arm_add_r", 0.0, -160.0 * kDegree, 200);
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -290,7 +292,7 @@ TEST(JointAngles, NoiseNearGimbalLockLeavesNothingBehind) {
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double add = frames[i][index(C::kArmAdductionRight)];
     if (std::abs(add + kPi / 2) < 25.0 * kDegree) continue;
-    // A few bones' noise together, through a cosine of 0.42.
+    // The noise of a few bones together, through a cosine of 0.42.
     EXPECT_NEAR(angles.at(i, C::kArmFlexionRight), 0.1, 2.5 * kDegree) << i;
     EXPECT_NEAR(angles.at(i, C::kArmAdductionRight), add, 1.0 * kDegree) << i;
     EXPECT_NEAR(angles.at(i, C::kArmRotationRight), 0.0, 2.5 * kDegree) << i;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/joint_between_clusters.h"
+#include "reconstruct/clusters/joint_between_clusters.h"
 
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "reconstruct/cluster_frame.h"
+#include "reconstruct/clusters/cluster_frame.h"
 #include "tests/support/joint_simulation.h"
 
 namespace marey::reconstruct {
@@ -21,7 +21,7 @@ std::optional<ClusterJoint> find(const JointSimulation& s) {
                                 {JointSimulation::kMarkers, s.b_in_world});
 }
 
-/// The found centre in the frame of the true shape of the first cluster.
+/// Returns the estimated centre in the frame of the true shape of the first cluster.
 glm::dvec3 found_in_a(const JointSimulation& truth, const ClusterJoint& found) {
   const std::vector<double> even(truth.shape_in_a.size(), 1.0);
   return align(found.shape_a, truth.shape_in_a, even) * found.p_in_a;
@@ -48,7 +48,7 @@ TEST(JointBetweenClusters, ErrorsAreAsLargeAsTheirSigmas) {
     const double off_m = glm::distance(found_in_a(s, *found), s.joint_in_a);
     in_sigmas2 += off_m * off_m / (3.0 * found->sigma_a_m * found->sigma_a_m);
   }
-  // Of 24 degrees of freedom: 1 on average, 99.9 % below 2.1.
+  // 24 degrees of freedom: 1 on average, 99.9 % below 2.1.
   EXPECT_LT(in_sigmas2 / kRuns, 2.1);
   EXPECT_GT(in_sigmas2 / kRuns, 0.2);
 }
@@ -61,7 +61,7 @@ TEST(JointBetweenClusters, SoftTissueAndDropoutsAreSeenThrough) {
                                             .seed = 5});
   const auto found = find(s);
   ASSERT_TRUE(found);
-  // Rigid clusters would put it some 10 mm off.
+  // A model of rigid clusters would place it some 10 mm off.
   EXPECT_LT(glm::distance(found_in_a(s, *found), s.joint_in_a), 0.005);
   EXPECT_NEAR(found->soft_tissue_b_m, 0.010, 0.003);
   EXPECT_LT(found->soft_tissue_a_m, 0.001);

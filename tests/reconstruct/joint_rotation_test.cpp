@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/joint_rotation.h"
+#include "reconstruct/motion/joint_rotation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ glm::dquat about(const glm::dvec3& axis, double angle_rad) {
   return glm::angleAxis(angle_rad, axis);
 }
 
-/// Cosine of half the angle between two rotations.
+/// Returns the cosine of half the angle between two rotations.
 double likeness(const glm::dquat& a, const glm::dquat& b) {
   return std::abs(glm::dot(a, b));
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The judge of simulated sessions, judged: an answer that is the truth passes, planted
-// errors are found and told apart.
+// Tests of the judge of simulated sessions: the true answer passes, planted errors are
+// detected and distinguished.
 #include "tests/support/judge_session.h"
 
 #include <algorithm>
@@ -31,8 +31,8 @@ const SimulatedSession& session() {
   return simulated;
 }
 
-/// The truth as an answer. marey's skeleton cannot glide in its joints, so it is some
-/// millimetres off.
+/// Returns the truth as an answer. marey's skeleton has no glide in its joints, so it is
+/// some millimetres off.
 SessionAnswer true_answer() {
   SessionAnswer answer;
   answer.body.proportions = session().body.proportions;
@@ -50,8 +50,8 @@ SessionAnswer true_answer() {
     for (const RigidTransform& bone : bones) turns.push_back(bone.rotation);
     motion.poses.push_back(
         pose_from_world(motion.skeleton, bones[index(B::kHips)].translation, turns));
-    answer.motion.doubt.emplace_back(kHumanBoneCount,
-                                     JointDoubt{0.004, Source::kMeasured});
+    answer.motion.uncertainty.emplace_back(kHumanBoneCount,
+                                     JointUncertainty{0.004, Source::kMeasured});
   }
   return answer;
 }
@@ -90,12 +90,12 @@ TEST(JudgeSession, FindsAKneeThatIsOffInManyFrames) {
   const GrossJoint* knee = find(verdict, B::kLeftLowerLeg);
   ASSERT_NE(knee, nullptr);
   EXPECT_TRUE(knee->is_persistent);
-  // The body is right: only the motion is not.
+  // The body is right; only the motion is wrong.
   EXPECT_EQ(knee->cause, "motion");
   EXPECT_EQ(find(verdict, B::kRightLowerLeg), nullptr);
 }
 
-TEST(JudgeSession, TellsSpikesFromPersistentErrors) {
+TEST(JudgeSession, DistinguishesSpikesFromPersistentErrors) {
   SessionAnswer answer = true_answer();
   turn_thigh(answer, 3, 0.25);
   const SessionVerdict verdict = judge(session(), answer);
@@ -107,8 +107,8 @@ TEST(JudgeSession, TellsSpikesFromPersistentErrors) {
 TEST(JudgeSession, ForgivesWhatIsCalledInferred) {
   SessionAnswer answer = true_answer();
   turn_thigh(answer, answer.motion.motion.poses.size(), 0.25);
-  for (auto& frame : answer.motion.doubt) {
-    for (JointDoubt& doubt : frame) doubt.source = Source::kInferred;
+  for (auto& frame : answer.motion.uncertainty) {
+    for (JointUncertainty& uncertainty : frame) uncertainty.source = Source::kInferred;
   }
   EXPECT_FALSE(judge(session(), answer).is_silently_wrong);
 }
@@ -156,8 +156,8 @@ TEST(SimulatedSession, IsTheSameTwice) {
   }
 }
 
-// Noise by the law of docs/measurements.md, "Finding tags": 0.08 to 0.10 px at sides of
-// 12 to 28 px, less above; claimed sigmas between 0.9 and 1.15 of it.
+// Noise by the law of docs/accuracy/README.md, "Finding tags": 0.08 to 0.10 px at sides
+// of 12 to 28 px, less above; claimed sigmas between 0.9 and 1.15 of it.
 TEST(SimulatedSession, CornersErrByTheMeasuredLaw) {
   std::uint64_t seed = 0;
   while (simulate_session(seed).style.slide_m > 0.0) ++seed;
@@ -182,7 +182,7 @@ TEST(SimulatedSession, CornersErrByTheMeasuredLaw) {
           ASSERT_TRUE(pixel);
           const glm::dvec2 off =
               *pixel - seen.corners_px[static_cast<std::size_t>(corner)];
-          if (glm::length(off) > 5.0) continue;  // A wrong reading.
+          if (glm::length(off) > 5.0) continue;  // A misread tag.
           squares_px2 += glm::dot(off, off);
           in_sigmas2 += glm::dot(off, off) / (seen.sigma_px * seen.sigma_px);
           count += 2;
@@ -197,7 +197,7 @@ TEST(SimulatedSession, CornersErrByTheMeasuredLaw) {
   EXPECT_LT(std::sqrt(in_sigmas2 / count), 1.25);
 }
 
-// Of a rich session without its chest tags the shoulders cannot be measured.
+// In a rich session without its chest tags the shoulders cannot be measured.
 TEST(SessionOracle, NeedsTagsOnEverySegment) {
   EXPECT_TRUE(marey::testing::judge_sufficiency(session()).is_sufficient);
   SimulatedSession poor = session();

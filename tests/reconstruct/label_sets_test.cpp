@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Labels as they are in files of many laboratories; which files, the comments say (in
-// ../shared/data/mocap). Where the files' markers show it, the expected places were
-// looked up there.
-#include "reconstruct/label_sets.h"
+// Labels of files from many laboratories; comments name the files (in
+// ../shared/data/mocap). The expected places were verified with the files' markers where
+// possible.
+#include "reconstruct/labels/label_sets.h"
 
 #include <set>
 
@@ -27,7 +27,8 @@ TEST(LabelSets, NameLandmarksThatThereAre) {
       if (name.starts_with('?')) name = std::string("left_").append(name, 1);
       EXPECT_TRUE(name.empty() || find_landmark(name) != nullptr)
           << set.name << ": " << row.landmark;
-      // A sided place has a sided label; where the label alone is sided it is a wand's.
+      // A place with a side has a label with a side; a label with a side and without such
+      // a place is a wand's.
       if (row.landmark.starts_with('?')) {
         EXPECT_NE(row.label.find('?'), std::string_view::npos) << row.label;
       }
@@ -35,7 +36,7 @@ TEST(LabelSets, NameLandmarksThatThereAre) {
   }
 }
 
-TEST(LabelSets, SayEachLabelOnce) {
+TEST(LabelSets, HaveEachLabelOnce) {
   for (const LabelSet& set : label_sets()) {
     std::set<std::string_view> labels;
     for (const LabelRow& row : set.rows) {
@@ -59,14 +60,14 @@ TEST(NameMarkers, KnowsPlugInGait) {
                 {"LWRA", "left_wrist_thumb_side"}});
 }
 
-// Both sides of wrists, hands and shoulders: hands were left without a name once, and a
-// shoulder's marker was put on one.
+// Both sides of wrists, hands and shoulders: formerly hands had no name, and a shoulder's
+// marker was placed on one.
 TEST(NameMarkers, KnowsStudiosWithBothSidesOfWristsAndShoulders) {
-  const auto labels =
-      words("ARIEL LFHD LBHD RFHD RBHD C7 T8 T10 CLAV STRN LBAC RBAC LSHO RSHO LFSH LBSH "
-            "RFSH RBSH LUPA RUPA LELB LIEL RELB RIEL LFRM RFRM LIWR LOWR RIWR ROWR "
-            "LIHAND LOHAND RIHAND ROHAND LFWT RFWT LBWT RBWT MBWT LTHI RTHI LKNE LKNI "
-            "RKNE RKNI LSHN RSHN LANK RANK LHEL RHEL LMT5 RMT5");
+  const auto labels = words(
+      "ARIEL LFHD LBHD RFHD RBHD C7 T8 T10 CLAV STRN LBAC RBAC LSHO RSHO LFSH LBSH "
+      "RFSH RBSH LUPA RUPA LELB LIEL RELB RIEL LFRM RFRM LIWR LOWR RIWR ROWR "
+      "LIHAND LOHAND RIHAND ROHAND LFWT RFWT LBWT RBWT MBWT LTHI RTHI LKNE LKNI "
+      "RKNE RKNI LSHN RSHN LANK RANK LHEL RHEL LMT5 RMT5");
   EXPECT_TRUE(unnamed(labels).empty());
   expect_names(labels,
                "ACCAD",
@@ -98,11 +99,11 @@ TEST(NameMarkers, KnowsTheSurfaceMarkersOfSoma) {
 }
 
 TEST(NameMarkers, KnowsTheHumanBodyModel) {
-  const auto labels =
-      words("LASIS RASIS LPSIS RPSIS LGTRO RGTRO LLEK RLEK LLM RLM RTOE LTOE LSHO RSHO "
-            "LLEE RLEE LMEE RMEE LLW RLW LMW RMW XYPH C7 THEAD RHEAD LHEAD SACR T10 NAVE "
-            "STRN LDELT RDELT RFIN LFIN BBAC FRTHI FLTHI RATI LATI RHEE LHEE RMT5 LMT5 "
-            "RFRM LFRM FHEAD");
+  const auto labels = words(
+      "LASIS RASIS LPSIS RPSIS LGTRO RGTRO LLEK RLEK LLM RLM RTOE LTOE LSHO RSHO "
+      "LLEE RLEE LMEE RMEE LLW RLW LMW RMW XYPH C7 THEAD RHEAD LHEAD SACR T10 NAVE "
+      "STRN LDELT RDELT RFIN LFIN BBAC FRTHI FLTHI RATI LATI RHEE LHEE RMT5 LMT5 "
+      "RFRM LFRM FHEAD");
   EXPECT_TRUE(unnamed(labels).empty());
   expect_names(labels,
                "Human Body Model",
@@ -140,7 +141,7 @@ TEST(NameMarkers, KnowsTheClustersOfConventionalGaitModel2) {
        {"PELVIS_CGM_2.4A", ""}});
 }
 
-// bmclab/Gait.c3d: cut to four letters, and RFOO is the inner of two on the foot.
+// bmclab/Gait.c3d: truncated to four letters; RFOO is the inner of two on the foot.
 TEST(NameMarkers, KnowsHelenHayesWithEqualLabels) {
   const auto labels = words(
       "RSHO ROFF RELB RWRI LSHO LELB LWRI RASI LASI VSAC RTHI RKNE RSHA RANK RHEE RTOE "
@@ -286,7 +287,8 @@ TEST(NameMarkers, NamesNoKeypoints) {
   ASSERT_EQ(names.notes.size(), 1U);
   EXPECT_EQ(
       names.notes[0],
-      "these are the labels of keypoints, computed points and no markers on the body");
+      "these are the labels of keypoints, which are computed points, not markers on "
+      "the body");
 }
 
 // ezc3d/Qualisys.c3d.
@@ -306,7 +308,7 @@ TEST(NameMarkers, KnowsPalpatedLandmarks) {
                 {"CV7", "c7"}});
 }
 
-// x_ is how a recording of Qualisys's animation set called its only actor.
+// x_ is the only actor's prefix in a recording of Qualisys's animation set.
 TEST(NameMarkers, KnowsAnimationSets) {
   const auto labels = words(
       "x_HeadL x_HeadTop x_HeadR x_HeadFront x_LShoulderTop x_LShoulderBack x_LArm "

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/landmarks.h"
+#include "reconstruct/labels/landmarks.h"
 
 #include <fstream>
 #include <iterator>
@@ -11,11 +11,13 @@
 #include <gtest/gtest.h>
 
 #include "core/skeleton.h"
+#include "tests/support/paths.h"
 
 namespace marey::reconstruct {
 namespace {
 
-/// Where the landmark is on an average adult in the T-pose, in shares of stature.
+/// Returns the place of the landmark on an average adult in the T-pose, in shares of
+/// stature.
 glm::dvec3 p_in_t_pose(std::string_view name) {
   const Landmark* landmark = find_landmark(name);
   if (landmark == nullptr) {
@@ -89,7 +91,7 @@ TEST(Landmarks, ThereIsOneSomewhereOnEveryBone) {
 }
 
 // T-pose: palms down, so that the thumb is in front and the elbow's outer side above.
-TEST(Landmarks, AreOnTheSidesThatAnatomySays) {
+TEST(Landmarks, AreOnTheirAnatomicalSides) {
   EXPECT_GT(p_in_t_pose("left_lateral_malleolus").x,
             p_in_t_pose("left_medial_malleolus").x);
   EXPECT_GT(p_in_t_pose("left_lateral_epicondyle_femur").x,
@@ -127,11 +129,8 @@ TEST(Landmarks, AreAsFarApartAsOnAdults) {
 }
 
 TEST(Landmarks, AreListedInTheDocumentation) {
-  std::ifstream file(std::string(MAREY_SOURCE_DIR) + "/docs/formats.md");
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
-  const std::size_t start = page.find("## Marker names");
-  ASSERT_NE(start, std::string::npos);
-  const std::string section = page.substr(start, page.find("\n## ", start + 1) - start);
+  const std::string section = marey::testing::formats_page("markers");
+  ASSERT_FALSE(section.empty());
   for (const Landmark& landmark : landmarks()) {
     std::string_view name = landmark.name;
     if (name.starts_with("right_")) continue;

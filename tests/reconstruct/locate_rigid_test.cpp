@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/locate_rigid.h"
+#include "reconstruct/clusters/locate_rigid.h"
 
 #include <array>
 #include <cmath>
@@ -26,12 +26,12 @@ double turn_rad(const RigidTransform& a, const RigidTransform& b) {
   return glm::length(rotation_vector(glm::conjugate(a.rotation) * b.rotation));
 }
 
-/// A camera at the origin of the floor plan, looking along -Z, and a tag before it.
+/// Returns a camera at the origin of the floor plan, looking along -Z at a tag.
 Camera front() {
   return webcam_at("front", {0, 1, 0}, {0, 1, -1});
 }
 
-/// Upright before front(), turned by `tilt_rad` about the vertical.
+/// Returns an upright tag in front of front(), turned by `tilt_rad` about the vertical.
 RigidTransform tag_before(double distance_m, double tilt_rad) {
   return {rotation_from_vector({0.0, tilt_rad, 0.0}) *
               rotation_from_vector({std::numbers::pi, 0.0, 0.0}),
@@ -119,14 +119,14 @@ TEST(LocateRigid, IsSureOfATagThatIsNearAndTilted) {
         seen(camera, tag_before(0.5, 0.6)), {0.2, {}, 0.0}, dice);
     const auto pose = locate_tag(camera, tag);
     ASSERT_TRUE(pose);
-    // Half a radian of perspective over 150 px is worth many pixels.
+    // Half a radian of perspective over 150 px changes the corners by many pixels.
     EXPECT_GT(pose->ambiguity_ratio, 20.0);
     EXPECT_LT(turn_rad(pose->world_from_body, tag_before(0.5, 0.6)), 0.1);
   }
 }
 
-// A tag 17 px wide tilted by 0.4 rad looks nearly the same the other way. Two of its
-// eight numbers are left to tell, so the ratio catches most wrong readings, not all.
+// A tag 17 px wide tilted by 0.4 rad looks nearly the same as with the opposite tilt.
+// Only two of its eight numbers differ, so the ratio detects most wrong poses, not all.
 TEST(LocateRigid, KnowsThatATagFarOffIsAmbiguous) {
   const Camera camera = front();
   Dice dice(7);

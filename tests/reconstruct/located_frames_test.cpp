@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/located_frames.h"
+#include "reconstruct/clusters/located_frames.h"
 
 #include <utility>
 #include <vector>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kSize_m = 0.08;
 
-/// Two cameras side by side that look along +Z at tags of one shin, three metres away.
+/// Two neighbouring cameras that look along +Z at tags of one shin, three metres away.
 struct Shin {
   std::vector<Camera> cameras;
   std::vector<TagOnSegment> tags{{TagId{1}, HumanBone::kLeftLowerLeg, kSize_m},
@@ -34,8 +34,9 @@ struct Shin {
     }
   }
 
-  /// Frames that locate the shin, of one in which these tags are seen by these cameras,
-  /// turned about the vertical by `tilt_rad` from facing the first camera.
+  /// Returns the number of frames that locate the shin. In the only frame these cameras
+  /// see these tags, turned about the vertical by `tilt_rad` from facing the first
+  /// camera.
   [[nodiscard]] int located(const std::vector<std::pair<std::size_t, std::size_t>>& seen,
                             double tilt_rad) const {
     std::vector<CameraDetections> detections(2);
@@ -53,13 +54,14 @@ struct Shin {
       TagDetection detection;
       detection.id = tags[tag].id;
       for (int k = 0; k < 4; ++k) {
-        detection.corners_px[static_cast<std::size_t>(k)] = *project(
-            cameras[camera], world_from_tag * corner_in_tag(k, kSize_m));
+        detection.corners_px[static_cast<std::size_t>(k)] =
+            *project(cameras[camera], world_from_tag * corner_in_tag(k, kSize_m));
       }
       detections[camera].frames[0].tags.push_back(detection);
     }
-    return located_frames(
-        group_sightings(detections, tags), tags, cameras)[index(HumanBone::kLeftLowerLeg)];
+    return located_frames(group_sightings(detections, tags),
+                          tags,
+                          cameras)[index(HumanBone::kLeftLowerLeg)];
   }
 };
 
@@ -73,7 +75,8 @@ TEST(LocatedFrames, CountWhatTwoSightingsLocate) {
 TEST(LocatedFrames, CountALoneTagOnlyWhereItsTiltShows) {
   const Shin shin;
   EXPECT_EQ(shin.located({{0, 0}}, 0.0), 0) << "face on";
-  // 24 px wide: its far side is 0.5 px shorter at one radian, half of what 0.3 px need.
+  // 24 px wide: its far side is 0.5 px shorter at one radian, half of the requirement
+  // for 0.3 px.
   EXPECT_EQ(shin.located({{0, 0}}, 1.0), 0);
   Shin near = shin;
   for (Camera& camera : near.cameras) camera.intrinsics.focal_px *= 3.0;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/marker_model.h"
+#include "reconstruct/markers/marker_model.h"
 
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "reconstruct/posture_terms.h"
+#include "reconstruct/posture/posture_terms.h"
 #include "tests/reconstruct/random_posture.h"
 
 namespace marey::reconstruct {
@@ -30,13 +30,13 @@ Posture near(const Posture& posture, double by, unsigned seed) {
   return moved;
 }
 
-/// Three markers on every bone but toes, seen with `noise_m` per coordinate.
+/// Returns three markers on every bone except toes, with noise `noise_m` per coordinate.
 Scene random_scene(unsigned seed, double noise_m) {
   Dice dice(seed);
   Scene scene;
   scene.model.lengths = random_lengths(dice);
   scene.model.body = average_frame();
-  // Nobody's foot is turned right about: habits that are so far off bend the least cost.
+  // No foot is turned backward: pose priors this far off change the minimum.
   scene.truth = near(Posture{}, 0.5, seed + 1000);
   UnfoldedPosture unfolded;
   unfolded.unfold(scene.truth, scene.model.lengths, scene.model.body);
@@ -56,11 +56,11 @@ Scene random_scene(unsigned seed, double noise_m) {
   return scene;
 }
 
-/// The residual of one marker for Ceres, by automatic derivatives: the truth that the
-/// solver written out has to meet.
+/// The residual of one marker for Ceres, with automatic derivatives: the reference for
+/// the solver with analytic derivatives.
 struct MarkerResidual {
   HumanBone bone;
-  std::vector<Slot> slots;
+  std::vector<PoseParameter> parameters;
   const MarkerModel* model;
   Vector3d p_in_bone;
   Vector3d p_in_world;
@@ -68,11 +68,12 @@ struct MarkerResidual {
 
   template <class T>
   bool operator()(T const* const* blocks, T* residual) const {
-    std::array<const T*, kSlotCount> by_slot{};
-    for (std::size_t i = 0; i < slots.size(); ++i) by_slot[index(slots[i])] = blocks[i];
+    std::array<const T*, kPoseParameterCount> by_slot{};
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      by_slot[index(parameters[i])] = blocks[i];
     const BoneFrame<T> frame =
         bone_frame<T, double>(bone,
-                              std::span<const T* const, kSlotCount>(by_slot),
+                              std::span<const T* const, kPoseParameterCount>(by_slot),
                               model->lengths.data(),
                               model->body);
     const Eigen::Matrix<T, 3, 1> p = frame.rotation * p_in_bone.cast<T>() + frame.origin;
@@ -87,19 +88,19 @@ Posture solved_by_ceres(const Scene& scene, Posture posture) {
     const ModelMarker& marker = scene.model.markers[seen.marker];
     auto* cost = new ceres::DynamicAutoDiffCostFunction<MarkerResidual>(
         new MarkerResidual{marker.bone,
-                           slots_of(marker.bone),
+                           parameters_of(marker.bone),
                            &scene.model,
                            marker.p_in_bone,
                            seen.p_in_world,
                            marker.sigma_m});
-    for (const Slot slot : slots_of(marker.bone)) {
-      cost->AddParameterBlock(block_size(slot));
+    for (const PoseParameter parameter : parameters_of(marker.bone)) {
+      cost->AddParameterBlock(block_size(parameter));
     }
     cost->SetNumResiduals(3);
     problem.AddResidualBlock(
-        cost, new ceres::CauchyLoss(kDoubtfulSigmas), blocks_of(posture, marker.bone));
+        cost, new ceres::CauchyLoss(kMarkerLossSigmas), blocks_of(posture, marker.bone));
   }
-  add_habits(posture, scene.model.lengths, problem, scene.model.twists);
+  add_posture_priors(posture, scene.model.lengths, problem, scene.model.twists);
   set_manifolds(posture, problem);
   ceres::Solver::Options options = solver_options(100);
   options.function_tolerance = 1e-14;
@@ -116,12 +117,12 @@ double apart(const Posture& a, const Posture& b) {
 TEST(MarkerFrameSolver, FindsTheLeastCostThatCeresFinds) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     Scene scene = random_scene(seed, 0.004);
-    scene.seen[7].p_in_world.x() += 0.1;  // one that is wrong
+    scene.seen[7].p_in_world.x() += 0.1;  // A wrong one.
     const Posture start = near(scene.truth, 0.2, seed + 100);
     Posture posture = start;
     MarkerFrameSolver solver(scene.model);
     (void)solver.solve(scene.seen, nullptr, posture, {100, 1e-9});
-    // The tolerances of both.
+    // Tolerances of both solvers.
     EXPECT_LT(apart(posture, solved_by_ceres(scene, start)), 1e-5);
   }
 }
@@ -134,13 +135,14 @@ TEST(MarkerFrameSolver, StopsAtOnceWhereItIsNearTheLeastCost) {
   Posture again = near(posture, 0.02, 107);
   (void)solver.solve(scene.seen, nullptr, again);
   EXPECT_LE(solver.iterations(), 6);
-  // Straight limbs' planes are all but free, and their last steps the least exact.
+  // The planes of straight limbs are nearly free, and their last steps are the least
+  // exact.
   EXPECT_LT(apart(again, posture), 1e-3);
 }
 
 TEST(MarkerFrameSolver, KeepsToThePriorWhereNothingIsSeen) {
   Scene scene = random_scene(7, 0.0);
-  // Of the left arm nothing, from the shoulder on.
+  // No marker of the left arm, from the shoulder on.
   std::erase_if(scene.seen, [&](const SeenMarker& seen) {
     const HumanBone bone = scene.model.markers[seen.marker].bone;
     return bone == HumanBone::kLeftUpperArm || bone == HumanBone::kLeftLowerArm ||
@@ -154,7 +156,8 @@ TEST(MarkerFrameSolver, KeepsToThePriorWhereNothingIsSeen) {
   MarkerFrameSolver solver(scene.model);
   Posture posture = near(scene.truth, 0.1, 108);
   (void)solver.solve(scene.seen, &prior, posture, {100, 1e-9});
-  // Habits pull with some 10 against the prior's 10,000, from half a turn away.
+  // Pose priors have a weight of some 10 against the prior's 10,000, from half a turn
+  // away.
   EXPECT_LT(apart(posture, scene.truth), 0.01);
 }
 
@@ -166,11 +169,10 @@ TEST(ArrowFactor, GivesTheInverseOfItsEquations) {
   equations.clear();
   SparseDerivative d;
   for (const ModelMarker& marker : scene.model.markers) {
-    unfolded.derivative(
-        marker.bone, unfolded.point(marker.bone, marker.p_in_bone), d);
+    unfolded.derivative(marker.bone, unfolded.point(marker.bone, marker.p_in_bone), d);
     equations.add(d, Vector3d(1e-3, 2e-3, -1e-3), 1e4);
   }
-  equations.add_habits(scene.truth, unfolded, scene.model.twists);
+  equations.add_posture_priors(scene.truth, unfolded, scene.model.twists);
   ArrowFactor factor;
   ASSERT_TRUE(factor.factor(equations.hessian, 0.0));
   const PostureMatrix full = equations.hessian.selfadjointView<Eigen::Lower>();
@@ -180,8 +182,7 @@ TEST(ArrowFactor, GivesTheInverseOfItsEquations) {
   EXPECT_LT((step + inverse * equations.gradient).norm(), 1e-9 * step.norm());
   PostureCovariance covariance;
   factor.covariance(covariance);
-  unfolded.derivative(
-      HumanBone::kLeftHand, unfolded.origin(HumanBone::kLeftHand), d);
+  unfolded.derivative(HumanBone::kLeftHand, unfolded.origin(HumanBone::kLeftHand), d);
   Eigen::Matrix<double, 3, kPostureFreedom> dense;
   dense.setZero();
   for (int i = 0; i < d.columns; ++i) {

@@ -6,14 +6,14 @@
 #include <cmath>
 #include <string_view>
 
-#include "reconstruct/posture_derivatives.h"
+#include "reconstruct/posture/posture_derivatives.h"
 #include "tests/support/random_bodies.h"
 
 namespace marey::testing {
 namespace {
 
+using reconstruct::PoseParameter;
 using reconstruct::Posture;
-using reconstruct::Slot;
 
 constexpr std::array<std::string_view, 19> kSided{"asis",
                                                   "psis",
@@ -37,7 +37,7 @@ constexpr std::array<std::string_view, 19> kSided{"asis",
 constexpr std::array<std::string_view, 4> kMiddle{
     "c7", "t10", "suprasternal_notch", "xiphoid"};
 
-/// A wave of its own for every number: slow, and never two alike.
+/// Returns a different slow wave for every number.
 double wave(double time_s, int which) {
   const double hz = 0.35 + 0.07 * (which % 5);
   return std::sin(2.0 * M_PI * hz * time_s + 1.7 * which);
@@ -45,12 +45,12 @@ double wave(double time_s, int which) {
 
 Posture posture_at(double time_s) {
   Posture posture;
-  const auto turn = [&](int which, const glm::dvec3& most_rad) {
-    return rotation_from_vector({most_rad.x * wave(time_s, which),
-                                 most_rad.y * wave(time_s, which + 31),
-                                 most_rad.z * wave(time_s, which + 57)});
+  const auto turn = [&](int which, const glm::dvec3& max_rad) {
+    return rotation_from_vector({max_rad.x * wave(time_s, which),
+                                 max_rad.y * wave(time_s, which + 31),
+                                 max_rad.z * wave(time_s, which + 57)});
   };
-  double* p = posture.block(Slot::kHipsPosition);
+  double* p = posture.block(PoseParameter::kHipsPosition);
   p[0] = 0.3 * wave(time_s, 1);
   p[1] = 0.95 + 0.05 * wave(time_s, 2);
   p[2] = 0.5 * wave(time_s, 3);
@@ -58,19 +58,20 @@ Posture posture_at(double time_s) {
   const glm::dquat abdomen = hips * turn(5, {0.15, 0.15, 0.12});
   const glm::dquat thorax = abdomen * turn(6, {0.15, 0.15, 0.12});
   const glm::dquat neck = thorax * turn(7, {0.2, 0.3, 0.15});
-  posture.set_rotation(Slot::kHips, hips);
-  posture.set_rotation(Slot::kAbdomenEnd, abdomen);
-  posture.set_rotation(Slot::kThorax, thorax);
-  posture.set_rotation(Slot::kNeck, neck);
-  posture.set_rotation(Slot::kHead, neck * turn(8, {0.2, 0.3, 0.15}));
+  posture.set_rotation(PoseParameter::kHips, hips);
+  posture.set_rotation(PoseParameter::kAbdomenEnd, abdomen);
+  posture.set_rotation(PoseParameter::kThorax, thorax);
+  posture.set_rotation(PoseParameter::kNeck, neck);
+  posture.set_rotation(PoseParameter::kHead, neck * turn(8, {0.2, 0.3, 0.15}));
   for (std::size_t limb = 0; limb < 4; ++limb) {
-    const reconstruct::LimbSlots& s = reconstruct::kLimbSlots[limb];
+    const reconstruct::LimbParameters& s = reconstruct::kLimbParameters[limb];
     const int which = 10 + 4 * static_cast<int>(limb);
     const double side = limb % 2 == 0 ? 1.0 : -1.0;
     glm::dquat root = hips;
     glm::dquat usual(1.0, 0.0, 0.0, 0.0);
     if (limb < 2) {
-      const Slot shoulder = limb == 0 ? Slot::kLeftShoulder : Slot::kRightShoulder;
+      const PoseParameter shoulder =
+          limb == 0 ? PoseParameter::kLeftShoulder : PoseParameter::kRightShoulder;
       root = thorax;
       posture.set_rotation(shoulder, thorax * turn(which + 2, {0.0, 0.1, 0.1}));
       usual = rotation_from_vector({0.0, 0.0, -0.9 * side});
@@ -109,7 +110,7 @@ MovingBody moving_body(const MovingBodyOptions& options) {
   const Proportions average = average_proportions(kStature_m);
   reconstruct::Lengths lengths = reconstruct::lengths_of(average);
   for (std::size_t i = 0; i < lengths.size(); ++i) {
-    // Pairs of limbs come one after the other, and are alike.
+    // Pairs of limbs are consecutive and equal.
     const bool right =
         i > reconstruct::index(reconstruct::Length::kLeftShoulder) && i % 2 == 1;
     lengths[i] = right ? lengths[i - 1]

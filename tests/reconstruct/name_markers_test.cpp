@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/name_markers.h"
+#include "reconstruct/labels/name_markers.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST(NameMarkers, DecidesAmbiguousLabelsByTheirCompany) {
        {"P1", "hips"},
        {"LPAT", "left_patella"},
        {"x52", ""}});
-  // Forty-five numbered points, of which three are called as those are.
+  // Forty-five numbered points, three of which have names of a set.
   std::vector<std::string> numbered;
   for (int i = 1; i <= 45; ++i)
     numbered.push_back(std::string("P").append(std::to_string(i)));
@@ -58,11 +58,11 @@ TEST(NameMarkers, LeavesOutASubjectsName) {
     EXPECT_TRUE(unnamed(labels).empty()) << prefix;
     EXPECT_EQ(name_markers(labels).prefix, prefix);
   }
-  // Somebody's name before some labels alone is no prefix.
+  // A person's name on only some labels is not a prefix.
   EXPECT_EQ(unnamed(words("Bob_LASI LASI RASI LPSI RPSI")), words("Bob_LASI"));
 }
 
-// What a one-legged study has in common is a side, not a prefix.
+// The common letter of a one-legged study is a side, not a prefix.
 TEST(NameMarkers, KeepsASideThatAllLabelsShare) {
   expect_names(words("LASI LPSI LTHI LKNE LTIB LANK LHEE LTOE"),
                "Plug-in Gait",
@@ -82,10 +82,11 @@ TEST(NameMarkers, NamesOneOfSeveralSubjects) {
   EXPECT_EQ(name_of(labels, names, "Ann:LASI"), "");
   EXPECT_EQ(name_of(labels, names, "Bob:LASI"), "left_asis");
   ASSERT_EQ(names.notes.size(), 1U);
-  EXPECT_EQ(names.notes[0], "of several subjects, the markers of \"Bob:\" are named");
+  EXPECT_EQ(names.notes[0],
+            "the labels belong to several subjects: only those of \"Bob:\" are used");
 }
 
-TEST(NameMarkers, TellsComputedPointsFromUnknownOnes) {
+TEST(NameMarkers, DistinguishesComputedPointsFromUnknownOnes) {
   const auto labels =
       words("LASI RASI LPSI RPSI LKNE RKNE LANK RANK LHEE RHEE LTOE RTOE PELO LFEP foo");
   std::vector<bool> expected(labels.size(), false);
@@ -108,7 +109,7 @@ TEST(NameMarkers, DoesNotMindHowASideIsWritten) {
 
 // ezc3d/Vicon.c3d: STYLr is the radius's styloid and SCAPl something lateral on a
 // scapula, but PSISr and PSISl are right and left.
-TEST(NameMarkers, BelievesALastLetterWhereBothSidesAreThere) {
+TEST(NameMarkers, AcceptsALastLetterIfBothSidesExist) {
   expect_names(words("ASISr ASISl PSISr PSISl XIPH T10 SCAPl SCAPm STYLr STYLu"),
                "",
                {{"PSISr", "right_psis"}, {"SCAPl", ""}, {"STYLr", ""}, {"T10", "t10"}});

@@ -6,19 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "reconstruct/name_markers.h"
+#include "reconstruct/labels/name_markers.h"
 
 namespace marey::reconstruct::testing {
 
-/// The words of a text, parted by blanks.
+/// Returns the words of a text, separated by blanks.
 [[nodiscard]] std::vector<std::string> words(const std::string& text);
 
-/// The name that `label` got, "" for none.
+/// Returns the name of `label`, "" for none.
 [[nodiscard]] std::string name_of(const std::vector<std::string>& labels,
                                   const MarkerNames& names,
                                   const std::string& label);
 
-/// Which labels name_markers() finds no name for.
+/// Returns the labels that name_markers() does not name.
 [[nodiscard]] std::vector<std::string> unnamed(const std::vector<std::string>& labels);
 
 struct LabelAndName {
@@ -26,7 +26,7 @@ struct LabelAndName {
   const char* name;
 };
 
-/// name_markers() finds this set, and these names.
+/// Expects that name_markers() finds this set, and these names.
 void expect_names(const std::vector<std::string>& labels,
                   const std::string& set,
                   std::initializer_list<LabelAndName> pairs);

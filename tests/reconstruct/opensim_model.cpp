@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 
 namespace marey::testing {
 namespace {
@@ -21,7 +21,7 @@ glm::dquat about(const glm::dvec3& axis, double angle_rad) {
   return glm::angleAxis(angle_rad, glm::normalize(axis));
 }
 
-/// The rotation that takes two perpendicular directions to two others.
+/// Returns the rotation that maps two perpendicular directions to two others.
 glm::dquat taking(const glm::dvec3& a,
                   const glm::dvec3& b,
                   const glm::dvec3& to_a,

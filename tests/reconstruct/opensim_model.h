@@ -10,19 +10,19 @@
 
 #include "core/pose.h"
 #include "core/skeleton.h"
-#include "reconstruct/joint_angles.h"
+#include "reconstruct/motion/joint_angles.h"
 
 namespace marey::testing {
 
 /// In the coordinates' order. [rad], [m]
 using Angles = std::array<double, reconstruct::kCoordinateCount>;
 
-/// The coordinate of this name. Precondition: there is one.
+/// Returns the coordinate of this name. Precondition: it exists.
 [[nodiscard]] reconstruct::Coordinate coordinate(const std::string& name);
 
 /// Poses a skeleton as OpenSim poses Rajagopal2016: joint by joint, with the axes of the
-/// model's file on both sides. World axes are the ground's; where the pelvis is, is not
-/// looked at.
+/// model's file on both sides. World axes are the ground's; the pelvis' translation is
+/// ignored.
 class Model {
  public:
   explicit Model(const Angles& angles);

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// fit_subject() on tags that nothing but the fitted body can place.
+// fit_subject() on tags that only the fitted body can place.
 #include <algorithm>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "reconstruct/fit_subject.h"
+#include "reconstruct/subject/fit_subject.h"
 #include "tests/support/synthetic_person.h"
 
 namespace marey::reconstruct {
@@ -53,7 +52,7 @@ std::vector<TagId> on_segment(const Body& body, HumanBone bone) {
 }
 
 TEST(FitSubject, PlacesTagsThatAreNeverSeenTogether) {
-  // As when one faces forward and the other backward.
+  // One of them faces forward, the other backward.
   const Body truth = marey::testing::tagged_person();
   const auto pair = on_segment(truth, HumanBone::kLeftUpperArm);
   ASSERT_EQ(pair.size(), 2U);
@@ -85,7 +84,7 @@ TEST(FitSubject, PlacesATagOnASegmentThatTheBodyCouldDoWithout) {
                          {40, 10.0, {}, {0.1, {}, 0.0}, {}, {}});
   ASSERT_TRUE(found) << found.error().message();
   EXPECT_TRUE(found->unplaced.empty());
-  // No joint centre of theirs is measured: habits decide where along the bone they are.
+  // None of their joint centres is measured: priors determine their place along the bone.
   EXPECT_LT(off_m(found->body, truth, TagId{90}), 0.03);
   EXPECT_LT(off_m(found->body, truth, TagId{91}), 0.03);
 }

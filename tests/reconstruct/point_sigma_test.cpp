@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/point_sigma.h"
+#include "reconstruct/posture/point_sigma.h"
 
 #include <cmath>
 #include <random>
@@ -25,8 +25,8 @@ TEST(PointSigma, DoesNotDependOnTheAxes) {
               1e-12);
 }
 
-// Errors drawn with random covariances, some of them flat or thin: 95 % are within the
-// root of 7.81 sigmas.
+// Errors from random covariances, some of them flat or thin: 95 % are within the root of
+// 7.81 sigmas.
 TEST(PointSigma, HoldsNineteenErrorsOfTwenty) {
   std::mt19937 dice(1);
   std::normal_distribution<double> normal;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/posture_derivatives.h"
+#include "reconstruct/posture/posture_derivatives.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "reconstruct/sightings.h"
+#include "reconstruct/clusters/sightings.h"
 #include "tests/reconstruct/random_posture.h"
 
 namespace marey::reconstruct {

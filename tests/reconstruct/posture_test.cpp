@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/posture.h"
+#include "reconstruct/posture/posture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "reconstruct/sightings.h"
+#include "reconstruct/clusters/sightings.h"
 #include "tests/reconstruct/random_posture.h"
 
 namespace marey::reconstruct {
@@ -26,9 +26,10 @@ TEST(PostureStorage, HoldsEveryBlockOnceAndNothingElse) {
   std::set<const double*> numbers;
   const Posture posture;
   int freedom = 0;
-  for (const Slot slot : kAllSlots) {
-    for (int i = 0; i < block_size(slot); ++i) numbers.insert(posture.block(slot) + i);
-    freedom += tangent_size(slot);
+  for (const PoseParameter parameter : kAllPoseParameters) {
+    for (int i = 0; i < block_size(parameter); ++i)
+      numbers.insert(posture.block(parameter) + i);
+    freedom += tangent_size(parameter);
   }
   EXPECT_EQ(numbers.size(), static_cast<std::size_t>(kPostureStorage));
   EXPECT_EQ(*numbers.begin(), posture.values.data());
@@ -40,8 +41,8 @@ TEST(PostureStorage, GivesBackRotations) {
   Dice dice(1);
   Posture posture;
   const glm::dquat q = dice.turn(3.0);
-  posture.set_rotation(Slot::kRightFoot, q);
-  EXPECT_EQ(posture.rotation(Slot::kRightFoot), q);
+  posture.set_rotation(PoseParameter::kRightFoot, q);
+  EXPECT_EQ(posture.rotation(PoseParameter::kRightFoot), q);
 }
 
 TEST(ToProportions, IsUndoneByLengthsOf) {
@@ -83,21 +84,22 @@ TEST(BoneFrameOfPosture, ClosesTheTriangleOfEveryLimb) {
   const Lengths lengths = random_lengths(dice);
   const BodyFrame frame = average_frame();
   const Posture posture = random_posture(dice);
-  for (std::size_t limb = 0; limb < kLimbSlots.size(); ++limb) {
-    const LimbSlots& slots = kLimbSlots[limb];
+  for (std::size_t limb = 0; limb < kLimbParameters.size(); ++limb) {
+    const LimbParameters& parameters = kLimbParameters[limb];
     const HumanLimb& bones = human_limbs()[limb];
     const auto at = [&](HumanBone bone) {
       return world_from_bone(bone, posture, lengths, frame).translation;
     };
     const glm::dvec3 reach = at(bones.end) - at(bones.upper);
-    const double l1 = lengths[index(slots.upper)];
-    const double l2 = lengths[index(slots.lower)];
-    const double flexion = *posture.block(slots.flexion);
+    const double l1 = lengths[index(parameters.upper)];
+    const double l2 = lengths[index(parameters.lower)];
+    const double flexion = *posture.block(parameters.flexion);
     // The law of cosines, along the limb's frame.
     const double reach_m =
         std::sqrt(l1 * l1 + l2 * l2 + 2.0 * l1 * l2 * std::cos(flexion));
     EXPECT_LT(
-        glm::distance(reach, reach_m * (posture.rotation(slots.frame) * limb_axis(limb))),
+        glm::distance(reach,
+                      reach_m * (posture.rotation(parameters.frame) * limb_axis(limb))),
         1e-12);
     EXPECT_NEAR(glm::distance(at(bones.lower), at(bones.upper)), l1, 1e-12);
     EXPECT_NEAR(glm::distance(at(bones.end), at(bones.lower)), l2, 1e-12);
@@ -110,10 +112,12 @@ TEST(BoneFrameOfPosture, BendsTheSpineHalfWayAtItsMiddle) {
   const glm::dquat spine =
       world_from_bone(HumanBone::kSpine, posture, random_lengths(dice), average_frame())
           .rotation;
-  const double whole =
-      turn_rad(posture.rotation(Slot::kHips), posture.rotation(Slot::kAbdomenEnd));
-  EXPECT_NEAR(turn_rad(posture.rotation(Slot::kHips), spine), 0.5 * whole, 1e-12);
-  EXPECT_NEAR(turn_rad(spine, posture.rotation(Slot::kAbdomenEnd)), 0.5 * whole, 1e-12);
+  const double whole = turn_rad(posture.rotation(PoseParameter::kHips),
+                                posture.rotation(PoseParameter::kAbdomenEnd));
+  EXPECT_NEAR(
+      turn_rad(posture.rotation(PoseParameter::kHips), spine), 0.5 * whole, 1e-12);
+  EXPECT_NEAR(
+      turn_rad(spine, posture.rotation(PoseParameter::kAbdomenEnd)), 0.5 * whole, 1e-12);
 }
 
 TEST(SlotsOf, AreExactlyThoseThatMoveTheBone) {
@@ -123,21 +127,23 @@ TEST(SlotsOf, AreExactlyThoseThatMoveTheBone) {
   const Posture posture = random_posture(dice);
   for (const HumanBone bone : human_bones()) {
     if (solved_segment(bone) != bone) continue;
-    const std::vector<Slot> slots = slots_of(bone);
-    EXPECT_TRUE(std::is_sorted(slots.begin(), slots.end())) << name(bone);
+    const std::vector<PoseParameter> parameters = parameters_of(bone);
+    EXPECT_TRUE(std::is_sorted(parameters.begin(), parameters.end())) << name(bone);
     const RigidTransform before = world_from_bone(bone, posture, lengths, frame);
-    for (const Slot slot : kAllSlots) {
+    for (const PoseParameter parameter : kAllPoseParameters) {
       Posture other = posture;
-      if (is_rotation(slot)) {
-        other.set_rotation(slot, glm::normalize(posture.rotation(slot) * dice.turn(0.5)));
+      if (is_rotation(parameter)) {
+        other.set_rotation(parameter,
+                           glm::normalize(posture.rotation(parameter) * dice.turn(0.5)));
       } else {
-        *other.block(slot) += 0.1;
+        *other.block(parameter) += 0.1;
       }
       const RigidTransform after = world_from_bone(bone, other, lengths, frame);
       const bool moved = glm::distance(before.translation, after.translation) > 1e-6 ||
                          turn_rad(before.rotation, after.rotation) > 1e-6;
-      const bool listed = std::find(slots.begin(), slots.end(), slot) != slots.end();
-      EXPECT_EQ(moved, listed) << name(bone) << ", slot " << static_cast<int>(slot);
+      const bool listed =
+          std::find(parameters.begin(), parameters.end(), parameter) != parameters.end();
+      EXPECT_EQ(moved, listed) << name(bone) << ", slot " << static_cast<int>(parameter);
     }
   }
 }
@@ -154,9 +160,10 @@ std::array<Jet, 7> jet_frame(HumanBone bone,
     values[static_cast<std::size_t>(i)] =
         Jet(posture.values[static_cast<std::size_t>(i)], i);
   }
-  std::array<const Jet*, kSlotCount> blocks{};
-  for (const Slot slot : kAllSlots) {
-    blocks[index(slot)] = &values[static_cast<std::size_t>(storage_offset(slot))];
+  std::array<const Jet*, kPoseParameterCount> blocks{};
+  for (const PoseParameter parameter : kAllPoseParameters) {
+    blocks[index(parameter)] =
+        &values[static_cast<std::size_t>(storage_offset(parameter))];
   }
   const BoneFrame<Jet> f = bone_frame<Jet, double>(bone, blocks, lengths.data(), body);
   return {f.rotation.x(),
@@ -172,8 +179,9 @@ std::array<double, 7> plain_frame(HumanBone bone,
                                   const Posture& posture,
                                   const Lengths& lengths,
                                   const BodyFrame& body) {
-  std::array<const double*, kSlotCount> blocks{};
-  for (const Slot slot : kAllSlots) blocks[index(slot)] = posture.block(slot);
+  std::array<const double*, kPoseParameterCount> blocks{};
+  for (const PoseParameter parameter : kAllPoseParameters)
+    blocks[index(parameter)] = posture.block(parameter);
   const auto f = bone_frame<double, double>(bone, blocks, lengths.data(), body);
   return {f.rotation.x(),
           f.rotation.y(),

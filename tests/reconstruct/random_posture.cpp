@@ -29,28 +29,29 @@ BodyFrame askew_frame(Dice& dice) {
 Posture random_posture(Dice& dice) {
   Posture posture;
   for (int i = 0; i < 3; ++i) {
-    posture.block(Slot::kHipsPosition)[i] = dice.between(-2.0, 2.0);
+    posture.block(PoseParameter::kHipsPosition)[i] = dice.between(-2.0, 2.0);
   }
   const glm::dquat hips = dice.turn(3.0);
-  posture.set_rotation(Slot::kHips, hips);
+  posture.set_rotation(PoseParameter::kHips, hips);
   const glm::dquat chest = glm::normalize(hips * dice.turn(0.5));
-  posture.set_rotation(Slot::kAbdomenEnd, chest);
+  posture.set_rotation(PoseParameter::kAbdomenEnd, chest);
   const glm::dquat thorax = glm::normalize(chest * dice.turn(0.5));
-  posture.set_rotation(Slot::kThorax, thorax);
+  posture.set_rotation(PoseParameter::kThorax, thorax);
   const glm::dquat neck = glm::normalize(thorax * dice.turn(0.5));
-  posture.set_rotation(Slot::kNeck, neck);
-  posture.set_rotation(Slot::kHead, glm::normalize(neck * dice.turn(0.5)));
-  for (const Slot shoulder : {Slot::kLeftShoulder, Slot::kRightShoulder}) {
+  posture.set_rotation(PoseParameter::kNeck, neck);
+  posture.set_rotation(PoseParameter::kHead, glm::normalize(neck * dice.turn(0.5)));
+  for (const PoseParameter shoulder :
+       {PoseParameter::kLeftShoulder, PoseParameter::kRightShoulder}) {
     const glm::dquat swing =
         rotation_from_vector({0.0, dice.between(-0.4, 0.4), dice.between(-0.4, 0.4)});
     posture.set_rotation(shoulder, glm::normalize(thorax * swing));
   }
-  for (const LimbSlots& slots : kLimbSlots) {
-    posture.set_rotation(slots.frame, dice.turn(3.0));
-    posture.set_rotation(slots.extremity, dice.turn(3.0));
-    *posture.block(slots.flexion) = dice.between(0.3, 2.3);
-    *posture.block(slots.upper_twist) = dice.between(-1.2, 1.2);
-    *posture.block(slots.lower_twist) = dice.between(-1.2, 1.2);
+  for (const LimbParameters& parameters : kLimbParameters) {
+    posture.set_rotation(parameters.frame, dice.turn(3.0));
+    posture.set_rotation(parameters.extremity, dice.turn(3.0));
+    *posture.block(parameters.flexion) = dice.between(0.3, 2.3);
+    *posture.block(parameters.upper_twist) = dice.between(-1.2, 1.2);
+    *posture.block(parameters.lower_twist) = dice.between(-1.2, 1.2);
   }
   return posture;
 }

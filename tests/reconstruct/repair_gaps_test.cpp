@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/repair_gaps.h"
+#include "reconstruct/tracks/repair_gaps.h"
 
 #include <algorithm>
 #include <vector>
@@ -46,7 +46,7 @@ TEST(RepairGaps, AMarkerOfARigidPartIsWhereThePartHasIt) {
   EXPECT_EQ(repaired.gaps[0].first, 100U);
   EXPECT_EQ(repaired.gaps[0].frames, 150U);
   EXPECT_EQ(repaired.gaps[0].method, RepairMethod::kCluster);
-  // The four that are on its own part carry it.
+  // The four markers on its own part carry it.
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(repaired.gaps[0].carried_by[i] / 5, 2U);
   EXPECT_EQ(repaired.tracks.at(120, 12)->source, Source::kRepaired);
 }
@@ -86,7 +86,8 @@ TEST(RepairGaps, SigmasHoldUnderNoise) {
 TEST(RepairGaps, AGapMeetsItsEdges) {
   const MarkerTracks truth = testing::synthetic_markers(400, 0.0003);
   MarkerTracks holed = truth;
-  // The whole lower limb but one marker: what is left says little of where it is.
+  // The whole lower limb except one marker: the remaining ones carry little information
+  // on its place.
   for (std::size_t m = 10; m < 14; ++m) cut(holed, m, 200, 80);
   const RepairedTracks repaired = repair_gaps(holed);
   for (std::size_t m = 10; m < 14; ++m) {
@@ -108,7 +109,7 @@ TEST(RepairGaps, BeforeTheFirstSightItIsInferred) {
 TEST(RepairGaps, WhatCannotBeKnownIsLeftEmpty) {
   MarkerTracks holed = testing::synthetic_markers(200);
   cut(holed, 4, 0, 200);  // never seen
-  // From frame 100 nobody is seen but one.
+  // From frame 100 on only one marker is seen.
   for (std::size_t m = 1; m < holed.markers(); ++m) cut(holed, m, 100, 80);
   const RepairedTracks repaired = repair_gaps(holed);
   for (const GapRepair& gap : repaired.gaps) {

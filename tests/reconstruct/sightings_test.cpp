@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/sightings.h"
+#include "reconstruct/clusters/sightings.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ TEST(GroupSightings, OrderAFrameByTagThenCamera) {
                                                  camera_with(1, {{0, {40, 50}}})};
   const auto frame = group_sightings(detections, kTags).frames.at(0);
   ASSERT_EQ(frame.size(), 4U);
-  // By place in the subject's list, where 50 comes first.
+  // By position in the subject's list, in which 50 comes first.
   EXPECT_EQ(frame[0].tag, 0U);
   EXPECT_EQ(frame[0].camera, CameraId{0});
   EXPECT_EQ(frame[1].tag, 0U);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Thirty of the sessions that benchmarks/measure_sessions measures in hundreds. Constants
-// of the fit were chosen with these among others; docs/measurements.md has sessions that
-// were kept apart.
+// of the fit were chosen with these among others; docs/accuracy/README.md has sessions
+// that were kept apart.
 #include <cstdint>
 
 #include <gtest/gtest.h>
@@ -39,7 +39,7 @@ TEST_P(SimulatedCampaign, IsNeverSilentlyWrong) {
       inside += tally.inside;
     }
   }
-  // A program that refuses every session is never silently wrong either.
+  // A program that refuses every session has no undetected errors either.
   EXPECT_GT(count, 0);
   // Five sessions are too few to test the real limits (2 % refused, 93 % inside), which
   // are measured over hundreds. These looser limits catch gross regressions only.
@@ -48,7 +48,7 @@ TEST_P(SimulatedCampaign, IsNeverSilentlyWrong) {
 }
 
 // Movement alone puts single tags of this session on another segment.
-TEST(SimulatedSession, IsAcceptedWhereTheFitRefutesADoubtAboutTags) {
+TEST(SimulatedSession, IsAcceptedIfTheFitRefutesASuspicionOfTags) {
   const SimulatedSession session = simulate_session(127);
   const SessionAnswer answer = answer_session(session);
   ASSERT_FALSE(answer.refusal) << answer.refusal->message();

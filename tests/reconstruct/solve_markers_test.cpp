@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/solve_markers.h"
+#include "reconstruct/markers/solve_markers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ using marey::testing::moving_body;
 using marey::testing::MovingBody;
 using marey::testing::MovingBodyOptions;
 
-/// Distances of the twelve limb joints from the truth, over all frames. [m]
+/// Returns the distances of the twelve limb joints from the truth, over all frames. [m]
 std::vector<double> limb_errors(const Motion& motion, const Motion& truth) {
   std::vector<double> errors;
   for (std::size_t f = 0; f < truth.poses.size(); ++f) {
@@ -50,8 +50,8 @@ TEST(SolveMarkers, RecoversTheMotionOfExactMarkers) {
   const auto solved = solve_markers(moving.body, moving.tracks);
   ASSERT_TRUE(solved);
   const auto errors = limb_errors(solved->estimate.motion, moving.motion);
-  // What habits and smoothness, which know nothing of the truth, pull from markers that
-  // are believed to stray by two millimetres.
+  // Effect of pose priors and smoothness, which are independent of the truth, on markers
+  // with a sigma of two millimetres.
   EXPECT_LT(rms(errors), 0.0008);
   EXPECT_LT(errors.back(), 0.003);
   EXPECT_LT(solved->rms_m, 0.0005);
@@ -65,13 +65,13 @@ TEST(SolveMarkers, IsBetterThanItsMarkersUnderNoise) {
   for (PlacedMarker& marker : moving.body.markers) marker.stray_m = 0.004;
   const auto solved = solve_markers(moving.body, moving.tracks);
   ASSERT_TRUE(solved);
-  // A marker is off by sqrt(3) times 4 mm; its joint, held by several in time and space,
-  // by less than two thirds of that.
+  // A marker is off by sqrt(3) times 4 mm; its joint, determined by several in time and
+  // space, by less than two thirds of that.
   EXPECT_LT(rms(limb_errors(solved->estimate.motion, moving.motion)), 0.0045);
 }
 
 TEST(SolveMarkers, DoesNotLagBehindQuickMovement) {
-  // Four times as fast as it was: what lags shows as an error along the way.
+  // Four times the speed: a lag shows as an error along the path.
   MovingBodyOptions options;
   options.rate_hz = 25.0;
   options.noise_m = 0.002;
@@ -92,11 +92,11 @@ TEST(SolveMarkers, DoesNotLagBehindQuickMovement) {
     along += glm::dot(place(solved->estimate.motion, f) - place(truth, f), velocity);
     speed2 += glm::dot(velocity, velocity);
   }
-  // Frames of lag: a twentieth of one.
+  // Lag in frames: a twentieth of one.
   EXPECT_LT(std::abs(along / speed2), 0.05);
 }
 
-TEST(SolveMarkers, BridgesALimbThatNobodySeesAndSaysSo) {
+TEST(SolveMarkers, BridgesAnUnseenLimbAndReportsIt) {
   MovingBody moving = moving_body();
   constexpr std::size_t kFirst = 150;
   constexpr std::size_t kEnd = 180;  // 0.3 s
@@ -112,9 +112,10 @@ TEST(SolveMarkers, BridgesALimbThatNobodySeesAndSaysSo) {
   ASSERT_TRUE(solved);
   const auto& estimate = solved->estimate;
   const std::size_t middle = (kFirst + kEnd) / 2;
-  const JointDoubt& bridged = estimate.doubt[middle][index(HumanBone::kLeftFoot)];
+  const JointUncertainty& bridged =
+      estimate.uncertainty[middle][index(HumanBone::kLeftFoot)];
   EXPECT_EQ(bridged.source, Source::kRepaired);
-  EXPECT_EQ(estimate.doubt[kFirst - 5][index(HumanBone::kLeftFoot)].source,
+  EXPECT_EQ(estimate.uncertainty[kFirst - 5][index(HumanBone::kLeftFoot)].source,
             Source::kMeasured);
   const auto found =
       world_from_joints(estimate.motion.skeleton, estimate.motion.poses[middle]);
@@ -122,10 +123,10 @@ TEST(SolveMarkers, BridgesALimbThatNobodySeesAndSaysSo) {
       world_from_joints(moving.motion.skeleton, moving.motion.poses[middle]);
   const double error = glm::length(found[index(HumanBone::kLeftFoot)].translation -
                                    real[index(HumanBone::kLeftFoot)].translation);
-  // Three coordinates' worth of what it claims, three sigmas.
+  // Three coordinates of its stated sigma, three sigmas.
   EXPECT_LT(error, 3.0 * std::sqrt(3.0) * bridged.sigma_m);
   EXPECT_GT(bridged.sigma_m,
-            2.0 * estimate.doubt[kFirst - 5][index(HumanBone::kLeftFoot)].sigma_m);
+            2.0 * estimate.uncertainty[kFirst - 5][index(HumanBone::kLeftFoot)].sigma_m);
 }
 
 TEST(SolveMarkers, GivesTheSameWhateverTheTakesLength) {
@@ -174,17 +175,17 @@ TEST(MarkerTracker, FollowsLiveAndGivesTheSameBytesAgain) {
   const auto run = [&] {
     MarkerTracker tracker(moving.body, moving.tracks.labels, moving.tracks.rate);
     Motion motion = moving.motion;
-    std::vector<JointDoubt> doubt;
+    std::vector<JointUncertainty> uncertainty;
     for (std::size_t f = 0; f < moving.tracks.frames(); ++f) {
       const auto frame =
           std::span(moving.tracks.samples)
               .subspan(f * moving.tracks.markers(), moving.tracks.markers());
-      EXPECT_TRUE(tracker.step(frame, motion.poses[f], doubt));
+      EXPECT_TRUE(tracker.step(frame, motion.poses[f], uncertainty));
     }
-    return std::pair(motion, doubt);
+    return std::pair(motion, uncertainty);
   };
-  const auto [first, first_doubt] = run();
-  const auto [second, second_doubt] = run();
+  const auto [first, first_uncertainty] = run();
+  const auto [second, second_uncertainty] = run();
   EXPECT_LT(rms(limb_errors(first, moving.motion)), 0.004);
   for (std::size_t f = 0; f < first.poses.size(); ++f) {
     ASSERT_EQ(0,
@@ -194,11 +195,11 @@ TEST(MarkerTracker, FollowsLiveAndGivesTheSameBytesAgain) {
     ASSERT_EQ(first.poses[f].root_in_world, second.poses[f].root_in_world);
   }
   for (std::size_t b = 0; b < kHumanBoneCount; ++b) {
-    EXPECT_EQ(first_doubt[b].sigma_m, second_doubt[b].sigma_m);
+    EXPECT_EQ(first_uncertainty[b].sigma_m, second_uncertainty[b].sigma_m);
   }
 }
 
-/// Half a second of nothing from frame 100 on, then five metres off and turned about.
+/// No markers for half a second from frame 100 on, then five metres off and turned.
 const glm::dquat kTurned = rotation_from_vector({0.0, 2.5, 0.0});
 
 MovingBody comes_back_elsewhere() {
@@ -234,9 +235,9 @@ TEST(SolveMarkers, FindsABodyThatComesBackElsewhereAndKeepsWhatWasBefore) {
   EXPECT_LT(glm::length(place(solved->estimate.motion, 190) -
                         (kTurned * place(moving.motion, 190) + glm::dvec3(5, 0, 0))),
             0.003);
-  // In between nobody knows; the body goes on, and does not fly.
+  // In between the place is unknown; the body continues its movement, without a jump.
   for (std::size_t f = 100; f < 150; ++f) {
-    const double sigma_m = solved->estimate.doubt[f][foot].sigma_m;
+    const double sigma_m = solved->estimate.uncertainty[f][foot].sigma_m;
     EXPECT_TRUE(std::isfinite(sigma_m));
     EXPECT_GT(sigma_m, 0.001) << f;
     EXPECT_LT(glm::length(place(solved->estimate.motion, f) - place(moving.motion, 99)),
@@ -249,12 +250,12 @@ TEST(MarkerTracker, FindsABodyThatComesBackElsewhere) {
   const MovingBody moving = comes_back_elsewhere();
   MarkerTracker tracker(moving.body, moving.tracks.labels, moving.tracks.rate);
   Pose pose;
-  std::vector<JointDoubt> doubt;
+  std::vector<JointUncertainty> uncertainty;
   for (std::size_t f = 0; f < 200; ++f) {
     (void)tracker.step(std::span(moving.tracks.samples)
                            .subspan(f * moving.tracks.markers(), moving.tracks.markers()),
                        pose,
-                       doubt);
+                       uncertainty);
   }
   const auto found = world_from_joints(tracker.skeleton(), pose);
   const auto real = world_from_joints(moving.motion.skeleton, moving.motion.poses.back());
@@ -268,11 +269,11 @@ bool follow(const MovingBody& moving,
             std::size_t f,
             MarkerTracker& tracker,
             Pose& pose,
-            std::vector<JointDoubt>& doubt) {
+            std::vector<JointUncertainty>& uncertainty) {
   return tracker.step(std::span(moving.tracks.samples)
                           .subspan(f * moving.tracks.markers(), moving.tracks.markers()),
                       pose,
-                      doubt);
+                      uncertainty);
 }
 
 TEST(MarkerTracker, IsNotPoisonedByASampleThatIsNoNumber) {
@@ -281,9 +282,9 @@ TEST(MarkerTracker, IsNotPoisonedByASampleThatIsNoNumber) {
   moving.tracks.at(51, 4)->sigma_m = std::numeric_limits<float>::infinity();
   MarkerTracker tracker(moving.body, moving.tracks.labels, moving.tracks.rate);
   Pose pose;
-  std::vector<JointDoubt> doubt;
+  std::vector<JointUncertainty> uncertainty;
   for (std::size_t f = 0; f < 60; ++f) {
-    ASSERT_TRUE(follow(moving, f, tracker, pose, doubt));
+    ASSERT_TRUE(follow(moving, f, tracker, pose, uncertainty));
   }
   const auto found = world_from_joints(tracker.skeleton(), pose);
   const auto real = world_from_joints(moving.motion.skeleton, moving.motion.poses[59]);
@@ -295,11 +296,11 @@ TEST(MarkerTracker, DoesNotAllocateAfterItsFirstFrame) {
   const MovingBody moving = moving_body();
   MarkerTracker tracker(moving.body, moving.tracks.labels, moving.tracks.rate);
   Pose pose;
-  std::vector<JointDoubt> doubt;
+  std::vector<JointUncertainty> uncertainty;
   long before = 0;
   for (std::size_t f = 0; f < 100; ++f) {
     if (f == 1) before = marey::testing::allocations();
-    ASSERT_TRUE(follow(moving, f, tracker, pose, doubt));
+    ASSERT_TRUE(follow(moving, f, tracker, pose, uncertainty));
   }
   EXPECT_EQ(marey::testing::allocations() - before, 0);
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/solve_motion.h"
+#include "reconstruct/tags/solve_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ struct Scene {
   }
 };
 
-/// Distance of a joint from its truth, per frame. [m]
+/// Returns the distance of a joint from its truth, per frame. [m]
 std::vector<double> off_m(const Scene& scene, const SolvedTrial& trial, HumanBone bone) {
   const Skeleton truth = make_humanoid(scene.truth.proportions);
   const Motion& motion = trial.estimate.motion;
@@ -76,7 +76,8 @@ double quantile(std::vector<double> values, double share) {
 
 std::vector<Source> sources(const SolvedTrial& trial, HumanBone bone) {
   std::vector<Source> out;
-  for (const auto& frame : trial.estimate.doubt) out.push_back(frame[index(bone)].source);
+  for (const auto& frame : trial.estimate.uncertainty)
+    out.push_back(frame[index(bone)].source);
   return out;
 }
 
@@ -85,7 +86,7 @@ TEST(SolveMotion, RecoversAWalkFromExactCorners) {
   const auto trial = scene.solve();
   ASSERT_TRUE(trial) << trial.error().message();
   const auto off = limbs_off_m(scene, *trial);
-  // Habits and smoothness pull with a ten thousandth of a sighting's strength.
+  // Pose priors and smoothness have a ten thousandth of a sighting's weight.
   EXPECT_LT(quantile(off, 0.5), 2e-5);
   EXPECT_LT(quantile(off, 1.0), 1e-3);
   EXPECT_LT(trial->rms_px, 0.02);
@@ -97,13 +98,13 @@ TEST(SolveMotion, StaysWithinMillimetresUnderNoise) {
   const auto trial = scene.solve();
   ASSERT_TRUE(trial) << trial.error().message();
   const auto off = limbs_off_m(scene, *trial);
-  // A corner is 0.8 mm off in space; a few tags and three frames share each joint.
+  // A corner is 0.8 mm off in space; a few tags and three frames determine each joint.
   EXPECT_LT(quantile(off, 0.5), 1e-3);
   EXPECT_LT(quantile(off, 0.95), 3e-3);
   EXPECT_NEAR(trial->rms_px, 0.26, 0.03);
 }
 
-TEST(SolveMotion, IsHonestAboutItsDoubt) {
+TEST(SolveMotion, HasCorrectUncertainties) {
   const Scene scene(0.2);
   const auto trial = scene.solve();
   ASSERT_TRUE(trial) << trial.error().message();
@@ -111,16 +112,16 @@ TEST(SolveMotion, IsHonestAboutItsDoubt) {
   for (const HumanBone bone : marey::testing::limb_joints()) {
     const auto off = off_m(scene, *trial, bone);
     for (std::size_t f = 0; f < off.size(); ++f) {
-      const double sigma_m = trial->estimate.doubt[f][index(bone)].sigma_m;
+      const double sigma_m = trial->estimate.uncertainty[f][index(bone)].sigma_m;
       in_sigmas.push_back(off[f] / (std::sqrt(3.0) * sigma_m));
     }
   }
-  // Honest would be 0.89, were the noise the 0.3 px that detections declare: 0.6.
+  // The value would be 0.89 if the noise were the declared 0.3 px: 0.6.
   EXPECT_GT(quantile(in_sigmas, 0.5), 0.4);
   EXPECT_LT(quantile(in_sigmas, 0.5), 2.0);
 }
 
-TEST(SolveMotion, AddsTheBodysOwnDoubt) {
+TEST(SolveMotion, AddsTheBodysOwnUncertainty) {
   Scene scene;
   scene.film.frames = 10;
   const auto sure = scene.solve();
@@ -128,8 +129,8 @@ TEST(SolveMotion, AddsTheBodysOwnDoubt) {
   const auto unsure = scene.solve();
   ASSERT_TRUE(sure && unsure);
   for (const HumanBone bone : human_bones()) {
-    const double before_m = sure->estimate.doubt[5][index(bone)].sigma_m;
-    const double after_m = unsure->estimate.doubt[5][index(bone)].sigma_m;
+    const double before_m = sure->estimate.uncertainty[5][index(bone)].sigma_m;
+    const double after_m = unsure->estimate.uncertainty[5][index(bone)].sigma_m;
     const std::string_view text = name(bone);
     const bool is_elbow = text.ends_with("LowerArm");
     const bool is_end = text.ends_with("Hand") || text.ends_with("Foot");
@@ -144,7 +145,7 @@ TEST(SolveMotion, AddsTheBodysOwnDoubt) {
   }
 }
 
-// Tags of an arm that one camera sees: its elbow's depth hangs on where the shoulder is.
+// Tags of an arm that one camera sees: the depth of its elbow depends on the shoulder.
 TEST(SolveMotion, KnowsAnElbowBeforeOneCameraByItsShoulder) {
   Scene scene;
   scene.film.frames = 10;
@@ -153,7 +154,7 @@ TEST(SolveMotion, KnowsAnElbowBeforeOneCameraByItsShoulder) {
   const auto elbow_m = [&] {
     const auto trial =
         solve_motion(scene.truth, scene.cameras, detections, scene.options);
-    return trial->estimate.doubt[5][index(HumanBone::kLeftLowerArm)].sigma_m;
+    return trial->estimate.uncertainty[5][index(HumanBone::kLeftLowerArm)].sigma_m;
   };
   const double before_m = elbow_m();
   const auto is_of_arm = [&](const TagDetection& seen) {
@@ -184,7 +185,7 @@ TEST(SolveMotion, FindsByHowMuchCamerasAreLate) {
     EXPECT_EQ(trial->cameras[c].clock,
               c == 0 ? ClockSource::kReference : ClockSource::kEstimated);
   }
-  // With them, the walk is as good as without any.
+  // With them the walk is as accurate as without any.
   EXPECT_LT(quantile(limbs_off_m(scene, *trial), 0.95), 3e-3);
 }
 
@@ -192,7 +193,7 @@ TEST(SolveMotion, KeepsAnOffsetThatIsGiven) {
   Scene scene;
   scene.film.frames = 20;
   auto detections = scene.detections();
-  detections[2].offset = from_seconds(0.004);  // Wrong, but the user's word.
+  detections[2].offset = from_seconds(0.004);  // Wrong, but given by the user.
   const auto trial = solve_motion(scene.truth, scene.cameras, detections, scene.options);
   ASSERT_TRUE(trial) << trial.error().message();
   EXPECT_EQ(trial->cameras[2].offset_s, 0.004);
@@ -232,7 +233,7 @@ TEST(SolveMotion, CallsASegmentHiddenForEverInferred) {
   ASSERT_TRUE(trial) << trial.error().message();
   const std::vector<Source> never(45, Source::kInferred);
   EXPECT_EQ(sources(*trial, HumanBone::kRightHand), never);
-  // Nobody wears a tag on the neck: inferred, but no gap of anything.
+  // There is no tag on the neck: inferred, but not a gap.
   EXPECT_EQ(sources(*trial, HumanBone::kNeck), never);
   ASSERT_EQ(trial->gaps.size(), 1U);
   EXPECT_EQ(trial->gaps[0].segment, HumanBone::kRightHand);
@@ -246,23 +247,24 @@ TEST(SolveMotion, BridgesAForearmHiddenForHalfASecond) {
   ASSERT_TRUE(trial) << trial.error().message();
   const auto off = off_m(scene, *trial, HumanBone::kLeftHand);
   for (std::size_t f = 12; f < 27; ++f) {
-    // An arm that swings at 1 m/s goes on by what it did before and does after: off by a
-    // fraction of the 0.3 m that it travels meanwhile.
+    // An arm that swings at 1 m/s continues its movement from before to after the gap:
+    // off by a fraction of the 0.3 m of its travel.
     EXPECT_LT(off[f], 0.1);
-    const double sigma_m = trial->estimate.doubt[f][index(HumanBone::kLeftHand)].sigma_m;
+    const double sigma_m =
+        trial->estimate.uncertainty[f][index(HumanBone::kLeftHand)].sigma_m;
     EXPECT_LT(off[f], 3.0 * std::sqrt(3.0) * sigma_m) << "frame " << f;
   }
-  // And is back as soon as it is seen.
+  // It is accurate again as soon as it is seen.
   EXPECT_LT(off[28], 3e-3);
 }
 
-TEST(SolveMotion, DoubtsWhatItDidNotSee) {
+TEST(SolveMotion, HasLargerSigmasForUnseenSegments) {
   Scene scene(0.2);
   scene.hide({HumanBone::kLeftLowerArm, HumanBone::kLeftHand}, 12, 26);
   const auto trial = scene.solve();
   ASSERT_TRUE(trial) << trial.error().message();
   const auto sigma_m = [&](std::size_t frame) {
-    return trial->estimate.doubt[frame][index(HumanBone::kLeftHand)].sigma_m;
+    return trial->estimate.uncertainty[frame][index(HumanBone::kLeftHand)].sigma_m;
   };
   EXPECT_GT(sigma_m(19), 5.0 * sigma_m(5));
   EXPECT_GT(sigma_m(19), sigma_m(13));
@@ -280,7 +282,8 @@ TEST(SolveMotion, GivesTheSameBytesTwice) {
     EXPECT_EQ(once->estimate.motion.poses[f].parent_from_joint,
               again->estimate.motion.poses[f].parent_from_joint);
     for (std::size_t j = 0; j < kHumanBoneCount; ++j) {
-      EXPECT_EQ(once->estimate.doubt[f][j].sigma_m, again->estimate.doubt[f][j].sigma_m);
+      EXPECT_EQ(once->estimate.uncertainty[f][j].sigma_m,
+                again->estimate.uncertainty[f][j].sigma_m);
     }
   }
 }
@@ -292,15 +295,15 @@ TEST(SolveMotion, HardlyDependsOnItsWindows) {
   scene.options.overlap_frames = 8;
   const auto pieces = scene.solve();
   ASSERT_TRUE(whole && pieces);
-  double most_m = 0.0;
+  double max_m = 0.0;
   for (const HumanBone bone : marey::testing::limb_joints()) {
     const auto a = off_m(scene, *whole, bone);
     const auto b = off_m(scene, *pieces, bone);
     for (std::size_t f = 0; f < a.size(); ++f)
-      most_m = std::max(most_m, std::abs(a[f] - b[f]));
+      max_m = std::max(max_m, std::abs(a[f] - b[f]));
   }
-  // Eight frames on, a measurement no longer counts.
-  EXPECT_LT(most_m, 5e-4);
+  // After eight frames a measurement has no effect.
+  EXPECT_LT(max_m, 5e-4);
 }
 
 TEST(SolveMotion, DoesWithoutACameraThatHasNoVideo) {
@@ -326,11 +329,11 @@ TEST(SolveMotion, CountsWhatWasSeen) {
   }
   EXPECT_EQ(trial->tags_seen[4], tags);
   EXPECT_EQ(trial->estimate.motion.rate.hz, 30.0);
-  EXPECT_EQ(trial->estimate.doubt.size(), 10U);
+  EXPECT_EQ(trial->estimate.uncertainty.size(), 10U);
   EXPECT_EQ(trial->frame_rms_px.size(), 10U);
 }
 
-TEST(SolveMotion, TellsOfATrialWithoutBodyTags) {
+TEST(SolveMotion, ReportsATrialWithoutBodyTags) {
   Scene scene;
   scene.film.hidden = [](const TagOnSegment&, int) { return true; };
   const auto trial = scene.solve();
@@ -340,7 +343,7 @@ TEST(SolveMotion, TellsOfATrialWithoutBodyTags) {
   EXPECT_EQ(trial.error().cause, "no tag of the body is seen in any frame");
 }
 
-TEST(SolveMotion, TellsOfATrialThatNeverShowsTheHips) {
+TEST(SolveMotion, ReportsATrialThatNeverShowsTheHips) {
   Scene scene;
   scene.film.frames = 10;
   scene.hide({HumanBone::kHips}, 0, 1000);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/subject_priors.h"
+#include "reconstruct/bundle/subject_priors.h"
 
 #include <array>
 #include <cmath>
@@ -25,7 +25,8 @@ BodyModel one_tag(HumanBone segment, const RigidTransform& segment_from_tag) {
   return model;
 }
 
-/// On the front of the left shank, half way down: its normal points into the flesh.
+/// Returns a tag on the front of the left shank, half way down: its normal points into
+/// the flesh.
 RigidTransform on_shank(double forward_m) {
   return {glm::angleAxis(glm::pi<double>(), glm::dvec3(0, 1, 0)),
           glm::dvec3(0.0, -0.2, forward_m)};
@@ -71,13 +72,13 @@ TEST(SubjectPriors, HoldTheDistanceOfATagFromItsBoneSoftly) {
       << "one sigma";
 }
 
-// Central differences of the cost, which the equations give as a gradient.
+// Compares central differences of the cost with the equations' gradient.
 TEST(SubjectPriors, GiveTheGradientOfTheirCost) {
   const RigidTransform poses[] = {
       on_shank(0.05), on_shank(-0.03), on_shank(0.15), on_shank(0.01)};
   for (RigidTransform pose : poses) {
-    // Tilted along the bone: the normal still meets the axis. Beside it the sigma of the
-    // facing term, which follows the radius, is held.
+    // Tilted along the bone: the normal still meets the axis. Off the axis the sigma of
+    // the facing term, which depends on the radius, is held.
     pose.rotation =
         glm::normalize(pose.rotation * rotation_from_vector(glm::dvec3(0.2, 0.0, 0.0)));
     const BodyModel model = one_tag(HumanBone::kLeftLowerLeg, pose);
@@ -98,7 +99,7 @@ TEST(SubjectPriors, GiveTheGradientOfTheirCost) {
       };
       const double slope = (moved(kStep) - moved(-kStep)) / (2.0 * kStep);
       EXPECT_NEAR(
-          at.gradient[columns.of_tag(0) + i], slope, 1e-3 * (1.0 + std::abs(slope)))
+          at.gradient[*columns.of_tag(0) + i], slope, 1e-3 * (1.0 + std::abs(slope)))
           << i;
     }
   }

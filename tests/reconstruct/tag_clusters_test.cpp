@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/tag_clusters.h"
+#include "reconstruct/clusters/tag_clusters.h"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ struct Scene {
     return cluster_tags(cameras, tags, trials);
   }
 
-  /// cluster_from_tag as it should be: by the place of the tag that has the frame.
+  /// Returns the true cluster_from_tag, relative to the tag that defines the frame.
   [[nodiscard]] RigidTransform truth(const TagCluster& cluster, std::size_t tag) const {
     const auto anchor = std::find_if(cluster.cluster_from_tag.begin(),
                                      cluster.cluster_from_tag.end(),
@@ -46,7 +46,7 @@ struct Scene {
   }
 };
 
-/// Worst place and turn of any tag in its cluster. [m], [rad]
+/// Returns the largest errors of place and rotation of any tag in its cluster. [m], [rad]
 std::pair<double, double> worst(const Scene& scene,
                                 const std::vector<TagCluster>& clusters) {
   double place_m = 0.0;
@@ -80,7 +80,7 @@ TEST(ClusterTags, PutsEveryTagInItsSegmentsCluster) {
 TEST(ClusterTags, RecoversExactPlaces) {
   const Scene scene({60, 10.0, "rom", {}, {}, {}});
   const auto [place_m, turn_rad] = worst(scene, scene.clusters());
-  // Every pair of sightings says the same, to the last bits of the reprojection.
+  // All pairs of sightings agree to the last bits of the reprojection.
   EXPECT_LT(place_m, 1e-9);
   EXPECT_LT(turn_rad, 1e-9);
 }
@@ -90,14 +90,14 @@ TEST(ClusterTags, IsAFairStartUnderNoise) {
   const auto [place_m, turn_rad] = worst(scene, scene.clusters());
   // The worst are two tags on opposite sides, each of which one camera sees in profile:
   // 0.2 px is 0.01 rad or more of such a tag's tilt and, over 0.2 m to the other, some
-  // millimetres in every frame. The fit takes over from there.
+  // millimetres in every frame. The fit refines this.
   EXPECT_LT(place_m, 0.015);
   EXPECT_LT(turn_rad, 0.06);
 }
 
 TEST(ClusterTags, LeavesOutATagThatIsNeverSeenWithTheOthers) {
-  // One of the two tags of the left shank shows in the even frames only, its other in the
-  // odd ones.
+  // One of the two tags of the left shank is seen in the even frames only, the other one
+  // in the odd ones.
   Film how{40, 10.0, "rom", {}, {}, {}};
   TagId first{0};
   for (const TagOnSegment& tag : tags_of(tagged_person())) {
@@ -144,7 +144,7 @@ TEST(LocateCluster, DeclinesAFrameThatDoesNotShowIt) {
 }
 
 TEST(LocateCluster, DeclinesALoneTagThatCouldBeTiltedEitherWay) {
-  // Four metres off, nearly square on, a fifth of a pixel of noise.
+  // Four metres away, nearly from the front, a fifth of a pixel of noise.
   const Camera camera = marey::testing::webcam_at("far", {0, 1, 4}, {0, 1, 0});
   const RigidTransform world_from_tag{
       rotation_from_vector({0.0, 0.25, 0.0}) *

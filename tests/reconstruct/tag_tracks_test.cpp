@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/tag_tracks.h"
+#include "reconstruct/tags/tag_tracks.h"
 
 #include <algorithm>
 #include <set>
@@ -59,7 +59,7 @@ TEST(TagTracks, AreWhereTheCornersWere) {
         const glm::dvec3 truth = world[index(placed.tag.segment)] *
                                  placed.segment_from_tag *
                                  corner_in_tag(c, placed.tag.size_m);
-        // As near as the solver comes that ends at a hundred-thousandth of the cost.
+        // Accuracy of the solver, which ends at a hundred-thousandth of the cost.
         EXPECT_LT(glm::distance(sample->p_in_world, truth), 0.001 /* m */)
             << tracks.labels[4 * t];
         EXPECT_GT(sample->sigma_m, 0.0F);
@@ -82,7 +82,7 @@ TEST(TagTracks, AreNamedAfterSegmentTagAndCorner) {
             tracks.markers());
 }
 
-TEST(TagTracks, SayWhatWasSeenAndWhatWasBridged) {
+TEST(TagTracks, ReportSeenAndBridgedFrames) {
   Scene scene;
   const std::size_t hidden = tag_on(scene.body, HumanBone::kLeftFoot);
   scene.film.hidden = [](const TagOnSegment& tag, int frame) {
@@ -98,7 +98,7 @@ TEST(TagTracks, SayWhatWasSeenAndWhatWasBridged) {
     EXPECT_EQ(sample->source, seen ? Source::kMeasured : Source::kRepaired) << f;
     EXPECT_EQ(sample->cameras != 0, seen) << f;
   }
-  // Nobody knows a hidden foot as well as one that is seen.
+  // A hidden foot has a larger sigma than a seen one.
   EXPECT_GT(tracks.at(7, 4 * hidden)->sigma_m, 3.0F * tracks.at(2, 4 * hidden)->sigma_m);
 }
 

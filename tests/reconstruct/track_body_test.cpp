@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/track_body.h"
+#include "reconstruct/tags/track_body.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ using marey::testing::Film;
 using marey::testing::ring_of_cameras;
 using marey::testing::tagged_person;
 
-/// A film of a body, followed frame by frame.
+/// A film of a body that is tracked frame by frame.
 class Scene {
  public:
   Body body = tagged_person();
@@ -30,18 +30,18 @@ class Scene {
   marey::testing::Movement movement = marey::testing::walking(body);
   Film film{60, 30.0, "walk", {}, {}, {}};
   TrackBodyOptions options;
-  /// Changes what the cameras saw before it is followed. May be empty.
+  /// Changes the cameras' detections before tracking. May be empty.
   std::function<void(std::vector<CameraDetections>&)> tamper;
-  /// Frames that are not told at all. May be empty.
+  /// Frames that are not passed to the tracker. May be empty.
   std::function<bool(int frame)> dropped;
 
   struct Frame {
     int number = 0;
     bool found = false;
     Pose pose;
-    std::vector<JointDoubt> doubt;
+    std::vector<JointUncertainty> uncertainty;
     TrackReport report;
-    long allocations = 0;  ///< Of the step.
+    long allocations = 0;  ///< Allocations of the step.
   };
 
   [[nodiscard]] std::vector<Frame> follow() {
@@ -60,7 +60,7 @@ class Scene {
         views[c].late_s = 0.0;
       }
       const long before = marey::testing::allocations();
-      now.found = tracker->step(views, (f - last) / film.hz, now.pose, now.doubt);
+      now.found = tracker->step(views, (f - last) / film.hz, now.pose, now.uncertainty);
       now.allocations = marey::testing::allocations() - before;
       now.number = last = f;
       now.report = tracker->last();
@@ -71,7 +71,7 @@ class Scene {
   }
   std::vector<double> lags_s;  ///< After follow().
 
-  /// Distances of the limbs' joints from the truth. [m]
+  /// Returns the distances of the limbs' joints from the truth. [m]
   [[nodiscard]] std::vector<double> off_m(const Frame& frame) const {
     const Skeleton skeleton = make_humanoid(body.proportions);
     const auto found = world_from_joints(skeleton, frame.pose);
@@ -106,8 +106,8 @@ bool is_finite(const Scene::Frame& frame) {
   for (const glm::dquat& q : frame.pose.parent_from_joint) {
     all = all && std::isfinite(q.w + q.x + q.y + q.z);
   }
-  for (const JointDoubt& doubt : frame.doubt) {
-    all = all && std::isfinite(doubt.sigma_m) && doubt.sigma_m >= 0.0;
+  for (const JointUncertainty& uncertainty : frame.uncertainty) {
+    all = all && std::isfinite(uncertainty.sigma_m) && uncertainty.sigma_m >= 0.0;
   }
   return all;
 }
@@ -118,12 +118,12 @@ TEST(TrackBody, RecoversAWalkFromExactCorners) {
   for (const auto& frame : scene.follow()) {
     ASSERT_TRUE(frame.found) << frame.number;
     EXPECT_EQ(frame.report.state, TrackState::kTracked);
-    EXPECT_EQ(frame.report.tags_doubted, 0);
+    EXPECT_EQ(frame.report.tags_rejected, 0);
     const auto here = scene.off_m(frame);
     off.insert(off.end(), here.begin(), here.end());
   }
-  // What is expected of movement, and habits, pull with a thousandth of the tags'
-  // strength; more where a foot or hand shows nothing.
+  // The motion model and the pose priors have a thousandth of the tags' weight; more if
+  // no tag of a foot or hand is seen.
   EXPECT_LT(quantile(off, 0.5), 3e-4);
   EXPECT_LT(quantile(off, 0.95), 3e-3);
 }
@@ -140,10 +140,10 @@ TEST(TrackBody, StaysWithinMillimetresUnderNoise) {
     squares_px2 += frame.report.rms_px * frame.report.rms_px;
     ++frames;
   }
-  // A corner is 0.8 mm off in space; a few tags share each joint.
+  // A corner is 0.8 mm off in space; a few tags determine each joint.
   EXPECT_LT(quantile(off, 0.5), 2e-3);
   EXPECT_LT(quantile(off, 0.95), 6e-3);
-  // Two coordinates' noise, of which the pose explains some.
+  // Noise of two coordinates, of which the pose absorbs some.
   EXPECT_NEAR(std::sqrt(squares_px2 / frames), 0.24, 0.05);
 }
 
@@ -160,7 +160,7 @@ TEST(TrackBody, FollowsCamerasThatAreLate) {
   EXPECT_LT(scene.worst_m(frames.back()), 0.015);
 }
 
-TEST(TrackBody, BelievesLagsThatAreTold) {
+TEST(TrackBody, UsesGivenLags) {
   Scene scene;
   scene.options.lag_known = {true, true, true, true};
   scene.film.offsets_s = {0.0, 0.010, 0.0, 0.0};
@@ -177,21 +177,22 @@ TEST(TrackBody, BridgesALimbUnseenAndThenGuesses) {
   };
   double sigma_before_m = 0.0;
   for (const auto& frame : scene.follow()) {
-    const JointDoubt& doubt = frame.doubt[index(HumanBone::kLeftLowerArm)];
+    const JointUncertainty& uncertainty =
+        frame.uncertainty[index(HumanBone::kLeftLowerArm)];
     Source expected = Source::kMeasured;
     if (frame.number >= 20 && frame.number < 80) {
       expected = frame.number < 49 ? Source::kRepaired : Source::kInferred;
     }
     if (frame.number != 49 && frame.number != 50) {
-      EXPECT_EQ(doubt.source, expected) << frame.number;
+      EXPECT_EQ(uncertainty.source, expected) << frame.number;
     }
-    const double wrist_m = frame.doubt[index(HumanBone::kLeftHand)].sigma_m;
+    const double wrist_m = frame.uncertainty[index(HumanBone::kLeftHand)].sigma_m;
     if (frame.number == 19) sigma_before_m = wrist_m;
     if (frame.number == 79) {
       EXPECT_GT(wrist_m, 2.0 * sigma_before_m);
     }
     EXPECT_EQ(frame.report.state, TrackState::kTracked);
-    // The hand's tag is left, and the upper arm's.
+    // Only the tags of the hand and the upper arm remain.
     EXPECT_LT(scene.worst_m(frame), 0.15) << frame.number;
     if (frame.number > 85) {
       EXPECT_LT(scene.worst_m(frame), 0.01) << frame.number;
@@ -199,7 +200,7 @@ TEST(TrackBody, BridgesALimbUnseenAndThenGuesses) {
   }
 }
 
-TEST(TrackBody, SaysThatItIsLostAndFindsTheBodyAgain) {
+TEST(TrackBody, ReportsALostBodyAndRelocalizesIt) {
   Scene scene;
   scene.movement = marey::testing::range_of_motion(scene.body);
   scene.film.frames = 160;
@@ -212,7 +213,7 @@ TEST(TrackBody, SaysThatItIsLostAndFindsTheBodyAgain) {
           << frame.number;
     }
     if (lost) {
-      EXPECT_EQ(frame.doubt[0].source, Source::kInferred);
+      EXPECT_EQ(frame.uncertainty[0].source, Source::kInferred);
       EXPECT_EQ(frame.report.tags_used, 0);
     }
     if (frame.number >= 126) {
@@ -274,10 +275,10 @@ TEST(TrackBody, IgnoresTagsOfOthers) {
   }
 }
 
-TEST(TrackBody, DoubtsAnothersTagOfTheSameId) {
+TEST(TrackBody, RejectsAnothersTagOfTheSameId) {
   Scene scene;
   scene.film.disturbance.noise_px = 0.2;
-  // One of a camera's tags far from where it is, in every frame.
+  // One of a camera's tags is far from its place in every frame.
   scene.tamper = [](std::vector<CameraDetections>& cameras) {
     for (FrameDetections& frame : cameras[1].frames) {
       ASSERT_FALSE(frame.tags.empty());
@@ -286,12 +287,12 @@ TEST(TrackBody, DoubtsAnothersTagOfTheSameId) {
       }
     }
   };
-  int doubted = 0;
+  int rejected = 0;
   for (const auto& frame : scene.follow()) {
-    doubted += frame.report.tags_doubted;
+    rejected += frame.report.tags_rejected;
     EXPECT_LT(scene.worst_m(frame), 0.03) << frame.number;
   }
-  EXPECT_EQ(doubted, scene.film.frames);
+  EXPECT_EQ(rejected, scene.film.frames);
 }
 
 TEST(TrackBody, TakesDroppedFramesForWhatTheyAre) {
@@ -322,7 +323,7 @@ TEST(TrackBody, DoesNotAllocateAfterItsFirstFrame) {
   Scene scene;
   scene.film.disturbance = {0.3, {}, 0.05};
   scene.film.frames = 120;
-  // Lost and found anew in between.
+  // Lost and relocalized in between.
   scene.hide_all(30, 80);
   const auto frames = scene.follow();
   ASSERT_TRUE(frames.front().found);

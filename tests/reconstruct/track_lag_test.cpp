@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// By how much a body that is followed live trails the time stamps of its pictures, where
-// no camera is the reference, as `marey live` has it.
+// Lag of a live tracked body behind the time stamps of its pictures, if no camera is the
+// reference, as in `marey live`.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -13,8 +12,9 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "reconstruct/track_body.h"
+#include "reconstruct/tags/track_body.h"
 #include "tests/support/motion_delay.h"
+#include "tests/support/paths.h"
 #include "tests/support/synthetic_person.h"
 #include "tests/support/truth_motion.h"
 
@@ -25,14 +25,14 @@ using marey::testing::Film;
 using marey::testing::Movement;
 using marey::testing::TimedPlace;
 
-/// Whether a camera's picture is passed over.
+/// True if a camera's picture is skipped.
 using PassedOver = std::function<bool(int frame, int camera)>;
 
 PassedOver none() {
   return [](int, int) { return false; };
 }
 
-/// Each picture with one chance in two.
+/// Skips each picture with probability one half.
 PassedOver half_at_random(unsigned seed) {
   std::mt19937 dice(seed);
   std::vector<bool> passed;
@@ -42,20 +42,21 @@ PassedOver half_at_random(unsigned seed) {
   };
 }
 
-/// All pictures of every second instant.
+/// Skips all pictures of every second instant.
 PassedOver every_second_instant() {
   return [](int frame, int) { return frame % 2 == 1; };
 }
 
-/// Two cameras in one instant, the other two in the next.
+/// Skips two cameras in one instant, the other two in the next.
 PassedOver by_turns() {
   return [](int frame, int camera) { return frame % 2 != camera / 2; };
 }
 
-/// A captured walk on another body, in the middle of the cameras; empty without its data.
+/// Returns a captured walk on another body, in the middle of the cameras; empty without
+/// its data.
 Movement captured_walk(const Body& body, const std::string& recording) {
   const auto truth =
-      marey::testing::truth_motion(std::string(MAREY_SHARED_DATA) + "/blender/" +
+      marey::testing::truth_motion(marey::testing::shared_data().string() + "/blender/" +
                                    recording + "/walk/truth/segments.csv");
   if (!truth) return {};
   const Skeleton skeleton = make_humanoid(body.proportions);
@@ -69,7 +70,7 @@ Movement captured_walk(const Body& body, const std::string& recording) {
     const auto segments = world_from_joints(truth->skeleton, pose);
     std::vector<glm::dquat> turned;
     for (const Joint& joint : skeleton.joints) {
-      // What the recording has no segment for moves with its parent.
+      // Segments that the recording lacks move with their parent.
       glm::dquat turn =
           joint.parent ? turned[index(*joint.parent)] : segments[0].rotation;
       for (std::size_t s = 0; s < segments.size(); ++s) {
@@ -102,8 +103,8 @@ class TrackLag : public ::testing::Test {
     film_.disturbance.noise_px = 0.2;
   }
 
-  /// Follows the movement, and returns by how much it trails the truth once lags were
-  /// looked for for a second. [ms]
+  /// Tracks the movement, and returns its lag behind the truth after lags have been
+  /// estimated for a second. [ms]
   [[nodiscard]] double delay_ms(const Movement& movement, const PassedOver& passed_over) {
     const auto seen = marey::testing::film(body_, movement, cameras_, film_);
     TrackBodyOptions options;
@@ -115,7 +116,7 @@ class TrackLag : public ::testing::Test {
     std::vector<std::vector<TimedPlace>> found(joints.size());
     std::vector<CameraView> views(cameras_.size());
     Pose pose;
-    std::vector<JointDoubt> doubt;
+    std::vector<JointUncertainty> uncertainty;
     int last = -1;
     for (int f = 0; f < film_.frames; ++f) {
       bool any = false;
@@ -126,7 +127,8 @@ class TrackLag : public ::testing::Test {
         any = true;
       }
       if (!any) continue;
-      const bool is_found = tracker->step(views, (f - last) / film_.hz, pose, doubt);
+      const bool is_found =
+          tracker->step(views, (f - last) / film_.hz, pose, uncertainty);
       last = f;
       if (!is_found || f < film_.hz) continue;
       const auto world = world_from_joints(skeleton, pose);
@@ -147,7 +149,7 @@ class TrackLag : public ::testing::Test {
   std::vector<double> lags_s_;  ///< After delay_ms().
 };
 
-// Proves that what is reported for a time is the body of that time.
+// The pose reported for a time is the body's at that time.
 TEST_F(TrackLag, DoesNotTrailItsStampsThoughHalfOfThePicturesArePassedOver) {
   const Movement movement = marey::testing::range_of_motion(body_);
   for (const auto& passed_over : {none(),
@@ -167,7 +169,7 @@ TEST_F(TrackLag, DoesNotTrailItsStampsInAWalkAt60Hz) {
   }
 }
 
-// Stamps are right on average: the body is that of the mean instant of all cameras.
+// Stamps are right on average: the pose is that of the mean instant of all cameras.
 TEST_F(TrackLag, TakesTheMeanOfCamerasThatDifferForTheTruth) {
   const Movement movement = marey::testing::range_of_motion(body_);
   for (const std::vector<double>& offsets_s : {std::vector{0.0, 0.0073, -0.0111, 0.0049},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/triangulate.h"
+#include "reconstruct/clusters/triangulate.h"
 
 #include <array>
 #include <cmath>
@@ -24,7 +24,7 @@ PointView see(const Camera& camera, const glm::dvec3& p_in_world) {
   return {&camera, pixel_px.value_or(glm::dvec2(0.0))};
 }
 
-// Proves the inverse of project() on exact pixels. Says nothing of noise.
+// Tests the inverse of project() on exact pixels, without noise.
 TEST(Triangulate, RecoversAPointSeenExactly) {
   const auto cameras = ring_of_cameras();
   for (const glm::dvec3& truth :
@@ -34,7 +34,7 @@ TEST(Triangulate, RecoversAPointSeenExactly) {
       for (std::size_t c = 0; c < count; ++c) views.push_back(see(cameras[c], truth));
       const auto point = triangulate(views);
       ASSERT_TRUE(point);
-      // Rays are found to 1e-9 px: 4e-12 m at three metres.
+      // Rays are accurate to 1e-9 px: 4e-12 m at three metres.
       EXPECT_LT(glm::distance(point->p_in_world, truth), 1e-10);
       EXPECT_LT(point->rms_px, 1e-7);
     }
@@ -59,13 +59,14 @@ TEST(Triangulate, IsAsGoodAsItsPixels) {
     sum_m2 += glm::dot(point->p_in_world - truth, point->p_in_world - truth) / 3.0;
     sum_px2 += point->rms_px * point->rms_px;
   }
-  // 0.2 px at 3.5 m and 900 px is 0.8 mm across each ray. Eight such numbers fix three
-  // coordinates: 0.8 sqrt(3 / 8) = 0.48 mm each, and leave 5/8 of the variance as misfit.
+  // 0.2 px at 3.5 m and 900 px is 0.8 mm across each ray. Eight such numbers determine
+  // three coordinates: 0.8 sqrt(3 / 8) = 0.48 mm each, and leave 5/8 of the variance as
+  // misfit.
   EXPECT_NEAR(std::sqrt(sum_m2 / kRuns), 0.00048, 0.00005);
   EXPECT_NEAR(std::sqrt(sum_px2 / kRuns), 0.2 * std::sqrt(2.0 * 5.0 / 8.0), 0.02);
 }
 
-TEST(Triangulate, TellsHowFarApartTheRaysPass) {
+TEST(Triangulate, ReportsTheDistanceOfTheRays) {
   const auto cameras = ring_of_cameras();
   std::array<PointView, 2> views{see(cameras[0], {0, 1, 0}),
                                  see(cameras[1], {0, 1.1, 0})};
@@ -92,7 +93,7 @@ TEST(Triangulate, DeclinesASingleView) {
 TEST(Triangulate, DeclinesRaysThatMeetBehindACamera) {
   const Camera left = webcam_at("left", {-0.5, 1.0, 3.0}, {-0.5, 1.0, 0.0});
   const Camera right = webcam_at("right", {0.5, 1.0, 3.0}, {0.5, 1.0, 0.0});
-  // Each looks away from the other's side: the rays part.
+  // Each looks away from the other's side: the rays diverge.
   EXPECT_FALSE(triangulate(
       std::array{PointView{&left, {400.0, 357.0}}, PointView{&right, {900.0, 357.0}}}));
 }

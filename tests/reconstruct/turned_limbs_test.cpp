@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/turned_limbs.h"
+#include "reconstruct/subject/turned_limbs.h"
 
 #include <map>
 #include <vector>
@@ -11,14 +11,15 @@
 #include <gtest/gtest.h>
 
 #include "core/skeleton.h"
-#include "reconstruct/initial_posture.h"
+#include "reconstruct/bundle/subject_solve.h"
+#include "reconstruct/posture/initial_posture.h"
 #include "tests/support/synthetic_person.h"
 
 namespace marey::reconstruct {
 namespace {
 
-/// A bundle of a synthetic person at the truth: what four cameras see of standing and of
-/// moving every joint.
+/// A bundle of a synthetic person at the truth: observations by four cameras of standing
+/// and of moving every joint.
 struct TrueBundle {
   Body truth = marey::testing::tagged_person();
   std::vector<Camera> cameras = marey::testing::ring_of_cameras();
@@ -54,8 +55,8 @@ struct TrueBundle {
     add(moved, moving, 6.0, false);
   }
 
-  /// Turns a limb as a first guess with the wrong sense of its hinge does, and lets the
-  /// fit settle there.
+  /// Turns a limb as an initial estimate with the wrong sign of its hinge does, and
+  /// refines the fit from there.
   void turn(std::size_t limb) {
     const HumanLimb& bones = human_limbs()[limb];
     const RigidTransform half{rotation_from_vector(glm::pi<double>() * limb_axis(limb)),
@@ -78,7 +79,8 @@ struct TrueBundle {
     }
   }
 
-  /// How far the worst tag of the limb's two bones is from its true place. [m]
+  /// Returns the distance of the worst tag of the limb's two bones from its true place.
+  /// [m]
   [[nodiscard]] double worst_place_m(std::size_t limb) const {
     const HumanLimb& bones = human_limbs()[limb];
     double worst = 0.0;

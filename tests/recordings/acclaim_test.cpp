@@ -82,9 +82,9 @@ TEST(Acclaim, BonesAreChainedWithTheirLengthsInMetres) {
   expect_near(bones[*s.find("shank")].translation, {1.2, 1.6, 3.0});
 }
 
-// By hand: the thigh's own X is the root's Y, about which a thigh that points down does
-// not move; its Z is the root's. Turned by 90 degrees about Z it points along X, and the
-// shank, bent by 90 about X there, along what was its parent's -Z.
+// Computed by hand: the thigh's own X is the root's Y, so a thigh that points down does
+// not move about it; its Z is the root's. Rotated by 90 degrees about Z it points along
+// X, and the shank, bent by 90 about X there, along its parent's former -Z.
 TEST(Acclaim, BonesTurnAboutTheirOwnAxes) {
   const auto s = skeleton();
   const auto frames = parse_amc(
@@ -98,8 +98,8 @@ TEST(Acclaim, BonesTurnAboutTheirOwnAxes) {
   expect_near(bones[3] * s.bones[3].span_in_root, {0.6, 0.0, -0.3});
 }
 
-// The root turns about X, then Y, then Z, each of which stays where it is: (0, 0, 1) goes
-// to (0, -1, 0), stays there, and goes to (1, 0, 0).
+// The root rotates about the fixed axes X, then Y, then Z: (0, 0, 1) goes to (0, -1, 0),
+// stays there, and goes to (1, 0, 0).
 TEST(Acclaim, AnglesTurnAboutXThenYThenZ) {
   const auto s = skeleton();
   const auto frames = parse_amc(s, "1\nroot 0 0 0 90 90 90\n", "a.amc");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/asf.h"
+#include "recordings/motion/asf.h"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +13,10 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/acclaim.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -75,7 +76,7 @@ const std::string kSkeleton = R"(# of our own
 )";
 
 std::filesystem::path real_file(const std::string& name) {
-  return std::filesystem::path(MAREY_SHARED_DATA) / "mocap" / name;
+  return marey::testing::shared_data() / "mocap" / name;
 }
 
 std::string with(std::string text, const std::string& was, const std::string& is) {
@@ -122,13 +123,13 @@ TEST(Asf, PutsAJointAtTheNearEndOfEveryBone) {
   ASSERT_TRUE(joints[3].tip_in_joint);
   expect_near(*joints[3].tip_in_joint, {0, -0.3, 0});
   EXPECT_FALSE(joints[2].tip_in_joint);
-  // A root without a position stands on its lowest tip.
+  // A root without a position is placed with its lowest tip on the floor.
   EXPECT_NEAR(joints[0].parent_from_joint.translation.y, 0.7, 1e-12);
 }
 
-// By hand: the thigh's own X is the root's Y, about which a thigh that points down does
-// not move; its Z is the root's. Turned by 90 degrees about Z it points along X, and the
-// shank, bent by 90 about X there, along what was its parent's -Z.
+// Computed by hand: the thigh's own X is the root's Y, so a thigh that points down does
+// not move about it; its Z is the root's. Rotated by 90 degrees about Z it points along
+// X, and the shank, bent by 90 about X there, along its parent's former -Z.
 TEST(Asf, TurnsBonesAboutTheirOwnAxes) {
   const Motion motion = motion_of(
       "#!OML\n:FULLY-SPECIFIED\n:DEGREES\n1\nroot 0 0 0 0 0 0\nthigh 30 0\nshank 0\n"
@@ -141,9 +142,9 @@ TEST(Asf, TurnsBonesAboutTheirOwnAxes) {
   expect_near(joints[3] * *motion.skeleton.joints[3].tip_in_joint, {0.6, 0.0, -0.3});
 }
 
-// The root turns about X, then Y, then Z, each of which stays where it is: (0, 0, 1) goes
-// to (0, -1, 0), stays there, and goes to (1, 0, 0). Listed the other way round, it
-// stays, goes to (1, 0, 0), and stays.
+// The root rotates about the fixed axes X, then Y, then Z: (0, 0, 1) goes to (0, -1, 0),
+// stays there, and goes to (1, 0, 0). In the reverse order, it stays, goes to (1, 0, 0),
+// and stays.
 TEST(Asf, TurnsInTheOrderInWhichTheFreedomsAreListed) {
   const Motion xyz = motion_of("1\nroot 0 0 0 90 90 90\nthigh 0 0\nshank 0\n");
   expect_near(xyz.poses[0].parent_from_joint[0] * glm::dvec3(0, 0, 1), {1, 0, 0});
@@ -153,7 +154,7 @@ TEST(Asf, TurnsInTheOrderInWhichTheFreedomsAreListed) {
   expect_near(zyx.poses[0].root_in_world, {1.0, 2.0, 3.0});
 }
 
-// Axes that are turned about Z first, then X: the bone's own X is the root's Z.
+// Axes rotated about Z first, then X: the bone's own X is the root's Z.
 TEST(Asf, KeepsTheOrderOfABonesOwnAxes) {
   const std::string asf = with(kSkeleton, "axis 0 0 90 XYZ", "axis 90 90 0 ZXY");
   const Motion motion = motion_of("1\nroot 0 0 0 0 0 0\nthigh 90 0\nshank 0\n", asf);
@@ -188,9 +189,9 @@ TEST(Asf, KeepsTheRateThatIsToldSaidOrUsual) {
   EXPECT_EQ(usual->motion.first_frame, 6);
   const std::string says = ":SAMPLES-PER-SECOND 60\n" + frame;
   EXPECT_EQ(parse_amc(says, "a.amc", skeleton)->motion.rate.hz, 60.0);
-  const auto told = parse_amc(says, "a.amc", skeleton, {.rate = FrameRate{30.0}});
-  EXPECT_EQ(told->motion.rate.hz, 30.0);
-  EXPECT_FALSE(told->rate_is_guessed);
+  const auto overridden = parse_amc(says, "a.amc", skeleton, {.rate = FrameRate{30.0}});
+  EXPECT_EQ(overridden->motion.rate.hz, 30.0);
+  EXPECT_FALSE(overridden->rate_is_guessed);
 }
 
 TEST(Asf, TellsWhichMovementOfBonesIsLeftOut) {
@@ -198,12 +199,12 @@ TEST(Asf, TellsWhichMovementOfBonesIsLeftOut) {
   const auto read =
       parse_amc("1\nroot 0 0 0 0 0 0\nthigh 0 0\nshank 0 0.5 2\n", "a.amc", tiny(asf));
   ASSERT_TRUE(read) << read.error().message();
-  // The shank is the first joint that ends: its place is kept by moving the root.
+  // The shank is the first joint that ends: its position is kept by moving the root.
   EXPECT_EQ(read->ignored_translation_m, 0.0);
   expect_near(read->motion.poses[0].root_in_world, {0, 0.05, 0});
 }
 
-// An independent reader of the same files says the same of every bone.
+// An independent reader of the same files gives the same result for every bone.
 TEST(Asf, AgreesWithAnotherReaderOnRealTrials) {
   const auto asf = real_file("cmu_asfamc/02.asf");
   if (!std::filesystem::exists(asf)) GTEST_SKIP() << asf << " is not here";
@@ -214,7 +215,7 @@ TEST(Asf, AgreesWithAnotherReaderOnRealTrials) {
   ASSERT_EQ(skeleton->skeleton.joints.size(), other->bones.size());
   for (const char* trial : {"02_01", "02_03", "02_04", "02_05", "02_06", "02_09"}) {
     const auto amc = real_file(std::string("cmu_asfamc/") + trial + ".amc");
-    EXPECT_EQ(skeleton_beside(amc), asf);
+    EXPECT_EQ(find_skeleton_file(amc), asf);
     const auto read = read_amc(amc, *skeleton);
     ASSERT_TRUE(read) << read.error().message();
     EXPECT_EQ(read->ignored_translation_m, 0.0);
@@ -250,9 +251,9 @@ TEST(Asf, ReadsAnAdultOfOrdinaryStature) {
   EXPECT_LT(stature_m, 2.0);
 }
 
-// The same trial by another hand: bones of other lengths, and a unit by 1.0631 as long.
-// The root takes the same path; shanks and forearms point the same way but for what the
-// other skeleton's joints differ in.
+// The same trial from another source: bones of other lengths, and a unit larger by
+// 1.0631. The root's path is equal. Shanks and forearms have the same directions, except
+// for differences of the skeletons' joints.
 TEST(Asf, AgreesWithTheBvhOfTheSameTrial) {
   const auto asf = real_file("cmu_asfamc/02.asf");
   const auto bvh = real_file("cmu_bvh_tmoco/02_01.bvh");
@@ -273,8 +274,8 @@ TEST(Asf, AgreesWithTheBvhOfTheSameTrial) {
         Bone{"rtibia", "rfoot", "RightLeg", "RightFoot"},
         Bone{"lradius", "lwrist", "LeftForeArm", "LeftHand"},
         Bone{"rradius", "rwrist", "RightForeArm", "RightHand"}}) {
-    double most_rad = 0.0;
-    double most_m = 0.0;
+    double max_rad = 0.0;
+    double max_m = 0.0;
     for (std::size_t i = 0; i < a.poses.size(); ++i) {
       const auto in_a = world_from_joints(a.skeleton, a.poses[i]);
       const auto in_b = world_from_joints(b.skeleton, b.poses[i]);
@@ -285,19 +286,19 @@ TEST(Asf, AgreesWithTheBvhOfTheSameTrial) {
           };
       const double cosine = glm::dot(along(a.skeleton, in_a, near_a, far_a),
                                      along(b.skeleton, in_b, near_b, far_b));
-      most_rad = std::max(most_rad, std::acos(std::min(1.0, cosine)));
-      most_m = std::max(most_m, glm::distance(in_a[0].translation, in_b[0].translation));
+      max_rad = std::max(max_rad, std::acos(std::min(1.0, cosine)));
+      max_m = std::max(max_m, glm::distance(in_a[0].translation, in_b[0].translation));
     }
-    EXPECT_LT(most_m, 1e-3) << near_a;
-    // The other body stands with its legs together, and so has its hips elsewhere.
-    EXPECT_LT(most_rad, near_a[1] == 't' ? 0.15 : 0.025) << near_a;
+    EXPECT_LT(max_m, 1e-3) << near_a;
+    // The other body's rest pose has its legs together, so its hips are elsewhere.
+    EXPECT_LT(max_rad, near_a[1] == 't' ? 0.15 : 0.025) << near_a;
   }
 }
 
 TEST(Asf, RefusesASkeletonThatIsNone) {
   EXPECT_EQ(refusal("BVH"),
             "tiny.asf:1: expected a section (\":root\"): no .asf file. Next: export the "
-            "file again, or mend that line in a text editor.");
+            "file again, or correct that line in a text editor.");
   EXPECT_NE(refusal("").find("the file has no bones"), std::string::npos);
 }
 
@@ -314,10 +315,10 @@ TEST(Asf, RefusesABrokenSkeletonWithItsLine) {
       {"name thigh", "nom thigh", "tiny.asf:32: a bone has no name"},
       {"  end\n  begin\n     id 2", "     id 2", "tiny.asf:23: a bone has two names"},
       {"length 4", "length 1e9", "the bone \"thigh\" is longer than 10 km"},
-      {"thigh shank", "shank shank", "the bone \"shank\" does not hang on the root"},
-      {"thigh shank", "thigh foot", "tiny.asf:46: no bone \"foot\" can hang"},
-      {"thigh shank", "thigh shank\nhip shank", "the bone \"shank\" hangs on two"},
-      {"thigh shank", "thigh root", "no bone \"root\" can hang on another"},
+      {"thigh shank", "shank shank", "the bone \"shank\" is not connected to the root"},
+      {"thigh shank", "thigh foot", "tiny.asf:46: no bone \"foot\" can have a parent"},
+      {"thigh shank", "thigh shank\nhip shank", "the bone \"shank\" has two parents"},
+      {"thigh shank", "thigh root", "no bone \"root\" can have a parent"},
       {":hierarchy", ":skin", "the file ends before its :hierarchy"}};
   for (const auto& [was, is, message] : faults) {
     const std::string said = refusal(with(kSkeleton, was, is));
@@ -354,10 +355,10 @@ TEST(Asf, FindsTheSkeletonThatGoesWithAMotion) {
   for (const char* name : {"02.asf", "02_x.ASF", "3.asf"}) {
     ASSERT_TRUE(write_file(folder / name, "x"));
   }
-  EXPECT_EQ(skeleton_beside(folder / "02_01.amc"), folder / "02.asf");
-  EXPECT_EQ(skeleton_beside(folder / "02_x_1.amc"), folder / "02_x.ASF");
-  EXPECT_EQ(skeleton_beside(folder / "3.amc"), folder / "3.asf");
-  EXPECT_EQ(skeleton_beside(folder / "022_01.amc"), std::nullopt);
+  EXPECT_EQ(find_skeleton_file(folder / "02_01.amc"), folder / "02.asf");
+  EXPECT_EQ(find_skeleton_file(folder / "02_x_1.amc"), folder / "02_x.ASF");
+  EXPECT_EQ(find_skeleton_file(folder / "3.amc"), folder / "3.asf");
+  EXPECT_EQ(find_skeleton_file(folder / "022_01.amc"), std::nullopt);
 }
 
 }  // namespace

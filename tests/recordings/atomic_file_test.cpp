@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 
 #include <csignal>
 #include <string>
@@ -66,7 +66,7 @@ TEST(AtomicFile, WithoutCommitTheOldFileStaysAndThePartialGoes) {
   EXPECT_EQ(files_in(folder), std::vector<std::string>{"a.txt"});
 }
 
-// As a signal's handler finds them: one file being written, one done, one given up.
+// As a signal handler finds them: one file open, one committed, one discarded.
 TEST(AtomicFile, CanBeRemovedWhileItIsBeingWritten) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_file(folder / "done.txt", "done"));
@@ -82,7 +82,7 @@ TEST(AtomicFile, CanBeRemovedWhileItIsBeingWritten) {
 
 TEST(AtomicFile, LeavesNothingForASignalToRemoveOnceItIsDone) {
   const ScratchFolder folder;
-  for (int i = 0; i < 100; ++i) {  // More than can be remembered at once.
+  for (int i = 0; i < 100; ++i) {  // More than the limit of remembered files.
     ASSERT_TRUE(write_file(folder / "a.txt", "a"));
     ASSERT_FALSE(write_file(folder / std::string(250, 'x'), "too long a name"));
   }
@@ -107,7 +107,7 @@ TEST(AtomicFileDeathTest, IsRemovedByAHandlerThatEndsTheProcess) {
   EXPECT_EQ(files_in(folder), std::vector<std::string>{});
 }
 
-// A process that writes "a.txt" and is killed on the way, or waits for `stop`.
+// Starts a process that writes "a.txt" and is killed meanwhile, or waits for `stop`.
 pid_t start_writer(const fs::path& path, int ready, bool is_killed) {
   const pid_t child = fork();
   if (child != 0) return child;
@@ -196,13 +196,13 @@ TEST(AtomicFile, LeavesPipesAndDevicesAsTheyAre) {
   EXPECT_TRUE(fs::is_fifo(pipe));
 }
 
-// Before, a pipe was waited for, and a device filled the memory.
+// Reading a pipe would block, and reading a device would fill the memory.
 TEST(ReadFile, DeclinesPipesDevicesAndWhatIsTooLarge) {
   const ScratchFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   fs::create_symlink("/dev/zero", folder / "zero");
   std::ofstream(folder / "large") << "a";
-  fs::resize_file(folder / "large", std::uintmax_t{1} << 40);  // Of holes.
+  fs::resize_file(folder / "large", std::uintmax_t{1} << 40);  // A sparse file.
   for (const char* name : {"pipe", "zero", "large"}) {
     const auto bytes = read_file(folder / name);
     ASSERT_FALSE(bytes) << name;
@@ -222,7 +222,7 @@ TEST(AtomicFile, DeclinesAFolderWhereAFileIs) {
 TEST(AtomicFile, AFullDiskIsADeviceErrorAndLeavesNothing) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
   const ScratchFolder folder;
-  // The word in its name is the process' own: this file's will be the next one's.
+  // The word in its name is that of this process, so the next file has the same name.
   fs::path partial;
   {
     const Result<AtomicFile> file = AtomicFile::create(folder / "a.txt");

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Files that another program wrote, against where that program says the joints are.
+// Compares files written by Blender with Blender's own joint positions.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -11,15 +10,16 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/bvh.h"
-#include "recordings/csv_line.h"
-#include "recordings/gltf.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/text/csv_line.h"
+#include "tests/support/paths.h"
 
 namespace marey::recordings {
 namespace {
 
-const std::filesystem::path kData = MAREY_SOURCE_DIR "/tests/data";
+const std::filesystem::path kData = marey::testing::source_dir() / "tests/data";
 
 struct KnownPlace {
   std::size_t frame = 0;
@@ -47,7 +47,7 @@ std::vector<KnownPlace> known_places() {
   return places;
 }
 
-/// The largest distance of a joint to where Blender has it. [m]
+/// Returns the largest distance of a joint to its position in Blender. [m]
 template <class FromFile>
 double largest_error_m(const Motion& motion, const FromFile& world_from_file) {
   double largest_m = 0.0;
@@ -75,7 +75,7 @@ TEST(BlenderFiles, TheBvhHasItsJointsWhereBlenderHasThem) {
   EXPECT_LT(largest_error_m(read->motion, z_up), 2e-6 /* m */);
 }
 
-// Floats: a metre to a ten thousandth of a millimetre.
+// Floats: the error of a metre is a ten thousandth of a millimetre.
 TEST(BlenderFiles, TheGlbHasItsJointsWhereBlenderHasThem) {
   const auto read = read_character(kData / "blender_arm.glb");
   ASSERT_TRUE(read) << read.error().message();

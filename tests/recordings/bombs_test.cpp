@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Files made to exhaust stack, memory or time: each reader answers in a process of its
-// own that may take 1 GiB and 20 seconds of processor time.
+// Files made to exhaust stack, memory or time. Each reader runs in a process of its own
+// that may use 1 GiB and 20 seconds of processor time.
 #include "tests/support/bombs.h"
 
 #include <csignal>
@@ -15,28 +14,28 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "recordings/asf.h"
-#include "recordings/atomic_file.h"
-#include "recordings/bone_map_file.h"
-#include "recordings/bvh.h"
-#include "recordings/calibration_file.h"
-#include "recordings/character_file.h"
-#include "recordings/constraints_file.h"
-#include "recordings/detections_file.h"
-#include "recordings/floor_file.h"
-#include "recordings/gltf.h"
-#include "recordings/live_take.h"
-#include "recordings/marker_file.h"
-#include "recordings/marker_map.h"
-#include "recordings/mot.h"
-#include "recordings/motion_tables.h"
-#include "recordings/nesting.h"
-#include "recordings/npz.h"
-#include "recordings/plan_file.h"
-#include "recordings/session.h"
-#include "recordings/sqlite.h"
-#include "recordings/subject_file.h"
-#include "recordings/take_file.h"
+#include "recordings/body/bone_map_file.h"
+#include "recordings/body/character_file.h"
+#include "recordings/body/constraints_file.h"
+#include "recordings/body/floor_file.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/markers/marker_file.h"
+#include "recordings/markers/marker_map.h"
+#include "recordings/motion/asf.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/motion/mot.h"
+#include "recordings/motion/motion_tables.h"
+#include "recordings/motion/npz.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/session/detections_file.h"
+#include "recordings/session/plan_file.h"
+#include "recordings/session/session.h"
+#include "recordings/session/subject_file.h"
+#include "recordings/takes/live_take.h"
+#include "recordings/takes/take_file.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/text/nesting.h"
+#include "recordings/text/sqlite.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -53,7 +52,7 @@ constexpr bool kIsSlow = true;
 constexpr bool kIsSlow = false;
 #endif
 
-/// A reader of one kind of file: success, or why it declined.
+/// A reader of one kind of file; returns success or its error.
 struct Reader {
   std::string name;
   std::function<Status(const fs::path&)> read;
@@ -70,27 +69,27 @@ Reader reader(const char* name, const Read& read) {
 
 enum class Answer { kRead, kDeclined, kWrongError };
 
-void limit(int resource, rlim_t most) {
-  const rlimit both{most, most};
+void limit(int resource, rlim_t max) {
+  const rlimit both{max, max};
   (void)setrlimit(static_cast<__rlimit_resource_t>(resource), &both);
 }
 
-/// Reads in a process of its own; nullopt: it crashed, or took too much.
+/// Runs the reader in a process of its own; nullopt: it crashed, or exceeded a limit.
 std::optional<Answer> answer_of(const Reader& reader, const fs::path& file) {
   const pid_t child = fork();
   if (child == 0) {
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, kIsSlow ? 200 : 20);
-    // Sanitizers take address space by terabytes.
+    // Sanitizers reserve terabytes of address space.
     if (!kIsSlow) limit(RLIMIT_AS, rlim_t{1} << 30);
     limit(RLIMIT_STACK, rlim_t{8} << 20);
     const Status status = reader.read(file);
     if (status) _exit(static_cast<int>(Answer::kRead));
-    const bool told = status.error().code == Errc::kBadInput &&
+    const bool is_expected = status.error().code == Errc::kBadInput &&
                       !status.error().cause.empty() && !status.error().next.empty() &&
                       status.error().message().size() < 2000 &&
                       status.error().message().find('\n') == std::string::npos;
-    _exit(static_cast<int>(told ? Answer::kDeclined : Answer::kWrongError));
+    _exit(static_cast<int>(is_expected ? Answer::kDeclined : Answer::kWrongError));
   }
   int ended = 0;
   if (child < 0 || waitpid(child, &ended, 0) != child || !WIFEXITED(ended)) {
@@ -156,7 +155,7 @@ TEST(Bombs, AChainOfAThousandBonesIsWrittenAndReadAgain) {
 TEST(Bombs, OfTomlAreDeclinedByEveryReader) {
   const Skeleton skeleton = make_humanoid(average_proportions(1.7));
   const auto copied = [](const fs::path& file) {
-    // A session's name counts: it is asked for in its folder.
+    // A lambda, because read_session() has a default argument.
     return read_session(file);
   };
   expect_survived(testing::toml_bombs(),
@@ -200,7 +199,7 @@ TEST(Bombs, OfNpzAreDeclined) {
   expect_survived(testing::npz_bombs(), {reader("npz", read_npz)});
 }
 
-/// A database whose tables are what `statements` make of those of a take.
+/// Creates a database with a take's application id and the tables of `statements`.
 void make_database(const fs::path& file, int application, const std::string& statements) {
   const Database database =
       open_database(file, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);

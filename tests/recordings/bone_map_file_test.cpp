@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/bone_map_file.h"
+#include "recordings/body/bone_map_file.h"
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/skeleton_picture.h"
+#include "recordings/body/skeleton_picture.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -26,8 +26,7 @@ std::string refusal(const std::string& text, const Skeleton& skeleton = body()) 
 }
 
 TEST(BoneMapFile, StandsBesideItsBody) {
-  EXPECT_EQ(bone_map_beside("a/man.v2.glb"),
-            std::filesystem::path("a/man.v2.bones.toml"));
+  EXPECT_EQ(bone_map_path("a/man.v2.glb"), std::filesystem::path("a/man.v2.bones.toml"));
 }
 
 TEST(BoneMapFile, ComesBackAsItWasWritten) {
@@ -45,7 +44,7 @@ TEST(BoneMapFile, ComesBackAsItWasWritten) {
   EXPECT_EQ(read->up, map.up);
   EXPECT_EQ(read->front, map.front);
   for (const B bone : human_bones()) {
-    EXPECT_EQ(read->bones[index(bone)].told, map.bones[index(bone)].told);
+    EXPECT_EQ(read->bones[index(bone)].is_set, map.bones[index(bone)].is_set);
     EXPECT_EQ(read->bones[index(bone)].joint, map.bones[index(bone)].joint);
   }
 }
@@ -66,7 +65,7 @@ TEST(BoneMapFile, NamesWhatIsWrongAndTheNearestWord) {
             "mean \"the hips\".");
   EXPECT_EQ(refusal("[bones]\nhips = \"the hips\"\nspine = \"the hips\"\n"),
             "man.bones.toml:3: \"the hips\" is hips already. Next: name another joint, "
-            "or \"\" for a bone that the body has not.");
+            "or \"\" for a bone that the body does not have.");
   EXPECT_EQ(refusal("unit_m = 0\n").substr(0, 17), "man.bones.toml:1:");
   EXPECT_EQ(refusal("up = \"+W\"\n"),
             "man.bones.toml:1: \"up\" is no direction. Next: give one of +X, +Y, +Z, -X, "
@@ -101,7 +100,7 @@ TEST(SkeletonPicture, IsOfBothKindsAndNoOther) {
   const Status no = write_skeleton_picture(folder / "a.gif", body(), "a");
   ASSERT_FALSE(no);
   EXPECT_EQ(no.error().cause, "cannot draw a \".gif\" file");
-  // A body of no size is a picture too.
+  // A body of zero size also gives a picture.
   Skeleton dot;
   dot.joints.resize(1);
   EXPECT_TRUE(write_skeleton_picture(folder / "dot.png", dot, ""));

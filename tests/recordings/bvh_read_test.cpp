@@ -9,7 +9,8 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "recordings/bvh.h"
+#include "recordings/motion/bvh.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -17,14 +18,14 @@ namespace {
 
 using testing::ScratchFolder;
 
-/// What reading `text` is refused with.
+/// Returns the error message of reading `text`.
 std::string refusal(const std::string& text) {
   const auto read = parse_bvh(text, "walk.bvh");
   return read ? "no refusal" : read.error().message();
 }
 
 std::filesystem::path real_file(const std::string& name) {
-  return std::filesystem::path(MAREY_SHARED_DATA) / "mocap" / name;
+  return marey::testing::shared_data() / "mocap" / name;
 }
 
 const std::string kTwoJoints =
@@ -71,7 +72,7 @@ TEST(ReadBvh, TakesAnyDialect) {
 }
 
 // 3ds Max writes blanks in names, MotionBuilder colons and every joint's position; others
-// leave out what they do not need.
+// omit optional parts.
 TEST(ReadBvh, TakesWhatOtherProgramsWrite) {
   const std::string text =
       "HIERARCHY\r\nROOT Actor:Bip01 Pelvis\r\n{\r\n\tOFFSET 0.00 0.00 0.00\r\n"
@@ -196,13 +197,13 @@ TEST(ReadBvh, ReadsRealMotionsAgainInEveryDialect) {
 TEST(ReadBvh, NamesTheLineWithAMissingValue) {
   EXPECT_EQ(refusal(kTwoJoints + "0 0 0 0 0 0 0 0 0\n0 0 0 0 0 0 0 0\n"),
             "walk.bvh:20: expected 9 values, found 8. Next: export the file again, or "
-            "mend that line in a text editor.");
+            "correct that line in a text editor.");
 }
 
 TEST(ReadBvh, NamesTheLineWithAWordAmongTheNumbers) {
   EXPECT_EQ(refusal(kTwoJoints + "0 0 0 0 nan 0 0 0 0\n"),
-            "walk.bvh:19: \"nan\" is not a number. Next: export the file again, or mend "
-            "that line in a text editor.");
+            "walk.bvh:19: \"nan\" is not a number. Next: export the file again, or "
+            "correct that line in a text editor.");
 }
 
 TEST(ReadBvh, SaysHowManyFramesAreMissing) {
@@ -234,7 +235,7 @@ TEST(ReadBvh, RefusesJointsTooDeepForPrograms) {
     return text + "MOTION\nFrames: 1\nFrame Time: 0.01\n0\n";
   };
   EXPECT_EQ(refusal(chain(1000)), "no refusal");
-  EXPECT_NE(refusal(chain(1001)).find("walk.bvh:4002: joints hang on joints more than"),
+  EXPECT_NE(refusal(chain(1001)).find("walk.bvh:4002: joints are nested more than"),
             std::string::npos)
       << refusal(chain(1001));
 }
@@ -266,7 +267,7 @@ TEST(ReadBvh, RefusesTheChannelsOfAJointTwice) {
             std::string::npos);
 }
 
-// Numbers that a double holds, but whose squares it does not.
+// Doubles whose squares overflow.
 TEST(ReadBvh, RefusesLengthsThatNoBodyHas) {
   std::string text = kTwoJoints;
   text.replace(text.find("OFFSET 0 10 0"), 13, "OFFSET 0 1e200 0");

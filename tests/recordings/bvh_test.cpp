@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/bvh.h"
+#include "recordings/motion/bvh.h"
 
 #include <sstream>
 
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-#include "recordings/mannequin.h"
+#include "recordings/body/mannequin.h"
 #include "tests/recordings/wild_motion.h"
 #include "tests/support/scratch_folder.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 using testing::ScratchFolder;
 
-// Six decimals of a degree turn the far end of a 2 m chain by 0.00002 mm each.
+// Six decimals of a degree move the far end of a 2 m chain by 0.00002 mm each.
 constexpr double kRounding_m = 1e-6;
 
 Skeleton uneven_body() {
@@ -59,7 +59,7 @@ TEST(Bvh, KeepsEveryJointInItsPlaceInEveryOrder) {
   }
 }
 
-// Names aside, which only BvhNames::kOwn keeps.
+// Except names, which only BvhNames::kOwn keeps.
 TEST(Bvh, KeepsEveryJointInItsPlaceInEveryDialect) {
   for (const BvhDialect dialect :
        {BvhDialect::kBlender, BvhDialect::kMobu, BvhDialect::kMaya, BvhDialect::kUnity}) {

@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// C3D files with faults: what is put right and said, and what is refused with its byte.
+// Damaged C3D files: corrections with their notes, and errors with their byte.
 #include <algorithm>
 #include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/c3d.h"
-#include "recordings/c3d_words.h"
-#include "recordings/marker_file.h"
+#include "recordings/markers/c3d.h"
+#include "recordings/markers/c3d_markers.h"
+#include "recordings/markers/c3d_words.h"
+#include "recordings/markers/marker_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/recordings/c3d_example.h"
 #include "tests/support/scratch_folder.h"
 
@@ -20,7 +21,7 @@ namespace {
 
 using testing::ScratchFolder;
 
-/// The bytes of the example, with which tests do what they like.
+/// Returns the bytes of the example, for tests to modify.
 std::string example_bytes(const C3dInfo& info) {
   const ScratchFolder folder;
   write_frames(folder / "a.c3d", info, example_frames(info));
@@ -42,7 +43,7 @@ std::string refusal(std::string bytes) {
   return reader ? "no refusal" : reader.error().message();
 }
 
-/// All that was said when it was read.
+/// Returns all notes of reading.
 std::string notes_of(std::string bytes) {
   const auto reader = C3dReader::of_bytes(std::move(bytes), "walk.c3d");
   EXPECT_TRUE(reader) << reader.error().message();
@@ -57,8 +58,8 @@ TEST(C3dBroken, WhatIsNoC3dIsRefusedWithTheByte) {
   bytes[1] = 'x';
   EXPECT_EQ(
       refusal(bytes),
-      "walk.c3d: byte 1: this is not a C3D file: it lacks the mark 80. Next: give a "
-      ".c3d file; what its name ends in does not make it one.");
+      "walk.c3d: byte 1: this is not a C3D file: it lacks the mark 80. Next: give a file "
+      "in C3D format; the extension .c3d alone is not enough.");
   EXPECT_EQ(refusal(""),
             "walk.c3d: byte 0: the file ends before its header and parameters do. Next: "
             "copy or export it again.");
@@ -121,15 +122,17 @@ TEST(C3dBroken, AFileThatEndsBeforeItsFirstFrameDoesIsRefused) {
                 ", does. Next: copy or export it again.");
 }
 
-// The header's count of analog samples is one channel's, as MotionMonitor has it.
+// The header's count of analog samples is that of one channel, as in MotionMonitor's
+// files.
 TEST(C3dBroken, CountsAreBelievedThatEndWhereTheFileDoes) {
-  // 40 frames, so that no other reading ends in the last block.
+  // 40 frames, so that no other interpretation ends in the last block.
   C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);
   info.frames = 40;
   std::string bytes = example_bytes(info);
   set_word(bytes, 4, 2);
   EXPECT_EQ(notes_of(bytes),
-            "the header says 2 analog samples in a frame; the size of the file says 8\n");
+            "the header states 2 analog samples in a frame; by the size of the file it "
+            "is 8\n");
   auto reader = C3dReader::of_bytes(bytes, "walk.c3d");
   ASSERT_TRUE(reader);
   EXPECT_EQ(frames_of(*reader)[39].analog, example_frames(info)[39].analog);
@@ -140,7 +143,7 @@ TEST(C3dBroken, ParametersThatReachIntoTheDataAreLeftOut) {
   put_texts(
       info.groups, "LAB", "LONG", std::vector<std::string>(10, std::string(99, 'x')));
   std::string bytes = example_bytes(info);
-  // The header's word on where the frames begin: in the block after the first one.
+  // The header's first block of the frames: the block after the first one.
   set_word(bytes, 16, 3);
   const std::string notes = notes_of(bytes);
   EXPECT_NE(notes.find("the parameters end here"), std::string::npos) << notes;
@@ -166,7 +169,7 @@ TEST(C3dBroken, AFileThatEndsAnywhereIsReadOrRefused) {
   }
 }
 
-// Fixed seed 1: no byte, whatever it becomes, makes reading do anything but end.
+// Fixed seed 1: with any changed byte, reading ends without a crash.
 TEST(C3dBroken, BytesThatChangedAreReadOrRefused) {
   const std::string whole =
       example_bytes(example_info(C3dProcessor::kMips, C3dNumbers::kReal));

@@ -7,11 +7,11 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/c3d.h"
+#include "recordings/markers/c3d.h"
 
 namespace marey::recordings {
 
-/// A small file with everything: three points, two channels of four samples a frame,
+/// A small file with all features: three points, two channels of four samples a frame,
 /// parameters of every type, events.
 inline C3dInfo example_info(C3dProcessor processor, C3dNumbers numbers) {
   C3dInfo info;
@@ -39,7 +39,7 @@ inline C3dInfo example_info(C3dProcessor processor, C3dNumbers numbers) {
   return info;
 }
 
-/// Its frames, in words that integers and reals hold alike.
+/// Its frames, in words that both integers and reals can represent.
 inline std::vector<C3dFrame> example_frames(const C3dInfo& info) {
   std::vector<C3dFrame> frames;
   for (int f = 0; f < info.frames; ++f) {

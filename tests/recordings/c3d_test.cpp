@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/c3d.h"
+#include "recordings/markers/c3d.h"
 
 #include <cmath>
 #include <limits>
@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/c3d_words.h"
+#include "recordings/markers/c3d_words.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/recordings/c3d_example.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/scratch_folder.h"

@@ -7,8 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/calibration_file.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/text/atomic_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ScratchFolder;
 
-const fs::path kCamera = fs::path(MAREY_SHARED_DATA) / "camera";
+const fs::path kCamera = marey::testing::shared_data() / "camera";
 
 constexpr std::string_view kPair = R"(%YAML:1.0
 image_width: 640
@@ -144,7 +145,7 @@ class CalibrationImport : public ::testing::Test {
     return read_calibration(folder_ / name);
   }
 
-  /// The message without the folder.
+  /// Returns the message without the folder.
   std::string mistake(const std::string& name, std::string_view text) {
     const Result<Calibration> calibration = read(name, text);
     if (calibration) return "";
@@ -157,7 +158,7 @@ class CalibrationImport : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-/// x, y, z becomes -y - 0.25, x + 0.5, z: what the texts above say of a second camera.
+/// x, y, z becomes -y - 0.25, x + 0.5, z: the second camera of the texts above.
 void expect_quarter_turn(const RigidTransform& camera_from_world, double z_m) {
   const glm::dvec3 p = camera_from_world * glm::dvec3(1.0, 2.0, 3.0);
   EXPECT_NEAR(p.x, -2.25, 1e-12 /* m, rounding */);
@@ -188,9 +189,9 @@ TEST_F(CalibrationImport, TakesAStereoPairOfOpenCv) {
 
 TEST_F(CalibrationImport, LooksForRAndTBesideALensFile) {
   EXPECT_EQ(mistake("intrinsics.yml", kPair),
-            "intrinsics.yml:2: where the second camera stands is not in it: it has no R "
-            "and T. Next: add R and T as cv::stereoCalibrate gives them, or put "
-            "extrinsics.yml with them beside it.");
+            "intrinsics.yml:2: the pose of the second camera is missing: the file has no "
+            "R and T. Next: add R and T as cv::stereoCalibrate gives them, or put "
+            "extrinsics.yml with them into the same folder.");
   ASSERT_TRUE(write_file(folder_ / "extrinsics.yml", kPairPose));
   const auto calibration = read("intrinsics.yml", kPair);
   ASSERT_TRUE(calibration) << calibration.error().message();
@@ -282,7 +283,7 @@ TEST_F(CalibrationImport, RefusesBrokenOpenCvFilesWithTheirLine) {
   }
   EXPECT_EQ(mistake("a.yml", with(kPair, "5.6e+02", "five")),
             "a.yml:8: \"data\" must be an array of 9 numbers. Next: write it as "
-            "docs/formats.md shows.");
+            "docs/formats/README.md shows.");
   EXPECT_EQ(
       mistake("a.yml", with(kPair, "cols: 5", "cols: 4")),
       "a.yml:13: \"D1\" has not as many numbers as its rows and cols say. Next: copy "
@@ -321,13 +322,13 @@ TEST_F(CalibrationImport, RefusesBrokenChainsWithTheirLine) {
       "out. Next: number them so.");
   EXPECT_EQ(mistake("a.yaml", with(kChain, "[752, 480]", "[752]")),
             "a.yaml:7: \"resolution\" must be an array of 2 numbers. Next: write it as "
-            "docs/formats.md shows.");
+            "docs/formats/README.md shows.");
 }
 
 TEST_F(CalibrationImport, RefusesMillimetresAndEndlessReferences) {
   EXPECT_EQ(mistake("a.toml", with(kCaliscope, "1.5]", "1500.0]")),
             "a.toml:9: the camera stands more than 100 m from the world's origin. Next: "
-            "give places in metres: divide them by 1000 if they are millimetres.");
+            "give positions in metres: divide them by 1000 if they are millimetres.");
   EXPECT_EQ(mistake("a.yaml", "a: &a [1]\nb: &b [*a, *b]\n"),
             "a.yaml: its lists or references have no end. Next: write the numbers out, "
             "without & and *.");
@@ -344,8 +345,8 @@ TEST(RealCalibration, OfTagSlamSeesTheWandWhereThePicturesHaveIt) {
             glm::dvec2(957.183663, 599.473163));
   const glm::dvec3 centre = centre_in_world(calibration->cameras[4]);
   EXPECT_NEAR(centre.x, 5.63120896, 1e-12 /* m, rounding */);
-  // The middle of the wand's tag 0 at the first instant: where TagSLAM's poses put it,
-  // and the mean of its four corners in the pictures.
+  // The centre of the wand's tag 0 at the first instant: its position from TagSLAM's
+  // poses, and the mean of its four corners in the images.
   const glm::dvec3 p_in_world{2.64750927, 0.51286786, 1.35267844};
   const std::array<glm::dvec2, 4> seen_px{
       {{712.725, 139.591}, {564.359, 285.241}, {349.890, 808.908}, {551.565, 879.838}}};
@@ -381,7 +382,7 @@ TEST(RealCalibration, OfOpenCvIsALensOrSaysWhatIsMissing) {
     return calibration ? "" : calibration.error().cause;
   };
   EXPECT_EQ(cause("intrinsics.yml"), "the file does not say how large the pictures are");
-  // Lists of pictures.
+  // Lists of images.
   EXPECT_TRUE(cause("calibration.yml").starts_with("no camera in it"));
   EXPECT_TRUE(cause("stereo_calib.xml").starts_with("no camera in it"));
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/character_file.h"
+#include "recordings/body/character_file.h"
 
 #include <fstream>
 #include <iterator>
@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -18,14 +19,9 @@ using B = HumanBone;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-// The example of docs/formats.md: the first toml block after its heading.
+// The example of docs/formats/README.md: the first toml block after its heading.
 std::string documented() {
-  std::ifstream file(MAREY_SOURCE_DIR "/docs/formats.md");
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
-  const std::size_t heading = page.find("\n## character.toml");
-  EXPECT_NE(heading, std::string::npos);
-  const std::size_t begin = page.find("```toml\n", heading) + 8;
-  return page.substr(begin, page.find("```", begin) - begin);
+  return marey::testing::formats_example("character");
 }
 
 CharacterSpec parsed(const std::string& text) {
@@ -62,7 +58,7 @@ TEST(CharacterFile, SaysWhatTheDocumentationSays) {
   EXPECT_EQ(traits.limits[0].bone, B::kLeftLowerLeg);
   EXPECT_DOUBLE_EQ(traits.limits[0].max_rad.x, 95.0 * kDegree);
   EXPECT_DOUBLE_EQ(traits.limits[0].min_rad.z, -10.0 * kDegree);
-  EXPECT_DOUBLE_EQ(traits.flexibility.least_trunk_thigh_angle_rad, 80.0 * kDegree);
+  EXPECT_DOUBLE_EQ(traits.flexibility.min_trunk_thigh_angle_rad, 80.0 * kDegree);
   EXPECT_DOUBLE_EQ(traits.flexibility.straight_knee_rad, 10.0 * kDegree);
   ASSERT_EQ(traits.loads.size(), 1U);
   EXPECT_EQ(traits.loads[0].name, "bag");
@@ -106,8 +102,8 @@ TEST(CharacterFile, GivesBackEveryDouble) {
   EXPECT_EQ(a.limits[0].bone, b.limits[0].bone);
   EXPECT_EQ(a.limits[0].min_rad, b.limits[0].min_rad);
   EXPECT_EQ(a.limits[0].max_rad, b.limits[0].max_rad);
-  EXPECT_EQ(a.flexibility.least_trunk_thigh_angle_rad,
-            b.flexibility.least_trunk_thigh_angle_rad);
+  EXPECT_EQ(a.flexibility.min_trunk_thigh_angle_rad,
+            b.flexibility.min_trunk_thigh_angle_rad);
   EXPECT_EQ(a.flexibility.straight_knee_rad, b.flexibility.straight_knee_rad);
   ASSERT_EQ(b.loads.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -118,14 +114,14 @@ TEST(CharacterFile, GivesBackEveryDouble) {
   }
 }
 
-// An angle that was not written in degrees moves by a rounding, and then no more.
+// The first writing rounds an angle that is no exact number of degrees, the next do not.
 TEST(CharacterFile, SettlesAnglesOnTheFirstWriting) {
   CharacterSpec spec = a_character();
   spec.traits.flexibility = {1.234567890123456, 0.17};
   const std::string once = character_spec_text(spec);
   const CharacterSpec read = parsed(once);
   EXPECT_NEAR(
-      read.traits.flexibility.least_trunk_thigh_angle_rad, 1.234567890123456, 1e-15);
+      read.traits.flexibility.min_trunk_thigh_angle_rad, 1.234567890123456, 1e-15);
   EXPECT_EQ(character_spec_text(parsed(character_spec_text(read))),
             character_spec_text(read));
 }
@@ -135,7 +131,7 @@ TEST(CharacterFile, IsBriefForAnAverageBody) {
   EXPECT_EQ(std::get<AverageBody>(spec.body).stature_m, 1.8);
   EXPECT_FALSE(spec.traits.mass.total_kg);
   EXPECT_TRUE(spec.traits.has_limits);
-  EXPECT_EQ(spec.traits.flexibility.least_trunk_thigh_angle_rad, 0.0);
+  EXPECT_EQ(spec.traits.flexibility.min_trunk_thigh_angle_rad, 0.0);
 }
 
 TEST(CharacterFile, FindsBodiesBesideItself) {
@@ -176,7 +172,7 @@ TEST(CharacterFile, WantsOneBody) {
   EXPECT_TRUE(says(mistake("avatar = \"../avatars/ann.vrm\"\n", ""),
                    "does not say whose lengths"));
   EXPECT_TRUE(says(mistake("avatar =", "stature_m = 1.7\navatar ="),
-                   "\"stature_m\" is given beside \"avatar\""));
+                   "\"stature_m\" is given together with \"avatar\""));
   EXPECT_TRUE(says(mistake("\"../avatars/ann.vrm\"", "\"\""), "the path is empty"));
 }
 

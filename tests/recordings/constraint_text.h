@@ -6,12 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/constraints_file.h"
+#include "recordings/body/constraints_file.h"
+#include "recordings/text/atomic_file.h"
+#include "tests/support/paths.h"
 
 namespace marey::testing {
 
-inline const std::string kAnnex = MAREY_SOURCE_DIR "/tests/data/annex_a_constraints.xml";
+inline const std::string kAnnex = marey::testing::source_dir() / "tests/data/annex_a_constraints.xml";
 
 inline std::string refusal(const std::string& text) {
   const auto file = recordings::parse_constraints(text, "c.xml");

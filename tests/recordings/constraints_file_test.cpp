@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/constraints_file.h"
+#include "recordings/body/constraints_file.h"
 
 #include <cmath>
 #include <filesystem>
@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/recordings/constraint_text.h"
 #include "tests/support/scratch_folder.h"
 
@@ -19,7 +19,7 @@ namespace {
 
 using namespace testing;
 
-/// One of every type, no two numbers alike, and nothing that is short in decimals.
+/// One of every type, all numbers different, none with a short decimal form.
 ConstraintSet one_of_each() {
   const glm::dquat turned = glm::normalize(glm::dquat(0.7, -0.1, 0.2, 1.0 / 3.0));
   ConstraintSet set;
@@ -80,7 +80,7 @@ TEST(ConstraintsFile, ReadsTheExampleOfTheThesis) {
   EXPECT_EQ(goal->p_in_world, glm::dvec3(0.0));
 }
 
-// The writer's form is the annex': all but the segment's name comes back as it was.
+// The writer uses the annex' form: all but the segment's name is unchanged.
 TEST(ConstraintsFile, WritesTheExampleOfTheThesisAsItWas) {
   EXPECT_EQ(text_of(read(annex()).set),
             annex_with("rightSternoClavicular", "rightShoulder"));
@@ -190,7 +190,7 @@ TEST(ConstraintsFile, TellsTwentyOddThingsAndHowManyMoreThereAre) {
   EXPECT_EQ(file.set.unknown_xml.size(), 25U);
 }
 
-// A quarter turn about X takes Z up to Y up: (x, y, z) is (x, z, -y) there.
+// A quarter turn about X converts Z up to Y up: (x, y, z) is (x, z, -y) there.
 TEST(ConstraintsFile, TurnsAWorldWithZUp) {
   const std::string head =
       "<ConstraintsSet up=\"Z\"><AllowedSpace><name>a</name><bodyPoint>"

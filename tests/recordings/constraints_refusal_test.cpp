@@ -64,11 +64,11 @@ TEST(ConstraintsFile, RefusesAnotherFileAndABrokenOne) {
       "close what is open.");
   EXPECT_EQ(
       refusal(annex_with("</start_time>", "</start>")),
-      "c.xml:7: not valid XML: Start-end tags mismatch. Next: mend this line, or copy "
+      "c.xml:7: not valid XML: Start-end tags mismatch. Next: correct this line, or copy "
       "the file again.");
   EXPECT_EQ(refusal(""),
-            "c.xml:1: not valid XML: No document element found. Next: mend this line, or "
-            "copy the file again.");
+            "c.xml:1: not valid XML: No document element found. Next: correct this line, "
+            "or copy the file again.");
   EXPECT_EQ(refusal(std::string("<\0C", 3)),
             "c.xml:1: this is no text in UTF-8. Next: name an XML file, or save it as "
             "UTF-8.");

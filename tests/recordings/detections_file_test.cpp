@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/detections_file.h"
+#include "recordings/session/detections_file.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -17,7 +17,7 @@ using testing::ScratchFolder;
 TagDetection a_tag(int id) {
   TagDetection tag;
   tag.id = TagId{id};
-  // Thirds and sevenths: no decimal number is as good.
+  // Thirds and sevenths: they have no exact decimal form.
   for (std::size_t i = 0; i < 4; ++i) {
     tag.corners_px[i] = {100.0 + kCornerSides[i][0] * 40.0 / 3.0,
                          200.0 + kCornerSides[i][1] * (20.0 - id / 7.0)};

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/floor_file.h"
+#include "recordings/body/floor_file.h"
+#include "tests/support/paths.h"
 
 #include <fstream>
 #include <iterator>
@@ -11,14 +12,9 @@
 namespace marey::recordings {
 namespace {
 
-// The example of docs/formats.md: the first toml block after its heading.
+// The example of docs/formats/README.md: the first toml block after its heading.
 std::string documented() {
-  std::ifstream file(MAREY_SOURCE_DIR "/docs/formats.md");
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
-  const std::size_t heading = page.find("\n### floor.toml");
-  EXPECT_NE(heading, std::string::npos);
-  const std::size_t begin = page.find("```toml\n", heading) + 8;
-  return page.substr(begin, page.find("```", begin) - begin);
+  return marey::testing::formats_example("floor");
 }
 
 Floor parsed(const std::string& text) {
@@ -93,9 +89,9 @@ TEST(FloorFile, RefusesBrokenFilesWithTheirLine) {
            Fault{"x_m = [-1.0, 1.0]", "x_m = 2.0", ":6", "array of 2"},
            Fault{"x_m = [-1.0, 1.0]\n", "", ":4", "\"x_m\" is missing"},
            Fault{"top_m = 0.15", "top_m = nan", ":8", "top_m"},
-           Fault{"top_m = 0.15", "", ":4", "how high"},
+           Fault{"top_m = 0.15", "", ":4", "no height"},
            Fault{
-               "top_m = 0.15", "top_m = 0.15\nramp_x_m = [0, 1]", ":4", "more than once"},
+               "top_m = 0.15", "top_m = 0.15\nramp_x_m = [0, 1]", ":4", "more than one"},
            Fault{"[0.15, 0.6]", "[0.15, 6.0]", ":14", "60 degrees"},
            Fault{"[0.0, 2.0, 4.0]", "[0.0, 4.0, 4.0]", ":21", "ascend"},
            Fault{"[0.0, 2.0, 4.0]", "[0.0, nan, 4.0]", ":21", "times_s"},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/force_plates.h"
+#include "recordings/markers/force_plates.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "recordings/c3d.h"
-#include "recordings/c3d_analog.h"
-#include "recordings/marker_file.h"
+#include "recordings/markers/c3d.h"
+#include "recordings/markers/c3d_analog.h"
+#include "recordings/markers/marker_file.h"
 #include "tests/recordings/c3d_example.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -21,7 +22,7 @@ namespace {
 using testing::ScratchFolder;
 namespace fs = std::filesystem;
 
-// Somebody pushes the plate; in the plate's frame: x and y along it, z down.
+// A push on the plate; in the plate's frame: x and y along it, z down.
 const glm::dvec3 kForce{40.0, -25.0, -700.0};
 const glm::dvec3 kPress{0.08, -0.11, 0.0};  // From the middle. [m]
 constexpr double kTwist = 3.5;              // [N m]
@@ -169,7 +170,7 @@ TEST(ForcePlates, ForcesOfTheBodyOnThePlateAreTurnedRound) {
       plates_of(plate_info(2, {}), {-kForce.x, -kForce.y, -kForce.z, m.x, m.y, m.z});
   expect_the_push(plates);
   ASSERT_EQ(plates.notes.size(), 1U);
-  EXPECT_EQ(plates.notes[0], "plate 1: the forces push down, and are turned round");
+  EXPECT_EQ(plates.notes[0], "plate 1: the forces point down; their sign was reversed");
 }
 
 TEST(ForcePlates, MomentsInAnotherUnitThanTheFileSaysAreFound) {
@@ -180,7 +181,7 @@ TEST(ForcePlates, MomentsInAnotherUnitThanTheFileSaysAreFound) {
       plates_of(info, {kForce.x, kForce.y, kForce.z, m.x, m.y, m.z});
   expect_the_push(plates);
   ASSERT_EQ(plates.notes.size(), 1U);
-  EXPECT_NE(plates.notes[0].find("nobody would be on it"), std::string::npos);
+  EXPECT_NE(plates.notes[0].find("the body would be next to"), std::string::npos);
 }
 
 TEST(ForcePlates, APlateThatNobodyIsOnHasNoCentre) {
@@ -236,15 +237,14 @@ struct RealPlate {
   const char* file;
   std::size_t plate;
   int type;
-  double median_N;  ///< Of samples above 100 N, by these files' readings; 1 %.
+  double median_N;  ///< Median over samples above 100 N, from these files' readings; 1 %.
 };
 
-// Feet press where markers of feet are, within the plate: that no one can get wrong
-// twice.
+// The centre of pressure is within the plate and near the markers of the feet.
 TEST(ForcePlateSamples, FeetPressOnPlatesNextToTheirMarkers) {
-  const fs::path mocap = fs::path(MAREY_SHARED_DATA) / "mocap";
+  const fs::path mocap = marey::testing::shared_data() / "mocap";
   if (!fs::exists(mocap)) GTEST_SKIP() << mocap << " is not there";
-  // A foot on the edge of a plate bends it, and then its centre lies a little outside.
+  // A foot on the edge of a plate bends it, which moves the centre slightly outside.
   constexpr double kEdge_m = 0.02;
   const std::vector<RealPlate> known{
       {"bmclab/Gait.c3d", 0, 4, 555},

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/frame_stamps.h"
+#include "recordings/takes/frame_stamps.h"
 
 #include <array>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {

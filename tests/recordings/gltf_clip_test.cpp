@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// What players need of an animation in a GLB.
+// Properties of a GLB's animation that players require.
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -10,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "recordings/atomic_file.h"
-#include "recordings/gltf.h"
-#include "recordings/mannequin.h"
+#include "recordings/body/mannequin.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/recordings/wild_motion.h"
 #include "tests/support/scratch_folder.h"
 
@@ -21,7 +20,7 @@ namespace {
 
 using testing::ScratchFolder;
 
-/// A GLB's document and the data behind it.
+/// The document of a GLB and its data.
 struct Glb {
   nlohmann::json json;
   std::string data;
@@ -44,8 +43,8 @@ struct Glb {
   }
 };
 
-/// Neighbouring frames whose quaternions are on opposite sides, at a rate that is no
-/// whole number.
+/// Neighbouring frames whose quaternions differ in sign, at a rate that is no whole
+/// number.
 Motion a_motion() {
   Motion motion = wild_motion(make_humanoid(average_proportions(1.75)), 40);
   motion.rate.hz = 29.97;

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Nodes as other programs leave them: scaled, mirrored, nameless; and bodies that were
-// turned and scaled since they were read.
+// Nodes of other programs' files: scaled, mirrored, nameless; and bodies that were
+// rotated and scaled after reading.
 #include <cstdint>
 #include <cstring>
 
@@ -10,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/gltf.h"
-#include "recordings/mannequin.h"
+#include "recordings/body/mannequin.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -20,7 +19,7 @@ namespace {
 
 using testing::ScratchFolder;
 
-/// Three nodes in a row; `middle` is put into the second's braces.
+/// Returns three nodes in a row; `middle` is inserted into the second node's braces.
 std::string three_nodes(const std::string& middle) {
   return R"({"asset":{"version":"2.0"},"nodes":[
  {"name":"Armature","children":[1]},
@@ -77,7 +76,7 @@ TEST(GltfNodes, NamesTheTreesOfTwoBodies) {
             "\"Ann\" and one below \"Bob\"");
 }
 
-// As clothes and hair come with armatures of their own.
+// Clothes and hair have armatures of their own.
 TEST(GltfNodes, JoinsTheTreesOfOneBody) {
   const ScratchFolder folder;
   const auto character = read(folder, R"({"asset":{"version":"2.0"},
@@ -116,7 +115,7 @@ TEST(GltfNodes, NamesTheExtensionThatItDoesNotRead) {
   EXPECT_TRUE(read(folder, required("KHR_texture_transform")));
 }
 
-/// A foot that hangs on the root in its file, and on the shin in the body.
+/// A foot whose parent is the root in its file, and the shin in the body.
 TEST(GltfNodes, WritesABodyThatHangsOtherwiseThanItsFile) {
   const ScratchFolder folder;
   const Proportions proportions = mannequin_proportions({});
@@ -159,15 +158,15 @@ TEST(GltfNodes, WritesABodyThatHangsOtherwiseThanItsFile) {
       if (i == index(foot) || i == index(*own.find(HumanBone::kLeftToes))) continue;
       EXPECT_LT(glm::distance(b[i].translation, here * (a[i].translation / 2.0)), 5e-6);
     }
-    // A Pose has no room for the way of the foot against the root, and so leaves it out:
-    // its length is the only word of where the foot is.
+    // A Pose cannot represent the movement of the foot relative to the root; the foot's
+    // position is known by its rest length only.
     const glm::dvec3 foot_in_root = inverse(a[0]) * a[index(foot)].translation / 2.0;
     const glm::dvec3 at_rest = detached.joints[index(foot)].parent_from_joint.translation;
     EXPECT_NEAR(back->ignored_translation_m, glm::distance(foot_in_root, at_rest), 5e-6);
   }
 }
 
-// Nodes that hold a frame of an animation; the skin says where it was bound.
+// Nodes in the pose of an animation's frame; the skin has the bind pose.
 TEST(GltfNodes, ReadsThePoseInWhichTheSkinWasBound) {
   const ScratchFolder folder;
   const Proportions proportions = mannequin_proportions({});
@@ -178,7 +177,7 @@ TEST(GltfNodes, ReadsThePoseInWhichTheSkinWasBound) {
   ASSERT_TRUE(same);
   EXPECT_FALSE(same->bound);
   EXPECT_TRUE(same->carries_skin[index(*bound.find(HumanBone::kLeftUpperLeg))]);
-  // The left thigh's node is turned by hand in the file's text, as long as it was.
+  // Rotates the left thigh's node in the file's text, without changing its length.
   std::string bytes = *read_file(folder / "bound.glb");
   const std::string node = R"({"name":"leftUpperLeg","translation":)";
   const auto at = bytes.find(node);
@@ -186,7 +185,7 @@ TEST(GltfNodes, ReadsThePoseInWhichTheSkinWasBound) {
   const auto spare = bytes.find(R"("generator":"marey")");
   ASSERT_NE(spare, std::string::npos);
   const std::string turn = R"("rotation":[0.5,0,0,0.8660254],)";
-  // Room for it: blanks in its place would do for JSON, so the chunk grows by them.
+  // The JSON chunk grows by the inserted text, padded with blanks.
   std::string json_length = bytes.substr(12, 4);
   std::uint32_t length = 0;
   std::memcpy(&length, json_length.data(), 4);
@@ -223,7 +222,8 @@ TEST(GltfNodes, KnowsANoteOfGitLfs) {
             "this is a note of Git LFS in place of the file (git lfs pull fetches it)");
 }
 
-// The file keeps its own frame and unit. Truth: what the file itself says, read again.
+// The file keeps its own frame and unit. The expected values are the file's own, read
+// again.
 TEST(GltfNodes, WritesATurnedAndScaledBodyInItsOwnFrame) {
   const ScratchFolder folder;
   const Proportions proportions = mannequin_proportions({});
@@ -261,7 +261,7 @@ TEST(GltfNodes, WritesATurnedAndScaledBodyInItsOwnFrame) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_LT(glm::distance(a[i].translation, b[i].translation), 5e-6);
   }
-  // Written without saying so it would lie on its back, a hundred times too small.
+  // Without `changed` it would lie on its back, a hundred times too small.
   const Status no = write_retargeted(folder / "own.glb", folder / "no.glb", seen);
   ASSERT_FALSE(no);
   EXPECT_EQ(no.error().cause,

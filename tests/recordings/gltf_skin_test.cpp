@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Skins of glTF files: what their vertices hang on.
+// Skins of glTF files: the joints of the vertices.
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/gltf.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -21,7 +20,7 @@ std::string refusal(const ScratchFolder& folder, const std::string& text) {
   return read ? "no refusal" : read.error().cause;
 }
 
-/// A triangle on a skin of these joints, by their nodes.
+/// Returns a triangle on a skin with these joints, given by their nodes.
 std::string skinned_triangle(const std::string& skin_joints) {
   // Three vertices at (0, 0, 0); their joints and weights are 0 too.
   const std::string zeros(64, 'A');
@@ -60,7 +59,7 @@ TEST(ReadCharacter, RefusesVerticesOnJointsBelowZero) {
                64,
                "gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/");
   text.replace(text.find("5121"), 4, "5120");
-  EXPECT_EQ(refusal(folder, text), "a vertex hangs on joint -128 of a skin with 1");
+  EXPECT_EQ(refusal(folder, text), "a vertex refers to joint -128 of a skin with 1");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/gltf.h"
+#include "recordings/gltf/gltf.h"
 
 #include <array>
 #include <cstdint>
@@ -8,9 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/mannequin.h"
+#include "recordings/body/mannequin.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/recordings/wild_motion.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -22,7 +23,7 @@ using testing::ScratchFolder;
 constexpr double kFloat_m = 5e-6;
 
 std::filesystem::path avatar(const std::string& name) {
-  return std::filesystem::path(MAREY_SHARED_DATA) / "avatars" / name;
+  return marey::testing::shared_data() / "avatars" / name;
 }
 
 struct Sample {
@@ -103,7 +104,7 @@ TEST(Character, KeepsItsMeshThroughAFile) {
   const Character read = written_and_read(folder, sample.skeleton, sample.mesh, nullptr);
   ASSERT_TRUE(read.mesh);
   ASSERT_EQ(corner_count(*read.mesh), corner_count(sample.mesh));
-  // Parts come back with vertices of their own: compare corner by corner, posed.
+  // Parts have their own vertices after reading: compare the posed corners.
   const Pose& pose = sample.motion.poses[7];
   const auto before = posed_vertices(sample.mesh, sample.skeleton, pose);
   const auto after = posed_vertices(*read.mesh, read.skeleton, pose);
@@ -210,7 +211,7 @@ TEST(WriteRetargeted, MovesRealAvatarsAndKeepsTheirMesh) {
     const auto after = read_character(folder / "out.glb");
     ASSERT_TRUE(after) << after.error().message();
     ASSERT_TRUE(after->motion) << file;
-    // Nodes without names would be mistaken for one another.
+    // Nodes without names would be confused with each other.
     Motion read = *after->motion;
     for (Motion* m : {&motion, &read}) {
       int number = 0;
@@ -246,7 +247,7 @@ TEST(WriteRetargeted, RefusesTheMotionOfAnotherBody) {
   EXPECT_FALSE(exists(folder / "o.glb"));
 }
 
-/// What reading these bytes is refused with, from the cause on.
+/// Returns the error message of reading these bytes, from the cause on.
 std::string refusal(const ScratchFolder& folder, std::string_view bytes) {
   EXPECT_TRUE(write_file(folder / "broken.glb", bytes));
   const auto read = read_character(folder / "broken.glb");
@@ -297,7 +298,8 @@ TEST(ReadCharacter, RefusesNodesBeyondAllReason) {
             "the node 'spine' lies further than 10 km away");
 }
 
-/// A body of `joints` whose root turns from the first key to one `last_s` later.
+/// Returns a body of `joints` whose root rotates from the first key to one `last_s`
+/// later.
 std::string two_keys(const ScratchFolder& folder, int joints, float last_s) {
   const std::array<float, 10> keys{0, last_s, 0, 0, 0, 1, 0, 1, 0, 0};
   std::string bytes(sizeof keys, '\0');
@@ -342,7 +344,7 @@ TEST(ReadCharacter, RefusesNodesThatGoRoundInACircle) {
 TEST(ReadCharacter, RefusesAFileWithoutNodes) {
   const ScratchFolder folder;
   EXPECT_EQ(refusal(folder, R"({"asset":{"version":"2.0"}})"),
-            "the joints do not hang together under one root");
+            "the joints have no common root");
 }
 
 TEST(ReadCharacter, SurvivesEveryCutOfAFile) {
@@ -353,7 +355,7 @@ TEST(ReadCharacter, SurvivesEveryCutOfAFile) {
   triangle.parts[0].triangles.resize(3);
   ASSERT_TRUE(write_character(folder / "body.glb", make_humanoid(p), triangle));
   const std::string whole = *read_file(folder / "body.glb");
-  // Only within the document: beyond it every cut is the same.
+  // Only within the document: beyond it all cuts are equivalent.
   for (std::size_t size = 0; size < 4000; size += 37) {
     std::string cut = whole.substr(0, size);
     if (size >= 12) {  // The header agrees, so that the parser itself is reached.

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/live_take.h"
+#include "recordings/takes/live_take.h"
 
 #include <filesystem>
 #include <fstream>
@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/sqlite.h"
-#include "recordings/view_bytes.h"
+#include "recordings/text/sqlite.h"
+#include "recordings/text/view_bytes.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -61,15 +61,15 @@ TEST(LiveTake, KeepsNoMoreThanSoManyForADiskThatStandsStill) {
   const auto file = folder.path() / kLiveTakeFile;
   auto writer = LiveTakeWriter::create(file, head());
   ASSERT_TRUE(writer);
-  constexpr auto kMost = static_cast<std::int64_t>(LiveTakeWriter::kMostWaiting);
-  for (std::int64_t i = 0; i < kMost; ++i) ASSERT_TRUE(writer->add(instant(i)));
-  const Status full = writer->add(instant(kMost));
+  constexpr auto kMaxCount = static_cast<std::int64_t>(LiveTakeWriter::kMaxWaiting);
+  for (std::int64_t i = 0; i < kMaxCount; ++i) ASSERT_TRUE(writer->add(instant(i)));
+  const Status full = writer->add(instant(kMaxCount));
   ASSERT_FALSE(full);
   EXPECT_EQ(full.error().code, Errc::kDevice);
   ASSERT_TRUE(writer->finish());
   const auto take = read_live_take(file);
   ASSERT_TRUE(take);
-  EXPECT_EQ(take->instants.size(), LiveTakeWriter::kMostWaiting);
+  EXPECT_EQ(take->instants.size(), LiveTakeWriter::kMaxWaiting);
 }
 
 TEST(LiveTake, KeepsEveryNumberExactly) {
@@ -93,7 +93,7 @@ TEST(LiveTake, KeepsEveryNumberExactly) {
   expect_same(take->instants[2], instant(7));
 }
 
-// As after `kill -9`: nobody finished it.
+// As after `kill -9`, without finish().
 TEST(LiveTake, HasWhatWasCommittedWhenItWasCutOff) {
   const testing::ScratchFolder folder;
   const auto file = folder.path() / kLiveTakeFile;
@@ -118,7 +118,7 @@ std::map<std::string, std::string> content_of(const std::filesystem::path& folde
   return files;
 }
 
-// What a killed process left is read as often as one likes, and stays as it was left.
+// The files of a killed process can be read any number of times, and do not change.
 TEST(LiveTake, IsReadWithoutAWriteWhetherItWasFinishedOrKilled) {
   const testing::ScratchFolder folder;
   const auto file = folder.path() / kLiveTakeFile;
@@ -126,7 +126,7 @@ TEST(LiveTake, IsReadWithoutAWriteWhetherItWasFinishedOrKilled) {
   ASSERT_TRUE(writer);
   EXPECT_TRUE(writer->add(instant(1)));
   ASSERT_TRUE(writer->commit());
-  // As a kill leaves it: the file, and a log with what was committed.
+  // The state after a kill: the file, and a log with the committed data.
   const testing::ScratchFolder killed;
   for (const auto& [name, bytes] : content_of(folder.path())) {
     if (name.ends_with("-shm")) continue;

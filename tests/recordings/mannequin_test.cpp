@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/mannequin.h"
+#include "recordings/body/mannequin.h"
 
 #include <map>
 
@@ -19,7 +19,7 @@ double top_of_head_m(const Proportions& p) {
   return (joints[index(B::kHead)] * p.head_top_in_head).y;
 }
 
-/// Average, child, giant, and one that is uneven all over.
+/// Average, child, giant, and an asymmetric body.
 std::vector<Proportions> bodies() {
   return {mannequin_proportions({}),
           mannequin_proportions({.stature_m = 1.1, .arm = 1.2, .head = 1.4}),

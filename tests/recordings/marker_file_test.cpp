@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/marker_file.h"
+#include "recordings/markers/marker_file.h"
 
 #include <cmath>
 #include <limits>
@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/c3d.h"
-#include "recordings/c3d_markers.h"
+#include "recordings/markers/c3d.h"
+#include "recordings/markers/c3d_markers.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/recordings/c3d_example.h"
 #include "tests/support/scratch_folder.h"
 
@@ -27,7 +27,7 @@ bool has_note(const MarkerFile& file, const std::string& words) {
   return false;
 }
 
-/// Somebody who walks along X, heels to head, with gaps. Fixed seed 5.
+/// A subject who walks along X, heels to head, with gaps. Fixed seed 5.
 MarkerFile walker(std::size_t frames = 40) {
   MarkerFile file;
   file.tracks.labels = {"LHEE", "RHEE", "LKNE", "SACR", "HEAD"};
@@ -69,7 +69,7 @@ MarkerFile through_file(const std::filesystem::path& path,
   return read ? *std::move(read) : MarkerFile{};
 }
 
-/// How far samples are apart at most; infinitely where one of both is missing. [m]
+/// Returns the largest distance of samples; infinite if one of both is missing. [m]
 double largest_error_m(const MarkerTracks& a, const MarkerTracks& b) {
   if (a.labels != b.labels || a.samples.size() != b.samples.size()) return INFINITY;
   double largest = 0.0;
@@ -195,7 +195,7 @@ TEST(MarkerFile, MarkersOfAnotherFileAreNotWrittenOverASource) {
   EXPECT_NE(written.error().message().find("other markers or frames"), std::string::npos);
 }
 
-/// The walker in a C3D without screen parameters and units.
+/// Returns the axes found for the walker in a C3D without screen parameters and units.
 MarkerFile found_axes(FileAxis up, double per_metre) {
   const ScratchFolder folder;
   MarkerFile markers = walker();
@@ -229,7 +229,7 @@ TEST(MarkerFile, UnitAndUpwardAxisAreFoundWhereTheFileIsSilent) {
       EXPECT_EQ(read.axes.up_from, Evidence::kMarkers);
       EXPECT_EQ(read.axes.per_metre, per_metre);
       EXPECT_EQ(read.axes.unit_from, Evidence::kMarkers);
-      EXPECT_TRUE(has_note(read, "POINT:UNITS does not say"));
+      EXPECT_TRUE(has_note(read, "POINT:UNITS is missing"));
       EXPECT_LT(largest_error_m(read.tracks, walker().tracks), 1e-6);
     }
   }
@@ -240,7 +240,7 @@ TEST(MarkerFile, ACaptureThatIsUpsideDownIsTurnedAndSaidSo) {
   MarkerFile markers = walker();
   FileAxes axes;
   axes.up = FileAxis::kPlusZ;
-  // The file will say +Z, and the walker hangs from it.
+  // The file will state +Z, and the walker is upside down.
   for (auto& sample : markers.tracks.samples) {
     if (sample) sample->p_in_world *= glm::dvec3(1.0, -1.0, -1.0);
   }
@@ -262,10 +262,11 @@ TEST(MarkerFile, AnAxisThatMarkersAndPlatesContradictIsNotBelieved) {
   const std::vector<C3dFrame> frames = frames_of(*reader);
   put_texts(info.groups, "POINT", "Y_SCREEN", {"+Y"});
   write_frames(folder / "b.c3d", info, frames);
-  const auto doubted = read_markers(folder / "b.c3d");
-  ASSERT_TRUE(doubted);
-  EXPECT_EQ(doubted->axes.up, FileAxis::kPlusY);
-  EXPECT_TRUE(has_note(*doubted, "the markers stand along +Z; the file is believed"));
+  const auto contradicted = read_markers(folder / "b.c3d");
+  ASSERT_TRUE(contradicted);
+  EXPECT_EQ(contradicted->axes.up, FileAxis::kPlusY);
+  EXPECT_TRUE(
+      has_note(*contradicted, "the markers stand along +Z; the file's axis is used"));
   // A plate whose z axis points along the file's -Z.
   const C3dReals corners{600, 400, 0, 0, 400, 0, 0, 0, 0, 600, 0, 0};
   C3dReals down = corners;
@@ -275,7 +276,7 @@ TEST(MarkerFile, AnAxisThatMarkersAndPlatesContradictIsNotBelieved) {
   const auto corrected = read_markers(folder / "c.c3d");
   ASSERT_TRUE(corrected);
   EXPECT_EQ(corrected->axes.up, FileAxis::kPlusZ);
-  EXPECT_TRUE(has_note(*corrected, "these are believed"));
+  EXPECT_TRUE(has_note(*corrected, "the markers' axis is used"));
 }
 
 TEST(MarkerFile, TheReadersWordOnAxesComesFirst) {
@@ -311,7 +312,7 @@ TEST(MarkerFile, MarkersThatAreNeverSeenAreToldOf) {
   EXPECT_EQ(largest_error_m(read.tracks, markers.tracks) < 1e-6, true);
 }
 
-// SIMI's files: residuals of -1 everywhere, and positions all the same.
+// SIMI's files: residuals of -1 everywhere, with valid positions.
 TEST(MarkerFile, PositionsAreTakenWhenEverySampleIsMarkedUnseen) {
   const ScratchFolder folder;
   const C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);
@@ -347,7 +348,7 @@ TEST(MarkerFile, AFileWithoutMarkersIsReadAsSuch) {
   EXPECT_TRUE(has_note(*read, "no markers"));
 }
 
-// Theia's files: a section of matrices behind the frames, in a group of its own.
+// Theia's files: a section of matrices after the frames, in a group of its own.
 TEST(MarkerFile, RotationsBehindTheFramesAreToldOfAndLeftOut) {
   const ScratchFolder folder;
   C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);

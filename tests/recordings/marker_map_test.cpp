@@ -1,25 +1,21 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/marker_map.h"
+#include "recordings/markers/marker_map.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
 
-/// The example of docs/formats.md.
+/// The example of docs/formats/README.md.
 std::string example() {
-  const auto page = read_file(std::string(MAREY_SOURCE_DIR) + "/docs/formats.md");
-  if (!page) return {};
-  const std::size_t start = page->find("```toml\n[markers]");
-  if (start == std::string::npos) return {};
-  const std::size_t text = page->find('\n', start) + 1;
-  return page->substr(text, page->find("```", text) - text);
+  return marey::testing::formats_example("markers", "[markers]");
 }
 
 std::string mistake_of(const std::string& text) {
@@ -64,15 +60,15 @@ TEST(MarkerMap, IsReadFromAFile) {
 TEST(MarkerMap, RefusesWhatIsNotText) {
   EXPECT_EQ(
       mistake_of("[markers]\nLASI = 3\n"),
-      "map.toml:2: \"LASI\" must be text in quotes. Next: write it as docs/formats.md "
+      "map.toml:2: \"LASI\" must be text in quotes. Next: write it as docs/formats/README.md "
       "shows.");
   EXPECT_EQ(
       mistake_of("[markers]\nLASI = [\"left_asis\"]\n"),
-      "map.toml:2: \"LASI\" must be text in quotes. Next: write it as docs/formats.md "
+      "map.toml:2: \"LASI\" must be text in quotes. Next: write it as docs/formats/README.md "
       "shows.");
 }
 
-// To TOML that is a table R with a key ASIS.
+// In TOML that is a table R with a key ASIS.
 TEST(MarkerMap, SaysHowToWriteALabelWithAPoint) {
   EXPECT_EQ(
       mistake_of("[markers]\nC7 = \"c7\"\nR.ASIS = \"right_asis\"\n"),
@@ -93,8 +89,8 @@ TEST(MarkerMap, RefusesAFileWithoutLabels) {
             "\"left_asis\".");
   EXPECT_EQ(
       mistake_of(""),
-      "map.toml:1: the key \"markers\" is missing. Next: add it; docs/formats.md says "
-      "what it means.");
+      "map.toml:1: the key \"markers\" is missing. Next: add it; docs/formats/README.md "
+      "describes it.");
 }
 
 TEST(MarkerMap, RefusesALabelTwice) {

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Marker files of many vendors and programs, in ../shared/data/mocap. Counts, rates and
-// numbers of samples in the table were found by another reader, made for that alone.
+// numbers of samples in the table come from an independent reader written for this
+// purpose.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,9 +15,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/extension.h"
-#include "recordings/c3d.h"
-#include "recordings/marker_file.h"
+#include "core/base/extension.h"
+#include "recordings/markers/c3d.h"
+#include "recordings/markers/marker_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -24,11 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kMocap = fs::path(MAREY_SHARED_DATA) / "mocap";
+const fs::path kMocap = marey::testing::shared_data() / "mocap";
 
-/// What a file holds. Up as it is known of the file: from its screen parameters, plates
-/// and who moves in it. Of ezc3d/Optotrak and exampleFormat nobody knows, and habit
-/// decides.
+/// Content of a file. The upward axis is known from its screen parameters, its plates and
+/// its subject. It is unknown for ezc3d/Optotrak and exampleFormat, where the default
+/// applies.
 struct Sample {
   const char* file;
   std::size_t markers;
@@ -183,7 +185,7 @@ TEST(MarkerSampleSextet, AgreesWithinTheIntegersStep) {
       EXPECT_EQ(a->sigma_m, b->sigma_m);
       EXPECT_EQ(a->source, b->source);
     }
-    // Reals of integers of 1/12 mm: the same to a 32-bit real's step.
+    // Reals converted from integers of 1/12 mm: equal to a 32-bit real's step.
     EXPECT_LT(largest_m, 1e-6) << other;
     EXPECT_EQ(read->events.size(), 3U);
   }
@@ -230,7 +232,7 @@ TEST(MarkerSampleTwins, AC3dAndItsTrcHoldTheSameMarkers) {
   }
 }
 
-// What is read is written and read again, in every kind of file.
+// Every kind of file is read, written and read again.
 TEST_P(MarkerSamples, AreKeptByWriting) {
   const fs::path path = kMocap / GetParam().file;
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";

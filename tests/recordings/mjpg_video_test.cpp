@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/mjpg_video.h"
+#include "recordings/takes/mjpg_video.h"
 
 #include <cmath>
 #include <csignal>
@@ -13,8 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "recordings/jpeg_encoder.h"
-#include "recordings/video_times.h"
+#include "recordings/takes/jpeg_encoder.h"
+#include "recordings/takes/video_times.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/video_packets.h"
@@ -107,7 +107,7 @@ TEST(MjpgVideo, ThatWasCutOffIsReadUpToItsLastMoments) {
   EXPECT_EQ(read, all.substr(0, read.size()));
 }
 
-// An outage: the frames before it are on the disk though none comes after them.
+// The frames before an outage are on the disk although no frame follows.
 TEST(MjpgVideo, HasAllOfItsFramesOnceTheyAreFlushed) {
   const ScratchFolder folder;
   auto video = MjpgVideo::create(folder / "a.mkv", small());
@@ -129,7 +129,7 @@ TEST(MjpgVideo, HasAllOfItsFramesOnceTheyAreFlushed) {
   EXPECT_EQ(video_times(folder / "a.mkv")->size(), 10U);
 }
 
-/// Works in a folder for a while.
+/// Changes the working folder during its lifetime.
 class InFolder {
  public:
   explicit InFolder(const fs::path& folder) { fs::current_path(folder); }
@@ -141,7 +141,7 @@ class InFolder {
   fs::path before_ = fs::current_path();
 };
 
-// FFmpeg takes names for URLs.
+// FFmpeg interprets names as URLs.
 TEST(MjpgVideo, MayHaveAnyName) {
   const ScratchFolder folder;
   const InFolder here(folder.path());
@@ -167,7 +167,7 @@ TEST(MjpgVideo, ThatCannotBeMadeIsTold) {
   EXPECT_NE(video.error().cause.find("No such file"), std::string::npos);
 }
 
-// The last word belongs to another decoder.
+// The result is checked with another decoder.
 void expect_kept(RawLayout layout, int stride) {
   if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   const ScratchFolder folder;
@@ -203,7 +203,7 @@ void expect_kept(RawLayout layout, int stride) {
     const double d = static_cast<std::uint8_t>(grey[i]) - luma(p % kWidth, y, k);
     sum2 += d * d;
   }
-  // Ramps with a step survive to a grey value or so.
+  // Ramps with a step are preserved to about a grey value.
   EXPECT_LT(std::sqrt(sum2 / static_cast<double>(grey.size())), 2.0);
 }
 

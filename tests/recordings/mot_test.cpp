@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/mot.h"
+#include "recordings/motion/mot.h"
 
 #include <cmath>
 #include <filesystem>
@@ -10,7 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -48,7 +49,8 @@ TEST(Mot, AnglesBecomeRadiansAndEverythingElseStays) {
   EXPECT_TRUE(table.columns[0].is_angle);
   EXPECT_DOUBLE_EQ(table.at(0, 0), 90.0 * kDegree);
   EXPECT_DOUBLE_EQ(table.at(1, 0), -45.0 * kDegree);
-  EXPECT_EQ(table.at(0, 1), 1.5);  // OpenSim writes the knee cap's in radians.
+  // OpenSim writes the rotation of the knee cap in radians.
+  EXPECT_EQ(table.at(0, 1), 1.5);
   EXPECT_EQ(table.at(1, 2), 0.1);
   EXPECT_TRUE(table.notes.empty()) << table.notes[0];
 }
@@ -105,7 +107,7 @@ TEST(Mot, WhatIsNoNumberIsNaNInEverySpelling) {
 TEST(Mot, OtherCountsThanTheHeadersAreTold) {
   const MotTable table = read("a\nnRows=9\nnColumns=9\nendheader\ntime x\n0 1\n");
   ASSERT_EQ(table.notes.size(), 2U);
-  EXPECT_EQ(table.notes[0], "the header says another number of rows than there are, 1");
+  EXPECT_EQ(table.notes[0], "the header has another number of rows than there are, 1");
 }
 
 TEST(Mot, IsReadAsItWasWritten) {
@@ -129,7 +131,7 @@ TEST(Mot, IsReadAsItWasWritten) {
     EXPECT_EQ(again.at(row, 1), table.at(row, 1));
     EXPECT_EQ(std::isnan(again.at(row, 2)), row == 50);
   }
-  // What was read is written as it was: no drift from file to file.
+  // Reading and writing again changes nothing: no drift from file to file.
   MotTable third = again;
   third.name = table.name;
   EXPECT_EQ(mot_text(third), text);
@@ -147,8 +149,8 @@ TEST(Mot, GoesThroughAFile) {
 
 TEST(Mot, BrokenFilesAreRefusedWithTheLine) {
   EXPECT_EQ(refusal(""),
-            "a.mot:1: this is no .mot or .sto file: no line says endheader. Next: give a "
-            "motion or storage file as OpenSim writes it.");
+            "a.mot:1: this is no .mot or .sto file: there is no line endheader. Next: "
+            "give a motion or storage file as OpenSim writes it.");
   EXPECT_EQ(refusal("a\nendheader\n\n"),
             "a.mot:3: the file ends after its header. Next: export the file again from "
             "OpenSim.");
@@ -156,11 +158,11 @@ TEST(Mot, BrokenFilesAreRefusedWithTheLine) {
             "a.mot:3: no column is called time; the columns begin with \"frame\". Next: "
             "name the column of times so, or export the file again.");
   EXPECT_EQ(refusal("a\nendheader\ntime x y\n0 1 2\n1 2\n"),
-            "a.mot:5: the row has 2 numbers, and there are 3 columns. Next: mend the "
+            "a.mot:5: the row has 2 numbers, and there are 3 columns. Next: correct the "
             "line, or export the file again.");
   EXPECT_EQ(refusal("a\nendheader\ntime x\n0 1,5\n"),
-            "a.mot:4: \"1,5\" is not a number. Next: mend the line, or export the file "
-            "again.");
+            "a.mot:4: \"1,5\" is not a number. Next: correct the line, or export the "
+            "file again.");
   EXPECT_EQ(refusal("a\nendheader\ntime x\n1 1\n0.5 1\n"),
             "a.mot:5: the time runs backwards. Next: sort the rows by time.");
   EXPECT_EQ(refusal("a\nendheader\ntime x\nnan 1\n"),
@@ -180,7 +182,7 @@ class RealMot : public ::testing::Test {
     EXPECT_TRUE(table) << table.error().message();
     return table ? *table : MotTable{};
   }
-  static fs::path folder() { return fs::path(MAREY_SHARED_DATA) / "mocap"; }
+  static fs::path folder() { return marey::testing::shared_data() / "mocap"; }
   void SetUp() override {
     if (!fs::exists(folder())) GTEST_SKIP() << folder() << " is not there";
   }
@@ -229,7 +231,8 @@ TEST_F(RealMot, AFileThatWasCutShortIsRefused) {
   ASSERT_TRUE(text);
   const auto cut = parse_mot(std::string_view(*text).substr(0, 100'000), "run.mot");
   ASSERT_FALSE(cut);
-  EXPECT_NE(cut.error().message().find("columns. Next: mend the line"), std::string::npos)
+  EXPECT_NE(cut.error().message().find("columns. Next: correct the line"),
+            std::string::npos)
       << cut.error().message();
 }
 

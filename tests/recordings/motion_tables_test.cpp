@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/motion_tables.h"
+#include "recordings/motion/motion_tables.h"
 
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -14,7 +14,8 @@ namespace {
 
 using testing::ScratchFolder;
 
-/// Two joints, frames 3 and 4 at 30 Hz; the second frame is turned half round and more.
+/// Two joints, frames 3 and 4 at 30 Hz; the second frame is rotated by more than half a
+/// turn.
 EstimatedMotion a_motion() {
   EstimatedMotion estimated;
   Motion& motion = estimated.motion;
@@ -29,7 +30,7 @@ EstimatedMotion a_motion() {
   motion.poses.push_back({{0.25, 1.0, -1e-9}, {one, one}});
   motion.poses.push_back({{0.25, 1.0, 0.0}, {rotation_from_vector({0, 2, 0}), one}});
   motion.poses[1].parent_from_joint[0] = -motion.poses[1].parent_from_joint[0];
-  estimated.doubt = {{{0.001, Source::kMeasured}, {0.002, Source::kRepaired}},
+  estimated.uncertainty = {{{0.001, Source::kMeasured}, {0.002, Source::kRepaired}},
                      {{0.003, Source::kInferred}, {0.004, Source::kMeasured}}};
   return estimated;
 }
@@ -102,7 +103,7 @@ TEST(JointsCsv, OfNoFramesIsItsHeader) {
   const ScratchFolder folder;
   EstimatedMotion none = a_motion();
   none.motion.poses.clear();
-  none.doubt.clear();
+  none.uncertainty.clear();
   ASSERT_TRUE(write_joints_csv(folder / "joints.csv", none));
   const auto rows = read_joints_csv(folder / "joints.csv");
   ASSERT_TRUE(rows);
@@ -122,8 +123,8 @@ TEST(JointsCsv, NamesTheLineOfARowTooShort) {
       "joints.csv");
   ASSERT_FALSE(rows);
   EXPECT_EQ(rows.error().message(),
-            "joints.csv:3: the row does not fit 'frame,time,joint,x,y,z,sigma'. Next: "
-            "mend or remove it.");
+            "joints.csv:3: the row does not match 'frame,time,joint,x,y,z,sigma'. Next: "
+            "correct or remove it.");
 }
 
 TEST(JointsCsv, RefusesARowTooLong) {

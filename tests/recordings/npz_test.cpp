@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/npz.h"
+#include "recordings/motion/npz.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/zip_store.h"
+#include "recordings/text/atomic_file.h"
+#include "recordings/text/zip_store.h"
 #include "tests/recordings/wild_motion.h"
 #include "tests/support/run_program.h"
 #include "tests/support/scratch_folder.h"
@@ -18,10 +18,11 @@ namespace {
 using testing::run_program;
 using testing::ScratchFolder;
 
-// Debian's, whose numpy ./run sees to.
+// Debian's Python, whose numpy ./run installs.
 constexpr const char* kPython = "/usr/bin/python3";
 
-/// Three joints, two frames at 29.97 Hz from frame 5; the second is turned half round.
+/// Three joints, two frames at 29.97 Hz from frame 5; the second is rotated by half a
+/// turn.
 Motion a_motion() {
   Motion motion;
   motion.skeleton.joints.resize(3);
@@ -58,11 +59,11 @@ void expect_in_numpy(const std::filesystem::path& path, const std::string& asser
 
 TEST(Npz, IsReadBackAsItWasWritten) {
   const Motion motion = a_motion();
-  const std::vector<std::vector<JointDoubt>> doubt{
+  const std::vector<std::vector<JointUncertainty>> uncertainty{
       {{0.001, Source::kMeasured}, {0.002, Source::kRepaired}, {0.5, Source::kInferred}},
       {{0.0, Source::kInferred}, {0.25, Source::kMeasured}, {0.5, Source::kRepaired}}};
   const NpzContacts contacts{{"leftFoot", "rightFoot"}, {1, 0, 0, 1}};
-  const auto bytes = npz_bytes(motion, {doubt, contacts, 12.5});
+  const auto bytes = npz_bytes(motion, {uncertainty, contacts, 12.5});
   ASSERT_TRUE(bytes);
   const auto read = parse_npz(*bytes, "a.npz");
   ASSERT_TRUE(read) << read.error().message();
@@ -79,9 +80,9 @@ TEST(Npz, IsReadBackAsItWasWritten) {
   EXPECT_EQ(read->motion.poses[1].root_in_world, glm::dvec3(1.0, 2.0, 4.0));
   const glm::dquat turned = read->motion.poses[1].parent_from_joint[0];
   EXPECT_NEAR(std::abs(glm::dot(turned, glm::dquat(-0.6, 0.8, 0.0, 0.0))), 1.0, 1e-12);
-  ASSERT_EQ(read->doubt.size(), 2U);
-  EXPECT_EQ(read->doubt[1][1].sigma_m, 0.25);
-  EXPECT_EQ(read->doubt[0][1].source, Source::kRepaired);
+  ASSERT_EQ(read->uncertainty.size(), 2U);
+  EXPECT_EQ(read->uncertainty[1][1].sigma_m, 0.25);
+  EXPECT_EQ(read->uncertainty[0][1].source, Source::kRepaired);
   EXPECT_EQ(read->contacts.names, contacts.names);
   EXPECT_EQ(read->contacts.bears, contacts.bears);
 }
@@ -128,10 +129,10 @@ TEST(Npz, OfAnotherProgramIsReadUnlessItIsCompressed) {
 
 TEST(Npz, IsReadByNumpy) {
   const ScratchFolder folder;
-  const std::vector<std::vector<JointDoubt>> doubt{
+  const std::vector<std::vector<JointUncertainty>> uncertainty{
       {{0.001, Source::kMeasured}, {0.002, Source::kRepaired}, {0.5, Source::kInferred}},
       {{0.001, Source::kMeasured}, {0.002, Source::kMeasured}, {0.5, Source::kMeasured}}};
-  const NpzExtras extras{doubt, {{"leftFoot", "rightFoot"}, {1, 0, 1, 1}}, 0.25};
+  const NpzExtras extras{uncertainty, {{"leftFoot", "rightFoot"}, {1, 0, 1, 1}}, 0.25};
   ASSERT_TRUE(write_npz(folder / "a.npz", a_motion(), extras));
   expect_in_numpy(folder / "a.npz", R"(
 assert a['format'] == 1 and a['rate_hz'] == 29.97 and a['first_frame'] == 5
@@ -172,7 +173,7 @@ TEST(Npz, HasNoFramesWhereAMotionHasNone) {
   expect_in_numpy(folder / "a.npz", "assert a['positions'].shape == (0, 3, 3)\n");
 }
 
-// numpy's forward kinematics of the archive's own skeleton gives its places.
+// numpy's forward kinematics of the archive's own skeleton gives its positions.
 TEST(Npz, HoldsPlacesAndRotationsThatAgree) {
   const ScratchFolder folder;
   const Motion motion =

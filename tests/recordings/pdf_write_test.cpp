@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/pdf_write.h"
+#include "recordings/print/pdf_write.h"
 
 #include <chrono>
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -22,7 +22,7 @@ PrintedDocument document() {
   return {"A document", {page, page}};
 }
 
-// A clock would show: PDFs have dates to the second.
+// A clock would cause differences: PDFs have dates to the second.
 TEST(PdfWrite, GivesTheSameBytesAgain) {
   const testing::ScratchFolder folder;
   ASSERT_TRUE(write_pdf(folder / "a.pdf", document()));

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/plan_file.h"
+#include "recordings/session/plan_file.h"
 
 #include <string>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "recordings/calibration_file.h"
+#include "recordings/session/calibration_file.h"
 
 namespace marey::recordings {
 namespace {
 
-/// The example of docs/formats.md.
+/// The example of docs/formats/README.md.
 std::string plan_text() {
   return R"(format = 1
 tag_size_m = 0.08
@@ -72,7 +72,7 @@ TEST(PlanFile, SaysWhereCamerasStandAndLook) {
   EXPECT_EQ(plan->tag_size_m, 0.08);
   EXPECT_EQ(plan->stature_m, 1.75);
   ASSERT_TRUE(plan->volume);
-  EXPECT_EQ(plan->volume->greatest_m, glm::dvec2(2.0, 1.5));
+  EXPECT_EQ(plan->volume->max_m, glm::dvec2(2.0, 1.5));
 }
 
 TEST(PlanFile, MayBeTheCamerasOfACalibration) {
@@ -149,7 +149,7 @@ TEST(PlanFile, NamesTheMistakeAndItsLine) {
                             "focal_px = 1400\n"
                             "field_of_view_deg = 60")),
             "plan.toml:24: both \"focal_px\" and \"field_of_view_deg\" are given. Next: "
-            "remove one: each says it all.");
+            "remove one: they have the same meaning.");
   EXPECT_EQ(mistake_of(with(plan_text(), "\"right\"", "\"left\"")),
             "plan.toml:19: another camera has this name. Next: give each a name of its "
             "own.");

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/print_board.h"
+#include "recordings/print/print_board.h"
 
 #include <set>
 #include <string>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/detection.h"
-#include "recordings/session.h"
+#include "recordings/session/session.h"
 #include "tests/recordings/print_laws.h"
 #include "tests/recordings/session_text.h"
 
@@ -29,7 +29,7 @@ Result<PrintedDocument> printed(const AprilGrid& grid,
   return lay_out_board(grid, family, patterns(grid.tag_count(), family), pages);
 }
 
-/// Where a corner of a tag is, from the lower left corner of the page.
+/// Returns the position of a tag's corner, from the lower left corner of the page.
 glm::dvec2 corner_on(const PrintedPage& page, const PrintedTag& tag, int corner) {
   const auto& side = kCornerSides[static_cast<std::size_t>(corner)];
   return {side[0] < 0 ? tag.square.left : tag.square.right,
@@ -80,8 +80,8 @@ TEST(PrintBoard, LargerThanThePageIsTiledAndWholeAgain) {
   EXPECT_EQ(whole.size(), 36U);  // Seams are in gaps: each tag is whole somewhere.
 }
 
-// Two neighbouring pages, laid edge to ticks, show the same where they overlap: tags
-// that are on both are as far from the seam on either.
+// Two neighbouring pages, aligned edge to ticks, agree in their overlap: tags on both
+// pages have equal distances from the seam.
 TEST(PrintBoard, PagesOverlapAtTheSeam) {
   const AprilGrid grid{2, 12, 0.03, 0.01, 0, 0.0};
   const auto document = printed(grid);
@@ -117,7 +117,7 @@ TEST(PrintBoard, OnOnePageOnlyIsRefusedWithThePageThatWouldDo) {
   ASSERT_FALSE(smaller);
   EXPECT_NE(smaller.error().next.find("--page A3"), std::string::npos)
       << smaller.error().message();
-  // What is named does hold it.
+  // The recommended paper is large enough.
   EXPECT_TRUE(printed({6, 6, 0.03, 0.009, 0, 0.0}, {{"A3", 0.297, 0.42, 0.01}, true}));
 }
 
@@ -135,7 +135,7 @@ TEST(PrintBoard, WithoutRoomForQuietZonesIsRefused) {
       << document.error().message();
 }
 
-/// kSession with this table in place of its own.
+/// Returns the session of kSession with this table in place of its own.
 Result<Session> session_with(const std::string& table) {
   std::string session(kSession);
   const std::size_t from = session.find("[board]");

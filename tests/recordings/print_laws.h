@@ -10,13 +10,13 @@
 #include <gtest/gtest.h>
 
 #include "core/tag_pattern.h"
-#include "recordings/printed_page.h"
+#include "recordings/print/printed_page.h"
 
 namespace marey::recordings {
 
 inline constexpr double kRoundingM = 1e-9;
 
-/// A tag that looks like one: quiet zone, black frame, and a pattern of its own.
+/// Returns a synthetic tag: quiet zone, black frame, and a pattern that depends on `id`.
 inline TagPattern synthetic_pattern(const TagFamilyShape& family, int id) {
   TagPattern pattern;
   pattern.cells = family.cells;
@@ -64,7 +64,7 @@ inline PrintBox around(const std::vector<glm::dvec2>& points, double by) {
   return {box.left - by, box.top - by, box.right + by, box.bottom + by};
 }
 
-/// What a shape covers; letters are taken for 0.6 of their height wide.
+/// Area covered by a shape; the width of letters is taken as 0.6 of their height.
 struct CoveredBoxes {
   std::vector<PrintBox> operator()(const PrintedBoxes& shape) const {
     return shape.boxes;
@@ -86,7 +86,7 @@ struct CoveredBoxes {
   }
   std::vector<PrintBox> operator()(const PrintedText& shape) const {
     const double width = std::min(
-        shape.most_width_m, 0.6 * shape.size_m * static_cast<double>(shape.text.size()));
+        shape.max_width_m, 0.6 * shape.size_m * static_cast<double>(shape.text.size()));
     double left = shape.at.x;
     if (shape.side == TextSide::kMiddle) left -= 0.5 * width;
     if (shape.side == TextSide::kRight) left -= width;
@@ -97,9 +97,9 @@ struct CoveredBoxes {
   }
 };
 
-/// Everything is within the margins; quiet zones hold nothing but their own tag; the
-/// ruler is there. What is printed of patterns is inside clear zones, `clear_patterns`
-/// says, and nowhere else.
+/// Expects that all content is within the margins, that quiet zones contain only their
+/// own tag, and that the ruler is present. `clear_patterns`: patterns are printed inside
+/// clear zones and nowhere else.
 inline void expect_lawful(const PrintedDocument& document,
                           const Paper& paper,
                           bool clear_patterns) {
@@ -118,7 +118,7 @@ inline void expect_lawful(const PrintedDocument& document,
       }
     }
     for (const PrintedShape& shape : page.shapes) {
-      // Half the width of a line that is drawn along the margin may reach over it.
+      // Half the width of a line along the margin may exceed it.
       constexpr double kLineM = 0.0002;
       const PrintBox sheet{inside.left - kLineM,
                            inside.top - kLineM,

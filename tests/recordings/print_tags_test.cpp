@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/print_tags.h"
+#include "recordings/print/print_tags.h"
 
 #include <cmath>
 #include <map>
@@ -47,7 +47,7 @@ const std::vector<Paper> kPapers{{"A4", 0.210, 0.297, 0.010},
                                  {"A3", 0.297, 0.420, 0.005},
                                  {"150x300mm", 0.150, 0.300, 0.010}};
 
-// Sizes from a coin to what fills a page; both kinds of families.
+// Sizes from a coin to a full page; both kinds of families.
 TEST(PrintTags, KeepLayoutLaws) {
   for (const Paper& paper : kPapers) {
     for (const TagFamilyShape& family : {black_family(), white_family()}) {
@@ -88,7 +88,7 @@ TEST(PrintTags, FillThePage) {
 }
 
 TEST(PrintTags, LieDownWhereThatNeedsFewerPages) {
-  // Two of 94 x 103 mm are beside each other only across the long edge.
+  // Two of 94 x 103 mm fit next to each other only across the long edge.
   const Paper paper{"150x230mm", 0.150, 0.230, 0.0};
   const auto document = lay_out_tags({tags(2, 0.075, black_family()), paper, false});
   ASSERT_TRUE(document) << document.error().message();
@@ -125,7 +125,7 @@ TEST(PrintTags, AsPlatesKeepLayoutLaws) {
   }
 }
 
-/// How often the document says this.
+/// Returns how many texts of the document contain `text`.
 int count_of(const PrintedDocument& document, const std::string& text) {
   int count = 0;
   for (const PrintedPage& page : document.pages) {
@@ -155,7 +155,7 @@ TEST(PrintTags, OnlyPairsOfALimbBecomePlates) {
   EXPECT_EQ(count_of(*document, "Base for 1 and 3"), 1);
 }
 
-// A roof of two faces of width w at a right angle stands on w times the root of 2.
+// The base of a roof of two faces of width w at a right angle is w times the root of 2.
 TEST(PrintTags, FacesOfAPlateAreAtARightAngle) {
   const auto document = lay_out_tags({tags(2, 0.04, black_family()), {}, true});
   ASSERT_TRUE(document);

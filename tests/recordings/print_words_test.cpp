@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/print_words.h"
+#include "recordings/print/print_words.h"
 
 #include <string>
 
@@ -10,7 +10,8 @@ namespace marey::recordings {
 namespace {
 
 TEST(PrintWords, LengthsHaveUnits) {
-  EXPECT_EQ(*parse_length_m("18mm"), 0.018);  // As session.toml will be read.
+  // Equal to the value read from session.toml.
+  EXPECT_EQ(*parse_length_m("18mm"), 0.018);
   EXPECT_EQ(*parse_length_m("6.6mm"), 0.0066);
   EXPECT_NEAR(*parse_length_m(" 8 cm "), 0.080, 1e-15);
   EXPECT_NEAR(*parse_length_m("3.15in"), 0.08001, 1e-15);

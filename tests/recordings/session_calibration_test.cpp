@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/session.h"
+#include "recordings/session/session.h"
 #include "tests/recordings/session_text.h"
 
 namespace marey::recordings {
 namespace {
 
-/// kSession with a [calibration] of this text.
+/// Returns kSession with a [calibration] of this text.
 std::string asking(const std::string& text) {
   return with("[board]\n", "[calibration]\n" + text + "[board]\n");
 }
@@ -34,7 +34,7 @@ TEST(SessionCalibration, ReadsEveryKey) {
   const CalibrationChoices& choices = session->calibration;
   EXPECT_EQ(choices.lens, LensModel::kFisheye);
   EXPECT_EQ(choices.clocks, ClockChoice::kDrifts);
-  EXPECT_EQ(choices.most_offset_s, 12.0);
+  EXPECT_EQ(choices.max_offset_s, 12.0);
   EXPECT_TRUE(choices.line_delays && choices.warp);
   EXPECT_FALSE(choices.cross_validate);
   ASSERT_TRUE(choices.lenses);
@@ -74,11 +74,11 @@ TEST(SessionCalibration, DeclinesWhatAWandDoesNotTell) {
     EXPECT_TRUE(read(with(board, wand + choice))) << choice;
   }
   EXPECT_NE(mistake(with(board, wand + "warp = true\n"))
-                .find("a wand does not tell what \"warp\" asks for"),
+                .find("a wand cannot determine the board's \"warp\""),
             std::string::npos);
 }
 
-// Who stands still shows where the floor is.
+// A subject who stands still determines the floor.
 TEST(SessionCalibration, NeedsNoFloorBesideAStaticTrial) {
   std::string text = with("kind = \"floor\"", "kind = \"static\"");
   const auto session = read(text);

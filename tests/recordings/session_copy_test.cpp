@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/session_copy.h"
+#include "recordings/session/session_copy.h"
 
 #include <filesystem>
 #include <string>
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ScratchFolder;
 
-/// The walk is to be recorded; the other trials have videos.
+/// The walk is recorded; the other trials have videos.
 std::string mixed(const std::string& media) {
   std::string text =
       with("name = \"right\"\n", "name = \"right\"\ndevice = \"/dev/video0\"\n");
@@ -76,7 +76,7 @@ TEST(CopySession, LeavesLensesWhereTheyAre) {
   EXPECT_EQ(copy->calibration.lens, LensModel::kRational);
 }
 
-// Of a file without a line end at its end.
+// The file has no line end at its end.
 TEST(CopySession, ReplacesAMediaThatIsTheLastLine) {
   const ScratchFolder folder;
   const std::string text = R"(format = 1
@@ -100,7 +100,7 @@ media = "videos")";
   EXPECT_EQ(copy->find("calib")->videos[0].path, session->find("calib")->videos[0].path);
 }
 
-// TOML is UTF-8, and names of folders need not be.
+// TOML is UTF-8, but names of folders may not be.
 TEST(CopySession, DeclinesAFolderThatCannotBeNamed) {
   const ScratchFolder folder;
   const auto session = session_in(folder / "\xE4", mixed("media = \"videos\"\n"));

@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/session.h"
+#include "recordings/session/session.h"
 #include "tests/recordings/session_text.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
 
-/// A session whose cameras are devices and whose trials are to be recorded.
+/// A session with devices as cameras and trials that are recorded.
 std::string devices() {
   std::string text = with("name = \"right\"\n",
                           "name = \"right\"\ndevice = \"/dev/video0\"\nwidth = 640\n"
@@ -69,7 +69,7 @@ TEST(SessionDevices, NeedNoVideosAndNameWhereTheyWillBe) {
   ASSERT_NE(walk, nullptr);
   EXPECT_TRUE(walk->is_recorded);
   ASSERT_EQ(walk->videos.size(), 2U);
-  // Beside session.toml, whatever `media` says.
+  // Next to session.toml, independent of `media`.
   EXPECT_EQ(walk->videos[1].path, session->file.parent_path() / "walk" / "left.mkv");
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "recordings/session.h"
+#include "recordings/session/session.h"
 #include "tests/recordings/session_text.h"
 
 namespace marey::recordings {
@@ -37,7 +37,7 @@ TEST(SessionFamilies, LimitTheirOwnIds) {
   EXPECT_NE(message.find("37"), std::string::npos) << message;
 }
 
-// Ids are what tells tags apart, whatever their family.
+// Ids identify tags, independent of their family.
 TEST(SessionFamilies, DoNotShareIds) {
   const std::string message =
       mistake(with("id = 73\n", "id = 41\nfamily = \"tagStandard41h12\"\n"));

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/session.h"
+#include "recordings/session/session.h"
 #include "tests/recordings/session_text.h"
 #include "tests/support/scratch_folder.h"
 
@@ -22,7 +22,7 @@ TEST(Session, NamesAMissingKey) {
   EXPECT_EQ(
       mistake(with("stature_m = 1.734\n", "")),
       "session.toml:4: the key \"stature_m\" is missing in [subject]. Next: add it; "
-      "docs/formats.md says what it means.");
+      "docs/formats/README.md describes it.");
 }
 
 TEST(Session, SuggestsTheNearestKeyForAnUnknownOne) {
@@ -52,7 +52,7 @@ TEST(Session, FindsUnknownKeysInEveryTable) {
 TEST(Session, NamesAWrongType) {
   EXPECT_EQ(mistake(with("fps = 10", "fps = \"10\"")),
             "session.toml:33: \"fps\" must be a number. Next: write it as "
-            "docs/formats.md shows.");
+            "docs/formats/README.md shows.");
 }
 
 TEST(Session, RefusesANumberThatIsNotFinite) {

@@ -5,13 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/session.h"
+#include "recordings/session/session.h"
 #include "tests/recordings/session_text.h"
 
 namespace marey::recordings {
 namespace {
 
-/// kSession with `target` in place of its board, which begins in line 18.
+/// Returns kSession with `target` in place of its board, which begins in line 18.
 std::string with_target(std::string_view target) {
   std::string text(kSession);
   const std::size_t from = text.find("[board]");
@@ -175,7 +175,7 @@ TEST(SessionTarget, HasNoTagThatIsOnTheBodyToo) {
                   .starts_with("session.toml:15: tag 73 is on the body and on the wand"));
   EXPECT_TRUE(mistake(target_with(kWand, "id = 7\n", "id = 9\n"))
                   .starts_with("session.toml:24: tag 9 is on the wand twice"));
-  // OpenCV's AprilTags are libapriltag's.
+  // OpenCV's AprilTags are those of libapriltag.
   std::string text = target_with(kCharuco, "DICT_4X4_1000", "DICT_APRILTAG_36h11");
   text.replace(text.find("id = 73"), 7, "id = 3");
   EXPECT_TRUE(

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/session.h"
+#include "recordings/session/session.h"
 
 #include <string>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/recordings/session_text.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -139,18 +140,13 @@ TEST(CheckFiles, IsContentWhenAllVideosAreThere) {
 }
 
 TEST(Session, TheExampleOfTheFormatsPageIsComplete) {
-  const Result<std::string> page =
-      read_file(fs::path(MAREY_SOURCE_DIR) / "docs/formats.md");
-  ASSERT_TRUE(page);
-  constexpr std::string_view kFence = "```toml\n";
-  const std::size_t start = page->find(kFence) + kFence.size();
-  const std::string example = page->substr(start, page->find("```", start) - start);
+  const std::string example = marey::testing::formats_example("session");
   const Result<Session> session = read(example);
   ASSERT_TRUE(session) << session.error().message();
   EXPECT_EQ(session->trials.size(), 3U);
 }
 
-const fs::path kSample = fs::path(MAREY_SOURCE_DIR) / "recordings/samples/blender-dev";
+const fs::path kSample = marey::testing::source_dir() / "recordings/samples/blender-dev";
 
 TEST(SampleSession, IsRead) {
   const Result<Session> session = read_session(kSample);
@@ -161,7 +157,7 @@ TEST(SampleSession, IsRead) {
 }
 
 TEST(SampleSession, HasAllItsVideos) {
-  const fs::path data = fs::path(MAREY_SHARED_DATA) / "blender/dev";
+  const fs::path data = marey::testing::shared_data() / "blender/dev";
   if (!fs::exists(data)) GTEST_SKIP() << "the recording blender/dev is not here";
   const Result<Session> session = read_session(kSample, {.media = data});
   ASSERT_TRUE(session) << session.error().message();

@@ -7,13 +7,13 @@
 
 #include <gtest/gtest.h>
 
-#include "recordings/atomic_file.h"
-#include "recordings/session.h"
+#include "recordings/session/session.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
 
-/// A whole session, without its videos.
+/// A complete session, without its videos.
 inline constexpr std::string_view kSession = R"(format = 1
 name = "dev"
 media = "videos"
@@ -60,7 +60,7 @@ videos = { left = "walk/left.mp4", right = "walk/right.mp4" }
 time_offset_s = { left = 0.0073 }
 )";
 
-/// kSession with every `from` replaced; the test fails when there is none.
+/// Returns kSession with every `from` replaced; the test fails if there is none.
 inline std::string with(std::string_view from, std::string_view to) {
   std::string text(kSession);
   std::size_t at = text.find(from);
@@ -71,14 +71,14 @@ inline std::string with(std::string_view from, std::string_view to) {
   return text;
 }
 
-/// The session of this text, its folder gone.
+/// Reads a session of this text; its folder no longer exists.
 inline Result<Session> read(std::string_view text) {
   const testing::ScratchFolder folder;
   EXPECT_TRUE(write_file(folder / "session.toml", text));
   return read_session(folder.path());
 }
 
-/// The error's message after the folder: "session.toml:6: ...". Empty when there is none.
+/// Returns the message after the folder: "session.toml:6: ...". Empty without an error.
 inline std::string mistake(std::string_view text) {
   const Result<Session> session = read(text);
   if (session) return "";

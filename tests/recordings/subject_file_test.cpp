@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/subject_file.h"
+#include "recordings/session/subject_file.h"
 
 #include <string>
 
@@ -43,7 +43,7 @@ Body a_body() {
                           0.009 / 7.0,
                           4321});
   body.markers.push_back({"RTOE", HumanBone::kRightFoot});
-  body.doubts.push_back({"the tags on segment \"leftFoot\" fit in two ways",
+  body.warnings.push_back({"the tags on segment \"leftFoot\" fit in two ways",
                          "turn that segment slowly before two cameras"});
   return body;
 }
@@ -72,9 +72,9 @@ TEST(SubjectFile, GivesBackEveryDoubleOfTheSkeleton) {
   EXPECT_EQ(a.left_toe_tip_in_toes, b.left_toe_tip_in_toes);
   EXPECT_EQ(a.right_toe_tip_in_toes, b.right_toe_tip_in_toes);
   EXPECT_EQ(written.joint_centre_sigma_m, read->joint_centre_sigma_m);
-  ASSERT_EQ(read->doubts.size(), written.doubts.size());
-  EXPECT_EQ(read->doubts.front().cause, written.doubts.front().cause);
-  EXPECT_EQ(read->doubts.front().next, written.doubts.front().next);
+  ASSERT_EQ(read->warnings.size(), written.warnings.size());
+  EXPECT_EQ(read->warnings.front().cause, written.warnings.front().cause);
+  EXPECT_EQ(read->warnings.front().next, written.warnings.front().next);
   for (std::size_t limb = 0; limb < written.hinges.size(); ++limb) {
     EXPECT_EQ(written.hinges[limb].upper_rad, read->hinges[limb].upper_rad);
     EXPECT_EQ(written.hinges[limb].lower_rad, read->hinges[limb].lower_rad);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/take_file.h"
+#include "recordings/takes/take_file.h"
 
 #include <csignal>
 #include <filesystem>
@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "recordings/atomic_file.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -102,8 +102,8 @@ TEST(TakeFile, IsOneFileWhenFinished) {
   EXPECT_EQ(files, 1);
 }
 
-/// Whether a user without rights can read the take. Preconditions: everybody may enter
-/// its folders.
+/// Returns true if a user without rights can read the take. Precondition: all users may
+/// enter its folders.
 bool is_readable_without_rights(const fs::path& file) {
   const pid_t child = fork();
   if (child == 0) {
@@ -118,7 +118,7 @@ bool is_readable_without_rights(const fs::path& file) {
          WEXITSTATUS(status) == 0;
 }
 
-// "#" and "?" mean something in the names that SQLite is given then.
+// SQLite interprets "#" and "?" in the names used here.
 TEST(TakeFile, IsReadFromAFolderThatMayNotBeWrittenTo) {
   const ScratchFolder scratch;
   const auto everybody_reads = fs::perms::owner_read | fs::perms::group_read |
@@ -137,7 +137,7 @@ TEST(TakeFile, IsReadFromAFolderThatMayNotBeWrittenTo) {
   }
 }
 
-// All that was committed is there; what was only added is not promised.
+// All committed data are present; added but uncommitted data may be missing.
 TEST(TakeFile, KeepsWhatWasCommittedWhenItsProcessIsKilled) {
   const ScratchFolder folder;
   const pid_t child = fork();
@@ -174,7 +174,8 @@ TEST(TakeFile, ThatIsMissingIsTold) {
   const Result<Take> take = read_take(folder / kTakeFile);
   ASSERT_FALSE(take);
   EXPECT_EQ(take.error().where, (folder / kTakeFile).string());
-  EXPECT_EQ(take.error().cause, "it is missing: nobody knows when the frames were taken");
+  EXPECT_EQ(take.error().cause,
+            "the file is missing, so the times of the frames are unknown");
 }
 
 TEST(TakeFile, OfANewerVersionIsTold) {
@@ -235,7 +236,7 @@ TEST(TakeFile, WithWhatNoRecorderWritesIsTold) {
   }
 }
 
-// Nothing but the whole is ever read.
+// Only complete data are ever returned.
 TEST(TakeFile, CutAtAnyPlaceIsToldOrRead) {
   const ScratchFolder folder;
   auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
@@ -263,7 +264,7 @@ TEST(TakeFile, CutAtAnyPlaceIsToldOrRead) {
   }
 }
 
-// What went wrong first, and not what could not be done after that.
+// The message has the first error, not a consequence of it.
 TEST(TakeFile, ThatCannotBeBegunSaysWhyAndLeavesNothing) {
   const ScratchFolder folder;
   const pid_t child = fork();
@@ -275,10 +276,10 @@ TEST(TakeFile, ThatCannotBeBegunSaysWhyAndLeavesNothing) {
     const auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
     if (writer || writer.error().code != Errc::kDevice) _exit(2);
     const std::string& cause = writer.error().cause;
-    const bool told = cause.rfind("the take cannot be begun: ", 0) == 0 &&
+    const bool is_expected = cause.rfind("the take cannot be begun: ", 0) == 0 &&
                       cause.find("no such table") == std::string::npos &&
                       cause.find("not an error") == std::string::npos;
-    _exit(told ? 0 : 3);
+    _exit(is_expected ? 0 : 3);
   }
   int status = 0;
   ASSERT_EQ(waitpid(child, &status, 0), child);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/trc.h"
+#include "recordings/markers/trc.h"
 
 #include <algorithm>
 #include <string>
@@ -122,13 +122,13 @@ TEST(Trc, CellsMayLieBetweenOtherMarksThanTabs) {
     EXPECT_EQ(file.tracks.at(1, 1)->p_in_world.z, 0.00625);
     EXPECT_TRUE(file.notes.empty()) << file.notes[0];
   }
-  // Of words between blanks none may be lacking.
+  // If words are separated by blanks, none may be missing.
   std::string words = kKeys + "100 100 1 2 mm\nFrame# Time A B\n1 0 1 2 3 4 5 6\n";
   EXPECT_EQ(read(words).tracks.at(0, 1)->p_in_world.x, 0.004);
   words += "2 0.01 1 2 3\n";
   EXPECT_EQ(refusal(words),
-            "a.trc:6: the row has 5 numbers instead of 8. Next: mend the line, or export "
-            "the file again.");
+            "a.trc:6: the row has 5 numbers instead of 8. Next: correct the line, or "
+            "export the file again.");
 }
 
 TEST(Trc, CommasForDecimalPointsAreToldOf) {
@@ -139,8 +139,8 @@ TEST(Trc, CommasForDecimalPointsAreToldOf) {
 
 TEST(Trc, CountsOfTheHeaderThatAreWrongAreToldOf) {
   const MarkerFile file = read(head("100\t100\t99\t3\tmm\t100\t1\t2") + kRows);
-  EXPECT_TRUE(has_note(file, "the header says 3 markers, and there are 2"));
-  EXPECT_TRUE(has_note(file, "the header says 99 frames, and there are 2"));
+  EXPECT_TRUE(has_note(file, "the header states 3 markers, and there are 2"));
+  EXPECT_TRUE(has_note(file, "the header states 99 frames, and there are 2"));
 }
 
 TEST(Trc, MarkersWithoutALabelGetOne) {
@@ -157,7 +157,7 @@ TEST(Trc, TheClockOfTheRowsIsBelievedAgainstTheHeader) {
       head("250\t250\t3\t2\tmm\t250\t1\t3") +
       "1\t0\t1\t2\t3\t4\t5\t6\n2\t0.04\t1\t2\t3\t4\t5\t6\n3\t0.08\t1\t2\t3\t4\t5\t6\n");
   EXPECT_EQ(file.tracks.rate.hz, 25.0);
-  EXPECT_TRUE(has_note(file, "DataRate says 250 Hz, the times 25 Hz"));
+  EXPECT_TRUE(has_note(file, "DataRate is 250 Hz, the times 25 Hz"));
 }
 
 TEST(Trc, FramesThatAreLeftOutAreThereWithoutMarkers) {
@@ -169,15 +169,15 @@ TEST(Trc, FramesThatAreLeftOutAreThereWithoutMarkers) {
   EXPECT_EQ(file.tracks.start_s, 0.5);
   EXPECT_FALSE(file.tracks.at(2, 0));
   EXPECT_TRUE(file.tracks.at(3, 0));
-  EXPECT_TRUE(has_note(file, "2 frames are left out"));
+  EXPECT_TRUE(has_note(file, "2 frames are missing"));
 }
 
 TEST(Trc, AUnitThatIsMissingIsFound) {
   const MarkerFile file = read(head("100\t100\t2\t2\t100\t1\t2") +
                                "1\t0\t0.1\t1.7\t0\t0\t0.1\t0.1\n"
                                "2\t0.01\t0.1\t1.7\t0.1\t0\t0.1\t0.1\n");
-  // Two markers are too few to see how long a body is.
-  EXPECT_EQ(file.axes.unit_from, Evidence::kHabit);
+  // Two markers are too few to estimate the size of a body.
+  EXPECT_EQ(file.axes.unit_from, Evidence::kConvention);
   EXPECT_TRUE(has_note(file, "Units names no unit of length"));
 }
 
@@ -197,15 +197,15 @@ TEST(Trc, FaultsAreRefusedWithTheirLine) {
             "Cortex or Vicon write it.");
   EXPECT_EQ(
       refusal(head() + "1\t0\t1\t2\tx7\t4\t5\t6\n"),
-      "a.trc:7: column 5, a coordinate: \"x7\" is not a number. Next: mend the line, "
+      "a.trc:7: column 5, a coordinate: \"x7\" is not a number. Next: correct the line, "
       "or export the file again.");
   EXPECT_EQ(
       refusal(head() + kRows + "3\t0.02\t1\t2\t3\t4\t5\t6\t7\n"),
       "a.trc:9: the row has 9 cells; a frame, a time and 2 markers have room for 8. "
-      "Next: mend the line, or export the file again.");
+      "Next: correct the line, or export the file again.");
   EXPECT_EQ(refusal(head() + kRows + "3\t0.005\t1\t2\t3\t4\t5\t6\n"),
-            "a.trc:9: the time runs backwards. Next: mend the line, or export the file "
-            "again.");
+            "a.trc:9: the time runs backwards. Next: correct the line, or export the "
+            "file again.");
   EXPECT_EQ(refusal(head("0\t0\t2\t2\tmm") + "1\t0\t\t\t\t\t\t\n2\t0\n"),
             "a.trc:3: neither DataRate nor the times give a frame rate. Next: set "
             "DataRate, in Hz.");
@@ -221,7 +221,7 @@ TEST(Trc, ATextThatEndsAnywhereIsReadOrRefused) {
   }
 }
 
-// Many labels and short rows would ask for more memory than the file has bytes.
+// Many labels and short rows would need more memory than the file has bytes.
 TEST(Trc, RowsThatAreTooShortForTheirLabelsDoNotFillTheMemory) {
   std::string text = kKeys + "100\t100\t0\t0\tmm\nFrame#\tTime";
   for (int i = 0; i < 20'000; ++i) text.append("\t").append(std::to_string(i));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "recordings/vrma.h"
+#include "recordings/gltf/vrma.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,10 @@
 #include <nlohmann/json.hpp>
 
 #include "core/pose.h"
-#include "recordings/atomic_file.h"
-#include "recordings/gltf.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/text/atomic_file.h"
 #include "tests/recordings/wild_motion.h"
+#include "tests/support/paths.h"
 #include "tests/support/scratch_folder.h"
 
 namespace marey::recordings {
@@ -22,7 +23,7 @@ namespace {
 
 using testing::ScratchFolder;
 
-// Floats, of which some dozen are chained.
+// Floats, of which some dozen are multiplied.
 constexpr double kRounding_m = 2e-6;
 
 Skeleton uneven_body() {
@@ -64,7 +65,7 @@ TEST(Vrma, KeepsTheRate) {
   }
 }
 
-// The bones' axes of the source are its own affair.
+// The result does not depend on the axes of the source's bones.
 TEST(Vrma, RestsWithoutRotationsWhateverTheSkeletonRestsWith) {
   const ScratchFolder folder;
   const Motion motion = wild_motion(with_turned_axes(uneven_body()), 20);
@@ -75,7 +76,7 @@ TEST(Vrma, RestsWithoutRotationsWhateverTheSkeletonRestsWith) {
   EXPECT_LT(largest_distance_m(motion, read), kRounding_m);
 }
 
-// A neck of two joints, of which VRM has one: the head is in its direction.
+// A neck of two joints, of which VRM has one: it points towards the head.
 TEST(Vrma, TurnsABoneForJointsThatVrmDoesNotHave) {
   const ScratchFolder folder;
   Motion motion = wild_motion(uneven_body(), 40);
@@ -95,7 +96,7 @@ TEST(Vrma, TurnsABoneForJointsThatVrmDoesNotHave) {
   for (Pose& pose : motion.poses) pose.parent_from_joint.push_back({1, 0, 0, 0});
   const Motion read = read_again(folder, motion);
   ASSERT_EQ(read.poses.size(), motion.poses.size());
-  double most_m = 0.0;
+  double max_m = 0.0;
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
     const auto solved = world_from_joints(body, motion.poses[t]);
     const auto file = world_from_joints(read.skeleton, read.poses[t]);
@@ -105,12 +106,12 @@ TEST(Vrma, TurnsABoneForJointsThatVrmDoesNotHave) {
         file[index(*read.skeleton.find(HumanBone::kHead))].translation - base;
     EXPECT_LT(glm::length(glm::cross(glm::normalize(way), own)), 1e-5);
     EXPECT_GT(glm::dot(way, own), 0.0);
-    most_m = std::max(most_m, std::abs(glm::length(way) - glm::length(own)));
+    max_m = std::max(max_m, std::abs(glm::length(way) - glm::length(own)));
   }
-  EXPECT_GT(most_m, 0.0) << "its distance is what the format cannot hold";
+  EXPECT_GT(max_m, 0.0) << "the format cannot store its distance";
 }
 
-// A body that rests with its left arm hanging, told how its T-pose is.
+// A body whose rest pose has a hanging left arm, with a given T-pose.
 TEST(Vrma, IsRelativeToTheTPoseThatItIsTold) {
   const ScratchFolder folder;
   const Skeleton t_posed = uneven_body();
@@ -118,7 +119,7 @@ TEST(Vrma, IsRelativeToTheTPoseThatItIsTold) {
   ASSERT_TRUE(upper);
   Motion motion;
   motion.skeleton = t_posed;
-  // At rest the arm hangs: its bones' offsets are turned, their axes are not.
+  // At rest the arm hangs: its bones' offsets are rotated, their axes are not.
   const glm::dquat hang = rotation_from_vector({0.0, 0.0, -1.3});
   std::vector<glm::dquat> t_pose(t_posed.joints.size(), glm::dquat(1, 0, 0, 0));
   for (std::size_t i = 0; i < t_pose.size(); ++i) {
@@ -170,7 +171,7 @@ TEST(Vrma, SaysWhatTheFormatAsksFor) {
   EXPECT_EQ(*bytes, *vrma_bytes(motion, {.t_pose_from_joint = {}, .clip = "jump"}));
 }
 
-// Linear blending between neighbours goes the short way only on one side.
+// Linear blending between neighbours takes the short way only with equal signs.
 TEST(Vrma, KeepsNeighbouringQuaternionsOnOneSide) {
   Motion motion = wild_motion(uneven_body(), 50);
   for (std::size_t i = 0; i < motion.poses.size(); i += 2) {
@@ -196,7 +197,7 @@ TEST(Vrma, KeepsNeighbouringQuaternionsOnOneSide) {
   }
 }
 
-// What helper joints turn, the bones below them have.
+// The rotations of helper joints are applied to the bones below them.
 TEST(Vrma, HandsOnWhatOtherJointsTurn) {
   const ScratchFolder folder;
   Motion motion = wild_motion(uneven_body(), 20);
@@ -215,10 +216,10 @@ TEST(Vrma, HandsOnWhatOtherJointsTurn) {
   }
 }
 
-// A file of three-vrm's, of 51 bones: those that marey has stay where they were.
+// A file of three-vrm, of 51 bones: marey's bones keep their positions.
 TEST(Vrma, KeepsARealOneWhenWrittenAgain) {
   const auto path =
-      std::filesystem::path(MAREY_SHARED_DATA) / "avatars/threevrm/test.vrma";
+      marey::testing::shared_data() / "avatars/threevrm/test.vrma";
   if (!exists(path)) GTEST_SKIP() << path << " is not here";
   const ScratchFolder folder;
   const auto real = read_character(path);

@@ -15,8 +15,8 @@
 
 namespace marey::recordings {
 
-/// `proportions` with every vector but the hips' shifted by up to 20 mm per coordinate:
-/// no bone along an axis, no side like the other.
+/// Returns `proportions` with every vector except the hips' shifted by up to 20 mm per
+/// coordinate: no bone is along an axis, and the sides differ.
 inline Proportions uneven(Proportions proportions) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> shift_m(-0.02, 0.02);
@@ -34,8 +34,8 @@ inline glm::dquat wild_rotation(std::mt19937& random) {
   return rotation_from_vector(vector_rad);
 }
 
-/// The rest pose, then poses with every joint turned by up to 150 degrees and the root
-/// anywhere within 2 m. The same for the same arguments.
+/// Returns the rest pose, then poses with every joint rotated by up to 150 degrees and
+/// the root within 2 m. Deterministic.
 inline Motion wild_motion(const Skeleton& skeleton, int frames) {
   std::mt19937 random(42);
   std::uniform_real_distribution<double> place_m(-2.0, 2.0);
@@ -51,7 +51,8 @@ inline Motion wild_motion(const Skeleton& skeleton, int frames) {
   return motion;
 }
 
-/// `skeleton` with its joints' axes turned at random at rest, its joints where they were.
+/// Returns `skeleton` with random rest rotations of its joints' axes and unchanged
+/// positions.
 inline Skeleton with_turned_axes(const Skeleton& skeleton) {
   std::mt19937 random(11);
   Skeleton turned = skeleton;
@@ -72,8 +73,8 @@ inline Skeleton with_turned_axes(const Skeleton& skeleton) {
   return turned;
 }
 
-/// The largest distance between joints of the same name, over all frames; infinite when
-/// the two do not have the same joints and frames. [m]
+/// Returns the largest distance between joints of the same name, over all frames;
+/// infinite if the joints or frames differ. [m]
 inline double largest_distance_m(const Motion& a, const Motion& b) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (a.poses.size() != b.poses.size()) return kNever;

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/activation.h"
+#include "retarget/constraints/activation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,8 +144,8 @@ TEST(LiveActivation, ForgetsWhatWasPlannedForLater) {
   EXPECT_EQ(live.at(9.0), 1.0);
 }
 
-// With more changes than it keeps, all within one ramp, the step that forgetting the
-// oldest makes stays below a hundredth: sixteen others have been multiplied with it.
+// With more changes than it stores, all within one ramp, the step from removing the
+// oldest change stays below a hundredth: it is multiplied by sixteen others.
 TEST(LiveActivation, SurvivesAHandThatTrembles) {
   LiveActivation live({0.0, std::nullopt, 1.0, 1.0});
   double last = live.at(2.0);

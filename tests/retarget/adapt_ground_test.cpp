@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/foot_plan.h"
-#include "retarget/ground.h"
+#include "retarget/feet/foot_plan.h"
+#include "retarget/feet/ground.h"
 #include "tests/support/random_bodies.h"
 
 namespace marey::retarget {
@@ -91,7 +91,7 @@ TEST(AdaptToGround, SinksSmoothly) {
   }
 }
 
-// The window is no wider than the motion: else this would take an hour, or overflow.
+// The window is limited to the motion; otherwise this would take an hour, or overflow.
 TEST(AdaptToGround, MayLookFurtherThanTheMotionGoes) {
   Standing s(30, 0.10);
   const double before_m = s.root_m(0);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/adapt_motion.h"
+#include "retarget/adapt/adapt_motion.h"
 
 #include <algorithm>
 #include <string>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/make_character.h"
+#include "retarget/character/make_character.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/synthetic_walk.h"
 
@@ -41,7 +41,7 @@ struct Scene {
     return world(motion, frame)[index(*motion.skeleton.find(HumanBone::kLeftHand))]
         .translation;
   }
-  /// Of the body, and of the bag if it is carried.
+  /// Centre of mass of the body, and of the bag if it is carried.
   [[nodiscard]] glm::dvec3 com(const Motion& motion, int frame, bool carries) const {
     const auto joints = world(motion, frame);
     glm::dvec3 sum(0.0);
@@ -56,7 +56,7 @@ struct Scene {
   }
 };
 
-/// The hand on a place near its way from 1 s to 1.4 s, an eighth of a frame wider.
+/// The hand on a place near its path from 1 s to 1.4 s, extended by an eighth of a frame.
 ConstraintSet hand_near(const Scene& scene) {
   Constraint c;
   c.id = "hand";
@@ -116,7 +116,7 @@ TEST(AdaptMotion, CountsWhatItKept) {
   }
 }
 
-// Exactly those frames in which a track bears are fully active, whatever runs it has.
+// The fully active frames are exactly the contact frames of a track, for any runs.
 TEST(AdaptMotion, SupportsAreActiveWhileTheyBear) {
   const Scene scene;
   const auto adapted =
@@ -131,7 +131,7 @@ TEST(AdaptMotion, SupportsAreActiveWhileTheyBear) {
   }
 }
 
-// With 10 kg in one hand the body is balanced as it was without.
+// With 10 kg in one hand the body is as balanced as without.
 TEST(AdaptMotion, ALoadIsBalancedAgainst) {
   const Scene scene;
   AdaptMotionOptions options;
@@ -153,7 +153,7 @@ TEST(AdaptMotion, ALoadIsBalancedAgainst) {
   EXPECT_LT(adapted->worst_balance_error_m, 0.005);
 }
 
-// Footprints take the centre of mass along, with a load as without.
+// Footprints move the centre of mass, with a load as without.
 TEST(AdaptMotion, ALoadIsBalancedWhereFootprintsTakeTheBody) {
   Scene scene;
   for (SupportTrack& track : scene.supports) {
@@ -179,9 +179,9 @@ TEST(AdaptMotion, ALoadIsBalancedWhereFootprintsTakeTheBody) {
   EXPECT_GT(furthest_m, 0.25) << "footprints take nobody along";
 }
 
-// A wish that comes at once throws the hand by its whole way in a frame or two; one that
-// fades in over 0.2 s accelerates it by 5.8 / 0.04 of the way, a quintic's most, and by
-// half as much again as the way itself grows meanwhile.
+// A constraint without a fade moves the hand by the whole distance in a frame or two. One
+// that fades in over 0.2 s accelerates it by 5.8 / 0.04 of the distance, the maximum of a
+// quintic, and by half as much again because the distance grows meanwhile.
 TEST(AdaptMotion, TellsWhatThrowsAJoint) {
   const Scene scene;
   ConstraintSet set = hand_near(scene);
@@ -209,7 +209,7 @@ TEST(AdaptMotion, NamesALoadThatIsNotThere) {
       << adapted.error().message();
 }
 
-// Feet come to stand and leave at every step: the postures in between are in balance,
+// Feet start and end their stances at every step: the postures in between are in balance,
 // too.
 TEST(AdaptMotion, KeepsBalanceWhileFeetComeAndGo) {
   const Scene scene;

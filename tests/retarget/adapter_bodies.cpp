@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "retarget/check_constraints.h"
-#include "retarget/make_character.h"
+#include "retarget/character/make_character.h"
+#include "retarget/constraints/resolve_segment.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/quadruped.h"
 

@@ -11,7 +11,7 @@
 #include "core/character.h"
 #include "core/constraint.h"
 #include "core/pose.h"
-#include "retarget/adapter.h"
+#include "retarget/adapt/adapter.h"
 #include "tests/support/random_bodies.h"
 
 /// Bodies, postures and measures for tests of the adapter. All measures are
@@ -21,8 +21,8 @@ namespace marey::retarget {
 
 using testing::Dice;
 
-/// What a method owes. Suites that derive from it are instantiated with those
-/// that do.
+/// Common properties of both methods. Suites that derive from it are instantiated with
+/// the methods that have these properties.
 class EveryMethod : public ::testing::TestWithParam<Method> {
  protected:
   [[nodiscard]] static AdaptOptions options() {
@@ -44,10 +44,10 @@ class EveryMethod : public ::testing::TestWithParam<Method> {
   return info.param == Method::kStrict ? "strict" : "thesis";
 }
 
-/// make_humanoid() of average proportions as adaptation sees it; with a bag of
-/// 10 kg that the left hand may carry, called "bag".
+/// make_humanoid() of average proportions as a character; with a bag of 10 kg that the
+/// left hand may carry, called "bag".
 [[nodiscard]] Character human(bool with_limits, double stature_m = 1.75);
-/// make_character() of any skeleton that is a human's.
+/// make_character() of any human skeleton.
 [[nodiscard]] Character human_of(const Skeleton& skeleton, bool with_limits);
 
 struct Limb {
@@ -56,17 +56,16 @@ struct Limb {
   std::size_t end = 0;
   glm::dvec3 hinge_in_upper{0.0};
 };
-/// The limb that has this joint, which must be one of its three or hang on its
+/// Returns the limb that has this joint, which must be one of its three or a child of its
 /// end.
 [[nodiscard]] Limb limb_of(const Character& character, std::size_t joint);
 
 [[nodiscard]] std::size_t joint_at(const Character& character, std::string_view segment);
 
-/// Knees, elbows and hips a little bent, arms hanging, as one stands waiting.
+/// Slightly bent knees, elbows and hips, arms hanging, as in relaxed standing.
 [[nodiscard]] Pose waiting(const Character& character);
-/// From the rest pose: ball joints turned by up to `most_rad`, limbs bent their
-/// natural way by 0.15 to 1.7 rad, the root moved and turned; within the
-/// limits.
+/// From the rest pose: ball joints rotated by up to `most_rad`, limbs bent in their
+/// natural direction by 0.15 to 1.7 rad, the root moved and rotated; within the limits.
 [[nodiscard]] Pose random_posture(const Character& character,
                                   Dice& dice,
                                   double most_rad);
@@ -78,7 +77,7 @@ struct Limb {
                                  double importance = 1.0);
 [[nodiscard]] Constraint standing(const std::string& id, const std::string& segment);
 
-/// Limits and all: a human without, a human with, a quadruped.
+/// With limits: a human without, a human with, a quadruped.
 [[nodiscard]] std::vector<Character> bodies();
 
 /// Fails the test when it cannot be made.
@@ -90,13 +89,13 @@ struct Adapted {
   Pose pose;
   AdaptReport report;
 };
-/// With an adapter of its own, long after all has begun.
+/// Uses a new adapter, at a time after all starts.
 [[nodiscard]] Adapted adapted(const Character& character,
                               const ConstraintSet& constraints,
                               const Pose& reference,
                               const AdaptOptions& options = {});
 
-/// Of a character whose skeleton rests in its T-pose with the world's axes.
+/// For a character whose skeleton rests in its T-pose with the world's axes.
 [[nodiscard]] glm::dvec3 place_of(const Character& character,
                                   const Pose& pose,
                                   const BodyPoint& point);
@@ -104,18 +103,17 @@ struct Adapted {
 [[nodiscard]] glm::dquat rotation_of(const Character& character,
                                      const Pose& pose,
                                      std::string_view segment);
-/// Its masses, and its loads if so wished.
+/// Includes its masses, and optionally its loads.
 [[nodiscard]] glm::dvec3 centre_of_mass(const Character& character,
                                         const Pose& pose,
                                         bool loaded = false);
 
-/// The furthest that any joint of `a` is from where it is in `b`. [m]
+/// Returns the maximum distance of a joint of `a` from its position in `b`. [m]
 [[nodiscard]] double furthest_m(const Character& character, const Pose& a, const Pose& b);
-/// The most that any joint is turned in its parent from how it is in `b`. [rad]
+/// Returns the maximum rotation of a joint in its parent between `a` and `b`. [rad]
 [[nodiscard]] double most_turned_rad(const Pose& a, const Pose& b);
 [[nodiscard]] double angle_between_rad(const glm::dquat& a, const glm::dquat& b);
-/// By how much the worst joint is beyond its limits, but for those of `free`.
-/// [rad]
+/// Returns the maximum angle of a joint beyond its limits, except those of `free`. [rad]
 [[nodiscard]] double beyond_limits_rad(const Character& character,
                                        const Pose& pose,
                                        const std::vector<std::size_t>& free = {});

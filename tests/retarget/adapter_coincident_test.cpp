@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "retarget/check_character.h"
+#include "retarget/character/check_character.h"
 #include "tests/retarget/adapter_bodies.h"
 
 /// Bones without length and segments without mass, as far as check_character() takes
@@ -62,7 +62,8 @@ TEST_P(AdapterCoincident, MeetsWhatItWouldOnBonesWithoutLength) {
         }
         ASSERT_TRUE(std::isfinite(report.balance_error_m)) << bone << " " << i;
         if (with_limits) continue;
-        // The thesis' loop may stop between a wish and balance: it is as near as here.
+        // The thesis' loop may stop with a compromise between a target and balance of
+        // this size.
         const bool may_stop =
             GetParam() == Method::kThesis && wanted.balance != BalanceMode::kOff;
         EXPECT_LT(report.worst_error_m, may_stop ? 0.02 : 2e-3) << bone << " " << i;

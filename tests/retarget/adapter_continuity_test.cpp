@@ -43,11 +43,11 @@ Path any_path(const glm::dvec3& centre_in_world, double radius_m, Dice& dice) {
   return path;
 }
 
-/// The fastest that a posture follows.
+/// Maximum speeds of a posture.
 struct Pace {
   double joints_rad_per_m = 0.0;
   double root_m_per_m = 0.0;
-  /// Of second differences: how suddenly it starts to.
+  /// Of second differences: how suddenly the motion starts.
   double jerks_rad_per_m = 0.0;
 };
 
@@ -90,8 +90,8 @@ Follower follower(const Character& body,
   return {make_adapter(body, asked, options), waiting(body), {}, {}, {}, 0, {}};
 }
 
-// Follows `paths` (ids "0", "1", ...) half of the way about, the fastest by kStep_m at a
-// time: the other half is another path like it, at half the cost of a round.
+// Follows `paths` (ids "0", "1", ...) for half of the loop, the fastest by kStep_m at a
+// time. The other half is another path of the same kind, so half the cost is sufficient.
 void follow(Follower& body, const std::vector<Path>& paths) {
   double u = 0.0;
   while (u < 3.1) {
@@ -115,7 +115,7 @@ struct Case {
   bool stands = false;
   bool with_limits = false;
   BalanceMode balance = BalanceMode::kOff;
-  /// Over a hand's: all is as much faster for a point that is nearer to the elbow.
+  /// Relative to a hand's: speeds are larger for a point that is nearer to the elbow.
   double times_as_fast = 1.0;
 };
 
@@ -125,13 +125,12 @@ std::ostream& operator<<(std::ostream& out, const Case& c) {
 
 class AdapterFollows : public ::testing::TestWithParam<Case> {};
 
-// Why bounds exist at all: a bone of length l that points at a target at
-// distance d turns by 1/d rad per m, and the target passes the shoulder at no
-// less than some 3 cm here: 33. An elbow opens by 1 / (l sin(bend/2)): 35 for
-// 0.29 m of forearm at 0.2 rad, and limbs hand over to the body before they are
-// straighter. Where two joints of one chain both do, their rates add; what a joint
-// at its limit leaves, others do as well. A leg that comes to be straight stops the
-// hips at once.
+// Reason for the bounds: a bone of length l that points at a target at distance d rotates
+// by 1/d rad per m, and the target passes the shoulder at no less than about 3 cm here:
+// 33. An elbow opens by 1 / (l sin(bend/2)): 35 for 0.29 m of forearm at 0.2 rad, and the
+// body takes over before limbs are straighter. Where two joints of one chain both rotate,
+// their rates add; other joints compensate a joint at its limit. A leg that becomes
+// straight stops the hips at once.
 constexpr double kFastest_rad_per_m = 80.0;
 constexpr double kFastestRoot_m_per_m = 16.0;
 
@@ -177,7 +176,7 @@ Case within_limits(Case out, double times_as_fast = 1.0) {
   return out;
 }
 
-// Of a point so far from the elbow or knee.
+// For a point at this distance from the elbow or knee.
 Case nearer(Case out, double lever_m) {
   constexpr double kForearm_m = 0.26;
   out.times_as_fast *= kForearm_m / lever_m;
@@ -224,7 +223,8 @@ INSTANTIATE_TEST_SUITE_P(Adapter,
                          ::testing::ValuesIn(cases()),
                          [](const auto& each) { return each.param.name; });
 
-// Each of two wishes that the body helps with comes in gently, also beside the other.
+// The help of the body for each of two targets begins smoothly, also with the other
+// active.
 TEST(AdapterFollows, AWishOfTheHeadBeginsToMoveWithoutAJump) {
   const Character body = human(false);
   const glm::dvec3 brow_in_world = place_of(body, waiting(body), {"head"});

@@ -7,7 +7,7 @@
 namespace marey::retarget {
 namespace {
 
-/// Two hands that cannot both have what they want, on a trunk that stands.
+/// Two hands whose targets cannot both be met, on a standing trunk.
 ConstraintSet torn_apart() {
   return {{contact("right", "rightHand", {-1.6, 1.2, 0.6}, glm::dvec3(0.0), 2.0),
            contact("left", "leftHand", {1.6, 1.3, 0.5}, glm::dvec3(0.0), 1.0),
@@ -32,7 +32,7 @@ TEST(AdapterControl, PassesOverFromPriorityToBlendWithoutAJump) {
   Pose goal;
   static_cast<void>(changing.adapt(reference, 0.0, before));
   static_cast<void>(blending.adapt(reference, 0.0, goal));
-  // The two answers are far apart, else nothing is tested.
+  // The test requires that the two results are far apart.
   const double whole_way_rad = most_turned_rad(goal, before);
   ASSERT_GT(whole_way_rad, 0.2);
   changing.set_options(options(Control::kBlend, 0.4));
@@ -44,7 +44,7 @@ TEST(AdapterControl, PassesOverFromPriorityToBlendWithoutAJump) {
     ASSERT_LT(most_turned_rad(now, before), 4.0 * 1.875 * whole_way_rad / kSteps) << i;
     before = now;
   }
-  // Then the new control's answer is the answer, to the bit.
+  // Afterwards the result is that of the new control, to the bit.
   static_cast<void>(changing.adapt(reference, 1.0, now));
   for (std::size_t j = 0; j < now.parent_from_joint.size(); ++j) {
     ASSERT_EQ(now.parent_from_joint[j], goal.parent_from_joint[j]) << j;
@@ -67,7 +67,7 @@ TEST(AdapterControl, ChangesAtOnceWhenNoDurationIsGiven) {
   }
 }
 
-// Taken back before any posture has seen it, it never was.
+// A change that is reverted before any posture has no effect.
 TEST(AdapterControl, AChangeThatIsTakenBackAtOnceChangesNothing) {
   const Character body = human(false);
   const Pose reference = waiting(body);
@@ -83,13 +83,13 @@ TEST(AdapterControl, AChangeThatIsTakenBackAtOnceChangesNothing) {
   }
 }
 
-// Back and forth, taken back at every stage, its duration changed on the way.
+// Back and forth, reverted at every stage, with a change of the duration in between.
 TEST(AdapterControl, AChangeThatIsTakenBackOnItsWayTurnsAroundWithoutAJump) {
   const Character body = human(false);
   const Pose reference = waiting(body);
   constexpr double kChange_s = 0.4;
   constexpr double kSlower_s = 0.8;
-  constexpr int kSteps = 400;  // Of 1 ms: one whole passage.
+  constexpr int kSteps = 400;  // 1 ms each: one whole fade.
   Adapter changing =
       make_adapter(body, torn_apart(), options(Control::kPriority, kChange_s));
   Adapter blending = make_adapter(body, torn_apart(), options(Control::kBlend, 0.0));

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "retarget/adapt_departure.h"
+#include "retarget/adapt/adapt_departure.h"
 #include "tests/retarget/adapter_bodies.h"
 
 /// How far balance may take a posture from its reference.
@@ -22,7 +22,7 @@ AdaptOptions balanced() {
   return options;
 }
 
-/// The largest turn in the world of a segment that is on no arm and no leg. [rad]
+/// Returns the largest rotation in the world of a segment outside arms and legs. [rad]
 double trunk_turn_rad(const Character& body, const Pose& a, const Pose& b) {
   double most = 0.0;
   for (const char* segment : {"hips", "spine", "chest", "upperChest", "neck", "head"}) {
@@ -33,8 +33,8 @@ double trunk_turn_rad(const Character& body, const Pose& a, const Pose& b) {
   return most;
 }
 
-/// Both feet standing and the left hand at a place in front of its shoulder that the arm
-/// reaches without the trunk.
+/// Both feet are standing, and the left hand has a target in front of its shoulder that
+/// the arm reaches without the trunk.
 ConstraintSet reach(const Character& body, const Pose& reference, Dice& dice) {
   const glm::dvec3 shoulder = place_of(body, reference, {"leftUpperArm"});
   const glm::dvec3 elbow = place_of(body, reference, {"leftLowerArm"});
@@ -58,8 +58,8 @@ INSTANTIATE_TEST_SUITE_P(Adapter,
                            return each.param ? "within_limits" : "without_limits";
                          });
 
-// The centre of mass moves by some 15 mm as an arm is stretched out: the hips bring that
-// back, and the chest stays as it was.
+// The centre of mass moves by some 15 mm as an arm is extended: the hips compensate this,
+// and the chest is unchanged.
 TEST_P(AdapterDeparture, BalanceLeavesTheTrunkAloneWhereTheArmReaches) {
   const Character body = human(GetParam());
   const Pose reference = waiting(body);
@@ -82,8 +82,8 @@ TEST_P(AdapterDeparture, BalanceLeavesTheTrunkAloneWhereTheArmReaches) {
   EXPECT_GT(tried, 100) << "of 200";
 }
 
-// Nobody asks the other arm for anything: it stays where it was captured, beyond its
-// limits or not. Before, the first step of balance put it within them.
+// The other arm has no target: it keeps its captured rotation, beyond its limits or not.
+// Previously the first step of balance moved it within its limits.
 TEST(AdapterDepartureFromBeyond, LeavesWhatIsBeyondItsLimitsAsItWas) {
   const Character body = human(true);
   Pose reference = waiting(body);
@@ -114,7 +114,7 @@ TEST(MeasureDeparture, TellsSegmentFrameAndAngle) {
   EXPECT_NEAR(of_chest.worst_rad, 0.6, 1e-9);
   EXPECT_NEAR(of_chest.mean_rad, 0.15, 1e-9);
   EXPECT_EQ(of_chest.worst_frame, 2);
-  // What hangs on it turns along, what it hangs on does not.
+  // Descendants rotate with it, ancestors do not.
   EXPECT_NEAR(segments[joint_at(body, "head")].worst_rad, 0.6, 1e-9);
   EXPECT_NEAR(segments[joint_at(body, "spine")].worst_rad, 0.0, 1e-9);
 

@@ -58,7 +58,7 @@ TEST_P(AdapterDeterminism, DoesNotDependOnWhatWasAskedBefore) {
     AdaptOptions wanted = options();
     wanted.balance = balance;
     Adapter adapter = make_adapter(body, wishes, wanted);
-    // The foot begins here and stands here from now on.
+    // The support begins here and keeps this position from now on.
     Pose first;
     static_cast<void>(adapter.adapt(reference, kLater_s, first));
     const glm::dvec3 target =
@@ -80,7 +80,7 @@ TEST_P(AdapterDeterminism, DoesNotDependOnWhatWasAskedBefore) {
   }
 }
 
-// A section turns as a whole, even where only its first vertebra has a wish.
+// A section rotates as a whole, even where only its first vertebra has a target.
 TEST_P(AdapterDeterminism, DoesNotDependOnWhatWasAskedOfAPartOfASectionBefore) {
   const Character body = bodies().back();
   Dice dice(10);

@@ -11,15 +11,15 @@
 #include "core/humanoid.h"
 #include "core/motion.h"
 #include "core/pose.h"
-#include "retarget/adapter.h"
-#include "retarget/body_map.h"
-#include "retarget/make_character.h"
+#include "retarget/adapt/adapter.h"
+#include "retarget/body/body_map.h"
+#include "retarget/character/make_character.h"
+#include "tests/support/paths.h"
 
 namespace marey::retarget {
 namespace {
 
-// What docs/adaptation.md shows, to the letter.
-// [example]
+// The example of docs/adaptation.md, verbatim. [example]
 Result<Motion> reach_for(const Motion& walk, const glm::dvec3& cup_in_world) {
   const auto map = map_body(walk.skeleton);
   if (!map) return map.error();
@@ -28,9 +28,9 @@ Result<Motion> reach_for(const Motion& walk, const glm::dvec3& cup_in_world) {
 
   Constraint cup;
   cup.id = "cup";
-  cup.point.segment = "rightHand";  // Its joint, the wrist; or any point beside it.
+  cup.point.segment = "rightHand";  // Its joint, the wrist; or any point next to it.
   cup.goal = DistanceToPoint{0.0, cup_in_world};
-  cup.activation.start_s = 0.5;  // Before, the hand does what it did.
+  cup.activation.start_s = 0.5;  // Before this time the motion of the hand is unchanged.
   cup.activation.start_duration_s = 0.4;
   Constraint stands;
   stands.id = "stands";
@@ -45,7 +45,7 @@ Result<Motion> reach_for(const Motion& walk, const glm::dvec3& cup_in_world) {
   Motion out = walk;
   for (std::size_t frame = 0; frame < walk.poses.size(); ++frame) {
     const double time_s = static_cast<double>(frame) / walk.rate.hz;
-    // A cup that somebody else holds would move here:
+    // A cup that another person holds would move here:
     adapter->constraint("cup")->set_target(cup_in_world);
     adapter->adapt(walk.poses[frame], time_s, out.poses[frame]);
   }
@@ -54,7 +54,7 @@ Result<Motion> reach_for(const Motion& walk, const glm::dvec3& cup_in_world) {
 // [example]
 
 std::string text_of(const char* path) {
-  std::ifstream file(std::string(MAREY_SOURCE_DIR) + path);
+  std::ifstream file(marey::testing::source_dir().string() + path);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -89,7 +89,7 @@ TEST(AdapterExample, TakesTheCup) {
   EXPECT_LT(glm::distance(at(59, HumanBone::kRightHand), cup_in_world), 1e-3);
   EXPECT_GT(glm::distance(at(14, HumanBone::kRightHand), cup_in_world), 0.5)
       << "not before its time";
-  // What single precision leaves.
+  // Accuracy of single precision.
   EXPECT_LT(glm::distance(at(59, HumanBone::kLeftFoot), at(0, HumanBone::kLeftFoot)),
             1e-5);
 }

@@ -13,7 +13,7 @@
 namespace marey::retarget {
 namespace {
 
-// Bent, turned and moved a little, on the feet of `reference`.
+// Bent, rotated and moved slightly, with the feet where they are in `reference`.
 Pose another_posture(const Character& body, const Pose& reference, Dice& dice) {
   Pose pose = reference;
   pose.root_in_world += glm::dvec3(
@@ -47,7 +47,7 @@ ConstraintSet feet() {
 
 class AdapterFeasible : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterFeasible, both_methods(), name_of);
-/// What the thesis' method does not promise.
+/// Property that the thesis' method does not have.
 class AdapterFeasibleStrict : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterFeasibleStrict, strict_method(), name_of);
 
@@ -108,7 +108,7 @@ TEST_P(AdapterFeasibleStrict, ReachesWithItsCentreOfMassInPlace) {
   expect_reached(human(false), wanted, true);
 }
 
-// Nothing holds the body: it can be anywhere.
+// The body has no supports: it can be anywhere.
 TEST_P(AdapterFeasible, ReachesAnythingWhenItStandsOnNothing) {
   for (const Character& body : bodies()) {
     const std::string end = body.skeleton.joints.back().name;

@@ -21,8 +21,7 @@ constexpr double kLimit_rad = 1e-4;
 struct Question {
   ConstraintSet set;
   AdaptOptions options;
-  /// Joints of legs that stand: supports come before limits (Kulpa
-  /// 2005, 3.1.1.1).
+  /// Joints of supporting legs: supports come before limits (Kulpa 2005, 3.1.1.1).
   std::vector<std::size_t> standing;
 };
 
@@ -84,7 +83,7 @@ Question any_question(const Character& body, Method method, Dice& dice) {
   return out;
 }
 
-// Near or far, on joints, on limbs' roots: wherever a direction has no length.
+// Near or far, at joints, at roots of limbs: places where a direction has no length.
 glm::dvec3 any_target(const std::vector<RigidTransform>& frames,
                       std::size_t own,
                       Dice& dice) {
@@ -96,7 +95,7 @@ glm::dvec3 any_target(const std::vector<RigidTransform>& frames,
     const auto last = static_cast<double>(frames.size()) - 1e-9;
     return frames[static_cast<std::size_t>(dice.between(0, last))].translation;
   }
-  // 10 km is what check_constraints() allows; live targets may be anywhere.
+  // check_constraints() permits 10 km; live targets may be anywhere.
   return here + std::pow(10.0, dice.between(-6, 6)) * dice.direction();
 }
 
@@ -124,7 +123,7 @@ TEST_P(AdapterFuzz, GivesPosturesWithinTheLimitsWhateverIsAsked) {
       const Question asked = any_question(body, GetParam(), dice);
       auto adapter = Adapter::make(body, asked.set, asked.options);
       if (!adapter)
-        continue;  // Two wishes may contradict each other; that is no posture.
+        continue;  // Two targets may contradict each other; then there is no posture.
       Pose out;
       for (int t = 0; t < kPostures; ++t) {
         const Pose reference = any_posture(body, dice);
@@ -149,14 +148,14 @@ TEST_P(AdapterFuzz, GivesPosturesWithinTheLimitsWhateverIsAsked) {
   EXPECT_GT(solved, 20000);
 }
 
-// Any place that constraints may name, evenly over the orders of magnitude.
+// Any position that constraints may have, uniform in the order of magnitude.
 glm::dvec3 any_far_place(Dice& dice) {
   constexpr double kFurthest_m = 1e4;
   const double far_m = std::pow(10.0, dice.between(0, 4));
   return std::min(far_m, 0.999 * kFurthest_m) * dice.direction();
 }
 
-// Half of the wishes and points go as far as constraints may be.
+// Half of the targets and points have the largest permitted distance.
 void go_far(ConstraintSet& set, Dice& dice) {
   for (Constraint& wish : set.constraints) {
     if (dice.between(0, 1) < 0.5) continue;
@@ -200,7 +199,7 @@ TEST_P(AdapterFuzz, GivesPosturesHoweverFarItIsAskedToGo) {
   EXPECT_GT(solved, 5000);
 }
 
-// A body that has to go far to its footprint stands there as it would have stood here.
+// A body that moves far to its footprint has the same posture there as at a near one.
 TEST(AdapterFar, StandsOnAFarFootprintAsOnANearOne) {
   const Character body = human(false);
   const Pose reference = waiting(body);
@@ -215,7 +214,7 @@ TEST(AdapterFar, StandsOnAFarFootprintAsOnANearOne) {
       Adapter adapter = make_adapter(body, set, options);
       Pose out;
       const AdaptReport report = adapter.adapt(reference, 1.0, out);
-      // What single precision resolves there.
+      // Resolution of single precision at that distance.
       const double least_m = 1e-3 + 1e-6 * far_m;
       EXPECT_LT(report.worst_error_m, least_m) << far_m;
       EXPECT_LT(report.balance_error_m, least_m) << far_m;

@@ -9,8 +9,7 @@
 namespace marey::retarget {
 namespace {
 
-// Single precision rounds places of a body of 2 m to 1e-7 m; a dozen joints in
-// a row.
+// Single precision rounds positions of a body of 2 m to 1e-7 m, over a dozen joints.
 constexpr double kRounding_m = 1e-6;
 constexpr double kRounding_rad = 1e-6;
 constexpr int kPostures = 100;
@@ -53,7 +52,7 @@ TEST_P(AdapterIdentity, LeavesAPostureThatHasWhatIsAsked) {
                                  {}},
                                 reference,
                                 options());
-    // Limbs are closed anew, on single precision's idea of where the target is.
+    // Limbs are closed again, on the target in single precision.
     ASSERT_LT(furthest_m(body, out.pose, reference), 5e-6);
     ASSERT_EQ(out.report.iterations, 0);
   }
@@ -71,8 +70,7 @@ TEST_P(AdapterIdentity, IgnoresConstraintsThatAreNotActive) {
   EXPECT_LT(furthest_m(body, out, reference), kRounding_m);
 }
 
-// Says that what the adapter tells of the joints is true of the pose that it
-// gives.
+// Checks that the reported joint frames are those of the returned pose.
 TEST_P(AdapterIdentity, TellsWhereTheJointsOfItsPoseAre) {
   for (const Character& body : bodies()) {
     Dice dice(3);
@@ -87,7 +85,7 @@ TEST_P(AdapterIdentity, TellsWhereTheJointsOfItsPoseAre) {
       const AdaptReport report = adapter.adapt(reference, 0.0, out);
       const auto truth = world_from_joints(body.skeleton, out);
       for (std::size_t j = 0; j < truth.size(); ++j) {
-        // As above, over a chain that was also turned a hundred times.
+        // As above, over a chain that was also rotated a hundred times.
         ASSERT_LT(glm::distance(adapter.world_from_joint()[j].translation,
                                 truth[j].translation),
                   5e-6);

@@ -30,12 +30,12 @@ const char* any_segment(Dice& dice) {
 
 struct Question {
   Pose reference;
-  ConstraintSet higher;  ///< Feet that stand, then the more important wish.
+  ConstraintSet higher;  ///< Feet with supports, then the more important target.
   Constraint lower;
   Constraint lowest;
 };
 
-// Within reach or far out of it, on two feet, one or none.
+// Within reach or far beyond, on two feet, one or none.
 Question any_question(const Character& body, bool waits, Dice& dice) {
   Question out{waits ? waiting(body) : random_posture(body, dice, 0.3), {}, {}, {}};
   const double feet = dice.between(0, 1);
@@ -65,7 +65,7 @@ double off_m(const Character& body, const Pose& pose, const Constraint& wish) {
 
 class AdapterLevels : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLevels, both_methods(), name_of);
-/// What the thesis' method does not promise.
+/// Property that the thesis' method does not have.
 class AdapterLevelsStrict : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLevelsStrict, strict_method(), name_of);
 
@@ -89,8 +89,8 @@ TEST_P(AdapterLevels, TheLowerCostsTheHigherAMillimetreAtMostOrThreePercentInBal
         const auto most_m = [&](const Pose& pose, const Constraint& wish) {
           const double alone_m = off_m(body, pose, wish);
           if (alone_m <= wish.precision_m) return wish.precision_m + 1e-3;
-          // With balance another wish has masses added up in another order, and rounding
-          // has the say in which step is the last that helps.
+          // With balance an additional target changes the order in which masses are
+          // summed, and rounding then determines the last step with an improvement.
           const bool rounds = balance != BalanceMode::kOff;
           return alone_m + std::max(1e-3, rounds ? 0.03 * alone_m : 0.0);
         };
@@ -102,7 +102,7 @@ TEST_P(AdapterLevels, TheLowerCostsTheHigherAMillimetreAtMostOrThreePercentInBal
   }
 }
 
-// What is held of a wish is what it asked, and not where its point happened to be.
+// The held value of a target is its goal, not the current position of its point.
 TEST_P(AdapterLevelsStrict, DistancesAndOrientationsAreHeldAsSuch) {
   const Character body = human(false);
   Dice dice(72);

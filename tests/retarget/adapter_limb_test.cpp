@@ -36,7 +36,7 @@ const std::vector<BodyPoint>& points_on_limbs() {
 }
 
 struct Reach {
-  double wanted = 0.0;  ///< Over both bones', as the limb's root sees the point.
+  double wanted = 0.0;  ///< Distance from the limb's root over the length of both bones.
   double least = 0.0;
 };
 
@@ -66,7 +66,7 @@ Pose with_limb_moved(const Pose& reference,
 
 class AdapterLimbs : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLimbs, both_methods(), name_of);
-/// What the thesis' method does not promise.
+/// Property that the thesis' method does not have.
 class AdapterLimbsStrict : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLimbsStrict, strict_method(), name_of);
 
@@ -80,8 +80,7 @@ TEST_P(AdapterLimbs, BringAnyOfTheirPointsToWhatTheyReachAtOnce) {
       const Pose reference = random_posture(body, dice, 0.5);
       const Pose truth = with_limb_moved(reference, limb, dice, dice.between(0.35, 2.0));
       const Reach reach = reach_of(body, truth, point);
-      // Beyond, the body begins to help (adapt_solve.h), and this is another
-      // test's.
+      // Beyond, the body begins to help (adapt_solve.h); another test covers this.
       const bool upper =
           joint_at(body, point.segment) == limb.upper || reach.least > 0.999;
       if (!upper && (reach.wanted > 0.87 || reach.wanted < reach.least + 0.13)) continue;
@@ -92,10 +91,10 @@ TEST_P(AdapterLimbs, BringAnyOfTheirPointsToWhatTheyReachAtOnce) {
       const Adapted out = adapted(body, {{wish}, {}}, reference, options());
       ASSERT_LT(glm::distance(place_of(body, out.pose, point), target), kExact_m)
           << point.segment << " " << i;
-      // The thesis' loop looks once whether anything is left to do.
+      // The thesis' loop checks once whether an error remains.
       ASSERT_LE(out.report.iterations, GetParam() == Method::kStrict ? 0 : 1)
           << point.segment << " " << i;
-      // The body has not moved: only the limb has.
+      // The body has not moved, only the limb has.
       const std::size_t above = index(*body.skeleton.joints[limb.upper].parent);
       ASSERT_LT(
           glm::distance(world_from_joints(body.skeleton, out.pose)[above].translation,
@@ -118,18 +117,17 @@ TEST_P(AdapterLimbsStrict, BringTheirPointsToWhatTheyHardlyReach) {
       Constraint wish = contact("point", point.segment, target);
       wish.point = point;
       const Adapted out = adapted(body, {{wish}, {}}, reference, options());
-      // Nearly straight or folded, single precision in the cosine of the bend
-      // shows: its square root, 3e-4 rad, times what the distance changes with
-      // the bend there.
+      // For nearly straight or folded limbs, the error of single precision in the cosine
+      // of the bend is visible: its square root, 3e-4 rad, times the derivative of the
+      // distance by the bend.
       ASSERT_LT(glm::distance(place_of(body, out.pose, point), target), 2e-5)
           << point.segment << " " << i;
     }
   }
 }
 
-// Over all directions of the upper bone and bends of the middle: a point that
-// turns about the limb's root gets as near as its distance from there can be
-// chosen.
+// Over all directions of the upper bone and bends of the middle: the distance of a point
+// from its target is limited by the range of its distance from the limb's root.
 double nearest_m(const Character& body,
                  const Pose& reference,
                  const Limb& limb,
@@ -177,7 +175,7 @@ TEST_P(AdapterLimbs, AreAsNearAsTheyCanToWhatTheyDoNotReach) {
   }
 }
 
-// A joint's limits are about its own parent, also where a bone between turns by itself.
+// A joint's limits refer to its own parent, also where a bone in between rotates.
 TEST_P(AdapterLimbs, KeepAHandsLimitsBehindATwistedForearm) {
   const Character body = human_of(
       with_joint_above(

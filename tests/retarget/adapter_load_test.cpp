@@ -9,7 +9,7 @@
 namespace marey::retarget {
 namespace {
 
-// A bag in the left hand, held out ahead.
+// A bag in the left hand, held forward.
 Pose holding_out(const Character& body) {
   Pose pose = waiting(body);
   pose.parent_from_joint[joint_at(body, "leftUpperArm")] =
@@ -52,7 +52,7 @@ TEST_P(AdapterLoad, MovesThePelvisAwayAndBackAgain) {
   to_load.y = 0.0;
   const double moved_m =
       glm::dot(with.root_in_world - without.root_in_world, glm::normalize(to_load));
-  // 10 of 80 kg, half a metre ahead: all else goes back by some 6 cm.
+  // 10 of 80 kg, half a metre forward: the rest of the body moves back by some 6 cm.
   EXPECT_LT(moved_m, -0.03);
   EXPECT_GT(moved_m, -0.12);
   glm::dvec3 off =

@@ -31,7 +31,7 @@ TEST_P(AdapterOptions, TheRootStaysWhenItIsNotToTravel) {
   EXPECT_LT(glm::distance(out.pose.root_in_world, reference.root_in_world), 1e-6);
 }
 
-// Hand, forearm and upper arm are 3; then the clavicle.
+// Hand, forearm and upper arm are 3; the clavicle is next.
 TEST_P(AdapterOptions, OnlyThoseInRangeMove) {
   for (const bool with_limits : {false, true}) {
     const Character body = human(with_limits);

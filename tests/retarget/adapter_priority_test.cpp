@@ -20,11 +20,11 @@ constexpr double kStands_rad = 1e-5;
 
 class AdapterPriority : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterPriority, both_methods(), name_of);
-/// What the thesis' method does not promise.
+/// Property that the thesis' method does not have.
 class AdapterPriorityStrict : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterPriorityStrict, strict_method(), name_of);
 
-// Hands are asked for up to 2 m away: mostly out of reach.
+// Targets of hands up to 2 m away: mostly out of reach.
 ConstraintSet far_hands(const Character& body, const Pose& reference, Dice& dice) {
   const auto far = [&](const char* hand, double importance) {
     return contact(
@@ -137,7 +137,7 @@ TEST_P(AdapterPriority, BalancesWheneverItCan) {
         static_cast<void>(adapter.adapt(reference, 0.0, out));
         glm::dvec3 off = centre_of_mass(body, out) - target;
         if (!in_height) off.y = 0.0;
-        // And single precision.
+        // Plus single precision.
         ASSERT_LT(glm::length(off), wanted.balance_precision_m + 1e-6) << i;
         const Feet feet = compare_feet(body, out, reference, {"leftFoot", "rightFoot"});
         ASSERT_LT(feet.off_m, kStands_m) << i;
@@ -149,7 +149,7 @@ TEST_P(AdapterPriority, BalancesWheneverItCan) {
   }
 }
 
-// The reference itself is balanced on its feet, so balance is always to be had.
+// The reference itself is balanced on its feet, so balance is always possible.
 TEST_P(AdapterPriorityStrict, HandsDoNotCostBalance) {
   const Character body = human(false);
   Dice dice(14);

@@ -71,7 +71,7 @@ TEST_P(AdapterRamps, MayBeStartedAndStoppedWhileTheyRun) {
   static_cast<void>(adapter.adapt(reference, 1.0, before));
   for (int frame = 1; frame < 2500; ++frame) {
     const double t = 1.0 + kFrame_s * frame;
-    // In the middle of ramps, too.
+    // Also within ramps.
     if (frame == 100 || frame == 900) adapter.constraint("hand")->start(t);
     if (frame == 500 || frame == 1900) adapter.constraint("hand")->stop(t);
     static_cast<void>(adapter.adapt(reference, t, now));
@@ -80,8 +80,7 @@ TEST_P(AdapterRamps, MayBeStartedAndStoppedWhileTheyRun) {
   }
 }
 
-/// A leg that is captured as it should not be able to turn: out at the hip, the knee
-/// bent the wrong way.
+/// A leg captured beyond its range: abducted at the hip, the knee bent backwards.
 Pose beyond_limits(const Character& body) {
   Pose pose = waiting(body);
   const auto turn = [&](const char* segment, double angle_rad, const glm::dvec3& axis) {
@@ -94,8 +93,8 @@ Pose beyond_limits(const Character& body) {
   return pose;
 }
 
-// Supports come before limits (Kulpa 2005, 3.1.1.1), also while something else fades; and
-// what nobody asks for is left as it was captured.
+// Supports come before limits (Kulpa 2005, 3.1.1.1), also during other fades; joints
+// without targets keep their captured rotation.
 TEST_P(AdapterRamps, StandOnALegBeyondItsLimitsWhileAHandComes) {
   const Character body = human(true);
   const Pose reference = beyond_limits(body);
@@ -120,8 +119,8 @@ TEST_P(AdapterRamps, StandOnALegBeyondItsLimitsWhileAHandComes) {
   }
 }
 
-// Two that ask for nearly the same half turn, from either side of it: their quaternions
-// are nearly opposite, their mean is that half turn, not none.
+// Two targets for nearly the same half turn from opposite sides: their quaternions are
+// nearly opposite, and their mean is that half turn, not zero.
 TEST_P(AdapterRamps, NearlyEqualHalfTurnsDoNotCancel) {
   const Character body = human(false);
   const Pose reference = waiting(body);
@@ -150,13 +149,13 @@ TEST_P(AdapterRamps, NearlyEqualHalfTurnsDoNotCancel) {
               0.02);
 }
 
-/// The most that a posture's joints turn from one moment to the next, over how much the
-/// constraint's activation changed meanwhile; from its start to its end.
+/// Returns the maximum rotation of a joint between consecutive times, divided by the
+/// change of the constraint's activation, from its start to its end.
 double fastest_rad_per_activation(Adapter& adapter,
                                   const Pose& reference,
                                   const std::string& id) {
   constexpr int kSteps = 2000;
-  // Steps are compared where single precision does not count.
+  // Steps are compared where rounding errors of single precision are negligible.
   constexpr double kLeastChange = 1e-5;
   Pose now;
   Pose before;
@@ -174,7 +173,7 @@ double fastest_rad_per_activation(Adapter& adapter,
   return fastest;
 }
 
-// All the way, not in one step where limbs begin to be closed again.
+// Continuously, not in one step where the closing of limbs starts.
 TEST_P(AdapterRamps, TurnAnExtremityAsTheyRise) {
   const Character body = human(false);
   const Pose reference = waiting(body);
@@ -197,7 +196,7 @@ TEST_P(AdapterRamps, TurnAnExtremityAsTheyRise) {
   }
 }
 
-// Nobody asks a hand that is kept to turn while its upper arm is asked for.
+// A held hand does not rotate because of a target of its upper arm.
 TEST_P(AdapterRamps, TurnNoHandThatIsKept) {
   const Character body = human(false);
   const Pose reference = waiting(body);
@@ -214,7 +213,8 @@ TEST_P(AdapterRamps, TurnNoHandThatIsKept) {
   EXPECT_LT(fastest_rad(adapter, reference, 1.1), kFastest_rad);
 }
 
-/// A hand out of what balance allows, another that comes; feet that stand.
+/// A hand whose target is out of reach with balance, another one that fades in; feet with
+/// supports.
 ConstraintSet hand_that_comes(const Character& body, const Pose& reference) {
   const auto from = [&](const char* segment, const glm::dvec3& by) {
     return place_of(body, reference, {segment}) + by;
@@ -229,7 +229,7 @@ ConstraintSet hand_that_comes(const Character& body, const Pose& reference) {
           {}};
 }
 
-// What the full answer does not do, for it would cost balance, the ramp does not either.
+// A movement that the full result rejects because of balance does not occur in the ramp.
 TEST_P(AdapterRamps, KeepBalanceAndEndWhereTheyLead) {
   for (const BalanceMode mode : {BalanceMode::kHorizontal, BalanceMode::k3d}) {
     // The thesis' method does not find balance at this height.

@@ -20,7 +20,7 @@ struct Pair {
   double least_m;
   double most_m;
 };
-// Distances that arms, trunk and legs give easily, within their limits, too.
+// Distances that arms, trunk and legs reach easily, also within their limits.
 constexpr std::array<Pair, 5> kPairs{{{"leftHand", "rightHand", 0.05, 0.8},
                                       {"leftHand", "head", 0.25, 0.5},
                                       {"leftHand", "rightLowerArm", 0.1, 0.5},
@@ -29,7 +29,7 @@ constexpr std::array<Pair, 5> kPairs{{{"leftHand", "rightHand", 0.05, 0.8},
 
 class AdapterRelations : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterRelations, both_methods(), name_of);
-/// What the thesis' method does not promise.
+/// Property that the thesis' method does not have.
 class AdapterRelationsStrict : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterRelationsStrict, strict_method(), name_of);
 
@@ -111,8 +111,8 @@ TEST_P(AdapterRelations, TurnSegmentsAsTheyAreAsked) {
   }
 }
 
-// The first as if it were alone, and the second as near as turning about the
-// first gets.
+// The first as if it were alone, and the second as near as a rotation about the first
+// permits.
 void expect_first_exact_second_near(const Character& body, const AdaptOptions& options) {
   Dice dice(45);
   for (int i = 0; i < 100; ++i) {

@@ -43,7 +43,7 @@ double error_m(const Character& body, const Pose& pose, const Constraint& wish) 
                        std::get<DistanceToPoint>(wish.goal).p_in_world);
 }
 
-// A head alone may turn by 95 degrees, not by 160.
+// A head alone may rotate by 95 degrees, not by 160.
 TEST_P(AdapterReport, OrientationsAreOffByAngles) {
   const Character body = human(true);
   const Pose reference = waiting(body);
@@ -71,7 +71,8 @@ TEST_P(AdapterReport, OrientationsAreOffByAngles) {
   EXPECT_EQ(report.constraint_error_m, 0.0);
 }
 
-// Equation 4.2 speaks of constraints; supports are none, and orientations no lengths.
+// Equation 4.2 covers constraints; supports are not included, and orientations have no
+// length.
 TEST_P(AdapterReport, TheMeanIsOfConstraintsByImportance) {
   const Character body = human(false);
   const Pose reference = waiting(body);
@@ -112,15 +113,14 @@ TEST_P(AdapterReport, TellsWhetherTheCapEndedIt) {
   const AdaptReport whole = adapted(body, far, reference, wanted).report;
   EXPECT_FALSE(whole.capped);
   ASSERT_GT(whole.iterations, 6) << "the cap below must be one";
-  // Just enough is not cut short; one less is.
+  // Exactly the needed number is not capped; one less is.
   wanted.max_iterations = whole.iterations;
   EXPECT_FALSE(adapted(body, far, reference, wanted).report.capped);
   wanted.max_iterations = 5;
   EXPECT_TRUE(adapted(body, far, reference, wanted).report.capped);
 }
 
-// Each of two solves may be under the cap and their sum above it, and the other way
-// about.
+// Each of two solves may be below the cap and their sum above it, and the reverse.
 TEST_P(AdapterReport, TellsWhetherTheCapEndedAnySolveWhileFading) {
   const Character body = human(false);
   const Pose reference = waiting(body);
@@ -145,8 +145,7 @@ TEST_P(AdapterReport, TellsWhetherTheCapEndedAnySolveWhileFading) {
   EXPECT_TRUE(half_way().capped);
 }
 
-// While it fades a constraint has an error above kFirmActivation: what it lacks; and none
-// at or below it.
+// During a fade a constraint has an error above kFirmActivation, and none at or below it.
 TEST_P(AdapterReport, ConstraintsHaveErrorsAboveTheFirmActivationAlone) {
   const Character body = human(false);
   const Pose reference = waiting(body);

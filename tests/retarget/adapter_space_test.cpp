@@ -38,7 +38,7 @@ Constraint wish_of(const BodyPoint& point, const Goal& goal) {
 class AdapterSpace : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterSpace, both_methods(), name_of);
 
-// The body is free to go where it likes, so every box can be reached.
+// The body is free to move, so every box can be reached.
 TEST_P(AdapterSpace, KeepsPointsInAllowedBoxes) {
   for (const bool with_limits : {false, true}) {
     const Character body = human(with_limits);

@@ -18,7 +18,7 @@ struct Question {
   Pose reference;
 };
 
-// Within reach of the whole body, or hardly.
+// Within reach of the whole body, or just beyond.
 Question any_question(const Character& body, const AdaptOptions& options, Dice& dice) {
   constexpr std::array<const char*, 8> kSegments{"leftHand",
                                                  "rightHand",
@@ -70,14 +70,14 @@ Character without_loads(bool with_limits) {
 class AdapterSymmetry : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterSymmetry, both_methods(), name_of);
 
-// Single precision, through as many steps as it takes.
+// Single precision, over all steps.
 constexpr double kSame_m = 1e-4;
-// Through other numbers. Where not all is reached rounding has the say in which step is
-// the last that helps, and in flat valleys that shows, now and then.
+// With other numbers. Where not all targets are met, rounding determines the last step
+// with an improvement, which is occasionally visible where the error is flat.
 constexpr double kSameReached_m = 1e-3;
 constexpr double kSameUnreached_m = 0.15;
 constexpr double kMostlySame_m = 0.01;
-// Turned, rounding may have the say in which of two ways is taken, reached or not.
+// For a rotated problem, rounding may decide between two solutions, met or not.
 constexpr double kSameTurned_m = 1.0;
 constexpr double kSeldom = 0.03;
 
@@ -109,10 +109,10 @@ Pose turned(const Pose& pose, const glm::dquat& turn) {
   return out;
 }
 
-/// Collects how far answers are from what they should be.
+/// Accumulates the differences of results from the expected ones.
 class Sameness {
  public:
-  /// Answers agree to these, where all is reached and where it is not.
+  /// Tolerances for results with all targets met, and for others.
   Sameness(const Character& body, double reached_m, double unreached_m)
       : body_(body), reached_m_(reached_m), unreached_m_(unreached_m) {}
   void add(const Adapted& asked, const Pose& expected, const Adapted& found) {

@@ -4,14 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include "retarget/normalized_skeleton.h"
+#include "retarget/body/normalized_skeleton.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/random_bodies.h"
 
 namespace marey::retarget {
 namespace {
 
-// Proves it for the calls that a live frame makes, forward kinematics included.
+// Tests the calls of a live frame, forward kinematics included.
 TEST(Normalize, AllocatesNothingPerFrame) {
   testing::Dice dice(1);
   const Skeleton source = testing::random_humanoid(dice);

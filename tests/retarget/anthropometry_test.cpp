@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/anthropometry.h"
+#include "retarget/body/anthropometry.h"
 
 #include <limits>
 #include <numeric>
@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/place_masses.h"
+#include "retarget/body/place_masses.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
 
@@ -59,7 +59,7 @@ std::vector<RigidTransform> at_rest(const Skeleton& skeleton) {
   return world_from_joints(skeleton, rest_pose(skeleton));
 }
 
-// Those of hips and vertebrae.
+// Returns the masses of hips and vertebrae.
 std::vector<PointMass> of_trunk(const std::vector<PointMass>& masses,
                                 const BodyMap& map) {
   std::vector<PointMass> trunk;
@@ -82,7 +82,7 @@ Skeleton adult() {
   return make_humanoid(average_proportions(1.75));
 }
 
-// Every published share is a body's; de Leva's women miss one in ten thousand.
+// The published shares sum to one body; de Leva's women miss one in ten thousand.
 TEST(SegmentTable, AddsUpToOneBody) {
   for (const MassTable which : kTables) {
     const SegmentTable& t = segment_table(which);
@@ -143,14 +143,14 @@ TEST(WeighSegments, RefusesWhatIsNoMass) {
   MassSpec spec;
   spec.segment_kg[index(B::kHips)] = -1.0;
   EXPECT_EQ(refusal(spec),
-            "character: masses: the mass of trunk is no mass. Next: give it in kg, zero "
-            "or more.");
+            "character: masses: the mass of trunk is not a valid mass. Next: give it in "
+            "kg, zero or more.");
 }
 
 TEST(WeighSegments, RefusesSegmentsThatDoNotAddUp) {
   MassSpec some;
   some.segment_kg[index(B::kHead)] = 5.0;
-  EXPECT_NE(refusal(some).find("the total is not given, nor is trunk"),
+  EXPECT_NE(refusal(some).find("neither the total nor trunk is given"),
             std::string::npos);
   some.total_kg = 4.0;
   EXPECT_NE(refusal(some).find("do not add up"), std::string::npos);
@@ -181,7 +181,7 @@ TEST(PlaceMasses, KeepsTheTotalOnEveryBody) {
   }
 }
 
-// Between the hip centres and the shoulder centres, whatever the spine is made of.
+// Between the hip centres and the shoulder centres, for any number of vertebrae.
 TEST(PlaceMasses, PutsTheTrunkWhereTheTableHasItWithAnyVertebrae) {
   Dice dice(42);
   for (const MassTable table : kTables) {
@@ -203,8 +203,9 @@ TEST(PlaceMasses, PutsTheTrunkWhereTheTableHasItWithAnyVertebrae) {
   }
 }
 
-// More vertebrae cut the same trunk finer: bent alike, its mass is in the same place. The
-// coarse spine bends in fewer places; 0.3 rad over half a metre makes some millimetres.
+// More vertebrae cut the same trunk finer: with the same bend, its mass is in the same
+// place. The coarse spine bends in fewer places; 0.3 rad over half a metre makes some
+// millimetres.
 TEST(PlaceMasses, BendsTheTrunksMassAlikeWithAnyVertebrae) {
   const Skeleton few = testing::with_vertebrae(adult(), 7);
   const Skeleton many = testing::with_vertebrae(adult(), 14);
@@ -267,7 +268,7 @@ TEST(PlaceMasses, PutsHeadHandsAndFeetWhereTheTablesHaveThem) {
       const PointMass& mass = of(masses, *body.find(bone));
       return frames[index(mass.joint)] * mass.p_in_joint;
     };
-    // Dempster's to the knuckles, which are at 0.459 of de Leva's way to the finger tip.
+    // Dempster's is at the knuckles, at 0.459 of de Leva's length to the finger tip.
     const double hand_at = t.hand.com_at * (dempster ? 0.459 : 1.0);
     EXPECT_LT(glm::distance(com(B::kRightHand),
                             glm::mix(place(B::kRightHand), tip(B::kRightHand), hand_at)),
@@ -304,7 +305,7 @@ TEST(PlaceMasses, PutsTheWholeBodysCentreWhereItIsMeasured) {
   }
 }
 
-// Measured of people who stand with their arms at their sides, by balance boards: 0.55 to
+// Measured by balance boards on people who stand with their arms at their sides: 0.55 to
 // 0.57 of the stature (women's and men's means). With the 0.66 that table 5.1 of the
 // thesis has for the trunk it would be 0.59.
 TEST(PlaceMasses, PutsTheCentreOfWhoStandsWhereItIsMeasured) {
@@ -352,12 +353,12 @@ TEST(PlaceMasses, GivesAMirroredBodyMirroredMasses) {
   }
 }
 
-// An arm without a hand goes on straight: the hand's mass is beyond the elbow's bone.
+// An arm without a hand is extended straight: the hand's mass is beyond the elbow's bone.
 TEST(PlaceMasses, CarriesAMissingHandBeyondTheForearm) {
   const Skeleton whole = adult();
   const Skeleton cut = testing::without(whole, B::kLeftHand);
   const MassSpec spec = weighing(MassTable::kDeLevaMale, 70.0);
-  // The average arm is what is guessed.
+  // The average arm is the estimate.
   EXPECT_LT(glm::distance(com_of(masses_of(whole, spec), at_rest(whole)),
                           com_of(masses_of(cut, spec), at_rest(cut))),
             1e-4);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One body in many skeletons: however it rests, rolls its bones and helps itself with
-// joints that no human has, a posture puts its joints at the same places.
+// One body in many skeletons: a posture puts its joints at the same places for any rest
+// pose, bone roll and additional joints that no human has.
 #include <algorithm>
 #include <array>
 #include <functional>
@@ -16,8 +16,8 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/identify_bones.h"
-#include "retarget/normalized_skeleton.h"
+#include "retarget/body/normalized_skeleton.h"
+#include "retarget/bones/identify_bones.h"
 #include "tests/retarget/mapped.h"
 #include "tests/retarget/named_bodies.h"
 #include "tests/support/random_bodies.h"
@@ -32,7 +32,7 @@ Skeleton adult() {
   return make_humanoid(average_proportions(1.75));
 }
 
-/// Rests with its arms hanging at its sides.
+/// Returns the skeleton resting with its arms at its sides.
 Skeleton in_n_pose(const Skeleton& t_pose) {
   Skeleton out = t_pose;
   for (const auto& [bone, angle] :
@@ -58,7 +58,7 @@ Skeleton with_helpers(const Skeleton& skeleton) {
   return body;
 }
 
-/// Under two nodes that are no bones, turned and displaced.
+/// Adds two root nodes that are no bones, turned and displaced.
 Skeleton under_roots(const Skeleton& skeleton) {
   Skeleton out;
   Joint armature;
@@ -78,7 +78,7 @@ Skeleton under_roots(const Skeleton& skeleton) {
   return out;
 }
 
-// Of random_pose(): as far as 0.7 rad each.
+// Bound of random_pose(): 0.7 rad each.
 constexpr double kRandomBend = 0.7;
 
 struct Miss {
@@ -86,8 +86,8 @@ struct Miss {
   double turn_rad = 0.0;
 };
 
-/// The worst of the bones that both have, over postures of `source` put on `body`,
-/// whose vertebrae are turned by up to `bend_rad`.
+/// Returns the largest error of the bones that both have, over postures of `source`
+/// applied to `body`, whose vertebrae are turned by up to `bend_rad`.
 Miss worst(const Skeleton& source,
            const Skeleton& body,
            std::span<const B> bones,
@@ -146,7 +146,7 @@ TEST_P(AnyRest, PutsEveryJointWhereTheBodyHasIt) {
   EXPECT_LT(same.turn_rad, 0.03 * 0.0174533);
 }
 
-// Marks or names: the same map.
+// Marks and names give the same map.
 TEST_P(AnyRest, IsIdentifiedWithoutItsMarks) {
   Dice dice(4);
   const Skeleton truth = GetParam().make(dice);
@@ -198,8 +198,8 @@ constexpr std::array kLimbsAndHips{B::kHips,
 // at, and three are sometimes a millimetre too short (spine_count_test.cpp).
 constexpr std::array kSpineCosts_m{0.018, 0.005, 0.0015, 0.001, 0.001, 0.001};
 
-// A spine of other joints puts its end where the source's is, as far as it can: what
-// hangs below the hips does not see it, arms and head are turned the same.
+// A spine with other joints puts its end at the source's, as far as it can. Parts below
+// the hips are not affected; arms and head have the same rotation.
 TEST(AnySpine, KeepsLegsExactlyAndTheUpperBodyNearly) {
   for (int count = 1; count <= 6; ++count) {
     Skeleton body = testing::with_vertebrae(adult(), count);

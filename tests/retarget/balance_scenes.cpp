@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "core/pose.h"
-#include "retarget/anthropometry.h"
-#include "retarget/smooth_step.h"
+#include "retarget/base/smooth_step.h"
+#include "retarget/body/anthropometry.h"
 
 namespace marey::retarget {
 namespace {
@@ -63,7 +63,7 @@ Motion slow_kick() {
   return played([leg_m](int t) {
     Puppet p;
     const double share = held(t);
-    // Hip over the foot: the left leg leans as a straight rod does.
+    // Hip over the foot: the left leg leans as a straight rod.
     const double lean_deg = 6.0 * share;
     const double lean_rad = lean_deg * kRad;
     p.pose.root_in_world +=

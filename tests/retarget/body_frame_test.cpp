@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/body_frame.h"
+#include "retarget/bones/body_frame.h"
 
 #include <algorithm>
 
@@ -9,7 +9,8 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/body_map.h"
+#include "retarget/body/body_map.h"
+#include "retarget/bones/identify_bones.h"
 #include "tests/support/quadruped.h"
 #include "tests/support/random_bodies.h"
 
@@ -52,11 +53,11 @@ BodyFrame frame_of(const Skeleton& body, const FileUnit& unit = {}) {
   return frame ? *std::move(frame) : BodyFrame{};
 }
 
-std::string cause(const Skeleton& body, const BoneMap& told = {}) {
-  auto found = identify_bones(body, told);
+std::string cause(const Skeleton& body, const BoneMap& overrides = {}) {
+  auto found = identify_bones(body, overrides);
   EXPECT_TRUE(found) << (found ? "" : found.error().message());
   if (!found) return {};
-  const auto frame = find_body_frame(body, {}, told, *found);
+  const auto frame = find_body_frame(body, {}, overrides, *found);
   EXPECT_FALSE(frame);
   return frame ? "" : frame.error().cause;
 }
@@ -82,8 +83,7 @@ TEST(BodyFrame, LeavesABodyThatStandsAsMareysToTheBit) {
   }
 }
 
-// All 24 ways in which axes can lie, and three units. Truth: the body before it was
-// turned.
+// All 24 orientations of axes, and three units. Truth: the body before it was turned.
 TEST(BodyFrame, BringsABodyBackFromAnyAxesAndUnit) {
   const Skeleton truth = testing::in_a_pose(adult(), 0.7);
   for (int up = 0; up < 6; ++up) {
@@ -107,7 +107,7 @@ TEST(BodyFrame, BringsABodyBackFromAnyAxesAndUnit) {
 TEST(BodyFrame, TakesCmusUnitWhereTheFormatDoesNotStateOne) {
   const Motion motion = in_file(adult(), {1, 0, 0, 0}, 0.01 / (0.0254 / 0.45));
   EXPECT_NEAR(frame_of(motion.skeleton, {0.01, false}).unit_m, 0.0254 / 0.45, 1e-12);
-  // A doll of a format that has metres is a doll.
+  // A doll in a format that states metres keeps its size.
   EXPECT_EQ(frame_of(motion.skeleton, {1.0, true}).scale, 1.0);
 }
 
@@ -135,7 +135,7 @@ TEST(BodyFrame, TurnsAMotionAsItsBody) {
   }
 }
 
-// A body without names gets its sides by its toes, wherever it looks.
+// A body without names gets its sides by its toes, whatever its orientation.
 TEST(BodyFrame, TellsSidesOfAShapeByItsToes) {
   for (const double turn : {0.0, 1.0, 2.0, 3.0}) {
     const Skeleton truth = adult();
@@ -155,23 +155,25 @@ TEST(BodyFrame, TellsSidesOfAShapeByItsToes) {
 }
 
 TEST(BodyFrame, DeclinesAFrontThatPointsUp) {
-  BoneMap told;
-  told.front = glm::dvec3(0, 1, 0);
-  EXPECT_NE(cause(adult(), told).find("\"front\" is not across the body's up"),
+  BoneMap overrides;
+  overrides.front = glm::dvec3(0, 1, 0);
+  EXPECT_NE(cause(adult(), overrides).find("\"front\" is not across the body's up"),
             std::string::npos);
 }
 
 TEST(BodyFrame, DeclinesLeftThatIsRight) {
   Skeleton body = adult();
   for (Joint& joint : body.joints) joint.bone = mirrored(*joint.bone);
-  EXPECT_EQ(cause(body),
-            "'rightUpperLeg' would be leftUpperLeg and lies on the right of the body, "
-            "whose toes point to +Z");
-  BoneMap told;
-  told.front = glm::dvec3(0, 0, -1);
-  EXPECT_EQ(cause(adult(), told),
-            "'leftUpperLeg' would be leftUpperLeg and lies on the right of the body, "
-            "whose front the bone map has told");
+  EXPECT_EQ(
+      cause(body),
+      "'rightUpperLeg' is identified as leftUpperLeg but is on the right of the body, "
+      "whose toes point to +Z");
+  BoneMap overrides;
+  overrides.front = glm::dvec3(0, 0, -1);
+  EXPECT_EQ(
+      cause(adult(), overrides),
+      "'leftUpperLeg' is identified as leftUpperLeg but is on the right of the body, "
+      "whose front is set in the bone map");
 }
 
 TEST(BodyFrame, DeclinesFourLegsNamingOne) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/body_map.h"
+#include "retarget/body/body_map.h"
 
 #include <gtest/gtest.h>
 
@@ -54,19 +54,18 @@ TEST(BodyMap, KnowsWhereSolesEnd) {
   }
 }
 
-// Files that know no toe tip write one of no length: it is guessed as if it were not
-// told.
+// Files without a toe tip write one of zero length: it is estimated as if it were absent.
 TEST(BodyMap, GuessesToesWhoseTipIsNoFurtherThanTheirJoint) {
-  Skeleton told = testing::giant();
-  Skeleton untold = told;
+  Skeleton with_tips = testing::giant();
+  Skeleton without_tips = with_tips;
   for (const HumanBone bone : {HumanBone::kLeftToes, HumanBone::kRightToes}) {
-    told.joints[index(*told.find(bone))].tip_in_joint = glm::dvec3(0.0);
-    untold.joints[index(*untold.find(bone))].tip_in_joint.reset();
+    with_tips.joints[index(*with_tips.find(bone))].tip_in_joint = glm::dvec3(0.0);
+    without_tips.joints[index(*without_tips.find(bone))].tip_in_joint.reset();
   }
-  const FootMap foot = map_body(told)->feet[0];
+  const FootMap foot = map_body(with_tips)->feet[0];
   EXPECT_GT(foot.tip_from_ball_in_t_pose.z, 0.05);
   EXPECT_EQ(foot.tip_from_ball_in_t_pose.z,
-            map_body(untold)->feet[0].tip_from_ball_in_t_pose.z);
+            map_body(without_tips)->feet[0].tip_from_ball_in_t_pose.z);
 }
 
 }  // namespace

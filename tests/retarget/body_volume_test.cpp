@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/body_volume.h"
+#include "retarget/body/body_volume.h"
 
 #include <cmath>
 #include <vector>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/fit_volume.h"
+#include "retarget/body/fit_volume.h"
 #include "tests/retarget/hand_scenes.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
@@ -36,7 +36,7 @@ TEST(BodyVolume, MeasuresADistanceFromTheSideAndFromTheEnd) {
   EXPECT_NEAR(side_of(c, {0, 0, 0.5}).outward.z, 1.0, 1e-15);
 }
 
-// A point on the axis has no direction; it gets one, and no NaN.
+// A point on the axis has no direction; the result is one without NaN.
 TEST(BodyVolume, AnswersOnTheAxis) {
   const CapsuleSide side = side_of(capsule(0.2, 0.1), {0, 0, 0.1});
   EXPECT_EQ(side.distance_m, -0.1);
@@ -77,7 +77,7 @@ TEST(BodyVolume, FindsPlacesOfItsSurfaceAgain) {
   }
 }
 
-// What a tailor would measure of a man or woman of 1.75 m, to two centimetres.
+// Girths of a man or woman of 1.75 m, to two centimetres.
 TEST(BodyVolume, HasTheGirthsOfAnAdult) {
   const BodyVolume v = volume_of(adult());
   const auto breadth_m = [&](P part) {
@@ -92,7 +92,7 @@ TEST(BodyVolume, HasTheGirthsOfAnAdult) {
   EXPECT_NEAR(6.283 * v[P::kLeftThigh]->radius_m, 0.52, 0.03);
 }
 
-// Same places in the T-pose, whatever the rest pose and the joints' axes.
+// Same places in the T-pose, for any rest pose and joint axes.
 TEST(BodyVolume, DoesNotDependOnHowABodyRests) {
   testing::Dice dice(4);
   const Skeleton body = adult();
@@ -125,7 +125,7 @@ TEST(BodyVolume, LeavesOutWhatABodyLacks) {
   EXPECT_TRUE(v[P::kRightHand]);
 }
 
-// Points on known capsules, as a skin of them would have.
+// Returns points on known capsules, as skin vertices.
 std::vector<SkinPoint> skin_of(const BodyVolume& volume, const Skeleton& body) {
   const auto rest = world_from_joints(body, rest_pose(body));
   std::vector<SkinPoint> skin;

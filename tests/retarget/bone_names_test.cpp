@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bodies as programs name their joints.
+// Bodies with the joint names of several programs.
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "retarget/identify_bones.h"
+#include "retarget/bones/identify_bones.h"
 #include "tests/retarget/named_bodies.h"
 
 namespace marey::retarget {
@@ -26,7 +26,7 @@ struct SchemeCase {
 
 class EveryScheme : public ::testing::TestWithParam<SchemeCase> {};
 
-// Truth: each joint bears its bone's name, and nothing else is known.
+// Truth: each joint has its bone's name, and no other data is given.
 TEST_P(EveryScheme, IsReadBoneByBone) {
   const auto& [name_of_case, scheme, names, left, right] = GetParam();
   const Skeleton body = sided_body(names, left, right);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// A planted walk taken to other floors: feet on them, the pelvis ahead of the feet.
-#include "retarget/carry_to_floor.h"
+// A planted walk moved to other floors: feet on them, the pelvis ahead of the feet.
+#include "retarget/feet/carry_to_floor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,13 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/adapt_motion.h"
-#include "retarget/floor_at.h"
-#include "retarget/make_character.h"
-#include "retarget/plan_feet.h"
-#include "retarget/plan_supports.h"
-#include "retarget/retarget_motion.h"
-#include "retarget/support_slide.h"
+#include "retarget/adapt/adapt_motion.h"
+#include "retarget/adapt/plan_supports.h"
+#include "retarget/adapt/support_slide.h"
+#include "retarget/character/make_character.h"
+#include "retarget/feet/floor_at.h"
+#include "retarget/feet/plan_feet.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/synthetic_walk.h"
 
@@ -30,10 +30,10 @@ using B = HumanBone;
 
 constexpr int kFrames = 200;
 constexpr double kRate_hz = 60.0;
-// What is asked of a standing foot. Single precision over some metres leaves 1e-5 m.
+// Tolerance for a standing foot. Single precision over some metres leaves 1e-5 m.
 constexpr double kFirm_m = 1e-4;
 
-// A walk of 3 m towards +Z, 1 m a stride, and what becomes of it on a floor.
+// A walk of 3 m towards +Z, 1 m per stride, and its result on a floor.
 struct Scene {
   testing::SyntheticWalk walk = testing::synthetic_walk(kFrames, kRate_hz);
   BodyMap map = mapped(walk.motion.skeleton);
@@ -149,7 +149,7 @@ TEST(CarryToFloor, ThePelvisAnticipatesAStep) {
   EXPECT_EQ(on.ground.unreachable_frames, 0);
   expect_on_floor(scene, floor, on);
   expect_no_slide(scene, floor, on);
-  // When it really does: contacts are found a few frames around it.
+  // The actual landing: contacts are found a few frames around it.
   int lands = kFrames;
   for (const SupportTrack& track : on.tracks) {
     const bool is_left = track.constraint.point.segment == "leftFoot";
@@ -172,7 +172,7 @@ TEST(CarryToFloor, ThePelvisAnticipatesAStep) {
   EXPECT_GT(rise_m(lands), 0.03);
   EXPECT_NEAR(rise_m(kFrames - 10), 0.15, 1e-3) << "both feet are";
   // Half of 15 cm with each swing of 0.44 s: 5.8 * 0.075 / 0.44^2 = 2.2 m/s2, and sinking
-  // for the trailing leg, beside the walk's own.
+  // for the trailing leg, in addition to the walk's own.
   const double was = greatest_pelvis_acceleration(scene, scene.planted);
   EXPECT_LT(greatest_pelvis_acceleration(scene, on.adapted.motion), 2.0 * was) << was;
 }
@@ -246,7 +246,7 @@ TEST(CarryToFloor, FeetTurnNoFurtherThanAnklesBend) {
 }
 
 // A belt that runs sideways and rises while the walk is on it: the feet go with it, and
-// come down after it where it has carried the body to.
+// the next steps are displaced by its movement.
 TEST(CarryToFloor, AMovingFloorCarriesFeetAndBody) {
   const Scene scene;
   Floor floor;
@@ -274,7 +274,7 @@ TEST(CarryToFloor, AMovingFloorCarriesFeetAndBody) {
   const double aside_m = scene.place(on.adapted.motion, last, B::kHips).x -
                          scene.place(scene.planted, last, B::kHips).x;
   EXPECT_GT(aside_m, 0.2);
-  // Up, aside, and down 10 cm again beside each other: 4 m/s2.
+  // Up, aside, and down 10 cm again at the same time: 4 m/s2.
   const double was = greatest_pelvis_acceleration(scene, scene.planted);
   EXPECT_LT(greatest_pelvis_acceleration(scene, on.adapted.motion), 3.0 * was) << was;
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/check_character.h"
+#include "retarget/character/check_character.h"
 
 #include <functional>
 #include <limits>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "retarget/make_character.h"
+#include "retarget/character/make_character.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/quadruped.h"
 #include "tests/support/random_bodies.h"
@@ -27,7 +27,7 @@ Character human() {
   return *std::move(character);
 }
 
-// What is said of a human that was changed so.
+// Returns the error for a changed human.
 std::string refusal(const std::function<void(Character&)>& change) {
   Character character = human();
   change(character);
@@ -60,7 +60,7 @@ TEST(CheckCharacter, TakesAHuman) {
   EXPECT_TRUE(check_supports(human()));
 }
 
-// Nothing here knows humans.
+// Nothing here is specific to humans.
 TEST(CheckCharacter, TakesAQuadruped) {
   const Character dog = testing::make_quadruped();
   const Status checked = check_character(dog);
@@ -97,7 +97,7 @@ TEST(CheckCharacter, RefusesNumbersThatAreNone) {
             }).find("its place is not finite"),
             std::string::npos);
   EXPECT_NE(refusal([](Character& c) {
-              c.flexibility.least_trunk_thigh_angle_rad = kNan;
+              c.flexibility.min_trunk_thigh_angle_rad = kNan;
             }).find("flexibility"),
             std::string::npos);
 }
@@ -125,11 +125,11 @@ TEST(CheckCharacter, RefusesALimbWithoutLength) {
         joint(c, B::kLeftFoot).parent_from_joint.translation = {0, 0, 0};
       }),
       "character \"Ann\": group \"left leg\": its bone from joint \"leftLowerLeg\" to "
-      "joint \"leftFoot\" has no length. Next: name joints that lie apart.");
+      "joint \"leftFoot\" has no length. Next: choose joints at different positions.");
 }
 
-// Which they are in avatars differs; adapter_coincident_test.cpp says that it does no
-// harm.
+// Avatars differ in these bones; adapter_coincident_test.cpp checks that they have no
+// effect.
 TEST(CheckCharacter, TakesAllOtherBonesWithoutLength) {
   for (const B bone : {B::kLeftShoulder,
                        B::kLeftUpperArm,
@@ -149,7 +149,7 @@ TEST(CheckCharacter, TakesASegmentThatWeighsNothing) {
   EXPECT_EQ(refusal([](Character& c) { c.masses.back().mass_kg = 0.0; }), "");
 }
 
-// Captured skeletons have vertebrae in the same place, and bend all the same.
+// Captured skeletons have vertebrae at the same position, and bend normally.
 TEST(CheckCharacter, TakesVertebraeThatCoincide) {
   EXPECT_EQ(refusal([](Character& c) {
               joint(c, B::kUpperChest).parent_from_joint.translation = {0, 0, 0};
@@ -160,7 +160,7 @@ TEST(CheckCharacter, TakesVertebraeThatCoincide) {
 TEST(CheckCharacter, RefusesALimbThatIsNoChain) {
   EXPECT_NE(refusal([](Character& c) {
               std::swap(limb(c, "left leg").joints[0], limb(c, "left leg").joints[1]);
-            }).find("does not hang on"),
+            }).find("is not a descendant of"),
             std::string::npos);
   EXPECT_NE(refusal([](Character& c) {
               limb(c, "left leg").joints.pop_back();
@@ -168,7 +168,7 @@ TEST(CheckCharacter, RefusesALimbThatIsNoChain) {
             std::string::npos);
 }
 
-// Twist joints may lie within a limb as long as they are nobody's.
+// Twist joints may be within a limb if they are in no group.
 TEST(CheckCharacter, TakesTwistJointsWithinALimbThatAreInNoGroup) {
   const Skeleton body = testing::with_extra_joints(testing::giant());
   const auto made = make_character("Ann", body, mapped(body));
@@ -185,13 +185,14 @@ TEST(CheckCharacter, TakesTwistJointsWithinALimbThatAreInNoGroup) {
 TEST(CheckCharacter, RefusesAHingeThatIsNotAcrossItsBone) {
   EXPECT_NE(refusal([](Character& c) {
               limb(c, "right arm").hinge_in_upper *= 2.0;
-            }).find("group \"right arm\": its hinge is not unit"),
+            }).find("group \"right arm\": its hinge is not a unit vector"),
             std::string::npos);
-  EXPECT_NE(
-      refusal([](Character& c) {
-        limb(c, "right arm").hinge_in_upper = {1, 0, 0};
-      }).find("group \"right arm\": its hinge is not across joint \"rightUpperArm\""),
-      std::string::npos);
+  EXPECT_NE(refusal([](Character& c) {
+              limb(c, "right arm").hinge_in_upper = {1, 0, 0};
+            })
+                .find("group \"right arm\": its hinge is not perpendicular to joint "
+                      "\"rightUpperArm\""),
+            std::string::npos);
 }
 
 TEST(CheckCharacter, RefusesAJointInTwoGroups) {
@@ -219,8 +220,8 @@ TEST(CheckCharacter, RefusesAJointInTwoGroups) {
 
 TEST(CheckCharacter, RefusesGroupsThatHangOnNothing) {
   EXPECT_NE(refusal([](Character& c) {
-              group(c, "trunk").parent = 2;  // Which hangs on the trunk.
-            }).find("go round in a circle"),
+              group(c, "trunk").parent = 2;  // A child of the trunk.
+            }).find("form a cycle"),
             std::string::npos);
   EXPECT_NE(refusal([](Character& c) {
               group(c, "head").level = 2;
@@ -228,7 +229,7 @@ TEST(CheckCharacter, RefusesGroupsThatHangOnNothing) {
             std::string::npos);
   EXPECT_NE(refusal([](Character& c) {
               group(c, "head").parent = 17;
-            }).find("its parent is no group"),
+            }).find("its parent is not a group"),
             std::string::npos);
   EXPECT_NE(refusal([](Character& c) { c.groups.pop_back(); }).find("its parent is no"),
             std::string::npos);
@@ -241,7 +242,7 @@ TEST(CheckCharacter, RefusesGroupsThatHangOnNothing) {
               first.parts = {{PartKind::kSegment, {JointIndex{0}}}};
               c.groups.back().parent = 6;
               c.groups.insert(c.groups.begin(), first);
-            }).find("group \"first\": it is a root and not the last"),
+            }).find("group \"first\": it is the root but not the last group"),
             std::string::npos);
 }
 
@@ -263,7 +264,7 @@ TEST(CheckCharacter, RefusesGroupsWithoutNamesOrParts) {
 TEST(CheckCharacter, RefusesLimitsThatNoJointCanKeep) {
   EXPECT_NE(refusal([](Character& c) {
               std::swap(c.limits[0].min_rad.z, c.limits[0].max_rad.z);
-            }).find("about Z the least is above the most"),
+            }).find("about Z the minimum is above the maximum"),
             std::string::npos);
   EXPECT_NE(
       refusal([](Character& c) { c.limits.push_back(c.limits[0]); }).find("given twice"),
@@ -280,7 +281,7 @@ TEST(CheckCharacter, RefusesAFlexibilityThatIsNoAngle) {
       "character \"Ann\": flexibility: its angles are not between 0 and 180 degrees. "
       "Next: correct the angles.");
   EXPECT_NE(refusal([](Character& c) {
-              c.flexibility.least_trunk_thigh_angle_rad = 3.2;
+              c.flexibility.min_trunk_thigh_angle_rad = 3.2;
             }).find("flexibility"),
             std::string::npos);
 }
@@ -292,13 +293,13 @@ TEST(CheckCharacter, RefusesMassesThatDoNotWeigh) {
             std::string::npos);
   EXPECT_NE(refusal([](Character& c) {
               for (PointMass& mass : c.masses) mass.mass_kg = 0.0;
-            }).find("the body weighs nothing"),
+            }).find("the total mass is 0"),
             std::string::npos);
-  EXPECT_NE(refusal([](Character& c) { c.masses.clear(); }).find("weighs nothing"),
+  EXPECT_NE(refusal([](Character& c) { c.masses.clear(); }).find("total mass is 0"),
             std::string::npos);
 }
 
-// What single precision does not hold gave postures that are no numbers.
+// Numbers beyond single precision resulted in postures with NaN.
 TEST(CheckCharacter, RefusesMassesAndLengthsThatNoBodyHas) {
   const Load bag{"bag", {JointIndex{2}, {0, 0, 0}, 1e6}};
   EXPECT_EQ(refusal([&](Character& c) { c.loads = {bag}; }), "");
@@ -307,7 +308,7 @@ TEST(CheckCharacter, RefusesMassesAndLengthsThatNoBodyHas) {
               c.loads[0].mass.mass_kg = 1e39;
             }),
             "character \"Ann\": load \"bag\": its mass is 1e+39 kg. Next: give it in kg; "
-            "1e+06 is the most.");
+            "1e+06 kg is the maximum.");
   EXPECT_EQ(refusal([&](Character& c) {
               c.loads = {bag};
               c.loads[0].mass.p_in_joint.x = 1e300;
@@ -355,8 +356,8 @@ TEST(CheckSupports, RefusesABodyThatCannotStand) {
   ASSERT_FALSE(checked);
   EXPECT_EQ(
       checked.error().message(),
-      "character \"Ann\": groups: none with a limb can support. Next: mark the legs, "
-      "or ask for no supports.");
+      "character \"Ann\": groups: none with a limb can support. Next: let the legs "
+      "support, or remove the supports.");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/check_constraints.h"
+#include "retarget/constraints/check_constraints.h"
 
 #include <functional>
 #include <limits>
@@ -20,7 +20,7 @@ JointIndex joint(HumanBone bone) {
   return JointIndex{static_cast<int>(bone)};
 }
 
-/// A humanoid with a tail, who stands on its feet and not on its hands.
+/// A humanoid with a tail, which stands on its feet and not on its hands.
 Character person() {
   Character character;
   character.skeleton = make_humanoid(average_proportions(1.75));
@@ -49,7 +49,7 @@ Constraint constraint(const std::string& id, const std::string& segment, Goal go
   return c;
 }
 
-/// One of every type, all sound; reach is the first, and stands the last.
+/// One of every type, all valid; reach is the first, and stands the last.
 ConstraintSet sound() {
   ConstraintSet set;
   set.constraints = {
@@ -76,7 +76,7 @@ std::string refusal_of(const std::function<void(ConstraintSet&)>& change) {
   return message(set);
 }
 
-/// What is said when the first constraint, reach, is changed.
+/// Returns the error for a changed first constraint, reach.
 std::string reach_with(const std::function<void(Constraint&)>& change) {
   return refusal_of([&](ConstraintSet& set) { change(set.constraints[0]); });
 }
@@ -87,19 +87,6 @@ std::string with_goal(const std::string& segment, Goal goal) {
   });
 }
 
-TEST(ResolveSegment, TakesVrmsBoneBeforeAJointOfThatName) {
-  Skeleton skeleton;
-  skeleton.joints.resize(3);
-  skeleton.joints[0].name = "leftHand";
-  skeleton.joints[1].name = "mixamorig:LeftHand";
-  skeleton.joints[1].bone = HumanBone::kLeftHand;
-  skeleton.joints[2].name = "rightHand";
-  EXPECT_EQ(resolve_segment(skeleton, "leftHand"), JointIndex{1});
-  EXPECT_EQ(resolve_segment(skeleton, "mixamorig:LeftHand"), JointIndex{1});
-  EXPECT_EQ(resolve_segment(skeleton, "rightHand"), JointIndex{2});
-  EXPECT_EQ(resolve_segment(skeleton, "head"), std::nullopt);
-}
-
 TEST(CheckConstraints, AcceptsOneOfEveryType) {
   EXPECT_EQ(message(sound()), "no refusal");
   EXPECT_EQ(message({}), "no refusal");
@@ -107,14 +94,13 @@ TEST(CheckConstraints, AcceptsOneOfEveryType) {
 
 TEST(CheckConstraints, RefusesIdsThatAreEmptyOrTwice) {
   EXPECT_EQ(refusal_of([](ConstraintSet& set) { set.constraints[1].id = ""; }),
-            "constraint 2, counted from 1: it has no id. Next: give it one that no other "
-            "has.");
+            "constraint 2, counted from 1: it has no id. Next: give it a unique id.");
   EXPECT_EQ(refusal_of([](ConstraintSet& set) { set.constraints[4].id = "above"; }),
-            "constraint \"above\": another constraint has this id, too. Next: give each "
-            "its own, or remove one.");
+            "constraint \"above\": another constraint has the same id. Next: rename or "
+            "remove one.");
 }
 
-// A solve costs the cube of their number: 3000 of them kept a processor busy for hours.
+// A solve is cubic in their number: 3000 of them occupied a processor for hours.
 TEST(CheckConstraints, RefusesMoreThanCanBeSolvedFor) {
   const auto wrong = [](int count, double apart_s) {
     ConstraintSet set;
@@ -131,11 +117,12 @@ TEST(CheckConstraints, RefusesMoreThanCanBeSolvedFor) {
     return ok ? std::string() : ok.error().message();
   };
   EXPECT_NE(wrong(3000, 0.0).find("there are 3000, but at most 1000"), std::string::npos);
-  EXPECT_NE(wrong(3000, 0.1).find("divide them by time"), std::string::npos);
+  EXPECT_NE(wrong(3000, 0.1).find("split the constraints and the motion by time"),
+            std::string::npos);
   EXPECT_NE(wrong(65, 0.0).find("more than 64 are active from the start on"),
             std::string::npos);
   EXPECT_EQ(wrong(64, 0.0), "");
-  // One hands over to the next.
+  // Each starts when the previous one stops.
   EXPECT_EQ(wrong(900, 0.1), "");
 }
 
@@ -187,27 +174,28 @@ TEST(CheckConstraints, RefusesNumbersThatAreNoneWhereverTheyStand) {
 
 TEST(CheckConstraints, RefusesNumbersOutOfRange) {
   EXPECT_EQ(reach_with([](Constraint& c) { c.importance = 0.0; }),
-            "constraint \"reach\": the importance is 0. Next: give one from 1e-06 to "
+            "constraint \"reach\": the importance is 0. Next: use a value from 1e-06 to "
             "1e+06.");
   EXPECT_EQ(reach_with([](Constraint& c) { c.precision_m = -0.001; }),
-            "constraint \"reach\": the precision is -0.001. Next: give one from 0 to "
+            "constraint \"reach\": the precision is -0.001. Next: use a value from 0 to "
             "10000.");
   EXPECT_EQ(reach_with([](Constraint& c) { c.range = 0; }),
-            "constraint \"reach\": its range is 0. Next: give 1 for its own segment "
-            "alone, more for those above it.");
+            "constraint \"reach\": its range is 0. Next: use 1 for its own segment, "
+            "or more to include segments above it.");
   EXPECT_EQ(reach_with([](Constraint& c) { c.activation.stop_duration_s = -1.0; }),
-            "constraint \"reach\": the stop duration is -1. Next: give one from 0 to "
+            "constraint \"reach\": the stop duration is -1. Next: use a value from 0 to "
             "1e+09.");
   EXPECT_EQ(reach_with([](Constraint& c) {
               c.activation = {2.0, 1.5, 0.0, 0.0};
             }),
             "constraint \"reach\": it stops at 1.5 s, before it starts at 2 s. Next: "
             "exchange the two.");
-  EXPECT_EQ(with_goal("head", DistanceToPoint{-0.1, {}}),
-            "constraint \"odd\": the distance is -0.1. Next: give one from 0 to 10000.");
+  EXPECT_EQ(
+      with_goal("head", DistanceToPoint{-0.1, {}}),
+      "constraint \"odd\": the distance is -0.1. Next: use a value from 0 to 10000.");
   EXPECT_EQ(with_goal("head", DistanceToPoint{0.0, {0, 0, 1e30}}),
             "constraint \"odd\": a coordinate of the target is 1e+30. Next: give it in "
-            "metres; 10 km is the furthest.");
+            "metres; the maximum is 10 km.");
   EXPECT_EQ(
       with_goal("head", AllowedSpace{{0, 2, 0}, {1, 1, 1}}),
       "constraint \"odd\": the box has its min above its max in y. Next: exchange 2 "
@@ -246,7 +234,7 @@ TEST(CheckConstraints, RefusesDistancesToConstraintsThatLeadNowhere) {
 
 TEST(CheckConstraints, NamesTheCircleOfDistances) {
   const auto said = refusal_of([](ConstraintSet& set) {
-    // "near" leads to the circle and is not of it.
+    // "near" leads to the cycle and is not part of it.
     set.constraints[0].goal = DistanceToConstraint{0.0, "clap"};
     set.constraints[1].goal = DistanceToConstraint{0.0, "tray2"};
     set.constraints.push_back(
@@ -254,7 +242,7 @@ TEST(CheckConstraints, NamesTheCircleOfDistances) {
     std::swap(set.constraints[0], set.constraints[2]);
   });
   EXPECT_EQ(said,
-            "constraint \"reach\": distances are kept in a circle: \"reach\" to \"clap\" "
+            "constraint \"reach\": the distances form a cycle: \"reach\" to \"clap\" "
             "to \"tray2\" to \"reach\". Next: let one of them keep its distance from a "
             "point of the body.");
 }
@@ -305,7 +293,7 @@ TEST(CheckConstraints, RefusesAnAllowedBoxInsideAForbiddenOne) {
             "constraint \"above\": it contradicts \"odd\" on the same point: its allowed "
             "box lies inside the other's forbidden one. Next: change one of them, or let "
             "one stop before the other starts.");
-  // Its face is left to the point.
+  // The faces are permitted.
   EXPECT_EQ(with_goal("leftLowerArm", ForbiddenSpace{{-2, 0, -2}, {2, 2, 2}}),
             "no refusal");
 }
@@ -313,7 +301,8 @@ TEST(CheckConstraints, RefusesAnAllowedBoxInsideAForbiddenOne) {
 TEST(CheckConstraints, RefusesSupportsThatAreNoFeet) {
   EXPECT_EQ(with_goal("leftHand", Support{}),
             "constraint \"odd\": a support stands on the end of a limb, and \"leftHand\" "
-            "is none that can. Next: choose one of \"leftFoot\", \"rightFoot\".");
+            "is not one that can support. Next: choose one of \"leftFoot\", "
+            "\"rightFoot\".");
   EXPECT_NE(with_goal("rightLowerLeg", Support{}), "no refusal");
   EXPECT_EQ(with_goal("rightFoot", Support{}), "no refusal");
 }
@@ -330,8 +319,8 @@ TEST(CheckConstraints, RefusesAFootOnTwoFootprints) {
   EXPECT_EQ(said({0.1, 0.08, 0}), "no refusal");
 }
 
-/// What is said of two supports of the left foot: "stands" on the ankle, and "odd" on a
-/// point 0.1 m from it.
+/// Returns the error for two supports of the left foot: "stands" on the ankle, and "odd"
+/// on a point 0.1 m from it.
 std::string on_ball(const glm::dvec3& second, const Activation& of_second = {}) {
   return refusal_of([&](ConstraintSet& set) {
     set.constraints.back().goal = Support{glm::dvec3(0.1, 0.08, 0), {}};
@@ -349,10 +338,10 @@ TEST(CheckConstraints, RefusesFootprintsThatNoFootIsLongEnoughFor) {
       "are 0.1 m apart and their footprints 0.3 m. Next: change one of them, or let "
       "one stop before the other starts.");
   EXPECT_NE(on_ball({0.1, 0.08, 0.05}), "no refusal");
-  // Wherever the foot turns, and as near as both precisions.
+  // For any rotation of the foot, within both precisions.
   EXPECT_EQ(on_ball({0.1, 0.08, 0.1}), "no refusal");
   EXPECT_EQ(on_ball({0.1, 0.08, 0.1019}), "no refusal");
-  // Who starts it when the time has come may place it, too.
+  // A caller that starts it may place it, too.
   EXPECT_EQ(on_ball({0.1, 0.08, 0.3}, {1e8, std::nullopt, 0.0, 0.0}), "no refusal");
 }
 

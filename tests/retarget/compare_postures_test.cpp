@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/compare_postures.h"
+#include "retarget/motion/compare_postures.h"
 
 #include <utility>
 
@@ -40,7 +40,7 @@ TEST(ComparePostures, NamesTheLegThatIsOff) {
   EXPECT_EQ(segment_name(figures.trunk), "trunk");
 }
 
-// A quarter of a second in a motion: no median shows it.
+// A quarter of a second in a motion: the median does not show it.
 TEST(ComparePostures, FindsAFootThatIsTurnedForAWhile) {
   const Motion walk = testing::synthetic_walk(120, 60.0).motion;
   Motion made = walk;
@@ -56,12 +56,12 @@ TEST(ComparePostures, FindsAFootThatIsTurnedForAWhile) {
   EXPECT_GT(glm::degrees(figures.feet.sustained_rad), 50.0);
   EXPECT_GE(figures.feet.sustained_frame, 60);
   EXPECT_LE(figures.feet.sustained_frame, 65);
-  // For less long it is a movement.
+  // A shorter interval is a movement.
   for (std::size_t t = 70; t < 80; ++t) made.poses[t] = walk.poses[t];
   EXPECT_LT(compare_postures(walk, map, made, map).feet.sustained_rad, 1e-7);
 }
 
-// A shoe with a heel slopes otherwise than a bare foot, and is no turned foot.
+// A shoe with a heel slopes differently from a bare foot, and is not a rotated foot.
 TEST(ComparePostures, LeavesOutHowHighAnAnkleLies) {
   const Motion walk = testing::synthetic_walk(120, 60.0).motion;
   Motion made = walk;
@@ -96,7 +96,7 @@ TEST(ComparePostures, FindsAJointFasterThanTheSourcesAndSaysWhen) {
   EXPECT_TRUE(figures.fastest_frame == 31 || figures.fastest_frame == 32);
 }
 
-// One bad sample of a recording, which a body that follows it cannot show.
+// A single bad sample of a recording, which a body that follows it cannot show.
 TEST(ComparePostures, SaysWhenTheSourceItselfJumps) {
   Motion walk = testing::synthetic_walk(60, 60.0).motion;
   walk.poses[20].root_in_world.x += 5.0;

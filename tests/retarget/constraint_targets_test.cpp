@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/constraint_targets.h"
+#include "retarget/constraints/constraint_targets.h"
 
 #include <cmath>
 #include <random>
@@ -20,7 +20,7 @@ Places at(const glm::dvec3& p_in_world) {
   return places;
 }
 
-/// The one target of a goal that moves the constrained point itself.
+/// Returns the one target of a goal that moves the constrained point itself.
 glm::dvec3 target(const Goal& goal, const Places& places) {
   const PointTargets targets = targets_of(goal, places);
   EXPECT_EQ(targets.all().size(), 1U);
@@ -91,7 +91,7 @@ TEST(ConstraintTargets, LeaveTheMiddleOfAForbiddenSpaceAlwaysTheSameWay) {
   EXPECT_EQ(target(long_in_x, at({0, 0, 0})), glm::dvec3(0, 1, 0));
 }
 
-// Never further from the point than any other place that would do.
+// Never further from the point than any other valid position.
 TEST(ConstraintTargets, OfSpacesAreTheNearest) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> coordinate(-2.0, 2.0);
@@ -118,7 +118,7 @@ RigidTransform some_segment() {
   return {glm::normalize(glm::dquat(0.3, -0.5, 0.7, 0.2)), {0.1, 1.2, -0.3}};
 }
 
-// Two levers at their targets leave one rotation: the wanted one.
+// Two levers at their targets define one rotation.
 TEST(ConstraintTargets, OfAnOrientationDetermineAllOfIt) {
   const glm::dquat wanted = glm::normalize(glm::dquat(0.9, 0.1, -0.4, 0.3));
   Places places = at({9, 9, 9});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/contact_figures.h"
+#include "retarget/contacts/contact_figures.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRate_hz = 60.0;
 
-/// One point of four, at rest at a height of 8 cm for a second, then lifted.
+/// Four points, one of them at rest at a height of 8 cm for a second, then lifted.
 ContactPaths one_step() {
   ContactPaths paths;
   for (int t = 0; t < 90; ++t) {
@@ -32,7 +32,7 @@ TEST(ContactFigures, LabelTheFramesInWhichAPointRests) {
 
 TEST(ContactFigures, MeasureSlideDriftSinkingAndFloatThatAreKnown) {
   const ContactLabels labels = label_contacts(one_step(), kRate_hz);
-  // A tenth of a millimetre a frame to the side; 3 mm into the floor, then 7 mm above.
+  // A tenth of a millimetre per frame to the side; 3 mm into the floor, then 7 mm above.
   ContactPaths paths = one_step();
   for (std::size_t t = 0; t < 90; ++t) {
     paths[0][t].x += 1e-4 * static_cast<double>(t);
@@ -61,7 +61,7 @@ TEST(ContactFigures, AreZeroWithoutContacts) {
   EXPECT_TRUE(figures.drifts.empty());
 }
 
-// Jerk grows with the body, and with the third power of the rate.
+// Jerk is proportional to the body's size, and to the third power of the rate.
 TEST(ContactFigures, JerkIsThatOfPlaces) {
   const testing::SyntheticWalk walk = testing::synthetic_walk(120, kRate_hz);
   const double jerk = mean_jerk(walk.motion);

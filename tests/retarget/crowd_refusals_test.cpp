@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "retarget/crowd.h"
+#include "retarget/adapt/crowd.h"
 #include "tests/retarget/adapter_bodies.h"
 #include "tests/retarget/crowd_scenes.h"
 #include "tests/support/quadruped.h"
@@ -24,7 +24,7 @@ Adapter somebody(const ConstraintSet& wishes = one_hand(),
   return make_adapter(human(false), wishes, options);
 }
 
-// What a crowd of two ordinary members and `odd` is refused with; empty: it is not.
+// Returns the error for a crowd of two ordinary members and `odd`; empty: no error.
 std::string refused(Adapter odd) {
   std::vector<Adapter> members;
   members.push_back(somebody());
@@ -80,26 +80,27 @@ TEST(CrowdRefusals, OfAnotherSkeleton) {
   const Character animal = named(testing::make_quadruped());
   expect_named(
       refused(make_adapter(animal, {{contact("paw", "front left paw", {})}, {}})),
-      "arranged");
+      "differ in structure");
   const Character longer =
       named(human_of(testing::with_vertebrae(testing::giant(), 7), false));
-  expect_named(refused(make_adapter(longer, one_hand())), "arranged");
+  expect_named(refused(make_adapter(longer, one_hand())), "differ in structure");
 }
 
 TEST(CrowdRefusals, OfLimitsThatOthersDoNotHave) {
-  expect_named(refused(make_adapter(named(human(true)), one_hand())), "arranged");
+  expect_named(refused(make_adapter(named(human(true)), one_hand())),
+               "differ in structure");
 }
 
 TEST(CrowdRefusals, OfOtherGroups) {
   Character body = named(human(false));
   body.groups.front().balances = !body.groups.front().balances;
-  expect_named(refused(make_adapter(body, one_hand())), "arranged");
+  expect_named(refused(make_adapter(body, one_hand())), "differ in structure");
 }
 
 TEST(CrowdRefusals, OfOtherConstraints) {
   const Character body = named(human(false));
   const auto expect_refused = [&](const ConstraintSet& wishes) {
-    expect_named(refused(make_adapter(body, wishes)), "arranged");
+    expect_named(refused(make_adapter(body, wishes)), "differ in structure");
   };
   expect_refused({{contact("hand", "rightHand", {})}, {}});
   expect_refused({{standing("hand", "leftFoot")}, {}});
@@ -129,15 +130,15 @@ TEST(CrowdRefusals, OfOtherOptions) {
   options = {};
   options.extremities_keep_orientation = true;
   expect_refused(options);
-  // Horizontally and in three dimensions differ in numbers alone; with and without in
-  // what turns.
+  // Horizontal and three-dimensional balance differ in numbers alone; with and without
+  // balance differ in the rotating joints.
   options = {};
   options.balance = BalanceMode::kHorizontal;
   expect_named(refused(make_adapter(named(human(false)), one_hand(), options)),
                "member 2");
 }
 
-// Numbers are each member's own.
+// Numbers may differ between members.
 TEST(CrowdRefusals, NotOfOtherNumbers) {
   AdaptOptions options;
   options.root_for_constraints = 0.3;
@@ -152,7 +153,7 @@ TEST(CrowdRefusals, NotOfOtherNumbers) {
   EXPECT_EQ(refused(make_adapter(named(human(false, 1.2)), wishes, options)), "");
 }
 
-// Lanes go by one plan and by one set of options: nobody may change his own.
+// Lanes use one plan and one set of options, so a member must not change its own.
 TEST(CrowdRefusals, OfChangesThatWouldMakeAMemberAnotherKind) {
   std::vector<Adapter> members;
   members.push_back(make_adapter(human(false), one_hand()));

@@ -12,7 +12,7 @@
 namespace marey::retarget {
 namespace {
 
-/// Segments that play the same part in a human and in a quadruped.
+/// Corresponding segments of a human and a quadruped.
 struct Places {
   const char* hand;
   const char* other_hand;
@@ -53,7 +53,7 @@ Character like(const Character& body, Dice& dice) {
   return out;
 }
 
-/// One body's wishes at one moment.
+/// Targets of one body at one moment.
 class Asker {
  public:
   Asker(const Character& body, const Pose& reference, Dice& dice)
@@ -79,7 +79,7 @@ class Asker {
   [[nodiscard]] glm::dvec3 place(const char* segment) const {
     return place_of(body_, reference_, {segment});
   }
-  // From within reach to far out of it.
+  // From within reach to far beyond.
   glm::dvec3 near(const char* segment) {
     constexpr std::array<double, 4> kFar_m{0.02, 0.15, 0.5, 2.0};
     const auto n = static_cast<std::size_t>(dice_.between(0.0, 3.999));
@@ -182,7 +182,7 @@ std::vector<CrowdMember> make_members(const Character& body,
     member.carries = !body.loads.empty() && i % 2 == 1;
     for (std::size_t n = 0; n + 1 < moments; ++n) {
       CrowdQuestion question;
-      // Rest poses are full of zeros, of which there are two.
+      // Rest poses contain many zeros, of both signs.
       question.reference = (i + n) % 4 == 0 ? rest_pose(member.character.skeleton)
                                             : random_posture(member.character, dice, 0.4);
       question.wishes = Asker(member.character, question.reference, dice).ask(wishes, i);

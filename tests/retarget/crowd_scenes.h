@@ -9,15 +9,15 @@
 #include "core/character.h"
 #include "core/constraint.h"
 #include "core/pose.h"
-#include "retarget/adapter.h"
-#include "retarget/crowd.h"
+#include "retarget/adapt/adapter.h"
+#include "retarget/adapt/crowd.h"
 #include "tests/support/random_bodies.h"
 
 /// Crowds for tests: bodies of one structure and of different measures, and what is
 /// asked of them from moment to moment.
 namespace marey::retarget {
 
-/// What is asked of one body at one moment.
+/// Inputs of one body at one moment.
 struct CrowdQuestion {
   Pose reference;
   ConstraintSet wishes;  ///< Targets of this moment.
@@ -26,32 +26,32 @@ struct CrowdQuestion {
 
 struct CrowdMember {
   Character character;
-  ConstraintSet wishes;                  ///< As the adapter is made with them.
-  bool carries = false;                  ///< The first of its loads.
+  ConstraintSet wishes;                  ///< Constraints with which the adapter is made.
+  bool carries = false;                  ///< Carries the first of its loads.
   std::vector<CrowdQuestion> questions;  ///< One per moment.
 };
 
-/// Which wishes the members have.
+/// Types of the members' targets.
 enum class CrowdWishes {
   kHands,       ///< Contacts of three importances, near to beyond reach.
   kSupports,    ///< A foot on a footprint, one where it began, a far hand.
   kRelations,   ///< Distances, spaces and orientations.
-  kFading,      ///< As kHands; one in three members has one that comes and goes.
-  kNobodyAsks,  ///< Wishes that are met already, or not active yet.
+  kFading,      ///< As kHands; one in three members has one that fades in and out.
+  kNobodyAsks,  ///< Targets that are met already, or not active yet.
 };
 
-/// `count` bodies like `body`: every bone, mass and limit of its own. Humans and
-/// quadrupeds that are make_quadruped()'s. The last moment asks as the first did.
+/// `count` bodies like `body`, with individual bones, masses and limits. Humans, and
+/// quadrupeds of make_quadruped(). The last moment equals the first.
 [[nodiscard]] std::vector<CrowdMember> make_members(const Character& body,
                                                     CrowdWishes wishes,
                                                     std::size_t count,
                                                     std::size_t moments,
                                                     testing::Dice& dice);
 
-/// Tells the adapter what is asked at a moment.
+/// Sets the inputs of a moment in the adapter.
 void ask(const CrowdQuestion& question, Adapter& adapter);
 
-/// All that an adapter has to say.
+/// Complete results of an adapter.
 struct CrowdAnswer {
   Pose pose;
   AdaptReport report;
@@ -63,10 +63,10 @@ struct CrowdAnswer {
                                     const ConstraintSet& wishes,
                                     const Pose& pose,
                                     const AdaptReport& report);
-/// What differs first, to the bit; empty: nothing.
+/// Returns the first difference, to the bit; empty if equal.
 [[nodiscard]] std::string difference(const CrowdAnswer& a, const CrowdAnswer& b);
 
-/// Those that the processor at hand has.
+/// Returns the widths that this processor supports.
 [[nodiscard]] std::vector<LaneWidth> lane_widths();
 
 }  // namespace marey::retarget

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/crowd.h"
+#include "retarget/adapt/crowd.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ Answers one_by_one(const std::vector<CrowdMember>& members, const AdaptOptions& 
   return out;
 }
 
-// Members stand in the crowd in the order of `places`.
+// Members are in the crowd in the order of `places`.
 Answers all_at_once(const std::vector<CrowdMember>& members,
                     const std::vector<std::size_t>& places,
                     const AdaptOptions& options,
@@ -75,7 +75,7 @@ Answers all_at_once(const std::vector<CrowdMember>& members,
   return out;
 }
 
-// Every width and number of threads; in each the members stand in another order.
+// For every width and number of threads, each with another order of members.
 void expect_own_answers(const std::vector<CrowdMember>& members,
                         const AdaptOptions& options,
                         Dice& dice) {
@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(Crowd,
                                                               BalanceMode::k3d)),
                          name_of_case);
 
-// 37: no multiple of any width, and lanes are filled again.
+// 37 is not a multiple of any width, and lanes are refilled.
 TEST_P(CrowdOfMany, AnswersAsItsMembersDo) {
   Dice dice(2001);
   expect_own_answers(members(human(false), 37, dice), options(), dice);
@@ -177,7 +177,7 @@ TEST_P(CrowdOfMany, AnswersAsItsMembersDoWhenTheyMayNotFinish) {
   }
 }
 
-// A body for which single precision finds no step leaves its neighbours theirs.
+// A body for which single precision finds no step does not affect its neighbours.
 TEST_P(CrowdOfMany, AnswersAsItsMembersDoHoweverFarSomeAreAskedToGo) {
   Dice dice(2008);
   auto some = members(human(false), 21, dice);
@@ -196,7 +196,7 @@ TEST_P(CrowdOfMany, AnswersAsItsMembersDoHoweverFarSomeAreAskedToGo) {
   expect_own_answers(some, options(), dice);
 }
 
-// Fewer members than lanes, and as many.
+// Fewer members than lanes, and equally many.
 TEST_P(CrowdOfMany, MayBeFew) {
   Dice dice(2006);
   const auto all = members(human(false), 16, dice);

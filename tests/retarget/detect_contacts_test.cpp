@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/detect_contacts.h"
+#include "retarget/contacts/detect_contacts.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -45,13 +45,13 @@ void expect_truth(const testing::SyntheticWalk& walk, int frames) {
   }
 }
 
-// A foot leaves and arrives without a jerk, so the very first and last slow frames of a
-// swing look like rest: 50 ms.
+// The speed of a foot is continuous at the ends of a swing, so the very first and last
+// slow frames look like rest: 50 ms.
 TEST(DetectContacts, FindsEveryStepOfAWalkWithin50ms) {
   expect_truth(testing::synthetic_walk(190, 60.0), 3);
 }
 
-// 2 mm and 3 mrad per joint is what a good capture leaves; 67 ms.
+// Noise of 2 mm and 3 mrad per joint, as in a good capture; 67 ms.
 TEST(DetectContacts, FindsEveryStepOfANoisyWalkWithin67ms) {
   expect_truth(testing::synthetic_walk(190, 60.0, 0.003, 0.002), 4);
 }
@@ -96,7 +96,7 @@ TEST(DetectContacts, CallsAStillButRaisedFootNoContact) {
   motion.rate.hz = 30.0;
   const BodyMap map = *map_body(motion.skeleton);
   Pose pose = rest_pose(motion.skeleton);
-  // The left knee up, as a flamingo stands.
+  // Standing on the right leg, the left knee up.
   pose.parent_from_joint[index(map.leg(0).upper)] =
       glm::angleAxis(-1.0, glm::dvec3(1, 0, 0));
   pose.parent_from_joint[index(map.leg(0).lower)] =
@@ -107,7 +107,7 @@ TEST(DetectContacts, CallsAStillButRaisedFootNoContact) {
   EXPECT_EQ(contacts.feet[1].stance.size(), 1U);
 }
 
-// Bodies fitted to markers climb and sink by some centimetres from step to step.
+// Bodies fitted to markers rise and sink by some centimetres from step to step.
 TEST(DetectContacts, DoesNotMindAFloorThatRisesByFourCentimetresUnderway) {
   testing::SyntheticWalk walk = testing::synthetic_walk(190, 60.0);
   const double end_m = walk.motion.poses.back().root_in_world.z;

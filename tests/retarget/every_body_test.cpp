@@ -13,7 +13,7 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/normalized_skeleton.h"
+#include "retarget/body/normalized_skeleton.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
 
@@ -28,7 +28,7 @@ struct Miss {
   double rotation_rad = 0.0;
 };
 
-// The worst joint of two postures of one skeleton.
+// Returns the largest error over the joints of two postures of one skeleton.
 Miss miss(const Skeleton& skeleton, const Pose& a, const Pose& b) {
   const auto frames_a = world_from_joints(skeleton, a);
   const auto frames_b = world_from_joints(skeleton, b);
@@ -64,7 +64,7 @@ struct BodyCase {
 
 class EveryBody : public ::testing::TestWithParam<BodyCase> {};
 
-// Lossless, in place and in turn: the promise of 1.1.2.
+// Lossless, in place and in rotation (Kulpa 2005, 1.1.2).
 TEST_P(EveryBody, GetsItsOwnPostureBackToAMicrometre) {
   Dice dice(11);
   for (int k = 0; k < 20; ++k) {
@@ -98,7 +98,7 @@ TEST_P(EveryBody, KeepsItsBoneLengthsUnderAnyPosture) {
   }
 }
 
-// The frames that expand() hands out are those of the pose it hands out.
+// The frames that expand() returns are those of the pose that it returns.
 TEST_P(EveryBody, HasWorldFramesThatAgreeWithItsPose) {
   Dice dice(13);
   const Skeleton source = testing::random_humanoid(dice);
@@ -117,7 +117,7 @@ TEST_P(EveryBody, HasWorldFramesThatAgreeWithItsPose) {
   }
 }
 
-// Source and avatar differ in every way but the posture that their limbs show.
+// Source and avatar differ in everything except the posture of their limbs.
 TEST_P(EveryBody, PointsItsLimbsAsTheSourceDoes) {
   Dice dice(14);
   const Skeleton source = testing::random_humanoid(dice);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/exchanged_sides.h"
+#include "retarget/bones/exchanged_sides.h"
 
 #include <algorithm>
 #include <array>
@@ -64,12 +64,12 @@ TEST(ExchangedSides, NamesTheBodyTheLegsOrTheArms) {
   FoundBones arms = found;
   exchange(arms, {B::kLeftShoulder, B::kLeftUpperArm, B::kLeftLowerArm, B::kLeftHand});
   EXPECT_EQ(judged(walk, arms), ExchangedSides::kArms);
-  // Without toes, too.
+  // Also without toes.
   body.bones[index(B::kLeftToes)] = body.bones[index(B::kRightToes)] = std::nullopt;
   EXPECT_EQ(judged(walk, body), ExchangedSides::kBody);
 }
 
-// One joint that is mistaken is not an exchange.
+// A single wrong joint is not an exchange.
 TEST(ExchangedSides, IsNotDecidedByToesAlone) {
   const Motion walk = testing::synthetic_walk(90, 60.0).motion;
   FoundBones heels = found_in(walk.skeleton);

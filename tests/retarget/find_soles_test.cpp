@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/find_soles.h"
+#include "retarget/body/find_soles.h"
 
 #include <cmath>
 #include <vector>
@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/leg_on_foot.h"
-#include "retarget/live_retarget.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/feet/leg_on_foot.h"
+#include "retarget/motion/live_retarget.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_walk.h"
 
@@ -43,7 +43,7 @@ struct Shoes {
         add(ankle, {x, 0.0, 0.0});
         add(toes, {x, -map.feet[side].ball_height_m, 0.12});
       }
-      // A long boot leg is no sole.
+      // A long boot leg is not a sole.
       add(ankle, {0.0, 0.2, -0.5});
     }
   }
@@ -66,7 +66,7 @@ TEST(FindSoles, EndWhereTheSkinDoes) {
   }
 }
 
-// A toe joint that carries no skin bends no shoe: its end in front turns with the foot.
+// Without skin on the toe joint a shoe does not bend: its front end turns with the foot.
 TEST(FindSoles, ShoesWithoutSkinOnTheToesDoNotBend) {
   Shoes shoes(testing::giant());
   Soles soles = find_soles(shoes.body, shoes.map, shoes.places, shoes.carriers);
@@ -84,9 +84,9 @@ TEST(FindSoles, ShoesWithoutSkinOnTheToesDoNotBend) {
     EXPECT_FALSE(soles[side]->toes_bend);
     EXPECT_NEAR(soles[side]->tip_from_ball_in_t_pose.z, 0.12, 1e-9);
   }
-  wear(soles, shoes.map);
+  apply_soles(soles, shoes.map);
   EXPECT_FALSE(shoes.map.feet[0].has_toes);
-  // On its ball with the heel up: the tip comes to the floor, the ankle stays.
+  // On its ball with the heel up: the tip reaches the floor, the ankle stays.
   const FootMap& foot = shoes.map.feet[0];
   const glm::dquat pitch = glm::angleAxis(0.7, glm::dvec3(1, 0, 0));
   FootPlace place{-(pitch * foot.ball_from_ankle_in_t_pose), pitch, pitch};
@@ -118,7 +118,7 @@ TEST(FindSoles, LongShoesStayAboveTheFloor) {
   const Shoes shoes(testing::giant());
   const Soles soles = find_soles(shoes.body, shoes.map, shoes.places, shoes.carriers);
   BodyMap map = shoes.map;
-  wear(soles, map);
+  apply_soles(soles, map);
 
   RetargetOptions options;
   options.soles = soles;

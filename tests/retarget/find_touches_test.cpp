@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/find_touches.h"
+#include "retarget/hands/find_touches.h"
 
 #include <string>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "retarget/touch_constraints.h"
+#include "retarget/hands/touch_constraints.h"
 #include "tests/retarget/hand_scenes.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/synthetic_walk.h"
@@ -17,7 +17,7 @@ namespace {
 
 using P = VolumePart;
 
-// As adapter_bodies' noise: what a good capture leaves.
+// As in adapter_bodies: residual noise of a good capture.
 constexpr double kNoise_rad = 0.003;
 constexpr double kNoise_m = 0.002;
 
@@ -26,7 +26,8 @@ Touches found(const Motion& motion) {
   return find_touches(motion, map, average_volume(motion.skeleton, map));
 }
 
-// The one touch of that hand and part; the test fails when there is not exactly one.
+// Returns the one touch of that hand and part; fails the test if there is not exactly
+// one.
 Touch only(const Touches& touches, int side, P part) {
   Touch out;
   int count = 0;
@@ -44,7 +45,7 @@ Touch only(const Touches& touches, int side, P part) {
 }
 
 void expect_held(const Touch& touch) {
-  // The hand comes to rest during the last tenths of a second of its way.
+  // The hand comes to rest during the last tenths of a second of its path.
   EXPECT_GT(touch.frames.first, kHeldFirst - 12);
   EXPECT_LE(touch.frames.first, kHeldFirst);
   EXPECT_GE(touch.frames.last, kHeldLast);
@@ -84,7 +85,7 @@ TEST_P(EveryNoise, FindsNothingInHandsThatHang) {
   EXPECT_TRUE(touches.still.empty());
 }
 
-// A hand that passes by at 2 m/s does not touch, however near.
+// A hand that passes at 2 m/s does not touch, at any distance.
 TEST(FindTouches, FindsNothingInAHandThatPassesBy) {
   Motion motion = hands_go_to(hand_on_head());
   const Pose there = motion.poses[120];
@@ -110,7 +111,7 @@ TEST(FindTouches, FindsAHandThatLeans) {
   const glm::dvec3 stays =
       world_from_joints(raised.skeleton, raised.poses[120])[hand].translation;
   for (int t = 0; t < 90; ++t) {
-    // The arm's posture changes, the root makes up for it: the shoulder travels.
+    // The arm's posture changes and the root compensates: the shoulder moves.
     Pose pose = raised.poses[120];
     const double angle = 0.006 * t;
     glm::dquat& shoulder = pose.parent_from_joint[index(map.limbs[0]->upper)];
@@ -169,7 +170,7 @@ TEST(TouchConstraints, KeepHeightsOfTheSourceIfAsked) {
   // From the first frame to the last: it does not fade.
   EXPECT_FALSE(set.constraints[0].activation.start_s);
   EXPECT_FALSE(set.constraints[0].activation.stop_s);
-  // Over the floor, wherever the source has it.
+  // Over the floor, at any height of the source's.
   options.world.source_floor_m = 0.5;
   const auto on_floor = [&] {
     return constraints_of(touches, body, map, volume, 0, FrameRate{60.0}, options);

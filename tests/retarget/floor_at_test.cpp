@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/floor_at.h"
+#include "retarget/feet/floor_at.h"
 
 #include <cmath>
 
@@ -10,7 +10,7 @@
 namespace marey::retarget {
 namespace {
 
-// A step of 0.2 m, and a ramp that goes on from it and rises by 0.3 m in 2 m.
+// A step of 0.2 m, followed by a ramp that rises by 0.3 m in 2 m.
 Floor step_and_ramp() {
   Floor floor;
   floor.base_height_m = 0.05;
@@ -46,7 +46,7 @@ TEST(FloorAt, PlanesGoOnBeyondTheirEdges) {
   EXPECT_EQ(plane_at(floor, std::nullopt, {0, 3}, 0.0).height_m, 0.05);
 }
 
-// There, waiting, on at a steady speed, and back.
+// Forward, wait, on at constant speed, and back.
 FloorPart lift() {
   FloorPart part{"lift", {-1, -1}, {1, 1}, 0.1, {0, 0}, {}};
   part.path = {{1.0, {0, 0, 0}},

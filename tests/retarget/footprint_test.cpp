@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/footprint.h"
+#include "retarget/feet/footprint.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "retarget/foot_plan.h"
-#include "retarget/smooth_step.h"
+#include "retarget/base/smooth_step.h"
+#include "retarget/feet/foot_plan.h"
 
 namespace marey::retarget {
 namespace {
@@ -33,8 +33,8 @@ glm::dvec3 ball_of(const FootPlace& place) {
   return place.ankle_in_world + place.foot * kFoot.ball_from_ankle_in_t_pose;
 }
 
-/// A foot that stands for two seconds and turns by `turn_rad` in the middle one, about a
-/// point between ankle (0) and ball (1).
+/// A foot that stands for two seconds and rotates by `turn_rad` in the middle one, about
+/// a point between ankle (0) and ball (1).
 struct TurningFoot {
   std::vector<FootPlace> reference;
   FootContacts contacts;
@@ -56,7 +56,7 @@ struct TurningFoot {
   }
 };
 
-// A dancer turns on the spot: the foot goes with it, the ball stays.
+// A turn on the spot: the foot rotates, the ball stays.
 TEST(Footprint, TurnsWithAFootThatPivotsOnItsBall) {
   for (const double turn_deg : {40.0, 120.0, -170.0, 400.0}) {
     const TurningFoot foot(turn_deg * kDegree, 1.0);
@@ -81,8 +81,8 @@ TEST(Footprint, TurnsAboutTheHeelWhereThatStays) {
   }
 }
 
-// On the ball alone the foot, heel up, turns about it; what stands flat before and after
-// stands where the ball has brought it.
+// On the ball alone the foot, heel up, rotates about it; its flat positions before and
+// after follow from the ball.
 TEST(Footprint, TurnsAboutTheBallThatBearsAlone) {
   TurningFoot foot(150.0 * kDegree, 1.0);
   for (std::size_t t = 25; t < 95; ++t) {
@@ -96,7 +96,7 @@ TEST(Footprint, TurnsAboutTheBallThatBearsAlone) {
   foot.contacts.heel = {{0, 24}, {95, 119}};
   const auto plan = foot.plan();
   for (std::size_t t = 0; t < plan.size(); ++t) {
-    // The foot leaves its footprint, which is up to 5 degrees behind, with no jump of speed.
+    // The foot leaves its footprint, up to 5 degrees behind, with no jump of speed.
     EXPECT_LT(apart(yaw_of(plan[t].foot), yaw_of(foot.reference[t].foot)), 7.0 * kDegree)
         << t;
     EXPECT_LT(glm::distance(ball_of(plan[t]), ball_of(plan[0])), 1e-3) << t;
@@ -116,7 +116,7 @@ TEST(Footprint, OfAFootThatWaversIsOne) {
   }
 }
 
-// No kink that an eye or a filter would see.
+// No visible kink.
 TEST(Footprint, TurnsSmoothly) {
   const TurningFoot foot(120.0 * kDegree, 1.0);
   const auto plan = foot.plan();

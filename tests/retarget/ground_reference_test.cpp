@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "retarget/adapt_ground.h"
+#include "retarget/adapt/kernel/adapt_ground.h"
 #include "tests/retarget/thesis_scene.h"
 
 namespace marey::retarget {
@@ -55,7 +55,7 @@ TEST(GroundReference, IsWhatWasGivenOnFlatGroundToTheBit) {
   }
 }
 
-// Thesis 4.2.4.2: the root goes by the mean of what the footprints are displaced.
+// Thesis 4.2.4.2: the root moves by the mean displacement of the footprints.
 TEST(GroundReference, TakesTheRootHalfWayUpAStep) {
   const Character character = thesis_human();
   const Pose reference = standing_pose(character, 0.6);
@@ -94,7 +94,7 @@ TEST(GroundReference, LowersTheRootAsFarAsTheLowerFootNeeds) {
                          glm::distance(at("leftLowerLeg"), at("leftFoot"));
     EXPECT_NEAR(glm::distance(at("leftUpperLeg"), at("leftFoot")), leg_m, 1e-5);
     EXPECT_LT(out.root_in_world.y, reference.root_in_world.y - 0.15);
-    // Along the vertical alone.
+    // Along the vertical only.
     EXPECT_NEAR(out.root_in_world.x, reference.root_in_world.x, kFloat_m);
     EXPECT_NEAR(out.root_in_world.z, reference.root_in_world.z, kFloat_m);
     const auto& support = std::get<Support>(set.constraints[0].goal);
@@ -102,7 +102,7 @@ TEST(GroundReference, LowersTheRootAsFarAsTheLowerFootNeeds) {
   }
 }
 
-// The default place of the centre of mass is the grounded reference's.
+// The default target of the centre of mass is that of the grounded reference.
 TEST(GroundReference, TakesTheWantedCentreOfMassAlong) {
   const Character character = thesis_human();
   const Pose reference = standing_pose(character, 0.6);
@@ -121,7 +121,7 @@ TEST(GroundReference, TakesTheWantedCentreOfMassAlong) {
   }
 }
 
-// A step that fades in is anticipated: the root goes up with the support's activation.
+// A step that fades in is anticipated: the root rises with the support's activation.
 TEST(GroundReference, AnticipatesAStepAsItsSupportBegins) {
   const Character character = thesis_human();
   const Pose reference = standing_pose(character, 0.6);
@@ -174,8 +174,9 @@ Reaching reach_down(Method method, double flexibility_rad, double height_m) {
   return out;
 }
 
-// Figure 4.13: the stiffer, the more the knees bend for what lies on the floor. The model
-// is the header's: a knee bent by f lets the trunk come f nearer to the thigh.
+// Figure 4.13: the stiffer the subject, the more the knees bend to reach the floor. The
+// model is that of the header: a knee bent by f lets the trunk come f nearer to the
+// thigh.
 TEST(Hamstrings, BendTheKneesOfWhoIsStiff) {
   for (const Method method : kMethods) {
     const Reaching supple = reach_down(method, 0.0, 0.25);
@@ -186,7 +187,8 @@ TEST(Hamstrings, BendTheKneesOfWhoIsStiff) {
       const Reaching stiff = reach_down(method, limit_rad, 0.25);
       EXPECT_GT(stiff.knee_rad(), before_rad + 0.05);
       EXPECT_LT(stiff.out.root_in_world.y, supple.out.root_in_world.y - 0.005);
-      // To what both legs' unlike pull and thighs of another length than shanks make.
+      // Up to the effect of the legs' different pull and of different thigh and shank
+      // lengths.
       EXPECT_GT(stiff.trunk_thigh_rad() + stiff.knee_rad(), limit_rad - 0.05);
       before_rad = stiff.knee_rad();
     }

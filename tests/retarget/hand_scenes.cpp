@@ -9,8 +9,8 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/pose.h"
-#include "retarget/normalized_skeleton.h"
-#include "retarget/smooth_step.h"
+#include "retarget/base/smooth_step.h"
+#include "retarget/body/normalized_skeleton.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
 
@@ -27,7 +27,7 @@ glm::dquat about(const glm::dvec3& axis, double angle_rad) {
   return glm::angleAxis(angle_rad, axis);
 }
 
-// Arms hang a little forward and aside, clear of the thighs.
+// Arms hang slightly forward and outward, clear of the thighs.
 HandPlace hanging(const BodyMap& map, std::span<const RigidTransform> rest, int side) {
   const double out = side == 0 ? 1.0 : -1.0;
   const LimbMap& arm = *map.limbs[static_cast<std::size_t>(side)];
@@ -37,7 +37,7 @@ HandPlace hanging(const BodyMap& map, std::span<const RigidTransform> rest, int 
       about({0, 0, 1}, -out * kHalfPi)};
 }
 
-// The wrist that brings the hand there, the elbow down and back and out.
+// Computes the wrist that brings the hand there, with the elbow down, back and out.
 void put_hand(const Skeleton& body,
               const BodyMap& map,
               const BodyVolume& volume,

@@ -12,26 +12,26 @@
 
 #include "core/motion.h"
 #include "core/skeleton.h"
-#include "retarget/body_map.h"
-#include "retarget/body_volume.h"
+#include "retarget/body/body_map.h"
+#include "retarget/body/body_volume.h"
 
 namespace marey::retarget {
 
-/// Where a hand is put: the middle of its capsule, and how it is turned from the T-pose.
+/// Target of a hand: the middle of its capsule, and its rotation from the T-pose.
 struct HandPlace {
   glm::dvec3 middle_in_world{0.0};
   glm::dquat world_from_t_pose{1.0, 0.0, 0.0, 0.0};
 };
 
-/// Both hands of a body that stands still; nullopt hangs.
+/// Both hands of a standing body; nullopt hangs.
 using HandPlaces = std::array<std::optional<HandPlace>, 2>;
 
 inline constexpr int kSceneFrames = 240;  ///< At 60 Hz.
-inline constexpr int kHeldFirst = 90;     ///< The hands are there
-inline constexpr int kHeldLast = 150;     ///< until then, and hang before 60, after 180.
+inline constexpr int kHeldFirst = 90;     ///< The hands are there from this frame
+inline constexpr int kHeldLast = 150;  ///< to this one, and hang before 60 and after 180.
 
-/// An average adult that stands, raises its hands there, and lowers them again; every
-/// joint's rotation disturbed by `noise_rad` and the root by `noise_m` (standard
+/// An average adult that stands, raises its hands to these places, and lowers them again;
+/// every joint's rotation has noise of `noise_rad` and the root of `noise_m` (standard
 /// deviations, fixed seed).
 [[nodiscard]] Motion hands_go_to(const HandPlaces& places,
                                  double noise_rad = 0.0,
@@ -50,16 +50,18 @@ inline constexpr int kHeldLast = 150;     ///< until then, and hang before 60, a
 /// An adult whose shoulders and hips are `factor` times as far apart.
 [[nodiscard]] Skeleton broad(double factor);
 
-/// An adult of short legs and long arms, whose hands would hang a decimetre into the floor.
+/// An adult with short legs and long arms, whose hands would be a decimetre below the
+/// floor.
 [[nodiscard]] Skeleton ape();
 
-/// How deep hands are in the floor Y = 0 at most, over a motion. [m]
+/// Returns the maximum depth of hands in the floor Y = 0 over a motion. [m]
 [[nodiscard]] double deepest_hand_m(const Motion& motion);
 
-/// The same body with an abdomen and pelvis `factor` times as broad and deep.
+/// The same body with an abdomen and pelvis `factor` times as wide and deep.
 [[nodiscard]] BodyVolume with_belly(BodyVolume volume, double factor);
 
-/// The least distance between the surfaces of two parts, by trying points of both axes.
+/// Returns the minimum distance between the surfaces of two parts, by sampling points of
+/// both axes.
 [[nodiscard]] double gap_m(const BodyVolume& volume,
                            std::span<const RigidTransform> world_from_joint,
                            VolumePart a,

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/hang_bones.h"
+#include "retarget/bones/hang_bones.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,8 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/body_map.h"
+#include "retarget/body/body_map.h"
+#include "retarget/bones/identify_bones.h"
 #include "tests/retarget/named_bodies.h"
 #include "tests/support/random_bodies.h"
 
@@ -41,7 +42,7 @@ Skeleton mixamo_body() {
                     "Right");
 }
 
-/// Hung on a root on the floor, which it gets; places at rest stay.
+/// Moves bones below an added root on the floor; rest positions stay.
 Skeleton hung_on_root(const Skeleton& body, const std::vector<std::string>& names) {
   const auto world = world_from_joints(body, rest_pose(body));
   Skeleton out;
@@ -71,9 +72,9 @@ std::string parent_of(const HungBody& body, B bone) {
 }
 
 HungBody hung(const Skeleton& body,
-              const BoneMap& told = {},
+              const BoneMap& overrides = {},
               const std::vector<bool>& skin = {}) {
-  const auto found = identify_bones(body, told);
+  const auto found = identify_bones(body, overrides);
   EXPECT_TRUE(found) << found.error().message();
   if (!found) return {};
   auto made = hang_bones(body, *found, skin);
@@ -97,7 +98,7 @@ TEST(HangBones, HangsFeetOnTheirShins) {
   EXPECT_EQ(joint_of(body, B::kRightToes), "RightToeBase");
 }
 
-// The joint that a shin leads to and that goes nowhere is no foot, where a foot is there.
+// The joint at the end of a shin is not the foot if there is another foot.
 TEST(HangBones, PrefersTheFootToTheEndOfTheShin) {
   Skeleton body = hung_on_root(mixamo_body(), {"LeftFoot", "RightFoot"});
   for (const std::string side : {"Left", "Right"}) {
@@ -121,7 +122,7 @@ TEST(HangBones, TakesHipsThatCarryTheSpineForARootOnTheFloor) {
   EXPECT_EQ(parent_of(body, B::kRightUpperLeg), "Hips");
 }
 
-// As rigs are exported that deform by bones without parents.
+// Rigs whose deforming bones have no parents are exported like this.
 TEST(HangBones, HangsTogetherABodyInPieces) {
   const Skeleton read = hung_on_root(mixamo_body(),
                                      {"LeftUpLeg",
@@ -146,7 +147,7 @@ TEST(HangBones, HangsTogetherABodyInPieces) {
   EXPECT_TRUE(map_body(marked));
 }
 
-// What stays on the root would be left behind by the body.
+// Skin left on the root would not follow the body.
 TEST(HangBones, HangsWhatCarriesSkinOnTheNearestBone) {
   Skeleton body = hung_on_root(mixamo_body(), {"LeftUpLeg", "RightUpLeg"});
   const auto world = world_from_joints(body, rest_pose(body));
@@ -172,24 +173,24 @@ TEST(HangBones, HangsWhatCarriesSkinOnTheNearestBone) {
   EXPECT_EQ(carrier("handle"), "Root");
 }
 
-// The map that the error asks for.
+// The map that the error requests.
 TEST(HangBones, HangsWhatAMapNames) {
   Skeleton body = hung_on_root(mixamo_body(), {"LeftLeg", "RightLeg"});
   EXPECT_FALSE(identify_bones(body));
-  BoneMap told;
-  told.bones[index(B::kLeftLowerLeg)] = {true, body.find("LeftLeg")};
-  told.bones[index(B::kRightLowerLeg)] = {true, body.find("RightLeg")};
-  const HungBody made = hung(body, told);
+  BoneMap overrides;
+  overrides.bones[index(B::kLeftLowerLeg)] = {true, body.find("LeftLeg")};
+  overrides.bones[index(B::kRightLowerLeg)] = {true, body.find("RightLeg")};
+  const HungBody made = hung(body, overrides);
   EXPECT_EQ(parent_of(made, B::kLeftLowerLeg), "LeftUpLeg");
 }
 
 TEST(HangBones, MakesAFootWhereAMapSaysThatThereIsNone) {
   const Skeleton body = mixamo_body();
-  BoneMap told;
+  BoneMap overrides;
   for (const B bone : {B::kLeftFoot, B::kLeftToes, B::kRightFoot, B::kRightToes}) {
-    told.bones[index(bone)].told = true;
+    overrides.bones[index(bone)].is_set = true;
   }
-  const HungBody made = hung(body, told);
+  const HungBody made = hung(body, overrides);
   EXPECT_EQ(joint_of(made, B::kLeftFoot), "LeftLeg_foot");
   const auto foot = *made.found.joint(B::kLeftFoot);
   EXPECT_FALSE(made.read_joint[index(foot)]);
@@ -205,16 +206,17 @@ TEST(HangBones, MakesAFootWhereAMapSaysThatThereIsNone) {
 
 TEST(HangBones, DeclinesBonesThatCarryEachOther) {
   const Skeleton body = mixamo_body();
-  BoneMap told;
-  told.bones[index(B::kLeftLowerLeg)] = {true, body.find("LeftFoot")};
-  told.bones[index(B::kLeftFoot)] = {true, body.find("LeftLeg")};
-  const auto found = identify_bones(body, told);
+  BoneMap overrides;
+  overrides.bones[index(B::kLeftLowerLeg)] = {true, body.find("LeftFoot")};
+  overrides.bones[index(B::kLeftFoot)] = {true, body.find("LeftLeg")};
+  const auto found = identify_bones(body, overrides);
   ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().cause,
-            "'LeftLeg' would be leftFoot and carries 'LeftFoot', the leftLowerLeg");
+  EXPECT_EQ(
+      found.error().cause,
+      "'LeftLeg' is identified as leftFoot but is above 'LeftFoot', the leftLowerLeg");
 }
 
-// A motion keeps its joints where they were, in turn.
+// A motion keeps its joints' positions and rotations.
 TEST(HangBones, PutsAMotionOnTheHungBody) {
   const Skeleton read = hung_on_root(mixamo_body(), {"LeftUpLeg", "RightUpLeg"});
   const HungBody body = hung(read);

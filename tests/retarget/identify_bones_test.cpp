@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/identify_bones.h"
+#include "retarget/bones/identify_bones.h"
 
 #include <algorithm>
 
@@ -21,8 +21,8 @@ std::string joint_of(const Skeleton& body, const FoundBones& found, B bone) {
   return joint ? body[*joint].name : "";
 }
 
-std::string cause(const Skeleton& body, const BoneMap& told = {}) {
-  const auto found = identify_bones(body, told);
+std::string cause(const Skeleton& body, const BoneMap& overrides = {}) {
+  const auto found = identify_bones(body, overrides);
   EXPECT_FALSE(found);
   return found ? "" : found.error().cause;
 }
@@ -82,7 +82,7 @@ TEST(IdentifyBones, SharesOutAnyNumberOfVertebrae) {
 }
 
 TEST(IdentifyBones, TakesTheJointThatCarriesLegsAndSpineForHips) {
-  // As of bipeds whose thighs hang on the first spine joint.
+  // As in bipeds whose thighs are children of the first spine joint.
   Skeleton body = mixamo_body();
   for (Joint& joint : body.joints) {
     if (joint.name.ends_with("UpLeg")) joint.parent = body.find("Spine");
@@ -91,8 +91,7 @@ TEST(IdentifyBones, TakesTheJointThatCarriesLegsAndSpineForHips) {
   ASSERT_TRUE(found) << found.error().message();
   EXPECT_EQ(joint_of(body, *found, B::kHips), "Spine");
   ASSERT_FALSE(found->remarks.empty());
-  EXPECT_NE(found->remarks[0].find("'Hips' bears the name of the hips"),
-            std::string::npos);
+  EXPECT_NE(found->remarks[0].find("'Hips' has the name of the hips"), std::string::npos);
 }
 
 TEST(IdentifyBones, TellsABodyWithoutNamesByItsShape) {
@@ -107,7 +106,7 @@ TEST(IdentifyBones, TellsABodyWithoutNamesByItsShape) {
   EXPECT_EQ(found->scheme, "no names");
   for (const B bone : human_bones()) {
     ASSERT_TRUE(found->joint(bone)) << name(bone);
-    // Which side is left only the front says.
+    // The front alone decides which side is left.
     const B there = *truth[*found->joint(bone)].bone;
     EXPECT_TRUE(there == bone || there == mirrored(bone)) << name(bone);
     EXPECT_EQ(found->bones[index(bone)]->evidence, BoneEvidence::kShape);
@@ -130,18 +129,18 @@ TEST(IdentifyBones, KeepsTheMarksOfAFile) {
 TEST(IdentifyBones, BelievesTheUserFirst) {
   Skeleton body = mixamo_body();
   body.joints[index(*body.find("LeftUpLeg"))].name = "Oberschenkel";
-  BoneMap told;
-  told.bones[index(B::kLeftUpperLeg)] = {true, body.find("Oberschenkel")};
-  told.bones[index(B::kLeftToes)] = {true, std::nullopt};
-  const auto found = identify_bones(body, told);
+  BoneMap overrides;
+  overrides.bones[index(B::kLeftUpperLeg)] = {true, body.find("Oberschenkel")};
+  overrides.bones[index(B::kLeftToes)] = {true, std::nullopt};
+  const auto found = identify_bones(body, overrides);
   ASSERT_TRUE(found) << found.error().message();
   EXPECT_EQ(joint_of(body, *found, B::kLeftUpperLeg), "Oberschenkel");
-  EXPECT_EQ(found->bones[index(B::kLeftUpperLeg)]->evidence, BoneEvidence::kTold);
+  EXPECT_EQ(found->bones[index(B::kLeftUpperLeg)]->evidence, BoneEvidence::kUser);
   EXPECT_FALSE(found->joint(B::kLeftToes));
   EXPECT_EQ(joint_of(body, *found, B::kRightToes), "RightToeBase");
 }
 
-// A map may say of every bone that the body has none.
+// A map may state for every bone that the body has none.
 TEST(IdentifyBones, DeclinesABodyWhoseHipsOrLegsAreToldAway) {
   const Skeleton body = mixamo_body();
   Skeleton nameless = body;
@@ -149,9 +148,9 @@ TEST(IdentifyBones, DeclinesABodyWhoseHipsOrLegsAreToldAway) {
     nameless.joints[i].name = std::to_string(i);
   }
   BoneMap no_hips;
-  no_hips.bones[index(B::kHips)].told = true;
+  no_hips.bones[index(B::kHips)].is_set = true;
   BoneMap nothing;
-  for (ToldBone& bone : nothing.bones) bone.told = true;
+  for (BoneOverride& bone : nothing.bones) bone.is_set = true;
   for (const Skeleton& one : {body, nameless}) {
     EXPECT_NE(cause(one, no_hips), "");
     EXPECT_NE(cause(one, nothing), "");
@@ -159,7 +158,7 @@ TEST(IdentifyBones, DeclinesABodyWhoseHipsOrLegsAreToldAway) {
 }
 
 TEST(IdentifyBones, FindsTheFootThatALegLeadsTo) {
-  // Feet of a rig for inverse kinematics hang on the root.
+  // Feet of a rig for inverse kinematics are children of the root.
   Skeleton body = mixamo_body();
   for (const std::string side : {"Left", "Right"}) {
     Joint end = body.joints[index(*body.find(side + "Foot"))];
@@ -187,9 +186,7 @@ TEST(IdentifyBones, DeclinesTwoBodiesNamingTheJoints) {
     body.joints.push_back(joint);
   }
   const std::string said = cause(body);
-  EXPECT_NE(said.find("there are two joints that are called like a body's"),
-            std::string::npos)
-      << said;
+  EXPECT_NE(said.find("two joints have the name of a body's"), std::string::npos) << said;
   EXPECT_NE(said.find("'Neck' below 'Spine2'"), std::string::npos) << said;
 }
 
@@ -197,7 +194,7 @@ TEST(IdentifyBones, DeclinesBonesThatDoNotHangOnEachOther) {
   Skeleton body = mixamo_body();
   body.joints[index(*body.find("LeftLeg"))].parent = JointIndex{0};
   EXPECT_EQ(cause(body),
-            "'LeftLeg' would be leftLowerLeg and does not hang on 'LeftUpLeg', the "
+            "'LeftLeg' is identified as leftLowerLeg but is not below 'LeftUpLeg', the "
             "leftUpperLeg");
 }
 
@@ -219,13 +216,14 @@ TEST(IdentifyBones, DeclinesWhatIsNoBody) {
     joint.parent_from_joint.translation = {0.1 * i, 0, 0};
     boxes.joints.push_back(joint);
   }
-  EXPECT_EQ(cause(boxes),
-            "among its 5 joints is no body: none carries two legs, and above them two "
-            "arms");
+  EXPECT_EQ(
+      cause(boxes),
+      "no body was found among its 5 joints: no joint has two legs below it and two "
+      "arms above");
   EXPECT_EQ(cause(Skeleton{}), "it has no joints");
 }
 
-// A chain of ten thousand joints, and a star of as many: no stack, no square of them.
+// A chain of ten thousand joints, and a star of as many: no recursion, no quadratic cost.
 TEST(IdentifyBones, TakesTenThousandJoints) {
   for (const bool chain : {true, false}) {
     Skeleton body = mixamo_body();

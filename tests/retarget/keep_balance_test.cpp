@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/keep_balance.h"
+#include "retarget/balance/keep_balance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/contact_figures.h"
-#include "retarget/place_masses.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/body/place_masses.h"
+#include "retarget/contacts/contact_figures.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/balance_scenes.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_walk.h"
@@ -32,7 +32,7 @@ RetargetedMotion put_on(const Motion& source,
   return *std::move(out);
 }
 
-// Most that a joint of the one motion is from where it is in the other. [m]
+// Returns the maximum distance of a joint between the two motions. [m]
 double apart_m(const Motion& a, const Motion& b) {
   double most = 0.0;
   for (std::size_t t = 0; t < a.poses.size(); ++t) {
@@ -53,8 +53,8 @@ BalanceTrack track_of(const Motion& motion,
       motion, map, *place_masses(motion.skeleton, map, masses), contacts);
 }
 
-// Where the centre of mass is ahead of the left ankle, in its foot's lengths from ankle
-// to ball, while the posture is held.
+// Returns the distance of the centre of mass ahead of the left ankle, in lengths of its
+// foot from ankle to ball, while the posture is held.
 double ahead_of_ankle(const Motion& motion, const MassSpec& masses, int frame) {
   const BodyMap map = *map_body(motion.skeleton);
   const auto world =
@@ -128,7 +128,7 @@ TEST(BalanceFrames, TellTheMassAndTheCornersOfWhatBears) {
   EXPECT_TRUE(balance_frames(motion, map, mass, contacts)[0].support_xz_m.empty());
 }
 
-// One frame of a body in its rest pose that bears on both feet, or on the left one.
+// One frame of a body in its rest pose, on both feet or on the left one.
 BalanceTrack track_at_rest(const Skeleton& body,
                            const BodyMap& map,
                            const glm::dvec3& mass_in_world,
@@ -208,7 +208,7 @@ INSTANTIATE_TEST_SUITE_P(KeepBalance,
                                            Case{"LongerAndHeavier", 1.6, 2.0}),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// The source is over its foot; the same posture of another body need not be.
+// The source is over its foot; the same posture of another body may not be.
 TEST_P(HeavyTrunk, IsOverItsFootInAOneLegStanceAsTheSourceIs) {
   const Motion source = slow_kick();
   BalanceOptions balance;
@@ -273,9 +273,9 @@ TEST_P(HeavyTrunk, MovesNoFootThatStands) {
   }
 }
 
-// Postures are taken, and left, within a second: a smooth way of s metres in T seconds
-// accelerates by 5.8 s / T^2. Twice that, as a way may turn; a pop would be a hundred
-// times.
+// Postures are reached and left within a second: a smooth path of s metres in T seconds
+// has an acceleration of 5.8 s / T^2. Twice that, as a path may turn; a jump would be a
+// hundred times as much.
 TEST_P(HeavyTrunk, MovesItsRootWithoutAPop) {
   for (const Motion& source : {slow_kick(), deep_bend()}) {
     BalanceOptions balance;
@@ -302,7 +302,7 @@ TEST_P(HeavyTrunk, MovesItsRootWithoutAPop) {
             1.1 * mean_jerk(put_on(walk, avatar, std::nullopt).motion));
 }
 
-// What the option is for.
+// Purpose of the option.
 TEST(KeepBalance, SavesATwiceAsLongAndHeavyTrunkFromFalling) {
   BalanceOptions balance;
   balance.avatar_masses = with_trunk_mass(2.0);

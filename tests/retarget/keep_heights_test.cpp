@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/keep_heights.h"
+#include "retarget/hands/keep_heights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/balance_scenes.h"
 #include "tests/retarget/hand_scenes.h"
 #include "tests/support/random_bodies.h"
@@ -57,7 +57,7 @@ TEST(KeptHipsHeight, RisesWithTheSourcesFromTheSeatToTheAirWithoutACorner) {
     for (double y_m = 0.0; y_m < 1.5; y_m += kStep_m) {
       const double slope = (at(y_m + kStep_m) - at(y_m)) / kStep_m;
       EXPECT_GT(slope, 0.0) << y_m;
-      // A body of a sixth has slopes that fall short of 1 at the ends.
+      // A body of a sixth of the size has slopes below 1 at the ends.
       if (stands_m > 0.35) {
         EXPECT_NEAR(slope, slope_before, 0.01) << y_m;
       }
@@ -78,7 +78,7 @@ TEST(KeptHeights, AKickIsAsHighInMetresOnABodyOfAnySize) {
     EXPECT_GT(std::abs(place(scaled.motion, kHeld, B::kRightFoot).y - ankle_m - high_m),
               0.2);
     EXPECT_NEAR(place(kept.motion, kHeld, B::kRightFoot).y - ankle_m, high_m, 2e-3);
-    // Feet that stand, stand.
+    // Standing feet stay in place.
     EXPECT_LT(kept.report.after.mean_slide_cm_per_s, 1e-6);
     EXPECT_LT(kept.report.after.deepest_penetration_mm, 1e-6);
     EXPECT_EQ(kept.report.ground.unreachable_frames, 0);
@@ -98,7 +98,7 @@ TEST(KeptHeights, AJumpIsAsHighInMetres) {
   }
 }
 
-// Arms reach forward, level: what they reach for is as high as the source's shoulders.
+// Arms reach forward horizontally: their targets are as high as the source's shoulders.
 TEST(KeptHeights, AHandReachesAsHighInMetresAsFarAsTheArmGoes) {
   HandPlaces places;
   const Skeleton body = adult();
@@ -121,13 +121,13 @@ TEST(KeptHeights, AHandReachesAsHighInMetresAsFarAsTheArmGoes) {
               5e-3);
 }
 
-// A source on a floor elsewhere: centred on its hips, or on a platform.
+// A source on another floor: centred on its hips, or on a platform.
 Motion raised(Motion motion, double by_m) {
   for (Pose& pose : motion.poses) pose.root_in_world.y += by_m;
   return motion;
 }
 
-// On one place, with the right hand forward at shoulder height, 90 to 150.
+// In place, with the right hand forward at shoulder height, 90 to 150.
 Motion reach() {
   HandPlaces places;
   places[1] = HandPlace{{-0.25, 1.25, 0.55}};
@@ -153,7 +153,7 @@ TEST(KeptHeights, AreOverTheFloorThatTheSourceStandsOn) {
   }
 }
 
-// One foot alone tells where the floor is.
+// One foot alone defines the height of the floor.
 TEST(KeptHeights, AreOverTheFloorOfAFootThatStandsAlone) {
   Motion source = slow_kick();
   source.poses.assign(120, source.poses[kHeld]);
@@ -169,7 +169,7 @@ TEST(KeptHeights, AreOverTheFloorOfAFootThatStandsAlone) {
   }
 }
 
-// Whose feet nothing brings to Y = 0 stays on the source's floor, wherever that is.
+// A body whose feet are not moved to Y = 0 stays on the source's floor, at any height.
 TEST(KeptHeights, StayOnTheSourcesFloorWithoutTheGround) {
   RetargetOptions options;
   options.heights = kKept;

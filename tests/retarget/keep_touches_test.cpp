@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/keep_touches.h"
+#include "retarget/hands/keep_touches.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/adapt_motion.h"
-#include "retarget/check_constraints.h"
-#include "retarget/make_character.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/adapt/adapt_motion.h"
+#include "retarget/character/make_character.h"
+#include "retarget/constraints/check_constraints.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/hand_scenes.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
@@ -38,7 +38,7 @@ double gap_in(const Motion& motion, std::size_t t, P a, P b) {
   return gap_m(volume, world_from_joints(motion.skeleton, motion.poses[t]), a, b);
 }
 
-// Hands together for 0.2 s, apart for 0.2 s, again and again.
+// Hands together for 0.2 s, apart for 0.2 s, repeatedly.
 Motion applause() {
   const Motion one = hands_go_to(clapping());
   Motion out = one;
@@ -75,7 +75,7 @@ TEST(KeepTouches, KeepsApplauseTogether) {
   }
 }
 
-// Both hands on the belly, and one on the other: two wishes of each hand.
+// Both hands on the belly, and one on the other: two touches of each hand.
 TEST(KeepTouches, KeepsFoldedHandsOnTheBellyAndOnEachOther) {
   HandPlaces places = hand_on_belly();
   places[1] = places[0];
@@ -128,7 +128,8 @@ TEST(KeepTouches, KeepsAHandThatLeansWhereItLeans) {
     const double scale = still == StillPlace::kKept ? 1.0 : 1.65 / 1.75;
     for (int t = frames.first; t <= frames.last; t += 5) {
       const auto i = static_cast<std::size_t>(t);
-      const double rise = still == StillPlace::kKept ? 0.0 : 0.01;  // Of its own soles.
+      // Height of its own soles.
+      const double rise = still == StillPlace::kKept ? 0.0 : 0.01;
       EXPECT_LT(glm::distance(middle_of(out.motion, i), scale * middle_of(source, i)),
                 0.01 + rise);
     }

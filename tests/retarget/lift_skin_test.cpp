@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/lift_skin.h"
+#include "retarget/feet/lift_skin.h"
 
 #include <algorithm>
 #include <vector>
@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/live_retarget.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/motion/live_retarget.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_walk.h"
@@ -19,8 +19,8 @@
 namespace marey::retarget {
 namespace {
 
-// A ball of skin about every joint, as far as it is over the floor, and shoes that are
-// longer than feet.
+// A ball of skin about every joint, with its height above the floor as radius, and shoes
+// that are longer than feet.
 Skin skin_of(const Skeleton& body, const BodyMap& map, double radius_m) {
   testing::Dice dice(5);
   const auto rest = world_from_joints(body, rest_pose(body));
@@ -46,7 +46,7 @@ Skin skin_of(const Skeleton& body, const BodyMap& map, double radius_m) {
   return Skin(body, map, vertices);
 }
 
-// Sinks by `depth_m` in the middle of a second, as a body does that lies down.
+// Sinks by `depth_m` in the middle of a second, like a body that lies down.
 Motion sinking(const Skeleton& body, double depth_m) {
   Motion motion{body, {30.0}, 0, {}};
   for (int t = 0; t < 60; ++t) {
@@ -75,12 +75,12 @@ TEST(LiftSkin, RaisesWhatIsInTheFloorAndNothingElse) {
   EXPECT_GT(report.before.depth_m, 0.7);
   EXPECT_LE(deepest_skin(motion, skin).depth_m, 0.001);
   EXPECT_EQ(deepest_skin(motion, skin).depth_m, report.after.depth_m);
-  // A foot alone rises first; frames that are well over the floor keep their bytes.
+  // A foot alone rises first; frames well above the floor keep their bytes.
   EXPECT_EQ(motion.poses[2].root_in_world, before.poses[2].root_in_world);
   EXPECT_GT(motion.poses[30].root_in_world.y, before.poses[30].root_in_world.y);
 }
 
-// What the source's own joints are below its floor is left to the body.
+// The depth of the source's own joints below its floor is permitted.
 TEST(LiftSkin, LeavesWhatIsAllowed) {
   const Skeleton body = testing::child();
   const BodyMap map = *map_body(body);

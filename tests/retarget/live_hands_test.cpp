@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/live_hands.h"
+#include "retarget/hands/live_hands.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/live_retarget.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/motion/live_retarget.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/hand_scenes.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
@@ -68,7 +68,7 @@ std::vector<glm::dvec3> path_of(const Motion& motion, B bone) {
   return path;
 }
 
-// A sixth of a second after the source's hand has come to rest: what follows lags.
+// A sixth of a second after the source's hand has come to rest, because of the lag.
 TEST(LiveHands, TouchWhereTheSourceTouches) {
   double worst_without_m = 0.0;
   for (const Scene& scene : kScenes) {
@@ -90,7 +90,8 @@ TEST(LiveHands, TouchWhereTheSourceTouches) {
   EXPECT_GT(worst_without_m, 0.08) << "the claim is empty";
 }
 
-// How deep forearms are in the trunk, skin in skin; while held, or ever. [m]
+// Returns the depth of forearms in the trunk, skin in skin; while held, or over the
+// motion. [m]
 double deepest_m(const Motion& motion, const BodyVolume& volume, bool held = false) {
   double deepest = 0.0;
   for (std::size_t t = 0; t < motion.poses.size(); ++t) {
@@ -111,7 +112,7 @@ double deepest_m(const Motion& motion, const BodyVolume& volume, bool held = fal
   return deepest;
 }
 
-// While they come they are late, by what 25 ms twice over costs a fast hand.
+// During fast movements they lag, by the effect of 25 ms applied twice.
 TEST(LiveHands, KeepArmsOutOfABiggerBelly) {
   const Skeleton body = adult();
   LiveHandsOptions options;
@@ -127,14 +128,15 @@ TEST(LiveHands, KeepArmsOutOfABiggerBelly) {
   }
 }
 
-// A hand that comes down fast is late, as above.
+// A hand that descends fast lags, as above.
 TEST(LiveHands, StayOverTheFloor) {
   const Motion source = hands_go_to(hands_on_hips());
   Motion with = dressed(source, ape(), LiveHandsOptions{});
   EXPECT_GT(deepest_hand_m(dressed(source, ape(), std::nullopt)), 0.08)
       << "the claim is empty";
   EXPECT_LT(deepest_hand_m(with), 0.05);
-  with.poses.erase(with.poses.begin(), with.poses.begin() + 200);  // They hang since 180.
+  // They hang from frame 180 on.
+  with.poses.erase(with.poses.begin(), with.poses.begin() + 200);
   EXPECT_LT(deepest_hand_m(with), 0.005);
 }
 
@@ -153,9 +155,9 @@ TEST(LiveHands, LeaveTheSourcesOwnBodyAsItIs) {
   }
 }
 
-// What is added to a hand's way is nearly as smooth as what refine_hands() adds, which
-// knows the future and is bound to five sevenths of this; elbows that are bent far move
-// faster than their hands, on the source's own way too.
+// The displacement of a hand is nearly as smooth as that of refine_hands(), which uses
+// future frames and has a bound of five sevenths of this. Elbows that are bent far move
+// faster than their hands, on the source's own path too.
 TEST(LiveHands, NothingLeaps) {
   for (const Scene& scene : kScenes) {
     const Motion source = hands_go_to(scene.places());

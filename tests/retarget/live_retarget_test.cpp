@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/live_retarget.h"
+#include "retarget/motion/live_retarget.h"
 
 #include <algorithm>
 #include <vector>
@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/body_map.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/body/body_map.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_walk.h"
@@ -51,7 +51,7 @@ std::vector<glm::dvec3> path_of(const Motion& motion, B bone) {
   return out;
 }
 
-// A foot on its ball from one frame to the next keeps that place; flat, its ankle too.
+// A foot on its ball in consecutive frames keeps that position; flat, its ankle too.
 TEST(LiveRetarget, FeetThatStandStandStill) {
   const Motion walk = testing::synthetic_walk(200, kRate_hz, 0.002, 0.001).motion;
   for (const Skeleton& avatar :
@@ -104,7 +104,7 @@ TEST(LiveRetarget, NeverPutsAFootThroughTheFloor) {
   }
 }
 
-// One frame knows nothing of the next: a foot may stop at once, but nothing leaps.
+// Future frames are unknown: a foot may stop at once, but no joint jumps.
 TEST(LiveRetarget, NothingLeaps) {
   const Motion walk = testing::synthetic_walk(200, kRate_hz, 0.002, 0.001).motion;
   const Skeleton avatar = testing::long_legs();

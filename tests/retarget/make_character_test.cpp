@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/make_character.h"
+#include "retarget/character/make_character.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,10 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/check_character.h"
-#include "retarget/joint_ranges.h"
+#include "retarget/character/check_character.h"
+#include "retarget/character/joint_ranges.h"
 #include "tests/retarget/mapped.h"
+#include "tests/support/paths.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/truth_motion.h"
 
@@ -89,7 +90,7 @@ TEST(MakeCharacter, DoesWithoutWhatABodyLacks) {
             "right leg: S.rightFoot L.rightUpperLeg.rightLowerLeg.rightFoot");
 }
 
-// Of a body without vertebrae, arms and head hang on the root.
+// In a body without vertebrae, arms and head are children of the root.
 TEST(MakeCharacter, HangsArmsOnTheRootWithoutATrunk) {
   Skeleton body = testing::child();
   for (const B bone : {B::kSpine, B::kChest, B::kUpperChest}) {
@@ -105,7 +106,7 @@ TEST(MakeCharacter, HangsArmsOnTheRootWithoutATrunk) {
 
 class EveryCharacter : public ::testing::TestWithParam<int> {};
 
-// With any number of vertebrae, however the joints' axes lie.
+// With any number of vertebrae and any axes of joints.
 TEST_P(EveryCharacter, PassesItsOwnCheck) {
   Dice dice(51);
   for (int k = 0; k < 10; ++k) {
@@ -121,8 +122,8 @@ TEST_P(EveryCharacter, PassesItsOwnCheck) {
 
 INSTANTIATE_TEST_SUITE_P(Vertebrae, EveryCharacter, ::testing::Range(1, 16));
 
-// Turning the lower joint about the hinge, seen from the upper joint, brings the end
-// towards where the limb bends: elbows forward, knees backward, in the T-pose.
+// Rotating the lower joint about the hinge moves the end, relative to the upper joint, in
+// the limb's natural direction: elbows forward, knees backward, in the T-pose.
 TEST(MakeCharacter, BendsLimbsTheNaturalWayAboutTheirHinges) {
   Dice dice(52);
   const Skeleton body = testing::with_random_axes(
@@ -149,7 +150,7 @@ TEST(MakeCharacter, BendsLimbsTheNaturalWayAboutTheirHinges) {
   EXPECT_EQ(limbs, 4);
 }
 
-// How far a joint is turned from the T-pose, as JointLimit says.
+// Returns the rotation of a joint from the T-pose, as defined by JointLimit.
 glm::dvec3 turned(const Character& character, const Pose& pose, const JointLimit& limit) {
   const auto& t_pose = character.t_pose_from_joint;
   const auto parent = character.skeleton[limit.joint].parent;
@@ -194,13 +195,14 @@ TEST(MakeCharacter, LimitsElbowsAndKneesToTheirHinges) {
   EXPECT_EQ(found, 4);
 }
 
-// Walking, jumping, reaching, and every joint to its end (rom): nobody's joints are held
-// back. The axes one by one, as adaptation clamps them: tangents of a quarter of the
-// angle.
+// Walking, jumping, reaching, and every joint to its end (rom): limits do not affect
+// captured people. Each axis separately, as adaptation clamps them: tangents of a quarter
+// of the angle.
 TEST(MakeCharacter, LimitsNothingThatCapturedPeopleDo) {
   for (const char* trial : {"walk", "jump", "reach", "rom"}) {
-    const auto motion = testing::truth_motion(
-        std::string(MAREY_SHARED_DATA) + "/blender/dev/" + trial + "/truth/segments.csv");
+    const auto motion =
+        testing::truth_motion(marey::testing::shared_data().string() + "/blender/dev/" +
+                              trial + "/truth/segments.csv");
     if (!motion) GTEST_SKIP() << "the recordings with truth are not there";
     const Character character = made(motion->skeleton);
     double worst_rad = 0.0;

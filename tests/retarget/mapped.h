@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
-#include "retarget/body_map.h"
+#include "retarget/body/body_map.h"
 
 namespace marey::retarget {
 
-/// The map of a body that has one; the test fails when it has none.
+/// Returns the map of a body; the test fails if it has none.
 inline BodyMap mapped(const Skeleton& skeleton) {
   Result<BodyMap> map = map_body(skeleton);
   EXPECT_TRUE(map) << (map ? "" : map.error().message());

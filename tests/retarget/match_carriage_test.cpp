@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/match_carriage.h"
+#include "retarget/body/match_carriage.h"
 
 #include <cmath>
 
@@ -10,7 +10,7 @@
 
 #include "core/humanoid.h"
 #include "core/pose.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/segment_directions.h"
 #include "tests/support/synthetic_walk.h"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/measure_constraint.h"
+#include "retarget/constraints/measure_constraint.h"
 
 #include <cmath>
 #include <string>
@@ -8,30 +8,30 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/make_character.h"
+#include "retarget/character/make_character.h"
 #include "tests/retarget/mapped.h"
 
 namespace marey::retarget {
 namespace {
 
-// An average adult in its T-pose: every place is known from its proportions.
+// An average adult in its T-pose: every position follows from its proportions.
 class MeasureConstraint : public ::testing::Test {
  protected:
   [[nodiscard]] double error_m(const Goal& goal, const BodyPoint& point) {
     add("asked", point, goal);
-    const Shortfall lacks = lacks_of();
-    EXPECT_EQ(lacks.rad, 0.0);
-    return lacks.m;
+    const Shortfall shortfall = shortfall_of();
+    EXPECT_EQ(shortfall.rad, 0.0);
+    return shortfall.m;
   }
   [[nodiscard]] double error_rad(const Goal& goal, const BodyPoint& point) {
     add("asked", point, goal);
-    const Shortfall lacks = lacks_of();
-    EXPECT_EQ(lacks.m, 0.0);
-    return lacks.rad;
+    const Shortfall shortfall = shortfall_of();
+    EXPECT_EQ(shortfall.m, 0.0);
+    return shortfall.rad;
   }
-  [[nodiscard]] Shortfall lacks_of() const {
+  [[nodiscard]] Shortfall shortfall_of() const {
     const ConstraintMeasure measure(body_, set_.constraints.back(), set_);
-    return measure.lacks(world_, glm::dvec3(0.0));
+    return measure.shortfall(world_, glm::dvec3(0.0));
   }
   void add(const std::string& id, const BodyPoint& point, const Goal& goal) {
     Constraint constraint;
@@ -108,8 +108,8 @@ TEST_F(MeasureConstraint, IsMetWithinItsPrecision) {
   EXPECT_FALSE(is_met(asked, {0.005, 0.0})) << "supports are exact";
 }
 
-// A head that rests turned: what counts is how it is turned from the T-pose, and that
-// offsets lie along the T-pose's axes.
+// A head with a rotated rest pose: rotations count from the T-pose, and offsets are along
+// the T-pose's axes.
 TEST_F(MeasureConstraint, EverythingCountsFromTheTPose) {
   const double angle_rad = 0.5;
   body_.t_pose_from_joint.assign(skeleton_.joints.size(), glm::dquat(1, 0, 0, 0));

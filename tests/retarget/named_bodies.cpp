@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/retarget/named_bodies.h"
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 #include "tests/support/random_bodies.h"
 
 namespace marey::retarget {

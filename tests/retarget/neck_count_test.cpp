@@ -11,7 +11,7 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/normalized_skeleton.h"
+#include "retarget/body/normalized_skeleton.h"
 #include "tests/retarget/mapped.h"
 #include "tests/retarget/named_bodies.h"
 #include "tests/support/random_bodies.h"
@@ -93,7 +93,7 @@ TEST(NeckCount, TwoNeckJointsShareATwist) {
       1e-3);
 }
 
-// One bone is as long as it is; it points where the source's head is.
+// One bone has a fixed length; it points to the source's head.
 TEST(NeckCount, OneNeckJointPointsAtTheHeadOfTwo) {
   const Skeleton source = with_two_neck_joints();
   const Skeleton body = adult();

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/neutral_t_pose.h"
+#include "retarget/bones/neutral_t_pose.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +15,11 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/body_frame.h"
-#include "retarget/neutral_pose.h"
-#include "retarget/retarget_motion.h"
-#include "retarget/up_of_motion.h"
+#include "retarget/bones/body_frame.h"
+#include "retarget/bones/identify_bones.h"
+#include "retarget/bones/neutral_pose.h"
+#include "retarget/bones/up_of_motion.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/segment_directions.h"
@@ -33,8 +34,8 @@ const glm::dvec3 kX(1, 0, 0);
 const glm::dvec3 kY(0, 1, 0);
 const glm::dvec3 kZ(0, 0, 1);
 
-/// The axes of a rig whose bones lie along their own X, as studios' files have them: each
-/// joint's world rotation in the T-pose.
+/// Axes of a rig whose bones lie along their own X, as in studios' files: each joint's
+/// world rotation in the T-pose.
 glm::dquat along_x(B bone) {
   const auto frame = [](const glm::dvec3& x, const glm::dvec3& y) {
     return glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y))));
@@ -68,10 +69,10 @@ glm::dquat along_x(B bone) {
   }
 }
 
-/// A T-pose body in other axes, and what its joints' frames are in that T-pose.
+/// A T-pose body in other axes, and the joints' frames in that T-pose.
 struct Rig {
   Skeleton t_pose;  ///< Rests in the T-pose, axes along the bones.
-  Skeleton heap;    ///< The same bones, all rest rotations left out.
+  Skeleton heap;    ///< The same bones without rest rotations.
   FoundBones found;
 };
 
@@ -95,7 +96,8 @@ Rig make_rig() {
   return rig;
 }
 
-/// A walk of some style: turns of the T-pose, in the world's axes, as parents have them.
+/// A walk of some style: rotations of the T-pose, in the world's axes, relative to
+/// parents.
 Motion walk(const Rig& rig, double lean_rad, double bend_rad, double turn_rad) {
   Motion motion{rig.heap, FrameRate{30.0}, 0, {}};
   for (int frame = 0; frame < 40; ++frame) {
@@ -160,7 +162,7 @@ TEST(RestAsTPose, FindsTheTPoseOfBonesThatLieAlongTheirOwnAxes) {
   }
 }
 
-// What the rest is made of is the skeleton: motions of it get the same, to the bit.
+// The rest depends on the skeleton alone: motions of it get the same, to the bit.
 TEST(RestAsTPose, IsTheSameForAllMotionsOfASkeleton) {
   const Rig rig = make_rig();
   Motion upright = walk(rig, 0.0, 0.4, 0.0);
@@ -193,7 +195,7 @@ Motion walk_after_sleep(const Rig& rig, std::size_t lying) {
   return motion;
 }
 
-// A body that lies for most of a clip must not turn the world over.
+// A body that lies for most of a clip must not change the up axis.
 TEST(UpOfMotion, IsTheUsualOneWhereABodyLiesMostOfTheTime) {
   const Rig rig = make_rig();
   const std::size_t count = walk(rig, 0.0, 0.4, 0.0).poses.size();
@@ -214,7 +216,7 @@ TEST(UpOfMotion, IsTheUsualOneWhereABodyLiesMostOfTheTime) {
       << "nothing tells it from a file whose Z is up: a remark says what was taken";
 }
 
-// An old man's walk leans; so does it on another body.
+// An old man's walk leans forward, on another body too.
 TEST(RestAsTPose, KeepsTheLeanOfAWalk) {
   const Rig rig = make_rig();
   Motion motion = walk(rig, 20.0 * kDegree, 0.5, 0.0);
@@ -283,7 +285,7 @@ TEST(RestAsOther, DeclinesAnotherSkeletonNamingTheJoint) {
   const Skeleton turned = make_humanoid(average_proportions(1.7));
   const Status also = rest_as_other(turned, rig.found, {0, 1, 0}, motion);
   ASSERT_FALSE(also);
-  EXPECT_NE(also.error().cause.find("lies otherwise in its joint's axes"),
+  EXPECT_NE(also.error().cause.find("has another direction in its joint's axes"),
             std::string::npos);
 }
 

@@ -9,7 +9,7 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/normalized_skeleton.h"
+#include "retarget/body/normalized_skeleton.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
 
@@ -72,7 +72,7 @@ TEST(Normalize, KeepsAStraightLimbStraightOnAnyBody) {
     Pose pose = rest_pose(source);
     const LimbMap& leg = from.leg(0);
     pose.parent_from_joint[index(leg.upper)] = dice.turn(1.5);
-    // Straight is where both bones lie in one line, wherever they point at rest.
+    // A limb is straight if both bones lie in one line, for any rest directions.
     const glm::dvec3 upper = source[leg.lower].parent_from_joint.translation;
     const glm::dvec3 lower = source[leg.end].parent_from_joint.translation;
     pose.parent_from_joint[index(leg.lower)] = rotation_between(lower, upper);
@@ -113,8 +113,8 @@ TEST(Normalize, KeepsTheHalfPlaneOfABentLimb) {
   }
 }
 
-// Just before straight, the hinge says where the knee would go; there is no jump on the
-// way from bent to straight.
+// Just before straight, the hinge decides the direction of the knee; there is no jump on
+// the way from bent to straight.
 TEST(Normalize, TurnsTheHalfPlaneOfAStraighteningLimbContinuously) {
   const Skeleton body = testing::long_legs();
   const BodyMap map = mapped(body);
@@ -149,7 +149,7 @@ TEST(Normalize, KeepsTheTurnOfEveryLimbBoneAboutItself) {
                                     palm_up * from.joints[forearm].t_pose_from_joint;
   const NormalizedPose posture = normalize(source, from, pose);
   const NormalizedPose again = normalize(avatar, to, expand(posture, avatar, to));
-  // Other segment ratios bend the elbow a little otherwise, which turns the two untwisted
+  // Other segment ratios change the elbow's bend a little, which turns the two untwisted
   // frames by the product of two small angles.
   EXPECT_NEAR(again.limbs[0]->lower_twist_rad, posture.limbs[0]->lower_twist_rad, 1e-4);
   EXPECT_NEAR(again.limbs[0]->upper_twist_rad, posture.limbs[0]->upper_twist_rad, 1e-4);
@@ -202,8 +202,8 @@ struct SteadyBend {
   }
 };
 
-// A steady bend is a steady bend, however many vertebrae share it: so says the curve
-// where it does not say where the spine ends.
+// A uniform bend stays uniform for any number of vertebrae, if the curve does not contain
+// the spine's end.
 TEST(Normalize, SharesASteadyBendOutOverMoreVertebrae) {
   const SteadyBend bend;
   const Skeleton many = testing::with_vertebrae(testing::giant(), 8);
@@ -216,9 +216,9 @@ TEST(Normalize, SharesASteadyBendOutOverMoreVertebrae) {
   }
 }
 
-// Where it does: eight vertebrae that bend by 0.1 each would leave the neck of this giant
-// five millimetres high, because four begin to bend further from the hips. It is where
-// the four have it, and every one of the eight still bends that way.
+// If it does: eight vertebrae that bend by 0.1 each would leave the neck of this giant
+// five millimetres high, because four begin to bend further from the hips. The neck is at
+// the position of the four, and every one of the eight still bends that way.
 TEST(Normalize, SharesASteadyBendOutSoThatTheNeckIsWhereItWas) {
   const SteadyBend bend;
   const Skeleton many = testing::with_vertebrae(testing::giant(), 8);
@@ -237,8 +237,8 @@ TEST(Normalize, SharesASteadyBendOutSoThatTheNeckIsWhereItWas) {
   }
 }
 
-// Some files have a vertebra without length: it turns apart from its neighbours, and so it
-// does on a body that is smaller all over.
+// Some files have a vertebra without length: it turns apart from its neighbours, also on
+// a body that is smaller all over.
 TEST(Normalize, SharesASpineOutAlikeOnBodiesOfAllSizes) {
   Dice dice(31);
   for (const std::size_t coincident : {2U, 3U, 4U}) {
@@ -282,7 +282,7 @@ TEST(Normalize, GivesTheMirrorImageOfTheMirrorImage) {
   }
 }
 
-// Asked to reach further than it can, a leg is straight and points there.
+// A target out of reach: the leg is straight and points to it.
 TEST(Expand, StretchesALimbThatCannotReach) {
   const Skeleton body = testing::child();
   const BodyMap map = mapped(body);

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a normalized posture keeps and what it forgets (Kulpa 2005, 1.1.2), on random
-// bodies and postures.
+// Invariants of a normalized posture (Kulpa 2005, 1.1.2), on random bodies and postures.
 #include <cmath>
 #include <string>
 #include <vector>
@@ -13,7 +12,7 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/normalized_skeleton.h"
+#include "retarget/body/normalized_skeleton.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
 
@@ -31,7 +30,8 @@ double angle_between(const glm::dquat& a, const glm::dquat& b) {
   return glm::length(rotation_vector(glm::conjugate(a) * b));
 }
 
-// The furthest that a joint comes back from where it was, over `poses` random ones. [m]
+// Returns the maximum displacement of a joint after a round trip, over `poses` random
+// ones. [m]
 double worst_return_m(const Skeleton& body,
                       Dice& dice,
                       int poses,
@@ -64,7 +64,7 @@ TEST_P(AnySpine, GetsItsOwnPostureBack) {
 
 INSTANTIATE_TEST_SUITE_P(Normalize, AnySpine, ::testing::Range(1, 16));
 
-// More than kMaxVertebrae in a section is told, not cut off.
+// More than kMaxVertebrae in a section is an error, not cut off.
 TEST(NormalizedLaws, TakeThirtyVertebraeAndRefuseThirtyTwo) {
   Dice dice(62);
   const Skeleton plain = testing::random_humanoid(dice);
@@ -75,7 +75,7 @@ TEST(NormalizedLaws, TakeThirtyVertebraeAndRefuseThirtyTwo) {
   EXPECT_NE(map.error().cause.find("32 vertebrae"), std::string::npos);
 }
 
-// Every set of bones that a body may lack, one side's or both.
+// Every set of bones that a body may lack, on one side or both.
 TEST(NormalizedLaws, LoseNothingOfBodiesThatLackBones) {
   Dice dice(63);
   const std::vector<std::vector<B>> lacks{
@@ -108,8 +108,8 @@ TEST(NormalizedLaws, LoseNothingHoweverTheRootIsNormalized) {
   }
 }
 
-// Limbs on the edge of what they can do, turned about themselves: straight ones do not
-// say where their half-plane is, folded ones not where they point.
+// Limbs at the edge of their range, turned about themselves: the half-plane of straight
+// ones and the direction of folded ones are undefined.
 TEST(NormalizedLaws, LoseNothingOfStraightAndFoldedLimbs) {
   Dice dice(68);
   for (int k = 0; k < 50; ++k) {
@@ -149,14 +149,14 @@ Skeleton scaled(Skeleton skeleton, double by) {
   return skeleton;
 }
 
-// Two postures whose limbs, curves and segments say the same.
+// Expects two postures with the same limbs, curves and segments.
 void expect_alike(const NormalizedPose& a, const NormalizedPose& b) {
   for (std::size_t i = 0; i < 4; ++i) {
     ASSERT_EQ(a.limbs[i].has_value(), b.limbs[i].has_value());
     if (!a.limbs[i]) continue;
     const NormalizedLimb& m = *a.limbs[i];
     const NormalizedLimb& n = *b.limbs[i];
-    // Where a limb is nearly stretched, its length says its bend with half the digits.
+    // For a nearly stretched limb, its length determines its bend with half the digits.
     EXPECT_NEAR(m.extension, n.extension, 1e-12);
     EXPECT_LT(glm::distance(m.mid_offset, n.mid_offset), 1e-9);
     EXPECT_LT(angle_between(m.world_from_limb, n.world_from_limb), 1e-7);
@@ -178,8 +178,8 @@ void expect_alike(const NormalizedPose& a, const NormalizedPose& b) {
   }
 }
 
-// A body three times as large has the same normalized posture, and its root with it when
-// the root is divided by a length of the body's.
+// A body three times as large has the same normalized posture, and its root too when the
+// root is divided by a length of the body.
 TEST(NormalizedLaws, ForgetTheSizeOfABody) {
   Dice dice(65);
   for (int k = 0; k < 50; ++k) {
@@ -211,7 +211,7 @@ RotationCurve reflected(const RotationCurve& curve) {
   return out;
 }
 
-// In X = 0. A limb's Y is Z x X, and so is turned the other way.
+// Reflects in X = 0. A limb's Y is Z x X, and so is turned the other way.
 NormalizedLimb reflected(const NormalizedLimb& limb) {
   NormalizedLimb out = limb;
   glm::dmat3 axes = glm::mat3_cast(limb.world_from_limb);
@@ -256,7 +256,7 @@ TEST(NormalizedLaws, MirrorThePostureOfAMirroredBody) {
   }
 }
 
-// The T-pose is no rotation at all, on whatever body.
+// The T-pose is no rotation on any body.
 TEST(NormalizedLaws, CallTheTPoseIdentity) {
   Dice dice(67);
   for (int k = 0; k < 20; ++k) {

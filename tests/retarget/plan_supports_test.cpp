@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/plan_supports.h"
+#include "retarget/adapt/plan_supports.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +66,7 @@ TEST(PlanSupports, FindsFlatFeetAndFeetOnTheirBall) {
       if (i > 0) edges += truth.heel[i] != truth.heel[i - 1];
       if (i > 0) edges += truth.ball[i] != truth.ball[i - 1];
     }
-    // Contacts of a slow ankle end late: to three frames (detect_contacts_test.cpp).
+    // Contacts of a slow ankle end up to three frames late (detect_contacts_test.cpp).
     EXPECT_LE(wrong, 3 * edges);
   }
 }
@@ -82,8 +82,9 @@ TEST(PlanSupports, PointsAreStillWhileTheyBearAndSmoothElsewhere) {
         EXPECT_LT(glm::length(away), 1e-9) << track.constraint.id << " at " << t;
       }
     }
-    // A swing of 1 m in 0.44 s accelerates by 5.77 * 1 / 0.44^2 = 30 m/s2 (a quintic's
-    // most), a footprint some millimetres off and the lift of the foot by as much again.
+    // A swing of 1 m in 0.44 s accelerates by 5.77 * 1 / 0.44^2 = 30 m/s2 (maximum of a
+    // quintic), a footprint some millimetres off and the lift of the foot by as much
+    // again.
     for (std::size_t t = 1; t + 1 < track.p_in_world.size(); ++t) {
       const glm::dvec3 bend =
           track.p_in_world[t + 1] - 2.0 * track.p_in_world[t] + track.p_in_world[t - 1];
@@ -93,14 +94,14 @@ TEST(PlanSupports, PointsAreStillWhileTheyBearAndSmoothElsewhere) {
   }
 }
 
-// They wait for who drives them.
+// They are started by the caller that drives them.
 TEST(PlanSupports, DoNotBeginByThemselves) {
   const Scene scene;
   for (const SupportTrack& track : scene.plan({.ramp_s = 0.1})) {
     const Activation& when = track.constraint.activation;
     ASSERT_TRUE(when.start_s);
     EXPECT_GT(*when.start_s, 1e6);
-    // The ball takes over from the flat foot at once.
+    // The transition from the flat foot to the ball has no fade.
     const bool follows = track.constraint.id.find("after flat") != std::string::npos;
     EXPECT_DOUBLE_EQ(when.start_duration_s, follows ? 0.0 : 0.1);
     EXPECT_DOUBLE_EQ(when.stop_duration_s, 0.1);

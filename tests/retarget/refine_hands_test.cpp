@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/refine_hands.h"
+#include "retarget/hands/refine_hands.h"
 
 #include <cmath>
 #include <functional>
@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/hand_scenes.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/random_bodies.h"
@@ -103,7 +103,7 @@ std::vector<glm::dvec3> path_of(const Motion& motion, B bone) {
   return path;
 }
 
-// Of the way from one motion's joint to the other's. [m/s^2], [m]
+// Relative to the path from one motion's joint to the other's. [m/s^2], [m]
 struct Added {
   double acceleration = 0.0;
   double distance_m = 0.0;
@@ -137,7 +137,7 @@ TEST_P(EveryBodyAndTouch, TouchesWhereTheSourceTouches) {
   }
 }
 
-// The claim is not empty: without it most of them miss by centimetres.
+// The test is meaningful: without refinement most hands miss by centimetres.
 TEST(RefineHands, MendsWhatRetargetingAloneMisses) {
   const Motion source = hands_go_to(clapping());
   const auto without = retargeted(source, broad(1.4), false);
@@ -165,9 +165,9 @@ TEST_P(EveryBodyAndTouch, LeavesEverythingButArmsAlone) {
   }
 }
 
-// Fading over T = 0.3 s over a way of s metres takes 5.8 s / T^2. The way itself changes
-// while the hand comes near, hence twice that, and two touches of one hand may fade
-// apart; a jump of 1 cm would be 36 m/s^2 more.
+// A fade over T = 0.3 s and s metres takes 5.8 s / T^2. The path itself changes while the
+// hand approaches, hence twice that, and two touches of one hand may fade separately; a
+// jump of 1 cm would be 36 m/s^2 more.
 TEST_P(EveryBodyAndTouch, FadesWithoutJumps) {
   const auto& [avatar, scene] = GetParam();
   const Motion source = hands_go_to(scene.places());
@@ -189,7 +189,7 @@ TEST_P(EveryBodyAndTouch, TouchesUnderNoise) {
 TEST(RefineHands, ChangesNothingOnTheSourcesOwnBody) {
   for (const auto places : {clapping, hand_on_head, hands_on_hips, hand_on_belly}) {
     const Motion source = hands_go_to(places(), 0.003, 0.002);
-    // The ground takes a noisy source's legs, and what lies on them, elsewhere.
+    // Ground adaptation moves a noisy source's legs, and hands on them.
     const auto with = retargeted(source, source.skeleton, true, {}, false);
     const auto without = retargeted(source, source.skeleton, false, {}, false);
     for (const B bone : {B::kLeftHand, B::kRightHand, B::kLeftLowerArm}) {
@@ -218,7 +218,7 @@ TEST(RefineHands, TakesBodiesWithoutArms) {
   EXPECT_EQ(out.report.hands.worst_touch_error_m, 0.0);
 }
 
-// How deep the forearms and hands of a motion are in abdomen, pelvis and thighs.
+// Returns the depth of a motion's forearms and hands in abdomen, pelvis and thighs.
 double deepest_m(const Motion& motion, const BodyVolume& volume) {
   double deepest = 0.0;
   for (std::size_t t = 0; t < motion.poses.size(); t += 3) {
@@ -243,7 +243,7 @@ struct Belly {
 Belly hanging_beside_a_belly(double factor) {
   Motion source = hands_go_to({});
   const BodyMap map = mapped(source.skeleton);
-  // They swing a little, as arms do.
+  // They swing slightly, as arms do.
   for (std::size_t t = 0; t < source.poses.size(); ++t) {
     const double angle = 0.3 * std::sin(0.1 * static_cast<double>(t));
     const double inwards = 0.2;
@@ -256,7 +256,7 @@ Belly hanging_beside_a_belly(double factor) {
   return {source, with_belly(average_volume(source.skeleton, map), factor)};
 }
 
-TEST(ClearArms, PutsHangingArmsOutOfABiggerBelly) {
+TEST(ResolveArmCollisions, PutsHangingArmsOutOfABiggerBelly) {
   const Belly scene = hanging_beside_a_belly(1.5);
   const auto without = retargeted(scene.source, scene.source.skeleton, false);
   const auto with = retargeted(scene.source, scene.source.skeleton, true, scene.volume);
@@ -265,7 +265,7 @@ TEST(ClearArms, PutsHangingArmsOutOfABiggerBelly) {
   EXPECT_LT(with.report.hands.arms.deepest_after_m, 0.005);
 }
 
-TEST(ClearArms, MovesThemSmoothly) {
+TEST(ResolveArmCollisions, MovesThemSmoothly) {
   const Belly scene = hanging_beside_a_belly(1.5);
   const auto without = retargeted(scene.source, scene.source.skeleton, false);
   const auto with = retargeted(scene.source, scene.source.skeleton, true, scene.volume);
@@ -276,7 +276,7 @@ TEST(ClearArms, MovesThemSmoothly) {
   }
 }
 
-TEST(ClearArms, ChangesNothingOnTheSourcesOwnBody) {
+TEST(ResolveArmCollisions, ChangesNothingOnTheSourcesOwnBody) {
   const Belly scene = hanging_beside_a_belly(1.0);
   const auto without = retargeted(scene.source, scene.source.skeleton, false);
   const auto with = retargeted(scene.source, scene.source.skeleton, true, scene.volume);
@@ -284,7 +284,7 @@ TEST(ClearArms, ChangesNothingOnTheSourcesOwnBody) {
   EXPECT_LT(added(without.motion, with.motion, B::kLeftLowerArm).distance_m, 1e-9);
 }
 
-TEST(ClearArms, LiftsHandsOverTheFloorByTheirElbows) {
+TEST(ResolveArmCollisions, LiftsHandsOverTheFloorByTheirElbows) {
   const Belly scene = hanging_beside_a_belly(1.0);
   const auto without = retargeted(scene.source, ape(), false);
   const auto with = retargeted(scene.source, ape(), true);
@@ -294,13 +294,13 @@ TEST(ClearArms, LiftsHandsOverTheFloorByTheirElbows) {
     const Added a = added(without.motion, with.motion, bone);
     EXPECT_LT(a.acceleration, 2.0 * 5.8 * a.distance_m / 0.09) << a.distance_m;
   }
-  // Without a floor nothing is lifted.
+  // Without a floor no hand is raised.
   const auto nowhere = retargeted(scene.source, ape(), true, std::nullopt, false);
   EXPECT_GT(deepest_hand_m(nowhere.motion), 0.08);
 }
 
-// What a source's hand does to its belly it does to the bigger one: it lies on it.
-TEST(ClearArms, LaysAHandOnABiggerBelly) {
+// The source's contact with its belly is kept on the larger one: the hand lies on it.
+TEST(ResolveArmCollisions, LaysAHandOnABiggerBelly) {
   const Motion source = hands_go_to(hand_on_belly());
   const BodyMap map = mapped(source.skeleton);
   const BodyVolume own = average_volume(source.skeleton, map);
@@ -313,8 +313,8 @@ TEST(ClearArms, LaysAHandOnABiggerBelly) {
   EXPECT_LT(deepest_m(out.motion, belly), deepest_m(source, own) + 0.005);
 }
 
-// A hand on a hip beside a belly that hangs over it slides until it is clear of both.
-TEST(ClearArms, SlidesHandsOnHipsOutOfABiggerBelly) {
+// A hand on a hip next to a belly that overlaps it slides until it is clear of both.
+TEST(ResolveArmCollisions, SlidesHandsOnHipsOutOfABiggerBelly) {
   const Motion source = hands_go_to(hands_on_hips());
   const BodyMap map = mapped(source.skeleton);
   const BodyVolume belly = with_belly(average_volume(source.skeleton, map), 1.5);
@@ -323,8 +323,8 @@ TEST(ClearArms, SlidesHandsOnHipsOutOfABiggerBelly) {
   EXPECT_LT(out.report.hands.arms.deepest_after_m, 0.005);
 }
 
-// Hands that clap before a belly that reaches further leave it together.
-TEST(ClearArms, KeepsHandsTogetherBeforeABiggerBelly) {
+// Hands that clap in front of a larger belly leave it together.
+TEST(ResolveArmCollisions, KeepsHandsTogetherBeforeABiggerBelly) {
   const Motion source = hands_go_to(clapping());
   const BodyMap map = mapped(source.skeleton);
   const BodyVolume belly = with_belly(average_volume(source.skeleton, map), 2.2);
@@ -332,7 +332,7 @@ TEST(ClearArms, KeepsHandsTogetherBeforeABiggerBelly) {
   EXPECT_LT(out.report.hands.worst_touch_error_m, 0.01);
 }
 
-TEST(ClearArms, LetsAWalkPassABiggerBelly) {
+TEST(ResolveArmCollisions, LetsAWalkPassABiggerBelly) {
   const Motion source = testing::synthetic_walk(200, 60.0).motion;
   const BodyMap map = mapped(source.skeleton);
   const BodyVolume belly = with_belly(average_volume(source.skeleton, map), 1.5);

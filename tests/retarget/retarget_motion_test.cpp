@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/retarget_motion.h"
+#include "retarget/motion/retarget_motion.h"
 
 #include <cmath>
 #include <cstring>
@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
+#include "tests/support/paths.h"
 #include "tests/support/random_bodies.h"
 #include "tests/support/synthetic_walk.h"
 #include "tests/support/truth_motion.h"
@@ -22,7 +23,7 @@ namespace {
 using B = HumanBone;
 
 std::string truth_file(const std::string& session) {
-  return std::string(MAREY_SHARED_DATA) + "/blender/dev/" + session +
+  return marey::testing::shared_data().string() + "/blender/dev/" + session +
          "/truth/segments.csv";
 }
 
@@ -91,7 +92,7 @@ TEST_P(EveryAvatar, WalksWithoutSliding) {
 TEST_P(EveryAvatar, KeepsItsFeetOutOfTheFloor) {
   Motion source = testing::synthetic_walk(200, 60.0).motion;
   for (std::size_t t = 0; t < source.poses.size(); ++t) {
-    // A capture that dips into its floor now and then.
+    // A capture that occasionally sinks into its floor.
     source.poses[t].root_in_world.y -= 0.02 * std::sin(0.1 * static_cast<double>(t));
   }
   const auto out = retargeted(source, GetParam().make());
@@ -113,8 +114,8 @@ TEST_P(EveryAvatar, StandsOnItsOwnSoles) {
   }
 }
 
-// Holding and releasing the feet costs some; a jump of one centimetre in one frame at
-// 60 Hz would be 36 m/s^2, as much as the whole swing.
+// Holding and releasing the feet has a cost; a jump of one centimetre in one frame at 60
+// Hz would be 36 m/s^2, as much as the whole swing.
 TEST_P(EveryAvatar, MovesItsFeetHardlyMoreSuddenlyThanTheSource) {
   const Motion source = testing::synthetic_walk(200, 60.0).motion;
   const Skeleton avatar = GetParam().make();
@@ -162,7 +163,7 @@ TEST_P(EveryAvatar, LandsACapturedJumpWithoutSlidingOrSinking) {
   EXPECT_LT(out.report.after.deepest_penetration_mm, 1.0);
 }
 
-// Where no foot bears, ground adaptation leaves the root's course alone.
+// Where no foot bears, ground adaptation does not change the root's path.
 TEST_P(EveryAvatar, FliesAsHighAsTheSourceInLegLengths) {
   const auto source = testing::truth_motion(truth_file("jump"));
   if (!source) GTEST_SKIP() << "no recording at " << truth_file("jump");
@@ -272,7 +273,7 @@ TEST(RetargetMotion, AcceptsAMotionWithoutFrames) {
   EXPECT_TRUE(retargeted(source, testing::child()).motion.poses.empty());
 }
 
-// The ground figures can tell a bad motion from a good one.
+// The ground figures distinguish a bad motion from a good one.
 TEST(MeasureFeet, SeesAFootThatSlidesAndSinks) {
   Motion motion;
   motion.skeleton = testing::giant();

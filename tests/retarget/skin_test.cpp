@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/skin.h"
+#include "retarget/body/skin.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@
 namespace marey::retarget {
 namespace {
 
-// Points about every joint, each carried by it and some of its ancestors.
+// Returns points about every joint, each carried by it and some of its ancestors.
 std::vector<SkinVertex> random_skin(const Skeleton& body, testing::Dice& dice) {
   const auto rest = world_from_joints(body, rest_pose(body));
   std::vector<SkinVertex> out;
@@ -73,7 +73,7 @@ TEST(Skin, FindsTheLowestPointOfEachPart) {
     SkinLows lows{};
     skin.lows(now, 100.0, rows, lows);
     for (std::size_t p = 0; p < lows.size(); ++p) EXPECT_NEAR(lows[p], wanted[p], 1e-9);
-    // With a ceiling, all that is below it is as exact.
+    // With a ceiling, all points below it have the same accuracy.
     const double ceiling_m = now[0].translation.y - 0.3;
     skin.lows(now, ceiling_m, rows, lows);
     for (std::size_t p = 0; p < lows.size(); ++p) {

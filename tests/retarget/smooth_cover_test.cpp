@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/smooth_cover.h"
+#include "retarget/base/smooth_cover.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,8 +34,8 @@ TEST(SmoothCover, LeavesAloneWhatIsFarAway) {
   EXPECT_NEAR(cover[50], 1.0, 1e-15);
 }
 
-// A step of 1 over 2 half frames: no second difference beyond 1.9 / half^2, where the
-// step itself has 1.
+// A step of 1 over 2 half frames: no second difference beyond 1.9 / half^2; the step
+// itself has 1.
 TEST(SmoothCover, HasASmallSecondDifference) {
   std::vector<double> needed(200, 0.0);
   std::fill(needed.begin() + 100, needed.end(), 1.0);

@@ -14,7 +14,7 @@
 
 namespace marey::retarget {
 
-/// An adult with so many vertebrae, evenly from hips to neck: joints 1 to count.
+/// Returns an adult with `count` vertebrae, evenly from hips to neck: joints 1 to count.
 inline Skeleton with_count(int count) {
   return testing::with_vertebrae(make_humanoid(average_proportions(1.75)), count);
 }
@@ -23,7 +23,7 @@ inline bool is_vertebra(const Joint& joint) {
   return joint.name.starts_with("vertebra");
 }
 
-/// Every vertebra turned as told: by its number and how many there are.
+/// Turns every vertebra by `turn` of its number and the number of vertebrae.
 inline Pose bent(const Skeleton& body,
                  int count,
                  const std::function<glm::dquat(int vertebra, int count)>& turn) {
@@ -34,15 +34,16 @@ inline Pose bent(const Skeleton& body,
   return pose;
 }
 
-/// All that a human does, and the spine's joints turned by up to `most_rad` in all.
+/// Returns a random pose of the whole body, with the spine's joints turned by up to
+/// `max_rad` in all.
 inline Pose random_upper_body(const Skeleton& body,
                               int count,
-                              double most_rad,
+                              double max_rad,
                               testing::Dice& dice) {
   Pose pose = testing::random_pose(body, dice);
   for (std::size_t i = 0; i < body.joints.size(); ++i) {
     if (is_vertebra(body.joints[i])) {
-      pose.parent_from_joint[i] = dice.turn(most_rad / count);
+      pose.parent_from_joint[i] = dice.turn(max_rad / count);
     }
   }
   return pose;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Bodies that differ in nothing but the number of bones between hips and neck: a posture
-// puts neck, shoulders and wrists where the source has them, as far as those bones can.
+// Bodies that differ only in the number of bones between hips and neck: a posture puts
+// neck, shoulders and wrists at the source's positions, as far as those bones can.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -14,10 +14,10 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/keep_wrists.h"
-#include "retarget/live_retarget.h"
-#include "retarget/normalized_skeleton.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/body/normalized_skeleton.h"
+#include "retarget/hands/keep_wrists.h"
+#include "retarget/motion/live_retarget.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/mapped.h"
 #include "tests/retarget/spine_bodies.h"
 #include "tests/support/random_bodies.h"
@@ -49,9 +49,9 @@ double worst_m(const Skeleton& source,
   return worst;
 }
 
-// By how much the bones between the first vertebra and the last are too short for a spine
-// whose hips and last vertebra are turned as the source's, and whose neck is where the
-// source's is: what no turn of theirs can help. [m]
+// Returns the length by which the bones between the first vertebra and the last are too
+// short for a spine whose hips and last vertebra are turned as the source's, and whose
+// neck is at the source's. No rotation of them can reduce it. [m]
 double too_short_m(const Skeleton& source,
                    const std::vector<RigidTransform>& from,
                    const Skeleton& body,
@@ -71,8 +71,8 @@ double too_short_m(const Skeleton& source,
   return std::max(glm::length(between) - reach, 0.0);
 }
 
-// From any count to three and more: within a millimetre, or what the bones are too short
-// by. Turns are the source's throughout.
+// From any count to three and more: within a millimetre, or the missing length. Rotations
+// are the source's throughout.
 TEST(SpineCount, ThreeBonesAndMorePutNeckAndShouldersWhereTheSourceHasThem) {
   for (int m = 1; m <= kMostCount; ++m) {
     const Skeleton source = with_count(m);
@@ -101,7 +101,7 @@ struct Bend {
   std::function<glm::dquat(int, int)> turn;
 };
 
-// As people bend: 60 degrees forwards, sideways and about themselves, an S.
+// Typical human bends: 60 degrees forwards, sideways and about themselves, an S.
 TEST(SpineCount, ThreeBonesAndMoreFollowBendsThatPeopleMake) {
   const auto about = [](const glm::dvec3& axis, double whole_rad) {
     return [=](int, int count) { return glm::angleAxis(whole_rad / count, axis); };
@@ -153,7 +153,8 @@ TEST(SpineCount, GetsItsOwnPostureBackExactly) {
   }
 }
 
-// What spines leave, arms make good: wrists within a millimetre wherever the arm reaches.
+// Arms compensate the spine's residual: wrists within a millimetre wherever the arm
+// reaches.
 TEST(SpineCount, WristsAreWhereTheSourceHasThem) {
   const Skeleton source = with_count(3);
   const BodyMap source_map = mapped(source);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a spine of other bones cannot do, how near it comes, and how steadily.
+// Limits of a spine with other bones: its residual and its continuity.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,8 +12,8 @@
 
 #include "core/pose.h"
 #include "core/transform.h"
-#include "retarget/live_retarget.h"
-#include "retarget/normalized_skeleton.h"
+#include "retarget/body/normalized_skeleton.h"
+#include "retarget/motion/live_retarget.h"
 #include "tests/retarget/mapped.h"
 #include "tests/retarget/spine_bodies.h"
 #include "tests/support/count_allocations.h"
@@ -25,7 +25,7 @@ namespace {
 using B = HumanBone;
 using testing::Dice;
 
-// Squared distances of neck and collar bones from where the source has them. [m2]
+// Returns the squared distances of neck and collar bones from the source's. [m2]
 double squares(const Skeleton& source,
                const std::vector<RigidTransform>& from,
                const Skeleton& body,
@@ -38,8 +38,8 @@ double squares(const Skeleton& source,
   return sum;
 }
 
-// The least that turning one vertebra in the world, with all above it held as it is
-// turned, makes of squares(). [m2]
+// Returns the minimum of squares() over rotations of one vertebra in the world, with all
+// vertebrae above it keeping their rotations. [m2]
 double least_squares_nearby(const Skeleton& source,
                             const std::vector<RigidTransform>& from,
                             const Skeleton& body,
@@ -81,9 +81,9 @@ double least_squares_nearby(const Skeleton& source,
   return best;
 }
 
-// Bones that cannot do it come as near as they can: what a search of the turns finds is
-// hardly nearer. (The search weighs no turn of the last vertebra but by what hangs on
-// it.)
+// If the bones cannot reach the target, their residual is minimal: a search over
+// rotations finds hardly a smaller one. (The search weights rotations of the last
+// vertebra only by the points that it carries.)
 TEST(SpineLimits, OneAndTwoBonesComeAsNearAsTheyCan) {
   const Skeleton source = with_count(3);
   const BodyMap source_map = mapped(source);
@@ -104,7 +104,7 @@ TEST(SpineLimits, OneAndTwoBonesComeAsNearAsTheyCan) {
   }
 }
 
-// One bone is as long as it is: the neck stays away by what it is too long or too short.
+// One bone has a fixed length: the neck misses by its excess or lack of length.
 TEST(SpineLimits, OneBoneMissesByLittleMoreThanItsLength) {
   const Skeleton source = with_count(3);
   const BodyMap source_map = mapped(source);
@@ -127,8 +127,8 @@ TEST(SpineLimits, OneBoneMissesByLittleMoreThanItsLength) {
   EXPECT_GT(worst_bound_m, 8e-3);  // No solver could meet a bound of a millimetre.
 }
 
-// The fastest that a vertebra turns, over how fast the source's fastest does, as bends
-// pass through straight.
+// Returns the maximum angular speed of a vertebra over that of the source's fastest, as
+// bends pass through straight.
 double steepest(const Skeleton& source, const Skeleton& body, int count) {
   const BodyMap source_map = mapped(source);
   const BodyMap map = mapped(body);
@@ -171,15 +171,15 @@ double steepest(const Skeleton& source, const Skeleton& body, int count) {
   return worst;
 }
 
-// No vertebra flips as a bend passes zero, nor buckles at once.
+// No vertebra flips as a bend passes zero, or buckles at once.
 TEST(SpineLimits, VertebraeTurnHardlyMoreThanThreeTimesAsFastAsTheSources) {
   for (int n = 1; n <= 8; ++n) {
     EXPECT_LT(steepest(with_count(3), with_count(n), n), 3.5) << n;
   }
 }
 
-// A vertebra without length, as some recordings have below the neck, is a knot against
-// the curve's end: what lies before it does not turn further than its neighbours do.
+// A vertebra without length, as in some recordings below the neck, is a knot at the
+// curve's end: the vertebrae before it do not turn further than their neighbours.
 TEST(SpineLimits, AVertebraWithoutLengthSpinsNoOther) {
   Skeleton source = with_count(3);
   const auto neck = *source.find(B::kNeck);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/support_constraints.h"
+#include "retarget/adapt/support_constraints.h"
 
 #include <algorithm>
 #include <set>
@@ -11,12 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "core/floor.h"
-#include "retarget/activation.h"
-#include "retarget/adapt_motion.h"
-#include "retarget/check_constraints.h"
-#include "retarget/detect_contacts.h"
-#include "retarget/make_character.h"
-#include "retarget/retarget_motion.h"
+#include "retarget/adapt/adapt_motion.h"
+#include "retarget/character/make_character.h"
+#include "retarget/constraints/activation.h"
+#include "retarget/constraints/check_constraints.h"
+#include "retarget/contacts/detect_contacts.h"
+#include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/synthetic_walk.h"
 
@@ -25,7 +25,7 @@ namespace {
 
 constexpr FrameRate kRate{60.0};
 
-/// A walk whose feet stand to the bit, and its supports.
+/// A walk whose feet stand still to the bit, and its supports.
 struct Planted {
   Planted() {
     const testing::SyntheticWalk walk = testing::synthetic_walk(240, kRate.hz);
@@ -71,7 +71,7 @@ TEST(SupportConstraints, AreFullyActiveWhereTheirFootBearsAndNotBetweenSteps) {
       }
     }
   }
-  // Between steps the foot is free: nobody holds it for a tenth of a second.
+  // Between steps the foot is free for a tenth of a second: no constraint holds it.
   int free = 0;
   for (int t = 0; t < 240; ++t) {
     free += std::ranges::none_of(set.constraints, [&](const Constraint& c) {
@@ -81,7 +81,7 @@ TEST(SupportConstraints, AreFullyActiveWhereTheirFootBearsAndNotBetweenSteps) {
   EXPECT_GT(free, 24);
 }
 
-// What is planted already is not moved by more than what the numbers were rounded to.
+// Feet that stand already move by no more than the rounding of the numbers.
 TEST(SupportConstraints, ChangeNothingInAMotionThatStands) {
   const Planted planted;
   const auto character = make_character("walker", planted.motion.skeleton, planted.map);
@@ -127,7 +127,7 @@ struct HeelFirst {
   std::vector<SupportTrack> tracks;
 };
 
-// A foot on its heel alone rises on it by as much as its sole is behind the ankle.
+// A foot on its heel alone rises on it by the distance of its sole behind the ankle.
 TEST(SupportConstraints, DoNotContradictEachOtherWhereFeetRollFromHeelToBall) {
   const HeelFirst walk;
   double rises_m = 0.0;
@@ -141,7 +141,7 @@ TEST(SupportConstraints, DoNotContradictEachOtherWhereFeetRollFromHeelToBall) {
                          glm::distance(at(stance.frames.first), at(stance.frames.last)));
     }
   }
-  EXPECT_GT(rises_m, 1e-3);  // Else there is nothing to contradict.
+  EXPECT_GT(rises_m, 1e-3);  // Otherwise there is no contradiction to test.
   const ConstraintSet set = support_constraints(walk.tracks, kRate);
   ASSERT_TRUE(set.find("leftFoot heel 1") && set.find("leftFoot flat 2") &&
               set.find("leftFoot ball 2"));
@@ -169,7 +169,7 @@ TEST(SupportConstraints, DoNotContradictEachOtherWhereFeetRollFromHeelToBall) {
   }
 }
 
-// Where footprints move, too, each stance's are of one moment.
+// On moving footprints, those of each stance belong to one moment.
 TEST(SupportConstraints, DoNotContradictEachOtherOnAFloorThatMoves) {
   const HeelFirst walk;
   Floor belt;

@@ -9,7 +9,7 @@
 namespace marey::retarget {
 namespace {
 
-// Positions in single precision over a leg of 0.85 m, and a chain of a dozen turns.
+// Positions in single precision over a leg of 0.85 m, and a chain of a dozen rotations.
 constexpr double kFloat_m = 2e-6;
 
 struct Standing {
@@ -24,7 +24,7 @@ struct Standing {
   glm::dvec3 at(const Pose& pose, const char* segment) const {
     return place_in_world(character, pose, segment);
   }
-  /// Both hands wanted by `by` from where they are.
+  /// Both hands have targets at `by` from their positions.
   void want(const glm::dvec3& left_by, const glm::dvec3& right_by) {
     set.constraints[0].goal = DistanceToPoint{0.0, at(reference, "leftHand") + left_by};
     set.constraints[1].goal = DistanceToPoint{0.0, at(reference, "rightHand") + right_by};
@@ -44,15 +44,15 @@ struct Standing {
   }
 };
 
-// Table 4.1 has 2 iterations for near targets: the second finds nothing to do, which is
-// seen here at the end of the first.
+// Table 4.1 has 2 iterations for near targets: the second finds no error, which is
+// detected here at the end of the first.
 TEST(ThesisAdapter, MeetsNearTargetsInOneIteration) {
   Standing scene;
   testing::Dice dice(21);
   for (int k = 0; k < 50; ++k) {
     scene.want(dice.between(0.05, 0.1) * dice.direction(),
                dice.between(0.05, 0.1) * dice.direction());
-    // Arms that nearly hang straight reach up more than down.
+    // Arms that hang nearly straight reach up more than down.
     for (std::size_t c = 0; c < 2; ++c) {
       std::get<DistanceToPoint>(scene.set.constraints[c].goal).p_in_world.y += 0.12;
     }
@@ -78,7 +78,7 @@ TEST(ThesisAdapter, ReachesFarTargetsWithTrunkAndRoot) {
   EXPECT_LT(scene.worst_foot_m(out), kFloat_m);
 }
 
-// Thesis 4.2.1: a leg that stands is the ground's; once it is free it kneels.
+// Thesis 4.2.1: a standing leg follows the ground alone; once it is free it kneels.
 TEST(ThesisAdapter, LeavesLegsThatStandAlone) {
   Standing scene;
   const glm::dvec3 knee = scene.at(scene.reference, "leftLowerLeg");
@@ -101,7 +101,7 @@ TEST(ThesisAdapter, LeavesLegsThatStandAlone) {
   }
 }
 
-// Thesis 4.2.5: whatever the iteration it is stopped at.
+// Thesis 4.2.5: for any iteration at which it stops.
 TEST(ThesisAdapter, NeverMakesAnErrorLargerByIteratingOn) {
   Standing scene;
   testing::Dice dice(4);
@@ -144,13 +144,13 @@ TEST(ThesisAdapter, SettlesOnTargetsThatAreOutOfReach) {
     Adapter patient = adapter_of(scene.character, scene.set, options);
     Pose best;
     const AdaptReport least = patient.adapt(scene.reference, 0.0, best);
-    // Descent by groups has a long tail: gains of less than the threshold, for hundreds
-    // of iterations. The thesis tells of 9 mm; its best was at 48 iterations.
+    // Descent by groups has a long tail: improvements below the threshold, for hundreds
+    // of iterations. The thesis reports 9 mm; its best was at 48 iterations.
     EXPECT_LT(report.constraint_error_m - least.constraint_error_m, 0.06);
   }
 }
 
-// Figures 4.10 and 4.11: the root goes by the share that is spent on constraints.
+// Figures 4.10 and 4.11: the root moves by its share for constraints.
 TEST(ThesisAdapter, SpendsOfTheRootWhatItIsTold) {
   Standing scene;
   scene.want({0.0, 0.2, 1.0}, {0.0, 0.2, 1.0});
@@ -171,7 +171,7 @@ TEST(ThesisAdapter, SpendsOfTheRootWhatItIsTold) {
   }
 }
 
-// Push-pull (5.3): however far the hands are wanted, the body does not fall.
+// Push-pull (5.3): the body keeps its balance for any distance of the hands' targets.
 TEST(ThesisBalance, KeepsTheCentreOfMassWhileHandsReach) {
   Standing scene;
   const glm::dvec3 com = centre_of_mass_of(scene.character, scene.reference);
@@ -204,7 +204,7 @@ TEST(ThesisBalance, MeetsNearTargetsInAHandfulOfIterations) {
   EXPECT_LT(scene.worst_hand_m(out), 1e-3);
 }
 
-// In flight the body turns about its centre of mass: all three coordinates are met.
+// In flight the body rotates about its centre of mass: all three coordinates are met.
 TEST(ThesisBalance, PutsTheCentreOfMassWhereItIsWantedInFlight) {
   const Character character = thesis_human();
   const Pose reference = standing_pose(character);
@@ -221,7 +221,7 @@ TEST(ThesisBalance, PutsTheCentreOfMassWhereItIsWantedInFlight) {
   EXPECT_LT(glm::distance(centre_of_mass_of(character, out), wanted), 1.1e-4);
 }
 
-// Without CnRoot the groups do it (figure 5.5b): the root stays for the last bit.
+// Without CnRoot the groups balance (figure 5.5b): the root moves by the remainder only.
 TEST(ThesisBalance, UsesFreeGroupsBeforeTheRoot) {
   const Character character = thesis_human();
   const Pose reference = standing_pose(character);
@@ -243,7 +243,7 @@ TEST(ThesisBalance, UsesFreeGroupsBeforeTheRoot) {
   EXPECT_GT(moved_m[1], 0.015);
 }
 
-// Thesis 7.2.1: the heavier what hangs from the hand, the farther back the pelvis.
+// Thesis 7.2.1: the heavier the load of the hand, the farther back the pelvis.
 TEST(ThesisBalance, LeansBackUnderALoad) {
   const Character unloaded = thesis_human();
   const Pose reference = standing_pose(unloaded);
@@ -268,7 +268,7 @@ TEST(ThesisBalance, LeansBackUnderALoad) {
   }
 }
 
-// Two answers for the price of the mean: while a constraint fades in, by the thesis, too.
+// The mean of two results: a constraint fades in with the thesis' method, too.
 TEST(ThesisAdapter, FadesConstraintsIn) {
   Standing scene;
   scene.want({0.0, 0.2, 0.2}, {0.0, 0.2, 0.2});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/thesis_kinematics.h"
+#include "retarget/adapt/kernel/thesis_kinematics.h"
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ Quat<double> quat_of(const glm::dquat& q) {
   return {q.w, q.x, q.y, q.z};
 }
 
-// A head that is wanted elsewhere: the neck turns for it as one rigid segment.
+// A head with a target elsewhere: the neck rotates for it as one rigid segment.
 ThesisLane nodding(const glm::dvec3& target_in_world) {
   const Character character = thesis_human();
   ConstraintSet set{{contact_of("head", target_in_world)}, {}};
@@ -27,7 +27,7 @@ ThesisLane nodding(const glm::dvec3& target_in_world) {
 
 double error_after(ThesisLane lane, const ThesisTurn& turn, const Quat<double>& by) {
   turn_joints(lane.plan, turn.joints, turn.below, by, true, lane.lanes);
-  measure_wish(lane.plan, 0, lane.lanes);
+  measure_target(lane.plan, 0, lane.lanes);
   return length(lane.lanes.points[0].error);
 }
 
@@ -36,7 +36,7 @@ TEST(ThesisSegment, TurnsSoThatNoOtherTurnBringsItsPointNearer) {
   const ThesisTurn& neck = lane.turn_of("neck");
   ThesisLane adapted = lane;
   adapt_segment(adapted.plan, adapted.shape.groups, neck, {}, 1.0, true, adapted.lanes);
-  measure_wish(adapted.plan, 0, adapted.lanes);
+  measure_target(adapted.plan, 0, adapted.lanes);
   const double error = length(adapted.lanes.points[0].error);
   EXPECT_LT(error, 0.9 * length(lane.lanes.points[0].error));
   testing::Dice dice(5);
@@ -46,7 +46,8 @@ TEST(ThesisSegment, TurnsSoThatNoOtherTurnBringsItsPointNearer) {
   }
 }
 
-// The rotation is the least that does it: its axis is across the line to the point.
+// The rotation is the smallest solution: its axis is perpendicular to the line to the
+// point.
 TEST(ThesisSegment, DoesNotSpinForOneWish) {
   ThesisLane lane = nodding({0.3, 1.6, 0.2});
   const ThesisTurn& neck = lane.turn_of("neck");
@@ -59,8 +60,9 @@ TEST(ThesisSegment, DoesNotSpinForOneWish) {
   EXPECT_NEAR(dot(vector_part(turn), line), 0.0, 1e-7 /* quaternions in float */);
 }
 
-// A wish whose error is well within its precision turns nothing (the thesis prints the
-// opposite, which would turn only for wishes that are met); one at its precision all.
+// A target with an error well within its precision causes no rotation (the thesis prints
+// the opposite, with rotations only for met targets); one at its precision the full
+// rotation.
 TEST(ThesisSegment, StaysForAWishThatIsMet) {
   ThesisLane lane = nodding({0.3, 1.6, 0.2});
   const double error = length(lane.lanes.points[0].error);
@@ -72,7 +74,7 @@ TEST(ThesisSegment, StaysForAWishThatIsMet) {
   EXPECT_EQ(lane.lanes.rotation[j].w, before.w);
   lane.lanes.points[0].per_precision = 1.0 / (0.99 * error);
   adapt_segment(lane.plan, lane.shape.groups, neck, {}, 1.0, true, lane.lanes);
-  measure_wish(lane.plan, 0, lane.lanes);
+  measure_target(lane.plan, 0, lane.lanes);
   const Vec3<double> place = lane.lanes.points[0].place - lane.lanes.place[j];
   const Vec3<double> target = lane.lanes.points[0].target - lane.lanes.place[j];
   EXPECT_LT(length(cross(place, target)), 1e-6 /* rotations in float */);
@@ -97,11 +99,11 @@ TEST(ThesisSegment, SpinsForTheSecondWishAndKeepsTheFirst) {
   ThesisLane alone = lane;
   alone.lanes.points[1].active = 0.0;
   adapt_segment(alone.plan, alone.shape.groups, neck, {}, 1.0, true, alone.lanes);
-  measure_wish(alone.plan, 0, alone.lanes);
+  measure_target(alone.plan, 0, alone.lanes);
   ThesisLane both = lane;
   adapt_segment(both.plan, both.shape.groups, neck, {}, 1.0, true, both.lanes);
-  measure_wish(both.plan, 0, both.lanes);
-  measure_wish(both.plan, 1, both.lanes);
+  measure_target(both.plan, 0, both.lanes);
+  measure_target(both.plan, 1, both.lanes);
   EXPECT_LT(length(both.lanes.points[0].place - alone.lanes.points[0].place), kRounding);
   const double error = length(both.lanes.points[1].error);
   const auto j = static_cast<std::size_t>(neck.joints.front());
@@ -117,13 +119,13 @@ TEST(ThesisSegment, SpinsForTheSecondWishAndKeepsTheFirst) {
                 {std::cos(half), sine * axis.x, sine * axis.y, sine * axis.z},
                 true,
                 spun.lanes);
-    measure_wish(spun.plan, 1, spun.lanes);
+    measure_target(spun.plan, 1, spun.lanes);
     EXPECT_GE(length(spun.lanes.points[1].error), error - kRounding);
   }
 }
 
-// Thesis 4.2.5, figure 4.20: two opposed wishes of importance 2 and 1. The first turn is
-// the weighted mean, and after it the two balance.
+// Thesis 4.2.5, figure 4.20: two opposed targets of importance 2 and 1. The first
+// rotation is the weighted mean, and after it the two are in equilibrium.
 TEST(ThesisSegment, BlendsOpposedWishesWithoutSwinging) {
   const Character character = thesis_human();
   const Pose pose = rest_pose(character.skeleton);
@@ -172,12 +174,12 @@ TEST(ThesisTrunk, SharesATurnOverItsVertebrae) {
   for (std::size_t n = 0; n < 3; ++n) {
     const Quat<double>& q = lane.lanes.rotation[static_cast<std::size_t>(all.joints[n])];
     const double turned = 2.0 * std::asin(q.z);
-    // Evenly, to what a chord differs from its arc.
+    // Equal, up to the difference between chord and arc.
     EXPECT_NEAR(turned - before, angle / 3, 0.01);
     before = turned;
   }
   EXPECT_NEAR(before, angle, 1e-6 /* quaternions in float */);
-  // Whoever hangs on it keeps his place in his parent.
+  // Descendants keep their position in their parent.
   for (const int j : lane.plan.live) {
     if (j == 0) continue;
     const auto i = static_cast<std::size_t>(j);
@@ -205,7 +207,8 @@ TEST(ThesisRoot, GoesByTheMeanErrorOfPelvisAndGroups) {
   lane.lanes.root_weight = 0.5;
   lane.lanes.root_weight_on_floor = 0.25;
   const glm::dvec3 wish_m =
-      lane.body.unit_m * glm_of(root_wish(lane.plan, lane.shape.groups, lane.lanes));
+      lane.body.unit_m *
+      glm_of(mean_root_error(lane.plan, lane.shape.groups, lane.lanes));
   const glm::dvec3 mean_m = glm::dvec3(0.2, 0.1, 3 * 0.3) / 5.0;
   const glm::dvec3 expected_m = mean_m * glm::dvec3(0.25, 0.5, 0.25);
   EXPECT_LT(glm::distance(wish_m, expected_m), 1e-6 /* loaded in float */);
@@ -218,7 +221,7 @@ TEST(ThesisRoot, LeavesTheAxesOfBalanceAlone) {
   const ConstraintSet set{{contact_of("head", {0.3, 2.0, 0.4})}, {}};
   const auto wish = [&](BalanceMode mode) {
     ThesisLane lane(character, set, pose, mode);
-    return root_wish(lane.plan, lane.shape.groups, lane.lanes);
+    return mean_root_error(lane.plan, lane.shape.groups, lane.lanes);
   };
   const Vec3<double> free = wish(BalanceMode::kOff);
   EXPECT_GT(std::abs(free.x) * std::abs(free.y) * std::abs(free.z), 0.0);

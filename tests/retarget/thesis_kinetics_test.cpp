@@ -1,17 +1,18 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/thesis_kinetics.h"
+#include "retarget/adapt/kernel/thesis_kinetics.h"
 
 #include <cmath>
 
+#include "retarget/constraints/resolve_segment.h"
 #include "tests/retarget/thesis_scene.h"
 #include "tests/support/random_bodies.h"
 
 namespace marey::retarget {
 namespace {
 
-/// Annex C of the thesis, simplified: from how far the limb's centre is from its root to
-/// how far its end is.
+/// Annex C of the thesis, simplified: from the distance of the limb's centre from its
+/// root to the distance of its end.
 struct LimbMasses {
   double l1, l2, r1, r2, m1, m2;
   [[nodiscard]] double extension(double d) const {
@@ -21,7 +22,7 @@ struct LimbMasses {
     const double f = l1 * l1 * a * (a + b) - l2 * l2 * a * b;
     return std::sqrt((d * d - f) / (b * (a + b)));
   }
-  /// The same from the triangle itself: distances of centre and end at a bend.
+  /// The same from the triangle itself: distances of centre and end for a bend.
   [[nodiscard]] std::pair<double, double> at(double bend_rad) const {
     const glm::dvec2 elbow(l1, 0);
     const glm::dvec2 lower = l2 * glm::dvec2(std::cos(bend_rad), std::sin(bend_rad));
@@ -30,7 +31,7 @@ struct LimbMasses {
   }
 };
 
-// Of the tests' own truth: the formula that the next one holds the limb against.
+// Verifies the tests' own reference: the formula that the next test uses.
 TEST(ThesisExtension, OfTheseTestsIsWhatTheTriangleSays) {
   testing::Dice dice(3);
   for (int k = 0; k < 1000; ++k) {
@@ -46,7 +47,7 @@ TEST(ThesisExtension, OfTheseTestsIsWhatTheTriangleSays) {
   }
 }
 
-// An arm of two weights on its bones, wanted where eq. 5.6 knows the answer.
+// An arm with two masses on its bones, with a target for which eq. 5.6 has the solution.
 TEST(ThesisLimb, BendsByEquation56WhenItsMassesAreOnItsBones) {
   Character character = thesis_human();
   const Pose pose = standing_pose(character);
@@ -82,7 +83,8 @@ TEST(ThesisLimb, BendsByEquation56WhenItsMassesAreOnItsBones) {
   }
 }
 
-// Hands and feet count, wherever their centres are, by one step: what annex C leaves out.
+// Hands and feet are included, for any position of their centres, in one step: annex C
+// omits them.
 TEST(ThesisLimb, BringsItsCentreExactlyWhereItIsWanted) {
   const Character character = thesis_human();
   const Pose pose = standing_pose(character);
@@ -94,7 +96,7 @@ TEST(ThesisLimb, BringsItsCentreExactlyWhereItIsWanted) {
       const auto u = static_cast<std::size_t>(limb.root);
       const double share = lane.lanes.below_mass[u];
       const Vec3<double> now = (1.0 / share) * lane.lanes.below_moment[u];
-      // As far from the root as it is, more or less: within reach.
+      // Within reach: a distance from the root slightly larger or smaller.
       const double reach = length(now - lane.lanes.place[u]);
       const Vec3<double> wanted = lane.lanes.place[u] + vec_of(dice.between(0.6, 0.95) *
                                                                reach * dice.direction());
@@ -138,8 +140,8 @@ TEST(ThesisLimb, StretchesTowardsWhatIsOutOfReach) {
   EXPECT_GT(length(at("leftHand") - at("leftUpperArm")), 0.995 * bones);
 }
 
-// Figure 5.8: in the plane a rotation cannot bring the centre onto what is far below; it
-// comes over it, not nearest to it.
+// Figure 5.8: in the plane a rotation cannot move the centre to a target far below; it
+// moves it above the target, not to the nearest point.
 TEST(ThesisRotation, ComesOverTheWantedPlaceNotNearestToIt) {
   const Vec3<double> from{0.0, 0.4, 0.0};
   const Vec3<double> wanted{0.2, 0.1, 0.1};
@@ -150,7 +152,7 @@ TEST(ThesisRotation, ComesOverTheWantedPlaceNotNearestToIt) {
   EXPECT_NEAR(length(over), 0.4, 1e-12);
   // In three dimensions on the line to it.
   EXPECT_LT(length(cross(reached_by_turning(from, wanted, 1.0), wanted)), 1e-12);
-  // Out of reach along the floor: as far as it gets.
+  // Out of horizontal reach: as far as possible.
   const Vec3<double> far = reached_by_turning(from, {3.0, 0.4, 4.0}, 0.0);
   EXPECT_NEAR(far.x, 0.24, 1e-12);
   EXPECT_NEAR(far.z, 0.32, 1e-12);
@@ -167,8 +169,8 @@ TEST(ThesisTrunk, BringsTheBodysCentreNearerByOneRotation) {
     const double before = length(balance_error(lane.lanes));
     balance_with_segment(lane.plan, trunk, balance_error(lane.lanes), true, lane.lanes);
     measure_balance(lane.plan, lane.lanes);
-    // Over the wanted place to first order, as the turn is shared over vertebrae; in
-    // three dimensions a rotation leaves the distance from its root as it was.
+    // Over the target to first order, because the rotation is shared over vertebrae; in
+    // three dimensions a rotation keeps the distance from its root.
     const double left = mode == BalanceMode::kHorizontal ? 0.15 : 0.5;
     EXPECT_LT(length(balance_error(lane.lanes)), left * before);
   }
@@ -197,7 +199,7 @@ TEST(ThesisMasses, AreKeptUpGroupByGroup) {
   }
 }
 
-// Thesis 5.3.1: what kinematics uses is not kinetics', by its range either.
+// Thesis 5.3.1: groups that kinematics uses, also by its range, are not used by kinetics.
 TEST(ThesisGroups, BalanceOnlyWhileNoWishUsesThem) {
   const Character character = thesis_human();
   const Pose pose = standing_pose(character);

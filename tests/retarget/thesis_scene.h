@@ -9,30 +9,31 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "retarget/adapt_load.h"
-#include "retarget/adapt_numbers.h"
-#include "retarget/adapter.h"
-#include "retarget/check_constraints.h"
-#include "retarget/make_character.h"
-#include "retarget/thesis_solve.h"
+#include "retarget/adapt/adapter.h"
+#include "retarget/adapt/kernel/adapt_load.h"
+#include "retarget/adapt/kernel/thesis_solve.h"
+#include "retarget/adapt/plan/adapt_numbers.h"
+#include "retarget/character/make_character.h"
+#include "retarget/constraints/resolve_segment.h"
 #include "tests/retarget/mapped.h"
 
 namespace marey::retarget {
 
 /// An average human without joint limits, 70 kg.
-inline Character thesis_human(double least_trunk_thigh_angle_rad = 0.0) {
+inline Character thesis_human(double min_trunk_thigh_angle_rad = 0.0) {
   const Skeleton skeleton = make_humanoid(average_proportions(1.75));
   CharacterTraits traits;
   traits.has_limits = false;
-  traits.mass.table = MassTable::kDempster;  // Table 5.1, as all figures of the thesis.
-  traits.flexibility.least_trunk_thigh_angle_rad = least_trunk_thigh_angle_rad;
+  // Table 5.1, used for all figures of the thesis.
+  traits.mass.table = MassTable::kDempster;
+  traits.flexibility.min_trunk_thigh_angle_rad = min_trunk_thigh_angle_rad;
   traits.loads.push_back({"bag", {"leftHand", glm::dvec3(0.0)}, 10.0});
   auto character = make_character("human", skeleton, mapped(skeleton), traits);
   EXPECT_TRUE(character) << (character ? "" : character.error().message());
   return *std::move(character);
 }
 
-/// Arms hang, elbows and knees are bent by 0.3 rad, the feet where they were.
+/// Arms hang, elbows and knees are bent by 0.3 rad, the feet are in place.
 inline Pose standing_pose(const Character& character, double knee_rad = 0.3) {
   Pose pose = rest_pose(character.skeleton);
   const auto turn = [&](HumanBone bone, double angle_rad, const glm::dvec3& axis) {
@@ -104,7 +105,7 @@ inline AdaptOptions by_the_thesis(BalanceMode balance = BalanceMode::kOff) {
   return options;
 }
 
-/// One lane in double, loaded as the adapter loads it; wishes are all active.
+/// One lane in double, loaded as by the adapter; all targets are active.
 struct ThesisLane {
   Character character;
   Plan plan;
@@ -137,27 +138,27 @@ struct ThesisLane {
     std::vector<float> packed_balance(kBalanceNumbers);
     pack_balance(body, reference.root_in_world, wanted, packed_balance);
     load_balance(packed_balance.data(), 0, lanes);
-    std::vector<WishNumbers> wishes(plan.points.size());
-    for (std::size_t k = 0; k < wishes.size(); ++k) {
+    std::vector<TargetNumbers> targets(plan.points.size());
+    for (std::size_t k = 0; k < targets.size(); ++k) {
       const auto c = static_cast<std::size_t>(plan.points[k].constraint);
       const Constraint& constraint = constraints.constraints[c];
       const auto* contact = std::get_if<DistanceToPoint>(&constraint.goal);
       const auto* support = std::get_if<Support>(&constraint.goal);
-      wishes[k].in_joint = constraint.point.offset_in_t_pose;
-      if (contact != nullptr) wishes[k].a_in_world = contact->p_in_world;
-      if (support != nullptr) wishes[k].a_in_world = *support->footprint_in_world;
-      wishes[k].active = true;
-      wishes[k].weight = constraint.importance;
-      wishes[k].precision_m = constraint.precision_m;
+      targets[k].in_joint = constraint.point.offset_in_t_pose;
+      if (contact != nullptr) targets[k].a_in_world = contact->p_in_world;
+      if (support != nullptr) targets[k].a_in_world = *support->footprint_in_world;
+      targets[k].active = true;
+      targets[k].weight = constraint.importance;
+      targets[k].precision_m = constraint.precision_m;
     }
-    std::vector<float> packed(kNumbersPerWish * wishes.size());
-    pack_wishes(plan, body, reference.root_in_world, wishes, packed);
-    load_wishes(plan, packed.data(), 0, lanes);
+    std::vector<float> packed(kNumbersPerTarget * targets.size());
+    pack_targets(plan, body, reference.root_in_world, targets, packed);
+    load_targets(plan, packed.data(), 0, lanes);
     stand_reference(plan, balanced, true, lanes);
     set_axes(plan, true, lanes);
     take_posture(lanes.reference_rotation, lanes.reference_place, plan, true, lanes);
-    for (std::size_t k = 0; k < wishes.size(); ++k) {
-      measure_wish(plan, static_cast<int>(k), lanes);
+    for (std::size_t k = 0; k < targets.size(); ++k) {
+      measure_target(plan, static_cast<int>(k), lanes);
     }
     if (balanced) measure_balance(plan, lanes);
   }
@@ -172,7 +173,7 @@ struct ThesisLane {
     ADD_FAILURE() << "nothing turns " << segment;
     return shape.groups.turns.front();
   }
-  /// Of the group that hangs on this joint.
+  /// Returns the group with this root joint.
   [[nodiscard]] const KineticGroup& balancing(const std::string& segment) const {
     for (const KineticGroup& group : shape.groups.balancing) {
       if (group.root == static_cast<int>(joint(segment))) return group;

@@ -11,7 +11,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/result.h"
+#include "core/base/result.h"
 #include "core/transform.h"
 
 namespace marey::testing {

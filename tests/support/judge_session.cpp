@@ -12,7 +12,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "core/pose.h"
-#include "core/quantile.h"
+#include "core/base/quantile.h"
 
 namespace marey::testing {
 namespace {
@@ -80,16 +80,17 @@ JointSamples sample(const SimulatedSession& session,
       return is_flipped(truth[index(bone)], found[index(bone)]);
     };
     for (const B bone : worn) {
-      const bool measured = estimate.doubt[f][index(bone)].source == Source::kMeasured;
+      const bool measured =
+          estimate.uncertainty[f][index(bone)].source == Source::kMeasured;
       verdict.flipped_frames += measured && flipped(bone) ? 1 : 0;
     }
     for (const HumanLimb& limb : human_limbs()) {
       for (const B joint : {limb.upper, limb.lower, limb.end}) {
-        const JointDoubt& doubt = estimate.doubt[f][index(joint)];
-        samples[joint].push_back({doubt.source,
+        const JointUncertainty& uncertainty = estimate.uncertainty[f][index(joint)];
+        samples[joint].push_back({uncertainty.source,
                                   glm::distance(truth[index(joint)].translation,
                                                 found[index(joint)].translation),
-                                  doubt.sigma_m,
+                                  uncertainty.sigma_m,
                                   flipped(joint) || flipped(trunkward(joint))});
       }
     }

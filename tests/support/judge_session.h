@@ -9,7 +9,7 @@
 
 #include "core/body.h"
 #include "core/motion.h"
-#include "core/result.h"
+#include "core/base/result.h"
 #include "tests/support/simulated_session.h"
 
 namespace marey::testing {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 
 namespace marey::testing {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/assert.h"
+#include "core/base/assert.h"
 
 namespace marey::testing {
 namespace {

@@ -31,7 +31,7 @@ struct SimulatedFilm {
   double sigma_factor = 1.0;  ///< Claimed noise of corners over the true one.
 };
 
-/// What the cameras' detectors report. By the laws of docs/measurements.md, "Finding
+/// What the cameras' detectors report. By the laws of docs/accuracy/README.md, "Finding
 /// tags" and "Plans": tags are read with a chance that falls with their shortest edge,
 /// their angle and their motion blur; corners err by 0.08 to 0.10 px, 3 % of the variance
 /// common to all sightings of a tag by one camera; flesh hides. Sightings drop out at

@@ -12,9 +12,9 @@
 #include <string>
 
 #include "core/pose.h"
-#include "recordings/bvh.h"
-#include "recordings/gltf.h"
-#include "recordings/mannequin.h"
+#include "recordings/body/mannequin.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/motion/bvh.h"
 #include "tests/recordings/wild_motion.h"
 
 namespace {

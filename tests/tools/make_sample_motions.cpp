@@ -15,11 +15,11 @@
 #include <string>
 
 #include "core/pose.h"
-#include "recordings/bvh.h"
-#include "recordings/bvh_names.h"
-#include "recordings/gltf.h"
-#include "recordings/mannequin.h"
-#include "recordings/vrma.h"
+#include "recordings/body/mannequin.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/gltf/vrma.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/motion/bvh_names.h"
 #include "tests/recordings/wild_motion.h"
 
 namespace {

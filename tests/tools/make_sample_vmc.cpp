@@ -17,11 +17,11 @@
 #include <string>
 
 #include "core/pose.h"
-#include "live/vmc_body.h"
-#include "live/vmc_encoder.h"
-#include "recordings/gltf.h"
-#include "recordings/mannequin.h"
-#include "retarget/identify_bones.h"
+#include "live/vmc/vmc_body.h"
+#include "live/vmc/vmc_encoder.h"
+#include "recordings/body/mannequin.h"
+#include "recordings/gltf/gltf.h"
+#include "retarget/bones/identify_bones.h"
 #include "tests/recordings/wild_motion.h"
 
 namespace {

@@ -16,8 +16,8 @@
 #include <thread>
 
 #include "core/skeleton.h"
-#include "live/vmc_body.h"
-#include "live/vmc_sender.h"
+#include "live/vmc/vmc_body.h"
+#include "live/vmc/vmc_sender.h"
 #include "tests/recordings/wild_motion.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Blocks: a whole recording in one answer (docs/formats.md, "The page"). They are read where
+// Blocks: a whole recording in one answer (docs/formats/page.md). They are read where
 // they lie; only where frames begin is noted.
 
 import {decodeFrame, SceneFrame} from './decode_frame';

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Binary frames (docs/formats.md, "The page", kind 1), read into arrays that are kept: a
+// Binary frames (docs/formats/page.md, kind 1), read into arrays that are kept: a
 // frame costs no allocation.
 
 import type {SkeletonWords} from './protocol';

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Small pictures of what a camera sees (docs/formats.md, "The page", kind 2).
+// Small pictures of what a camera sees (docs/formats/page.md, kind 2).
 
 export const THUMBNAIL_KIND = 2;
 const HEADER_BYTES = 8;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What marey and its page say to each other, version 1 (docs/formats.md, "The page"). The
+// What marey and its page say to each other, version 1 (docs/formats/page.md). The
 // world is right-handed, Y up, in metres and seconds; quaternions are x y z w.
 
 export const PROTOCOL_VERSION = 1;

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/check/check_body.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "reconstruct/markers/body_stature.h"
+#include "reconstruct/posture/measured_sigma.h"
+#include "reconstruct/tags/solve_motion.h"
+
+namespace marey::app {
+namespace {
+
+std::optional<std::string> stature_warning(const Body& body) {
+  constexpr double kSigmas = 3.0;
+  std::array<bool, kHumanBoneCount> measured{};
+  // Legs alone: tags measure the rotation of the trunk better than its length.
+  for (const HumanLimb& limb : human_limbs()) {
+    if (limb.end != HumanBone::kLeftFoot && limb.end != HumanBone::kRightFoot) continue;
+    measured[index(limb.lower)] = true;
+    measured[index(limb.end)] = true;
+  }
+  const auto by_legs = reconstruct::stature_of_body(body.proportions, measured);
+  if (!by_legs ||
+      std::abs(by_legs->stature_m - body.stature_m) < kSigmas * by_legs->sigma_m) {
+    return std::nullopt;
+  }
+  std::array<char, 200> text{};
+  std::snprintf(text.data(),
+                text.size(),
+                "stature_m of [subject] is %.2f m, but the legs are as long as those of "
+                "a person of %.2f m (standard deviation %.2f m)",
+                body.stature_m,
+                by_legs->stature_m,
+                by_legs->sigma_m);
+  return std::string(text.data()) +
+         ". Next: correct stature_m; if it is right, check size_m of the tags and "
+         "tag_size_m of [board].";
+}
+
+std::string joint_warning(HumanBone joint, double sigma_m) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(),
+                text.size(),
+                "the joint \"%s\" is known to %.0f mm: motions call it inferred, and the "
+                "segments below it are as uncertain",
+                std::string(name(joint)).c_str(),
+                1e3 * sigma_m);
+  return std::string(text.data()) +
+         ". Next: record the range of motion again, moving that limb far to all sides "
+         "before two cameras at once.";
+}
+
+}  // namespace
+
+std::vector<std::string> body_warnings(const Body& body) {
+  std::vector<std::string> warnings;
+  if (auto warning = stature_warning(body)) warnings.push_back(std::move(*warning));
+  for (const HumanLimb& limb : human_limbs()) {
+    const double sigma_m = reconstruct::centre_sigma_in_motion_m(body, limb.upper);
+    if (sigma_m > reconstruct::kMaxMeasuredSigma_m)
+      warnings.push_back(joint_warning(limb.upper, sigma_m));
+  }
+  return warnings;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/check/check_ids.h"
+
+#include <algorithm>
+#include <set>
+#include <variant>
+
+#include <glm/geometric.hpp>
+
+#include "core/base/quantile.h"
+
+namespace marey::app {
+namespace {
+
+using recordings::Session;
+using recordings::Trial;
+using recordings::TrialKind;
+
+// Share of the pictures. Misread tags and passers-by are seen less often.
+constexpr double kOftenShare = 0.05;
+// The same of the pictures that show a board, of tags that are printed on it.
+constexpr double kBesideBoardShare = 0.2;
+
+/// Number of pictures that show each tag, and of all pictures, in the trials of a body.
+struct Seen {
+  std::map<TagId, int> pictures;
+  std::set<TagId> moving;  ///< Tags that travel by more than their own side.
+  int of = 0;
+};
+
+/// Returns whether the tag's centre moves by more than its side in one camera's pictures,
+/// between the 10 % and 90 % quantiles of x or y. Tags on walls do not.
+bool travels(const std::vector<glm::dvec2>& centres_px, double side_px) {
+  for (int axis = 0; axis < 2; ++axis) {
+    std::vector<double> places_px;
+    for (const glm::dvec2& centre_px : centres_px) places_px.push_back(centre_px[axis]);
+    const double left_px = quantile(places_px, 0.1);
+    if (quantile(std::move(places_px), 0.9) - left_px > side_px) return true;
+  }
+  return false;
+}
+
+void add_moving(const CameraDetections& camera, std::set<TagId>& moving) {
+  std::map<TagId, std::vector<glm::dvec2>> centres_px;
+  std::map<TagId, double> side_px;
+  for (const FrameDetections& frame : camera.frames) {
+    for (const TagDetection& tag : frame.tags) {
+      const auto& p = tag.corners_px;
+      centres_px[tag.id].push_back(0.25 * (p[0] + p[1] + p[2] + p[3]));
+      side_px[tag.id] = std::max(side_px[tag.id], glm::distance(p[0], p[1]));
+    }
+  }
+  for (const auto& [id, centres] : centres_px) {
+    if (travels(centres, side_px[id])) moving.insert(id);
+  }
+}
+
+Seen count_seen(const Session& session,
+                const std::map<std::string, std::vector<CameraDetections>>& found) {
+  Seen seen;
+  for (const Trial& trial : session.trials) {
+    const auto cameras = found.find(trial.name);
+    if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor ||
+        cameras == found.end()) {
+      continue;
+    }
+    for (const CameraDetections& camera : cameras->second) {
+      seen.of += static_cast<int>(camera.frames.size());
+      add_moving(camera, seen.moving);
+      for (const FrameDetections& frame : camera.frames) {
+        for (const TagDetection& tag : frame.tags) ++seen.pictures[tag.id];
+      }
+    }
+  }
+  return seen;
+}
+
+/// Returns whether the session lists the tag, on the body or the calibration target.
+bool is_listed(const Session& session, TagId id) {
+  return std::any_of(
+      session.families.begin(), session.families.end(), [&](const TagFamilyUse& use) {
+        return std::find(use.ids.begin(), use.ids.end(), id) != use.ids.end();
+      });
+}
+
+std::string in_words(const std::vector<TagId>& ids) {
+  std::string words = ids.size() == 1 ? "tag " : "tags ";
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    words += (i == 0 ? "" : ", ") + std::to_string(number(ids[i]));
+  }
+  return words;
+}
+
+/// Tags that move about with an AprilGrid and are not of it: more rows or columns are
+/// printed than the session says. Cameras are right without them.
+void look_beside_board(const Session& session,
+                       const std::map<std::string, std::vector<CameraDetections>>& found,
+                       RecordingTroubles& troubles) {
+  const Trial* waved = session.find(TrialKind::kCalibration);
+  if (!waved || !found.contains(waved->name) || session.families.size() != 1 ||
+      !std::holds_alternative<AprilGrid>(session.target)) {
+    return;
+  }
+  std::map<TagId, int> pictures;
+  std::set<TagId> moving;
+  int with_board = 0;
+  for (const CameraDetections& camera : found.at(waved->name)) {
+    add_moving(camera, moving);
+    for (const FrameDetections& frame : camera.frames) {
+      with_board += frame.tags.empty() ? 0 : 1;
+      for (const TagDetection& tag : frame.tags) ++pictures[tag.id];
+    }
+  }
+  std::vector<TagId> strangers;
+  for (const auto& [id, count] : pictures) {
+    if (count > kBesideBoardShare * with_board && moving.contains(id) &&
+        !is_listed(session, id)) {
+      strangers.push_back(id);
+    }
+  }
+  if (strangers.empty()) return;
+  troubles.warnings.push_back(
+      session.file.string() + ": [board]: " + in_words(strangers) +
+      (strangers.size() == 1 ? " moves" : " move") + " with the board in trial \"" +
+      waved->name + "\" but " + (strangers.size() == 1 ? "is" : "are") +
+      " not of it, and not used. Next: correct `rows`, `columns` and `first_id` to what "
+      "is printed.");
+}
+
+}  // namespace
+
+Status check_ids(const Session& session,
+                 const std::map<std::string, std::vector<CameraDetections>>& found,
+                 RecordingTroubles& troubles) {
+  look_beside_board(session, found, troubles);
+  const Trial* moving = session.find(TrialKind::kRangeOfMotion);
+  // A body that stands still may hide a tag throughout; one that moves shows all.
+  if (session.tags.empty() || session.families.size() != 1 || !moving ||
+      !found.contains(moving->name)) {
+    return Done{};
+  }
+  const Seen seen = count_seen(session, found);
+  if (seen.of == 0) return Done{};
+  std::vector<TagId> never;
+  for (const TagOnSegment& tag : session.tags) {
+    if (!seen.pictures.contains(tag.id)) never.push_back(tag.id);
+  }
+  std::vector<TagId> strangers;
+  for (const auto& [id, pictures] : seen.pictures) {
+    if (pictures > kOftenShare * seen.of && seen.moving.contains(id) &&
+        !is_listed(session, id)) {
+      strangers.push_back(id);
+    }
+  }
+  if (strangers.empty()) return Done{};
+  const char* one = strangers.size() == 1 ? " is" : " are";
+  if (never.empty()) {
+    troubles.warnings.push_back(
+        session.file.string() + ": [[tags.tag]]: " + in_words(strangers) + one +
+        " often seen but not listed, and therefore not used. Next: list " +
+        (strangers.size() == 1 ? "it" : "them") + " if the subject wears " +
+        (strangers.size() == 1 ? "it." : "them."));
+    return Done{};
+  }
+  return bad_input(session.file.string() + ": [[tags.tag]]",
+                   in_words(never) + (never.size() == 1 ? " is" : " are") +
+                       " listed but never seen; " + in_words(strangers) + one +
+                       " often seen but not listed",
+                   "correct the `id` of the listed tags to what is printed on the tags "
+                   "of that segment, or remove the entries of tags that are not worn");
+}
+
+}  // namespace marey::app

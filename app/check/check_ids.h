@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/check/match_times.h"
+#include "core/base/result.h"
+#include "core/detection.h"
+#include "recordings/session/session.h"
+
+namespace marey::app {
+
+/// Checks that the tags seen on a body, and beside an AprilGrid that is waved, are those
+/// that the session lists. `found` is by name of the trial. Linear in the detections.
+///
+/// Errors (kBadInput): listed tags that are never seen, while unlisted tags of the family
+/// are often seen: mistyped ids. Unlisted tags alone, and tags that move with
+/// the board and are not of it, are warnings in `troubles`. Passes
+/// without a check if the session has several tag families (only listed tags are searched
+/// for then) or no range-of-motion trial.
+[[nodiscard]] Status check_ids(
+    const recordings::Session& session,
+    const std::map<std::string, std::vector<CameraDetections>>& found,
+    RecordingTroubles& troubles);
+
+}  // namespace marey::app

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/detection.h"
+#include "recordings/session/session.h"
+
+namespace marey::app {
+
+/// Checks that the subject of the static trial stands still. `found` is by name of the
+/// trial. Errors (kBadInput): the subject walks or moves its limbs; the error names the
+/// first other trial in which it stands still, if any. Passes without a static trial, or
+/// if too few tags are seen in it. Cost: measure_travel() of each trial.
+[[nodiscard]] Status check_standing(
+    const recordings::Session& session,
+    const std::map<std::string, std::vector<CameraDetections>>& found);
+
+/// A warning if the subject walks about in the range-of-motion trial while it stays in
+/// one place in another motion: their videos may be exchanged. By the tags on hips and
+/// chest; nullopt also if there are fewer than six of them. Cost: as check_standing().
+[[nodiscard]] std::optional<std::string> exchanged_exercise_warning(
+    const recordings::Session& session,
+    const std::map<std::string, std::vector<CameraDetections>>& found);
+
+}  // namespace marey::app

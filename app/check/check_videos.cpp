@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/check/check_videos.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "capture/sync/number_gaps.h"
+#include "capture/video/frame_source.h"
+#include "capture/video/image_folder.h"
+#include "capture/video/mp4_duration.h"
+#include "capture/video/open_frames.h"
+#include "core/base/parallel.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+using recordings::Session;
+using recordings::Trial;
+using recordings::TrialKind;
+using recordings::TrialVideo;
+
+/// A video of a trial, and what it says of itself.
+struct Opened {
+  const Trial* trial = nullptr;
+  const TrialVideo* video = nullptr;
+  std::optional<capture::StreamInfo> info;
+  std::optional<Error> trouble;
+  std::optional<capture::NumberGap> gap;
+};
+
+std::string line_of(const Session& session, int line) {
+  return session.file.string() + ":" + std::to_string(line);
+}
+
+bool is_folder(const TrialVideo& video) {
+  const auto kind = capture::recording_kind(video.path, video.path.string());
+  return kind && *kind == capture::RecordingKind::kImageFolder;
+}
+
+void open(Opened& one) {
+  const auto source = capture::open_frames(one.video->path);
+  if (!source) {
+    one.trouble = source.error();
+    return;
+  }
+  one.info = (*source)->info();
+  if (has_take(*one.trial) || !is_folder(*one.video)) return;
+  const auto images = capture::list_images(one.video->path, one.video->path.string());
+  if (images) one.gap = capture::find_number_gap(*images);
+}
+
+std::vector<Opened> open_all(const Session& session) {
+  std::vector<Opened> all;
+  for (const Trial& trial : session.trials) {
+    for (const TrialVideo& video : trial.videos) {
+      std::error_code ignored;
+      // Takes may lack a camera's video: find_tags() says what follows from it.
+      if (trial.is_recorded && !fs::exists(video.path, ignored)) continue;
+      all.push_back({&trial, &video, {}, {}, {}});
+    }
+  }
+  in_parallel(all.size(), 0, [&](std::size_t i) { open(all[i]); });
+  return all;
+}
+
+/// A motion goes on without a video as long as two are left.
+Status check_opened(const std::vector<Opened>& all, RecordingTroubles& troubles) {
+  std::map<const Trial*, int> readable;
+  for (const Opened& one : all) readable[one.trial] += one.trouble ? 0 : 1;
+  for (const Opened& one : all) {
+    if (!one.trouble) continue;
+    if (one.trial->kind != TrialKind::kMotion || readable[one.trial] < 2) {
+      return *one.trouble;
+    }
+    troubles.warnings.push_back(one.trouble->message());
+  }
+  return Done{};
+}
+
+/// Frames that a video surely does not have: containers other than MP4 promise their
+/// number to within 2 frames or 2 %.
+Status check_range(const Session& session, const Opened& one) {
+  const Trial& trial = *one.trial;
+  if (!trial.frames || has_take(trial) || !one.info || !one.info->expected_frames) {
+    return Done{};
+  }
+  const int frames = *one.info->expected_frames;
+  const bool is_exact = is_folder(*one.video) || capture::is_mp4(one.video->path);
+  const int most = is_exact ? frames : frames + std::max(2, frames / 50);
+  if (trial.frames->last < most) return Done{};
+  return bad_input(line_of(session, trial.line),
+                   "frames " + std::to_string(trial.frames->first) + " to " +
+                       std::to_string(trial.frames->last) + " of trial " + trial.name +
+                       " are asked for, but " + one.info->name + " has only " +
+                       std::to_string(frames) + " (numbers 0 to " +
+                       std::to_string(frames - 1) + ")",
+                   "correct `frames` of that trial, or its `videos`");
+}
+
+Status check_gap(const Opened& one) {
+  if (!one.gap) return Done{};
+  const std::string more =
+      one.gap->gaps > 1
+          ? " (and " + std::to_string(one.gap->gaps - 1) + " more such gaps)"
+          : std::string();
+  return bad_input(one.video->path.string(),
+                   std::to_string(one.gap->missing) + " images are missing between " +
+                       one.gap->before + " and " + one.gap->after + more +
+                       ": all later frames would be taken for earlier ones",
+                   "copy the missing images there; if the camera never took them, give "
+                   "the trial `timestamps`, or number the images without gaps");
+}
+
+std::string size_of(const capture::StreamInfo& info) {
+  return std::to_string(info.width_px) + " x " + std::to_string(info.height_px);
+}
+
+/// What two videos of one camera say of their pictures.
+Status compare(const capture::StreamInfo& earlier, const capture::StreamInfo& info) {
+  if (earlier.turned_deg != info.turned_deg) {
+    return bad_input(info.name,
+                     "its rotation mark turns its pictures by " +
+                         std::to_string(info.turned_deg) +
+                         " degrees, that of the same camera's " + earlier.name + " by " +
+                         std::to_string(earlier.turned_deg),
+                     "a calibration holds for one way round: take the mark out of the "
+                     "file, or record all trials of a camera the same way round");
+  }
+  if (size_of(earlier) == size_of(info)) return Done{};
+  const bool is_on_its_side =
+      earlier.width_px == info.height_px && earlier.height_px == info.width_px;
+  return bad_input(
+      info.name,
+      "its pictures are " + size_of(info) + ", those of the camera in " + earlier.name +
+          " " + size_of(earlier) + (is_on_its_side ? ": one of them is on its side" : ""),
+      is_on_its_side
+          ? "turn that video back by a quarter, or record all trials of a camera the "
+            "same way round"
+          : "record all trials of a camera at one size");
+}
+
+}  // namespace
+
+Status check_videos(const Session& session, RecordingTroubles& troubles) {
+  for (const Trial& trial : session.trials) {
+    std::error_code ignored;
+    if (!trial.timestamps || fs::exists(*trial.timestamps, ignored)) continue;
+    return bad_input(
+        line_of(session, trial.line),
+        "trial " + trial.name + ": there is no " + trial.timestamps->string(),
+        "correct `timestamps` of that trial, or leave it out");
+  }
+  const std::vector<Opened> all = open_all(session);
+  if (const Status ok = check_opened(all, troubles); !ok) return ok;
+  std::map<CameraId, const capture::StreamInfo*> of_camera;
+  for (const Opened& one : all) {
+    if (!one.info) continue;
+    if (const Status ok = check_range(session, one); !ok) return ok;
+    if (const Status ok = check_gap(one); !ok) return ok;
+    const auto [earlier, is_first] = of_camera.try_emplace(one.video->camera, &*one.info);
+    if (is_first) continue;
+    if (const Status ok = compare(*earlier->second, *one.info); !ok) return ok;
+  }
+  return Done{};
+}
+
+void warn_of_short_videos(const Session& session,
+                          const Trial& trial,
+                          const std::vector<CameraDetections>& found,
+                          RecordingTroubles& troubles) {
+  constexpr double kWorthSaying_s = 0.5;
+  constexpr double kWorthSayingShare = 0.05;
+  if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor ||
+      has_take(trial)) {
+    return;
+  }
+  std::size_t most = 0;
+  for (const CameraDetections& camera : found)
+    most = std::max(most, camera.frames.size());
+  for (const TrialVideo& video : trial.videos) {
+    const CameraDetections& camera = found[index(video.camera)];
+    if (camera.frames.empty() || camera.broken_off) continue;
+    const auto missing = static_cast<double>(most - camera.frames.size());
+    if (missing <= kWorthSaying_s * camera.rate.hz ||
+        missing <= kWorthSayingShare * static_cast<double>(most)) {
+      continue;
+    }
+    troubles.warnings.push_back(
+        camera.source + ": it has " + std::to_string(camera.frames.size()) +
+        " frames, another video of trial " + trial.name + " has " + std::to_string(most) +
+        ": later frames are solved without camera " +
+        session.cameras[index(video.camera)] +
+        ". Next: copy the file again; if it was cut at its beginning, cut the others "
+        "there too.");
+  }
+}
+
+}  // namespace marey::app

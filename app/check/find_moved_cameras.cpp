@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/check/find_moved_cameras.h"
+
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "calib/quality/calibration_limits.h"
+#include "calib/rig/find_moved_camera.h"
+#include "core/base/format_text.h"
+
+namespace marey::app {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+// Calibrations and lenses err by some tenths of a pixel where the body is. A move
+// of 1 px doubles the error of joints (docs/accuracy/README.md, "Simulated camera faults").
+constexpr double kFairPx = 0.5;
+constexpr double kPoorPx = 0.8;
+// In squared sigmas. Views of one tag share their errors: chance alone reaches 100, moves
+// that are too small to matter reach 300.
+constexpr double kSureGain = 400.0;
+
+}  // namespace
+
+std::optional<MovedFinding> find_moved_cameras(
+    const std::string& trial,
+    std::span<const Camera> cameras,
+    std::span<const CameraDetections> detections,
+    std::span<const TagOnSegment> tags) {
+  std::map<TagId, double> sizes_m;
+  for (const TagOnSegment& tag : tags) sizes_m[tag.id] = tag.size_m;
+  const auto move = calib::find_moved_camera(cameras, detections, sizes_m);
+  if (!move) return std::nullopt;
+  const Camera& camera = cameras[index(move->camera)];
+  const double scale = calib::pixel_scale(camera);
+  if (move->gain < kSureGain || move->moved_px < kFairPx * scale) return std::nullopt;
+  std::string names = "camera " + camera.name;
+  for (const CameraId other : move->alternatives) names += " or " + cameras[index(other)].name;
+  std::string cause =
+      format_text(
+          "its tags fit a camera that was moved by %.1f px (%.2f degrees, %.0f mm) ",
+          move->moved_px,
+          move->turn_rad * kDegrees,
+          1e3 * move->shift_m) +
+      (move->from_frame ? format_text("from frame %d on", *move->from_frame)
+                        : std::string("after the calibration"));
+  return MovedFinding{
+      {Errc::kQuality,
+       "trial " + trial + ", " + names,
+       std::move(cause),
+       "its joints are off by as much; calibrate again as the cameras stand now, and "
+       "record the trial again, or leave that camera's video out of it"},
+      move->moved_px > kPoorPx * scale};
+}
+
+}  // namespace marey::app

@@ -1,0 +1,310 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/check/match_times.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <system_error>
+#include <utility>
+
+#include "app/check/uneven_videos.h"
+#include "capture/sync/align_frames.h"
+#include "core/base/assert.h"
+#include "core/base/format_text.h"
+#include "recordings/takes/frame_stamps.h"
+#include "recordings/takes/take_file.h"
+
+namespace marey::app {
+namespace {
+
+using recordings::Take;
+using recordings::TakeCamera;
+using recordings::Trial;
+using recordings::TrialVideo;
+
+std::filesystem::path take_beside(const TrialVideo& video) {
+  return video.path.parent_path() / recordings::kTakeFile;
+}
+
+/// Lays the frames out by `aligned`, those of `range` alone.
+/// Precondition: `aligned` has all of the range.
+void renumber(const capture::AlignedCamera& aligned,
+              const std::optional<recordings::FrameRange>& range,
+              CameraDetections& camera) {
+  const int all = static_cast<int>(aligned.recorded.size());
+  const int first = range ? range->first : 0;
+  const int end = range ? range->last + 1 : all;
+  MAREY_ASSERT(end <= all);
+  std::vector<FrameDetections> frames;
+  std::vector<std::optional<int>> in_recording;
+  for (int k = first; k < end; ++k) {
+    const auto recorded = aligned.recorded[static_cast<std::size_t>(k)];
+    FrameDetections& frame = frames.emplace_back();
+    if (recorded) {
+      frame = std::move(camera.frames[static_cast<std::size_t>(*recorded)]);
+    }
+    frame.frame = k;
+    in_recording.push_back(recorded);
+  }
+  camera.frames = std::move(frames);
+  camera.in_recording = std::move(in_recording);
+}
+
+/// Fewer frames in the video than the take's file has, or the other way round: the last
+/// moments of a recording that was cut off, or a video that is not whole.
+std::size_t usable_frames(const Take& take,
+                          const TakeCamera& recorded,
+                          const CameraDetections& camera,
+                          RecordingTroubles& troubles) {
+  const std::size_t seen = camera.frames.size();
+  const std::size_t timed = recorded.frames.size();
+  if (take.finished && seen < timed && !camera.broken_off) {
+    troubles.failures.push_back(
+        bad_input(camera.source,
+                  "the video ends after " + std::to_string(seen) + " of the " +
+                      std::to_string(timed) + " frames that were recorded",
+                  "copy the file again from where it was recorded"));
+  }
+  return std::min(seen, timed);
+}
+
+const TakeCamera* find_camera(const Take& take, const TrialVideo& video) {
+  const std::string file = video.path.filename().string();
+  const auto found =
+      std::find_if(take.cameras.begin(), take.cameras.end(), [&](const TakeCamera& c) {
+        return c.file == file || c.file == video.path.string();
+      });
+  return found == take.cameras.end() ? nullptr : &*found;
+}
+
+void tell_losses(const TakeCamera& recorded,
+                 const CameraDetections& camera,
+                 const capture::AlignedCamera& aligned,
+                 FrameRate rate,
+                 RecordingTroubles& troubles) {
+  std::int64_t dropped = 0;
+  for (const recordings::TakeFrame& frame : recorded.frames) {
+    dropped += frame.dropped_before;
+  }
+  const auto frames = static_cast<std::int64_t>(recorded.frames.size());
+  // Some drops are usual, and bridged as what is hidden is.
+  if (dropped > frames / 100) {
+    troubles.warnings.push_back(camera.source + ": " + std::to_string(dropped) +
+                                " frames were dropped while recording, and " +
+                                std::to_string(frames) + " recorded");
+  }
+  if (aligned.surplus > 0) {
+    troubles.warnings.push_back(format_text(
+        "%s: %d frames are left out: the camera took them between two instants of "
+        "the others",
+        camera.source.c_str(),
+        aligned.surplus));
+  }
+  // A person's fastest limb moves by 3 cm meanwhile.
+  const double spread_s = seconds(aligned.spread);
+  if (spread_s > 0.01 || spread_s > 0.25 / rate.hz) {
+    troubles.warnings.push_back(
+        format_text("%s: its frames are up to %.1f ms away from a steady rate of %.2f Hz",
+                    camera.source.c_str(),
+                    1e3 * spread_s,
+                    rate.hz));
+  }
+}
+
+/// The longest time between a frame and the next, as messages should tell it.
+std::string longest_gap(const std::vector<capture::CameraTimes>& cameras,
+                        const std::vector<const TakeCamera*>& recorded) {
+  Timestamp longest{-1};
+  std::string text;
+  for (std::size_t c = 0; c < cameras.size(); ++c) {
+    const std::vector<Timestamp>& times = cameras[c].times;
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      if (times[i] - times[i - 1] <= longest) continue;
+      longest = times[i] - times[i - 1];
+      text = format_text("frame %zu of %s comes %.1f s after the one before it",
+                         i,
+                         recorded[c]->file.c_str(),
+                         seconds(longest));
+    }
+  }
+  return text;
+}
+
+/// Why align_frames() declined.
+Error unusable_times(const std::filesystem::path& file,
+                     const std::vector<capture::CameraTimes>& cameras,
+                     const std::vector<const TakeCamera*>& recorded) {
+  const auto tells_rate = [](const capture::CameraTimes& c) {
+    return capture::measured_rate(c.times).has_value();
+  };
+  if (std::none_of(cameras.begin(), cameras.end(), tells_rate)) {
+    return bad_input(
+        file.string(), "it has too few frames to be used", "record the trial again");
+  }
+  return bad_input(
+      file.string(),
+      "its times reach too far for so few frames: " + longest_gap(cameras, recorded),
+      "record the trial again; or name the videos in the trial's `videos`, "
+      "elsewhere than in the take: then frames are matched by their numbers");
+}
+
+Status check_range(const Trial& trial,
+                   const std::filesystem::path& file,
+                   const capture::FrameAlignment& alignment) {
+  const std::size_t instants = alignment.cameras.front().recorded.size();
+  if (!trial.frames || static_cast<std::size_t>(trial.frames->last) < instants) {
+    return Done{};
+  }
+  return bad_input(file.string(),
+                   "frames " + std::to_string(trial.frames->first) + " to " +
+                       std::to_string(trial.frames->last) +
+                       " were asked for, but it has only " + std::to_string(instants),
+                   "correct the trial's range of frames");
+}
+
+/// The table that the session names, as a take that has those times.
+Result<Take> read_stamped(const Trial& trial,
+                          const std::vector<CameraDetections>& found) {
+  std::vector<std::string> videos;
+  for (const TrialVideo& video : trial.videos) {
+    videos.push_back(video.path.stem().string());
+  }
+  const auto stamps = recordings::read_frame_stamps(*trial.timestamps, videos);
+  if (!stamps) return stamps.error();
+  Take take;
+  take.trial = trial.name;
+  take.finished = true;
+  for (std::size_t i = 0; i < trial.videos.size(); ++i) {
+    const TrialVideo& video = trial.videos[i];
+    const CameraDetections& camera = found[index(video.camera)];
+    const std::vector<Timestamp>& times = (*stamps)[i];
+    if (!camera.frames.empty() && !camera.broken_off &&
+        camera.frames.size() != times.size()) {
+      return bad_input(trial.timestamps->string(),
+                       "it has " + std::to_string(times.size()) + " times of " +
+                           camera.source + ", whose frames are " +
+                           std::to_string(camera.frames.size()),
+                       "name the table that was written with this video");
+    }
+    TakeCamera& one = take.cameras.emplace_back();
+    one.file = video.path.string();
+    for (const Timestamp time : times) one.frames.emplace_back().time = time;
+  }
+  return take;
+}
+
+Status match_take(const Trial& trial,
+                  std::vector<CameraDetections>& found,
+                  RecordingTroubles& troubles) {
+  const auto file =
+      trial.timestamps ? *trial.timestamps : take_beside(trial.videos.front());
+  const Result<Take> take =
+      trial.timestamps ? read_stamped(trial, found) : recordings::read_take(file);
+  if (!take) return take.error();
+  if (!take->finished) {
+    troubles.warnings.push_back(file.string() +
+                                ": the recording was cut off; what was recorded until "
+                                "then is used");
+  }
+  std::vector<capture::CameraTimes> times;
+  std::vector<const TakeCamera*> recorded;
+  for (const TrialVideo& video : trial.videos) {
+    CameraDetections& camera = found[index(video.camera)];
+    if (camera.frames.empty()) continue;
+    const TakeCamera* one = find_camera(*take, video);
+    if (one == nullptr) {
+      return bad_input(file.string(),
+                       "it knows nothing of " + video.path.filename().string(),
+                       "give the recording's videos their names back");
+    }
+    capture::CameraTimes& stamps = times.emplace_back();
+    stamps.camera = video.camera;
+    const std::size_t usable = usable_frames(*take, *one, camera, troubles);
+    for (std::size_t i = 0; i < usable; ++i) stamps.times.push_back(one->frames[i].time);
+    recorded.push_back(one);
+  }
+  if (times.empty()) return Done{};
+  const auto alignment = capture::align_frames(times, trial.rate);
+  if (!alignment) return unusable_times(file, times, recorded);
+  if (const Status ok = check_range(trial, file, *alignment); !ok) return ok;
+  for (std::size_t i = 0; i < alignment->cameras.size(); ++i) {
+    const capture::AlignedCamera& aligned = alignment->cameras[i];
+    CameraDetections& camera = found[index(aligned.camera)];
+    renumber(aligned, trial.frames, camera);
+    camera.rate = alignment->rate;
+    camera.offset = camera.offset.value_or(Timestamp{0}) + aligned.offset;
+    tell_losses(*recorded[i], camera, aligned, alignment->rate, troubles);
+  }
+  return Done{};
+}
+
+/// Of videos that do not lie in one folder, a take's file knows some at most.
+void tell_unused_take(const Trial& trial, RecordingTroubles& troubles) {
+  for (const TrialVideo& video : trial.videos) {
+    std::error_code ignored;
+    const auto file = take_beside(video);
+    if (!std::filesystem::exists(file, ignored)) continue;
+    troubles.warnings.push_back(file.string() +
+                                ": it is not used, since the videos of trial " +
+                                trial.name + " lie in several folders");
+    return;
+  }
+}
+
+}  // namespace
+
+bool has_take(const Trial& trial) {
+  const auto file = take_beside(trial.videos.front());
+  const auto is_beside = [&](const TrialVideo& v) { return take_beside(v) == file; };
+  std::error_code ignored;
+  return trial.is_recorded || trial.timestamps ||
+         (std::all_of(trial.videos.begin(), trial.videos.end(), is_beside) &&
+          std::filesystem::exists(file, ignored));
+}
+
+Status match_times(const Trial& trial,
+                   std::vector<CameraDetections>& found,
+                   RecordingTroubles& troubles) {
+  if (has_take(trial) && trial.slow_motion != 1.0) {
+    return bad_input(take_beside(trial.videos.front()).string(),
+                     "it states when the frames of trial " + trial.name +
+                         " were taken, so that slow_motion has no meaning",
+                     "remove slow_motion of that trial from session.toml");
+  }
+  if (has_take(trial)) return match_take(trial, found, troubles);
+  tell_unused_take(trial, troubles);
+  if (trial.rate || trial.frames) return check_even(trial, found, troubles);
+  std::vector<capture::CameraTimes> uneven;
+  std::optional<FrameRate> steady;
+  for (const TrialVideo& video : trial.videos) {
+    const CameraDetections& camera = found[index(video.camera)];
+    if (camera.frames.empty()) continue;
+    auto own = uneven_video(video, camera.rate);
+    if (!own && !steady) steady = camera.rate;
+    if (!own) continue;
+    const bool usable =
+        own->own.times.size() == camera.frames.size() + camera.frames.front().frame &&
+        !capture::reach_too_far(std::span(&own->own, 1), camera.rate);
+    troubles.warnings.push_back(
+        camera.source + ": " + how_uneven(*own, camera.rate) + "; " +
+        (usable ? "its own times are used" : "it is used by frame numbers all the same"));
+    if (usable) uneven.push_back(std::move(own->own));
+  }
+  for (const capture::CameraTimes& times : uneven) {
+    CameraDetections& camera = found[index(times.camera)];
+    if (!steady) steady = camera.rate;
+    const auto alignment = capture::align_frames(std::span(&times, 1), steady);
+    if (!alignment) {
+      troubles.warnings.push_back(camera.source +
+                                  ": its times are not those of its rate; it is used by "
+                                  "frame numbers all the same");
+      continue;
+    }
+    renumber(alignment->cameras.front(), std::nullopt, camera);
+    camera.rate = *steady;
+  }
+  return Done{};
+}
+
+}  // namespace marey::app

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/convert/convert_commands.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "app/convert/convert_motion.h"
+#include "app/motion/neutral.h"
+#include "app/shell/option_checks.h"
+#include "core/base/extension.h"
+#include "recordings/markers/marker_file.h"
+
+namespace marey::app {
+namespace {
+
+/// In which unit and axes to write: what was asked for, else the source's. A TRC cannot
+/// say which way is up, and who reads one expects +Y.
+recordings::FileAxes target_axes(const ConvertArguments& arguments,
+                                 const recordings::FileAxes& source) {
+  recordings::FileAxes axes = source;
+  if (kind_by_extension(arguments.out) == ".trc") axes.up = recordings::FileAxis::kPlusY;
+  if (!arguments.to_up.empty()) {
+    axes.up = recordings::axis_of(arguments.to_up).value_or(axes.up);
+  }
+  if (!arguments.to_unit.empty()) {
+    axes.unit = arguments.to_unit;
+    axes.per_metre =
+        recordings::units_per_metre(arguments.to_unit).value_or(axes.per_metre);
+  }
+  return axes;
+}
+
+/// Why what marey wrote itself cannot be converted, and what to use instead.
+std::optional<Error> no_conversion(const std::filesystem::path& in) {
+  std::error_code ignored;
+  const std::string kind = kind_by_extension(in);
+  if (std::filesystem::is_directory(in, ignored)) {
+    return bad_input(in.string(),
+                     "a folder is not converted",
+                     "name a file in it: TRIAL/motion.npz, motion.bvh, motion.glb or "
+                     "markers.c3d; marey inspect says what a folder holds");
+  }
+  if (kind == ".mot" || kind == ".sto") {
+    return bad_input(in.string(),
+                     "joint angles hold no body, whose lengths a motion needs",
+                     "convert the motion.npz, .bvh or .glb that they were written with");
+  }
+  if (kind == ".sqlite") {
+    return bad_input(in.string(),
+                     "a take holds what cameras saw, not a motion",
+                     "process the session of a recorded take (marey process), or play a "
+                     "live take (marey replay)");
+  }
+  if (kind == ".csv" || kind == ".json" || kind == ".toml") {
+    return bad_input(
+        in.string(),
+        "tables and settings are not converted",
+        "convert the motion.npz, motion.bvh or markers.c3d of the same trial");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Exit run_convert(const ConvertArguments& arguments, Console& console) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(arguments.in, arguments.out, ignored)) {
+    return console.fail(bad_input(arguments.out.string(),
+                                  "that is the file to be converted",
+                                  "give the result another name"));
+  }
+  if (const auto error = no_conversion(arguments.in)) return console.fail(*error);
+  if (is_motion(arguments.in)) return convert_motion(arguments, console);
+  if (arguments.rate_hz || arguments.to_rate_hz || !arguments.skeleton.empty() ||
+      !arguments.bvh_dialect.empty() || !arguments.neutral.empty()) {
+    return console.fail(
+        bad_input(arguments.in.string(),
+                  "--rate, --to-rate, --skeleton, --neutral and --bvh-dialect are for "
+                  "motions alone",
+                  "leave them out, or give a .bvh, .amc, .npz, .glb, .vrm or .vrma"));
+  }
+  recordings::MarkerReadOptions read_as;
+  if (!arguments.up.empty()) read_as.up = recordings::axis_of(arguments.up);
+  if (!arguments.unit.empty()) read_as.unit = arguments.unit;
+  const auto markers = recordings::read_markers(arguments.in, read_as);
+  if (!markers) return console.fail(markers.error());
+  for (const std::string& note : markers->notes) {
+    console.warn(arguments.in.string() + ": " + note);
+  }
+  recordings::MarkerWriteOptions options;
+  options.axes = target_axes(arguments, markers->axes);
+  const bool same_axes = options.axes->up == markers->axes.up &&
+                         options.axes->per_metre == markers->axes.per_metre;
+  const bool both_c3d = kind_by_extension(arguments.in) == ".c3d" &&
+                        kind_by_extension(arguments.out) == ".c3d";
+  // What else is in a C3D lies in its own axes, and is kept with them, as it says them:
+  // where they were told better, the copy would go on saying the old ones.
+  const auto as_said = [](recordings::Evidence who) {
+    return who == recordings::Evidence::kFile || who == recordings::Evidence::kConvention;
+  };
+  const bool copy =
+      same_axes && as_said(markers->axes.up_from) && as_said(markers->axes.unit_from);
+  if (both_c3d && copy) options.source = arguments.in;
+  if (both_c3d && !copy) {
+    console.warn(arguments.out.string() +
+                 ": in other axes or units than the file says, markers and events alone "
+                 "are written, not analog channels and force plates");
+  }
+  const Status written = recordings::write_markers(arguments.out, *markers, options);
+  if (!written) return console.fail(written.error());
+  const MarkerTracks& tracks = markers->tracks;
+  if (arguments.json) {
+    const nlohmann::ordered_json figures{{"out", arguments.out.string()},
+                                         {"markers", tracks.markers()},
+                                         {"frames", tracks.frames()},
+                                         {"rate_hz", tracks.rate.hz},
+                                         {"unit", options.axes->unit},
+                                         {"up", recordings::name(options.axes->up)},
+                                         {"notes", markers->notes}};
+    std::printf(
+        "%s\n",
+        figures.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)
+            .c_str());
+  }
+  console.say(arguments.out.string() + ": " + std::to_string(tracks.markers()) +
+              " markers, " + std::to_string(tracks.frames()) + " frames, " +
+              options.axes->unit + ", " +
+              std::string(recordings::name(options.axes->up)) + " up");
+  return Exit::kOk;
+}
+
+void add_convert_command(CLI::App& app,
+                         ConvertArguments& args,
+                         std::function<Exit(Console&)>& chosen) {
+  CLI::App* command =
+      app.add_subcommand("convert", "Markers or a motion as another kind of file");
+  const CLI::IsMember axis({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
+  const CLI::IsMember unit({"mm", "cm", "m", "in", "ft"});
+  command
+      ->add_option("in", args.in, ".c3d or .trc; .bvh, .amc, .npz, .glb, .vrm or .vrma")
+      ->required();
+  command
+      ->add_option("out",
+                   args.out,
+                   "Result, of markers .c3d or .trc, of a motion .bvh, .vrma, .npz, .csv "
+                   "or .mot")
+      ->required();
+  command->add_option("--up", args.up, "Axis of IN that is up, if not as found")
+      ->check(axis);
+  command->add_option("--unit", args.unit, "Unit of IN, if not as it says")->check(unit);
+  command->add_option("--to-up", args.to_up, "Axis of OUT that is up")->check(axis);
+  command->add_option("--to-unit", args.to_unit, "Unit of OUT")->check(unit);
+  command->add_option(
+      "--skeleton", args.skeleton, "The .asf of an .amc, if not beside it");
+  command
+      ->add_option("--rate", args.rate_hz, "Frames per second of IN, if not as it says")
+      ->check(between(0.1, 2000.0));
+  command->add_option("--to-rate", args.to_rate_hz, "Frames per second of OUT")
+      ->check(between(0.1, 2000.0));
+  command->add_option("--bvh-dialect", args.bvh_dialect, "For whom a .bvh is")
+      ->check(CLI::IsMember({"blender", "mobu", "maya", "unity"}));
+  command->add_option("--neutral", args.neutral, kNeutralHelp)->check(neutral_mistake);
+  command->add_flag("--json", args.json, "Print the figures as JSON on standard output");
+  command->callback(
+      [&] { chosen = [&args](Console& console) { return run_convert(args, console); }; });
+}
+
+}  // namespace marey::app

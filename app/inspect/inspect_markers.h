@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/result.h"
+
+namespace marey::app {
+
+/// What a C3D or TRC holds, for `marey inspect`.
+[[nodiscard]] Result<nlohmann::ordered_json> inspect_markers(
+    const std::filesystem::path& file);
+
+}  // namespace marey::app

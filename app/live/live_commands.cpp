@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live/live_commands.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "app/live/live_guide.h"
+#include "app/live/live_page.h"
+#include "app/live/live_run.h"
+#include "app/live/live_takes.h"
+#include "app/live_chain/live_chain.h"
+#include "app/live_chain/live_outputs.h"
+#include "app/shell/option_checks.h"
+#include "app/shell/stop_signal.h"
+#include "app/view/view_commands.h"
+#include "live/vmc/vmc_sender.h"
+
+namespace marey::app {
+namespace {
+
+/// Commands are heard by the first stream. On VMC's own port another program may listen
+/// already, which is worth a word and no more; a port that was asked for must be free.
+Result<LiveOutputs> open_outputs(const LiveArguments& arguments,
+                                 OpenedLive& live,
+                                 Console& console) {
+  if (live.settings.streams.empty()) return LiveOutputs::open({}, {}, live.vrchat);
+  std::optional<int>& port = live.settings.streams.front().listen_port;
+  if (!arguments.vmc_deaf) port = arguments.vmc_listen.value_or(live::kPerformerPort);
+  auto outputs = LiveOutputs::open(live.settings.streams, live.targets, live.vrchat);
+  if (outputs || !port || arguments.vmc_listen) return outputs;
+  const Error trouble = outputs.error();
+  port.reset();
+  outputs = LiveOutputs::open(live.settings.streams, live.targets, live.vrchat);
+  if (outputs) console.warn("no VMC commands are heard: " + trouble.message());
+  return outputs;
+}
+
+void tell(const LiveFigures& figures, Console& console) {
+  char text[200];
+  std::snprintf(
+      text,
+      sizeof text,
+      "%ld frames in %.1f s, %ld with the body tracked; frame to packet %.1f ms "
+      "(median), %.1f ms (95 %%)",
+      figures.frames,
+      figures.seconds,
+      figures.tracked,
+      1000.0 * figures.times.frame_to_packet.quantile_s(0.5),
+      1000.0 * figures.times.frame_to_packet.quantile_s(0.95));
+  console.say(text);
+  if (figures.behind_s > 0.0) {
+    std::snprintf(text,
+                  sizeof text,
+                  "for %.1f s of it poses did not keep up with the cameras",
+                  figures.behind_s);
+    console.warn(text);
+  }
+  for (const LiveCameraFigures& camera : figures.cameras) {
+    const long lost = camera.dropped + camera.stale + camera.broken + camera.unused;
+    if (lost == 0) continue;
+    console.say("camera " + camera.name + ": " + std::to_string(lost) + " of " +
+                std::to_string(camera.pictures + camera.dropped) +
+                " pictures were not used");
+  }
+}
+
+LiveGuideOptions guiding(const LiveArguments& arguments) {
+  return {arguments.calibrate,
+          arguments.calibrate && arguments.no_page,
+          !arguments.record.empty(),
+          arguments.guide};
+}
+
+/// Stands for who is yet to be measured.
+Skeleton average_person(const OpenedLive& live) {
+  return make_humanoid(average_proportions(live.prior.stature_m));
+}
+
+Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
+  auto outputs = open_outputs(arguments, live, console);
+  if (!outputs) return console.fail(outputs.error());
+  std::optional<LiveChain> chain;
+  if (live.body) {
+    auto made = LiveChain::make(
+        *live.body, live.calibration.cameras, live.avatars, live.settings);
+    if (!made) return console.fail(made.error());
+    chain.emplace(*std::move(made));
+  }
+  LiveTakes takes(
+      live,
+      arguments.record.empty() ? live.folder / "takes" / "live" : arguments.record,
+      console);
+  std::optional<LiveGuide> guide;
+  if (!live.prior.tags.empty()) {
+    guide.emplace(live, guiding(arguments), console);
+  }
+  std::unique_ptr<LivePage> page;
+  if (!arguments.no_page) {
+    auto opened = LivePage::open(arguments.page,
+                                 live,
+                                 chain ? chain->performer() : average_person(live),
+                                 guide ? &*guide : nullptr);
+    if (!opened) return console.fail(opened.error());
+    page = *std::move(opened);
+  }
+  // When nothing else can fail: it makes a folder.
+  if (!arguments.record.empty()) {
+    const Status ok = takes.begin_with_run(arguments.record);
+    if (!ok) return console.fail(ok.error());
+  }
+  if (page && arguments.json) {
+    // Standard output is for the figures.
+    for (const std::string& address : page->server().addresses) console.say(address);
+  } else if (page) {
+    print_addresses(page->server(), arguments.page);
+  }
+  LiveRunOptions options;
+  options.seconds = arguments.seconds;
+  options.longest_wait =
+      std::chrono::nanoseconds(static_cast<long long>(1e6 * arguments.wait_ms));
+  catch_stop_signals();
+  if (!arguments.seconds) console.say("live; Ctrl-C ends it");
+  auto figures = run_live(live,
+                          chain,
+                          *outputs,
+                          guide ? &*guide : nullptr,
+                          &takes,
+                          page.get(),
+                          options,
+                          stop_wanted,
+                          console);
+  if (!figures) {
+    (void)takes.finish();
+    return console.fail(figures.error());
+  }
+  Exit exit = Exit::kOk;
+  if (arguments.calibrate && !guide->has_measured()) {
+    console.warn("nobody was measured");
+    exit = Exit::kQualityGate;
+  }
+  if (const Status ok = takes.finish(); !ok) exit = console.fail(ok.error());
+  figures->recording.reset();
+  figures->takes = takes.finished();
+  figures->recording_trouble = takes.trouble();
+  tell(*figures, console);
+  if (arguments.json) std::fputs(live_figures_text(*figures).c_str(), stdout);
+  return exit;
+}
+
+}  // namespace
+
+Exit run_live_command(const LiveArguments& arguments, Console& console) {
+  auto live = open_live(arguments, console);
+  if (!live) return console.fail(live.error());
+  return run(arguments, *live, console);
+}
+
+void add_live_command(CLI::App& app,
+                      LiveArguments& live,
+                      std::function<Exit(Console&)>& chosen) {
+  CLI::App* command =
+      app.add_subcommand("live", "From cameras to a moving character, as it happens");
+  command->add_option("session", live.session, "session.toml, or its folder")->required();
+  command->add_option("--results",
+                      live.results,
+                      "Folder with calibration.toml and subject.toml, if not the "
+                      "session's");
+  command
+      ->add_option("--play",
+                   live.play,
+                   "Play this trial's videos as if they were cameras; may be repeated: "
+                   "one after the other")
+      ->allow_extra_args(false);
+  command->add_flag("--loop", live.loop, "Play them over and over");
+  command->add_option("--camera", live.cameras, "Use only this camera; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option(
+      "--media", live.media, "Folder that the session's video paths are relative to");
+  command
+      ->add_option("-a,--avatar",
+                   live.avatars,
+                   "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--vmc",
+                   live.vmc,
+                   "Where VMC packets go: [AVATAR=]HOST[:PORT]; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--vmc-rest", live.vmc_rest, "What no rotation means: vrm0 or raw")
+      ->check(CLI::IsMember({"vrm0", "raw"}));
+  command
+      ->add_option("--vmc-mtu",
+                   live.vmc_mtu,
+                   "Largest packet in bytes; 0: one bundle a frame, as on this machine")
+      ->check(between(0, 65507));
+  command->add_option("--vmc-listen", live.vmc_listen, "Port on which commands are heard")
+      ->check(between(1, 65535));
+  command->add_flag("--vmc-deaf", live.vmc_deaf, "Hear no commands");
+  command
+      ->add_option("--vrchat",
+                   live.vrchat,
+                   "Where trackers for VRChat go: HOST[:PORT]; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--record", live.record, "Folder for the take of this run");
+  command
+      ->add_flag("--calibrate",
+                 live.calibrate,
+                 "Measure the person first, or again: standing, then moving")
+      ->excludes("--record");
+  command
+      ->add_option(
+          "--stand-s", live.guide.stand_s, "For so long standing still is looked at")
+      ->check(between(0.5, 60.0));
+  command
+      ->add_option("--move-s",
+                   live.guide.move_s,
+                   "For so long moving is looked at; twice that while a part is not seen")
+      ->check(between(5.0, 600.0));
+  command->add_option("--seconds", live.seconds, "Stop by itself after so long")
+      ->check(between(0.001, 1e6));
+  command
+      ->add_option("--wait-ms", live.wait_ms, "How long a camera's picture is waited for")
+      ->check(between(1.0, 1000.0));
+  add_page_options(*command, live.page);
+  command->add_flag("--no-page", live.no_page, "Serve no page");
+  command->add_flag("--json", live.json, "Print the figures as JSON on standard output");
+  command->callback([&] {
+    chosen = [&live](Console& console) { return run_live_command(live, console); };
+  });
+}
+
+}  // namespace marey::app

@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live/live_guide.h"
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "core/base/assert.h"
+#include "reconstruct/clusters/check_views.h"
+#include "recordings/session/subject_file.h"
+
+namespace marey::app {
+namespace {
+
+using live::WizardAction;
+using live::WizardStep;
+
+/// What changes from instant to instant is not told more often.
+constexpr double kTellEvery_s = 3.0;
+
+GuideSetup setup_of(const OpenedLive& live) {
+  GuideSetup setup;
+  setup.cameras = live.calibration.cameras;
+  for (const CameraQuality& camera : live.calibration.quality) {
+    setup.rms_px.push_back(camera.rms_px);
+  }
+  setup.prior = live.prior;
+  setup.rate = live.settings.rate;
+  return setup;
+}
+
+/// Errors (kDevice): the disk.
+Status write_beside_the_old(const std::filesystem::path& path, const Body& body) {
+  std::error_code problem;
+  if (std::filesystem::exists(path, problem)) {
+    std::filesystem::path before = path;
+    before += ".before";
+    std::filesystem::copy_file(
+        path, before, std::filesystem::copy_options::overwrite_existing, problem);
+    if (problem) {
+      return Error{Errc::kDevice,
+                   before.string(),
+                   "it cannot be written: " + problem.message(),
+                   "make room on the disk, or choose a folder that may be written to"};
+    }
+  }
+  return recordings::write_subject(path, body);
+}
+
+}  // namespace
+
+LiveGuide::LiveGuide(const OpenedLive& live,
+                     const LiveGuideOptions& options,
+                     Console& console)
+    : live_(live),
+      options_(options),
+      console_(console),
+      guide_(setup_of(live), options.steps) {
+  if (options_.begin && !act(WizardAction::kStart)) tell();
+}
+
+std::optional<std::string> LiveGuide::act(WizardAction action) {
+  if (action == WizardAction::kStart && options_.is_recording) {
+    return "this run is being recorded, and a take has one body: end it first";
+  }
+  if (action == WizardAction::kStart && solver_.joinable()) {
+    return "what was cancelled is still being solved: try again in some seconds";
+  }
+  if (action == WizardAction::kAccept) return accept();
+  const auto refusal = guide_.act(action);
+  if (!refusal) {
+    waiting_.reset();
+    go_on();
+  }
+  return refusal;
+}
+
+void LiveGuide::see(const LiveInstant& instant) {
+  now_ = instant.time;
+  guide_.see(instant);
+  go_on();
+}
+
+void LiveGuide::end() {
+  options_.begin = false;  // Not anew.
+  guide_.end();
+  go_on();
+  if (!solver_.joinable()) return;
+  const bool is_wanted = guide_.step() == WizardStep::kSolve;
+  if (!is_solved_) {
+    console_.say(is_wanted
+                     ? "waiting for the body to be measured"
+                     : "waiting for the end of a measurement that was cancelled, up "
+                       "to a minute");
+  }
+  is_solved_.wait(false);
+  go_on();
+}
+
+/// What follows from what has just become so.
+void LiveGuide::go_on() {
+  take_result();
+  if (auto material = guide_.take_material()) solve(*std::move(material));
+  tell();
+  if (!options_.by_itself) return;
+  if (guide_.is_good()) {
+    if (const auto refusal = accept()) console_.warn(*refusal);
+  }
+  const bool is_in_vain =
+      guide_.step() == WizardStep::kFailed || guide_.step() == WizardStep::kDone;
+  if (is_in_vain && options_.begin && !guide_.act(WizardAction::kStart)) tell();
+}
+
+void LiveGuide::solve(GuideMaterial material) {
+  MAREY_ASSERT(!solver_.joinable());
+  is_solved_ = false;
+  solver_ = std::jthread([this, material = std::move(material)] {
+    result_.emplace(solved(material));
+    is_solved_ = true;
+    is_solved_.notify_all();
+  });
+}
+
+/// On the solver's thread: touches nothing that changes.
+Result<LiveGuide::Solved> LiveGuide::solved(const GuideMaterial& material) const {
+  const auto& cameras = live_.calibration.cameras;
+  const auto& tags = live_.prior.tags;
+  for (const auto* seen : {&material.standing, &material.moving}) {
+    const Status ok = reconstruct::check_views(cameras, *seen, tags);
+    if (!ok) return ok.error();
+  }
+  auto fit =
+      reconstruct::fit_subject(live_.prior, cameras, material.standing, material.moving);
+  if (!fit) return fit.error();
+  auto chain = LiveChain::make(fit->body, cameras, live_.avatars, live_.settings);
+  if (!chain) return chain.error();
+  return Solved{*std::move(fit), *std::move(chain)};
+}
+
+void LiveGuide::take_result() {
+  if (!solver_.joinable() || !is_solved_) return;
+  solver_.join();
+  auto result = *std::exchange(result_, std::nullopt);
+  if (guide_.step() != WizardStep::kSolve) return;  // It was cancelled.
+  if (!result) return guide_.finish(result.error());
+  guide_.finish(result->fit);
+  waiting_.emplace(*std::move(result));
+}
+
+std::optional<std::string> LiveGuide::accept() {
+  if (const auto refusal = guide_.act(WizardAction::kAccept)) return refusal;
+  MAREY_ASSERT(waiting_);
+  const Status written = write_beside_the_old(live_.subject_file, waiting_->fit.body);
+  if (!written) {
+    guide_.refuse_acceptance(written.error().message());
+    return written.error().message();
+  }
+  accepted_.emplace(
+      GuidedBody{std::move(waiting_->fit.body), std::move(waiting_->chain)});
+  waiting_.reset();
+  has_measured_ = true;
+  options_.begin = false;
+  console_.say("the body is in " + live_.subject_file.string());
+  tell();
+  return std::nullopt;
+}
+
+std::optional<GuidedBody> LiveGuide::take_body() {
+  return std::exchange(accepted_, std::nullopt);
+}
+
+/// A new step at once, other words after a while.
+void LiveGuide::tell() {
+  const live::PageWizard& now = guide_.ui_state();
+  const bool is_new_step = now.step != shown_step_;
+  const bool is_due = !shown_at_ || (now_ && seconds(*now_ - *shown_at_) >= kTellEvery_s);
+  if (!is_new_step && (now.text == shown_text_ || !is_due)) return;
+  shown_step_ = now.step;
+  shown_text_ = now.text;
+  shown_at_ = now_;
+  if (now.step == WizardStep::kIdle) return;
+  if (!is_new_step) return console_.say(now.text);
+  console_.say(now.title + ". " + now.text);
+  if (!now.error.empty()) console_.warn(now.error);
+  for (const live::WizardQuality& one : now.quality) {
+    console_.say("  " + one.name + ": " + one.value + (one.good ? "" : " (poor)"));
+  }
+}
+
+}  // namespace marey::app

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/live/live_run.h"
+#include "app/live/thumbnail_requests.h"
+#include "app/live_chain/live_balance.h"
+#include "app/live_chain/live_health.h"
+#include "app/view/page_server.h"
+#include "core/base/stopwatch.h"
+#include "live/page/page_frame.h"
+#include "live/page/page_scene.h"
+#include "live/page/page_status.h"
+#include "recordings/takes/jpeg_encoder.h"
+
+namespace marey::app {
+
+/// What a live run looks like in browsers: the performer with its doubt, every avatar in
+/// its skin beside it, the first one's handles, cameras and what they see, and how
+/// everything fares. A browser that does not keep up misses frames, and never delays the
+/// run.
+class LivePage final : public LiveWatcher {
+ public:
+  /// Starts the server with the scene of this run. `guide` measures people, or is null;
+  /// it outlives the page. Errors: start_page()'s; a skin's file cannot be read.
+  [[nodiscard]] static Result<std::unique_ptr<LivePage>> open(
+      const PageServerOptions& options,
+      const OpenedLive& live,
+      const Skeleton& performer,
+      LiveGuide* guide);
+
+  [[nodiscard]] const PageServer& server() const { return page_; }
+  [[nodiscard]] bool wants_thumbnails() const override { return thumbnails_.any(); }
+  void take_requests(LiveRequests& requests) override;
+  void on_body(const Body& body, const Skeleton& performer) override;
+  std::optional<bool> record_request() override {
+    return std::exchange(record_request_, {});
+  }
+  void on_frame(const LiveInstant& instant, const LiveResult& result) override;
+  void on_thumbnail(std::size_t camera,
+                    std::span<const std::byte> pixels,
+                    int width_px,
+                    int height_px,
+                    std::span<const TagDetection> tags) override;
+  void on_status(const LiveFigures& figures,
+                 const LiveTimes& recent,
+                 reconstruct::TrackState state) override;
+
+ private:
+  explicit LivePage(PageServer page) : page_(std::move(page)) {}
+  [[nodiscard]] Status make_scene(const OpenedLive& live, const Skeleton& performer);
+  /// What is said to a page that asked; an empty text: nothing.
+  struct Answer {
+    std::string text;
+    std::string about{};  ///< As error_json()'s.
+  };
+  [[nodiscard]] Answer answer(const std::string& text,
+                              live::ClientId from,
+                              LiveRequests& requests);
+  [[nodiscard]] std::string ask(HandleRequest request, LiveRequests& requests);
+  void watch(const Body& body);
+  void make_balance();
+  void update_balance(const LiveInstant& instant, const LiveResult& result);
+  void pose_figures(const LiveResult& result);
+  void publish_handles(std::span<const HandleState> handles);
+  void show_wizard();
+  void note(reconstruct::TrackState state, const LiveFigures& figures);
+
+  PageServer page_;
+  LiveGuide* guide_ = nullptr;
+  live::WizardStep shown_step_ = live::WizardStep::kIdle;
+  bool has_body_ = false;
+  std::optional<bool> record_request_;  ///< To record, or not to.
+  live::PageScene scene_;
+  std::vector<live::PageFigure> figures_;
+  std::optional<LiveBalance> balance_;
+  std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.
+  std::vector<int> tags_seen_;                                    ///< By camera.
+  WornSegments worn_;
+  std::vector<std::string> body_doubts_;
+  std::vector<JointUncertainty> uncertainty_;      ///< Of the performer, newest.
+  std::vector<LiveCameraFigures> cameras_before_;  ///< As last told.
+  std::vector<OutputCounts> outputs_before_;       ///< Likewise.
+  std::vector<live::ReceivedText> texts_;
+  std::string bytes_;
+  std::vector<std::string> notes_;
+  std::optional<Timestamp> first_;
+  std::optional<std::int64_t>
+      last_tracked_;  ///< The last instant in which it was tracked.
+  std::optional<reconstruct::TrackState> state_;
+  std::uint32_t frame_ = 0;
+  std::uint32_t handles_published_ = 0;  ///< In which frame.
+  long frames_before_ = 0;
+  double seconds_before_ = 0.0;
+  Stopwatch since_start_;
+  ThumbnailRequests thumbnails_;
+};
+
+}  // namespace marey::app

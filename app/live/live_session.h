@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/live_chain/guide_subject.h"
+#include "app/live_chain/live_settings.h"
+#include "app/live_chain/live_streams.h"
+#include "app/motion/retarget_files.h"
+#include "app/shell/console.h"
+#include "app/view/page_server.h"
+#include "capture/feeds/frame_feed.h"
+#include "capture/feeds/video_feed.h"
+#include "capture/tags/detect_tags.h"
+#include "core/base/result.h"
+#include "core/body.h"
+#include "reconstruct/subject/fit_subject.h"
+#include "recordings/session/calibration_file.h"
+
+namespace marey::app {
+
+/// What `marey live` was asked to begin with.
+struct LiveArguments {
+  std::filesystem::path session;  ///< session.toml or its folder.
+  /// The folder with calibration.toml and subject.toml; empty: the session's.
+  std::filesystem::path results;
+  /// Trials whose videos are the cameras, one after the other; empty: real cameras.
+  std::vector<std::string> play;
+  bool loop = false;
+  std::vector<std::string> cameras;  ///< Those to use; empty: all.
+  std::optional<std::filesystem::path> media;
+  std::vector<std::filesystem::path> avatars;
+  std::vector<std::string> vmc;  ///< "[AVATAR=]HOST[:PORT]".
+  std::string vmc_rest = "vrm0";
+  std::optional<int> vmc_mtu;       ///< nullopt: by the target; 0: one bundle a frame.
+  std::optional<int> vmc_listen;    ///< nullopt: VMC's own port, if it is free.
+  bool vmc_deaf = false;            ///< Hears no commands.
+  std::vector<std::string> vrchat;  ///< "HOST[:PORT]".
+  std::filesystem::path record;     ///< Folder of the take; empty: not recorded.
+  std::optional<double> seconds;
+  double wait_ms = 50.0;
+  bool no_page = false;
+  PageServerOptions page;
+  bool json = false;
+  bool calibrate = false;  ///< Measure the person, before or again.
+  GuideOptions guide;
+};
+
+/// A live run before its first frame.
+struct OpenedLive {
+  std::string session;
+  std::filesystem::path folder;         ///< The session's.
+  recordings::Calibration calibration;  ///< Of the cameras in use, in their order.
+  std::optional<Body> body;             ///< nullopt: is yet to be measured.
+  reconstruct::SubjectPrior prior;      ///< Who is to be measured, if anybody.
+  std::filesystem::path subject_file;
+  std::vector<OpenedAvatar> avatars;
+  LiveSettings settings;
+  std::vector<StreamTargets> targets;  ///< By stream.
+  std::vector<live::UdpAddress> vrchat;
+  std::vector<std::unique_ptr<capture::FrameFeed>> feeds;
+  std::vector<capture::VideoFeed*> videos;  ///< Those of the feeds that are to be begun.
+  capture::TagDetectorOptions detector;
+};
+
+/// Reads and opens all that a live run needs, cameras last.
+///
+/// Errors (kBadInput): the session's; no calibration, or subject but to calibrate,
+/// and what makes them; nothing known of whom to calibrate; a
+/// camera that the calibration does not have, or of another picture size; fewer than two
+/// cameras with what was asked to be played; an avatar that is not humanoid; addresses.
+/// (kDevice): a camera that cannot be opened.
+[[nodiscard]] Result<OpenedLive> open_live(const LiveArguments& arguments,
+                                           Console& console);
+
+}  // namespace marey::app

@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_chain/subject_quality.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+
+#include <glm/geometric.hpp>
+
+namespace marey::app {
+namespace {
+
+constexpr double kPoorSigma_m = 0.01;
+/// People's sides differ by less: a limb that was hardly seen is wrong by more than its
+/// sigma says.
+constexpr double kPoorSide = 0.05;
+constexpr double kPoorRms_px = 5.0;
+constexpr double kPoorRatio = 0.15;
+constexpr std::size_t kTagsPerUnplaced = 5;
+
+std::string format(const char* form, double a, double b = 0.0) {
+  char text[64];
+  std::snprintf(text, sizeof text, form, a, b);
+  return text;
+}
+
+/// The bone from its own joint to its child's.
+live::WizardQuality length_of(const Body& body, HumanBone bone, HumanBone child) {
+  const double length_m = glm::length(body.proportions[child]);
+  const double other_m = glm::length(body.proportions[mirrored(child)]);
+  const double sigma_m = body.joint_centre_sigma_m[index(child)];
+  // No length is known to nothing.
+  const double sigma_cm = std::max(100.0 * sigma_m, 0.1);
+  return {in_words(bone),
+          format("%.1f cm \u00b1 %.1f", 100.0 * length_m, sigma_cm),
+          sigma_m <= kPoorSigma_m &&
+              std::abs(length_m - other_m) <= kPoorSide * std::max(length_m, other_m)};
+}
+
+live::WizardQuality unplaced_of(const reconstruct::SubjectFit& fit) {
+  std::string names;
+  for (const TagId id : fit.unplaced) {
+    names += (names.empty() ? "" : ", ") + std::to_string(number(id));
+  }
+  const std::size_t all = fit.body.tags.size() + fit.unplaced.size();
+  return {"tags without a place",
+          names.empty() ? "none" : names,
+          kTagsPerUnplaced * fit.unplaced.size() <= all};
+}
+
+}  // namespace
+
+std::string in_words(HumanBone bone) {
+  std::string words;
+  for (const char letter : name(bone)) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (std::isupper(code)) words += ' ';
+    words += static_cast<char>(std::tolower(code));
+  }
+  return words;
+}
+
+std::vector<live::WizardQuality> quality_of(const reconstruct::SubjectFit& fit) {
+  std::vector<live::WizardQuality> out;
+  for (const HumanLimb& limb : human_limbs()) {
+    out.push_back(length_of(fit.body, limb.upper, limb.lower));
+    out.push_back(length_of(fit.body, limb.lower, limb.end));
+  }
+  std::string distance = format("%.2f px", fit.rms_px);
+  for (const Error& warning : fit.warnings) {
+    distance += "; " + warning.cause + ": " + warning.next;
+  }
+  out.push_back({"distance from what was seen",
+                 distance,
+                 fit.rms_px <= kPoorRms_px && fit.warnings.empty()});
+  out.push_back({"limbs to an average person's",
+                 format("%.0f %%", 100.0 * fit.limb_ratio),
+                 std::abs(fit.limb_ratio - 1.0) <= kPoorRatio});
+  out.push_back(unplaced_of(fit));
+  return out;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/markers/fit_commands.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "app/markers/assess_fit.h"
+#include "app/markers/fit_figures.h"
+#include "app/markers/fit_results.h"
+#include "app/markers/fit_words.h"
+#include "app/markers/label_checks.h"
+#include "app/markers/marker_report.h"
+#include "app/markers/trial_checks.h"
+#include "app/shell/option_checks.h"
+#include "core/base/stopwatch.h"
+#include "reconstruct/markers/estimate_stature.h"
+#include "recordings/markers/marker_map.h"
+#include "recordings/session/subject_file.h"
+#include "recordings/text/atomic_file.h"
+
+namespace marey::app {
+namespace {
+
+std::string all_inputs(const FitArguments& args) {
+  const std::string first = args.in.front().string();
+  const std::size_t others = args.in.size() - 1;
+  if (others == 0) return first;
+  return first + " and " + std::to_string(others) +
+         (others == 1 ? " other file" : " other files");
+}
+
+/// Who the recording says it is: "Bob" of "Bob:LASI".
+std::string name_of_subject(const FitArguments& args,
+                            std::span<const MarkerTrial> trials) {
+  if (!args.name.empty()) return args.name;
+  std::string name = trials.front().prefix;
+  while (!name.empty() && name.back() == ':') name.pop_back();
+  return name.empty() ? "subject" : name;
+}
+
+/// An earlier fit's subject.
+Status take_subject(const FitArguments& args, FitRun& run) {
+  auto body = recordings::read_subject(args.subject);
+  if (!body) return body.error();
+  if (body->markers.empty()) {
+    return bad_input(args.subject.string(),
+                     "the subject wears no markers",
+                     "give the subject.toml of an earlier `marey fit`");
+  }
+  run.body = std::move(*body);
+  return Done{};
+}
+
+/// What the user says of the subject.
+reconstruct::MarkerSubject subject_asked(const FitArguments& args, const FitRun& run) {
+  reconstruct::MarkerSubject subject;
+  subject.name = name_of_subject(args, run.trials);
+  subject.stature_m = args.stature_m;
+  subject.mass_kg = args.mass_kg;
+  return subject;
+}
+
+Status find_subject(const FitArguments& args,
+                    std::span<const MarkerTracks> checked,
+                    const Progress& progress,
+                    FitRun& run) {
+  const auto size = reconstruct::estimate_stature(checked, used_labels(run.labels));
+  if (size) {
+    if (const Status ok = check_size(run.trials, size->stature_m); !ok) return ok;
+  }
+  auto fit = fit_subject_to(subject_asked(args, run), checked, run.labels, progress);
+  if (!fit) return fit.error();
+  run.body = fit->fit.body;
+  run.subject = std::move(*fit);
+  return Done{};
+}
+
+/// Reads everything there is to read: what cannot be is told before the work begins.
+Status read_all(const FitArguments& args,
+                Console& console,
+                FitRun& run,
+                std::optional<MarkerMap>& map) {
+  const Stopwatch watch;
+  if (const Status ok = check_out_folder(args.out); !ok) return ok;
+  if (const Status ok = check_avatars(args.avatars); !ok) return ok;
+  if (!args.map.empty()) {
+    auto read = recordings::read_marker_map(args.map);
+    if (!read) return read.error();
+    map = std::move(*read);
+  }
+  if (!args.subject.empty()) {
+    if (const Status ok = take_subject(args, run); !ok) return ok;
+  }
+  recordings::MarkerReadOptions options;
+  if (!args.up.empty()) options.up = recordings::axis_of(args.up);
+  if (!args.unit.empty()) options.unit = args.unit;
+  auto trials = read_trials(args.in, options, args.out, console);
+  if (!trials) return trials.error();
+  run.trials = std::move(*trials);
+  run.times.read_s = watch.seconds();
+  return Done{};
+}
+
+/// Of a fit that failed: exchanged sides or a wrong axis, where there are any.
+Error cause_of(const FitRun& run, Error error) {
+  const std::vector<Error> causes = side_and_axis_errors(run.trials, run.geometry);
+  if (causes.empty()) return error;
+  return bad_input(causes.front().where, causes.front().cause, causes.front().next);
+}
+
+/// What speaks against the answer. Exchanged sides and wrong axes explain what else is
+/// off: they come alone.
+std::vector<Error> assess_all(const FitArguments& args, FitRun& run) {
+  std::vector<Error> failures = side_and_axis_errors(run.trials, run.geometry);
+  if (!failures.empty()) return failures;
+  const SubjectFit* subject = run.subject ? &*run.subject : nullptr;
+  run.checks =
+      check_labels(run.body, subject_asked(args, run), subject, run.labels, run.trials);
+  failures = assess_fit(run.trials, subject, run.body, args.stature_m);
+  if (subject != nullptr && subject->fit.measured_stature) {
+    auto small =
+        small_stature(run.trials, *subject->fit.measured_stature, args.stature_m);
+    if (small) failures.push_back(std::move(*small));
+  }
+  for (Error& failure : assess_labels(run.checks, run.trials)) {
+    failures.push_back(std::move(failure));
+  }
+  return failures;
+}
+
+Status solve_all(const FitArguments& args,
+                 const std::optional<MarkerMap>& map,
+                 Console& console,
+                 FitRun& run) {
+  const auto somewhere = [&](Error error) {
+    if (error.where.empty()) error.where = all_inputs(args);
+    return error;
+  };
+  const Stopwatch repairing;
+  std::vector<MarkerTracks> checked = repair_trials(run.trials, console.stage("repair"));
+  run.times.repair_s = repairing.seconds();
+  const Stopwatch fitting;
+  std::vector<std::string> prefixes;
+  for (const MarkerTrial& trial : run.trials) prefixes.push_back(trial.prefix);
+  auto labels = name_labels(checked, prefixes, map);
+  if (labels) {
+    run.labels = std::move(*labels);
+  } else if (args.subject.empty()) {
+    return somewhere(labels.error());
+  }
+  run.geometry = reconstruct::compare_trials(checked, used_labels(run.labels));
+  const std::vector<Error> other_units = unit_errors(run.trials, run.geometry);
+  if (!other_units.empty()) return other_units.front();
+  if (args.subject.empty()) {
+    const Status ok = find_subject(args, checked, console.stage("fit"), run);
+    if (!ok) return cause_of(run, somewhere(ok.error()));
+  }
+  checked.clear();
+  run.times.fit_s = fitting.seconds();
+  const Stopwatch solving;
+  solve_trials(run.body, run.trials, console.stage("solve"));
+  run.times.solve_s = solving.seconds();
+  const bool is_any_solved = std::any_of(
+      run.trials.begin(), run.trials.end(), [](const auto& t) { return t.solved; });
+  if (is_any_solved) return Done{};
+  return somewhere(bad_input("",
+                             "no frame shows six of the subject's markers",
+                             "see the labels in `marey inspect FILE`"));
+}
+
+Status write_all(const FitArguments& args, FitRun& run, std::string& json) {
+  const Stopwatch watch;
+  if (const Status ok = recordings::write_subject(args.out / "subject.toml", run.body);
+      !ok) {
+    return ok;
+  }
+  for (MarkerTrial& trial : run.trials) {
+    const Status ok = write_trial(run.body, args.avatars, args.out / trial.name, trial);
+    if (!ok) return ok;
+  }
+  run.times.write_s = watch.seconds();
+  constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+  json = fit_figures(run).dump(1, ' ', false, kReplace) + "\n";
+  const Status ok = recordings::write_file(args.out / "fit.html", fit_page(run));
+  if (!ok) return ok;
+  return recordings::write_file(args.out / "fit.json", json);
+}
+
+}  // namespace
+
+Exit run_fit(const FitArguments& args, Console& console) {
+  FitRun run;
+  std::optional<MarkerMap> map;
+  if (const Status ok = read_all(args, console, run, map); !ok) {
+    return console.fail(ok.error());
+  }
+  if (const Status ok = solve_all(args, map, console, run); !ok) {
+    return console.fail(ok.error());
+  }
+  const std::vector<Error> failures = assess_all(args, run);
+  run.warnings = fit_warnings(run);
+  const std::vector<std::string> warnings = run.warnings;
+  for (const Error& failure : failures) run.warnings.push_back(failure.message());
+  std::string json;
+  if (const Status ok = write_all(args, run, json); !ok) return console.fail(ok.error());
+  for (const std::string& line : subject_words(run)) console.say(line);
+  for (const std::string& warning : warnings) console.warn(warning);
+  for (const MarkerTrial& trial : run.trials) console.say(trial_words(trial));
+  console.say("results: " + args.out.string());
+  if (args.json) std::fputs(json.c_str(), stdout);
+  // The rest is done and written; that something is wrong must still not pass for whole.
+  Exit exit = Exit::kOk;
+  for (const Error& failure : failures) exit = console.fail(failure);
+  return exit;
+}
+
+void add_fit_command(CLI::App& app,
+                     FitArguments& args,
+                     std::function<Exit(Console&)>& chosen) {
+  CLI::App* command =
+      app.add_subcommand("fit", "Subject and motion from labelled markers (C3D, TRC)");
+  command->add_option("in", args.in, "Trials of one subject, .c3d or .trc")->required();
+  command->add_option("-o,--out", args.out, "Folder for the results")->required();
+  CLI::Option* map = command->add_option(
+      "--markers", args.map, "What labels mean, where they do not say (MAP.toml)");
+  CLI::Option* subject = command->add_option(
+      "--subject", args.subject, "subject.toml of an earlier fit, instead of fitting");
+  CLI::Option* who = command->add_option("--name", args.name, "The subject's name");
+  CLI::Option* stature =
+      command->add_option("--stature", args.stature_m, "How tall the subject is [m]")
+          ->check(between(0.3, 3.0));
+  CLI::Option* mass = command->add_option("--mass", args.mass_kg, "Its mass [kg]")
+                          ->check(between(1.0, 500.0));
+  for (CLI::Option* option : {map, who, stature, mass}) option->excludes(subject);
+  command
+      ->add_option("-a,--avatar",
+                   args.avatars,
+                   "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
+      // One each time: what follows may be a trial.
+      ->allow_extra_args(false);
+  command->add_option("--up", args.up, "Axis of the files that is up, if not as found")
+      ->check(CLI::IsMember({"+X", "+Y", "+Z", "-X", "-Y", "-Z"}));
+  command->add_option("--unit", args.unit, "Unit of the files, if not as they say")
+      ->check(CLI::IsMember({"mm", "cm", "m", "in", "ft"}));
+  command->add_flag("--json", args.json, "Print fit.json on standard output");
+  command->callback(
+      [&] { chosen = [&args](Console& console) { return run_fit(args, console); }; });
+}
+
+}  // namespace marey::app

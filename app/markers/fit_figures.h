@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/markers/fit_labels.h"
+#include "app/markers/label_checks.h"
+#include "app/markers/marker_trials.h"
+#include "core/body.h"
+#include "reconstruct/markers/compare_trials.h"
+
+namespace marey::app {
+
+/// How long the parts of a run took. [s]
+struct FitTimes {
+  double read_s = 0.0;
+  double repair_s = 0.0;
+  double fit_s = 0.0;
+  double solve_s = 0.0;
+  double write_s = 0.0;
+};
+
+/// All of `marey fit`.
+struct FitRun {
+  FitLabels labels;
+  std::optional<SubjectFit> subject;  ///< None: an earlier fit was used.
+  Body body;
+  std::vector<reconstruct::TrialGeometry> geometry;  ///< Of every trial.
+  LabelChecks checks;
+  std::vector<MarkerTrial> trials;
+  std::vector<std::string> warnings;
+  FitTimes times;
+};
+
+/// What fit.json holds; docs/formats/README.md has the keys.
+[[nodiscard]] nlohmann::ordered_json fit_figures(const FitRun& run);
+
+/// Why a label that is not used is not: "is never seen".
+[[nodiscard]] std::string why_unused(const FitLabels& labels, std::size_t label);
+
+}  // namespace marey::app

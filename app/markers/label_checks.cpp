@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/markers/label_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+
+namespace marey::app {
+namespace {
+
+using reconstruct::LabelFault;
+using reconstruct::LabelFinding;
+
+// Markers are put on again between trials, and skin slides: less is a matter of a few
+// millimetres at the joints. [m]
+constexpr double kFarElsewhere_m = 0.040;
+// Labels that the fit left out: a single one changes little.
+constexpr std::size_t kMaxLeftOut = 1;
+// Of a label that is seen often enough to be placed.
+constexpr std::size_t kMinSamples = 3;
+constexpr std::size_t kMaxShownLabels = 4;
+
+std::string in_mm(double length_m) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.0f mm", 1e3 * length_m);
+  return text.data();
+}
+
+std::string quoted(const std::string& label) {
+  return "\"" + label + "\"";
+}
+
+std::string listed_labels(std::span<const std::string> labels) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kMaxShownLabels, labels.size()); ++i) {
+    text += (i > 0 ? ", " : "") + quoted(labels[i]);
+  }
+  if (labels.size() <= kMaxShownLabels) return text;
+  return text + " and " + std::to_string(labels.size() - kMaxShownLabels) + " more";
+}
+
+std::string all_trials(std::span<const MarkerTrial> trials) {
+  return trials.size() == 1 ? trials[0].path.string() : "";
+}
+
+Error exchanged_in_trial(const LabelFinding& finding,
+                         std::span<const MarkerTrial> trials) {
+  const MarkerTrial& trial = trials[*finding.trial];
+  std::string cause = "markers " + quoted(finding.label) + " and " +
+                      quoted(finding.other) + " look exchanged: they are " +
+                      in_mm(finding.off_m) + " from their places in the other trials, " +
+                      in_mm(finding.exchanged_m) + " when exchanged";
+  std::string next = "exchange the two labels in this file";
+  if (finding.or_trial) {
+    cause = "markers " + quoted(finding.label) + " and " + quoted(finding.other) +
+            " look exchanged here or in " + trials[*finding.or_trial].path.string() +
+            ": " + in_mm(finding.off_m) + " apart, " + in_mm(finding.exchanged_m) +
+            " when exchanged";
+    next = "exchange the two labels in the file that is wrong";
+  }
+  return {Errc::kQuality, trial.path.string(), cause, next};
+}
+
+Error exchanged_in_all(const reconstruct::LabelExchange& exchange,
+                       std::span<const MarkerTrial> trials) {
+  if (!exchange.limbs.empty()) {
+    return {Errc::kQuality,
+            all_trials(trials),
+            "left and right of " + exchange.limbs +
+                " seem exchanged: the body explains the markers far better so",
+            "exchange left and right in the labels of " + exchange.limbs +
+                ", in the recording or with --markers MAP.toml"};
+  }
+  const auto& [a, b] = exchange.labels.front();
+  return {Errc::kQuality,
+          all_trials(trials),
+          "markers " + quoted(a) + " and " + quoted(b) +
+              " look exchanged in all trials: the body explains the markers far "
+              "better so",
+          "exchange the two labels, in the recording or with --markers MAP.toml"};
+}
+
+/// Findings of one kind, told together: "off-landmark".
+std::vector<std::string> labels_with(std::span<const LabelFinding> findings,
+                                     LabelFault fault) {
+  std::vector<std::string> labels;
+  for (const LabelFinding& finding : findings) {
+    if (finding.fault == fault) labels.push_back(finding.label);
+  }
+  return labels;
+}
+
+double farthest_m(std::span<const LabelFinding> findings, LabelFault fault) {
+  double off_m = 0.0;
+  for (const LabelFinding& finding : findings) {
+    if (finding.fault == fault) off_m = std::max(off_m, finding.off_m);
+  }
+  return off_m;
+}
+
+void assess_places(const LabelChecks& checks,
+                   std::span<const MarkerTrial> trials,
+                   std::vector<Error>& poor) {
+  const std::string next =
+      "see whether labels mean what their names say, or are exchanged (--markers "
+      "MAP.toml)";
+  const auto off = labels_with(checks.of_fit, LabelFault::kOffLandmark);
+  if (!off.empty()) {
+    poor.push_back(
+        {Errc::kQuality,
+         all_trials(trials),
+         "markers are where their landmark can be on nobody: " + listed_labels(off) +
+             ", up to " + in_mm(farthest_m(checks.of_fit, LabelFault::kOffLandmark)) +
+             " from it",
+         next});
+  }
+  const auto moved = labels_with(checks.of_fit, LabelFault::kMoved);
+  if (!moved.empty()) {
+    poor.push_back({Errc::kQuality,
+                    all_trials(trials),
+                    "markers move with segments far from those they are named for: " +
+                        listed_labels(moved),
+                    "see whether labels, or left and right, are exchanged "
+                    "(--markers MAP.toml)"});
+  }
+  const auto left_out = labels_with(checks.of_fit, LabelFault::kLeftOut);
+  if (left_out.size() > kMaxLeftOut) {
+    poor.push_back(
+        {Errc::kQuality,
+         all_trials(trials),
+         "markers move with no segment of the body: " + listed_labels(left_out),
+         "see whether all trials are of one person with the markers where "
+         "they were, and whether labels are exchanged"});
+  }
+}
+
+}  // namespace
+
+LabelChecks check_labels(const Body& body,
+                         const reconstruct::MarkerSubject& asked,
+                         const SubjectFit* subject,
+                         const FitLabels& labels,
+                         std::span<const MarkerTrial> trials) {
+  const std::vector<reconstruct::NamedMarker> markers = used_labels(labels);
+  std::vector<reconstruct::CheckedTrial> checked;
+  for (const MarkerTrial& trial : trials) {
+    checked.push_back(
+        {&trial.repair.repaired.tracks, trial.solved ? &*trial.solved : nullptr});
+  }
+  LabelChecks checks;
+  checks.of_trials = reconstruct::check_trials(body, markers, checked);
+  if (subject == nullptr) return checks;
+  checks.of_fit = reconstruct::check_fit(subject->fit, markers);
+  // Labels that are hardly seen are not left out for how they move.
+  const std::size_t most =
+      *std::max_element(labels.samples.begin(), labels.samples.end());
+  const std::size_t least = std::max<std::size_t>(kMinSamples, most / 20);
+  std::erase_if(checks.of_fit, [&](const LabelFinding& finding) {
+    const auto at = std::find(labels.labels.begin(), labels.labels.end(), finding.label);
+    return at != labels.labels.end() &&
+           labels.samples[static_cast<std::size_t>(at - labels.labels.begin())] < least;
+  });
+  const bool is_explained = std::any_of(
+      checks.of_trials.begin(), checks.of_trials.end(), [](const LabelFinding& finding) {
+        return finding.fault == LabelFault::kExchanged;
+      });
+  if (is_explained || subject->mirrored_places_off) return checks;
+  std::vector<MarkerTracks> tracks;
+  for (const MarkerTrial& trial : trials) tracks.push_back(trial.repair.repaired.tracks);
+  checks.exchange = reconstruct::find_exchange(asked, tracks, markers, subject->fit);
+  return checks;
+}
+
+std::vector<Error> assess_labels(const LabelChecks& checks,
+                                 std::span<const MarkerTrial> trials) {
+  std::vector<Error> poor;
+  for (const LabelFinding& finding : checks.of_trials) {
+    if (finding.fault == LabelFault::kExchanged) {
+      poor.push_back(exchanged_in_trial(finding, trials));
+    }
+  }
+  if (checks.exchange) poor.push_back(exchanged_in_all(*checks.exchange, trials));
+  // An exchange explains what else is off: it comes alone.
+  if (!poor.empty()) return poor;
+  assess_places(checks, trials, poor);
+  for (std::size_t t = 0; t < trials.size(); ++t) {
+    std::vector<std::string> labels;
+    double off_m = 0.0;
+    for (const LabelFinding& finding : checks.of_trials) {
+      if (finding.trial != t || finding.off_m < kFarElsewhere_m) continue;
+      labels.push_back(finding.label);
+      off_m = std::max(off_m, finding.off_m);
+    }
+    if (labels.empty()) continue;
+    poor.push_back({Errc::kQuality,
+                    trials[t].path.string(),
+                    "markers are not at their places on the body: " +
+                        listed_labels(labels) + ", up to " + in_mm(off_m) + " off",
+                    "see whether these labels are wrong in this trial, whether markers "
+                    "fell off, and whether all trials are of one person"});
+  }
+  return poor;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/markers/fit_labels.h"
+#include "app/markers/marker_trials.h"
+#include "core/base/result.h"
+#include "reconstruct/markers/check_labels.h"
+#include "reconstruct/markers/find_exchanges.h"
+
+namespace marey::app {
+
+/// What speaks against the labels of a fit and of its trials.
+struct LabelChecks {
+  std::vector<reconstruct::LabelFinding> of_fit;
+  std::vector<reconstruct::LabelFinding> of_trials;
+  std::optional<reconstruct::LabelExchange> exchange;
+};
+
+/// Checks every label of the solved trials. `subject` may be null: an earlier fit was
+/// used. Looks for an exchange in all trials where single trials show none and the fit is
+/// suspicious, which costs up to nine small fits.
+[[nodiscard]] LabelChecks check_labels(const Body& body,
+                                       const reconstruct::MarkerSubject& asked,
+                                       const SubjectFit* subject,
+                                       const FitLabels& labels,
+                                       std::span<const MarkerTrial> trials);
+
+/// Returns the failures (kQuality) that the findings are: exchanged labels with the
+/// exchange to make, markers where their landmark is on nobody, markers that lie
+/// elsewhere in one trial, labels left out.
+[[nodiscard]] std::vector<Error> assess_labels(const LabelChecks& checks,
+                                               std::span<const MarkerTrial> trials);
+
+}  // namespace marey::app

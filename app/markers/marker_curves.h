@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "app/markers/marker_history.h"
+#include "app/markers/repair_figures.h"
+
+namespace marey::app {
+
+/// Where markers were around what was most to repair, before and after: in turn the
+/// longest fill, the least sure and the wrong samples that were furthest off, one of each
+/// marker, at most `most`. docs/formats/README.md, "The pages of labelled markers". Each has at
+/// most some hundred instants.
+[[nodiscard]] nlohmann::ordered_json repair_curves(const Repair& repair,
+                                                   const MarkerHistory& history,
+                                                   std::size_t most);
+
+}  // namespace marey::app

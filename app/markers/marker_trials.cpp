@@ -1,0 +1,195 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/markers/marker_trials.h"
+
+#include <algorithm>
+#include <mutex>
+#include <set>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "reconstruct/labels/name_markers.h"
+#include "reconstruct/tracks/check_tracks.h"
+#include "reconstruct/tracks/repair_gaps.h"
+
+namespace marey::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Adds up what workers of one stage have done.
+class JointProgress {
+ public:
+  JointProgress(const Progress& sink, int total) : sink_(sink), total_(total) {}
+
+  void add(int done) {
+    const std::scoped_lock lock(mutex_);
+    done_ += done;
+    if (sink_) sink_(done_, total_);
+  }
+
+ private:
+  const Progress& sink_;
+  int total_;
+  int done_ = 0;
+  std::mutex mutex_;
+};
+
+bool is_same_file(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::equivalent(a, b, ignored);
+}
+
+/// A folder's name for every trial, no two alike.
+std::vector<std::string> names_of(std::span<const fs::path> paths) {
+  // What else is in the folder of results.
+  std::set<std::string> taken{"subject.toml", "fit.json", "fit.html"};
+  std::vector<std::string> names;
+  for (const fs::path& path : paths) {
+    std::string stem = path.stem().string();
+    if (stem.empty() || stem == "." || stem == "..") stem = "trial";
+    names.push_back(stem);
+  }
+  const std::set<std::string> stems(names.begin(), names.end());
+  for (std::string& name : names) {
+    const std::string stem = name;
+    for (int number = 2; !taken.insert(name).second; ++number) {
+      const std::string ending = std::string("-").append(std::to_string(number));
+      name = stem + ending;
+      // Another file may be called so by itself.
+      if (stems.contains(name)) name += ending;
+    }
+  }
+  return names;
+}
+
+Status check_paths(std::span<const fs::path> paths,
+                   std::span<const std::string> names,
+                   const fs::path& out) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!is_same_file(paths[i], paths[j])) continue;
+      return bad_input(paths[i].string(), "this file is given twice", "name it once");
+    }
+    for (const std::string& name : names) {
+      for (const char* result : {"markers.c3d", "markers.trc"}) {
+        if (!is_same_file(paths[i], out / name / result)) continue;
+        return bad_input(paths[i].string(),
+                         "the results would be written over this file",
+                         "choose another folder with --out");
+      }
+    }
+  }
+  return Done{};
+}
+
+/// Recordings of one subject may call it otherwise: "Bob_static:LASI", "Bob:LASI".
+void leave_out_subject(MarkerTrial& trial, Console& console) {
+  const std::vector<std::string>& labels = trial.repair.as_read.labels;
+  const reconstruct::MarkerNames names = reconstruct::name_markers(labels);
+  for (const std::string& note : names.notes) {
+    console.warn(trial.path.string() + ": " + note);
+  }
+  // What else all labels begin with is the same in all of its recordings.
+  trial.prefix = names.prefix.substr(0, names.prefix.rfind(':') + 1);
+  trial.labels = labels;
+  std::set<std::string> taken(labels.begin(), labels.end());
+  for (std::string& label : trial.labels) {
+    if (!label.starts_with(trial.prefix)) continue;
+    std::string rest = label.substr(trial.prefix.size());
+    if (!rest.empty() && taken.insert(rest).second) label = std::move(rest);
+  }
+}
+
+bool is_any_seen(const MarkerTracks& tracks) {
+  return std::any_of(tracks.samples.begin(), tracks.samples.end(), [](const auto& s) {
+    return s.has_value();
+  });
+}
+
+}  // namespace
+
+Result<std::vector<MarkerTrial>> read_trials(std::span<const fs::path> paths,
+                                             const recordings::MarkerReadOptions& options,
+                                             const fs::path& out,
+                                             Console& console) {
+  const std::vector<std::string> names = names_of(paths);
+  if (const Status ok = check_paths(paths, names, out); !ok) return ok.error();
+  std::vector<MarkerTrial> trials(paths.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    MarkerTrial& trial = trials[i];
+    trial.name = names[i];
+    trial.path = paths[i];
+    auto read = recordings::read_markers(paths[i], options);
+    if (!read) return read.error();
+    for (const std::string& note : read->notes) {
+      console.warn(paths[i].string() + ": " + note);
+    }
+    if (!is_any_seen(read->tracks)) {
+      return bad_input(paths[i].string(),
+                       "no marker is seen in any frame",
+                       "leave the file out, or see in the program that wrote it");
+    }
+    if (names[i] != paths[i].stem().string()) {
+      console.say(paths[i].string() + ": its results are in " +
+                  (out / names[i]).string());
+    }
+    trial.repair.name = paths[i].filename().string();
+    trial.repair.as_read = std::move(read->tracks);
+    read->tracks = {};
+    leave_out_subject(trial, console);
+    trial.file = std::move(*read);
+  }
+  return trials;
+}
+
+std::vector<MarkerTracks> repair_trials(std::vector<MarkerTrial>& trials,
+                                        const Progress& progress) {
+  std::vector<MarkerTracks> checked(trials.size());
+  const bool alone = trials.size() == 1;
+  JointProgress all(progress, static_cast<int>(trials.size()));
+  in_parallel(trials.size(), 0, [&](std::size_t i) {
+    Repair& repair = trials[i].repair;
+    repair.checked = reconstruct::check_tracks(repair.as_read);
+    reconstruct::RepairOptions options;
+    options.threads = alone ? 0 : 1;
+    repair.repaired = reconstruct::repair_gaps(
+        repair.checked.tracks, options, alone ? progress : Progress{});
+    checked[i] = std::move(repair.checked.tracks);
+    checked[i].labels = repair.repaired.tracks.labels = trials[i].labels;
+    repair.checked.tracks = {};
+    if (!alone) all.add(1);
+  });
+  return checked;
+}
+
+void solve_trials(const Body& body,
+                  std::vector<MarkerTrial>& trials,
+                  const Progress& progress) {
+  std::size_t frames = 0;
+  for (const MarkerTrial& trial : trials) frames += trial.repair.as_read.frames();
+  JointProgress all(progress, static_cast<int>(frames));
+  in_parallel(trials.size(), 0, [&](std::size_t i) {
+    const MarkerTracks& tracks = trials[i].repair.repaired.tracks;
+    int told = 0;
+    const auto tell = [&](int done, int) { all.add(done - std::exchange(told, done)); };
+    trials[i].solved = reconstruct::solve_markers(body, tracks, {}, tell);
+    // Of one that cannot be solved nothing was told.
+    if (!trials[i].solved) tell(static_cast<int>(tracks.frames()), 0);
+  });
+}
+
+std::size_t frames_with_markers(const MarkerTrial& trial) {
+  const MarkerTracks& tracks = trial.repair.as_read;
+  std::size_t count = 0;
+  for (std::size_t f = 0; f < tracks.frames(); ++f) {
+    for (std::size_t m = 0; m < tracks.markers(); ++m) {
+      if (!tracks.at(f, m)) continue;
+      ++count;
+      break;
+    }
+  }
+  return count;
+}
+
+}  // namespace marey::app

@@ -1,0 +1,98 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/motion/raw_body.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/base/extension.h"
+#include "recordings/motion/asf.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/motion/npz.h"
+
+namespace marey::app {
+namespace {
+
+Result<RawBody> read_bvh(const std::filesystem::path& path) {
+  const recordings::BvhReadOptions options;
+  auto bvh = recordings::read_bvh(path, options);
+  if (!bvh) return bvh.error();
+  RawBody raw;
+  raw.motion = std::move(bvh->motion);
+  raw.has_motion = true;
+  raw.ignored_translation_m = bvh->ignored_translation_m;
+  // marey's own bodies are of any stature, and it writes what it reads.
+  const auto& joints = raw.motion.skeleton.joints;
+  const bool is_ours = std::ranges::all_of(
+      joints, [](const Joint& joint) { return joint.bone.has_value(); });
+  raw.unit = {options.unit_m, is_ours};
+  return raw;
+}
+
+Result<RawBody> read_acclaim(const std::filesystem::path& path) {
+  const auto beside = recordings::find_skeleton_file(path);
+  if (!beside) {
+    return bad_input(path.string(),
+                     "the .asf file that goes with this motion is not beside it",
+                     "put it there");
+  }
+  const auto skeleton = recordings::read_asf(*beside);
+  if (!skeleton) return skeleton.error();
+  auto amc = recordings::read_amc(path, *skeleton);
+  if (!amc) return amc.error();
+  RawBody raw;
+  raw.motion = std::move(amc->motion);
+  raw.has_motion = true;
+  raw.ignored_translation_m = amc->ignored_translation_m;
+  return raw;
+}
+
+/// Its poses alone: sigmas and contacts are not a body's.
+Result<RawBody> read_npz(const std::filesystem::path& path) {
+  auto npz = recordings::read_npz(path);
+  if (!npz) return npz.error();
+  RawBody raw;
+  raw.has_motion = true;
+  raw.motion = std::move(npz->motion);
+  raw.unit = {1.0, true};
+  return raw;
+}
+
+Result<RawBody> read_gltf(const std::filesystem::path& path) {
+  auto character = recordings::read_character(path);
+  if (!character) return character.error();
+  RawBody raw;
+  raw.has_motion = character->motion.has_value();
+  raw.ignored_translation_m = character->ignored_translation_m;
+  raw.mesh = std::move(character->mesh);
+  raw.node_of_joint = std::move(character->node_of_joint);
+  raw.faces_back = character->faces_back;
+  raw.carries_skin = std::move(character->carries_skin);
+  raw.bound = std::move(character->bound);
+  if (raw.has_motion) {
+    raw.motion = *std::move(character->motion);
+  } else {
+    raw.motion.skeleton = std::move(character->skeleton);
+  }
+  return raw;
+}
+
+}  // namespace
+
+bool is_gltf(const std::filesystem::path& path) {
+  const std::string kind = kind_by_extension(path);
+  return kind == ".glb" || kind == ".gltf" || kind == ".vrm" || kind == ".vrma";
+}
+
+Result<RawBody> read_raw_body(const std::filesystem::path& path) {
+  if (is_gltf(path)) return read_gltf(path);
+  if (kind_by_extension(path) == ".bvh") return read_bvh(path);
+  if (kind_by_extension(path) == ".amc") return read_acclaim(path);
+  if (kind_by_extension(path) == ".npz") return read_npz(path);
+  return bad_input(path.string(),
+                   "is not a .bvh, .amc, .npz, .glb, .gltf, .vrm or .vrma file",
+                   "convert it to one of these");
+}
+
+}  // namespace marey::app

@@ -1,0 +1,234 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/motion/read_body.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/motion/error_of_file.h"
+#include "core/base/extension.h"
+#include "recordings/body/bone_map_file.h"
+#include "retarget/body/body_map.h"
+#include "retarget/body/fit_volume.h"
+#include "retarget/bones/hang_bones.h"
+#include "retarget/bones/identify_bones.h"
+
+namespace marey::app {
+namespace {
+
+constexpr double kSure = 0.5;
+
+void put_into_frame(const retarget::BodyFrame& frame, recordings::SkinnedMesh& mesh) {
+  for (glm::dvec3& p : mesh.p_in_world) p = frame.scale * (frame.marey_from_file * p);
+  for (glm::dvec3& n : mesh.normal_in_world) n = frame.marey_from_file * n;
+}
+
+// What is known of a body by its skin. A body that cannot be mapped is refused elsewhere.
+void look_at_skin(const recordings::SkinnedMesh& mesh, ReadBody& body) {
+  const Skeleton& skeleton = body.skeleton();
+  const auto map = retarget::map_body(skeleton);
+  if (!map) return;
+  std::vector<JointIndex> carriers;
+  std::vector<retarget::SkinPoint> skin;
+  for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
+    carriers.push_back(mesh.skin[i].joints[0]);
+    skin.push_back({mesh.p_in_world[i], mesh.skin[i].joints[0]});
+  }
+  body.soles = retarget::find_soles(skeleton, *map, mesh.p_in_world, carriers);
+  if (!skin.empty()) body.volume = retarget::volume_of_skin(skeleton, *map, skin);
+  std::vector<retarget::SkinVertex> vertices;
+  for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
+    vertices.push_back(
+        {mesh.p_in_world[i], mesh.skin[i].joints, mesh.skin[i].weights});
+  }
+  body.skin = retarget::Skin(skeleton, *map, vertices);
+}
+
+Result<BoneMap> told_of(const BodyFile& file, ReadBody& body) {
+  const std::filesystem::path beside = recordings::bone_map_path(file.path);
+  std::error_code ignored;
+  if (file.bone_map) {
+    body.bone_map = file.bone_map;
+  } else if (std::filesystem::exists(beside, ignored)) {
+    body.bone_map = beside;
+  } else {
+    return BoneMap{};
+  }
+  return recordings::read_bone_map(*body.bone_map, body.skeleton());
+}
+
+/// A body whose nodes hold a frame of an animation rests as its skin was bound.
+void take_bound_pose(ReadBody& body) {
+  if (!body.raw.bound) return;
+  Skeleton& skeleton = body.raw.motion.skeleton;
+  recordings::BoundBody& bound = *body.raw.bound;
+  constexpr double kAsAlike = 0.03;
+  const double now = retarget::asymmetry(skeleton, body.bones);
+  const double then = retarget::asymmetry(bound.skeleton, body.bones);
+  const bool stands = retarget::stands_at_rest(skeleton, body.bones);
+  const bool bound_stands = retarget::stands_at_rest(bound.skeleton, body.bones);
+  const bool is_better = bound_stands && (!stands || now > 3.0 * then + kAsAlike);
+  if (!is_better) return;
+  skeleton = std::move(bound.skeleton);
+  body.raw.mesh = std::move(bound.mesh);
+  body.raw.bound.reset();
+  body.rests_as_bound = true;
+}
+
+template <class T>
+std::vector<T> reordered(const std::vector<T>& list,
+                         const std::vector<std::optional<JointIndex>>& read_joint,
+                         T otherwise) {
+  std::vector<T> out;
+  for (const auto& joint : read_joint) {
+    out.push_back(joint ? list[index(*joint)] : otherwise);
+  }
+  return out;
+}
+
+/// Hangs the bones on each other that the file hangs elsewhere.
+Status hang(ReadBody& body) {
+  RawBody& raw = body.raw;
+  auto hung =
+      retarget::hang_bones(raw.motion.skeleton, body.bones, raw.carries_skin);
+  if (!hung) return hung.error();
+  if (!*hung) return Done{};
+  retarget::HungBody& made = **hung;
+  std::vector<std::size_t> new_joint(raw.motion.skeleton.joints.size());
+  for (std::size_t i = 0; i < made.read_joint.size(); ++i) {
+    if (made.read_joint[i]) new_joint[index(*made.read_joint[i])] = i;
+  }
+  retarget::put_on_hung(made, raw.motion);
+  body.bones = std::move(made.found);
+  if (!raw.node_of_joint.empty()) {
+    raw.node_of_joint = reordered(raw.node_of_joint, made.read_joint, -1);
+  }
+  if (!raw.carries_skin.empty()) {
+    raw.carries_skin = reordered(raw.carries_skin, made.read_joint, false);
+  }
+  if (raw.mesh) {
+    for (recordings::SkinWeights& skin : raw.mesh->skin) {
+      for (JointIndex& joint : skin.joints) {
+        joint = JointIndex{static_cast<int>(new_joint[index(joint)])};
+      }
+    }
+  }
+  raw.bound.reset();
+  body.read_joint = std::move(made.read_joint);
+  return Done{};
+}
+
+}  // namespace
+
+std::vector<std::string> ReadBody::remarks() const {
+  std::vector<std::string> all = bones.remarks;
+  all.insert(all.end(), frame.remarks.begin(), frame.remarks.end());
+  if (neutral == NeutralKind::kTPose && file_rest_stands) {
+    all.push_back(
+        "a T-pose made of the directions of its bones is its neutral, as --neutral says, "
+        "and not its rest, in which it stands");
+  } else if (neutral == NeutralKind::kTPose) {
+    all.push_back(
+        "its rest is no posture of a body: a T-pose made of the directions of its bones "
+        "is its neutral, the slope of its feet is an average one's; --neutral sets "
+        "another");
+  }
+  constexpr double kMinUprightShare = 0.7;
+  const bool is_usual = guessed_up && guessed_up->axis == glm::dvec3(0.0, 1.0, 0.0) &&
+                        guessed_up->share >= kMinUprightShare;
+  if (guessed_up && !is_usual) {
+    const auto percent = std::lround(100.0 * guessed_up->share);
+    all.push_back("its rest does not say where up is, and it does not stand most of the "
+                  "time: up is taken as " +
+                  retarget::axis_word(guessed_up->axis) +
+                  ", along which its hips are above its feet in " +
+                  std::to_string(percent) +
+                  " % of its frames; if that is wrong, give `up` in a bone map");
+  }
+  if (rests_as_bound) {
+    all.push_back(
+        "its nodes rest in another posture than its skin was bound in, which is taken");
+  }
+  if (std::ranges::any_of(bones.bones, [](const auto& found) {
+        return found && found->evidence == retarget::BoneEvidence::kShape;
+      })) {
+    all.push_back(
+        "its bones are told by its shape, no names or marks say them: look at what "
+        "marey inspect --picture draws, and correct it with a bone map");
+  }
+  std::string unsure;
+  for (const HumanBone bone : human_bones()) {
+    const auto& found = bones.bones[index(bone)];
+    if (!found || found->confidence >= kSure) continue;
+    unsure += (unsure.empty() ? "" : ", ") + std::string(name(bone));
+  }
+  if (!unsure.empty()) all.push_back("not sure: " + unsure);
+  return all;
+}
+
+Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
+  ReadBody body;
+  body.raw = std::move(raw);
+  Motion& motion = body.raw.motion;
+  const auto told = told_of(file, body);
+  if (!told) return told.error();
+  auto bones = retarget::identify_bones(motion.skeleton, *told);
+  if (!bones) return of_file(file.path, bones.error());
+  body.bones = *std::move(bones);
+  take_bound_pose(body);
+  if (const Status ok = hang(body); !ok) return of_file(file.path, ok.error());
+  if (!motion.poses.empty()) {
+    body.file_rest_stands = retarget::stands_at_rest(motion.skeleton, body.bones);
+    body.exchanged =
+        retarget::exchanged_sides(retarget::side_evidence(motion, body.bones));
+    if (!body.file_rest_stands && !told->up) {
+      body.guessed_up = retarget::up_of_motion(motion, body.bones);
+    }
+  }
+  const auto neutral =
+      set_neutral(file.neutral.value_or(Neutral{}), body.bones, motion, told->up);
+  if (!neutral) return of_file(file.path, neutral.error());
+  body.neutral = *neutral;
+  auto frame =
+      retarget::find_body_frame(motion.skeleton, body.raw.unit, *told, body.bones);
+  if (!frame) return of_file(file.path, frame.error());
+  body.frame = *std::move(frame);
+  retarget::mark(body.bones, motion.skeleton);
+  retarget::put_into_frame(body.frame, motion);
+  body.raw.ignored_translation_m *= body.frame.scale;
+  if (body.raw.mesh) {
+    put_into_frame(body.frame, *body.raw.mesh);
+    look_at_skin(*body.raw.mesh, body);
+  }
+  return body;
+}
+
+std::optional<Error> exchanged_sides_error(const std::filesystem::path& path,
+                                           retarget::ExchangedSides exchanged,
+                                           const std::string& map_option) {
+  using retarget::ExchangedSides;
+  if (exchanged == ExchangedSides::kNone) return std::nullopt;
+  const bool is_arms = exchanged == ExchangedSides::kArms;
+  const std::string cause =
+      is_arms ? "the arms have their left on the legs' right side: left and right of the "
+                "arms are exchanged"
+      : exchanged == ExchangedSides::kLegs
+          ? "knees bend and feet point backwards, and the arms have their left on the "
+            "other side: left and right of the legs are exchanged"
+          : "knees bend, feet point or the body walks backwards, against the front that "
+            "its left and right give: left and right are exchanged";
+  return Error{Errc::kQuality,
+               path.string(),
+               cause,
+               "exchange the names in a bone map (marey inspect " + path.string() +
+                   " --write-map MAP.toml stores one to edit) and give it with " +
+                   map_option};
+}
+
+Result<ReadBody> read_body(const BodyFile& file) {
+  auto raw = read_raw_body(file.path);
+  if (!raw) return raw.error();
+  return identify_body(*std::move(raw), file);
+}
+
+}  // namespace marey::app

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "app/motion/motion_files.h"
+#include "core/base/result.h"
+#include "core/humanoid.h"
+#include "core/motion.h"
+
+namespace marey::app {
+
+/// A file that write_motion_file() wrote.
+struct WrittenFile {
+  std::filesystem::path path;
+  MotionFormat format = MotionFormat::kGlb;
+  /// Length of the file's unit, of a .glb or a .bvh. [m]
+  double unit_m = 1.0;
+};
+
+/// Describes the file that write_motion_file() writes with these arguments.
+[[nodiscard]] WrittenFile written_file(const std::filesystem::path& out,
+                                       MotionFormat format,
+                                       const BodyLook& look,
+                                       const MotionFileOptions& options = {});
+
+/// Differences between a file that was read again and the motion that was written.
+struct RereadFigures {
+  /// The largest distance of a bone's joint from its place in the motion: heading,
+  /// facing, unit and posture in one figure. [m]
+  double worst_place_m = 0.0;
+  HumanBone worst_bone{};
+  int worst_frame = -1;  ///< -1: no joint was compared.
+  /// Of a .vrma: the largest distance that the format cannot hold, as joints that are no
+  /// bones of VRM move the bones below them nearer to those above. It is left out of
+  /// worst_place_m. [m]
+  double lost_m = 0.0;
+  HumanBone lost_bone{};
+  int lost_frame = -1;
+  /// World Y of the lowest vertex of the deformed skin in each frame [m]; empty: this
+  /// kind of file has no skin.
+  std::vector<double> lowest_skin_m;
+};
+
+/// Reads a written file again and compares each bone's place in the world with the
+/// nearest joint of the file. Returns nullopt for .csv and .mot, which hold no joints, and
+/// for .glb and .vrma of motions slower than 10 Hz whose rate does not divide 30 Hz.
+/// Cost: that of the reader; of a .glb also linear in frames times vertices.
+/// Errors: the readers'; a number of frames that is not the motion's.
+[[nodiscard]] Result<std::optional<RereadFigures>> reread_motion(const WrittenFile& file,
+                                                                 const Motion& motion);
+
+}  // namespace marey::app

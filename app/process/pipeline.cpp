@@ -1,0 +1,348 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/process/pipeline.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "app/check/check_body.h"
+#include "app/check/check_clocks.h"
+#include "app/check/check_ids.h"
+#include "app/check/check_session.h"
+#include "app/check/check_standing.h"
+#include "app/check/check_videos.h"
+#include "app/check/common_sigma.h"
+#include "app/check/find_moved_cameras.h"
+#include "app/check/turned_video.h"
+#include "app/motion/retarget_files.h"
+#include "app/motion/write_motion.h"
+#include "app/process/find_tags.h"
+#include "app/shell/version.h"
+#include "core/base/assert.h"
+#include "core/base/parallel.h"
+#include "core/base/stopwatch.h"
+#include "reconstruct/clusters/check_views.h"
+#include "reconstruct/subject/fit_subject.h"
+#include "recordings/session/subject_file.h"
+#include "recordings/text/atomic_file.h"
+
+namespace marey::app {
+namespace {
+
+using recordings::Trial;
+using recordings::TrialKind;
+
+Error missing_trial(const recordings::Session& session, TrialKind kind) {
+  return bad_input(
+      session.file.string(),
+      "there is no trial of kind \"" + std::string(recordings::name(kind)) + "\"",
+      "record one and add it as a [[trial]]");
+}
+
+/// Motions that are yet to be recorded are no obstacle to the others.
+void leave_out_unrecorded(recordings::Session& session, Console& console) {
+  std::erase_if(session.trials, [&](const Trial& trial) {
+    const bool left_out = trial.is_recorded && trial.kind == TrialKind::kMotion &&
+                          !recordings::has_recording(trial);
+    if (left_out) console.warn("trial " + trial.name + " is not recorded yet");
+    return left_out;
+  });
+}
+
+/// Removes the trials that a calibration does not need, as cameras are calibrated before
+/// the others are recorded. With a floor trial, the static trial may be missing too.
+void keep_for_calibration(recordings::Session& session, Console& console) {
+  const bool has_floor = session.find(TrialKind::kFloor) != nullptr;
+  std::erase_if(session.trials, [&](const Trial& trial) {
+    if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor) {
+      return false;
+    }
+    if (trial.kind != TrialKind::kStatic) return true;
+    const bool is_left_out =
+        has_floor && (trial.is_recorded ? !recordings::has_recording(trial)
+                                        : !recordings::has_video(trial));
+    if (is_left_out) {
+      console.warn("trial " + trial.name +
+                   " is not recorded yet: the floor is not checked against a standing "
+                   "subject");
+    }
+    return is_left_out;
+  });
+}
+
+/// Reports what session.toml alone shows to be missing.
+Status check_before(Stage stage, const recordings::Session& session) {
+  if (stage == Stage::kTrack) return Done{};
+  if (stage != Stage::kSolve) {
+    if (const Status ok = check_calibrated_cameras(session); !ok) return ok;
+  }
+  return stage == Stage::kCalibrate ? Status(Done{}) : check_worn_segments(session);
+}
+
+/// What a stage, and those before it, must find in the session.
+std::vector<TrialKind> kinds_for(Stage stage) {
+  switch (stage) {
+    case Stage::kTrack:
+      return {};
+    case Stage::kCalibrate:
+      return {TrialKind::kCalibration};
+    case Stage::kSolve:
+    case Stage::kProcess:
+      return {TrialKind::kCalibration,
+              TrialKind::kStatic,
+              TrialKind::kRangeOfMotion,
+              TrialKind::kMotion};
+  }
+  return {};
+}
+
+}  // namespace
+
+Pipeline::Pipeline(recordings::Session session, PipelineOptions options, Console& console)
+    : session_(std::move(session)), options_(std::move(options)), console_(&console) {
+  report_.session = session_.name;
+  report_.version = kVersion;
+}
+
+Result<Pipeline> Pipeline::open(Stage stage,
+                                const PipelineOptions& options,
+                                Console& console) {
+  auto session = recordings::read_session(options.session, {options.media});
+  if (!session) return session.error();
+  leave_out_unrecorded(*session, console);
+  if (stage == Stage::kCalibrate) keep_for_calibration(*session, console);
+  for (const auto& [word, lens] : recordings::kLensWords) {
+    if (options.lens == word) session->calibration.lens = lens;
+  }
+  for (const TrialKind kind : kinds_for(stage)) {
+    if (!session->find(kind)) return missing_trial(*session, kind);
+  }
+  if (const Status ok = check_before(stage, *session); !ok) return ok.error();
+  if (const Status ok = recordings::check_files(*session); !ok) return ok.error();
+  if (const auto warning = uneven_sides_warning(*session)) console.warn(*warning);
+  RecordingTroubles troubles;
+  if (const Status ok = check_videos(*session, troubles); !ok) return ok.error();
+  for (const std::string& warning : troubles.warnings) console.warn(warning);
+  std::set<std::string> names{"motion"};
+  for (const auto& avatar : options.avatars) {
+    if (!names.insert(avatar.stem().string()).second) {
+      return bad_input(avatar.string(),
+                       "two results would be called \"" + avatar.stem().string() + "\"",
+                       "rename the avatar's file: results are named after it");
+    }
+    if (const Status ok = check_avatar(avatar); !ok) return ok.error();
+  }
+  return Pipeline(std::move(*session), options, console);
+}
+
+std::vector<const Trial*> Pipeline::motion_trials() const {
+  std::vector<const Trial*> trials;
+  for (const Trial& trial : session_.trials) {
+    if (trial.kind == TrialKind::kMotion) trials.push_back(&trial);
+  }
+  return trials;
+}
+
+Error Pipeline::in_session(Error error) const {
+  const std::string file = session_.file.string();
+  if (error.where.empty()) {
+    error.where = file;
+  } else if (error.where.front() == '[') {
+    error.where = file + ": " + error.where;
+  }
+  return error;
+}
+
+void Pipeline::time_stage(const std::string& name, double seconds) {
+  report_.timings.push_back({name, seconds});
+}
+
+Status Pipeline::track() {
+  const Stopwatch watch;
+  std::set<std::string> lost;
+  for (const Trial& trial : session_.trials) {
+    const Status ok = track_trial(trial);
+    if (ok) continue;
+    if (trial.kind != TrialKind::kMotion) return ok;
+    // Other motions can do without this one.
+    report_.warnings.push_back(ok.error().message());
+    failures_.push_back(ok.error());
+    lost.insert(trial.name);
+  }
+  std::erase_if(session_.trials, [&](const Trial& t) { return lost.contains(t.name); });
+  if (!lost.empty() && motion_trials().empty()) {
+    const Error error = failures_.back();
+    failures_.pop_back();
+    return error;
+  }
+  time_stage("tags", watch.seconds());
+  RecordingTroubles troubles;
+  const Status ok = check_ids(session_, detections_, troubles);
+  for (std::string& warning : troubles.warnings) {
+    report_.warnings.push_back(std::move(warning));
+  }
+  return ok;
+}
+
+Status Pipeline::track_trial(const Trial& trial) {
+  if (detections_.contains(trial.name)) return Done{};
+  RecordingTroubles troubles;
+  auto found = find_tags(session_, trial, options_.out, *console_, troubles);
+  if (!found) return found.error();
+  for (const std::string& warning : troubles.warnings) {
+    report_.warnings.push_back(warning);
+  }
+  for (const Error& failure : troubles.failures) {
+    report_.warnings.push_back(failure.message());
+    failures_.push_back(failure);
+  }
+  for (const auto& [name, earlier] : detections_) {
+    if (const Status ok = check_picture_sizes(earlier, *found); !ok) return ok;
+  }
+  detections_[trial.name] = std::move(*found);
+  return Done{};
+}
+
+Result<std::vector<CameraDetections>> Pipeline::detections_of(const Trial& trial) {
+  if (const Status ok = track_trial(trial); !ok) return ok.error();
+  return detections_.at(trial.name);
+}
+
+Result<std::vector<CameraDetections>> Pipeline::unshrunk_detections_of(
+    const Trial& trial) {
+  auto detections = detections_of(trial);
+  if (!detections) return detections.error();
+  take_off_shrinkage(cameras_, *detections);
+  return detections;
+}
+
+Status Pipeline::check_trials() {
+  double least_known_m = 0.0;
+  for (const ReportCamera& camera : report_.cameras) {
+    least_known_m = std::max(least_known_m, camera.quality.centre_sigma_m);
+  }
+  for (const Trial& trial : session_.trials) {
+    if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor)
+      continue;
+    const auto detections = unshrunk_detections_of(trial);
+    if (!detections) return detections.error();
+    const Status ok = reconstruct::check_views(cameras_, *detections, session_.tags);
+    if (!ok) {
+      const auto turned = find_turned_video(cameras_, *detections, session_.tags);
+      return in_session(turned ? *turned : ok.error());
+    }
+    if (auto wrong =
+            check_offsets(session_, trial, cameras_, *detections, least_known_m)) {
+      report_.warnings.push_back(wrong->message());
+      failures_.push_back(std::move(*wrong));
+      poor_trials_.insert(trial.name);
+    }
+    const auto moved =
+        find_moved_cameras(trial.name, cameras_, *detections, session_.tags);
+    if (!moved) continue;
+    report_.warnings.push_back(moved->error.message());
+    if (!moved->is_poor) continue;
+    failures_.push_back(moved->error);
+    poor_trials_.insert(trial.name);
+  }
+  return Done{};
+}
+
+Status Pipeline::fit() {
+  if (const Status ok = need_cameras(); !ok) return ok;
+  const Trial* standing_trial = session_.find(TrialKind::kStatic);
+  const Trial* moving_trial = session_.find(TrialKind::kRangeOfMotion);
+  MAREY_ASSERT(standing_trial && moving_trial);
+  const auto standing = unshrunk_detections_of(*standing_trial);
+  if (!standing) return standing.error();
+  const auto moving = unshrunk_detections_of(*moving_trial);
+  if (!moving) return moving.error();
+  // Every trial, before the long work: who swapped two videos wants to know now.
+  if (const Status ok = check_trials(); !ok) return ok;
+  if (const auto warning = exchanged_exercise_warning(session_, detections_)) {
+    report_.warnings.push_back(*warning);
+  }
+  const Stopwatch watch;
+  const reconstruct::SubjectPrior prior{session_.subject.name,
+                                        session_.subject.stature_m,
+                                        session_.subject.mass_kg,
+                                        session_.tags};
+  const auto fit = reconstruct::fit_subject(
+      prior, cameras_, *standing, *moving, console_->stage("subject"));
+  if (!fit) return in_session(fit.error());
+  body_ = fit->body;
+  report_.subject_rms_px = fit->rms_px;
+  report_.limb_ratio = fit->limb_ratio;
+  for (const Error& warning : fit->warnings) {
+    const Error told = in_session(warning);
+    report_.warnings.push_back(told.message());
+    failures_.push_back(told);
+  }
+  for (const std::string& warning : body_warnings(*body_)) {
+    report_.warnings.push_back(session_.file.string() + ": " + warning);
+  }
+  for (const TagId id : fit->unplaced) {
+    report_.unplaced_tags.push_back(number(id));
+    report_.warnings.push_back(
+        "tag " + std::to_string(number(id)) +
+        " was never seen well enough to be placed: it is not used");
+  }
+  time_stage("subject", watch.seconds());
+  return recordings::write_subject(options_.out / "subject.toml", *body_);
+}
+
+Status Pipeline::need_body() {
+  if (const Status ok = need_cameras(); !ok) return ok;
+  // Read back even when this run wrote it: a stage sees the same numbers either way.
+  auto body = recordings::read_subject(options_.out / "subject.toml");
+  if (!body) return body.error();
+  body_ = std::move(*body);
+  report_.subject = *body_;
+  return Done{};
+}
+
+Result<reconstruct::SolvedTrial> Pipeline::solve_trial(const Trial& trial,
+                                                       const Progress& progress) {
+  const auto detections = unshrunk_detections_of(trial);
+  if (!detections) return detections.error();
+  // A camera without a video in this trial keeps its place, and stays silent.
+  reconstruct::SolveMotionOptions options;
+  std::vector<CameraQuality> quality;
+  for (const ReportCamera& camera : report_.cameras) quality.push_back(camera.quality);
+  options.camera_sigma_m = common_sigma_m(quality);
+  auto solved =
+      reconstruct::solve_motion(*body_, cameras_, *detections, options, progress);
+  if (!solved) return in_session(solved.error());
+  return solved;
+}
+
+Status Pipeline::solve() {
+  if (const Status ok = need_body(); !ok) return ok;
+  const std::vector<const Trial*> trials = motion_trials();
+  for (const Trial* trial : trials) {
+    if (const Status ok = track_trial(*trial); !ok) return ok;
+  }
+  const Stopwatch watch;
+  std::vector<std::optional<Result<reconstruct::SolvedTrial>>> results(trials.size());
+  in_parallel(trials.size(), 0, [&](std::size_t i) {
+    results[i] = solve_trial(*trials[i], console_->stage("motion of " + trials[i]->name));
+  });
+  time_stage("motion", watch.seconds());
+  const Stopwatch writing;
+  motions_.clear();
+  for (std::size_t i = 0; i < trials.size(); ++i) {
+    if (!*results[i]) return results[i]->error();
+    motions_.push_back({trials[i], std::move(**results[i]), {}});
+    const std::filesystem::path folder = options_.out / trials[i]->name;
+    const reconstruct::SolvedTrial& solved = motions_.back().solved;
+    const Status written = write_motion(folder, solved.estimate, body_->proportions);
+    if (!written) return written;
+    const Status tags = write_tag_markers(folder, *body_, solved);
+    if (!tags) return tags;
+  }
+  time_stage("files", writing.seconds());
+  return assess_standing();
+}
+
+}  // namespace marey::app

@@ -1,0 +1,147 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The line's second stage: from what was seen of a board, or a wand, to cameras.
+#include <algorithm>
+#include <utility>
+
+#include "app/check/check_standing.h"
+#include "app/pages/calibration_figures.h"
+#include "app/pages/calibration_html.h"
+#include "app/process/calibrate_session.h"
+#include "app/process/find_tags.h"
+#include "app/process/pipeline.h"
+#include "app/process/stand_on_floor.h"
+#include "app/shell/version.h"
+#include "calib/quality/calibration_report.h"
+#include "calib/quality/check_calibration.h"
+#include "calib/quality/report_calibration.h"
+#include "core/base/assert.h"
+#include "core/base/stopwatch.h"
+#include "reconstruct/clusters/check_views.h"
+#include "recordings/session/calibration_file.h"
+#include "recordings/text/atomic_file.h"
+
+namespace marey::app {
+
+using recordings::Trial;
+using recordings::TrialKind;
+
+Result<CalibrationSights> Pipeline::calibration_sights() {
+  CalibrationSights sights;
+  for (const auto& [kind, place] : {std::pair(TrialKind::kCalibration, &sights.waved),
+                                    std::pair(TrialKind::kFloor, &sights.floor),
+                                    std::pair(TrialKind::kStatic, &sights.standing)}) {
+    const Trial* trial = session_.find(kind);
+    if (!trial) continue;
+    auto found = detections_of(*trial);
+    if (!found) return found.error();
+    *place = std::move(*found);
+  }
+  const Trial* waved = session_.find(TrialKind::kCalibration);
+  MAREY_ASSERT(waved);
+  for (const CameraDetections& camera : sights.waved) {
+    if (!camera.frames.empty()) continue;
+    return bad_input(
+        session_.file.string(),
+        "camera \"" + session_.cameras[index(camera.camera)] +
+            "\" has no video in trial \"" + waved->name + "\"",
+        "every camera must see what cameras are calibrated with: add its video, or take "
+        "the camera out of the session");
+  }
+  return sights;
+}
+
+/// Whether the subject who stands still is as large as was said, and upright. Who
+/// measured the board wrongly wants no cameras from it.
+Status Pipeline::check_subject(const SessionRig& found,
+                               std::vector<CameraDetections> standing) const {
+  if (standing.empty() || session_.tags.empty()) return Done{};
+  const auto& cameras = found.rig.cameras;
+  take_off_shrinkage(cameras, standing);
+  const Status ok = reconstruct::check_views(cameras, standing, session_.tags);
+  return ok ? check_upright(session_, cameras, standing) : ok;
+}
+
+Status Pipeline::calibrate() {
+  auto sights = calibration_sights();
+  if (!sights) return sights.error();
+  // First, as a subject that walks would look like a tilted floor.
+  if (const Status ok = check_standing(session_, detections_); !ok) return ok;
+  const Stopwatch watch;
+  const Progress progress = console_->stage("cameras");
+  auto found = calibrate_session(session_, *sights, progress);
+  if (!found) return in_session(found.error());
+  const calib::CalibratedRig& rig = found->rig;
+  if (const Status ok = check_subject(*found, std::move(sights->standing)); !ok) {
+    return in_session(ok.error());
+  }
+  for (const std::string& note : found->notes) console_->say(note);
+  recordings::Calibration calibration{rig.cameras, rig.quality, {}, rig.rms_px};
+  for (const calib::SolvedClock& clock : rig.clocks) {
+    calibration.clocks.push_back({clock.offset_s, 1e6 * clock.drift, clock.line_delay_s});
+  }
+  time_stage("cameras", watch.seconds());
+  const Status written =
+      recordings::write_calibration(options_.out / "calibration.toml", calibration);
+  if (!written) return written;
+  const Status shown = show_cameras(std::move(*found), sights->waved.front().rate.hz);
+  return shown ? need_cameras() : shown;
+}
+
+Status Pipeline::show_cameras(SessionRig found, double rate_hz) {
+  const calib::CalibrationReport report =
+      calib::report_calibration({session_.name,
+                                 kVersion,
+                                 &session_.target,
+                                 session_.subject.stature_m,
+                                 rate_hz,
+                                 found.has_floor},
+                                std::move(found.rig));
+  for (Error& poor : calib::poor_of(report)) {
+    report_.warnings.push_back(poor.message());
+    failures_.push_back(std::move(poor));
+  }
+  for (std::string& warning : calib::warnings_of(report)) {
+    report_.warnings.push_back(std::move(warning));
+  }
+  report_.cameras_are_judged = true;
+  const Status written =
+      recordings::write_file(options_.out / "calibration.json", calibration_json(report));
+  if (!written) return written;
+  return recordings::write_file(options_.out / "calibration.html",
+                                calibration_html(report));
+}
+
+Status Pipeline::need_cameras() {
+  const auto file = options_.out / "calibration.toml";
+  const auto calibration = recordings::read_calibration(file);
+  if (!calibration) {
+    Error error = calibration.error();
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) {
+      error.next = "run marey calibrate on this session first, with the same --out";
+    }
+    return error;
+  }
+  report_.calibration_rms_px = calibration->rms_px;
+  report_.cameras.clear();
+  for (std::size_t c = 0; c < calibration->cameras.size(); ++c) {
+    report_.cameras.push_back({calibration->cameras[c], calibration->quality[c]});
+  }
+  cameras_.clear();
+  for (const std::string& name : session_.cameras) {
+    const auto found = std::find_if(calibration->cameras.begin(),
+                                    calibration->cameras.end(),
+                                    [&](const Camera& c) { return c.name == name; });
+    if (found == calibration->cameras.end()) {
+      return bad_input(file.string(),
+                       "camera \"" + name + "\" of the session is not in it",
+                       "run marey calibrate on this session again");
+    }
+    cameras_.push_back(*found);
+  }
+  return Done{};
+}
+
+}  // namespace marey::app

@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/record/camera_recorder.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace marey::app {
+namespace {
+
+using capture::DeviceSettings;
+using capture::PixelFormat;
+using capture::RawFrame;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kListen{200};
+/// A frame that no other follows so soon goes to the disk without them. With
+/// MjpgVideoOptions::flush_every that is half a second at most.
+constexpr milliseconds kIdle{100};
+
+recordings::RawLayout layout_of(PixelFormat format) {
+  switch (format) {
+    case PixelFormat::kYuyv:
+      return recordings::RawLayout::kYuyv;
+    case PixelFormat::kNv12:
+      return recordings::RawLayout::kNv12;
+    case PixelFormat::kMjpg:
+    case PixelFormat::kGrey:
+      break;
+  }
+  return recordings::RawLayout::kGrey;
+}
+
+bool pack_alike(const DeviceSettings& a, const DeviceSettings& b) {
+  return a.format == b.format && a.width_px == b.width_px && a.height_px == b.height_px &&
+         a.stride == b.stride;
+}
+
+/// Whether a picture can be packed as the driver says.
+bool can_be(const DeviceSettings& settings) {
+  if (settings.width_px <= 0 || settings.height_px <= 0) return false;
+  if (settings.format == PixelFormat::kMjpg) return true;
+  const int bytes = settings.format == PixelFormat::kYuyv ? 2 : 1;
+  return settings.width_px % 2 == 0 && settings.stride / bytes >= settings.width_px &&
+         (settings.format != PixelFormat::kNv12 || settings.height_px % 2 == 0);
+}
+
+}  // namespace
+
+FrameRate rate_of(const DeviceSettings& settings) {
+  return settings.rate.hz > 0.0 ? settings.rate : FrameRate{30.0};
+}
+
+CameraRecorder::CameraRecorder(int number,
+                               const RecordedCamera& camera,
+                               const RecordOptions& options,
+                               recordings::TakeWriter& take)
+    : number_(number),
+      name_(camera.name),
+      feed_(*camera.feed),
+      settings_(camera.feed->settings()),
+      queue_(options.queue_frames, options.queue_bytes),
+      take_(take) {}
+
+Status CameraRecorder::open(const std::filesystem::path& video) {
+  if (!can_be(settings_)) {
+    return Error{Errc::kDevice,
+                 "camera " + name_,
+                 "its driver speaks of " + std::to_string(settings_.width_px) + "x" +
+                     std::to_string(settings_.height_px) + " pictures in " +
+                     capture::name(settings_.format) + " with " +
+                     std::to_string(settings_.stride) +
+                     " bytes a row, which cannot be recorded",
+                 "choose another width and height for it in session.toml; marey doctor "
+                 "lists those it has"};
+  }
+  if (settings_.format != PixelFormat::kMjpg) {
+    auto encoder = recordings::JpegEncoder::create(layout_of(settings_.format),
+                                                   settings_.width_px,
+                                                   settings_.height_px,
+                                                   settings_.stride);
+    if (!encoder) return encoder.error();
+    encoder_.emplace(std::move(*encoder));
+  }
+  recordings::MjpgVideoOptions options;
+  options.width_px = settings_.width_px;
+  options.height_px = settings_.height_px;
+  options.rate = rate_of(settings_);
+  auto made = recordings::MjpgVideo::create(video, options);
+  if (!made) return made.error();
+  video_.emplace(std::move(*made));
+  return Done{};
+}
+
+void CameraRecorder::listen(const std::stop_token& stop, Timestamp begin) {
+  while (!stop.stop_requested()) {
+    const auto frame = feed_.next(kListen);
+    for (capture::FeedEvent& event : feed_.events()) {
+      take_.note({number_, event.time, std::move(event.text)});
+    }
+    // Cameras stream since they were opened, into buffers that nobody emptied: what lies
+    // there, and what found no room there, is not of this take.
+    if (frame && frame->time >= begin) take_frame(*frame);
+  }
+  queue_.close();
+}
+
+void CameraRecorder::take_frame(const RawFrame& frame) {
+  const int dropped_before = has_received_ ? frame.dropped_before : 0;
+  has_received_ = true;
+  dropped_ += dropped_before;
+  lost_ += dropped_before;
+  const bool fits = pack_alike(feed_.settings(), settings_);
+  if (!fits && !has_warned_of_change_) {
+    take_.note({number_, frame.time, "it came back with another size or format"});
+    has_warned_of_change_ = true;
+  }
+  recordings::TakeFrame stamp;
+  stamp.time = frame.time;
+  stamp.time_is_arrival = frame.time_is_arrival;
+  stamp.sequence = frame.sequence;
+  stamp.damaged = frame.damaged;
+  stamp.dropped_before = lost_;
+  const bool usable = fits && !frame.bytes.empty();
+  if (usable) last_time_ = frame.time;
+  if (usable && queue_.push(frame.bytes, stamp)) {
+    lost_ = 0;
+    return;
+  }
+  ++lost_;
+  ++dropped_;
+  if (usable) ++unsaved_;
+}
+
+void CameraRecorder::write(Timestamp begin) {
+  while (!queue_.is_over()) {
+    const QueuedFrame* frame = queue_.pop(kIdle);
+    if (error_) {
+      unwritten_ += frame != nullptr ? 1 : 0;
+    } else if (frame != nullptr) {
+      write_one(*frame, begin);
+    } else if (const Status ok = video_->flush(); !ok) {
+      fail(ok.error());
+    }
+  }
+  if (error_) return;
+  if (const Status ended = video_->finish(); !ended) fail(ended.error());
+}
+
+void CameraRecorder::write_one(const QueuedFrame& frame, Timestamp begin) {
+  const auto jpeg = encoder_ ? encoder_->encode(frame.bytes) : frame.bytes;
+  recordings::TakeFrame stamp = frame.stamp;
+  stamp.dropped_before += unencoded_pending_;
+  if (jpeg.empty()) {
+    unencoded_pending_ = stamp.dropped_before + 1;
+    ++unwritten_;
+    return;
+  }
+  unencoded_pending_ = 0;
+  // An arrival is later than the stamp of the next frame may be.
+  stamp.time = last_written_ = std::max(last_written_, stamp.time);
+  if (const Status ok = video_->write(jpeg, stamp.time - begin); !ok) {
+    ++unwritten_;
+    fail(ok.error());
+    return;
+  }
+  take_.add(number_, stamp);
+  ++frames_;
+}
+
+void CameraRecorder::fail(const Error& error) {
+  error_ = error;
+  take_.note({number_, last_written_, error.message()});
+}
+
+std::optional<Error> CameraRecorder::trouble(Timestamp end) const {
+  const std::string where = "camera " + name_;
+  if (error_) return error_;
+  if (has_warned_of_change_) {
+    return Error{Errc::kDevice,
+                 where,
+                 "it came back with another size or format, of which no frames were kept",
+                 "see what marey doctor says of it, and record again"};
+  }
+  if (frames_ == 0) {
+    return Error{Errc::kDevice,
+                 where,
+                 "not a single frame came from it",
+                 "see what marey doctor says of it"};
+  }
+  constexpr double kLongest_s = 1.0;
+  constexpr double kMaxPeriods = 3.0;
+  const double missing_s = seconds(end - *last_time_);
+  if (missing_s <= std::max(kLongest_s, kMaxPeriods / rate_of(settings_).hz)) {
+    return std::nullopt;
+  }
+  return Error{Errc::kDevice,
+               where,
+               "no frames came from it in the last " +
+                   std::to_string(static_cast<long>(missing_s)) + " s of the take",
+               "see its plug and cable, and record again; until then the take has it"};
+}
+
+CameraSummary CameraRecorder::summary(Timestamp end) const {
+  return {name_, frames_, dropped_ + unwritten_, unsaved_, trouble(end)};
+}
+
+}  // namespace marey::app

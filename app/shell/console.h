@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <string>
+
+#include "core/base/progress.h"
+#include "core/base/result.h"
+
+namespace marey::app {
+
+/// Exit codes of every command (docs/formats/README.md).
+enum class Exit {
+  kOk = 0,
+  kInternal = 1,
+  kUsage = 2,
+  kBadInput = 3,
+  kQualityGate = 4,
+  kDevice = 5,
+  kInterrupted = 130,
+};
+
+[[nodiscard]] Exit exit_for(Errc code);
+
+enum class ProgressStyle {
+  kAuto,   ///< A bar on a terminal, lines otherwise.
+  kJson,   ///< One JSON object a line; warnings and errors too.
+  kQuiet,  ///< None.
+};
+
+/// What the user sees on standard error. Standard output is for data.
+/// Thread-safe: workers of one stage may report together.
+class Console {
+ public:
+  explicit Console(ProgressStyle style);
+
+  /// A listener for one stage; `label` is a word or two.
+  [[nodiscard]] Progress stage(const std::string& label);
+  void say(const std::string& text);
+  void warn(const std::string& text);
+  /// Tells the error and gives the exit code it deserves.
+  Exit fail(const Error& error);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void show(const std::string& label, int done, int total, Clock::time_point start);
+  void clear_bar();
+
+  ProgressStyle style_;
+  bool terminal_ = false;
+  bool bar_shown_ = false;
+  Clock::time_point last_shown_{};
+  std::mutex mutex_;
+};
+
+}  // namespace marey::app

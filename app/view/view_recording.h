@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/marker_tracks.h"
+#include "core/motion.h"
+#include "live/page/page_scene.h"
+#include "retarget/balance/measure_balance.h"
+
+namespace marey::app {
+
+/// A glTF file in which a figure is drawn.
+struct FigureSkin {
+  std::filesystem::path file;  ///< .glb or .vrm.
+  std::vector<int> node_of_joint;
+  double unit_from_m = 1.0;
+  glm::dquat marey_from_file{1.0, 0.0, 0.0, 0.0};
+};
+
+/// A body that moves. Its frames begin with the recording's.
+struct ViewedFigure {
+  std::string name;
+  live::PageSkeletonKind kind = live::PageSkeletonKind::kMotion;
+  Motion motion;
+  std::vector<std::vector<JointUncertainty>>
+      uncertainty{};                              ///< [frame][joint], or empty.
+  std::vector<retarget::BalanceFrame> balance{};  ///< Likewise.
+  std::optional<FigureSkin> skin{};
+};
+
+/// Everything that `marey view` shows of a recording.
+struct ViewedRecording {
+  std::string title;
+  FrameRate rate;
+  int first_frame = 0;
+  int frames = 1;
+  std::vector<ViewedFigure> figures;
+  std::optional<MarkerTracks> points;
+  std::vector<live::PageCamera> cameras;
+  std::vector<live::PageTrack> tracks;
+  std::vector<live::PageContact> contacts;
+  std::vector<live::PageGraph> graphs;
+  std::vector<live::PageNote> notes;
+  std::vector<std::string> remarks;  ///< For who started it.
+};
+
+/// Adds a frame that was not measured to a track; frames come in order.
+inline void add_gap(live::PageTrack& track, int frame, Source source) {
+  if (source == Source::kMeasured) return;
+  auto& gaps = track.gaps;
+  if (!gaps.empty() && gaps.back().source == source &&
+      gaps.back().span.last == frame - 1) {
+    gaps.back().span.last = frame;
+  } else {
+    gaps.push_back({{frame, frame}, source});
+  }
+}
+
+}  // namespace marey::app

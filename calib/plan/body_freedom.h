@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// Private to calib: degrees of freedom of a planned body, to first order, and their
+// priors. The unknowns, their priors and their speeds are those of marey's own solver
+// (reconstruct/posture/posture.h, posture_terms.cpp); other priors would predict errors
+// that the solver does not achieve.
+
+#include <array>
+
+#include <Eigen/Dense>
+
+#include "calib/plan/planned_body.h"
+
+namespace marey::calib {
+
+/// Columns of a posture: position of the hips, then rotation vectors in the world of
+/// hips, end of the abdomen, thorax, neck, head and collar bones; per limb its frame (3),
+/// flexion, twist of the upper and of the lower bone, and its extremity (3).
+inline constexpr int kPostureColumns = 60;
+/// Lengths that a subject's fit solves for: trunk and neck (5), half the hips' width,
+/// collar bones, then upper and lower bone of each limb by pairs, left before right.
+inline constexpr int kLengthColumns = 16;
+/// Origins of the collar bones on the rib cage, left and right: not observable from tags,
+/// so average values are used.
+inline constexpr int kBaseColumns = 6;
+/// Positions of small body parts are known to about 1 cm.
+inline constexpr double kBaseSigma_m = 0.012;
+
+using PostureMatrix = Eigen::Matrix<double, kPostureColumns, kPostureColumns>;
+using PostureVector = Eigen::Matrix<double, kPostureColumns, 1>;
+
+/// Derivatives of each bone's frame by the columns.
+struct BodyMotion {
+  std::array<Eigen::Matrix<double, 3, kPostureColumns>, kHumanBoneCount> spin;
+  std::array<Eigen::Matrix<double, 3, kPostureColumns>, kHumanBoneCount> origin;
+  std::array<Eigen::Matrix<double, 3, kLengthColumns>, kHumanBoneCount> origin_by_length;
+  std::array<Eigen::Matrix<double, 3, kBaseColumns>, kHumanBoneCount> origin_by_base;
+};
+
+/// Computes the derivatives. Precondition: `place` is a posture of `body` whose upper
+/// limbs are not twisted out of the plane in which the limb bends.
+[[nodiscard]] BodyMotion motion_of(const PlannedBody& body, const BodyPlace& place);
+
+/// Rows of the posture prior, in sigmas; for example, elbow flexion of 0.3 with a sigma
+/// of 1.
+using PosturePriorRows = Eigen::Matrix<double, Eigen::Dynamic, kPostureColumns>;
+
+/// Returns the posture prior. `arm_twist_rad`: rotation of an arm's skin about its bone.
+[[nodiscard]] PosturePriorRows posture_prior_rows(const BodyPlace& place,
+                                                  const BodyMotion& motion,
+                                                  double arm_twist_rad);
+
+/// Returns the additional prior of a subject who was asked to stand still and upright.
+[[nodiscard]] PosturePriorRows standing_prior_rows(const BodyPlace& place,
+                                                   const BodyMotion& motion);
+
+/// Prior of the step of each column from frame to frame: `keeps` times the previous step,
+/// with standard deviation `sigma`.
+struct StepPrior {
+  PostureVector sigma;
+  PostureVector keeps;
+};
+
+[[nodiscard]] StepPrior step_prior(double rate_hz);
+
+/// Returns the information on lengths from anthropometry and from left-right symmetry.
+[[nodiscard]] Eigen::Matrix<double, kLengthColumns, kLengthColumns> typical_lengths(
+    const PlannedBody& body);
+
+}  // namespace marey::calib

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calib/quality/calibration_report.h"
+#include "core/base/format_text.h"
+
+namespace marey::calib {
+
+/// A finding that several cameras may share.
+struct SharedFinding {
+  Finding finding;  ///< Text used when the finding covers one camera.
+  /// The value of each camera: "19 %". Empty: the finding is never shared.
+  std::string figure;
+  std::string cause;  ///< Text used when the finding covers several cameras.
+};
+
+/// Collects findings and formats their values.
+struct FindingList {
+  const CalibrationReport& report;
+  std::vector<SharedFinding> found;
+
+  void add(Severity severity,
+           const char* kind,
+           std::string where,
+           std::string cause,
+           std::string next) {
+    found.push_back(
+        {{severity, kind, std::move(where), std::move(cause), std::move(next)}, "", ""});
+  }
+  /// Adds a finding that several cameras may have. `cause_of_many` follows their names
+  /// and values in the text.
+  void add_shared(Severity severity,
+                  const char* kind,
+                  std::size_t c,
+                  std::string cause,
+                  std::string next,
+                  std::string figure,
+                  std::string cause_of_many) {
+    add(severity, kind, camera(c), std::move(cause), std::move(next));
+    found.back().figure = report.rig.cameras[c].name + " (" + figure + ")";
+    found.back().cause = std::move(cause_of_many);
+  }
+
+  [[nodiscard]] std::string camera(std::size_t c) const {
+    return "camera " + report.rig.cameras[c].name;
+  }
+  [[nodiscard]] std::string both(std::size_t a, std::size_t b) const {
+    return "cameras " + report.rig.cameras[a].name + " and " + report.rig.cameras[b].name;
+  }
+  [[nodiscard]] const char* target() const { return report.extent ? "board" : "wand"; }
+};
+
+/// Returns kPoor if `value` exceeds its limit, else kFair.
+[[nodiscard]] inline Severity severity_of(double value, double poor_above) {
+  return value > poor_above ? Severity::kPoor : Severity::kFair;
+}
+
+}  // namespace marey::calib

@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calib/model/calibrated_rig.h"
+#include "core/base/progress.h"
+#include "core/base/result.h"
+#include "core/board.h"
+#include "core/camera.h"
+#include "core/detection.h"
+
+namespace marey::calib {
+
+struct CalibrateOptions {
+  LensModel lens = LensModel::kBrownConrady;
+  /// Replaces `lens` by the model with the lowest error on odd frames after a fit to the
+  /// even frames. Applies to cameras without a given lens; free if all are given.
+  bool choose_lens = false;
+  /// Per camera: its lens if it is already known; it is held fixed. Empty: none is known.
+  std::vector<std::optional<Intrinsics>> lenses{};
+  /// For cameras that were started separately: estimate the clock offsets relative to the
+  /// first camera from the board's motion, and optionally the drifts and the delay from
+  /// one sensor row to the next. Needs detections with rates above zero.
+  bool solve_offsets = false;
+  bool solve_drifts = false;
+  bool solve_line_delays = false;
+  /// Replaces solve_offsets and solve_drifts: both are solved for if the cameras turn out
+  /// not to share one clock. Cameras with different rates never share one. Needs rates
+  /// too.
+  bool choose_clocks = false;
+  double max_offset_s = 5.0;  ///< Search range of the offsets, in both directions.
+  /// Tests whether the board is bent (CalibratedRig::warp_m); doubles the time.
+  bool find_warp = false;
+  /// Fills CalibratedRig::cross_validation; multiplies the time.
+  bool cross_validate = false;
+  /// Called as parts of the work finish.
+  Progress progress{};
+};
+
+/// Calibrates all cameras together from a board that is waved through the volume and then
+/// lies on the floor. One bundle adjustment computes intrinsics and poses, and the
+/// quantities that the options select.
+///
+/// World: right-handed, Y up, metres, origin at the board's origin on the floor, X along
+/// its x, Z = -(board y). Without any floor detections, the origin is the first camera's
+/// centre, X its right, Y its up.
+///
+/// `names` per camera, for messages. `waved` and `floor` have one entry per camera, in
+/// the same order; `floor` may be empty. All frames of one index were taken at the same
+/// time, unless offsets are solved for. Floor frames need no common time, as nothing
+/// moves in them. A clock that was solved for has a sigma above zero
+/// (CalibratedRig::clocks).
+/// Errors (kBadInput): a camera that never sees the board, or sees too little of it;
+/// groups of cameras that never see the board together; no board in the floor detections;
+/// two floor files swapped or a camera moved between the trials; a board that lies face
+/// down or is mirrored; a bundle that does not converge or ends with a median corner
+/// error above 2.5 px (wrong board geometry); tags whose size does not match the gaps
+/// between them.
+/// Cost: a few seconds for four cameras and a hundred frames. Preconditions: the board is
+/// not a wand (calibrate_wand()); given lenses match the image sizes of their cameras;
+/// rates are above zero if clocks are solved for or chosen.
+[[nodiscard]] Result<CalibratedRig> calibrate_cameras(
+    std::span<const std::string> names,
+    std::span<const CameraDetections> waved,
+    std::span<const CameraDetections> floor,
+    const CalibrationTarget& board,
+    const CalibrateOptions& options = {});
+
+}  // namespace marey::calib

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/base/ids.h"
+#include "core/base/time.h"
+
+namespace marey::capture {
+
+/// First and last frame, both included, counted from 0.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+};
+
+/// One camera's recording of a trial.
+struct CameraInput {
+  std::filesystem::path path;  ///< A video, or a folder of images.
+  CameraId camera{};
+  std::string name;                 ///< Name for messages; the path if empty.
+  std::optional<FrameRate> rate;    ///< Overrides the container's; a folder needs it.
+  Timestamp offset{0};              ///< Frame k was exposed at k / rate + offset.
+  std::optional<FrameRange> range;  ///< All frames when absent.
+};
+
+}  // namespace marey::capture

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "live/udp/udp_listener.h"
+
+#include <algorithm>
+
+#include <poll.h>
+#include <sys/socket.h>
+
+namespace marey::live {
+namespace {
+
+constexpr std::size_t kLargestPacket = 65535;
+// Some hundred frames: what comes while the program is busy elsewhere. The kernel may
+// give less, and then old frames are lost, which is as well.
+constexpr int kBufferBytes = 1 << 20;
+
+}  // namespace
+
+UdpListener::UdpListener(UdpSocket socket)
+    : socket_(std::move(socket)), buffer_(kLargestPacket) {}
+
+Result<UdpListener> UdpListener::open(const UdpAddress& address) {
+  Result<UdpSocket> socket = UdpSocket::at(address);
+  if (!socket) return socket.error();
+  setsockopt(socket->fd(), SOL_SOCKET, SO_RCVBUF, &kBufferBytes, sizeof kBufferBytes);
+  return UdpListener(*std::move(socket));
+}
+
+std::optional<std::span<const std::uint8_t>> UdpListener::receive() {
+  const ssize_t size = recv(socket_.fd(), buffer_.data(), buffer_.size(), MSG_DONTWAIT);
+  if (size < 0) return std::nullopt;
+  return std::span(buffer_).first(static_cast<std::size_t>(size));
+}
+
+void UdpListener::wait(std::chrono::milliseconds longest) const {
+  pollfd waiting{socket_.fd(), POLLIN, 0};
+  poll(&waiting, 1, static_cast<int>(std::max<std::int64_t>(longest.count(), 0)));
+}
+
+}  // namespace marey::live

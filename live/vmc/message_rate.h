@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+
+namespace marey::live {
+
+/// Whether somebody says too much: more than `most` messages within one second. The clock
+/// is the caller's.
+class MessageRate {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit MessageRate(int max_count) : max_count_(max_count) {}
+
+  /// Counts one message; false: it is one too many. Seconds follow one another from the
+  /// first message on.
+  [[nodiscard]] bool allow(Clock::time_point now) {
+    if (count_ == 0 || now - second_began_ >= std::chrono::seconds(1)) {
+      second_began_ = now;
+      count_ = 0;
+    }
+    return ++count_ <= max_count_;
+  }
+
+ private:
+  int max_count_;
+  int count_ = 0;
+  Clock::time_point second_began_{};
+};
+
+}  // namespace marey::live

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "core/base/result.h"
+#include "live/web/web_server_options.h"
+#include "live/web/web_state.h"
+
+namespace marey::live {
+
+/// The sockets of a WebServer. Behind a wall, since Boost.Beast takes long to compile.
+class WebLoop {
+ public:
+  /// Binds and listens. `wake_fd`: an eventfd that is signalled when the state has
+  /// something new to send. All three outlive the loop. Errors: those of
+  /// WebServer::start(). Precondition: 0 <= port <= 65535.
+  [[nodiscard]] static Result<std::unique_ptr<WebLoop>> listen(
+      WebState& state, const WebServerOptions& options, int wake_fd);
+
+  WebLoop() = default;
+  virtual ~WebLoop() = default;
+  WebLoop(const WebLoop&) = delete;
+  WebLoop& operator=(const WebLoop&) = delete;
+
+  [[nodiscard]] virtual int port() const = 0;
+  /// Serves until end(), which may be called from any thread.
+  virtual void run() = 0;
+  virtual void end() = 0;
+};
+
+}  // namespace marey::live

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "recordings/text/number_text.h"
+#include "recordings/text/text_reader.h"
+
+namespace marey::recordings {
+
+/// Returns `text` with the letters A to Z in lower case. Other bytes stay as they are.
+[[nodiscard]] inline std::string lower_case(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return out;
+}
+
+/// Returns the first 40 characters of `word` in quotes, for messages: a broken file may
+/// contain very long words.
+[[nodiscard]] inline std::string quoted_start(std::string_view word) {
+  return in_quotes(word.substr(0, 40));
+}
+
+/// Returns `text` with `number` appended.
+[[nodiscard]] inline std::string with_number(std::string text, int number) {
+  append_exact(text, number);
+  return text;
+}
+
+}  // namespace marey::recordings

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/pose.h"
+#include "core/base/result.h"
+#include "retarget/adapt/adapter.h"
+
+namespace marey::retarget {
+
+/// Number of bodies that are adapted in parallel in the vector registers of the
+/// processor.
+enum class LaneWidth { kOne = 1, kFour = 4, kEight = 8, kSixteen = 16 };
+
+/// Returns the largest width that this processor supports.
+[[nodiscard]] LaneWidth widest_lanes();
+
+struct CrowdOptions {
+  LaneWidth width = widest_lanes();
+  int threads = 1;
+};
+
+/// Adapts many characters in parallel: one per SIMD lane; a lane that finishes is
+/// refilled. The result of every member equals that of its own adapter to the bit, for
+/// any width, number of threads and other members. Members share the structure; lengths,
+/// masses, limits and targets may differ. Members with fading constraints are solved
+/// individually. Cost: docs/accuracy/README.md. adapt() allocates nothing except its
+/// threads, which it starts in each call.
+class Crowd {
+ public:
+  /// Creates a crowd. Errors (bad input): no members; less than one thread; a width that
+  /// this processor does not support; a member that differs from the first in the
+  /// structure of its skeleton, its groups, the set of joints with limits, the types and
+  /// points of its constraints, or in one of the options method, control, balance,
+  /// max_iterations and extremities_keep_orientation (other options may differ). The
+  /// error names the difference.
+  [[nodiscard]] static Result<Crowd> make(std::vector<Adapter> members,
+                                          const CrowdOptions& options = {});
+  Crowd(Crowd&&) noexcept;
+  Crowd& operator=(Crowd&&) noexcept;
+  ~Crowd();
+
+  [[nodiscard]] std::size_t size() const;
+  /// Returns a member, to set its targets and loads or to read its outcomes. Its options
+  /// must not change. A constrained point with an offset of zero keeps an offset of zero,
+  /// and one with an offset keeps a nonzero offset. Precondition: member < size();
+  /// adapt() is not running.
+  [[nodiscard]] Adapter& operator[](std::size_t member);
+
+  /// Adapts every member as Adapter::adapt() does. Precondition: one reference and one
+  /// element of `out` per member; `reports` is empty or has one element per member.
+  void adapt(std::span<const Pose> references,
+             double time_s,
+             std::span<Pose> out,
+             std::span<AdaptReport> reports = {});
+
+ private:
+  class Jobs;
+  struct Worker;
+  struct State;
+  explicit Crowd(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace marey::retarget

@@ -1,0 +1,22 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/skeleton.h"
+#include "retarget/bones/found_bones.h"
+#include "retarget/bones/neutral_evidence.h"
+
+namespace marey::retarget {
+
+/// Returns the T-pose of rest_as_t_pose(): the rotation of each joint's frame in marey's
+/// axes. `foot_pitch_rad` as in NamedNeutral.
+[[nodiscard]] std::vector<glm::dquat> t_pose_of_bones(const Skeleton& skeleton,
+                                                      const FoundBones& found,
+                                                      const Evidence& evidence,
+                                                      double foot_pitch_rad);
+
+}  // namespace marey::retarget

@@ -1,0 +1,19 @@
+# SPDX-FileCopyrightText: The marey authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# Folders inside the rooms, lowest first: a file may include its own folder and those
+# before it. "." is the room's top folder. docs/architecture.md says what each holds;
+# tests/folders.cmake checks the order.
+set(core_LAYERS base .)
+set(capture_LAYERS v4l2 sync video tags boards search feeds)
+set(calib_LAYERS model bundle rig plan quality)
+set(reconstruct_LAYERS
+  clusters posture tags bundle labels markers motion segments subject tracks)
+set(retarget_LAYERS
+  base constraints bones body character contacts feet balance hands motion
+  adapt/plan adapt/kernel adapt)
+set(recordings_LAYERS text body takes motion gltf markers print session)
+set(live_LAYERS udp vmc page web)
+set(app_LAYERS
+  shell motion pages adapt convert plan record check markers process retarget
+  live_chain view live inspect .)

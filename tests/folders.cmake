@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: The marey authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# cmake -D ROOT=<source tree> [-D MAX_MODULES=<count>] -P folders.cmake
+#
+# Checks the folders inside the rooms. Fails when a file includes a folder that stands
+# above its own in the room's layers, when two modules of a room include each other in a
+# cycle, when a folder holds more than MAX_MODULES modules, when a folder is missing in the
+# table, or when nothing was checked. A module is a header with the sources of its name.
+cmake_minimum_required(VERSION 3.25)
+
+if(NOT DEFINED MAX_MODULES)
+  set(MAX_MODULES 25)
+endif()
+set(ROOMS core capture calib reconstruct retarget recordings live app)
+
+# Folders of each room, lowest first: a file may include its own folder and those before
+# it. "." is the room's top folder.
+include(${ROOT}/tests/folder_layers.cmake OPTIONAL)
+
+set(checked 0)
+set(errors "")
+
+macro(complain text)
+  string(APPEND errors "${text}\n")
+endmacro()
+
+# module_of(<file> <out>): the path without its ending.
+macro(module_of file out)
+  string(REGEX REPLACE "\\.(h|cpp)$" "" ${out} "${file}")
+endmacro()
+
+# folder_of(<room> <file> <out>): the folder below the room, "." at its top.
+macro(folder_of room file out)
+  get_filename_component(${out} "${file}" DIRECTORY)
+  string(REGEX REPLACE "^${room}/?" "" ${out} "${${out}}")
+  if("${${out}}" STREQUAL "")
+    set(${out} ".")
+  endif()
+endmacro()
+
+foreach(room ${ROOMS})
+  file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
+  list(FILTER files EXCLUDE REGEX "/node_modules/")
+  set(modules "")
+  foreach(file ${files})
+    module_of(${file} module)
+    list(APPEND modules ${module})
+    folder_of(${room} ${file} folder)
+    list(FIND ${room}_LAYERS "${folder}" layer)
+    if(layer EQUAL -1)
+      complain("${file}: the folder ${folder} is missing in ${room}_LAYERS")
+      continue()
+    endif()
+    file(STRINGS ${ROOT}/${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*\"${room}/")
+    foreach(line ${lines})
+      math(EXPR checked "${checked}+1")
+      string(REGEX REPLACE "^[^\"]*\"([^\"]*)\".*" "\\1" header "${line}")
+      if(NOT EXISTS ${ROOT}/${header})
+        complain("${file}: ${header} does not exist")
+        continue()
+      endif()
+      folder_of(${room} ${header} other)
+      list(FIND ${room}_LAYERS "${other}" other_layer)
+      if(other_layer GREATER layer)
+        complain("${file}: the folder ${folder} may not include ${header}")
+      endif()
+      module_of(${header} target)
+      if(NOT target STREQUAL module)
+        list(APPEND "uses_${module}" ${target})
+      endif()
+    endforeach()
+  endforeach()
+  list(REMOVE_DUPLICATES modules)
+
+  foreach(layer ${${room}_LAYERS})
+    set(held "")
+    foreach(module ${modules})
+      folder_of(${room} ${module} folder)
+      if(folder STREQUAL layer)
+        list(APPEND held ${module})
+      endif()
+    endforeach()
+    list(LENGTH held count)
+    if(count EQUAL 0)
+      complain("${room}: the folder ${layer} of ${room}_LAYERS holds nothing")
+    elseif(count GREATER MAX_MODULES)
+      complain("${room}/${layer}: ${count} modules are more than ${MAX_MODULES}")
+    endif()
+  endforeach()
+
+  # Removes modules that include no remaining module, until none can be removed. A cycle
+  # and the modules above it remain.
+  set(remaining ${modules})
+  set(removed TRUE)
+  while(removed AND remaining)
+    set(removed FALSE)
+    foreach(module ${remaining})
+      set(blocked FALSE)
+      foreach(target ${uses_${module}})
+        if(target IN_LIST remaining)
+          set(blocked TRUE)
+          break()
+        endif()
+      endforeach()
+      if(NOT blocked)
+        list(REMOVE_ITEM remaining ${module})
+        set(removed TRUE)
+      endif()
+    endforeach()
+  endwhile()
+  # Follows the includes from any remaining module: the first one met twice is in a cycle.
+  if(remaining)
+    list(GET remaining 0 module)
+    set(path "")
+    while(NOT module IN_LIST path)
+      list(APPEND path ${module})
+      foreach(target ${uses_${module}})
+        if(target IN_LIST remaining)
+          set(module ${target})
+          break()
+        endif()
+      endforeach()
+    endwhile()
+    list(FIND path ${module} first)
+    list(SUBLIST path ${first} -1 cycle)
+    list(JOIN cycle " -> " text)
+    complain("${room}: cycle of modules: ${text} -> ${module}")
+  endif()
+endforeach()
+
+if(checked EQUAL 0)
+  complain("${ROOT}: nothing was checked")
+endif()
+if(errors)
+  message(FATAL_ERROR "${errors}")
+endif()
+message(STATUS "includes checked: ${checked}")

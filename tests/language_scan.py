@@ -1,0 +1,193 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The marey authors
+# SPDX-License-Identifier: Apache-2.0
+"""language_scan.py ROOT [--list KIND [PREFIX]] [--check CEILINGS]
+
+Counts sentences that break the rules of plain technical English in docs/conventions.md.
+Kinds: headers (comments of *.h), sources (comments of *.cpp, *.ts and *.js), messages (text
+of string literals), docs (*.md). Prints for each kind the number of sentences, the number
+with at least one idiom and the share in percent. --list prints the sentences of one kind,
+optionally only of files whose path begins with PREFIX. --check fails when a share is above
+its ceiling (lines "KIND PERCENT"), or when a kind has no sentences.
+"""
+import re
+import sys
+from pathlib import Path
+
+ROOMS = ("core", "capture", "calib", "reconstruct", "retarget", "recordings", "live",
+         "dynamics", "edit", "engine", "library", "app")
+MARKDOWN = ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/**/*.md")
+
+# Each idiom: its name, and the pattern that finds it in one sentence.
+IDIOMS = {
+    # Rule 1: a comment begins with a verb or a noun.
+    "begins with a relative word": re.compile(
+        r"^(?:What|Who|Whom|Whose|Of|Nor|Whether|Wherever|Whoever|Those|By which|From which|"
+        r"With which|In which|To which)\b(?![^.]*\?$)"),
+    # Rule 2: no headless relative clauses.
+    "headless relative clause": re.compile(
+        r"(?<![\w-])(?:of|from|by|with|for|to|in|on|at|into|than|and|or|as|is|are|that|only|"
+        r"after|before|beyond|about|under|like|but) what (?!it\b|if\b|is needed)|"
+        r"(?<![\w-])(?:those|that|he|him|somebody|nobody|everybody|all|none) (?:who|whom)\b|"
+        r"(?<!\w)what (?:lies|stands|follows|comes?|came|goes|one|they|its|his|their)\b|"
+        r"^who |[.;,:] who \b|\bby what\b|\bof what\b|\bthose that\b|\bthat which\b|"
+        r"\bof whom\b|\bwhoever\b|\bwherever\b", re.I),
+    # Rule 3: data is computed, stored, sent, received, reported.
+    "data as a speaker": re.compile(
+        r"\b(?:tells?|told|telling|hears?|heard|hearing|says|said|believes?|believed|"
+        r"believing|doubts?|doubted|doubtful|suffers?|suffered|is asked|are asked|asked of|"
+        r"asks of|knows nothing|know nothing|lends?|lent|heeds?|heeded|owes?|owed|"
+        r"is forgotten|are forgotten|learns?|gives? it up|speaks?|spoken)\b", re.I),
+    # Rule 4: the term of the field, not a metaphor.
+    "metaphor": re.compile(
+        r"\b(?:habits?|houses?|seats?|doors?|doorman|bells?|temper|strangers?|brisk(?:er)?|"
+        r"in good faith|wakes? up|falls? asleep|honest(?:ly)?|give up hope|at home)\b(?!-)",
+        re.I),
+    # Rule 5: no archaisms.
+    "archaism": re.compile(
+        r"\b(?:anew|likewise|beside|nobody|nobody's|somebody|somebody's|everybody|lately|"
+        r"fares?|in vain|give or take|mend(?:s|ed|ing)?|thereof|therein|whence|wherein|whereby|"
+        r"upon|amid|whilst|aught|naught|nought|for want of|by and by|ever so|all the same|"
+        r"none the less|go(?:es)? without saying|needs must|save for|at most so many|so long "
+        r"as)\b", re.I),
+    # Inverted order of words.
+    "inversion": re.compile(
+        r"(?:^|[.;:] )(?:nor|seldom|only then|not until|of these|of this|of that|of them|of it|"
+        r"of each|of all|of several|of two|of both|of one|of a|of the|of an|of every|of any|"
+        r"were it|had it|should it|so (?:is|are|do|does|has|have)|as (?:is|are|do|does)|"
+        r"there is none)\b", re.I),
+    "old auxiliary": re.compile(
+        r"\bneed not\b|\bhas to be\b(?= (?:said|told|asked))|\bso much as\b|\bas it were\b|"
+        r"\bis for others\b|\bis not for\b|\bhave it so\b|\bis to be had\b|"
+        r"\bas one (?:is|has|does)\b", re.I),
+}
+# Words of rule 3 and 4 that are terms in these phrases.
+TERMS = re.compile(
+    r"unknowns?|well[- ]known|known|ground truth|knowledge|silent (?:frame|data)|"
+    r"boundary layer|asks? (?:for )?(?:permission|the user)|guess(?:es)? the|initial guess|"
+    r"first guess|want(?:s)? to|you want|you know|out of the house", re.I)
+
+
+def sentences(text):
+    """Splits text into sentences of at least three words."""
+    text = re.sub(r"`[^`]*`", "CODE", text)
+    text = re.sub(r"\s+", " ", text)
+    parts = re.split(r"(?<=[.!?:])\s+(?=[A-Z\"'(`\[])", text)
+    return [p.strip() for p in parts if len(p.split()) >= 3]
+
+
+def comment_sentences(text, marks):
+    """Comments of C++, TypeScript or JavaScript: runs of lines that begin with // or ///,
+    and what follows code on its line."""
+    block, found = [], []
+    for line in text.splitlines():
+        match = marks.search(line)
+        comment = match.group(1).strip() if match else None
+        if comment is not None and comment.startswith(("SPDX-", "NOLINT", "clang-format")):
+            comment = None
+        if comment:
+            if match.start(1) > 0 and line[:match.start()].strip() and block:
+                found += sentences(" ".join(block))
+                block = []
+            block.append(comment)
+        elif block:
+            found += sentences(" ".join(block))
+            block = []
+    return found + sentences(" ".join(block))
+
+
+LINE_COMMENT = re.compile(r"(?:^|\s)//[/!<]*\s?(.*)$")
+SCRIPT_COMMENT = re.compile(r"(?:^|\s)(?://|/?\*{1,2}(?!/))\s?(.*?)(?:\*/)?$")
+STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
+
+
+def message_sentences(text):
+    """Text of adjacent string literals with at least four words, comments removed."""
+    text = "\n".join(re.sub(r"(?:^|\s)//.*$", "", line) for line in text.splitlines()
+                     if not line.lstrip().startswith("#include"))
+    text = re.sub(r'"\s*\n\s*"', "", text)
+    found = []
+    for literal in STRING.findall(text):
+        literal = literal.replace("\\n", " ").replace('\\"', '"')
+        if len(literal.split()) >= 4:
+            found += sentences(literal)
+    return found
+
+
+def markdown_sentences(text):
+    """Prose and table cells; code blocks are left out."""
+    text = re.sub(r"```.*?```", "", text, flags=re.S)
+    found = []
+    for block in re.split(r"\n\s*\n", text):
+        if re.match(r"(?: {4}|\t)", block):
+            continue
+        for row in re.split(r"\n(?=\s*(?:[-*|#]|\d+\.) ?)", block):
+            for cell in row.split("|"):
+                found += sentences(re.sub(r"^\s*(?:[-*#]+|\d+\.)\s*", "", cell))
+    return found
+
+
+def sources_of(root, pattern):
+    for room in ROOMS:
+        for path in sorted((root / room).rglob(pattern)):
+            if not {"node_modules", "dist"} & set(path.relative_to(root).parts):
+                yield path
+
+
+def scan(root):
+    """Returns {kind: [(path, sentence, idioms)]}."""
+    result = {"headers": [], "sources": [], "messages": [], "docs": []}
+
+    def add(kind, path, found):
+        for sentence in found:
+            plain = TERMS.sub("TERM", sentence)
+            idioms = [name for name, pattern in IDIOMS.items() if pattern.search(plain)]
+            result[kind].append((path.relative_to(root), sentence, idioms))
+
+    for path in sources_of(root, "*.h"):
+        add("headers", path, comment_sentences(path.read_text(), LINE_COMMENT))
+        add("messages", path, message_sentences(path.read_text()))
+    for path in sources_of(root, "*.cpp"):
+        add("sources", path, comment_sentences(path.read_text(), LINE_COMMENT))
+        add("messages", path, message_sentences(path.read_text()))
+    for pattern in ("*.ts", "*.js"):
+        for path in sources_of(root, pattern):
+            add("sources", path, comment_sentences(path.read_text(), SCRIPT_COMMENT))
+    for pattern in MARKDOWN:
+        for path in sorted(root.glob(pattern)):
+            add("docs", path, markdown_sentences(path.read_text()))
+    return result
+
+
+def main(arguments):
+    root = Path(arguments[0])
+    result = scan(root)
+    if "--list" in arguments:
+        rest = arguments[arguments.index("--list") + 1:]
+        prefix = rest[1] if len(rest) > 1 else ""
+        for path, sentence, idioms in result[rest[0]]:
+            if idioms and str(path).startswith(prefix):
+                print(f"{path}: [{'; '.join(idioms)}] {sentence}")
+        return 0
+    shares = {}
+    for kind, rows in result.items():
+        with_idiom = sum(1 for row in rows if row[2])
+        shares[kind] = 100.0 * with_idiom / len(rows) if rows else None
+        print(f"{kind}: {len(rows)} sentences, {with_idiom} with an idiom, "
+              + (f"{shares[kind]:.2f} %" if rows else "nothing was checked"))
+    if "--check" not in arguments:
+        return 0
+    failed = False
+    for line in Path(arguments[arguments.index("--check") + 1]).read_text().splitlines():
+        if not line or line.startswith("#"):
+            continue
+        kind, ceiling = line.split()
+        if shares[kind] is None or shares[kind] > float(ceiling):
+            print(f"error: {kind}: {shares[kind]} % is above the ceiling of {ceiling} %. "
+                  f"Next: run with --list {kind}, and rewrite these sentences.")
+            failed = True
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
