@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <Eigen/Dense>
-#include <Eigen/Sparse>
+#include <Eigen/SparseColumns>
 
 #include "calib/bundle/bundle_problem.h"
 
@@ -11,7 +11,7 @@ namespace marey::calib {
 namespace {
 
 using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
-using Sparse = Eigen::SparseMatrix<double>;
+using SparseColumns = Eigen::SparseMatrix<double>;
 
 constexpr int kLensBlock = Intrinsics::kParameterCount;
 
@@ -21,13 +21,13 @@ constexpr double kCommonShare = 0.03;
 
 /// Returns the covariance of the first `shared` columns of a normal matrix, the others
 /// eliminated.
-std::optional<Eigen::MatrixXd> leading_covariance(const Sparse& normal, int shared) {
+std::optional<Eigen::MatrixXd> leading_covariance(const SparseColumns& normal, int shared) {
   Eigen::MatrixXd information = Eigen::MatrixXd(normal.topLeftCorner(shared, shared));
   const int rest = static_cast<int>(normal.cols()) - shared;
   if (rest > 0) {
-    const Sparse poses = normal.bottomRightCorner(rest, rest);
+    const SparseColumns poses = normal.bottomRightCorner(rest, rest);
     const Eigen::MatrixXd mixed = Eigen::MatrixXd(normal.bottomLeftCorner(rest, shared));
-    const Eigen::SimplicialLDLT<Sparse> factor(poses);
+    const Eigen::SimplicialLDLT<SparseColumns> factor(poses);
     if (factor.info() != Eigen::Success) return std::nullopt;
     information -= mixed.transpose() * factor.solve(mixed);
   }
@@ -41,7 +41,7 @@ std::optional<Eigen::MatrixXd> leading_covariance(const Sparse& normal, int shar
   return scale.cwiseInverse().asDiagonal() * inverse * scale.cwiseInverse().asDiagonal();
 }
 
-Sparse sparse_of(const ceres::CRSMatrix& crs) {
+SparseColumns sparse_of(const ceres::CRSMatrix& crs) {
   return Eigen::Map<const RowSparse>(crs.num_rows,
                                      crs.num_cols,
                                      static_cast<Eigen::Index>(crs.values.size()),
@@ -155,8 +155,8 @@ std::optional<RigUncertainty> BundleProblem::uncertainty() {
   ceres::CRSMatrix crs;
   double cost = 0.0;
   if (!problem_.Evaluate(options, &cost, nullptr, nullptr, &crs)) return std::nullopt;
-  const Sparse columns = sparse_of(crs);
-  const Sparse normal = Sparse(columns.transpose()) * columns;
+  const SparseColumns columns = sparse_of(crs);
+  const SparseColumns normal = SparseColumns(columns.transpose()) * columns;
   auto covariance = leading_covariance(normal, shared);
   if (!covariance) return std::nullopt;
 

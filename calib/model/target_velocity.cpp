@@ -10,7 +10,7 @@ namespace marey::calib {
 namespace {
 
 // Over a longer time, the speed of a hand changes.
-constexpr double kNear_s = 0.25;
+constexpr double kMaxGap_s = 0.25;
 constexpr double kFastest_m_s = 5.0;
 constexpr double kFastest_rad_s = 12.0;
 
@@ -28,7 +28,7 @@ std::optional<Velocity> velocity_at(const RigidTarget& target,
   if (after == target.world_from_target.end()) return std::nullopt;
   const double before_s = (instant - before->first) / rate_hz;
   const double after_s = (after->first - instant) / rate_hz;
-  if (before_s > kNear_s || after_s > kNear_s) return std::nullopt;
+  if (before_s > kMaxGap_s || after_s > kMaxGap_s) return std::nullopt;
   const RigidTransform& a = before->second;
   const RigidTransform& b = after->second;
   const double run_s = before_s + after_s;

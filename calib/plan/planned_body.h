@@ -18,8 +18,9 @@ struct PlannedBody {
   std::vector<PlacedTag> tags;
 };
 
-/// Returns the 29 tags of docs/formats/README.md: three on hips, upper chest and head, two
-/// on every limb bone, one on each hand and foot. Ids from 0. Precondition: size_m > 0.
+/// Returns the 29 tags of docs/formats/README.md: three on hips, upper chest and head,
+/// two on every limb bone, one on each hand and foot. Ids from 0.
+/// Precondition: size_m > 0.
 [[nodiscard]] std::vector<TagOnSegment> typical_tags(double size_m);
 
 /// Places tags on an average body, 15 mm off its skin: the first tag of a segment where

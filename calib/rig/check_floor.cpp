@@ -19,7 +19,7 @@ namespace {
 // off by a hundred. A camera that moved by a few centimetres between the trials stays
 // below this limit: bundle adjustment absorbs such a move in the poses of cameras and
 // boards.
-constexpr double kDisagreesPx = 5.0;
+constexpr double kMaxFloorError_px = 5.0;
 
 /// The corners of the floor in one camera's file, and the camera that is assumed to have
 /// taken it.
@@ -72,7 +72,7 @@ Status check_floor(std::span<const Camera> cameras,
   }
   if (views.size() < 2) return Done{};
   const Fit as_given = best_fit(views);
-  if (as_given.worst_px < kDisagreesPx) return Done{};
+  if (as_given.worst_px < kMaxFloorError_px) return Done{};
 
   const auto source = [&](std::size_t i) {
     return floor[index(floor_views[i]->camera)].source;
@@ -90,7 +90,7 @@ Status check_floor(std::span<const Camera> cameras,
     }
   }
   std::array<char, 160> text{};
-  if (swapped.worst_px < kDisagreesPx) {
+  if (swapped.worst_px < kMaxFloorError_px) {
     std::snprintf(
         text.data(),
         text.size(),

@@ -177,7 +177,7 @@ void Fit::add(const AlignPixel& pixel,
   if ((pixel.white && error < 0.0) || (pixel.black && error > 0.0)) return;
   ++system.pixels;
 
-  constexpr double kHuberLimit = 0.08;  // Of the contrast: dirt, a finger, a highlight.
+  constexpr double kHuberLimit = 0.08;  // Share of the contrast: dirt, highlight.
   const double limit = kHuberLimit * std::abs(light[1]);
   const double size = std::abs(error);
   const double weight = limit <= 0.0 || size <= limit ? 1.0 : limit / size;

@@ -43,20 +43,20 @@ std::optional<int> get(V4l2Kernel& kernel, int fd, std::uint32_t id) {
   return now.value;
 }
 
-std::string milliseconds(double time_s) {
+std::string text_in_ms(double time_s) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.4g ms", 1e3 * time_s);
   return text.data();
 }
 
 void compare_exposure(double asked_s, DeviceSettings& settings) {
-  const std::string asked = "asked for an exposure of " + milliseconds(asked_s);
+  const std::string asked = "asked for an exposure of " + text_in_ms(asked_s);
   if (!settings.exposure_s) {
     settings.differences.push_back(asked + ", and the camera has no such control");
   } else if (settings.exposure_is_automatic) {
     settings.differences.push_back(asked + ", and the camera keeps it automatic");
   } else if (std::abs(*settings.exposure_s - asked_s) > 1.001 * kExposureUnitSeconds) {
-    settings.differences.push_back(asked + ", got " + milliseconds(*settings.exposure_s));
+    settings.differences.push_back(asked + ", got " + text_in_ms(*settings.exposure_s));
   }
 }
 

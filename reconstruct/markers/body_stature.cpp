@@ -19,8 +19,8 @@ using B = HumanBone;
 constexpr double kSole = 0.039;
 constexpr double kLeg = 0.491;
 constexpr double kHips = 0.010;
-constexpr double kTrunk = 0.302;
-constexpr double kHead = 0.158;
+constexpr double kTrunkPerStature = 0.302;
+constexpr double kHeadPerStature = 0.158;
 constexpr double kArm = 0.332;
 // Measured heads, neck to top.
 constexpr double kHeadTop = 0.115;
@@ -79,14 +79,14 @@ std::optional<MeasuredStature> stature_of_body(
     return with_share(chain_m / (1.0 - kSole - kHips - kHeadTop), kSigmaWithHead);
   }
   if (leg_m && trunk) {
-    return with_share((*leg_m + trunk_m) / (kLeg + kTrunk), kSigmaWithTrunk);
+    return with_share((*leg_m + trunk_m) / (kLeg + kTrunkPerStature), kSigmaWithTrunk);
   }
   if (leg_m) return with_share(*leg_m / kLeg, kSigmaLegs);
   if (head) {
     const double chain_m = trunk_m + glm::length(p[B::kHead]);
-    return with_share(chain_m / (kTrunk + kHead - kHeadTop), kSigmaTrunk);
+    return with_share(chain_m / (kTrunkPerStature + kHeadPerStature - kHeadTop), kSigmaTrunk);
   }
-  if (trunk) return with_share(trunk_m / kTrunk, kSigmaTrunk);
+  if (trunk) return with_share(trunk_m / kTrunkPerStature, kSigmaTrunk);
   if (all({B::kLeftLowerArm, B::kLeftHand, B::kRightLowerArm, B::kRightHand})) {
     return with_share(
         2.0 *

@@ -120,13 +120,13 @@ void TagFilter::refine(std::span<const SeenTag> seen, Posture& posture) {
 /// was wrong.
 void TagFilter::reset_parameters(std::span<const PoseParameter> parameters,
                        const Posture& posture) {
-  const PostureEstimate is_restarted = process_.start(posture);
+  const PostureEstimate restarted = process_.start(posture);
   for (const PoseParameter parameter : parameters) {
     std::copy_n(posture.block(parameter),
                 block_size(parameter),
                 predicted_.posture.block(parameter));
     predicted_.step.segment(column_of(parameter), tangent_size(parameter)).setZero();
-    predicted_.covariance[index(parameter)] = is_restarted.covariance[index(parameter)];
+    predicted_.covariance[index(parameter)] = restarted.covariance[index(parameter)];
     drift_.step.segment(column_of(parameter), tangent_size(parameter)).setZero();
   }
   PoseParameterProcess::to_prior(predicted_, prior_);

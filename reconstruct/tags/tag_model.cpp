@@ -269,8 +269,8 @@ const PostureEquations& TagFrameSolver::evaluate(std::span<const SeenTag> seen,
                                                  const SolveInputs& inputs,
                                                  const Posture& posture,
                                                  const TagLimits& limits) {
-  accumulate(seen, inputs, posture, limits, late_equations_);
-  return late_equations_;
+  accumulate(seen, inputs, posture, limits, evaluated_);
+  return evaluated_;
 }
 
 void TagFrameSolver::fit(std::span<const SeenTag> seen,
@@ -305,8 +305,8 @@ void TagFrameSolver::lateness(std::span<const SeenTag> seen,
   std::optional<PosturePrior> prior;
   if (inputs.prior) prior = without_phase(*inputs.prior, drift.step);
   const SolveInputs own{prior ? &*prior : nullptr, &drift, inputs.slips_m};
-  accumulate(seen, own, posture, limits, late_equations_);
-  if (!late_factor_.factor(late_equations_.hessian, 0.0)) return;
+  accumulate(seen, own, posture, limits, evaluated_);
+  if (!late_factor_.factor(evaluated_.hessian, 0.0)) return;
   TagSighted sighted;
   for (const SeenTag& one : seen) {
     if (!sight(one, own, 1.0, sighted)) continue;
@@ -330,7 +330,7 @@ void TagFrameSolver::lateness(std::span<const SeenTag> seen,
   }
   // The step of the posture with all delays taken as exact.
   PostureVector step;
-  late_factor_.step(late_equations_.gradient, step);
+  late_factor_.step(evaluated_.gradient, step);
   for (Lateness& here : out) here.gradient += here.by_posture.dot(step);
 }
 

@@ -189,7 +189,7 @@ class TagFrameSolver {
   SparseDerivative point_;
   TagDerivative derivative_;
   PostureDescent descent_;
-  PostureEquations late_equations_;
+  PostureEquations evaluated_;
   ArrowFactor late_factor_;
 };
 

@@ -109,7 +109,7 @@ Result<std::array<std::pair<double, std::size_t>, 4>> weights_of(const NamedMode
     const double joint = vertices.joints[4 * v + k];
     if (weight > 0.0 && !(joint >= 0.0 && joint < static_cast<double>(joints))) {
       return file.fail("a vertex refers to joint " +
-                       std::to_string(static_cast<long>(joint)) + " of a skin with " +
+                       std::to_string(static_cast<long>(joint)) + ", but its skin has " +
                        std::to_string(joints));
     }
     carriers[k] = {weight, weight > 0.0 ? static_cast<std::size_t>(joint) : 0};

@@ -114,9 +114,9 @@ std::vector<NodeTrack> tracks_against_nodes(const GltfSource& source,
 }
 
 void set_bind_pose_as_rest(const Skeleton& body,
-                         const ChangedFrame& changed,
-                         GltfSource& source,
-                         Json& document) {
+                           const ChangedFrame& changed,
+                           GltfSource& source,
+                           Json& document) {
   const Motion rest{body, FrameRate{30.0}, 0, {}};
   ReadPlaces places(rest, changed, source.nodes.size());
   const auto& world = places.at(rest_pose(body));

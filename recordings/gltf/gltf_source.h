@@ -67,9 +67,9 @@ struct GltfSource {
 /// Sets the rest pose of the nodes, in the document and in source.nodes, to the bind pose
 /// of the body's skin.
 void set_bind_pose_as_rest(const Skeleton& body,
-                         const ChangedFrame& changed,
-                         GltfSource& source,
-                         Json& document);
+                           const ChangedFrame& changed,
+                           GltfSource& source,
+                           Json& document);
 
 /// Adds a node with rotation `turn` above the roots of each scene.
 void turn_scenes(Json& document, const glm::dquat& turn);

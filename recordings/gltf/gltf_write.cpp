@@ -159,8 +159,8 @@ Error not_of_this_body(const std::filesystem::path& source, std::string cause) {
 
 /// Detects a body that was rotated or scaled in a way that `changed` does not describe.
 bool matches_changed_frame(const Skeleton& avatar,
-                   const Skeleton& motion,
-                   const ChangedFrame& changed) {
+                           const Skeleton& motion,
+                           const ChangedFrame& changed) {
   constexpr double kSame = 1e-5;
   bool rests_alike = true;
   for (std::size_t i = 1; i < avatar.joints.size(); ++i) {
@@ -290,8 +290,8 @@ std::string merge_buffers(Json& document, const std::vector<std::string>& buffer
 
 /// Embeds images that are files or data outside of the document.
 void embed_images(Json& document,
-                    GltfBuilder& builder,
-                    const std::vector<std::string>& images) {
+                  GltfBuilder& builder,
+                  const std::vector<std::string>& images) {
   if (!document.contains("images")) return;
   std::size_t place = 0;
   for (Json& image : document["images"]) {
@@ -319,8 +319,9 @@ std::string retargeted_glb(GltfSource& source,
     set_bind_pose_as_rest(motion.skeleton, changed, source, document);
   }
   const std::vector<NodeTrack> tracks =
-      matches_node_hierarchy(source, changed) ? tracks_in_source(source, motion)
-                                      : tracks_against_nodes(source, motion, changed);
+      matches_node_hierarchy(source, changed)
+          ? tracks_in_source(source, motion)
+          : tracks_against_nodes(source, motion, changed);
   if (!motion.poses.empty()) {
     document["animations"] = Json::array(
         {make_animation(builder, tracks, motion.poses.size(), motion.rate, clip)});

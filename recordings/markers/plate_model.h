@@ -25,7 +25,7 @@ struct PlateModel {
   glm::dmat3 world_from_plate{1.0};  ///< z of the plate points into the floor.
   glm::dvec3 origin{
       0.0};  ///< For types 2 and 4: from the sensor to the surface's centre. [m]
-  std::vector<double> matrix;       ///< For type 4: 6 x 6, column by column.
+  std::vector<double> matrix;  ///< For type 4: 6 x 6, column by column.
   /// Factor from the file's unit of moment per unit of force to metres.
   double metres_per_moment = 1e-3;
 };

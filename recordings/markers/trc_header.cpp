@@ -44,8 +44,7 @@ void read_values(const std::vector<std::string_view>& keys,
       header.unit = word;
     } else if (name == "datarate" || (name == "camerarate" && !header.rate_hz)) {
       const auto hz = to_number(word);
-      if (hz && *hz >= kMinRateHz && *hz <= 10.0 * kMaxRateHz)
-        header.rate_hz = hz;
+      if (hz && *hz >= kMinRateHz && *hz <= 10.0 * kMaxRateHz) header.rate_hz = hz;
     } else if (name == "numframes") {
       header.frames = count_of(word);
     } else if (name == "nummarkers") {
@@ -179,8 +178,7 @@ FileAxes trc_axes(const TrcHeader& header,
         *found);
   } else {
     set("mm", Evidence::kConvention);
-    notes.emplace_back(
-        "Units names no unit of length; mm is used, as in most TRC files");
+    notes.emplace_back("Units names no unit of length; mm is used, as in most TRC files");
   }
   if (options.up) {
     axes.up = *options.up;
@@ -219,9 +217,8 @@ Result<TrcFrames> place_trc_rows(const TrcHeader& header,
     if (timed && !is_rate_of(*header.rate_hz, numbers, times_s)) {
       frames.rate_hz = *timed;
       if (hz_text(*header.rate_hz) == hz_text(*timed)) {
-        notes.push_back(
-            "the times are not even: a constant rate is assumed, " +
-            hz_text(*timed) + " all along");
+        notes.push_back("the times are not even: a constant rate is assumed, " +
+                        hz_text(*timed) + " all along");
       } else {
         notes.push_back("DataRate is " + hz_text(*header.rate_hz) + ", the times " +
                         hz_text(*timed) + "; the times are used");

@@ -255,8 +255,9 @@ class AsfParser {
         return fail("no bone " + quoted_start(word) + " can have a parent");
       }
       Bone& child = file_.bones[below->second];
-      if (child.parent) return fail("the bone " + quoted_start(word) + " has two "
-                                                                       "parents");
+      if (child.parent) {
+        return fail("the bone " + quoted_start(word) + " has two parents");
+      }
       child.parent = above->second;
       file_.bones[above->second].children.push_back(below->second);
     }

@@ -25,10 +25,10 @@ enum class BvhOrder {
 
 /// Names of the joints that are human bones.
 enum class BvhNames {
-  kOwn,      ///< The joints' own names; blanks become '_'.
+  kOwn,  ///< The joints' own names; blanks become '_'.
   /// Autodesk's names: "LeftUpLeg". All names keep only letters, digits and '_'.
   kHumanIk,
-  kUnity,    ///< Unity's: "LeftUpperLeg".
+  kUnity,  ///< Unity's: "LeftUpperLeg".
 };
 
 struct BvhWriteOptions {

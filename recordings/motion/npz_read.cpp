@@ -180,8 +180,7 @@ class Reader {
       joint.bone = human_bone((*bones)[i]);
       const auto parent = parents->at<std::int32_t>(i);
       if (i == 0 ? parent != -1 : parent < 0 || std::cmp_greater_equal(parent, i)) {
-        return fail("parents",
-                    "joint " + std::to_string(i) + " has no parent before it");
+        return fail("parents", "joint " + std::to_string(i) + " has no parent before it");
       }
       if (i > 0) {
         joint.parent = JointIndex{parent};

@@ -19,8 +19,8 @@ namespace marey::recordings {
 
 /// The part of the floor to be captured, and the grid step of its evaluation.
 struct PlannedVolume {
-  glm::dvec2 min_m{-2.0};    ///< Minimum x and z in the world.
-  glm::dvec2 max_m{2.0};  ///< Maximum x and z in the world.
+  glm::dvec2 min_m{-2.0};  ///< Minimum x and z in the world.
+  glm::dvec2 max_m{2.0};   ///< Maximum x and z in the world.
   double step_m = 0.25;
 };
 

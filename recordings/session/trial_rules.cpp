@@ -34,7 +34,7 @@ bool may_share_videos(const Trial& a, const Trial& b) {
 
 /// Detects videos of an earlier trial: a line that was copied and not edited.
 std::optional<TrialConflict> mistake_in_videos(const Trial& trial,
-                                              const Session& session) {
+                                               const Session& session) {
   for (const Trial& earlier : session.trials) {
     if (may_share_videos(trial, earlier)) continue;
     for (const TrialVideo& video : trial.videos) {
@@ -43,9 +43,9 @@ std::optional<TrialConflict> mistake_in_videos(const Trial& trial,
       const std::string file = in_quotes(video.path.filename().string());
       if (twin->camera != video.camera) {
         return TrialConflict{"videos",
-                            "trial " + in_quotes(earlier.name) + " has the video " +
-                                file + " for another camera",
-                            "give both trials the videos of the same camera"};
+                             "trial " + in_quotes(earlier.name) + " has the video " +
+                                 file + " for another camera",
+                             "give both trials the videos of the same camera"};
       }
       if (!same_frames(trial, earlier)) continue;
       return TrialConflict{
@@ -83,19 +83,19 @@ std::optional<TrialConflict> find_conflict(const Trial& trial, const Session& se
   if (trial.kind == TrialKind::kMotion) return mistake_in_videos(trial, session);
   if (const Trial* twin = session.find(trial.kind)) {
     return TrialConflict{"kind",
-                        "trial " + in_quotes(twin->name) + " already has the kind " +
-                            in_quotes(std::string(name(trial.kind))),
-                        "keep the better one: only motion trials can be many"};
+                         "trial " + in_quotes(twin->name) + " already has the kind " +
+                             in_quotes(std::string(name(trial.kind))),
+                         "keep the better one: only motion trials can be many"};
   }
   if (auto mistake = mistake_in_videos(trial, session)) return mistake;
   if (trial.kind != TrialKind::kFloor || trial.frames) return std::nullopt;
   const Trial* waved = session.find(TrialKind::kCalibration);
   if (!waved || waved->frames || !share_a_video(trial, *waved)) return std::nullopt;
   return TrialConflict{"kind",
-                      "trial " + in_quotes(trial.name) +
-                          " is the whole of a video of trial " + in_quotes(waved->name) +
-                          ", in which the board moves",
-                      "say in which frames it lies on the floor: frames = [0, 30]"};
+                       "trial " + in_quotes(trial.name) +
+                           " is the whole of a video of trial " + in_quotes(waved->name) +
+                           ", in which the board moves",
+                       "say in which frames it lies on the floor: frames = [0, 30]"};
 }
 
 }  // namespace marey::recordings

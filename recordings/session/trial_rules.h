@@ -22,6 +22,6 @@ struct TrialConflict {
 /// video of one camera used for another; a floor trial cut out of the calibration's own
 /// videos gives its frame range.
 [[nodiscard]] std::optional<TrialConflict> find_conflict(const Trial& trial,
-                                                     const Session& session);
+                                                         const Session& session);
 
 }  // namespace marey::recordings

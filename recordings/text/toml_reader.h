@@ -120,7 +120,7 @@ class TomlReader {
                       std::vector<double>& out);
 
   TomlDocument* document_;
-  const TomlValue* value_;  ///< Null after a mistake.
+  const TomlValue* value_;           ///< Null after a mistake.
   std::vector<std::size_t> by_key_;  ///< Entries in the order of their keys.
   std::string name_;        ///< "[subject]"; empty for the root.
 };

@@ -34,8 +34,8 @@ struct KeptConstraint {
   int active_frames = 0;
   bool is_orientation = false;  ///< True: the errors are angles, and the lengths are 0.
                                 ///< False: the reverse.
-  int met_frames = 0;  ///< Frames in which is_met() of
-                       ///< retarget/constraints/measure_constraint.h is true.
+  int met_frames = 0;           ///< Frames in which is_met() of
+                                ///< retarget/constraints/measure_constraint.h is true.
   double mean_error_m = 0.0;
   double worst_error_m = 0.0;
   double mean_error_rad = 0.0;

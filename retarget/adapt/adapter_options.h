@@ -77,9 +77,9 @@ inline constexpr double kFirmActivation = 0.8;
 struct ConstraintOutcome {
   double activation = 0.0;  ///< 0 to 1.
   double error_m = 0.0;  ///< Distance from the point to its target; 0 for an orientation.
-  double error_rad = 0.0;   ///< Remaining angle; 0 for all goals except orientations.
-  bool met = false;         ///< Within the precision: is_met() in
-                            ///< retarget/constraints/measure_constraint.h.
+  double error_rad = 0.0;  ///< Remaining angle; 0 for all goals except orientations.
+  bool met = false;        ///< Within the precision: is_met() in
+                           ///< retarget/constraints/measure_constraint.h.
 };
 
 /// Errors are defined in the same way for both methods and all controls. They cover

@@ -32,10 +32,10 @@ struct PackedProblem {
   std::vector<float> targets;
   std::array<float, kBalanceNumbers> balance{};
   std::vector<TargetNumbers> numbers;  ///< In the order of plan.points; `targets` are
-                                     ///< computed from them.
-  std::vector<double> activations;   ///< In the order of plan.points.
-  double largest_weight = 0.0;       ///< Largest weight of the active constraints.
-  std::vector<double> ramps;         ///< Distinct activations below 1, descending.
+                                       ///< computed from them.
+  std::vector<double> activations;     ///< In the order of plan.points.
+  double largest_weight = 0.0;         ///< Largest weight of the active constraints.
+  std::vector<double> ramps;           ///< Distinct activations below 1, descending.
   explicit PackedProblem(const Plan& shared);
 };
 
@@ -120,7 +120,7 @@ struct AdapterState {
                                         ///< target.
   std::vector<float> firmness;          ///< Per target: fraction of the distance to
                                         ///< close, 0 to 1.
-  std::vector<float> mixed_beyond;  ///< Angle of a joint beyond its limits. [rad]
+  std::vector<float> mixed_beyond;      ///< Angle of a joint beyond its limits. [rad]
 
  private:
   void read_targets(double time_s, PackedProblem& problem);

@@ -7,7 +7,8 @@
 #include "retarget/base/smooth_step.h"
 #include "retarget/constraints/activation.h"
 
-/// Postures while constraints fade in or out, or one control passes over to the other.
+/// Computes postures while constraints fade in or out, or while one control fades to the
+/// other.
 namespace marey::retarget {
 namespace {
 

@@ -29,8 +29,7 @@ Refusal check_ids(const ConstraintSet& set) {
                        "give it a unique id");
     }
     if (!ids.insert(c.id).second) {
-      return refused(
-          c, "another constraint has the same id", "rename or remove one");
+      return refused(c, "another constraint has the same id", "rename or remove one");
     }
   }
   return std::nullopt;

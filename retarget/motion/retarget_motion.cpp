@@ -317,10 +317,9 @@ Result<RetargetedMotion> retarget_motion(const Motion& source,
                                          const RetargetOptions& options) {
   MAREY_ASSERT(source.rate.hz > 0.0);
   if (options.balance && !options.adapt_ground) {
-    return bad_input(
-        "",
-        "balance needs ground adaptation, which is switched off",
-        "switch ground adaptation on, or balance off");
+    return bad_input("",
+                     "balance needs ground adaptation, which is switched off",
+                     "switch ground adaptation on, or balance off");
   }
   auto bodies = map_bodies(source.skeleton, avatar, options.root);
   if (!bodies) return bodies.error();

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Second hypotheses: a camera that was moved, a rolling shutter, a place that reads two
-// ways.
+// Alternative hypotheses: a moved camera, a rolling shutter, an ambiguous pose.
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -40,7 +39,7 @@ TEST(ApparentFaults, FindTheCameraThatWasMovedAndWhen) {
   ASSERT_TRUE(rig->apparent_move->from_frame);
   // A window is a hundredth of the recording.
   EXPECT_NEAR(*rig->apparent_move->from_frame, scene.from_frame, 3);
-  // A knock shifts the camera by 2 mm, too: at 3 m half a pixel.
+  // The simulated move also shifts the camera by 2 mm: half a pixel at 3 m.
   EXPECT_NEAR(rig->apparent_move->moved_px, 3.0, 0.8);
   EXPECT_TRUE(rig->apparent_move->alternatives.empty());
 }
@@ -50,7 +49,7 @@ TEST(ApparentFaults, FindNoMoveWorthSayingOfAGoodRecording) {
   const auto rig = calibrate(scene);
   ASSERT_TRUE(rig) << rig.error().message();
   ASSERT_TRUE(rig->apparent_move && rig->apparent_line_delays);
-  // Corners err by 0.1 px and lenses by 0.02.
+  // Corner errors are 0.1 px, lens errors 0.02 px.
   EXPECT_LT(rig->apparent_move->moved_px, 0.5);
   for (const double delay_s : rig->apparent_line_delays->delay_s) {
     EXPECT_LT(std::abs(delay_s) * scene.truth[0].intrinsics.height_px, 0.004);
@@ -74,13 +73,13 @@ TEST(ApparentFaults, FindARollingShutter) {
   EXPECT_GT(worst_m, 0.010);
 }
 
-/// Simulates tags that fly through the volume, each on its own way; each camera is
-/// `late_s` later than the one before. `brisk` scales the speed: 1 is up to 0.7 m/s.
+/// Simulates tags that fly through the volume on independent paths; each camera is
+/// `late_s` later than the previous one. `speed_scale` 1 is up to 0.7 m/s.
 std::vector<CameraDetections> flying_tags(const std::vector<Camera>& cameras,
                                           int frames,
                                           double noise_px,
                                           double late_s = 0.004,
-                                          double brisk = 1.0,
+                                          double speed_scale = 1.0,
                                           std::uint64_t seed = 12) {
   auto out = marey::testing::unseeing(cameras, frames, 30.0, "walk");
   marey::testing::Dice dice(seed);
@@ -91,9 +90,9 @@ std::vector<CameraDetections> flying_tags(const std::vector<Camera>& cameras,
         const RigidTransform pose{
             rotation_from_vector({0.0, 0.8 * tag + 0.7 * time_s, 0.0}) *
                 rotation_from_vector({kPi, 0.0, 0.0}),
-            {0.5 * std::sin(brisk * 1.3 * time_s + tag),
+            {0.5 * std::sin(speed_scale * 1.3 * time_s + tag),
              0.5 + 0.15 * tag,
-             0.5 * std::cos(brisk * 1.1 * time_s + 2.0 * tag)}};
+             0.5 * std::cos(speed_scale * 1.1 * time_s + 2.0 * tag)}};
         const auto seen = marey::testing::see_tag(cameras[c], pose, TagId{tag}, 0.09);
         if (!seen) continue;
         out[c].frames[static_cast<std::size_t>(f)].tags.push_back(
@@ -133,7 +132,7 @@ TEST(FindMovedCamera, FindsNothingWorthSayingOfCamerasThatStand) {
   EXPECT_LT(found->moved_px, 0.3);
 }
 
-// The best of many hypotheses is some move by chance, and a large one where few frames
+// The best of many hypotheses has a nonzero move by chance, and a large one if few frames
 // follow it: 0.8 to 1.5 px in three of these recordings if any start is accepted.
 TEST(FindMovedCamera, FindsNoMoveByChanceInEightRecordings) {
   const auto cameras = ring_of_cameras();
@@ -173,8 +172,8 @@ TEST(FindMovedCamera, MistakesNoClockOffsetForAMove) {
   const auto seen = flying_tags(cameras, 90, 0.1, 0.004, 5.0);
   const auto found = find_moved_camera(cameras, seen, sizes());
   ASSERT_TRUE(found);
-  EXPECT_LT(found->moved_px,
-            0.5);  // app/check/find_moved_cameras.cpp warns from here on.
+  // Warning limit of app/check/find_moved_cameras.cpp.
+  EXPECT_LT(found->moved_px, 0.5);
 }
 
 TEST(FindMovedCamera, SaysNothingOfTagsThatOneCameraSees) {

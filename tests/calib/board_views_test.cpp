@@ -72,10 +72,11 @@ TEST(BoardViews, AverageTheFloorsNoise) {
         floor->corners[i].pixel_px - frame.tags[i / 4].corners_px[i % 4];
     sum_px2 += 0.5 * glm::dot(off, off);
   }
-  // Sixteen frames leave a quarter of 0.3 px; a hundred corners tell that to a tenth.
+  // The mean of sixteen frames has a quarter of 0.3 px; a hundred corners determine it to
+  // a tenth.
   EXPECT_NEAR(
       std::sqrt(sum_px2 / static_cast<double>(floor->corners.size())), 0.075, 0.02);
-  // The systematic part does not average out: sigma stays at three quarters.
+  // The systematic part does not average out: sigma is at least three quarters.
   EXPECT_NEAR(floor->corners[0].sigma_px, 0.75 * frame.tags[0].sigma_px, 1e-12);
 }
 

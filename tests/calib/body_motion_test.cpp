@@ -23,7 +23,7 @@ TEST(BodyMotion, TurnsABodyAsForwardKinematicsDo) {
   const BodyPlace before = walking_body(body, {0.0, 0.0}, 0.4, 1.0);
   const BodyPlace after = walking_body(body, {0.0, 0.0}, 0.4 + kTurn_rad, 1.0);
   const BodyMotion motion = motion_of(body, before);
-  // All bones about the world's Y; elbows and knees stay as they are.
+  // Rotates all bones about the world's Y; elbows and knees keep their angles.
   PostureVector step = PostureVector::Zero();
   for (const int column : {3, 6, 9, 12, 15, 18, 21}) step[column + 1] = kTurn_rad;
   for (int limb = 0; limb < 4; ++limb) {
@@ -40,7 +40,7 @@ TEST(BodyMotion, TurnsABodyAsForwardKinematicsDo) {
   }
 }
 
-/// A body whose world rotations are given one by one: positions by core's kinematics.
+/// Returns a body with the given world rotations: positions by core's kinematics.
 BodyPlace with_rotations(const PlannedBody& body, const BodyPlace& place) {
   std::vector<glm::dquat> rotations;
   for (const RigidTransform& world_from_bone : place) {
@@ -53,7 +53,7 @@ BodyPlace with_rotations(const PlannedBody& body, const BodyPlace& place) {
   return out;
 }
 
-/// A limb's triangle bent by `more_rad`, its end staying on the frame's axis.
+/// Flexes a limb by `more_rad`, with its end on the frame's axis.
 void bend(const PlannedBody& body, std::size_t limb, double more_rad, BodyPlace& place) {
   const HumanLimb& bones = human_limbs()[limb];
   const double upper_m = glm::length(body.proportions[bones.lower]);
@@ -84,7 +84,8 @@ void turn(BodyPlace& place,
   }
 }
 
-/// The body after a step of one column of a posture, as calib/plan/body_freedom.h says.
+/// Returns the body after a step of one column of a posture, as defined in
+/// calib/plan/body_freedom.h.
 BodyPlace stepped(const PlannedBody& body, BodyPlace place, int column, double step) {
   using B = HumanBone;
   const int axis = column % 3;
@@ -99,7 +100,7 @@ BodyPlace stepped(const PlannedBody& body, BodyPlace place, int column, double s
                                        B::kLeftShoulder,
                                        B::kRightShoulder};
     turn(place, axis, step, {kTurned[static_cast<std::size_t>(column / 3 - 1)]});
-    // The spine's joint takes half of either side's turn.
+    // The spine's joint takes half of the rotation of both sides.
     if (column < 9) turn(place, axis, 0.5 * step, {B::kSpine});
   } else {
     const auto limb = static_cast<std::size_t>((column - 24) / 9);

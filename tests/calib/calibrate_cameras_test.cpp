@@ -53,13 +53,14 @@ Worst compare(const CalibratedRig& rig, const std::vector<Camera>& truth) {
   return worst;
 }
 
-// The priors (a principal point near the middle, mild distortion) pull even on exact
-// corners: by a hundredth of a pixel, which is 1e-5 rad and, a board away, 1e-5 m.
+// The priors (a principal point near the middle, mild distortion) bias even exact
+// corners: by a hundredth of a pixel, which is 1e-5 rad and, at the distance of the
+// board, 1e-5 m.
 constexpr double kExact_m = 1e-5;
 constexpr double kExact_rad = 3e-5;
 constexpr double kExactFocal = 1e-5;
-// A fifth of a pixel over sixty frames leaves the focal length good to a thousandth, and
-// a thousandth of the 3.4 m to the middle is 3.4 mm.
+// A fifth of a pixel over sixty frames determines the focal length to a thousandth, and a
+// thousandth of the 3.4 m to the middle is 3.4 mm.
 constexpr double kNoisy_m = 4e-3;
 
 TEST(CalibrateCameras, RecoversTheRigFromExactCorners) {
@@ -80,11 +81,11 @@ TEST(CalibrateCameras, StaysNearTheRigUnderNoise) {
   const Worst worst = compare(*rig, cameras);
   EXPECT_LT(worst.centre_m, kNoisy_m);
   EXPECT_LT(worst.focal, 1e-3);
-  // Two coordinates of 0.2 px each, a little of it fitted away.
+  // Two coordinates of 0.2 px each, minus a small part that the fit absorbs.
   EXPECT_NEAR(rig->rms_px, 0.28, 0.01);
 }
 
-TEST(CalibrateCameras, IsHonestAboutItsDoubt) {
+TEST(CalibrateCameras, ReturnsSigmasThatMatchItsErrors) {
   const auto cameras = ring_of_cameras();
   const auto rig = calibrate(cameras, {0.2, {}, 0.0});
   ASSERT_TRUE(rig) << rig.error().message();
@@ -98,9 +99,9 @@ TEST(CalibrateCameras, IsHonestAboutItsDoubt) {
         rig->cameras[c].intrinsics.focal_px.x - cameras[c].intrinsics.focal_px.x;
     EXPECT_LT(std::abs(focal_off_px), 3.0 * rig->quality[c].focal_sigma_px);
   }
-  // One is honest for noise of the assumed 0.3 px; this noise is two thirds of that, of
-  // which no part is common to all corners as with real lenses and prints, and four
-  // cameras that share their errors make a rough mean.
+  // A value of one is correct for noise of the assumed 0.3 px. This noise is two thirds
+  // of that, without a part common to all corners as in real lenses and prints, and four
+  // cameras with correlated errors give a rough mean.
   const double rms_in_sigmas = std::sqrt(sum / 4.0);
   EXPECT_GT(rms_in_sigmas, 0.1);
   EXPECT_LT(rms_in_sigmas, 1.5);
@@ -111,7 +112,7 @@ TEST(CalibrateCameras, MeasuresHowMuchTagsShrink) {
   const auto rig = calibrate(cameras, {0.0, {0.6, 0.01}, 0.0});
   ASSERT_TRUE(rig) << rig.error().message();
   for (const Camera& camera : rig->cameras) {
-    // The prior (none, give or take half a pixel) pulls a little.
+    // The prior (zero with a sigma of half a pixel) has a small effect.
     EXPECT_NEAR(camera.tag_shrinkage.offset_px, 0.6, 3e-3);
     EXPECT_NEAR(camera.tag_shrinkage.slope, 0.01, 1e-4);
   }
@@ -127,7 +128,7 @@ TEST(CalibrateCameras, RecoversTheRigThroughTagsThatShrink) {
 }
 
 TEST(CalibrateCameras, SuffersLittleFromWrongTags) {
-  // One tag in twenty is 20 px off: plain least squares would be led centimetres astray.
+  // One tag in twenty is 20 px off: plain least squares would have errors of centimetres.
   const auto cameras = ring_of_cameras();
   const auto rig = calibrate(cameras, {0.2, {}, 0.05});
   ASSERT_TRUE(rig) << rig.error().message();
@@ -138,7 +139,7 @@ TEST(CalibrateCameras, OwnsUpToWrongTagsInItsRms) {
   const auto cameras = ring_of_cameras();
   const auto rig = calibrate(cameras, {0.2, {}, 0.05});
   ASSERT_TRUE(rig) << rig.error().message();
-  // sqrt(0.05) of 20 px; the median does not move from 1.18 times 0.2 px.
+  // sqrt(0.05) of 20 px; the median remains at 1.18 times 0.2 px.
   EXPECT_NEAR(rig->rms_px, 4.47, 0.6);
   EXPECT_NEAR(rig->median_px, 0.24, 0.03);
 }
@@ -177,7 +178,8 @@ TEST(CalibrateCameras, CountsWhatEachCameraSaw) {
   }
 }
 
-/// How often two cameras saw three tags or more of the waved board in one frame.
+/// Returns the number of frames in which both cameras saw three tags or more of the waved
+/// board.
 int seen_together(const BoardRecording& recording, std::size_t a, std::size_t b) {
   int count = 0;
   for (std::size_t f = 0; f < recording.waved[a].frames.size(); ++f) {
@@ -207,7 +209,7 @@ TEST(CalibrateCameras, KeepsWhatItSawForReports) {
       ++corners[c];
       outliers += corner.is_outlier ? 1 : 0;
     }
-    // The floor is where the world is: the board lies on it, face up.
+    // The floor defines the world: the board lies on it, face up.
     if (!view.stays) continue;
     EXPECT_EQ(view.frame, kFloorInstant);
     const glm::dvec3 up = view.world_from_target.rotation * glm::dvec3(0.0, 0.0, 1.0);

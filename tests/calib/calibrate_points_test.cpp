@@ -36,14 +36,14 @@ std::vector<Camera> three_cameras() {
 
 struct Scene {
   double noise_px = 0.0;
-  double bend_m = 0.0;  ///< How far the board's left and right ends rise.
+  double bend_m = 0.0;  ///< Rise of the board's left and right ends.
   bool mirrored = false;
   std::array<double, 3> late_s{};  ///< Per camera.
   double seconds = 6.0;
-  double rest_s = 0.0;  ///< Before the board begins to swing.
+  double rest_s = 0.0;  ///< Duration before the board begins to swing.
 };
 
-/// The board faces the cameras and swings about.
+/// The board faces the cameras and swings.
 RigidTransform world_from_board(double time_s) {
   const glm::dquat turn =
       rotation_from_vector({0.5 * std::sin(2.1 * time_s), 0.0, 0.0}) *
@@ -94,7 +94,7 @@ Result<CalibratedRig> calibrate(const std::vector<Camera>& cameras,
       marey::testing::names_of(cameras), film(cameras, scene), {}, board(), options);
 }
 
-/// Distances between cameras do not ask where the world is.
+/// Distances between cameras do not depend on the world's frame.
 double worst_distance_m(const CalibratedRig& rig, const std::vector<Camera>& truth) {
   double worst = 0.0;
   for (std::size_t a = 0; a < truth.size(); ++a) {
@@ -115,7 +115,7 @@ TEST(CalibratePoints, RecoverTheRigFromExactCornersOfSquares) {
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_LT(worst_distance_m(*rig, cameras), 2e-5);
   EXPECT_LT(rig->rms_px, 1e-3);
-  // Without a floor, the first camera is where the world begins.
+  // Without a floor, the first camera is the origin of the world.
   EXPECT_LT(glm::length(centre_in_world(rig->cameras[0])), 1e-9);
 }
 
@@ -143,7 +143,7 @@ TEST(CalibratePoints, RecoverFisheyes) {
 }
 
 TEST(CalibratePoints, ChooseTheLensThatPredictsBest) {
-  // So near that the board fills half of a fisheye's picture.
+  // Near enough for the board to cover half of a fisheye's image.
   std::vector<Camera> cameras{webcam_at("cam0", {-0.35, 1.2, 0.75}, {0.0, 1.0, 0.0}),
                               webcam_at("cam1", {0.3, 1.0, 0.8}, {0.0, 1.0, 0.0})};
   for (Camera& camera : cameras) {
@@ -177,7 +177,7 @@ TEST(CalibratePoints, FindABentBoardAndLeaveAFlatOneFlat) {
       cameras, {.noise_px = 0.1, .bend_m = 0.002, .seconds = 4.0}, {.find_warp = true});
   ASSERT_TRUE(bent) << bent.error().message();
   ASSERT_TRUE(bent->warp_m);
-  // The ends of what is seen are the corners at 4 squares from the middle.
+  // The ends of the visible part are the corners at 4 squares from the middle.
   EXPECT_NEAR((*bent->warp_m)[0], 0.002, 2e-4);
   EXPECT_NEAR((*bent->warp_m)[1], 0.0, 2e-4);
   const auto flat =
@@ -200,8 +200,8 @@ TEST(CalibratePoints, SolveForClocksThatStartApart) {
   EXPECT_LT(worst_distance_m(*rig, cameras), 4e-3);
 }
 
-// The first camera's clock and the others' in one place each: less than a frame apart,
-// some frames apart, and together.
+// Three cases of the other clocks relative to the first: less than a frame apart, some
+// frames apart, and equal.
 TEST(CalibratePoints, FindOutThatClocksAreApart) {
   const auto cameras = three_cameras();
   for (const double late_s : {0.0087, 0.2613}) {
@@ -228,7 +228,7 @@ TEST(CalibratePoints, LeaveClocksAloneThatRunTogether) {
 }
 
 TEST(CalibratePoints, FindClocksOfManyFramesInALongRest) {
-  // A third of the time the board rests: there, frames of any times go together.
+  // The board rests for a third of the time: frames of any times then match.
   const auto cameras = three_cameras();
   const auto rig = calibrate(
       cameras,
@@ -241,8 +241,7 @@ TEST(CalibratePoints, FindClocksOfManyFramesInALongRest) {
   EXPECT_LT(worst_distance_m(*rig, cameras), 4e-3);
 }
 
-// Rows that follow each other are no reason to take clocks for apart, nor the other way
-// round.
+// Line delays are not mistaken for clock offsets, and vice versa.
 TEST(CalibratePoints, ChooseClocksWithLineDelays) {
   const auto cameras = three_cameras();
   for (const double late_s : {0.0, 0.1613}) {
@@ -257,7 +256,7 @@ TEST(CalibratePoints, ChooseClocksWithLineDelays) {
       EXPECT_NEAR(clock.line_delay_s, 0.0, 3e-6);
       EXPECT_GT(clock.line_delay_sigma_s, 0.0);
     }
-    // Frames of a board that moves all the time.
+    // Frames of a board in constant motion.
     EXPECT_EQ(rig->quality[1].views, 45);
   }
 }
@@ -288,7 +287,7 @@ TEST(CalibratePoints, JudgeThemselvesByFramesAndCamerasLeftOut) {
   EXPECT_NEAR(v.held_out_rms_px, 0.141, 0.01);
   for (std::size_t c = 0; c < 3; ++c) {
     ASSERT_TRUE(v.held_out_camera_px[c]);
-    // The others place the board to a few tenths of a millimetre.
+    // The other cameras determine the board's pose to a few tenths of a millimetre.
     EXPECT_LT(*v.held_out_camera_px[c], 0.3);
     EXPECT_LT(v.centre_apart_m[c], 5e-3);
   }

@@ -40,7 +40,8 @@ RigidTransform world_from_wand(double share) {
            0.7 * std::cos(round)}};
 }
 
-/// Camera c takes its frames `late[c]` frames after the first; by default none does.
+/// Camera c takes its frames `late[c]` frames after the first; by default, all are
+/// simultaneous.
 std::vector<CameraDetections> wave_wand(const std::vector<Camera>& cameras,
                                         int frames,
                                         double noise_px,
@@ -65,7 +66,7 @@ std::vector<CameraDetections> wave_wand(const std::vector<Camera>& cameras,
   return out;
 }
 
-/// Distances between cameras do not ask where the world is.
+/// Distances between cameras do not depend on the world's frame.
 double worst_distance_m(const CalibratedRig& rig, const std::vector<Camera>& truth) {
   double worst = 0.0;
   for (std::size_t a = 0; a < truth.size(); ++a) {
@@ -85,7 +86,7 @@ TEST(CalibrateWand, RecoversCamerasAndLayoutFromExactCorners) {
   const auto found =
       calibrate_wand(names_of(cameras), wave_wand(cameras, 60, 0.0), kWand);
   ASSERT_TRUE(found) << found.error().message();
-  // Priors (a centred principal point, mild distortion) pull a little.
+  // Priors (a centred principal point, mild distortion) have a small effect.
   EXPECT_LT(worst_distance_m(found->rig, cameras), 2e-3);
   ASSERT_EQ(found->wand_from_tag.size(), 4U);
   for (int side = 0; side < 4; ++side) {
@@ -106,7 +107,7 @@ TEST(CalibrateWand, StaysNearUnderNoise) {
   EXPECT_NEAR(found->rig.inlier_rms_px, 0.28, 0.05);
 }
 
-// A solution of a long recording takes minutes: its iterations show that it goes on.
+// A solution of a long recording takes minutes: its iterations report progress.
 TEST(CalibrateWand, ReportsProgressWithinASolution) {
   const auto cameras = ring_of_cameras();
   std::vector<int> reports;
@@ -121,14 +122,14 @@ TEST(CalibrateWand, ReportsProgressWithinASolution) {
   ASSERT_TRUE(found) << found.error().message();
   EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
   EXPECT_EQ(reports.back(), total);
-  // Before half of the work is done, which is the solution: not only its end.
+  // Progress is reported before half of the work, which is the solution, is done.
   const auto during = std::count_if(reports.begin(), reports.end(), [&](int done) {
     return done > 0 && 2 * done < total;
   });
   EXPECT_GE(during, 3);
 }
 
-// Ten frames a second: as far apart as half a second and more.
+// Ten frames a second: half a second and more between neighbours.
 TEST(CalibrateWand, FindsOutThatCamerasStartedApart) {
   const auto cameras = ring_of_cameras();
   const std::vector<double> late{0.0, 6.3, -3.6, 0.4};

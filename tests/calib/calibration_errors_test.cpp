@@ -91,8 +91,8 @@ TEST(CalibrateCameras, AsksForAFloor) {
       << error.cause;
 }
 
-// A printed face cannot be read through the board, but a mirrored print can: what the
-// cameras then see is a board seen from behind.
+// A printed face is not visible through the board, but a mirrored print is: the cameras
+// then see a board from behind.
 TEST(CalibrateCameras, NoticesABoardThatLiesFaceDown) {
   const auto cameras = ring_of_cameras();
   BoardRecording recording = wave_board(cameras, kBoard, kFrames);
@@ -149,8 +149,8 @@ TEST(CalibrateCameras, NamesACameraThatWasMovedBeforeTheFloorTrial) {
 }
 
 TEST(CalibrateCameras, NoticesAWrongGap) {
-  // Printed with gaps of 30 mm, declared with 20: a world 120/130 of its size would fit
-  // every corner if tags could shrink at will.
+  // Printed with gaps of 30 mm, declared with 20: a world of 120/130 of its size would
+  // fit every corner if the shrinkage of tags were unlimited.
   const auto cameras = ring_of_cameras();
   const BoardRecording recording = wave_board(cameras, kBoard, kFrames);
   AprilGrid declared = kBoard;
@@ -163,7 +163,8 @@ TEST(CalibrateCameras, NoticesAWrongGap) {
       << error.next;
 }
 
-// Every view is of a shape that no flat board has: no camera fits even one of them.
+// Every view has a shape that is impossible for a flat board: no camera fits even one of
+// them.
 TEST(CalibrateCameras, TellsHowTheTagsLieWhereTheBoardIsDeclaredOtherwise) {
   const auto cameras = ring_of_cameras();
   marey::testing::Disturbance noise;
@@ -191,7 +192,8 @@ TEST(CalibrateCameras, TellsHowTheTagsLieWhereTheBoardIsDeclaredOtherwise) {
   }
 }
 
-/// Frames of a board that is held square on to a camera, its lower left corner there.
+/// Frames of a board held parallel to the image plane, with its lower left corner at the
+/// given pixel.
 std::vector<FrameDetections> square_on(const std::vector<glm::dvec2>& places_px) {
   constexpr double kPxPerMetre = 400.0;
   std::vector<FrameDetections> frames;

@@ -12,7 +12,7 @@ namespace marey::testing {
 /// Returns the report of a good calibration of three webcams.
 [[nodiscard]] calib::CalibrationReport decent();
 
-/// Returns the one finding; the test fails if there are none or several.
+/// Returns the only finding; the test fails if there are none or several.
 [[nodiscard]] calib::Finding only(const calib::CalibrationReport& report);
 
 /// Expects a finding of this severity, kind and place, with a cause that contains the

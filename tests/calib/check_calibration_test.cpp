@@ -52,13 +52,13 @@ TEST(CheckCalibration, NamesABoardThatWasHardlyTilted) {
 
 TEST(CheckCalibration, NamesCamerasThatHardlyMeet) {
   CalibrationReport report = decent();
-  // Left and right need not meet: the middle joins them. Now it does so badly.
+  // Left and right need no shared views: the middle connects them. Now it does so weakly.
   report.rig.shared_views = {40, 30, 2, 30, 40, 3, 2, 3, 40};
   expect(
       only(report), Severity::kFair, "shared", "cameras middle and right", "3 instants");
 }
 
-TEST(CheckCalibration, DoubtsWhatWasSeenThreeTimes) {
+TEST(CheckCalibration, ReportsThreeViewsAsPoor) {
   CalibrationReport report = decent();
   report.cameras[1].instants = 3;
   expect(only(report), Severity::kPoor, "views", "camera middle", "at 3 instants");
@@ -92,7 +92,7 @@ TEST(CheckCalibration, NamesLineDelaysOfARollingShutter) {
          "cameras left (29 ms), middle (30 ms)",
          "shift by up to 30 mm");
   EXPECT_NE(found.next.find("line_delays = true"), std::string::npos);
-  // It looks a little like a camera that was moved, and that like it.
+  // A rolling shutter has a small apparent move, and a move a small apparent line delay.
   report.rig.apparent_move =
       ApparentMove{CameraId{1}, 77, 3.8, 0.0042, 0.003, 9000.0, {}};
   EXPECT_EQ(only(report).kind, "rolling-shutter");
@@ -172,7 +172,7 @@ TEST(CheckCalibration, NamesACameraThatGoesOutOfStepOnItsWay) {
   EXPECT_TRUE(check_calibration(report).empty());
 }
 
-TEST(CheckCalibration, DoubtsRowsAndClocksThatNoCameraHas) {
+TEST(CheckCalibration, ReportsImplausibleLineDelaysAndDrifts) {
   CalibrationReport report = decent();
   report.rig.clocks.resize(3);
   report.rig.clocks[1] = {0.0, 1e-4, 2e-4, 1e-5, 40e-6, 1e-6};
@@ -202,11 +202,11 @@ TEST(CheckCalibration, SeesALensThatItsModelDoesNotFit) {
   expect(only(report), Severity::kFair, "lens", "camera left", "0.32 px");
 }
 
-TEST(CheckCalibration, DoubtsPointsThatStandCentimetresOff) {
+TEST(CheckCalibration, ReportsLargePointErrors) {
   CalibrationReport report = decent();
   report.map.middle_error_m = 0.03;
   expect(only(report), Severity::kPoor, "error", "all cameras", "30.0 mm");
-  // In a hall of nine metres the same is a third of it.
+  // In a hall of nine metres, the relative error is a third of it.
   report.map.distance_m = 9.0;
   expect(only(report), Severity::kFair, "error", "all cameras", "30.0 mm");
 }
@@ -219,7 +219,7 @@ TEST(CheckCalibration, SaysWhereTheErrorsAreLarge) {
   expect(only(report), Severity::kFair, "volume", "all cameras", "towards +x");
 }
 
-TEST(CheckCalibration, DoubtsWhatDoesNotPredict) {
+TEST(CheckCalibration, ReportsLargeHeldOutErrors) {
   CalibrationReport report = decent();
   CrossValidation check{0.3,
                         0.32,
@@ -241,7 +241,7 @@ TEST(CheckCalibration, DoubtsWhatDoesNotPredict) {
   expect(only(report), Severity::kFair, "halves", "camera right", "25 mm");
   report.rig.cross_validation->centre_apart_m[2] = 0.05;
   expect(only(report), Severity::kPoor, "halves", "camera right", "50 mm");
-  // Known to be as unsure as that.
+  // The camera's own sigma explains the difference.
   report.rig.quality[2].centre_sigma_m = 0.02;
   EXPECT_TRUE(check_calibration(report).empty());
 }
@@ -261,7 +261,7 @@ TEST(CheckCalibration, MakesErrorsOfWhatIsPoorAndWarningsOfTheRest) {
 
 TEST(CheckCalibration, SquaresThatDoNotGoWithTheirGapsAreToldOfAllCamerasTogether) {
   CalibrationReport report = decent();
-  // One camera's glare is no matter of the print.
+  // Glare in one camera does not indicate a wrong print.
   report.rig.cameras[0].tag_shrinkage.slope = 0.02;
   EXPECT_TRUE(check_calibration(report).empty());
   for (Camera& camera : report.rig.cameras) camera.tag_shrinkage.slope = -0.023;

@@ -5,7 +5,7 @@
 #include "calib/quality/check_calibration.h"
 #include "tests/calib/calibration_findings.h"
 
-// Findings about moved cameras and badly measured floors.
+// Findings about moved cameras and inaccurate floors.
 
 namespace marey::calib {
 namespace {
@@ -28,14 +28,14 @@ TEST(CheckCameraFaults, NamesADriftingFocusThatHardlyMovesThePicture) {
          "unsteady",
          "camera middle",
          "shift by up to 130 mm");
-  // A gain within the reach of chance, whatever the shift.
+  // A gain that occurs by chance, for any shift.
   move.gain = 100.0;
   report.rig.apparent_move = move;
   EXPECT_TRUE(check_calibration(report).empty());
 }
 
-// A focal length that jumps by 0.6 % moves the picture by 0.8 px and the cameras by
-// 50 mm.
+// A focal length that changes by 0.6 % shifts the image by 0.8 px and the cameras by 50
+// mm.
 TEST(CheckCameraFaults, GradesASmallMoveByWhatItDoesToTheCameras) {
   CalibrationReport report = decent();
   ApparentMove move;
@@ -114,7 +114,7 @@ TEST(CheckCameraFaults, NamesACameraThatWasNudgedAndByHowMuch) {
       ApparentMove{CameraId{1}, 77, 3.8, 0.0042, 0.003, 9000.0, {}};
   expect(only(report), Severity::kPoor, "moved", "camera middle", "moved by 3.8 px");
   EXPECT_NE(only(report).cause.find("from frame 77"), std::string::npos);
-  // What else it makes of that is not told again.
+  // Its further consequences are not reported again.
   report.cameras[1].outlier_corners = 1500;
   report.cameras[1].slip = CameraSlip{40, 0.9, 5.0};
   EXPECT_EQ(only(report).kind, "moved");
@@ -131,7 +131,7 @@ TEST(CheckCameraFaults, SaysNothingOfMovesThatLensesMake) {
   EXPECT_TRUE(check_calibration(report).empty());
 }
 
-// On 4K half a pixel of lag is no lag: whole stretches that do not fit have another
+// On 4K, half a pixel of lag is not significant: whole sections of outliers have another
 // cause.
 TEST(CheckCameraFaults, ExcusesNoMovedCameraByALagThatItDoesNotTell) {
   CalibrationReport report = decent();

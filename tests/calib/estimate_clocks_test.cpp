@@ -60,7 +60,7 @@ TEST(EstimateClocks, FindsOffsetsBetweenFrames) {
       estimate_clocks(three_cameras(), film({0.0, 0.0073, -0.0111}, 0.0), kSizes);
   ASSERT_TRUE(clocks);
   EXPECT_EQ((*clocks)[0].offset_s, 0.0);
-  // What is left is how well a spline of 1/30 s follows a sine of 3 rad/s.
+  // The remaining error is that of a spline of 1/30 s for a sine of 3 rad/s.
   EXPECT_NEAR((*clocks)[1].offset_s, 0.0073, 1e-4);
   EXPECT_NEAR((*clocks)[2].offset_s, -0.0111, 1e-4);
 }
@@ -80,7 +80,7 @@ TEST(EstimateClocks, KnowsThatTagsAtRestTellLittle) {
   const auto moving =
       estimate_clocks(three_cameras(), film({0.0, 0.0, 0.0}, 0.2), kSizes);
   ASSERT_TRUE(still && moving);
-  // Noise looks like a little motion.
+  // Noise is equivalent to a small motion.
   EXPECT_GT((*still)[1].offset_sigma_s, 10.0 * (*moving)[1].offset_sigma_s);
 }
 

@@ -18,7 +18,7 @@ using marey::testing::wave_board;
 
 const AprilGrid kBoard{6, 6, 0.1, 0.03, 0, 0.0};
 
-/// A camera at the origin that looks along z; boards are placed before it.
+/// A camera at the origin that looks along z; boards are placed in front of it.
 BoardView view_of(const Intrinsics& k, const RigidTransform& camera_from_board) {
   BoardView view;
   for (int id = 0; id < kBoard.tag_count(); ++id) {
@@ -32,7 +32,7 @@ BoardView view_of(const Intrinsics& k, const RigidTransform& camera_from_board) 
   return view;
 }
 
-/// The board's middle `distance_m` away, tilted by `tilt_rad` from square on.
+/// The board's middle at `distance_m`, tilted by `tilt_rad` from frontal.
 RigidTransform before(double distance_m, const glm::dvec3& tilt_rad) {
   const glm::dquat face_the_camera = rotation_from_vector({glm::radians(180.0), 0, 0});
   const glm::dquat turn = rotation_from_vector(tilt_rad) * face_the_camera;
@@ -59,7 +59,7 @@ std::vector<BoardView> tilted_views(const Intrinsics& k) {
 
 TEST(EstimateIntrinsics, ComesNearTheTruthFromExactViews) {
   Intrinsics k = marey::testing::webcam();
-  // What this first estimate does not solve for is as it assumes.
+  // Parameters that this first estimate does not solve for have their assumed values.
   k.centre_px = {639.5, 359.5};
   k.distortion = {-0.1, 0.0, 0.0, 0.0, 0.0};
   const auto views = tilted_views(k);
@@ -76,7 +76,7 @@ TEST(EstimateIntrinsics, IsAFairStartForARealLens) {
   const auto views = tilted_views(k);
   const auto found = estimate_intrinsics(pointers(views), k.width_px, k.height_px);
   ASSERT_TRUE(found);
-  // The bundle finds its way from a few percent.
+  // The bundle converges from errors of a few percent.
   EXPECT_NEAR(found->focal_px.x / k.focal_px.x, 1.0, 0.02);
 }
 
@@ -97,7 +97,7 @@ TEST(EstimateIntrinsics, DoesNotCountViewsOfFewerThanSixTags) {
 }
 
 TEST(EstimateIntrinsics, DeclinesABoardThatNeverTilts) {
-  // Square on, twice the focal length at twice the distance is the same picture.
+  // In a frontal view, twice the focal length at twice the distance gives the same image.
   const Intrinsics k = marey::testing::webcam();
   std::vector<BoardView> views;
   for (const double distance_m : {1.2, 1.4, 1.6, 1.8, 2.0}) {

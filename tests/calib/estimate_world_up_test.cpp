@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSize_m = 0.2;
 
-/// Tags on a pillar that stands in the middle, the lowest with its edge on the floor.
+/// Tags on a pillar in the middle, the lowest with its edge on the floor.
 std::vector<CameraDetections> pillar(const std::vector<Camera>& cameras) {
   auto out = marey::testing::unseeing(cameras, 3, 30.0, "static");
   for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -50,14 +50,14 @@ TEST(LevelByTags, FindsFloorAndUpOfATurnedWorld) {
   ASSERT_TRUE(new_from_old);
   move_world(*new_from_old, rig);
   for (std::size_t c = 0; c < truth.size(); ++c) {
-    // Heights are as they were; where the origin lies along the floor is a convention.
+    // Heights are unchanged; the origin's position on the floor is a convention.
     EXPECT_NEAR(centre_in_world(rig.cameras[c]).y, centre_in_world(truth[c]).y, 1e-3);
   }
   EXPECT_GT(centre_in_world(rig.cameras[0]).z, 1.0);
   EXPECT_NEAR(centre_in_world(rig.cameras[0]).x, 0.0, 1e-6);
 }
 
-/// Tags that lie face up, the last of them as high as that.
+/// Tags that lie face up, the last one at the given height.
 std::vector<CameraDetections> lying_tags(const std::vector<Camera>& cameras,
                                          double last_m) {
   auto out = marey::testing::unseeing(cameras, 1, 30.0, "floor");

@@ -29,8 +29,9 @@ TEST(PointCovariance, IsThatOfAStereoPair) {
   const auto cameras = stereo_pair();
   const auto found = point_covariance(cameras, kBoth, nullptr, {0.0, 1.0, 0.0}, 0.5);
   ASSERT_TRUE(found);
-  // A pixel is 2 m / 900 px across there. Both cameras see height and the two directions
-  // across their rays, which lean 14 degrees: their sum tells x, their difference depth.
+  // There a pixel is 2 m / 900 px wide. Both cameras measure the height and the two
+  // directions perpendicular to their rays, which are inclined by 14 degrees: the sum
+  // determines x, the difference the depth.
   const double pixel_m = 0.5 * 2.0 / 900.0;
   const double lean = 0.25;  // x over z
   EXPECT_NEAR(std::sqrt((*found)[0][0]), pixel_m / std::sqrt(2.0), 1e-7);
@@ -39,21 +40,22 @@ TEST(PointCovariance, IsThatOfAStereoPair) {
 }
 
 TEST(PointCovariance, MovesWithACommonShiftOfAllCameras) {
-  // All centres err together by a millimetre along x: so does every point.
+  // All centres have a common error of a millimetre along x: so does every point.
   const auto cameras = stereo_pair();
-  RigCovariance doubt{2, std::vector<double>(4 * 18 * 18, 0.0)};
+  RigCovariance rig_covariance{2, std::vector<double>(4 * 18 * 18, 0.0)};
   const std::size_t x = RigCovariance::kPerCamera - 3;
   for (const std::size_t a : {x, x + RigCovariance::kPerCamera}) {
     for (const std::size_t b : {x, x + RigCovariance::kPerCamera}) {
-      doubt.values[a * doubt.size() + b] = 1e-6;
+      rig_covariance.values[a * rig_covariance.size() + b] = 1e-6;
     }
   }
   const auto sure = point_covariance(cameras, kBoth, nullptr, {0.1, 1.2, 0.1}, 0.5);
-  const auto unsure = point_covariance(cameras, kBoth, &doubt, {0.1, 1.2, 0.1}, 0.5);
-  ASSERT_TRUE(sure && unsure);
-  EXPECT_NEAR((*unsure)[0][0] - (*sure)[0][0], 1e-6, 1e-12);
-  EXPECT_NEAR((*unsure)[1][1], (*sure)[1][1], 1e-12);
-  EXPECT_NEAR((*unsure)[2][2], (*sure)[2][2], 1e-12);
+  const auto uncertain =
+      point_covariance(cameras, kBoth, &rig_covariance, {0.1, 1.2, 0.1}, 0.5);
+  ASSERT_TRUE(sure && uncertain);
+  EXPECT_NEAR((*uncertain)[0][0] - (*sure)[0][0], 1e-6, 1e-12);
+  EXPECT_NEAR((*uncertain)[1][1], (*sure)[1][1], 1e-12);
+  EXPECT_NEAR((*uncertain)[2][2], (*sure)[2][2], 1e-12);
 }
 
 TEST(PointCovariance, DeclinesWhatASingleCameraSees) {
@@ -72,7 +74,7 @@ TEST(PointCovariance, DeclinesParallelRays) {
 TEST(CamerasThatSee, LeaveOutThoseWhoseImageThePointMisses) {
   const auto cameras = ring_of_cameras();
   EXPECT_EQ(cameras_that_see(cameras, {0.0, 1.0, 0.0}).size(), 4U);
-  // Above the first camera's head.
+  // Above the first camera.
   const auto seen_by = cameras_that_see(cameras, {0.4, 2.6, 3.2});
   EXPECT_TRUE(seen_by.empty() || seen_by[0] != CameraId{0});
 }

@@ -63,7 +63,7 @@ TEST(PlaceCameras, IsNotLedAstrayByAFewWrongViews) {
   const auto cameras = ring_of_cameras();
   const auto guess = place(cameras, wave_board(cameras, kBoard, 60, {0.2, {}, 0.05}));
   ASSERT_TRUE(guess) << guess.error().message();
-  // Near enough for the bundle, which starts well within a tenth of the distance.
+  // Accurate enough for the bundle, which converges from a tenth of the distance.
   EXPECT_LT(worst_centre_m(*guess, cameras), 0.3 /* m */);
 }
 

@@ -46,7 +46,7 @@ TEST(DressBody, WearsTagsOffItsSkinFacingOut) {
     const RigidTransform world_from_tag =
         place[index(tag.tag.segment)] * tag.segment_from_tag;
     const glm::dvec3 out = world_from_tag.rotation * glm::dvec3(0.0, 0.0, -1.0);
-    // From a metre in front, nothing is in the way; from behind, the body is.
+    // From a metre in front, the tag is visible; from behind, the body hides it.
     const glm::dvec3 centre = world_from_tag.translation;
     EXPECT_FALSE(is_hidden(centre, centre + out, flesh)) << number(tag.tag.id);
     EXPECT_TRUE(is_hidden(centre, centre - out, flesh)) << number(tag.tag.id);
@@ -99,14 +99,14 @@ TEST(SolveChain, IsTheInverseOfTheWholeNormalMatrix) {
   }
   const Eigen::MatrixXd inverse = whole.inverse();
   const Eigen::MatrixXd follows = -inverse * right;
-  const auto doubts = solve_chain(frames, steps);
-  ASSERT_EQ(doubts.size(), 4U);
+  const auto uncertainties = solve_chain(frames, steps);
+  ASSERT_EQ(uncertainties.size(), 4U);
   for (int f = 0; f < kFrames; ++f) {
-    const PostureUncertainty& doubt = doubts[static_cast<std::size_t>(f)];
+    const PostureUncertainty& uncertainty = uncertainties[static_cast<std::size_t>(f)];
     const Eigen::MatrixXd block = inverse.block(f * kN, f * kN, kN, kN);
-    EXPECT_LT((doubt.covariance - block).norm(), 1e-8 * block.norm());
+    EXPECT_LT((uncertainty.covariance - block).norm(), 1e-8 * block.norm());
     const Eigen::MatrixXd shift = follows.middleRows(f * kN, kN);
-    EXPECT_LT((doubt.by_shared - shift).norm(), 1e-8 * shift.norm());
+    EXPECT_LT((uncertainty.by_shared - shift).norm(), 1e-8 * shift.norm());
   }
 }
 
@@ -120,8 +120,8 @@ TEST(PlanBody, ErrsLessWithMoreCameras) {
   EXPECT_EQ(by_four.stands.size(), 4U);
   EXPECT_LT(by_four.error_m.median, by_two.error_m.median);
   EXPECT_GT(by_four.measured_share, by_two.measured_share);
-  // A tenth of a pixel at 3 m and 900 px is a third of a millimetre; a lever makes a few
-  // of it, habits less.
+  // A tenth of a pixel at 3 m and 900 px is a third of a millimetre; a lever increases
+  // the error to several times that, the posture prior reduces it.
   EXPECT_GT(by_four.error_m.median, 0.5e-3);
   EXPECT_LT(by_four.error_m.median, 2e-3);
   EXPECT_LT(by_four.error_m.p95, 2e-2);
@@ -135,27 +135,28 @@ TEST(PlanBody, IsOfTheSameWalkAtAnyRate) {
   for (const double rate_hz : {13.0, 60.0}) {
     options.rate_hz = rate_hz;
     const BodyPlan plan = plan_body(cameras, nullptr, body, kSmall, tenth_px, options);
-    // The same way is seen, in more frames or fewer.
+    // The same walk is seen, in more or fewer frames.
     EXPECT_NEAR(plan.views_share, at_30.views_share, 0.03) << rate_hz;
     EXPECT_NEAR(plan.measured_share, at_30.measured_share, 0.05) << rate_hz;
   }
 }
 
-TEST(PlanBody, TakesOverTheDoubtOfCameras) {
+TEST(PlanBody, IncludesTheUncertaintyOfCameras) {
   const PlannedBody body = make_planned_body(1.75, typical_tags(0.1));
   const std::vector<Camera> cameras = ring_of_cameras();
-  RigCovariance doubt{4, std::vector<double>(16 * 18 * 18, 0.0)};
-  // All centres err together by a centimetre along each axis: so does the body.
+  RigCovariance uncertainty{4, std::vector<double>(16 * 18 * 18, 0.0)};
+  // All centres have a common error of a centimetre along each axis: so does the body.
   for (std::size_t axis = 15; axis < 18; ++axis) {
     for (std::size_t a = 0; a < 4; ++a) {
       for (std::size_t b = 0; b < 4; ++b) {
-        doubt.values[(18 * a + axis) * doubt.size() + 18 * b + axis] = 1e-4;
+        uncertainty.values[(18 * a + axis) * uncertainty.size() + 18 * b + axis] = 1e-4;
       }
     }
   }
-  const BodyPlan plan = plan_body(cameras, &doubt, body, kSmall, tenth_px, quick());
+  const BodyPlan plan = plan_body(cameras, &uncertainty, body, kSmall, tenth_px, quick());
   ASSERT_EQ(plan.joints.size(), 12U);
-  // The hips' own part is far smaller; standing and moving, gravity is no camera's.
+  // The hips' own part is far smaller; the direction of gravity while standing and moving
+  // does not depend on the cameras.
   EXPECT_NEAR(plan.joints[6].lasting_error_m, std::sqrt(3e-4), 1e-3);
 }
 
@@ -171,22 +172,22 @@ TEST(PlanBody, SaysSoWhenNobodySeesTheBody) {
 TEST(PlanCalibration, IsOfMillimetresAndScalesToACalibration) {
   const std::vector<Camera> cameras = ring_of_cameras();
   const ErrorMapGrid room;
-  auto doubt = plan_calibration(cameras, room, AprilGrid{}, tenth_px, {});
-  ASSERT_TRUE(doubt) << doubt.error().message();
+  auto uncertainty = plan_calibration(cameras, room, AprilGrid{}, tenth_px, {});
+  ASSERT_TRUE(uncertainty) << uncertainty.error().message();
   for (std::size_t c = 0; c < cameras.size(); ++c) {
-    EXPECT_GT(centre_sigma_m(*doubt, c), 1e-4);
-    EXPECT_LT(centre_sigma_m(*doubt, c), 3e-3);
+    EXPECT_GT(centre_sigma_m(*uncertainty, c), 1e-4);
+    EXPECT_LT(centre_sigma_m(*uncertainty, c), 3e-3);
   }
-  const double other_m = centre_sigma_m(*doubt, 1);
+  const double other_m = centre_sigma_m(*uncertainty, 1);
   std::vector<CameraQuality> quality(4);
   quality[0].centre_sigma_m = 0.004;
-  fit_to_quality(quality, *doubt);
-  EXPECT_NEAR(centre_sigma_m(*doubt, 0), 0.004, 1e-9);
-  EXPECT_NEAR(centre_sigma_m(*doubt, 1), other_m, 1e-12);
+  fit_to_quality(quality, *uncertainty);
+  EXPECT_NEAR(centre_sigma_m(*uncertainty, 0), 0.004, 1e-9);
+  EXPECT_NEAR(centre_sigma_m(*uncertainty, 1), other_m, 1e-12);
 }
 
 TEST(PlanBody, MeasuresLimbsOfABodyThatIsNotFound) {
-  // Tags on the wrists alone: no camera finds a trunk.
+  // Tags on the wrists alone: no camera finds the trunk.
   const std::vector<TagOnSegment> wrists{{TagId{0}, HumanBone::kLeftHand, 0.1},
                                          {TagId{1}, HumanBone::kRightHand, 0.1}};
   const BodyPlan plan = plan_body(ring_of_cameras(),
@@ -205,23 +206,24 @@ TEST(CovarianceOfQuality, IsWhatTheQualitySaysAndNoMore) {
   std::vector<CameraQuality> quality(2);
   quality[1].centre_sigma_m = 0.003;
   quality[1].focal_sigma_px = 2.0;
-  const RigCovariance doubt = covariance_of_quality(quality);
-  ASSERT_EQ(doubt.size(), 36U);
-  EXPECT_EQ(centre_sigma_m(doubt, 0), 0.0);
-  EXPECT_NEAR(centre_sigma_m(doubt, 1), 0.003, 1e-15);
-  EXPECT_EQ(doubt.at(18, 18), 4.0);
-  EXPECT_EQ(doubt.at(19, 19), 4.0);
+  const RigCovariance uncertainty = covariance_of_quality(quality);
+  ASSERT_EQ(uncertainty.size(), 36U);
+  EXPECT_EQ(centre_sigma_m(uncertainty, 0), 0.0);
+  EXPECT_NEAR(centre_sigma_m(uncertainty, 1), 0.003, 1e-15);
+  EXPECT_EQ(uncertainty.at(18, 18), 4.0);
+  EXPECT_EQ(uncertainty.at(19, 19), 4.0);
   double sum = 0.0;
-  for (const double value : doubt.values) sum += value;
+  for (const double value : uncertainty.values) sum += value;
   EXPECT_NEAR(sum, 8.0 + 3 * 9e-6, 1e-12);
 }
 
 TEST(PlanCalibration, FailsWhereCamerasShareNothing) {
   const std::vector<Camera> apart{webcam_at("a", {0.0, 1.5, 3.0}, {0.0, 1.0, 0.0}),
                                   webcam_at("b", {0.0, 1.5, 40.0}, {0.0, 1.0, 80.0})};
-  const auto doubt = plan_calibration(apart, ErrorMapGrid{}, AprilGrid{}, tenth_px, {});
-  ASSERT_FALSE(doubt);
-  EXPECT_EQ(doubt.error().next,
+  const auto uncertainty =
+      plan_calibration(apart, ErrorMapGrid{}, AprilGrid{}, tenth_px, {});
+  ASSERT_FALSE(uncertainty);
+  EXPECT_EQ(uncertainty.error().next,
             "bring camera b nearer to the volume, turn it there, or give it more pixels");
 }
 

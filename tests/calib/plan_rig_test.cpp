@@ -24,7 +24,7 @@ double tenth_px(double /*side_px*/) {
   return 0.1;
 }
 
-/// An upright tag that faces `angle_rad`, 0 being +Z, towards +X.
+/// An upright tag that faces `angle_rad`: 0 is +Z, positive towards +X.
 RigidTransform tag_facing(double angle_rad, const glm::dvec3& p_in_world) {
   const glm::dquat upright = rotation_from_vector({std::numbers::pi, 0.0, 0.0});
   return {rotation_from_vector({0.0, angle_rad, 0.0}) * upright, p_in_world};
@@ -97,7 +97,7 @@ TEST(ExpectTag, ErrsMoreFartherAway) {
 }
 
 TEST(ExpectTag, ErrsAsFitsToNoisyCornersDo) {
-  // 3000 draws tell a root mean square within 2 %; the rest is for what is not linear.
+  // 3000 draws determine a root mean square within 2 %; the rest is for nonlinearity.
   constexpr int kDraws = 3000;
   const auto cameras = square_of_cameras(2.0);
   const PlanOptions options = large_tags();
@@ -129,22 +129,24 @@ TEST(ExpectTag, ErrsAsFitsToNoisyCornersDo) {
   EXPECT_NEAR(std::sqrt(joint_m2) / *expected.joint_error_m, 1.0, 0.15);
 }
 
-TEST(ExpectTag, TakesOverTheDoubtOfCameras) {
+TEST(ExpectTag, IncludesTheUncertaintyOfCameras) {
   const auto cameras = square_of_cameras(2.5);
   const RigidTransform pose = tag_facing(0.0, {0.0, 1.0, 0.0});
-  RigCovariance doubt{4, std::vector<double>(16 * 18 * 18, 0.0)};
-  // All centres err together by a millimetre along each axis: so does every tag.
+  RigCovariance rig_covariance{4, std::vector<double>(16 * 18 * 18, 0.0)};
+  // All centres have a common error of a millimetre along each axis: so does every tag.
   for (std::size_t axis = 15; axis < 18; ++axis) {
     for (std::size_t a = 0; a < 4; ++a) {
       for (std::size_t b = 0; b < 4; ++b) {
-        doubt.values[(18 * a + axis) * doubt.size() + 18 * b + axis] = 1e-6;
+        rig_covariance.values[(18 * a + axis) * rig_covariance.size() + 18 * b + axis] =
+            1e-6;
       }
     }
   }
   const ExpectedTag sure = expect_tag(cameras, nullptr, pose, tenth_px, large_tags());
-  const ExpectedTag unsure = expect_tag(cameras, &doubt, pose, tenth_px, large_tags());
-  ASSERT_TRUE(sure.centre_error_m && unsure.centre_error_m);
-  EXPECT_NEAR(std::pow(*unsure.centre_error_m, 2) - std::pow(*sure.centre_error_m, 2),
+  const ExpectedTag uncertain =
+      expect_tag(cameras, &rig_covariance, pose, tenth_px, large_tags());
+  ASSERT_TRUE(sure.centre_error_m && uncertain.centre_error_m);
+  EXPECT_NEAR(std::pow(*uncertain.centre_error_m, 2) - std::pow(*sure.centre_error_m, 2),
               3e-6,
               1e-11);
 }
@@ -157,8 +159,8 @@ TEST(PlanRig, OfASymmetricRigIsSymmetric) {
   const RigPlan plan = plan_rig(cameras, nullptr, grid, tenth_px, large);
   ASSERT_EQ(plan.places.size(), 25U);
   ASSERT_EQ(plan.heights.size(), 1U);
-  // Cameras 90 degrees apart that each see 65 to either side share 40 of these 90, less
-  // where a tag is outside of a picture.
+  // Cameras 90 degrees apart with a range of 65 degrees to either side share 40 of these
+  // 90, less for tags outside of an image.
   EXPECT_GT(plan.heights[0].measured_share, 0.35);
   EXPECT_LT(plan.heights[0].measured_share, 0.5);
   EXPECT_GE(plan.heights[0].seen_share, plan.heights[0].measured_share);

@@ -19,7 +19,7 @@ Timestamp ms(double value) {
   return from_seconds(1e-3 * value);
 }
 
-/// A camera of 100 Hz: frame k at 10 k + lag, jittered, without those in `dropped`.
+/// A camera of 100 Hz: frame k at 10 k + lag, jittered, without the frames in `dropped`.
 CameraTimes camera(int id,
                    double lag_ms,
                    double jitter_ms,
@@ -37,7 +37,8 @@ CameraTimes camera(int id,
   return out;
 }
 
-/// What align_frames() must find: the frames' own numbers, counted without the dropped.
+/// Returns the expected result of align_frames(): the frames' own numbers, without
+/// counting dropped frames.
 Recorded numbers(const std::vector<int>& dropped) {
   Recorded out;
   int next = 0;
@@ -65,7 +66,7 @@ TEST(AlignFrames, PutsDroppedFramesAtTheirNumbers) {
   EXPECT_NEAR(seconds(found->cameras[2].offset), -0.0045, 1e-8);
 }
 
-// Jitter of a third of a period, lags up to near the middle between two instants.
+// Jitter of a third of a period, lags up to nearly the middle between two instants.
 TEST(AlignFrames, BearsJitter) {
   for (const double lag_ms : {-4.3, -2.0, 3.0, 4.3}) {
     const std::vector<CameraTimes> cameras{camera(0, 0.0, 3.0, {9}),
@@ -74,7 +75,7 @@ TEST(AlignFrames, BearsJitter) {
     ASSERT_TRUE(found);
     EXPECT_EQ(found->cameras[0].recorded, numbers({9}));
     EXPECT_EQ(found->cameras[1].recorded, numbers({50, 51})) << lag_ms;
-    // 200 frames of a jitter of sigma 1.7 ms, both cameras'.
+    // 200 frames with a jitter of sigma 1.7 ms in both cameras.
     EXPECT_NEAR(seconds(found->cameras[1].offset), 1e-3 * lag_ms, 1e-3) << lag_ms;
     EXPECT_GT(seconds(found->cameras[1].spread), 2e-3);
     EXPECT_LT(seconds(found->cameras[1].spread), 3.5e-3);

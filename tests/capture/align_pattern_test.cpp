@@ -19,7 +19,7 @@ namespace {
 using Corners = std::array<glm::dvec2, 4>;
 using tests::DrawnTag;
 
-/// A tag of 24 px, slanted and turned: 3 px a cell, as a body's tags are seen.
+/// A tag of 24 px, slanted and rotated: 3 px a cell, typical of tags on a body.
 DrawnTag small_tag() {
   return {"tag36h11", 17, {{{41.3, 60.2}, {65.9, 57.4}, {63.6, 35.7}, {39.8, 37.5}}}};
 }
@@ -54,8 +54,8 @@ TEST(AlignPattern, RecoversTheCornersOfASmallTag) {
   EXPECT_LT(worst_px(found->corners_px, tag.corners_px), 0.04 /* px */);
 }
 
-// 0.15 px: what 3 grey levels of noise do to the worst of four corners. Without the blur
-// among the unknowns, or in grey values in place of light, the tag would come out
+// 0.15 px: the effect of 3 grey levels of noise on the worst of four corners. Without the
+// blur among the unknowns, or with grey values instead of light, the tag would appear
 // smaller.
 TEST(AlignPattern, RecoversThemUnderBlurAndNoise) {
   const DrawnTag tag = small_tag();
@@ -89,7 +89,8 @@ TEST(AlignPattern, HeedsNoShadowOverTheTag) {
   EXPECT_LT(worst_px(found->corners_px, tag.corners_px), 0.1 /* px */);
 }
 
-// 2.5 px off, half a cell, is found, but is more than a search along edges can be.
+// 2.5 px off, half a cell, is found, but exceeds the possible error of a search along
+// edges.
 TEST(AlignPattern, DeclinesToMoveCornersFurtherThanTheyCanBeOff) {
   const DrawnTag tag{"tag36h11", 17, tests::square({60.0, 60.0}, 44.0, 0.3)};
   const cv::Mat image = tests::disturbed(tests::draw_tags(120, 120, {tag}), 0.5, 1.0, 5);

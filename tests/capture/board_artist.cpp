@@ -10,8 +10,8 @@
 namespace marey::tests {
 namespace {
 
-constexpr int kSquare = 60;  // Pixels of the flat picture.
-constexpr int kFiner = 6;    // How many times finer than the picture boards are drawn.
+constexpr int kSquare = 60;  // Pixels of the flat image.
+constexpr int kFiner = 6;    // Resolution of the drawing relative to the image.
 
 cv::Ptr<cv::aruco::Dictionary> dictionary_of(const CharucoBoard& board) {
   if (board.dictionary == "DICT_5X5_100") {
@@ -34,8 +34,8 @@ cv::Rect square_at(int from_top, int column) {
   return {(column + 1) * kSquare, (from_top + 1) * kSquare, kSquare, kSquare};
 }
 
-/// As OpenCV drew them before 4.6: the square at the bottom left is black.
-void draw_in_the_old_manner(const CharucoBoard& board, cv::Mat& flat) {
+/// As drawn by OpenCV before 4.6: the square at the bottom left is black.
+void draw_old_pattern(const CharucoBoard& board, cv::Mat& flat) {
   const int side =
       static_cast<int>(std::lround(kSquare * board.marker_size_m / board.square_size_m));
   int id = 0;
@@ -54,7 +54,8 @@ void draw_in_the_old_manner(const CharucoBoard& board, cv::Mat& flat) {
   }
 }
 
-/// From squares of the board, y up from its bottom left corner, to the picture.
+/// Returns the homography from squares of the board, y up from its bottom left corner, to
+/// the image.
 cv::Mat picture_from_squares(int rows, int columns, const BoardPlace& place) {
   const auto w = static_cast<float>(columns);
   const auto h = static_cast<float>(rows);
@@ -71,7 +72,7 @@ cv::Mat picture_from_squares(int rows, int columns, const BoardPlace& place) {
 cv::Mat flat_picture(const CharucoBoard& board) {
   cv::Mat flat = white_paper(board.rows, board.columns);
   if (board.is_legacy) {
-    draw_in_the_old_manner(board, flat);
+    draw_old_pattern(board, flat);
   } else {
     const auto drawn =
         cv::aruco::CharucoBoard::create(board.columns,
@@ -107,7 +108,7 @@ cv::Mat draw_board(const cv::Mat& flat,
                    const BoardPlace& place) {
   const int rows = flat.rows / kSquare - 2;
   const int columns = flat.cols / kSquare - 2;
-  // Pixel centres are at integers, in the flat picture and in both of the others.
+  // Pixel centres are at integers, in the flat image and in both others.
   const double s = 1.0 / kSquare;
   const cv::Matx33d squares_from_flat(
       s, 0, 0.5 * s - 1.0, 0, -s, rows + 1.0 - 0.5 * s, 0, 0, 1);
@@ -126,7 +127,7 @@ cv::Mat draw_board(const cv::Mat& flat,
                       cv::Scalar(150));
   cv::Mat picture;
   cv::resize(fine, picture, {width_px, height_px}, 0, 0, cv::INTER_AREA);
-  // As cameras see black and white: neither is quite.
+  // Cameras see black and white with a reduced contrast.
   picture.convertTo(picture, CV_8U, 180.0 / 255.0, 30.0);
   return picture;
 }

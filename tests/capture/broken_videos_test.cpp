@@ -35,8 +35,8 @@ void put(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// Zeros over some JPEG pictures, `from` their beginnings to their ends: spoiled tables
-/// alone would be taken from the picture before.
+/// Zeros some JPEG images from the given offset to their ends: if only the tables were
+/// damaged, those of the previous image would be used.
 void spoil(const fs::path& path, const std::vector<int>& pictures, std::size_t from) {
   std::string bytes = bytes_of(path);
   std::vector<std::size_t> starts;
@@ -99,7 +99,7 @@ TEST(BrokenVideo, OfDamagedFramesAloneIsRefused) {
   tests::write_video(folder / "a.avi", 12);
   std::vector<int> all(12);
   std::iota(all.begin(), all.end(), 0);
-  spoil(folder / "a.avi", all, 4);  // All but the marks that tell JPEG.
+  spoil(folder / "a.avi", all, 4);  // All but the marks that identify JPEG.
   const Reading reading = read(folder / "a.avi");
   EXPECT_EQ(reading.frames, 12);
   ASSERT_TRUE(reading.error);
@@ -121,8 +121,8 @@ TEST(BrokenVideo, ThatIsEmptyIsRefused) {
   }
 }
 
-/// A Matroska video whose first half is 64x48 and whose second is 128x96: JPEG pictures
-/// know their own size.
+/// Writes a Matroska video whose first half is 64x48 and whose second is 128x96: JPEG
+/// images contain their own size.
 void write_growing_video(const fs::path& folder, const fs::path& to) {
   tests::write_video(folder / "small.avi", 20);
   const std::string small = bytes_of(folder / "small.avi");

@@ -32,7 +32,7 @@ class CheckCamera : public testing::Test {
     return found;
   }
 
-  /// The only advice there is.
+  /// Returns the only advice.
   std::string advice() {
     const CameraCheck found = check();
     if (found.advice.size() != 1) {

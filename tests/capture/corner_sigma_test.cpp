@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Whether the doubt that a tag's corners come with is honest, in drawn pictures.
+// Tests whether the sigmas of a tag's corners match their errors, in drawn images.
 #include "capture/tags/corner_sigma.h"
 
 #include <algorithm>
@@ -27,23 +27,25 @@ const char* const kFamilies[] = {"tag36h11", "tagStandard41h12", "tagCircle21h7"
 
 struct Look {
   double side_px = 24.0;
-  bool upright = true;  ///< Along the pixels' rows; or else turned and slanted at random.
+  /// Along the pixels' rows; otherwise rotated and slanted at random.
+  bool upright = true;
   double blur_px = 0.45;
   Exposure exposure;
 };
 
-/// Root mean squares over the corners' coordinates of several pictures.
-struct Doubt {
+/// Root mean squares over the corners' coordinates of several images.
+struct CornerErrors {
   int corners = 0;
   double error_px = 0.0;
   double error_by_sigma = 0.0;
 };
 
-/// Pictures of one tag each, at places, turns and noise that its number decides.
-Doubt doubt_of(const std::string& family, const Look& look) {
+/// Returns the errors in images of one tag each; the place, rotation and noise of an
+/// image depend on its number.
+CornerErrors corner_errors(const std::string& family, const Look& look) {
   constexpr int kPictures = 4;
   auto detector = TagDetector::create({.families = {{family, {}}}});
-  Doubt doubt;
+  CornerErrors errors;
   for (int i = 0; i < kPictures; ++i) {
     cv::RNG random(static_cast<std::uint64_t>(100 + i));
     const int size_px = static_cast<int>(1.9 * look.side_px) + 30;
@@ -66,55 +68,55 @@ Doubt doubt_of(const std::string& family, const Look& look) {
       for (std::size_t c = 0; c < 4; ++c) {
         const glm::dvec2 error_px = found.corners_px[c] - tag.corners_px[c];
         const double square = 0.5 * glm::dot(error_px, error_px);
-        ++doubt.corners;
-        doubt.error_px += square;
-        doubt.error_by_sigma += square / (found.sigma_px * found.sigma_px);
+        ++errors.corners;
+        errors.error_px += square;
+        errors.error_by_sigma += square / (found.sigma_px * found.sigma_px);
       }
     }
   }
-  doubt.error_px = std::sqrt(doubt.error_px / std::max(1, doubt.corners));
-  doubt.error_by_sigma = std::sqrt(doubt.error_by_sigma / std::max(1, doubt.corners));
-  return doubt;
+  errors.error_px = std::sqrt(errors.error_px / std::max(1, errors.corners));
+  errors.error_by_sigma = std::sqrt(errors.error_by_sigma / std::max(1, errors.corners));
+  return errors;
 }
 
-/// Most of the pictures' tags are found, with corners that are at most so wrong, and at
-/// most 1.5 times as wrong as they say.
-void expect_honest(const Look& look, double most_px) {
+/// Expects that most tags are found, with corner errors of at most this value, and of at
+/// most 1.5 times their sigma.
+void expect_matching_sigma(const Look& look, double max_px) {
   for (const char* family : kFamilies) {
-    const Doubt doubt = doubt_of(family, look);
+    const CornerErrors errors = corner_errors(family, look);
     const std::string what = std::string(family) + ", " + std::to_string(look.side_px) +
                              (look.upright ? " px, upright" : " px, turned");
-    EXPECT_GE(doubt.corners, 4) << what;
-    EXPECT_LT(doubt.error_px, most_px) << what;
-    EXPECT_LT(doubt.error_by_sigma, 1.5) << what;
+    EXPECT_GE(errors.corners, 4) << what;
+    EXPECT_LT(errors.error_px, max_px) << what;
+    EXPECT_LT(errors.error_by_sigma, 1.5) << what;
   }
 }
 
-// Paper is twice as bright as what the camera can show: without knowing that, white cells
-// are too large by 0.2 to 0.8 px, and the tag with them.
-TEST(CornerSigma, IsHonestOfOverexposedTags) {
+// Paper is twice as bright as the camera's maximum: if this is not modelled, white cells
+// are too large by 0.2 to 0.8 px, and so is the tag.
+TEST(CornerSigma, MatchesTheErrorsOfOverexposedTags) {
   for (const double side_px : {24.0, 60.0, 110.0}) {
     for (const bool upright : {false, true}) {
-      expect_honest({side_px, upright, 0.45, {.gain = 2.0}}, 0.1 /* px */);
-      expect_honest({side_px, upright, 0.8, {.gain = 2.0}}, 0.1 /* px */);
+      expect_matching_sigma({side_px, upright, 0.45, {.gain = 2.0}}, 0.1 /* px */);
+      expect_matching_sigma({side_px, upright, 0.8, {.gain = 2.0}}, 0.1 /* px */);
     }
   }
 }
 
-TEST(CornerSigma, IsHonestOfOtherToneCurvesThanSrgb) {
+TEST(CornerSigma, MatchesTheErrorsOfOtherToneCurves) {
   for (const double side_px : {24.0, 60.0, 110.0}) {
     for (const double tone : {0.6, 1.5}) {
-      expect_honest({side_px, false, 0.45, {.tone = tone}}, 0.05 /* px */);
-      expect_honest({side_px, true, 0.45, {.tone = tone}}, 0.05 /* px */);
+      expect_matching_sigma({side_px, false, 0.45, {.tone = tone}}, 0.05 /* px */);
+      expect_matching_sigma({side_px, true, 0.45, {.tone = tone}}, 0.05 /* px */);
     }
   }
 }
 
-// As a printer's preview shows them: no lens, so that all of an edge is in one pixel.
-TEST(CornerSigma, IsHonestOfLargeSharpTags) {
+// As in a printer's preview: no lens blur, so that an edge is within one pixel.
+TEST(CornerSigma, MatchesTheErrorsOfLargeSharpTags) {
   for (const double side_px : {80.0, 189.0}) {
-    expect_honest({side_px, false, 0.0, {}}, 0.05 /* px */);
-    expect_honest({side_px, true, 0.0, {}}, 0.1 /* px */);
+    expect_matching_sigma({side_px, false, 0.0, {}}, 0.05 /* px */);
+    expect_matching_sigma({side_px, true, 0.0, {}}, 0.1 /* px */);
   }
 }
 

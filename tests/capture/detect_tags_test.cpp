@@ -44,7 +44,7 @@ TEST(DetectTags, FindsTheCornersOfASlantedTag) {
   EXPECT_LT(tests::worst_corner_px(found[0], truth), 0.05 /* px */);
 }
 
-// 0.5 px: libapriltag's own edge search, which blur draws inward.
+// 0.5 px: libapriltag's own edge search, which blur biases inward.
 TEST(DetectTags, FindsCornersRoughlyWithoutAligningThePattern) {
   const DrawnTag truth = slanted_tag();
   const auto found =
@@ -53,8 +53,8 @@ TEST(DetectTags, FindsCornersRoughlyWithoutAligningThePattern) {
   EXPECT_LT(tests::worst_corner_px(found[0], truth), 0.5 /* px */);
 }
 
-// Proves the half pixel between libapriltag's coordinates and ours: a mean over many
-// places in the pixel, where the edge search's own errors cancel.
+// Verifies the half pixel between libapriltag's coordinates and ours: a mean over many
+// positions in the pixel, in which the edge search's own errors cancel.
 TEST(DetectTags, PutsPixelCentresAtIntegers) {
   glm::dvec2 sum{0.0};
   int count = 0;
@@ -83,8 +83,8 @@ TEST(DetectTags, KeepsTheOrderOfCornersWhenTheTagIsTurned) {
   }
 }
 
-// Three times the claimed standard deviation on each of two coordinates.
-TEST(DetectTags, FindsCornersWithinItsDoubtUnderBlurAndNoise) {
+// Three times the sigma on each of two coordinates.
+TEST(DetectTags, FindsCornersWithinTheirSigmasUnderBlurAndNoise) {
   const DrawnTag truth = slanted_tag();
   const cv::Mat image =
       tests::disturbed(tests::draw_tags(320, 240, {truth}), 0.6, 3.0, /*seed=*/1);
@@ -128,8 +128,8 @@ TEST(DetectTags, RefusesAnIdThatTwoFamiliesShare) {
   EXPECT_FALSE(TagDetector::create({.families = {{"tag36h11", {}}, {"tag25h9", {}}}}));
 }
 
-// libapriltag 3.3 puts corners that it found in a smaller image half a pixel off; the
-// alignment, on the whole image, does not start from so far away that it minds.
+// libapriltag 3.3 shifts corners from a decimated image by half a pixel; the alignment on
+// the whole image converges from this start.
 TEST(DetectTags, FindsTheSameCornersInADecimatedImage) {
   const tests::DrawnTag truth{"tag36h11", 5, tests::square({110.3, 90.7}, 72.0, 0.3)};
   const cv::Mat image =
@@ -178,7 +178,7 @@ TEST(DetectTags, FindsTheCornersOfLargeTagsJustAsWell) {
   }
 }
 
-/// The tag drawn with a cell of its code turned over.
+/// Returns the tag with one inverted cell of its code.
 cv::Mat with_a_wrong_bit(cv::Mat image, const glm::dvec2& centre_px, double side_px) {
   // Cells are an eighth of the black square; the code's are the inner six by six.
   const double cell = side_px / 8.0;
@@ -191,7 +191,7 @@ cv::Mat with_a_wrong_bit(cv::Mat image, const glm::dvec2& centre_px, double side
   return image;
 }
 
-TEST(DetectTags, DoubtsACodeThatWasCorrected) {
+TEST(DetectTags, DoublesTheSigmaOfACorrectedCode) {
   const tests::DrawnTag tag{"tag36h11", 4, tests::square({80.0, 80.0}, 64.0)};
   const cv::Mat image = tests::draw_tags(160, 160, {tag});
   const auto whole = detect(tests::disturbed(image, 0.5, 1.0, 3));
@@ -205,9 +205,10 @@ TEST(DetectTags, DoubtsACodeThatWasCorrected) {
 
 TEST(DetectTags, KeepsOfTwoTheOneThatNeededNoCorrection) {
   const tests::DrawnTag sure{"tag36h11", 4, tests::square({80.0, 80.0}, 64.0)};
-  const tests::DrawnTag doubtful{"tag36h11", 4, tests::square({240.0, 80.0}, 64.0)};
+  const tests::DrawnTag corrected{"tag36h11", 4, tests::square({240.0, 80.0}, 64.0)};
   const cv::Mat image = tests::disturbed(
-      with_a_wrong_bit(tests::draw_tags(320, 160, {sure, doubtful}), {240.0, 80.0}, 64.0),
+      with_a_wrong_bit(
+          tests::draw_tags(320, 160, {sure, corrected}), {240.0, 80.0}, 64.0),
       0.5,
       1.0,
       3);

@@ -47,8 +47,8 @@ std::vector<CameraInput> three_cameras(const ScratchFolder& scratch) {
           moving_tag(scratch, "c", 2, 5)};
 }
 
-/// Every frame whose tag was found, and where its first corner was, in one comparable
-/// list.
+/// Returns every frame with a detected tag, and the position of its first corner, as one
+/// comparable list.
 std::vector<double> flattened(const std::vector<CameraDetections>& cameras) {
   std::vector<double> all;
   for (const CameraDetections& camera : cameras) {
@@ -155,8 +155,7 @@ TEST(DetectVideos, CountsEveryFrameOfEveryCameraOnce) {
   for (int i = 0; i < 15; ++i) EXPECT_EQ(done[static_cast<std::size_t>(i)], i + 1);
 }
 
-// JPEG images one after the other, which is what network cameras send: no header says
-// how many there are.
+// JPEG images in sequence, as sent by network cameras: no header contains their number.
 TEST(DetectVideos, SaysThatItDoesNotKnowTheTotalUntilItsEnd) {
   const ScratchFolder scratch;
   {

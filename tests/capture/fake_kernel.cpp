@@ -52,7 +52,7 @@ int list_rate(const FakeCamera& camera, v4l2_frmivalenum& entry) {
   return -EINVAL;
 }
 
-/// As real drivers do: another format, and the nearest size, and success.
+/// Like real drivers: sets another format and the nearest size, and returns success.
 int set_format(FakeCamera& camera, v4l2_pix_format& wanted) {
   const std::uint32_t code = camera.always_gives.value_or(wanted.pixelformat);
   const FakeFormat* format = find(camera, code);

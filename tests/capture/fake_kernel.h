@@ -30,15 +30,15 @@ struct FakeControl {
   int minimum = 0;
   int maximum = 10000;
   int value = 0;
-  bool stubborn = false;  ///< Takes a value and keeps its own.
+  bool stubborn = false;  ///< Accepts a value and keeps its own.
 };
 
 struct FakeFrame {
   std::uint32_t sequence = 0;
   std::uint32_t flags = 0;
-  std::optional<std::uint32_t> bytes_used;  ///< nullopt: a whole picture.
-  std::optional<Timestamp> stamp;           ///< nullopt: when it comes.
-  std::optional<std::int64_t> stamp_s;      ///< Replaces the whole seconds of it.
+  std::optional<std::uint32_t> bytes_used;  ///< nullopt: a whole image.
+  std::optional<Timestamp> stamp;           ///< nullopt: the time of arrival.
+  std::optional<std::int64_t> stamp_s;      ///< Replaces the whole seconds of the stamp.
   Timestamp wait = std::chrono::milliseconds(33);
   std::uint8_t first_bytes[2] = {0xFF, 0xD8};
 };
@@ -50,38 +50,39 @@ struct FakeCamera {
   std::string driver = "fake";
   std::uint32_t can = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
   std::vector<FakeFormat> formats{{}};
-  std::optional<std::uint32_t> always_gives;  ///< Whatever format is asked for.
-  std::optional<v4l2_fract> always_every;     ///< Whatever rate is asked for.
-  bool keeps_stride = false;                  ///< Does not say how long a row is.
+  std::optional<std::uint32_t> always_gives;  ///< For any requested format.
+  std::optional<v4l2_fract> always_every;     ///< For any requested rate.
+  bool keeps_stride = false;                  ///< Does not report the length of a row.
   std::map<std::uint32_t, FakeControl> controls;
   std::uint32_t stamp_flags = V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   bool plugged = true;
-  /// Where the driver does not wake who waits when its device leaves.
+  /// The driver does not wake a waiting reader when its device is unplugged.
   bool leaves_silently = false;
 
-  std::deque<FakeFrame> frames;  ///< To come. None left: silence.
+  /// Frames to come. If none are left, the camera is silent.
+  std::deque<FakeFrame> frames;
   v4l2_pix_format format{};
   v4l2_fract interval{1, 30};
   bool streaming = false;
   std::vector<std::vector<std::byte>> memory;
   std::deque<std::uint32_t> queued;
   std::optional<Timestamp> next_frame;
-  int maps = 0;  ///< Now.
+  int maps = 0;  ///< Present number.
 };
 
-/// A kernel of a few cameras whose time passes only in poll() and sleep(), and that
-/// refuses what it is told to.
+/// A kernel of a few cameras whose time advances only in poll() and sleep(), and that
+/// fails calls on request.
 class FakeKernel final : public V4l2Kernel {
  public:
   std::vector<FakeCamera> cameras{1};
   Timestamp time = std::chrono::seconds(100);
   int open_files = 0;
-  int opened = 0;  ///< Ever.
+  int opened = 0;  ///< In total.
 
-  /// The next `times` of these calls fail.
+  /// Makes the next `times` of these calls fail.
   void refuse(unsigned long request, int error, int times = 1);
   void refuse_to_open(int error, int times = 1) { refuse(0, error, times); }
-  /// What a vivid or UVC device does at the next poll() besides frames.
+  /// Events that a vivid or UVC device reports at the next poll(), in addition to frames.
   int events = 0;
 
   int open(const std::string& path) override;
@@ -103,7 +104,7 @@ class FakeKernel final : public V4l2Kernel {
   std::map<int, std::string> files_;
 };
 
-/// `count` frames numbered from `first`, each 33 ms after the other.
+/// Returns `count` frames numbered from `first`, 33 ms apart.
 [[nodiscard]] std::deque<FakeFrame> frames_from(std::uint32_t first, int count);
 
 }  // namespace marey::capture

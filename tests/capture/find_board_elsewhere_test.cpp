@@ -34,7 +34,7 @@ cv::Mat picture_of(const std::string& family) {
   return tests::draw_tags(640, 480, tags);
 }
 
-/// A folder of pictures; the pattern that names them.
+/// Writes a folder of images; returns the pattern of their names.
 std::filesystem::path record(const ScratchFolder& folder,
                              const std::vector<cv::Mat>& pictures) {
   for (std::size_t i = 0; i < pictures.size(); ++i) {

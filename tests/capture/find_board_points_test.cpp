@@ -19,7 +19,7 @@ namespace {
 using tests::BoardPlace;
 using tests::frame_of;
 
-constexpr double kExactPx = 0.1;  // What 6 x 6 samples a pixel leave, and to spare.
+constexpr double kExactPx = 0.1;  // Error of 6 x 6 samples a pixel, with a margin.
 
 CharucoBoard charuco() {
   CharucoBoard board;
@@ -35,7 +35,7 @@ Chessboard chessboard() {
   return {.rows = 6, .columns = 9, .square_size_m = 0.03};
 }
 
-/// Tilted, as a hand holds it; a square is about 40 px.
+/// Tilted like a hand-held board; a square is about 40 px.
 const BoardPlace kTilted{{{120, 400}, {420, 430}, {460, 190}, {150, 130}}};
 
 BoardPlace turned_half(const BoardPlace& place) {
@@ -54,7 +54,7 @@ std::vector<PointDetection> points_of(const Board& board, const BoardPlace& plac
   return points_in(tests::draw_board(tests::flat_picture(board), 640, 480, place), board);
 }
 
-/// How far the worst of the points is from where the point of its number was drawn. [px]
+/// Returns the largest distance of a point from the drawn point of its number. [px]
 template <class Board>
 double worst_px(const std::vector<PointDetection>& points,
                 const Board& board,
@@ -74,7 +74,7 @@ std::size_t corner_count(const Board& board) {
   return static_cast<std::size_t>((board.rows - 1) * (board.columns - 1));
 }
 
-/// All corners, each with its own number, where it is.
+/// Expects all corners, each with its own number at its drawn position.
 template <class Board>
 void expect_exact(const Board& board, const BoardPlace& place) {
   const auto points = points_of(board, place);
@@ -98,8 +98,9 @@ TEST(FindBoardPoints, KnowsTheOldAndTheNewPatternOfEvenRowsApart) {
   expect_exact(board, kTilted);
 }
 
-// But for some markers at its edge a board in the old manner is one in the new whose
-// columns begin one square later: a calibration stands, only its origin moves.
+// Except for some markers at its edge, a board of the old pattern equals one of the new
+// pattern whose columns begin one square later: a calibration is valid, only its origin
+// moves.
 TEST(FindBoardPoints, TheWrongPatternOfEvenRowsMovesAllByASquare) {
   CharucoBoard board = charuco();
   board.rows = 6;
@@ -162,8 +163,8 @@ TEST(FindBoardPoints, FindsAChessboardInALargePicture) {
   EXPECT_LT(worst_px(points, board, place), kExactPx);
 }
 
-/// Errors of all corners over pictures with different noise, in their own sigmas: root
-/// mean square of a coordinate.
+/// Returns the root mean square of a coordinate's error in sigmas, of all corners over
+/// images with different noise.
 template <class Board>
 double error_in_sigmas(const Board& board, double noise) {
   const cv::Mat clean = tests::draw_board(tests::flat_picture(board), 640, 480, kTilted);
@@ -183,8 +184,8 @@ double error_in_sigmas(const Board& board, double noise) {
   return std::sqrt(squares / count);
 }
 
-// Of pure noise the sigma also holds 0.04 px that it does not show, so it is not reached
-// where noise is small.
+// With pure noise, the sigma also contains 0.04 px of model error, so the errors are
+// smaller than the sigma if noise is small.
 TEST(FindBoardPoints, SigmaIsThatOfNoiseAndALittleMore) {
   for (const double noise : {2.0, 8.0}) {
     EXPECT_LT(error_in_sigmas(charuco(), noise), 1.05);

@@ -23,7 +23,7 @@ cv::Mat decoded(const std::vector<std::byte>& jpeg) {
   return cv::imdecode(std::vector<uchar>(bytes, bytes + jpeg.size()), cv::IMREAD_COLOR);
 }
 
-// The grey of the frames tells which one it is; two codecs may be 5 levels off.
+// The grey value identifies the frame; two codecs may be 5 levels off.
 void expect_frame(const FramePicture& picture, int frame) {
   EXPECT_EQ(picture.frame, frame);
   EXPECT_NEAR(cv::mean(decoded(picture.jpeg))[0], tests::brightness_of_frame(frame), 5.0);

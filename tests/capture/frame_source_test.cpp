@@ -33,7 +33,7 @@ std::unique_ptr<FrameSource> open(const fs::path& path, const std::string& name 
   return source ? std::move(*source) : nullptr;
 }
 
-// Before, a pipe was waited for for ever.
+// Opening a pipe must not block.
 TEST(OpenFrames, DeclinesPipesAndDevices) {
   const ScratchFolder folder;
   ASSERT_EQ(mkfifo((folder / "cam0.mp4").c_str(), 0600), 0);
@@ -48,7 +48,7 @@ TEST(OpenFrames, DeclinesPipesAndDevices) {
 }
 
 struct ReadThrough {
-  std::vector<int> brightness;  ///< Of each frame's middle.
+  std::vector<int> brightness;  ///< Brightness of each frame's middle.
   std::vector<int> indices;
   std::optional<Error> error;
 };
@@ -68,8 +68,8 @@ ReadThrough read_all(FrameSource& source) {
   }
 }
 
-/// The frames as scratch_video.h makes them, each once and in order; a codec may be 3
-/// grey levels off.
+/// Expects the frames of scratch_video.h, each once and in order; a codec may be 3 grey
+/// levels off.
 void expect_frames(const ReadThrough& all, int count) {
   ASSERT_FALSE(all.error) << all.error->message();
   ASSERT_EQ(all.indices.size(), static_cast<std::size_t>(count));
@@ -165,7 +165,7 @@ TEST(VideoFile, RefusesAFileThatIsNoVideo) {
   EXPECT_FALSE(open_frames(scratch / "notes.mp4"));
 }
 
-// A user should see marey's one sentence, and nothing of the libraries'.
+// A user must see marey's one sentence and no messages of the libraries.
 TEST(VideoFile, LeavesStandardErrorSilentAboutABrokenVideo) {
   const ScratchFolder scratch;
   std::ofstream(scratch / "notes.mp4") << "not a video\n";

@@ -74,8 +74,8 @@ struct Shot {
   FrameTicket ticket{};
 };
 
-/// What four cameras with clocks of their own took of 200 instants: jittered by up to
-/// 4 of 10 ms, one frame in ten dropped.
+/// Frames of four cameras with independent clocks at 200 instants: jitter of up to 4 of
+/// 10 ms, one frame in ten dropped.
 struct Shooting {
   std::vector<ClockModel> clocks;
   std::vector<std::vector<Shot>> cameras;
@@ -102,7 +102,8 @@ Shooting shoot(unsigned seed) {
   return all;
 }
 
-/// Groups of the shooting when frames of cameras arrive in an order drawn from `seed`.
+/// Returns the groups of the recording for an order of arrivals between cameras drawn
+/// from `seed`.
 std::vector<Seen> group_in_any_order(const Shooting& all, unsigned seed, int capacity) {
   GroupFramesOptions options = offline();
   options.capacity = capacity;
@@ -152,7 +153,7 @@ TEST(GroupFramesOffline, HandsOutEveryFrameOnceAndAtItsInstant) {
     EXPECT_TRUE(group.surplus.empty());
     for (const auto& [camera, time, ticket] : group.frames) {
       tickets.push_back(ticket);
-      // The jitter, and a microsecond for the clocks' rounding.
+      // The jitter, and a microsecond for the rounding of the clocks.
       EXPECT_NEAR(
           static_cast<double>(time), 1e7 * static_cast<double>(group.number), 4.001e6);
     }
@@ -255,7 +256,7 @@ TEST(GroupFramesLive, DoesNotWaitForAFrameThatWasPassedOver) {
   ASSERT_TRUE(third);
   EXPECT_EQ(third->number, 2);
   EXPECT_EQ(copy(*third).missing, std::vector<int>{1});
-  // It is back with its next frame, and nothing was counted as offered.
+  // It returns with its next frame, and nothing was counted as offered.
   grouper.offer(kLeft, ms(30), FrameTicket{5});
   EXPECT_FALSE(grouper.next(ms(31)));
   grouper.offer(kRight, ms(30), FrameTicket{6});
@@ -277,7 +278,7 @@ TEST(GroupFramesLive, DoesNotWaitForACameraThatDied) {
     while (!grouper.next(ms(now + waited)) && waited < 9.9) waited += 0.1;
     delays_ms.push_back(waited);
   }
-  // Silent for 200 ms at frame 40: from then on it costs nothing.
+  // Silent for 200 ms at frame 40: after that, it causes no delay.
   for (int k = 41; k < 100; ++k) EXPECT_EQ(delays_ms[static_cast<std::size_t>(k)], 0.0);
   EXPECT_GE(grouper.counts(kLeft).grouped, 90);
 }
@@ -310,7 +311,7 @@ TEST(GroupFramesLive, ANewerFrameTakesThePlaceOfAnOlderOneWhenNobodyFetches) {
   EXPECT_EQ(grouper.counts(kLeft).displaced, 1);
 }
 
-// A camera whose frames come in the middle between two instants, with jitter.
+// A camera whose frames arrive midway between two instants, with jitter.
 TEST(GroupFramesLive, JitterBetweenTwoInstantsLosesNoFrame) {
   const std::vector<ClockModel> clocks(2);
   FrameGrouper grouper(clocks, live());

@@ -11,13 +11,13 @@
 
 namespace marey::guest {
 
-/// What a device gave.
+/// Frames received from a device.
 struct Take {
   int frames = 0;
   int dropped = 0;
   int damaged = 0;
   int gaps = 0;           ///< Steps of the sequence number other than one.
-  int arrival_times = 0;  ///< Frames whose stamp made no sense.
+  int arrival_times = 0;  ///< Frames with an invalid time stamp.
   bool wrapped = false;
   Timestamp first{0};
   Timestamp last{0};
@@ -45,7 +45,7 @@ struct Take {
   }
 };
 
-/// `frames` frames, or what came before an error or a silence of 2 s.
+/// Receives `frames` frames, or those before an error or a silence of 2 s.
 [[nodiscard]] inline Take take(capture::V4l2Device& device, int frames) {
   Take result;
   while (result.frames < frames) {

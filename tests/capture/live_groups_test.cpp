@@ -18,7 +18,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A camera of the real clock that may be slow or fall silent.
+/// A camera on the real clock that may be slow or become silent.
 class ClockFeed final : public FrameFeed {
  public:
   ClockFeed(milliseconds period, long frames) : period_(period), frames_(frames) {}
@@ -61,7 +61,7 @@ bool keep_sequence(CameraId /*camera*/, const RawFrame& frame, long& made) {
   return true;
 }
 
-// Only what must come in the end, however slow the machine is.
+// Checks only results that do not depend on the speed of the machine.
 TEST(LiveGroups, GoOnWithoutACameraThatIsSlowAndOneThatDied) {
   ClockFeed steady(milliseconds(10), -1);
   ClockFeed slow(milliseconds(55), -1);
@@ -73,7 +73,7 @@ TEST(LiveGroups, GoOnWithoutACameraThatIsSlowAndOneThatDied) {
   std::array<long, 3> last_sequences{-1, -1, -1};
   int with_steady = 0;
   int with_slow = 0;
-  int without_dead = 0;  // Of the last groups.
+  int without_dead = 0;  // Over the last groups.
   while (with_steady < 60 || with_slow < 3 || without_dead < 30) {
     const LiveGroup<long>* group = groups.next(milliseconds(60000));
     ASSERT_NE(group, nullptr);
@@ -92,13 +92,13 @@ TEST(LiveGroups, GoOnWithoutACameraThatIsSlowAndOneThatDied) {
   }
 }
 
-/// Counts how many of it there are.
+/// Counts its instances.
 struct Counted {
   Counted() { ++count; }
   static inline int count = 0;
 };
 
-// The least that can do: as many as wait for their group, one shown, one being made.
+// The minimum: the frames that wait for their group, one in use, one being written.
 TEST(LiveGroups, KeepTwoPlacesMoreThanFramesMayWait) {
   Counted::count = 0;
   ClockFeed left(milliseconds(1), -1);

@@ -79,7 +79,8 @@ Solved calibrated(const Views& views, const cv::Size& size) {
   return solved;
 }
 
-// The 4 x 5 board of 54 mm squares, white on black, that a person waves before webcams.
+// The 4 x 5 board of 54 mm squares, white on black, waved by a person in front of
+// webcams.
 TEST(RealBoards, CornersOfWebcamsFitACameraToATenthOfAPixel) {
   const fs::path session = kCamera / "caliscope/sessions/4_cam_recording";
   if (!fs::exists(session)) GTEST_SKIP() << "no " << session;
@@ -107,9 +108,8 @@ TEST(RealBoards, CornersOfWebcamsFitACameraToATenthOfAPixel) {
 }
 
 // OpenCV's own corners (cornerSubPix(), windows of 23 px) give 0.445 px and 3.338
-// squares, some drawn aside by the corners next to them; without those, 0.20 px
-// and 3.327. Leaving out one pair after the other says that the distance is known to
-// 0.005 squares.
+// squares, some of them biased by neighbouring corners; without those, 0.20 px and 3.327.
+// Leave-one-out over the pairs gives an uncertainty of the distance of 0.005 squares.
 TEST(RealBoards, CornersOfOpenCvsStereoPairsFitBothCameras) {
   const fs::path folder = kCamera / "opencv_samples";
   if (!fs::exists(folder)) GTEST_SKIP() << "no " << folder;

@@ -65,7 +65,7 @@ std::vector<ExpectedTag> read_expected(const fs::path& path) {
   return tags;
 }
 
-/// The way to the expected tag's farthest corner, its corners taken in their order.
+/// Returns the distance to the expected tag's farthest corner, corners in their order.
 double farthest_px(const TagDetection& tag, const ExpectedTag& expected) {
   double worst = 0.0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -76,7 +76,8 @@ double farthest_px(const TagDetection& tag, const ExpectedTag& expected) {
   return worst;
 }
 
-// Upstream's own regression data: corners before any refinement, so none is used here.
+// Upstream's own regression data: corners before any refinement, so refinement is
+// disabled here.
 TEST(RealPictures, HaveTheCornersThatUpstreamExpects) {
   const fs::path folder = kCamera / "apriltag/test/data";
   if (!fs::exists(folder)) GTEST_SKIP() << "no pictures at " << folder;

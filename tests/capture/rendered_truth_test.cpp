@@ -22,7 +22,7 @@ using tests::CornerResidual;
 
 const fs::path kRendered = marey::testing::shared_data() / "blender/dev";
 
-/// The residuals of the first frames of all cameras of a session.
+/// Returns the residuals of the first frames of all cameras of a session.
 std::vector<CornerResidual> residuals_of(const std::string& session, int frames) {
   const auto truth = tests::load_rendered_truth(kRendered / session);
   std::vector<CameraInput> inputs;
@@ -43,7 +43,7 @@ std::vector<CornerResidual> residuals_of(const std::string& session, int frames)
   return all;
 }
 
-/// Root mean square of a coordinate of the residuals. [px]
+/// Returns the root mean square of a coordinate of the residuals. [px]
 double rms_px(const std::vector<CornerResidual>& residuals) {
   double sum = 0.0;
   for (const auto& r : residuals) sum += dot(r.error_px, r.error_px);
@@ -72,8 +72,8 @@ TEST_F(RenderedBody, HasItsBoardWhereTheDetectorFindsIt) {
   EXPECT_LT(rms_px(all), 0.12 /* px */);
 }
 
-// The whole of a pattern has no reason to be drawn inward: 0.05 px a corner is 0.3 % of a
-// tag's size.
+// A fit of the whole pattern has no inward bias: 0.05 px a corner is 0.3 % of a tag's
+// size.
 TEST_F(RenderedBody, IsNotShrunkByTheDetector) {
   const auto all = residuals_of("rom", 12);
   double outward_px = 0.0;
@@ -83,7 +83,7 @@ TEST_F(RenderedBody, IsNotShrunkByTheDetector) {
   EXPECT_NEAR(outward_px, 0.0, 0.05 /* px */);
 }
 
-// A bias of all tags together would move the whole reconstruction. 1280 px / 0.03 px is
+// A common bias of all tags would shift the whole reconstruction. 1280 px / 0.03 px is
 // 0.1 mm at 3 m.
 TEST_F(RenderedBody, IsNotShiftedByTheDetector) {
   const auto all = residuals_of("rom", 12);

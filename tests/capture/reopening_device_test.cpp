@@ -39,7 +39,7 @@ class Reopening : public testing::Test {
     return *std::move(device);
   }
 
-  /// Frames within `duration`, asked for in steps of 100 ms.
+  /// Returns the frames received within `duration`, in steps of 100 ms.
   int run(ReopeningDevice& device, Timestamp duration) {
     int frames = 0;
     const Timestamp end = kernel_.now() + duration;

@@ -154,7 +154,7 @@ TEST(GlanceForOtherBoard, TakesWornTagsForNoBoard) {
   EXPECT_TRUE(shows_tags(detect_wrong_board(inputs, wanted)));
   TagFamilyUse worn;
   for (int id = 0; id < tags.marker_count(); ++id) worn.ids.push_back(TagId{id});
-  // What is left of it are its squares.
+  // Only its squares remain visible.
   EXPECT_FALSE(shows_tags(detect_wrong_board(inputs, wanted, std::array{worn})));
 }
 

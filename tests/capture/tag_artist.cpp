@@ -16,8 +16,8 @@
 namespace marey::tests {
 namespace {
 
-/// The tag as it is printed, one pixel a cell, and how many cells lie between the edge of
-/// the paper and the square whose corners are detected.
+/// The printed tag, one pixel a cell, and the number of cells between the edge of the
+/// paper and the square whose corners are detected.
 struct Bitmap {
   cv::Mat cells;
   int margin_cells = 0;
@@ -33,7 +33,7 @@ Bitmap bitmap_of(const DrawnTag& tag) {
   return bitmap;
 }
 
-/// Light, 0 to 1, as 8-bit grey, and back. IEC 61966-2-1.
+/// Convert light, 0 to 1, to 8-bit grey, and back. IEC 61966-2-1.
 double gray_of_light(double light) {
   return 255.0 * (light <= 0.0031308 ? 12.92 * light
                                      : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055);
@@ -59,7 +59,7 @@ cv::Mat as_gray(const cv::Mat& light) {
   return gray;
 }
 
-/// How many times finer than the image the tags are drawn before being averaged.
+/// Resolution of the drawing relative to the image, before averaging.
 constexpr int kFiner = 8;
 
 cv::Point2f finer(double u, double v) {
@@ -73,7 +73,7 @@ void draw_tag(const DrawnTag& tag, cv::Mat& fine_image) {
   const double fine_cell_pixels = kFiner *
                                   glm::distance(tag.corners_px[0], tag.corners_px[2]) /
                                   (std::numbers::sqrt2 * square_cells);
-  // No coarser than the fine image, or interpolation would blur the edges of large tags.
+  // At least as fine as the drawing, or interpolation would blur the edges of large tags.
   // A power of two: cv::resize rounds others to a neighbouring pixel.
   int cell_pixels = 32;
   while (cell_pixels < fine_cell_pixels) cell_pixels *= 2;

@@ -16,47 +16,47 @@
 
 namespace marey::tests {
 
-/// A tag to draw, and where: its black square's corners in TagDetection's order, pixel
-/// centres at integers. [px]
+/// A tag to draw: its black square's corners in TagDetection's order, pixel centres at
+/// integers. [px]
 struct DrawnTag {
   std::string family = "tag36h11";
   int id = 0;
   std::array<glm::dvec2, 4> corners_px{};
 };
 
-/// An upright square of `side_px` about `centre_px`, turned by `turn_rad` clockwise as
-/// seen in the image.
+/// Returns an upright square of `side_px` around `centre_px`, rotated by `turn_rad`
+/// clockwise as seen in the image.
 [[nodiscard]] std::array<glm::dvec2, 4> square(const glm::dvec2& centre_px,
                                                double side_px,
                                                double turn_rad = 0.0);
 
-/// A light grey 8-bit image with the tags in it: each pixel the mean of the light that
-/// falls on it, coded by sRGB's curve, as cameras do.
+/// Returns a light grey 8-bit image with the tags: each pixel is the mean of the light on
+/// it, coded with sRGB's curve, as in cameras.
 [[nodiscard]] cv::Mat draw_tags(int width_px,
                                 int height_px,
                                 const std::vector<DrawnTag>& tags);
 
-/// How a camera turns light into grey.
+/// Conversion of light to grey in a camera.
 struct Exposure {
-  double gain = 1.0;  ///< Of the light; what then exceeds 1 is clipped. Paper is 0.72.
+  double gain = 1.0;  ///< Of the light; values above 1 are clipped. Paper is 0.72.
   double tone = 1.0;  ///< Exponent on top of sRGB's curve: below 1 lifts the shadows.
 };
 
-/// Blurs the light as a lens does, exposes it and adds noise [grey levels]. The same seed
-/// gives the same noise.
+/// Blurs the light as a lens does, exposes it and adds noise [grey levels]. Equal seeds
+/// give equal noise.
 [[nodiscard]] cv::Mat disturbed(const cv::Mat& image,
                                 double blur_sigma_px,
                                 double noise_sigma,
                                 unsigned seed,
                                 const Exposure& exposure = {});
 
-/// The cells of a tag.
+/// Returns the cells of a tag.
 [[nodiscard]] TagPattern pattern_of(const DrawnTag& tag);
 
-/// The image as TagDetector wants it; it must outlive the view.
+/// Returns the image for TagDetector; the image must outlive the view.
 [[nodiscard]] capture::GrayFrame frame_of(const cv::Mat& gray);
 
-/// The longest way from a found corner to its true one. [px]
+/// Returns the largest distance of a found corner from its true one. [px]
 [[nodiscard]] double worst_corner_px(const TagDetection& found, const DrawnTag& truth);
 
 }  // namespace marey::tests

@@ -29,7 +29,7 @@ constexpr int kHeight = 240;
 
 constexpr int kPeriod = 24;
 
-/// A tag of 40 px that goes round in kPeriod frames, 10 px a frame at most, turning.
+/// A tag of 40 px on a circle of kPeriod frames, at most 10 px a frame, rotating.
 DrawnTag swinging(int id, int frame) {
   const double phase = 2.0 * std::numbers::pi * frame / kPeriod + id;
   return {"tag36h11",
@@ -50,7 +50,7 @@ cv::Mat draw(const std::vector<DrawnTag>& tags) {
   return tests::disturbed(tests::draw_tags(kWidth, kHeight, tags), 0.5, 2.0, 5);
 }
 
-/// Tags 3 and 5 at a frame of their round, drawn once: it is dear.
+/// Tags 3 and 5 at a frame of their circle, drawn once, as drawing is slow.
 const cv::Mat& round_of_two(int frame) {
   static std::map<int, cv::Mat> drawn;
   cv::Mat& image = drawn[frame % kPeriod];
@@ -77,7 +77,7 @@ TEST(TrackTags, FindsWhatIsFoundEverywhere) {
 }
 
 TEST(TrackTags, FindsATagAgainWhereItWasGoing) {
-  // Behind something for four frames, at 5 px a frame.
+  // Hidden for four frames, at 5 px a frame.
   TrackTagsOptions rarely;
   rarely.full_every_frames = 1000;
   rarely.body_every_frames = 1000;
@@ -100,7 +100,7 @@ TEST(TrackTags, ComesUponANewTagOfTheSameBodySoon) {
   for (int f = 0; f < 11; ++f) {
     std::vector<DrawnTag> tags{swinging(3, f),
                                {"tag36h11", 4, tests::square({290.0, 200.0}, 40.0)}};
-    // Between the two, and not near either.
+    // Between the two, far from both.
     if (f >= 7) tags.push_back({"tag36h11", 5, tests::square({250.0, 100.0}, 30.0)});
     const cv::Mat image = draw(tags);
     const auto& found = tracker->track(numbered(image, f));
@@ -133,7 +133,7 @@ TEST(TrackTags, LooksEverywhereOnceAllItFollowedHasLeft) {
       const double x_px = kWidth - 55.0 + 24.0 * f;
       tags.push_back({"tag36h11", 3, tests::square({x_px, 60.0}, 40.0)});
     }
-    // Where the first has gone, as far as anybody knows: 376 px and beyond.
+    // Predicted position of the first tag: 376 px and beyond.
     if (f == 8) tags.push_back({"tag36h11", 5, tests::square({60.0, 60.0}, 40.0)});
     const cv::Mat image = draw(tags);
     const auto& found = tracker->track(numbered(image, f));
@@ -153,7 +153,7 @@ TEST(TrackTags, ComesUponATagFarAwayStripByStripAndNeverSearchesWholeForIt) {
     const cv::Mat image = draw(f < 3 ? std::vector{here} : std::vector{here, far});
     const auto& found = tracker->track(numbered(image, f));
     if (found.size() == 2 && first_seen < 0) first_seen = f;
-    // Later the box around both is the whole picture.
+    // Later the box around both is the whole image.
     if (first_seen < 0) {
       EXPECT_EQ(tracker->last_search() == SearchKind::kFull, f == 0) << f;
     }
@@ -168,7 +168,8 @@ TEST(TrackTags, LooksForSomebodyStripByStripWhileNobodyIsThere) {
   auto tracker = TagTracker::create(options);
   EXPECT_TRUE(tracker->track(numbered(draw({}), 0)).empty());
   const cv::Mat image =
-      draw({{"tag36h11", 5, tests::square({180.0, 120.0}, 26.0)}});  // Astride of two.
+      // Overlaps two strips.
+      draw({{"tag36h11", 5, tests::square({180.0, 120.0}, 26.0)}});
   int first_seen = -1;
   for (int f = 1; f < 6 && first_seen < 0; ++f) {
     if (!tracker->track(numbered(image, f)).empty()) first_seen = f;
@@ -214,7 +215,7 @@ TEST(TrackTags, HurriesOnceMostOfWhatItFollowedIsGone) {
     }
     const cv::Mat image = draw(tags);
     const std::size_t found = tracker->track(numbered(image, f)).size();
-    // Not within the 600 frames in which the strips come round otherwise.
+    // A regular cycle of the strips takes 600 frames.
     if (f < kJump || f == kJump + 10) {
       EXPECT_EQ(found, 4U) << f;
     }
@@ -223,7 +224,7 @@ TEST(TrackTags, HurriesOnceMostOfWhatItFollowedIsGone) {
 }
 
 TEST(TrackTags, SearchesWholeWhatTagsFill) {
-  // Nine tags all over the image: their boxes would be all of it.
+  // Nine tags all over the image: their boxes would cover all of it.
   std::vector<DrawnTag> tags;
   for (int i = 0; i < 9; ++i) {
     tags.push_back(
@@ -266,7 +267,7 @@ TEST(TrackTags, GivesTheSameTagsTwice) {
 }
 
 TEST(TrackTags, AllocatesNothingOfItsOwnOnceWarm) {
-  // libapriltag allocates with malloc; what is counted is C++'s operator new.
+  // libapriltag allocates with malloc; the test counts C++'s operator new.
   auto tracker = TagTracker::create();
   for (int f = 0; f < 2 * kPeriod; ++f) {
     (void)tracker->track(numbered(round_of_two(f), f));
@@ -278,8 +279,8 @@ TEST(TrackTags, AllocatesNothingOfItsOwnOnceWarm) {
   EXPECT_EQ(testing::allocations() - before, 0);
 }
 
-// Over whole trials 97 %, which benchmarks/measure_detection.cpp measures; this cut, in
-// which tags turn into view, has 95.
+// Over whole trials 97 %, as measured by benchmarks/measure_detection.cpp; this part, in
+// which tags turn into view, has 95 %.
 TEST(TrackTags, LosesLittleOfARenderedWalk) {
   const fs::path video = marey::testing::shared_data() / "blender/dev/walk/cam3.mp4";
   if (!fs::exists(video)) GTEST_SKIP() << "no rendered recordings at " << video;

@@ -60,7 +60,7 @@ DeviceRequest small(const char* path, double rate_hz = 30.0) {
   return request;
 }
 
-/// Opens and takes. `before` is called when the device streams.
+/// Opens a device and receives frames. Calls `before` when the device streams.
 template <class Before>
 Take take_from(const DeviceRequest& request, int frames, Before before) {
   auto device = V4l2Device::open(request);
@@ -145,7 +145,7 @@ void check_drops() {
   set_vivid(kFirst, "Percentage of Dropped Buffers", 30);
   const Take take = take_from(small(kFirst), 200);
   set_vivid(kFirst, "Percentage of Dropped Buffers", 0);
-  // The stamps say, independently of the numbers, how many frames were made.
+  // The number of frames by the time stamps, independent of the sequence numbers.
   const auto made = std::lround(30.0 * seconds(take.last - take.first)) + 1;
   check(take.frames == 200 && take.dropped > 40 && made == take.frames + take.dropped,
         "dropped frames are counted exactly",
@@ -223,7 +223,7 @@ void check_wrong_devices() {
   }
 }
 
-/// A camera whose losses and returns are noted.
+/// A camera whose losses and returns are recorded.
 struct Watched {
   explicit Watched(const DeviceRequest& request)
       : device(ReopeningDevice::open(request, [this](const CameraStatus& status) {
@@ -234,7 +234,7 @@ struct Watched {
           if (status.state == CameraState::kStreaming) back = status.since;
         })) {}
 
-  /// Takes frames for so long, as a worker would.
+  /// Receives frames for this time, like a worker.
   void run(Timestamp duration) {
     const auto end = std::chrono::steady_clock::now() + duration;
     while (device && std::chrono::steady_clock::now() < end) {
@@ -249,7 +249,7 @@ struct Watched {
   Result<ReopeningDevice> device;
 };
 
-/// From `start` to `end`, in seconds; a large number when there is none.
+/// Returns the time from `start` to `end`, in seconds; a large number without an end.
 double since(Timestamp start, std::optional<Timestamp> end) {
   return end ? seconds(*end - start) : 1e9;
 }

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "capture/v4l2/v4l2_device.h"
 #include "capture/v4l2/v4l2_stream.h"
 
 #include <cerrno>
@@ -12,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 
+#include "capture/v4l2/v4l2_device.h"
 #include "tests/capture/fake_kernel.h"
 
 namespace marey::capture {
@@ -36,7 +36,8 @@ class V4l2Frames : public testing::Test {
 
   void use_mjpg() { camera_.formats = {{V4L2_PIX_FMT_MJPEG, {{}}}}; }
 
-  /// Sequence numbers of what comes until nothing does, and what was dropped in all.
+  /// Sequence numbers of all frames until none arrives, and the total number of dropped
+  /// frames.
   struct Counted {
     std::vector<std::uint32_t> sequences;
     int dropped = 0;
@@ -156,7 +157,7 @@ TEST_F(V4l2Frames, WithSenselessStampsGetTheTimeOfTheirArrival) {
 }
 
 TEST_F(V4l2Frames, WithStampsBeyondAnyClockGetTheTimeOfTheirArrival) {
-  // The first is near now once multiplied modulo 2^64.
+  // The first is near the present after a multiplication modulo 2^64.
   for (const std::int64_t stamp_s : {std::int64_t{18446745073},
                                      std::numeric_limits<std::int64_t>::max(),
                                      std::numeric_limits<std::int64_t>::min()}) {

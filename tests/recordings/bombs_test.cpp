@@ -85,10 +85,10 @@ std::optional<Answer> answer_of(const Reader& reader, const fs::path& file) {
     limit(RLIMIT_STACK, rlim_t{8} << 20);
     const Status status = reader.read(file);
     if (status) _exit(static_cast<int>(Answer::kRead));
-    const bool is_expected = status.error().code == Errc::kBadInput &&
-                      !status.error().cause.empty() && !status.error().next.empty() &&
-                      status.error().message().size() < 2000 &&
-                      status.error().message().find('\n') == std::string::npos;
+    const bool is_expected =
+        status.error().code == Errc::kBadInput && !status.error().cause.empty() &&
+        !status.error().next.empty() && status.error().message().size() < 2000 &&
+        status.error().message().find('\n') == std::string::npos;
     _exit(static_cast<int>(is_expected ? Answer::kDeclined : Answer::kWrongError));
   }
   int ended = 0;

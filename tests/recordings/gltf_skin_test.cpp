@@ -59,7 +59,7 @@ TEST(ReadCharacter, RefusesVerticesOnJointsBelowZero) {
                64,
                "gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/");
   text.replace(text.find("5121"), 4, "5120");
-  EXPECT_EQ(refusal(folder, text), "a vertex refers to joint -128 of a skin with 1");
+  EXPECT_EQ(refusal(folder, text), "a vertex refers to joint -128, but its skin has 1");
 }
 
 }  // namespace

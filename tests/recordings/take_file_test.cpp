@@ -277,8 +277,8 @@ TEST(TakeFile, ThatCannotBeBegunSaysWhyAndLeavesNothing) {
     if (writer || writer.error().code != Errc::kDevice) _exit(2);
     const std::string& cause = writer.error().cause;
     const bool is_expected = cause.rfind("the take cannot be begun: ", 0) == 0 &&
-                      cause.find("no such table") == std::string::npos &&
-                      cause.find("not an error") == std::string::npos;
+                             cause.find("no such table") == std::string::npos &&
+                             cause.find("not an error") == std::string::npos;
     _exit(is_expected ? 0 : 3);
   }
   int status = 0;

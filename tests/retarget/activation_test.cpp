@@ -57,10 +57,10 @@ TEST(Activation, IsANumberWhateverTheTimes) {
   }
 }
 
-// Third derivatives of the quintic are at most 60/d^3; of the product of two with
-// d = 1 s, by Leibniz: 2 * 60 + 2 * 3 * 5.7735 * 1.875 < 190 /s^3. Then a second
-// difference changes by less than 190 h per step; a kink, or a jump of the second
-// derivative, would show as a change that does not vanish with h.
+// Third derivatives of the quintic are at most 60/d^3. For the product of two with d = 1
+// s, Leibniz gives 2 * 60 + 2 * 3 * 5.7735 * 1.875 < 190 /s^3. A second difference then
+// changes by less than 190 h per step. A kink, or a jump of the second derivative, would
+// show as a change that does not vanish with h.
 TEST(Activation, KeepsItsSecondDerivativeContinuousWhileRampsOverlap) {
   const Activation brief = between(0.0, 0.4, 1.0, 1.0);
   const double h = 1e-3;
@@ -104,8 +104,8 @@ TEST(LiveActivation, IsThePlannedOneWithoutChanges) {
 }
 
 // As above: every change adds a factor whose derivatives, at most 1.875, 5.7735 and 60 by
-// d = 1 s, multiply by Leibniz. Of the six here that bounds the third derivative by
-// 6 * 60 + 3 * 30 * 5.7735 * 1.875 + 120 * 1.875^3 = 2125 /s^3.
+// d = 1 s, multiply by Leibniz. For six changes this bounds the third derivative by 6 *
+// 60 + 3 * 30 * 5.7735 * 1.875 + 120 * 1.875^3 = 2125 /s^3.
 TEST(LiveActivation, GoesOnSmoothlyWheneverItIsStartedAndStopped) {
   LiveActivation live({std::nullopt, std::nullopt, 1.0, 1.0});
   for (const double t : {0.0, 0.7, 1.3}) {

@@ -56,7 +56,7 @@ TEST(AdaptToGround, LowersTheRootUntilTheLegReaches) {
   const double before_m = s.root_m(30);
   s.bear(0, 20, 40);
   const GroundReport report = s.adapt();
-  // The leg is straight at rest, so the root comes down by what it was raised.
+  // The leg is straight at rest, so the root sinks by the height by which it was raised.
   EXPECT_NEAR(before_m - s.root_m(30), 0.10, 1e-3);
   EXPECT_NEAR(s.ankle(30, 0).y, s.map.feet[0].ankle_height_m, 1e-9);
   EXPECT_EQ(report.unreachable_frames, 0);

@@ -14,9 +14,9 @@
 #include "retarget/adapt/adapter.h"
 #include "tests/support/random_bodies.h"
 
-/// Bodies, postures and measures for tests of the adapter. All measures are
-/// taken here anew, in double, from postures alone: what the adapter says of
-/// itself is not believed.
+/// Bodies, postures and measures for tests of the adapter. All measures are computed here
+/// independently, in double, from postures alone; values reported by the adapter are not
+/// used.
 namespace marey::retarget {
 
 using testing::Dice;

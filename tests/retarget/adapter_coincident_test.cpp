@@ -10,8 +10,8 @@
 #include "retarget/character/check_character.h"
 #include "tests/retarget/adapter_bodies.h"
 
-/// Bones without length and segments without mass, as far as check_character() takes
-/// them: wishes are met and balance is kept all the same.
+/// Bones without length and segments without mass, as far as check_character() accepts
+/// them: targets are met and balance is kept.
 namespace marey::retarget {
 namespace {
 

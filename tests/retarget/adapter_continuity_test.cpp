@@ -11,9 +11,9 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// What moves continuously makes the body move continuously: no jump, no
-/// zig-zag. That is the strict method's, by priority: a blend of wishes that cannot all
-/// be met, and the thesis' method, do jump.
+/// Continuous inputs give continuous postures: no jump, no oscillation. This is a
+/// property of the strict method with priority: a blend of targets that cannot all be
+/// met, and the thesis' method, do jump.
 namespace marey::retarget {
 namespace {
 
@@ -47,7 +47,7 @@ Path any_path(const glm::dvec3& centre_in_world, double radius_m, Dice& dice) {
 struct Pace {
   double joints_rad_per_m = 0.0;
   double root_m_per_m = 0.0;
-  /// Of second differences: how suddenly the motion starts.
+  /// Maximum of second differences: how suddenly the motion starts.
   double jerks_rad_per_m = 0.0;
 };
 

@@ -10,7 +10,7 @@
 #include "retarget/adapt/adapt_departure.h"
 #include "tests/retarget/adapter_bodies.h"
 
-/// How far balance may take a posture from its reference.
+/// Limits of the departure from the reference caused by balance.
 namespace marey::retarget {
 namespace {
 

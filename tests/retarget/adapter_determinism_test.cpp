@@ -5,7 +5,7 @@
 #include "tests/retarget/adapter_bodies.h"
 #include "tests/support/count_allocations.h"
 
-/// The same question has the same answer, whatever was asked before.
+/// The same inputs give the same result, independent of earlier postures.
 namespace marey::retarget {
 namespace {
 

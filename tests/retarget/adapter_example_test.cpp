@@ -19,7 +19,8 @@
 namespace marey::retarget {
 namespace {
 
-// The example of docs/adaptation.md, verbatim. [example]
+// The example of docs/adaptation.md, verbatim.
+// [example]
 Result<Motion> reach_for(const Motion& walk, const glm::dvec3& cup_in_world) {
   const auto map = map_body(walk.skeleton);
   if (!map) return map.error();

@@ -8,8 +8,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Where a posture exists that has all that is asked, one is found: what is
-/// asked is read off a posture.
+/// Targets taken from an existing posture are met.
 namespace marey::retarget {
 namespace {
 

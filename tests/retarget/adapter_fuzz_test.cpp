@@ -11,7 +11,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Whatever is asked, the answer is a posture, and one that the body can take.
+/// For any targets the result is a valid posture within the body's limits.
 namespace marey::retarget {
 namespace {
 

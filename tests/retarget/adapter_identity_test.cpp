@@ -5,7 +5,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Nothing asked, nothing done.
+/// Without targets the posture is unchanged.
 namespace marey::retarget {
 namespace {
 

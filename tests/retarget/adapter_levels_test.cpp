@@ -10,8 +10,8 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// What is less important costs what is more important no more than Control::kPriority
-/// says.
+/// A less important target increases the error of a more important one by no more than
+/// documented at Control::kPriority.
 namespace marey::retarget {
 namespace {
 

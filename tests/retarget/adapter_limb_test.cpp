@@ -10,7 +10,7 @@
 #include "tests/retarget/adapter_bodies.h"
 #include "tests/retarget/named_bodies.h"
 
-/// Limbs: exact at once when they reach, as near as can be when they do not.
+/// Limbs: exact in one step within reach, as near as possible beyond.
 namespace marey::retarget {
 namespace {
 

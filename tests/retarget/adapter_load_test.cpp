@@ -5,7 +5,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Who carries something leans away from it.
+/// A body that carries a load leans away from it.
 namespace marey::retarget {
 namespace {
 

@@ -8,7 +8,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// More work is never a worse answer (Kulpa 2005, 4.2).
+/// More iterations never give a worse result (Kulpa 2005, 4.2).
 namespace marey::retarget {
 namespace {
 

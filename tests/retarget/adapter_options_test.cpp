@@ -7,7 +7,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Who may move, how near is near enough, and what handles change.
+/// Ranges, thresholds, and changes by handles.
 namespace marey::retarget {
 namespace {
 

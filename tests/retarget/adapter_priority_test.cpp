@@ -10,8 +10,8 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Supports above the centre of mass above constraints, the important above the
-/// others.
+/// Supports have priority over the centre of mass, the centre of mass over constraints,
+/// more important constraints over others.
 namespace marey::retarget {
 namespace {
 

@@ -10,7 +10,7 @@
 #include "tests/retarget/adapter_bodies.h"
 #include "tests/support/quadruped.h"
 
-/// Another creature is another table.
+/// A quadruped differs from a human in its table of groups only.
 namespace marey::retarget {
 namespace {
 
@@ -53,7 +53,7 @@ TEST_P(AdapterQuadruped, LiftsOnePawAndStandsOnThree) {
   }
 }
 
-// 15 cm is what a neck of 0.36 m and a back of 0.5 give in any direction.
+// A neck of 0.36 m and a back of 0.5 m permit 15 cm in any direction.
 TEST_P(AdapterQuadruped, SniffsAtWhatIsNearOnFourPaws) {
   const Character animal = testing::make_quadruped();
   const Pose reference = waiting(animal);

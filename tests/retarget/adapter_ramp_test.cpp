@@ -11,7 +11,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Constraints come and go without a jump.
+/// Constraints fade in and out without a jump.
 namespace marey::retarget {
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Distances between points of the body, and how segments are turned.
+/// Distances between points of the body, and orientations of segments.
 namespace marey::retarget {
 namespace {
 
@@ -186,7 +186,7 @@ TEST_P(AdapterRelationsStrict, OfTwoBlendedOnALimbBothAreBetterOffThanWithoutThe
       const Adapted only_hand = adapted(body, {{hand}, {}}, reference, blended);
       const Adapted only_elbow = adapted(body, {{elbow}, {}}, reference, blended);
       const Adapted both = adapted(body, {{hand, elbow}, {}}, reference, blended);
-      // Up to what a mean of rotations is off its chord.
+      // Up to the difference between a mean of rotations and its chord.
       ASSERT_LT(off(both, hand), off(only_elbow, hand) + 0.002) << i;
       ASSERT_LT(off(both, elbow), off(only_hand, elbow)) << i;
       could_gain_m += off(only_hand, elbow) - off(only_elbow, elbow);

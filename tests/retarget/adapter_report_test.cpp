@@ -8,7 +8,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// What the adapter says of its answers, against the answers themselves.
+/// Compares the reports of the adapter with its postures.
 namespace marey::retarget {
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Boxes that points must be in, or out of.
+/// Allowed and forbidden boxes of points.
 namespace marey::retarget {
 namespace {
 

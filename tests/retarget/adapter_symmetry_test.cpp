@@ -8,7 +8,7 @@
 
 #include "tests/retarget/adapter_bodies.h"
 
-/// Neither side, size nor place is special.
+/// Results are independent of side, size and position.
 namespace marey::retarget {
 namespace {
 

@@ -20,7 +20,7 @@ namespace marey::retarget {
 /// Feet stand, then both leave the floor together by `high_m`, on a parabola, and land.
 [[nodiscard]] Motion small_jump(double high_m);
 
-/// Of these, when the posture is held.
+/// Frames of these scenes in which the posture is held.
 inline constexpr int kPostureFirst = 90;
 inline constexpr int kPostureLast = 150;
 

@@ -354,10 +354,9 @@ TEST(CheckSupports, RefusesABodyThatCannotStand) {
   EXPECT_TRUE(check_character(character));
   const Status checked = check_supports(character);
   ASSERT_FALSE(checked);
-  EXPECT_EQ(
-      checked.error().message(),
-      "character \"Ann\": groups: none with a limb can support. Next: let the legs "
-      "support, or remove the supports.");
+  EXPECT_EQ(checked.error().message(),
+            "character \"Ann\": groups: none with a limb can support. Next: let the legs "
+            "support, or remove the supports.");
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRate_hz = 60.0;
 
-/// Four points, one of them at rest at a height of 8 cm for a second, then lifted.
+/// One of the four points, at rest at a height of 8 cm for a second, then lifted.
 ContactPaths one_step() {
   ContactPaths paths;
   for (int t = 0; t < 90; ++t) {

@@ -11,7 +11,7 @@
 #include "tests/retarget/crowd_scenes.h"
 #include "tests/support/quadruped.h"
 
-/// Who does not fit into a crowd, and is told so.
+/// Members that do not fit into a crowd, and their errors.
 namespace marey::retarget {
 namespace {
 

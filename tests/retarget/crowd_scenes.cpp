@@ -59,17 +59,17 @@ class Asker {
   Asker(const Character& body, const Pose& reference, Dice& dice)
       : body_(body), at_(places_of(body)), reference_(reference), dice_(dice) {}
 
-  ConstraintSet ask(CrowdWishes wishes, std::size_t number) {
+  ConstraintSet ask(CrowdTargets wishes, std::size_t number) {
     switch (wishes) {
-      case CrowdWishes::kHands:
+      case CrowdTargets::kHands:
         return {hands(), {}};
-      case CrowdWishes::kSupports:
+      case CrowdTargets::kSupports:
         return {supports(), {}};
-      case CrowdWishes::kRelations:
+      case CrowdTargets::kRelations:
         return {relations(), {}};
-      case CrowdWishes::kFading:
+      case CrowdTargets::kFading:
         return {fading(number), {}};
-      case CrowdWishes::kNobodyAsks:
+      case CrowdTargets::kInactive:
         return {met(number), {}};
     }
     return {};
@@ -170,7 +170,7 @@ bool same(const T& a, const T& b) {
 }  // namespace
 
 std::vector<CrowdMember> make_members(const Character& body,
-                                      CrowdWishes wishes,
+                                      CrowdTargets wishes,
                                       std::size_t count,
                                       std::size_t moments,
                                       Dice& dice) {

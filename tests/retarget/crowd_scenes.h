@@ -13,8 +13,8 @@
 #include "retarget/adapt/crowd.h"
 #include "tests/support/random_bodies.h"
 
-/// Crowds for tests: bodies of one structure and of different measures, and what is
-/// asked of them from moment to moment.
+/// Crowds for tests: bodies with one structure and different measures, and their inputs
+/// at each moment.
 namespace marey::retarget {
 
 /// Inputs of one body at one moment.
@@ -32,18 +32,18 @@ struct CrowdMember {
 };
 
 /// Types of the members' targets.
-enum class CrowdWishes {
-  kHands,       ///< Contacts of three importances, near to beyond reach.
-  kSupports,    ///< A foot on a footprint, one where it began, a far hand.
-  kRelations,   ///< Distances, spaces and orientations.
-  kFading,      ///< As kHands; one in three members has one that fades in and out.
-  kNobodyAsks,  ///< Targets that are met already, or not active yet.
+enum class CrowdTargets {
+  kHands,      ///< Contacts of three importances, near to beyond reach.
+  kSupports,   ///< A foot on a footprint, one where it began, a far hand.
+  kRelations,  ///< Distances, spaces and orientations.
+  kFading,     ///< As kHands; one in three members has one that fades in and out.
+  kInactive,   ///< Targets that are met already, or not active yet.
 };
 
 /// `count` bodies like `body`, with individual bones, masses and limits. Humans, and
 /// quadrupeds of make_quadruped(). The last moment equals the first.
 [[nodiscard]] std::vector<CrowdMember> make_members(const Character& body,
-                                                    CrowdWishes wishes,
+                                                    CrowdTargets wishes,
                                                     std::size_t count,
                                                     std::size_t moments,
                                                     testing::Dice& dice);

@@ -16,7 +16,7 @@
 #include "tests/support/count_allocations.h"
 #include "tests/support/quadruped.h"
 
-/// A crowd's answers are those of its members' adapters, to the bit: the truth here is
+/// The results of a crowd equal those of its members' adapters, to the bit. Reference:
 /// each member's adapter by itself.
 namespace marey::retarget {
 namespace {
@@ -105,7 +105,7 @@ void expect_own_answers(const std::vector<CrowdMember>& members,
 }
 
 class CrowdOfMany
-    : public ::testing::TestWithParam<std::tuple<Method, CrowdWishes, BalanceMode>> {
+    : public ::testing::TestWithParam<std::tuple<Method, CrowdTargets, BalanceMode>> {
  protected:
   [[nodiscard]] static AdaptOptions options() {
     AdaptOptions out;
@@ -123,9 +123,9 @@ class CrowdOfMany
 std::string name_of_case(const ::testing::TestParamInfo<CrowdOfMany::ParamType>& info) {
   const auto [method, wishes, balance] = info.param;
   std::string name = method == Method::kStrict ? "strict" : "thesis";
-  constexpr const char* kWishes[] = {
+  constexpr const char* kTargets[] = {
       "Hands", "Supports", "Relations", "Fading", "NobodyAsks"};
-  name += kWishes[static_cast<std::size_t>(wishes)];
+  name += kTargets[static_cast<std::size_t>(wishes)];
   constexpr const char* kBalance[] = {"", "Balanced", "Balanced3d"};
   return name + kBalance[static_cast<std::size_t>(balance)];
 }
@@ -134,11 +134,11 @@ INSTANTIATE_TEST_SUITE_P(Crowd,
                          CrowdOfMany,
                          ::testing::Combine(::testing::Values(Method::kStrict,
                                                               Method::kThesis),
-                                            ::testing::Values(CrowdWishes::kHands,
-                                                              CrowdWishes::kSupports,
-                                                              CrowdWishes::kRelations,
-                                                              CrowdWishes::kFading,
-                                                              CrowdWishes::kNobodyAsks),
+                                            ::testing::Values(CrowdTargets::kHands,
+                                                              CrowdTargets::kSupports,
+                                                              CrowdTargets::kRelations,
+                                                              CrowdTargets::kFading,
+                                                              CrowdTargets::kInactive),
                                             ::testing::Values(BalanceMode::kOff,
                                                               BalanceMode::kHorizontal,
                                                               BalanceMode::k3d)),

@@ -153,8 +153,7 @@ TEST(SpineCount, GetsItsOwnPostureBackExactly) {
   }
 }
 
-// Arms compensate the spine's residual: wrists within a millimetre wherever the arm
-// reaches.
+// Arms compensate the spine's residual: wrists within a millimetre where the arm reaches.
 TEST(SpineCount, WristsAreWhereTheSourceHasThem) {
   const Skeleton source = with_count(3);
   const BodyMap source_map = mapped(source);

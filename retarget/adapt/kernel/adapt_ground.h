@@ -147,23 +147,22 @@ template <class F>
   for (int round = 0; round < 8; ++round) {
     F max_excess = zero;
     Vec3<F> step{zero, zero, zero};
-    for_each_stand<F>(
-        plan, settings, s, [&](const LimbPlan& limb, const auto& stand, auto&) {
-          const Vec3<F> was = s.reference_place[static_cast<std::size_t>(limb.end)] -
-                              s.reference_place[static_cast<std::size_t>(limb.upper)];
-          const F stride = sqrt(was.x * was.x + was.z * was.z);
-          const F longest = max(num<F>(kLongestStride) * stand.reach,
-                                min(stride, num<F>(0.999) * stand.reach));
-          const Vec3<F> leg = stand.ankle - (stand.hip + shift);
-          const F across = sqrt(leg.x * leg.x + leg.z * leg.z);
-          const Mask<F> far =
-              stand.active & (across > longest + num<F>(kOnFootprint) * stand.reach);
-          const F excess = select(far, across - longest, zero);
-          const F back = excess / max(across, num<F>(1e-6));
-          step = select(
-              excess > max_excess, Vec3<F>{back * leg.x, zero, back * leg.z}, step);
-          max_excess = max(max_excess, excess);
-        });
+    for_each_stand<
+        F>(plan, settings, s, [&](const LimbPlan& limb, const auto& stand, auto&) {
+      const Vec3<F> was = s.reference_place[static_cast<std::size_t>(limb.end)] -
+                          s.reference_place[static_cast<std::size_t>(limb.upper)];
+      const F stride = sqrt(was.x * was.x + was.z * was.z);
+      const F longest = max(num<F>(kLongestStride) * stand.reach,
+                            min(stride, num<F>(0.999) * stand.reach));
+      const Vec3<F> leg = stand.ankle - (stand.hip + shift);
+      const F across = sqrt(leg.x * leg.x + leg.z * leg.z);
+      const Mask<F> far =
+          stand.active & (across > longest + num<F>(kOnFootprint) * stand.reach);
+      const F excess = select(far, across - longest, zero);
+      const F back = excess / max(across, num<F>(1e-6));
+      step = select(excess > max_excess, Vec3<F>{back * leg.x, zero, back * leg.z}, step);
+      max_excess = max(max_excess, excess);
+    });
     if (!any(max_excess > zero)) break;
     shift += step;
   }

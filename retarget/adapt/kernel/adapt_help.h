@@ -117,11 +117,11 @@ void sink_to_supports(const Plan& plan,
 /// Calls close_limbs() repeatedly for limbs that a limit stopped, because the remaining
 /// path may be free from the new posture. Ends when the improvement is negligible.
 template <class F>
-void close_limbs_patiently(const Plan& plan,
-                           const SolveSettings& settings,
-                           const F& level,
-                           const Mask<F>& mask,
-                           Lanes<F>& s) {
+void close_limbs_repeatedly(const Plan& plan,
+                            const SolveSettings& settings,
+                            const F& level,
+                            const Mask<F>& mask,
+                            Lanes<F>& s) {
   close_limbs(plan, settings, level, mask, s);
   if (!plan.has_limits) return;
   Mask<F> off = mask;
@@ -153,7 +153,7 @@ template <class F>
                                 const Mask<F>& mask,
                                 Errors<F>& errors,
                                 Lanes<F>& s) {
-  close_limbs_patiently(plan, settings, level, mask, s);
+  close_limbs_repeatedly(plan, settings, level, mask, s);
   measure_balance(plan, s);
   keep_as_best(plan, mask, s);
   const Vec3<F> error = balance_error(s);
@@ -169,7 +169,7 @@ template <class F>
   shift_root(plan, shift, s);
   sink_to_supports(plan, settings, mask, s);
   measure_points(plan, s, level);
-  close_limbs_patiently(plan, settings, level, mask, s);
+  close_limbs_repeatedly(plan, settings, level, mask, s);
   errors = measure(plan, true, level, s);
   share = max(share, help_missing(errors));
   share = max(share, fade_between(length(error), kNearShift, kFarShift));

@@ -7,8 +7,8 @@
 /// The strict method, over lanes.
 ///
 /// 1. Limbs alone: every limb closes on its target analytically. If all targets are
-///    within comfortable reach, this is the result (the thesis: the trunk moves only when limbs
-///    do not suffice), and no loop runs.
+///    within comfortable reach, this is the result (the thesis: the trunk moves only when
+///    limbs do not suffice), and no loop runs.
 /// 2. The whole body: damped Gauss-Newton steps move the trunk. After each step the limbs
 ///    close on their targets again, analytically, from their posture in the reference.
 ///    The first kHomingSteps also rotate every joint back towards the reference, so that

@@ -18,8 +18,8 @@ struct SolveSettings {
 
 template <class F>
 [[nodiscard]] inline Mask<F> is_requested(const PointPlan& point,
-                                      const LanePoint<F>& p,
-                                      const F& level) {
+                                          const LanePoint<F>& p,
+                                          const F& level) {
   return (p.active > num<F>(0)) & (num<F>(point.level) <= level);
 }
 
@@ -42,10 +42,10 @@ struct LimbTarget {
 
 template <class F>
 [[nodiscard]] LimbTarget<F> limb_target_of(const LimbPlan& limb,
-                                  const PointPlan& point,
-                                  const LanePoint<F>& p,
-                                  const Extremity<F>& extremity,
-                                  const Lanes<F>& s) {
+                                           const PointPlan& point,
+                                           const LanePoint<F>& p,
+                                           const Extremity<F>& extremity,
+                                           const Lanes<F>& s) {
   if (point.place != LimbPlace::kExtremity || point.joint != limb.end) {
     return {p.place, p.target};
   }

@@ -176,11 +176,11 @@ struct SegmentTurn {
 /// gets a spin.
 template <class F>
 void add_to_segment(const Plan& plan,
-                 std::span<const int> points,
-                 const Vec3<F>& pivot,
-                 const Mask<F>& mask,
-                 Lanes<F>& s,
-                 SegmentTurn<F>& out) {
+                    std::span<const int> points,
+                    const Vec3<F>& pivot,
+                    const Mask<F>& mask,
+                    Lanes<F>& s,
+                    SegmentTurn<F>& out) {
   const F zero = num<F>(0);
   const F one = num<F>(1);
   Vec3<F> sum{zero, zero, zero};

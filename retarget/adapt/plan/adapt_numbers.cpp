@@ -139,10 +139,10 @@ void pack_posture(const Pose& pose, std::span<float> out) {
 }
 
 void pack_targets(const Plan& plan,
-                 const BodyNumbers& body,
-                 const glm::dvec3& origin_in_world,
-                 std::span<const TargetNumbers> targets,
-                 std::span<float> out) {
+                  const BodyNumbers& body,
+                  const glm::dvec3& origin_in_world,
+                  std::span<const TargetNumbers> targets,
+                  std::span<float> out) {
   MAREY_ASSERT(out.size() == kNumbersPerTarget * targets.size());
   const double per_unit = 1.0 / body.unit_m;
   Packer pack(out);

@@ -54,10 +54,10 @@ inline constexpr std::size_t kNumbersPerTarget = 17;
 
 /// Packs targets. `targets` has the order of Plan::points.
 void pack_targets(const Plan& plan,
-                 const BodyNumbers& body,
-                 const glm::dvec3& origin_in_world,
-                 std::span<const TargetNumbers> targets,
-                 std::span<float> out);
+                  const BodyNumbers& body,
+                  const glm::dvec3& origin_in_world,
+                  std::span<const TargetNumbers> targets,
+                  std::span<float> out);
 
 struct BalanceNumbers {
   bool wanted = false;

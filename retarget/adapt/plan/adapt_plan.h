@@ -124,8 +124,8 @@ struct Plan {
   std::vector<std::vector<int>> sections;  ///< Vertebrae, low to high.
   std::vector<GroupPlan> groups;           ///< In the order of the character.
   std::vector<PointPlan> points;           ///< Supports first, then by importance.
-  int level_count = 0;  ///< Number of levels of points that are not supports.
-  std::vector<SharedChain> shared;         ///< Index a * points + b, with b <= a.
+  int level_count = 0;              ///< Number of levels of points that are not supports.
+  std::vector<SharedChain> shared;  ///< Index a * points + b, with b <= a.
   /// Points whose chain contains joint j: elements begin[j]..begin[j + 1] of `through`.
   std::vector<int> through_begin;
   std::vector<int> through;

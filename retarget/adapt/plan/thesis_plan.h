@@ -34,8 +34,8 @@ struct ThesisGroup {
 
 /// Groups that contribute to balance, heaviest first (thesis 5.2.2).
 struct KineticGroup {
-  int rank = 0;  ///< Equal for both arms, and for both legs: they balance together.
-  int limb = -1;            ///< Limb, balanced in two steps; -1: one segment.
+  int rank = 0;   ///< Equal for both arms, and for both legs: they balance together.
+  int limb = -1;  ///< Limb, balanced in two steps; -1: one segment.
   std::vector<int> joints;  ///< Joints of the segment, low to high, which share the
                             ///< rotation.
   std::vector<int> below;   ///< Live joints at or below its root, parents first.
