@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include <Eigen/Dense>
-#include <Eigen/SparseColumns>
+#include <Eigen/Sparse>
 
 #include "calib/bundle/bundle_problem.h"
 

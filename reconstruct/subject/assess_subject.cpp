@@ -22,8 +22,8 @@ constexpr int kMinSightings = 10;
 // For a tag at its right place, 86 % and more of the sightings are explained in simulated
 // sessions, and the median square is below 1.6 times its expectation.
 constexpr int kMinToJudge = 20;
-constexpr double kMinExplained = 0.7;
-constexpr double kMaxMedianRatio = 4.0;
+constexpr double kMinExplainedTags = 0.7;
+constexpr double kMaxRatioOfMedian = 4.0;
 // Half squares by which one hypothesis must beat another if all sightings were
 // independent: three sigma. They have less weight, by SubjectBundle::prior_weight.
 constexpr double kSureGain = 4.5;
@@ -106,11 +106,11 @@ void assess_sightings(const SubjectBundle& bundle,
                       std::vector<Error>& out) {
   for (const TagEvidence& e : evidence.tags) {
     const bool is_explained =
-        e.explained_share >= kMinExplained && e.median_ratio <= kMaxMedianRatio;
+        e.explained_share >= kMinExplainedTags && e.median_ratio <= kMaxRatioOfMedian;
     if (e.sightings < kMinToJudge || is_explained) continue;
     const TagOnSegment& tag = bundle.model.tags[e.tag];
     const std::string how =
-        e.explained_share < kMinExplained
+        e.explained_share < kMinExplainedTags
             ? " lies away from its fitted place in " + percent(1.0 - e.explained_share) +
                   " of its sightings"
             : " fits its place worse than its corners' noise explains, in most of its "

@@ -17,7 +17,7 @@ namespace marey::reconstruct {
 namespace {
 
 // A larger distance of a tag from its model is not explained by noise or blur.
-constexpr double kLostPx = 3.0;
+constexpr double kMaxMisfit_px = 3.0;
 // Loose prior on the change of a tracked frame from the previous one. It matters only for
 // unseen parameters.
 constexpr double kMotionSigmaRad = 0.3;
@@ -83,7 +83,7 @@ Posture FrameSolver::track(std::span<const TagSighting> frame,
   if (disambiguate_extremities(*model_, frame, cameras_, before, posture) > 0) {
     (void)refine(frame, expected, posture);
   }
-  if (median_misfit_px(frame, posture) > kLostPx) {
+  if (median_misfit_px(frame, posture) > kMaxMisfit_px) {
     Posture other = tags_are_nearer ? predicted : from_tags;
     (void)refine(frame, expected, other);
     if (median_misfit_px(frame, other) < median_misfit_px(frame, posture)) {
@@ -160,7 +160,7 @@ void FrameSolver::retry_limbs(std::span<const TagSighting> frame,
       if (model_->place(s.tag)) of_limb.push_back(&s);
       worst_px = std::max(worst_px, misfit_px(s, posture));
     }
-    if (worst_px < kLostPx) continue;
+    if (worst_px < kMaxMisfit_px) continue;
     double least = refine(frame, predicted, posture);
     const Posture start = posture;
     for (const TagSighting* s : of_limb) {

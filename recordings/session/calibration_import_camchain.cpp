@@ -91,8 +91,8 @@ RigidTransform read_link(TomlReader& in) {
 }
 
 glm::dvec3 read_xyz(TomlReader in) {
-  constexpr Limits kAny{-1e12, 1e12};
-  return {in.number("x", kAny), in.number("y", kAny), in.number("z", kAny)};
+  constexpr Limits kAnyNumber{-1e12, 1e12};
+  return {in.number("x", kAnyNumber), in.number("y", kAnyNumber), in.number("z", kAnyNumber)};
 }
 
 /// Sets the poses from TagSLAM's file next to cameras.yaml, in which they are rig from
