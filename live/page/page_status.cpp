@@ -43,7 +43,7 @@ PageJson stage_object(const PageStage& stage) {
           {"p95_ms", stage.spread.p95_ms}};
 }
 
-PageJson camera_object(const PageCameraStatus& camera) {
+PageJson camera_status_object(const PageCameraStatus& camera) {
   return {{"name", camera.name},
           {"state", word(camera.state)},
           {"frames", camera.frames},
@@ -79,7 +79,7 @@ std::string status_json(const PageStatus& status) {
        {"latency_ms", {{"p50", status.latency.p50_ms}, {"p95", status.latency.p95_ms}}},
        {"stages", array_of(status.stages, stage_object)},
        {"overload", status.overload},
-       {"cameras", array_of(status.cameras, camera_object)},
+       {"cameras", array_of(status.cameras, camera_status_object)},
        {"outputs", array_of(status.outputs, output_object)},
        {"recording", recording_object(status.recording)},
        {"clients", status.clients},
