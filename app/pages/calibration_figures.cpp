@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+constexpr double kDegreesOfRadians = 180.0 / std::numbers::pi;
 constexpr std::size_t kLens = Intrinsics::kParameterCount;
 
 Json px_json(double value_px) {
@@ -106,7 +106,7 @@ Json parameters(const calib::CalibrationReport& report, std::size_t c) {
   static constexpr std::array<const char*, 3> kPlaces{"x", "y", "z"};
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    add(kTurns[k], kDegreesPerRadian * turn[i], kDegreesPerRadian * sigma(kLens + k), "deg");
+    add(kTurns[k], kDegreesOfRadians * turn[i], kDegreesOfRadians * sigma(kLens + k), "deg");
   }
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -187,7 +187,7 @@ Json camera_figures(const calib::CalibrationReport& report, std::size_t c) {
       {"coverage_corners", measures.cells},
       {"tilt_p90_deg",
        measures.tilts.empty() ? Json(nullptr)
-                              : Json(rounded(kDegreesPerRadian * measures.p90_tilt_rad, 1))},
+                              : Json(rounded(kDegreesOfRadians * measures.p90_tilt_rad, 1))},
       {"centre_in_world_m", metres_json(world_from_camera.translation)},
       {"centre_sigma_mm", mm_json(quality.centre_sigma_m)},
       {"centre_covariance_mm2", centre_covariance_mm2(report, c)},
@@ -240,7 +240,7 @@ Json cross_validation_figures(const calib::CalibrationReport& report) {
          {"time_expected_mm",
           has_time ? mm_json(check->time_expected_m[c]) : Json(nullptr)},
          {"centre_apart_mm", mm_json(check->centre_apart_m[c])},
-         {"turn_apart_deg", rounded(kDegreesPerRadian * check->turn_apart_rad[c], 4)},
+         {"turn_apart_deg", rounded(kDegreesOfRadians * check->turn_apart_rad[c], 4)},
          {"focal_apart_px", px_json(check->focal_apart_px[c])},
          {"held_out_median_px",
           check->held_out_camera_px[c] ? px_json(*check->held_out_camera_px[c])
@@ -257,7 +257,7 @@ Json move_figures(const calib::CalibrationReport& report) {
   return {{"camera", report.rig.cameras[index(move->camera)].name},
           {"from_frame", move->from_frame ? Json(*move->from_frame) : Json(nullptr)},
           {"moved_px", px_json(move->moved_px)},
-          {"turn_deg", rounded(kDegreesPerRadian * move->turn_rad, 4)},
+          {"turn_deg", rounded(kDegreesOfRadians * move->turn_rad, 4)},
           {"shift_mm", mm_json(move->shift_m)},
           {"rig_shift_mm", mm_json(move->rig_shift_m)},
           {"gain", rounded(move->gain, 0)}};
