@@ -46,4 +46,7 @@ fi
 cd "$out"
 find . -type f \( -name '*.csv' -o -name '*.toml' -o -name '*.glb' -o -name '*.bvh' \
   -o -name '*.vrma' -o -name '*.npz' -o -name '*.c3d' -o -name '*.trc' -o -name '*.mot' \
-  -o -name '*.xml' \) -print0 | LC_ALL=C sort -z | xargs -0 sha256sum
+  -o -name '*.xml' \) | LC_ALL=C sort | while read -r file; do
+  # Detections name the video's path.
+  printf '%s  %s\n' "$(sed '/^# source:/d' "$file" | sha256sum | cut -d' ' -f1)" "$file"
+done
