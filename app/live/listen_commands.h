@@ -14,24 +14,24 @@
 
 namespace marey::app {
 
-/// What `marey listen` was asked for.
+/// Arguments of `marey listen`.
 struct ListenArguments {
-  std::filesystem::path body;  ///< The avatar that the sender has, too.
-  std::filesystem::path out;   ///< A motion of it; empty: not kept.
-  std::string from = "127.0.0.1";  ///< "HOST[:PORT]" to listen at.
+  std::filesystem::path body;  ///< Avatar; the sender uses the same one.
+  std::filesystem::path out;   ///< Output file; empty: nothing is written.
+  std::string from = "127.0.0.1";  ///< Address to listen on, "HOST[:PORT]".
   std::string rest = "vrm0";
-  std::vector<std::filesystem::path> avatars;  ///< At most one: to put it on, live.
-  std::vector<std::string> vmc;                ///< Where that goes.
+  std::vector<std::filesystem::path> avatars;  ///< Live retargeting target; at most one.
+  std::vector<std::string> vmc;                ///< Targets of its packets.
   double rate_hz = 60.0;
   std::optional<double> seconds;
   bool json = false;
 };
 
-/// `marey listen BODY`: another performer's VMC, kept as a motion of BODY, put on another
-/// body and sent on, or both, until Ctrl-C.
+/// Runs `marey listen BODY`: receives VMC until Ctrl-C, and writes it as a motion of BODY,
+/// or retargets it to another body and sends that as VMC, or both.
 [[nodiscard]] Exit run_listen(const ListenArguments& arguments, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `arguments` must stay in place.
+/// Adds the command. Parsing it sets `chosen`. `arguments` must keep its address.
 void add_listen_command(CLI::App& app,
                         ListenArguments& arguments,
                         std::function<Exit(Console&)>& chosen);

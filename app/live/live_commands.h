@@ -11,10 +11,11 @@
 
 namespace marey::app {
 
-/// `marey live SESSION`: from cameras to packets, until Ctrl-C or the end.
+/// Runs `marey live SESSION`: tracks the subject and sends packets until Ctrl-C, the time
+/// limit or the end of the videos.
 [[nodiscard]] Exit run_live_command(const LiveArguments& arguments, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `live` must stay in place.
+/// Adds the command. Parsing it sets `chosen`. `live` must keep its address.
 void add_live_command(CLI::App& app,
                       LiveArguments& live,
                       std::function<Exit(Console&)>& chosen);

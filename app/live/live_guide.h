@@ -15,41 +15,42 @@
 namespace marey::app {
 
 struct LiveGuideOptions {
-  bool begin = false;         ///< At once, without being asked.
-  bool by_itself = false;     ///< Accepts what is good and begins anew after what is not.
-  bool is_recording = false;  ///< As set_recording().
+  bool begin = false;         ///< Starts at once, without a request.
+  bool by_itself = false;     ///< Accepts a good result; restarts after a poor one.
+  bool is_recording = false;  ///< See set_recording().
   GuideOptions steps{};
 };
 
-/// A body and what follows it.
+/// A measured body and the chain that tracks it.
 struct GuidedBody {
   Body body;
   LiveChain chain;
 };
 
-/// Guides through the measuring of a person while a live run goes on: solves on a thread
-/// of its own, tells the steps on the console, and writes what is accepted to
-/// subject.toml. What that held before is then in subject.toml.before. One thread calls
-/// it.
+/// Guides a subject through calibration during a live run. Solves on its own thread,
+/// prints the steps on the console and writes the accepted body to subject.toml. The
+/// previous file is kept as subject.toml.before. Called from one thread.
 class LiveGuide {
  public:
-  /// `live` and `console` outlive it. Precondition: live.prior has tags.
+  /// `live` and `console` must outlive the object. Precondition: live.prior has tags.
   LiveGuide(const OpenedLive& live, const LiveGuideOptions& options, Console& console);
 
-  /// Why not, or nullopt.
+  /// Performs an action of the page. Returns the reason if it is rejected, else nullopt.
   [[nodiscard]] std::optional<std::string> act(live::WizardAction action);
-  /// A take has one body: nobody begins to be measured meanwhile.
+  /// Sets whether a take is being recorded. A take has one body, so no calibration starts
+  /// during a recording.
   void set_recording(bool on) { options_.is_recording = on; }
-  /// Takes some microseconds, but for the instant in which a body is accepted.
+  /// Processes one instant. Cost: some microseconds, except for the instant in which a body
+  /// is accepted.
   void see(const LiveInstant& instant);
-  /// No instant follows. Waits for what is being solved, up to a minute, and in a run by
-  /// itself keeps it if it is good.
+  /// Ends the calibration; no instant may follow. Waits up to a minute for a running solve.
+  /// With LiveGuideOptions::by_itself it accepts a good result.
   void end();
-  /// The body that was accepted since the last call.
+  /// Returns the body accepted since the last call, if any.
   [[nodiscard]] std::optional<GuidedBody> take_body();
 
   [[nodiscard]] const live::PageWizard& ui_state() const { return guide_.ui_state(); }
-  /// A body was accepted and written.
+  /// Returns true if a body was accepted and written.
   [[nodiscard]] bool has_measured() const { return has_measured_; }
 
  private:
@@ -69,7 +70,7 @@ class LiveGuide {
   LiveGuideOptions options_;
   Console& console_;
   SubjectGuide guide_;
-  std::optional<Solved> waiting_;  ///< For acceptance.
+  std::optional<Solved> waiting_;  ///< Result to be accepted.
   std::optional<GuidedBody> accepted_;
   bool has_measured_ = false;
   live::WizardStep shown_step_ = live::WizardStep::kIdle;
@@ -78,7 +79,7 @@ class LiveGuide {
   std::optional<Timestamp> shown_at_;
 
   std::atomic<bool> is_solved_ = false;
-  std::optional<Result<Solved>> result_;  ///< The thread's, until is_solved_.
+  std::optional<Result<Solved>> result_;  ///< Owned by the thread until is_solved_.
   std::jthread solver_;
 };
 

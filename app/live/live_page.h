@@ -21,14 +21,15 @@
 
 namespace marey::app {
 
-/// What a live run looks like in browsers: the performer with its doubt, every avatar in
-/// its skin beside it, the first one's handles, cameras and what they see, and how
-/// everything fares. A browser that does not keep up misses frames, and never delays the
-/// run.
+/// Shows a live run in browsers: the performer with its uncertainty, the skinned avatars
+/// next to it, the handles of the first avatar, the cameras with their thumbnails and tags,
+/// and the status of cameras, outputs and subject. A slow browser skips frames and never
+/// delays the run.
 class LivePage final : public LiveWatcher {
  public:
-  /// Starts the server with the scene of this run. `guide` measures people, or is null;
-  /// it outlives the page. Errors: start_page()'s; a skin's file cannot be read.
+  /// Starts the server with the scene of this run. `guide` performs calibrations; it may be
+  /// null and must outlive the page. Errors: those of start_page(); a skin file cannot be
+  /// read.
   [[nodiscard]] static Result<std::unique_ptr<LivePage>> open(
       const PageServerOptions& options,
       const OpenedLive& live,
@@ -55,10 +56,10 @@ class LivePage final : public LiveWatcher {
  private:
   explicit LivePage(PageServer page) : page_(std::move(page)) {}
   [[nodiscard]] Status make_scene(const OpenedLive& live, const Skeleton& performer);
-  /// What is said to a page that asked; an empty text: nothing.
+  /// Reply to a request of a page; an empty text means no reply.
   struct Answer {
     std::string text;
-    std::string about{};  ///< As error_json()'s.
+    std::string about{};  ///< Subject of the error, see error_json().
   };
   [[nodiscard]] Answer answer(const std::string& text,
                               live::ClientId from,
@@ -76,26 +77,26 @@ class LivePage final : public LiveWatcher {
   LiveGuide* guide_ = nullptr;
   live::WizardStep shown_step_ = live::WizardStep::kIdle;
   bool has_body_ = false;
-  std::optional<bool> record_request_;  ///< To record, or not to.
+  std::optional<bool> record_request_;  ///< true: start; false: stop.
   live::PageScene scene_;
   std::vector<live::PageFigure> figures_;
   std::optional<LiveBalance> balance_;
   std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.
-  std::vector<int> tags_seen_;                                    ///< By camera.
+  std::vector<int> tags_seen_;  ///< By camera: tags in its newest picture.
   WornSegments worn_;
   std::vector<std::string> body_doubts_;
-  std::vector<JointUncertainty> uncertainty_;      ///< Of the performer, newest.
-  std::vector<LiveCameraFigures> cameras_before_;  ///< As last told.
-  std::vector<OutputCounts> outputs_before_;       ///< Likewise.
+  std::vector<JointUncertainty> uncertainty_;      ///< Newest of the performer.
+  std::vector<LiveCameraFigures> cameras_before_;  ///< At the last status.
+  std::vector<OutputCounts> outputs_before_;       ///< At the last status.
   std::vector<live::ReceivedText> texts_;
   std::string bytes_;
   std::vector<std::string> notes_;
   std::optional<Timestamp> first_;
   std::optional<std::int64_t>
-      last_tracked_;  ///< The last instant in which it was tracked.
+      last_tracked_;  ///< Number of the last instant with the body tracked.
   std::optional<reconstruct::TrackState> state_;
   std::uint32_t frame_ = 0;
-  std::uint32_t handles_published_ = 0;  ///< In which frame.
+  std::uint32_t handles_published_ = 0;  ///< Frame of the last publication.
   long frames_before_ = 0;
   double seconds_before_ = 0.0;
   Stopwatch since_start_;

@@ -16,15 +16,16 @@
 
 namespace marey::app {
 
-/// The take of a live run: a folder with the cameras, the subject and the avatars as they
-/// were, and live.sqlite with every instant, so that it can be replayed to the same bytes
-/// wherever it lies. What is half a second old survives whatever happens to the process.
-/// The disk is waited for by a thread of its own.
+/// Records a take of a live run. A take is a folder with copies of the cameras, the subject
+/// and the avatars, and live.sqlite with every instant. Its replay gives the same bytes,
+/// also after the folder is moved. Data older than half a second survives a crash of the
+/// process. A separate thread waits for the disk.
 class LiveRecorder {
  public:
-  /// Makes the folder and what does not change, of a run with this body and these settings. Errors: it
-  /// holds a take already, or avatars are of a kind that cannot be copied alone
-  /// (kBadInput); the disk (kDevice). Nothing is left in the folder then.
+  /// Creates the folder and writes the constant data of a run with this body and these
+  /// settings. Errors: the folder already has a take, or an avatar's format consists of
+  /// several files (kBadInput); the disk (kDevice). After an error, the files it created
+  /// are removed.
   [[nodiscard]] static Result<std::unique_ptr<LiveRecorder>> create(
       const std::filesystem::path& folder,
       const OpenedLive& live,
@@ -32,17 +33,18 @@ class LiveRecorder {
       const LiveSettings& settings);
   ~LiveRecorder();
 
-  /// Does not wait for the disk. After trouble nothing more is kept.
+  /// Adds an instant. Does not wait for the disk. After an error nothing more is recorded.
   void add(const LiveInstant& instant,
            const LiveRequests& requests,
            const LiveResult& result);
-  /// One that is needed to come to the state in which the take begins (LiveTakes).
+  /// Adds an instant of the lead-in, which a replay needs to reach the initial state of the
+  /// take (see LiveTakes).
   void add_lead_in(const LiveInstant& instant, const LiveRequests& requests);
-  /// Why the recording ended before its time; the rest of the run goes on.
+  /// Returns the error that ended the recording early, if any. The run itself continues.
   [[nodiscard]] std::optional<Error> trouble() const;
-  /// Writes what is left. Errors: trouble(), or the disk.
+  /// Writes the remaining data. Errors: trouble(), or the disk.
   [[nodiscard]] Status finish();
-  /// Instead of finish(): takes away all that create() made. Nothing may follow.
+  /// Removes all files that create() made. Called in place of finish(); no call may follow.
   void discard();
 
  private:
@@ -52,7 +54,7 @@ class LiveRecorder {
   void end_commits();
 
   std::filesystem::path folder_;
-  bool was_there_ = false;  ///< The folder, before.
+  bool was_there_ = false;  ///< The folder existed before create().
   recordings::LiveTakeWriter writer_;
   recordings::LiveTakeInstant instant_;
   mutable std::mutex mutex_;

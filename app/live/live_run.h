@@ -16,46 +16,47 @@
 
 namespace marey::app {
 
-/// Who watches a run: is told of it between two frames, and must not take long.
+/// Observer of a run. Its functions are called between two frames and must return quickly.
 class LiveWatcher {
  public:
   virtual ~LiveWatcher() = default;
-  /// Cameras' small pictures are wanted.
+  /// Returns true if thumbnails of the cameras are needed.
   [[nodiscard]] virtual bool wants_thumbnails() const { return false; }
-  /// Adds what was asked for since the last call.
+  /// Adds the requests received since the last call.
   virtual void take_requests(LiveRequests& /*requests*/) {}
-  /// From now on results are this body's.
+  /// Reports that all later results are of this body.
   virtual void on_body(const Body& /*body*/, const Skeleton& /*performer*/) {}
-  /// What was asked for last, if anything was since the last call: to record, or not to.
+  /// Returns the latest recording request since the last call (true: start, false: stop),
+  /// or nullopt.
   virtual std::optional<bool> record_request() { return std::nullopt; }
   virtual void on_frame(const LiveInstant& instant, const LiveResult& result) = 0;
-  /// `picture` as DetectedPicture::thumbnail.
+  /// Receives a thumbnail, in the format of DetectedPicture::thumbnail, and its tags.
   virtual void on_thumbnail(std::size_t camera,
                             std::span<const std::byte> pixels,
                             int width_px,
                             int height_px,
                             std::span<const TagDetection> tags) = 0;
-  /// Twice a second, and when it ends.
+  /// Receives the figures twice a second and at the end of the run.
   virtual void on_status(const LiveFigures& figures,
                          const LiveTimes& recent,
                          reconstruct::TrackState state) = 0;
 };
 
 struct LiveRunOptions {
-  std::optional<double> seconds;  ///< nullopt: until stopped, or all videos have ended.
+  std::optional<double> seconds;  ///< nullopt: until stopped or the videos end.
   std::chrono::nanoseconds longest_wait = std::chrono::milliseconds(50);
 };
 
-/// Runs until `stop` says so: a thread for each camera finds its tags; this one takes the
-/// newest instant that is whole, or has been waited for long enough, and has the chain
-/// make packets of it, which go out before anything else is done about the instant.
+/// Runs until `stop` returns true. One thread per camera detects its tags. The calling
+/// thread takes the newest instant that is complete or has reached the longest wait,
+/// computes its packets with the chain and sends them before any other work on the instant.
 ///
-/// When there is more to do than time, what is newest wins: a picture older than
-/// LiveCameraOptions::stale_after_s is passed over, instants that were not taken up are
-/// skipped for a newer one, and all of it is counted. Without a chain nobody is followed
-/// and nothing sent, until the guide has a body. `guide` (of the same `live`), `takes`
-/// (likewise) and `watcher` may be null.
-/// Errors: of the detectors.
+/// Under overload the newest data has priority: a picture older than
+/// LiveCameraOptions::stale_after_s is skipped, and so are waiting instants once a newer one
+/// is ready. All skipped data is counted. Without a chain nothing is tracked or sent until
+/// the guide provides a body. `guide`, `takes` and `watcher` may be null; `guide` and
+/// `takes` must belong to `live`.
+/// Errors: those of the detectors.
 [[nodiscard]] Result<LiveFigures> run_live(OpenedLive& live,
                                            std::optional<LiveChain>& chain,
                                            LiveOutputs& outputs,

@@ -24,7 +24,7 @@
 
 namespace marey::app {
 
-/// What `marey live` was asked to begin with.
+/// Arguments of `marey live`.
 struct LiveArguments {
   std::filesystem::path session;  ///< session.toml or its folder.
   /// The folder with calibration.toml and subject.toml; empty: the session's.
@@ -32,14 +32,14 @@ struct LiveArguments {
   /// Trials whose videos are the cameras, one after the other; empty: real cameras.
   std::vector<std::string> play;
   bool loop = false;
-  std::vector<std::string> cameras;  ///< Those to use; empty: all.
+  std::vector<std::string> cameras;  ///< Names of the cameras to use; empty: all.
   std::optional<std::filesystem::path> media;
   std::vector<std::filesystem::path> avatars;
   std::vector<std::string> vmc;  ///< "[AVATAR=]HOST[:PORT]".
   std::string vmc_rest = "vrm0";
   std::optional<int> vmc_mtu;       ///< nullopt: by the target; 0: one bundle a frame.
   std::optional<int> vmc_listen;    ///< nullopt: VMC's own port, if it is free.
-  bool vmc_deaf = false;            ///< Hears no commands.
+  bool vmc_deaf = false;            ///< Receives no VMC commands.
   std::vector<std::string> vrchat;  ///< "HOST[:PORT]".
   std::filesystem::path record;     ///< Folder of the take; empty: not recorded.
   std::optional<double> seconds;
@@ -47,7 +47,7 @@ struct LiveArguments {
   bool no_page = false;
   PageServerOptions page;
   bool json = false;
-  bool calibrate = false;  ///< Measure the person, before or again.
+  bool calibrate = false;  ///< Measures the subject first, or again.
   GuideOptions guide;
 };
 
@@ -55,26 +55,26 @@ struct LiveArguments {
 struct OpenedLive {
   std::string session;
   std::filesystem::path folder;         ///< The session's.
-  recordings::Calibration calibration;  ///< Of the cameras in use, in their order.
-  std::optional<Body> body;             ///< nullopt: is yet to be measured.
-  reconstruct::SubjectPrior prior;      ///< Who is to be measured, if anybody.
+  recordings::Calibration calibration;  ///< Cameras in use, in their order.
+  std::optional<Body> body;             ///< nullopt: not measured yet.
+  reconstruct::SubjectPrior prior;      ///< Of the subject to be measured, if any.
   std::filesystem::path subject_file;
   std::vector<OpenedAvatar> avatars;
   LiveSettings settings;
   std::vector<StreamTargets> targets;  ///< By stream.
   std::vector<live::UdpAddress> vrchat;
   std::vector<std::unique_ptr<capture::FrameFeed>> feeds;
-  std::vector<capture::VideoFeed*> videos;  ///< Those of the feeds that are to be begun.
+  std::vector<capture::VideoFeed*> videos;  ///< Video feeds that must be started.
   capture::TagDetectorOptions detector;
 };
 
-/// Reads and opens all that a live run needs, cameras last.
+/// Reads and opens all inputs of a live run, the cameras last.
 ///
-/// Errors (kBadInput): the session's; no calibration, or subject but to calibrate,
-/// and what makes them; nothing known of whom to calibrate; a
-/// camera that the calibration does not have, or of another picture size; fewer than two
-/// cameras with what was asked to be played; an avatar that is not humanoid; addresses.
-/// (kDevice): a camera that cannot be opened.
+/// Errors (kBadInput): those of the session; the calibration is missing, or the subject is
+/// missing and is not to be measured (the message names the command that creates them); the
+/// session does not describe the subject to be measured; a camera is missing in the
+/// calibration or has another picture size; fewer than two cameras can be used; an avatar
+/// is not humanoid; an address is invalid. (kDevice): a camera cannot be opened.
 [[nodiscard]] Result<OpenedLive> open_live(const LiveArguments& arguments,
                                            Console& console);
 

@@ -17,64 +17,64 @@
 
 namespace marey::app {
 
-/// The takes of one live run: of all of it, and those that are begun and ended meanwhile.
+/// Manages the takes of one live run: a take of the whole run, and takes that start and end
+/// during it.
 ///
-/// What follows from an instant depends on all before it. A take that begins in the middle
-/// therefore has a chain of its own, new, beside the run's: it sees the same instants, and
-/// once it has tracked the body for kLeadIn_s, it takes the run's place, and every byte
-/// from there on follows from the take alone. What came before is the take's lead-in.
-/// The new chain carries on what is held by its handles, asked of its streams, and VMC's
-/// time.
+/// The result of an instant depends on all instants before it. A take that starts during
+/// the run therefore gets its own new chain, which receives the same instants as the run's
+/// chain. Once the new chain has tracked the body for kLeadIn_s, it replaces the run's
+/// chain, and every later byte depends on the take alone. The instants before that are the
+/// lead-in of the take. The new chain takes over the state of the handles, the periods
+/// requested for the streams and the time base of VMC.
 ///
-/// A take that ends before that holds nothing that could be replayed: it is taken away
-/// again, with a warning.
+/// A take that ends during its lead-in has nothing to replay. It is deleted with a warning.
 ///
-/// Folders, files and the new chain are made, and takes are closed, by other threads:
-/// nothing here waits for the disk, but for finish().
+/// Other threads create folders, files and the new chain, and close takes. Only finish()
+/// waits for the disk.
 class LiveTakes {
  public:
-  /// Less, and the body's place would jump as the chains change: cameras' lags are not
-  /// known at first.
+  /// Duration of the lead-in. With a shorter one the body's position jumps when the chains
+  /// are exchanged, because the lags of the cameras are not known at first.
   static constexpr double kLeadIn_s = 1.0;
 
-  /// Takes begun meanwhile are the first of "STEM-1", "STEM-2"... that there is not yet.
-  /// `live` and `console` outlive this; after the first add() cameras, avatars and settings
-  /// of `live` do not change any more.
+  /// The folder of a take that starts during the run is the first unused name of "STEM-1",
+  /// "STEM-2"... `live` and `console` must outlive this object. After the first add() the
+  /// cameras, avatars and settings of `live` must not change.
   LiveTakes(const OpenedLive& live, std::filesystem::path stem, Console& console);
   ~LiveTakes();
 
-  /// A take of all of the run, from its first instant. Before any add().
-  /// Errors: LiveRecorder::create()'s. Precondition: `live` has a body.
+  /// Starts a take of the whole run, from its first instant. Precondition: called before any
+  /// add(), and `live` has a body. Errors: those of LiveRecorder::create().
   [[nodiscard]] Status begin_with_run(const std::filesystem::path& folder);
-  /// Begins a take, or ends the one that there is; from the next add() on.
+  /// Starts a take, or ends the current one, with the next add().
   void want(bool on) { wanted_ = on; }
   [[nodiscard]] bool is_wanted() const { return wanted_; }
-  /// The chain of the next add() is another body's: the take that there is ends.
+  /// Sets the body of the chain from the next add() on. Ends the current take.
   void follow(const Body& body);
-  /// An instant, and what `chain` made of it, after which that may be another chain:
-  /// `result` is not valid any more then.
+  /// Adds an instant and its result. May replace `chain` by another one, which invalidates
+  /// `result`.
   void add(const LiveInstant& instant,
            const LiveRequests& requests,
            const LiveResult& result,
            LiveChain& chain);
 
-  /// What is recorded, or should be; nullopt: nothing.
+  /// Returns the state of the current or requested take; nullopt: none.
   [[nodiscard]] std::optional<LiveRecording> state() const;
-  /// The first that any take suffered.
+  /// Returns the first error of any take.
   [[nodiscard]] const std::optional<Error>& trouble() const { return first_trouble_; }
-  /// Folders of takes that are whole.
+  /// Returns the folders of completed takes.
   [[nodiscard]] const std::vector<std::string>& finished() const { return finished_; }
-  /// Ends what there is, and waits for it. Errors: trouble().
+  /// Ends the current take and waits until it is written. Errors: trouble().
   [[nodiscard]] Status finish();
 
  private:
   struct Take {
     std::filesystem::path folder{};
     std::unique_ptr<LiveRecorder> recorder{};
-    std::optional<LiveChain> next{};  ///< Not yet the run's.
-    std::optional<Timestamp> begin{};  ///< Of what can be replayed.
+    std::optional<LiveChain> next{};  ///< Not yet the chain of the run.
+    std::optional<Timestamp> begin{};  ///< Start of the part to replay.
     std::optional<Error> trouble{};
-    bool is_told = false;  ///< The trouble.
+    bool is_reported = false;  ///< The trouble was reported.
   };
 
   [[nodiscard]] Take open(const Body& body, const LiveSettings& settings) const;
@@ -83,7 +83,7 @@ class LiveTakes {
                const LiveRequests& requests,
                const LiveResult& result,
                LiveChain& chain);
-  [[nodiscard]] LiveRequests all_asked(const LiveResult& result) const;
+  [[nodiscard]] LiveRequests pending_requests(const LiveResult& result) const;
   void close();
   void report_failure(const Error& error);
 
@@ -93,11 +93,11 @@ class LiveTakes {
   std::optional<Body> body_;
   bool wanted_ = false;
   std::future<Take> opening_;
-  bool is_opening_void_ = false;  ///< What is being opened is of an earlier body.
+  bool is_opening_void_ = false;  ///< The take being opened is of an earlier body.
   std::future<Take> closing_;
   std::optional<Take> take_;
-  bool is_new_ = false;                   ///< Its chain has seen nothing.
-  std::optional<Timestamp> tracked_since_;  ///< By that chain.
+  bool is_new_ = false;                   ///< Its chain has received no instant.
+  std::optional<Timestamp> tracked_since_;  ///< In the chain of the take.
   Timestamp now_{0};
   KeptPeriods periods_;
   std::optional<Error> first_trouble_;

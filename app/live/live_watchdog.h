@@ -10,22 +10,23 @@
 
 namespace marey::app {
 
-/// Tells the console and the receivers of VMC when poses do not keep up with the cameras.
-/// Receivers are told between instants, too, which may not come. The clock is the
-/// caller's.
+/// Warns the console and the receivers of VMC when poses do not keep up with the cameras.
+/// Receivers are also notified between instants, because no further instant may come. The
+/// caller supplies the time.
 class LiveWatchdog {
  public:
-  /// While there is trouble receivers are told this often: UDP loses packets. [s]
+  /// Interval between notifications of receivers while poses fall behind; repeated because
+  /// UDP loses packets. [s]
   static constexpr double kRepeat_s = 0.25;
-  /// Trouble that comes back before so long is the same to the console. [s]
+  /// Trouble that recurs within this time causes no second console warning. [s]
   static constexpr double kOver_s = 3.0;
 
-  /// `outputs` and `console` outlive it. Precondition: rate above 0.
+  /// `outputs` and `console` must outlive the object. Precondition: rate above 0.
   LiveWatchdog(FrameRate rate, Timestamp begin, LiveOutputs& outputs, Console& console);
 
-  /// An instant was solved, and its packets were sent or there are none.
+  /// Records that an instant was solved; `was_sent`: its packets were sent.
   void on_instant(Timestamp now, bool was_sent);
-  /// See LiveFlow::look(). True when the flow is another than before.
+  /// Calls LiveFlow::look(). Returns true if the flow has changed.
   bool look(Timestamp now, long pictures);
 
   [[nodiscard]] const LiveFlow& flow() const { return flow_; }
@@ -37,9 +38,9 @@ class LiveWatchdog {
   LiveFlow flow_;
   LiveOutputs& outputs_;
   Console& console_;
-  std::optional<Timestamp> last_packet_;  ///< nullopt: receivers know of no pose.
+  std::optional<Timestamp> last_packet_;  ///< nullopt: no pose was sent yet.
   Timestamp last_trouble_{0};
-  bool has_warned_ = false;  ///< The console knows of trouble.
+  bool has_warned_ = false;  ///< The console was warned.
 };
 
 }  // namespace marey::app

@@ -13,20 +13,20 @@
 
 namespace marey::app {
 
-/// What `marey replay` was asked for.
+/// Arguments of `marey replay`.
 struct ReplayArguments {
-  std::filesystem::path take;    ///< The folder that `marey live --record` made.
-  std::vector<std::string> vmc;  ///< As LiveArguments::vmc; empty: nowhere.
-  double speed = 1.0;            ///< 1: as it was.
-  bool fast = false;             ///< As fast as it goes.
+  std::filesystem::path take;    ///< Folder written by `marey live --record`.
+  std::vector<std::string> vmc;  ///< As LiveArguments::vmc; empty: no packets.
+  double speed = 1.0;            ///< Factor of the recorded speed.
+  bool fast = false;             ///< Without pauses.
   bool json = false;
 };
 
-/// `marey replay TAKE`: a recorded live run through the same code again, and whether the
-/// same bytes come of it.
+/// Runs `marey replay TAKE`: processes a recorded live run with the code of the live run,
+/// and compares the resulting bytes with the recorded ones.
 [[nodiscard]] Exit run_replay(const ReplayArguments& arguments, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. Parsing it sets `chosen`. `args` must keep its address.
 void add_replay_command(CLI::App& app,
                         ReplayArguments& args,
                         std::function<Exit(Console&)>& chosen);

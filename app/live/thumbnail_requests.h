@@ -8,8 +8,8 @@
 
 namespace marey::app {
 
-/// Which pages want cameras' small pictures: one in the background, which does not, takes
-/// them from no other. A page that was closed wants them until none is open.
+/// Set of the pages that request thumbnails of the cameras. A page in the background
+/// withdraws only its own request. A closed page stays in the set until no page is open.
 class ThumbnailRequests {
  public:
   void ask(live::ClientId page, bool on) {
@@ -19,7 +19,7 @@ class ThumbnailRequests {
       pages_.erase(page);
     }
   }
-  /// No page is open.
+  /// Clears the set when no page is open.
   void forget() { pages_.clear(); }
   [[nodiscard]] bool any() const { return !pages_.empty(); }
 

@@ -13,25 +13,27 @@
 
 namespace marey::app {
 
-/// Where a body can be taken hold of: at a joint.
+/// A joint at which a user can drag a body.
 struct BodyHandle {
   std::string_view id;  ///< "left hand".
   std::string_view segment;  ///< VRM's name: "leftHand".
   JointIndex joint{};
 };
 
-/// From when on a constraint holds of which only a caller says when: never by itself. [s]
+/// Start time of a constraint that only the caller activates: later than any motion. [s]
 inline constexpr double kNotByItself_s = 1e9;
 
-/// Head, hands, feet and hips, in this order, as far as the body has them: always the
-/// hips. Linear in joints.
+/// Returns the handles of head, hands, feet and hips, in this order, without those that the
+/// body lacks. The hips are always present. Linear in the number of joints.
 [[nodiscard]] std::vector<BodyHandle> body_handles(const Skeleton& skeleton);
 
-/// The joint is to be at a place that its handle sets. Does not hold by itself; fades in
-/// and out over `fade_s`.
+/// Returns a constraint that moves the joint to the target of its handle. It is inactive
+/// until the caller activates it, and fades in and out over `fade_s`.
 [[nodiscard]] Constraint handle_constraint(const BodyHandle& handle, double fade_s);
 
-/// A foot that stands, "leftFoot" or "rightFoot", likewise. None of a body without it.
+/// Returns the support constraints of the feet, "leftFoot" and "rightFoot", without those
+/// that the body lacks. They are inactive until the caller activates them, and fade in and
+/// out over `fade_s`.
 [[nodiscard]] std::vector<Constraint> foot_supports(const Skeleton& skeleton,
                                                     double fade_s);
 

@@ -10,13 +10,14 @@
 
 namespace marey::app {
 
-/// LiveRetarget onto an avatar that was opened, with its soles and its girths. Errors:
-/// LiveRetarget::make()'s, naming the avatar's file.
+/// Returns a LiveRetarget onto an opened avatar, with its soles and girths. Errors: those
+/// of LiveRetarget::make(), with the avatar's file.
 [[nodiscard]] Result<retarget::LiveRetarget> make_live_retarget(
     const Skeleton& performer, const OpenedAvatar& avatar);
 
-/// How VMC tells a body. `avatar` is null for one that has no file: the performer's own
-/// skeleton. Errors: map_body()'s and VmcBody::make()'s, naming the avatar's file.
+/// Returns the VMC representation of a body. `avatar` is null for the performer's skeleton,
+/// which has no file. Errors: those of map_body() and VmcBody::make(), with the avatar's
+/// file.
 [[nodiscard]] Result<live::VmcBody> make_vmc_body(const Skeleton& skeleton,
                                                   const OpenedAvatar* avatar,
                                                   live::VmcRest rest);

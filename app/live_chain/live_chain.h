@@ -24,42 +24,43 @@
 
 namespace marey::app {
 
-/// What came of one instant. Borrowed from the chain: valid until its next step.
+/// Result of one instant. Refers to data of the chain: valid until its next step.
 struct LiveResult {
   std::int64_t number = 0;
   Timestamp time{0};
   reconstruct::TrackReport track;
-  /// Of the performer; meaningless while the track is waiting.
+  /// Pose of the performer; undefined while the track is waiting.
   const Pose* pose = nullptr;
   std::span<const JointUncertainty> uncertainty;
-  std::span<const Pose> avatars;  ///< In the order of the settings; likewise.
-  /// Of the first avatar; empty without avatars.
+  std::span<const Pose> avatars;  ///< In the order of the settings; see `pose`.
+  /// Handles of the first avatar; empty without avatars.
   std::span<const HandleState> handles;
-  /// Of each stream, the packets to be sent; then VRChat's, if they are wanted.
+  /// Packets of each stream, then those for VRChat if the settings request them.
   std::span<const std::vector<std::vector<std::uint8_t>>> packets;
-  // What it took. [s]
+  // Durations. [s]
   double solve_s = 0.0;
   double retarget_s = 0.0;
   double encode_s = 0.0;
 };
 
-/// Everything between what cameras saw and what goes out, as one function of it: corners
-/// to the performer's posture, to every avatar's, the first one's brought to what is
-/// dragged (app/live_chain/live_handles.h), to the packets of every stream. Live
-/// and replay run this same code: the past is in this object and nowhere else, no clock is
-/// read but to measure. Same instants and requests, same bytes. One thread at a time.
+/// Computes the packets of every stream from the detections of the cameras: tag corners to
+/// the performer's pose, to the pose of every avatar, to packets. The first avatar is
+/// adapted to its dragged handles (app/live_chain/live_handles.h). The live run and the
+/// replay use this class. All state is in this object, and the clock is read only to
+/// measure durations, so the same instants and requests give the same bytes. Used by one
+/// thread at a time.
 class LiveChain {
  public:
-  /// Avatars in the order of `settings.avatars`.
-  /// Errors: BodyTracker::create()'s, LiveRetarget::make()'s, LiveHandles::make()'s and
-  /// VmcBody::make()'s (naming the avatar's file), VmcEncoder::make()'s.
+  /// `avatars` are in the order of `settings.avatars`.
+  /// Errors: those of BodyTracker::create(), of LiveRetarget::make(), LiveHandles::make()
+  /// and VmcBody::make() (with the avatar's file), and of VmcEncoder::make().
   [[nodiscard]] static Result<LiveChain> make(const Body& body,
                                               std::span<const Camera> cameras,
                                               std::span<const OpenedAvatar> avatars,
                                               const LiveSettings& settings);
 
-  /// One instant on. Until the body was found there are no packets but those that say so:
-  /// the pose that they hold is the avatar at rest.
+  /// Processes one instant. Until the body is found, the only packets are those with the
+  /// state "not tracked"; their pose is the avatar at rest.
   /// Precondition: numbers grow from call to call.
   const LiveResult& step(const LiveInstant& instant, const LiveRequests& requests);
 
@@ -70,7 +71,7 @@ class LiveChain {
     VmcStream what;
     live::VmcBody body;
     live::VmcEncoder encoder;
-    live::VmcPose told;
+    live::VmcPose vmc_pose;
   };
 
   LiveChain(reconstruct::BodyTracker tracker,
@@ -85,10 +86,10 @@ class LiveChain {
   FrameRate rate_;
   reconstruct::BodyTracker tracker_;
   std::vector<retarget::LiveRetarget> retargets_;
-  std::optional<LiveHandles> handles_;  ///< Of the first avatar.
+  std::optional<LiveHandles> handles_;  ///< Handles of the first avatar.
   std::vector<Stream> streams_;
   std::optional<live::VrchatTrackers> trackers_;
-  std::vector<RigidTransform> world_from_joint_;  ///< Of the performer.
+  std::vector<RigidTransform> world_from_joint_;  ///< Joints of the performer.
 
   std::optional<std::int64_t> last_number_;
   bool was_lost_ = false;

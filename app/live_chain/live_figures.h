@@ -16,35 +16,35 @@
 
 namespace marey::app {
 
-/// How long the stages of a frame took, and the whole of it.
+/// Latency of the stages of a frame, and of the whole frame.
 struct LiveTimes {
   std::vector<LatencyHistogram> decode;  ///< By camera.
   std::vector<LatencyHistogram> detect;  ///< By camera.
-  /// From the last camera's tags until the instant was taken up.
+  /// From the tags of the last camera until processing of the instant starts.
   LatencyHistogram wait;
   LatencyHistogram solve;
   LatencyHistogram retarget;
   LatencyHistogram encode;
   LatencyHistogram send;
-  /// From the instant of the earliest picture in it to the last packet.
+  /// From the time of the earliest picture of the instant to the last packet.
   LatencyHistogram frame_to_packet;
 
   explicit LiveTimes(std::size_t cameras) : decode(cameras), detect(cameras) {}
 };
 
-/// How one camera fared.
+/// Counts of one camera.
 struct LiveCameraFigures {
   std::string name;
-  long pictures = 0;  ///< That came.
-  long dropped = 0;   ///< Lost before they came, by the driver's count.
-  long stale = 0;     ///< Passed over, too old.
+  long pictures = 0;  ///< Received.
+  long dropped = 0;   ///< Lost before reception, by the driver's count.
+  long stale = 0;     ///< Skipped because they were too old.
   long broken = 0;    ///< Could not be used.
-  long unused = 0;    ///< Late for their instant, or displaced by newer ones.
-  long missing = 0;   ///< Instants that had to do without it.
+  long unused = 0;    ///< Late for their instant, or replaced by newer ones.
+  long missing = 0;   ///< Instants without a picture of this camera.
   capture::FeedHealth health{};
 };
 
-/// A minute of a run, for those who watch it for hours.
+/// Figures of one minute of a run, to monitor long runs.
 struct LiveMinute {
   long frames = 0;
   double p50_s = 0.0;
@@ -52,39 +52,39 @@ struct LiveMinute {
   double resident_mb = 0.0;  ///< Memory of the process.
 };
 
-/// What is being recorded.
+/// State of the current recording.
 struct LiveRecording {
-  std::string folder{};   ///< Empty: it is being made.
-  double seconds = 0.0;   ///< That can be replayed.
-  std::string trouble{};  ///< Why it ended; empty: none.
+  std::string folder{};   ///< Empty: it is being created.
+  double seconds = 0.0;   ///< Duration that can be replayed.
+  std::string trouble{};  ///< Reason why it ended early; empty: none.
 };
 
-/// What a live run did.
+/// Figures of a live run.
 struct LiveFigures {
-  long frames = 0;     ///< Instants that were solved.
-  long tracked = 0;    ///< Of these, with the body tracked.
-  long lost = 0;       ///< Of these, with the body lost.
-  int found_anew = 0;  ///< Times that a lost body came back.
+  long frames = 0;     ///< Solved instants.
+  long tracked = 0;    ///< Solved instants with the body tracked.
+  long lost = 0;       ///< Solved instants with the body lost.
+  int found_anew = 0;  ///< Number of relocalizations of a lost body.
   double seconds = 0.0;
   LiveTimes times;
   std::vector<LiveCameraFigures> cameras;
   std::vector<OutputCounts> outputs;
   std::vector<LiveMinute> minutes;
-  bool has_unmatched_tags = false;  ///< Now: UnmatchedTagsDetector.
-  Flow flow = Flow::kSteady;  ///< Now.
+  bool has_unmatched_tags = false;  ///< Current state of UnmatchedTagsDetector.
+  Flow flow = Flow::kSteady;  ///< Current state.
   std::string flow_text{};    ///< LiveFlow::text().
-  double behind_s = 0.0;      ///< For how long poses did not keep up with pictures.
-  std::optional<LiveRecording> recording;  ///< Under way.
-  std::vector<std::string> takes;          ///< Folders of those that are whole.
+  double behind_s = 0.0;      ///< Total time in which poses did not keep up.
+  std::optional<LiveRecording> recording;  ///< Current one.
+  std::vector<std::string> takes;          ///< Folders of completed takes.
   std::optional<Error> recording_trouble;
 
   explicit LiveFigures(std::size_t camera_count) : times(camera_count) {}
 };
 
-/// The figures as JSON (docs/formats/README.md), indented, with an end of line.
+/// Returns the figures as indented JSON (docs/formats/README.md) with a final newline.
 [[nodiscard]] std::string live_figures_text(const LiveFigures& figures);
 
-/// Memory of this process that is in use. [MB]; 0 where the system does not tell.
+/// Returns the resident memory of this process [MB], or 0 if the system does not report it.
 [[nodiscard]] double resident_mb();
 
 }  // namespace marey::app

@@ -10,38 +10,39 @@
 
 namespace marey::app {
 
-/// Whether a live run's poses keep up with its cameras.
+/// State of a live run: do its poses keep up with the cameras?
 enum class Flow {
   kSteady,
   kBehind,   ///< Fewer than half of the pictures become poses.
-  kStopped,  ///< No pose has come out for a while.
+  kStopped,  ///< No pose was computed for some time.
 };
 
-/// Judges a live run by a clock, not by its instants, which may never come: a computer
-/// that is too busy, or cameras without pictures, show within a second. The clock is the
-/// caller's: every call says what time it is, and times never decrease.
+/// Detects that the poses of a live run do not keep up with its cameras. Uses a clock and
+/// not the instants, because no further instant may come. Detects an overloaded computer or
+/// cameras without pictures within a second. The caller supplies the time in every call;
+/// times never decrease.
 class LiveFlow {
  public:
-  /// Fewer poses than pictures are judged over so long. [s]
+  /// Window over which poses and pictures are counted. [s]
   static constexpr double kWindow_s = 0.8;
-  /// Without a pose for so long the run has stopped; longer where the cameras are slower.
+  /// The run has stopped after this time without a pose; longer for slow cameras. [s]
   static constexpr double kStopped_s = 0.5;
-  /// The first pose may take so long: detectors warm up, cameras start. [s]
+  /// Time allowed for the first pose, for the start of detectors and cameras. [s]
   static constexpr double kHeadStart_s = 2.0;
 
   /// Precondition: rate above 0.
   LiveFlow(FrameRate rate, Timestamp begin);
 
-  /// An instant was solved.
+  /// Records that an instant was solved.
   void on_instant(Timestamp now);
-  /// Judges. `pictures` is how many pictures the camera with the most has had so far,
-  /// those that were lost on the way to us included; it never decreases.
+  /// Updates and returns the flow. `pictures` is the maximum over the cameras of pictures so
+  /// far, including those lost in transfer; it never decreases.
   Flow look(Timestamp now, long pictures);
 
   [[nodiscard]] Flow flow() const { return flow_; }
-  /// The message about the flow, as of the last look(); empty while it is steady.
+  /// Returns the message about the flow as of the last look(); empty while it is steady.
   [[nodiscard]] const std::string& text() const { return text_; }
-  /// For how long poses have not kept up, in total. [s]
+  /// Returns the total time in which poses did not keep up. [s]
   [[nodiscard]] double troubled_s() const { return troubled_s_; }
 
  private:
@@ -54,7 +55,7 @@ class LiveFlow {
   void word(Timestamp now);
 
   double stopped_after_s_;
-  std::deque<Sample> samples_;  ///< Of the window, and the last one before it.
+  std::deque<Sample> samples_;  ///< In the window, and the last one before it.
   Timestamp last_instant_;
   Timestamp last_look_;
   long instants_ = 0;

@@ -21,56 +21,55 @@
 
 namespace marey::app {
 
-/// A handle as it is now.
+/// Current state of a handle.
 struct HandleState {
   std::string_view id;
   JointIndex joint{};
   bool active = false;
-  /// Where its joint is wanted, or, of one that is not active, was when step() last ran.
+  /// Target of its joint; for an inactive handle, the joint's position at the last step().
   glm::dvec3 p_in_world{0.0};
 };
 
-/// One avatar with handles at head, hands, feet and hips that people drag while it moves:
-/// the constraints of a running adapter (Kulpa 2005, 7.1). What is dragged goes there, the
-/// rest of the body as the adapter finds it; feet that stand stay where they are. A handle
-/// that was let go of keeps its place until it is stopped.
+/// Adapts a moving avatar to handles at head, hands, feet and hips that users drag. The
+/// handles are constraints of a running adapter (Kulpa 2005, 7.1). A dragged joint moves to
+/// its target, the adapter computes the rest of the body, and supporting feet keep their
+/// position. A released handle keeps its target until it is stopped.
 ///
-/// Same postures, time steps and requests, same answers, to the bit. Allocates nothing
-/// after make(). Costs nothing while nothing is held, else an Adapter::adapt().
+/// The same poses, time steps and requests give bit-identical results. Allocates nothing
+/// after make(). Cost: one Adapter::adapt() per step while a handle is active, else none.
 class LiveHandles {
  public:
-  static constexpr double kFade_s = 0.2;         ///< Of handles, in and out.
-  static constexpr double kSupportFade_s = 0.1;  ///< Of feet that begin or cease to stand.
-  /// Time constant with which a target follows what is dragged: requests come in steps.
+  static constexpr double kFade_s = 0.2;         ///< Fade of handles, in and out.
+  static constexpr double kSupportFade_s = 0.1;  ///< Fade of supporting feet.
+  /// Time constant of the filter from requests, which come in steps, to the target.
   static constexpr double kFollow_s = 0.03;
 
-  /// Errors: map_body()'s, make_character()'s.
+  /// Errors: those of map_body() and make_character().
   [[nodiscard]] static Result<LiveHandles> make(const std::string& name,
                                                 const Skeleton& avatar);
 
-  /// Takes hold of a handle, moves it, leaves or stops it. Handles that there are not are
-  /// passed over.
+  /// Starts, moves, releases or stops a handle. Ignores unknown handles.
   void ask(const HandleRequest& request);
 
-  /// Brings the avatar's next posture to what is held. While nothing is, and has faded
-  /// out, `posture` is left as it is, to the bit.
-  /// Preconditions: `world_from_joint` is of `posture`, which is of the avatar;
+  /// Adapts the avatar's next pose to the active handles. If no handle is active and all
+  /// have faded out, `posture` is bit-identical to its input.
+  /// Preconditions: `posture` is a pose of the avatar, `world_from_joint` belongs to it, and
   /// since_last_s > 0.
   void step(std::span<const RigidTransform> world_from_joint,
             const std::array<retarget::StandingFoot, 2>& standing,
             double since_last_s,
             Pose& posture);
 
-  /// Since the last step() something is held, or fades out.
+  /// Returns true if at the last step() a handle was active or fading out.
   [[nodiscard]] bool is_busy() const { return busy_; }
-  /// In the order of body_handles(). Valid until the next call.
+  /// Returns the handles in the order of body_handles(). Valid until the next call.
   [[nodiscard]] std::span<const HandleState> handles() const { return states_; }
 
  private:
   struct Held {
     retarget::Adapter::Handle handle;
     glm::dvec3 target_in_world{0.0};
-    bool has_target = false;  ///< The target was somewhere: it follows from there.
+    bool has_target = false;  ///< The filter of the target is initialized.
   };
   struct Foot {
     retarget::Adapter::Handle support;
@@ -92,7 +91,7 @@ class LiveHandles {
   std::vector<HandleState> states_;
   std::vector<Foot> feet_;
   Pose adapted_;
-  double time_s_ = 0.0;  ///< Of the steps that were made.
+  double time_s_ = 0.0;  ///< Sum of the time steps.
   bool busy_ = false;
 };
 

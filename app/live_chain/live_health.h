@@ -15,24 +15,26 @@
 
 namespace marey::app {
 
-/// How a camera fares, as the page tells it: `before` is what was told of it last, or
-/// null. A camera streams whose pictures have come since; of one whose pictures have not,
-/// its own trouble says whether it is lost.
+/// Returns the status of a camera for the page. `before` is its previous state, or null. A
+/// camera with new pictures since then is streaming; without new pictures, its own health
+/// state decides if it is lost.
 [[nodiscard]] live::PageCameraStatus camera_status(const LiveCameraFigures& now,
                                                    const LiveCameraFigures* before,
                                                    int tags);
 
-/// How an output fares, likewise: trouble counts while there is some, not for ever.
+/// Returns the status of an output for the page. `before` is its previous state, or null.
+/// Only errors since then count.
 [[nodiscard]] live::PageOutput output_status(const OutputCounts& now,
                                              const OutputCounts* before);
 
-/// The segments of a body that wear tags.
+/// The segments of a body that carry tags.
 class WornSegments {
  public:
   WornSegments() = default;
   explicit WornSegments(const Body& body);
-  /// Names of those of which no tag was seen for longer than a tracker bridges: their
-  /// place is a guess. `uncertainty` is of the body's joints, in the order of HumanBone.
+  /// Returns the names of the segments without a visible tag for longer than the tracker
+  /// bridges; their pose is inferred. `uncertainty` is that of the body's joints, in the
+  /// order of HumanBone.
   [[nodiscard]] std::vector<std::string> unseen(
       std::span<const JointUncertainty> uncertainty) const;
 
@@ -40,27 +42,28 @@ class WornSegments {
   std::vector<HumanBone> bones_;  ///< Ascending.
 };
 
-/// Adds to a page's status how the body fares. It is tracked only where the worst camera
-/// and the worst segment are well: every camera streams and `unseen` is empty. Else
-/// PageStatus::warnings says what is not. Precondition: `status` has its cameras.
+/// Adds the subject's status to a page's status. The subject is "tracked" only if every
+/// camera is streaming and `unseen` is empty; otherwise PageStatus::warnings names the
+/// cameras and segments. Precondition: `status` has its cameras.
 void add_subject_status(reconstruct::TrackState state,
                         const LiveFigures& figures,
                         const std::vector<std::string>& unseen,
                         live::PageStatus& status);
 
-/// Whether a body's tags are seen in vain: for kAfter_s at least two cameras have seen
-/// some of them each, and no body was found in them, or only one that is kMax_px beside
-/// them. So it is when cameras were swapped or moved since they were calibrated.
+/// Detects that tags are visible but no body pose fits them: for kAfter_s at least two
+/// cameras have each seen kMinTags of the body's tags, and no body was found, or only one
+/// with a residual above kMax_px. The typical cause is cameras that were swapped or moved
+/// since their calibration.
 class UnmatchedTagsDetector {
  public:
   static constexpr double kAfter_s = 3.0;
   static constexpr double kMax_px = 4.0;
-  static constexpr int kMinTags = 4;  ///< Tags, of each of two cameras.
+  static constexpr int kMinTags = 4;  ///< In each of two cameras.
 
   explicit UnmatchedTagsDetector(const Body& body);
   void add(const LiveInstant& instant, const reconstruct::TrackReport& found);
   [[nodiscard]] bool has_unmatched() const { return has_unmatched_; }
-  /// What that means for who is there.
+  /// Message to the user.
   static constexpr const char* kText =
       "tags are seen, but no body fits them: hips and chest are hidden, cameras were "
       "moved "

@@ -14,36 +14,36 @@
 
 namespace marey::app {
 
-/// How an output fares.
+/// Counts of an output.
 struct OutputCounts {
   std::string name;  ///< "VMC 127.0.0.1:39539".
   live::UdpCounts counts;
 };
 
-/// The network's end of a live run: packets to all targets, commands from who sends them.
-/// Nothing here blocks, or stops because somebody is gone.
+/// Network interface of a live run: sends packets to all targets and receives commands.
+/// No function blocks, and a missing receiver is no error.
 class LiveOutputs {
  public:
-  /// Commands are heard on the port of the first stream that has one. `vrchat`: where
-  /// trackers go; empty: the settings want none.
-  /// Errors: UdpSender::open()'s and UdpListener::open()'s.
+  /// Commands are received on the port of the first stream that has one. `vrchat` are the
+  /// targets of the trackers; empty if the settings request none.
+  /// Errors: those of UdpSender::open() and UdpListener::open().
   [[nodiscard]] static Result<LiveOutputs> open(
       const std::vector<VmcStream>& streams,
       const std::vector<StreamTargets>& targets,
       const std::vector<live::UdpAddress>& vrchat = {});
 
-  /// What was asked for since the last call. Reads no more than 64 packets.
+  /// Returns the requests received since the last call. Reads at most 64 packets.
   LiveRequests& take_requests();
   void send(const LiveResult& result);
-  /// Tells all receivers of VMC that the pose they have is not to be trusted: there is no
-  /// new one that could say so.
+  /// Notifies all receivers of VMC that their last pose is out of date. Used while no new
+  /// pose is computed.
   void send_not_tracking();
-  /// By target.
+  /// Returns the counts by target.
   [[nodiscard]] std::vector<OutputCounts> counts() const;
 
  private:
-  std::vector<StreamTargets> targets_;  ///< By stream; VRChat's last, if there is any.
-  std::vector<live::UdpSender> senders_;  ///< Likewise.
+  std::vector<StreamTargets> targets_;  ///< By stream; VRChat last, if requested.
+  std::vector<live::UdpSender> senders_;  ///< Same order as targets_.
   std::size_t vmc_streams_ = 0;
   std::optional<live::UdpListener> listener_;
   std::size_t listening_stream_ = 0;

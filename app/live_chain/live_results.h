@@ -9,8 +9,9 @@
 
 namespace marey::app {
 
-/// What came of an instant as bytes, to be kept with it and compared with a replay's:
-/// the state of the track, every pose and doubt, every packet. Replaces `out`.
+/// Serializes the result of an instant: the state of the track, every pose with its
+/// uncertainty, every packet. The bytes are stored with the instant and compared with those
+/// of a replay. Replaces `out`.
 void write_results(const LiveResult& result, std::vector<std::byte>& out);
 
 }  // namespace marey::app

@@ -17,7 +17,7 @@
 
 namespace marey::app {
 
-/// A stream of VMC packets: who is shown, and how.
+/// A stream of VMC packets: its body and its encoding.
 struct VmcStream {
   /// Position in the list of avatars; nullopt: the performer's own skeleton.
   std::optional<std::size_t> avatar;
@@ -26,57 +26,57 @@ struct VmcStream {
   std::optional<int> listen_port;
 };
 
-/// All that the results of a live run depend on beside cameras, subject and avatars'
-/// files: what a replay has to have again.
+/// Settings that determine the results of a live run, in addition to the files of cameras,
+/// subject and avatars. A replay needs the same values.
 struct LiveSettings {
   FrameRate rate;
   double camera_sigma_m = 0.0;
-  /// Per camera: its stamps are the instants of its pictures, without a lag of their own.
+  /// By camera: its timestamps are the exposure times, without an unknown lag.
   std::vector<bool> lag_known;
-  std::vector<std::string> avatars;  ///< By the names of their files: shown_name().
-  /// Names of their files in the take; empty: `avatars`, as in takes of earlier versions.
+  std::vector<std::string> avatars;  ///< File names, see shown_name().
+  /// File names in the take; empty: `avatars`, as in takes of earlier versions.
   std::vector<std::string> avatar_files{};
   std::vector<VmcStream> streams;
-  /// Since when VMC's T counts; nullopt: since the first instant.
+  /// Time 0 of the VMC message T; nullopt: the first instant.
   std::optional<Timestamp> vmc_begin{};
-  bool vrchat = false;  ///< Packets of the performer's trackers, after those of streams.
+  bool vrchat = false;  ///< Packets of the performer's trackers follow the streams'.
 };
 
-/// The name of a file as it is told to others, whatever bytes it has: what is not UTF-8 is
-/// replaced by U+FFFD.
+/// Returns the name of a file as valid UTF-8: invalid bytes are replaced by U+FFFD.
 [[nodiscard]] std::string shown_name(const std::filesystem::path& file);
 
-/// As JSON, in one line.
+/// Returns the settings as JSON, in one line.
 [[nodiscard]] std::string live_settings_text(const LiveSettings& settings);
 
-/// Errors (kBadInput), at `file`: not such a text; streams of avatars that there are not.
+/// Parses the text of live_settings_text(). Errors (kBadInput), at `file`: another format;
+/// a stream of an unknown avatar.
 [[nodiscard]] Result<LiveSettings> parse_live_settings(std::string_view text,
                                                        const std::string& file);
 
-/// What a person does with a handle of the first avatar (app/live_chain/live_handles.h).
+/// User action on a handle of the first avatar (app/live_chain/live_handles.h).
 enum class HandleAction {
-  kMove,   ///< To a place; it is taken hold of if nobody has.
-  kStart,  ///< It holds its joint where that is.
-  kStop,   ///< The joint goes its own way again.
+  kMove,   ///< Moves it to a position; starts it if it is inactive.
+  kStart,  ///< Holds its joint at its current position.
+  kStop,   ///< Releases the joint to the motion.
 };
 struct HandleRequest {
   std::string id;  ///< "left hand".
   HandleAction action = HandleAction::kMove;
-  glm::dvec3 p_in_world{0.0};  ///< Of kMove, in the avatar's world.
+  glm::dvec3 p_in_world{0.0};  ///< Target of kMove, in the avatar's world.
 };
 
-/// What others asked for since the instant before, and results depend on.
+/// Requests received since the previous instant that affect the results.
 struct LiveRequests {
-  static constexpr std::size_t kMaxHandles = 64;  ///< Requests about handles.
+  static constexpr std::size_t kMaxHandles = 64;  ///< Requests for handles.
 
-  /// By stream: what Set/Period and Set/Req asked.
+  /// Requests of one stream: the VMC commands Set/Period and Set/Req.
   struct OfStream {
     std::optional<live::VmcPeriods> periods;
     bool info = false;
   };
-  std::vector<OfStream> streams;  ///< Empty: nobody asked for anything.
+  std::vector<OfStream> streams;  ///< Empty: no requests.
   std::vector<HandleRequest> handles{};
-  /// Poses do not keep up with the cameras (LiveFlow): receivers must not trust them.
+  /// Poses do not keep up with the cameras (LiveFlow); packets report "not tracked".
   bool behind = false;
 
   void clear() {
@@ -84,27 +84,26 @@ struct LiveRequests {
     handles.clear();
     behind = false;
   }
-  /// Adds a request, in place of one before it that it makes void. False: there are too
-  /// many already.
+  /// Adds a request and replaces an earlier one that it makes obsolete. Returns false if
+  /// there are already too many.
   bool add(HandleRequest request);
 };
 
-/// The periods that were asked for last, which count until others are asked for: told to a
-/// chain that comes later.
+/// Keeps the latest requested periods of each stream, to pass them to a later chain.
 class KeptPeriods {
  public:
   void apply(const LiveRequests& requests);
-  /// Adds them to what is asked for, where that says nothing else.
+  /// Adds them to the requests of streams without other periods.
   void add_to(LiveRequests& requests) const;
 
  private:
   std::vector<std::optional<live::VmcPeriods>> periods_;  ///< By stream.
 };
 
-/// As JSON in one line; empty when nothing was asked for.
+/// Returns the requests as JSON in one line; empty if there are none.
 [[nodiscard]] std::string live_requests_text(const LiveRequests& requests);
 
-/// Errors (kBadInput), at `file`: not such a text.
+/// Parses the text of live_requests_text(). Errors (kBadInput), at `file`: another format.
 [[nodiscard]] Result<LiveRequests> parse_live_requests(std::string_view text,
                                                        const std::string& file);
 

@@ -12,13 +12,13 @@
 
 namespace marey::app {
 
-/// Where the packets of one stream go.
+/// Targets of the packets of one stream.
 struct StreamTargets {
   std::vector<live::UdpAddress> addresses;
 };
 
-/// Where the packets for `vmc` go, as streams of settings and their targets.
-/// Errors (kBadInput): an address; an avatar of no such name.
+/// Converts the options `vmc` to streams of the settings and their targets.
+/// Errors (kBadInput): an invalid address; an unknown avatar.
 [[nodiscard]] Status plan_streams(const std::vector<std::string>& vmc,
                                   live::VmcRest rest,
                                   std::optional<int> mtu_bytes,

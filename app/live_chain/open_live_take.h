@@ -17,7 +17,7 @@ namespace marey::app {
 /// Folder in a take that holds its avatars.
 inline constexpr const char* kLiveTakeAvatars = "avatars";
 
-/// The take of a run again: what is to be replayed.
+/// An opened take, ready for a replay.
 struct OpenedTake {
   recordings::LiveTake take;
   recordings::Calibration calibration;
@@ -26,7 +26,7 @@ struct OpenedTake {
   LiveSettings settings;
 };
 
-/// Errors (kBadInput): a file of the folder that is missing or not as it was written.
+/// Opens a take. Errors (kBadInput): a file of the folder is missing or was changed.
 [[nodiscard]] Result<OpenedTake> open_live_take(const std::filesystem::path& folder);
 
 }  // namespace marey::app

@@ -11,13 +11,13 @@
 
 namespace marey::app {
 
-/// "left lower arm".
+/// Returns the name of a bone in words, for example "left lower arm".
 [[nodiscard]] std::string in_words(HumanBone bone);
 
-/// How good a measured person is, for people to read: the limbs' lengths, each with its
-/// standard deviation (poor above 1 cm, or 5 % from the other side's), how far the body is
-/// from what cameras saw (poor above 5 px), limbs against an average person's (poor beyond
-/// 15 %), and tags without a place (poor when more than a fifth).
+/// Returns the quality of a measured subject as text for users: the length of each limb
+/// with its standard deviation (poor above 1 cm, or if it differs by 5 % from the other
+/// side), the residual to the detections (poor above 5 px), the limb lengths relative to an
+/// average person (poor beyond 15 %), and the tags without a position (poor above a fifth).
 [[nodiscard]] std::vector<live::WizardQuality> quality_of(
     const reconstruct::SubjectFit& fit);
 

@@ -26,7 +26,8 @@ std::string size_of(int width_px, int height_px) {
   return std::to_string(width_px) + " x " + std::to_string(height_px);
 }
 
-/// The lenses that the session names a file for, by camera.
+/// Reads the lenses of the file that the session names. One entry per camera, nullopt for
+/// a camera that the file does not contain.
 Result<Lenses> given_lenses(const recordings::Session& session,
                             const std::vector<CameraDetections>& waved,
                             std::vector<std::string>& notes) {
@@ -88,7 +89,7 @@ std::string text(const char* pattern, Values... values) {
   return buffer.data();
 }
 
-/// Of the cameras whose lens was not given, should there be any.
+/// Adds a note about the chosen lens model, if a camera has no given lens.
 void tell_lens(const recordings::Session& session,
                const Lenses& given,
                const calib::CalibratedRig& rig,
@@ -101,7 +102,7 @@ void tell_lens(const recordings::Session& session,
                   std::string(lens_word(rig.cameras[c].intrinsics.lens)));
 }
 
-/// What was solved for beside the cameras.
+/// Adds notes about clocks, line delays, lens, bend of the board and cross-validation.
 void tell_findings(const recordings::Session& session,
                    const Lenses& given,
                    const calib::CalibratedRig& rig,

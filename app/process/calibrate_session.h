@@ -13,28 +13,28 @@
 
 namespace marey::app {
 
-/// What was seen in the trials that cameras are calibrated from. Each has one entry per
-/// camera, or is empty when there is no such trial.
+/// Detections of the trials that the cameras are calibrated from. Each vector has one
+/// entry per camera, or is empty if the session has no such trial.
 struct CalibrationSights {
   std::vector<CameraDetections> waved;
   std::vector<CameraDetections> floor;
-  std::vector<CameraDetections> standing;  ///< Of the static trial.
+  std::vector<CameraDetections> standing;  ///< Detections of the static trial.
 };
 
 struct SessionRig {
   calib::CalibratedRig rig;
-  bool has_floor = false;  ///< The world's ground is the floor, by whatever told it.
-  /// What was found out or decided, a sentence each.
+  bool has_floor = false;  ///< A floor trial or a static trial gave the floor.
+  /// Findings and decisions of the calibration, one sentence each.
   std::vector<std::string> notes;
 };
 
-/// The session's cameras, by what they are calibrated with, as [calibration] asks for it,
-/// in a world that stands on the floor: the floor trial's; else that of the subject who
-/// stands still; else the first camera is the world's origin.
+/// Calibrates the cameras of a session with its target, as [calibration] requires. The
+/// world stands on the floor of the floor trial; without one, on the floor of the subject
+/// in the static trial; without either, the first camera is the world's origin.
 ///
-/// Errors as calib::calibrate_cameras()'s and calib::calibrate_wand()'s; as
-/// stand_on_floor()'s; lenses whose file cannot be read, or is of
-/// none of the cameras, or of pictures of another size.
+/// Errors: those of calib::calibrate_cameras(), calib::calibrate_wand() and
+/// stand_on_floor(); a file of lenses that cannot be read, that contains none of the
+/// cameras, or that was made for another picture size.
 [[nodiscard]] Result<SessionRig> calibrate_session(const recordings::Session& session,
                                                    const CalibrationSights& sights,
                                                    const Progress& progress = {});

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kPictures = 6;
 
-/// A pixel of the frame in its scaled picture, pixel centres at integers in both.
+/// Returns a pixel of the frame in the scaled picture. Pixel centres are at integers in
+/// both.
 glm::dvec2 in_picture(const glm::dvec2& pixel_px, double scale) {
   return (pixel_px + 0.5) * scale - 0.5;
 }
@@ -37,7 +38,7 @@ std::vector<ReportPicture::Bone> draw_bones(const EstimatedMotion& estimate,
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
     if (joint.parent) {
-      // A bone belongs to the joint at its near end.
+      // The source of a bone is that of the joint at its proximal end.
       const std::size_t parent = index(*joint.parent);
       add(world[parent].translation, world[j].translation, parent);
     }
@@ -61,7 +62,8 @@ std::vector<ReportPicture::Tag> draw_tags(const CameraDetections& camera,
   return tags;
 }
 
-/// The number that a frame has in the camera's video, if it has it.
+/// Returns the number of a frame in the video of the camera; nullopt if the video lacks
+/// it.
 std::optional<int> in_video(const CameraDetections& camera, int frame) {
   const int place = frame - camera.frames.front().frame;
   if (place < 0 || frame > camera.frames.back().frame) return std::nullopt;
@@ -94,7 +96,7 @@ Result<std::vector<ReportPicture>> draw_frames(
       in_file.push_back(*in_video(detections[index(source.camera)], frame));
     }
     auto read = capture::read_pictures(source.path, in_file);
-    // The video's trouble was told when its tags were looked for.
+    // The damage was reported by find_tags().
     if (!read && detections[index(source.camera)].damaged_frames > 0) continue;
     if (!read) return read.error();
     const Camera& camera = cameras[index(source.camera)];

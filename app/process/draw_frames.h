@@ -15,16 +15,16 @@
 
 namespace marey::app {
 
-/// A few frames of the trial's videos, spread over time and cameras, with the solved
-/// skeleton and the detected tags over them. `detections` as found, per camera.
-/// Errors: a video cannot be read any more.
+/// Returns a few frames of the trial's videos, spread over time and cameras, with the
+/// solved skeleton and the detected tags drawn over them. `detections` has one entry per
+/// camera, with the corners as detected. Errors: a video can no longer be read.
 [[nodiscard]] Result<std::vector<ReportPicture>> draw_frames(
     const recordings::Trial& trial,
     std::span<const Camera> cameras,
     std::span<const CameraDetections> detections,
     const EstimatedMotion& estimate);
 
-/// How many cameras saw each tag, frame by frame of `motion`.
+/// Counts the cameras that saw each tag, for every frame of `motion`.
 [[nodiscard]] std::vector<ReportTag> tags_over_time(
     std::span<const TagOnSegment> tags,
     std::span<const CameraDetections> detections,

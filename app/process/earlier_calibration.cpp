@@ -18,7 +18,7 @@ std::optional<fs::file_time_type> time_of(const fs::path& file) {
   return time;
 }
 
-/// "2026-11-21 18:05", where the user lives.
+/// Returns a time as "2026-11-21 18:05", in local time.
 std::string words_of(fs::file_time_type time) {
   const auto seconds =
       std::chrono::floor<std::chrono::seconds>(std::chrono::file_clock::to_sys(time));

@@ -8,21 +8,22 @@
 
 namespace marey::app {
 
-/// calibration.toml as a run finds it before it begins.
+/// State of calibration.toml before a run begins.
 struct EarlierCalibration {
   std::filesystem::path file;
-  /// When it was written; nullopt: there is none.
+  /// Time of its last change; nullopt if the file does not exist.
   std::optional<std::filesystem::file_time_type> written;
 };
 
 [[nodiscard]] EarlierCalibration find_calibration(const std::filesystem::path& out);
 
-/// What to say after a run that failed and left the file as it was; empty where there was
-/// none, or the run wrote another.
+/// Returns the warning for a run that failed and left the file unchanged. Empty if there
+/// was no file, or if the run wrote a new one.
 [[nodiscard]] std::string kept_text(const EarlierCalibration& earlier);
 
-/// What to say before a run that takes its cameras from the file: when it was made, and
-/// whether the session was changed since. Empty where there is none.
+/// Returns the message for a run that reads its cameras from the file: the time at which
+/// it was written, and whether the session was changed after that. Empty if there is no
+/// file.
 [[nodiscard]] std::string used_text(const EarlierCalibration& earlier,
                                     const std::filesystem::path& session);
 

@@ -23,8 +23,8 @@ namespace {
 using recordings::Trial;
 using recordings::TrialVideo;
 
-/// What the detector is to look for: with one family, any of its tags, since others than
-/// those of the session tell what is wrong with it.
+/// Returns the tags to detect. If the session has one family, all of its tags are
+/// detected, since tags that the session does not list show errors in it.
 std::vector<TagFamilyUse> families_to_find(const recordings::Session& session) {
   if (session.families.size() == 1) return {{session.families.front().name, {}}};
   return session.families;
@@ -43,7 +43,7 @@ Wanted wanted_in(const recordings::Session& session, const Trial& trial) {
   return wanted;
 }
 
-/// All that the finding of points depends on.
+/// Returns all parameters that the detection of points depends on, for the cache key.
 std::string words_of(const CalibrationTarget& target) {
   std::string words;
   if (const auto* board = std::get_if<CharucoBoard>(&target)) {
@@ -70,13 +70,13 @@ std::string words_of(const std::vector<TagFamilyUse>& families) {
   return words;
 }
 
-/// What a cached detection depends on.
+/// Returns a key of everything that a cached detection depends on.
 Result<std::string> cache_key(const TrialVideo& video,
                               const Trial& trial,
                               const Wanted& wanted) {
   const auto content = recordings::content_key(video.path);
   if (!content) return content.error();
-  // Raise the number when the detector finds other corners in the same picture.
+  // Increase the number if the detector finds other corners in the same picture.
   std::string key = *content;
   if (!wanted.families.empty()) key += " tracker-2" + words_of(wanted.families);
   if (wanted.target) key += words_of(*wanted.target);
@@ -88,7 +88,7 @@ Result<std::string> cache_key(const TrialVideo& video,
   return key;
 }
 
-/// A camera of which the take has no video.
+/// Returns an error if the take lacks the video of a camera.
 std::optional<Error> lost_video(const recordings::Session& session,
                                 const Trial& trial,
                                 const TrialVideo& video) {
@@ -102,8 +102,8 @@ std::optional<Error> lost_video(const recordings::Session& session,
                    "copy it from where the trial was recorded, or record again");
 }
 
-/// What videos could not be read to their ends. A motion goes on with what there is, as
-/// long as two cameras are left; of other trials every camera must give something.
+/// Reports videos that could not be read to the end. A motion needs at least two cameras
+/// with frames; in other trials every camera needs frames.
 Status report_broken_videos(const Trial& trial,
                             const std::vector<CameraDetections>& found,
                             RecordingTroubles& troubles) {
@@ -127,7 +127,8 @@ Status report_broken_videos(const Trial& trial,
   return troubles.failures.back();
 }
 
-/// Offsets are taken as motion between frames, not as frames to skip.
+/// Checks that an offset is at most two frames: offsets are corrected as motion between
+/// frames, not by skipping frames.
 Status check_offset(const recordings::Session& session,
                     const TrialVideo& video,
                     FrameRate rate) {
@@ -142,9 +143,9 @@ Status check_offset(const recordings::Session& session,
                    "is then found, or can be given");
 }
 
-/// Frames are matched by their number: all videos of a trial must run at one rate, but
-/// for the calibration's where clocks are solved for. Cameras without a video in the
-/// trial take that rate. Precondition: a camera has frames.
+/// Checks that all videos of a trial have one rate, as frames are matched by number.
+/// Passes for a calibration trial whose clocks are estimated. Sets this rate for cameras
+/// without a video in the trial. Precondition: at least one camera has frames.
 Status check_rates(const recordings::Session& session,
                    const Trial& trial,
                    std::vector<CameraDetections>& cameras) {
@@ -178,7 +179,7 @@ Status check_rates(const recordings::Session& session,
   return Done{};
 }
 
-/// Searches the videos of which nothing is kept.
+/// Detects tags and boards in the videos that have no cached detections.
 Result<std::vector<CameraDetections>> detect(
     const recordings::Session& session,
     const Trial& trial,
@@ -225,7 +226,7 @@ Result<std::vector<CameraDetections>> find_tags(const recordings::Session& sessi
     keys[video.camera] = *key;
     const auto file = folder / (session.cameras[index(video.camera)] + ".csv");
     auto cached = recordings::read_detections(file, *key);
-    // A cache that cannot be read is a cache that must be made again.
+    // A cache that cannot be read is computed again.
     if (cached && *cached) {
       found[index(video.camera)] = std::move(**cached);
       continue;

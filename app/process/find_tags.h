@@ -15,20 +15,21 @@
 
 namespace marey::app {
 
-/// The tag corners of a trial, and in trials of the target the points of a board of
-/// squares; one entry per camera of the session; a camera without a
-/// video in the trial has no frames. Taken from OUT/TRIAL/detections where that was made
-/// of the same bytes of video by the same detector; what is not there is detected and
-/// written there.
+/// Detects the tag corners of a trial and, in trials of the calibration target, the
+/// points of a board of squares. Returns one entry per camera of the session; a camera
+/// without a video in the trial has no frames. Detections are read from
+/// OUT/TRIAL/detections if they were made from the same bytes of video by the same
+/// detector. Others are computed and written there.
 ///
 /// Frames of recorded takes, and of videos with uneven rates, are matched by time
-/// (match_times()). A motion goes on without a video that cannot be read, and every trial
-/// with a video's part that can be: `troubles` says so.
+/// (match_times()). A motion is processed without a video that cannot be read, and every
+/// trial with the readable part of a video; `troubles` lists both.
 ///
-/// Errors: a video of another trial that cannot be read, one that shows not a single tag,
-/// or nothing of the board where that is wanted (and what it shows instead), or runs at
-/// another rate than its trial's other videos; fewer than two cameras left; the disk.
-/// Cost: 10 ms per frame and core of 1280 x 720 where it detects.
+/// Errors: a video that cannot be read in a trial that is not a motion; a video without
+/// any tag, or without the board where the board is required (the error names what the
+/// video shows instead); a video with another rate than the trial's other videos; fewer
+/// than two cameras left; a failure of the disk. Cost: 10 ms per frame and core at 1280 x
+/// 720, if the frame is not in the cache.
 [[nodiscard]] Result<std::vector<CameraDetections>> find_tags(
     const recordings::Session& session,
     const recordings::Trial& trial,
@@ -36,13 +37,14 @@ namespace marey::app {
     Console& console,
     RecordingTroubles& troubles);
 
-/// Whether each camera's pictures are of one size in two trials: it is calibrated for
-/// one. Precondition: both per camera of the session.
+/// Checks that each camera has the same picture size in two trials, as it is calibrated
+/// for one size. Errors (kBadInput): the first camera with two sizes. Precondition: both
+/// arguments have one entry per camera of the session.
 [[nodiscard]] Status check_picture_sizes(const std::vector<CameraDetections>& earlier,
                                          const std::vector<CameraDetections>& found);
 
-/// Puts the corners of every tag where they would be found without shrinkage.
-/// Precondition: detections are of these cameras.
+/// Moves the corners of every tag to where they would be detected without shrinkage.
+/// Precondition: the detections are of these cameras.
 void take_off_shrinkage(std::span<const Camera> cameras,
                         std::vector<CameraDetections>& detections);
 

@@ -40,7 +40,8 @@ Error missing_trial(const recordings::Session& session, TrialKind kind) {
       "record one and add it as a [[trial]]");
 }
 
-/// Motions that are yet to be recorded are no obstacle to the others.
+/// Removes motions that are not recorded yet, with a warning: other trials can be
+/// processed.
 void leave_out_unrecorded(recordings::Session& session, Console& console) {
   std::erase_if(session.trials, [&](const Trial& trial) {
     const bool left_out = trial.is_recorded && trial.kind == TrialKind::kMotion &&
@@ -71,7 +72,7 @@ void keep_for_calibration(recordings::Session& session, Console& console) {
   });
 }
 
-/// Reports what session.toml alone shows to be missing.
+/// Checks what can be checked from session.toml alone.
 Status check_before(Stage stage, const recordings::Session& session) {
   if (stage == Stage::kTrack) return Done{};
   if (stage != Stage::kSolve) {
@@ -80,7 +81,7 @@ Status check_before(Stage stage, const recordings::Session& session) {
   return stage == Stage::kCalibrate ? Status(Done{}) : check_worn_segments(session);
 }
 
-/// What a stage, and those before it, must find in the session.
+/// Returns the kinds of trials that a stage needs, together with the stages before it.
 std::vector<TrialKind> kinds_for(Stage stage) {
   switch (stage) {
     case Stage::kTrack:
@@ -165,7 +166,7 @@ Status Pipeline::track() {
     const Status ok = track_trial(trial);
     if (ok) continue;
     if (trial.kind != TrialKind::kMotion) return ok;
-    // Other motions can do without this one.
+    // Other motions do not depend on this one.
     report_.warnings.push_back(ok.error().message());
     failures_.push_back(ok.error());
     lost.insert(trial.name);
@@ -258,7 +259,8 @@ Status Pipeline::fit() {
   if (!standing) return standing.error();
   const auto moving = unshrunk_detections_of(*moving_trial);
   if (!moving) return moving.error();
-  // Every trial, before the long work: who swapped two videos wants to know now.
+  // All trials are checked before the long computation, so swapped videos are reported
+  // early.
   if (const Status ok = check_trials(); !ok) return ok;
   if (const auto warning = exchanged_exercise_warning(session_, detections_)) {
     report_.warnings.push_back(*warning);
@@ -294,7 +296,8 @@ Status Pipeline::fit() {
 
 Status Pipeline::need_body() {
   if (const Status ok = need_cameras(); !ok) return ok;
-  // Read back even when this run wrote it: a stage sees the same numbers either way.
+  // The file is read even if this run wrote it, so the stage gets the same numbers in
+  // both cases.
   auto body = recordings::read_subject(options_.out / "subject.toml");
   if (!body) return body.error();
   body_ = std::move(*body);
@@ -306,7 +309,7 @@ Result<reconstruct::SolvedTrial> Pipeline::solve_trial(const Trial& trial,
                                                        const Progress& progress) {
   const auto detections = unshrunk_detections_of(trial);
   if (!detections) return detections.error();
-  // A camera without a video in this trial keeps its place, and stays silent.
+  // A camera without a video in this trial keeps its index and has no frames.
   reconstruct::SolveMotionOptions options;
   std::vector<CameraQuality> quality;
   for (const ReportCamera& camera : report_.cameras) quality.push_back(camera.quality);

@@ -23,56 +23,57 @@
 
 namespace marey::app {
 
-/// How far a session is taken.
+/// Last stage of a run.
 enum class Stage { kTrack, kCalibrate, kSolve, kProcess };
 
 struct PipelineOptions {
   std::filesystem::path session;               ///< session.toml or its folder.
-  std::filesystem::path out;                   ///< Where results go; created.
-  std::optional<std::filesystem::path> media;  ///< Overrides the session's.
-  std::vector<std::filesystem::path> avatars;  ///< GLB, VRM or BVH, each of its own name.
-  /// Instead of the session's lens: a word of recordings::kLensWords.
+  std::filesystem::path out;                   ///< Folder of the results; created.
+  std::optional<std::filesystem::path> media;  ///< Replaces the session's.
+  std::vector<std::filesystem::path> avatars;  ///< GLB, VRM or BVH; names differ.
+  /// Replaces the session's lens: a word of recordings::kLensWords.
   std::optional<std::string> lens;
 };
 
-/// The line through the rooms, drawn once: videos to tag corners to cameras, subject,
-/// motion, other bodies and files. Each stage leaves a file that the next one reads, so
-/// that a stage can be run alone. Cameras and subject are read back from their files even
-/// in the run that wrote them: a stage sees the same numbers either way. Tags are not.
+/// Processes a session in stages: videos, tag corners, cameras, subject, motion, motion
+/// of other bodies, files. Each stage writes a file that the next stage reads, so a stage
+/// can run alone. Cameras and subject are read from their files even in the run that
+/// wrote them, so a stage gets the same numbers in both cases. Tags are kept in memory.
 ///
-/// Every stage's errors are its room's. Files appear whole or not at all.
+/// Each stage returns the errors of the functions that it calls. Files appear complete or
+/// not at all.
 class Pipeline {
  public:
-  /// Reads and checks what can be checked before the long work: the session, that its
-  /// videos are there, that it has the trials that `stage` needs, and that every avatar
-  /// can be read and has the bones.
+  /// Reads the session and runs all checks that need no long computation: its videos
+  /// exist, it has the trials that `stage` needs, and every avatar can be read and has
+  /// the required bones.
   [[nodiscard]] static Result<Pipeline> open(Stage stage,
                                              const PipelineOptions& options,
                                              Console& console);
 
-  /// Tag corners of every trial, from the cache in OUT/TRIAL/detections where it is
-  /// current. A motion trial that cannot be read is a failure, and left out from then on;
-  /// an error when it was the last.
+  /// Detects the tag corners of every trial, or reads them from the cache in
+  /// OUT/TRIAL/detections if it is current. A motion trial that cannot be read is a
+  /// failure and is removed from the session. It is an error if no motion trial is left.
   [[nodiscard]] Status track();
-  /// Cameras: OUT/calibration.toml, and what there is to say of them, in
-  /// OUT/calibration.json and calibration.html. Cameras too poor to be trusted are
+  /// Calibrates the cameras. Writes OUT/calibration.toml, and the findings about them in
+  /// OUT/calibration.json and calibration.html. Cameras of insufficient quality are
   /// failures.
   [[nodiscard]] Status calibrate();
-  /// The subject: OUT/subject.toml. Reads calibration.toml. Checks first that in every
-  /// trial the cameras agree on the tags.
+  /// Fits the subject and writes OUT/subject.toml. Reads calibration.toml. Checks first
+  /// that the cameras agree on the tags in every trial.
   [[nodiscard]] Status fit();
-  /// Motion of every motion trial: joints.csv, segments.csv, motion.bvh, motion.glb,
-  /// motion.npz, markers.c3d, markers.trc.
-  /// Reads calibration.toml and subject.toml.
+  /// Solves every motion trial and writes joints.csv, segments.csv, motion.bvh,
+  /// motion.glb, motion.npz, markers.c3d and markers.trc. Reads calibration.toml and
+  /// subject.toml.
   [[nodiscard]] Status solve();
-  /// Every solved motion on every avatar: AVATAR.glb and AVATAR.bvh.
+  /// Retargets every solved motion to every avatar and writes AVATAR.glb and AVATAR.bvh.
   [[nodiscard]] Status retarget();
-  /// OUT/report.json and OUT/report.html.
+  /// Writes OUT/report.json and OUT/report.html.
   [[nodiscard]] Status write_report();
 
   [[nodiscard]] const Report& report() const { return report_; }
-  /// What should have been there and is missing, though the rest went on without it, and
-  /// what is too poor to be trusted; also among the report's warnings.
+  /// Problems with which the run was completed: missing inputs, and results of
+  /// insufficient quality. They are also among the warnings of the report.
   [[nodiscard]] const std::vector<Error>& failures() const { return failures_; }
 
  private:
@@ -103,15 +104,15 @@ class Pipeline {
   [[nodiscard]] Result<ReportBody> retarget_one(SolvedMotion& motion,
                                                 const std::filesystem::path& avatar);
   [[nodiscard]] std::vector<const recordings::Trial*> motion_trials() const;
-  /// The error with its file: rooms that see no files leave the place empty, or name a
-  /// table of session.toml, "[board]".
+  /// Adds the session file to an error. Functions without access to files leave the place
+  /// empty, or name a table of session.toml, such as "[board]".
   [[nodiscard]] Error in_session(Error error) const;
   void time_stage(const std::string& name, double seconds);
 
   recordings::Session session_;
   PipelineOptions options_;
   Console* console_;
-  std::map<std::string, std::vector<CameraDetections>> detections_;  ///< By trial.
+  std::map<std::string, std::vector<CameraDetections>> detections_;  ///< By name of the trial.
   std::vector<Camera> cameras_;
   std::optional<Body> body_;
   std::vector<SolvedMotion> motions_;

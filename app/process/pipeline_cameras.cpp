@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The line's second stage: from what was seen of a board, or a wand, to cameras.
+// Second stage of the pipeline: calibrates the cameras from detections of a board or a
+// wand.
 #include <algorithm>
 #include <utility>
 
@@ -52,8 +53,8 @@ Result<CalibrationSights> Pipeline::calibration_sights() {
   return sights;
 }
 
-/// Whether the subject who stands still is as large as was said, and upright. Who
-/// measured the board wrongly wants no cameras from it.
+/// Checks that the subject of the static trial has the declared stature and stands
+/// upright. A wrongly measured board fails here, before the calibration is written.
 Status Pipeline::check_subject(const SessionRig& found,
                                std::vector<CameraDetections> standing) const {
   if (standing.empty() || session_.tags.empty()) return Done{};
@@ -66,7 +67,7 @@ Status Pipeline::check_subject(const SessionRig& found,
 Status Pipeline::calibrate() {
   auto sights = calibration_sights();
   if (!sights) return sights.error();
-  // First, as a subject that walks would look like a tilted floor.
+  // This check comes first, because a walking subject resembles a tilted floor.
   if (const Status ok = check_standing(session_, detections_); !ok) return ok;
   const Stopwatch watch;
   const Progress progress = console_->stage("cameras");

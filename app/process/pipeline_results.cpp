@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the line makes of solved motions: other bodies, and the report.
+// Last stages of the pipeline: motions of other bodies, and the report.
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -23,7 +23,7 @@ namespace marey::app {
 
 namespace {
 
-/// Some frames from the middle of a trial.
+/// Returns 12 frames from the middle of a trial.
 std::vector<CameraDetections> middle_frames(std::vector<CameraDetections> detections) {
   constexpr std::size_t kFrames = 12;
   for (CameraDetections& camera : detections) {
@@ -45,7 +45,7 @@ Status Pipeline::assess_standing() {
   if (!detections) return detections.error();
   const auto standing =
       reconstruct::solve_motion(*body_, cameras_, middle_frames(*detections));
-  if (!standing) return Done{};  // The motions could be solved; this adds nothing.
+  if (!standing) return Done{};  // This check is optional: all motions are solved.
   const auto height_m = sole_height_m(standing->estimate, body_->stature_m);
   if (!height_m) return Done{};
   std::vector<SoleHeight> motions;
@@ -118,7 +118,7 @@ Status Pipeline::assess_trials() {
     std::move(poor.begin(), poor.end(), std::back_inserter(found));
   }
   for (const SolvedMotion& motion : motions_) {
-    // Large residuals and wrong offsets of a trial are failures already.
+    // Trials in poor_trials_ already have a failure for large residuals or wrong offsets.
     if (poor_trials_.contains(motion.trial->name)) continue;
     const auto detections = unshrunk_detections_of(*motion.trial);
     if (!detections) return detections.error();

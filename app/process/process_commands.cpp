@@ -30,7 +30,8 @@ Status run_stages(Stage stage, Pipeline& pipeline) {
   return pipeline.write_report();
 }
 
-/// Failures are told apart, as errors.
+/// Prints the figures and warnings of the report. Failures are not printed here: the
+/// caller prints them as errors.
 void tell(const Report& report,
           const std::vector<Error>& failures,
           const std::filesystem::path& out,
@@ -91,7 +92,7 @@ void add_session_command(CLI::App& app,
         ->add_option("-a,--avatar",
                      args.pipeline.avatars,
                      "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
-        // One each time: what follows may be the session.
+        // One avatar per option: the next argument may be the session.
         ->allow_extra_args(false);
   }
   if (stage == Stage::kCalibrate || stage == Stage::kProcess) {
@@ -123,7 +124,7 @@ Exit run_session(Stage stage,
     return console.fail(ok.error());
   }
   const EarlierCalibration earlier = find_calibration(options.out);
-  // Results of an earlier run stay: who changes a session may want to go back.
+  // An earlier calibration is kept, so the user can undo a change of the session.
   const auto tell_kept = [&] {
     if (stage != Stage::kCalibrate && stage != Stage::kProcess) return;
     if (const std::string kept = kept_text(earlier); !kept.empty()) console.warn(kept);
@@ -146,15 +147,14 @@ Exit run_session(Stage stage,
   }
   std::vector<Error> failures = pipeline->failures();
   if (stage == Stage::kCalibrate) {
-    // Where a report is written, it is judged already.
+    // The other stages check the results when they write the report.
     for (Error& poor : check_results(pipeline->report())) {
       failures.push_back(std::move(poor));
     }
   }
   tell(pipeline->report(), failures, options.out, console);
   if (json) std::fputs(report_json(pipeline->report()).c_str(), stdout);
-  // The rest is done and written; that something is missing must still not pass for
-  // whole.
+  // The other results are written. The exit code still shows that a result is missing.
   Exit exit = Exit::kOk;
   for (const Error& failure : failures) exit = console.fail(failure);
   return exit;

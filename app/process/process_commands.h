@@ -12,39 +12,40 @@
 
 namespace marey::app {
 
-/// What `marey track | calibrate | solve | process` was asked for.
+/// Arguments of `marey track | calibrate | solve | process`.
 struct SessionArguments {
   PipelineOptions pipeline;
-  std::filesystem::path media;  ///< Empty: the session's.
+  std::filesystem::path media;  ///< Empty: the folder given in the session.
   bool json = false;
 };
 
-/// What `marey demo` was asked for.
+/// Arguments of `marey demo`.
 struct DemoArguments {
   std::filesystem::path sample;  ///< Folder of the sample session.
   std::filesystem::path out;
 };
 
-/// `marey track | calibrate | solve | process`. With `json`, report.json goes to standard
-/// output.
+/// Runs `marey track | calibrate | solve | process`. With `json`, it prints report.json
+/// on standard output.
 [[nodiscard]] Exit run_session(Stage stage,
                                const PipelineOptions& options,
                                bool json,
                                Console& console);
 
-/// `marey demo`: the sample session on two mannequins. `sample` is its folder.
+/// Runs `marey demo`: processes the sample session on two mannequins. `sample` is the
+/// folder of the session.
 [[nodiscard]] Exit run_demo(const std::filesystem::path& sample,
                             const std::filesystem::path& out,
                             Console& console);
 
-/// Adds process, track, calibrate and solve, in this order; one that is given becomes
-/// `chosen`. `args` must stay in place.
+/// Adds the commands process, track, calibrate and solve, in this order. The parsed
+/// command is stored in `chosen`. Precondition: `args` outlives `app`.
 void add_session_commands(CLI::App& app,
                           SessionArguments& args,
                           std::function<Exit(Console&)>& chosen);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place;
-/// `args.sample` is the default.
+/// Adds the command demo. The parsed command is stored in `chosen`. `args.sample` is the
+/// default of its option. Precondition: `args` outlives `app`.
 void add_demo_command(CLI::App& app,
                       DemoArguments& args,
                       std::function<Exit(Console&)>& chosen);

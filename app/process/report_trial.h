@@ -14,9 +14,10 @@
 
 namespace marey::app {
 
-/// What the report says of one solved trial: its figures per camera and frame, tags over
-/// time, gaps, pictures of a few frames, and the subject in motion. `detections` are per
-/// camera, as the solver saw them. Errors: a video cannot be read any more.
+/// Returns the part of the report about one solved trial: figures per camera and frame,
+/// tags over time, gaps, pictures of a few frames, and the motion of the subject.
+/// `detections` has one entry per camera, as given to the solver. Errors: a video can no
+/// longer be read.
 [[nodiscard]] Result<ReportTrial> report_trial(
     const recordings::Trial& trial,
     std::span<const Camera> cameras,

@@ -51,7 +51,8 @@ Part part_of(HumanBone bone) {
   }
 }
 
-/// From the lower legs and feet to chest and head; the height of the lowest tag.
+/// Vector from the lower legs and feet to chest and head [m], and height of the lowest
+/// tag.
 struct Stance {
   glm::dvec3 up{0.0};
   double lowest_m = 0.0;
@@ -140,7 +141,8 @@ Status check_upright(const recordings::Session& session,
       "check that the board lay on the floor with its printed face up in the floor "
       "trial, "
       "and that no video is mirrored or turned";
-  // People stand upright to some degrees; a board on a wall is a quarter of a turn.
+  // A standing person is upright to within some degrees; a board on a wall gives 90
+  // degrees.
   constexpr double kMaxTilt_deg = 45.0;
   const double tilt_deg =
       glm::degrees(glm::acos(glm::clamp(glm::normalize(stance->up).y, -1.0, 1.0)));
@@ -153,7 +155,7 @@ Status check_upright(const recordings::Session& session,
                          ": the floor is not where the calibration has it",
                      next);
   }
-  // On the floor no tag is below it; a board on a chair is 0.4 m above.
+  // No tag is below the floor; a board on a chair gives 0.4 m.
   constexpr double kDeepest_m = 0.15;
   if (stance->lowest_m < -kDeepest_m) {
     return bad_input("",

@@ -59,8 +59,8 @@ using PageRequest = std::variant<HelloRequest,
 /// Reads one message of a page. Members that are not known are ignored.
 ///
 /// Errors (kBadInput), for error_json(): not JSON, another type, a member that is
-/// missing, of another kind or out of bounds: ids and names of 1 to 200 bytes, places within 10 km,
-/// frames not negative, version 1, at most 16 kB in all.
+/// missing, of another kind or out of bounds: ids and names of 1 to 200 bytes, places
+/// within 10 km, frames not negative, version 1, at most 16 kB in all.
 [[nodiscard]] Result<PageRequest> read_page_request(std::string_view text);
 
 }  // namespace marey::live

@@ -38,7 +38,7 @@ Result<UdpAddress> parse_udp_address(std::string_view text, int default_port) {
       std::from_chars(port.data(), port.data() + port.size(), address.port);
   const bool whole = error == std::errc() && end == port.data() + port.size();
   if (!whole || address.port < 1 || address.port > 65535) {
-    return unclear(text, "the port is no number from 1 to 65535");
+    return unclear(text, "the port is not a number from 1 to 65535");
   }
   return address;
 }

@@ -9,18 +9,18 @@
 
 namespace marey::live {
 
-/// Where a UDP packet goes, or where packets are waited for.
+/// Destination of UDP packets, or the address at which they are received.
 struct UdpAddress {
   std::string host;
   int port = 0;
 };
 
-/// "host:port", "[::1]:port" of an IPv6 address; "host" alone has `default_port`.
-/// Errors (kBadInput): no host; a port that is none of 1 to 65535.
+/// Parses "host:port", "[::1]:port" for an IPv6 address, or "host", which gets
+/// `default_port`. Errors (kBadInput): no host; a port that is not in 1 to 65535.
 [[nodiscard]] Result<UdpAddress> parse_udp_address(std::string_view text,
                                                    int default_port);
 
-/// "host:port", brackets around what has colons.
+/// Returns "host:port". A host with colons is put in brackets.
 [[nodiscard]] std::string text_of(const UdpAddress& address);
 
 }  // namespace marey::live

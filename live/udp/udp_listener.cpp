@@ -11,8 +11,8 @@ namespace marey::live {
 namespace {
 
 constexpr std::size_t kLargestPacket = 65535;
-// Some hundred frames: what comes while the program is busy elsewhere. The kernel may
-// give less, and then old frames are lost, which is as well.
+// Holds a few hundred frames that arrive while the program is busy. The kernel may grant
+// less; frames that do not fit are then lost, which is acceptable.
 constexpr int kBufferBytes = 1 << 20;
 
 }  // namespace

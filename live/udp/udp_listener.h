@@ -14,17 +14,17 @@
 
 namespace marey::live {
 
-/// Hears packets on one port.
+/// Receives packets on one port.
 class UdpListener {
  public:
-  /// Errors: UdpSocket::at()'s.
+  /// Opens the port. Errors: those of UdpSocket::at().
   [[nodiscard]] static Result<UdpListener> open(const UdpAddress& address);
 
-  /// A packet that has come, whole; nullopt when none waits. Valid until the next call.
-  /// Never blocks; allocates nothing.
+  /// Returns the next received packet, complete; nullopt if there is none. Valid until
+  /// the next call. Never blocks; allocates nothing.
   [[nodiscard]] std::optional<std::span<const std::uint8_t>> receive();
 
-  /// Sleeps until a packet waits, a signal came, or `longest` is over.
+  /// Blocks until a packet has arrived, a signal arrives, or `longest` has passed.
   void wait(std::chrono::milliseconds longest) const;
 
   [[nodiscard]] int port() const { return socket_.port(); }

@@ -32,7 +32,7 @@ void UdpSender::send(std::span<const std::uint8_t> packet) {
     UdpCounts& counts = counts_[i];
     bool ok = sent(sockets_[i], packet);
     if (!ok && errno == ECONNREFUSED) {
-      // That was told of an earlier packet, and took the place of sending this one.
+      // The error reports an earlier packet; this packet was not sent.
       ++counts.refused;
       ok = sent(sockets_[i], packet);
     }

@@ -12,24 +12,26 @@
 
 namespace marey::live {
 
-/// What became of the packets for one address.
+/// Counts of the packets for one address.
 struct UdpCounts {
-  std::int64_t sent = 0;     ///< Handed to the network. Whether they arrive nobody knows.
-  std::int64_t refused = 0;  ///< Nobody listens there (known of the machine's own ports).
-  std::int64_t failed = 0;   ///< Not sent: a full buffer, no network, too large.
+  std::int64_t sent = 0;     ///< Passed to the network. UDP does not report arrival.
+  std::int64_t refused = 0;  ///< No receiver at the port (reported for local ports only).
+  std::int64_t failed = 0;   ///< Not sent: full buffer, no network, or packet too large.
 };
 
-/// Sends packets to several addresses. Never blocks, throws nothing, gives up on nobody:
-/// an address that is gone is tried again with the next packet.
+/// Sends packets to several addresses. Never blocks and throws nothing. An address that
+/// failed is tried again with the next packet.
 class UdpSender {
  public:
-  /// Errors: UdpSocket::to()'s, of the first address that has one.
+  /// Opens one socket per address. Errors: that of UdpSocket::to() for the first address
+  /// that has one.
   [[nodiscard]] static Result<UdpSender> open(std::span<const UdpAddress> addresses);
 
-  /// The packet to every address. Allocates nothing; one or two system calls an address.
+  /// Sends the packet to every address. Allocates nothing; one or two system calls per
+  /// address.
   void send(std::span<const std::uint8_t> packet);
 
-  /// In the order of open()'s addresses.
+  /// Returns the counts, in the order of the addresses given to open().
   [[nodiscard]] std::span<const UdpCounts> counts() const { return counts_; }
 
  private:

@@ -26,7 +26,7 @@ Error trouble(const UdpAddress& address, int problem, std::string next) {
           std::move(next)};
 }
 
-/// Every address of the host, or why there is none.
+/// Returns every address of the host, or an error.
 Result<AddressList> look_up(const UdpAddress& address) {
   addrinfo wanted{};
   wanted.ai_family = AF_UNSPEC;
@@ -37,7 +37,7 @@ Result<AddressList> look_up(const UdpAddress& address) {
   if (problem == 0) return AddressList(found, &freeaddrinfo);
   if (problem == EAI_NONAME) {
     return bad_input(text_of(address),
-                     "there is no host of this name",
+                     "there is no host with this name",
                      "check its spelling, or give its address");
   }
   return Error{Errc::kDevice,
@@ -46,8 +46,8 @@ Result<AddressList> look_up(const UdpAddress& address) {
                "check the network, or give the host's address"};
 }
 
-/// IPv4 before IPv6. Nobody answers to UDP, so that the first address is all that is ever
-/// tried, and receivers of VMC at "localhost" mostly are at 127.0.0.1 alone, not at ::1.
+/// Orders IPv4 before IPv6. UDP has no acknowledgement, so only the first address is ever
+/// tried. VMC receivers at "localhost" mostly listen at 127.0.0.1 only, not at ::1.
 std::vector<const addrinfo*> old_network_first(const addrinfo& list) {
   std::vector<const addrinfo*> order;
   for (const addrinfo* at = &list; at != nullptr; at = at->ai_next) order.push_back(at);
@@ -74,7 +74,7 @@ Result<UdpSocket> UdpSocket::to(const UdpAddress& address) {
   for (const addrinfo* at : old_network_first(**list)) {
     UdpSocket made(open_socket(*at));
     const int on = 1;
-    // Connected, so that a receiver that is not there shows as ECONNREFUSED.
+    // The socket is connected, so a missing receiver is reported as ECONNREFUSED.
     if (made.fd_ >= 0 &&
         setsockopt(made.fd_, SOL_SOCKET, SO_BROADCAST, &on, sizeof on) == 0 &&
         connect(made.fd_, at->ai_addr, at->ai_addrlen) == 0) {
@@ -97,13 +97,13 @@ Result<UdpSocket> UdpSocket::at(const UdpAddress& address) {
   if (problem == EADDRINUSE) {
     return Error{Errc::kDevice,
                  text_of(address),
-                 "another program has this UDP port",
+                 "another program uses this UDP port",
                  "end it, or choose another port"};
   }
   if (problem == EADDRNOTAVAIL) {
     return bad_input(text_of(address),
                      "this machine has no such address",
-                     "listen at 127.0.0.1 (this machine alone) or 0.0.0.0 (everybody)");
+                     "listen at 127.0.0.1 (this machine only) or 0.0.0.0 (all machines)");
   }
   return trouble(address, problem, "choose another port, above 1023");
 }

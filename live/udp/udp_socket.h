@@ -9,7 +9,7 @@
 
 namespace marey::live {
 
-/// A UDP socket that never blocks, closed with its owner.
+/// A non-blocking UDP socket. The destructor closes it.
 class UdpSocket {
  public:
   UdpSocket() = default;
@@ -20,20 +20,20 @@ class UdpSocket {
   }
   ~UdpSocket();
 
-  /// A socket whose packets go to `address`, broadcasts included. Looks the name up,
-  /// which may take seconds; of a host's addresses IPv4's come first. Errors: there is no
-  /// such host (kBadInput); names cannot be looked up, or no network leads there
-  /// (kDevice).
+  /// Opens a socket that sends to `address`; broadcast addresses are allowed. Resolves
+  /// the name, which may take seconds. IPv4 addresses of the host are tried before IPv6.
+  /// Errors: the host does not exist (kBadInput); names cannot be resolved, or there is
+  /// no route to the address (kDevice).
   [[nodiscard]] static Result<UdpSocket> to(const UdpAddress& address);
 
-  /// A socket that hears packets for `address`: "127.0.0.1" hears this machine alone,
-  /// "0.0.0.0" everybody. Port 0: any that is free.
-  /// Errors: the host is no address of this machine (kBadInput); the port is taken or
-  /// reserved (kDevice).
+  /// Opens a socket that receives packets for `address`: "127.0.0.1" accepts packets from
+  /// this machine only, "0.0.0.0" from any machine. Port 0: any free port.
+  /// Errors: the host is not an address of this machine (kBadInput); the port is in use
+  /// or reserved (kDevice).
   [[nodiscard]] static Result<UdpSocket> at(const UdpAddress& address);
 
   [[nodiscard]] int fd() const { return fd_; }
-  /// The port it has here; 0 when it has none.
+  /// Returns the local port; 0 if there is none.
   [[nodiscard]] int port() const;
 
  private:

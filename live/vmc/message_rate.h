@@ -6,16 +6,16 @@
 
 namespace marey::live {
 
-/// Whether somebody says too much: more than `most` messages within one second. The clock
-/// is the caller's.
+/// Detects more than `max_count` messages within one second. The caller supplies the
+/// time.
 class MessageRate {
  public:
   using Clock = std::chrono::steady_clock;
 
   explicit MessageRate(int max_count) : max_count_(max_count) {}
 
-  /// Counts one message; false: it is one too many. Seconds follow one another from the
-  /// first message on.
+  /// Counts one message; returns false if it exceeds the limit. The first message starts
+  /// a second; the first message after its end starts the next one.
   [[nodiscard]] bool allow(Clock::time_point now) {
     if (count_ == 0 || now - second_began_ >= std::chrono::seconds(1)) {
       second_began_ = now;

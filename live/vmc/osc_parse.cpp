@@ -15,7 +15,7 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::array<std::uint8_t, 8> kBundle{'#', 'b', 'u', 'n', 'd', 'l', 'e', 0};
 constexpr std::size_t kBundleHeadBytes = 16;
 
-// Preconditions: as many bytes are there.
+// Read big-endian words. Precondition: 4 or 8 bytes are available.
 std::uint32_t word32(Bytes bytes) {
   std::uint32_t word = 0;
   for (std::size_t i = 0; i < 4; ++i) word = word << 8 | bytes[i];
@@ -33,8 +33,8 @@ std::string_view text_of(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// The text that the bytes begin with, its zeros to the next multiple of four included in
-/// `size`; nullopt if it does not end so.
+/// Returns the text at the start of the bytes; `size` is its length with the zeros up to
+/// the next multiple of four. nullopt if the terminator or the padding is wrong.
 std::optional<std::string_view> first_text(Bytes bytes, std::size_t& size) {
   const auto end = std::ranges::find(bytes, std::uint8_t{0});
   if (end == bytes.end()) return std::nullopt;
@@ -48,7 +48,7 @@ std::optional<std::string_view> first_text(Bytes bytes, std::size_t& size) {
   return text_of(bytes.first(length));
 }
 
-/// How many of the bytes the argument of this type takes; nullopt if it cannot be.
+/// Returns the size of the argument of this type [bytes]; nullopt if it is invalid.
 std::optional<std::size_t> argument_size(char type, Bytes bytes) {
   std::size_t size = 0;
   switch (type) {
@@ -116,12 +116,12 @@ bool is_bundle(Bytes bytes) {
          std::ranges::equal(bytes.first(kBundle.size()), kBundle);
 }
 
-/// The next element of a bundle's, taken off `rest`; nullopt if its size cannot be.
+/// Removes the next element of a bundle from `rest`; nullopt if its size is invalid.
 std::optional<Bytes> next_element(Bytes& rest) {
   if (rest.size() < 4) return std::nullopt;
   const std::size_t size = word32(rest);
   rest = rest.subspan(4);
-  // None is empty: it would be neither message nor bundle.
+  // An empty element would be neither a message nor a bundle.
   if (size == 0 || size % 4 != 0 || size > rest.size()) return std::nullopt;
   const Bytes element = rest.first(size);
   rest = rest.subspan(size);
@@ -130,7 +130,7 @@ std::optional<Bytes> next_element(Bytes& rest) {
 
 bool is_sound(Bytes bytes, int depth) {
   if (!is_bundle(bytes)) return message_of(bytes).has_value();
-  if (depth == kDeepestBundle) return false;
+  if (depth == kMaxBundleDepth) return false;
   Bytes rest = bytes.subspan(kBundleHeadBytes);
   while (!rest.empty()) {
     const auto element = next_element(rest);
@@ -139,7 +139,7 @@ bool is_sound(Bytes bytes, int depth) {
   return true;
 }
 
-/// Precondition: sound bytes.
+/// Calls `take` with each message. Precondition: is_sound(bytes).
 void hand_over(Bytes bytes, const std::function<void(const OscMessage&)>& take) {
   if (!is_bundle(bytes)) {
     take(*message_of(bytes));

@@ -10,7 +10,7 @@
 namespace marey::live {
 namespace {
 
-// "#bundle" with its zero, and the time tag that means "immediately".
+// "#bundle" with its zero byte, then the time tag "immediately".
 constexpr std::array<std::uint8_t, 16> kBundleHead{
     '#', 'b', 'u', 'n', 'd', 'l', 'e', 0, 0, 0, 0, 0, 0, 0, 0, 1};
 
@@ -36,7 +36,7 @@ OscWriter& OscWriter::begin(std::string_view address, std::string_view types) {
   end_message();
   if (used_ == 0) start_packet();
   message_start_ = open().size();
-  put(0);  // The size, once it is known.
+  put(0);  // Placeholder for the size; end_message() writes it.
   pad(address);
   open().push_back(',');
   open().insert(open().end(), types.begin(), types.end());

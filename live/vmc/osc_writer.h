@@ -9,30 +9,30 @@
 
 namespace marey::live {
 
-/// Writes OSC 1.0 bundles ("immediately", no bundles inside) as bytes, several when there
-/// is a limit to a packet's size.
+/// Writes OSC 1.0 bundles (time tag "immediately", not nested) as bytes. A limit of the
+/// packet size splits the messages over several bundles.
 ///
-/// It writes straight into buffers that it keeps: after the first frame of a size nothing
-/// is allocated, and the same calls give the same bytes. (liblo builds a list of messages
-/// on the heap for every bundle and then copies it; it is the judge of these bytes in
-/// tests/live/osc_writer_test.cpp.)
+/// Writes directly into buffers that are reused: nothing is allocated after the first
+/// frame of a size. The same calls give the same bytes. (liblo builds a list of messages
+/// on the heap for every bundle and then copies it; tests/live/osc_writer_test.cpp uses
+/// it as the reference for these bytes.)
 class OscWriter {
  public:
-  /// `limit_bytes`: of one packet. Messages larger than that have a packet of their own.
+  /// `limit_bytes`: maximum size of one packet. A larger message gets its own packet.
   explicit OscWriter(std::size_t limit_bytes = 65507);
 
-  /// Forgets all packets.
+  /// Removes all packets; keeps the buffers.
   void clear();
 
-  /// Begins a message; its arguments must follow as `types` says, without the comma,
-  /// before the next begin() or packets(). Text ends where it has a zero byte.
+  /// Begins a message. `types` has no comma. The arguments must follow as in `types`,
+  /// before the next begin() or packets(). Text ends at its first zero byte.
   OscWriter& begin(std::string_view address, std::string_view types);
   OscWriter& add(std::int32_t number);
   OscWriter& add(float number);
   OscWriter& add(std::string_view text);
 
-  /// What was written since clear(): whole bundles, in order. Valid until the next call
-  /// of anything else.
+  /// Returns the complete bundles written since clear(), in order. Valid until the next
+  /// call of another member.
   [[nodiscard]] std::span<const std::span<const std::uint8_t>> packets();
 
  private:
@@ -44,8 +44,8 @@ class OscWriter {
 
   std::size_t limit_bytes_;
   std::vector<std::vector<std::uint8_t>> buffers_;
-  std::size_t used_ = 0;           ///< Of the buffers.
-  std::size_t message_start_ = 0;  ///< Of its size, in the open buffer; 0: none is open.
+  std::size_t used_ = 0;           ///< Number of buffers in use.
+  std::size_t message_start_ = 0;  ///< Offset of the open message's size; 0: none open.
   std::vector<std::span<const std::uint8_t>> packets_;
 };
 

@@ -35,7 +35,7 @@ std::optional<Motion> MotionResampler::at_rate(const Skeleton& skeleton,
   if (poses_.size() < 2) return std::nullopt;
   Motion motion{skeleton, rate, 0, {}};
   const double begin_s = poses_.front().time_s;
-  // What rounding takes off the last frame.
+  // Tolerance in frames, so that rounding does not drop the last frame.
   constexpr double kSlack = 1e-6;
   const auto frames = static_cast<std::size_t>(
       std::floor((poses_.back().time_s - begin_s) * rate.hz + kSlack));

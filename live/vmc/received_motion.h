@@ -9,16 +9,18 @@
 
 namespace marey::live {
 
-/// Poses that came when they came, as a motion at a steady rate.
+/// Resamples asynchronously received poses to a fixed rate.
 class MotionResampler {
  public:
-  /// Poses whose time does not grow are passed over. Precondition: finite, and of a clock
-  /// that is ours (SenderClock): the motion is as long as the times are apart.
+  /// Adds a pose. A pose that is not later than the one before is ignored. Precondition:
+  /// `time_s` is finite and on the receiver's clock (SenderClock), because the duration
+  /// of the motion is the difference of the times.
   void add(double time_s, const Pose& pose);
   [[nodiscard]] std::size_t size() const { return poses_.size(); }
 
-  /// From the first to the last, in between on the shorter way from each to the next.
-  /// nullopt with fewer than two. Precondition: rate above 0; poses of the skeleton.
+  /// Returns the motion from the first to the last pose, interpolated: positions
+  /// linearly, rotations by slerp along the shorter arc. nullopt with fewer than two
+  /// poses. Precondition: rate above 0; all poses belong to the skeleton.
   [[nodiscard]] std::optional<Motion> at_rate(const Skeleton& skeleton,
                                               FrameRate rate) const;
 

@@ -13,10 +13,11 @@ double SenderClock::at_s(std::optional<double> sender_s, double arrived_s) {
   const bool is_first = !has_sender_time_;
   if (is_first) has_sender_time_ = sender_s.has_value();
   if (!*has_sender_time_) return arrived_s;
-  // One that forgot its time is where the last one was.
+  // A frame without a sender time uses the offset of the last frame.
   if (!sender_s) return arrived_s + ahead_s_;
   ahead_s_ = *sender_s + ours_from_theirs_s_ - arrived_s;
-  // Huge numbers have no digits left for this sum: what comes out is not looked at then.
+  // Very large times lose the precision of this sum. The negated comparison also catches
+  // NaN, so such a result is never used.
   if (is_first || !(std::abs(ahead_s_) <= kMaxOffset_s)) {
     ours_from_theirs_s_ = arrived_s - *sender_s;
     ahead_s_ = 0.0;

@@ -6,24 +6,25 @@
 
 namespace marey::live {
 
-/// The time that a sender on the network tells with its frames, on our clock. Theirs is
-/// steadier than the moment of arrival, but it is anybody's number: they begin anew at 0,
-/// jump, or tell nonsense.
+/// Converts the time that a network sender adds to its frames to the receiver's clock.
+/// The sender's time has less jitter than the time of arrival, but it is not reliable: it
+/// may restart at 0, jump, or be arbitrary.
 class SenderClock {
  public:
-  /// How far a sender's time may be from ours before it counts as one that began anew.
+  /// Maximum difference of sender and receiver time; above it the sender's clock counts
+  /// as restarted.
   static constexpr double kMaxOffset_s = 1.0;
 
-  /// Of the frame that arrived at `arrived_s`, of a clock that does not go back, and said
-  /// `sender_s`, or nothing. Within kMaxOffset_s of `arrived_s`, whatever was said. The
-  /// first frame decides, for all of them, whether the sender's time is looked at.
-  /// Precondition: both are finite.
+  /// Returns the time of the frame that arrived at `arrived_s` (a monotonic clock) with
+  /// the sender's time `sender_s`, if it has one. The result is within kMaxOffset_s of
+  /// `arrived_s` for any input. The first frame decides for all frames whether the
+  /// sender's time is used. Precondition: both are finite.
   [[nodiscard]] double at_s(std::optional<double> sender_s, double arrived_s);
 
  private:
-  std::optional<bool> has_sender_time_;  ///< Whether the first frame said its time.
+  std::optional<bool> has_sender_time_;  ///< True if the first frame had a sender time.
   double ours_from_theirs_s_ = 0.0;
-  double ahead_s_ = 0.0;  ///< The last frame's time, of its arrival.
+  double ahead_s_ = 0.0;  ///< Time of the last frame minus the time of its arrival.
 };
 
 }  // namespace marey::live

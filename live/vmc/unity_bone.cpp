@@ -74,7 +74,8 @@ bool same_letters(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 
-/// Both directions, from the names: VRM's are Unity's in another case.
+/// Tables of both directions, built from the names: VRM's and Unity's differ only in
+/// case.
 struct Words {
   std::array<UnityBone, kHumanBoneCount> unity{};
   std::array<std::optional<HumanBone>, kUnityBoneCount> human{};

@@ -10,7 +10,7 @@
 
 namespace marey::live {
 
-/// Unity's HumanBodyBones, by whose names VMC calls bones; Unity's own order and numbers.
+/// Unity's HumanBodyBones, in Unity's order and with its numbers. VMC uses their names.
 enum class UnityBone : int {
   kHips,
   kLeftUpperLeg,
@@ -75,19 +75,19 @@ inline constexpr int kUnityBoneCount = 55;
   return static_cast<std::size_t>(bone);
 }
 
-/// Unity's name: "LeftUpperArm".
+/// Returns Unity's name, such as "LeftUpperArm".
 [[nodiscard]] std::string_view name(UnityBone bone);
 
-/// The bone of this name, whatever the case of its letters: senders disagree about it.
+/// Returns the bone with this name. Ignores case, because senders differ in it.
 [[nodiscard]] std::optional<UnityBone> unity_bone(std::string_view unity_name);
 
-/// Unity's word for a bone of ours; every one has one.
+/// Returns the Unity bone of a marey bone. Every marey bone has one.
 [[nodiscard]] UnityBone unity_bone(HumanBone bone);
 
-/// The bone of ours, if there is one: none of eyes, jaw and fingers.
+/// Returns the marey bone; nullopt for eyes, jaw and fingers.
 [[nodiscard]] std::optional<HumanBone> human_bone(UnityBone bone);
 
-/// Whether it is one of the 15 without which VRM calls no body a humanoid.
+/// Returns true for the 15 bones that VRM requires of a humanoid.
 [[nodiscard]] bool is_required(HumanBone bone);
 
 }  // namespace marey::live

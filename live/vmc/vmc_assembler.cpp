@@ -11,11 +11,11 @@ namespace marey::live {
 namespace {
 
 constexpr double kFurthest = 10e3;  // [m]
-// Senders round; below this a rotation is nobody's.
+// Senders round; a shorter quaternion is not a rotation.
 constexpr double kShortestQuaternion = 1e-3;
 constexpr int kIncompleteUntilAccepted = 5;
 
-/// Position and rotation, normalised; nullopt if they are not there or cannot be.
+/// Reads position and rotation, normalised; nullopt if they are missing or invalid.
 std::optional<UnityTransform> read_transform(OscArguments& arguments) {
   double numbers[7];
   for (double& number : numbers) {
@@ -107,7 +107,7 @@ VmcAssembler::Use VmcAssembler::use_bone(OscArguments arguments) {
 
 void VmcAssembler::add_bone(UnityBone bone, const UnityTransform& local) {
   if (open_.pose.contains(bone)) end_frame();
-  // The rest of a frame that seemed complete: from now on it is waited for.
+  // A bone of a frame that already counted as complete. It is expected from now on.
   if (just_ended_ && !expected_[index(bone)]) {
     expected_.set(index(bone));
     return;
@@ -116,7 +116,7 @@ void VmcAssembler::add_bone(UnityBone bone, const UnityTransform& local) {
   open_.pose.set(bone, local);
 }
 
-/// The open frame is over, with or without all its bones.
+/// Ends the open frame, with or without all its bones.
 void VmcAssembler::end_frame() {
   const Bones has = open_.pose.has;
   const bool complete = (has & expected_) == expected_;

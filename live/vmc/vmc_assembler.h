@@ -14,46 +14,47 @@
 
 namespace marey::live {
 
-/// One instant of somebody's body as it was received.
+/// One received frame of a body.
 struct VmcFrame {
-  VmcPose pose;  ///< Fingers, eyes and jaw are in it where they were told.
+  VmcPose pose;                  ///< Includes fingers, eyes and jaw if they were sent.
   std::optional<double> time_s;  ///< The sender's T; nullopt if it sends none.
-  VmcStatus status;              ///< The last one told.
+  VmcStatus status;              ///< The last received status.
 };
 
-/// What came, and what became of it.
+/// Counts of received packets, messages and frames.
 struct VmcReceived {
   std::int64_t packets = 0;
-  std::int64_t malformed = 0;    ///< Packets that are not OSC; nothing of them is used.
-  std::int64_t bones = 0;        ///< Bone messages that were used, fingers included...
-  std::int64_t not_of_ours = 0;  ///< ...of which marey has no such bone.
-  std::int64_t declined = 0;     ///< VMC's messages with wrong arguments, unknown bones,
+  std::int64_t malformed = 0;    ///< Packets that are not OSC; they are not used.
+  std::int64_t bones = 0;        ///< Bone messages used, fingers included.
+  std::int64_t not_of_ours = 0;  ///< Those of `bones` for which marey has no bone.
+  std::int64_t declined = 0;     ///< VMC messages with wrong arguments, unknown bones,
                               ///< numbers not finite, places beyond 10 km, no rotation.
-  std::int64_t ignored = 0;     ///< Messages that say nothing of a body's pose.
-  std::int64_t frames = 0;      ///< Complete ones.
-  std::int64_t incomplete = 0;  ///< Frames that lacked bones of the one before: dropped.
+  std::int64_t ignored = 0;     ///< Messages that contain no part of a pose.
+  std::int64_t frames = 0;      ///< Complete frames.
+  std::int64_t incomplete = 0;  ///< Dropped frames: bones of the frame before are missing.
 };
 
-/// Puts packets together to frames.
+/// Assembles packets to frames.
 ///
-/// A frame is over when all bones of the frame before are there at the end of a packet;
-/// failing that, when T has another value or a bone comes again. So a bundle a frame, a
-/// frame in several packets and senders without bundles are all understood, and whoever
-/// sends a bundle a frame waits for nothing but, once, the second one. Five frames in a
-/// row without some bone mean that it is no longer sent. Wrong-typed or missing arguments
-/// drop a message, surplus ones and unknown addresses are ignored (VMC specification).
-/// Packets that overtake each other are not put back in order.
+/// A frame ends when all bones of the previous frame are present at the end of a packet;
+/// otherwise when T changes or a bone is repeated. Senders of one bundle per frame, of
+/// several packets per frame and without bundles are therefore all supported. With one
+/// bundle per frame there is no delay, except that the first frame ends with the second.
+/// A bone that is missing in five successive frames is no longer expected. A message with
+/// missing arguments or arguments of a wrong type is dropped; surplus arguments and
+/// unknown addresses are ignored (VMC specification). Reordered packets are not sorted.
 ///
 /// Memory is fixed; a packet costs time linear in its bytes. No allocation.
 class VmcAssembler {
  public:
   void take(std::span<const std::uint8_t> packet);
 
-  /// The newest complete frame, unless it was taken before; then `out` is left alone.
+  /// Copies the newest complete frame to `out` and returns true; returns false and leaves
+  /// `out` unchanged if that frame was already taken.
   [[nodiscard]] bool take_frame(VmcFrame& out);
 
   [[nodiscard]] const VmcReceived& received() const { return received_; }
-  /// As told last, though no frame came with it.
+  /// Returns the last received status, also if no frame was complete since.
   [[nodiscard]] const VmcStatus& status() const { return open_.status; }
 
  private:
@@ -72,8 +73,8 @@ class VmcAssembler {
   VmcFrame open_;
   VmcFrame newest_;
   bool is_new_ = false;
-  Bones expected_;           ///< Bones of a frame, as far as is known.
-  bool just_ended_ = false;  ///< Nothing but bones came since a frame was complete.
+  Bones expected_;           ///< Bones of a frame, as learnt from the frames before.
+  bool just_ended_ = false;  ///< Only bones were received since the last complete frame.
   int incomplete_in_a_row_ = 0;
   VmcReceived received_;
 };

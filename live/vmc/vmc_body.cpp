@@ -60,7 +60,7 @@ Result<VmcBody> VmcBody::make(const Skeleton& skeleton, const VmcBodyOptions& op
 void VmcBody::find_bones() {
   for (std::size_t i = 0; i < skeleton_.joints.size(); ++i) {
     const Joint& joint = skeleton_.joints[i];
-    // Of two joints with one name, the skeleton goes by the first.
+    // If two joints have the same bone, the skeleton uses the first.
     if (!joint.bone || skeleton_.find(*joint.bone) != JointIndex{static_cast<int>(i)}) {
       continue;
     }

@@ -7,7 +7,7 @@
 namespace marey::live {
 namespace {
 
-/// Whether the message is a command with the arguments that it must have.
+/// Applies the message; returns false if it is not a command or its arguments are wrong.
 bool apply(const OscMessage& message, VmcCommands& commands) {
   OscArguments arguments = message.arguments();
   if (message.address == "/VMC/Ext/Set/Req") {
@@ -28,7 +28,7 @@ bool apply(const OscMessage& message, VmcCommands& commands) {
   const auto root = arguments.read_int();
   const auto bone = arguments.read_int();
   if (!status || !root || !bone) return false;
-  // Blend shapes, camera and devices follow; none of them is sent.
+  // The periods of blend shapes, camera and devices follow; marey sends none of them.
   commands.periods = VmcPeriods{*status, *root, *bone};
   return true;
 }

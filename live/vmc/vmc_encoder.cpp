@@ -7,10 +7,10 @@
 namespace marey::live {
 namespace {
 
-constexpr int kLargestPacket = 65507;  // UDP's over IPv4.
+constexpr int kLargestPacket = 65507;  // Limit of UDP over IPv4.
 // A bundle of one bone with the longest name, RightMiddleIntermediate.
 constexpr int kSmallestPacket = 16 + 4 + 20 + 12 + 24 + 7 * 4;
-// What a text's message has around it: bundle, size, address, types, padding.
+// Overhead of a text message: bundle, size, address, types, padding. [bytes]
 constexpr int kAroundText = 64;
 
 constexpr Timestamp kInfoInterval = std::chrono::seconds(1);
@@ -56,9 +56,9 @@ Result<VmcEncoder> VmcEncoder::make(const VmcEncoderOptions& options) {
       std::max(info.options.size(), info.vrm_path.size() + info.vrm_title.size());
   if (longest + kAroundText > static_cast<std::size_t>(limit)) {
     return bad_input("VMC",
-                     "what is told of the avatar does not fit into packets of " +
+                     "the avatar's file name and title do not fit into packets of " +
                          std::to_string(limit) + " bytes",
-                     "give it a shorter name");
+                     "use a shorter name");
   }
   return VmcEncoder(options, static_cast<std::size_t>(limit));
 }
@@ -96,7 +96,8 @@ std::span<const std::span<const std::uint8_t>> VmcEncoder::encode(
   const bool root_due = is_due(frame_, periods_.root);
   const bool bones_due = is_due(frame_, periods_.bone);
   ++frame_;
-  // A clock that went back was set anew: what is told at low rate is told again.
+  // A time before the last one means that the clock was reset: send low-rate messages
+  // again.
   const bool info_due =
       info_requested_ || time < info_sent_ || time - info_sent_ >= kInfoInterval;
   writer_.clear();

@@ -15,72 +15,74 @@
 
 namespace marey::live {
 
-/// Whether what is sent can be believed: /VMC/Ext/OK of VMC 2.7.
+/// State of the sender: /VMC/Ext/OK of VMC 2.7.
 struct VmcStatus {
-  bool loaded = true;    ///< The avatar is there.
+  bool loaded = true;    ///< The avatar is loaded.
   bool tracking = true;  ///< False: the body is lost, the pose is the last one known.
-  int calibration = 3;   ///< 0 none, 1 asked for, 2 under way, 3 done.
-  int mode = 0;          ///< Of calibration: 0 normal, 1 and 2 mixed reality.
+  int calibration = 3;   ///< 0 none, 1 requested, 2 in progress, 3 done.
+  int mode = 0;          ///< Calibration mode: 0 normal, 1 and 2 mixed reality.
 };
 
-/// Returns a packet with /VMC/Ext/OK alone: of a sender that has no new pose to send.
+/// Returns a packet with /VMC/Ext/OK only, for a sender without a new pose.
 [[nodiscard]] std::vector<std::uint8_t> vmc_status_packet(const VmcStatus& status);
 
-/// What is sent in every n-th frame only, as /VMC/Ext/Set/Period asks.
+/// Send periods of /VMC/Ext/Set/Period: n means every n-th frame.
 struct VmcPeriods {
   int status = 1;
   int root = 1;
   int bone = 1;
 };
 
-/// What is told at first, once a second, and on /VMC/Ext/Set/Req. Empty texts and absent
-/// values are not sent.
+/// Low-rate messages, sent in the first frame, once a second, and on /VMC/Ext/Set/Req.
+/// Empty texts and absent values are not sent.
 struct VmcInfo {
   std::optional<int> listen_port =
-      std::nullopt;          ///< Where commands are heard: /VMC/Ext/Rcv.
+      std::nullopt;          ///< Port for commands: /VMC/Ext/Rcv.
   std::string options = "";  ///< /VMC/Ext/Opt.
-  /// /VMC/Ext/VRM: sender and receiver must have the same file. A path tells everybody
-  /// who listens about folders; its last part says enough.
+  /// /VMC/Ext/VRM: sender and receiver must have the same file. A full path reveals
+  /// folder names to every receiver; the file name is sufficient.
   std::string vrm_path = "";
   std::string vrm_title = "";
 };
 
 struct VmcEncoderOptions {
-  /// The largest packet; nullopt: one bundle a frame, as receivers on this machine like
-  /// it. A network without fragments takes 1472. [bytes]
+  /// Maximum packet size [bytes]; nullopt: one bundle per frame, for receivers on this
+  /// machine. 1472 avoids fragmentation on a network.
   std::optional<int> mtu_bytes = std::nullopt;
   VmcInfo info = {};
-  /// Since when T counts; nullopt: since the first frame.
+  /// Zero of T; nullopt: the time of the first frame.
   std::optional<Timestamp> begin = std::nullopt;
 };
 
-/// The frames of one body as VMC 3.1 packets, each an OSC bundle to be carried out
-/// "immediately":
+/// Encodes the frames of one body as VMC 3.1 packets, each an OSC bundle with the time
+/// tag "immediately":
 ///
 ///     /VMC/Ext/OK ,iiii  /VMC/Ext/T ,f  /VMC/Ext/Root/Pos ,sfffffff
-///     /VMC/Ext/Bone/Pos ,sfffffff for each bone, then what VmcInfo holds, when due
+///     /VMC/Ext/Bone/Pos ,sfffffff for each bone, then VmcInfo's messages, when due
 ///
-/// With mtu_bytes a frame is several bundles, OK and T in the first. Blend shapes are not
-/// sent, and so no /VMC/Ext/Blend/Apply, which only commits them.
+/// With mtu_bytes a frame is several bundles, with OK and T in the first. Blend shapes
+/// are not sent; therefore /VMC/Ext/Blend/Apply, which only commits them, is not sent
+/// either.
 ///
-/// T is the frame's own time since the first encoded frame (or `begin`), a float: frames of 60 Hz are
-/// told apart for 36 hours. Quaternions have length 1 to 1e-6 and w >= 0. Same calls,
-/// same bytes; nothing is allocated after the first full frame (live/vmc/osc_writer.h).
+/// T is the frame's own time since the first encoded frame (or `begin`), a float: frames
+/// of 60 Hz have distinct T for 36 hours. Quaternions have length 1 to 1e-6 and w >= 0.
+/// The same calls give the same bytes; nothing is allocated after the first full frame
+/// (live/vmc/osc_writer.h).
 class VmcEncoder {
  public:
-  /// Errors (kBadInput): a limit too small for a bone, or out of UDP's range; a text too
-  /// long for it.
+  /// Checks the options. Errors (kBadInput): the limit is too small for a bone or out of
+  /// UDP's range; a text does not fit into it.
   [[nodiscard]] static Result<VmcEncoder> make(const VmcEncoderOptions& options = {});
 
-  /// The packets of one frame, in the order in which they must be sent; none when nothing
-  /// is due in it. Valid until the next call.
+  /// Returns the packets of one frame, in the order in which they must be sent; none if
+  /// nothing is due in this frame. Valid until the next call.
   /// Precondition: finite transforms, rotations of length about 1.
   [[nodiscard]] std::span<const std::span<const std::uint8_t>> encode(
       Timestamp time, const VmcPose& pose, const VmcStatus& status = {});
 
-  /// From the next frame on. Periods below 1 count as 1, above 600 as 600.
+  /// Sets the periods from the next frame on. Values are clamped to 1 to 600.
   void set_periods(const VmcPeriods& periods);
-  /// The next frame has all that is sent at low rate.
+  /// Adds all low-rate messages to the next frame.
   void request_info() { info_requested_ = true; }
 
  private:

@@ -14,25 +14,24 @@
 namespace marey::live {
 
 /// A node's transform in its parent's frame in Unity's axes: left-handed, Y up, a body
-/// faces +Z with its left hand towards -X. That is marey's world seen in a mirror, X ->
-/// -X.
+/// faces +Z with its left hand towards -X. This is marey's world mirrored, X -> -X.
 struct UnityTransform {
   glm::dvec3 position{0.0};                 ///< [m]
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};  ///< Unit.
 };
 
-/// A point or direction in Unity's axes from marey's, and the other way: a mirror is its
+/// Converts a point or direction from marey's axes to Unity's and back; a mirror is its
 /// own inverse.
 [[nodiscard]] inline glm::dvec3 mirrored_x(const glm::dvec3& p) {
   return {-p.x, p.y, p.z};
 }
-/// The same of a rotation: M R M with M = diag(-1, 1, 1).
+/// Converts a rotation: M R M with M = diag(-1, 1, 1).
 [[nodiscard]] inline glm::dquat mirrored_x(const glm::dquat& q) {
   return {q.w, q.x, -q.y, -q.z};
 }
 
-/// One instant of a body as VMC tells it: what a receiver sets as the local position and
-/// rotation of the avatar's nodes. `local` of bones that are not in `has` says nothing.
+/// One frame of a body in VMC's terms: the local position and rotation that a receiver
+/// sets on the avatar's nodes. `local` is meaningless for bones that are not in `has`.
 struct VmcPose {
   UnityTransform root;
   std::array<UnityTransform, kUnityBoneCount> local{};

@@ -7,7 +7,7 @@
 namespace marey::live {
 namespace {
 
-// More than a second of any sender: whoever floods the port must not hold up the caller.
+// More than one second of any sender. The limit keeps a flood from blocking the caller.
 constexpr int kMaxPackets = 256;
 
 }  // namespace

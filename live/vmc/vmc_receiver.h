@@ -11,27 +11,27 @@
 
 namespace marey::live {
 
-/// A VMC Marionette: hears one sender's body. Belongs to one thread at a time.
+/// A VMC Marionette: receives the body of one sender. Used by one thread at a time.
 class VmcReceiver {
  public:
-  /// Errors: UdpListener::open()'s; a busy port is kDevice.
+  /// Opens the port. Errors: those of UdpListener::open(); a busy port is kDevice.
   [[nodiscard]] static Result<VmcReceiver> open(const UdpAddress& address = {
                                                     "127.0.0.1", kMarionettePort});
 
-  /// Reads what has come, no more than 256 packets, and tells whether that completed a
-  /// frame; `newest` is then the newest one. Never blocks; allocates nothing.
+  /// Reads up to 256 waiting packets. Returns true if they completed a frame; `newest` is
+  /// then the newest one. Never blocks; allocates nothing.
   [[nodiscard]] bool receive(VmcFrame& newest);
 
-  /// The same for who wants every frame: the oldest one that has come and was not handed
-  /// out, as long as nothing but this is called. A sender's very first, whose end nobody
-  /// knows before the second has come, gives way to that.
+  /// Like receive(), but returns every frame: the oldest complete one that was not
+  /// returned yet, provided that receive() is not called in between. The very first frame
+  /// of a sender ends only when the second arrives, and is replaced by it.
   [[nodiscard]] bool receive_next(VmcFrame& next);
 
-  /// Sleeps until something comes, a signal came, or `longest` is over.
+  /// Blocks until a packet has arrived, a signal arrives, or `longest` has passed.
   void wait(std::chrono::milliseconds longest) const { listener_.wait(longest); }
 
   [[nodiscard]] const VmcReceived& received() const { return assembler_.received(); }
-  /// As the sender told it last, though no frame came with it.
+  /// Returns the last received status, also if no frame was complete since.
   [[nodiscard]] const VmcStatus& status() const { return assembler_.status(); }
   [[nodiscard]] int port() const { return listener_.port(); }
 

@@ -7,7 +7,7 @@
 namespace marey::live {
 namespace {
 
-// Commands are rare; whoever floods the port must not hold up the frame.
+// Commands are rare. The limit keeps a flood from delaying the frame.
 constexpr int kMaxCommandPackets = 64;
 
 }  // namespace

@@ -17,39 +17,39 @@
 
 namespace marey::live {
 
-/// Where VMC's roles listen unless told otherwise: who shows a body (Marionette), and who
-/// sends one and hears commands (Performer).
+/// Default ports of VMC's roles: the Marionette shows a body; the Performer sends one and
+/// receives commands.
 inline constexpr int kMarionettePort = 39539;
 inline constexpr int kPerformerPort = 39540;
 
 struct VmcSenderOptions {
   std::vector<UdpAddress> targets = {};
-  /// Where commands are heard; nullopt: nowhere. Its port is told to receivers.
+  /// Address at which commands are received; nullopt: none. Its port is sent to
+  /// receivers.
   std::optional<UdpAddress> listen = UdpAddress{"127.0.0.1", kPerformerPort};
   VmcEncoderOptions encoder = {};
 };
 
-/// A VMC Performer: sends the frames of one body to all targets, and does what
-/// Set/Period, Set/Req ask between two frames. Belongs to one thread at a time.
+/// A VMC Performer: sends the frames of one body to all targets, and applies Set/Period
+/// and Set/Req between two frames. Used by one thread at a time.
 class VmcSender {
  public:
-  /// Errors: UdpSender::open()'s and UdpListener::open()'s (a busy port is kDevice),
-  /// VmcEncoder::make()'s.
+  /// Opens the sockets. Errors: those of UdpSender::open() and UdpListener::open() (a
+  /// busy port is kDevice) and of VmcEncoder::make().
   [[nodiscard]] static Result<VmcSender> open(VmcSenderOptions options);
 
-  /// Sends one frame; see VmcEncoder::encode(). Reads commands that came since the last
-  /// one first, no more than 64 packets. Never blocks, throws nothing; allocates nothing
-  /// after the first full frame.
+  /// Sends one frame; see VmcEncoder::encode(). Reads up to 64 waiting command packets
+  /// first. Never blocks, throws nothing; allocates nothing after the first full frame.
   void send(Timestamp time, const VmcPose& pose, const VmcStatus& status = {});
 
-  /// The calibrations asked for since the last call, which are for the caller to carry
-  /// out; periods and requests are done already and not in it. The counts are of all
-  /// time.
+  /// Returns the calibrations requested since the last call; the caller carries them out.
+  /// Periods and requests are already applied and not included. The counts are totals
+  /// since open().
   [[nodiscard]] VmcCommands take_commands();
 
-  /// In the order of the targets.
+  /// Returns the counts, in the order of the targets.
   [[nodiscard]] std::span<const UdpCounts> counts() const { return udp_.counts(); }
-  /// Where commands are heard.
+  /// Returns the port at which commands are received; nullopt: none.
   [[nodiscard]] std::optional<int> listen_port() const;
 
  private:

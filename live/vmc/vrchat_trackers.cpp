@@ -19,8 +19,8 @@ using B = HumanBone;
 
 enum class Part { kAlways, kChest, kKnees, kElbows, kHead };
 
-/// A tracker's place in the protocol, and the joints that it is at and turns with; of
-/// bones that a body may lack, the next best.
+/// A tracker's number in the protocol and the joints of its position and rotation. The
+/// second bone of each pair replaces the first if the body lacks it.
 struct Row {
   const char* name;
   Part part;
@@ -121,7 +121,7 @@ glm::dvec3 zxy_angles(const glm::dquat& rotation) {
   const glm::dmat3 m = glm::mat3_cast(rotation);
   const double cos_x = std::hypot(m[0][1], m[1][1]);
   const double x = std::atan2(-m[2][1], cos_x);
-  // Below this, both of its products are rounding. With z = 0, column 0 is
+  // Below this, both products with cos x are rounding errors. With z = 0, column 0 is
   // (cos y, 0, -sin y).
   if (cos_x < 1e-7) return {x, std::atan2(-m[0][2], m[0][0]), 0.0};
   return {x, std::atan2(m[2][0], m[2][2]), std::atan2(m[0][1], m[1][1])};

@@ -19,44 +19,45 @@
 
 namespace marey::live {
 
-/// Where VRChat listens for trackers.
+/// Port at which VRChat receives trackers.
 inline constexpr int kVrchatPort = 9000;
 
 struct VrchatTrackersOptions {
   /// World rotation of each joint's frame in the T-pose, as Character::t_pose_from_joint;
-  /// empty when the rest pose is one. Read by the constructor alone.
+  /// empty if the rest pose is a T-pose. Read only by the constructor.
   std::span<const glm::dquat> t_pose_from_joint = {};
   bool knees = true;
   bool elbows = true;
   bool chest = true;
-  /// Also tells where the head is, by which VRChat moves all trackers to the headset's
-  /// place: off when the world is the headset's already.
+  /// Also sends the head's place. VRChat uses it to move all trackers to the headset. Off
+  /// if the world is already the headset's.
   bool head = true;
 };
 
-/// A body's trackers for VRChat (docs.vrchat.com/docs/osc-trackers): a bundle of
+/// Encodes a body's trackers for VRChat (docs.vrchat.com/docs/osc-trackers): a bundle of
 /// /tracking/trackers/N/position and /rotation, three floats each.
 ///
 ///     1 hip, 2 chest, 3 and 4 feet, 5 and 6 knees, 7 and 8 elbows, left before right
 ///
-/// Numbers stay the same whichever are sent. Positions are joints' centres in Unity's
-/// world, left-handed, Y up [m]; rotations are the turn away from the T-pose in Euler
-/// angles [degrees], applied about z, then x, then y. Knees and elbows turn with thigh
-/// and upper arm, as straps above them would. The chest is the upper chest's joint,
-/// failing that the chest's; joints that a body lacks are not sent. Same input, same
-/// bytes; nothing is allocated after the first frame.
+/// The numbers do not depend on which trackers are sent. Positions are joint centres in
+/// Unity's world, left-handed, Y up [m]; rotations are relative to the T-pose, in Euler
+/// angles [degrees], applied about z, then x, then y. Knees and elbows rotate with thigh
+/// and upper arm, like trackers strapped above them. The chest is the joint of the upper
+/// chest, or else of the chest; joints that a body lacks are not sent. The same input
+/// gives the same bytes; nothing is allocated after the first frame.
 class VrchatTrackers {
  public:
+  /// Selects the trackers that the skeleton has.
   /// Precondition: t_pose_from_joint is empty or has one rotation per joint.
   explicit VrchatTrackers(const Skeleton& skeleton,
                           const VrchatTrackersOptions& options = {});
 
-  /// One frame, as a packet for UdpSender. Valid until the next call.
+  /// Encodes one frame as a packet for UdpSender. Valid until the next call.
   /// Precondition: finite transforms, one per joint of the skeleton.
   [[nodiscard]] std::span<const std::uint8_t> encode(
       std::span<const RigidTransform> world_from_joint);
 
-  /// How many trackers a frame has, the head included.
+  /// Returns the number of trackers of a frame, the head included.
   [[nodiscard]] std::size_t count() const { return trackers_.size(); }
 
  private:
@@ -71,8 +72,8 @@ class VrchatTrackers {
   OscWriter writer_;
 };
 
-/// Angles (x, y, z) [rad] with rotation = Ry * Rx * Rz: about z first, then x, then y. At
-/// x = +-90 degrees, where z and y are one turn, z is 0.
+/// Returns angles (x, y, z) [rad] with rotation = Ry * Rx * Rz: about z first, then x,
+/// then y. At x = +-90 degrees, where z and y are about the same axis, z is 0.
 [[nodiscard]] glm::dvec3 zxy_angles(const glm::dquat& rotation);
 
 }  // namespace marey::live

@@ -138,7 +138,7 @@ TEST(OscParse, TakesNothingOfAPacketThatWasCutShort) {
 
 TEST(OscParse, FollowsBundlesOnlySoDeep) {
   std::string packet = "/ab\0,\0\0\0"s;
-  for (int depth = 0; depth < kDeepestBundle; ++depth) packet = kHead + sized(packet);
+  for (int depth = 0; depth < kMaxBundleDepth; ++depth) packet = kHead + sized(packet);
   EXPECT_TRUE(is_osc(bytes_of(packet)));
   packet = kHead + sized(packet);
   EXPECT_FALSE(is_osc(bytes_of(packet)));

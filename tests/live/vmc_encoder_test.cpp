@@ -50,7 +50,7 @@ VmcPose some_pose(std::uint64_t seed) {
   testing::Dice dice(seed);
   const Skeleton body = testing::random_humanoid(dice);
   VmcPose told;
-  VmcBody::make(body)->tell(testing::random_pose(body, dice), told);
+  VmcBody::make(body)->to_vmc(testing::random_pose(body, dice), told);
   return told;
 }
 

@@ -20,7 +20,7 @@ VmcSender sender_to(const VmcReceiver& receiver) {
 VmcPose somebody_at_rest() {
   const Skeleton body = make_humanoid(average_proportions(1.7));
   VmcPose told;
-  VmcBody::make(body)->tell(rest_pose(body), told);
+  VmcBody::make(body)->to_vmc(rest_pose(body), told);
   return told;
 }
 

@@ -48,7 +48,7 @@ bool write_packets(const Path& path,
   std::ofstream file(path, std::ios::binary);
   live::VmcPose told;
   for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
-    body->tell(motion.poses[frame], told);
+    body->to_vmc(motion.poses[frame], told);
     const Timestamp time = frame_time(static_cast<int>(frame), motion.rate);
     for (const auto packet : encoder.encode(time, told)) write_packet(file, packet);
   }

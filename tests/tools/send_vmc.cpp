@@ -77,7 +77,7 @@ int send(int port, int count) {
   for (int frame = 0; frame < count; ++frame) {
     if (frame % 10 == 0 && !wait_for(port, kMostWaiting_bytes)) return 1;
     const auto k = static_cast<std::size_t>(frame) % motion.poses.size();
-    body->tell(motion.poses[k], told);
+    body->to_vmc(motion.poses[k], told);
     sender->send(frame_time(frame, {60.0}), told);
   }
   return wait_for(port, 0) && sender->counts()[0].sent == count ? 0 : 1;

@@ -12,8 +12,8 @@ import {readServerWords} from '../src/protocol';
 
 const two = [{joints: new Array(2)}, {joints: new Array(1)}];
 
-/** Two skeletons: one with pose, doubt, a triangle to stand on and how it was found; one that is not there.
- *  Written out by hand after docs/formats/README.md. */
+/** Two skeletons: one with pose, doubt, a triangle to stand on and how it was found; one that is
+ *  not there. Written out by hand after docs/formats/README.md. */
 function frameBytes(frame = 7): ArrayBuffer {
   const bytes = new ArrayBuffer(24 + (4 + 12 + 32 + 8 + 4 + 16 + 24 + 8) + 4);
   const view = new DataView(bytes);
