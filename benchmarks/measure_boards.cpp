@@ -140,7 +140,7 @@ int calibrate_and_compare(const tests::RenderedTruth& truth,
                 index(o.camera),
                 o.frame,
                 o.sightings,
-                o.of,
+                o.seen,
                 o.median_error_px);
   }
   return 0;
@@ -340,7 +340,7 @@ int measure_webcams(const std::filesystem::path& folder) {
                   index(o.camera),
                   o.frame,
                   o.sightings,
-                  o.of,
+                  o.seen,
                   o.median_error_px);
     }
   }

@@ -11,26 +11,26 @@
 
 namespace marey::app {
 
-/// Which feet stand, and who says when.
+/// Source of the supports (intervals in which a foot stands).
 enum class SupportsFrom {
-  kAuto,  ///< The file; feet that it says nothing of: where the motion has them standing.
+  kAuto,  ///< The constraints file; for feet without a support there, the motion.
   kFile,  ///< The constraints file alone.
-  kNone,  ///< None at all; those of the file are left out.
+  kNone,  ///< No supports; those of the file are ignored.
 };
 
-/// What `marey adapt` was asked for.
+/// Arguments of `marey adapt`.
 struct AdaptArguments {
   std::filesystem::path motion;
   std::filesystem::path character;    ///< character.toml; empty: the motion's own body.
-  std::filesystem::path constraints;  ///< Empty: none.
+  std::filesystem::path constraints;  ///< Empty: no constraints.
   std::filesystem::path out;          ///< .bvh or .glb
-  /// nullopt: the file's when it has any, else as kAuto.
+  /// nullopt: kFile if the file has supports, else kAuto.
   std::optional<SupportsFrom> supports;
   retarget::AdaptOptions options;
-  std::vector<std::string> balance_groups;  ///< Empty: the character's own.
-  std::vector<std::string> loads;           ///< Carried from the beginning.
-  std::filesystem::path floor;              ///< Uneven or moving; empty: level.
-  double floor_height_m = 0.0;  ///< By how much the motion and its floor are raised.
+  std::vector<std::string> balance_groups;  ///< Empty: the character's own groups.
+  std::vector<std::string> loads;           ///< Loads carried from the first frame on.
+  std::filesystem::path floor;              ///< Uneven or moving floor; empty: level.
+  double floor_height_m = 0.0;  ///< Height by which motion and floor are raised.
   bool json = false;
 };
 

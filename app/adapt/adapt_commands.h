@@ -11,11 +11,11 @@
 
 namespace marey::app {
 
-/// `marey adapt MOTION --out OUT`: every posture of a motion brought to constraints, its
-/// feet on their footprints, its centre of mass kept (docs/formats/README.md).
+/// Runs `marey adapt MOTION --out OUT`: adapts every posture of a motion to constraints,
+/// keeps its feet on their footprints and its centre of mass (docs/formats/README.md).
 [[nodiscard]] Exit run_adapt(const AdaptArguments& args, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. If the user gives it, `chosen` runs it. `args` must stay in place.
 void add_adapt_command(CLI::App& app,
                        AdaptArguments& args,
                        std::function<Exit(Console&)>& chosen);

@@ -15,23 +15,24 @@
 
 namespace marey::app {
 
-/// A trunk that is turned further than this from its source is far from it.
+/// Angle between trunk and source above which the trunk counts as far from its source.
 inline constexpr double kFarTrunk_deg = 30.0;
-/// The gate (exit code 4): no further, where the same constraints are met with the trunk
-/// within kNearTrunk_deg of its source as soon as balance is left out.
+/// Gate (exit code 4): the trunk is beyond kMaxTrunk_deg, while without balance the same
+/// constraints are met with the trunk within kNearTrunk_deg of its source.
 inline constexpr double kMaxTrunk_deg = 45.0;
 inline constexpr double kNearTrunk_deg = 10.0;
 
-/// How far the postures of a run are from their source.
+/// Differences between the postures of a run and those of its source.
 struct AdaptDeparture {
   std::vector<retarget::SegmentDeparture> segments;  ///< One per joint.
-  /// Of hips, spine, neck and head, as far as no constraint is about one of them; per
-  /// frame. Empty: constraints are about all of them.
+  /// Hips, spine, neck and head, except those that a constraint controls; per frame.
+  /// Empty: constraints control all of them.
   std::vector<retarget::FrameDeparture> trunk;
-  int worst_frame = 0;  ///< Of `trunk`.
-  int far_frames = 0;   ///< In which the trunk is far from its source.
-  /// Of them, those in which the trunk stays near its source without balance, and every
-  /// constraint that is met with it is met without; and the worst of those. -1: none.
+  int worst_frame = 0;  ///< Index into `trunk`.
+  int far_frames = 0;   ///< Number of frames in which the trunk is far from its source.
+  /// Number of far frames in which balance alone is the cause: without balance the trunk
+  /// stays near its source, and every constraint met with balance is met. And the worst
+  /// of these frames; -1: none.
   int needless_frames = 0;
   int worst_needless_frame = -1;
 };
@@ -41,25 +42,25 @@ struct AdaptDeparture {
                                                      const Motion& adapted,
                                                      const ConstraintSet& constraints);
 
-/// Compares frames that are far from their source to the answer without balance.
-/// Precondition: `without` is of the same source and constraints.
+/// Compares the frames that are far from their source with the result without balance.
+/// Precondition: `without` has the same source and constraints.
 void compare_without_balance(const Motion& source,
                              const retarget::AdaptedMotion& with,
                              const retarget::AdaptedMotion& without,
                              AdaptDeparture& departure);
 
-/// The figures for `--json`. Precondition: `motion` is what was measured.
+/// Returns the figures for `--json`. Precondition: `motion` is the measured motion.
 [[nodiscard]] nlohmann::ordered_json departure_figures(const AdaptDeparture& departure,
                                                        const Motion& motion);
 
-/// ", trunk up to 12 degrees from its source"; empty when no trunk was measured.
+/// Returns ", trunk up to 12 degrees from its source"; empty if no trunk was measured.
 [[nodiscard]] std::string departure_summary(const AdaptDeparture& departure);
 
-/// What is warned of, or the gate's text; empty: the trunk is nowhere far.
+/// Returns the text of the warning or of the gate; empty: the trunk is far in no frame.
 [[nodiscard]] std::string departure_text(const AdaptDeparture& departure,
                                          const Motion& motion);
 
-/// Whether the gate fails.
+/// Returns true if the gate fails.
 [[nodiscard]] bool is_needlessly_far(const AdaptDeparture& departure);
 
 }  // namespace marey::app

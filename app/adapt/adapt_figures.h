@@ -20,47 +20,48 @@
 
 namespace marey::app {
 
-/// All that is told of one run of `marey adapt`.
+/// Input and results of one run of `marey adapt`.
 struct AdaptRun {
   std::string character;
   std::optional<Error> source_error;  ///< exchanged_sides_error() of the motion.
-  ConstraintSet constraints;  ///< As they were asked of the adapter.
+  ConstraintSet constraints;  ///< As passed to the adapter.
   retarget::AdaptedMotion adapted;
   double floor_height_m = 0.0;
-  Floor floor;  ///< Heights from floor_height_m.
-  /// Frames in which no height of the hips lets all standing legs reach that floor.
+  Floor floor;  ///< Heights are relative to floor_height_m.
+  /// Number of frames in which no hip height lets all standing legs reach that floor.
   int out_of_reach_frames = 0;
-  std::vector<std::vector<retarget::SupportSlide>> slides;  ///< As adapted.supports.
-  AdaptDeparture departure;  ///< From the motion on the character's body.
+  std::vector<std::vector<retarget::SupportSlide>> slides;  ///< Like adapted.supports.
+  AdaptDeparture departure;  ///< Relative to the motion on the character's body.
   AdaptPosture posture;
-  /// Of constraints that ran out of few iterations: the default number meets them in
-  /// their worst frame. One per constraint.
+  /// Per constraint: it reached a low iteration limit, and the default limit meets it in
+  /// its worst frame.
   std::vector<char> more_iterations_help;
-  double adapt_s = 0.0;      ///< Wall clock, of the postures alone.
+  double adapt_s = 0.0;      ///< Wall-clock time of the adaptation alone.
 };
 
-/// The report (docs/formats/README.md, "What marey adapt writes").
+/// Returns the report (docs/formats/README.md, "What marey adapt writes").
 [[nodiscard]] nlohmann::ordered_json adapt_figures(const AdaptArguments& args,
                                                    const AdaptRun& run);
 
-/// One line a person reads first.
+/// Returns a summary of one line.
 [[nodiscard]] std::string adapt_summary(const AdaptArguments& args, const AdaptRun& run);
 
-/// What the result fails by, if anything: a support that is off its footprint by more
-/// than 1 mm; by priority, a constraint that was missed in more than half of the frames
-/// in which it is fully active (a blend is a compromise, and promises nothing).
+/// Returns the first failure, or null: a support that is more than 1 mm off its
+/// footprint; with priority control, a constraint missed in more than half of the frames
+/// in which it is fully active. With blend control, constraints are a compromise and
+/// cannot fail.
 [[nodiscard]] const retarget::KeptConstraint* find_failure(const AdaptArguments& args,
                                                            const AdaptRun& run);
 
-/// The same as an error (kQuality), or done; and a trunk that balance turns further from
-/// its source than kMaxTrunk_deg although the constraints are met without; a motion
-/// whose left and right are exchanged; posture_problem().
+/// Returns an error (kQuality) for find_failure(), for a trunk that balance turns further
+/// from its source than kMaxTrunk_deg although the constraints are met without balance,
+/// for a motion whose left and right are exchanged, and for posture_problem().
 [[nodiscard]] Status check_adapted(const AdaptArguments& args, const AdaptRun& run);
 
-/// What else was not kept, each with when, by how much and what would help; and
-/// constraints that never were active; a floor that legs do not reach; balance that is
-/// off by more than 10 mm; joints that are thrown about by more than 100 m/s2; a trunk
-/// that is further from its source than kFarTrunk_deg.
+/// Returns warnings, each with time, amount and advice: missed constraints; constraints
+/// that were never active; a floor that legs do not reach; balance that is off by more
+/// than 10 mm; joints with an added acceleration above 100 m/s2; a trunk that is further
+/// from its source than kFarTrunk_deg.
 [[nodiscard]] std::vector<std::string> adapt_warnings(const AdaptArguments& args,
                                                       const AdaptRun& run);
 

@@ -12,10 +12,12 @@
 
 namespace marey::app {
 
-/// Finds of which missed constraints more iterations would help: solves the worst frame of
-/// each that ran out, by itself, with the default number. One entry per constraint; all 0
-/// where the options allow as many already. Costs a frame per constraint that ran out.
-/// Precondition: `kept` is adapt_motion()'s of these constraints, supports and options.
+/// Finds the missed constraints that more iterations would meet. Solves the worst frame
+/// of each constraint that reached the limit, alone, with the default limit. Returns one
+/// entry per constraint; all are 0 if the options already allow that many iterations.
+/// Cost: one frame per constraint that reached the limit.
+/// Precondition: `kept` is adapt_motion()'s result for these constraints, supports and
+/// options.
 [[nodiscard]] std::vector<char> try_more_iterations(
     const AdaptBody& body,
     std::span<const retarget::SupportTrack> supports,

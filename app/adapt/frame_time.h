@@ -6,7 +6,7 @@
 
 namespace marey::app {
 
-/// Returns the time of a frame, counted from 0, of a motion. [s]
+/// Returns the time of a frame of a motion; frames count from 0. [s]
 [[nodiscard]] inline double frame_time_s(const Motion& motion, int frame) {
   return (motion.first_frame + frame) / motion.rate.hz;
 }

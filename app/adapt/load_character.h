@@ -9,11 +9,11 @@
 
 namespace marey::app {
 
-/// The character of a character.toml: its body read or made from a stature, its masses
-/// and limits by retarget::make_character(). Without a mass of its own it has its
-/// subject's.
-/// Errors: as of read_character_spec(), read_skeleton() and read_subject(), map_body()
-/// (naming the body's file) and make_character() (naming the character's).
+/// Loads the character of a character.toml. Its body is read or made from a stature; its
+/// masses and limits are retarget::make_character()'s. If the file gives no mass, the
+/// subject's mass is used.
+/// Errors: those of read_character_spec(), of read_skeleton(), read_subject() and
+/// map_body() (with the body's file), and of make_character() (with the character's file).
 [[nodiscard]] Result<Character> load_character(const std::filesystem::path& path);
 
 }  // namespace marey::app

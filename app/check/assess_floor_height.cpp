@@ -22,15 +22,15 @@ namespace {
 using recordings::Session;
 using recordings::TrialKind;
 
-// Soles of shoes are some 30 mm thick, and ankles are up to 20 mm higher than average.
+// Soles of shoes are about 30 mm thick, and ankles are up to 20 mm higher than average.
 constexpr double kFairAbove_m = 0.05;
 constexpr double kPoorAbove_m = 0.065;
 // No shoe is below the floor.
 constexpr double kFairBelow_m = 0.025;
 constexpr double kPoorBelow_m = 0.04;
-// An ankle that is known worse tells nothing.
-constexpr double kUnknown_m = 0.03;
-// Soles of two trials on one floor.
+// Ankles with a larger sigma are not used.
+constexpr double kMaxAnkleSigma_m = 0.03;
+// Largest difference between soles of two trials on one floor.
 constexpr double kAlike_m = 0.03;
 
 std::string floor_trial(const Session& session) {
@@ -38,8 +38,8 @@ std::string floor_trial(const Session& session) {
   return floor ? "trial " + floor->name : std::string();
 }
 
-/// Returns whether the motions' soles are as high as those of who stands; nullopt where
-/// nothing tells.
+/// Returns true if the soles have the same height in the motions as in the static trial;
+/// nullopt without motions.
 std::optional<bool> are_alike(const SoleHeight& standing,
                               std::span<const SoleHeight> motions) {
   if (motions.empty()) return std::nullopt;
@@ -62,7 +62,7 @@ std::string next_step(const Session& session,
   if (standing.height_m < 0.0) {
     return "check that the board lay on the floor itself in " + floor +
            ", with nothing under it" +
-           format_text(", and measure its thickness_m (%.3f says session.toml)",
+           format_text(", and measure its thickness_m (%.3f in session.toml)",
                        thickness_m);
   }
   if (alike && !*alike) {
@@ -72,7 +72,7 @@ std::string next_step(const Session& session,
   if (thickness_m > 0.5 * standing.height_m) {
     return format_text(
         "measure the thickness of the board and correct thickness_m under "
-        "[board] (%.3f now, some %.0f mm too much)",
+        "[board] (%.3f now, about %.0f mm too much)",
         thickness_m,
         1e3 * standing.height_m);
   }
@@ -98,7 +98,7 @@ std::optional<double> sole_height_m(const EstimatedMotion& estimate, double stat
     std::optional<double> here_m;
     for (const HumanBone foot : {HumanBone::kLeftFoot, HumanBone::kRightFoot}) {
       const JointUncertainty& uncertainty = estimate.uncertainty[f][index(foot)];
-      if (uncertainty.source == Source::kInferred && uncertainty.sigma_m > kUnknown_m)
+      if (uncertainty.source == Source::kInferred && uncertainty.sigma_m > kMaxAnkleSigma_m)
         continue;
       const double sole_m = world[index(foot)].translation.y - ankle_m;
       here_m = std::min(here_m.value_or(sole_m), sole_m);
@@ -118,11 +118,11 @@ std::optional<FloorHeightFinding> assess_floor_height(
   if (off_m < (is_below ? kFairBelow_m : kFairAbove_m)) return std::nullopt;
   const auto alike = are_alike(standing, motions);
   std::string cause =
-      format_text("the soles of the subject who stands are %.0f mm %s the floor",
+      format_text("the soles of the standing subject are %.0f mm %s the floor",
                   1e3 * off_m,
                   is_below ? "below" : "above");
   if (alike) {
-    cause += *alike ? ", and as high in the motions" : ", but not in the motions (";
+    cause += *alike ? ", and equally high in the motions" : ", but not in the motions (";
     for (std::size_t i = 0; i < motions.size() && !*alike; ++i) {
       cause += (i == 0 ? "" : ", ") + motions[i].trial +
                format_text(" %.0f mm", 1e3 * motions[i].height_m);

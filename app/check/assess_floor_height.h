@@ -12,8 +12,7 @@
 
 namespace marey::app {
 
-/// How high the lower one of a body's soles is above the floor, in a trial's lowest
-/// frames. [m]
+/// Height of a body's lower sole above the floor, in the lowest frames of a trial. [m]
 struct SoleHeight {
   std::string trial;
   double height_m = 0.0;
@@ -21,22 +20,23 @@ struct SoleHeight {
 
 /// Returns the 5 % quantile over frames of the lower ankle's height minus an average
 /// person's ankle height at that stature. [m] Toes are not used: the fit places them on
-/// the floor that it is given. Ankles with a sigma above 30 mm do not count. nullopt if
-/// none is known in half of the frames.
+/// the given floor. Ankles with a sigma above 30 mm do not count. nullopt if no ankle
+/// counts in half of the frames.
 [[nodiscard]] std::optional<double> sole_height_m(const EstimatedMotion& estimate,
                                                   double stature_m);
 
-/// A floor that is not where the subject stands.
+/// Floor at another height than the soles of the subject.
 struct FloorHeightFinding {
   Error error;           ///< kQuality, with the key to correct or the trial to repeat.
-  bool is_poor = false;  ///< Too much for shoes; else a warning.
+  bool is_poor = false;  ///< More than shoes explain; else a warning.
 };
 
-/// Compares the floor with who stands on it in the static trial, `standing`, and with the
-/// lowest soles of the motions: they tell a floor that is wrong from a person who stood
-/// on something. nullopt where soles are less than 50 mm above the floor and less than 25
-/// mm below it; beyond 65 and 40 mm it is poor. Where no floor trial tells the floor,
-/// only a warning.
+/// Compares the floor with the soles of the subject in the static trial, `standing`, and
+/// with the lowest soles of the motions. Equal heights in the motions indicate a wrong
+/// floor; other heights indicate a subject who stood on an object. Returns nullopt if the
+/// soles are less than 50 mm above the floor and less than 25 mm below it. The finding is
+/// poor beyond 65 mm above or 40 mm below, and only a warning if the session has no floor
+/// trial.
 [[nodiscard]] std::optional<FloorHeightFinding> assess_floor_height(
     const recordings::Session& session,
     const SoleHeight& standing,

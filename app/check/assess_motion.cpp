@@ -19,20 +19,20 @@ namespace {
 constexpr double kMaxTurn_rad_s = 45.0;
 constexpr double kMaxSpeed_m_s = 25.0;
 
-/// The worst step from one frame to the next, in limits.
+/// Worst step from one frame to the next, relative to the limits.
 struct Leap {
   double in_limits = 1.0;
   std::string what;
-  std::size_t frame = 0;  ///< The second of the two, counted from the trial's first.
-  int frames = 0;         ///< With a step beyond the limits.
+  std::size_t frame = 0;  ///< Second frame of the step; 0 is the trial's first.
+  int frames = 0;         ///< Number of frames with a step beyond the limits.
   std::size_t last = 0;   ///< The last of them.
 
-  /// Steps of one frame are given from parents to children.
-  void look(double here_in_limits, std::size_t at, const auto& words) {
+  /// Adds a step. Precondition: the steps of one frame come from parents to children.
+  void add_step(double here_in_limits, std::size_t at, const auto& words) {
     if (here_in_limits <= 1.0) return;
     frames += at != last ? 1 : 0;
     last = at;
-    // Children of a turning segment turn by the same angle: the parent is named.
+    // Children of a turning segment turn by the same angle; the parent is reported.
     if (here_in_limits <= in_limits * (1.0 + 1e-9)) return;
     in_limits = here_in_limits;
     frame = at;
@@ -68,12 +68,12 @@ std::vector<Error> assess_motion(const ReportTrial& trial) {
       const HumanBone bone = human_bones()[b];
       const double turn_rad = glm::length(
           rotation_vector(glm::conjugate(before[b].rotation) * now[b].rotation));
-      leap.look(turn_rad * hz / kMaxTurn_rad_s, f, [&] {
+      leap.add_step(turn_rad * hz / kMaxTurn_rad_s, f, [&] {
         return "segment " + in_quotes(bone) + " turns by " +
                std::to_string(std::lround(glm::degrees(turn_rad))) + " degrees";
       });
       const double moved_m = glm::distance(before[b].translation, now[b].translation);
-      leap.look(moved_m * hz / kMaxSpeed_m_s, f, [&] {
+      leap.add_step(moved_m * hz / kMaxSpeed_m_s, f, [&] {
         return "joint " + in_quotes(bone) + " travels by " +
                std::to_string(std::lround(1e3 * moved_m)) + " mm";
       });
@@ -93,7 +93,7 @@ std::vector<Error> assess_motion(const ReportTrial& trial) {
       {Errc::kQuality,
        "trial " + trial.name,
        std::move(cause),
-       "look at these frames in report.html, and check that two cameras see the tags of "
+       "add_step at these frames in report.html, and check that two cameras see the tags of "
        "that segment there; a second tag on it helps"}};
 }
 

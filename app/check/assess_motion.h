@@ -9,7 +9,7 @@
 
 namespace marey::app {
 
-/// Detects motion that no body makes, whatever the residuals are: a segment that turns by
+/// Detects motion that is impossible for a body, at any residual: a segment that turns by
 /// more than 45 rad/s or a joint that travels by more than 25 m/s between two frames in
 /// which both are measured. (Fast kicks turn a shank by 35 rad/s, sprints move a foot by
 /// 20 m/s.) Below 14.3 Hz no turn can exceed the limit. Returns at most one entry,

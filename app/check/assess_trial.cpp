@@ -21,13 +21,13 @@ using reconstruct::StretchResidual;
 using reconstruct::TagResidual;
 using reconstruct::TrialResiduals;
 
-// Of right trials of both rendered recordings a delay explains 2 % of the errors and is
-// 0.2 ms at most; of offsets that are off by 5 to 11 ms 25 to 40 %, and 2 to 3 ms.
+// Correct trials of both rendered recordings: a delay explains 2 % of the errors and is
+// at most 0.2 ms. Offsets that are wrong by 5 to 11 ms: 25 to 40 %, and 2 to 3 ms.
 constexpr double kClockShare = 0.12;
 constexpr double kClock_s = 1e-3;
 
-/// Limits of what is left at the body. [m] Tags on soft skin slip by 7 mm, all of them:
-/// less than `any` is an error only if the others are far better.
+/// Limits of residuals at the body. [m] Tags on soft skin slip by 7 mm, all of them, so a
+/// residual below `any_m` is an error only if the others are far smaller.
 struct Limits {
   double any_m = 0.0;
   double least_m = 0.0;
@@ -50,7 +50,8 @@ Error poor(std::string where, std::string cause, std::string next) {
   return {Errc::kQuality, std::move(where), std::move(cause), std::move(next)};
 }
 
-/// The one whose value is largest, with the median of all; nullopt of none.
+/// Returns the item with the largest value, and the median of all values; nullopt if no
+/// item has enough corners.
 template <class Item, class Value>
 std::optional<std::pair<const Item*, double>> worst_of(const std::vector<Item>& items,
                                                        const Value& value) {

@@ -10,11 +10,12 @@
 
 namespace marey::app {
 
-/// Judges what a solved trial leaves unexplained, in metres at the body: errors of a
-/// camera that follow the movement (its clock), the worst camera, the worst tag, the
-/// worst half second, each against a limit and against the others' median. Slips of tags
-/// on soft skin pass. Returns the first of these in this order that fails, as later ones
-/// are mostly its consequence: kQuality, with what to check. nullopt when all is well.
+/// Tests the residuals of a solved trial, in metres at the body, in this order: camera
+/// errors that follow the movement (clock errors), the worst camera, the worst tag, the
+/// worst half second. Each has an absolute limit and a limit relative to the median of
+/// the others. Slips of tags on soft skin pass. Returns the first test that fails, since
+/// later ones are mostly its consequence: kQuality, with the next step. nullopt if all
+/// tests pass.
 [[nodiscard]] std::optional<Error> assess_trial(
     const recordings::Session& session,
     const recordings::Trial& trial,

@@ -10,9 +10,10 @@
 
 namespace marey::app {
 
-/// What to say of a camera that sees the session's board in none of a trial's frames,
-/// where its video shows that board in others, mirrored, or of another family (nullopt
-/// where it does not). Precondition: the target is a board. Cost: reads the video.
+/// Returns an error for a camera that does not see the session's board in any frame of
+/// the trial, if other frames of its video show that board, or if the video shows it
+/// mirrored or in another tag family. Otherwise nullopt. Precondition: the target is a
+/// board. Cost: reads the video.
 [[nodiscard]] std::optional<Error> board_elsewhere(const recordings::Session& session,
                                                    const recordings::Trial& trial,
                                                    const CameraDetections& camera);

@@ -18,7 +18,8 @@ namespace {
 std::optional<std::string> stature_warning(const Body& body) {
   constexpr double kSigmas = 3.0;
   std::array<bool, kHumanBoneCount> measured{};
-  // Legs alone: tags measure the rotation of the trunk better than its length.
+  // Only the legs are used: tags measure the rotation of the trunk better than its
+  // length.
   for (const HumanLimb& limb : human_limbs()) {
     if (limb.end != HumanBone::kLeftFoot && limb.end != HumanBone::kRightFoot) continue;
     measured[index(limb.lower)] = true;
@@ -46,8 +47,8 @@ std::string joint_warning(HumanBone joint, double sigma_m) {
   std::array<char, 200> text{};
   std::snprintf(text.data(),
                 text.size(),
-                "the joint \"%s\" is known to %.0f mm: motions call it inferred, and the "
-                "segments below it are as uncertain",
+                "the position of joint \"%s\" has a standard deviation of %.0f mm: it is "
+                "inferred in all motions, and the segments below it are as uncertain",
                 std::string(name(joint)).c_str(),
                 1e3 * sigma_m);
   return std::string(text.data()) +

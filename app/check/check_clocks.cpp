@@ -17,16 +17,16 @@ using recordings::Session;
 using recordings::Trial;
 using recordings::TrialVideo;
 
-// Found offsets of right sessions differ from the true ones by half of it; a foot of
-// 1.5 m/s travels by 6 mm meanwhile.
+// In correct sessions the estimated offsets differ from the true ones by half of this. A
+// foot of 1.5 m/s travels by 6 mm in this time.
 constexpr double kHarmless_s = 4e-3;
 constexpr double kSigmas = 6.0;
 
-/// A camera whose offset the session gives, against what tags show.
+/// Offset of a camera in the session, and its estimate from the tags.
 struct GivenClock {
   std::size_t camera = 0;
   double given_s = 0.0;
-  double seen_s = 0.0;  ///< After the first camera.
+  double seen_s = 0.0;  ///< Relative to the first camera.
   double limit_s = 0.0;
 };
 
@@ -34,7 +34,7 @@ bool differs(double a_s, double b_s, double limit_s) {
   return std::abs(a_s - b_s) > limit_s;
 }
 
-/// The given clocks that the tags tell of, without the first camera's.
+/// Returns the offsets that can be compared with tags, without the first camera.
 std::vector<GivenClock> given_clocks(const Trial& trial,
                                      std::span<const calib::ClockOffset> seen) {
   std::vector<GivenClock> clocks;
@@ -57,7 +57,7 @@ double first_offset_s(const Trial& trial) {
   return 0.0;
 }
 
-/// "{ cam1 = 0.0073, cam2 = -0.0111 }".
+/// Returns the offsets that fit, as "{ cam1 = 0.0073, cam2 = -0.0111 }".
 std::string fitting(const Session& session, const std::vector<GivenClock>& clocks) {
   std::string text = "{";
   for (const GivenClock& clock : clocks) {
@@ -85,7 +85,7 @@ std::optional<Error> assess_offsets(const Session& session,
       std::none_of(clocks.begin(), clocks.end(), [&](const GivenClock& clock) {
         return differs(first_s - clock.given_s, clock.seen_s, clock.limit_s);
       });
-  // Of all the same amount: the first camera's alone is wrong.
+  // If all offsets are wrong by the same amount, only that of the first camera is wrong.
   const double first_by_s = wrong.front()->given_s - first_s - wrong.front()->seen_s;
   const bool is_first =
       first_s != 0.0 && clocks.size() > 1 && wrong.size() == clocks.size() &&
@@ -104,7 +104,7 @@ std::optional<Error> assess_offsets(const Session& session,
   if (is_other_sign) {
     cause += ": with the other sign they would agree";
   } else if (is_first) {
-    cause += ": all by the same, so that the offset of " + session.cameras.front() +
+    cause += ": all by the same amount, so the offset of " + session.cameras.front() +
              " is wrong";
   }
   return Error{
@@ -127,13 +127,14 @@ std::optional<Error> check_offsets(const Session& session,
   std::map<TagId, double> sizes_m;
   for (const TagOnSegment& tag : session.tags) sizes_m[tag.id] = tag.size_m;
   auto seen = calib::find_clock_offsets(cameras, detections, sizes_m);
-  // A misplaced camera looks late by its error over the speed of what it sees. Twice a
-  // walker's 1.5 m/s, as six sigmas are allowed.
+  // A wrong camera position has the effect of a delay: the position error divided by the
+  // speed of the tags. The limit is twice the speed of a walker (1.5 m/s), as six sigmas
+  // are allowed.
   constexpr double kSpeed_m_s = 3.0;
   for (calib::ClockOffset& clock : seen) {
     clock.sigma_s = std::hypot(clock.sigma_s, centre_sigma_m / kSpeed_m_s);
   }
-  // What a table of times adds is not the session's.
+  // Offsets from a table of times are not part of the session.
   for (const TrialVideo& video : trial.videos) {
     const auto& whole = detections[index(video.camera)].offset;
     if (!whole) continue;

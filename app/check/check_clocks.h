@@ -14,18 +14,20 @@
 
 namespace marey::app {
 
-/// Compares the time offsets that a session gives for a trial with those that the tags
-/// show. `seen` one entry per camera of the session. Returns nullopt where they agree
-/// within 4 ms or 6 sigma, or no offset is observable; else kQuality, with the
-/// cameras, by how much, whether all have the other sign, and the offsets that fit.
+/// Compares the time offsets of the session for a trial with the offsets computed from
+/// the tags. `seen` has one entry per camera of the session. Returns nullopt if they
+/// agree within 4 ms or 6 sigma, or if no offset is observable. Otherwise kQuality, with
+/// the cameras, the differences, whether all offsets have the opposite sign, and the
+/// offsets that fit.
 [[nodiscard]] std::optional<Error> assess_offsets(
     const recordings::Session& session,
     const recordings::Trial& trial,
     std::span<const calib::ClockOffset> seen);
 
-/// The same, from the trial's tags: `detections` one entry per camera, shrinkage taken
-/// off; `centre_sigma_m` is the largest of the cameras' centres [m]: where everything
-/// moves one way, a misplaced camera looks late. Costs nothing for a trial without
+/// Computes the offsets from the tags of the trial and calls assess_offsets().
+/// `detections` has one entry per camera, corrected for shrinkage. `centre_sigma_m` is
+/// the largest sigma of a camera centre [m]: if everything moves in one direction, a
+/// wrong camera position has the effect of a delay. Cost: none for a trial without
 /// offsets, else some seconds.
 [[nodiscard]] std::optional<Error> check_offsets(
     const recordings::Session& session,

@@ -17,20 +17,22 @@ using recordings::Session;
 using recordings::Trial;
 using recordings::TrialKind;
 
-// Share of the pictures. Misread tags and passers-by are seen less often.
+// Limit of the share of pictures that show a tag. Misread tags and tags of passers-by
+// stay below it.
 constexpr double kOftenShare = 0.05;
-// The same of the pictures that show a board, of tags that are printed on it.
-constexpr double kBesideBoardShare = 0.2;
+// Limit of the share among the pictures that show a board, for tags printed on it.
+constexpr double kBoardTagShare = 0.2;
 
-/// Number of pictures that show each tag, and of all pictures, in the trials of a body.
+/// Number of pictures that show each tag, and number of all pictures, in the trials of a
+/// body.
 struct Seen {
   std::map<TagId, int> pictures;
   std::set<TagId> moving;  ///< Tags that travel by more than their own side.
   int of = 0;
 };
 
-/// Returns whether the tag's centre moves by more than its side in one camera's pictures,
-/// between the 10 % and 90 % quantiles of x or y. Tags on walls do not.
+/// Returns true if the tag's centre moves by more than its side in the pictures of one
+/// camera, between the 10 % and 90 % quantiles of x or y. Tags on walls do not.
 bool travels(const std::vector<glm::dvec2>& centres_px, double side_px) {
   for (int axis = 0; axis < 2; ++axis) {
     std::vector<double> places_px;
@@ -76,7 +78,7 @@ Seen count_seen(const Session& session,
   return seen;
 }
 
-/// Returns whether the session lists the tag, on the body or the calibration target.
+/// Returns true if the session lists the tag, on the body or on the calibration target.
 bool is_listed(const Session& session, TagId id) {
   return std::any_of(
       session.families.begin(), session.families.end(), [&](const TagFamilyUse& use) {
@@ -92,9 +94,10 @@ std::string in_words(const std::vector<TagId>& ids) {
   return words;
 }
 
-/// Tags that move about with an AprilGrid and are not of it: more rows or columns are
-/// printed than the session says. Cameras are right without them.
-void look_beside_board(const Session& session,
+/// Warns of tags that move with an AprilGrid and do not belong to it: the printed board
+/// has more rows or columns than the declared one. The calibration is correct without
+/// these tags.
+void warn_of_board_tags(const Session& session,
                        const std::map<std::string, std::vector<CameraDetections>>& found,
                        RecordingTroubles& troubles) {
   const Trial* waved = session.find(TrialKind::kCalibration);
@@ -112,20 +115,20 @@ void look_beside_board(const Session& session,
       for (const TagDetection& tag : frame.tags) ++pictures[tag.id];
     }
   }
-  std::vector<TagId> strangers;
+  std::vector<TagId> unlisted;
   for (const auto& [id, count] : pictures) {
-    if (count > kBesideBoardShare * with_board && moving.contains(id) &&
+    if (count > kBoardTagShare * with_board && moving.contains(id) &&
         !is_listed(session, id)) {
-      strangers.push_back(id);
+      unlisted.push_back(id);
     }
   }
-  if (strangers.empty()) return;
+  if (unlisted.empty()) return;
   troubles.warnings.push_back(
-      session.file.string() + ": [board]: " + in_words(strangers) +
-      (strangers.size() == 1 ? " moves" : " move") + " with the board in trial \"" +
-      waved->name + "\" but " + (strangers.size() == 1 ? "is" : "are") +
-      " not of it, and not used. Next: correct `rows`, `columns` and `first_id` to what "
-      "is printed.");
+      session.file.string() + ": [board]: " + in_words(unlisted) +
+      (unlisted.size() == 1 ? " moves" : " move") + " with the board in trial \"" +
+      waved->name + "\" but " + (unlisted.size() == 1 ? "is" : "are") +
+      " not part of it, and not used. Next: correct `rows`, `columns` and `first_id` to "
+      "match the printed board.");
 }
 
 }  // namespace
@@ -133,9 +136,9 @@ void look_beside_board(const Session& session,
 Status check_ids(const Session& session,
                  const std::map<std::string, std::vector<CameraDetections>>& found,
                  RecordingTroubles& troubles) {
-  look_beside_board(session, found, troubles);
+  warn_of_board_tags(session, found, troubles);
   const Trial* moving = session.find(TrialKind::kRangeOfMotion);
-  // A body that stands still may hide a tag throughout; one that moves shows all.
+  // A standing body may hide a tag in all frames; a moving body shows all tags.
   if (session.tags.empty() || session.families.size() != 1 || !moving ||
       !found.contains(moving->name)) {
     return Done{};
@@ -146,29 +149,30 @@ Status check_ids(const Session& session,
   for (const TagOnSegment& tag : session.tags) {
     if (!seen.pictures.contains(tag.id)) never.push_back(tag.id);
   }
-  std::vector<TagId> strangers;
+  std::vector<TagId> unlisted;
   for (const auto& [id, pictures] : seen.pictures) {
     if (pictures > kOftenShare * seen.of && seen.moving.contains(id) &&
         !is_listed(session, id)) {
-      strangers.push_back(id);
+      unlisted.push_back(id);
     }
   }
-  if (strangers.empty()) return Done{};
-  const char* one = strangers.size() == 1 ? " is" : " are";
+  if (unlisted.empty()) return Done{};
+  const char* one = unlisted.size() == 1 ? " is" : " are";
   if (never.empty()) {
     troubles.warnings.push_back(
-        session.file.string() + ": [[tags.tag]]: " + in_words(strangers) + one +
+        session.file.string() + ": [[tags.tag]]: " + in_words(unlisted) + one +
         " often seen but not listed, and therefore not used. Next: list " +
-        (strangers.size() == 1 ? "it" : "them") + " if the subject wears " +
-        (strangers.size() == 1 ? "it." : "them."));
+        (unlisted.size() == 1 ? "it" : "them") + " if the subject wears " +
+        (unlisted.size() == 1 ? "it." : "them."));
     return Done{};
   }
   return bad_input(session.file.string() + ": [[tags.tag]]",
                    in_words(never) + (never.size() == 1 ? " is" : " are") +
-                       " listed but never seen; " + in_words(strangers) + one +
+                       " listed but never seen; " + in_words(unlisted) + one +
                        " often seen but not listed",
-                   "correct the `id` of the listed tags to what is printed on the tags "
-                   "of that segment, or remove the entries of tags that are not worn");
+                   "correct the `id` of the listed tags to the number printed on the "
+                   "tags of that segment, or remove the entries of tags that are not "
+                   "worn");
 }
 
 }  // namespace marey::app

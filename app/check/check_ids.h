@@ -13,14 +13,15 @@
 
 namespace marey::app {
 
-/// Checks that the tags seen on a body, and beside an AprilGrid that is waved, are those
-/// that the session lists. `found` is by name of the trial. Linear in the detections.
+/// Checks that the tags seen on a body, and next to an AprilGrid that is waved, are
+/// listed in the session. `found` has the name of the trial as key. Cost: linear in the
+/// detections.
 ///
-/// Errors (kBadInput): listed tags that are never seen, while unlisted tags of the family
-/// are often seen: mistyped ids. Unlisted tags alone, and tags that move with
-/// the board and are not of it, are warnings in `troubles`. Passes
-/// without a check if the session has several tag families (only listed tags are searched
-/// for then) or no range-of-motion trial.
+/// Errors (kBadInput): listed tags that are never seen while unlisted tags of the family
+/// are often seen, that is, mistyped ids. Unlisted tags alone, and tags that move with
+/// the board and do not belong to it, are warnings in `troubles`. Passes without a check
+/// if the session has several tag families (only listed tags are detected then) or no
+/// range-of-motion trial.
 [[nodiscard]] Status check_ids(
     const recordings::Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found,

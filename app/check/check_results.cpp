@@ -12,7 +12,7 @@
 namespace marey::app {
 namespace {
 
-// Webcams with a person in front of them end at 0.5 to 2 px.
+// Reprojection errors of webcams with a person in view are 0.5 to 2 px.
 constexpr double kPoorCalibrationPx = 3.0;
 constexpr double kPoorSubjectPx = 5.0;
 constexpr double kPoorTrialPx = 8.0;
@@ -32,8 +32,8 @@ Error poor_result(std::string where, std::string cause, std::string next) {
   return {Errc::kQuality, std::move(where), std::move(cause), std::move(next)};
 }
 
-/// Reports the worst tag among those that are often seen: a trial's averages hide one tag
-/// among thirty.
+/// Reports the worst of the tags with enough corners: the averages of a trial hide one
+/// wrong tag among thirty.
 void assess_tags(const ReportTrial& trial, std::vector<Error>& found) {
   const ReportTag* worst = nullptr;
   for (const ReportTag& tag : trial.tags) {
@@ -57,29 +57,30 @@ void assess_residuals(const ReportTrial& trial, std::vector<Error>& found) {
                                 text("only %.0f of %.0f frames could be solved",
                                      trial.frames_solved,
                                      trial.frames),
-                                "look in report.html which tags are seen when"));
+                                "check in report.html when each tag is seen"));
   }
-  // One camera that is wrong is named; what it does to the others is not told again.
-  bool told = false;
+  // If one camera is wrong, it is reported alone: errors of the others are its
+  // consequence.
+  bool has_wrong_camera = false;
   for (const ReportTrialCamera& camera : trial.cameras) {
     if (camera.corners == 0 || camera.median_px < kPoorCameraMedianPx) continue;
-    told = true;
+    has_wrong_camera = true;
     found.push_back(
         poor_result(where + ", camera " + camera.name,
-                    text("the motion is %.0f px away from what it saw (median; "
+                    text("the motion is %.0f px away from the detected tags (median; "
                          "good: under 1)",
                          camera.median_px),
                     "check that this is its video of this trial, that its frames "
                     "are evenly spaced, and that it was not moved"));
   }
-  if (told) return;
+  if (has_wrong_camera) return;
   if (trial.rms_px < kPoorTrialPx && trial.median_px < kPoorMedianPx) {
     assess_tags(trial, found);
     return;
   }
   found.push_back(
       poor_result(where,
-                  text("the motion is %.1f px away from what the cameras saw "
+                  text("the motion is %.1f px away from the detected tags "
                        "(median %.1f; good: under 2)",
                        trial.rms_px,
                        trial.median_px),
@@ -94,8 +95,8 @@ std::vector<Error> check_rig_and_subject(const Report& report) {
   if (!report.cameras_are_judged && report.calibration_rms_px > kPoorCalibrationPx) {
     found.push_back(
         poor_result("calibration.toml",
-                    text("the cameras are %.1f px away from what they saw when they "
-                         "were calibrated (good: under 0.5)",
+                    text("the reprojection error of the calibration is %.1f px "
+                         "(good: under 0.5)",
                          report.calibration_rms_px),
                     "record the calibration again, with a flat board or a stiff "
                     "wand, and short exposure"));
@@ -103,12 +104,11 @@ std::vector<Error> check_rig_and_subject(const Report& report) {
   if (report.subject_rms_px > kPoorSubjectPx) {
     found.push_back(
         poor_result("subject.toml",
-                    text("the subject is %.1f px away from what the cameras saw "
+                    text("the subject is %.1f px away from the detected tags "
                          "(good: under 1)",
                          report.subject_rms_px),
-                    "check that every id is on the segment that session.toml says, "
-                    "that tags are glued firmly, and that both trials show the same "
-                    "person"));
+                    "check that every tag is on its segment in session.toml, that tags "
+                    "are glued firmly, and that both trials show the same person"));
   }
   return found;
 }

@@ -9,16 +9,16 @@
 
 namespace marey::app {
 
-/// What of the results does not show what the cameras saw: figures that only wrong input
-/// gives (another session's video, exchanged ids, a camera that was moved), far beyond
-/// what lenses, loose tags and fast movement do. Empty when all is well. Each is
-/// kQuality, with the trial or camera that it is about.
+/// Detects results that contradict the videos: figures that only wrong input causes (the
+/// video of another session, exchanged ids, a moved camera) and that are far beyond the
+/// effect of lenses, loose tags and fast movement. Returns an empty vector if all is
+/// well. Each entry is kQuality and names its trial or camera.
 [[nodiscard]] std::vector<Error> check_results(const Report& report);
 
-/// The part of check_results() about the cameras and the subject.
+/// Returns the part of check_results() about the cameras and the subject.
 [[nodiscard]] std::vector<Error> check_rig_and_subject(const Report& report);
 
-/// The part of check_results() about one trial.
+/// Returns the part of check_results() about one trial.
 [[nodiscard]] std::vector<Error> check_trial_results(const ReportTrial& trial);
 
 }  // namespace marey::app

@@ -26,7 +26,7 @@ std::vector<int> ids_on(const Session& session, HumanBone bone) {
   return ids;
 }
 
-/// How many more tags a segment has than its other side.
+/// Returns the number of tags on a segment minus the number on its other side.
 int surplus(const Session& session, HumanBone bone) {
   return static_cast<int>(ids_on(session, bone).size()) -
          static_cast<int>(ids_on(session, mirrored(bone)).size());

@@ -12,14 +12,15 @@
 
 namespace marey::app {
 
-/// Checks that the body has the tags that a subject's fit needs: one on the hips, the
-/// upper chest and both bones of each limb. Errors (kBadInput): the first segment without
-/// a tag.
+/// Checks that the body has the tags that the fit of a subject needs: at least one on the
+/// hips, the upper chest and both bones of each limb. Errors (kBadInput): the first
+/// segment without a tag.
 [[nodiscard]] Status check_worn_segments(const recordings::Session& session);
 
-/// Warns of a segment that has fewer tags than its other side while a neighbour of it has
-/// more than its own: one of these may be declared on the wrong segment. Names the
-/// segments and the ids. nullopt where both sides have as many, or differ elsewise.
+/// Returns a warning if a segment has fewer tags than its other side while its neighbour
+/// has more than the other side of that neighbour: one of these may be declared on the
+/// wrong segment. The warning names the segments and the ids. nullopt if both sides have
+/// equally many tags, or differ in another way.
 [[nodiscard]] std::optional<std::string> uneven_sides_warning(
     const recordings::Session& session);
 

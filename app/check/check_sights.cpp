@@ -19,7 +19,7 @@ using recordings::TrialVideo;
 
 namespace {
 
-/// The tags that bodies in view wear.
+/// Returns the tags that are worn on bodies.
 std::vector<TagFamilyUse> worn_tags(const recordings::Session& session) {
   std::vector<TagFamilyUse> worn;
   for (const TagOnSegment& tag : session.tags) {
@@ -43,7 +43,7 @@ Error no_board(const CameraDetections& camera,
             "in session.toml: rows and columns count squares");
 }
 
-/// Returns whether most of the frames show tags of the body.
+/// Returns true if more than half of the frames show tags of the body.
 bool shows_body(const recordings::Session& session, const CameraDetections& camera) {
   const auto is_worn = [&](const TagDetection& seen) {
     return std::any_of(session.tags.begin(), session.tags.end(), [&](const auto& tag) {
@@ -57,21 +57,21 @@ bool shows_body(const recordings::Session& session, const CameraDetections& came
   return 2 * frames > static_cast<std::ptrdiff_t>(camera.frames.size());
 }
 
-/// Tags of the board in the frame that shows most of them; points of a board of squares;
-/// tags of any kind where a wand is carried.
-int most_seen(const CameraDetections& camera, const CalibrationTarget& target) {
-  std::ptrdiff_t most = 0;
+/// Returns the largest number of detections in a frame: tags of an AprilGrid, points of a
+/// board of squares, or all tags if the target is a wand.
+int max_seen(const CameraDetections& camera, const CalibrationTarget& target) {
+  std::ptrdiff_t max_count = 0;
   const auto* grid = std::get_if<AprilGrid>(&target);
   for (const FrameDetections& frame : camera.frames) {
     const auto tags =
         std::count_if(frame.tags.begin(), frame.tags.end(), [&](const TagDetection& tag) {
           return !grid || grid->contains(tag.id);
         });
-    most = std::max(
-        most,
+    max_count = std::max(
+        max_count,
         has_points(target) ? static_cast<std::ptrdiff_t>(frame.points.size()) : tags);
   }
-  return static_cast<int>(most);
+  return static_cast<int>(max_count);
 }
 
 }  // namespace
@@ -109,14 +109,15 @@ Status check_seen(const recordings::Session& session,
   }
   if (wanted.target) return no_board(camera, *wanted.target, worn_tags(session));
   if (wanted.grid && sees_tags) {
-    // Who holds the board wears tags. Other tags than the declared are told later.
+    // The person who holds the board may also wear tags. Undeclared tags are reported in
+    // a later check.
     const auto seen = capture::survey_boards(camera.source, AprilGrid{});
-    const auto says = [&](const char* word) {
+    const auto contains = [&](const char* word) {
       return seen->what.find(word) != std::string::npos;
     };
-    if (!seen || (says("APRILTAG_36h11") && !says("mirrored"))) return Done{};
-    // Floors and windows look like chessboards; a body throughout means another trial.
-    if (says("chessboard") && shows_body(session, camera)) {
+    if (!seen || (contains("APRILTAG_36h11") && !contains("mirrored"))) return Done{};
+    // Floors and windows resemble chessboards; a body in max_count frames shows another trial.
+    if (contains("chessboard") && shows_body(session, camera)) {
       return bad_input(camera.source,
                        "no tag of the " + name_of(*wanted.grid) +
                            " is seen, but tags of the body are: it looks like the video "
@@ -148,29 +149,30 @@ Status check_floor_seen(const recordings::Session& session,
                         const std::vector<CameraDetections>& found,
                         const Wanted& wanted,
                         RecordingTroubles& troubles) {
-  // As calib::board_views() has it; lying tags are seen by two cameras.
+  // The limit of calib::board_views(). Tags on the floor are triangulated from two
+  // cameras.
   const int enough = has_points(session.target) ? 6 : 3;
   const bool is_wand = std::holds_alternative<Wand>(session.target);
   const CameraDetections* first_poor = nullptr;
   std::string good;
-  std::vector<std::string> told;
+  std::vector<std::string> poor_views;
   for (const TrialVideo& video : trial.videos) {
     const CameraDetections& camera = found[index(video.camera)];
     if (camera.frames.empty()) continue;
     const std::string& name = session.cameras[index(video.camera)];
-    const int seen = most_seen(camera, session.target);
+    const int seen = max_seen(camera, session.target);
     if (seen >= (is_wand ? 1 : enough)) {
       good += (good.empty() ? "" : ", ") + name;
       continue;
     }
     if (!first_poor) first_poor = &camera;
-    // A mistake of this video, wherever in it the board is.
+    // The whole video is searched, not only the range of frames of the trial.
     Trial whole = trial;
     whole.frames.reset();
     if (seen == 0 && (wanted.target || wanted.shows_grid)) {
       if (const auto other = board_elsewhere(session, whole, camera)) return *other;
     }
-    told.push_back(camera.source + ": camera \"" + name + "\" sees " +
+    poor_views.push_back(camera.source + ": camera \"" + name + "\" sees " +
                    (seen == 0 ? std::string("nothing")
                               : std::to_string(seen) +
                                     (has_points(session.target) ? " points" : " tags")) +
@@ -179,7 +181,7 @@ Status check_floor_seen(const recordings::Session& session,
   if (good.empty()) {
     return first_poor ? check_seen(session, trial, *first_poor, wanted) : Done{};
   }
-  for (const std::string& one : told) {
+  for (const std::string& one : poor_views) {
     troubles.warnings.push_back(one + ", too little: the floor is taken from " + good);
   }
   return Done{};

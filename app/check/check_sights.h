@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Whether videos show what their trial is about.
+// Checks that videos show the contents of their trial.
 
 #include <optional>
 #include <vector>
@@ -16,29 +16,35 @@
 
 namespace marey::app {
 
-/// What a trial's frames are searched for. A board of squares is in the trials that are
-/// about it; tags are everywhere, when there are any.
+/// Contents that are detected in the frames of a trial. A board of squares is detected
+/// only in trials of the target; tags are detected in all trials, if the session has
+/// tags.
 struct Wanted {
   std::vector<TagFamilyUse> families;       ///< Empty: no tags.
-  std::optional<CalibrationTarget> target;  ///< Of squares: its points.
-  bool shows_grid = false;                  ///< The trial is about an AprilGrid.
+  std::optional<CalibrationTarget> target;  ///< A board of squares.
+  bool shows_grid = false;                  ///< The trial shows an AprilGrid.
   /// The AprilGrid that every camera must see.
   std::optional<AprilGrid> grid;
 };
 
-/// Before all frames are searched for what is not there: another board that was filmed.
+/// Checks for another board than the declared one, before all frames are searched for the
+/// declared one. Errors (kBadInput): the first video with another board, with the name of
+/// that board.
 [[nodiscard]] Status check_board(const recordings::Session& session,
                                  const std::vector<capture::CameraInput>& inputs,
                                  const std::optional<CalibrationTarget>& target);
 
-/// Errors: nothing of what is wanted is in any frame of the camera, and what is instead.
+/// Checks that a camera sees the wanted contents in at least one frame. Errors
+/// (kBadInput): no frame shows them; the error names what the video shows instead.
 [[nodiscard]] Status check_seen(const recordings::Session& session,
                                 const recordings::Trial& trial,
                                 const CameraDetections& camera,
                                 const Wanted& wanted);
 
-/// The floor is known by the cameras that see enough of it: of the others a warning says
-/// so. Errors: no camera does; a video that shows the board mirrored, or another one.
+/// Checks that at least one camera sees enough of the target on the floor. The floor is
+/// computed from the cameras that do; each other camera gives a warning. Errors
+/// (kBadInput): no camera sees enough; a video shows the board mirrored, or another
+/// board.
 [[nodiscard]] Status check_floor_seen(const recordings::Session& session,
                                       const recordings::Trial& trial,
                                       const std::vector<CameraDetections>& found,

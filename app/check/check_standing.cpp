@@ -16,12 +16,12 @@ using recordings::Session;
 using recordings::Trial;
 using recordings::TrialKind;
 
-// A body that stands still sways by 20 mm; a quarter of the tags of a moving body travel
-// by decimetres.
+// A standing body sways by 20 mm; a quarter of the tags of a moving body travel by
+// decimetres.
 constexpr double kMoves_m = 0.1;
 constexpr double kStands_m = 0.05;
 
-// A body that moves every joint in one place sways by 0.2 m; one that walks travels by
+// A body that moves every joint in one place sways by 0.2 m; a walking body travels by
 // metres.
 constexpr double kWalks_m = 0.5;
 constexpr double kStays_m = 0.25;
@@ -42,7 +42,7 @@ std::string in_metres(double m, int decimals) {
   return text.data();
 }
 
-/// The tags on hips and chest: limbs move in one place too.
+/// Returns the tags on hips and chest: limbs move in one place too.
 std::vector<TagOnSegment> trunk_tags(const Session& session) {
   std::vector<TagOnSegment> tags;
   for (const TagOnSegment& tag : session.tags) {

@@ -13,17 +13,18 @@
 
 namespace marey::app {
 
-/// Checks that the subject of the static trial stands still. `found` is by name of the
-/// trial. Errors (kBadInput): the subject walks or moves its limbs; the error names the
-/// first other trial in which it stands still, if any. Passes without a static trial, or
-/// if too few tags are seen in it. Cost: measure_travel() of each trial.
+/// Checks that the subject of the static trial stands still. `found` has the name of the
+/// trial as key. Errors (kBadInput): the subject walks or moves its limbs; the error
+/// names the first other trial in which it stands still, if any. Passes without a static
+/// trial, or if too few tags are seen in it. Cost: measure_travel() of each trial.
 [[nodiscard]] Status check_standing(
     const recordings::Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found);
 
-/// A warning if the subject walks about in the range-of-motion trial while it stays in
-/// one place in another motion: their videos may be exchanged. By the tags on hips and
-/// chest; nullopt also if there are fewer than six of them. Cost: as check_standing().
+/// Returns a warning if the subject walks about in the range-of-motion trial and stays in
+/// one place in another motion, as their videos may be exchanged. Uses the tags on hips
+/// and chest; nullopt also if there are fewer than six of them. Cost: as
+/// check_standing().
 [[nodiscard]] std::optional<std::string> exchanged_exercise_warning(
     const recordings::Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found);

@@ -27,7 +27,7 @@ using recordings::Trial;
 using recordings::TrialKind;
 using recordings::TrialVideo;
 
-/// A video of a trial, and what it says of itself.
+/// Video of a trial, with the contents of its header.
 struct Opened {
   const Trial* trial = nullptr;
   const TrialVideo* video = nullptr;
@@ -62,7 +62,7 @@ std::vector<Opened> open_all(const Session& session) {
   for (const Trial& trial : session.trials) {
     for (const TrialVideo& video : trial.videos) {
       std::error_code ignored;
-      // Takes may lack a camera's video: find_tags() says what follows from it.
+      // A take may lack the video of a camera; find_tags() handles this case.
       if (trial.is_recorded && !fs::exists(video.path, ignored)) continue;
       all.push_back({&trial, &video, {}, {}, {}});
     }
@@ -71,7 +71,8 @@ std::vector<Opened> open_all(const Session& session) {
   return all;
 }
 
-/// A motion goes on without a video as long as two are left.
+/// Checks that the videos can be opened. A motion passes if at least two of its videos
+/// can.
 Status check_opened(const std::vector<Opened>& all, RecordingTroubles& troubles) {
   std::map<const Trial*, int> readable;
   for (const Opened& one : all) readable[one.trial] += one.trouble ? 0 : 1;
@@ -85,8 +86,8 @@ Status check_opened(const std::vector<Opened>& all, RecordingTroubles& troubles)
   return Done{};
 }
 
-/// Frames that a video surely does not have: containers other than MP4 promise their
-/// number to within 2 frames or 2 %.
+/// Checks that a video has the frames of the trial. Containers other than MP4 state their
+/// number to within 2 frames or 2 %, so only frames beyond that are errors.
 Status check_range(const Session& session, const Opened& one) {
   const Trial& trial = *one.trial;
   if (!trial.frames || has_take(trial) || !one.info || !one.info->expected_frames) {
@@ -94,12 +95,12 @@ Status check_range(const Session& session, const Opened& one) {
   }
   const int frames = *one.info->expected_frames;
   const bool is_exact = is_folder(*one.video) || capture::is_mp4(one.video->path);
-  const int most = is_exact ? frames : frames + std::max(2, frames / 50);
-  if (trial.frames->last < most) return Done{};
+  const int max_frames = is_exact ? frames : frames + std::max(2, frames / 50);
+  if (trial.frames->last < max_frames) return Done{};
   return bad_input(line_of(session, trial.line),
                    "frames " + std::to_string(trial.frames->first) + " to " +
                        std::to_string(trial.frames->last) + " of trial " + trial.name +
-                       " are asked for, but " + one.info->name + " has only " +
+                       " do not all exist: " + one.info->name + " has only " +
                        std::to_string(frames) + " (numbers 0 to " +
                        std::to_string(frames - 1) + ")",
                    "correct `frames` of that trial, or its `videos`");
@@ -114,7 +115,7 @@ Status check_gap(const Opened& one) {
   return bad_input(one.video->path.string(),
                    std::to_string(one.gap->missing) + " images are missing between " +
                        one.gap->before + " and " + one.gap->after + more +
-                       ": all later frames would be taken for earlier ones",
+                       ": all later frames would get numbers that are too small",
                    "copy the missing images there; if the camera never took them, give "
                    "the trial `timestamps`, or number the images without gaps");
 }
@@ -123,28 +124,28 @@ std::string size_of(const capture::StreamInfo& info) {
   return std::to_string(info.width_px) + " x " + std::to_string(info.height_px);
 }
 
-/// What two videos of one camera say of their pictures.
+/// Compares picture size and rotation mark of two videos of one camera.
 Status compare(const capture::StreamInfo& earlier, const capture::StreamInfo& info) {
   if (earlier.turned_deg != info.turned_deg) {
     return bad_input(info.name,
                      "its rotation mark turns its pictures by " +
                          std::to_string(info.turned_deg) +
-                         " degrees, that of the same camera's " + earlier.name + " by " +
+                         " degrees, that of " + earlier.name + ", from the same camera, by " +
                          std::to_string(earlier.turned_deg),
-                     "a calibration holds for one way round: take the mark out of the "
-                     "file, or record all trials of a camera the same way round");
+                     "a calibration is valid for one orientation: remove the mark from "
+                     "the file, or record all trials of a camera in one orientation");
   }
   if (size_of(earlier) == size_of(info)) return Done{};
   const bool is_on_its_side =
       earlier.width_px == info.height_px && earlier.height_px == info.width_px;
   return bad_input(
       info.name,
-      "its pictures are " + size_of(info) + ", those of the camera in " + earlier.name +
-          " " + size_of(earlier) + (is_on_its_side ? ": one of them is on its side" : ""),
+      "its pictures are " + size_of(info) + ", but those of " + earlier.name +
+          ", from the same camera, are " + size_of(earlier) + (is_on_its_side ? ": one of them is on its side" : ""),
       is_on_its_side
           ? "turn that video back by a quarter, or record all trials of a camera the "
             "same way round"
-          : "record all trials of a camera at one size");
+          : "record all trials of a camera with the same picture size");
 }
 
 }  // namespace
@@ -176,26 +177,26 @@ void warn_of_short_videos(const Session& session,
                           const Trial& trial,
                           const std::vector<CameraDetections>& found,
                           RecordingTroubles& troubles) {
-  constexpr double kWorthSaying_s = 0.5;
-  constexpr double kWorthSayingShare = 0.05;
+  constexpr double kMinShortfall_s = 0.5;
+  constexpr double kMinShortfallShare = 0.05;
   if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor ||
       has_take(trial)) {
     return;
   }
-  std::size_t most = 0;
+  std::size_t max_frames = 0;
   for (const CameraDetections& camera : found)
-    most = std::max(most, camera.frames.size());
+    max_frames = std::max(max_frames, camera.frames.size());
   for (const TrialVideo& video : trial.videos) {
     const CameraDetections& camera = found[index(video.camera)];
     if (camera.frames.empty() || camera.broken_off) continue;
-    const auto missing = static_cast<double>(most - camera.frames.size());
-    if (missing <= kWorthSaying_s * camera.rate.hz ||
-        missing <= kWorthSayingShare * static_cast<double>(most)) {
+    const auto missing = static_cast<double>(max_frames - camera.frames.size());
+    if (missing <= kMinShortfall_s * camera.rate.hz ||
+        missing <= kMinShortfallShare * static_cast<double>(max_frames)) {
       continue;
     }
     troubles.warnings.push_back(
         camera.source + ": it has " + std::to_string(camera.frames.size()) +
-        " frames, another video of trial " + trial.name + " has " + std::to_string(most) +
+        " frames, another video of trial " + trial.name + " has " + std::to_string(max_frames) +
         ": later frames are solved without camera " +
         session.cameras[index(video.camera)] +
         ". Next: copy the file again; if it was cut at its beginning, cut the others "

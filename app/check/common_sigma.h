@@ -9,8 +9,9 @@
 
 namespace marey::app {
 
-/// How well a place that all cameras see is known because of where they are themselves:
-/// what is wrong with each of them counts by its share. [m]
+/// Returns the part of the sigma of a point that all cameras see which is caused by the
+/// sigmas of the camera centres: their root sum of squares divided by the number of
+/// cameras. [m]
 [[nodiscard]] inline double common_sigma_m(std::span<const CameraQuality> cameras) {
   double sum_m2 = 0.0;
   for (const CameraQuality& camera : cameras) {

@@ -14,12 +14,12 @@ namespace marey::app {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
-// Calibrations and lenses err by some tenths of a pixel where the body is. A move
-// of 1 px doubles the error of joints (docs/accuracy/README.md, "Simulated camera faults").
+// Errors of calibrations and lenses are some tenths of a pixel at the body. A move of 1
+// px doubles the error of joints (docs/accuracy/README.md, "Simulated camera faults").
 constexpr double kFairPx = 0.5;
 constexpr double kPoorPx = 0.8;
-// In squared sigmas. Views of one tag share their errors: chance alone reaches 100, moves
-// that are too small to matter reach 300.
+// Unit: squared sigmas. Views of one tag share their errors: chance alone reaches 100,
+// and moves too small to matter reach 300.
 constexpr double kSureGain = 400.0;
 
 }  // namespace

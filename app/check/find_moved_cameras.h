@@ -14,14 +14,15 @@
 
 namespace marey::app {
 
-/// What a trial shows of a camera that stands elsewhere than its calibration says.
+/// Camera that was moved after its calibration, or during a trial.
 struct MovedFinding {
-  Error error;           ///< kQuality, with the amount, since when, and what to do.
-  bool is_poor = false;  ///< Too much to be trusted; else a warning.
+  Error error;           ///< kQuality, with amount, first frame and next step.
+  bool is_poor = false;  ///< The trial cannot be trusted; else a warning.
 };
 
-/// Tests the cameras in a trial, from its tags alone. `detections` one entry per camera,
-/// shrinkage taken off. nullopt where all stand where they did, or nothing tells.
+/// Detects a moved camera in a trial, from the tags alone. `detections` has one entry per
+/// camera, corrected for shrinkage. nullopt if no camera was moved, or if the tags are
+/// too few for the test.
 [[nodiscard]] std::optional<MovedFinding> find_moved_cameras(
     const std::string& trial,
     std::span<const Camera> cameras,

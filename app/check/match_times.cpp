@@ -23,12 +23,12 @@ using recordings::TakeCamera;
 using recordings::Trial;
 using recordings::TrialVideo;
 
-std::filesystem::path take_beside(const TrialVideo& video) {
+std::filesystem::path take_file_of(const TrialVideo& video) {
   return video.path.parent_path() / recordings::kTakeFile;
 }
 
-/// Lays the frames out by `aligned`, those of `range` alone.
-/// Precondition: `aligned` has all of the range.
+/// Renumbers the frames of a camera by `aligned`, and keeps those of `range`.
+/// Precondition: `aligned` covers the range.
 void renumber(const capture::AlignedCamera& aligned,
               const std::optional<recordings::FrameRange>& range,
               CameraDetections& camera) {
@@ -51,8 +51,9 @@ void renumber(const capture::AlignedCamera& aligned,
   camera.in_recording = std::move(in_recording);
 }
 
-/// Fewer frames in the video than the take's file has, or the other way round: the last
-/// moments of a recording that was cut off, or a video that is not whole.
+/// Returns the number of frames that are in the video and in the file of the take. The
+/// two differ if the recording was cut off in its last moments, or if the video is
+/// incomplete; the second is a failure in `troubles`.
 std::size_t usable_frames(const Take& take,
                           const TakeCamera& recorded,
                           const CameraDetections& camera,
@@ -78,7 +79,7 @@ const TakeCamera* find_camera(const Take& take, const TrialVideo& video) {
   return found == take.cameras.end() ? nullptr : &*found;
 }
 
-void tell_losses(const TakeCamera& recorded,
+void report_losses(const TakeCamera& recorded,
                  const CameraDetections& camera,
                  const capture::AlignedCamera& aligned,
                  FrameRate rate,
@@ -88,7 +89,7 @@ void tell_losses(const TakeCamera& recorded,
     dropped += frame.dropped_before;
   }
   const auto frames = static_cast<std::int64_t>(recorded.frames.size());
-  // Some drops are usual, and bridged as what is hidden is.
+  // Up to 1 % of dropped frames is normal; they are bridged like hidden frames.
   if (dropped > frames / 100) {
     troubles.warnings.push_back(camera.source + ": " + std::to_string(dropped) +
                                 " frames were dropped while recording, and " +
@@ -101,7 +102,7 @@ void tell_losses(const TakeCamera& recorded,
         camera.source.c_str(),
         aligned.surplus));
   }
-  // A person's fastest limb moves by 3 cm meanwhile.
+  // In 0.01 s the fastest limb of a person moves by 3 cm.
   const double spread_s = seconds(aligned.spread);
   if (spread_s > 0.01 || spread_s > 0.25 / rate.hz) {
     troubles.warnings.push_back(
@@ -112,7 +113,7 @@ void tell_losses(const TakeCamera& recorded,
   }
 }
 
-/// The longest time between a frame and the next, as messages should tell it.
+/// Returns the longest time between two successive frames, as text for a message.
 std::string longest_gap(const std::vector<capture::CameraTimes>& cameras,
                         const std::vector<const TakeCamera*>& recorded) {
   Timestamp longest{-1};
@@ -122,7 +123,7 @@ std::string longest_gap(const std::vector<capture::CameraTimes>& cameras,
     for (std::size_t i = 1; i < times.size(); ++i) {
       if (times[i] - times[i - 1] <= longest) continue;
       longest = times[i] - times[i - 1];
-      text = format_text("frame %zu of %s comes %.1f s after the one before it",
+      text = format_text("frame %zu of %s comes %.1f s after the previous one",
                          i,
                          recorded[c]->file.c_str(),
                          seconds(longest));
@@ -131,20 +132,20 @@ std::string longest_gap(const std::vector<capture::CameraTimes>& cameras,
   return text;
 }
 
-/// Why align_frames() declined.
+/// Returns the reason why align_frames() failed.
 Error unusable_times(const std::filesystem::path& file,
                      const std::vector<capture::CameraTimes>& cameras,
                      const std::vector<const TakeCamera*>& recorded) {
-  const auto tells_rate = [](const capture::CameraTimes& c) {
+  const auto has_rate = [](const capture::CameraTimes& c) {
     return capture::measured_rate(c.times).has_value();
   };
-  if (std::none_of(cameras.begin(), cameras.end(), tells_rate)) {
+  if (std::none_of(cameras.begin(), cameras.end(), has_rate)) {
     return bad_input(
         file.string(), "it has too few frames to be used", "record the trial again");
   }
   return bad_input(
       file.string(),
-      "its times reach too far for so few frames: " + longest_gap(cameras, recorded),
+      "its times span too long for the number of frames: " + longest_gap(cameras, recorded),
       "record the trial again; or name the videos in the trial's `videos`, "
       "elsewhere than in the take: then frames are matched by their numbers");
 }
@@ -163,7 +164,7 @@ Status check_range(const Trial& trial,
                    "correct the trial's range of frames");
 }
 
-/// The table that the session names, as a take that has those times.
+/// Reads the table of times that the session names, as a take with these times.
 Result<Take> read_stamped(const Trial& trial,
                           const std::vector<CameraDetections>& found) {
   std::vector<std::string> videos;
@@ -182,8 +183,8 @@ Result<Take> read_stamped(const Trial& trial,
     if (!camera.frames.empty() && !camera.broken_off &&
         camera.frames.size() != times.size()) {
       return bad_input(trial.timestamps->string(),
-                       "it has " + std::to_string(times.size()) + " times of " +
-                           camera.source + ", whose frames are " +
+                       "it has " + std::to_string(times.size()) + " times for " +
+                           camera.source + ", which has frames: " +
                            std::to_string(camera.frames.size()),
                        "name the table that was written with this video");
     }
@@ -198,7 +199,7 @@ Status match_take(const Trial& trial,
                   std::vector<CameraDetections>& found,
                   RecordingTroubles& troubles) {
   const auto file =
-      trial.timestamps ? *trial.timestamps : take_beside(trial.videos.front());
+      trial.timestamps ? *trial.timestamps : take_file_of(trial.videos.front());
   const Result<Take> take =
       trial.timestamps ? read_stamped(trial, found) : recordings::read_take(file);
   if (!take) return take.error();
@@ -215,8 +216,8 @@ Status match_take(const Trial& trial,
     const TakeCamera* one = find_camera(*take, video);
     if (one == nullptr) {
       return bad_input(file.string(),
-                       "it knows nothing of " + video.path.filename().string(),
-                       "give the recording's videos their names back");
+                       "it has no entry for " + video.path.filename().string(),
+                       "give the videos the names that they had when they were recorded");
     }
     capture::CameraTimes& stamps = times.emplace_back();
     stamps.camera = video.camera;
@@ -234,16 +235,17 @@ Status match_take(const Trial& trial,
     renumber(aligned, trial.frames, camera);
     camera.rate = alignment->rate;
     camera.offset = camera.offset.value_or(Timestamp{0}) + aligned.offset;
-    tell_losses(*recorded[i], camera, aligned, alignment->rate, troubles);
+    report_losses(*recorded[i], camera, aligned, alignment->rate, troubles);
   }
   return Done{};
 }
 
-/// Of videos that do not lie in one folder, a take's file knows some at most.
-void tell_unused_take(const Trial& trial, RecordingTroubles& troubles) {
+/// Warns of a file of a take that is not used. Such a file covers only some of the
+/// videos, if they lie in several folders.
+void warn_of_unused_take(const Trial& trial, RecordingTroubles& troubles) {
   for (const TrialVideo& video : trial.videos) {
     std::error_code ignored;
-    const auto file = take_beside(video);
+    const auto file = take_file_of(video);
     if (!std::filesystem::exists(file, ignored)) continue;
     troubles.warnings.push_back(file.string() +
                                 ": it is not used, since the videos of trial " +
@@ -255,11 +257,11 @@ void tell_unused_take(const Trial& trial, RecordingTroubles& troubles) {
 }  // namespace
 
 bool has_take(const Trial& trial) {
-  const auto file = take_beside(trial.videos.front());
-  const auto is_beside = [&](const TrialVideo& v) { return take_beside(v) == file; };
+  const auto file = take_file_of(trial.videos.front());
+  const auto has_same_file = [&](const TrialVideo& v) { return take_file_of(v) == file; };
   std::error_code ignored;
   return trial.is_recorded || trial.timestamps ||
-         (std::all_of(trial.videos.begin(), trial.videos.end(), is_beside) &&
+         (std::all_of(trial.videos.begin(), trial.videos.end(), has_same_file) &&
           std::filesystem::exists(file, ignored));
 }
 
@@ -267,13 +269,13 @@ Status match_times(const Trial& trial,
                    std::vector<CameraDetections>& found,
                    RecordingTroubles& troubles) {
   if (has_take(trial) && trial.slow_motion != 1.0) {
-    return bad_input(take_beside(trial.videos.front()).string(),
+    return bad_input(take_file_of(trial.videos.front()).string(),
                      "it states when the frames of trial " + trial.name +
                          " were taken, so that slow_motion has no meaning",
                      "remove slow_motion of that trial from session.toml");
   }
   if (has_take(trial)) return match_take(trial, found, troubles);
-  tell_unused_take(trial, troubles);
+  warn_of_unused_take(trial, troubles);
   if (trial.rate || trial.frames) return check_even(trial, found, troubles);
   std::vector<capture::CameraTimes> uneven;
   std::optional<FrameRate> steady;
@@ -288,7 +290,7 @@ Status match_times(const Trial& trial,
         !capture::reach_too_far(std::span(&own->own, 1), camera.rate);
     troubles.warnings.push_back(
         camera.source + ": " + how_uneven(*own, camera.rate) + "; " +
-        (usable ? "its own times are used" : "it is used by frame numbers all the same"));
+        (usable ? "its own times are used" : "its frames are matched by their numbers"));
     if (usable) uneven.push_back(std::move(own->own));
   }
   for (const capture::CameraTimes& times : uneven) {
@@ -297,8 +299,8 @@ Status match_times(const Trial& trial,
     const auto alignment = capture::align_frames(std::span(&times, 1), steady);
     if (!alignment) {
       troubles.warnings.push_back(camera.source +
-                                  ": its times are not those of its rate; it is used by "
-                                  "frame numbers all the same");
+                                  ": its times contradict its rate; its frames are "
+                                  "matched by their numbers");
       continue;
     }
     renumber(alignment->cameras.front(), std::nullopt, camera);

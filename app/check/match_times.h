@@ -11,26 +11,29 @@
 
 namespace marey::app {
 
-/// Gives frames of `found` (one entry per camera of the session) new numbers where the
-/// videos' own are not to be trusted, so that equal numbers mean equal times:
-/// - of a take, by the times in its file, with each camera's constant lag as its offset,
-///   and cut to the trial's range of frames, which counts instants;
-/// - of a trial whose session names a table of times, by these, likewise;
-/// - of videos whose own time stamps are uneven, by these, each video for itself.
-/// Of steady videos nothing changes, nor of uneven ones whose trial gives an fps: it is
-/// believed, with a warning.
+/// Renumbers the frames of `found` (one entry per camera of the session) if the frame
+/// numbers of the videos are not reliable, so that equal numbers mean equal times. The
+/// source of the times is:
+/// - for a take: the times in its file. The constant lag of each camera becomes its
+///   offset. The frames are cut to the range of the trial, which counts instants;
+/// - for a trial whose session names a table of times: this table, in the same way;
+/// - for videos with uneven time stamps: their own time stamps, for each video
+///   separately.
 ///
-/// Errors (kBadInput): a take's file of times is missing, damaged or newer; it does not
-/// know the videos, tells no rate, or has times that cannot be; it has fewer instants
-/// than the trial's range; an uneven video whose frames the trial chooses by number.
-/// Precondition: `found` has all frames of a take's videos.
+/// Videos with a constant rate are unchanged. If the trial of a video with an uneven rate
+/// sets `fps`, that value is used, with a warning.
+///
+/// Errors (kBadInput): the file of times of a take is missing, damaged or newer than this
+/// program; it lacks a video, has no rate, or has impossible times; it has fewer instants
+/// than the range of the trial; an uneven video in a trial that chooses its frames by
+/// number. Precondition: `found` has all frames of the videos of a take.
 [[nodiscard]] Status match_times(const recordings::Trial& trial,
                                  std::vector<CameraDetections>& found,
                                  RecordingTroubles& troubles);
 
-/// Whether match_times() will renumber frames by a take's file: the trial was recorded,
-/// or all its videos lie in one folder with such a file, or the session names another
-/// table of times. Then all frames of its videos are wanted.
+/// Returns true if match_times() renumbers the frames of the trial by a file of times:
+/// the trial was recorded, all its videos lie in one folder with such a file, or the
+/// session names a table of times. In these cases all frames of its videos are needed.
 [[nodiscard]] bool has_take(const recordings::Trial& trial);
 
 }  // namespace marey::app

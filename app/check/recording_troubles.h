@@ -9,10 +9,10 @@
 
 namespace marey::app {
 
-/// What was found wrong with a trial's recording, though it could be used.
+/// Problems of a trial's recording that did not prevent its use.
 struct RecordingTroubles {
   std::vector<std::string> warnings;
-  /// Something is missing that should be there: the rest goes on without it.
+  /// Problems with missing data: the trial is processed without the data.
   std::vector<Error> failures;
 };
 

@@ -10,7 +10,7 @@
 namespace marey::app {
 namespace {
 
-/// The detections as if the pictures were turned by half.
+/// Returns the detections with all pictures turned by 180 degrees.
 CameraDetections turned(CameraDetections camera) {
   const glm::dvec2 far_corner_px(camera.width_px - 1, camera.height_px - 1);
   for (FrameDetections& frame : camera.frames) {
@@ -32,10 +32,10 @@ std::optional<Error> find_turned_video(std::span<const Camera> cameras,
     candidate[c] = turned(std::move(candidate[c]));
     if (!reconstruct::check_views(cameras, candidate, tags)) continue;
     return bad_input(detections[c].source,
-                     "its pictures are upside down against those that camera " +
-                         cameras[c].name + " was calibrated with",
-                     "turn this video by 180 degrees, or calibrate with videos the same "
-                     "way round");
+                     "its pictures are upside down, compared to the calibration videos of "
+                     "camera " + cameras[c].name,
+                     "turn this video by 180 degrees, or calibrate with videos of the "
+                     "same orientation");
   }
   return std::nullopt;
 }

@@ -12,10 +12,11 @@
 
 namespace marey::app {
 
-/// For a trial in which reconstruct::check_views() fails: finds the one video whose turn
-/// by 180 degrees makes it succeed, and returns it as kBadInput. nullopt if there is
-/// none. Detections one per camera, shrinkage taken off. Cost: that of check_views() for
-/// each camera.
+/// Searches for a video that is turned by 180 degrees, in a trial in which
+/// reconstruct::check_views() fails. Returns kBadInput with the first video that makes
+/// check_views() succeed when it is turned; nullopt if there is none. `detections` has
+/// one entry per camera, corrected for shrinkage. Cost: that of check_views() for each
+/// camera.
 [[nodiscard]] std::optional<Error> find_turned_video(
     std::span<const Camera> cameras,
     std::span<const CameraDetections> detections,

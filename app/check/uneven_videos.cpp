@@ -19,7 +19,7 @@ using recordings::TrialVideo;
 
 namespace {
 
-/// How far a frame is from that rate, at most. [s]
+/// Returns the largest distance of a frame from an even rate. [s]
 double furthest_s(const std::vector<Timestamp>& times, double hz, double first_s) {
   double worst_s = 0.0;
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -29,7 +29,8 @@ double furthest_s(const std::vector<Timestamp>& times, double hz, double first_s
   return worst_s;
 }
 
-/// The rate of times that are as even as a container lets them be.
+/// Returns the rate of times that are even within the precision of a container; else
+/// nullopt.
 std::optional<FrameRate> even_rate(const std::vector<Timestamp>& times) {
   constexpr double kEven = 0.25;
   if (times.size() < 3) return std::nullopt;
@@ -46,7 +47,7 @@ Status check_slow_motion(const Trial& trial,
                          const std::string& steady) {
   // Cameras of 120 Hz write 29.97 Hz as well as 30.
   constexpr double kSameRate = 0.01;
-  const std::string said = format_text("fps = %.2f and slow_motion = %.4g of trial %s",
+  const std::string declared = format_text("fps = %.2f and slow_motion = %.4g of trial %s",
                                        trial.rate->hz,
                                        trial.slow_motion,
                                        trial.name.c_str());
@@ -60,7 +61,7 @@ Status check_slow_motion(const Trial& trial,
         format_text(" mean videos that play at %.2f frames per second", expected_hz);
     return bad_input(
         steady.empty() ? "trial " + trial.name : steady,
-        said + expected +
+        declared + expected +
             (steady.empty() ? ", but none of them states an even rate"
                             : format_text(", but it plays at %.2f", trial.rate->hz)),
         next);
@@ -69,7 +70,7 @@ Status check_slow_motion(const Trial& trial,
     if (std::abs(rate.hz / expected_hz - 1.0) < kSameRate) continue;
     return bad_input(
         source,
-        said +
+        declared +
             format_text(" mean a video that plays at %.2f frames per second, but its own "
                         "times give %.2f",
                         expected_hz,
@@ -79,9 +80,10 @@ Status check_slow_motion(const Trial& trial,
   return Done{};
 }
 
-/// Videos that run evenly at another rate than the trial's fps. All alike, they may be
-/// slow motion, or the fps is wrong: whoever knows must say. One among others of the
-/// right rate is another recording, or was converted.
+/// Checks videos with another constant rate than `fps` of the trial. If all have the same
+/// rate, either they are slow motion or `fps` is wrong, so this is a failure that the
+/// user resolves. If only some differ, they belong to another recording or were
+/// converted: an error.
 Status check_stated(const Trial& trial,
                     const std::vector<std::pair<std::string, FrameRate>>& others,
                     const std::string& steady,
@@ -92,13 +94,13 @@ Status check_stated(const Trial& trial,
     return std::abs(other.second.hz / rate.hz - 1.0) < 1e-3;
   };
   const std::string own =
-      format_text("its own times say a steady %.2f frames per second", rate.hz);
-  const std::string said =
+      format_text("its own times give a steady %.2f frames per second", rate.hz);
+  const std::string declared =
       format_text("fps of trial %s is %.2f", trial.name.c_str(), trial.rate->hz);
   if (!steady.empty() || !std::all_of(others.begin(), others.end(), is_alike)) {
     return bad_input(source,
-                     own + ", and " + said +
-                         (steady.empty() ? std::string(", as no other video has it")
+                     own + ", and " + declared +
+                         (steady.empty() ? std::string(", a rate that no other video has")
                                          : ", at which " + steady + " runs"),
                      "record all cameras at one rate; if this file states its rate "
                      "wrongly, correct the file");
@@ -106,7 +108,7 @@ Status check_stated(const Trial& trial,
   troubles.failures.push_back(
       {Errc::kQuality,
        source,
-       own + " (as the others do), and " + said +
+       own + " (as for the other videos), and " + declared +
            format_text(
                ": movements are taken to be %.2f times as fast as the video shows",
                trial.rate->hz / rate.hz),
@@ -124,7 +126,8 @@ std::optional<UnevenVideo> uneven_video(const TrialVideo& video, FrameRate rate)
   if (std::filesystem::is_directory(video.path, ignored)) return std::nullopt;
   auto times = recordings::video_times(video.path);
   if (!times || !capture::measured_rate(*times)) return std::nullopt;
-  // What a container rounds away is less than this; what is more is a camera's doing.
+  // Rounding of a container stays below this limit; larger deviations come from the
+  // camera.
   constexpr double kSteady = 0.25;
   const double worst_s = furthest_s(*times, rate.hz, 0.0);
   if (worst_s * rate.hz < kSteady) return std::nullopt;
@@ -167,13 +170,13 @@ Status check_even(const Trial& trial,
     if (!trial.rate) {
       return bad_input(camera.source,
                        how_uneven(*uneven, rate) +
-                           ", so that numbers of frames say nothing of their times",
-                       "leave out \"frames\" of trial " + trial.name +
-                           ", and its own times are used; or give the trial an \"fps\", "
-                           "if frames of one number belong together all the same");
+                           ", so frame numbers do not determine the times",
+                       "remove \"frames\" from trial " + trial.name +
+                           ", so that the times of the video are used; or give the trial "
+                           "an \"fps\", if frames with equal numbers belong together");
     }
     troubles.warnings.push_back(camera.source + ": " + how_uneven(*uneven, rate) +
-                                "; the session's fps is used all the same");
+                                "; the session's fps is still used");
   }
   return trial.slow_motion != 1.0 ? check_slow_motion(trial, others, steady)
                                   : check_stated(trial, others, steady, troubles);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Videos whose own frame times are not those of the rate that they are taken for.
+// Detects videos whose frame times differ from the assumed constant rate.
 
 #include <optional>
 #include <span>
@@ -18,22 +18,24 @@ namespace marey::app {
 
 struct UnevenVideo {
   capture::CameraTimes own;
-  double worst_s = 0.0;  ///< How far a frame is from the steady rate.
-  /// It runs evenly, at another rate than it was held against.
+  double worst_s = 0.0;  ///< Largest distance of a frame from the rate.
+  /// Constant rate of the video, if it has one that differs from the assumed rate.
   std::optional<FrameRate> other_rate;
 };
 
-/// nullopt of a video that is steady at `rate`, or does not tell.
+/// Compares the frame times of a video with the constant rate `rate`. nullopt if all are
+/// within a quarter of a period, or if the file has no usable times.
 [[nodiscard]] std::optional<UnevenVideo> uneven_video(const recordings::TrialVideo& video,
                                                       FrameRate rate);
 
-/// The finding in words, without its consequence.
+/// Returns the finding as text, without its consequence.
 [[nodiscard]] std::string how_uneven(const UnevenVideo& video, FrameRate rate);
 
-/// Whether frames can be matched by number, as a trial's `frames` or its fps ask for.
-/// Errors (kBadInput): an uneven video without an fps; one that runs evenly at another
-/// rate than the fps while others do not; declared slow motion that contradicts the
-/// videos' rates. All alike at another rate is a failure, unless it is declared.
+/// Checks that frames can be matched by number, in a trial with `frames` or with `fps`.
+/// Errors (kBadInput): an uneven video in a trial without `fps`; a video with another
+/// constant rate than `fps` while other videos have that of `fps`; declared slow motion
+/// that contradicts the rates of the videos. If all videos have one other constant rate,
+/// this is a failure in `troubles`, unless slow motion is declared.
 [[nodiscard]] Status check_even(const recordings::Trial& trial,
                                 std::span<const CameraDetections> found,
                                 RecordingTroubles& troubles);

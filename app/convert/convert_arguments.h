@@ -8,21 +8,21 @@
 
 namespace marey::app {
 
-/// What `marey convert` was asked for.
+/// Arguments of `marey convert`.
 struct ConvertArguments {
   std::filesystem::path in;   ///< Markers: .c3d, .trc; motions: .bvh, .amc, .glb, .vrma.
   std::filesystem::path out;  ///< Markers: .c3d, .trc; motions: .bvh, .vrma, .npz...
-  // Axes ("+Z") and units ("mm"), checked; empty where the files decide.
+  // Validated axes ("+Z") and units ("mm"); empty: those of the files.
   std::string up;
   std::string unit;
   std::string to_up;
   std::string to_unit;
-  // Of motions alone:
-  std::filesystem::path skeleton;  ///< The .asf of an .amc; empty: the one beside it.
-  std::optional<double> rate_hz;   ///< What IN's rate is, if not as it says.
+  // For motions only:
+  std::filesystem::path skeleton;  ///< The .asf of an .amc; empty: the one next to it.
+  std::optional<double> rate_hz;   ///< Rate of IN, if its file is wrong.
   std::optional<double> to_rate_hz;
-  std::string bvh_dialect;  ///< A BvhDialect's name, or empty.
-  std::string neutral;      ///< read_neutral()'s word, or empty.
+  std::string bvh_dialect;  ///< Name of a BvhDialect, or empty.
+  std::string neutral;      ///< Argument of read_neutral(), or empty.
   bool json = false;
 };
 

@@ -11,11 +11,11 @@
 
 namespace marey::app {
 
-/// `marey convert IN OUT`: labelled markers, or the motion of a skeleton, from one kind
-/// of file to another.
+/// Runs `marey convert IN OUT`: converts labelled markers, or the motion of a skeleton,
+/// to another file format.
 [[nodiscard]] Exit run_convert(const ConvertArguments& arguments, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. Parsing it sets `chosen`. `args` must keep its address.
 void add_convert_command(CLI::App& app,
                          ConvertArguments& args,
                          std::function<Exit(Console&)>& chosen);

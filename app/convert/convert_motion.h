@@ -9,11 +9,11 @@
 
 namespace marey::app {
 
-/// Whether a file can hold the motion of a skeleton, by its name: .bvh, .amc, .glb,
-/// .gltf, .vrm or .vrma.
+/// Returns true if a file can contain the motion of a skeleton, by its extension: .bvh,
+/// .amc, .npz, .glb, .gltf, .vrm or .vrma.
 [[nodiscard]] bool is_motion(const std::filesystem::path& file);
 
-/// `marey convert IN OUT` where IN is_motion().
+/// Runs `marey convert IN OUT` for an IN that is_motion().
 [[nodiscard]] Exit convert_motion(const ConvertArguments& arguments, Console& console);
 
 }  // namespace marey::app

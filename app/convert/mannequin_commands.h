@@ -12,20 +12,20 @@
 
 namespace marey::app {
 
-/// What `marey mannequin` was asked for.
+/// Arguments of `marey mannequin`.
 struct MannequinArguments {
   recordings::MannequinOptions options;
   recordings::MannequinStyle style;
   std::filesystem::path out;  ///< .glb
 };
 
-/// `marey mannequin --out body.glb`.
+/// Runs `marey mannequin --out body.glb`: writes a skinned mannequin as GLB.
 [[nodiscard]] Exit run_mannequin(const recordings::MannequinOptions& options,
                                  const recordings::MannequinStyle& style,
                                  const std::filesystem::path& out,
                                  Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. Parsing it sets `chosen`. `args` must keep its address.
 void add_mannequin_command(CLI::App& app,
                            MannequinArguments& args,
                            std::function<Exit(Console&)>& chosen);

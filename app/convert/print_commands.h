@@ -17,7 +17,7 @@
 
 namespace marey::app {
 
-/// What `marey tags` and `marey board` were asked for.
+/// Arguments of `marey tags` and `marey board`.
 struct PrintArguments {
   std::filesystem::path out;
   std::filesystem::path session;  ///< Empty: none.
@@ -27,7 +27,7 @@ struct PrintArguments {
   std::string family = "tag36h11";
   // marey tags
   std::vector<recordings::NamedTag> ids;
-  double size_m = 0.0;  ///< 0: the session's.
+  double size_m = 0.0;  ///< 0: sizes of the session.
   bool plates = false;
   // marey board
   std::string type = "aprilgrid";
@@ -40,20 +40,20 @@ struct PrintArguments {
                        .marker_size_m = 0.022,
                        .dictionary = "DICT_5X5_100"};
   Chessboard chessboard{.rows = 7, .columns = 10, .square_size_m = 0.025};
-  // Of the latter two; 0: as above.
+  // For ChArUco and chessboard; 0: the default above.
   int squares_x = 0;
   int squares_y = 0;
   double square_size_m = 0.0;
 };
 
-/// `marey tags`: a PDF of tags, true to scale.
+/// Runs `marey tags`: writes a PDF of tags, true to scale.
 [[nodiscard]] Exit run_tags(const PrintArguments& args, Console& console);
 
-/// `marey board`: a PDF of a calibration board.
+/// Runs `marey board`: writes a PDF of a calibration board, true to scale.
 [[nodiscard]] Exit run_board(const PrintArguments& args, Console& console);
 
-/// Adds both commands; the one that is given becomes `chosen`. Mistakes in single words,
-/// such as a length without unit, are CLI11's to tell: exit 2.
+/// Adds both commands. Parsing one of them sets `chosen`. CLI11 reports invalid values,
+/// such as a length without unit, with exit code 2.
 void add_print_commands(CLI::App& app,
                         PrintArguments& args,
                         std::function<Exit(Console&)>& chosen);

@@ -10,15 +10,15 @@
 
 namespace marey::app {
 
-/// What `marey doctor` was asked for.
+/// Arguments of `marey doctor`.
 struct DoctorArguments {
   bool json = false;
 };
 
-/// `marey doctor`: what this machine has, and whether it is enough.
+/// Runs `marey doctor`: reports the resources of this machine and checks them.
 [[nodiscard]] Exit run_doctor(bool json, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. Parsing it sets `chosen`. `args` must keep its address.
 void add_doctor_command(CLI::App& app,
                         DoctorArguments& args,
                         std::function<Exit(Console&)>& chosen);

@@ -14,9 +14,9 @@
 namespace marey::app {
 
 struct InspectBodyOptions {
-  std::optional<std::filesystem::path> bone_map;  ///< Instead of the one beside the body.
-  std::string neutral;                            ///< read_neutral()'s word, or empty.
-  bool write_map = false;                         ///< Store FILE's map beside it.
+  std::optional<std::filesystem::path> bone_map;  ///< Replaces the one next to the body.
+  std::string neutral;                            ///< Argument of read_neutral(), or empty.
+  bool write_map = false;                         ///< Writes the map next to FILE.
   std::filesystem::path picture;                  ///< .svg or .png; empty for none.
 
   [[nodiscard]] bool asks() const {
@@ -24,18 +24,18 @@ struct InspectBodyOptions {
   }
 };
 
-/// What a body's file holds: joints, motion, and under "body" which joint is which bone,
-/// why and how surely, its unit, up, front, stature and warnings, or "declined" with the
-/// reason. Writes the map and the picture.
-/// Errors: the file cannot be read; the map or the neutral that is given does not fit the
-/// body; a map or a picture is asked for and there is none of the body, or the disk has no
-/// room.
+/// Returns the content of a body's file: joints, motion, and under "body" the joint of
+/// each bone with reason and confidence, unit, up axis, front, stature and warnings, or
+/// "declined" with the reason. Writes the map and the picture if the options request
+/// them.
+/// Errors: the file cannot be read; the given map or neutral pose does not fit the body;
+/// a map or a picture is requested and the body has none; the disk is full.
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_body(
     const std::filesystem::path& file,
     const InspectBodyOptions& options,
     Console& console);
 
-/// The same for reading: a line per bone.
+/// Returns the result of inspect_body() in readable form, with one line per bone.
 [[nodiscard]] nlohmann::ordered_json bones_as_lines(nlohmann::ordered_json inspected);
 
 }  // namespace marey::app

@@ -12,20 +12,21 @@
 
 namespace marey::app {
 
-/// What `marey inspect` was asked for.
+/// Arguments of `marey inspect`.
 struct InspectArguments {
   std::filesystem::path file;
   InspectBodyOptions body;
   bool json = false;
 };
 
-/// `marey inspect FILE`: what a session, calibration, subject, motion or table holds.
+/// Runs `marey inspect FILE`: prints the content of a session, calibration, subject,
+/// motion or table.
 [[nodiscard]] Exit run_inspect(const std::filesystem::path& file,
                                const InspectBodyOptions& options,
                                bool json,
                                Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. Parsing it sets `chosen`. `args` must keep its address.
 void add_inspect_command(CLI::App& app,
                          InspectArguments& args,
                          std::function<Exit(Console&)>& chosen);

@@ -11,27 +11,29 @@
 
 namespace marey::app {
 
-// What `marey inspect` prints of single files. Errors: those of the readers.
+// Functions that return the output of `marey inspect` for single files. Errors: those of
+// the readers.
 
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_calibration(
     const std::filesystem::path& file);
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_subject(
     const std::filesystem::path& file);
 
-/// joints.csv, segments.csv or the places that marey convert writes, by the header.
+/// Inspects joints.csv, segments.csv or the positions written by `marey convert`. The
+/// header of the table determines the kind.
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_table(
     const std::filesystem::path& file);
 
-/// OpenSim's .mot or .sto.
+/// Inspects a .mot or .sto file of OpenSim.
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_angles(
     const std::filesystem::path& file);
 
-/// Acclaim's .asf.
+/// Inspects an .asf file of Acclaim.
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_acclaim(
     const std::filesystem::path& file);
 
-/// A file whose kind file_kind() tells. Errors also (kBadInput): a bone map, which says
-/// nothing without its body; a session, whose folder is inspected elsewhere.
+/// Inspects a file of a kind that file_kind() detects. Errors also (kBadInput): a bone
+/// map, which can only be inspected with its body; a session, see inspect_folder().
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_kind(
     const std::filesystem::path& file, recordings::FileKind kind);
 

@@ -10,7 +10,8 @@
 
 namespace marey::app {
 
-/// What a C3D or TRC holds, for `marey inspect`.
+/// Returns the output of `marey inspect` for a C3D or TRC file. Errors: those of the
+/// reader.
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_markers(
     const std::filesystem::path& file);
 

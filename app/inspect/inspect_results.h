@@ -10,15 +10,16 @@
 
 namespace marey::app {
 
-// What `marey inspect` prints of results and takes. Errors: those of the readers.
+// Functions that return the output of `marey inspect` for results and takes. Errors:
+// those of the readers.
 
-/// A .json that marey wrote: report, fit, plan, calibration or repair. Errors also: not
-/// one of these.
+/// Inspects a .json file written by marey: report, fit, plan, calibration or repair.
+/// Errors also (kBadInput): another file.
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_report(
     const std::filesystem::path& file);
 
-/// A folder: a session, results, one trial of results, a recorded take or a live take.
-/// Errors also (kBadInput): it holds nothing of these.
+/// Inspects a folder with a session, results, one trial of results, a recorded take or a
+/// live take. Errors also (kBadInput): the folder has none of these.
 [[nodiscard]] Result<nlohmann::ordered_json> inspect_folder(
     const std::filesystem::path& folder);
 

@@ -27,8 +27,8 @@ struct ListenArguments {
   bool json = false;
 };
 
-/// Runs `marey listen BODY`: receives VMC until Ctrl-C, and writes it as a motion of BODY,
-/// or retargets it to another body and sends that as VMC, or both.
+/// Runs `marey listen BODY`: receives VMC until Ctrl-C, and writes it as a motion of
+/// BODY, or retargets it to another body and sends that as VMC, or both.
 [[nodiscard]] Exit run_listen(const ListenArguments& arguments, Console& console);
 
 /// Adds the command. Parsing it sets `chosen`. `arguments` must keep its address.

@@ -40,11 +40,11 @@ class LiveGuide {
   /// Sets whether a take is being recorded. A take has one body, so no calibration starts
   /// during a recording.
   void set_recording(bool on) { options_.is_recording = on; }
-  /// Processes one instant. Cost: some microseconds, except for the instant in which a body
-  /// is accepted.
+  /// Processes one instant. Cost: some microseconds, except for the instant in which a
+  /// body is accepted.
   void see(const LiveInstant& instant);
-  /// Ends the calibration; no instant may follow. Waits up to a minute for a running solve.
-  /// With LiveGuideOptions::by_itself it accepts a good result.
+  /// Ends the calibration; no instant may follow. Waits up to a minute for a running
+  /// solve. With LiveGuideOptions::by_itself it accepts a good result.
   void end();
   /// Returns the body accepted since the last call, if any.
   [[nodiscard]] std::optional<GuidedBody> take_body();

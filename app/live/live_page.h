@@ -22,14 +22,14 @@
 namespace marey::app {
 
 /// Shows a live run in browsers: the performer with its uncertainty, the skinned avatars
-/// next to it, the handles of the first avatar, the cameras with their thumbnails and tags,
-/// and the status of cameras, outputs and subject. A slow browser skips frames and never
-/// delays the run.
+/// next to it, the handles of the first avatar, the cameras with their thumbnails and
+/// tags, and the status of cameras, outputs and subject. A slow browser skips frames and
+/// never delays the run.
 class LivePage final : public LiveWatcher {
  public:
-  /// Starts the server with the scene of this run. `guide` performs calibrations; it may be
-  /// null and must outlive the page. Errors: those of start_page(); a skin file cannot be
-  /// read.
+  /// Starts the server with the scene of this run. `guide` performs calibrations; it may
+  /// be null and must outlive the page. Errors: those of start_page(); a skin file cannot
+  /// be read.
   [[nodiscard]] static Result<std::unique_ptr<LivePage>> open(
       const PageServerOptions& options,
       const OpenedLive& live,

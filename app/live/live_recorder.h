@@ -16,10 +16,10 @@
 
 namespace marey::app {
 
-/// Records a take of a live run. A take is a folder with copies of the cameras, the subject
-/// and the avatars, and live.sqlite with every instant. Its replay gives the same bytes,
-/// also after the folder is moved. Data older than half a second survives a crash of the
-/// process. A separate thread waits for the disk.
+/// Records a take of a live run. A take is a folder with copies of the cameras, the
+/// subject and the avatars, and live.sqlite with every instant. Its replay gives the same
+/// bytes, also after the folder is moved. Data older than half a second survives a crash
+/// of the process. A separate thread waits for the disk.
 class LiveRecorder {
  public:
   /// Creates the folder and writes the constant data of a run with this body and these
@@ -33,18 +33,20 @@ class LiveRecorder {
       const LiveSettings& settings);
   ~LiveRecorder();
 
-  /// Adds an instant. Does not wait for the disk. After an error nothing more is recorded.
+  /// Adds an instant. Does not wait for the disk. After an error nothing more is
+  /// recorded.
   void add(const LiveInstant& instant,
            const LiveRequests& requests,
            const LiveResult& result);
-  /// Adds an instant of the lead-in, which a replay needs to reach the initial state of the
-  /// take (see LiveTakes).
+  /// Adds an instant of the lead-in, which a replay needs to reach the initial state of
+  /// the take (see LiveTakes).
   void add_lead_in(const LiveInstant& instant, const LiveRequests& requests);
   /// Returns the error that ended the recording early, if any. The run itself continues.
   [[nodiscard]] std::optional<Error> trouble() const;
   /// Writes the remaining data. Errors: trouble(), or the disk.
   [[nodiscard]] Status finish();
-  /// Removes all files that create() made. Called in place of finish(); no call may follow.
+  /// Removes all files that create() made. Called in place of finish(); no call may
+  /// follow.
   void discard();
 
  private:

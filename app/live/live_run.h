@@ -16,7 +16,8 @@
 
 namespace marey::app {
 
-/// Observer of a run. Its functions are called between two frames and must return quickly.
+/// Observer of a run. Its functions are called between two frames and must return
+/// quickly.
 class LiveWatcher {
  public:
   virtual ~LiveWatcher() = default;
@@ -49,13 +50,14 @@ struct LiveRunOptions {
 
 /// Runs until `stop` returns true. One thread per camera detects its tags. The calling
 /// thread takes the newest instant that is complete or has reached the longest wait,
-/// computes its packets with the chain and sends them before any other work on the instant.
+/// computes its packets with the chain and sends them before any other work on the
+/// instant.
 ///
 /// Under overload the newest data has priority: a picture older than
-/// LiveCameraOptions::stale_after_s is skipped, and so are waiting instants once a newer one
-/// is ready. All skipped data is counted. Without a chain nothing is tracked or sent until
-/// the guide provides a body. `guide`, `takes` and `watcher` may be null; `guide` and
-/// `takes` must belong to `live`.
+/// LiveCameraOptions::stale_after_s is skipped, and so are waiting instants once a newer
+/// one is ready. All skipped data is counted. Without a chain nothing is tracked or sent
+/// until the guide provides a body. `guide`, `takes` and `watcher` may be null; `guide`
+/// and `takes` must belong to `live`.
 /// Errors: those of the detectors.
 [[nodiscard]] Result<LiveFigures> run_live(OpenedLive& live,
                                            std::optional<LiveChain>& chain,

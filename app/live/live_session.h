@@ -70,11 +70,11 @@ struct OpenedLive {
 
 /// Reads and opens all inputs of a live run, the cameras last.
 ///
-/// Errors (kBadInput): those of the session; the calibration is missing, or the subject is
-/// missing and is not to be measured (the message names the command that creates them); the
-/// session does not describe the subject to be measured; a camera is missing in the
-/// calibration or has another picture size; fewer than two cameras can be used; an avatar
-/// is not humanoid; an address is invalid. (kDevice): a camera cannot be opened.
+/// Errors (kBadInput): those of the session; the calibration is missing, or the subject
+/// is missing and is not to be measured (the message names the command that creates
+/// them); the session does not describe the subject to be measured; a camera is missing
+/// in the calibration or has another picture size; fewer than two cameras can be used; an
+/// avatar is not humanoid; an address is invalid. (kDevice): a camera cannot be opened.
 [[nodiscard]] Result<OpenedLive> open_live(const LiveArguments& arguments,
                                            Console& console);
 

@@ -97,7 +97,7 @@ void LiveTakes::check_threads() {
     } else if (!closed.trouble) {
       console_.say("recorded to " + closed.folder.string());
       finished_.push_back(closed.folder.string());
-    } else if (!closed.is_told) {
+    } else if (!closed.is_reported) {
       report_failure(*closed.trouble);
     }
   }
@@ -109,8 +109,8 @@ void LiveTakes::check_threads() {
   if (take_ && take_->recorder && !take_->trouble) {
     take_->trouble = take_->recorder->trouble();
   }
-  if (take_ && take_->trouble && !take_->is_told) {
-    take_->is_told = true;
+  if (take_ && take_->trouble && !take_->is_reported) {
+    take_->is_reported = true;
     report_failure(*take_->trouble);
   }
   const bool is_void = take_ && std::exchange(is_opening_void_, false);
@@ -139,7 +139,7 @@ void LiveTakes::close() {
 }
 
 /// All that was asked so far and still counts, for one who has heard nothing of it.
-LiveRequests LiveTakes::all_asked(const LiveResult& result) const {
+LiveRequests LiveTakes::pending_requests(const LiveResult& result) const {
   LiveRequests all;
   periods_.add_to(all);
   for (const HandleState& handle : result.handles) {

@@ -17,42 +17,43 @@
 
 namespace marey::app {
 
-/// Manages the takes of one live run: a take of the whole run, and takes that start and end
-/// during it.
+/// Manages the takes of one live run: a take of the whole run, and takes that start and
+/// end during it.
 ///
 /// The result of an instant depends on all instants before it. A take that starts during
-/// the run therefore gets its own new chain, which receives the same instants as the run's
-/// chain. Once the new chain has tracked the body for kLeadIn_s, it replaces the run's
-/// chain, and every later byte depends on the take alone. The instants before that are the
-/// lead-in of the take. The new chain takes over the state of the handles, the periods
-/// requested for the streams and the time base of VMC.
+/// the run therefore gets its own new chain, which receives the same instants as the
+/// run's chain. Once the new chain has tracked the body for kLeadIn_s, it replaces the
+/// run's chain, and every later byte depends on the take alone. The instants before that
+/// are the lead-in of the take. The new chain takes over the state of the handles, the
+/// periods requested for the streams and the time base of VMC.
 ///
-/// A take that ends during its lead-in has nothing to replay. It is deleted with a warning.
+/// A take that ends during its lead-in has nothing to replay. It is deleted with a
+/// warning.
 ///
 /// Other threads create folders, files and the new chain, and close takes. Only finish()
 /// waits for the disk.
 class LiveTakes {
  public:
-  /// Duration of the lead-in. With a shorter one the body's position jumps when the chains
-  /// are exchanged, because the lags of the cameras are not known at first.
+  /// Duration of the lead-in. With a shorter one the body's position jumps when the
+  /// chains are exchanged, because the lags of the cameras are not known at first.
   static constexpr double kLeadIn_s = 1.0;
 
-  /// The folder of a take that starts during the run is the first unused name of "STEM-1",
-  /// "STEM-2"... `live` and `console` must outlive this object. After the first add() the
-  /// cameras, avatars and settings of `live` must not change.
+  /// The folder of a take that starts during the run is the first unused name of
+  /// "STEM-1", "STEM-2"... `live` and `console` must outlive this object. After the first
+  /// add() the cameras, avatars and settings of `live` must not change.
   LiveTakes(const OpenedLive& live, std::filesystem::path stem, Console& console);
   ~LiveTakes();
 
-  /// Starts a take of the whole run, from its first instant. Precondition: called before any
-  /// add(), and `live` has a body. Errors: those of LiveRecorder::create().
+  /// Starts a take of the whole run, from its first instant. Precondition: called before
+  /// any add(), and `live` has a body. Errors: those of LiveRecorder::create().
   [[nodiscard]] Status begin_with_run(const std::filesystem::path& folder);
   /// Starts a take, or ends the current one, with the next add().
   void want(bool on) { wanted_ = on; }
   [[nodiscard]] bool is_wanted() const { return wanted_; }
   /// Sets the body of the chain from the next add() on. Ends the current take.
   void follow(const Body& body);
-  /// Adds an instant and its result. May replace `chain` by another one, which invalidates
-  /// `result`.
+  /// Adds an instant and its result. May replace `chain` by another one, which
+  /// invalidates `result`.
   void add(const LiveInstant& instant,
            const LiveRequests& requests,
            const LiveResult& result,

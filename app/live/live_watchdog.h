@@ -15,8 +15,8 @@ namespace marey::app {
 /// caller supplies the time.
 class LiveWatchdog {
  public:
-  /// Interval between notifications of receivers while poses fall behind; repeated because
-  /// UDP loses packets. [s]
+  /// Interval between notifications of receivers while poses fall behind; repeated
+  /// because UDP loses packets. [s]
   static constexpr double kRepeat_s = 0.25;
   /// Trouble that recurs within this time causes no second console warning. [s]
   static constexpr double kOver_s = 3.0;

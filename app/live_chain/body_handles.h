@@ -23,8 +23,8 @@ struct BodyHandle {
 /// Start time of a constraint that only the caller activates: later than any motion. [s]
 inline constexpr double kNotByItself_s = 1e9;
 
-/// Returns the handles of head, hands, feet and hips, in this order, without those that the
-/// body lacks. The hips are always present. Linear in the number of joints.
+/// Returns the handles of head, hands, feet and hips, in this order, without those that
+/// the body lacks. The hips are always present. Linear in the number of joints.
 [[nodiscard]] std::vector<BodyHandle> body_handles(const Skeleton& skeleton);
 
 /// Returns a constraint that moves the joint to the target of its handle. It is inactive
@@ -32,8 +32,8 @@ inline constexpr double kNotByItself_s = 1e9;
 [[nodiscard]] Constraint handle_constraint(const BodyHandle& handle, double fade_s);
 
 /// Returns the support constraints of the feet, "leftFoot" and "rightFoot", without those
-/// that the body lacks. They are inactive until the caller activates them, and fade in and
-/// out over `fade_s`.
+/// that the body lacks. They are inactive until the caller activates them, and fade in
+/// and out over `fade_s`.
 [[nodiscard]] std::vector<Constraint> foot_supports(const Skeleton& skeleton,
                                                     double fade_s);
 

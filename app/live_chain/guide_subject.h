@@ -38,16 +38,16 @@ struct GuideMaterial {
   std::vector<CameraDetections> moving;
 };
 
-/// State machine of the live calibration of a subject: stand still, move every joint, wait
-/// for the fit, review its quality. ui_state() is the state for the UI. The class does no
-/// I/O: the caller supplies instants and actions, solves the data of take_material() and
-/// stores the accepted body.
+/// State machine of the live calibration of a subject: stand still, move every joint,
+/// wait for the fit, review its quality. ui_state() is the state for the UI. The class
+/// does no I/O: the caller supplies instants and actions, solves the data of
+/// take_material() and stores the accepted body.
 ///
 /// Uses no threads and no clock except the times of the instants, so the same calls give
 /// the same results. The detections of a step are allocated, for at most 2 * move_s.
 ///
-/// - Stand: time counts while the hips and most parts of the body are visible. Restarts if
-///   the subject moves by more than some centimetres. Continues to Move automatically.
+/// - Stand: time counts while the hips and most parts of the body are visible. Restarts
+///   if the subject moves by more than some centimetres. Continues to Move automatically.
 /// - Move: time counts while the hips are visible. The step waits until every part of the
 ///   body with tags was seen twice at once, by two cameras or with two tags. Continues to
 ///   Solve automatically.

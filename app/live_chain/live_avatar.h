@@ -15,9 +15,9 @@ namespace marey::app {
 [[nodiscard]] Result<retarget::LiveRetarget> make_live_retarget(
     const Skeleton& performer, const OpenedAvatar& avatar);
 
-/// Returns the VMC representation of a body. `avatar` is null for the performer's skeleton,
-/// which has no file. Errors: those of map_body() and VmcBody::make(), with the avatar's
-/// file.
+/// Returns the VMC representation of a body. `avatar` is null for the performer's
+/// skeleton, which has no file. Errors: those of map_body() and VmcBody::make(), with the
+/// avatar's file.
 [[nodiscard]] Result<live::VmcBody> make_vmc_body(const Skeleton& skeleton,
                                                   const OpenedAvatar* avatar,
                                                   live::VmcRest rest);

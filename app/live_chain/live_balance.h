@@ -19,8 +19,8 @@
 namespace marey::app {
 
 /// Computes centre of mass and support of a live performer and of its avatars, pose by
-/// pose; `marey view` shows the same values of recordings. All bodies share the supporting
-/// feet of the performer, which are detected from its poses.
+/// pose; `marey view` shows the same values of recordings. All bodies share the
+/// supporting feet of the performer, which are detected from its poses.
 ///
 /// The same poses and time steps give bit-identical results. Cost: some microseconds per
 /// body; no allocation after the first look() at every body.
@@ -39,8 +39,8 @@ class LiveBalance {
   [[nodiscard]] const std::array<retarget::StandingFoot, 2>& standing() const {
     return stance_.standing();
   }
-  /// Returns the balance of one body in this pose, or nullptr if it is unknown. A foot with
-  /// an active handle does not support. Valid until the next call for this body.
+  /// Returns the balance of one body in this pose, or nullptr if it is unknown. A foot
+  /// with an active handle does not support. Valid until the next call for this body.
   [[nodiscard]] const retarget::BalanceFrame* look(
       std::size_t body, const Pose& posture, std::span<const HandleState> handles = {});
 

@@ -43,8 +43,8 @@ struct LiveResult {
   double encode_s = 0.0;
 };
 
-/// Computes the packets of every stream from the detections of the cameras: tag corners to
-/// the performer's pose, to the pose of every avatar, to packets. The first avatar is
+/// Computes the packets of every stream from the detections of the cameras: tag corners
+/// to the performer's pose, to the pose of every avatar, to packets. The first avatar is
 /// adapted to its dragged handles (app/live_chain/live_handles.h). The live run and the
 /// replay use this class. All state is in this object, and the clock is read only to
 /// measure durations, so the same instants and requests give the same bytes. Used by one

@@ -84,7 +84,8 @@ struct LiveFigures {
 /// Returns the figures as indented JSON (docs/formats/README.md) with a final newline.
 [[nodiscard]] std::string live_figures_text(const LiveFigures& figures);
 
-/// Returns the resident memory of this process [MB], or 0 if the system does not report it.
+/// Returns the resident memory of this process [MB], or 0 if the system does not report
+/// it.
 [[nodiscard]] double resident_mb();
 
 }  // namespace marey::app

@@ -18,9 +18,9 @@ enum class Flow {
 };
 
 /// Detects that the poses of a live run do not keep up with its cameras. Uses a clock and
-/// not the instants, because no further instant may come. Detects an overloaded computer or
-/// cameras without pictures within a second. The caller supplies the time in every call;
-/// times never decrease.
+/// not the instants, because no further instant may come. Detects an overloaded computer
+/// or cameras without pictures within a second. The caller supplies the time in every
+/// call; times never decrease.
 class LiveFlow {
  public:
   /// Window over which poses and pictures are counted. [s]
@@ -35,8 +35,8 @@ class LiveFlow {
 
   /// Records that an instant was solved.
   void on_instant(Timestamp now);
-  /// Updates and returns the flow. `pictures` is the maximum over the cameras of pictures so
-  /// far, including those lost in transfer; it never decreases.
+  /// Updates and returns the flow. `pictures` is the maximum over the cameras of pictures
+  /// so far, including those lost in transfer; it never decreases.
   Flow look(Timestamp now, long pictures);
 
   [[nodiscard]] Flow flow() const { return flow_; }

@@ -26,14 +26,15 @@ struct HandleState {
   std::string_view id;
   JointIndex joint{};
   bool active = false;
-  /// Target of its joint; for an inactive handle, the joint's position at the last step().
+  /// Target of its joint; for an inactive handle, the joint's position at the last
+  /// step().
   glm::dvec3 p_in_world{0.0};
 };
 
 /// Adapts a moving avatar to handles at head, hands, feet and hips that users drag. The
-/// handles are constraints of a running adapter (Kulpa 2005, 7.1). A dragged joint moves to
-/// its target, the adapter computes the rest of the body, and supporting feet keep their
-/// position. A released handle keeps its target until it is stopped.
+/// handles are constraints of a running adapter (Kulpa 2005, 7.1). A dragged joint moves
+/// to its target, the adapter computes the rest of the body, and supporting feet keep
+/// their position. A released handle keeps its target until it is stopped.
 ///
 /// The same poses, time steps and requests give bit-identical results. Allocates nothing
 /// after make(). Cost: one Adapter::adapt() per step while a handle is active, else none.
@@ -52,9 +53,8 @@ class LiveHandles {
   void ask(const HandleRequest& request);
 
   /// Adapts the avatar's next pose to the active handles. If no handle is active and all
-  /// have faded out, `posture` is bit-identical to its input.
-  /// Preconditions: `posture` is a pose of the avatar, `world_from_joint` belongs to it, and
-  /// since_last_s > 0.
+  /// have faded out, `posture` is bit-identical to its input. Preconditions: `posture` is
+  /// a pose of the avatar, `world_from_joint` belongs to it, and since_last_s > 0.
   void step(std::span<const RigidTransform> world_from_joint,
             const std::array<retarget::StandingFoot, 2>& standing,
             double since_last_s,

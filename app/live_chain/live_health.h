@@ -15,9 +15,9 @@
 
 namespace marey::app {
 
-/// Returns the status of a camera for the page. `before` is its previous state, or null. A
-/// camera with new pictures since then is streaming; without new pictures, its own health
-/// state decides if it is lost.
+/// Returns the status of a camera for the page. `before` is its previous state, or null.
+/// A camera with new pictures since then is streaming; without new pictures, its own
+/// health state decides if it is lost.
 [[nodiscard]] live::PageCameraStatus camera_status(const LiveCameraFigures& now,
                                                    const LiveCameraFigures* before,
                                                    int tags);

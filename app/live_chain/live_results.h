@@ -10,8 +10,8 @@
 namespace marey::app {
 
 /// Serializes the result of an instant: the state of the track, every pose with its
-/// uncertainty, every packet. The bytes are stored with the instant and compared with those
-/// of a replay. Replaces `out`.
+/// uncertainty, every packet. The bytes are stored with the instant and compared with
+/// those of a replay. Replaces `out`.
 void write_results(const LiveResult& result, std::vector<std::byte>& out);
 
 }  // namespace marey::app

@@ -26,8 +26,8 @@ struct VmcStream {
   std::optional<int> listen_port;
 };
 
-/// Settings that determine the results of a live run, in addition to the files of cameras,
-/// subject and avatars. A replay needs the same values.
+/// Settings that determine the results of a live run, in addition to the files of
+/// cameras, subject and avatars. A replay needs the same values.
 struct LiveSettings {
   FrameRate rate;
   double camera_sigma_m = 0.0;
@@ -48,8 +48,8 @@ struct LiveSettings {
 /// Returns the settings as JSON, in one line.
 [[nodiscard]] std::string live_settings_text(const LiveSettings& settings);
 
-/// Parses the text of live_settings_text(). Errors (kBadInput), at `file`: another format;
-/// a stream of an unknown avatar.
+/// Parses the text of live_settings_text(). Errors (kBadInput), at `file`: another
+/// format; a stream of an unknown avatar.
 [[nodiscard]] Result<LiveSettings> parse_live_settings(std::string_view text,
                                                        const std::string& file);
 
@@ -103,7 +103,8 @@ class KeptPeriods {
 /// Returns the requests as JSON in one line; empty if there are none.
 [[nodiscard]] std::string live_requests_text(const LiveRequests& requests);
 
-/// Parses the text of live_requests_text(). Errors (kBadInput), at `file`: another format.
+/// Parses the text of live_requests_text(). Errors (kBadInput), at `file`: another
+/// format.
 [[nodiscard]] Result<LiveRequests> parse_live_requests(std::string_view text,
                                                        const std::string& file);
 

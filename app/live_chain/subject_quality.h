@@ -16,8 +16,9 @@ namespace marey::app {
 
 /// Returns the quality of a measured subject as text for users: the length of each limb
 /// with its standard deviation (poor above 1 cm, or if it differs by 5 % from the other
-/// side), the residual to the detections (poor above 5 px), the limb lengths relative to an
-/// average person (poor beyond 15 %), and the tags without a position (poor above a fifth).
+/// side), the residual to the detections (poor above 5 px), the limb lengths relative to
+/// an average person (poor beyond 15 %), and the tags without a position (poor above a
+/// fifth).
 [[nodiscard]] std::vector<live::WizardQuality> quality_of(
     const reconstruct::SubjectFit& fit);
 

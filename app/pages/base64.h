@@ -7,7 +7,7 @@
 
 namespace marey::app {
 
-/// `bytes` in base64 with padding, as data URLs want it (RFC 4648, section 4).
+/// Encodes `bytes` in base64 with padding, as data URLs require (RFC 4648, section 4).
 [[nodiscard]] std::string base64(std::string_view bytes);
 
 }  // namespace marey::app

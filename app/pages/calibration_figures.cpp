@@ -63,14 +63,14 @@ Json finding_figures(const calib::CalibrationReport& report) {
   return out;
 }
 
-/// Rounded to where the last figures of its sigma are.
+/// Rounds a value to the last significant figures of its sigma.
 double to_sigma(double value, double sigma) {
   if (!(sigma > 0.0)) return rounded(value, 6);
   const int decimals = static_cast<int>(std::ceil(1.5 - std::log10(sigma)));
   return rounded(value, std::clamp(decimals, 0, 9));
 }
 
-/// Every parameter of a camera with its standard deviation.
+/// Returns every parameter of a camera with its standard deviation.
 Json parameters(const calib::CalibrationReport& report, std::size_t c) {
   const calib::CalibratedRig& rig = report.rig;
   const Camera& camera = rig.cameras[c];
@@ -124,7 +124,7 @@ Json parameters(const calib::CalibrationReport& report, std::size_t c) {
   return out;
 }
 
-/// Of the camera's place: three rows of the symmetric matrix.
+/// Returns the covariance of the camera centre as three rows of the symmetric matrix.
 Json centre_covariance_mm2(const calib::CalibrationReport& report, std::size_t c) {
   const calib::RigCovariance& covariance = report.rig.covariance;
   Json rows = Json::array();

@@ -22,12 +22,12 @@ using Json = nlohmann::ordered_json;
 using calib::SeenCorner;
 using calib::TargetView;
 
-// As many arrows as a picture can hold and still be read; pages stay below a megabyte.
+// Largest number of arrows that stay readable in a picture; pages stay below a megabyte.
 constexpr std::size_t kMaxArrows = 600;
 constexpr std::size_t kMaxOutliers = 200;
 constexpr std::size_t kMaxPlaces = 60;
 
-/// At most `most` of `all`, evenly.
+/// Returns at most `most` items of `all`, evenly spaced.
 template <class T>
 std::vector<T> thinned(const std::vector<T>& all, std::size_t most) {
   std::vector<T> out;
@@ -72,7 +72,7 @@ Json page_camera(const calib::CalibrationReport& report, std::size_t c) {
   return {{"arrows", arrows}, {"strays", strays}, {"tilts", tilts}};
 }
 
-/// Where the board (its four corners) or the wand (its origin) was.
+/// Returns the places of the board (its four corners) or of the wand (its origin).
 Json outline(const calib::CalibrationReport& report,
              const RigidTransform& world_from_target) {
   std::vector<glm::dvec3> corners{glm::dvec3(0.0)};

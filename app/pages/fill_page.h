@@ -11,12 +11,12 @@
 
 namespace marey::app {
 
-/// JSON that no HTML parser can take for markup: `<`, `>` and `&` occur in strings only,
-/// and there an escape means the same.
+/// Returns JSON that contains no markup for an HTML parser: `<`, `>` and `&` occur in
+/// strings only, and are replaced by escapes with the same meaning.
 [[nodiscard]] std::string json_in_html(const nlohmann::ordered_json& json);
 
-/// A page of app/report/ with every `{{name}}` replaced by its part. Precondition: every
-/// name has one.
+/// Replaces every `{{name}}` of a page of app/report/ by its part. Precondition: every
+/// name has a part.
 [[nodiscard]] std::string fill_page(
     std::string_view page,
     const std::vector<std::pair<std::string_view, std::string>>& parts);

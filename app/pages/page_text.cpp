@@ -38,7 +38,8 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// Cividis (Nunez, Anderton, Renslow 2018), as the report has it: 0 is dark blue.
+/// Colour map Cividis (Nunez, Anderton, Renslow 2018), the same as in the report: 0 is
+/// dark blue.
 std::string colour(double share) {
   constexpr std::array<std::array<double, 3>, 6> kStops{{{0.0, 0.135, 0.305},
                                                          {0.2, 0.27, 0.43},

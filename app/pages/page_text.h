@@ -7,13 +7,14 @@
 
 namespace marey::app {
 
-/// The colour of that share of a scale, as the report's page has it: 0 is dark blue.
+/// Returns the colour of a share of a scale, from the same map as in the report: 0 is
+/// dark blue.
 [[nodiscard]] std::string colour(double share);
 
-/// `text` where HTML wants words, in an element or an attribute.
+/// Escapes `text` for the content of an HTML element or attribute.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// snprintf() of up to three numbers. Precondition: fewer than 400 characters.
+/// Formats up to three numbers with snprintf(). Precondition: fewer than 400 characters.
 [[nodiscard]] std::string text_of(const char* format,
                                   double a,
                                   double b = 0.0,

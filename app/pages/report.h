@@ -20,7 +20,7 @@
 
 namespace marey::app {
 
-/// One camera as the calibration left it.
+/// A camera, with the quality of its calibration.
 struct ReportCamera {
   Camera camera;
   CameraQuality quality;
@@ -37,7 +37,8 @@ struct ReportTrialCamera {
   DroppedSightings dropped;
 };
 
-/// A run of frames without a sight of a segment, and what became of it.
+/// Successive frames in which no tag of a segment is seen, and the source of its motion
+/// there.
 struct ReportGap {
   std::string segment;
   int first_frame = 0;
@@ -45,11 +46,11 @@ struct ReportGap {
   Source bridged_as = Source::kRepaired;
 };
 
-/// When one tag was seen.
+/// Frames in which one tag was seen.
 struct ReportTag {
   int id = 0;
   std::string segment;
-  std::vector<int> cameras_seeing;  ///< Per frame: how many cameras saw it.
+  std::vector<int> cameras_seeing;  ///< Per frame: cameras that saw the tag.
   /// Distance of the solved motion from the tag's corners: root mean square and median.
   /// nullopt: the tag is not placed on the body or was not seen.
   std::optional<double> rms_px = std::nullopt;
@@ -80,22 +81,22 @@ struct ReportPicture {
 
 /// A body in motion, for the page's viewer.
 struct ReportBody {
-  std::string name;  ///< "subject", or the avatar's.
+  std::string name;  ///< "subject", or the name of the avatar.
   Motion motion;
   std::vector<std::vector<JointUncertainty>>
       uncertainty;  ///< Per frame and joint; empty on avatars.
-  // Of avatars only.
+  // Avatars only.
   double slide_before_cm_per_s = 0.0;
   double slide_after_cm_per_s = 0.0;
-  double penetration_mm = 0.0;   ///< Of its skin; of its feet's ends without one.
-  std::string penetration_part;  ///< Of the skin; empty: unknown, or none is too low.
-  int penetration_frame = -1;    ///< Likewise; counted from the motion's first frame.
-  double source_depth_mm = 0.0;  ///< How far the subject's joints are below the floor.
-  double legs_deg = 0.0;         ///< From the subject's: the largest median of a segment.
+  double penetration_mm = 0.0;   ///< Depth of the skin, else of the feet's ends.
+  std::string penetration_part;  ///< Part of the skin; empty: none, or unknown.
+  int penetration_frame = -1;    ///< Frame of it; 0 is the motion's first frame.
+  double source_depth_mm = 0.0;  ///< Depth of the subject's joints below the floor.
+  double legs_deg = 0.0;         ///< From the subject: largest median of a segment.
   double arms_deg = 0.0;
   double trunk_deg = 0.0;
   std::vector<std::string> problems;
-  std::vector<std::string> files;  ///< Written for it, relative to the report.
+  std::vector<std::string> files;  ///< Files of this body, relative to the report.
 };
 
 struct ReportTrial {
@@ -119,17 +120,17 @@ struct ReportTiming {
   double seconds = 0.0;
 };
 
-/// All that the report says. Built by the pipeline, written by write_report().
+/// Content of the report. Built by the pipeline, written by write_report().
 struct Report {
   std::string session;
   std::string version;
   std::vector<ReportCamera> cameras;
   double calibration_rms_px = 0.0;
-  /// This run calibrated them: it said what there is to say
+  /// True if this run calibrated the cameras, so that their findings are already reported
   /// (calib/quality/check_calibration.h).
   bool cameras_are_judged = false;
-  bool has_calibration_page = false;  ///< calibration.html lies beside the report.
-  std::optional<Body> subject;        ///< Once it is measured.
+  bool has_calibration_page = false;  ///< calibration.html is next to the report.
+  std::optional<Body> subject;        ///< nullopt before the fit.
   double subject_rms_px = 0.0;
   double limb_ratio = 0.0;  ///< Limb lengths over an average person's of that stature.
   std::vector<int> unplaced_tags;
@@ -137,15 +138,15 @@ struct Report {
   std::vector<ReportTiming> timings;
   double recorded_s = 0.0;  ///< Duration of all trials together.
   std::vector<std::string> warnings;
-  /// Those of them that are reasons not to trust the results: exit code 4.
+  /// The warnings that make the results unreliable: exit code 4.
   std::vector<std::string> poor;
 };
 
-/// The figures as JSON, without pictures and motions: report.json.
-/// Precondition: every number finite.
+/// Returns the figures as JSON, without pictures and motions: the content of report.json.
+/// Precondition: all numbers are finite.
 [[nodiscard]] std::string report_json(const Report& report);
 
-/// The whole report as one HTML file that needs nothing else: no network, no other file.
+/// Returns the report as one HTML file that loads no other file and needs no network.
 [[nodiscard]] std::string report_html(const Report& report);
 
 }  // namespace marey::app

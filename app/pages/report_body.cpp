@@ -20,12 +20,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kInt16Max = std::numeric_limits<std::int16_t>::max();
 
-/// What is drawn of a skeleton.
+/// Drawn part of a skeleton.
 struct Drawn {
-  std::vector<std::size_t> joints;  ///< Of the skeleton, in its order.
-  std::vector<int> parents;         ///< Position in `joints` of the nearest one above.
-  std::vector<std::size_t> tips;    ///< Of the skeleton: joints whose tip is drawn.
-  std::vector<int> tip_parents;     ///< Position in `joints`.
+  std::vector<std::size_t> joints;  ///< Indices in the skeleton, ascending.
+  std::vector<int> parents;         ///< Index in `joints` of the nearest drawn ancestor.
+  std::vector<std::size_t> tips;    ///< Indices in the skeleton: joints with a drawn tip.
+  std::vector<int> tip_parents;     ///< Index in `joints`.
 };
 
 bool is_hand(const Joint& joint) {
@@ -49,7 +49,8 @@ std::vector<bool> choose_joints(const Skeleton& skeleton) {
 Drawn choose(const Skeleton& skeleton) {
   const std::vector<bool> chosen = choose_joints(skeleton);
   Drawn drawn;
-  // Per joint: position in drawn.joints of itself or of the nearest one above.
+  // Per joint: index in drawn.joints of the joint itself or of its nearest drawn
+  // ancestor.
   std::vector<int> place(skeleton.joints.size(), -1);
   for (std::size_t j = 0; j < skeleton.joints.size(); ++j) {
     const Joint& joint = skeleton.joints[j];
@@ -80,7 +81,7 @@ Json describe_points(const Skeleton& skeleton, const Drawn& drawn) {
   return points;
 }
 
-/// Numbers as bytes, the low one first whatever the machine.
+/// Returns numbers as little-endian bytes, on any machine.
 class Bytes {
  public:
   void add16(double value) {
@@ -123,7 +124,7 @@ Track follow(const Motion& motion, const Drawn& drawn) {
   return track;
 }
 
-/// Writes points around the middle of their range, in millimetres as long as they fit.
+/// Writes points relative to the middle of their range, in millimetres if they fit.
 void add_points(const std::vector<glm::dvec3>& points, Json& out) {
   glm::dvec3 low(0.0);
   glm::dvec3 high(0.0);
@@ -132,7 +133,7 @@ void add_points(const std::vector<glm::dvec3>& points, Json& out) {
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
-  // To the millimetre, so that the origin that is written is the origin that was used.
+  // Rounded to a millimetre, so that the written origin equals the one used here.
   const glm::dvec3 middle = 0.5 * (low + high);
   const glm::dvec3 origin(
       rounded(middle.x, 3), rounded(middle.y, 3), rounded(middle.z, 3));

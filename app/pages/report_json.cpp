@@ -36,12 +36,12 @@ Json metres(const glm::dvec3& p) {
   return {rounded(p.x, 4), rounded(p.y, 4), rounded(p.z, 4)};
 }
 
-/// Null when there is none to choose from.
+/// Returns null if there are no values.
 Json quantile_mm(const std::vector<double>& values_m, double share) {
   return values_m.empty() ? Json(nullptr) : Json(mm(quantile(values_m, share)));
 }
 
-/// Every sigma of every joint and frame of the trial's subject. [m]
+/// Returns the sigmas of all joints and frames of the subject of a trial. [m]
 void collect_sigmas(const ReportTrial& trial, std::vector<double>& sigmas_m) {
   if (trial.bodies.empty()) return;
   for (const auto& frame : trial.bodies.front().uncertainty) {
@@ -83,7 +83,7 @@ Json calibration_figures(const Report& report) {
   return {{"rms_px", px(report.calibration_rms_px)}, {"cameras", cameras}};
 }
 
-/// Distances from every bone's parent joint to its own.
+/// Returns the distance of every bone's joint from its parent joint.
 Json bone_figures(const Body& body) {
   Json bones = Json::array();
   for (const HumanBone bone : human_bones()) {
@@ -255,7 +255,7 @@ Json trial_figures(const ReportTrial& trial) {
       {"avatars", avatar_figures(trial)}};
 }
 
-/// Root mean square over the corners of all trials.
+/// Returns the root mean square over the corners of all trials.
 double solve_rms_px(const Report& report) {
   double squares = 0.0;
   double corners = 0.0;
@@ -268,7 +268,7 @@ double solve_rms_px(const Report& report) {
   return corners > 0.0 ? std::sqrt(squares / corners) : 0.0;
 }
 
-/// The worst camera, tag, frame and joint; averages may hide them.
+/// Returns the worst camera, tag, frame and joint, which averages may hide.
 Json worst_figures(const Report& report) {
   Json worst{
       {"camera", nullptr}, {"tag", nullptr}, {"frame", nullptr}, {"joint", nullptr}};
@@ -337,7 +337,7 @@ Json summary_figures(const Report& report) {
 double rounded(double value, int decimals) {
   MAREY_ASSERT(std::isfinite(value));
   const double scale = std::pow(10.0, decimals);
-  // Adding zero turns minus zero into zero.
+  // Adding zero changes minus zero to zero.
   return std::round(value * scale) / scale + 0.0;
 }
 
@@ -359,7 +359,7 @@ Json report_figures(const Report& report) {
 }
 
 std::string report_json(const Report& report) {
-  // Names are strangers' text: bytes that are not UTF-8 become U+FFFD.
+  // Names come from files and may have any bytes: those that are not UTF-8 become U+FFFD.
   return report_figures(report).dump(2, ' ', false, Json::error_handler_t::replace) +
          "\n";
 }

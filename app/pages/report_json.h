@@ -8,11 +8,12 @@
 
 namespace marey::app {
 
-/// What report.json holds, before it is written out: the page shows the same figures.
-/// Numbers are rounded, keys end in their units. Precondition: every number finite.
+/// Returns the content of report.json; the page shows the same figures. Numbers are
+/// rounded, keys end in their units. Precondition: all numbers are finite.
 [[nodiscard]] nlohmann::ordered_json report_figures(const Report& report);
 
-/// `value` to `decimals` decimals, and never minus zero. Precondition: finite.
+/// Rounds `value` to `decimals` decimals; never returns minus zero. Precondition: `value`
+/// is finite.
 [[nodiscard]] double rounded(double value, int decimals);
 
 }  // namespace marey::app

@@ -6,24 +6,24 @@
 
 namespace marey::app {
 
-// The files of app/report/, built into the program (app/report/embed.cmake).
+// Files of app/report/ that are built into the program (app/report/embed.cmake).
 
-/// report.html, with the places {{style}}, {{data}} and {{script}}.
+/// Returns report.html, with the places {{style}}, {{data}} and {{script}}.
 [[nodiscard]] std::string_view report_page();
 
-/// report.css.
+/// Returns report.css.
 [[nodiscard]] std::string_view report_style();
 
-/// The .js files one after the other, in one scope of their own.
+/// Returns the .js files, one after the other, in one common scope.
 [[nodiscard]] std::string_view report_script();
 
 // The same for the page of a calibration: calibration.html, calibration.css after
-// report.css, and those .js files that it needs.
+// report.css, and the .js files that this page needs.
 [[nodiscard]] std::string_view calibration_page();
 [[nodiscard]] std::string_view calibration_style();
 [[nodiscard]] std::string_view calibration_script();
 
-// And for the pages of labelled markers: markers.html, markers.css after report.css.
+// The same for the pages of labelled markers: markers.html, markers.css after report.css.
 [[nodiscard]] std::string_view markers_page();
 [[nodiscard]] std::string_view markers_style();
 [[nodiscard]] std::string_view markers_script();

@@ -24,12 +24,12 @@
 namespace marey::app {
 namespace {
 
-/// How well the cameras are known, or will be; says in the report which. A calibration
-/// tells each camera's doubt and not what they have in common: that is taken from the
-/// plan of one, where there is any.
-std::optional<calib::RigCovariance> doubt_of(const recordings::CapturePlan& plan,
+/// Returns the covariance of the cameras, calibrated or planned, and stores in the report
+/// which one it is. A calibration contains only the sigmas of each camera; the
+/// correlations come from the plan of a calibration, if it succeeds.
+std::optional<calib::RigCovariance> rig_covariance_of(const recordings::CapturePlan& plan,
                                              PlanReport& report) {
-  auto doubt = calib::plan_calibration(report.cameras,
+  auto covariance = calib::plan_calibration(report.cameras,
                                        report.grid,
                                        AprilGrid{},
                                        capture::expected_corner_sigma_px,
@@ -38,17 +38,17 @@ std::optional<calib::RigCovariance> doubt_of(const recordings::CapturePlan& plan
       plan.quality.begin(), plan.quality.end(), [](const CameraQuality& quality) {
         return quality.centre_sigma_m > 0.0;
       });
-  if (!doubt) {
-    report.not_calibrated = doubt.error();
+  if (!covariance) {
+    report.not_calibrated = covariance.error();
     if (!report.is_calibrated) return std::nullopt;
-    doubt = calib::covariance_of_quality(plan.quality);
+    covariance = calib::covariance_of_quality(plan.quality);
   } else if (report.is_calibrated) {
-    calib::fit_to_quality(plan.quality, *doubt);
+    calib::fit_to_quality(plan.quality, *covariance);
   }
   for (std::size_t c = 0; c < report.cameras.size(); ++c) {
-    report.centre_sigma_m.push_back(calib::centre_sigma_m(*doubt, c));
+    report.centre_sigma_m.push_back(calib::centre_sigma_m(*covariance, c));
   }
-  return *std::move(doubt);
+  return *std::move(covariance);
 }
 
 PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
@@ -69,8 +69,8 @@ PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
     report.height_names.emplace_back(height.name);
     report.grid.heights_m.push_back(height.over_stature * report.stature_m);
   }
-  const auto doubt = doubt_of(plan, report);
-  const calib::RigCovariance* covariance = doubt ? &*doubt : nullptr;
+  const auto rig_covariance = rig_covariance_of(plan, report);
+  const calib::RigCovariance* covariance = rig_covariance ? &*rig_covariance : nullptr;
   report.plan = calib::plan_rig(report.cameras,
                                 covariance,
                                 report.grid,
@@ -99,14 +99,15 @@ PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
 void warn(const PlanReport& report, Console& console) {
   if (report.cameras.size() < 2) {
     console.warn(report.name +
-                 ": one camera alone places no tag. Next: plan two or more");
+                 ": one camera alone cannot locate a tag. Next: plan two or more");
   } else if (report.not_calibrated) {
     const Error& error = *report.not_calibrated;
     console.warn(report.name +
                  ": a board waved in this volume would not calibrate the cameras (" +
                  (error.where.empty() ? "" : error.where + ": ") + error.cause + "): " +
                  (report.is_calibrated
-                      ? "each is taken to err by itself, as far as its calibration says"
+                      ? "the errors of each camera are taken as independent, as large as in its "
+                        "calibration"
                       : "they are taken as known exactly") +
                  ". Next: " + error.next);
   }
@@ -129,7 +130,7 @@ Exit run_plan(const PlanArguments& args, Console& console) {
   }
   std::fputs(args.json ? json.c_str() : plan_table(report).c_str(), stdout);
   warn(report, console);
-  console.say((args.out / "plan.html").string() + " shows it from above");
+  console.say((args.out / "plan.html").string() + " shows the plan from above");
   return Exit::kOk;
 }
 

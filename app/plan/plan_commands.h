@@ -12,7 +12,7 @@
 
 namespace marey::app {
 
-/// What `marey plan` was asked for.
+/// Arguments of `marey plan`.
 struct PlanArguments {
   std::filesystem::path plan;  ///< plan.toml or calibration.toml.
   std::filesystem::path out;   ///< Folder for plan.json and plan.html.
@@ -21,10 +21,12 @@ struct PlanArguments {
   bool json = false;
 };
 
-/// `marey plan PLAN --out DIR`: what a rig would see, and how well.
+/// Runs `marey plan PLAN --out DIR`: predicts what the cameras of a rig see, and the
+/// errors of tags and joints.
 [[nodiscard]] Exit run_plan(const PlanArguments& args, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command plan. The parsed command is stored in `chosen`. Precondition: `args`
+/// keeps its address until `chosen` runs.
 void add_plan_command(CLI::App& app,
                       PlanArguments& args,
                       std::function<Exit(Console&)>& chosen);

@@ -55,7 +55,7 @@ Json cameras_of(const PlanReport& report) {
   return out;
 }
 
-/// Lines of "   12.3" and the like, or as many blanks and a dash.
+/// Returns cells such as "   12.3", or blanks and a dash of the same width.
 std::string cell(const char* format, int width, const std::optional<double>& value) {
   char text[32];
   if (!value) {
@@ -101,7 +101,7 @@ Json body_of(const PlanReport& report) {
           {"stands", stands}};
 }
 
-/// The lines of the table about the body.
+/// Returns the lines of the table about the body.
 std::string body_table(const PlanReport& report) {
   const calib::BodyPlan& body = report.body;
   char line[160];

@@ -14,34 +14,35 @@
 
 namespace marey::app {
 
-/// A plan and what it was made from.
+/// A plan with its inputs.
 struct PlanReport {
-  std::string name;             ///< Of the file that the cameras come from.
+  std::string name;             ///< Name of the file with the cameras.
   std::vector<Camera> cameras;  ///< At least one.
   calib::PlanOptions options;
   double stature_m = 1.75;
-  /// Of the grid's heights: "ankle", "hip"...
+  /// Names of the heights of the grid: "ankle", "hip"...
   std::vector<std::string> height_names;
   calib::ErrorMapGrid grid;
   calib::RigPlan plan;
   calib::BodyPlan body;
   int tags_worn = 0;
-  double stand_step_m = 0.5;  ///< Between the places of BodyPlan::stands.
-  /// Of each camera's centre; empty when they are taken as known exactly.
+  double stand_step_m = 0.5;  ///< Distance between the places of BodyPlan::stands.
+  /// Sigma of the centre of each camera; empty if the cameras are taken as exact.
   std::vector<double> centre_sigma_m;
-  bool is_calibrated = false;  ///< These sigmas are of a calibration, not planned.
-  /// Why a board would not calibrate the cameras, when it would not.
+  bool is_calibrated = false;  ///< The sigmas come from a calibration.
+  /// Reason why a board would not calibrate the cameras; nullopt if it would.
   std::optional<Error> not_calibrated;
 };
 
-/// "left shoulder", "right ankle": the joint at a limb bone's near end.
+/// Returns the name of the joint at the proximal end of a limb bone: "left shoulder",
+/// "right ankle".
 [[nodiscard]] std::string joint_name(HumanBone bone);
 
-/// What plan.json holds (docs/formats/README.md).
+/// Returns the content of plan.json (docs/formats/README.md).
 [[nodiscard]] nlohmann::ordered_json plan_figures(const PlanReport& report);
 
-/// The tables of heights and of the body's joints for a terminal, lines of at most 90
-/// columns.
+/// Returns the tables of heights and of the body's joints for a terminal, with lines of
+/// at most 90 columns.
 [[nodiscard]] std::string plan_table(const PlanReport& report);
 
 }  // namespace marey::app

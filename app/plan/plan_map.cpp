@@ -14,9 +14,9 @@ namespace marey::app {
 
 namespace {
 
-/// The part of the floor that a page shows: the volume and all cameras.
+/// Part of the floor that a page shows: the volume and all cameras.
 struct Frame {
-  glm::dvec2 least{0.0};
+  glm::dvec2 corner_min{0.0};
   glm::dvec2 extent{0.0};
 };
 
@@ -25,18 +25,19 @@ glm::dvec2 flat(const glm::dvec3& p) {
 }
 
 Frame frame_of(const PlanReport& report) {
-  glm::dvec2 least = flat(report.grid.min_in_world);
-  glm::dvec2 greatest = flat(report.grid.max_in_world);
+  glm::dvec2 corner_min = flat(report.grid.min_in_world);
+  glm::dvec2 corner_max = flat(report.grid.max_in_world);
   for (const Camera& camera : report.cameras) {
     const glm::dvec2 place = flat(centre_in_world(camera));
-    least = glm::min(least, place);
-    greatest = glm::max(greatest, place);
+    corner_min = glm::min(corner_min, place);
+    corner_max = glm::max(corner_max, place);
   }
   constexpr double kRim_m = 0.7;
-  return {least - kRim_m, greatest - least + 2.0 * kRim_m};
+  return {corner_min - kRim_m, corner_max - corner_min + 2.0 * kRim_m};
 }
 
-/// Where the ray through `pixel` goes on the floor plan; nullopt where there is none.
+/// Returns the direction on the floor plan of the ray through `pixel`; nullopt for a
+/// vertical ray.
 std::optional<glm::dvec2> heading(const Camera& camera, const glm::dvec2& pixel) {
   const auto ray = unproject(camera.intrinsics, pixel);
   if (!ray) return std::nullopt;
@@ -65,7 +66,8 @@ std::string cone(const char* name, const Camera& camera, double length_m) {
   return polygon(name, {at, at + length_m * *left, at + length_m * *right});
 }
 
-/// A camera as a wedge that opens where it looks, and its name behind it.
+/// Draws a camera as a wedge that opens in its viewing direction, with its name behind
+/// it.
 std::string body(const Camera& camera, double size_m, const Frame& frame) {
   const Intrinsics& k = camera.intrinsics;
   const auto ahead = heading(camera, k.centre_px);
@@ -77,11 +79,11 @@ std::string body(const Camera& camera, double size_m, const Frame& frame) {
                              at + size_m * (0.6 * way + 0.6 * aside),
                              at + size_m * (0.6 * way - 0.6 * aside)});
   glm::dvec2 name = at + glm::dvec2(0.0, (way.y > 0.0 ? -0.9 : 1.6) * size_m);
-  // Letters are some 0.55 of their height wide: the name stays inside.
+  // The width of a letter is about 0.55 of its height, so the name stays inside.
   const double half_m = std::min(
       0.3 * size_m * static_cast<double>(camera.name.size() + 1), 0.5 * frame.extent.x);
   name.x =
-      std::clamp(name.x, frame.least.x + half_m, frame.least.x + frame.extent.x - half_m);
+      std::clamp(name.x, frame.corner_min.x + half_m, frame.corner_min.x + frame.extent.x - half_m);
   return out +
          text_of(
              "<text x=\"%.3f\" y=\"%.3f\" font-size=\"%.3f\">", name.x, name.y, size_m) +
@@ -89,21 +91,21 @@ std::string body(const Camera& camera, double size_m, const Frame& frame) {
 }
 
 std::string metres(const Frame& frame) {
-  const glm::dvec2 end = frame.least + frame.extent;
-  // Counted whole: far from the origin, adding 1 to a double may change nothing.
+  const glm::dvec2 end = frame.corner_min + frame.extent;
+  // Integer steps: far from the origin, adding 1 to a double may have no effect.
   const auto lines = [](double from, double to) {
     return static_cast<int>(std::floor(to - std::ceil(from))) + 1;
   };
   std::string out;
-  for (int i = 0; i < lines(frame.least.x, end.x); ++i) {
-    const double x = std::ceil(frame.least.x) + i;
+  for (int i = 0; i < lines(frame.corner_min.x, end.x); ++i) {
+    const double x = std::ceil(frame.corner_min.x) + i;
     out += text_of("<line class=\"metre\" x1=\"%.3f\" x2=\"%.3f\" ", x, x) +
-           text_of("y1=\"%.3f\" y2=\"%.3f\"/>", frame.least.y, end.y);
+           text_of("y1=\"%.3f\" y2=\"%.3f\"/>", frame.corner_min.y, end.y);
   }
-  for (int i = 0; i < lines(frame.least.y, end.y); ++i) {
-    const double z = std::ceil(frame.least.y) + i;
+  for (int i = 0; i < lines(frame.corner_min.y, end.y); ++i) {
+    const double z = std::ceil(frame.corner_min.y) + i;
     out +=
-        text_of("<line class=\"metre\" x1=\"%.3f\" x2=\"%.3f\" ", frame.least.x, end.x) +
+        text_of("<line class=\"metre\" x1=\"%.3f\" x2=\"%.3f\" ", frame.corner_min.x, end.x) +
         text_of("y1=\"%.3f\" y2=\"%.3f\"/>", z, z);
   }
   return out;
@@ -119,12 +121,12 @@ std::string floor_map(const PlanReport& report,
   const double size_m = std::max(frame.extent.x, frame.extent.y) / 30.0;
   std::string out =
       "<figure class=\"map\"><svg role=\"img\" aria-label=\"" + escaped(caption) +
-      "\" viewBox=\"" + text_of("%.3f %.3f ", frame.least.x, frame.least.y) +
+      "\" viewBox=\"" + text_of("%.3f %.3f ", frame.corner_min.x, frame.corner_min.y) +
       text_of("%.3f %.3f\">", frame.extent.x, frame.extent.y) + metres(frame);
   const double far_m = 2.0 * glm::length(frame.extent);
   for (const Camera& camera : report.cameras) out += cone("sight", camera, far_m);
   for (const MapCell& cell : cells) {
-    // A little larger than its place, so that no seams show.
+    // Slightly larger than the cell, so that no seams show.
     out +=
         text_of("<rect x=\"%.3f\" y=\"%.3f\" ",
                 cell.at.x - 0.5 * step_m,

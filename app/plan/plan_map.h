@@ -14,13 +14,13 @@ namespace marey::app {
 
 /// One square of a floor map.
 struct MapCell {
-  glm::dvec2 at{0.0};           ///< Its middle, x and z of the world. [m]
-  std::optional<double> share;  ///< Of the scale, more than 1 like 1; nullopt for none.
-  std::string words;            ///< Shown when it is pointed at.
+  glm::dvec2 at{0.0};           ///< Centre, x and z in the world. [m]
+  std::optional<double> share;  ///< Share of the scale, clamped to 1; nullopt: none.
+  std::string words;            ///< Tooltip.
 };
 
-/// The floor from above as an SVG figure: squares of `step_m`, and the plan's cameras
-/// with what their pictures take in.
+/// Returns the floor from above as an SVG figure: squares of `step_m`, and the cameras of
+/// the plan with their fields of view.
 [[nodiscard]] std::string floor_map(const PlanReport& report,
                                     std::span<const MapCell> cells,
                                     double step_m,

@@ -23,7 +23,7 @@
 namespace marey::app {
 namespace {
 
-/// Over that of the report's page (app/report/report.css).
+/// Added to the style of the report's page (app/report/report.css).
 constexpr std::string_view kStyle = R"(
 main { padding-bottom: 2rem; }
 .maps { display: grid; gap: 1.4rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); }
@@ -39,7 +39,7 @@ main { padding-bottom: 2rem; }
 .key .swatch { border: 1px solid var(--rule); margin-left: 1rem; }
 )";
 
-/// What a map shows of a place: its share of the scale, nullopt for none, and words.
+/// Share of the scale at a place (nullopt: none), and its text.
 using Shade = std::function<std::optional<double>(const calib::PlannedPlace&)>;
 
 std::string words_of(const calib::PlannedPlace& place) {
@@ -68,7 +68,8 @@ std::vector<MapCell> cells_of(const PlanReport& report,
   return cells;
 }
 
-/// The body's maps: of its joints' error, or of how many are measured.
+/// Returns the cells of a map of the body: the error of its joints, or the share of
+/// measured joints.
 std::vector<MapCell> stands_of(const PlanReport& report, bool error, double worst_m) {
   std::vector<MapCell> cells;
   for (const calib::PlannedStand& stand : report.body.stands) {
@@ -84,7 +85,7 @@ std::vector<MapCell> stands_of(const PlanReport& report, bool error, double wors
   return cells;
 }
 
-/// A number of one digit that is no smaller: 1, 2, 5, 10, 20...
+/// Rounds up to a number of one digit: 1, 2, 5, 10, 20...
 double round_above(double value) {
   double step = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-6))));
   for (const double factor : {1.0, 2.0, 5.0}) {
@@ -93,7 +94,8 @@ double round_above(double value) {
   return 10.0 * step;
 }
 
-/// Error at the top of the scale: hardly a place has more. [m]
+/// Returns the error at the top of the scale: the largest 95 % quantile of all heights.
+/// [m]
 double scale_of(const calib::RigPlan& plan) {
   double worst_m = 0.0;
   for (const auto& height : plan.heights) {
@@ -102,7 +104,8 @@ double scale_of(const calib::RigPlan& plan) {
   return worst_m > 0.0 ? round_above(worst_m) : 1e-3;
 }
 
-/// Likewise of the body's joints: places where it is hardly seen go beyond the scale.
+/// Returns the top of the scale for the joints of the body: the 90 % quantile. Places
+/// where the body is hardly seen exceed the scale. [m]
 double worst_stand(const calib::BodyPlan& body) {
   std::vector<double> errors_m;
   for (const calib::PlannedStand& stand : body.stands) {
@@ -111,13 +114,13 @@ double worst_stand(const calib::BodyPlan& body) {
   return errors_m.empty() ? 1e-3 : round_above(quantile(std::move(errors_m), 0.9));
 }
 
-/// The top of the scale of directions: two cameras rarely share all.
-double most_covered(const calib::RigPlan& plan) {
-  double most = 0.1;
+/// Returns the top of the scale of directions: two cameras rarely share all directions.
+double max_covered(const calib::RigPlan& plan) {
+  double max_share = 0.1;
   for (const calib::PlannedPlace& place : plan.places) {
-    most = std::max(most, place.measured_share);
+    max_share = std::max(max_share, place.measured_share);
   }
-  return std::ceil(10.0 * most) / 10.0;
+  return std::ceil(10.0 * max_share) / 10.0;
 }
 
 std::string key(const std::string& what,
@@ -164,15 +167,15 @@ std::string table_of(const PlanReport& report) {
 }
 
 std::string known_words(const PlanReport& report) {
-  if (report.centre_sigma_m.empty()) return "Cameras are taken as known exactly.";
+  if (report.centre_sigma_m.empty()) return "The cameras are taken as exact.";
   const auto worst =
       std::max_element(report.centre_sigma_m.begin(), report.centre_sigma_m.end());
   return text_of(
       report.is_calibrated
-          ? "Cameras are known as their calibration says, the worst within "
-            "%.1f mm of its place (standard deviation)."
-          : "Cameras will be known as well as a board waved through the volume "
-            "tells, the worst within %.1f mm of its place (standard "
+          ? "The errors of the cameras are those of their calibration. The centre of "
+            "the worst one has a standard deviation of %.1f mm."
+          : "The errors of the cameras are predicted for a board waved through the "
+            "volume. The centre of the worst one is known to %.1f mm (standard "
             "deviation).",
       1e3 * *worst);
 }
@@ -183,8 +186,8 @@ std::string body_section(const PlanReport& report) {
       "<h2>A body that walks</h2>\n<p class=\"about\">It wears %.0f tags and "
       "walks through the volume every way; its own flesh hides tags. It is found "
       "in %.0f %% of frames. Measured: a tag of the bone is seen by a camera. "
-      "Lasting: what comes of how body and cameras were measured, and stays "
-      "however long one looks. Skin that moves comes on top.</p>\n",
+      "Lasting: errors of the measured body and cameras, which do not average out "
+      "over frames. Movement of the skin is not included.</p>\n",
       report.tags_worn,
       100.0 * body.found_share);
   if (body.joints.empty()) return out;
@@ -254,7 +257,7 @@ std::string lead_of(const PlanReport& report) {
 
 std::string plan_page(const PlanReport& report) {
   const double worst_m = scale_of(report.plan);
-  const double most = most_covered(report.plan);
+  const double max_share = max_covered(report.plan);
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -274,7 +277,7 @@ std::string plan_page(const PlanReport& report) {
   };
   const auto coverage = [&](const calib::PlannedPlace& place) -> std::optional<double> {
     if (place.measured_share == 0.0) return std::nullopt;
-    return 1.0 - place.measured_share / most;
+    return 1.0 - place.measured_share / max_share;
   };
   out +=
       "<h2>Tags, from above</h2>\n<p class=\"about\">Squares of a metre, x to the right, "
@@ -283,7 +286,7 @@ std::string plan_page(const PlanReport& report) {
       "figures.</p>\n";
   out += key("Expected error of a tag", "0", text_of("%g mm", 1e3 * worst_m));
   out += key(
-      "Directions in which two cameras see it", text_of("%.0f %%", 100.0 * most), "0 %");
+      "Directions in which two cameras see it", text_of("%.0f %%", 100.0 * max_share), "0 %");
   for (std::size_t i = 0; i < report.plan.heights.size(); ++i) {
     out +=
         "<section><h3>At the " + escaped(report.height_names[i]) +

@@ -8,9 +8,10 @@
 
 namespace marey::app {
 
-/// plan.html: the body's joints and how well it is known where it stands; then the table
-/// of heights, and for every height the floor from above, with the cameras, where single
-/// tags are seen by two, and how well. One file, nothing fetched.
+/// Returns plan.html, one file that loads no other. It shows the joints of the body and
+/// their errors on the floor, the table of heights, and, for every height, the floor from
+/// above with the cameras, the places where two cameras see single tags, and the errors
+/// of the tags.
 [[nodiscard]] std::string plan_page(const PlanReport& report);
 
 }  // namespace marey::app

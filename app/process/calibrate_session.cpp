@@ -58,8 +58,8 @@ Result<Lenses> given_lenses(const recordings::Session& session,
   if (found.empty()) {
     return bad_input(
         session.file.string() + ":" + std::to_string(session.calibration.lenses_line),
-        file.string() + " has a lens of none of the session's cameras",
-        "name the cameras alike in both");
+        file.string() + " contains no lens of a camera of the session",
+        "use the same camera names in both files");
   }
   notes.push_back("the lenses of " + found + " are taken from " + file.string() +
                   " as they are");
@@ -90,7 +90,7 @@ std::string text(const char* pattern, Values... values) {
 }
 
 /// Adds a note about the chosen lens model, if a camera has no given lens.
-void tell_lens(const recordings::Session& session,
+void add_lens_note(const recordings::Session& session,
                const Lenses& given,
                const calib::CalibratedRig& rig,
                std::vector<std::string>& notes) {
@@ -98,12 +98,12 @@ void tell_lens(const recordings::Session& session,
   const auto found = std::find(given.begin(), given.end(), std::nullopt);
   if (found == given.end()) return;
   const auto c = static_cast<std::size_t>(found - given.begin());
-  notes.push_back("the lens that predicts best: " +
+  notes.push_back("chosen lens model: " +
                   std::string(lens_word(rig.cameras[c].intrinsics.lens)));
 }
 
 /// Adds notes about clocks, line delays, lens, bend of the board and cross-validation.
-void tell_findings(const recordings::Session& session,
+void add_solution_notes(const recordings::Session& session,
                    const Lenses& given,
                    const calib::CalibratedRig& rig,
                    std::vector<std::string>& notes) {
@@ -130,30 +130,30 @@ void tell_findings(const recordings::Session& session,
         "the cameras' clocks in the calibration, against " + session.cameras.front() +
         "'s: " + clocks +
         (session.calibration.clocks == ClockChoice::kAuto
-             ? ". They were found not to run together, which is allowed for here; "
-               "motions have to start together to two frames"
+             ? ". The clocks differ, and the calibration corrects this. The "
+               "videos of motions must start within two frames of each other"
              : ""));
   }
-  if (!delays.empty()) notes.push_back("from one row to the next: " + delays);
-  tell_lens(session, given, rig, notes);
+  if (!delays.empty()) notes.push_back("delay from one picture row to the next: " + delays);
+  add_lens_note(session, given, rig, notes);
   if (session.calibration.warp) {
     notes.push_back(rig.warp_m ? text("the board is bent: its edges rise by %.1f mm "
                                       "along x, %.1f mm along y, %.1f mm across",
                                       1e3 * (*rig.warp_m)[0],
                                       1e3 * (*rig.warp_m)[1],
                                       1e3 * (*rig.warp_m)[2])
-                               : std::string("the board is flat, as far as can be seen"));
+                               : std::string("the board is flat: no bend is measurable"));
   }
   if (rig.cross_validation) {
     notes.push_back(
-        text("of frames that it did not see, it is %.2f px off, of those it "
-             "saw %.2f px",
+        text("cross-validation: reprojection error %.2f px in frames that "
+             "were held out, %.2f px in frames that were used",
              rig.cross_validation->held_out_rms_px,
              rig.cross_validation->seen_rms_px));
   } else if (session.calibration.cross_validate) {
     notes.push_back(
-        "a half of its frames says too little for cameras of its own: how it does on "
-        "frames that it did not see is not known");
+        "cross-validation failed: half of the frames are too few for a calibration. "
+        "The error in frames that are held out is unknown");
   }
 }
 
@@ -196,7 +196,7 @@ Result<SessionRig> calibrate_session(const recordings::Session& session,
   auto rig = solve(session, sights, *lenses, progress);
   if (!rig) return rig.error();
   out.rig = std::move(*rig);
-  tell_findings(session, *lenses, out.rig, out.notes);
+  add_solution_notes(session, *lenses, out.rig, out.notes);
   const bool is_wand = std::holds_alternative<Wand>(session.target);
   if (is_wand || sights.floor.empty()) {
     const auto note = stand_on_floor(session, sights.floor, sights.standing, out.rig);

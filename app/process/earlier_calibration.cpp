@@ -19,7 +19,7 @@ std::optional<fs::file_time_type> time_of(const fs::path& file) {
 }
 
 /// Returns a time as "2026-11-21 18:05", in local time.
-std::string words_of(fs::file_time_type time) {
+std::string time_words(fs::file_time_type time) {
   const auto seconds =
       std::chrono::floor<std::chrono::seconds>(std::chrono::file_clock::to_sys(time));
   const std::time_t at = std::chrono::system_clock::to_time_t(seconds);
@@ -39,9 +39,9 @@ EarlierCalibration find_calibration(const fs::path& out) {
 
 std::string kept_text(const EarlierCalibration& earlier) {
   if (!earlier.written || time_of(earlier.file) != earlier.written) return {};
-  return earlier.file.string() + " is an earlier run's, of " +
-         words_of(*earlier.written) +
-         ": it is kept, and marey solve would take its cameras";
+  return earlier.file.string() + " was written by an earlier run (" +
+         time_words(*earlier.written) +
+         "). It is kept, and marey solve would use its cameras";
 }
 
 std::string used_text(const EarlierCalibration& earlier, const fs::path& session) {
@@ -50,7 +50,7 @@ std::string used_text(const EarlierCalibration& earlier, const fs::path& session
   const fs::path file =
       fs::is_directory(session, ignored) ? session / "session.toml" : session;
   std::string words = "cameras are those of " + earlier.file.string() + ", written " +
-                      words_of(*earlier.written);
+                      time_words(*earlier.written);
   const auto edited = time_of(file);
   if (edited && *edited > *earlier.written) {
     words += ", before " + file.string() + " was changed";

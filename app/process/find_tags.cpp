@@ -44,7 +44,7 @@ Wanted wanted_in(const recordings::Session& session, const Trial& trial) {
 }
 
 /// Returns all parameters that the detection of points depends on, for the cache key.
-std::string words_of(const CalibrationTarget& target) {
+std::string cache_words(const CalibrationTarget& target) {
   std::string words;
   if (const auto* board = std::get_if<CharucoBoard>(&target)) {
     words.append(" charuco-1 ").append(board->dictionary);
@@ -61,7 +61,7 @@ std::string words_of(const CalibrationTarget& target) {
   return words;
 }
 
-std::string words_of(const std::vector<TagFamilyUse>& families) {
+std::string cache_words(const std::vector<TagFamilyUse>& families) {
   std::string words;
   for (const TagFamilyUse& use : families) {
     words.append(" ").append(use.name);
@@ -78,8 +78,8 @@ Result<std::string> cache_key(const TrialVideo& video,
   if (!content) return content.error();
   // Increase the number if the detector finds other corners in the same picture.
   std::string key = *content;
-  if (!wanted.families.empty()) key += " tracker-2" + words_of(wanted.families);
-  if (wanted.target) key += words_of(*wanted.target);
+  if (!wanted.families.empty()) key += " tracker-2" + cache_words(wanted.families);
+  if (wanted.target) key += cache_words(*wanted.target);
   if (trial.frames && !has_take(trial)) {
     key += " frames " + std::to_string(trial.frames->first) + "-" +
            std::to_string(trial.frames->last);
@@ -115,7 +115,7 @@ Status report_broken_videos(const Trial& trial,
       troubles.warnings.push_back(camera.source + ": " +
                                   std::to_string(camera.damaged_frames) + " of " +
                                   std::to_string(camera.frames.size()) +
-                                  " frames are damaged and are taken for empty");
+                                  " frames are damaged and count as empty");
     }
     if (!camera.broken_off) continue;
     if (camera.frames.empty() && !is_motion) return *camera.broken_off;
@@ -139,8 +139,8 @@ Status check_offset(const recordings::Session& session,
   return bad_input(session.file.string() + ":" + std::to_string(video.line),
                    "the time offset of camera \"" + session.cameras[index(video.camera)] +
                        "\" is more than two frames",
-                   "cut the videos so that they start together within a frame; the rest "
-                   "is then found, or can be given");
+                   "cut the videos so that they start within one frame of each other; "
+                   "marey estimates the remaining offset");
 }
 
 /// Checks that all videos of a trial have one rate, as frames are matched by number.
@@ -302,9 +302,10 @@ Status check_picture_sizes(const std::vector<CameraDetections>& earlier,
     if (earlier[c].frames.empty() || found[c].frames.empty()) continue;
     if (size(earlier[c]) == size(found[c])) continue;
     return bad_input(found[c].source,
-                     "its pictures are " + size(found[c]) + ", those of the camera in " +
-                         earlier[c].source + " " + size(earlier[c]),
-                     "record all trials of a camera at one size");
+                     "its pictures are " + size(found[c]) + ", but those of " +
+                         earlier[c].source + ", from the same camera, are " +
+                         size(earlier[c]),
+                     "record all trials of a camera with the same picture size");
   }
   return Done{};
 }

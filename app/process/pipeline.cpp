@@ -129,8 +129,8 @@ Result<Pipeline> Pipeline::open(Stage stage,
   for (const auto& avatar : options.avatars) {
     if (!names.insert(avatar.stem().string()).second) {
       return bad_input(avatar.string(),
-                       "two results would be called \"" + avatar.stem().string() + "\"",
-                       "rename the avatar's file: results are named after it");
+                       "two results would have the name \"" + avatar.stem().string() + "\"",
+                       "rename the file of the avatar: results are named after it");
     }
     if (const Status ok = check_avatar(avatar); !ok) return ok.error();
   }
@@ -219,9 +219,9 @@ Result<std::vector<CameraDetections>> Pipeline::unshrunk_detections_of(
 }
 
 Status Pipeline::check_trials() {
-  double least_known_m = 0.0;
+  double max_centre_sigma_m = 0.0;
   for (const ReportCamera& camera : report_.cameras) {
-    least_known_m = std::max(least_known_m, camera.quality.centre_sigma_m);
+    max_centre_sigma_m = std::max(max_centre_sigma_m, camera.quality.centre_sigma_m);
   }
   for (const Trial& trial : session_.trials) {
     if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor)
@@ -234,7 +234,7 @@ Status Pipeline::check_trials() {
       return in_session(turned ? *turned : ok.error());
     }
     if (auto wrong =
-            check_offsets(session_, trial, cameras_, *detections, least_known_m)) {
+            check_offsets(session_, trial, cameras_, *detections, max_centre_sigma_m)) {
       report_.warnings.push_back(wrong->message());
       failures_.push_back(std::move(*wrong));
       poor_trials_.insert(trial.name);
@@ -277,9 +277,9 @@ Status Pipeline::fit() {
   report_.subject_rms_px = fit->rms_px;
   report_.limb_ratio = fit->limb_ratio;
   for (const Error& warning : fit->warnings) {
-    const Error told = in_session(warning);
-    report_.warnings.push_back(told.message());
-    failures_.push_back(told);
+    const Error located = in_session(warning);
+    report_.warnings.push_back(located.message());
+    failures_.push_back(located);
   }
   for (const std::string& warning : body_warnings(*body_)) {
     report_.warnings.push_back(session_.file.string() + ": " + warning);
@@ -288,7 +288,7 @@ Status Pipeline::fit() {
     report_.unplaced_tags.push_back(number(id));
     report_.warnings.push_back(
         "tag " + std::to_string(number(id)) +
-        " was never seen well enough to be placed: it is not used");
+        " is not used: it was never seen well enough to locate it on the body");
   }
   time_stage("subject", watch.seconds());
   return recordings::write_subject(options_.out / "subject.toml", *body_);

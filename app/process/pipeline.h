@@ -112,7 +112,7 @@ class Pipeline {
   recordings::Session session_;
   PipelineOptions options_;
   Console* console_;
-  std::map<std::string, std::vector<CameraDetections>> detections_;  ///< By name of the trial.
+  std::map<std::string, std::vector<CameraDetections>> detections_;  ///< Key: trial.
   std::vector<Camera> cameras_;
   std::optional<Body> body_;
   std::vector<SolvedMotion> motions_;

@@ -47,8 +47,8 @@ Result<CalibrationSights> Pipeline::calibration_sights() {
         session_.file.string(),
         "camera \"" + session_.cameras[index(camera.camera)] +
             "\" has no video in trial \"" + waved->name + "\"",
-        "every camera must see what cameras are calibrated with: add its video, or take "
-        "the camera out of the session");
+        "every camera must see the calibration target: add its video, or remove the "
+        "camera from the session");
   }
   return sights;
 }
@@ -137,7 +137,7 @@ Status Pipeline::need_cameras() {
                                     [&](const Camera& c) { return c.name == name; });
     if (found == calibration->cameras.end()) {
       return bad_input(file.string(),
-                       "camera \"" + name + "\" of the session is not in it",
+                       "it does not contain camera \"" + name + "\" of the session",
                        "run marey calibrate on this session again");
     }
     cameras_.push_back(*found);

@@ -53,10 +53,10 @@ Status Pipeline::assess_standing() {
     const auto lowest_m = sole_height_m(motion.solved.estimate, body_->stature_m);
     if (lowest_m) motions.push_back({motion.trial->name, *lowest_m});
   }
-  auto doubt = assess_floor_height(session_, {trial->name, *height_m}, motions);
-  if (!doubt) return Done{};
-  report_.warnings.push_back(doubt->error.message());
-  if (doubt->is_poor) failures_.push_back(std::move(doubt->error));
+  auto finding = assess_floor_height(session_, {trial->name, *height_m}, motions);
+  if (!finding) return Done{};
+  report_.warnings.push_back(finding->error.message());
+  if (finding->is_poor) failures_.push_back(std::move(finding->error));
   return Done{};
 }
 

@@ -32,7 +32,7 @@ Status run_stages(Stage stage, Pipeline& pipeline) {
 
 /// Prints the figures and warnings of the report. Failures are not printed here: the
 /// caller prints them as errors.
-void tell(const Report& report,
+void print_results(const Report& report,
           const std::vector<Error>& failures,
           const std::filesystem::path& out,
           Console& console) {
@@ -61,10 +61,10 @@ void tell(const Report& report,
     console.say(text.data());
   }
   for (const std::string& warning : report.warnings) {
-    const bool told = std::any_of(failures.begin(), failures.end(), [&](const Error& f) {
+    const bool is_failure = std::any_of(failures.begin(), failures.end(), [&](const Error& f) {
       return f.message() == warning;
     });
-    if (!told) console.warn(warning);
+    if (!is_failure) console.warn(warning);
   }
   if (!report.trials.empty()) {
     console.say("report: " + (out / "report.html").string());
@@ -125,13 +125,13 @@ Exit run_session(Stage stage,
   }
   const EarlierCalibration earlier = find_calibration(options.out);
   // An earlier calibration is kept, so the user can undo a change of the session.
-  const auto tell_kept = [&] {
+  const auto warn_of_kept = [&] {
     if (stage != Stage::kCalibrate && stage != Stage::kProcess) return;
     if (const std::string kept = kept_text(earlier); !kept.empty()) console.warn(kept);
   };
   auto pipeline = Pipeline::open(stage, options, console);
   if (!pipeline) {
-    tell_kept();
+    warn_of_kept();
     return console.fail(pipeline.error());
   }
   if (stage == Stage::kSolve) {
@@ -142,7 +142,7 @@ Exit run_session(Stage stage,
     for (const Error& failure : pipeline->failures()) {
       if (failure.message() != ok.error().message()) console.warn(failure.message());
     }
-    tell_kept();
+    warn_of_kept();
     return console.fail(ok.error());
   }
   std::vector<Error> failures = pipeline->failures();
@@ -152,7 +152,7 @@ Exit run_session(Stage stage,
       failures.push_back(std::move(poor));
     }
   }
-  tell(pipeline->report(), failures, options.out, console);
+  print_results(pipeline->report(), failures, options.out, console);
   if (json) std::fputs(report_json(pipeline->report()).c_str(), stdout);
   // The other results are written. The exit code still shows that a result is missing.
   Exit exit = Exit::kOk;

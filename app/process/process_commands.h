@@ -39,13 +39,14 @@ struct DemoArguments {
                             Console& console);
 
 /// Adds the commands process, track, calibrate and solve, in this order. The parsed
-/// command is stored in `chosen`. Precondition: `args` outlives `app`.
+/// command is stored in `chosen`. Precondition: `args` keeps its address until `chosen`
+/// runs.
 void add_session_commands(CLI::App& app,
                           SessionArguments& args,
                           std::function<Exit(Console&)>& chosen);
 
 /// Adds the command demo. The parsed command is stored in `chosen`. `args.sample` is the
-/// default of its option. Precondition: `args` outlives `app`.
+/// default of its option. Precondition: `args` keeps its address until `chosen` runs.
 void add_demo_command(CLI::App& app,
                       DemoArguments& args,
                       std::function<Exit(Console&)>& chosen);

@@ -96,11 +96,11 @@ Result<std::string> stand_on_floor(const recordings::Session& session,
     if (!moved) {
       return bad_input("",
                        trial_of(session, TrialKind::kFloor) +
-                           " shows no floor: two cameras must see two tags or more that "
-                           "lie flat on it, and none elsewhere; all cameras must be "
-                           "above them, the first one not straight above",
-                       "lay tags apart from each other on the floor where cameras see "
-                       "them, aside from the first camera, or leave the trial out");
+                           " does not show the floor: two cameras must see at least two "
+                           "tags that lie flat on it, and no other tags; all cameras "
+                           "must be above the tags, the first one not straight above",
+                       "lay tags on the floor, apart from each other, where the cameras "
+                       "see them, and not below the first camera; or remove the trial");
     }
     calib::move_world(*moved, rig);
     return "the floor is where the tags of " + trial_of(session, TrialKind::kFloor) +
@@ -115,18 +115,17 @@ Result<std::string> stand_on_floor(const recordings::Session& session,
   if (!moved) {
     return bad_input("",
                      trial +
-                         " does not tell where the floor is: cameras that look from "
-                         "different sides must see three tags or more of the "
-                         "subject, from above the lowest of them, the first camera not "
-                         "from straight above",
-                     "record a trial of the kind \"floor\", the board lying on it");
+                         " does not show where the floor is: cameras on different sides "
+                         "must see at least three tags of the subject and be above the "
+                         "lowest of them, the first camera not straight above",
+                     "record a trial of kind \"floor\", with the board on the floor");
   }
   moved->translation.y += session.calibration.lowest_corner_m;
   calib::move_world(*moved, rig);
   return "the floor is taken to be " +
          text("%.0f mm", 1e3 * session.calibration.lowest_corner_m) +
          " below the lowest corner of a tag in " + trial +
-         ", and up to be across the cameras' horizontals: a floor trial is more exact";
+         ", and the cameras are taken to be level: a floor trial is more exact";
 }
 
 Status check_upright(const recordings::Session& session,
@@ -152,12 +151,12 @@ Status check_upright(const recordings::Session& session,
                          text(tilt_deg > 135.0 ? "upside down (%.0f degrees from upright)"
                                                : "%.0f degrees away from upright",
                               tilt_deg) +
-                         ": the floor is not where the calibration has it",
+                         ": the floor of the calibration is wrong",
                      next);
   }
   // No tag is below the floor; a board on a chair gives 0.4 m.
-  constexpr double kDeepest_m = 0.15;
-  if (stance->lowest_m < -kDeepest_m) {
+  constexpr double kMaxDepth_m = 0.15;
+  if (stance->lowest_m < -kMaxDepth_m) {
     return bad_input("",
                      "the lowest tag of " + trial + " is " +
                          text("%.2f m below the floor", -stance->lowest_m),

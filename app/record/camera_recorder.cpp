@@ -13,9 +13,9 @@ using capture::PixelFormat;
 using capture::RawFrame;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kListen{200};
-/// A frame that no other follows so soon goes to the disk without them. With
-/// MjpgVideoOptions::flush_every that is half a second at most.
+constexpr milliseconds kReceiveTimeout{200};
+/// If no frame follows within this time, the written frames are flushed to the disk. With
+/// MjpgVideoOptions::flush_every, the delay is at most half a second.
 constexpr milliseconds kIdle{100};
 
 recordings::RawLayout layout_of(PixelFormat format) {
@@ -36,8 +36,8 @@ bool pack_alike(const DeviceSettings& a, const DeviceSettings& b) {
          a.stride == b.stride;
 }
 
-/// Whether a picture can be packed as the driver says.
-bool can_be(const DeviceSettings& settings) {
+/// Returns true if the picture layout that the driver states is valid.
+bool is_recordable(const DeviceSettings& settings) {
   if (settings.width_px <= 0 || settings.height_px <= 0) return false;
   if (settings.format == PixelFormat::kMjpg) return true;
   const int bytes = settings.format == PixelFormat::kYuyv ? 2 : 1;
@@ -63,10 +63,10 @@ CameraRecorder::CameraRecorder(int number,
       take_(take) {}
 
 Status CameraRecorder::open(const std::filesystem::path& video) {
-  if (!can_be(settings_)) {
+  if (!is_recordable(settings_)) {
     return Error{Errc::kDevice,
                  "camera " + name_,
-                 "its driver speaks of " + std::to_string(settings_.width_px) + "x" +
+                 "its driver announces " + std::to_string(settings_.width_px) + "x" +
                      std::to_string(settings_.height_px) + " pictures in " +
                      capture::name(settings_.format) + " with " +
                      std::to_string(settings_.stride) +
@@ -92,14 +92,15 @@ Status CameraRecorder::open(const std::filesystem::path& video) {
   return Done{};
 }
 
-void CameraRecorder::listen(const std::stop_token& stop, Timestamp begin) {
+void CameraRecorder::receive(const std::stop_token& stop, Timestamp begin) {
   while (!stop.stop_requested()) {
-    const auto frame = feed_.next(kListen);
+    const auto frame = feed_.next(kReceiveTimeout);
     for (capture::FeedEvent& event : feed_.events()) {
       take_.note({number_, event.time, std::move(event.text)});
     }
-    // Cameras stream since they were opened, into buffers that nobody emptied: what lies
-    // there, and what found no room there, is not of this take.
+    // Cameras stream from the time they are opened, into buffers that were not read.
+    // Frames in these buffers, and frames dropped because the buffers were full, precede
+    // the take.
     if (frame && frame->time >= begin) take_frame(*frame);
   }
   queue_.close();
@@ -157,7 +158,7 @@ void CameraRecorder::write_one(const QueuedFrame& frame, Timestamp begin) {
     return;
   }
   unencoded_pending_ = 0;
-  // An arrival is later than the stamp of the next frame may be.
+  // The time of an arrival may be later than the time stamp of the next frame.
   stamp.time = last_written_ = std::max(last_written_, stamp.time);
   if (const Status ok = video_->write(jpeg, stamp.time - begin); !ok) {
     ++unwritten_;
@@ -180,25 +181,25 @@ std::optional<Error> CameraRecorder::trouble(Timestamp end) const {
     return Error{Errc::kDevice,
                  where,
                  "it came back with another size or format, of which no frames were kept",
-                 "see what marey doctor says of it, and record again"};
+                 "check the camera with marey doctor, and record again"};
   }
   if (frames_ == 0) {
     return Error{Errc::kDevice,
                  where,
                  "not a single frame came from it",
-                 "see what marey doctor says of it"};
+                 "check the camera with marey doctor"};
   }
-  constexpr double kLongest_s = 1.0;
+  constexpr double kMaxSilence_s = 1.0;
   constexpr double kMaxPeriods = 3.0;
   const double missing_s = seconds(end - *last_time_);
-  if (missing_s <= std::max(kLongest_s, kMaxPeriods / rate_of(settings_).hz)) {
+  if (missing_s <= std::max(kMaxSilence_s, kMaxPeriods / rate_of(settings_).hz)) {
     return std::nullopt;
   }
   return Error{Errc::kDevice,
                where,
                "no frames came from it in the last " +
                    std::to_string(static_cast<long>(missing_s)) + " s of the take",
-               "see its plug and cable, and record again; until then the take has it"};
+               "check its plug and cable, and record again; the take has its frames until then"};
 }
 
 CameraSummary CameraRecorder::summary(Timestamp end) const {

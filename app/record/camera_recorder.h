@@ -18,28 +18,29 @@
 // Private to record_take.cpp.
 namespace marey::app {
 
-/// The rate that players and readers are told of a camera which may not know its own.
+/// Returns the nominal rate for players and readers: 30 Hz if the camera states none.
 [[nodiscard]] FrameRate rate_of(const capture::DeviceSettings& settings);
 
-/// One camera's way into its files: listen() and write() run in a thread each.
+/// Records one camera: receive() and write() each run in a thread of their own.
 class CameraRecorder {
  public:
-  /// All that is lent outlives it.
+  /// Precondition: all arguments outlive the recorder.
   CameraRecorder(int number,
                  const RecordedCamera& camera,
                  const RecordOptions& options,
                  recordings::TakeWriter& take);
 
-  /// Makes the video. Errors (kDevice): the disk; the camera packs its pictures in a way
-  /// that cannot be.
+  /// Creates the video. Errors (kDevice): the file cannot be written; the pictures have
+  /// an invalid layout.
   [[nodiscard]] Status open(const std::filesystem::path& video);
-  /// Takes what the camera made since `begin`, until it is told to stop.
-  void listen(const std::stop_token& stop, Timestamp begin);
-  /// Writes what listen() took, to the end of that. `begin` as there.
+  /// Queues the frames of the camera from `begin` on, until `stop` is requested.
+  void receive(const std::stop_token& stop, Timestamp begin);
+  /// Writes the queued frames until the queue is over. `begin` as in receive().
   void write(Timestamp begin);
 
   [[nodiscard]] long frames() const { return frames_; }
-  /// Once both are over, at `end` on the cameras' clock.
+  /// Returns the counts and the error of the camera. `end` is on the clock of the
+  /// cameras. Precondition: receive() and write() have returned.
   [[nodiscard]] CameraSummary summary(Timestamp end) const;
 
  private:
@@ -51,19 +52,19 @@ class CameraRecorder {
   const int number_;
   const std::string name_;
   capture::FrameFeed& feed_;
-  const capture::DeviceSettings settings_;  ///< As the recording began.
+  const capture::DeviceSettings settings_;  ///< Settings at the start.
   FrameQueue queue_;
   recordings::TakeWriter& take_;
   std::optional<recordings::MjpgVideo> video_;
   std::optional<recordings::JpegEncoder> encoder_;
-  // Of listen().
-  std::optional<Timestamp> last_time_;  ///< Of the last frame that was of use.
+  // Used by receive().
+  std::optional<Timestamp> last_time_;  ///< Time of the last usable frame.
   bool has_received_ = false;
-  int lost_ = 0;  ///< Since the last frame that was taken.
+  int lost_ = 0;  ///< Frames lost since the last queued frame.
   bool has_warned_of_change_ = false;
   long dropped_ = 0;
   long unsaved_ = 0;
-  // Of write().
+  // Used by write().
   Timestamp last_written_{0};
   int unencoded_pending_ = 0;
   long unwritten_ = 0;

@@ -8,7 +8,7 @@
 
 namespace marey::app {
 
-// for_overwrite: memory that nobody wrote to costs nothing.
+// for_overwrite: memory that was not written to uses no pages.
 FrameQueue::FrameQueue(std::size_t places, std::size_t max_bytes)
     : memory_(std::make_unique_for_overwrite<std::byte[]>(max_bytes)),
       size_(max_bytes),
@@ -16,8 +16,8 @@ FrameQueue::FrameQueue(std::size_t places, std::size_t max_bytes)
   MAREY_ASSERT(places > 0 && max_bytes > 0);
 }
 
-/// Where a frame of `bytes` can lie in one piece: behind the newest, or at the beginning
-/// when that is free again.
+/// Returns the offset of free memory for a frame of `bytes` in one piece: after the
+/// newest frame, or at the beginning if that is free. nullopt if there is none.
 std::optional<std::size_t> FrameQueue::room_for(std::size_t bytes) const {
   if (count_ == 0) return bytes <= size_ ? std::optional<std::size_t>(0) : std::nullopt;
   const auto begin = static_cast<std::size_t>(ring_[first_].bytes.data() - memory_.get());
@@ -47,10 +47,10 @@ bool FrameQueue::push(std::span<const std::byte> bytes,
 }
 
 void FrameQueue::take_back() {
-  if (!lent_) return;
+  if (!in_use_) return;
   first_ = (first_ + 1) % ring_.size();
   --count_;
-  lent_ = false;
+  in_use_ = false;
 }
 
 const QueuedFrame* FrameQueue::pop(std::chrono::milliseconds timeout) {
@@ -58,13 +58,13 @@ const QueuedFrame* FrameQueue::pop(std::chrono::milliseconds timeout) {
   take_back();
   changed_.wait_for(lock, timeout, [this] { return count_ > 0 || closed_; });
   if (count_ == 0) return nullptr;
-  lent_ = true;
+  in_use_ = true;
   return &ring_[first_];
 }
 
 bool FrameQueue::is_over() {
   const std::lock_guard lock(mutex_);
-  return closed_ && count_ == (lent_ ? 1 : 0);
+  return closed_ && count_ == (in_use_ ? 1 : 0);
 }
 
 void FrameQueue::close() {

@@ -20,25 +20,25 @@ struct QueuedFrame {
   recordings::TakeFrame stamp;
 };
 
-/// Frames on their way from one thread to another, in one piece of memory of a fixed
-/// size. Of that, the system gives only as much as was ever in use at once: while the
-/// reader keeps up, a frame or two. Allocates nothing after it was made.
+/// Queue of frames between two threads, in one block of memory of fixed size. The system
+/// provides only as much memory as was in use at once: a frame or two while the reader
+/// keeps up. Allocates only in the constructor.
 class FrameQueue {
  public:
-  /// For up to `places` frames that have up to `max_bytes` together.
+  /// Creates a queue for up to `places` frames with up to `max_bytes` together.
   /// Precondition: neither is 0.
   FrameQueue(std::size_t places, std::size_t max_bytes);
 
-  /// Copies a frame in. False when there is no room: the frame is not taken.
-  /// Precondition: it has bytes, and the queue is not closed.
+  /// Copies a frame into the queue. Returns false if there is no room; the frame is not
+  /// queued then. Preconditions: the frame has bytes, and the queue is not closed.
   [[nodiscard]] bool push(std::span<const std::byte> bytes,
                           const recordings::TakeFrame& stamp);
-  /// The oldest frame, valid until the next call. Null when none came within `timeout`,
-  /// or none will come any more: is_over().
+  /// Returns the oldest frame, valid until the next call. Null if none came within
+  /// `timeout`, or if is_over().
   [[nodiscard]] const QueuedFrame* pop(std::chrono::milliseconds timeout);
-  /// Closed, and every frame was handed out.
+  /// Returns true if the queue is closed and every frame was returned.
   [[nodiscard]] bool is_over();
-  /// No more frames will come.
+  /// Closes the queue: no more frames will come.
   void close();
 
  private:
@@ -51,9 +51,9 @@ class FrameQueue {
   const std::size_t size_;
   std::vector<QueuedFrame> ring_;
   std::size_t first_ = 0;
-  std::size_t count_ = 0;  ///< With the one that is lent.
-  std::size_t end_ = 0;    ///< Of the newest frame, in the memory.
-  bool lent_ = false;      ///< The first was handed out.
+  std::size_t count_ = 0;  ///< Includes the frame that pop() returned.
+  std::size_t end_ = 0;    ///< End of the newest frame in the memory.
+  bool in_use_ = false;      ///< pop() returned the first frame.
   bool closed_ = false;
 };
 

@@ -36,13 +36,13 @@ Result<const Trial*> trial_to_record(const Session& session, const std::string& 
                    "trial's videos");
 }
 
-Exit tell(const std::vector<CameraSummary>& cameras, Console& console) {
+Exit print_summaries(const std::vector<CameraSummary>& cameras, Console& console) {
   Exit exit = Exit::kOk;
   for (const CameraSummary& camera : cameras) {
     std::string text = "camera " + camera.name + ": " + std::to_string(camera.frames) +
                        " frames, " + std::to_string(camera.dropped) + " dropped";
     if (camera.unsaved > 0) {
-      text += ", " + std::to_string(camera.unsaved) + " of them for a slow disk";
+      text += ", " + std::to_string(camera.unsaved) + " of them because the disk was too slow";
     }
     console.say(text);
     if (camera.error) exit = console.fail(*camera.error);
@@ -81,7 +81,7 @@ Exit run_record(const RecordArguments& arguments, Console& console) {
     auto feed = capture::DeviceFeed::open(
         session->cameras[c], request_of(*session->devices[c]), warn);
     if (!feed) {
-      // The others record all the same: the movement may not come again.
+      // The other cameras still record, as the movement may not be repeatable.
       opened = console.fail(feed.error());
       continue;
     }
@@ -97,7 +97,7 @@ Exit run_record(const RecordArguments& arguments, Console& console) {
   const auto recorded = record_take(
       cameras, options, stop_wanted, console.stage("recording " + options.trial));
   if (!recorded) return console.fail(recorded.error());
-  const Exit ended = tell(*recorded, console);
+  const Exit ended = print_summaries(*recorded, console);
   console.say("recorded to " + options.folder.string());
   return ended == Exit::kOk ? opened : ended;
 }

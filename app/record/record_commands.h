@@ -13,18 +13,20 @@
 
 namespace marey::app {
 
-/// What `marey record` was asked for.
+/// Arguments of `marey record`.
 struct RecordArguments {
   std::filesystem::path session;  ///< session.toml or its folder.
-  std::filesystem::path out;      ///< The take's folder.
+  std::filesystem::path out;      ///< Folder of the take.
   std::string trial;
   std::optional<double> seconds;
 };
 
-/// `marey record SESSION --out TAKE --trial NAME`: until Ctrl-C, or for some seconds.
+/// Runs `marey record SESSION --out TAKE --trial NAME`, until Ctrl-C or for the given
+/// number of seconds.
 [[nodiscard]] Exit run_record(const RecordArguments& arguments, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command record. The parsed command is stored in `chosen`. Precondition:
+/// `args` keeps its address until `chosen` runs.
 void add_record_command(CLI::App& app,
                         RecordArguments& args,
                         std::function<Exit(Console&)>& chosen);

@@ -7,7 +7,7 @@
 
 namespace marey::app {
 
-/// What to ask of a camera that the session names.
+/// Returns the settings to request from a camera of the session.
 [[nodiscard]] inline capture::DeviceRequest request_of(
     const recordings::SessionDevice& wanted) {
   capture::DeviceRequest request;

@@ -70,8 +70,7 @@ recordings::Take describe(std::span<const RecordedCamera> cameras,
   return take;
 }
 
-/// The files that a recording makes; those of a recording that could not begin are
-/// removed.
+/// Files of a recording. The destructor removes them unless keep() was called.
 class TakeFiles {
  public:
   explicit TakeFiles(const std::filesystem::path& folder) : folder_(folder) {}
@@ -114,8 +113,8 @@ long frames_of(const Recorders& recorders) {
   return frames;
 }
 
-/// Commits and counts until it is over.
-Status attend(recordings::TakeWriter& take,
+/// Commits the file of the take and reports progress, until the recording is over.
+Status commit_until_over(recordings::TakeWriter& take,
               const Recorders& recorders,
               const RecordOptions& options,
               const std::function<bool()>& stop,
@@ -132,8 +131,8 @@ Status attend(recordings::TakeWriter& take,
   return Done{};
 }
 
-/// Runs all threads until it is over and every frame is written. The time at which it was
-/// over for the cameras, on their clock.
+/// Runs all threads until the recording is over and every frame is written. Returns the
+/// end of the recording on the clock of the cameras.
 Result<Timestamp> run(recordings::TakeWriter& take,
                       const Recorders& recorders,
                       const RecordOptions& options,
@@ -146,18 +145,19 @@ Result<Timestamp> run(recordings::TakeWriter& take,
   for (const auto& one : recorders) {
     writers.emplace_back([&recorder = *one, begin] { recorder.write(begin); });
   }
-  // Destroyed first: they are stopped, close their queues, and the writers end.
-  std::vector<std::jthread> listeners;
-  listeners.reserve(recorders.size());
+  // These threads are destroyed first: they stop and close their queues, so the writers
+  // end.
+  std::vector<std::jthread> receivers;
+  receivers.reserve(recorders.size());
   for (const auto& one : recorders) {
-    listeners.emplace_back([&recorder = *one, begin](const std::stop_token& end) {
-      recorder.listen(end, begin);
+    receivers.emplace_back([&recorder = *one, begin](const std::stop_token& end) {
+      recorder.receive(end, begin);
     });
   }
-  const Status attended = attend(take, recorders, options, stop, progress);
+  const Status committed = commit_until_over(take, recorders, options, stop, progress);
   const Timestamp end = now();
-  for (std::jthread& listener : listeners) listener.request_stop();
-  if (!attended) return attended.error();
+  for (std::jthread& receiver : receivers) receiver.request_stop();
+  if (!committed) return committed.error();
   return end;
 }
 

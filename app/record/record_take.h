@@ -14,24 +14,24 @@
 
 namespace marey::app {
 
-/// Whether `folder` has nothing that a recording of these cameras would write over.
-/// Errors (kBadInput): there is a recording, or part of one.
+/// Checks that a recording of these cameras overwrites no file in `folder`. Errors
+/// (kBadInput): the first file of a recording, or of a part of one.
 [[nodiscard]] Status check_unrecorded(const std::filesystem::path& folder,
                                       std::span<const std::string> cameras);
 
-/// Records all cameras at once, until `stop` says so or the time is over:
-/// FOLDER/CAMERA.mkv of each, and FOLDER/take.sqlite. JPEG pictures are kept byte for
-/// byte, others are encoded. Each camera has a thread that listens to it and one that
-/// writes; a camera or disk that is slow costs others nothing. Frames from before the
-/// beginning are not of the take. What is in the files at any moment is at most half a
-/// second old, also when this process is killed.
+/// Records all cameras at the same time, until `stop` returns true or the duration is
+/// over. Writes FOLDER/CAMERA.mkv for each camera, and FOLDER/take.sqlite. JPEG pictures
+/// are stored unchanged, others are encoded. Each camera has one thread that receives
+/// frames and one that writes them, so a slow camera or disk does not delay other
+/// cameras. Frames from before the start are discarded. The files are at most half a
+/// second behind, also if this process is killed.
 ///
 /// `progress` counts the frames of all cameras. Errors: those of check_unrecorded(); the
-/// folder or files cannot be made; a camera's pictures cannot be recorded; the take's
-/// file cannot be written to (kDevice). Where it cannot begin, nothing is left behind. A
-/// camera that fails, sends nothing in the last second, or comes back with other pictures
-/// is told in its summary, and the others go on.
-/// Preconditions: at least one camera; names are those of files, each once.
+/// folder or files cannot be created; the pictures of a camera cannot be recorded; the
+/// file of the take cannot be written (kDevice). If the recording cannot begin, no files
+/// remain. If a camera fails, sends no frame in the last second, or returns with another
+/// picture format, its summary has the error, and the others continue.
+/// Preconditions: at least one camera; the names are different and valid file names.
 [[nodiscard]] Result<std::vector<CameraSummary>> record_take(
     std::span<const RecordedCamera> cameras,
     const RecordOptions& options,

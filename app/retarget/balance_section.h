@@ -10,11 +10,12 @@
 
 namespace marey::app {
 
-/// Whether bodies are above their feet, for the page of `marey retarget`: a table, and
-/// when, over time, `moments` marked. Precondition: the run was measured.
+/// Returns the page section of `marey retarget` on balance: a table, and a chart over
+/// time of the frames in which bodies are above their feet, with `moments` marked.
+/// Precondition: the run was measured.
 [[nodiscard]] std::string balance_section(const RetargetRun& run,
                                           const std::vector<int>& moments);
-/// What it looks like, over retarget_page()'s own.
+/// CSS of the section, in addition to retarget_page()'s.
 extern const std::string_view kBalanceStyle;
 
 }  // namespace marey::app

@@ -12,23 +12,24 @@
 
 namespace marey::app {
 
-/// Where all pictures of a run are looked at from: half from the front of where the body
-/// faces, half from its left, a little from above.
+/// Viewing direction of all pictures of a run: halfway between the body's front and its
+/// left, slightly from above.
 struct StripView {
-  double heading_rad = 0.0;  ///< Of what counts as the front, about Y from +Z to +X.
+  double heading_rad = 0.0;  ///< Heading of the body's front, about Y from +Z to +X.
 };
 
-/// A view of this motion: it faces as the hips do at its middle.
+/// Returns a view whose front is the heading of the hips in the motion's middle frame.
 [[nodiscard]] StripView view_of(const Motion& motion, const retarget::BodyMap& map);
 
-/// `count` frames, evenly spread. Fewer when there are fewer.
+/// Returns `count` evenly spaced frames, or all frames if there are fewer.
 [[nodiscard]] std::vector<int> strip_frames(int frames, int count);
 
-/// Pictures of a body at these frames side by side, as SVG: its bones as round limbs,
-/// left ones blue and right ones red, the nearer before the further; the floor Y = 0 with
-/// lines half a body apart that stay where they are, footprints of all stances on it, and
-/// a point under what bears. Every body is drawn as tall as any other. Linear in joints
-/// and stances. Precondition: `map` is the motion's skeleton's; frames are its poses'.
+/// Returns pictures of a body at these frames, side by side, as SVG. Bones are round
+/// limbs, left ones blue and right ones red, drawn from far to near. The floor Y = 0 has
+/// lines half a body apart that are fixed in the world, the footprints of all stances,
+/// and a point under each bearing foot. All bodies are drawn equally tall. Linear in
+/// joints and stances. Precondition: `map` is of the motion's skeleton; `frames` are
+/// indices of its poses.
 [[nodiscard]] std::string motion_strip(const Motion& motion,
                                        const retarget::BodyMap& map,
                                        const retarget::Contacts& contacts,

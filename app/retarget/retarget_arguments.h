@@ -11,24 +11,24 @@
 
 namespace marey::app {
 
-/// What `marey retarget` was asked for.
+/// Arguments of `marey retarget`.
 struct RetargetArguments {
   std::filesystem::path motion;
   std::optional<std::filesystem::path> motion_bones;
-  std::string neutral;  ///< Of the motion: read_neutral()'s word, or empty.
+  std::string neutral;  ///< Neutral of the motion, for read_neutral(), or empty.
   std::vector<std::filesystem::path> avatars;
-  std::vector<std::filesystem::path> more_avatars;  ///< Those of --avatar.
-  std::optional<std::filesystem::path> bones;       ///< Of the only avatar.
-  /// A file of one avatar, or a folder for all; see retarget_plan.h.
+  std::vector<std::filesystem::path> more_avatars;  ///< Given with --avatar.
+  std::optional<std::filesystem::path> bones;       ///< Bone map of a single avatar.
+  /// A file for one avatar, or a folder for several; see retarget_plan.h.
   std::filesystem::path out;
-  std::vector<std::string> formats;  ///< Empty: .glb, .bvh and .vrma, as far as they go.
+  std::vector<std::string> formats;  ///< Empty: those of .glb, .bvh and .vrma that fit.
   std::string bvh_dialect;           ///< A BvhDialect's name, or empty.
   std::string clip = "motion";
   RetargetAtRateOptions options;
   bool balance = false;
   bool no_ground = false;
   bool no_hands = false;
-  std::filesystem::path constraints_out;  ///< Empty: none.
+  std::filesystem::path constraints_out;  ///< Empty: not written.
   bool report = false;
   bool json = false;
 };

@@ -12,23 +12,23 @@ namespace marey::app {
 
 struct RetargetAtRateOptions {
   retarget::RetargetOptions retarget;
-  /// Posture by posture, without knowing what comes: as it would be live.
+  /// Retargets frame by frame without future frames, as in a live session.
   bool live = false;
-  /// Frames per second of the result; without it the source's.
+  /// Frame rate of the result; nullopt: the source's.
   std::optional<double> rate_hz;
 };
 
-/// retarget_motion(), or LiveRetarget, at another rate.
+/// Retargets a motion at a given output rate, with retarget_motion() or LiveRetarget.
 ///
-/// At another rate the source is resampled first, to the smallest whole multiple of that
-/// rate that is no less than its own, and of what comes of it the frames in question are
-/// kept: so feet stand in every frame, and instants that both rates share are the same.
-/// Contacts, touches and the figures `after` are of the frames that are kept, the rest of
-/// the report is of all that were solved. Same input, same bytes. Linear in frames.
+/// For another rate the source is first resampled to the smallest whole multiple of that
+/// rate that is at least the source's rate. The frames at the output rate are then kept.
+/// Feet therefore stand still in every frame, and frames at instants shared by both rates
+/// are equal. Contacts, touches and the figures `after` refer to the kept frames, the rest
+/// of the report to all solved frames. Same input, same bytes. Linear in frames.
 ///
 /// Errors (kBadInput): retarget_motion()'s; no instant of the rate lies in the motion.
-/// Precondition: retarget_motion()'s; rate_hz > 0; not `live` with what needs the whole
-/// motion: balance, a way or heights that are kept.
+/// Precondition: retarget_motion()'s; rate_hz > 0; `live` is not combined with options
+/// that need the whole motion (balance, a kept path, kept heights).
 [[nodiscard]] Result<retarget::RetargetedMotion> retarget_at_rate(
     const Motion& source,
     const Skeleton& avatar,

@@ -11,11 +11,12 @@
 
 namespace marey::app {
 
-/// `marey retarget MOTION AVATAR... --out FILE|FOLDER`: a motion on one body or on many.
-/// A body that fails does not stop the others; the exit code is the first failure's.
+/// Runs `marey retarget MOTION AVATAR... --out FILE|FOLDER`: puts a motion on one or more
+/// bodies. If one body fails, the others are still processed. Returns the exit code of
+/// the first failure.
 [[nodiscard]] Exit run_retarget(const RetargetArguments& args, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. If the user gives it, `chosen` runs it. `args` must stay in place.
 void add_retarget_command(CLI::App& app,
                           RetargetArguments& args,
                           std::function<Exit(Console&)>& chosen);

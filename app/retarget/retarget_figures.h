@@ -20,30 +20,31 @@
 
 namespace marey::app {
 
-/// What came of one avatar.
+/// Result for one avatar.
 struct AvatarResult {
-  std::string name;  ///< Of its file, without extension.
+  std::string name;  ///< Name of its file, without extension.
   std::filesystem::path avatar;
   std::vector<std::filesystem::path> files;
   std::optional<Error> error;
-  // Without an error:
-  retarget::Soles soles;  ///< By its skin.
+  // Valid only without an error:
+  retarget::Soles soles;  ///< Measured from the avatar's skin.
   retarget::RetargetedMotion retargeted;
   AvatarVerdict verdict;
-  retarget::BodyMap map;            ///< That wears the soles.
-  retarget::Contacts own_contacts;  ///< As detect_contacts() has them on the avatar.
+  retarget::BodyMap map;            ///< With the soles applied.
+  retarget::Contacts own_contacts;  ///< Detected by detect_contacts() on the avatar.
   retarget::ContactFigures contacts;
-  /// Mean jerk of the bones that both bodies have, over the source's at this height.
+  /// Mean jerk of the bones that both bodies have, divided by the source's, scaled to this
+  /// avatar's height.
   double jerk_ratio = 0.0;
-  retarget::BalanceTrack balance;  ///< As delivered.
+  retarget::BalanceTrack balance;  ///< Of the written motion.
 };
 
-/// What came of `marey retarget`.
+/// Result of `marey retarget`.
 struct RetargetRun {
   std::filesystem::path motion;
   bool live = false;
-  /// At the rate and with the frames of the results. Its contacts and figures are what
-  /// avatars are held against.
+  /// The source motion at the rate and with the frames of the results. Avatars are
+  /// compared with its contacts and figures.
   Motion source;
   retarget::BodyMap map;
   retarget::Contacts contacts;
@@ -53,20 +54,20 @@ struct RetargetRun {
   std::vector<AvatarResult> avatars;
 };
 
-/// Fills in what is measured of the source, of which `source` and `contacts` are given.
+/// Computes the measurements of the source from `source` and `contacts`.
 /// Errors: map_body()'s.
 [[nodiscard]] Status measure_source(RetargetRun& run);
-/// Likewise of an avatar without an error, of which `soles` and `retargeted` are given.
-/// Precondition: measure_source() was called; as many frames.
+/// Computes the measurements of an avatar without an error from `soles` and `retargeted`.
+/// Precondition: measure_source() was called; source and avatar have equally many frames.
 [[nodiscard]] Status measure_avatar(const RetargetRun& run, AvatarResult& avatar);
 
-/// One avatar for `--json`: docs/formats/README.md has the keys.
+/// Returns the figures of one avatar for `--json`; docs/formats/README.md has the keys.
 [[nodiscard]] nlohmann::ordered_json avatar_figures(const RetargetRun& run,
                                                     const AvatarResult& avatar);
-/// All of them.
+/// Returns the figures of all avatars for `--json`.
 [[nodiscard]] nlohmann::ordered_json retarget_figures(const RetargetRun& run);
 
-/// One line for the console.
+/// Returns a line for the console.
 [[nodiscard]] std::string summary_of(const AvatarResult& avatar);
 
 }  // namespace marey::app

@@ -8,10 +8,10 @@
 
 namespace marey::app {
 
-/// The page of `marey retarget --report`: one file that needs nothing else. Of every
-/// avatar how its feet keep to the floor against the source's, when feet stand in the
-/// source and on it, and pictures of all bodies at the same moments. The same bytes for
-/// the same input; some tens of kilobytes an avatar, however long the motion is.
+/// Returns the page of `marey retarget --report`, one self-contained file. For every
+/// avatar it shows the foot contact quality compared with the source, when feet stand in
+/// the source and on the avatar, and pictures of all bodies at the same moments. Same
+/// input, same bytes. Some tens of kilobytes per avatar, whatever the motion's length.
 [[nodiscard]] std::string retarget_page(const RetargetRun& run);
 
 }  // namespace marey::app

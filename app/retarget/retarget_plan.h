@@ -13,30 +13,32 @@
 
 namespace marey::app {
 
-/// Which files `marey retarget` is to write.
+/// Files that `marey retarget` writes.
 struct RetargetPlan {
   struct Avatar {
     BodyFile file;
-    std::string name;            ///< Its results' names begin with this.
+    std::string name;            ///< Prefix of the names of its results.
     std::filesystem::path stem;  ///< Without extension, in the folder of results.
   };
   std::vector<Avatar> avatars;
   std::vector<MotionFormat> formats;
-  /// The formats were asked for: a body that cannot have one is to be told of.
+  /// The user chose the formats: a body that cannot have one is reported.
   bool formats_are_wanted = false;
-  std::filesystem::path file;  ///< The only result; empty: a folder's worth of them.
-  std::filesystem::path page;  ///< Of --report.
+  std::filesystem::path file;  ///< The only result; empty: results go into a folder.
+  std::filesystem::path page;  ///< The page of --report.
 
+  /// Returns the path of the avatar's result in this format.
   [[nodiscard]] std::filesystem::path out(const Avatar& avatar,
                                           MotionFormat format) const;
 };
 
-/// Before anything is read. OUT is a file when there is one avatar, no --formats, and a
-/// format's extension; else a folder, where results are named after their avatars.
-/// Errors (kBadInput): a file for several avatars, or with --formats; options that have
-/// nothing to say, or are of one avatar where there are several; two results of one name;
-/// a result that would replace something that is read.
-/// Precondition: there is an avatar; formats and dialect are words that there are.
+/// Plans the results before anything is read. OUT is a file if there is one avatar, no
+/// --formats, and the extension of a format. Otherwise it is a folder, in which results
+/// are named after their avatars.
+/// Errors (kBadInput): a file for several avatars, or with --formats; options without
+/// effect; options for one avatar when there are several; two results of one name; a
+/// result that would replace an input file.
+/// Precondition: at least one avatar; formats and dialect are valid words.
 [[nodiscard]] Result<RetargetPlan> plan_retarget(const RetargetArguments& args);
 
 }  // namespace marey::app

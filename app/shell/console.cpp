@@ -13,7 +13,8 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-/// Text of strangers' files on one line, whatever is in it.
+/// Replaces control characters by "?", as text from files of unknown origin may contain
+/// any byte.
 std::string on_one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
@@ -48,7 +49,7 @@ std::string bar(const std::string& label, int done, int total, double elapsed_s)
   return text.data();
 }
 
-/// Paths may hold bytes that are not UTF-8, which JSON must be.
+/// Paths may contain bytes that are not UTF-8; JSON requires UTF-8.
 constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
 
 void print_json(const nlohmann::ordered_json& line) {

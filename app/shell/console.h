@@ -30,17 +30,17 @@ enum class ProgressStyle {
   kQuiet,  ///< None.
 };
 
-/// What the user sees on standard error. Standard output is for data.
-/// Thread-safe: workers of one stage may report together.
+/// Writes messages and progress to standard error. Standard output is for data.
+/// Thread-safe: worker threads of one stage may report at the same time.
 class Console {
  public:
   explicit Console(ProgressStyle style);
 
-  /// A listener for one stage; `label` is a word or two.
+  /// Returns a progress callback for one stage; `label` has one or two words.
   [[nodiscard]] Progress stage(const std::string& label);
   void say(const std::string& text);
   void warn(const std::string& text);
-  /// Tells the error and gives the exit code it deserves.
+  /// Prints the error and returns its exit code.
   Exit fail(const Error& error);
 
  private:

@@ -36,7 +36,7 @@ Status check_links(const fs::path& folder, const fs::path& root) {
     std::error_code ignored;
     if (at->is_symlink(ignored)) links.push_back(at->path());
   }
-  // Folders list their files in any order.
+  // The order of a directory iteration is unspecified.
   std::ranges::sort(links);
   for (const fs::path& link : links) {
     if (const Status ok = check_link(link, root); !ok) return ok;

@@ -8,17 +8,19 @@
 
 namespace marey::app {
 
-/// Whether a path, its links followed, is `folder` or below it. False where it is not there.
+/// Returns true if a path, with its links resolved, is `folder` or below it. False if the
+/// path does not exist.
 [[nodiscard]] bool is_inside(const std::filesystem::path& path,
                              const std::filesystem::path& folder);
 
-/// Checks one file that may be missing or a link. Errors (kBadInput): it leads out of `root`.
+/// Checks one file that may be missing or a link. Errors (kBadInput): it links to a place
+/// outside `root`.
 [[nodiscard]] Status check_link(const std::filesystem::path& file,
                                 const std::filesystem::path& root);
 
-/// Checks that nothing in `folder` leads out of `root` by a link: what a page serves of a
-/// folder that somebody else made stays in it. Looks at the folder's own entries only.
-/// Errors (kBadInput): the first link that does, by name.
+/// Checks that no entry of `folder` is a link to a place outside `root`, so that a page
+/// serves no files outside a folder of unknown origin. Checks only the entries of the
+/// folder itself. Errors (kBadInput): the first such link, by name.
 [[nodiscard]] Status check_links(const std::filesystem::path& folder,
                                  const std::filesystem::path& root);
 

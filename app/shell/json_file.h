@@ -10,8 +10,8 @@
 
 namespace marey::app {
 
-/// Reads a JSON file. Errors (kBadInput): it cannot be read, is no JSON, or is nested
-/// deeper than recordings::kMaxNesting. Linear.
+/// Reads a JSON file. Errors (kBadInput): it cannot be read, is not valid JSON, or is
+/// nested deeper than recordings::kMaxNesting. Cost: linear.
 [[nodiscard]] Result<nlohmann::ordered_json> read_json(const std::filesystem::path& path);
 
 }  // namespace marey::app

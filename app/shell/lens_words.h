@@ -9,7 +9,7 @@
 
 namespace marey::app {
 
-/// The word for a lens in session.toml, on the command line and in results.
+/// Returns the word for a lens in session.toml, on the command line and in results.
 [[nodiscard]] constexpr std::string_view lens_word(LensModel lens) {
   for (const auto& [word, model] : recordings::kLensWords) {
     if (model == lens) return word;

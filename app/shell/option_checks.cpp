@@ -9,8 +9,9 @@
 namespace marey::app {
 namespace {
 
-/// The error of a word, or nothing. Words that are no numbers at all are left to CLI11.
-std::string absurdity_of(const std::string& word) {
+/// Returns the error for a word; empty if there is none. CLI11 rejects words that are not
+/// numbers.
+std::string number_problem(const std::string& word) {
   char* end = nullptr;
   const double number = std::strtod(word.c_str(), &end);
   if (end == word.c_str()) return {};
@@ -30,7 +31,7 @@ void refuse_absurd_numbers(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
     if (!takes_a_float(*option)) continue;
     option->check(
-        CLI::Validator([](std::string& word) { return absurdity_of(word); }, ""));
+        CLI::Validator([](std::string& word) { return number_problem(word); }, ""));
   }
   for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
     refuse_absurd_numbers(*command);
@@ -41,7 +42,8 @@ Status check_out_folder(const std::filesystem::path& out) {
   namespace fs = std::filesystem;
   std::error_code problem;
   fs::path at = fs::absolute(out, problem).lexically_normal();
-  // Up to what is there: symlinks that lead nowhere are.
+  // Finds the nearest existing path. A symlink counts as existing even if its target is
+  // missing.
   while (!fs::exists(fs::symlink_status(at, problem)) && at.has_relative_path()) {
     at = at.parent_path();
   }

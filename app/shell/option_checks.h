@@ -11,7 +11,7 @@
 
 namespace marey::app {
 
-/// CLI::Range, which lets pass what is no number.
+/// Returns CLI::Range with a check against NaN, which CLI::Range accepts.
 [[nodiscard]] inline CLI::Validator between(double low, double high) {
   const CLI::Range range(low, high);
   return CLI::Validator(
@@ -22,17 +22,18 @@ namespace marey::app {
       range.get_description());
 }
 
-/// Beyond this no length, time, rate or share of any command makes sense.
+/// Upper limit of the magnitude of lengths, times, rates and shares in all commands.
 inline constexpr double kLargestNumber = 1e9;
 
-/// Refuses, for every option of `app` and of its subcommands that takes a floating-point
-/// number, words that are no number (nan), not finite (inf, 1e999) or absurd (beyond
-/// kLargestNumber), whatever else the option checks. Call it once all options are added.
+/// Adds a check to every option of `app` and its subcommands that has a floating-point
+/// value: the value must be a finite number (not nan, inf, 1e999) of at most
+/// kLargestNumber. Other checks of the option remain. Call it after all options are
+/// added.
 void refuse_absurd_numbers(CLI::App& app);
 
-/// Checks a folder for results before the work begins. Error (kBadInput): it, or what
-/// should hold it, is there and is not a folder. A folder that is missing is no error:
-/// it is made when results are written.
+/// Checks a folder for results before the work begins. Errors (kBadInput): the path, or
+/// the nearest existing path above it, is not a folder. A missing folder passes: it is
+/// created when results are written.
 [[nodiscard]] Status check_out_folder(const std::filesystem::path& out);
 
 }  // namespace marey::app

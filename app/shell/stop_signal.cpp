@@ -13,7 +13,7 @@ namespace {
 constexpr int kInterrupted = 130;
 
 std::atomic<bool> is_wanted = false;
-static_assert(std::atomic<bool>::is_always_lock_free);  // As signals need it.
+static_assert(std::atomic<bool>::is_always_lock_free);  // Required in signal handlers.
 
 extern "C" void on_stop(int /*signal*/) {
   if (is_wanted.exchange(true)) _exit(kInterrupted);
@@ -25,10 +25,10 @@ void catch_stop_signals() {
   is_wanted = false;
   std::signal(SIGINT, on_stop);
   std::signal(SIGTERM, on_stop);
-  // Of a terminal that was closed; nohup(1) has it ignored, and that stays so.
+  // SIGHUP: the terminal was closed. If nohup(1) set it to be ignored, it stays ignored.
   if (std::signal(SIGHUP, on_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
-  // Whoever read our messages may end with the terminal: what is recorded is finished
-  // first.
+  // The reader of the messages may end with the terminal; the recording must still be
+  // completed.
   std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -4,11 +4,12 @@
 
 namespace marey::app {
 
-/// From now on Ctrl-C, SIGTERM and SIGHUP ask for an end, which stop_wanted() tells, and
-/// the second of them is the end, at once, with the exit code 130. A reader of our output
-/// that is gone ends nothing.
+/// Installs handlers for Ctrl-C, SIGTERM and SIGHUP. The first signal makes stop_wanted()
+/// return true; the second ends the process at once, with exit code 130. A closed pipe on
+/// standard output or standard error does not end the process.
 void catch_stop_signals();
 
+/// Returns true after the first signal. Safe in any thread.
 [[nodiscard]] bool stop_wanted();
 
 }  // namespace marey::app

@@ -8,7 +8,7 @@
 
 namespace marey::app {
 
-/// The wall clock: "2026-11-21T11:56:29Z".
+/// Returns the time of the wall clock as "2026-11-21T11:56:29Z".
 [[nodiscard]] inline std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};

@@ -13,31 +13,32 @@
 
 namespace marey::app {
 
-/// Who may look at the page, and where it comes from.
+/// Access policy and source of the page.
 struct PageServerOptions {
-  int port = live::WebServerOptions::kDefaultPort;  ///< 0: any that is free.
-  bool lan = false;                ///< Others on the network too, who know the token.
-  bool open = true;                ///< In a browser, where there is a screen.
-  std::filesystem::path web_root;  ///< Serve this folder's page; empty: the built-in.
+  int port = live::WebServerOptions::kDefaultPort;  ///< 0: any free port.
+  bool lan = false;                ///< Other machines of the network too, with the token.
+  bool open = true;                ///< In a browser, if there is a screen.
+  std::filesystem::path web_root;  ///< Folder of the page; empty: built-in page.
 };
 
-/// A running page and the addresses by which it is reached.
+/// A running server of the page, and its addresses.
 struct PageServer {
   live::WebServer server;
   std::vector<std::string>
       addresses;  ///< "http://127.0.0.1:8790/", this machine's first.
 };
 
-/// Starts the server with the page in it. Errors: WebServer::start()'s; the web root's
-/// files cannot be read.
+/// Starts the server with the page. Errors: those of WebServer::start(); a file of the
+/// web root cannot be read.
 [[nodiscard]] Result<PageServer> start_page(const PageServerOptions& options);
 
-/// Serves the files of a folder as the page, and again what changed since the last call.
+/// Serves the files of a folder as the page, and updates the files that have changed.
 class WebRoot {
  public:
   explicit WebRoot(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Errors: a file cannot be read, or there is no index.html.
+  /// Serves the files that changed since the last call. Errors: a file cannot be read, or
+  /// there is no index.html.
   [[nodiscard]] Status serve(live::WebServer& server);
 
  private:
@@ -45,9 +46,9 @@ class WebRoot {
   std::filesystem::file_time_type newest_ = std::filesystem::file_time_type::min();
 };
 
-/// Prints the addresses on standard output, and opens the first in a browser if that is
-/// wanted and there is a screen; with `lan` it opens none, since everybody on this machine
-/// can read with what a program was started, the token too.
+/// Prints the addresses on standard output. Opens the first one in a browser if the
+/// options request it and there is a screen. With `lan` it opens no browser, because all
+/// users of this machine can read the arguments of a process, including the token.
 void print_addresses(const PageServer& page, const PageServerOptions& options);
 
 }  // namespace marey::app

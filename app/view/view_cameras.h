@@ -10,7 +10,7 @@
 
 namespace marey::app {
 
-/// The cameras of a calibration.toml.
+/// Reads the cameras of a calibration.toml. Errors: those of the reader.
 [[nodiscard]] Result<std::vector<live::PageCamera>> page_cameras(
     const std::filesystem::path& file);
 

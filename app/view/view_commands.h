@@ -14,24 +14,24 @@
 
 namespace marey::app {
 
-/// What `marey view` was asked for.
+/// Arguments of `marey view`.
 struct ViewArguments {
   ViewChoice choice;
-  std::filesystem::path constraints;  ///< Of the first human figure; empty: none.
+  std::filesystem::path constraints;  ///< For the first human figure; empty: none.
   PageServerOptions page;
   std::optional<double> seconds;
 };
 
-/// `marey view FILE|DIR`: serves the page until Ctrl-C, or for some seconds. Addresses go
-/// to standard output.
+/// Runs `marey view FILE|DIR`: serves the page until Ctrl-C or the time limit. Prints the
+/// addresses on standard output.
 [[nodiscard]] Exit run_view(const ViewArguments& args, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. Parsing it sets `chosen`. `args` must keep its address.
 void add_view_command(CLI::App& app,
                       ViewArguments& args,
                       std::function<Exit(Console&)>& chosen);
 
-/// Adds --port, --lan, --web-root and --no-open.
+/// Adds the options --port, --lan, --web-root and --no-open.
 void add_page_options(CLI::App& command, PageServerOptions& options);
 
 }  // namespace marey::app

@@ -10,33 +10,33 @@
 
 namespace marey::app {
 
-/// The skin of a body that was read from a file; nullopt: its file has none that a page
-/// could fetch alone (.glb, .vrm), or the body no longer rests as there.
+/// Returns the skin of a body that was read from a file. nullopt: the file is not a
+/// single file with a skin (.glb, .vrm), or the rest pose of the body was changed.
 [[nodiscard]] std::optional<FigureSkin> skin_of(const std::filesystem::path& file,
                                                 const ReadBody& body);
 
-/// The body in a .bvh, .amc, .glb, .gltf, .vrm or .vrma file, moving if that holds a
-/// motion, else at rest for one frame. Bodies that are not human are shown as their file
-/// has them; `remarks` says so and what else a user should know.
-/// Errors: read_raw_body()'s.
+/// Reads the body of a .bvh, .amc, .glb, .gltf, .vrm or .vrma file with its motion, or
+/// with one frame of its rest pose. A body that is not humanoid is shown as in its file,
+/// with a note in `remarks`. `remarks` also receives other notes to the user.
+/// Errors: those of read_raw_body().
 [[nodiscard]] Result<ViewedFigure> figure_of_file(const std::filesystem::path& file,
                                                   std::vector<std::string>& remarks);
 
-/// The recording's first figure on an avatar, beside it.
-/// Errors: open_avatar()'s, retarget_motion()'s.
+/// Retargets the first figure of the recording to an avatar, shown next to it.
+/// Errors: those of open_avatar() and retarget_motion().
 [[nodiscard]] Result<ViewedFigure> figure_on_avatar(const Motion& motion,
                                                     const std::filesystem::path& avatar,
                                                     std::vector<std::string>& remarks);
 
-/// Where the weight of a human body is, and what bears it; empty for other bodies.
+/// Computes centre of mass and support of a humanoid by frame; empty for other bodies.
 [[nodiscard]] std::vector<retarget::BalanceFrame> balance_of(const Motion& motion);
 
-/// When feet bear, as spans of frames. Nothing for bodies of which it cannot be told.
+/// Returns the contacts of the feet as spans of frames; empty if they cannot be detected.
 [[nodiscard]] std::vector<live::PageContact> contact_spans(const Motion& motion,
                                                            int first_frame);
 
-/// By segment, the runs of frames in which it was not measured, from `first_frame` on.
-/// Segments that never were seen carry no tag, and are left out.
+/// Returns by segment the spans of frames without a measurement, numbered from
+/// `first_frame`. Segments that are never measured have no tag and are left out.
 [[nodiscard]] std::vector<live::PageTrack> tracks_of(const ViewedFigure& figure,
                                                      int first_frame);
 

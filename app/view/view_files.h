@@ -11,21 +11,20 @@
 
 namespace marey::app {
 
-/// What to show.
+/// Choice of the data to show.
 struct ViewChoice {
-  std::filesystem::path what;  ///< A file, a folder of results, or one trial's in it.
-  std::string trial;           ///< Of a folder with several; empty: the first.
-  std::vector<std::filesystem::path> avatars;  ///< To put the motion on.
+  std::filesystem::path what;  ///< A file, a folder of results or of one trial.
+  std::string trial;           ///< In a folder of results; empty: the first.
+  std::vector<std::filesystem::path> avatars;  ///< Retargeting targets.
 };
 
 /// Reads a motion (.bvh, .amc, .glb, .gltf, .vrm, .vrma), labelled markers (.c3d, .trc),
 /// a calibration (calibration.toml), a take of `marey live`, or the results of `marey
-/// process` or `marey fit`:
-/// the performer with its doubt, avatars, markers, cameras, gaps, contacts and the
-/// residual over time, as far as they are there.
+/// process` or `marey fit`. Returns the available data: the performer with its
+/// uncertainty, avatars, markers, cameras, gaps, contacts and the residual over time.
 ///
-/// Errors (kBadInput): those of reading; another kind of file; a folder that holds no
-/// results; a trial that is not there; an avatar without a motion to put on it.
+/// Errors (kBadInput): those of the readers; another kind of file; a folder without
+/// results; an unknown trial; an avatar without a motion.
 [[nodiscard]] Result<ViewedRecording> read_view(const ViewChoice& choice);
 
 }  // namespace marey::app

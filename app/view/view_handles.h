@@ -19,37 +19,38 @@
 
 namespace marey::app {
 
-/// The first human figure of a recording, whose frames people look at with a hand, a foot,
-/// the head or the hips elsewhere: handles that are dragged, and the constraints of a
-/// file, which hold as it says. The recording itself stays as it is.
+/// Handles and constraints of the first human figure of a recording. Users drag a hand, a
+/// foot, the head or the hips of a frame; the constraints come from a file. The recording
+/// itself is not changed.
 class ViewHandles {
  public:
-  /// `constraints` is a file of constraints, or empty. Without a human figure there are no
-  /// handles. Errors: reading the file; with constraints those of check_constraints(), and
-  /// that there is nobody to have them.
+  /// `constraints` is a file of constraints, or empty. Without a human figure there are
+  /// no handles. Errors: those of reading the file and of check_constraints();
+  /// constraints without a human figure.
   [[nodiscard]] static Result<ViewHandles> make(const ViewedRecording& recording,
                                                 const std::filesystem::path& constraints);
 
-  /// As the scene has them: the file's, then the handles of the body.
+  /// Returns the constraints for the scene: those of the file, then the handles.
   [[nodiscard]] std::vector<live::PageConstraint> constraints() const;
-  /// Which of the recording's figures it is.
+  /// Returns the index of the figure in the recording.
   [[nodiscard]] std::size_t figure() const { return figure_; }
 
-  /// Notes what a page drags. What it dragged before in the same frame is kept there; in
-  /// another frame all of it is forgotten. Of the last 16 pages.
-  /// Errors (kBadInput), for the page: no such handle, or frame, or none said.
+  /// Stores a drag of a page. Earlier drags of the page in the same frame are kept; those
+  /// in another frame are discarded. Stored for the last 16 pages.
+  /// Errors (kBadInput), sent to the page: an unknown handle; an unknown or missing
+  /// frame.
   [[nodiscard]] Status drag(live::ClientId client, const live::DragRequest& drag);
-  /// A handle is not held any more. False: this page held none of that name.
+  /// Releases a handle. Returns false if this page holds none of that name.
   [[nodiscard]] bool release(live::ClientId client, const std::string& id);
 
   struct Adapted {
     int frame = 0;  ///< From 0.
     Pose pose;
   };
-  /// The frame that the page drags in, brought to all that it holds; feet that bear in
-  /// the recording stand, unless the file has supports. Costs an Adapter::make() and an
-  /// adapt(). nullopt: the page drags nothing, or 16 others have dragged since.
-  /// Errors: Adapter::make()'s.
+  /// Returns the page's frame, adapted to all handles that the page holds. Feet in
+  /// contact in the recording are supports, unless the file defines supports. nullopt:
+  /// the page holds no handle, or 16 other pages have dragged since. Cost: one
+  /// Adapter::make() and one adapt(). Errors: those of Adapter::make().
   [[nodiscard]] std::optional<Result<Adapted>> adapted(live::ClientId client) const;
 
  private:
@@ -72,9 +73,9 @@ class ViewHandles {
   Character character_;
   std::vector<BodyHandle> handles_;
   ConstraintSet of_file_;
-  /// Left, right: whether the foot bears, by frame. Empty: nobody knows.
+  /// By foot (left, right) and frame: true if the foot is in contact. Empty: unknown.
   std::array<std::vector<bool>, 2> bears_;
-  std::vector<Page> pages_;  ///< The one that dragged last is the last.
+  std::vector<Page> pages_;  ///< In order of their last drag.
 };
 
 }  // namespace marey::app

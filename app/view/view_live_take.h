@@ -9,14 +9,14 @@
 
 namespace marey::app {
 
-/// Is this a take of `marey live`: its folder, or the live.sqlite in it?
+/// Returns true for a take of `marey live`: its folder, or its live.sqlite.
 [[nodiscard]] bool is_live_take(const std::filesystem::path& what);
 
-/// The performer and the avatars of a live take as they were live, made again of what the
-/// cameras saw, and what was measured of whom. Instants that the run passed over show the
-/// one before; of a longer pause than ten seconds the rest is left out, and told.
-/// Errors: open_live_take()'s, LiveChain::make()'s; no instant has a body (kBadInput).
-/// Cost: a few milliseconds an instant.
+/// Computes the performer and the avatars of a live take again from its detections, with
+/// the source of each segment. An instant that the run skipped repeats the one before. A
+/// pause longer than ten seconds is cut, with a remark.
+/// Errors: those of open_live_take() and LiveChain::make(); no instant has a body
+/// (kBadInput). Cost: a few milliseconds per instant.
 [[nodiscard]] Result<ViewedRecording> read_live_take_view(
     const std::filesystem::path& what);
 

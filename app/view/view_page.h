@@ -13,31 +13,33 @@
 
 namespace marey::app {
 
-/// A recording as the page takes it.
+/// A recording in the format of the page.
 struct PageOfRecording {
   live::PageScene scene;
-  std::vector<live::WebContent> media;  ///< What the scene names: /media/1 and on.
+  std::vector<live::WebContent> media;  ///< Files of the scene, from /media/1 on.
 };
 
-/// Puts figures side by side, encodes all frames and reads the skins' files. Figures at
-/// another rate than the recording's are resampled; one that ends earlier is gone then.
-/// Cost: 16 bytes a joint and frame, 16 a marker and frame, and the files of the skins.
-/// Media are numbered from `first_media` on. Errors: a skin's file cannot be read.
+/// Places the figures side by side, encodes all frames and reads the files of the skins.
+/// Figures at another rate than the recording's are resampled. A shorter figure
+/// disappears at its end. Media are numbered from `first_media` on. Memory: 16 bytes per
+/// joint and frame, 16 per marker and frame, and the files of the skins.
+/// Errors: a file of a skin cannot be read.
 [[nodiscard]] Result<PageOfRecording> page_of_recording(const ViewedRecording& recording,
                                                         std::size_t first_media = 1);
 
-/// One frame (from 0) of all figures, as the page is sent it, one of them posed otherwise.
+/// Encodes one frame (from 0) of all figures for the page, with another pose of one
+/// figure.
 [[nodiscard]] std::string frame_with(const ViewedRecording& recording,
                                      int frame,
                                      std::size_t figure,
                                      const Pose& pose);
 
-/// A figure as the scene describes it, drawn in `media` if it has a skin.
+/// Returns the description of a figure for the scene. `media` is the address of its skin.
 [[nodiscard]] live::PageSkeleton page_skeleton(const ViewedFigure& figure,
                                                const std::string& media,
                                                const glm::dvec3& offset_m);
 
-/// A file's bytes as content. Errors: it cannot be read.
+/// Reads a file as web content. Errors: the file cannot be read.
 [[nodiscard]] Result<live::WebContent> file_content(const std::filesystem::path& file,
                                                     std::string path,
                                                     std::string content_type);

@@ -15,7 +15,7 @@
 
 namespace marey::app {
 
-/// A glTF file in which a figure is drawn.
+/// The glTF file with the skin of a figure.
 struct FigureSkin {
   std::filesystem::path file;  ///< .glb or .vrm.
   std::vector<int> node_of_joint;
@@ -23,18 +23,18 @@ struct FigureSkin {
   glm::dquat marey_from_file{1.0, 0.0, 0.0, 0.0};
 };
 
-/// A body that moves. Its frames begin with the recording's.
+/// A moving body. Its first frame is the first frame of the recording.
 struct ViewedFigure {
   std::string name;
   live::PageSkeletonKind kind = live::PageSkeletonKind::kMotion;
   Motion motion;
   std::vector<std::vector<JointUncertainty>>
       uncertainty{};                              ///< [frame][joint], or empty.
-  std::vector<retarget::BalanceFrame> balance{};  ///< Likewise.
+  std::vector<retarget::BalanceFrame> balance{};  ///< [frame], or empty.
   std::optional<FigureSkin> skin{};
 };
 
-/// Everything that `marey view` shows of a recording.
+/// All data that `marey view` shows of a recording.
 struct ViewedRecording {
   std::string title;
   FrameRate rate;
@@ -47,10 +47,10 @@ struct ViewedRecording {
   std::vector<live::PageContact> contacts;
   std::vector<live::PageGraph> graphs;
   std::vector<live::PageNote> notes;
-  std::vector<std::string> remarks;  ///< For who started it.
+  std::vector<std::string> remarks;  ///< Notes to the user of the command.
 };
 
-/// Adds a frame that was not measured to a track; frames come in order.
+/// Adds a frame to the gaps of a track, unless it was measured. Frames must be in order.
 inline void add_gap(live::PageTrack& track, int frame, Source source) {
   if (source == Source::kMeasured) return;
   auto& gaps = track.gaps;

@@ -11,11 +11,12 @@
 
 namespace marey::app {
 
-/// Reads one trial's folder of results: the part of read_view() for it.
+/// Reads the folder of results of one trial; part of read_view().
 [[nodiscard]] Result<ViewedRecording> read_trial_view(
     const std::filesystem::path& trial_folder);
 
-/// The trials of a folder of results, by name: subfolders that hold a solved motion.
+/// Returns the names of the trials of a folder of results: subfolders with a solved
+/// motion.
 [[nodiscard]] std::vector<std::string> solved_trials(const std::filesystem::path& folder);
 
 }  // namespace marey::app

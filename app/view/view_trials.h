@@ -19,33 +19,34 @@
 
 namespace marey::app {
 
-/// A recording that is served, and what pages do to it.
+/// A served recording, with the handles that pages drag.
 struct ViewedTrial {
-  std::string name;  ///< Empty for what is no trial.
+  std::string name;  ///< Empty if it is not a trial.
   ViewedRecording recording;
   ViewHandles handles;
-  std::string scene;  ///< As pages take it.
+  std::string scene;  ///< In the format of the page.
 };
 
-/// What `marey view` serves of a file or of a folder of results: the trial that was asked
-/// for, and the others once a page asks for them. Each page looks at one of them. What
-/// was served stays so until the program ends: a page that is slow finds it.
+/// Manages the recordings that `marey view` serves: a file, or the trials of a folder of
+/// results. Reads the chosen trial first, and others when a page requests them. Each page
+/// shows one trial. Served content stays available until the program ends, for slow
+/// pages.
 class ViewTrials {
  public:
-  /// Reads the first, and the report of the folder, if it has one. Errors: read_view()'s,
-  /// page_of_recording()'s, ViewHandles::make()'s.
+  /// Reads the chosen trial, and the report of the folder if there is one. Errors: those
+  /// of read_view(), page_of_recording() and ViewHandles::make().
   [[nodiscard]] static Result<ViewTrials> open(const ViewChoice& choice,
                                                const std::filesystem::path& constraints);
 
   static constexpr const char* kReport = "/report.html";
 
-  /// Puts on the server what trials need that were read, and the report as kReport.
+  /// Adds the media of the trials read so far to the server, and the report as kReport.
   void serve(live::WebServer& server);
 
-  /// The one that a page looks at.
+  /// Returns the trial that a page shows.
   [[nodiscard]] ViewedTrial& seen_by(live::ClientId client);
-  /// A page looks at another from now on; returns its scene.
-  /// Errors (kBadInput), for the page: no such trial, or as open().
+  /// Switches a page to another trial and returns its scene.
+  /// Errors (kBadInput), sent to the page: an unknown trial; those of open().
   [[nodiscard]] Result<std::string_view> show(live::ClientId client,
                                               const std::string& name,
                                               live::WebServer& server);
@@ -57,12 +58,12 @@ class ViewTrials {
 
   ViewChoice choice_;
   std::filesystem::path constraints_;
-  std::vector<std::string> names_;  ///< Of all trials; empty: there is but one thing.
+  std::vector<std::string> names_;  ///< Of all trials; empty: a single recording.
   std::optional<live::WebContent> report_;
-  std::vector<std::unique_ptr<ViewedTrial>> trials_;  ///< Those that were read.
+  std::vector<std::unique_ptr<ViewedTrial>> trials_;  ///< Trials read so far.
   std::vector<live::WebContent> unserved_;
-  std::size_t media_ = 0;  ///< How many there are.
-  /// Who looks at another than the first; the last kMaxPages who asked.
+  std::size_t media_ = 0;  ///< Number of media.
+  /// Pages that show another trial than the first; the kMaxPages latest ones.
   std::vector<std::pair<live::ClientId, ViewedTrial*>> seen_;
 };
 

@@ -20,7 +20,7 @@ constexpr std::uint8_t kHasUncertainty = 2;
 constexpr std::uint8_t kHasBalance = 4;
 constexpr std::uint8_t kHasTracking = 8;
 
-/// Appends numbers, their least byte first.
+/// Appends numbers in little-endian order.
 class Writer {
  public:
   explicit Writer(std::string& out) : out_(out) {}
@@ -32,7 +32,7 @@ class Writer {
   }
   void u32(std::uint32_t value) { whole(value); }
   void f32(double value) {
-    // A double that no float holds would be undefined behaviour to convert.
+    // Converting a double beyond the range of float is undefined behaviour.
     constexpr double kMax = std::numeric_limits<float>::max();
     const double held = std::isnan(value) ? value : std::clamp(value, -kMax, kMax);
     whole(std::bit_cast<std::uint32_t>(static_cast<float>(held)));
@@ -71,7 +71,7 @@ std::uint8_t code(Source source) {
 void write_uncertainty(std::span<const JointUncertainty> uncertainty, Writer& out) {
   for (const JointUncertainty& d : uncertainty) out.f32(d.sigma_m);
   for (const JointUncertainty& d : uncertainty) out.u8(code(d.source));
-  // Numbers of the next part stay where a typed array can be laid over them.
+  // Pad to four bytes, so that a typed array can view the numbers of the next part.
   for (std::size_t i = uncertainty.size(); i % 4 != 0; ++i) out.u8(0);
 }
 

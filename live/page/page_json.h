@@ -10,10 +10,10 @@
 
 namespace marey::live {
 
-/// Members stay in the order in which they are written.
+/// JSON whose members keep the order in which they are written.
 using PageJson = nlohmann::ordered_json;
 
-/// In one line; broken UTF-8 is replaced, what is not finite is null.
+/// Returns the JSON in one line. Invalid UTF-8 is replaced; non-finite numbers are null.
 [[nodiscard]] inline std::string in_one_line(const PageJson& json) {
   return json.dump(-1, ' ', false, PageJson::error_handler_t::replace);
 }
@@ -35,7 +35,7 @@ template <class T>
   return value ? PageJson(*value) : PageJson();
 }
 
-/// One entry for each of `list`.
+/// Returns an array with one(item) for each item of `list`.
 template <class List, class One>
 [[nodiscard]] PageJson array_of(const List& list, const One& one) {
   PageJson out = PageJson::array();

@@ -18,10 +18,10 @@ constexpr double kFarthest_m = 10'000.0;
 constexpr int kRequestVersion = 1;
 
 Error refused(std::string cause) {
-  return bad_input("message of the page", std::move(cause), "reload the page");
+  return bad_input("message from the page", std::move(cause), "reload the page");
 }
 
-/// One message, whose members are asked for by name. Keeps the first thing that is wrong.
+/// Reads the members of one message by name and keeps the first error.
 class Members {
  public:
   explicit Members(const Json& message) : message_(message) {}
@@ -76,7 +76,7 @@ class Members {
                               : wrong("version", "1: the page is of another marey", 0);
   }
 
-  /// One of `words`, by which of them it is.
+  /// Returns the value of the member's word in `words`.
   template <class Enum, std::size_t N>
   Enum one_of(const char* name, const std::pair<const char*, Enum> (&words)[N]) {
     const std::string value_text = word(name);
@@ -95,7 +95,7 @@ class Members {
                               : wrong(name, "a text", std::string());
   }
 
-  /// What was wrong; empty: nothing.
+  /// Returns the first error; empty: none.
   [[nodiscard]] const std::string& cause() const { return cause_; }
 
  private:
@@ -161,7 +161,7 @@ Result<PageRequest> read_page_request(std::string_view text) {
   const std::string type = members.word("type");
   if (!members.cause().empty()) return refused(members.cause());
   std::optional<PageRequest> request = of_type(type, members);
-  if (!request) return refused("nothing is known of its type");
+  if (!request) return refused("its type is unknown");
   if (!members.cause().empty()) return refused(members.cause());
   return *std::move(request);
 }

@@ -13,20 +13,20 @@
 
 namespace marey::live {
 
-/// What a page asks for.
+/// First message of a page.
 struct HelloRequest {
   int version = 1;
 };
-/// It has drawn the frame that was sent then.
+/// The page has drawn the frame that was sent at this time.
 struct ShownRequest {
   double sent_s = 0.0;
 };
 enum class DragPhase { kBegin, kMove, kEnd };
 struct DragRequest {
-  std::string id{};  ///< Of the constraint.
+  std::string id{};  ///< Id of the constraint.
   glm::dvec3 p_in_world{0.0};
   DragPhase phase = DragPhase::kMove;
-  std::optional<int> frame{};  ///< Of a recording.
+  std::optional<int> frame{};  ///< Frame of a recording.
 };
 struct ConstraintRequest {
   std::string id{};
@@ -39,7 +39,7 @@ struct WizardRequest {
 struct RecordRequest {
   bool on = false;
 };
-/// Another trial of the results.
+/// Request for another trial of the results.
 struct TrialRequest {
   std::string name{};
 };
@@ -56,11 +56,11 @@ using PageRequest = std::variant<HelloRequest,
                                  ThumbnailsRequest,
                                  TrialRequest>;
 
-/// Reads one message of a page. Members that are not known are ignored.
+/// Parses one message of a page. Unknown members are ignored.
 ///
-/// Errors (kBadInput), for error_json(): not JSON, another type, a member that is
-/// missing, of another kind or out of bounds: ids and names of 1 to 200 bytes, places
-/// within 10 km, frames not negative, version 1, at most 16 kB in all.
+/// Errors (kBadInput), for error_json(): not JSON, an unknown type, or a member that is
+/// missing, of a wrong type or out of bounds. Bounds: ids and names of 1 to 200 bytes,
+/// places within 10 km, frames not negative, version 1, at most 16 kB in total.
 [[nodiscard]] Result<PageRequest> read_page_request(std::string_view text);
 
 }  // namespace marey::live

@@ -17,15 +17,15 @@
 
 namespace marey::live {
 
-/// How a skeleton's joints move the nodes of a glTF file that the page fetches.
+/// Skin of a skeleton: a glTF file that the page fetches, and its nodes per joint.
 struct PageSkin {
-  std::string media{};   ///< Where it is served: "/media/1".
+  std::string media{};   ///< Path at which it is served: "/media/1".
   std::string format{};  ///< "glb" or "vrm".
-  /// One for each joint: the node's name, and its place in the file's list.
+  /// One entry per joint: the node's name, and its index in the file.
   std::vector<std::string> nodes{};
   std::vector<int> node_index{};
-  double unit_from_m = 1.0;  ///< The file's unit in a metre.
-  /// How the whole file is turned to stand as the scene does.
+  double unit_from_m = 1.0;  ///< File units per metre.
+  /// Rotation of the whole file into the scene's axes.
   glm::dquat scene_from_file{1.0, 0.0, 0.0, 0.0};
 };
 
@@ -36,8 +36,8 @@ struct PageSkeleton {
   PageSkeletonKind kind = PageSkeletonKind::kMotion;
   Skeleton skeleton{};
   std::optional<PageSkin> skin{};
-  glm::dvec3 offset_m{0.0};  ///< Where it is drawn, beside the others.
-  bool estimate = false;     ///< Frames say how well its joints are known.
+  glm::dvec3 offset_m{0.0};  ///< Displacement at which it is drawn next to the others.
+  bool estimate = false;     ///< Frames contain the uncertainty of its joints.
 };
 
 struct PageCamera {
@@ -49,12 +49,13 @@ enum class PageConstraintKind { kPosition, kDistance, kBox, kOrientation, kSuppo
 
 struct PageConstraint {
   std::string id{};
-  std::size_t skeleton = 0;  ///< Which of the scene's.
+  std::size_t skeleton = 0;  ///< Index of the scene's skeleton.
   PageConstraintKind kind = PageConstraintKind::kPosition;
   bool active = true;
   glm::dvec3 p_in_world{0.0};
   bool draggable = false;
-  /// It is where this joint of its skeleton is, frame by frame, and p_in_world is void.
+  /// Joint of its skeleton that the constraint follows frame by frame; p_in_world is then
+  /// unused.
   std::optional<JointIndex> joint{};
 };
 
@@ -69,7 +70,7 @@ struct PageGap {
   Source source = Source::kInferred;
 };
 
-/// When a segment or a marker was not seen.
+/// Frames in which a segment or a marker was not seen.
 struct PageTrack {
   std::string name{};
   std::vector<PageGap> gaps{};
@@ -80,7 +81,7 @@ struct PageContact {
   std::vector<PageSpan> spans{};
 };
 
-/// A curve over all frames. Values that are not finite are gaps in it.
+/// A curve over all frames. Non-finite values are gaps.
 struct PageGraph {
   std::string name{};
   std::string unit{};
@@ -92,7 +93,7 @@ struct PageNote {
   std::string text{};
 };
 
-/// A recording that is all there. Spans and notes count frames from first_frame on.
+/// A complete recording. Spans and notes count frames from first_frame on.
 struct PageFile {
   int frames = 0;
   int first_frame = 0;
@@ -102,15 +103,15 @@ struct PageFile {
   std::vector<PageContact> contacts{};
   std::vector<PageGraph> graphs{};
   std::vector<PageNote> notes{};
-  std::string trial{};                ///< Which of `trials` it is; may be empty.
-  std::vector<std::string> trials{};  ///< That a page may ask for (TrialRequest).
-  std::string report{};               ///< Where the report of it is served; empty: nowhere.
+  std::string trial{};                ///< Name of the trial, in `trials`; may be empty.
+  std::vector<std::string> trials{};  ///< Trials that a page may request (TrialRequest).
+  std::string report{};               ///< Path of the trial's report; empty: none.
 };
 
-/// Everything that does not change from frame to frame. With `file` it is a recording,
-/// without it is live.
+/// Everything that does not change from frame to frame. A scene with `file` is a
+/// recording; one without is live.
 struct PageScene {
-  int revision = 1;  ///< Counts up whenever anything else here changes.
+  int revision = 1;  ///< Incremented whenever another member changes.
   std::string title{};
   double rate_hz = 30.0;
   std::vector<PageSkeleton> skeletons{};
@@ -122,12 +123,12 @@ struct PageScene {
   std::optional<PageWizard> wizard{};
 };
 
-/// The scene as the page reads it (docs/formats/page.md): JSON in one line, the
-/// same for the same scene. Names that are not UTF-8 have their broken bytes replaced.
-/// Precondition: all numbers finite but those of graphs.
+/// Returns the scene message (docs/formats/page.md): JSON in one line, the same for the
+/// same scene. Invalid UTF-8 in names is replaced.
+/// Precondition: all numbers except those of graphs are finite.
 [[nodiscard]] std::string scene_json(const PageScene& scene);
 
-/// The message that replaces a scene's constraints.
+/// Returns the message that replaces a scene's constraints.
 [[nodiscard]] std::string constraints_json(
     const std::vector<PageConstraint>& constraints);
 

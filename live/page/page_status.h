@@ -11,14 +11,14 @@ namespace marey::live {
 
 enum class PageSubject {
   kWaiting,
-  kTracked,  ///< All is well: every camera streams, every segment with tags is seen.
-  kPartly,   ///< Tracked, but a camera or a segment is not well: PageStatus::warnings.
-  kBehind,   ///< Poses do not keep up with the cameras.
-  kStopped,  ///< No pose has come out for a while.
+  kTracked,  ///< No fault: every camera streams, every segment with tags is seen.
+  kPartly,   ///< Tracked, but a camera or a segment has a fault: PageStatus::warnings.
+  kBehind,   ///< Poses are slower than the cameras.
+  kStopped,  ///< No pose was computed for a while.
   kLost,
 };
 
-/// How long something takes: half the time no longer than p50, nearly always than p95.
+/// Percentiles 50 and 95 of a duration.
 struct PageSpread {
   double p50_ms = 0.0;
   double p95_ms = 0.0;
@@ -36,7 +36,7 @@ struct PageCameraStatus {
   PageCameraState state = PageCameraState::kSilent;
   std::uint64_t frames = 0;
   std::uint64_t dropped = 0;
-  int tags = 0;  ///< In the newest picture.
+  int tags = 0;  ///< Number of tags in the newest picture.
   std::string detail{};
 };
 
@@ -53,7 +53,7 @@ struct PageRecording {
   std::string trouble{};
 };
 
-/// How things stand while live, told about twice a second.
+/// Status of a live session, sent about twice a second.
 struct PageStatus {
   double clock_s = 0.0;
   PageSubject subject = PageSubject::kWaiting;
@@ -64,7 +64,7 @@ struct PageStatus {
   double rate_hz = 0.0;
   PageSpread latency;
   std::vector<PageStage> stages{};
-  std::string overload = "none";  ///< Or the policy that is in force, in words.
+  std::string overload = "none";  ///< "none", or the active overload policy in words.
   std::vector<PageCameraStatus> cameras{};
   std::vector<PageOutput> outputs{};
   std::optional<PageRecording> recording{};
@@ -72,11 +72,11 @@ struct PageStatus {
   std::vector<std::string> messages{};
 };
 
-/// As scene_json().
+/// Returns the status message; encoding as in scene_json().
 [[nodiscard]] std::string status_json(const PageStatus& status);
 
-/// The answer to a message that was not understood, or asks for what cannot be. `about`
-/// is the type of that message where the page says it beside what was asked; else empty.
+/// Returns the answer to an invalid or impossible request. `about` is the type of that
+/// request if the page shows the error next to the control; otherwise empty.
 [[nodiscard]] std::string error_json(const std::string& text,
                                      const std::string& about = {});
 

@@ -9,25 +9,25 @@
 
 namespace marey::live {
 
-/// Where calibration and fitting of a subject stand.
+/// Current step of the calibration and fitting of a subject.
 enum class WizardStep { kIdle, kStand, kMove, kSolve, kDone, kFailed };
 
-/// What one camera has seen so far. Its picture is divided into 8 columns and 6 rows,
-/// from the top left, row by row.
+/// Coverage of one camera so far. Its picture is divided into 8 columns and 6 rows; cells
+/// are stored row by row from the top left.
 struct WizardCamera {
   static constexpr std::size_t kColumns = 8;
   static constexpr std::size_t kRows = 6;
 
   std::string name{};
-  /// How much of each cell was covered by tags, 0 to 1.
+  /// Share of each cell that was covered by tags, 0 to 1.
   std::array<double, kColumns * kRows> grid{};
   std::optional<double> rms_px{};
 
-  /// The share of cells in which tags were seen at all.
+  /// Returns the share of cells in which tags were seen.
   [[nodiscard]] double coverage() const;
 };
 
-/// One thing that was found: "left forearm", "24.1 cm ± 0.3".
+/// One result: name "left forearm", value "24.1 cm ± 0.3".
 struct WizardQuality {
   std::string name{};
   std::string value{};
@@ -44,7 +44,7 @@ struct PageWizard {
   std::string error{};
 };
 
-/// As scene_json().
+/// Returns the wizard message; encoding as in scene_json().
 [[nodiscard]] std::string wizard_json(const PageWizard& wizard);
 
 }  // namespace marey::live

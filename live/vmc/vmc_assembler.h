@@ -31,7 +31,7 @@ struct VmcReceived {
                               ///< numbers not finite, places beyond 10 km, no rotation.
   std::int64_t ignored = 0;     ///< Messages that contain no part of a pose.
   std::int64_t frames = 0;      ///< Complete frames.
-  std::int64_t incomplete = 0;  ///< Dropped frames: bones of the frame before are missing.
+  std::int64_t incomplete = 0;  ///< Dropped: they lack bones of the frame before.
 };
 
 /// Assembles packets to frames.

@@ -19,8 +19,8 @@ Result<std::string> make_access_token() {
     if (got <= 0) {
       return Error{Errc::kInternal,
                    "access token",
-                   "the system gives no random numbers",
-                   "serve this machine alone, without --lan"};
+                   "the system returns no random numbers",
+                   "serve this machine only, without --lan"};
     }
     filled += static_cast<std::size_t>(got);
   }
@@ -40,7 +40,7 @@ bool same_token(std::string_view given, std::string_view token) {
     difference |= static_cast<unsigned>(static_cast<unsigned char>(given[i]) ^
                                         static_cast<unsigned char>(token[i]));
   }
-  // Read back, so that no compiler ends the loop early.
+  // Volatile, so that the compiler cannot end the loop early.
   const volatile unsigned result = difference;
   return result == 0;
 }

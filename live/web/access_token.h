@@ -9,12 +9,12 @@
 
 namespace marey::live {
 
-/// 128 bits from the kernel's generator, as 32 hexadecimal digits: who has it may look.
-/// Error (kInternal): the kernel gives none.
+/// Returns 128 bits from the kernel's generator as 32 hexadecimal digits. The token
+/// grants access. Error (kInternal): the kernel returns no random numbers.
 [[nodiscard]] Result<std::string> make_access_token();
 
-/// Whether two texts agree. Takes as long whatever `given` holds, so that it cannot be
-/// found digit by digit; only its length shows.
+/// Returns true if two texts are equal. The time does not depend on the content of
+/// `given`, so the token cannot be found digit by digit; only its length is observable.
 [[nodiscard]] bool same_token(std::string_view given, std::string_view token);
 
 }  // namespace marey::live

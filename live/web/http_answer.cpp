@@ -14,8 +14,8 @@ struct Status {
 
 struct Extras {
   std::string_view host;   ///< Checked; empty: unknown.
-  std::string_view token;  ///< To keep as a cookie; empty: none.
-  std::string_view policy;  ///< Instead of the page's; empty: that.
+  std::string_view token;  ///< To set as a cookie; empty: none.
+  std::string_view policy;  ///< Replaces the page's policy; empty: the page's.
   bool keep_alive = false;
   bool is_head = false;
 };
@@ -24,19 +24,20 @@ void add_header(std::string& head, std::string_view name, std::string_view value
   head.append(name).append(": ").append(value).append("\r\n");
 }
 
-/// The page runs its own scripts and speaks with us, and nobody else.
+/// Returns the policy: the page runs only its own scripts and connects only to this
+/// server.
 std::string content_policy(std::string_view host) {
   std::string policy =
       "default-src 'self'; img-src 'self' blob: data:; style-src 'self' 'unsafe-inline'; "
       "base-uri 'none'; form-action 'none'; frame-ancestors 'none'; object-src 'none'; "
-      // Pictures inside of avatars are fetched as blobs; some browsers do not count
+      // Pictures in avatar files are fetched as blobs; some browsers do not count
       // WebSockets as 'self'.
       "connect-src 'self' blob: data:";
   if (!host.empty()) policy.append(" ws://").append(host);
   return policy;
 }
 
-/// Status line and headers but for the last line, which is empty.
+/// Returns status line and headers without the empty line at the end.
 std::string begin_head(const Status& status, const Extras& extras) {
   std::string head =
       "HTTP/1.1 " + std::to_string(status.code) + " " + status.name + "\r\n";
@@ -77,7 +78,7 @@ HttpAnswer send(const WebContent& content,
   const bool known = has_etag(if_none_match, content.etag);
   HttpAnswer out;
   out.head = begin_head(known ? Status{304, "Not Modified"} : Status{}, extras);
-  // Asked for each time, and sent when it changed.
+  // The browser revalidates each time; the content is sent only if it changed.
   add_header(out.head, "Cache-Control", content.etag.empty() ? "no-store" : "no-cache");
   if (!content.etag.empty()) add_header(out.head, "ETag", content.etag);
   if (!known) {
@@ -106,18 +107,20 @@ HttpAnswer answer_request(const CheckedRequest& request,
       break;
     case Verdict::kWrongMethod:
       state.count(&WebCounts::refused_request);
-      return words({405, "Method Not Allowed"}, "Here is only to read.", extras);
+      return words(
+          {405, "Method Not Allowed"}, "Only GET and HEAD are allowed.", extras);
     case Verdict::kWrongTarget:
       state.count(&WebCounts::refused_request);
-      return words({400, "Bad Request"}, "This is no path.", extras);
+      return words({400, "Bad Request"}, "The path is not valid.", extras);
     case Verdict::kWrongHost:
       state.count(&WebCounts::refused_host);
       return words({403, "Forbidden"},
-                   "Not under this name. Open the address that marey printed.",
+                   "Wrong host name. Open the address that marey printed.",
                    extras);
     case Verdict::kWrongOrigin:
       state.count(&WebCounts::refused_origin);
-      return words({403, "Forbidden"}, "Not for other sites.", extras);
+      return words(
+          {403, "Forbidden"}, "Requests from other sites are not allowed.", extras);
     case Verdict::kWrongToken:
       state.count(&WebCounts::refused_token);
       return words({403, "Forbidden"},
@@ -136,7 +139,7 @@ HttpAnswer reject_request(RejectReason why, WebState& state) {
   switch (why) {
     case RejectReason::kMalformed:
       state.count(&WebCounts::refused_request);
-      return words({400, "Bad Request"}, "This is no request.", {});
+      return words({400, "Bad Request"}, "The request is malformed.", {});
     case RejectReason::kHeadTooBig:
       state.count(&WebCounts::refused_request);
       return words(
@@ -148,7 +151,8 @@ HttpAnswer reject_request(RejectReason why, WebState& state) {
                    {});
     case RejectReason::kNoUpgrade:
       state.count(&WebCounts::refused_request);
-      return words({426, "Upgrade Required"}, "This is for WebSockets.", {});
+      return words(
+          {426, "Upgrade Required"}, "This path accepts only WebSockets.", {});
   }
   return {};
 }

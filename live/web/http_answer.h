@@ -11,22 +11,23 @@
 
 namespace marey::live {
 
-/// The answer to one request, ready for the socket.
+/// The response to one request, ready for the socket.
 struct HttpAnswer {
-  std::string head;  ///< Status line and headers, the empty line included.
+  std::string head;  ///< Status line and headers, with the empty line at the end.
   std::shared_ptr<const std::string> body;  ///< nullptr: none.
 };
 
-/// How a request that is not served is answered.
+/// Reason why a request is not served, with its HTTP status.
 enum class RejectReason {
   kMalformed,   ///< 400
   kHeadTooBig,  ///< 431
   kFull,        ///< 503
-  kNoUpgrade,   ///< 426: the WebSocket's path, fetched.
+  kNoUpgrade,   ///< 426: a plain request for the WebSocket's path.
 };
 
-/// Answers a request that was checked: content, 304 for who has it already, or why not.
-/// Counts what is refused. `keep_alive`: the connection stays open.
+/// Answers a checked request with the content, with 304 if the browser already has it, or
+/// with an error status. Counts refused requests. `keep_alive`: the connection stays
+/// open.
 [[nodiscard]] HttpAnswer answer_request(const CheckedRequest& request,
                                         const RequestHead& head,
                                         std::string_view if_none_match,
@@ -34,7 +35,8 @@ enum class RejectReason {
                                         bool keep_alive,
                                         WebState& state);
 
-/// Likewise, and closes the connection.
+/// Returns the response to a request that is not served. The response closes the
+/// connection.
 [[nodiscard]] HttpAnswer reject_request(RejectReason why, WebState& state);
 
 }  // namespace marey::live

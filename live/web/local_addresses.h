@@ -7,8 +7,8 @@
 
 namespace marey::live {
 
-/// The IPv4 addresses by which others can reach this machine, in the order in which the
-/// system lists them, its own loopback left out. Empty: no network is up.
+/// Returns the IPv4 addresses of this machine in the system's order, without the
+/// loopback. Empty: no network is up.
 [[nodiscard]] std::vector<std::string> local_addresses();
 
 }  // namespace marey::live

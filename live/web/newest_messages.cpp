@@ -22,7 +22,7 @@ std::size_t NewestMessages::next_slot(const Reader& reader) const {
   constexpr std::size_t kFrame = index(MessageSlot::kFrame);
   if (has_new(reader, kScene)) return kScene;
   if (reader.frame_is_next && has_new(reader, kFrame)) return kFrame;
-  // Of the others, what has waited longest.
+  // The oldest pending message of the other slots.
   std::size_t next = kMessageSlots;
   for (std::size_t slot = 0; slot < kMessageSlots; ++slot) {
     if (slot == kFrame || !has_new(reader, slot)) continue;

@@ -10,8 +10,8 @@
 
 namespace marey::live {
 
-/// What a page can be sent, one message of each waiting at most. After the scene, which
-/// goes before everything else, frames and the others take turns.
+/// Kinds of messages to a page; at most one of each is pending. The scene is sent first.
+/// Frames and the other messages then alternate.
 inline constexpr std::size_t kMaxThumbnails = 64;
 enum class MessageSlot : std::size_t {
   kScene,
@@ -19,7 +19,7 @@ enum class MessageSlot : std::size_t {
   kStatus,
   kWizard,
   kConstraints,
-  kThumbnail,  ///< The first camera's; the others follow.
+  kThumbnail,  ///< Slot of the first camera; the others follow.
 };
 inline constexpr std::size_t kMessageSlots =
     static_cast<std::size_t>(MessageSlot::kThumbnail) + kMaxThumbnails;
@@ -28,35 +28,35 @@ inline constexpr std::size_t kMessageSlots =
   return static_cast<std::size_t>(slot);
 }
 
-/// The newest message of each slot, for any number of readers, each of which knows what
-/// it has had. Buffers are kept: nothing is allocated once they have grown. For one
-/// thread at a time.
+/// Stores the newest message of each slot for any number of readers; each reader records
+/// the messages that it has received. Buffers are reused: nothing is allocated once they
+/// have grown. Used by one thread at a time.
 class NewestMessages {
  public:
-  /// What one reader has had.
+  /// Numbers of the messages that one reader has received.
   struct Reader {
     std::array<std::uint64_t, kMessageSlots> had{};
     bool frame_is_next = true;
   };
 
-  /// Replaces what is in the slot. Precondition: slot < kMessageSlots.
+  /// Replaces the message in the slot. Precondition: slot < kMessageSlots.
   void put(std::size_t slot, std::string_view message);
-  /// Empties a slot: what it held is sent to nobody any more.
+  /// Empties a slot: its message is not sent any more.
   void clear(std::size_t slot);
 
-  /// Whether a slot holds what this reader has not had.
+  /// Returns true if the slot's message is new to this reader.
   [[nodiscard]] bool has_new(const Reader& reader, std::size_t slot) const {
     return slots_[slot].number > reader.had[slot];
   }
 
-  /// Copies the next message for this reader into `out` and marks it as had; false when
-  /// it has everything. Never the same message twice. Linear in slots.
+  /// Copies the next message for this reader into `out` and marks it as received; returns
+  /// false if there is none. Never returns a message twice. Linear in slots.
   bool take(Reader& reader, std::string& out, bool& is_binary) const;
 
  private:
   struct Slot {
     std::string message;
-    std::uint64_t number = 0;  ///< Counts all messages together; 0: empty.
+    std::uint64_t number = 0;  ///< Serial number over all slots; 0: empty.
   };
   [[nodiscard]] std::size_t next_slot(const Reader& reader) const;
 
@@ -64,7 +64,7 @@ class NewestMessages {
   std::uint64_t newest_ = 0;
 };
 
-/// Whether the message of a slot is binary.
+/// Returns true if the message of a slot is binary.
 [[nodiscard]] constexpr bool is_binary_slot(std::size_t slot) {
   return slot == index(MessageSlot::kFrame) || slot >= index(MessageSlot::kThumbnail);
 }

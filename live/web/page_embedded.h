@@ -8,8 +8,8 @@
 
 namespace marey::live {
 
-/// The page as it was built in: "/", "/page.js", "/page.css", "/icon.svg", gzipped. Built
-/// with -DMAREY_VIEWER=OFF, a plain page that says so.
+/// Returns the embedded page: "/", "/page.js", "/page.css", "/icon.svg", gzipped. A build
+/// with -DMAREY_VIEWER=OFF contains a plain page that states this.
 [[nodiscard]] std::vector<WebContent> embedded_page();
 
 }  // namespace marey::live

@@ -23,7 +23,7 @@
 #include "live/web/web_server_options.h"
 #include "live/web/web_state.h"
 
-// Included by web_loop.cpp alone: Boost.Beast takes long to compile.
+// Included only by web_loop.cpp, because Boost.Beast takes long to compile.
 namespace marey::live {
 
 namespace asio = boost::asio;
@@ -34,7 +34,8 @@ using boost::system::error_code;
 
 class PageSession;
 
-/// State that all connections share. It outlives them; used on the server's thread alone.
+/// State that all connections share. It outlives them and is used only on the server's
+/// thread.
 struct ServerState {
   WebState& state;
   const WebServerOptions& options;
@@ -58,8 +59,8 @@ class CountedConnection {
   ServerState& server_;
 };
 
-/// One page's WebSocket. Its handlers own it, as boost.asio has it: it lives while one of
-/// them is due.
+/// One page's WebSocket. Its pending handlers own it, as is usual with boost.asio: it is
+/// destroyed with the last of them.
 class PageSession : public std::enable_shared_from_this<PageSession> {
  public:
   PageSession(beast::tcp_stream stream, std::unique_ptr<CountedConnection> connection)
@@ -75,7 +76,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
   PageSession(const PageSession&) = delete;
   PageSession& operator=(const PageSession&) = delete;
 
-  /// Answers the request that became a WebSocket, and goes on from there.
+  /// Accepts the upgrade request and starts to read and send.
   void start(const http::request<http::empty_body>& request) {
     beast::get_lowest_layer(socket_).expires_never();
     websocket::stream_base::timeout times{};
@@ -90,7 +91,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     });
   }
 
-  /// Sends what there is and is new, one message after the other.
+  /// Sends the new messages, one after the other.
   void send_next() {
     if (!page_ || is_sending_ || is_closing_) return;
     bool is_binary = false;
@@ -129,7 +130,7 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
       if (!was_asked_for && failed.category() == websocket_errors()) {
         server_.state.count(&WebCounts::malformed_messages);
       }
-      // A message that is being written would keep the session alive.
+      // A pending write would keep the session alive.
       beast::get_lowest_layer(socket_).close();
       return;
     }
@@ -138,8 +139,8 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
     read();
   }
 
-  /// Pings are answered by the library, and are messages like others. Of a page that
-  /// sends too many not even the end is negotiated: this is called while it is read.
+  /// Counts a ping or pong towards the message rate; the library answers pings. A page
+  /// above the rate is closed without a close handshake, because this runs within a read.
   void on_control(websocket::frame_type kind) {
     if (kind == websocket::frame_type::close || is_closing_) return;
     if (rate_.allow(MessageRate::Clock::now())) return;
@@ -176,12 +177,12 @@ class PageSession : public std::enable_shared_from_this<PageSession> {
   static constexpr std::size_t kMaxMessageBytes = 16 * 1024;
   static constexpr int kMaxMessagesPerSecond = 200;
   static constexpr std::chrono::seconds kHandshakeTime{10};
-  /// A page that says nothing for so long, not even that it is there, is gone.
+  /// A page that sends nothing for this time, not even a pong, is closed.
   static constexpr std::chrono::seconds kSilence{30};
 
   std::unique_ptr<CountedConnection> connection_;
   ServerState& server_;
-  /// Without compression, which costs memory and time for each page.
+  /// Without compression, which costs memory and time per page.
   websocket::stream<beast::tcp_stream, false> socket_;
   std::optional<WebState::Page> page_;
   MessageRate rate_{kMaxMessagesPerSecond};

@@ -7,10 +7,10 @@
 
 namespace marey::live {
 
-/// One page that is connected; never used again for another.
+/// Identifier of a connected page; never reused.
 enum class ClientId : std::uint64_t {};
 
-/// What a page said.
+/// A text received from a page.
 struct ReceivedText {
   ClientId client{};
   std::string text;

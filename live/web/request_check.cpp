@@ -19,7 +19,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-/// Takes the part up to `mark` off the front of `rest`.
+/// Removes the part up to `mark` from the front of `rest` and returns it.
 std::string_view take_until(char mark, std::string_view& rest) {
   const auto end = rest.find(mark);
   const std::string_view part = rest.substr(0, end);
@@ -35,14 +35,15 @@ std::string_view value_of(std::string_view list, char mark, std::string_view nam
   return {};
 }
 
-/// Takes `start` off the front of `text`, when it begins so.
+/// Removes `start` from the front of `text`; returns false if `text` begins differently.
 bool take_start(std::string_view start, std::string_view& text) {
   if (!text.starts_with(start)) return false;
   text.remove_prefix(start.size());
   return true;
 }
 
-/// Whether `text` is ":port", or nothing where browsers leave that out.
+/// Returns true if `text` is ":port", or is empty and the port is 80, which browsers
+/// omit.
 bool is_port(std::string_view text, int port) {
   constexpr int kUsual = 80;
   if (text.empty()) return port == kUsual;

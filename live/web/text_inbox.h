@@ -15,20 +15,21 @@
 
 namespace marey::live {
 
-/// What pages said and nobody has looked at yet: a bounded queue between two threads, the
-/// oldest giving way.
+/// Texts received from pages and not taken yet: a bounded queue between two threads that
+/// drops the oldest texts.
 class TextInbox {
  public:
   explicit TextInbox(std::size_t max_count) : max_count_(max_count) {}
 
   void put(ClientId client, std::string_view text);
-  /// All of it, oldest first; `out` is emptied before.
+  /// Moves all texts to `out`, oldest first; `out` is emptied before.
   void take(std::vector<ReceivedText>& out);
-  /// Until there is a text, the time is over or close(); whether there is one.
+  /// Blocks until there is a text, `longest` has passed, or close() is called; returns
+  /// true if there is a text.
   bool wait(std::chrono::milliseconds longest);
-  /// Nobody waits any more.
+  /// Ends all waits, now and later.
   void close();
-  /// Texts that gave way.
+  /// Returns the number of dropped texts.
   [[nodiscard]] std::uint64_t dropped() const;
 
  private:

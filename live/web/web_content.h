@@ -8,25 +8,24 @@
 
 namespace marey::live {
 
-/// One thing that can be fetched. The server knows what it was given and no files: no
-/// path leads anywhere else.
+/// One resource that can be fetched. The server serves only these resources; a path never
+/// refers to a file.
 struct WebContent {
   std::string path;          ///< "/page.js", "/media/3"; "/" is the page itself.
   std::string content_type;  ///< "text/javascript; charset=utf-8".
-  /// Shared with answers that are still under way when it is replaced; immutable.
+  /// Immutable; shared with responses that are still being sent when it is replaced.
   std::shared_ptr<const std::string> bytes;
-  /// The bytes are gzip's, and say so to the browser.
+  /// The bytes are compressed with gzip (Content-Encoding).
   bool gzipped = false;
-  /// Quoted, as in the header: "\"5f2c\"". Browsers ask for it again and are told that
-  /// they have it. Empty: not to be kept at all, as what belongs to one run.
+  /// Quoted, as in the header: "\"5f2c\"". Browsers revalidate with it and get 304.
+  /// Empty: not cached at all, for content of one run.
   std::string etag;
-  /// What its page may do instead of what ours may (Content-Security-Policy); empty: as
-  /// ours.
+  /// Content-Security-Policy of this resource; empty: that of marey's page.
   std::string policy{};
 };
 
-/// Whether content may have this path: "/", letters, digits and "._-/", no "..", at most
-/// 200 characters.
+/// Returns true if content may have this path: it begins with "/", has letters, digits
+/// and "._-/", no "..", and at most 200 characters.
 [[nodiscard]] bool is_web_path(std::string_view path);
 
 }  // namespace marey::live

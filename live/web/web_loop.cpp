@@ -29,17 +29,17 @@ using std::chrono::seconds;
 
 constexpr unsigned kMaxHeadBytes = 8 * 1024;
 constexpr std::string_view kSocketPath = "/live";
-/// For a whole head to arrive, or the next one: who is slower than that means harm.
+/// Time limit for a complete head to arrive, as a protection against slow clients.
 constexpr seconds kReadTime{10};
-/// For a whole answer to leave: 20 MB over a poor radio.
+/// Time limit for a complete response to be sent: 20 MB over a slow wireless network.
 constexpr seconds kWriteTime{120};
 
 std::string_view view(beast::string_view text) {
   return {text.data(), text.size()};
 }
 
-/// One connection that fetches things, one after the other, and may become a page's. As
-/// PageSession, its handlers own it.
+/// One connection that serves requests one after the other, and may become a PageSession.
+/// Its pending handlers own it.
 class FetchSession : public std::enable_shared_from_this<FetchSession> {
  public:
   FetchSession(tcp::socket socket, const AccessPolicy& policy, ServerState& server)
@@ -66,7 +66,7 @@ class FetchSession : public std::enable_shared_from_this<FetchSession> {
 
  private:
   void on_unreadable(error_code failed) {
-    // The other end left, or was too slow.
+    // The client closed the connection or was too slow.
     if (failed == http::error::end_of_stream || failed == http::error::partial_message ||
         failed.category() != http::make_error_code(http::error::end_of_stream).category())
       return;
@@ -79,7 +79,7 @@ class FetchSession : public std::enable_shared_from_this<FetchSession> {
 
   [[nodiscard]] std::string_view field(http::field name) const {
     const auto& request = parser_->get();
-    // Said twice is said by somebody who wants it read in two ways.
+    // A repeated header is ambiguous (request smuggling): it counts as absent.
     return request.count(name) == 1 ? view(request[name]) : std::string_view();
   }
 
@@ -96,7 +96,7 @@ class FetchSession : public std::enable_shared_from_this<FetchSession> {
     }
     const CheckedRequest checked = check_request(head, policy_);
     if (checked.verdict == Verdict::kAccepted) {
-      if (!parser_->is_done()) {  // It has a body.
+      if (!parser_->is_done()) {  // The request has a body.
         return send(reject_request(RejectReason::kMalformed, server_.state), false);
       }
       if (checked.path == kSocketPath) return open_page();
@@ -142,8 +142,8 @@ class FetchSession : public std::enable_shared_from_this<FetchSession> {
         });
   }
 
-  /// Closes once the other end has read the answer: to close on unread bytes would take
-  /// the answer back.
+  /// Closes after the client has read the response: closing with unread bytes resets the
+  /// connection, which may discard the response.
   void leave() {
     error_code ignored;
     stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
@@ -192,19 +192,19 @@ class Sockets final : public WebLoop {
   void run() override {
     while (!io_.stopped()) {
       try {
-        // Also what could not be waited for anew, if that is what threw.
+        // Restart the waits that an exception interrupted.
         if (!accepts_) accept();
         if (!awaits_wake_) wait_for_wake();
         io_.run();
       } catch (const std::exception&) {
-        // One connection's trouble, memory for example, is not that of the others.
+        // The failure of one connection, such as lack of memory, must not end the others.
       }
     }
   }
   void end() override { io_.stop(); }
 
  private:
-  // Handlers wait anew before they do anything that may throw.
+  // Handlers start the next wait before they do anything that may throw.
   void accept() {
     acceptor_.async_accept([this](error_code failed, tcp::socket socket) {
       accepts_ = false;
@@ -215,7 +215,7 @@ class Sockets final : public WebLoop {
     accepts_ = true;
   }
 
-  /// The process has no file descriptors left, most likely.
+  /// Accepts again after a pause. The likely cause: no file descriptors are left.
   void accept_later() {
     pause_.expires_after(std::chrono::milliseconds(100));
     pause_.async_wait([this](error_code) {
@@ -233,7 +233,7 @@ class Sockets final : public WebLoop {
     error_code failed;
     const auto here = socket.local_endpoint(failed).address();
     if (failed) return;
-    // Frames are small and must not wait for each other.
+    // Frames are small and must be sent without delay.
     socket.set_option(tcp::no_delay(true), failed);
     const AccessPolicy policy{.address = here.to_string(),
                               .loopback = here.is_loopback(),
@@ -259,7 +259,7 @@ class Sockets final : public WebLoop {
   tcp::acceptor acceptor_{io_};
   asio::steady_timer pause_{io_};
   asio::posix::stream_descriptor wake_;
-  bool accepts_ = false;  ///< New connections are accepted, now or after a pause.
+  bool accepts_ = false;  ///< An accept is pending, or a pause before it.
   bool awaits_wake_ = false;
 };
 
@@ -275,7 +275,7 @@ Error cannot_listen(const tcp::endpoint& endpoint, const error_code& failed) {
   if (failed == asio::error::access_denied) {
     return {Errc::kDevice,
             where,
-            "this user may not use the port",
+            "this user is not allowed to use the port",
             "choose a port above 1023 with --port"};
   }
   return {Errc::kDevice,
@@ -293,11 +293,11 @@ Result<std::unique_ptr<WebLoop>> WebLoop::listen(WebState& state,
   const auto address = asio::ip::make_address(options.address, failed);
   if (failed) {
     return bad_input(
-        options.address, "this is no address in digits", "write one such as 127.0.0.1");
+        options.address, "this is not a numeric address", "write one such as 127.0.0.1");
   }
   if (!address.is_loopback() && options.token.empty()) {
     return bad_input(options.address,
-                     "others could look at it without being asked",
+                     "other machines could open the page without permission",
                      "serve it with an access token (--lan)");
   }
   try {

@@ -10,11 +10,11 @@
 
 namespace marey::live {
 
-/// The sockets of a WebServer. Behind a wall, since Boost.Beast takes long to compile.
+/// The sockets of a WebServer. An interface, because Boost.Beast takes long to compile.
 class WebLoop {
  public:
   /// Binds and listens. `wake_fd`: an eventfd that is signalled when the state has
-  /// something new to send. All three outlive the loop. Errors: those of
+  /// new messages. All three must outlive the loop. Errors: those of
   /// WebServer::start(). Precondition: 0 <= port <= 65535.
   [[nodiscard]] static Result<std::unique_ptr<WebLoop>> listen(
       WebState& state, const WebServerOptions& options, int wake_fd);
@@ -25,7 +25,7 @@ class WebLoop {
   WebLoop& operator=(const WebLoop&) = delete;
 
   [[nodiscard]] virtual int port() const = 0;
-  /// Serves until end(), which may be called from any thread.
+  /// Serves until end() is called, which any thread may do.
   virtual void run() = 0;
   virtual void end() = 0;
 };

@@ -43,10 +43,10 @@ class WebServer::Running {
     loop_.reset();
   }
 
-  /// There is something to send.
+  /// Wakes the server's thread to send new messages.
   void ring() const {
     constexpr std::uint64_t kOnce = 1;
-    // Fails only when it rings already.
+    // The write fails only if the eventfd is already signalled.
     [[maybe_unused]] const ssize_t written = write(wake_fd_, &kOnce, sizeof kOnce);
   }
 

@@ -17,64 +17,64 @@
 
 namespace marey::live {
 
-/// What a message to the pages is about. Of each kind a page is only ever sent the
-/// newest.
+/// Kind of a text message to the pages. Only the newest of each kind is sent.
 enum class PageMessage { kScene, kStatus, kWizard, kConstraints };
 
-/// Serves the page and speaks with it: docs/formats/page.md. A thread of its own
-/// does all of it; every function here may be called from any thread.
+/// Serves the page and exchanges messages with it: docs/formats/page.md. The server has
+/// its own thread; every function here may be called from any thread.
 ///
-/// A new page is sent the scene first, then the newest of everything else. What is
-/// published replaces what was published before and not yet sent: a browser that does not
-/// keep up misses messages and delays nobody, and memory stays bounded (the newest of
-/// each kind, and one message under way for each page). Publishing copies the message
-/// into a buffer that is kept, waits for no network and allocates nothing once buffers
-/// have grown: some ten microseconds, most of them to wake the server's thread, and at
-/// most as long as that takes to copy one message besides.
+/// A new page receives the scene first, then the newest message of every other kind. A
+/// published message replaces an unsent one of its kind. A slow browser therefore misses
+/// messages and delays no other, and memory is bounded (the newest message of each kind,
+/// and one message being sent per page). Publishing copies the message into a reused
+/// buffer, does not wait for the network, and allocates nothing once buffers have grown.
+/// It takes about ten microseconds, mostly to wake the server's thread, plus at most the
+/// time in which that thread copies one message.
 class WebServer {
  public:
   /// Binds and starts to listen.
-  /// Errors: kDevice when the port is in use, may not be used or the address is not this
-  /// machine's; kBadInput when the address is none, or others could reach it and there is
-  /// no token.
+  /// Errors: kDevice if the port is in use or not permitted, or if the address is not
+  /// this machine's; kBadInput if the text is not an address, or if other machines can
+  /// reach it and there is no token.
   [[nodiscard]] static Result<WebServer> start(const WebServerOptions& options);
 
   WebServer(WebServer&&) noexcept;
   WebServer& operator=(WebServer&&) noexcept;
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
-  /// stop().
+  /// Calls stop().
   ~WebServer();
 
-  /// The port that was bound.
+  /// Returns the bound port.
   [[nodiscard]] int port() const;
 
-  /// Adds content, or replaces what had its path. Precondition: is_web_path(path), bytes
-  /// not null.
+  /// Adds content, or replaces the content with the same path. Precondition:
+  /// is_web_path(path), bytes not null.
   void put(WebContent content);
 
-  /// Sends a text to every page. A new scene makes what was published of frames and
-  /// thumbnails void: they were of the old one.
+  /// Sends a text to every page. A new scene removes unsent frames and thumbnails,
+  /// because they belong to the old one.
   void publish_text(PageMessage kind, std::string_view json);
-  /// One frame (live/page/page_frame.h), to every page.
+  /// Sends one frame (live/page/page_frame.h) to every page.
   void publish_frame(std::string_view bytes);
-  /// A camera's picture, to every page. Precondition: camera < 64.
+  /// Sends a camera's picture to every page. Precondition: camera < 64.
   void publish_thumbnail(std::size_t camera, std::string_view bytes);
-  /// To one page alone, if it is still there: of answers too only the newest counts, of
-  /// texts and of frames each.
+  /// Sends a text or a frame to one page, if it is still connected. Only the newest
+  /// unsent text and the newest unsent frame are kept.
   void answer_text(ClientId client, std::string_view json);
   void answer_frame(ClientId client, std::string_view bytes);
 
-  /// What pages said since the last call, oldest first; `out` is emptied before. At most
-  /// 256 texts of 16 kB wait here, then the oldest are dropped.
+  /// Moves the texts received since the last call to `out`, oldest first; `out` is
+  /// emptied before. At most 256 texts of 16 kB are kept; beyond that the oldest are
+  /// dropped.
   void take_texts(std::vector<ReceivedText>& out);
-  /// Until a text is there or the time is over; whether one is.
+  /// Blocks until there is a text or `longest` has passed; returns true if there is one.
   bool wait_for_text(std::chrono::milliseconds longest);
 
   [[nodiscard]] std::size_t client_count() const;
   [[nodiscard]] WebCounts counts() const;
 
-  /// Closes every connection and ends the thread. Nothing is sent or received any more.
+  /// Closes every connection and ends the thread. Nothing is sent or received after that.
   void stop();
 
  private:

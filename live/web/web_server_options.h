@@ -9,14 +9,13 @@ namespace marey::live {
 
 /// Address, port, token and limits of a WebServer.
 struct WebServerOptions {
-  /// An address of this machine, as digits. "0.0.0.0": every one, which wants a token.
+  /// A numeric address of this machine. "0.0.0.0": all addresses; requires a token.
   std::string address = "127.0.0.1";
-  int port = kDefaultPort;  ///< 0: any that is free.
-  /// Who does not know it gets nothing (live/web/access_token.h). Empty: everybody who
-  /// can reach the address does.
+  int port = kDefaultPort;  ///< 0: any free port.
+  /// Required for every request (live/web/access_token.h). Empty: no token is required.
   std::string token;
-  std::size_t max_clients = 16;       ///< Pages at a time; who comes later is told so.
-  std::size_t max_connections = 128;  ///< Pages and fetches together.
+  std::size_t max_clients = 16;       ///< Open pages; further ones get status 503.
+  std::size_t max_connections = 128;  ///< Pages and requests together.
 
   static constexpr int kDefaultPort = 8790;
 };

@@ -18,32 +18,34 @@
 
 namespace marey::live {
 
-/// All that a web server knows apart from its sockets: what it serves, what it says, what
-/// it heard. Every function may be called from any thread and waits no longer than
-/// another one takes to copy a message.
+/// State of a web server without its sockets: content, messages to the pages, and
+/// received texts. Every function may be called from any thread; it waits at most for the
+/// copy of one message by another thread.
 class WebState {
  public:
-  /// Where one page is in what it is sent.
+  /// Send state of one page.
   struct Page {
     ClientId id{};
     NewestMessages::Reader reader;
     bool answer_is_next = true;
   };
 
-  /// Precondition: is_web_path(content.path), bytes not null.
+  /// Adds or replaces content. Precondition: is_web_path(content.path), bytes not null.
   void put(WebContent content);
   [[nodiscard]] std::optional<WebContent> find(std::string_view path) const;
 
-  /// Precondition: slot < kMessageSlots. A scene makes frames and thumbnails void.
+  /// Stores the newest message of a slot. A scene removes frames and thumbnails.
+  /// Precondition: slot < kMessageSlots.
   void publish(std::size_t slot, std::string_view message);
 
   [[nodiscard]] Page open_page();
   void close_page(const Page& page);
   [[nodiscard]] std::size_t page_count() const;
-  /// For one page alone; newest wins. Nothing when that page is gone.
+  /// Stores an answer for one page, replacing an unsent one. No effect if that page is
+  /// closed.
   void answer(ClientId client, bool is_binary, std::string_view message);
-  /// What to send it next, copied into `out`; false: it has everything. The scene comes
-  /// first, then answers and what everybody gets in turns.
+  /// Copies the page's next message into `out`; returns false if there is none. The scene
+  /// is first; then answers alternate with messages to all pages.
   bool take_message(Page& page, std::string& out, bool& is_binary);
 
   TextInbox& inbox() { return inbox_; }

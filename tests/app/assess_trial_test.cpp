@@ -230,24 +230,24 @@ TEST(AssessFloorHeight, PassesShoes) {
 
 TEST(AssessFloorHeight, NamesTheThicknessOfTheBoard) {
   const std::vector<SoleHeight> motions{{"walk", 0.09}};
-  const auto doubt = assess_floor_height(with_floor(0.1), standing_at(0.095), motions);
-  ASSERT_TRUE(doubt);
-  EXPECT_TRUE(doubt->is_poor);
-  EXPECT_TRUE(says(doubt->error, "95 mm above the floor, and as high in the motions"))
-      << doubt->error.message();
+  const auto finding = assess_floor_height(with_floor(0.1), standing_at(0.095), motions);
+  ASSERT_TRUE(finding);
+  EXPECT_TRUE(finding->is_poor);
+  EXPECT_TRUE(says(finding->error, "95 mm above the floor, and equally high in the motions"))
+      << finding->error.message();
   EXPECT_TRUE(
-      says(doubt->error, "thickness_m under [board] (0.100 now, some 95 mm too much"))
-      << doubt->error.message();
+      says(finding->error, "thickness_m under [board] (0.100 now, some 95 mm too much"))
+      << finding->error.message();
 }
 
 TEST(AssessFloorHeight, NamesTheLowestCornerThatWouldFitWhereNoFloorTrialIs) {
   Session session;
   session.calibration.lowest_corner_m = 0.11;
-  const auto doubt = assess_floor_height(session, standing_at(0.06), {});
-  ASSERT_TRUE(doubt);
-  EXPECT_FALSE(doubt->is_poor);
-  EXPECT_TRUE(says(doubt->error, "set lowest_corner_m under [calibration] to 0.050"))
-      << doubt->error.message();
+  const auto finding = assess_floor_height(session, standing_at(0.06), {});
+  ASSERT_TRUE(finding);
+  EXPECT_FALSE(finding->is_poor);
+  EXPECT_TRUE(says(finding->error, "set lowest_corner_m under [calibration] to 0.050"))
+      << finding->error.message();
 }
 
 TEST(BodyWarnings, NameShouldersAndHipsThatMotionsCallInferred) {

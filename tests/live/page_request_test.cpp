@@ -63,7 +63,7 @@ TEST(PageRequest, RefusesWhatItDoesNotUnderstand) {
       {R"({"type":"shown","sent_s":NaN})", "it is not a JSON object"},
       {"{}", "type is missing"},
       {R"({"type":1})", "type is not a text"},
-      {R"({"type":"erase"})", "nothing is known of its type"},
+      {R"({"type":"erase"})", "its type is unknown"},
       {R"({"type":"hello","version":2})",
        "version is not 1: the page is of another marey"},
       {R"({"type":"shown","sent_s":"1"})", "sent_s is not a finite number"},
