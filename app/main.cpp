@@ -33,7 +33,7 @@
 namespace marey::app {
 namespace {
 
-/// Files appear whole or not at all, so there is nothing to clean but those half written.
+/// Removes half-written files. All other files appear whole or not at all.
 extern "C" void on_interrupt(int /*signal*/) {
   static constexpr char kText[] = "\ninterrupted\n";
   [[maybe_unused]] const ssize_t written =
@@ -117,7 +117,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGINT, marey::app::on_interrupt);
   std::signal(SIGTERM, marey::app::on_interrupt);
-  // Under nohup(1) the terminal's end is none of our business.
+  // Under nohup(1) a hang-up of the terminal is ignored.
   if (std::signal(SIGHUP, marey::app::on_interrupt) == SIG_IGN) {
     std::signal(SIGHUP, SIG_IGN);
   }

@@ -29,7 +29,7 @@ Error in_file(const fs::path& file, Error error) {
   return error;
 }
 
-/// The character of the file, or of the motion itself.
+/// Returns the character of the file, or of the motion itself.
 Result<Character> find_character(const Motion& source, const AdaptBodyOptions& options) {
   if (!options.character.empty()) return load_character(options.character);
   const auto map = retarget::map_body(source.skeleton);
@@ -40,8 +40,8 @@ Result<Character> find_character(const Motion& source, const AdaptBodyOptions& o
   return character;
 }
 
-/// The file whose mesh the character has, if any, and how it was turned and scaled when
-/// the character was made of it.
+/// Returns the file of the character's mesh, if it has one, and how the mesh was rotated
+/// and scaled when the character was made from it.
 Result<BodyLook> look_of(const AdaptBodyOptions& options) {
   const fs::path file =
       options.character.empty() ? options.motion : body_file_of(options.character);
@@ -51,7 +51,8 @@ Result<BodyLook> look_of(const AdaptBodyOptions& options) {
   return BodyLook{file, body->changed()};
 }
 
-/// The same joints, as far as six decimals of a file tell; only roots may rest elsewhere.
+/// Compares joints with the precision of the six decimals of a file; roots may have
+/// different rest positions.
 bool are_same(const Skeleton& a, const Skeleton& b) {
   constexpr double kSame = 1e-5;
   if (a.joints.size() != b.joints.size()) return false;

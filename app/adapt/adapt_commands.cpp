@@ -54,7 +54,7 @@ bool has_supports(const ConstraintSet& set) {
   return std::any_of(set.constraints.begin(), set.constraints.end(), is_support);
 }
 
-/// Nothing that is read is written over, whatever it is called there.
+/// Checks that the result replaces no input file, even under another name.
 Status check_out(const AdaptArguments& args) {
   std::vector<std::pair<fs::path, const char*>> read{{args.motion, "the motion to adapt"},
                                                      {args.constraints, "--constraints"},
@@ -73,7 +73,7 @@ Status check_out(const AdaptArguments& args) {
   return Done{};
 }
 
-/// Feet whose supports nobody gave.
+/// Returns the feet for which the constraints have no support.
 std::array<bool, 2> free_feet(const ConstraintSet& set, const AdaptBody& body) {
   std::array<bool, 2> free{true, true};
   for (const Constraint& c : set.constraints) {
@@ -110,7 +110,7 @@ Status choose_balance_groups(const AdaptArguments& args, Character& character) {
   return Done{};
 }
 
-/// Adapts what was read. `run` has the constraints.
+/// Adapts the motion. Precondition: `run` has the constraints.
 Status adapt_all(const AdaptArguments& args,
                  const AdaptBody& body,
                  std::span<const retarget::SupportTrack> supports,
@@ -145,8 +145,8 @@ Status adapt_all(const AdaptArguments& args,
       options.adapt.balance == retarget::BalanceMode::kOff) {
     return Done{};
   }
-  // Would limbs have done without balance? The other hypothesis says whether it was worth
-  // the trunk's turn.
+  // Solves again without balance. The comparison shows whether balance is the cause of
+  // the trunk's rotation.
   options.adapt.balance = retarget::BalanceMode::kOff;
   const auto without = retarget::adapt_motion(
       body.reference, body.character, run.constraints, supports, options);
@@ -168,8 +168,8 @@ Status read_floor(const AdaptArguments& args, SupportsFrom supports, AdaptRun& r
   return Done{};
 }
 
-/// Where the feet of the motion stand. Takes the motion to the floor that was asked for,
-/// and notes in how many frames a leg does not reach it.
+/// Returns the supports of the motion's feet. Moves the motion to the requested floor,
+/// and counts the frames in which a leg does not reach it.
 std::vector<retarget::SupportTrack> find_supports(const AdaptArguments& args,
                                                   AdaptBody& body,
                                                   AdaptRun& run) {

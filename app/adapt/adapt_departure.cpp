@@ -27,7 +27,7 @@ std::string name_at(const AdaptDeparture& departure, const Motion& motion, int f
   return motion.skeleton[departure.trunk[static_cast<std::size_t>(frame)].joint].name;
 }
 
-/// Hips, spine, neck and head that no constraint is about.
+/// Returns hips, spine, neck and head, except those that a constraint controls.
 std::vector<JointIndex> trunk_of(const Skeleton& skeleton,
                                  const ConstraintSet& constraints) {
   std::vector<JointIndex> out;
@@ -42,7 +42,7 @@ std::vector<JointIndex> trunk_of(const Skeleton& skeleton,
   for (const Constraint& c : constraints.constraints) {
     const auto own = retarget::resolve_segment(skeleton, c.point.segment);
     if (!own || std::find(out.begin(), out.end(), *own) == out.end()) continue;
-    // What leads to a segment of the trunk turns for it.
+    // An ancestor of a constrained segment rotates for the constraint.
     out.erase(std::remove_if(
                   out.begin(),
                   out.end(),
@@ -52,7 +52,7 @@ std::vector<JointIndex> trunk_of(const Skeleton& skeleton,
   return out;
 }
 
-/// The constraints that `with` meets are met by `without`, too.
+/// Returns true if `without` meets all constraints that `with` meets.
 bool keeps_what_is_met(const retarget::AdaptedMotion& with,
                        const retarget::AdaptedMotion& without) {
   for (std::size_t i = 0; i < with.constraints.size(); ++i) {

@@ -51,7 +51,7 @@ Json all_figures_of(const std::vector<KeptConstraint>& kept, const AdaptRun& run
   return out;
 }
 
-/// On what a support stands, when, and how far it slides there.
+/// Returns the stances of a support: floor part, time and slide.
 Json stands_of(const std::vector<retarget::SupportSlide>& slides, const AdaptRun& run) {
   Json out = Json::array();
   for (const retarget::SupportSlide& slide : slides) {
@@ -95,7 +95,8 @@ bool is_support_entry(const KeptConstraint& kept) {
   return kept.is_support;
 }
 
-/// Of constraints that are no supports: "12.3 mm", "4.5 degrees", or both.
+/// Returns the worst error of the constraints that are no supports: "12.3 mm", "4.5
+/// degrees", or both.
 std::string worst_miss_of(const retarget::AdaptedMotion& adapted) {
   double worst_m = 0.0;
   double worst_rad = 0.0;
@@ -116,9 +117,9 @@ std::string more_iterations(const AdaptArguments& args) {
          " with --max-iterations";
 }
 
-/// Whether more iterations are likely to help with a constraint that they ended: there
-/// were few and more were found to help, or little is missing. A target far out of reach
-/// stays so, however many.
+/// Returns true if more iterations are likely to meet a constraint that reached the
+/// limit: the limit was low and more iterations were tried with success, or the error is
+/// small. A target far out of reach is not met by any number of iterations.
 bool is_nearly_there(const KeptConstraint& kept,
                      const AdaptArguments& args,
                      const AdaptRun& run) {
@@ -132,7 +133,7 @@ bool is_nearly_there(const KeptConstraint& kept,
          kDegreesPerRadian * kept.worst_error_rad < kLittle_deg;
 }
 
-/// What stands in the way of a constraint, most likely first.
+/// Returns advice for the most likely obstacle to a constraint.
 std::string advice_for(const KeptConstraint& kept,
                        const AdaptArguments& args,
                        const AdaptRun& run) {
@@ -175,7 +176,7 @@ std::string miss_of(const KeptConstraint& kept, const AdaptRun& run) {
 constexpr const char* kDepartureAdvice =
     "move targets nearer, or do without --balance, or use --method thesis";
 
-/// What brings a centre of mass back that is off.
+/// Returns advice for a centre of mass that is off its target.
 std::string balance_advice(const AdaptArguments& args, const AdaptRun& run) {
   if (run.adapted.capped_frames > 0) return more_iterations(args);
   if (args.options.root_for_balance < 1.0) {

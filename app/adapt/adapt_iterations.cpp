@@ -7,7 +7,7 @@
 namespace marey::app {
 namespace {
 
-/// The supports that bear in one frame, of that frame alone.
+/// Returns the supports that bear in a frame, restricted to that frame.
 std::vector<retarget::SupportTrack> bearing_in(
     std::size_t frame, std::span<const retarget::SupportTrack> supports) {
   std::vector<retarget::SupportTrack> out;

@@ -26,7 +26,8 @@ namespace {
 
 using Frames = std::vector<RigidTransform>;
 
-/// From mid-hip to the neck, without one to the head. Unit; zero without either.
+/// Returns the unit vector from mid-hip to the neck, else to the head; zero without
+/// either.
 glm::dvec3 trunk_of(const retarget::BodyMap& map, const Frames& world) {
   for (const HumanBone bone : {HumanBone::kNeck, HumanBone::kHead}) {
     const auto& top = map.joint_of[index(bone)];
@@ -62,7 +63,7 @@ void look_at_trunk(const glm::dvec3& was,
   out.tilt_frame = frame;
 }
 
-/// The deepest bone below the floor [m]; negative above it.
+/// Returns the deepest bone and its depth below the floor [m]; negative above it.
 std::pair<double, JointIndex> deepest(const retarget::BodyMap& map,
                                       const Frames& world,
                                       const StandingFloor& floor,
@@ -79,7 +80,7 @@ std::pair<double, JointIndex> deepest(const retarget::BodyMap& map,
   return out;
 }
 
-/// ": "; the constraints that are active at a time, those of this joint's limb first.
+/// Returns the constraints that are active at a time, those of this joint's limb first.
 std::string active_targets(const ConstraintSet& constraints,
                            const Motion& motion,
                            int frame,

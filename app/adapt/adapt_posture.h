@@ -31,7 +31,8 @@ inline constexpr double kPoorJoint_mm = 50.0;
 
 struct AdaptPosture {
   /// Largest angle between the vertical and the line from mid-hip to neck (else head),
-  /// over the frames whose source has an upright trunk; and the source's angle there. [deg]
+  /// over the frames whose source has an upright trunk; and the source's angle there.
+  /// [deg]
   double trunk_tilt_deg = 0.0;
   double source_tilt_deg = 0.0;
   int tilt_frame = -1;  ///< -1: the body has no trunk.

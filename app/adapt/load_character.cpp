@@ -17,7 +17,7 @@ namespace {
 
 struct LoadedBody {
   Skeleton skeleton;
-  std::string file;  ///< What is to blame for the skeleton.
+  std::string file;  ///< File named in errors about the skeleton.
 };
 
 Result<LoadedBody> load_body(const std::filesystem::path& path, CharacterSpec& spec) {

@@ -98,8 +98,10 @@ std::optional<double> sole_height_m(const EstimatedMotion& estimate, double stat
     std::optional<double> here_m;
     for (const HumanBone foot : {HumanBone::kLeftFoot, HumanBone::kRightFoot}) {
       const JointUncertainty& uncertainty = estimate.uncertainty[f][index(foot)];
-      if (uncertainty.source == Source::kInferred && uncertainty.sigma_m > kMaxAnkleSigma_m)
+      if (uncertainty.source == Source::kInferred &&
+          uncertainty.sigma_m > kMaxAnkleSigma_m) {
         continue;
+      }
       const double sole_m = world[index(foot)].translation.y - ankle_m;
       here_m = std::min(here_m.value_or(sole_m), sole_m);
     }

@@ -93,7 +93,7 @@ std::vector<Error> assess_motion(const ReportTrial& trial) {
       {Errc::kQuality,
        "trial " + trial.name,
        std::move(cause),
-       "add_step at these frames in report.html, and check that two cameras see the tags of "
+       "look at these frames in report.html, and check that two cameras see the tags of "
        "that segment there; a second tag on it helps"}};
 }
 

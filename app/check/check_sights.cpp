@@ -116,7 +116,8 @@ Status check_seen(const recordings::Session& session,
       return seen->what.find(word) != std::string::npos;
     };
     if (!seen || (contains("APRILTAG_36h11") && !contains("mirrored"))) return Done{};
-    // Floors and windows resemble chessboards; a body in max_count frames shows another trial.
+    // Floors and windows resemble chessboards; a body in most of the frames shows another
+    // trial.
     if (contains("chessboard") && shows_body(session, camera)) {
       return bad_input(camera.source,
                        "no tag of the " + name_of(*wanted.grid) +

@@ -129,8 +129,8 @@ Status compare(const capture::StreamInfo& earlier, const capture::StreamInfo& in
   if (earlier.turned_deg != info.turned_deg) {
     return bad_input(info.name,
                      "its rotation mark turns its pictures by " +
-                         std::to_string(info.turned_deg) +
-                         " degrees, that of " + earlier.name + ", from the same camera, by " +
+                         std::to_string(info.turned_deg) + " degrees, that of " +
+                         earlier.name + ", from the same camera, by " +
                          std::to_string(earlier.turned_deg),
                      "a calibration is valid for one orientation: remove the mark from "
                      "the file, or record all trials of a camera in one orientation");
@@ -141,7 +141,8 @@ Status compare(const capture::StreamInfo& earlier, const capture::StreamInfo& in
   return bad_input(
       info.name,
       "its pictures are " + size_of(info) + ", but those of " + earlier.name +
-          ", from the same camera, are " + size_of(earlier) + (is_on_its_side ? ": one of them is on its side" : ""),
+          ", from the same camera, are " + size_of(earlier) +
+          (is_on_its_side ? ": one of them is on its side" : ""),
       is_on_its_side
           ? "turn that video back by a quarter, or record all trials of a camera the "
             "same way round"
@@ -196,8 +197,8 @@ void warn_of_short_videos(const Session& session,
     }
     troubles.warnings.push_back(
         camera.source + ": it has " + std::to_string(camera.frames.size()) +
-        " frames, another video of trial " + trial.name + " has " + std::to_string(max_frames) +
-        ": later frames are solved without camera " +
+        " frames, another video of trial " + trial.name + " has " +
+        std::to_string(max_frames) + ": later frames are solved without camera " +
         session.cameras[index(video.camera)] +
         ". Next: copy the file again; if it was cut at its beginning, cut the others "
         "there too.");

@@ -11,8 +11,8 @@ namespace marey::app {
 /// Checks the headers of the videos of all trials, before any video is decoded.
 ///
 /// Errors (kBadInput):
-/// - a video that cannot be opened, in a trial that is not a motion, or in a motion with
-///   fewer than two other cameras;
+/// - a video that cannot be opened, in a trial that is not a motion, or in a motion in
+///   which fewer than two videos can be opened;
 /// - a range of frames of the trial that is longer than one of its videos;
 /// - a folder of images with gaps in their numbers;
 /// - a picture size or a rotation mark that differs from an earlier trial of the camera;

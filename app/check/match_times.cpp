@@ -145,7 +145,8 @@ Error unusable_times(const std::filesystem::path& file,
   }
   return bad_input(
       file.string(),
-      "its times span too long for the number of frames: " + longest_gap(cameras, recorded),
+      "its times span too long for the number of frames: " +
+          longest_gap(cameras, recorded),
       "record the trial again; or name the videos in the trial's `videos`, "
       "elsewhere than in the take: then frames are matched by their numbers");
 }

@@ -32,8 +32,9 @@ std::optional<Error> find_turned_video(std::span<const Camera> cameras,
     candidate[c] = turned(std::move(candidate[c]));
     if (!reconstruct::check_views(cameras, candidate, tags)) continue;
     return bad_input(detections[c].source,
-                     "its pictures are upside down, compared to the calibration videos of "
-                     "camera " + cameras[c].name,
+                     "its pictures are upside down, compared to the calibration videos "
+                     "of camera " +
+                         cameras[c].name,
                      "turn this video by 180 degrees, or calibrate with videos of the "
                      "same orientation");
   }

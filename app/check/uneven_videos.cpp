@@ -47,10 +47,11 @@ Status check_slow_motion(const Trial& trial,
                          const std::string& steady) {
   // Cameras of 120 Hz write 29.97 Hz as well as 30.
   constexpr double kSameRate = 0.01;
-  const std::string declared = format_text("fps = %.2f and slow_motion = %.4g of trial %s",
-                                       trial.rate->hz,
-                                       trial.slow_motion,
-                                       trial.name.c_str());
+  const std::string declared =
+      format_text("fps = %.2f and slow_motion = %.4g of trial %s",
+                  trial.rate->hz,
+                  trial.slow_motion,
+                  trial.name.c_str());
   const double expected_hz = trial.rate->hz / trial.slow_motion;
   const char* next =
       "correct both in session.toml: fps is the rate at which pictures were taken, "

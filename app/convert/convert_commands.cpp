@@ -19,8 +19,8 @@
 namespace marey::app {
 namespace {
 
-/// In which unit and axes to write: what was asked for, else the source's. A TRC cannot
-/// say which way is up, and who reads one expects +Y.
+/// Returns the unit and axes of the output: those of the options, else of the source. A
+/// TRC cannot state its up axis, and its readers expect +Y.
 recordings::FileAxes target_axes(const ConvertArguments& arguments,
                                  const recordings::FileAxes& source) {
   recordings::FileAxes axes = source;
@@ -36,7 +36,7 @@ recordings::FileAxes target_axes(const ConvertArguments& arguments,
   return axes;
 }
 
-/// Why what marey wrote itself cannot be converted, and what to use instead.
+/// Returns an error for results of marey that cannot be converted, with the alternative.
 std::optional<Error> no_conversion(const std::filesystem::path& in) {
   std::error_code ignored;
   const std::string kind = kind_by_extension(in);
@@ -44,7 +44,7 @@ std::optional<Error> no_conversion(const std::filesystem::path& in) {
     return bad_input(in.string(),
                      "a folder is not converted",
                      "name a file in it: TRIAL/motion.npz, motion.bvh, motion.glb or "
-                     "markers.c3d; marey inspect says what a folder holds");
+                     "markers.c3d; marey inspect lists the content of a folder");
   }
   if (kind == ".mot" || kind == ".sto") {
     return bad_input(in.string(),
@@ -99,8 +99,8 @@ Exit run_convert(const ConvertArguments& arguments, Console& console) {
                          options.axes->per_metre == markers->axes.per_metre;
   const bool both_c3d = kind_by_extension(arguments.in) == ".c3d" &&
                         kind_by_extension(arguments.out) == ".c3d";
-  // What else is in a C3D lies in its own axes, and is kept with them, as it says them:
-  // where they were told better, the copy would go on saying the old ones.
+  // Other data of a C3D is in the axes stated in the file, and is copied with that
+  // statement. If the user corrected the axes, the copy would still state the old ones.
   const auto as_said = [](recordings::Evidence who) {
     return who == recordings::Evidence::kFile || who == recordings::Evidence::kConvention;
   };
@@ -109,8 +109,8 @@ Exit run_convert(const ConvertArguments& arguments, Console& console) {
   if (both_c3d && copy) options.source = arguments.in;
   if (both_c3d && !copy) {
     console.warn(arguments.out.string() +
-                 ": in other axes or units than the file says, markers and events alone "
-                 "are written, not analog channels and force plates");
+                 ": axes or units differ from those in the input file; only markers and "
+                 "events are written, not analog channels and force plates");
   }
   const Status written = recordings::write_markers(arguments.out, *markers, options);
   if (!written) return console.fail(written.error());
@@ -139,7 +139,7 @@ void add_convert_command(CLI::App& app,
                          ConvertArguments& args,
                          std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
-      app.add_subcommand("convert", "Markers or a motion as another kind of file");
+      app.add_subcommand("convert", "Convert markers or a motion to another format");
   const CLI::IsMember axis({"+X", "+Y", "+Z", "-X", "-Y", "-Z"});
   const CLI::IsMember unit({"mm", "cm", "m", "in", "ft"});
   command
@@ -148,22 +148,23 @@ void add_convert_command(CLI::App& app,
   command
       ->add_option("out",
                    args.out,
-                   "Result, of markers .c3d or .trc, of a motion .bvh, .vrma, .npz, .csv "
+                   "Result; markers: .c3d or .trc; motion: .bvh, .vrma, .npz, .csv "
                    "or .mot")
       ->required();
-  command->add_option("--up", args.up, "Axis of IN that is up, if not as found")
+  command->add_option("--up", args.up, "Up axis of IN, if the detected one is wrong")
       ->check(axis);
-  command->add_option("--unit", args.unit, "Unit of IN, if not as it says")->check(unit);
-  command->add_option("--to-up", args.to_up, "Axis of OUT that is up")->check(axis);
+  command->add_option("--unit", args.unit, "Unit of IN, if its file is wrong")
+      ->check(unit);
+  command->add_option("--to-up", args.to_up, "Up axis of OUT")->check(axis);
   command->add_option("--to-unit", args.to_unit, "Unit of OUT")->check(unit);
   command->add_option(
-      "--skeleton", args.skeleton, "The .asf of an .amc, if not beside it");
+      "--skeleton", args.skeleton, "The .asf of an .amc, if not in its folder");
   command
-      ->add_option("--rate", args.rate_hz, "Frames per second of IN, if not as it says")
+      ->add_option("--rate", args.rate_hz, "Frame rate of IN [Hz], if its file is wrong")
       ->check(between(0.1, 2000.0));
   command->add_option("--to-rate", args.to_rate_hz, "Frames per second of OUT")
       ->check(between(0.1, 2000.0));
-  command->add_option("--bvh-dialect", args.bvh_dialect, "For whom a .bvh is")
+  command->add_option("--bvh-dialect", args.bvh_dialect, "Program that reads the .bvh")
       ->check(CLI::IsMember({"blender", "mobu", "maya", "unity"}));
   command->add_option("--neutral", args.neutral, kNeutralHelp)->check(neutral_mistake);
   command->add_flag("--json", args.json, "Print the figures as JSON on standard output");

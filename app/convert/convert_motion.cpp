@@ -29,7 +29,7 @@
 namespace marey::app {
 namespace {
 
-/// A motion as its file has it, and what to tell of that.
+/// A motion as in its file, with notes to the user.
 struct FileMotion {
   Motion motion;
   double ignored_translation_m = 0.0;
@@ -47,7 +47,7 @@ Result<FileMotion> read_bvh(const ConvertArguments& arguments) {
   options.unit_m = unit_m(arguments.unit).value_or(options.unit_m);
   auto bvh = recordings::read_bvh(arguments.in, options);
   if (!bvh) return bvh.error();
-  // marey's own bodies are of any stature, and it writes what it reads.
+  // Bodies written by marey may have any stature, so their unit is not estimated.
   const bool is_ours =
       std::ranges::all_of(bvh->motion.skeleton.joints,
                           [](const Joint& joint) { return joint.bone.has_value(); });
@@ -63,7 +63,7 @@ Result<FileMotion> read_acclaim(const ConvertArguments& arguments) {
                         : std::optional(arguments.skeleton);
   if (!path) {
     return bad_input(arguments.in.string(),
-                     "the .asf file that goes with this motion is not beside it",
+                     "the .asf file of this motion is not in the same folder",
                      "name it: --skeleton FILE.asf");
   }
   const auto skeleton = recordings::read_asf(*path, {.unit_m = unit_m(arguments.unit)});
@@ -75,7 +75,7 @@ Result<FileMotion> read_acclaim(const ConvertArguments& arguments) {
   FileMotion read{std::move(amc->motion), amc->ignored_translation_m, {}, {}};
   if (amc->rate_is_guessed) {
     read.notes.emplace_back(
-        "the file does not say its rate: it is taken for 120 Hz; --rate tells another");
+        "the file does not state its rate: 120 Hz is assumed; --rate sets another");
   }
   return read;
 }
@@ -87,7 +87,7 @@ Result<FileMotion> read(const ConvertArguments& arguments) {
   if (!arguments.unit.empty()) {
     return bad_input(
         arguments.in.string(),
-        std::string(kind == ".npz" ? "NPZ" : "glTF") + " is in metres always",
+        std::string(kind == ".npz" ? "NPZ" : "glTF") + " is always in metres",
         "leave out --unit");
   }
   auto raw = read_raw_body(arguments.in);
@@ -106,7 +106,7 @@ Result<FileMotion> read(const ConvertArguments& arguments) {
   return read;
 }
 
-/// Rests as --neutral says; in the file's own frame.
+/// Sets the rest pose of --neutral, in the file's own frame.
 Status take_neutral(const ConvertArguments& arguments, Motion& motion) {
   const auto neutral = read_neutral(arguments.neutral);
   if (!neutral) return neutral.error();
@@ -122,7 +122,7 @@ Error cannot(const ConvertArguments& arguments, std::string cause, std::string n
   return bad_input(arguments.out.string(), std::move(cause), std::move(next));
 }
 
-/// A name for every bone that can be told, where a dialect has names for them.
+/// Writes a BVH. If the dialect has names for bones, all identified bones get them.
 Status write_as_bvh(const ConvertArguments& arguments,
                     const Motion& motion,
                     Console& console) {
@@ -134,7 +134,7 @@ Status write_as_bvh(const ConvertArguments& arguments,
   if (options.names == recordings::BvhNames::kOwn) {
     return recordings::write_bvh(arguments.out, motion, options);
   }
-  // Its bones are told as wherever it is read; its frame stays the file's.
+  // Bones are identified as in all readers; the frame stays that of the file.
   RawBody raw;
   raw.motion = motion;
   raw.has_motion = true;
@@ -148,7 +148,7 @@ Status write_as_bvh(const ConvertArguments& arguments,
   return recordings::write_bvh(arguments.out, named, options);
 }
 
-/// The body as VRM's stand: its bones told, facing +Z, in metres.
+/// Writes the motion as VRMA: bones identified, facing +Z, in metres.
 Status write_as_vrma(const ConvertArguments& arguments,
                      const FileMotion& file,
                      Console& console) {
@@ -178,9 +178,9 @@ Status write_as_mot(const ConvertArguments& arguments, const Motion& motion) {
   const auto table = angle_table(motion, arguments.out.stem().string());
   if (table) return recordings::write_mot(arguments.out, *table);
   return cannot(arguments,
-                "joint angles are of bodies as marey makes them: all 22 bones of VRM's "
+                "joint angles need a body as marey writes it: all 22 bones of VRM's "
                 "humanoid, at rest without rotations",
-                "put the motion on one first: marey retarget");
+                "retarget the motion to such a body first: marey retarget");
 }
 
 Status write(const ConvertArguments& arguments,
@@ -244,7 +244,7 @@ bool is_motion(const std::filesystem::path& file) {
 Exit convert_motion(const ConvertArguments& arguments, Console& console) {
   if (!arguments.up.empty() || !arguments.to_up.empty()) {
     return console.fail(bad_input(arguments.in.string(),
-                                  "motions of skeletons are Y up always",
+                                  "motions of skeletons are always Y up",
                                   "leave out --up and --to-up"));
   }
   auto file = read(arguments);

@@ -14,7 +14,7 @@ Exit run_mannequin(const recordings::MannequinOptions& options,
                    Console& console) {
   if (kind_by_extension(out) != ".glb") {
     return console.fail(bad_input(
-        out.string(), "a mannequin is written as GLB alone", "name the result .glb"));
+        out.string(), "a mannequin can only be written as GLB", "name the result .glb"));
   }
   const Proportions proportions = recordings::mannequin_proportions(options);
   const Status ok =
@@ -35,7 +35,7 @@ void add_mannequin_command(CLI::App& app,
   const auto size = between(0.3, 10.0);
   const auto ratio = between(0.2, 5.0);
   command->add_option("--height", m.stature_m, "Stature [m]")->check(size);
-  command->add_option("--arm-ratio", m.arm, "Arms against the average")->check(ratio);
+  command->add_option("--arm-ratio", m.arm, "Arms relative to the average")->check(ratio);
   command->add_option("--leg-ratio", m.leg, "Legs")->check(ratio);
   command->add_option("--foot-ratio", m.foot, "Feet")->check(ratio);
   command->add_option("--trunk-ratio", m.trunk, "Trunk")->check(ratio);

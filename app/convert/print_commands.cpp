@@ -8,7 +8,7 @@
 namespace marey::app {
 namespace {
 
-/// An option whose text is parsed into `value`.
+/// Adds an option whose text is parsed into `value`.
 template <class T, class Parse>
 CLI::Option* add_parsed(CLI::App& command,
                         const std::string& name,
@@ -50,7 +50,7 @@ CLI::Option* add_margin(CLI::App& command, double& margin_m) {
                     parse);
 }
 
-/// Options that both commands have.
+/// Adds the options of both commands.
 void add_common(CLI::App& command, PrintArguments& args) {
   command.add_option("-o,--out", args.out, "Result (.pdf)")->required();
   add_parsed(command,
@@ -60,7 +60,7 @@ void add_common(CLI::App& command, PrintArguments& args) {
              args.paper,
              recordings::parse_paper);
   add_margin(command, args.margin_m);
-  command.add_flag("--json", args.json, "Say as JSON what is where on the pages");
+  command.add_flag("--json", args.json, "Print the layout of the pages as JSON");
 }
 
 void add_tags(CLI::App& app,
@@ -75,8 +75,8 @@ void add_tags(CLI::App& app,
   CLI::Option* ids =
       add_parsed(*command,
                  "--ids",
-                 "40-75,90 or with segments 41:hips,73:head; of a session's "
-                 "tags only these",
+                 "40-75,90 or with segments 41:hips,73:head; with --session, only "
+                 "these of its tags",
                  "IDS",
                  args.ids,
                  recordings::parse_tags);
@@ -134,7 +134,7 @@ void add_charuco(CLI::App& command,
                             "DICT_APRILTAG_36h11"),
          command.add_flag("--legacy",
                           board.is_legacy,
-                          "An even number of rows as OpenCV drew it before 4.6")};
+                          "Pattern of OpenCV before 4.6 for an even number of rows")};
   for (CLI::Option* option : own) option->group("ChArUco");
 }
 
@@ -173,7 +173,7 @@ void add_board(CLI::App& app,
       "--one-page", args.one_page, "Refuse a board that is larger than the page");
   add_length(*command,
              "--thickness",
-             "Of the plate it will be glued to, for the table",
+             "Thickness of the plate behind the board, for the table",
              args.thickness_m)
       ->excludes(session);
   std::vector<CLI::Option*> of_grid;

@@ -98,7 +98,8 @@ Json place_of(const recordings::PrintedTag& tag, const recordings::PrintedPage& 
           {"size_m", s.width()}};
 }
 
-/// What both commands say about their pages. Places are from the bottom left corner.
+/// Returns the layout of the pages, for both commands. Positions are from the bottom left
+/// corner.
 Json summary(const PrintArguments& args, const PrintedDocument& document) {
   Json pages = Json::array();
   for (const recordings::PrintedPage& page : document.pages) {
@@ -120,7 +121,7 @@ Exit write(const PrintArguments& args,
   if (!document) return console.fail(document.error());
   if (kind_by_extension(args.out) != ".pdf") {
     return console.fail(
-        bad_input(args.out.string(), "pages are written as PDF alone", "name it .pdf"));
+        bad_input(args.out.string(), "pages can only be written as PDF", "name it .pdf"));
   }
   const Status written = recordings::write_pdf(args.out, *document);
   if (!written) return console.fail(written.error());
@@ -194,7 +195,7 @@ Exit print_board(const PrintArguments& args,
   return write(args, document, more, console);
 }
 
-/// The board that the arguments describe.
+/// Returns the board described by the arguments.
 CalibrationTarget board_of_arguments(const PrintArguments& args) {
   const auto with_squares = [&](auto board) {
     if (args.squares_x > 0) board.columns = args.squares_x;

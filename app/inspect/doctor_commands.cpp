@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Memory that the system would still give, in mebibytes; 0 where it does not say.
+/// Returns the available memory in mebibytes; 0 if the system does not report it.
 long available_memory_mib() {
   std::ifstream in("/proc/meminfo");
   std::string key;
@@ -47,7 +47,7 @@ struct Check {
   bool good = false;
   std::string finding;
   std::string advice;  ///< When not good.
-  /// What the program ends with when it is not good: a small machine is still one.
+  /// Exit code if the check fails. A small machine is not an error.
   Exit exit = Exit::kOk;
 };
 
@@ -81,7 +81,7 @@ std::vector<Check> examine_machine() {
            Exit::kInternal}};
 }
 
-/// Each camera for about a second, one after the other.
+/// Examines each camera for about a second, one after the other.
 std::vector<ExaminedCamera> examine_cameras(
     const std::vector<capture::DeviceInfo>& devices) {
   std::vector<ExaminedCamera> cameras;
@@ -183,7 +183,7 @@ void print_json(const std::vector<Check>& checks,
   for (const ExaminedCamera& camera : cameras) seen.push_back(json_of(camera));
   const Json out{
       {"version", kVersion}, {"good", all_good}, {"checks", list}, {"cameras", seen}};
-  // Cameras may call themselves anything.
+  // Names of cameras may contain any bytes.
   std::printf("%s\n", out.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
@@ -233,7 +233,7 @@ Exit run_doctor(bool json, Console& console) {
   } else {
     print_text(checks, cameras);
   }
-  if (!all_good) console.warn("this machine may not be enough: see above");
+  if (!all_good) console.warn("this machine fails some of the checks above");
   Exit exit = Exit::kOk;
   for (const Check& check : checks) {
     if (!check.good && check.exit != Exit::kOk) exit = check.exit;

@@ -47,12 +47,12 @@ Json describe(const ReadBody& body) {
   return out;
 }
 
-/// What is known, to be corrected and added to.
+/// Returns the detected bone map, for manual correction and completion.
 BoneMap map_of(const ReadBody& body) {
   BoneMap map;
   for (const HumanBone bone : human_bones()) {
     auto joint = body.bones.joint(bone);
-    // A joint that the file does not have has no name there.
+    // A joint that is not in the file has no name in it.
     if (joint && !body.read_joint.empty() && !body.read_joint[index(*joint)])
       joint.reset();
     map.bones[index(bone)] = {true, joint};
@@ -63,8 +63,9 @@ BoneMap map_of(const ReadBody& body) {
   return map;
 }
 
-/// All bones of a body that was declined, to be corrected: those that were found, and as
-/// comments those that were not. "" would say that the body has no such bone.
+/// Returns a bone map of a declined body, for manual correction: the bones that were
+/// found, and the others as comments. An entry "" would mean that the body lacks the
+/// bone.
 std::string begun_map_text(const Skeleton& skeleton) {
   const retarget::FoundBones found = retarget::guess_bones(skeleton);
   BoneMap map;

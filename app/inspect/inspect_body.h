@@ -15,7 +15,7 @@ namespace marey::app {
 
 struct InspectBodyOptions {
   std::optional<std::filesystem::path> bone_map;  ///< Replaces the one next to the body.
-  std::string neutral;                            ///< Argument of read_neutral(), or empty.
+  std::string neutral;                            ///< For read_neutral(), or empty.
   bool write_map = false;                         ///< Writes the map next to FILE.
   std::filesystem::path picture;                  ///< .svg or .png; empty for none.
 

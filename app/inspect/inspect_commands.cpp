@@ -31,7 +31,8 @@ bool is_body(const std::filesystem::path& file) {
   return is_gltf(file) || kind == ".bvh" || kind == ".amc" || kind == ".npz";
 }
 
-/// Files that marey writes for other programs, and the program.
+/// Returns an error that names the program for a file that marey writes for other
+/// programs.
 std::optional<Error> for_others(const std::filesystem::path& file) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kPrograms{
       {{".html", "a web browser"},
@@ -90,12 +91,12 @@ Result<Json> inspect(const std::filesystem::path& file,
   return inspect_file(file, options, console);
 }
 
-/// Files from elsewhere may hold names that are not UTF-8, which JSON must be.
+/// Returns JSON text. Bytes of foreign files that are not UTF-8 are replaced.
 std::string text(const Json& value, int indent) {
   return value.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-/// "key: value" lines, nested with two spaces.
+/// Prints "key: value" lines, nested with two spaces.
 void print(const Json& value, int depth) {
   const std::string indent(static_cast<std::size_t>(2 * depth), ' ');
   for (const auto& [key, item] : value.items()) {
@@ -122,7 +123,7 @@ Exit run_inspect(const std::filesystem::path& file,
   if (options.asks() && !is_body(file)) {
     return console.fail(
         bad_input(file.string(),
-                  "is no body, which alone has a bone map and a picture",
+                  "is not a body; only bodies have a bone map and a picture",
                   "give a .bvh, .amc, .npz, .glb, .gltf, .vrm or .vrma file"));
   }
   const auto found = inspect(file, options, console);
@@ -138,12 +139,12 @@ Exit run_inspect(const std::filesystem::path& file,
 void add_inspect_command(CLI::App& app,
                          InspectArguments& args,
                          std::function<Exit(Console&)>& chosen) {
-  CLI::App* command = app.add_subcommand("inspect", "Say what a file holds");
+  CLI::App* command = app.add_subcommand("inspect", "Show the content of a file");
   command->add_option("file", args.file, "A session, result, motion or body")->required();
   command->add_flag("--json", args.json, "As JSON");
   command->add_option("--bones", args.body.bone_map, "Bone map of the body (TOML)");
   command->add_flag(
-      "--write-map", args.body.write_map, "Store the bone map beside the body");
+      "--write-map", args.body.write_map, "Write the bone map next to the body");
   command->add_option("--neutral", args.body.neutral, kNeutralHelp)
       ->check(neutral_mistake);
   command->add_option(

@@ -109,7 +109,7 @@ Result<Json> inspect_marker_map(const fs::path& file) {
   const auto map = recordings::read_marker_map(file);
   if (!map) return map.error();
   Json labels = Json::object();
-  // Labels are all different; operator[] would look each up among all before it.
+  // Labels are unique; operator[] would compare each with all before it.
   Json::object_t::Container& list = *labels.get_ptr<Json::object_t*>();
   for (const MarkerMapEntry& entry : map->entries) {
     list.emplace_back(entry.label, entry.name);
@@ -133,7 +133,7 @@ Result<Json> inspect_constraints(const fs::path& file) {
 Result<Json> inspect_detections(const fs::path& file) {
   const auto text = recordings::read_file(file);
   if (!text) return text.error();
-  // "# marey detections 4 KEY": the key is the cache's own.
+  // "# marey detections 4 KEY": KEY is the key of the cache.
   std::string_view key = std::string_view(*text).substr(0, text->find('\n'));
   for (int word = 0; word < 4; ++word) {
     key.remove_prefix(std::min(key.find(' '), key.size() - 1) + 1);
@@ -143,7 +143,7 @@ Result<Json> inspect_detections(const fs::path& file) {
   if (!*found) {
     return bad_input(file.string(),
                      "the table is of another version of marey",
-                     "delete the file; it will be made again");
+                     "delete the file; marey creates it again");
   }
   const CameraDetections& camera = **found;
   std::set<int> tags;
@@ -165,7 +165,7 @@ Result<Json> inspect_detections(const fs::path& file) {
               {"damaged_frames", camera.damaged_frames}};
 }
 
-/// OUT.repair.csv: a row for each sample that was filled or declined.
+/// Inspects OUT.repair.csv, which has a row for each filled or declined sample.
 Result<Json> inspect_repair(const fs::path& file) {
   const auto text = recordings::read_file(file);
   if (!text) return text.error();
@@ -285,13 +285,13 @@ Result<Json> inspect_kind(const fs::path& file, FileKind kind) {
       break;
   }
   return bad_input(file.string(),
-                   kind == FileKind::kBoneMap ? "a bone map says nothing without its body"
-                                              : "is not a kind of file that marey knows",
+                   kind == FileKind::kBoneMap ? "a bone map can only be read with its body"
+                                              : "is not a kind of file that marey supports",
                    kind == FileKind::kBoneMap
                        ? "inspect the body with it: marey inspect BODY --bones " +
                              file.filename().string()
-                       : "give a file that marey reads or writes; docs/formats/README.md lists "
-                         "them");
+                       : "give a file that marey reads or writes; "
+                         "docs/formats/README.md lists them");
 }
 
 }  // namespace marey::app

@@ -62,7 +62,7 @@ const char* processor_name(recordings::C3dProcessor processor) {
   return "";
 }
 
-/// Of a C3D: how its numbers are stored, and what is in it beside markers.
+/// Adds the details of a C3D: its number format, and its content other than markers.
 Status add_c3d(const std::filesystem::path& file,
                const recordings::FileAxes& axes,
                Json& out,

@@ -38,7 +38,8 @@ std::vector<std::string> files_in(const fs::path& folder) {
   return names;
 }
 
-/// Values as they are, lists by their lengths: reports hold a number for every frame.
+/// Returns the values with lists replaced by their lengths, because reports have a number
+/// for every frame.
 Json outline(const Json& value, int depth) {
   if (value.is_array()) return value.size();
   if (!value.is_object()) return value;
@@ -49,7 +50,7 @@ Json outline(const Json& value, int depth) {
   return out;
 }
 
-/// What a .json is, by the keys that only its kind has.
+/// Returns the kind of a .json report, from keys that are unique to each kind.
 std::string kind_of_report(const Json& json) {
   constexpr std::array<std::pair<const char*, const char*>, 5> kKeys{
       {{"summary", "report"},
@@ -100,7 +101,7 @@ Result<Json> inspect_results(const fs::path& folder) {
   return out;
 }
 
-/// The takes of a folder that marey record wrote, in folders of their own.
+/// Returns the folders of the takes in a folder written by marey record.
 std::vector<fs::path> takes_in(const fs::path& folder) {
   std::vector<fs::path> takes;
   std::error_code ignored;

@@ -25,7 +25,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Where the performer's motion goes on to: another body, and whoever shows it.
+/// Output of the received motion: another body, and the receivers of its packets.
 struct Onward {
   OpenedAvatar avatar;
   retarget::LiveRetarget retarget;
@@ -92,13 +92,13 @@ class Listening {
            const Progress& progress,
            Console& console) {
     constexpr std::chrono::milliseconds kLook{100};
-    constexpr int kMaxAtOnce = 256;  // Whoever floods the port does not hold up the rest.
+    constexpr int kMaxAtOnce = 256;  // A flood of packets must not block the loop.
     const auto since_start = [begin = Clock::now()] {
       return std::chrono::duration<double>(Clock::now() - begin).count();
     };
     while (!stop_wanted() && !(seconds && since_start() >= *seconds)) {
       receiver_.wait(kLook);
-      // All that came meanwhile is kept; of it the newest goes on.
+      // All received frames are kept; only the newest is passed on.
       int came = 0;
       double time_s = 0.0;
       for (; came < kMaxAtOnce && receiver_.receive_next(frame_); ++came) {
@@ -112,13 +112,13 @@ class Listening {
     }
   }
 
-  [[nodiscard]] const live::MotionResampler& heard() const { return heard_; }
-  /// Frames of which the sender says that the body is not tracked.
+  [[nodiscard]] const live::MotionResampler& resampler() const { return resampler_; }
+  /// Returns the number of frames that the sender marked as not tracked.
   [[nodiscard]] long untracked() const { return untracked_; }
   [[nodiscard]] const live::VmcReceived& received() const { return receiver_.received(); }
 
  private:
-  /// Tells when the sender says that its poses are not to be trusted, and when they are.
+  /// Reports on the console when the tracking status of the sender changes.
   void tell_tracking(Console& console) {
     const live::VmcStatus& status = receiver_.status();
     const bool is_good = status.loaded && status.tracking;
@@ -129,22 +129,22 @@ class Listening {
     } else {
       console.warn(
           status.loaded
-              ? "the sender says that its body is not tracked: the poses that come "
-                "are old or a guess"
-              : "the sender says that it has no body loaded");
+              ? "the sender reports that its body is not tracked: the received poses "
+                "are old or estimated"
+              : "the sender reports that it has no body loaded");
     }
   }
 
-  /// `time_s` is of our clock.
+  /// Processes the received frame. `time_s` is on the local clock.
   void take(double time_s, bool keep) {
     vmc_.from_vmc(frame_.pose, pose_);
     ++frames_;
     if (!frame_.status.tracking) ++untracked_;
-    if (keep) heard_.add(time_s, pose_);
+    if (keep) resampler_.add(time_s, pose_);
   }
 
   void pass_on(double time_s) {
-    // A sender that began anew, or that stood still for long, is somebody new.
+    // A sender that restarted or paused for long is treated as a new sender.
     constexpr double kLongest_s = 1.0;
     constexpr double kUsual_s = 1.0 / 60.0;
     const double since_s = last_s_ ? time_s - *last_s_ : kUsual_s;
@@ -167,7 +167,7 @@ class Listening {
   live::VmcFrame frame_;
   Pose pose_;
   live::SenderClock clock_;
-  live::MotionResampler heard_;
+  live::MotionResampler resampler_;
   std::optional<double> last_s_;
   long frames_ = 0;
   long untracked_ = 0;
@@ -179,8 +179,8 @@ Result<MotionFormat> format_of(const std::filesystem::path& out) {
   const auto format = kind.empty() ? std::nullopt : motion_format(kind.substr(1));
   if (format) return *format;
   return bad_input(out.string(),
-                   "its name does not say what kind of motion it is",
-                   "call it .bvh, .glb, .vrma, .npz or .csv");
+                   "the extension is not that of a motion format",
+                   "give the file the extension .bvh, .glb, .vrma, .npz or .csv");
 }
 
 void print(const live::VmcReceived& received, std::size_t kept, long untracked) {
@@ -198,13 +198,13 @@ void print(const live::VmcReceived& received, std::size_t kept, long untracked) 
 Status write(const ListenArguments& arguments,
              MotionFormat format,
              const OpenedAvatar& body,
-             const live::MotionResampler& heard) {
-  const auto motion = heard.at_rate(body.skeleton, {arguments.rate_hz});
+             const live::MotionResampler& resampler) {
+  const auto motion = resampler.at_rate(body.skeleton, {arguments.rate_hz});
   if (!motion) {
     return Error{Errc::kDevice,
                  arguments.from,
-                 "no body was told there, so that there is no motion to keep",
-                 "see that the sender sends VMC to this address and port"};
+                 "no pose was received, so there is no motion to write",
+                 "check that the sender sends VMC to this address and port"};
   }
   return write_motion_file(arguments.out, format, *motion, body.look);
 }
@@ -214,13 +214,13 @@ Status write(const ListenArguments& arguments,
 Exit run_listen(const ListenArguments& arguments, Console& console) {
   if (arguments.out.empty() && arguments.avatars.empty()) {
     return console.fail(bad_input("marey listen",
-                                  "there is nothing to do with what is heard",
-                                  "keep it with --out, or put it on an --avatar"));
+                                  "no output is given for the received motion",
+                                  "give --out FILE, or --avatar FILE with --vmc HOST"));
   }
   if (arguments.avatars.empty() != arguments.vmc.empty()) {
     return console.fail(bad_input("marey listen",
                                   "--avatar and --vmc go together",
-                                  "say on which body to put it, and where to send that"));
+                                  "give both the body and the receiver of its packets"));
   }
   Result<MotionFormat> format = MotionFormat::kBvh;
   if (!arguments.out.empty()) format = format_of(arguments.out);
@@ -252,15 +252,15 @@ Exit run_listen(const ListenArguments& arguments, Console& console) {
   listening.run(
       arguments.seconds, !arguments.out.empty(), console.stage("listen"), console);
   if (arguments.json) {
-    print(listening.received(), listening.heard().size(), listening.untracked());
+    print(listening.received(), listening.resampler().size(), listening.untracked());
   }
   if (listening.untracked() > 0) {
     console.warn("in " + std::to_string(listening.untracked()) + " of " +
                  std::to_string(listening.received().frames) +
-                 " frames the sender says that its body is not tracked");
+                 " frames the sender reported that its body is not tracked");
   }
   if (arguments.out.empty()) return Exit::kOk;
-  const Status ok = write(arguments, *format, *body, listening.heard());
+  const Status ok = write(arguments, *format, *body, listening.resampler());
   if (!ok) return console.fail(ok.error());
   console.say("written to " + arguments.out.string());
   return Exit::kOk;
@@ -270,23 +270,23 @@ void add_listen_command(CLI::App& app,
                         ListenArguments& arguments,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand(
-      "listen", "Another performer's VMC to a motion, or another body");
+      "listen", "Receive VMC and write a motion or send it on another body");
   command
-      ->add_option("body", arguments.body, "The avatar that the sender has (.vrm, .glb)")
+      ->add_option("body", arguments.body, "The sender's avatar (.vrm, .glb)")
       ->required();
   command->add_option("-o,--out", arguments.out, "The motion: .bvh, .glb, .vrma, .npz");
-  command->add_option("--at", arguments.from, "Where to listen: HOST[:PORT]");
-  command->add_option("--rest", arguments.rest, "What no rotation means: vrm0 or raw")
+  command->add_option("--at", arguments.from, "Address to listen on: HOST[:PORT]");
+  command->add_option("--rest", arguments.rest, "Pose without rotations: vrm0 or raw")
       ->check(CLI::IsMember({"vrm0", "raw"}));
-  command->add_option("-a,--avatar", arguments.avatars, "Body to put it on, live")
+  command->add_option("-a,--avatar", arguments.avatars, "Body for live retargeting")
       ->expected(1);
-  command->add_option("--vmc", arguments.vmc, "Where that goes: HOST[:PORT]")
+  command->add_option("--vmc", arguments.vmc, "Receiver of its VMC packets: HOST[:PORT]")
       ->allow_extra_args(false);
   command->add_option("--rate", arguments.rate_hz, "Frames per second of the motion")
       ->check(between(1.0, 1000.0));
-  command->add_option("--seconds", arguments.seconds, "Stop by itself after so long")
+  command->add_option("--seconds", arguments.seconds, "Stop after this time [s]")
       ->check(between(0.001, 1e6));
-  command->add_flag("--json", arguments.json, "Print what came as JSON");
+  command->add_flag("--json", arguments.json, "Print the counts as JSON");
   command->callback([&] {
     chosen = [&arguments](Console& console) { return run_listen(arguments, console); };
   });

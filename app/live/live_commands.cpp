@@ -19,8 +19,8 @@
 namespace marey::app {
 namespace {
 
-/// Commands are heard by the first stream. On VMC's own port another program may listen
-/// already, which is worth a word and no more; a port that was asked for must be free.
+/// Opens the outputs. The first stream receives commands. If the default VMC port is in
+/// use, the command warns and continues; a port given by the user must be free.
 Result<LiveOutputs> open_outputs(const LiveArguments& arguments,
                                  OpenedLive& live,
                                  Console& console) {
@@ -32,7 +32,7 @@ Result<LiveOutputs> open_outputs(const LiveArguments& arguments,
   const Error trouble = outputs.error();
   port.reset();
   outputs = LiveOutputs::open(live.settings.streams, live.targets, live.vrchat);
-  if (outputs) console.warn("no VMC commands are heard: " + trouble.message());
+  if (outputs) console.warn("no VMC commands are received: " + trouble.message());
   return outputs;
 }
 
@@ -72,7 +72,7 @@ LiveGuideOptions guiding(const LiveArguments& arguments) {
           arguments.guide};
 }
 
-/// Stands for who is yet to be measured.
+/// Placeholder body until the subject is measured.
 Skeleton average_person(const OpenedLive& live) {
   return make_humanoid(average_proportions(live.prior.stature_m));
 }
@@ -104,13 +104,13 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
     if (!opened) return console.fail(opened.error());
     page = *std::move(opened);
   }
-  // When nothing else can fail: it makes a folder.
+  // After all other steps that can fail, because it creates a folder.
   if (!arguments.record.empty()) {
     const Status ok = takes.begin_with_run(arguments.record);
     if (!ok) return console.fail(ok.error());
   }
   if (page && arguments.json) {
-    // Standard output is for the figures.
+    // Standard output is reserved for the figures.
     for (const std::string& address : page->server().addresses) console.say(address);
   } else if (page) {
     print_addresses(page->server(), arguments.page);
@@ -136,7 +136,7 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
   }
   Exit exit = Exit::kOk;
   if (arguments.calibrate && !guide->has_measured()) {
-    console.warn("nobody was measured");
+    console.warn("no subject was measured");
     exit = Exit::kQualityGate;
   }
   if (const Status ok = takes.finish(); !ok) exit = console.fail(ok.error());
@@ -160,7 +160,7 @@ void add_live_command(CLI::App& app,
                       LiveArguments& live,
                       std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
-      app.add_subcommand("live", "From cameras to a moving character, as it happens");
+      app.add_subcommand("live", "Track a subject live and move characters");
   command->add_option("session", live.session, "session.toml, or its folder")->required();
   command->add_option("--results",
                       live.results,
@@ -169,10 +169,10 @@ void add_live_command(CLI::App& app,
   command
       ->add_option("--play",
                    live.play,
-                   "Play this trial's videos as if they were cameras; may be repeated: "
-                   "one after the other")
+                   "Play the videos of this trial as cameras; may be repeated, played "
+                   "in order")
       ->allow_extra_args(false);
-  command->add_flag("--loop", live.loop, "Play them over and over");
+  command->add_flag("--loop", live.loop, "Repeat the played trials endlessly");
   command->add_option("--camera", live.cameras, "Use only this camera; may be repeated")
       ->allow_extra_args(false);
   command->add_option(
@@ -180,47 +180,47 @@ void add_live_command(CLI::App& app,
   command
       ->add_option("-a,--avatar",
                    live.avatars,
-                   "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
+                   "Body to retarget to (.glb, .vrm, .bvh); may be repeated")
       ->allow_extra_args(false);
   command
       ->add_option("--vmc",
                    live.vmc,
-                   "Where VMC packets go: [AVATAR=]HOST[:PORT]; may be repeated")
+                   "Receiver of VMC: [AVATAR=]HOST[:PORT]; may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--vmc-rest", live.vmc_rest, "What no rotation means: vrm0 or raw")
+  command->add_option("--vmc-rest", live.vmc_rest, "Pose without rotations: vrm0 or raw")
       ->check(CLI::IsMember({"vrm0", "raw"}));
   command
       ->add_option("--vmc-mtu",
                    live.vmc_mtu,
                    "Largest packet in bytes; 0: one bundle a frame, as on this machine")
       ->check(between(0, 65507));
-  command->add_option("--vmc-listen", live.vmc_listen, "Port on which commands are heard")
+  command->add_option("--vmc-listen", live.vmc_listen, "Port to receive commands on")
       ->check(between(1, 65535));
-  command->add_flag("--vmc-deaf", live.vmc_deaf, "Hear no commands");
+  command->add_flag("--vmc-deaf", live.vmc_deaf, "Receive no commands");
   command
       ->add_option("--vrchat",
                    live.vrchat,
-                   "Where trackers for VRChat go: HOST[:PORT]; may be repeated")
+                   "Receiver of VRChat trackers: HOST[:PORT]; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--record", live.record, "Folder for the take of this run");
   command
       ->add_flag("--calibrate",
                  live.calibrate,
-                 "Measure the person first, or again: standing, then moving")
+                 "Measure the subject first, or again: standing, then moving")
       ->excludes("--record");
   command
       ->add_option(
-          "--stand-s", live.guide.stand_s, "For so long standing still is looked at")
+          "--stand-s", live.guide.stand_s, "Duration of the standing step [s]")
       ->check(between(0.5, 60.0));
   command
       ->add_option("--move-s",
                    live.guide.move_s,
-                   "For so long moving is looked at; twice that while a part is not seen")
+                   "Duration of the moving step [s]; up to twice if a part is not seen")
       ->check(between(5.0, 600.0));
-  command->add_option("--seconds", live.seconds, "Stop by itself after so long")
+  command->add_option("--seconds", live.seconds, "Stop after this time [s]")
       ->check(between(0.001, 1e6));
   command
-      ->add_option("--wait-ms", live.wait_ms, "How long a camera's picture is waited for")
+      ->add_option("--wait-ms", live.wait_ms, "Longest wait for a camera's picture [ms]")
       ->check(between(1.0, 1000.0));
   add_page_options(*command, live.page);
   command->add_flag("--no-page", live.no_page, "Serve no page");

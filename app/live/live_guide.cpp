@@ -16,7 +16,7 @@ namespace {
 using live::WizardAction;
 using live::WizardStep;
 
-/// What changes from instant to instant is not told more often.
+/// Minimum interval between console messages of the same step.
 constexpr double kTellEvery_s = 3.0;
 
 GuideSetup setup_of(const OpenedLive& live) {
@@ -62,10 +62,10 @@ LiveGuide::LiveGuide(const OpenedLive& live,
 
 std::optional<std::string> LiveGuide::act(WizardAction action) {
   if (action == WizardAction::kStart && options_.is_recording) {
-    return "this run is being recorded, and a take has one body: end it first";
+    return "a take is being recorded, and a take has one body: end the take first";
   }
   if (action == WizardAction::kStart && solver_.joinable()) {
-    return "what was cancelled is still being solved: try again in some seconds";
+    return "the cancelled measurement is still being solved: try again in some seconds";
   }
   if (action == WizardAction::kAccept) return accept();
   const auto refusal = guide_.act(action);
@@ -83,7 +83,7 @@ void LiveGuide::see(const LiveInstant& instant) {
 }
 
 void LiveGuide::end() {
-  options_.begin = false;  // Not anew.
+  options_.begin = false;  // No restart.
   guide_.end();
   go_on();
   if (!solver_.joinable()) return;
@@ -91,14 +91,13 @@ void LiveGuide::end() {
   if (!is_solved_) {
     console_.say(is_wanted
                      ? "waiting for the body to be measured"
-                     : "waiting for the end of a measurement that was cancelled, up "
-                       "to a minute");
+                     : "waiting up to a minute for the end of a cancelled measurement");
   }
   is_solved_.wait(false);
   go_on();
 }
 
-/// What follows from what has just become so.
+/// Continues with the step that the current state requires.
 void LiveGuide::go_on() {
   take_result();
   if (auto material = guide_.take_material()) solve(*std::move(material));
@@ -107,9 +106,9 @@ void LiveGuide::go_on() {
   if (guide_.is_good()) {
     if (const auto refusal = accept()) console_.warn(*refusal);
   }
-  const bool is_in_vain =
+  const bool is_unaccepted =
       guide_.step() == WizardStep::kFailed || guide_.step() == WizardStep::kDone;
-  if (is_in_vain && options_.begin && !guide_.act(WizardAction::kStart)) tell();
+  if (is_unaccepted && options_.begin && !guide_.act(WizardAction::kStart)) tell();
 }
 
 void LiveGuide::solve(GuideMaterial material) {
@@ -122,7 +121,7 @@ void LiveGuide::solve(GuideMaterial material) {
   });
 }
 
-/// On the solver's thread: touches nothing that changes.
+/// Solves on the solver's thread; reads only constant members.
 Result<LiveGuide::Solved> LiveGuide::solved(const GuideMaterial& material) const {
   const auto& cameras = live_.calibration.cameras;
   const auto& tags = live_.prior.tags;
@@ -170,7 +169,7 @@ std::optional<GuidedBody> LiveGuide::take_body() {
   return std::exchange(accepted_, std::nullopt);
 }
 
-/// A new step at once, other words after a while.
+/// Prints a new step at once, and a new text of the same step after kTellEvery_s.
 void LiveGuide::tell() {
   const live::PageWizard& now = guide_.ui_state();
   const bool is_new_step = now.step != shown_step_;

@@ -41,7 +41,7 @@ std::vector<live::PageStage> stages_of(const LiveTimes& times,
   return stages;
 }
 
-/// Which part of the policy is in force, by what was passed over of late.
+/// Returns a description of the current overload, from the recently skipped pictures.
 std::string overload_of(const std::vector<LiveCameraFigures>& cameras,
                         const std::vector<LiveCameraFigures>& before) {
   long stale = 0;
@@ -50,7 +50,7 @@ std::string overload_of(const std::vector<LiveCameraFigures>& cameras,
     stale += cameras[c].stale - before[c].stale;
     unused += cameras[c].unused - before[c].unused;
   }
-  if (stale > 0) return "pictures that are too old are passed over";
+  if (stale > 0) return "pictures that are too old are skipped";
   if (unused > 0) return "pictures come too late for their instant";
   return "none";
 }
@@ -71,7 +71,7 @@ Result<std::unique_ptr<LivePage>> LivePage::open(const PageServerOptions& option
 }
 
 Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
-  constexpr double kBeside_m = 1.2;
+  constexpr double kSpacing_m = 1.2;
   if (live.body) watch(*live.body);
   scene_.title = live.session;
   scene_.rate_hz = live.settings.rate.hz;
@@ -87,7 +87,7 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
   body.estimate = true;
   scene_.skeletons.push_back(std::move(body));
   for (std::size_t a = 0; a < live.avatars.size(); ++a) {
-    std::vector<std::string> remarks;  // Were told as it was opened.
+    std::vector<std::string> remarks;  // Reported when it was opened.
     auto figure = figure_of_file(live.avatars[a].file, remarks);
     if (!figure) return figure.error();
     figure->kind = live::PageSkeletonKind::kAvatar;
@@ -97,7 +97,7 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
       if (!skin) return skin.error();
       page_.server.put(*std::move(skin));
     }
-    const glm::dvec3 offset_m(kBeside_m * static_cast<double>(a + 1), 0.0, 0.0);
+    const glm::dvec3 offset_m(kSpacing_m * static_cast<double>(a + 1), 0.0, 0.0);
     scene_.skeletons.push_back(page_skeleton(*figure, path, offset_m));
   }
   if (!live.avatars.empty()) {
@@ -122,12 +122,12 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
   return Done{};
 }
 
-/// Reports the segments and the doubts of this body from now on.
+/// Reports the segments and the warnings of this body from now on.
 void LivePage::watch(const Body& body) {
   worn_ = WornSegments(body);
-  body_doubts_.clear();
+  body_warnings_.clear();
   for (const BodyWarning& warning : body.warnings) {
-    body_doubts_.push_back("the measured body may be wrong: " + warning.cause +
+    body_warnings_.push_back("the measured body may be wrong: " + warning.cause +
                            ". Next: " + warning.next);
   }
 }
@@ -171,49 +171,49 @@ LivePage::Answer LivePage::answer(const std::string& text,
   }
   if (const auto* record = std::get_if<live::RecordRequest>(&*request)) {
     if (record->on && !has_body_) {
-      return {"no subject was measured yet: measure one before recording"};
+      return {"no subject is measured yet: measure one before recording"};
     }
     record_request_ = record->on;
     return {};
   }
   if (const auto* wizard = std::get_if<live::WizardRequest>(&*request)) {
-    if (!guide_) return {"the session does not say who is to be measured", "wizard"};
+    if (!guide_) return {"the session does not name a subject to be measured", "wizard"};
     const auto refusal = guide_->act(wizard->action);
     show_wizard();
     return {refusal.value_or(""), "wizard"};
   }
   const bool is_understood = std::holds_alternative<live::HelloRequest>(*request) ||
                              std::holds_alternative<live::ShownRequest>(*request);
-  return {is_understood ? "" : "this run does not do that"};
+  return {is_understood ? "" : "this run does not support that request"};
 }
 
-/// Why not; empty: it is done.
+/// Adds a request for a handle. Returns the reason if it is rejected, else an empty text.
 std::string LivePage::ask(HandleRequest request, LiveRequests& requests) {
   const bool is_known =
       std::ranges::find(scene_.constraints, request.id, &live::PageConstraint::id) !=
       scene_.constraints.end();
   if (!is_known) return "there is no handle \"" + request.id + "\"";
   const bool is_taken = requests.add(std::move(request));
-  return is_taken ? std::string() : "too much is asked at once";
+  return is_taken ? std::string() : "too many requests at once";
 }
 
-/// Where handles are held, some times a second while that changes. Those that are not
-/// held go along with their joints, which the page knows.
+/// Publishes the targets of active handles, up to kMaxPerSecond times a second while they
+/// change. Inactive handles follow their joints, whose pose the page has.
 void LivePage::publish_handles(std::span<const HandleState> handles) {
   constexpr double kMaxPerSecond = 10.0;
   const double frames_since = frame_ - handles_published_;
   if (frames_since * kMaxPerSecond < scene_.rate_hz) return;
   bool changed = false;
   for (std::size_t i = 0; i < handles.size(); ++i) {
-    live::PageConstraint& told = scene_.constraints[i];
+    live::PageConstraint& sent = scene_.constraints[i];
     const HandleState& now = handles[i];
-    if (told.active == now.active && (!now.active || told.p_in_world == now.p_in_world)) {
+    if (sent.active == now.active && (!now.active || sent.p_in_world == now.p_in_world)) {
       continue;
     }
     changed = true;
-    told.active = now.active;
-    told.p_in_world = now.p_in_world;
-    told.joint = now.active ? std::nullopt : std::optional(now.joint);
+    sent.active = now.active;
+    sent.p_in_world = now.p_in_world;
+    sent.joint = now.active ? std::nullopt : std::optional(now.joint);
   }
   if (!changed) return;
   handles_published_ = frame_;
@@ -281,7 +281,7 @@ void LivePage::on_thumbnail(std::size_t camera,
   page_.server.publish_thumbnail(camera, bytes_);
 }
 
-/// What people should know, newest last.
+/// Adds notes to the user about changes of the state, newest last.
 void LivePage::note(TrackState state, const LiveFigures& figures) {
   constexpr std::size_t kMax = 8;
   if (state_ != state) {
@@ -332,9 +332,10 @@ void LivePage::on_status(const LiveFigures& figures,
                      state == TrackState::kTracked ? worn_.unseen(uncertainty_)
                                                    : std::vector<std::string>{},
                      status);
-  // Doubts about the measured body do not change the state: a badly measured body can
+  // Warnings about the measured body do not change the state: a badly measured body can
   // still be tracked well.
-  status.warnings.insert(status.warnings.end(), body_doubts_.begin(), body_doubts_.end());
+  status.warnings.insert(
+      status.warnings.end(), body_warnings_.begin(), body_warnings_.end());
   if (figures.flow != Flow::kSteady) status.overload = figures.flow_text;
   status.clients = page_.server.client_count();
   status.messages = notes_;

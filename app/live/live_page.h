@@ -84,7 +84,7 @@ class LivePage final : public LiveWatcher {
   std::vector<std::optional<recordings::JpegEncoder>> encoders_;  ///< By camera.
   std::vector<int> tags_seen_;  ///< By camera: tags in its newest picture.
   WornSegments worn_;
-  std::vector<std::string> body_doubts_;
+  std::vector<std::string> body_warnings_;
   std::vector<JointUncertainty> uncertainty_;      ///< Newest of the performer.
   std::vector<LiveCameraFigures> cameras_before_;  ///< At the last status.
   std::vector<OutputCounts> outputs_before_;       ///< At the last status.

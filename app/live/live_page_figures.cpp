@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a frame of the live page holds of every body.
+// Data of every body in a frame of the live page.
 #include "app/live/live_page.h"
 
 namespace marey::app {
 
 using reconstruct::TrackState;
 
-/// For balance, which is of the scene's skeletons.
+/// Creates the balance, which covers the skeletons of the scene.
 void LivePage::make_balance() {
   std::vector<const Skeleton*> bodies;
   for (const live::PageSkeleton& one : scene_.skeletons) bodies.push_back(&one.skeleton);
@@ -16,7 +16,8 @@ void LivePage::make_balance() {
   last_tracked_.reset();
 }
 
-/// What the performer stands on. Who was lost and is back stands elsewhere.
+/// Updates the supporting feet of the performer. After a loss of the body they are reset,
+/// because the performer may have moved.
 void LivePage::update_balance(const LiveInstant& instant, const LiveResult& result) {
   if (result.track.state != TrackState::kTracked) {
     last_tracked_.reset();
@@ -29,7 +30,7 @@ void LivePage::update_balance(const LiveInstant& instant, const LiveResult& resu
   balance_->step(*result.pose, steps / scene_.rate_hz);
 }
 
-/// All bodies as they are now. The weight of who is lost nobody knows.
+/// Sets the current poses of all bodies. The balance of a lost body is unknown.
 void LivePage::pose_figures(const LiveResult& result) {
   const bool is_there = result.track.state != TrackState::kWaiting;
   const bool is_seen = result.track.state == TrackState::kTracked;
@@ -38,7 +39,7 @@ void LivePage::pose_figures(const LiveResult& result) {
     one.pose = is_there ? posture : nullptr;
     one.balance.reset();
     if (!is_seen) return;
-    // Handles are of the first avatar.
+    // Handles belong to the first avatar.
     const auto handles = figure == 1 ? result.handles : std::span<const HandleState>();
     const auto* balance = balance_->look(figure, *posture, handles);
     if (balance == nullptr) return;

@@ -38,12 +38,13 @@ Error disk(const std::filesystem::path& path, const std::error_code& problem) {
           "make room on the disk, or choose a folder on another one"};
 }
 
-/// By their places: names of files may be alike, and of any bytes.
+/// Returns the file name of an avatar in the take, from its index: the original names may
+/// be equal, and may contain any bytes.
 std::string name_in_take(std::size_t place, const std::filesystem::path& file) {
   return std::to_string(place + 1) + file.extension().string();
 }
 
-/// An avatar to the path `to`, and the bone map beside it.
+/// Copies an avatar to the path `to`, and its bone map next to it.
 Status copy_avatar(const std::filesystem::path& file, const std::filesystem::path& to) {
   if (file.extension() == ".gltf") {
     return bad_input(file.string(),
@@ -64,7 +65,8 @@ Status copy_avatar(const std::filesystem::path& file, const std::filesystem::pat
   return Done{};
 }
 
-/// Takes away what create() made of a folder, and it too if nothing else is in it.
+/// Removes the files that create() made in a folder, and the folder itself if it is
+/// empty.
 void forget(const std::filesystem::path& folder, bool was_there) {
   std::error_code ignored;
   const std::string take = recordings::kLiveTakeFile;

@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 
 constexpr double kStatusEvery_s = 0.5;
 constexpr double kMinute_s = 60.0;
-/// Time for every thread to be there before the first picture of a video.
+/// Time for all threads to start before the first picture of a video.
 constexpr milliseconds kHeadStart{200};
 
 using Cameras = std::vector<std::unique_ptr<capture::LiveCamera>>;
@@ -34,7 +34,7 @@ Result<Cameras> make_cameras(OpenedLive& live, const LiveRunOptions& run) {
     const Camera& camera = live.calibration.cameras[c];
     capture::LiveCameraOptions options;
     options.name = camera.name;
-    // Who waits less still takes pictures that are late by themselves.
+    // A shorter wait must not drop pictures that are late at the source.
     options.stale_after_s = std::max(options.stale_after_s, seconds(run.longest_wait));
     auto one =
         capture::LiveCamera::create(options, camera, *live.feeds[c], live.detector);
@@ -44,13 +44,13 @@ Result<Cameras> make_cameras(OpenedLive& live, const LiveRunOptions& run) {
   return cameras;
 }
 
-/// Of the camera that had the most, lost ones included.
-long most_pictures(const Cameras& cameras) {
-  long most = 0;
+/// Returns the maximum over the cameras of their pictures, including lost ones.
+long max_pictures(const Cameras& cameras) {
+  long out = 0;
   for (const auto& camera : cameras) {
-    most = std::max(most, camera->counts().pictures + camera->counts().dropped);
+    out = std::max(out, camera->counts().pictures + camera->counts().dropped);
   }
-  return most;
+  return out;
 }
 
 void take_in(const capture::LiveGroup<capture::DetectedPicture>& group,
@@ -66,7 +66,7 @@ void take_in(const capture::LiveGroup<capture::DetectedPicture>& group,
   }
 }
 
-/// One run's counting: what is added to the figures of all of it, and of the last while.
+/// Accumulates the figures of a run, for the whole run and since the last status.
 class Counting {
  public:
   explicit Counting(std::size_t cameras)
@@ -149,16 +149,16 @@ class Counting {
   bool was_lost_ = false;
 };
 
-/// What is said of the body when that changes.
+/// Reports a change of the tracking state on the console.
 void tell_state(TrackState before, TrackState now, Console& console) {
   if (before == now) return;
   if (now == TrackState::kTracked) {
     console.say(before == TrackState::kLost ? "the body is back" : "the body is found");
   }
-  if (now == TrackState::kLost) console.say("the body is lost: nobody sees it");
+  if (now == TrackState::kLost) console.say("the body is lost: too few tags are visible");
 }
 
-/// The thread that solves and sends.
+/// The part of a run on the thread that solves and sends.
 class Loop {
  public:
   Loop(OpenedLive& live,
@@ -195,7 +195,7 @@ class Loop {
       } else if (groups.is_over()) {
         break;
       }
-      const bool has_changed = watchdog_.look(monotonic_now(), most_pictures(cameras));
+      const bool has_changed = watchdog_.look(monotonic_now(), max_pictures(cameras));
       if (has_changed || watch.seconds() - last_status_s_ >= kStatusEvery_s) {
         last_status_s_ = watch.seconds();
         tell(groups, cameras, false);
@@ -212,7 +212,7 @@ class Loop {
   void take(const capture::LiveGroup<capture::DetectedPicture>& group) {
     const Timestamp taken_up = monotonic_now();
     take_in(group, instant_);
-    // Whatever chain comes later goes on with the time of the first.
+    // Later chains continue with the time base of the first.
     if (!live_.settings.vmc_begin) live_.settings.vmc_begin = instant_.time;
     LiveRequests& requests = outputs_.take_requests();
     if (watcher_) watcher_->take_requests(requests);
@@ -220,7 +220,7 @@ class Loop {
     requests.behind = watchdog_.is_behind();
     if (chain_ && std::exchange(is_chain_new_, false)) periods_.add_to(requests);
     const LiveResult& result =
-        chain_ ? chain_->step(instant_, requests) : nobody(instant_);
+        chain_ ? chain_->step(instant_, requests) : untracked(instant_);
     const Stopwatch sending;
     if (chain_) outputs_.send(result);
     watchdog_.on_instant(monotonic_now(), chain_.has_value());
@@ -230,7 +230,7 @@ class Loop {
     state_ = result.track.state;
     detect_swapped_cameras(result);
     if (watcher_) show(group, result);
-    // The chain may be another one then.
+    // This may replace the chain.
     if (takes_) record(requests, result);
     if (guide_) guide(instant_);
   }
@@ -238,29 +238,29 @@ class Loop {
   void detect_swapped_cameras(const LiveResult& result) {
     if (!chain_ || !unmatched_tags_) return;
     unmatched_tags_->add(instant_, result.track);
-    bool& told = counting_.figures().has_unmatched_tags;
-    if (unmatched_tags_->has_unmatched() && !told)
+    bool& reported = counting_.figures().has_unmatched_tags;
+    if (unmatched_tags_->has_unmatched() && !reported)
       console_.warn(UnmatchedTagsDetector::kText);
-    told = unmatched_tags_->has_unmatched();
+    reported = unmatched_tags_->has_unmatched();
   }
 
   void record(const LiveRequests& requests, const LiveResult& result) {
     if (!chain_) return;
     if (watcher_) {
-      if (const auto wish = watcher_->record_request()) takes_->want(*wish);
+      if (const auto request = watcher_->record_request()) takes_->want(*request);
     }
     takes_->add(instant_, requests, result, *chain_);
     if (guide_) guide_->set_recording(takes_->is_wanted());
   }
 
-  /// What a run has to tell while nobody is followed.
-  const LiveResult& nobody(const LiveInstant& instant) {
-    nobody_.number = instant.number;
-    nobody_.time = instant.time;
-    return nobody_;
+  /// Returns the result reported while no body is tracked.
+  const LiveResult& untracked(const LiveInstant& instant) {
+    untracked_.number = instant.number;
+    untracked_.time = instant.time;
+    return untracked_;
   }
 
-  /// Last of all: nothing that goes out waits for it.
+  /// Runs the guide, after all packets of the instant were sent.
   void guide(const LiveInstant& instant) {
     guide_->see(instant);
     auto found = guide_->take_body();
@@ -285,15 +285,15 @@ class Loop {
     }
   }
 
-  /// Of those that broke off; cameras that are plugged in tell of themselves.
+  /// Warns of videos that ended with an error. Real cameras report their own errors.
   void warn_of_videos() {
     if (live_.videos.empty()) return;
     const std::vector<LiveCameraFigures>& cameras = counting_.figures().cameras;
-    is_told_lost_.resize(cameras.size(), false);
+    is_reported_lost_.resize(cameras.size(), false);
     for (std::size_t c = 0; c < cameras.size(); ++c) {
       const capture::FeedHealth& health = cameras[c].health;
-      if (is_told_lost_[c] || health.state != capture::CameraState::kLost) continue;
-      is_told_lost_[c] = true;
+      if (is_reported_lost_[c] || health.state != capture::CameraState::kLost) continue;
+      is_reported_lost_[c] = true;
       console_.warn("camera " + cameras[c].name + " is lost: " + health.trouble);
     }
   }
@@ -328,11 +328,11 @@ class Loop {
   Counting counting_;
   LiveWatchdog watchdog_;
   KeptPeriods periods_;
-  bool is_chain_new_ = false;  ///< It has seen nothing.
+  bool is_chain_new_ = false;  ///< It has received no instant.
   LiveInstant instant_;
-  LiveResult nobody_;
+  LiveResult untracked_;
   std::optional<UnmatchedTagsDetector> unmatched_tags_;
-  std::vector<bool> is_told_lost_;  ///< By camera.
+  std::vector<bool> is_reported_lost_;  ///< By camera.
   TrackState state_ = TrackState::kWaiting;
   double last_status_s_ = 0.0;
 };
@@ -365,7 +365,7 @@ Result<LiveFigures> run_live(OpenedLive& live,
   for (const auto& feed : live.feeds) feeds.push_back(feed.get());
   const std::vector<capture::ClockModel> clocks(feeds.size());
   Loop loop(live, chain, outputs, guide, takes, watcher, console);
-  // Destroyed first: its threads use the cameras.
+  // Destroyed first, because its threads use the cameras.
   Groups groups(feeds,
                 clocks,
                 grouping(live, options),

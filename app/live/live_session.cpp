@@ -18,7 +18,7 @@ namespace {
 
 using recordings::Session;
 using recordings::Trial;
-/// Those to be played, one after the other; empty: real cameras.
+/// Trials to be played, one after the other; empty: real cameras.
 using Trials = std::vector<const Trial*>;
 
 const recordings::TrialVideo* video_of(const Trial& trial, CameraId camera) {
@@ -37,7 +37,7 @@ std::string names_of(const Trials& trials) {
   return names;
 }
 
-/// Cameras of the session that are to be used, in its order.
+/// Returns the cameras to be used, in the order of the session.
 Result<std::vector<CameraId>> chosen_cameras(const Session& session,
                                              const LiveArguments& arguments,
                                              const Trials& trials) {
@@ -70,7 +70,7 @@ Result<std::vector<CameraId>> chosen_cameras(const Session& session,
                    std::to_string(chosen.size()) + " of its cameras " +
                        (trials.empty() ? std::string("have a device")
                                        : "have a video in trial " + names_of(trials)) +
-                       ", and a body needs two at least",
+                       ", and tracking needs at least two",
                    trials.empty()
                        ? "give each [[camera]] its device = \"/dev/video0\", or play a "
                          "recorded trial with --play"
@@ -99,12 +99,12 @@ Status need_file(const std::filesystem::path& path, const std::string& what) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) return Done{};
   return bad_input(path.string(),
-                   "there is no " + what + ", without which nobody can be followed live",
-                   "name the folder that marey process (or calibrate, then solve) wrote "
-                   "with --results, or make it");
+                   "there is no " + what + ", which live tracking needs",
+                   "give with --results the folder that marey process (or calibrate, "
+                   "then solve) wrote, or run one of these commands");
 }
 
-/// The calibration's cameras of the names in question, in the session's order.
+/// Reads the calibration of the chosen cameras, in the order of the session.
 Result<recordings::Calibration> calibration_of(const Session& session,
                                                const std::vector<CameraId>& chosen,
                                                const std::filesystem::path& file) {
@@ -124,10 +124,10 @@ Result<recordings::Calibration> calibration_of(const Session& session,
       for (const Camera& camera : all->cameras) names += " " + camera.name;
       return bad_input(file.string(),
                        "the session's camera \"" + name +
-                           "\" is not among those that "
-                           "were calibrated:" +
+                           "\" is not in the calibration, "
+                           "which has:" +
                            names,
-                       "calibrate again, or use its name of then");
+                       "calibrate again, or give it its name in the calibration");
     }
     const auto place = static_cast<std::size_t>(found - all->cameras.begin());
     out.cameras.push_back(*found);
@@ -137,7 +137,7 @@ Result<recordings::Calibration> calibration_of(const Session& session,
   return out;
 }
 
-/// Precondition: the camera has a video in every trial.
+/// Opens the videos of a camera. Precondition: it has a video in every trial.
 Result<std::unique_ptr<capture::VideoFeed>> open_video(const Trials& trials,
                                                        CameraId camera,
                                                        const std::string& name,
@@ -193,12 +193,12 @@ Status open_feeds(const Session& session,
                          std::to_string(expected.height_px) + " and now has " +
                          std::to_string(settings.width_px) + "x" +
                          std::to_string(settings.height_px),
-                     "set its width and height as they were, or calibrate again");
+                     "set the width and height of the calibration, or calibrate again");
   }
   return Done{};
 }
 
-/// Who is followed, and who is to be measured.
+/// Reads the body to be tracked, and the prior of the subject to be measured.
 Status find_body(const Session& session,
                  const std::filesystem::path& results,
                  const LiveArguments& arguments,
@@ -211,14 +211,14 @@ Status find_body(const Session& session,
                session.tags};
   if (arguments.calibrate && session.tags.empty()) {
     return bad_input(session.file.string(),
-                     "it does not say who is to be measured, and where tags are worn",
+                     "it names no subject to be measured, or no tags on the body",
                      "add [subject] and [[tags.tag]], see docs/formats/README.md");
   }
   const Status there = need_file(out.subject_file, "subject");
   if (!there && arguments.calibrate) return Done{};
   if (!there) {
     Error error = there.error();
-    error.next += "; --calibrate measures a person live";
+    error.next += "; --calibrate measures a subject live";
     return error;
   }
   auto body = recordings::read_subject(out.subject_file);

@@ -57,7 +57,7 @@ struct OpenedLive {
   std::filesystem::path folder;         ///< The session's.
   recordings::Calibration calibration;  ///< Cameras in use, in their order.
   std::optional<Body> body;             ///< nullopt: not measured yet.
-  reconstruct::SubjectPrior prior;      ///< Of the subject to be measured, if any.
+  reconstruct::SubjectPrior prior;      ///< Prior of the subject to be measured, if any.
   std::filesystem::path subject_file;
   std::vector<OpenedAvatar> avatars;
   LiveSettings settings;

@@ -19,7 +19,7 @@ bool is_ready(const std::future<T>& made) {
          made.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-/// The first of the names that nothing has.
+/// Returns the first unused name.
 std::filesystem::path free_name(const std::filesystem::path& stem) {
   std::error_code ignored;
   for (int number = 1;; ++number) {
@@ -53,7 +53,7 @@ Status LiveTakes::begin_with_run(const std::filesystem::path& folder) {
   return Done{};
 }
 
-/// On a thread of its own.
+/// Opens a take. Runs on a separate thread.
 LiveTakes::Take LiveTakes::open(const Body& body, const LiveSettings& settings) const {
   Take take;
   take.folder = free_name(stem_);
@@ -75,9 +75,9 @@ LiveTakes::Take LiveTakes::open(const Body& body, const LiveSettings& settings) 
 
 void LiveTakes::follow(const Body& body) {
   body_ = body;
-  if (wanted_) console_.say("the take ends here: it has one body");
+  if (wanted_) console_.say("the take ends: a take has one body");
   wanted_ = false;
-  // What is asked for next is another take, with this body.
+  // The next request starts another take, with this body.
   is_opening_void_ = opening_.valid();
   if (take_) close();
 }
@@ -92,8 +92,9 @@ void LiveTakes::check_threads() {
     const Take closed = closing_.get();
     if (!closed.trouble && !closed.begin) {
       console_.warn("nothing was recorded, and " + closed.folder.string() +
-                    " is not kept: the recording ended before its first frame; one "
-                    "begun meanwhile needs the body tracked for a second");
+                    " is removed: the recording ended before its first frame. A "
+                    "recording that starts during a run needs one second with the body "
+                    "tracked");
     } else if (!closed.trouble) {
       console_.say("recorded to " + closed.folder.string());
       finished_.push_back(closed.folder.string());
@@ -138,7 +139,7 @@ void LiveTakes::close() {
       });
 }
 
-/// All that was asked so far and still counts, for one who has heard nothing of it.
+/// Returns the requests that are still in force, for a new chain.
 LiveRequests LiveTakes::pending_requests(const LiveResult& result) const {
   LiveRequests all;
   periods_.add_to(all);
@@ -153,11 +154,11 @@ void LiveTakes::lead_in(const LiveInstant& instant,
                         const LiveRequests& requests,
                         const LiveResult& result,
                         LiveChain& chain) {
-  const LiveRequests heard = is_new_ ? all_asked(result) : requests;
+  const LiveRequests effective = is_new_ ? pending_requests(result) : requests;
   is_new_ = false;
-  take_->recorder->add_lead_in(instant, heard);
+  take_->recorder->add_lead_in(instant, effective);
   const TrackState before = result.track.state;
-  const TrackState now = take_->next->step(instant, heard).track.state;
+  const TrackState now = take_->next->step(instant, effective).track.state;
   if (now != TrackState::kTracked) {
     tracked_since_.reset();
   } else if (!tracked_since_) {
@@ -165,7 +166,7 @@ void LiveTakes::lead_in(const LiveInstant& instant,
   }
   const bool knows_as_much =
       tracked_since_ && seconds(instant.time - *tracked_since_) >= kLeadIn_s;
-  // While nobody was found, there is nothing to be known.
+  // Before the body is found, the chain has no state to catch up with.
   if (!knows_as_much && before != TrackState::kWaiting) return;
   chain = *std::move(take_->next);
   take_->next.reset();
@@ -197,7 +198,7 @@ std::optional<LiveRecording> LiveTakes::state() const {
 Status LiveTakes::finish() {
   wanted_ = false;
   if (opening_.valid()) opening_.wait();
-  for (int i = 0; i < 2; ++i) {  // One that is being closed, and the last.
+  for (int i = 0; i < 2; ++i) {  // A take that is being closed, and the last one.
     if (closing_.valid()) closing_.wait();
     check_threads();
   }

@@ -20,14 +20,14 @@
 namespace marey::app {
 namespace {
 
-/// What a replay found.
+/// Result of a replay.
 struct Replayed {
   long frames = 0;
   long differing = 0;
   std::optional<std::int64_t> first_differing;
 };
 
-/// Waits for an instant's time; false when the user does not want to.
+/// Waits for the time of an instant. Returns false if the user stops the replay.
 bool wait_until(std::chrono::steady_clock::time_point instant) {
   constexpr std::chrono::milliseconds kLook{50};
   while (!stop_wanted()) {
@@ -39,7 +39,8 @@ bool wait_until(std::chrono::steady_clock::time_point instant) {
   return false;
 }
 
-/// Where packets go now. They are those of the recorded streams, whoever got them then.
+/// Plans the targets of the replay. The packets are those of the recorded streams,
+/// independent of their recorded targets.
 Result<LiveOutputs> open_outputs(const ReplayArguments& arguments,
                                  const OpenedTake& opened) {
   LiveSettings wanted;
@@ -55,7 +56,7 @@ Result<LiveOutputs> open_outputs(const ReplayArguments& arguments,
     while (s < streams.size() && streams[s].avatar != wanted.streams[w].avatar) ++s;
     if (s == streams.size()) {
       return bad_input(arguments.take.string(),
-                       "no packets of that body were made in the recorded run",
+                       "the recorded run has no packets of that body",
                        "record with --vmc");
     }
     for (const live::UdpAddress& address : targets[w].addresses) {
@@ -77,7 +78,7 @@ Result<Replayed> replay(const ReplayArguments& arguments,
   const auto& instants = opened.take.instants;
   Replayed found;
   std::vector<std::byte> results;
-  // Without results: the lead-in of a take that begins in the middle of a run.
+  // An instant without results belongs to the lead-in of a take.
   const auto first = std::ranges::find_if(
       instants, [](const auto& one) { return !one.results.empty(); });
   for (const recordings::LiveTakeInstant& one : instants) {
@@ -125,7 +126,7 @@ Exit run_replay(const ReplayArguments& arguments, Console& console) {
   const auto opened = open_live_take(arguments.take);
   if (!opened) return console.fail(opened.error());
   if (!opened->take.finished) {
-    console.warn("the recording was cut off; what there is of it is replayed");
+    console.warn("the recording was cut off; the recorded part is replayed");
   }
   auto outputs = open_outputs(arguments, *opened);
   if (!outputs) return console.fail(outputs.error());
@@ -142,19 +143,19 @@ Exit run_replay(const ReplayArguments& arguments, Console& console) {
                          arguments.take.string(),
                          std::to_string(found->differing) + " of " +
                              std::to_string(found->frames) +
-                             " frames are not what they were when they were recorded, "
-                             "the first of them number " +
+                             " frames differ from the recording, "
+                             "the first one is number " +
                              std::to_string(*found->first_differing),
                          "replay it with the version of marey that recorded it"});
   }
   if (found->frames == 0 && !stop_wanted()) {
     return console.fail({Errc::kQuality,
                          arguments.take.string(),
-                         "the take holds no frame whose bytes could be compared",
-                         "record again, until the body was tracked for some seconds"});
+                         "the take holds no frame to compare",
+                         "record again, with the body tracked for some seconds"});
   }
   console.say(std::to_string(found->frames) +
-              " frames, each with the bytes that it had live");
+              " frames, each with the same bytes as live");
   return Exit::kOk;
 }
 
@@ -162,15 +163,15 @@ void add_replay_command(CLI::App& app,
                         ReplayArguments& args,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command =
-      app.add_subcommand("replay", "A recorded live run again, to the same bytes");
-  command->add_option("take", args.take, "The folder that marey live --record made")
+      app.add_subcommand("replay", "Replay a recorded live run, with the same bytes");
+  command->add_option("take", args.take, "Folder written by marey live --record")
       ->required();
   command
-      ->add_option("--vmc", args.vmc, "Where the packets go: [AVATAR=]HOST[:PORT]")
+      ->add_option("--vmc", args.vmc, "Receiver of the packets: [AVATAR=]HOST[:PORT]")
       ->allow_extra_args(false);
-  command->add_option("--speed", args.speed, "How fast: 1 is as it was")
+  command->add_option("--speed", args.speed, "Speed factor: 1 is the recorded speed")
       ->check(between(0.01, 100.0));
-  command->add_flag("--fast", args.fast, "As fast as it goes");
+  command->add_flag("--fast", args.fast, "Replay without pauses");
   command->add_flag("--json", args.json, "Print the figures as JSON");
   command->callback([&] {
     chosen = [&args](Console& console) { return run_replay(args, console); };

@@ -23,7 +23,7 @@ struct BodyHandle {
 /// Start time of a constraint that only the caller activates: later than any motion. [s]
 inline constexpr double kNotByItself_s = 1e9;
 
-/// Returns the handles of head, hands, feet and hips, in this order, without those that
+/// Returns the handles of head, hands, feet and hips, in this order, without handles that
 /// the body lacks. The hips are always present. Linear in the number of joints.
 [[nodiscard]] std::vector<BodyHandle> body_handles(const Skeleton& skeleton);
 
@@ -31,7 +31,7 @@ inline constexpr double kNotByItself_s = 1e9;
 /// until the caller activates it, and fades in and out over `fade_s`.
 [[nodiscard]] Constraint handle_constraint(const BodyHandle& handle, double fade_s);
 
-/// Returns the support constraints of the feet, "leftFoot" and "rightFoot", without those
+/// Returns the support constraints of the feet, "leftFoot" and "rightFoot", without feet
 /// that the body lacks. They are inactive until the caller activates them, and fade in
 /// and out over `fade_s`.
 [[nodiscard]] std::vector<Constraint> foot_supports(const Skeleton& skeleton,

@@ -18,23 +18,23 @@ using live::WizardAction;
 using live::WizardCamera;
 using live::WizardStep;
 
-/// Of the parts that wear tags, how many are to be seen of who stands.
+/// Share of the parts with tags that must be visible while the subject stands.
 constexpr double kMinPartsShare = 0.6;
-/// A median shift of the tags by so much of the picture's width is more than a body sways:
-/// at 3 m some 5 cm.
+/// Limit of the median shift of the tags, as a share of the picture's width. It is above
+/// the sway of a standing body: about 5 cm at 3 m.
 constexpr double kStillShare = 0.015;
 constexpr std::size_t kMinShifts = 4;
-/// Instants that are further apart do not count as the time between them.
+/// Maximum time that counts between two instants.
 constexpr double kLongestStep_s = 0.2;
-/// Instants in which a part was seen twice until it counts as seen.
+/// A part counts as seen after this number of instants with two sightings.
 constexpr int kPairs = 10;
-// What is enough for those who are in a hurry, and for recordings that end.
+// Minimum durations, for an early "next" and for recordings that end.
 constexpr double kMinStand_s = 0.5;
 constexpr double kMinMove_s = 5.0;
-/// Sightings in a cell of the picture until it is full.
+/// Number of sightings at which a cell of the picture counts as full.
 constexpr double kFullCell = 30.0;
 
-/// What to do while moving, one after the other.
+/// Instructions of the moving step, in order.
 constexpr std::array kMoves{
     "Turn around slowly, all the way.",
     "Swing the arms: forward, to the sides, over the head.",
@@ -66,10 +66,10 @@ SubjectGuide::SubjectGuide(GuideSetup setup, const GuideOptions& options)
   MAREY_ASSERT(setup_.cameras.size() == setup_.rms_px.size());
   MAREY_ASSERT(!setup_.prior.tags.empty());
   for (const TagOnSegment& tag : setup_.prior.tags) parts_.insert(tag.segment);
-  ui_state_.title = "Measure a person";
+  ui_state_.title = "Measure a subject";
   ui_state_.text =
-      "Finds how long the limbs are and where the tags sit: stand still, then move every "
-      "joint.";
+      "Measures the lengths of the limbs and the positions of the tags: stand still, "
+      "then move every joint.";
 }
 
 std::optional<std::string> SubjectGuide::act(WizardAction action) {
@@ -78,7 +78,7 @@ std::optional<std::string> SubjectGuide::act(WizardAction action) {
                        now == WizardStep::kSolve;
   switch (action) {
     case WizardAction::kStart:
-      if (is_busy) return "somebody is being measured already";
+      if (is_busy) return "a subject is already being measured";
       start();
       return std::nullopt;
     case WizardAction::kCancel:
@@ -95,14 +95,14 @@ std::optional<std::string> SubjectGuide::act(WizardAction action) {
         begin_solve();
         return std::nullopt;
       }
-      return now == WizardStep::kStand  ? "nobody was seen standing still yet"
-             : now == WizardStep::kMove ? "five seconds of moving are the least"
-                                        : "there is no step to go on from";
+      return now == WizardStep::kStand  ? "no subject has stood still yet"
+             : now == WizardStep::kMove ? "move for at least five seconds"
+                                        : "no step is active";
     case WizardAction::kAccept:
       if (now != WizardStep::kDone) return "there is nothing to accept";
       ui_state_.step = WizardStep::kIdle;
       ui_state_.title = "Measured";
-      ui_state_.text = "The run goes on with this body. Start measures anew.";
+      ui_state_.text = "The run continues with this body. Start measures again.";
       ui_state_.error.clear();
       return std::nullopt;
   }
@@ -143,15 +143,15 @@ void SubjectGuide::begin_move() {
 void SubjectGuide::begin_solve() {
   ui_state_.step = WizardStep::kSolve;
   ui_state_.title = "Wait";
-  ui_state_.text = "The body is measured from what was seen. This can take a minute.";
+  ui_state_.text = "The body is computed from the recorded tags. This can take a minute.";
   ui_state_.progress = 0.0;
   has_material_ = true;
 }
 
 void SubjectGuide::fail(const std::string& why) {
   ui_state_.step = WizardStep::kFailed;
-  ui_state_.title = "It did not work";
-  ui_state_.text = "Do what the message says, then start again.";
+  ui_state_.title = "The measurement failed";
+  ui_state_.text = "Follow the steps of the message, then start again.";
   ui_state_.error = why;
   material_ = {};
   has_material_ = false;
@@ -170,15 +170,15 @@ void SubjectGuide::see(const LiveInstant& instant) {
 void SubjectGuide::end() {
   if (step() == WizardStep::kMove && counted_s_ >= kMinMove_s) return begin_solve();
   if (step() == WizardStep::kStand) {
-    fail("nobody was seen standing still for long enough. Next: see that the cameras see "
-         "the tags, and stand still for some seconds.");
+    fail("no subject was seen standing still for long enough. Next: check that the "
+         "cameras see the tags, and stand still for some seconds.");
   } else if (step() == WizardStep::kMove) {
-    fail("it ended before every joint had moved. Next: move for " +
+    fail("the run ended before every joint had moved. Next: move for " +
          std::to_string(static_cast<int>(options_.move_s)) + " seconds.");
   }
 }
 
-/// Which tags are there, and where in the pictures.
+/// Updates the visible tags and their positions in the pictures.
 void SubjectGuide::look(const LiveInstant& instant) {
   std::fill(now_.begin(), now_.end(), 0);
   for (const CameraTags& view : instant.views) {
@@ -217,7 +217,7 @@ void SubjectGuide::add_standing(const LiveInstant& instant) {
   count_time(instant.time);
   keep(instant, material_.standing);
   if (counted_s_ >= kMinStand_s) was_restless_ = false;
-  ui_state_.text = was_restless_ ? "Stand still: you moved, so it begins anew."
+  ui_state_.text = was_restless_ ? "Stand still: you moved, so the step starts again."
                              : "Stay like this for a moment.";
   ui_state_.progress = std::min(counted_s_ / options_.stand_s, 1.0);
   if (counted_s_ >= options_.stand_s) begin_move();
@@ -257,21 +257,22 @@ void SubjectGuide::count_time(Timestamp time) {
   last_ = time;
 }
 
-/// Whether those tags that were seen before have gone elsewhere; then they are there.
+/// Returns true if the tags have moved since the standing began, and then stores their
+/// new positions.
 bool SubjectGuide::has_moved(const LiveInstant& instant) {
   shifts_.clear();
-  const auto compare = [&](bool anew) {
+  const auto compare = [&](bool replace) {
     for (const CameraTags& view : instant.views) {
       const std::size_t c = index(view.camera);
       for (const TagDetection& seen : view.tags) {
         for (std::size_t t = 0; t < setup_.prior.tags.size(); ++t) {
           if (setup_.prior.tags[t].id != seen.id) continue;
           std::optional<glm::dvec2>& stood_px = stood_px_[c][t];
-          if (stood_px && !anew) {
+          if (stood_px && !replace) {
             shifts_.push_back(glm::distance(*stood_px, centre_of(seen)) /
                               setup_.cameras[c].intrinsics.width_px);
           }
-          if (!stood_px || anew) stood_px = centre_of(seen);
+          if (!stood_px || replace) stood_px = centre_of(seen);
         }
       }
     }
@@ -299,7 +300,8 @@ void SubjectGuide::keep(const LiveInstant& instant,
   }
 }
 
-/// How often a part is seen in this instant, over its tags and all cameras.
+/// Returns the number of sightings of a part in this instant, over its tags and all
+/// cameras.
 int SubjectGuide::sightings_of(HumanBone part) const {
   int sightings = 0;
   for (std::size_t t = 0; t < now_.size(); ++t) {
@@ -308,12 +310,12 @@ int SubjectGuide::sightings_of(HumanBone part) const {
   return sightings;
 }
 
-/// Parts of which a tag has at least so many.
+/// Returns the parts with a tag whose count is at least `min_count`.
 std::set<HumanBone> SubjectGuide::parts_of(const std::vector<int>& counts,
-                                           int least) const {
+                                           int min_count) const {
   std::set<HumanBone> parts;
   for (std::size_t t = 0; t < counts.size(); ++t) {
-    if (counts[t] >= least) parts.insert(setup_.prior.tags[t].segment);
+    if (counts[t] >= min_count) parts.insert(setup_.prior.tags[t].segment);
   }
   return parts;
 }
@@ -354,14 +356,14 @@ void SubjectGuide::finish(const Result<reconstruct::SubjectFit>& fit) {
   ui_state_.step = WizardStep::kDone;
   ui_state_.title = "The body is measured";
   ui_state_.quality = quality_of(*fit);
-  ui_state_.text = is_good() ? "Accept keeps it, and the run goes on with it."
-                         : "Some of it is poor: better cancel, and start again.";
+  ui_state_.text = is_good() ? "Accept stores it, and the run continues with it."
+                         : "Some values are poor: cancel and start again.";
 }
 
 void SubjectGuide::refuse_acceptance(const std::string& why) {
   MAREY_ASSERT(step() == WizardStep::kIdle && !ui_state_.quality.empty());
   ui_state_.step = WizardStep::kDone;
-  ui_state_.title = "The body is measured, and could not be kept";
+  ui_state_.title = "The body is measured, but could not be stored";
   ui_state_.error = why;
 }
 

@@ -53,22 +53,22 @@ Result<LiveChain> LiveChain::make(const Body& body,
   }
   for (const VmcStream& stream : settings.streams) {
     const OpenedAvatar* avatar = stream.avatar ? &avatars[*stream.avatar] : nullptr;
-    auto told =
+    auto vmc_body =
         make_vmc_body(avatar ? avatar->skeleton : chain.performer(), avatar, stream.rest);
-    if (!told) return told.error();
+    if (!vmc_body) return vmc_body.error();
     live::VmcEncoderOptions encoding;
     encoding.mtu_bytes = stream.mtu_bytes;
     encoding.begin = settings.vmc_begin;
     encoding.info.listen_port = stream.listen_port;
     if (avatar) {
-      // Not the file's name, which is another in a take.
+      // The name in the settings, because the file in a take has another name.
       const std::filesystem::path name = settings.avatars[*stream.avatar];
       encoding.info.vrm_path = name.string();
       encoding.info.vrm_title = name.stem().string();
     }
     auto encoder = live::VmcEncoder::make(encoding);
     if (!encoder) return encoder.error();
-    chain.streams_.push_back({stream, *std::move(told), *std::move(encoder), {}});
+    chain.streams_.push_back({stream, *std::move(vmc_body), *std::move(encoder), {}});
   }
   chain.packets_.resize(chain.streams_.size());
   if (settings.vrchat) {
@@ -111,7 +111,7 @@ const LiveResult& LiveChain::step(const LiveInstant& instant,
   return result_;
 }
 
-/// What the cameras saw, without shrinkage, as the tracker takes it.
+/// Converts the detections to the tracker's input, without tag shrinkage.
 void LiveChain::take_in(const LiveInstant& instant) {
   for (std::size_t c = 0; c < cameras_.size(); ++c) {
     unshrunk_[c].clear();
@@ -132,14 +132,14 @@ void LiveChain::take_in(const LiveInstant& instant) {
 void LiveChain::put_on_avatars(double since_last_s) {
   const bool is_lost = result_.track.state == TrackState::kLost;
   for (std::size_t a = 0; a < retargets_.size(); ++a) {
-    // Who comes back stands elsewhere: feet must not be dragged there.
+    // After a relocalization the feet must not be dragged to the new position.
     if (was_lost_ && !is_lost) retargets_[a].forget();
     retargets_[a].step(pose_, since_last_s, avatar_poses_[a]);
   }
   was_lost_ = is_lost;
 }
 
-/// While nobody is there, nothing can be taken hold of.
+/// Adapts the first avatar to its handles. Not called before the body is found.
 void LiveChain::drag(const LiveRequests& requests, double since_last_s) {
   if (!handles_) return;
   for (const HandleRequest& request : requests.handles) handles_->ask(request);
@@ -160,15 +160,15 @@ void LiveChain::encode(Timestamp time, const LiveRequests& requests) {
       if (asked.info) stream.encoder.request_info();
     }
     const Pose& pose = stream.what.avatar ? avatar_poses_[*stream.what.avatar] : pose_;
-    stream.body.to_vmc(pose, stream.told);
-    const auto packets = stream.encoder.encode(time, stream.told, status);
+    stream.body.to_vmc(pose, stream.vmc_pose);
+    const auto packets = stream.encoder.encode(time, stream.vmc_pose, status);
     packets_[s].resize(packets.size());
     for (std::size_t p = 0; p < packets.size(); ++p) {
       packets_[s][p].assign(packets[p].begin(), packets[p].end());
     }
   }
   if (!trackers_) return;
-  // A body that was not found stands nowhere.
+  // A body that was not found has no position.
   packets_.back().clear();
   if (result_.track.state == TrackState::kWaiting) return;
   world_from_joints(tracker_.skeleton(), pose_, world_from_joint_);

@@ -10,12 +10,12 @@
 namespace marey::app {
 namespace {
 
-// Of pictures. Two shares, so that a run at the edge does not flicker.
+// Shares of the pictures that become poses. Two limits give hysteresis.
 constexpr double kBehindBelow = 0.45;
 constexpr double kSteadyFrom = 0.6;
-// Of fewer pictures nothing can be said.
+// Minimum number of pictures for a decision.
 constexpr long kMinPictures = 4;
-// The bar is one second, and the caller looks ten times in one.
+// A stop must be reported within one second, and the caller checks every 0.1 s.
 constexpr double kLongestWait_s = 0.85;
 constexpr double kPeriods = 4.0;
 
@@ -42,7 +42,7 @@ Flow LiveFlow::judge(Timestamp now) const {
   const long pictures = samples_.back().pictures - first.pictures;
   const auto instants = static_cast<double>(samples_.back().instants - first.instants);
   if (pictures < kMinPictures) {
-    // A run that had stopped goes on when it has shown that it keeps up.
+    // A stopped run becomes steady only after it keeps up again.
     return flow_ == Flow::kSteady ? Flow::kSteady : Flow::kBehind;
   }
   const double needed = flow_ == Flow::kSteady ? kBehindBelow : kSteadyFrom;
@@ -63,14 +63,14 @@ void LiveFlow::word(Timestamp now) {
   } else {
     std::snprintf(head,
                   sizeof head,
-                  "poses fall behind: %ld came of the last %ld pictures of a camera; the "
+                  "poses fall behind: %ld from the last %ld pictures of a camera; the "
                   "computer is too slow or too busy",
                   samples_.back().instants - samples_.front().instants,
                   samples_.back().pictures - samples_.front().pictures);
   }
   text_ = std::string(head) +
           ". Next: close other programs, use fewer cameras or a lower frame rate, and "
-          "see that every camera streams.";
+          "check that every camera streams.";
 }
 
 Flow LiveFlow::look(Timestamp now, long pictures) {

@@ -53,7 +53,7 @@ void LiveHandles::ask(const HandleRequest& request) {
     found->active = false;
     return;
   }
-  // One that is switched on holds its joint where that is.
+  // kStart holds the joint at its current position.
   if (request.action != HandleAction::kStart) found->p_in_world = request.p_in_world;
   if (found->active) return;
   found->active = true;
@@ -74,7 +74,7 @@ bool LiveHandles::is_dragged(JointIndex joint) const {
   });
 }
 
-/// Targets go on towards what was asked last, without a step.
+/// Moves the filtered targets smoothly towards the requested ones.
 void LiveHandles::follow(double since_last_s) {
   const double share = 1.0 - std::exp(-since_last_s / kFollow_s);
   for (std::size_t i = 0; i < held_.size(); ++i) {
@@ -90,12 +90,12 @@ void LiveHandles::follow(double since_last_s) {
   }
 }
 
-/// Feet that stand are held where the posture has them: what is dragged must not take
-/// them along.
+/// Keeps supporting feet at their position in the pose, so that a dragged joint does not
+/// move them.
 void LiveHandles::stand(std::span<const RigidTransform> world_from_joint,
                         const std::array<retarget::StandingFoot, 2>& standing) {
   const bool is_held = any_active();
-  // Nothing is off its way yet: feet hold before anything goes there.
+  // No handle has an effect yet: the supports must be active before the first handle.
   const bool begins = std::ranges::all_of(held_, [](const Held& held) {
     return held.handle.outcome().activation == 0.0;
   });
@@ -114,7 +114,7 @@ void LiveHandles::stand(std::span<const RigidTransform> world_from_joint,
   }
 }
 
-/// What became of it: handles that are not held are where their joints are.
+/// Updates the states: inactive handles are at the positions of their joints.
 void LiveHandles::look() {
   const std::span<const RigidTransform> joints = adapter_.world_from_joint();
   busy_ = false;
@@ -147,7 +147,7 @@ void LiveHandles::step(std::span<const RigidTransform> world_from_joint,
   stand(world_from_joint, standing);
   (void)adapter_.adapt(posture, time_s_, adapted_);
   look();
-  if (!busy_) return;  // All has faded out.
+  if (!busy_) return;  // All handles have faded out.
   posture.root_in_world = adapted_.root_in_world;
   std::ranges::copy(adapted_.parent_from_joint, posture.parent_from_joint.begin());
 }

@@ -33,7 +33,7 @@ live::PageOutput output_status(const OutputCounts& now, const OutputCounts* befo
   out.sent = static_cast<std::uint64_t>(now.counts.sent);
   out.failed = static_cast<std::uint64_t>(now.counts.failed + now.counts.refused);
   if (now.counts.refused > then.refused) {
-    out.detail = "nobody listens there";
+    out.detail = "no program receives the packets there";
   } else if (now.counts.failed > then.failed) {
     out.detail = "packets cannot be sent there";
   }
@@ -43,7 +43,7 @@ live::PageOutput output_status(const OutputCounts& now, const OutputCounts* befo
 WornSegments::WornSegments(const Body& body) {
   for (const PlacedTag& placed : body.tags) {
     HumanBone bone = placed.tag.segment;
-    // Toes are solved with their foot.
+    // The toes are solved together with the foot.
     if (bone == HumanBone::kLeftToes) bone = HumanBone::kLeftFoot;
     if (bone == HumanBone::kRightToes) bone = HumanBone::kRightFoot;
     bones_.push_back(bone);
@@ -79,7 +79,7 @@ void add_subject_status(reconstruct::TrackState state,
     status.warnings.push_back(segment + " has not been seen for more than a second");
   }
   if (figures.has_unmatched_tags) {
-    status.warnings.emplace_back("tags are seen that do not fit");
+    status.warnings.emplace_back("tags are visible but no body pose fits them");
   }
   if (figures.flow != Flow::kSteady) status.warnings.push_back(figures.flow_text);
   if (state == State::kTracked) {

@@ -65,10 +65,10 @@ class UnmatchedTagsDetector {
   [[nodiscard]] bool has_unmatched() const { return has_unmatched_; }
   /// Message to the user.
   static constexpr const char* kText =
-      "tags are seen, but no body fits them: hips and chest are hidden, cameras were "
-      "moved "
-      "or swapped since they were calibrated, or it is another's suit. Next: show them, "
-      "give each camera its name of then, or calibrate again.";
+      "Tags are visible but no body pose fits them. Possible causes: hips and chest are "
+      "hidden; cameras were moved or swapped since the calibration; the suit belongs to "
+      "another subject. Next: show hips and chest, restore the camera names of the "
+      "calibration, or calibrate again.";
 
  private:
   std::vector<TagId> worn_;  ///< Ascending.

@@ -53,7 +53,7 @@ LiveRequests& LiveOutputs::take_requests() {
 }
 
 void LiveOutputs::send(const LiveResult& result) {
-  // A replay may send less than was recorded.
+  // A replay may have fewer targets than the recorded run.
   MAREY_ASSERT(result.packets.size() >= senders_.size());
   for (std::size_t s = 0; s < senders_.size(); ++s) {
     for (const auto& packet : result.packets[s]) senders_[s].send(packet);

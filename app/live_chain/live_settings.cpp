@@ -16,11 +16,11 @@ using nlohmann::json;
 
 Error not_ours(const std::string& file, const std::string& what) {
   return bad_input(file,
-                   "it does not say what a live take says: " + what,
+                   "it is not in the format of a live take: " + what,
                    "copy the take again from where it was recorded");
 }
 
-/// Names may hold bytes that are not UTF-8, which JSON must be.
+/// Returns JSON text. Bytes of names that are not UTF-8 are replaced.
 std::string text_of(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
 }
@@ -30,7 +30,7 @@ json or_null(const std::optional<T>& value) {
   return value ? json(*value) : json(nullptr);
 }
 
-/// Throws json's exception for what is no count.
+/// Throws the exception of nlohmann::json if the value is not a count.
 template <class T>
 std::optional<T> optional_at(const json& object, const char* key) {
   constexpr json::number_unsigned_t kMax = 1'000'000;
@@ -70,7 +70,7 @@ LiveSettings to_settings(const json& object) {
   if (const auto files = object.find("avatar_files"); files != object.end()) {
     settings.avatar_files = files->get<std::vector<std::string>>();
   }
-  // Only takes that begin in the middle of a run have it.
+  // Only takes that start during a run have it.
   if (const auto begin = object.find("vmc_begin_ns"); begin != object.end()) {
     settings.vmc_begin = Timestamp{begin->get<std::int64_t>()};
   }
@@ -85,7 +85,7 @@ bool can_be(const LiveSettings& settings) {
   for (const VmcStream& stream : settings.streams) {
     if (stream.avatar && *stream.avatar >= settings.avatars.size()) return false;
   }
-  // Of any camera and any rig.
+  // Limits for any camera and any rig.
   constexpr double kSlowest_hz = 0.1;
   constexpr double kFastest_hz = 1e4;
   constexpr double kLargestSigma_m = 10.0;
@@ -110,7 +110,7 @@ json to_json(const HandleRequest& request) {
   return object;
 }
 
-/// nullopt: it cannot be.
+/// Returns nullopt if a value is invalid.
 std::optional<HandleRequest> to_handle(const json& object) {
   constexpr double kFarthest_m = 1e4;
   HandleRequest request;
@@ -132,7 +132,7 @@ std::optional<HandleRequest> to_handle(const json& object) {
   return request;
 }
 
-/// nullopt: a value is out of range.
+/// Returns nullopt if a value is out of range.
 std::optional<LiveRequests> to_requests(const json& object) {
   LiveRequests requests;
   // Takes of earlier versions have neither this nor handles.
@@ -160,7 +160,7 @@ std::optional<LiveRequests> to_requests(const json& object) {
 }  // namespace
 
 std::string shown_name(const std::filesystem::path& file) {
-  // The one who writes JSON knows what UTF-8 is.
+  // The JSON writer replaces invalid UTF-8.
   return json::parse(text_of(file.filename().string())).get<std::string>();
 }
 
@@ -179,7 +179,7 @@ std::string live_settings_text(const LiveSettings& settings) {
 }
 
 Result<LiveSettings> parse_live_settings(std::string_view text, const std::string& file) {
-  // nlohmann-json throws; nothing else here does.
+  // Only nlohmann-json throws here.
   try {
     LiveSettings settings = to_settings(json::parse(text));
     if (!can_be(settings)) return not_ours(file, "a value is out of range");
@@ -190,7 +190,7 @@ Result<LiveSettings> parse_live_settings(std::string_view text, const std::strin
 }
 
 bool LiveRequests::add(HandleRequest request) {
-  // Of many movements between two instants the last counts.
+  // Only the last of several moves between two instants is kept.
   const bool is_void = !handles.empty() && request.action == HandleAction::kMove &&
                        handles.back().action == HandleAction::kMove &&
                        handles.back().id == request.id;

@@ -13,7 +13,7 @@
 namespace marey::app {
 namespace {
 
-/// Those of these names, in this order, and no others; nullopt: it does not hold these.
+/// Returns the cameras with these names, in this order; nullopt if one is missing.
 std::optional<recordings::Calibration> cameras_of(const recordings::Calibration& all,
                                                   const std::vector<std::string>& names) {
   if (all.cameras.size() != names.size()) return std::nullopt;

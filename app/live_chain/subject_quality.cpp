@@ -13,8 +13,8 @@ namespace marey::app {
 namespace {
 
 constexpr double kPoorSigma_m = 0.01;
-/// People's sides differ by less: a limb that was hardly seen is wrong by more than its
-/// sigma says.
+/// Limit of the difference between the sides, above that of real subjects. A limb that
+/// was rarely seen can have a larger error than its sigma.
 constexpr double kPoorSide = 0.05;
 constexpr double kPoorRms_px = 5.0;
 constexpr double kPoorRatio = 0.15;
@@ -26,12 +26,12 @@ std::string format(const char* form, double a, double b = 0.0) {
   return text;
 }
 
-/// The bone from its own joint to its child's.
+/// Returns the length of a bone, from its joint to the joint of its child.
 live::WizardQuality length_of(const Body& body, HumanBone bone, HumanBone child) {
   const double length_m = glm::length(body.proportions[child]);
   const double other_m = glm::length(body.proportions[mirrored(child)]);
   const double sigma_m = body.joint_centre_sigma_m[index(child)];
-  // No length is known to nothing.
+  // A displayed sigma of zero would be misleading.
   const double sigma_cm = std::max(100.0 * sigma_m, 0.1);
   return {in_words(bone),
           format("%.1f cm \u00b1 %.1f", 100.0 * length_m, sigma_cm),
@@ -45,7 +45,7 @@ live::WizardQuality unplaced_of(const reconstruct::SubjectFit& fit) {
     names += (names.empty() ? "" : ", ") + std::to_string(number(id));
   }
   const std::size_t all = fit.body.tags.size() + fit.unplaced.size();
-  return {"tags without a place",
+  return {"tags without a position",
           names.empty() ? "none" : names,
           kTagsPerUnplaced * fit.unplaced.size() <= all};
 }
@@ -72,10 +72,10 @@ std::vector<live::WizardQuality> quality_of(const reconstruct::SubjectFit& fit) 
   for (const Error& warning : fit.warnings) {
     distance += "; " + warning.cause + ": " + warning.next;
   }
-  out.push_back({"distance from what was seen",
+  out.push_back({"residual to the detected tags",
                  distance,
                  fit.rms_px <= kPoorRms_px && fit.warnings.empty()});
-  out.push_back({"limbs to an average person's",
+  out.push_back({"limbs relative to an average person",
                  format("%.0f %%", 100.0 * fit.limb_ratio),
                  std::abs(fit.limb_ratio - 1.0) <= kPoorRatio});
   out.push_back(unplaced_of(fit));

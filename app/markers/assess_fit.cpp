@@ -13,16 +13,16 @@
 namespace marey::app {
 namespace {
 
-// Skin, and landmarks that are not where they are on others, leave 5 to 20 mm. [m]
+// Skin motion and individual differences of landmarks cause 5 to 20 mm. [m]
 constexpr double kFarOff_m = 0.030;
-// Single segments and markers stray by up to 25 and 40 mm in right recordings: hands and
-// shoulders. [m]
+// Single segments and markers are off by up to 25 and 40 mm in correct recordings: hands
+// and shoulders. [m]
 constexpr double kSegmentFarOff_m = 0.035;
 constexpr double kMarkerFarOff_m = 0.055;
-// Of a stature that was given.
+// For a given stature.
 constexpr double kOtherStatureSigmas = 4.0;
 constexpr double kMinSolvedShare = 0.8;
-// Of right labels places_off is 0.6 to 1.4 (fit_labels.cpp).
+// Right labels have a places_off of 0.6 to 1.4 (fit_labels.cpp).
 constexpr double kNobodysPlaces = 2.0;
 
 Error far_off(const MarkerTrial& trial, const SubjectFit* subject) {
@@ -41,7 +41,7 @@ Error far_off(const MarkerTrial& trial, const SubjectFit* subject) {
   return error;
 }
 
-/// The segment or the marker that is farthest off the body, whatever the others are.
+/// Reports the segment or the marker that is farthest off the body.
 void assess_worst(const MarkerTrial& trial, const Body& body, std::vector<Error>& poor) {
   struct Sum {
     double squares = 0.0;

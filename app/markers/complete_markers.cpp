@@ -11,7 +11,7 @@
 namespace marey::app {
 namespace {
 
-// What is known no better is not known: as `marey repair` has it.
+// Samples with a larger sigma are left empty, as by `marey repair`.
 constexpr double kMaxSigma_m = 0.1;
 
 }  // namespace

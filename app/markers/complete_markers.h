@@ -10,18 +10,18 @@
 
 namespace marey::app {
 
-/// Markers without gaps, as far as anything is known of them.
+/// Markers with gaps filled as far as possible.
 struct CompletedMarkers {
   MarkerTracks tracks;
-  std::size_t predicted = 0;  ///< Samples that the skeleton told.
-  std::size_t empty = 0;      ///< Samples that nobody knows.
+  std::size_t predicted = 0;  ///< Samples computed from the skeleton.
+  std::size_t empty = 0;      ///< Samples that remain unknown.
 };
 
-/// Puts markers that are still missing where the solved body has them, source kInferred,
-/// with the doubts of the joint, of the marker's place and of its straying added up. Only
-/// where the marker's segment is measured or repaired: where a segment is itself a guess,
-/// markers stay empty, and so do those known
-/// no better than to 0.1 m. Those that are there stay as they are.
+/// Fills missing markers with their position on the solved body, source kInferred. The
+/// variances of the joint, of the marker's place and of its stray motion are added. Only
+/// markers of segments that are measured or repaired are filled. Markers of inferred
+/// segments, and markers with a sigma above 0.1 m, stay empty. Existing samples are
+/// unchanged.
 ///
 /// Cost: linear in samples. Precondition: `solved` is of this body and these tracks.
 [[nodiscard]] CompletedMarkers complete_markers(const Body& body,

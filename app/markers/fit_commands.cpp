@@ -33,7 +33,7 @@ std::string all_inputs(const FitArguments& args) {
          (others == 1 ? " other file" : " other files");
 }
 
-/// Who the recording says it is: "Bob" of "Bob:LASI".
+/// Returns the subject's name in the recording: "Bob" for "Bob:LASI".
 std::string name_of_subject(const FitArguments& args,
                             std::span<const MarkerTrial> trials) {
   if (!args.name.empty()) return args.name;
@@ -42,7 +42,7 @@ std::string name_of_subject(const FitArguments& args,
   return name.empty() ? "subject" : name;
 }
 
-/// An earlier fit's subject.
+/// Takes the subject of an earlier fit.
 Status take_subject(const FitArguments& args, FitRun& run) {
   auto body = recordings::read_subject(args.subject);
   if (!body) return body.error();
@@ -55,7 +55,7 @@ Status take_subject(const FitArguments& args, FitRun& run) {
   return Done{};
 }
 
-/// What the user says of the subject.
+/// Returns the subject's data given by the user.
 reconstruct::MarkerSubject subject_asked(const FitArguments& args, const FitRun& run) {
   reconstruct::MarkerSubject subject;
   subject.name = name_of_subject(args, run.trials);
@@ -79,7 +79,7 @@ Status find_subject(const FitArguments& args,
   return Done{};
 }
 
-/// Reads everything there is to read: what cannot be is told before the work begins.
+/// Reads all input, so that its errors are reported before the work begins.
 Status read_all(const FitArguments& args,
                 Console& console,
                 FitRun& run,
@@ -105,15 +105,15 @@ Status read_all(const FitArguments& args,
   return Done{};
 }
 
-/// Of a fit that failed: exchanged sides or a wrong axis, where there are any.
+/// Returns the cause of a failed fit: exchanged sides or a wrong axis, else `error`.
 Error cause_of(const FitRun& run, Error error) {
   const std::vector<Error> causes = side_and_axis_errors(run.trials, run.geometry);
   if (causes.empty()) return error;
   return bad_input(causes.front().where, causes.front().cause, causes.front().next);
 }
 
-/// What speaks against the answer. Exchanged sides and wrong axes explain what else is
-/// off: they come alone.
+/// Returns the errors of the result. Exchanged sides and wrong axes are the cause of
+/// other errors and are returned alone.
 std::vector<Error> assess_all(const FitArguments& args, FitRun& run) {
   std::vector<Error> failures = side_and_axis_errors(run.trials, run.geometry);
   if (!failures.empty()) return failures;
@@ -212,7 +212,7 @@ Exit run_fit(const FitArguments& args, Console& console) {
   for (const MarkerTrial& trial : run.trials) console.say(trial_words(trial));
   console.say("results: " + args.out.string());
   if (args.json) std::fputs(json.c_str(), stdout);
-  // The rest is done and written; that something is wrong must still not pass for whole.
+  // All results are written, but the exit code must still report a fault.
   Exit exit = Exit::kOk;
   for (const Error& failure : failures) exit = console.fail(failure);
   return exit;
@@ -240,7 +240,7 @@ void add_fit_command(CLI::App& app,
       ->add_option("-a,--avatar",
                    args.avatars,
                    "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
-      // One each time: what follows may be a trial.
+      // One value per option: the next argument may be a trial.
       ->allow_extra_args(false);
   command->add_option("--up", args.up, "Axis of the files that is up, if not as found")
       ->check(CLI::IsMember({"+X", "+Y", "+Z", "-X", "-Y", "-Z"}));

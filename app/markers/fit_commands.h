@@ -14,26 +14,26 @@
 
 namespace marey::app {
 
-/// What `marey fit` was asked for.
+/// Arguments of `marey fit`.
 struct FitArguments {
   std::vector<std::filesystem::path> in;  ///< C3D or TRC, of one subject.
   std::filesystem::path out;              ///< Folder of the results.
-  std::filesystem::path map;              ///< What labels mean; may be empty.
-  std::filesystem::path subject;          ///< An earlier fit's; may be empty.
+  std::filesystem::path map;              ///< Meaning of the labels; may be empty.
+  std::filesystem::path subject;          ///< subject.toml of an earlier fit, or empty.
   std::string name;
   std::optional<double> stature_m;
   std::optional<double> mass_kg;
   std::vector<std::filesystem::path> avatars;
-  std::string up;    ///< "+Z", checked; empty where the files decide.
-  std::string unit;  ///< Likewise "mm".
+  std::string up;    ///< "+Z", checked; empty: as in the files.
+  std::string unit;  ///< "mm", checked; empty: as in the files.
   bool json = false;
 };
 
-/// `marey fit IN... --out DIR`: the subject who wore these labelled markers, and its
-/// motion in every file (docs/formats/README.md).
+/// Runs `marey fit IN... --out DIR`: fits the subject to labelled markers and writes its
+/// motion in every format (docs/formats/README.md).
 [[nodiscard]] Exit run_fit(const FitArguments& args, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. If the user gives it, `chosen` runs it. `args` must stay in place.
 void add_fit_command(CLI::App& app,
                      FitArguments& args,
                      std::function<Exit(Console&)>& chosen);

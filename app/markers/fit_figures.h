@@ -16,7 +16,7 @@
 
 namespace marey::app {
 
-/// How long the parts of a run took. [s]
+/// Durations of the stages of a run. [s]
 struct FitTimes {
   double read_s = 0.0;
   double repair_s = 0.0;
@@ -25,22 +25,22 @@ struct FitTimes {
   double write_s = 0.0;
 };
 
-/// All of `marey fit`.
+/// Results of `marey fit`.
 struct FitRun {
   FitLabels labels;
   std::optional<SubjectFit> subject;  ///< None: an earlier fit was used.
   Body body;
-  std::vector<reconstruct::TrialGeometry> geometry;  ///< Of every trial.
+  std::vector<reconstruct::TrialGeometry> geometry;  ///< One per trial.
   LabelChecks checks;
   std::vector<MarkerTrial> trials;
   std::vector<std::string> warnings;
   FitTimes times;
 };
 
-/// What fit.json holds; docs/formats/README.md has the keys.
+/// Returns the content of fit.json; docs/formats/README.md has the keys.
 [[nodiscard]] nlohmann::ordered_json fit_figures(const FitRun& run);
 
-/// Why a label that is not used is not: "is never seen".
+/// Returns the reason why a label is not used: "is never seen".
 [[nodiscard]] std::string why_unused(const FitLabels& labels, std::size_t label);
 
 }  // namespace marey::app

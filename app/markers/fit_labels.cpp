@@ -20,10 +20,10 @@ namespace {
 using reconstruct::Landmark;
 using reconstruct::NamedMarker;
 
-// Of right labels places_off() was 0.6 to 1.4 in recordings of twenty laboratories, and
-// 1.5 to 4 with left and right exchanged, while the distances of markers from that body
-// often tell nothing. Above the first the mirror is looked into, and is right when it is
-// better by the second.
+// Right labels had a places_off() of 0.6 to 1.4 in recordings of twenty laboratories, and
+// labels with left and right exchanged 1.5 to 4. The distances of markers from the fitted
+// body often do not differ. Above the first limit the mirrored labels are tested; they
+// are accepted if their value is smaller by the second factor.
 constexpr double kUsualPlacesOff = 1.4;
 constexpr double kFarBetter = 0.75;
 
@@ -51,9 +51,9 @@ std::string some_of(std::span<const std::string> labels) {
   return labels.size() > kShown ? text + ", ..." : text;
 }
 
-/// How far markers are from where their landmarks are on others, over how far these
-/// differ between people: the median over markers whose landmark is a place. nullopt
-/// where there is none.
+/// Returns the distances of the markers from the average places of their landmarks,
+/// divided by the standard deviation between people: the median over markers whose
+/// landmark has a place. nullopt: there are none.
 std::optional<double> places_off(const reconstruct::MarkersFit& fit,
                                  std::span<const NamedMarker> labels) {
   std::vector<double> off;
@@ -84,7 +84,7 @@ Error exchanged_error() {
       "call left what is left, in the recording or with --markers MAP.toml");
 }
 
-/// What stands before labels in a file may stand before them in its map.
+/// Ignores prefixes that the labels of the map have in common with those of the files.
 void leave_out(std::span<const std::string> prefixes,
                std::span<const std::string> labels,
                MarkerMapEntry& entry) {
@@ -128,7 +128,7 @@ Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
     }
   }
   out.names = reconstruct::name_markers(out.labels);
-  out.names.notes.clear();  // Told of every file.
+  out.names.notes.clear();  // Already printed for every file.
   if (map) {
     MarkerMap bare = *map;
     for (MarkerMapEntry& entry : bare.entries) leave_out(prefixes, out.labels, entry);

@@ -16,38 +16,39 @@
 
 namespace marey::app {
 
-/// The labels of all trials, united by their names, and what they mean.
+/// The labels of all trials, merged by name, and their meaning.
 struct FitLabels {
-  std::vector<std::string> labels;  ///< In the order in which they first come.
+  std::vector<std::string> labels;  ///< In order of first appearance.
   reconstruct::MarkerNames names;
-  std::vector<std::size_t> samples;  ///< Per label: how often it was seen.
+  std::vector<std::size_t> samples;  ///< Number of samples of each label.
 };
 
-/// Names the labels of `trials`, which have none of `prefixes` before them; what `map`
-/// says, with or without these, goes before what they seem to say.
+/// Determines the meaning of the labels of `trials`, which are without their `prefixes`.
+/// Entries of `map`, with or without a prefix, override the meaning derived from a label.
 /// Errors (kBadInput): apply_map()'s; none of the labels is known.
 [[nodiscard]] Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
                                             std::span<const std::string> prefixes,
                                             const std::optional<MarkerMap>& map);
 
-/// Returns the labels that a fit looks at: without those to be ignored and computed ones.
+/// Returns the labels used by a fit: all except ignored and computed ones.
 [[nodiscard]] std::vector<reconstruct::NamedMarker> used_labels(const FitLabels& labels);
 
-/// A subject, and what speaks against the labels.
+/// A fitted subject, and evidence for wrong labels.
 struct SubjectFit {
   reconstruct::MarkersFit fit;
-  /// How far markers are from where they are on others, over how far people differ: the
-  /// median; about 1.
+  /// Distances of the markers from their average places on the body, divided by the
+  /// standard deviation between people: the median over markers; about 1 for right
+  /// labels.
   double places_off = 0.0;
-  /// The same if left were right: given where that is far better.
+  /// The same with left and right exchanged; set if it is much smaller.
   std::optional<double> mirrored_places_off;
 };
 
-/// fit_markers() of all labels but those that are to be ignored. Where it fails, or
-/// puts markers where they are on nobody, it looks whether left and right are exchanged.
+/// Runs fit_markers() on the labels of used_labels(). If it fails, or puts markers at
+/// implausible places, it checks whether left and right are exchanged.
 ///
-/// Errors (kBadInput, `where` empty): fit_markers()'s; markers of a body of no human
-/// size; left and right exchanged.
+/// Errors (kBadInput, `where` empty): fit_markers()'s; markers of a body that is not of
+/// human size; left and right exchanged.
 [[nodiscard]] Result<SubjectFit> fit_subject_to(const reconstruct::MarkerSubject& subject,
                                                 std::span<const MarkerTracks> trials,
                                                 const FitLabels& labels,

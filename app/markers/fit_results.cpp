@@ -25,7 +25,7 @@ recordings::MotTable mot_table(const MarkerTrial& trial) {
   const MarkerTracks& tracks = trial.repair.repaired.tracks;
   auto table = angle_table(trial.solved->estimate.motion, trial.name);
   MAREY_ASSERT(table.has_value());
-  // On the recording's clock, as its forces are.
+  // Times are on the recording's clock, like its forces.
   table->time_s.clear();
   for (std::size_t f = 0; f < tracks.frames(); ++f) {
     table->time_s.push_back(tracks.time_s(f));
@@ -38,8 +38,8 @@ Status write_marker_files(const fs::path& folder,
                           MarkerTrial& trial) {
   trial.file.tracks = std::move(tracks);
   trial.file.tracks.labels = trial.repair.as_read.labels;
-  // What else is in a C3D is kept, in the axes that it says: where the user told others,
-  // the copy would go on saying the old ones.
+  // Other content of a C3D is copied in the file's axes. If the user gave other axes, it
+  // is not copied, because the copy would keep the wrong ones.
   const FileAxes& axes = trial.file.axes;
   const bool is_told = axes.up_from == recordings::Evidence::kUser ||
                        axes.unit_from == recordings::Evidence::kUser;
@@ -47,7 +47,7 @@ Status write_marker_files(const fs::path& folder,
   if (!is_told && kind_by_extension(trial.path) == ".c3d") c3d.source = trial.path;
   Status ok = recordings::write_markers(folder / "markers.c3d", trial.file, c3d);
   if (ok) {
-    // A TRC cannot say which way is up, and is taken for Y up.
+    // A TRC does not store the up axis; readers assume Y up.
     recordings::MarkerWriteOptions trc;
     trc.axes = axes;
     trc.axes->up = recordings::FileAxis::kPlusY;

@@ -20,9 +20,9 @@ using reconstruct::LabelUse;
 
 constexpr std::size_t kMaxShownWords = 8;
 
-/// "a, b, c and 12 more".
+/// Returns "a, b, c and 12 more".
 std::string listed(std::span<const std::string> words) {
-  // One that is left over is told rather than counted.
+  // A single remaining word is printed, not counted.
   const std::size_t shown =
       words.size() <= kMaxShownWords + 1 ? words.size() : kMaxShownWords;
   std::string text;
@@ -54,7 +54,7 @@ std::string set_words(const FitRun& run) {
          " say where they are";
 }
 
-/// Labels that are not used, reason by reason.
+/// Returns the unused labels, grouped by reason.
 std::vector<std::string> unused_words(const FitRun& run) {
   std::map<std::string, std::vector<std::string>> by_reason;
   for (std::size_t i = 0; i < run.labels.labels.size(); ++i) {
@@ -70,7 +70,7 @@ std::vector<std::string> unused_words(const FitRun& run) {
   return lines;
 }
 
-/// How tall the subject is, and how well that is known.
+/// Returns the subject's stature and its uncertainty.
 std::string stature_words(const SubjectFit& subject, const Body& body) {
   const auto& measured = subject.fit.measured_stature;
   if (!measured) {

@@ -13,12 +13,12 @@ namespace {
 using reconstruct::LabelFault;
 using reconstruct::LabelFinding;
 
-// Markers are put on again between trials, and skin slides: less is a matter of a few
-// millimetres at the joints. [m]
+// Markers are placed again between trials, and skin moves: below this limit the effect on
+// the joints is a few millimetres. [m]
 constexpr double kFarElsewhere_m = 0.040;
-// Labels that the fit left out: a single one changes little.
+// Number of labels that a fit may leave out: a single one has little effect.
 constexpr std::size_t kMaxLeftOut = 1;
-// Of a label that is seen often enough to be placed.
+// Minimum number of samples for which a label's place can be found.
 constexpr std::size_t kMinSamples = 3;
 constexpr std::size_t kMaxShownLabels = 4;
 
@@ -82,7 +82,7 @@ Error exchanged_in_all(const reconstruct::LabelExchange& exchange,
           "exchange the two labels, in the recording or with --markers MAP.toml"};
 }
 
-/// Findings of one kind, told together: "off-landmark".
+/// Returns the labels of all findings of one kind, for one message.
 std::vector<std::string> labels_with(std::span<const LabelFinding> findings,
                                      LabelFault fault) {
   std::vector<std::string> labels;
@@ -153,7 +153,7 @@ LabelChecks check_labels(const Body& body,
   checks.of_trials = reconstruct::check_trials(body, markers, checked);
   if (subject == nullptr) return checks;
   checks.of_fit = reconstruct::check_fit(subject->fit, markers);
-  // Labels that are hardly seen are not left out for how they move.
+  // Labels with few samples are left out for that reason, not for their motion.
   const std::size_t most =
       *std::max_element(labels.samples.begin(), labels.samples.end());
   const std::size_t least = std::max<std::size_t>(kMinSamples, most / 20);
@@ -182,7 +182,7 @@ std::vector<Error> assess_labels(const LabelChecks& checks,
     }
   }
   if (checks.exchange) poor.push_back(exchanged_in_all(*checks.exchange, trials));
-  // An exchange explains what else is off: it comes alone.
+  // An exchange is the cause of other findings and is returned alone.
   if (!poor.empty()) return poor;
   assess_places(checks, trials, poor);
   for (std::size_t t = 0; t < trials.size(); ++t) {

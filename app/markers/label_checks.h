@@ -14,7 +14,7 @@
 
 namespace marey::app {
 
-/// What speaks against the labels of a fit and of its trials.
+/// Findings on the labels of a fit and of its trials.
 struct LabelChecks {
   std::vector<reconstruct::LabelFinding> of_fit;
   std::vector<reconstruct::LabelFinding> of_trials;
@@ -22,17 +22,17 @@ struct LabelChecks {
 };
 
 /// Checks every label of the solved trials. `subject` may be null: an earlier fit was
-/// used. Looks for an exchange in all trials where single trials show none and the fit is
-/// suspicious, which costs up to nine small fits.
+/// used. If single trials show no exchange and the fit is suspicious, searches for an
+/// exchange in all trials, which costs up to nine small fits.
 [[nodiscard]] LabelChecks check_labels(const Body& body,
                                        const reconstruct::MarkerSubject& asked,
                                        const SubjectFit* subject,
                                        const FitLabels& labels,
                                        std::span<const MarkerTrial> trials);
 
-/// Returns the failures (kQuality) that the findings are: exchanged labels with the
-/// exchange to make, markers where their landmark is on nobody, markers that lie
-/// elsewhere in one trial, labels left out.
+/// Returns the findings as errors (kQuality): exchanged labels, with the correction;
+/// markers at implausible distances from their landmark; markers at another place in one
+/// trial; labels left out.
 [[nodiscard]] std::vector<Error> assess_labels(const LabelChecks& checks,
                                                std::span<const MarkerTrial> trials);
 

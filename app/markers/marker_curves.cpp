@@ -20,21 +20,21 @@ namespace {
 using Json = nlohmann::ordered_json;
 using reconstruct::TrackFault;
 
-// As many as a small picture can show.
+// Number of instants that a small picture can show.
 constexpr std::size_t kMaxInstants = 400;
-// Of what is around a repair, on each side.
+// Minimum time shown on each side of a repair.
 constexpr double kMinAround_s = 0.3;
 constexpr double kShareAround = 0.3;
-// Wider than any room: what a broken file says. [m]
+// Larger than any room: coordinates beyond it come from a broken file. [m]
 constexpr double kWidestRoom_m = 1e3;
 
-/// Frames [first, first + frames) of a marker in which something was done.
+/// Frames [first, first + frames) of a marker that were repaired.
 struct Repaired {
   std::size_t marker = 0;
   std::size_t first = 0;
   std::size_t frames = 0;
   double worst_sigma_m = 0.0;
-  double off_m = 0.0;  ///< Of wrong samples.
+  double off_m = 0.0;  ///< Error of wrong samples.
 };
 
 bool is_filled(SampleFate fate) {
@@ -42,7 +42,7 @@ bool is_filled(SampleFate fate) {
          fate != SampleFate::kLeftEmpty;
 }
 
-/// Every run of samples that were filled, however.
+/// Returns every run of filled samples, whatever the method.
 std::vector<Repaired> fills(const MarkerHistory& history) {
   std::vector<Repaired> out;
   const std::size_t frames = history.after.frames();
@@ -114,7 +114,7 @@ Json coordinate_mm(const std::optional<MarkerSample>& sample, int axis) {
   return rounded(1e3 * p_m, 1);
 }
 
-/// The frame of [from, end) to be shown of them: a wrong sample before any other.
+/// Returns the frame of [from, end) to show: a wrong sample if there is one.
 std::size_t shown_frame(const MarkerHistory& history,
                         std::size_t marker,
                         std::size_t from,

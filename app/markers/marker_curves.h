@@ -11,10 +11,11 @@
 
 namespace marey::app {
 
-/// Where markers were around what was most to repair, before and after: in turn the
-/// longest fill, the least sure and the wrong samples that were furthest off, one of each
-/// marker, at most `most`. docs/formats/README.md, "The pages of labelled markers". Each has at
-/// most some hundred instants.
+/// Returns the positions of markers around the most important repairs, before and after:
+/// in turn the longest fill, the fill of the largest sigma, and the wrong samples that
+/// were furthest off, one of each marker, at most `most` in all.
+/// docs/formats/README.md, "The pages of labelled markers". Each curve has at most a few
+/// hundred instants.
 [[nodiscard]] nlohmann::ordered_json repair_curves(const Repair& repair,
                                                    const MarkerHistory& history,
                                                    std::size_t most);

@@ -20,7 +20,7 @@ using reconstruct::RepairMethod;
 using reconstruct::TrackFault;
 using reconstruct::TrackFinding;
 
-// Names of companions that fit beside a gap.
+// Maximum number of companion markers named for a gap.
 constexpr std::size_t kMaxCarriers = 4;
 
 SampleFate fate_of(RepairMethod method) {
@@ -55,13 +55,13 @@ void mark_findings(const Repair& repair, MarkerHistory& history) {
   }
 }
 
-/// Frames [first, end) of one marker, all of one fate.
+/// Frames [first, end) of one marker with the same fate.
 struct Run {
   std::size_t first = 0;
   std::size_t end = 0;
 };
 
-/// The first run at or after `from` that is not as it was read.
+/// Returns the first run at or after `from` that differs from the samples read.
 Run next_run(const MarkerHistory& history, std::size_t marker, std::size_t from) {
   const std::size_t frames = history.after.frames();
   while (from < frames && history.fate(from, marker) == SampleFate::kMeasured) ++from;
@@ -74,7 +74,7 @@ Run next_run(const MarkerHistory& history, std::size_t marker, std::size_t from)
 }
 
 const GapRepair* gap_at(const Repair& repair, std::size_t marker, std::size_t frame) {
-  // By marker, then frame: the last gap that begins no later.
+  // Sorted by marker, then frame: finds the last gap that begins at or before it.
   const auto& gaps = repair.repaired.gaps;
   const auto after = std::upper_bound(
       gaps.begin(),

@@ -14,27 +14,27 @@
 
 namespace marey::app {
 
-/// What a written sample is.
+/// Origin of a written sample.
 enum class SampleFate : std::uint8_t {
   kMeasured,   ///< As it was read.
-  kSwapped,    ///< Measured under another marker's name, and put right.
+  kSwapped,    ///< Measured under another marker's label, and corrected.
   kCluster,    ///< Filled: reconstruct::RepairMethod::kCluster.
-  kStructure,  ///< kStructure.
-  kSpline,     ///< kSpline.
-  kPredicted,  ///< Where the solved body has it.
-  kLeftEmpty,  ///< Not known.
+  kStructure,  ///< Filled: reconstruct::RepairMethod::kStructure.
+  kSpline,     ///< Filled: reconstruct::RepairMethod::kSpline.
+  kPredicted,  ///< Computed from the solved body.
+  kLeftEmpty,  ///< Unknown.
 };
 inline constexpr std::size_t kSampleFateCount = 7;
 
-/// "measured", "swapped", "cluster", "structure", "spline", "predicted", "left-empty":
-/// the words of OUT.repair.csv where it has one.
+/// Returns "measured", "swapped", "cluster", "structure", "spline", "predicted" or
+/// "left-empty": the words of OUT.repair.csv where that file has one.
 [[nodiscard]] std::string_view name(SampleFate fate);
 
-/// A trial's markers as they are written, and what each sample is.
+/// A trial's markers as they are written, and the origin of each sample.
 struct MarkerHistory {
   MarkerTracks after;
-  std::vector<SampleFate> fates;  ///< Like after.samples.
-  std::vector<bool> is_removed;   ///< Likewise: one that was read here was wrong.
+  std::vector<SampleFate> fates;  ///< Indexed like after.samples.
+  std::vector<bool> is_removed;   ///< Indexed like `fates`: a wrong sample was removed.
 
   [[nodiscard]] SampleFate fate(std::size_t frame, std::size_t marker) const {
     return fates[frame * after.markers() + marker];
@@ -44,12 +44,14 @@ struct MarkerHistory {
   }
 };
 
-/// `after`: the repaired tracks, completed by a skeleton or not. Linear in samples.
-/// Precondition: `after` is as large as what was read.
+/// Returns the history of a trial. `after` are the repaired tracks, optionally completed
+/// by a skeleton. Linear in samples.
+/// Precondition: `after` has as many frames and markers as the tracks that were read.
 [[nodiscard]] MarkerHistory history_of(const Repair& repair, MarkerTracks after);
 
-/// Per marker its label, how many samples it has of each fate, and every run of samples
-/// that are not as they were read; docs/formats/README.md, "The pages of labelled markers".
+/// Returns for each marker its label, the number of samples of each fate, and every run
+/// of samples that differ from those that were read; docs/formats/README.md, "The pages
+/// of labelled markers".
 [[nodiscard]] nlohmann::ordered_json timeline_figures(const Repair& repair,
                                                       const MarkerHistory& history);
 

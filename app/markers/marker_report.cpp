@@ -24,14 +24,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// As many as a wide screen has dots across.
+// Number of pixel columns of a wide screen.
 constexpr std::size_t kMaxColumns = 2000;
-// Pictures of repairs: of one trial, and of all together.
+// Maximum number of pictures of repairs, for one trial and for all trials.
 constexpr std::size_t kMaxCurves = 8;
 constexpr std::size_t kMaxCurvesOfAll = 64;
 
-/// Distances from the body over time, so many frames together as the page can show: the
-/// root mean square and the worst of each; null where nothing was measured.
+/// Returns the distances from the body over time, reduced to the resolution of the page:
+/// root mean square and maximum of each group of frames; null if nothing was measured.
 Json residual_curve(const std::vector<double>& frame_rms_m) {
   const std::size_t frames = frame_rms_m.size();
   const std::size_t step =
@@ -77,7 +77,7 @@ Json page_trial(const Body& body, const MarkerTrial& trial, std::size_t curves) 
   return out;
 }
 
-/// What runs and faults tell in another form.
+/// Removes lists whose data the page has as runs and faults.
 void drop_lists(Json& trial) {
   trial.erase("gaps");
   trial.erase("faults");
@@ -112,7 +112,7 @@ std::string filled(const Json& data) {
                     {"script", std::string(markers_script())}});
 }
 
-/// What the labels of a file that was only repaired seem to say.
+/// Returns the meaning of the labels of a file that was only repaired.
 Json label_figures(const MarkerTracks& tracks, const reconstruct::MarkerNames& names) {
   Json out = Json::array();
   for (std::size_t m = 0; m < tracks.markers(); ++m) {

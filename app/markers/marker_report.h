@@ -10,14 +10,14 @@
 
 namespace marey::app {
 
-// The pages of labelled markers: one file each that needs nothing else. The same bytes
-// for the same input. docs/formats/README.md has the JSON inside.
+// The pages of labelled markers. Each is one self-contained file. Same input, same bytes.
+// docs/formats/README.md describes the JSON inside.
 
-/// fit.html: what became of labels, samples and joints in every trial. Linear in samples;
-/// some hundred kilobytes per trial at most, however long it is.
+/// Returns fit.html: labels, samples and joints of every trial, before and after. Linear
+/// in samples; at most a few hundred kilobytes per trial, whatever its length.
 [[nodiscard]] std::string fit_page(const FitRun& run);
 
-/// OUT.repair.html: likewise of one file that was only repaired; `notes` are the
+/// Returns OUT.repair.html: the same for one file that was only repaired. `notes` are the
 /// reader's.
 [[nodiscard]] std::string repair_page(const Repair& repair,
                                       std::span<const std::string> notes);

@@ -28,7 +28,7 @@ Json place_mm(const glm::dvec3& p_in_world) {
   return {whole_mm(p_in_world.x), whole_mm(p_in_world.y), whole_mm(p_in_world.z)};
 }
 
-/// Frames to show, in their order, and the one that fits worst.
+/// Frames to show, in ascending order, and the frame of the largest error.
 struct Chosen {
   std::vector<std::size_t> frames;
   std::size_t worst = 0;
@@ -52,8 +52,8 @@ std::optional<Chosen> chosen_frames(const std::vector<double>& rms_m) {
   return out;
 }
 
-/// Which way on the floor the body faces: of its forward axis and of what is at right
-/// angles to its left one, the one that lies flatter. (x, z), of length 1.
+/// Returns the heading of the body on the floor, computed from the more horizontal of its
+/// forward axis and the normal of its left axis. (x, z), of length 1.
 glm::dvec2 facing(const RigidTransform& world_from_hips) {
   const glm::dvec3 forward = world_from_hips.rotation * glm::dvec3(0.0, 0.0, 1.0);
   const glm::dvec3 left = world_from_hips.rotation * glm::dvec3(1.0, 0.0, 0.0);
@@ -63,7 +63,7 @@ glm::dvec2 facing(const RigidTransform& world_from_hips) {
   return glm::length(way) > 0.0 ? glm::normalize(way) : glm::dvec2(0.0, 1.0);
 }
 
-/// Places of joints, then of tips: as still_bones() counts them.
+/// Returns the positions of joints, then of tips, in the order of still_bones().
 Json joints_mm(const Skeleton& skeleton, const std::vector<RigidTransform>& world) {
   Json out = Json::array();
   for (const RigidTransform& joint : world) out.push_back(place_mm(joint.translation));
@@ -74,7 +74,7 @@ Json joints_mm(const Skeleton& skeleton, const std::vector<RigidTransform>& worl
   return out;
 }
 
-/// Of each marker that is there: [marker, place, fate] and, where the body wears it, its
+/// Returns for each visible marker [marker, place, fate] and, if it is on the body, its
 /// place on the body.
 Json still_markers(const Body& body,
                    const reconstruct::SolvedMarkers& solved,

@@ -10,16 +10,17 @@
 
 namespace marey::app {
 
-/// The skeleton and the markers at five instants spread over the frames that show
-/// markers, and in the frame where they are furthest from the body; docs/formats/README.md, "The
-/// pages of labelled markers". Precondition: `solved` is of this body and these markers.
+/// Returns the skeleton and the markers at five instants spread over the frames with
+/// markers, and in the frame where the markers are furthest from the body;
+/// docs/formats/README.md, "The pages of labelled markers". Precondition: `solved` is of
+/// this body and these markers.
 [[nodiscard]] nlohmann::ordered_json marker_stills(
     const Body& body,
     const reconstruct::SolvedMarkers& solved,
     const MarkerHistory& history);
 
-/// The bones of a still: from which of its places to which, 22 joints and then the tips,
-/// and which joint says where it comes from.
+/// Returns the bones of a still: indices of both ends (22 joints, then the tips), and the
+/// joint whose `Source` applies.
 [[nodiscard]] nlohmann::ordered_json still_bones(const Skeleton& skeleton);
 
 }  // namespace marey::app

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Adds up what workers of one stage have done.
+/// Adds up the progress of the workers of one stage.
 class JointProgress {
  public:
   JointProgress(const Progress& sink, int total) : sink_(sink), total_(total) {}
@@ -40,9 +40,9 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
   return fs::equivalent(a, b, ignored);
 }
 
-/// A folder's name for every trial, no two alike.
+/// Returns a unique folder name for every trial.
 std::vector<std::string> names_of(std::span<const fs::path> paths) {
-  // What else is in the folder of results.
+  // Names of other results in the same folder.
   std::set<std::string> taken{"subject.toml", "fit.json", "fit.html"};
   std::vector<std::string> names;
   for (const fs::path& path : paths) {
@@ -56,7 +56,7 @@ std::vector<std::string> names_of(std::span<const fs::path> paths) {
     for (int number = 2; !taken.insert(name).second; ++number) {
       const std::string ending = std::string("-").append(std::to_string(number));
       name = stem + ending;
-      // Another file may be called so by itself.
+      // Another file may have this name already.
       if (stems.contains(name)) name += ending;
     }
   }
@@ -83,14 +83,15 @@ Status check_paths(std::span<const fs::path> paths,
   return Done{};
 }
 
-/// Recordings of one subject may call it otherwise: "Bob_static:LASI", "Bob:LASI".
+/// Removes the subject's name from the labels. It may differ between the recordings of
+/// one subject: "Bob_static:LASI", "Bob:LASI".
 void leave_out_subject(MarkerTrial& trial, Console& console) {
   const std::vector<std::string>& labels = trial.repair.as_read.labels;
   const reconstruct::MarkerNames names = reconstruct::name_markers(labels);
   for (const std::string& note : names.notes) {
     console.warn(trial.path.string() + ": " + note);
   }
-  // What else all labels begin with is the same in all of its recordings.
+  // The rest of the common prefix is the same in all recordings and is kept.
   trial.prefix = names.prefix.substr(0, names.prefix.rfind(':') + 1);
   trial.labels = labels;
   std::set<std::string> taken(labels.begin(), labels.end());
@@ -174,7 +175,7 @@ void solve_trials(const Body& body,
     int told = 0;
     const auto tell = [&](int done, int) { all.add(done - std::exchange(told, done)); };
     trials[i].solved = reconstruct::solve_markers(body, tracks, {}, tell);
-    // Of one that cannot be solved nothing was told.
+    // A trial that cannot be solved has reported no progress.
     if (!trials[i].solved) tell(static_cast<int>(tracks.frames()), 0);
   });
 }

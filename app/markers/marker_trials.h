@@ -16,44 +16,44 @@
 
 namespace marey::app {
 
-/// One file of labelled markers, and what was made of it.
+/// A file of labelled markers, and its results.
 struct MarkerTrial {
-  std::string name;  ///< Of its folder among the results.
+  std::string name;  ///< Name of its folder among the results.
   std::filesystem::path path;
   recordings::MarkerFile file;  ///< Without its tracks, which are in `repair`.
-  std::string prefix;           ///< What stands before the subject's labels: "Bob:".
-  /// The labels without it: by these a marker is the same in several trials. They are
-  /// those of repair.repaired, too; repair.as_read has the file's.
+  std::string prefix;           ///< Text before the subject's labels: "Bob:".
+  /// The labels without the prefix. They identify a marker over several trials.
+  /// repair.repaired has these labels too; repair.as_read has the file's.
   std::vector<std::string> labels;
   Repair repair;
-  std::optional<reconstruct::SolvedMarkers> solved;  ///< None: too few markers.
-  std::vector<std::string> avatars;                  ///< Files of other bodies.
-  std::size_t samples_predicted = 0;  ///< Of the markers that were written.
+  std::optional<reconstruct::SolvedMarkers> solved;  ///< nullopt: too few markers.
+  std::vector<std::string> avatars;                  ///< Result files of the avatars.
+  std::size_t samples_predicted = 0;  ///< Samples of the written markers.
   std::size_t samples_empty = 0;
 };
 
-/// Reads every file and tells its notes. Each trial is called by its file's stem; of
-/// files of one stem the second is STEM-2, in the order given.
+/// Reads every file and prints its notes. A trial's name is its file's stem; the second
+/// file with the same stem, in the order given, is STEM-2.
 ///
 /// Errors (kBadInput): a file that cannot be read, is given twice, or is a result that
-/// would be written over; no marker is seen in any frame.
+/// would be overwritten; a file without markers in any frame.
 [[nodiscard]] Result<std::vector<MarkerTrial>> read_trials(
     std::span<const std::filesystem::path> paths,
     const recordings::MarkerReadOptions& options,
     const std::filesystem::path& out,
     Console& console);
 
-/// Takes out or puts right wrong samples and fills gaps, trials side by side. Gives the
-/// checked tracks without what was filled, trial by trial, with MarkerTrial::labels.
+/// Removes or corrects wrong samples and fills gaps, trials in parallel. Returns the
+/// checked tracks without filled samples, one per trial, with MarkerTrial::labels.
 [[nodiscard]] std::vector<MarkerTracks> repair_trials(std::vector<MarkerTrial>& trials,
                                                       const Progress& progress);
 
-/// Solves every trial, side by side. The same results whatever the number of cores.
+/// Solves every trial, in parallel. The results do not depend on the number of cores.
 void solve_trials(const Body& body,
                   std::vector<MarkerTrial>& trials,
                   const Progress& progress);
 
-/// Frames in which any marker was seen, in the file.
+/// Returns the number of frames of the file with at least one marker.
 [[nodiscard]] std::size_t frames_with_markers(const MarkerTrial& trial);
 
 }  // namespace marey::app

@@ -24,7 +24,7 @@ std::string counted(std::size_t count, const std::string& one, const std::string
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-/// A table's fields hold no comma, quote or line end.
+/// Checks that the labels contain no comma, quote or line end, for the CSV table.
 Status check_labels(const std::filesystem::path& file, const MarkerTracks& tracks) {
   for (const std::string& label : tracks.labels) {
     if (label.find_first_of(",\"\r\n") == std::string::npos) continue;
@@ -99,13 +99,13 @@ Exit run_repair(const RepairArguments& args, Console& console) {
       kind_by_extension(args.in) == ".c3d" && kind_by_extension(args.out) == ".c3d";
   if (both_c3d) write.source = args.in;
   if (kind_by_extension(args.in) == ".c3d" && kind_by_extension(args.out) == ".trc") {
-    // A TRC cannot say which way is up, and is taken for Y up.
+    // A TRC does not store the up axis; readers assume Y up.
     write.axes = read->axes;
     write.axes->up = recordings::FileAxis::kPlusY;
   }
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
   const std::string json = repair_figures(repair).dump(1, ' ', false, kReplace) + "\n";
-  // The markers first: where they cannot be written, nothing is left beside them.
+  // The markers are written first: if that fails, no other file is left behind.
   if (const Status ok = recordings::write_markers(args.out, *read, write); !ok) {
     return console.fail(ok.error());
   }

@@ -11,21 +11,20 @@
 
 namespace marey::app {
 
-/// What `marey repair` was asked for.
+/// Arguments of `marey repair`.
 struct RepairArguments {
   std::filesystem::path in;   ///< C3D or TRC.
-  std::filesystem::path out;  ///< Likewise.
+  std::filesystem::path out;  ///< C3D or TRC.
   double max_sigma_m = 0.1;
   bool json = false;
 };
 
-/// `marey repair IN --out OUT`: OUT is IN with wrong samples taken out or put right and
-/// gaps filled; beside it OUT's name with `.repair.csv` tells of every sample that was
-/// changed, with `.repair.json` of every fault and gap, and with `.repair.html` shows
-/// them.
+/// Runs `marey repair IN --out OUT`: writes OUT with wrong samples removed or corrected
+/// and gaps filled. In the same folder, OUT.repair.csv lists every changed sample,
+/// OUT.repair.json every fault and gap, and OUT.repair.html shows them.
 [[nodiscard]] Exit run_repair(const RepairArguments& args, Console& console);
 
-/// Adds the command; when it is given it becomes `chosen`. `args` must stay in place.
+/// Adds the command. If the user gives it, `chosen` runs it. `args` must stay in place.
 void add_repair_command(CLI::App& app,
                         RepairArguments& args,
                         std::function<Exit(Console&)>& chosen);

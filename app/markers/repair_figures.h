@@ -11,20 +11,20 @@
 
 namespace marey::app {
 
-/// One trial of markers, as it came and as it was repaired.
+/// A trial of markers, as read and as repaired.
 struct Repair {
-  std::string name;  ///< Of the file.
+  std::string name;  ///< Name of the file.
   MarkerTracks as_read;
   reconstruct::CheckedTracks checked;
   reconstruct::RepairedTracks repaired;
 };
 
-/// What OUT.repair.json holds; docs/formats/README.md has the keys.
+/// Returns the content of OUT.repair.json; docs/formats/README.md has the keys.
 [[nodiscard]] nlohmann::ordered_json repair_figures(const Repair& repair);
 
-/// OUT.repair.csv: `frame,time,marker,method,sigma`, a row for every sample that is not
-/// as it was read; the method of a gap, or the fault that was put right or taken out.
-/// Sigma in metres, empty where there is none.
+/// Returns OUT.repair.csv: `frame,time,marker,method,sigma`, one row for every changed
+/// sample. `method` is that of the gap, or the fault that was corrected or removed. Sigma
+/// is in metres, empty if there is none.
 [[nodiscard]] std::string repair_table(const Repair& repair);
 
 }  // namespace marey::app

@@ -18,15 +18,15 @@ using recordings::FileAxis;
 using reconstruct::SwappedSides;
 using reconstruct::TrialGeometry;
 
-// Units differ by 2.5 at least, people by less.
+// Units differ by a factor of 2.5 or more, people by less.
 constexpr double kOtherUnit = 1.8;
-// Who bends or crawls is upright now and then.
+// A body that bends or crawls is upright in some frames.
 constexpr double kHardlyUpright = 0.1;
 constexpr double kCosine60 = 0.5;
-// Who stands does so along an axis; who lies, by chance alone.
+// A standing body is near an axis; a lying body is only by chance.
 constexpr double kCosine15 = 0.966;
 
-/// The axis of the file that is nearest to a direction in the world.
+/// Returns the axis of the file that is nearest to a direction in the world.
 FileAxis nearest_axis(FileAxis up, const glm::dvec3& in_world) {
   const glm::dvec3 in_file = recordings::turned_to_file(up, in_world);
   FileAxis best = FileAxis::kPlusX;
@@ -40,7 +40,7 @@ FileAxis nearest_axis(FileAxis up, const glm::dvec3& in_world) {
   return best;
 }
 
-/// What the markers alone show to be up.
+/// Returns the up axis estimated from the markers alone.
 std::optional<FileAxis> up_by_markers(const MarkerTrial& trial) {
   const MarkerTracks& tracks = trial.repair.as_read;
   constexpr std::size_t kFrames = 200;
@@ -65,7 +65,7 @@ bool is_never_upright(const TrialGeometry& geometry) {
          geometry.body_up->y < kCosine60;
 }
 
-/// Whether a body that is never upright is a wrong axis rather than a body that lies.
+/// Returns true if a body that is never upright indicates a wrong axis, and does not lie.
 bool is_axis_wrong(const MarkerTrial& trial, const TrialGeometry& geometry) {
   const auto& axes = trial.file.axes;
   if (const auto up = up_by_markers(trial)) return *up != axes.up;
@@ -104,8 +104,8 @@ std::string only_path(std::span<const MarkerTrial> trials) {
   return trials.size() == 1 ? trials[0].path.string() : "";
 }
 
-/// "the lengths were read in cm, and fit an adult with --unit in; " where all trials were
-/// read in one unit and another one gives an adult's stature.
+/// Returns "the lengths were read in cm, and fit an adult with --unit in; " if all trials
+/// were read in one unit and another one gives an adult's stature.
 std::string unit_advice(std::span<const MarkerTrial> trials, double stature_m) {
   const auto& axes = trials.front().file.axes;
   for (const MarkerTrial& trial : trials) {
@@ -192,7 +192,8 @@ std::vector<Error> unit_errors(std::span<const MarkerTrial> trials,
 }
 
 Status check_size(std::span<const MarkerTrial> trials, double stature_m) {
-  // Of people, children too; a wrong unit is a factor of ten, mostly. [m]
+  // Below any human stature, children included; a wrong unit is mostly a factor of 10.
+  // [m]
   constexpr double kMinStature_m = 0.4;
   constexpr double kGreatestStature_m = 2.7;
   if (stature_m > kMinStature_m && stature_m < kGreatestStature_m) return Done{};
@@ -207,7 +208,8 @@ Status check_size(std::span<const MarkerTrial> trials, double stature_m) {
 std::optional<Error> small_stature(std::span<const MarkerTrial> trials,
                                    const reconstruct::MeasuredStature& measured,
                                    std::optional<double> given_m) {
-  // Children walk from some 0.75 m on; adults in inches for centimetres are 0.55 to 0.8.
+  // Children walk from about 0.75 m on; an adult's inches read as centimetres give 0.55
+  // to 0.8 m.
   constexpr double kMinWalker_m = 0.8;
   const bool is_expected = given_m && *given_m < kMinWalker_m;
   if (measured.stature_m >= kMinWalker_m || is_expected) return std::nullopt;

@@ -14,36 +14,37 @@
 
 namespace marey::app {
 
-/// The unit in which lengths that were read as `per_metre` would be `scale` times
-/// shorter: "in" of (100, 0.394). nullopt where that is no unit.
+/// Returns the unit in which lengths that were read as `per_metre` would be `scale` times
+/// shorter: "in" for (100, 0.394). nullopt: no unit fits.
 [[nodiscard]] std::optional<std::string> unit_by_scale(double per_metre, double scale);
 
-/// Returns the trials in another unit than the others: kBadInput, with the file and the
-/// unit that its numbers are in. `geometry` is compare_trials() of the trials.
+/// Returns the trials whose unit differs from the others': kBadInput, with the file and
+/// the unit of its numbers. `geometry` is compare_trials() of the trials.
 [[nodiscard]] std::vector<Error> unit_errors(
     std::span<const MarkerTrial> trials,
     std::span<const reconstruct::TrialGeometry> geometry);
 
-/// Returns kBadInput for a stature that no human has, with the unit that would give an
-/// adult's. `stature_m` is estimate_stature() of all trials.
+/// Returns kBadInput for a stature that no human has, with the unit that gives an adult's
+/// stature. `stature_m` is estimate_stature() of all trials.
 [[nodiscard]] Status check_size(std::span<const MarkerTrial> trials, double stature_m);
 
-/// Returns kQuality for a stature below that of children who walk, unless it is the given
-/// one: an adult's lengths in inches that were read as centimetres are such.
+/// Returns kQuality for a stature below that of walking children, unless the stature is
+/// the given one. An adult's lengths in inches that were read as centimetres give such a
+/// stature.
 [[nodiscard]] std::optional<Error> small_stature(
     std::span<const MarkerTrial> trials,
     const reconstruct::MeasuredStature& measured,
     std::optional<double> given_m);
 
-/// Returns the trials whose left and right are exchanged, and those in which the body
-/// lies or hangs head down along an axis that the markers do not show to be up:
-/// kQuality, with the file and what to change.
+/// Returns an error (kQuality, with the file and the correction) for each trial whose
+/// left and right are exchanged, or in which the body lies or hangs head down along an
+/// axis that the markers do not confirm as up.
 [[nodiscard]] std::vector<Error> side_and_axis_errors(
     std::span<const MarkerTrial> trials,
     std::span<const reconstruct::TrialGeometry> geometry);
 
-/// Returns a warning for each trial in which the body lies or hangs head down all the
-/// time, and the file or its markers show that its axis is up.
+/// Returns a warning for each trial in which the body always lies or hangs head down, and
+/// the file or its markers confirm the up axis.
 [[nodiscard]] std::vector<std::string> axis_warnings(
     std::span<const MarkerTrial> trials,
     std::span<const reconstruct::TrialGeometry> geometry);

@@ -158,7 +158,7 @@ void name_far_segments(const retarget::RetargetReport& report, AvatarVerdict& ou
   }
 }
 
-/// Reports joints that are mapped as feet while other skin stands on the floor at rest.
+/// Reports joints that are mapped as feet although other skin touches the floor at rest.
 void assess_feet(const std::string& name,
                 const Skeleton& body,
                 const retarget::BodyMap& map,
@@ -179,7 +179,7 @@ void assess_feet(const std::string& name,
       continue;
     }
     const bool is_bare = low(SkinPart::kLeftFoot) >= retarget::kNoSkin_m;
-    // Skin of another part below the leg's is the real foot's, which stays behind.
+    // Skin of a part below the leg belongs to the real foot, which was not mapped.
     const double lowest_m = *std::ranges::min_element(lows);
     const bool stays_behind = lowest_m < leg_m - kFootAboveSkin * map.leg_length_m / 4.0;
     const std::string bone(
@@ -200,7 +200,7 @@ void assess_feet(const std::string& name,
   }
 }
 
-/// Reports feet that the source has upside down: they were turned back.
+/// Reports feet that are upside down in the source; they were turned back.
 void assess_source_feet(const Motion& source,
                        const retarget::BodyMap& map,
                        AvatarVerdict& out) {
@@ -228,7 +228,8 @@ void assess_source_feet(const Motion& source,
   }
 }
 
-/// Reads the written files again and reports bones that are not where they were solved.
+/// Reads the written files again and reports bones that are not at their solved
+/// positions.
 Status assess_files(const Motion& made,
                    std::span<const double> allowed_m,
                    std::span<const WrittenFile> files,
@@ -270,8 +271,8 @@ Status assess_files(const Motion& made,
       if (depth_m > deepest.depth_m) deepest = {depth_m, {}, frame};
       if (beyond_m > beyond.depth_m) beyond = {beyond_m, {}, frame};
     }
-    // The file's depths count. Its skin has no named parts: the body's are kept, unknown
-    // where the body's skin is not too low.
+    // The depths of the file's skin are used. It has no named parts, so the part of the
+    // body's skin is kept; it is unknown where the body's skin is not too low.
     if (out.skin) deepest.part = out.skin->part;
     beyond.part = out.beyond_source.part;
     out.skin = deepest;

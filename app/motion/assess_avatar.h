@@ -18,86 +18,89 @@
 
 namespace marey::app {
 
-// What a retargeted motion is judged by, as it leaves: the limits below are those of
-// docs/formats/README.md. Beyond `kPoor...` the result is not to be trusted: exit code 4.
+// Checks on a retargeted motion, applied to the written result. The limits below are
+// those of docs/formats/README.md. Beyond a limit `kPoor...` the result is not usable:
+// exit code 4.
 
-/// Skin below the floor, deeper than the source's joints are. [mm]
+/// Depth of skin below the floor, beyond the depth of the source's joints. [mm]
 inline constexpr double kDeepSkin_mm = 5.0;
 inline constexpr double kPoorSkin_mm = 30.0;
-/// Median over frames of the angle between a leg segment, the trunk or the neck and the
-/// source's. [deg]
+/// Angle between a leg segment, the trunk or the neck and the source's, median over
+/// frames. [deg]
 inline constexpr double kFarPosture_deg = 25.0;
 inline constexpr double kPoorPosture_deg = 45.0;
-/// The same of arms, which give way to wide bodies. [deg]
+/// The same limits for arms, which are moved aside on wide bodies. [deg]
 inline constexpr double kFarArms_deg = 60.0;
 inline constexpr double kPoorArms_deg = 90.0;
-/// Angle of a foot to the source's that is exceeded for retarget::kSustained_s on end.
-/// [deg]
+/// Angle between a foot and the source's that is exceeded for retarget::kSustained_s
+/// without a break. [deg]
 inline constexpr double kFarFoot_deg = 25.0;
 inline constexpr double kPoorFoot_deg = 45.0;
-/// The fastest joint in body heights per second, where it is also over twice as fast as
-/// the source's.
+/// Speed of the fastest joint, in body heights per second. It counts only where it is
+/// also more than twice the source's.
 inline constexpr double kPoorSpeed = 12.0;
-/// The same of the motion that was given: no hand, foot or ball player reaches it, a
-/// sample that jumps by a body height at 30 Hz does.
+/// The same limit for the source motion. No hand, foot or ball player reaches this speed;
+/// a sample that jumps by a body height at 30 Hz does.
 inline constexpr double kPoorSourceSpeed = 20.0;
-/// Share of frames with left and right exchanged.
+/// Share of the frames in which left and right are exchanged.
 inline constexpr double kPoorExchanged = 0.5;
-/// Arms and hands in trunk and thighs, deeper than the source's. [mm]
+/// Depth of arms and hands in trunk and thighs, beyond the source's. [mm]
 inline constexpr double kDeepArms_mm = 60.0;
 
-/// A segment whose angle to the source's is larger is reported, with the reason (median
-/// over frames). [deg]
+/// Angle between a segment and the source's (median over frames) above which the segment
+/// is reported with the reason. [deg]
 inline constexpr double kNamedPosture_deg = 8.0;
-/// Distance of a bone in a written file from its solved place: beyond, the file is
-/// wrong. [mm]
+/// Distance between a bone in a written file and its solved position above which the file
+/// is wrong. [mm]
 inline constexpr double kRereadPlace_mm = 2.0;
-/// Distance of a bone in a .vrma from its solved place that the format cannot hold:
-/// beyond, a warning. [mm]
+/// Distance between a bone in a .vrma and its solved position, caused by the format,
+/// above which there is a warning. [mm]
 inline constexpr double kLostPlace_mm = 10.0;
-/// Height of a foot's lowest skin at rest above the lowest skin of its leg, in lengths of
-/// the leg: beyond, another joint is mapped as the foot.
+/// Height at rest of a foot's lowest skin above the lowest skin of its leg, in leg
+/// lengths, above which another joint is mapped as the foot.
 inline constexpr double kFootAboveSkin = 0.1;
 
-/// One thing that is wrong with an avatar's motion.
+/// A fault of an avatar's motion.
 struct AvatarProblem {
-  Error error;  ///< kQuality; names the body, the part, the frame, the next step.
-  bool is_poor = false;  ///< Beyond the gate.
+  Error error;  ///< kQuality; states the body, the part, the frame and the next step.
+  bool is_poor = false;  ///< True beyond the gate.
 };
 
-/// A segment that points elsewhere than the source's, and the reason.
+/// A segment whose direction differs from the source's, and the reason.
 struct FarSegment {
   retarget::DirectionFigures direction;
   std::string because;  ///< The reason: "arms are kept out of the body".
 };
 
-/// What a retargeted motion shows.
+/// Measurements and faults of a retargeted motion.
 struct AvatarVerdict {
-  /// Of the deformed skin, against the floor; nullopt: the body has no skin.
+  /// Depth of the deformed skin below the floor; nullopt: the body has no skin.
   std::optional<retarget::SkinDepth> skin;
-  retarget::SkinDepth beyond_source;  ///< The same, beyond what the source's joints are.
+  retarget::SkinDepth beyond_source;  ///< Depth beyond that of the source's joints.
   double source_depth_m = 0.0;        ///< The largest RetargetReport::source_depth_m.
   retarget::PostureFigures posture;
-  /// Beyond kNamedPosture_deg, in the order of PostureFigures::segments.
+  /// Segments beyond kNamedPosture_deg, in the order of PostureFigures::segments.
   std::vector<FarSegment> far_segments;
-  /// The largest distance of a bone's place in a written file from where it was solved
-  /// [mm]; nullopt: no file was read again.
+  /// Largest distance between a bone in a written file and its solved position [mm];
+  /// nullopt: no file was read again.
   std::optional<double> reread_off_mm;
   double arms_in_body_mm = 0.0;  ///< ArmCollisionReport::deepest_after_m.
   std::vector<AvatarProblem> problems;
 
-  /// deepest_penetration_mm: of the skin, without one of the feet's ends.
+  /// Returns the penetration of the skin into the floor, or of the ends of the feet if
+  /// the body has no skin. [mm]
   [[nodiscard]] double penetration_mm(const retarget::RetargetReport& report) const;
 };
 
-/// Judges a motion by its written files: they are read again (reread_motion()), and the
-/// skin is that of the .glb.
+/// Checks a motion by its written files. They are read again (reread_motion()), and the
+/// skin of the .glb is measured.
 ///
-/// `name` is what messages call the body. Where feet were not kept to the floor
-/// (`grounded` is false), skin below it is measured and no problem. Cost: reread_motion()
-/// of each file, and forward kinematics of both bodies and the skin, some 10 us a frame.
+/// `name` is the name of the body in messages. If feet were not kept on the floor
+/// (`grounded` is false), skin below it is measured but is no fault. Cost:
+/// reread_motion() of each file, and forward kinematics of both bodies and the skin,
+/// about 10 us per frame.
 /// Errors: map_body()'s, reread_motion()'s. Precondition: `skin` was made from the
-/// motion's skeleton; as many frames in `source` as in the motion.
+/// motion's skeleton; `source` and the motion have equally many frames.
 [[nodiscard]] Result<AvatarVerdict> assess_avatar(const std::string& name,
                                                   const Motion& source,
                                                   const retarget::RetargetedMotion& made,

@@ -17,12 +17,13 @@ namespace marey::app {
 namespace {
 
 // Feet are slow just before they leave the floor and just after they meet it, but slower
-// in the middle: contacts by speed and height end early and begin late by so much.
+// in the middle of a contact. Contacts by speed and height are too short by this at each
+// end.
 constexpr double kEdge_s = 0.12;
-// Feet that leave the floor together do so within this.
+// Feet that leave the floor together do so within this time.
 constexpr double kTogether_s = 0.06;
 
-/// One joint's frames of NpzContacts.
+/// The frames of one joint of NpzContacts.
 class JointFrames {
  public:
   JointFrames(recordings::NpzContacts& contacts, std::size_t joint)
@@ -36,13 +37,13 @@ class JointFrames {
   }
   [[nodiscard]] int frames() const { return static_cast<int>(bears_->size() / joints_); }
 
-  /// The last frame with contact in [first, last]; before `first` when there is none.
+  /// Returns the last frame with contact in [first, last]; `first` - 1 if there is none.
   [[nodiscard]] int last_in(int first, int last) const {
     int frame = last;
     while (frame >= first && !at(frame)) --frame;
     return frame;
   }
-  /// The first one; after `last` when there is none.
+  /// Returns the first frame with contact; `last` + 1 if there is none.
   [[nodiscard]] int first_in(int first, int last) const {
     int frame = first;
     while (frame <= last && !at(frame)) ++frame;
@@ -59,7 +60,7 @@ class JointFrames {
   std::size_t joint_;
 };
 
-/// Whether the skeleton is one of make_humanoid()'s.
+/// Returns true if the skeleton was made by make_humanoid().
 bool is_own_skeleton(const Skeleton& skeleton) {
   if (skeleton.joints.size() != kHumanBoneCount) return false;
   for (const HumanBone bone : human_bones()) {
@@ -68,8 +69,8 @@ bool is_own_skeleton(const Skeleton& skeleton) {
   return true;
 }
 
-/// No foot bears in a flight; the feet that bore last before it bear until it begins, and
-/// those that bear first after it from its end on.
+/// Removes contacts during a flight. Feet in contact just before the flight bear until it
+/// begins, and feet in contact just after it bear from its end on.
 void agree_with_flight(const reconstruct::Flight& flight,
                        double rate_hz,
                        recordings::NpzContacts& contacts) {

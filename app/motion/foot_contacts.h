@@ -7,11 +7,12 @@
 
 namespace marey::app {
 
-/// When feet bear in a motion, by retarget::detect_contacts(); of marey's own skeleton in
-/// agreement with reconstruct::find_flights(): no foot bears in a flight, and its
-/// take-off and landing are those of the feet next to it. Names are leftFoot,
-/// leftToes, rightFoot and rightToes, an ankle or a toe joint that rests. Nothing when
-/// the body's bones do not let it be told. Linear in frames.
+/// Returns the foot contacts of a motion, detected by retarget::detect_contacts(). On
+/// marey's own skeleton they agree with reconstruct::find_flights(): no foot bears during
+/// a flight, and take-off and landing are set for the feet in contact just before and
+/// after. Names are leftFoot, leftToes, rightFoot and rightToes; each means that the
+/// ankle or toe joint rests. Empty if the body's bones do not allow detection. Linear in
+/// frames.
 [[nodiscard]] recordings::NpzContacts foot_contacts(const Motion& motion);
 
 }  // namespace marey::app

@@ -26,7 +26,7 @@ constexpr std::array kFormats{MotionFormat::kGlb,
                               MotionFormat::kCsv,
                               MotionFormat::kMot};
 
-/// A motion of one frame, at rest.
+/// Returns a motion of one frame, at rest.
 Motion at_rest(const Skeleton& skeleton) {
   return {skeleton, FrameRate{60.0}, 0, {rest_pose(skeleton)}};
 }

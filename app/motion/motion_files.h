@@ -19,15 +19,15 @@
 
 namespace marey::app {
 
-/// The kinds of files that hold the motion of a body.
+/// Kinds of files for the motion of a body.
 enum class MotionFormat { kGlb, kBvh, kVrma, kNpz, kCsv, kMot };
 
 [[nodiscard]] std::span<const MotionFormat> motion_formats();
-/// "glb", "bvh", ...: a file's extension without its point.
+/// Returns the file extension without its point: "glb", "bvh", ...
 [[nodiscard]] std::string_view name(MotionFormat format);
 [[nodiscard]] std::optional<MotionFormat> motion_format(std::string_view name);
 
-/// The file whose mesh a body has; empty: none. And how the body was changed since.
+/// The file of a body's mesh (empty: none), and the changes made to the body since.
 struct BodyLook {
   std::filesystem::path file;
   recordings::ChangedFrame changed;
@@ -35,29 +35,30 @@ struct BodyLook {
 
 struct MotionFileOptions {
   recordings::BvhWriteOptions bvh;
-  std::string clip = "motion";  ///< What an animation in GLB or VRMA is called.
+  std::string clip = "motion";  ///< Name of the animation in GLB or VRMA.
 };
 
-/// World rotations of all joints in the T-pose facing +Z: of those that carry no bone, as
-/// at rest. Precondition: `map` is of the skeleton.
+/// Returns the world rotations of all joints in the T-pose facing +Z. Joints without a
+/// bone keep their rest rotation. Precondition: `map` is of the skeleton.
 [[nodiscard]] std::vector<glm::dquat> t_pose_of(const Skeleton& skeleton,
                                                 const retarget::BodyMap& map);
 
-/// The bytes of a VRM animation of a body in marey's frame, whose bones are marked,
-/// whatever its rest pose.
-/// Errors (kBadInput): map_body()'s and vrma_bytes()'s: no humanoid.
+/// Returns the bytes of a VRM animation. The body is in marey's frame, its bones are
+/// marked, and its rest pose is arbitrary.
+/// Errors (kBadInput): map_body()'s; vrma_bytes()'s, as for a body that is no humanoid.
 [[nodiscard]] Result<std::string> vrma_of(const Motion& motion, const std::string& clip);
 
-/// Why a body cannot have a file of this kind, whatever its motion: .glb needs a look,
-/// .vrma the bones of VRM's humanoid, .mot the skeleton that marey makes. Success: it
-/// can.
+/// Checks that a body can have a file of this kind, whatever its motion: .glb needs a
+/// mesh, .vrma the bones of VRM's humanoid, .mot one of marey's own skeletons. The error
+/// states the reason.
 [[nodiscard]] Status can_hold(MotionFormat format,
                               const Skeleton& skeleton,
                               const BodyLook& look);
 
-/// Writes the motion of a body as a file of this kind, at once or not at all: .glb with
-/// the body's own look, .npz with the contacts of its feet. Same input, same bytes.
-/// Errors: can_hold()'s, naming `out`; the disk.
+/// Writes the motion of a body as a file of this kind: .glb with the body's own mesh,
+/// .npz with its foot contacts. The file appears whole or not at all. Same input, same
+/// bytes.
+/// Errors: can_hold()'s, with `out`; the disk.
 [[nodiscard]] Status write_motion_file(const std::filesystem::path& out,
                                        MotionFormat format,
                                        const Motion& motion,

@@ -22,7 +22,7 @@ Result<RawBody> read_bvh(const std::filesystem::path& path) {
   raw.motion = std::move(bvh->motion);
   raw.has_motion = true;
   raw.ignored_translation_m = bvh->ignored_translation_m;
-  // marey's own bodies are of any stature, and it writes what it reads.
+  // marey's own bodies may have any stature, and marey reads the files that it writes.
   const auto& joints = raw.motion.skeleton.joints;
   const bool is_ours = std::ranges::all_of(
       joints, [](const Joint& joint) { return joint.bone.has_value(); });
@@ -48,7 +48,7 @@ Result<RawBody> read_acclaim(const std::filesystem::path& path) {
   return raw;
 }
 
-/// Its poses alone: sigmas and contacts are not a body's.
+/// Reads the poses alone: sigmas and contacts are not part of a body.
 Result<RawBody> read_npz(const std::filesystem::path& path) {
   auto npz = recordings::read_npz(path);
   if (!npz) return npz.error();

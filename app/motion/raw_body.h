@@ -14,25 +14,25 @@
 
 namespace marey::app {
 
-/// Whether the file is a .glb, .gltf, .vrm or .vrma by its name.
+/// Returns true if the file's extension is .glb, .gltf, .vrm or .vrma.
 [[nodiscard]] bool is_gltf(const std::filesystem::path& path);
 
-/// What a .bvh, .amc (its .asf beside it), .glb, .gltf, .vrm or .vrma file holds, in its
-/// own frame.
+/// The content of a .bvh, .amc (with its .asf in the same folder), .npz, .glb, .gltf,
+/// .vrm or .vrma file, in the file's own frame.
 struct RawBody {
-  Motion motion;  ///< Without poses when the file holds no motion.
+  Motion motion;  ///< Without poses if the file has no motion.
   bool has_motion = false;
-  /// The largest movement of a bone against its parent that was left out. [m]
+  /// Largest translation of a bone relative to its parent that was ignored. [m]
   double ignored_translation_m = 0.0;
   std::optional<recordings::SkinnedMesh> mesh;
   retarget::FileUnit unit;
-  std::vector<int> node_of_joint;              ///< Of glTF: recordings::Character's.
-  bool faces_back = false;                     ///< Likewise.
-  std::vector<bool> carries_skin;              ///< Likewise.
-  std::optional<recordings::BoundBody> bound;  ///< Likewise.
+  std::vector<int> node_of_joint;              ///< glTF: as recordings::Character's.
+  bool faces_back = false;                     ///< As recordings::Character's.
+  std::vector<bool> carries_skin;              ///< As recordings::Character's.
+  std::optional<recordings::BoundBody> bound;  ///< As recordings::Character's.
 };
 
-/// Errors: unreadable; another kind of file; an .amc without its .asf.
+/// Reads a body file. Errors: unreadable; another kind of file; an .amc without its .asf.
 [[nodiscard]] Result<RawBody> read_raw_body(const std::filesystem::path& path);
 
 }  // namespace marey::app

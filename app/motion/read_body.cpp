@@ -23,7 +23,7 @@ void put_into_frame(const retarget::BodyFrame& frame, recordings::SkinnedMesh& m
   for (glm::dvec3& n : mesh.normal_in_world) n = frame.marey_from_file * n;
 }
 
-// What is known of a body by its skin. A body that cannot be mapped is refused elsewhere.
+// Measures a body by its skin. Bodies that cannot be mapped are rejected by other checks.
 void look_at_skin(const recordings::SkinnedMesh& mesh, ReadBody& body) {
   const Skeleton& skeleton = body.skeleton();
   const auto map = retarget::map_body(skeleton);
@@ -57,7 +57,7 @@ Result<BoneMap> told_of(const BodyFile& file, ReadBody& body) {
   return recordings::read_bone_map(*body.bone_map, body.skeleton());
 }
 
-/// A body whose nodes hold a frame of an animation rests as its skin was bound.
+/// Sets the rest of a body whose nodes hold an animation frame to its skin's bind pose.
 void take_bound_pose(ReadBody& body) {
   if (!body.raw.bound) return;
   Skeleton& skeleton = body.raw.motion.skeleton;
@@ -86,7 +86,7 @@ std::vector<T> reordered(const std::vector<T>& list,
   return out;
 }
 
-/// Hangs the bones on each other that the file hangs elsewhere.
+/// Changes the parents of bones that have other parents in the file.
 Status hang(ReadBody& body) {
   RawBody& raw = body.raw;
   auto hung =

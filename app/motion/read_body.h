@@ -26,10 +26,10 @@
 
 namespace marey::app {
 
-/// A body's file, and the bone map that counts for it. Without one given, the one that
-/// stands beside the file (man.bones.toml beside man.glb) counts, if there is one.
+/// A body's file and its bone map. If no map is given, the file NAME.bones.toml in the
+/// same folder is used if it exists (man.bones.toml for man.glb).
 struct BodyFile {
-  // Implicit on purpose: most bodies have no map but the one beside them.
+  // Implicit on purpose: most bodies have no map other than that in their folder.
   // NOLINTNEXTLINE(google-explicit-constructor)
   BodyFile(std::filesystem::path file,
            std::optional<std::filesystem::path> map = std::nullopt)
@@ -37,56 +37,57 @@ struct BodyFile {
 
   std::filesystem::path path;
   std::optional<std::filesystem::path> bone_map;
-  std::optional<Neutral> neutral = std::nullopt;  ///< Of a file with a motion.
+  std::optional<Neutral> neutral = std::nullopt;  ///< For a file with a motion.
 };
 
-/// A body that stands as marey's do: Y up, facing +Z, in metres, its bones marked.
+/// A body in marey's frame: Y up, facing +Z, in metres, its bones marked.
 struct ReadBody {
   RawBody raw;  ///< Its motion and skeleton in marey's frame.
   retarget::FoundBones bones;
   retarget::BodyFrame frame;
-  std::optional<std::filesystem::path> bone_map;  ///< That counted.
-  NeutralKind neutral = NeutralKind::kRest;  ///< What the rest is.
-  bool file_rest_stands = false;             ///< Of a file with a motion.
-  /// Where up is, of a motion whose rest does not stand and whose bone map does not say.
+  std::optional<std::filesystem::path> bone_map;  ///< The bone map used.
+  NeutralKind neutral = NeutralKind::kRest;  ///< Kind of the skeleton's rest.
+  bool file_rest_stands = false;             ///< For a file with a motion.
+  /// Estimated up direction, if the body does not stand in its rest and the bone map does
+  /// not state it.
   std::optional<retarget::MotionUp> guessed_up;
-  /// Of a file with a motion: what of it bears the other side's names.
+  /// For a file with a motion: the limbs whose left and right names are exchanged.
   retarget::ExchangedSides exchanged = retarget::ExchangedSides::kNone;
-  /// The joints hang otherwise than in the file: recordings::ChangedFrame's.
+  /// Set if joints have other parents than in the file: recordings::ChangedFrame's.
   std::vector<std::optional<JointIndex>> read_joint;
-  bool rests_as_bound = false;  ///< As its skin was bound, not as its nodes rest.
-  retarget::Soles soles;  ///< By its skin, in marey's frame.
-  /// What it takes up of space, by its skin; nullopt: nobody knows.
+  bool rests_as_bound = false;  ///< The rest is the skin's bind pose, not the nodes'.
+  retarget::Soles soles;  ///< Measured from the skin, in marey's frame.
+  /// Volume of the body, measured from the skin; nullopt: unknown.
   std::optional<retarget::BodyVolume> volume;
-  retarget::Skin skin;  ///< In marey's frame; empty: none, or no body to hang it on.
+  retarget::Skin skin;  ///< In marey's frame; empty: no skin, or no mapped body.
 
   [[nodiscard]] const Skeleton& skeleton() const { return raw.motion.skeleton; }
-  /// What write_retargeted() has to know.
+  /// Returns the changes to the file's frame, for write_retargeted().
   [[nodiscard]] recordings::ChangedFrame changed() const {
     return {frame.marey_from_file, frame.scale, read_joint, rests_as_bound, true};
   }
-  /// What was assumed of it, and which bones a user should look at.
+  /// Returns the assumptions made, and the uncertain bones that a user should check.
   [[nodiscard]] std::vector<std::string> remarks() const;
 };
 
-/// Tells the bones of a body and how it stands, and puts it into marey's frame: the one
-/// place that does.
-/// A motion without a rest that stands gets a T-pose by its geometry, or the neutral that
-/// `file` names. A body whose nodes rest less alike on its two sides than its skin was
-/// bound rests as that was.
-/// Errors, naming the file: those of identify_bones(), hang_bones(), set_neutral() and
-/// find_body_frame(), of reading the bone map.
+/// Identifies the bones of a body and its standing posture, and converts it to marey's
+/// frame. Only this function does so.
+/// If the body does not stand in the rest of its motion, it gets a T-pose computed from
+/// its geometry, or the neutral of `file`. If the rest of the nodes is less symmetric
+/// than the skin's bind pose, the bind pose becomes the rest.
+/// Errors, with the file: those of identify_bones(), hang_bones(), set_neutral(),
+/// find_body_frame() and of reading the bone map.
 [[nodiscard]] Result<ReadBody> identify_body(RawBody raw, const BodyFile& file);
 
-/// The error (kQuality) of a motion whose left and right are exchanged, with the way to
-/// correct it; nullopt: they are not. `path` is the motion's, `map_option` the command
-/// line's option for its bone map.
+/// Returns the error (kQuality) for a motion whose left and right are exchanged, with the
+/// correction; nullopt: they are not exchanged. `path` is the motion's file, `map_option`
+/// the command-line option for its bone map.
 [[nodiscard]] std::optional<Error> exchanged_sides_error(
     const std::filesystem::path& path,
     retarget::ExchangedSides exchanged,
     const std::string& map_option);
 
-/// identify_body() of read_raw_body().
+/// Calls identify_body() with the result of read_raw_body().
 [[nodiscard]] Result<ReadBody> read_body(const BodyFile& file);
 
 }  // namespace marey::app

@@ -32,7 +32,7 @@ Places places_of(const Motion& motion) {
   return out;
 }
 
-/// Reads the places of a file's joints and of its lowest skin. [m]
+/// Reads the positions of a file's joints and of its lowest skin vertex. [m]
 Result<recordings::PosedPlaces> read_places(const WrittenFile& file) {
   if (file.format == MotionFormat::kBvh) {
     const auto read = recordings::read_bvh(file.path, {.unit_m = file.unit_m});
@@ -57,8 +57,8 @@ bool is_gltf(MotionFormat format) {
   return format == MotionFormat::kGlb || format == MotionFormat::kVrma;
 }
 
-/// Slow keys are read at 30 Hz (recordings/text/motion_limits.h). Returns which of the read
-/// frames are the motion's: every first, second, third...; 0: none are.
+/// Slow keys are read at 30 Hz (recordings/text/motion_limits.h). Returns which of the
+/// read frames are the motion's: every first, second, third...; 0: none are.
 std::size_t step_between_keys(const Motion& motion, std::size_t read_frames) {
   const double step = recordings::kBlendedKeysHz / motion.rate.hz;
   const double whole = std::round(step);
@@ -75,8 +75,8 @@ double nearest_m(const glm::dvec3& place, const std::vector<glm::dvec3>& others)
   return nearest;
 }
 
-/// By how much the distances of a bone and those above it from the next bone above are
-/// others than at rest: what bones alone cannot hold. [m]
+/// Sums the changes of distance, relative to rest, between each bone and the next bone
+/// above it, along a chain. A format that stores only bones loses these changes. [m]
 class LostDistance {
  public:
   explicit LostDistance(const Skeleton& skeleton)

@@ -13,11 +13,11 @@
 
 namespace marey::app {
 
-/// A file that write_motion_file() wrote.
+/// A file written by write_motion_file().
 struct WrittenFile {
   std::filesystem::path path;
   MotionFormat format = MotionFormat::kGlb;
-  /// Length of the file's unit, of a .glb or a .bvh. [m]
+  /// Length of one unit of a .glb or .bvh. [m]
   double unit_m = 1.0;
 };
 
@@ -29,13 +29,13 @@ struct WrittenFile {
 
 /// Differences between a file that was read again and the motion that was written.
 struct RereadFigures {
-  /// The largest distance of a bone's joint from its place in the motion: heading,
-  /// facing, unit and posture in one figure. [m]
+  /// Largest distance between a bone's joint and its position in the motion. It covers
+  /// errors of heading, facing direction, unit and posture. [m]
   double worst_place_m = 0.0;
   HumanBone worst_bone{};
   int worst_frame = -1;  ///< -1: no joint was compared.
-  /// Of a .vrma: the largest distance that the format cannot hold, as joints that are no
-  /// bones of VRM move the bones below them nearer to those above. It is left out of
+  /// For a .vrma: largest distance that the format cannot store. Joints that are no bones
+  /// of VRM move the bones below them relative to those above. Not included in
   /// worst_place_m. [m]
   double lost_m = 0.0;
   HumanBone lost_bone{};
@@ -45,11 +45,11 @@ struct RereadFigures {
   std::vector<double> lowest_skin_m;
 };
 
-/// Reads a written file again and compares each bone's place in the world with the
-/// nearest joint of the file. Returns nullopt for .csv and .mot, which hold no joints, and
-/// for .glb and .vrma of motions slower than 10 Hz whose rate does not divide 30 Hz.
-/// Cost: that of the reader; of a .glb also linear in frames times vertices.
-/// Errors: the readers'; a number of frames that is not the motion's.
+/// Reads a written file again and compares each bone's world position with the nearest
+/// joint of the file. Returns nullopt for .csv and .mot, which contain no joints, and for
+/// .glb and .vrma of motions slower than 10 Hz whose rate does not divide 30 Hz.
+/// Cost: the reader's; for a .glb also linear in frames times vertices.
+/// Errors: the readers'; a number of frames that differs from the motion's.
 [[nodiscard]] Result<std::optional<RereadFigures>> reread_motion(const WrittenFile& file,
                                                                  const Motion& motion);
 

@@ -20,20 +20,20 @@
 
 namespace marey::app {
 
-/// A body that motions can be put on.
+/// An avatar that was read, ready for retargeting.
 struct OpenedAvatar {
   std::filesystem::path file;
   Skeleton skeleton;                 ///< In marey's frame, its bones marked.
-  BodyLook look;                     ///< Without a file when there is no mesh.
+  BodyLook look;                     ///< Without a file if there is no mesh.
   retarget::Soles soles;             ///< ReadBody::soles.
   std::optional<retarget::BodyVolume> volume;  ///< ReadBody::volume.
   retarget::Skin skin;                         ///< ReadBody::skin.
   std::vector<std::string> remarks;  ///< ReadBody::remarks().
-  /// The file is a VRM 0.x: `skeleton` was turned half about Y.
+  /// The file is a VRM 0.x: `skeleton` was rotated by half a turn about Y.
   bool file_faces_back = false;
 };
 
-/// Reads an avatar. Errors (kBadInput), naming the file: read_body()'s, map_body()'s.
+/// Reads an avatar. Errors (kBadInput), with the file: read_body()'s, map_body()'s.
 [[nodiscard]] Result<OpenedAvatar> open_avatar(const BodyFile& avatar);
 
 struct RetargetedFiles {
@@ -43,35 +43,36 @@ struct RetargetedFiles {
   AvatarVerdict verdict = {};
 };
 
-/// Puts a motion on an avatar, with its soles, and with what hands do to the body
-/// (RetargetOptions::hands) by the avatar's skin, and writes it beside each other as STEM.bvh; if the avatar
-/// is a GLB, VRM or glTF, as STEM.glb with its own look; and if it has the bones of VRM's
-/// humanoid, as STEM.vrma. `stem` is a path without an extension, which may hold dots.
+/// Retargets a motion to an avatar and writes the results. The avatar's soles are used,
+/// and its skin for the contacts of hands with the body (RetargetOptions::hands). Writes
+/// STEM.bvh; for a GLB, VRM or glTF also STEM.glb with the avatar's mesh; for an avatar
+/// with the bones of VRM's humanoid also STEM.vrma. `stem` is a path without an
+/// extension, which may contain dots.
 /// Errors: open_avatar()'s; the disk.
 [[nodiscard]] Result<RetargetedFiles> retarget_to_files(
     const Motion& motion, const BodyFile& avatar, const std::filesystem::path& stem);
 
-/// Whether a motion can be put on this body: it can be read and has the bones. Costs what
-/// reading does. Errors: open_avatar()'s.
+/// Checks that a motion can be put on this body: it can be read and has the needed bones.
+/// Cost: that of reading the body. Errors: open_avatar()'s.
 [[nodiscard]] Status check_avatar(const BodyFile& avatar);
 
-/// The skeleton in a .bvh, .glb, .gltf, .vrm or .vrma file, its bones told, as
-/// read_body() gives it. Errors: read_body()'s.
+/// Reads the skeleton of a .bvh, .glb, .gltf, .vrm or .vrma file. Its bones are
+/// identified by read_body(). Errors: read_body()'s.
 [[nodiscard]] Result<Skeleton> read_skeleton(const BodyFile& file);
 
 struct ReadMotion {
   Motion motion;
-  /// The largest movement of a bone against its parent that was left out. [m]
+  /// Largest translation of a bone relative to its parent that was ignored. [m]
   double ignored_translation_m = 0.0;
   std::vector<std::string> remarks = {};  ///< ReadBody::remarks().
   retarget::ExchangedSides exchanged = retarget::ExchangedSides::kNone;  ///< ReadBody's.
 };
 
-/// What a user should know of movement that was left out, if it can be seen.
+/// Returns a remark on ignored bone translation, if it is large enough to be visible.
 [[nodiscard]] std::optional<std::string> left_out(const ReadMotion& read);
 
-/// The motion in a .bvh, .glb, .gltf, .vrm or .vrma file, its bones told, as read_body()
-/// gives it. Errors: read_body()'s; a file without a motion.
+/// Reads the motion of a .bvh, .amc, .npz, .glb, .gltf, .vrm or .vrma file. Its bones are
+/// identified by read_body(). Errors: read_body()'s; a file without a motion.
 [[nodiscard]] Result<ReadMotion> read_motion(const BodyFile& file);
 
 }  // namespace marey::app

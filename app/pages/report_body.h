@@ -17,7 +17,7 @@ namespace marey::app {
 ///   source  uint8 per joint: 0 measured, 1 repaired, 2 inferred; subjects only
 ///   sigma   uint16 per joint, [0.1 mm]; subjects only
 ///
-/// Joints come first, then tips. Of an avatar, only human bones and the joints below the
+/// Joints come first, then tips. Only human bones of an avatar and the joints below its
 /// hands are kept, without hair, cloth and helpers. If no joint is known to be human, all
 /// joints are kept. Preconditions: every pose has one rotation per joint; the first joint
 /// is the only root.

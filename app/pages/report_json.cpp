@@ -359,7 +359,7 @@ Json report_figures(const Report& report) {
 }
 
 std::string report_json(const Report& report) {
-  // Names come from files and may have any bytes: those that are not UTF-8 become U+FFFD.
+  // Names come from files and may have any bytes. Bytes that are not UTF-8 become U+FFFD.
   return report_figures(report).dump(2, ' ', false, Json::error_handler_t::replace) +
          "\n";
 }

@@ -106,8 +106,8 @@ void warn(const PlanReport& report, Console& console) {
                  ": a board waved in this volume would not calibrate the cameras (" +
                  (error.where.empty() ? "" : error.where + ": ") + error.cause + "): " +
                  (report.is_calibrated
-                      ? "the errors of each camera are taken as independent, as large as in its "
-                        "calibration"
+                      ? "the errors of each camera are taken as independent, as large "
+                        "as in its calibration"
                       : "they are taken as known exactly") +
                  ". Next: " + error.next);
   }

@@ -285,8 +285,9 @@ std::string plan_page(const PlanReport& report) {
       "down. Dashed: what each camera's picture takes in. Point at a square for its "
       "figures.</p>\n";
   out += key("Expected error of a tag", "0", text_of("%g mm", 1e3 * worst_m));
-  out += key(
-      "Directions in which two cameras see it", text_of("%.0f %%", 100.0 * max_share), "0 %");
+  out += key("Directions in which two cameras see it",
+             text_of("%.0f %%", 100.0 * max_share),
+             "0 %");
   for (std::size_t i = 0; i < report.plan.heights.size(); ++i) {
     out +=
         "<section><h3>At the " + escaped(report.height_names[i]) +

@@ -134,7 +134,9 @@ void add_solution_notes(const recordings::Session& session,
                "videos of motions must start within two frames of each other"
              : ""));
   }
-  if (!delays.empty()) notes.push_back("delay from one picture row to the next: " + delays);
+  if (!delays.empty()) {
+    notes.push_back("delay from one picture row to the next: " + delays);
+  }
   add_lens_note(session, given, rig, notes);
   if (session.calibration.warp) {
     notes.push_back(rig.warp_m ? text("the board is bent: its edges rise by %.1f mm "

@@ -129,7 +129,8 @@ Result<Pipeline> Pipeline::open(Stage stage,
   for (const auto& avatar : options.avatars) {
     if (!names.insert(avatar.stem().string()).second) {
       return bad_input(avatar.string(),
-                       "two results would have the name \"" + avatar.stem().string() + "\"",
+                       "two results would have the name \"" + avatar.stem().string() +
+                           "\"",
                        "rename the file of the avatar: results are named after it");
     }
     if (const Status ok = check_avatar(avatar); !ok) return ok.error();

@@ -61,9 +61,10 @@ void print_results(const Report& report,
     console.say(text.data());
   }
   for (const std::string& warning : report.warnings) {
-    const bool is_failure = std::any_of(failures.begin(), failures.end(), [&](const Error& f) {
-      return f.message() == warning;
-    });
+    const bool is_failure =
+        std::any_of(failures.begin(), failures.end(), [&](const Error& f) {
+          return f.message() == warning;
+        });
     if (!is_failure) console.warn(warning);
   }
   if (!report.trials.empty()) {

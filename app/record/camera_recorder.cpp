@@ -199,7 +199,8 @@ std::optional<Error> CameraRecorder::trouble(Timestamp end) const {
                where,
                "no frames came from it in the last " +
                    std::to_string(static_cast<long>(missing_s)) + " s of the take",
-               "check its plug and cable, and record again; the take has its frames until then"};
+               "check its plug and cable, and record again; the take has its frames "
+               "until then"};
 }
 
 CameraSummary CameraRecorder::summary(Timestamp end) const {

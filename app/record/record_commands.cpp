@@ -42,7 +42,8 @@ Exit print_summaries(const std::vector<CameraSummary>& cameras, Console& console
     std::string text = "camera " + camera.name + ": " + std::to_string(camera.frames) +
                        " frames, " + std::to_string(camera.dropped) + " dropped";
     if (camera.unsaved > 0) {
-      text += ", " + std::to_string(camera.unsaved) + " of them because the disk was too slow";
+      text +=
+          ", " + std::to_string(camera.unsaved) + " lost because the disk was too slow";
     }
     console.say(text);
     if (camera.error) exit = console.fail(*camera.error);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Puts the page of a calibration together. `data` is what app/calibration_html.cpp writes.
+// Builds the page of a calibration. `data` is what app/calibration_html.cpp writes.
 
 const SECTIONS = [
   ['layout', 'Where the cameras stand'], ['errors', 'Expected error'],

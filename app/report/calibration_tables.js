@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The verdict on a calibration, what to do about it, and its tables.
+// The verdict on a calibration, the recommended steps, and its tables.
 
-/** `limits` as calibration.json has them: the end of good, and of what can be used. */
+/** `limits` as in calibration.json: the bounds of good and of usable values. */
 function gradeCard(limits, value) {
   if (value === null) return {word: 'look closer', mark: '○'};
   const [good, fair] = limits;
@@ -12,7 +12,7 @@ function gradeCard(limits, value) {
   return reaches(fair) ? {word: 'fair', mark: '◐'} : {word: 'look closer', mark: '○'};
 }
 
-/** Without limits it has no grade. */
+/** A value without limits has no grade. */
 function card(title, limits, value, text, unit, what) {
   const {word, mark} = limits ? gradeCard(limits, value) : {word: '', mark: ''};
   const [good, fair] = limits ?? [0, 0];
@@ -96,7 +96,7 @@ function togetherSection(figures) {
   const enough = figures.limits.shared_instants;
   if (shared.length === 0) return [el('p', {}, 'Nothing is known of this.')];
   const rows = figures.cameras.map((camera, i) => ({camera, i}));
-  // Opposite cameras need not meet; one that nothing joins to the rest should.
+  // Opposite cameras may share no view, but every camera must be connected to the rest.
   const best = (i) => Math.max(...shared[i].filter((_, k) => k !== i));
   const cell = (i, k) => el('span', {class: i === k ? 'own'
     : best(i) < enough || best(k) < enough ? 'weak' : null}, String(shared[i][k]));
@@ -114,7 +114,7 @@ function togetherSection(figures) {
   ];
 }
 
-/** Clocks that were solved for. */
+/** The estimated clocks. */
 function clocksPart({cameras}) {
   const of = (camera, name) => camera.parameters.find((p) => p.name === name);
   if (!cameras.some((camera) => of(camera, 'offset'))) return [];
@@ -203,7 +203,7 @@ function parametersSection(figures) {
     camera.parameters.map((parameter) => parameter.name)))];
   const units = new Map(figures.cameras.flatMap((camera) =>
     camera.parameters.map((parameter) => [parameter.name, parameter.unit])));
-  /** To the second figure of its sigma. */
+  /** Rounds a value to the second digit of its sigma. */
   const text = (value, sigma) => fixed(value, sigma > 0
     ? Math.min(Math.max(Math.ceil(1 - Math.log10(sigma)), 0), 9) : 4);
   const cell = (camera, name) => {

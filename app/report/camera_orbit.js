@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The eye that goes around the motion: mouse, touch and keys.
+// The eye that orbits the motion; controlled by mouse, touch and keys.
 
 const VIEW_ANGLE = 0.62; // [rad], vertical
 
 class Orbit {
-  /** `changed` is called when a person moved the eye. */
+  /** `changed` is called when the user moves the eye. */
   constructor(canvas, changed) {
     this.canvas = canvas;
     this.changed = changed;
@@ -22,7 +22,7 @@ class Orbit {
     this.changed();
   }
 
-  /** Goes to a view: target, distance, azimuth, height; reset() comes back to it. */
+  /** Sets a view: target, distance, azimuth, height; reset() returns to it. */
   frame(view) {
     this.home = view;
     this.reset();
@@ -69,7 +69,7 @@ class Orbit {
     }
     canvas.addEventListener('pointermove', (event) => this.#drag(event));
     canvas.addEventListener('wheel', (event) => {
-      // A page that scrolls must not stop at the viewer: it zooms once it was clicked on.
+      // The wheel zooms only after a click on the viewer, so that the page can scroll past it.
       if (document.activeElement !== canvas && !event.ctrlKey) return;
       event.preventDefault();
       this.zoom(Math.exp(0.0012 * event.deltaY));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What each camera saw of the board or wand: where in its picture, how far off, how tilted.
+// Views of the board or wand per camera: coverage, residuals, and tilt.
 
 function coveragePicture(camera) {
   const columns = camera.coverage_columns;
@@ -25,7 +25,7 @@ function coveragePicture(camera) {
     el('figcaption', {}, `Coverage: ${words}; a fuller colour is more often.`));
 }
 
-/** By how much errors are drawn larger: most arrows are a few hundredths of the width. */
+/** Returns the scale of drawn errors: most arrows are a few hundredths of the width. */
 function arrowScale(camera, arrows) {
   const lengths = arrows.map(([, , ex, ey]) => Math.hypot(ex, ey)).sort((a, b) => a - b);
   const long = lengths[Math.floor(0.9 * (lengths.length - 1))] || 1;
@@ -49,7 +49,7 @@ function residualPicture(camera, page) {
   return el('figure', {class: 'residuals'},
     svg('svg', {viewBox: `0 0 ${camera.width_px} ${camera.height_px}`, role: 'img',
       'aria-label': `${words}, ${plural(strays.length, 'outlier', 'outliers')}`},
-    // What was left out lies below, so that it does not hide what counts.
+    // Outliers are drawn below, so that they do not hide inliers.
     ...strays,
     ...page.arrows.flatMap((arrow) => [
       svg('circle', {class: 'tail', cx: arrow[0], cy: arrow[1], r: dot / 1.6}),

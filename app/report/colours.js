@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Colours come from report.css, so that light and dark are decided in one place.
+// Colours come from report.css, so that light and dark are defined in one place.
 
 const SOURCES = ['measured', 'repaired', 'inferred'];
 const SOURCE_MEANING = {
@@ -9,25 +9,25 @@ const SOURCE_MEANING = {
   repaired: 'not seen; bridged between sightings shortly before and after',
   inferred: 'not seen for long; follows from its neighbours',
 };
-/** Dashes say the same as the colours, for those who cannot tell these apart. */
+/** Dashes repeat the meaning of the colours, for colour-blind readers. */
 const SOURCE_DASH = {measured: null, repaired: '7 4', inferred: '2 4'};
 
 const cssColour = (name) =>
   getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
-/** A colour of report.css, written #rrggbb there, as three numbers 0..1. */
+/** Returns a colour of report.css, written there as #rrggbb, as three numbers 0..1. */
 function rgb(name) {
   const hex = cssColour(name);
   return [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16) / 255);
 }
 
-// Cividis (Nunez, Anderton, Renslow 2018), which the colour-blind see alike.
+// Cividis (Nunez, Anderton, Renslow 2018), which looks the same to colour-blind readers.
 const CIVIDIS = [
   [0.0, 0.135, 0.305], [0.2, 0.27, 0.43], [0.42, 0.42, 0.445], [0.65, 0.6, 0.47],
   [0.87, 0.78, 0.37], [1.0, 0.92, 0.27],
 ];
 
-/** `share` 0..1 of the scale from sure to doubtful. */
+/** `share`: place on the scale, 0 is certain, 1 is uncertain. */
 function doubtColour(share) {
   const place = Math.min(Math.max(share, 0), 1) * (CIVIDIS.length - 1);
   const i = Math.min(Math.floor(place), CIVIDIS.length - 2);

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Draws the same scene where there is no WebGL: every capsule a thick line, the far ones
-// first.
+// Draws the scene without WebGL: every capsule is a thick line, distant ones first.
 
 class LineDrawing {
   constructor(canvas) {
@@ -41,7 +40,7 @@ class LineDrawing {
     const [x, z] = [Math.round(scene.target[0]), Math.round(scene.target[2])];
     const colour = cssRgb(scene.theme.grid);
     for (let i = -reach; i <= reach; ++i) {
-      // In pieces, so that what lies behind the eye takes only its own piece along.
+      // In pieces, so that only the pieces behind the eye are omitted.
       for (let k = -reach; k < reach; ++k) {
         this.#stroke(this.#at(scene, [x + i, 0, z + k]),
           this.#at(scene, [x + i, 0, z + k + 1]), 1, colour);
@@ -78,7 +77,7 @@ class LineDrawing {
       .sort((one, other) => other.p.depth + other.q.depth - one.p.depth - one.q.depth);
     for (const {p, q, radius, flatEnds, colour} of ends) {
       const width = scene.focal * this.canvas.height * radius / ((p.depth + q.depth) / 2);
-      // Outlines tell an arm from the trunk; the slices of the trunk are one.
+      // Outlines separate an arm from the trunk; the slices of the trunk have one outline.
       if (!flatEnds) this.#stroke(p, q, width + 2, cssRgb(scaled(colour, 0.5)));
       this.#stroke(p, q, width, cssRgb(colour));
     }

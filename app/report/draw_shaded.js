@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Draws a scene with WebGL 2: shaded capsules, a floor with a grid and soft shadows,
-// lines. A scene is what Stage.scene() in stage.js gives.
+// lines. A scene is the result of Stage.scene() in stage.js.
 
 const SHADOW_SIZE = 384;
 const LIGHT = unit([-0.38, -1, -0.3]);
 
-/** Corner values of the capsule every other one is made from: two half balls of rings. */
+/** Returns the corner values of the instanced capsule: two half balls of rings. */
 function capsuleMesh() {
   const around = 22;
   const rings = 5;
@@ -33,7 +33,7 @@ function capsuleMesh() {
 }
 
 class ShadedDrawing {
-  /** null where there is no WebGL 2. */
+  /** Returns null without WebGL 2. */
   static on(canvas) {
     const gl = canvas.getContext('webgl2', {antialias: true, alpha: false});
     return gl ? new ShadedDrawing(canvas, gl) : null;
@@ -62,7 +62,7 @@ class ShadedDrawing {
       gl.compileShader(shader);
       gl.attachShader(program, shader);
     }
-    // The same attribute has the same place in every program.
+    // An attribute has the same location in every program.
     ['shape', 'a', 'b', 'girth', 'side', 'colour', 'corner', 'at'].forEach((name, i) => {
       gl.bindAttribLocation(program, i, name);
     });
@@ -190,7 +190,7 @@ class ShadedDrawing {
     this.#drawCapsules(scene);
     gl.disable(gl.BLEND);
     gl.bindVertexArray(this.quad.array);
-    // Widths in metres, so that a wider area is not blurred more.
+    // Blur widths in metres, independent of the area.
     const tight = 0.006 / half;
     const wide = 0.016 / half;
     for (const [from, to, x, y] of [[0, 1, 1, 0], [1, 0, 0, 1]]) {
@@ -224,8 +224,8 @@ class ShadedDrawing {
     gl.drawArrays(gl.LINES, 0, scene.lines.length / 6);
   }
 
-  /** How many different colours the last drawing has, on a coarse grid of pixels. Only
-   *  before the browser has shown it. */
+  /** Returns the number of different colours of the last drawing, on a coarse grid of pixels.
+   *  Only valid before the browser has shown it. */
   coloursDrawn() {
     const {gl, canvas} = this;
     const pixels = new Uint8Array(4 * canvas.width * canvas.height);

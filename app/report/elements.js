@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Elements and words. Text is only ever set as text: names in a report come from
-// strangers and are never parsed as markup.
+// Elements and words. Text is always set as text: names in a report come from untrusted
+// files and are never parsed as markup.
 
 function fillElement(node, attributes, children) {
   for (const [key, value] of Object.entries(attributes)) {
@@ -39,13 +39,13 @@ function table(columns, rows, caption) {
             c.cell(row))))))));
 }
 
-/** A number with a minus that is one. */
-/** A number as text; a dash where nothing was measured. */
+/** Formats a number with a minus sign. */
+/** Formats a number; a dash if nothing was measured. */
 const fixed = (value, decimals) =>
   (value === null ? '–' : value.toFixed(decimals).replace('-', '−'));
 const plural = (count, one, many) => `${count} ${count === 1 ? one : many}`;
 
-/** A length of time in words: "0.43 s", "41 s", "3 min 20 s". */
+/** Formats a duration in words: "0.43 s", "41 s", "3 min 20 s". */
 function duration(seconds) {
   if (seconds < 10) return `${fixed(seconds, 2)}\u00a0s`;
   if (seconds < 120) return `${fixed(seconds, 0)}\u00a0s`;
@@ -53,15 +53,15 @@ function duration(seconds) {
   return `${Math.floor(whole / 60)}\u00a0min ${whole % 60}\u00a0s`;
 }
 
-/** "leftUpperArm" as "left upper arm"; other names as they are. */
+/** Converts "leftUpperArm" to "left upper arm"; other names are unchanged. */
 function boneWords(name) {
   return /^[a-z]+([A-Z][a-z]+)*$/.test(name)
     ? name.replace(/[A-Z]/g, (letter) => ` ${letter.toLowerCase()}`)
     : name;
 }
 
-/** A link to a file beside the report, whatever is in its name. `marey view` serves no
- *  files: its name then. */
+/** Returns a link to a file next to the report, with any name. Under `marey view`, which
+ *  serves no files, returns the name only. */
 function fileLink(path) {
   if (location.protocol === 'http:') return el('span', {class: 'file'}, path.split('/').pop());
   const address = `./${path.split('/').map(encodeURIComponent).join('/')}`;

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The floor from above, in the colours of the error to be expected there.
+// The floor from above, in the colours of the expected error.
 
-/** A number of one digit that is no smaller: 1, 2, 5, 10, 20... */
+/** Rounds up to 1, 2, 5, 10, 20... */
 function roundAbove(value) {
   const power = 10 ** Math.floor(Math.log10(Math.max(value, 1e-9)));
   return power * [1, 2, 5, 10].find((factor) => factor * power >= value * 0.9999);
 }
 
-/** The error at the top of the scale: most places have less, and edges, where it grows
- *  without end, do not leave them all alike. [mm] */
+/** Returns the error at the top of the scale. Most places have less. The scale is limited,
+ *  because the error grows without bound at the edges. [mm] */
 function mapScale(map) {
   const usual = map.heights.map((height) => height.median_error_mm ?? 0);
   const most = map.heights.map((height) => height.p95_error_mm ?? 0);
@@ -29,7 +29,7 @@ function mapKey(top) {
     el('span', {}, 'not seen by two cameras'));
 }
 
-/** One pixel per place, as a picture's address. */
+/** Returns the URL of a picture with one pixel per place. */
 function mapPicture(rows, top) {
   const canvas = el('canvas', {width: rows[0].length, height: rows.length});
   const context = canvas.getContext('2d');
@@ -41,7 +41,7 @@ function mapPicture(rows, top) {
   return canvas.toDataURL();
 }
 
-/** Which way a pixel column looks on the floor; null straight down. */
+/** Returns the direction of a pixel column on the floor; null for straight down. */
 function headingOf(camera, x) {
   const way = add(camera.forward_in_world, scaled(camera.right_in_world,
     (x - camera.centre_px[0]) / camera.focal_px[0]));
@@ -66,7 +66,7 @@ function mapCamera(camera, size, reach, frame) {
     at[1] + size * (u * way[1] + v * aside[1])];
   shapes.push(svg('polygon', {class: 'body',
     points: points([corner(-0.5, 0), corner(0.6, 0.6), corner(0.6, -0.6)])}));
-  // Letters are some 0.6 of their height wide: the name stays inside.
+  // Letters are about 0.6 of their height wide; the name is kept inside.
   const half = 0.34 * size * (camera.name.length + 1);
   const x = Math.min(Math.max(at[0], frame.left + half), frame.right - half);
   const y = Math.min(Math.max(at[1] + (way[1] > 0 ? -0.9 : 1.6) * size,

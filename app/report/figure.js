@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A body as solid capsules: a mannequin whose girth follows its size, since the report
-// knows its joints and nothing of its flesh.
+// A body as solid capsules: a mannequin whose girth follows its size, because the report
+// contains joints and no skin.
 
 /** Numbers per capsule: a 3, b 3, radius at a and b, flatness, cap, side 3,
  *  colour 3. */
 const CAPSULE = 16;
 
-/** Capsules of one instant, for every body. */
+/** Capsules of all bodies at one instant. */
 class Capsules {
   constructor() {
     this.values = new Float32Array(CAPSULE * 64);
@@ -19,8 +19,8 @@ class Capsules {
     this.count = 0;
   }
 
-  /** A tapered capsule from a to b. Its section is an ellipse: `radius` along `side`,
-   *  `flat` times that across. `cap` is how round the ends are: 1 a half ball. */
+  /** Adds a tapered capsule from a to b. Its section is an ellipse: `radius` along `side`,
+   *  `flat` times `radius` across. `cap` is the roundness of the ends: 1 is a half ball. */
   add(a, b, radiusA, radiusB, colour, {side = null, flat = 1, cap = 1} = {}) {
     if ((this.count + 1) * CAPSULE > this.values.length) {
       const more = new Float32Array(this.values.length * 2);
@@ -84,7 +84,7 @@ class Figure {
     return high[1] - low[1] || 1.7;
   }
 
-  /** Adds the capsules of the instant that body.show() set. `colour(joint)` paints. */
+  /** Adds the capsules of the instant set by body.show(). `colour(joint)` returns colours. */
   build(capsules, colour) {
     if (this.body.places.size === 0) {
       this.#sticks(capsules, colour);
@@ -153,7 +153,7 @@ class Figure {
     const paint = colour(head);
     capsules.add(place(0.3, 0.14), place(0.66, 0.06), 0.25 * high, 0.34 * high, paint,
       {side, flat: 1.12});
-    // The nose says where it faces.
+    // The nose shows the facing direction.
     capsules.add(place(0.5, 0.42), place(0.36, 0.47), 0.035 * high, 0.055 * high, paint);
   }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Vectors are arrays of three; matrices are column-major arrays of sixteen, as WebGL
-// wants them.
+// Vectors are arrays of three; matrices are column-major arrays of sixteen, as in
+// WebGL.
 
 const add = (a, b) => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
 const subtract = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -38,7 +38,7 @@ function lookAt(eye, target) {
     -dot(x, eye), -dot(y, eye), -dot(z, eye), 1];
 }
 
-/** Where a point lands in a picture of width x height; null behind the eye. */
+/** Projects a point into a picture of width x height; null behind the eye. */
 function projected(clipFromWorld, p, width, height) {
   const m = clipFromWorld;
   const w = m[3] * p[0] + m[7] * p[1] + m[11] * p[2] + m[15];
@@ -48,8 +48,8 @@ function projected(clipFromWorld, p, width, height) {
   return {x: (0.5 + 0.5 * x / w) * width, y: (0.5 - 0.5 * y / w) * height, depth: w};
 }
 
-/** What a light far away lays on the floor: x and z of [centre - half, centre + half]
- *  fill the picture, height becomes the depth. */
+/** Returns the projection of a distant light onto the floor: x and z of [centre - half,
+ *  centre + half] fill the picture; height becomes the depth. */
 function shadowFromWorld(centre, half, light) {
   const s = 1 / half;
   const [kx, kz] = [-light[0] / light[1], -light[2] / light[1]];

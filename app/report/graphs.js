@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Graphs over the frames of a trial. All have the same gutter on the left, so that one
-// frame is one vertical line down the page, and a playhead that the viewer moves.
+// Graphs over the frames of a trial. All have the same gutter on the left, so that a
+// frame is at the same x in each, and a playhead that the viewer moves.
 
-/** Lays `content` over the frames: click or drag goes to a frame, `readout(frame)` says
- *  what is there. */
+/** Adds frame navigation to `content`: a click or drag goes to a frame; `readout(frame)`
+ *  returns its text. */
 function overFrames(player, content, readout) {
   const playhead = el('div', {class: 'playhead'});
   const note = el('div', {class: 'note', role: 'status'});
@@ -37,7 +37,7 @@ function overFrames(player, content, readout) {
   return plot;
 }
 
-/** A round number of steps for an axis up to `highest`: 3 to 6 marks. */
+/** Returns round marks for an axis up to `highest`: 3 to 6 of them. */
 function axisMarks(highest) {
   const raw = Math.max(highest, 1e-9) / 4;
   const power = 10 ** Math.floor(Math.log10(raw));
@@ -55,7 +55,7 @@ function frameAxis(player, firstFrame) {
   }), el('span', {class: 'unseen'}, `from frame ${firstFrame}`));
 }
 
-/** Values over frames as a line; nothing is drawn where a value is 0, meaning none. */
+/** Draws values over frames as a line. A value of 0 means none and is not drawn. */
 function lineGraph(player, values, {unit, level, levelName, firstFrame, name}) {
   const highest = Math.max(level, ...values) * 1.1 || 1;
   const marks = axisMarks(highest);
@@ -64,7 +64,7 @@ function lineGraph(player, values, {unit, level, levelName, firstFrame, name}) {
   values.forEach((value, i) => {
     if (value <= 0) return;
     path += `${values[i - 1] > 0 ? 'L' : 'M'}${i + 0.5} ${y(value).toFixed(2)}`;
-    // A frame alone between two without a value still shows.
+    // A single frame between two without a value stays visible.
     if (!(values[i - 1] > 0) && !(values[i + 1] > 0)) path += 'h0.01';
   });
   const picture = svg('svg', {viewBox: `0 0 ${player.frames} 100`,
@@ -84,7 +84,7 @@ function lineGraph(player, values, {unit, level, levelName, firstFrame, name}) {
     el('div', {class: 'gutter'}), frameAxis(player, firstFrame));
 }
 
-/** A canvas that is painted anew whenever its size or the colours change. */
+/** A canvas that is repainted when its size or the colours change. */
 function paintedCanvas(height, paint, attributes) {
   const canvas = el('canvas', {style: `height: ${height}px`, ...attributes});
   const draw = () => {

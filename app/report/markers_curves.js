@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where markers were around their gaps, before and after; and how far markers are from
+// Marker positions around gaps, before and after the repair; and distances of markers from
 // the body over time.
 
 const AXES = ['x', 'y', 'z'];
-const NOMINAL = 100; // Height of a strip's picture, whatever it is stretched to.
+const NOMINAL = 100; // Height of a strip's picture before stretching.
 
-/** The path through the points that are there; a lone one still shows. */
+/** Returns the path through the present points; a single one stays visible. */
 function pathThrough(points) {
   let path = '';
   points.forEach((point, i) => {
@@ -19,7 +19,7 @@ function pathThrough(points) {
   return path;
 }
 
-/** Runs of neighbours that `belongs`, each with one more on both sides to meet the rest. */
+/** Returns runs of points for which `belongs` is true, each extended by one on both sides. */
 function stretches(count, belongs) {
   const runs = [];
   for (let i = 0; i < count; ++i) {
@@ -31,13 +31,13 @@ function stretches(count, belongs) {
   return runs;
 }
 
-/** What the picture takes in: what is kept and its doubt; what was wrong may be metres
- *  away, and is cut at the edge. */
+/** Returns the value range of the picture: kept samples with their uncertainty. Wrong
+ *  samples may be metres away and are cut at the edge. */
 function stripRange(curve, axis) {
   const values = [];
   curve.after_mm[axis].forEach((value, i) => {
     if (value === null) return;
-    // A doubt of decimetres would flatten everything else.
+    // An uncertainty of decimetres would flatten everything else.
     const doubt = Math.min(2 * (curve.sigma_mm[i] ?? 0), 300);
     values.push(value - doubt, value + doubt);
   });
@@ -88,7 +88,7 @@ function strip(curve, axis, fates) {
     read.map((_, i) => (wrong(i) ? point(read, i) : null)))}));
   fates.forEach((fate, k) => {
     for (const [from, to] of stretches(count, (i) => curve.fates[i] === k)) {
-      // A fill meets the samples on both sides.
+      // A fill is connected to the samples on both sides.
       const reach = k === 0 ? 0 : 1;
       const points = [];
       for (let i = Math.max(from - reach, 0); i <= Math.min(to + reach, count - 1); ++i) {
@@ -101,7 +101,7 @@ function strip(curve, axis, fates) {
   });
   read.forEach((value, i) => {
     if (value === null || curve.removed[i] !== 1) return;
-    // A short upright line: the picture is stretched, a cross would be too.
+    // A short vertical line, because the stretched picture would distort a cross.
     parts.push(svg('line', {class: 'cross', x1: x(i), x2: x(i), y1: y(value) - 5,
       y2: y(value) + 5}));
   });
@@ -155,7 +155,7 @@ function curvesSection(trial, figure, fates) {
   ];
 }
 
-/** RMS distance from the body over time. */
+/** Draws the RMS distance from the body over time. */
 function residualGraph(player, trial, figure) {
   const {step, rms_mm: rms, worst_mm: worst} = trial.residuals;
   const level = figure.rms_mm;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What became of every sample: a row per marker, time along x.
+// Classification of every sample: one row per marker, time along x.
 
 const FATE_MEANING = {
   'measured': 'as it was read',
@@ -19,7 +19,7 @@ const REMOVED_PX = 4;
 
 const percent = (share) => {
   const value = 100 * share;
-  // 100 % is said of all alone, and 0 % of none.
+  // 100 % is shown only for all, and 0 % only for none.
   if (value > 99.9 && share < 1) return '> 99.9\u00a0%';
   if (value < 0.1 && share > 0) return '< 0.1\u00a0%';
   return `${fixed(value, value === 0 || value === 100 ? 0 : 1)}\u00a0%`;
@@ -27,13 +27,13 @@ const percent = (share) => {
 
 const isRemoved = ([, , fault]) => fault !== 'swapped';
 
-/** First and last frame as the recording counts them. */
+/** Returns first and last frame in the recording's numbering. */
 function frameWords(trial, first, frames) {
   const from = first + trial.first_frame;
   return frames === 1 ? `frame ${from}` : `frames ${from} – ${from + frames - 1}`;
 }
 
-/** Of all markers together. */
+/** Totals of all markers. */
 function fateCounts(trial, fates) {
   return fates.map((_, i) => trial.markers.reduce((sum, m) => sum + m.counts[i], 0));
 }

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Puts the page of labelled markers together. `data` is what app/marker_report.cpp writes.
+// Builds the page of labelled markers. `data` is what app/marker_report.cpp writes.
 
 const SECTIONS = [
   ['samples', 'Samples'], ['residuals', 'Distance from the body'],
   ['curves', 'Before and after'], ['stills', 'Stills'], ['joints', 'Joint centres'],
   ['labels', 'Labels'],
 ];
-/** What there is of a file that was only repaired. */
+/** Sections for a file that was only repaired. */
 const REPAIR_SECTIONS = ['samples', 'curves', 'labels'];
 
 function fillSection(name, children) {

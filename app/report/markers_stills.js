@@ -7,17 +7,17 @@
 const WORST_COLOUR_MM = 30;
 const residualColour = (mm) => cssRgb(doubtColour(mm / WORST_COLOUR_MM));
 
-/** Places of a still as [across, up], `way` being the direction on the floor that points
- *  to the right. */
+/** Returns places of a still as [across, up]; `way` is the direction on the floor that
+ *  points to the right. */
 const onto = ([wx, wz]) => ([x, y, z]) => [x * wx + z * wz, y];
 
-/** Facing (fx, fz): the subject's left is (fz, -fx), and to the right of who faces it. */
+/** Facing (fx, fz): the subject's left is (fz, -fx), to the right of a viewer who faces it. */
 const VIEWS = [
   {words: 'front', way: ([fx, fz]) => [fz, -fx]},
   {words: 'left side', way: ([fx, fz]) => [-fx, -fz]},
 ];
 
-/** The same for all stills of a trial, so that they can be compared. */
+/** Returns one size for all stills of a trial, so that they can be compared. */
 function stillSize(stills) {
   let [across, up] = [600, 900];
   for (const still of stills) {
@@ -33,13 +33,13 @@ function stillSize(stills) {
 }
 
 function stillView(still, data, view, size, left, titles) {
-  // In a picture of its own: what is far off is cut at its edge.
+  // In a nested picture, so that distant points are cut at its edge.
   const flat = onto(view.way(still.facing));
   const joints = still.joints_mm.map(flat);
   const xs = joints.map(([x]) => x);
   const ys = joints.map(([, y]) => y);
   const middle = (Math.min(...xs) + Math.max(...xs)) / 2;
-  // The floor is in the picture where the body is near it.
+  // The floor is in the picture if the body is near it.
   const lowest = Math.min(...ys);
   const near = lowest > -200 && Math.max(...ys) < 0.95 * size.up;
   const bottom = (near ? Math.min(0, lowest) : lowest) - 0.05 * size.up;
@@ -111,7 +111,7 @@ function stillsSection(data, trial, figure) {
       el('span', {class: 'ramp', style: `background: linear-gradient(to right, ${
         ramp.join(', ')})`}), el('span', {}, `${WORST_COLOUR_MM} mm and more`)),
     el('div', {class: 'row'}, sourceLegend(true)),
-    // Who lies makes wide pictures.
+    // A lying subject makes wide pictures.
     el('div', {class: 'stills', style: `--least: ${size.across > 0.8 * size.up ? 28 : 17}rem`},
       ...trial.stills.map((still) => stillCard(still, data, trial, figure, size))),
   ];

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The head of the page, and what is mostly figures.
+// The head of the page, and the tables.
 
-/** Joints by what people call them; the bone that starts there otherwise. */
+/** Common names of joints; otherwise the name of the bone that starts there. */
 function jointWords(bone) {
   const words = {UpperArm: 'shoulder', LowerArm: 'elbow', Hand: 'wrist', UpperLeg: 'hip',
     LowerLeg: 'knee', Foot: 'ankle', Toes: 'ball of the foot', Shoulder: 'collarbone'};
@@ -78,8 +78,8 @@ function headSection(data) {
   ];
 }
 
-/** Columns may have `key(row)`, by which a click on their title sorts: the greatest
- *  first, words from A. */
+/** Columns may have `key(row)`, the sort key for a click on the title: numbers in
+ *  descending, words in ascending order. */
 function sortableTable(columns, rows, caption, first) {
   const place = el('div', {});
   const show = (chosen, downward) => {

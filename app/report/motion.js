@@ -7,8 +7,8 @@ function bytesOf(base64) {
   return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
 }
 
-/** One body. `points` holds the world positions and `turns` the rotations since rest of
- *  the instant that show() was last called for. */
+/** One body. `points` are the world positions and `turns` the rotations from rest at the
+ *  instant of the last show(). */
 class Body {
   constructor(data) {
     this.name = data.name;
@@ -34,13 +34,13 @@ class Body {
     }
   }
 
-  /** World position of a point of one frame, without the offset. */
+  /** Returns the world position of a point of one frame, without the offset. */
   recorded(frame, point) {
     const at = 3 * (frame * this.parents.length + point);
     return [0, 1, 2].map((k) => this.origin[k] + this.unit * this.xyz[at + k]);
   }
 
-  /** Frame `time`, which may lie between two frames. */
+  /** Sets the instant `time` [frames], which may lie between two frames. */
   show(time) {
     if (this.frames === 0) return;
     const last = this.frames - 1;
@@ -81,7 +81,7 @@ class Body {
     return [this.points[3 * point], this.points[3 * point + 1], this.points[3 * point + 2]];
   }
 
-  /** A direction of the rest pose as the joint turns it now. */
+  /** Rotates a direction of the rest pose by the joint's current rotation. */
   turned(joint, v) {
     const [x, y, z, w] = this.turns.subarray(4 * joint, 4 * joint + 4);
     const t = [2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]),
@@ -94,14 +94,14 @@ class Body {
     return this.source ? this.source[this.frame * this.joints + joint] : 0;
   }
 
-  /** [m] */
+  /** Returns the sigma of a joint. [m] */
   sigmaNow(joint) {
     return this.sigma ? this.sigma[this.frame * this.joints + joint] * 1e-4 : 0;
   }
 }
 
-/** Lowest and highest corner of the chosen frames, floor coordinates relative to the
- *  body's own way when `relative`. */
+/** Returns the lowest and highest corner of the chosen frames; with `relative`, floor
+ *  coordinates are relative to the body's own path. */
 function boundsOf(body, relative) {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -120,8 +120,8 @@ function boundsOf(body, relative) {
   return {low, high};
 }
 
-/** The horizontal unit vector square to where the body travels: to its side. A body that
- *  stays gets the side of its rest pose as it stands in the first frame. */
+/** Returns the horizontal unit vector perpendicular to the body's direction of travel. For a
+ *  body that stays in place, the side direction of its root in the first frame. */
 function sideOf(body) {
   const first = body.recorded(0, 0);
   const last = body.recorded(body.frames - 1, 0);
@@ -134,7 +134,7 @@ function sideOf(body) {
   return [side[0] / flat, 0, side[2] / flat];
 }
 
-/** How far a body reaches to either side of its first stand, along `side`. */
+/** Returns the extent of a body to both sides of its first position, along `side`. */
 function reachOf(body, side) {
   const start = body.recorded(0, 0);
   const reach = [0, 0];
@@ -149,8 +149,8 @@ function reachOf(body, side) {
   return reach;
 }
 
-/** Sets the avatars beside the subject, in turn to its left and right, so that they start
- *  abreast and never walk through each other. */
+/** Places the avatars next to the subject, alternately on its left and right, so that they
+ *  start side by side and never intersect. */
 function standAbreast(bodies) {
   const [subject, ...avatars] = bodies;
   if (!subject || subject.frames === 0) return;

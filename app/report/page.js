@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Puts the page together. `data` is what app/report_html.cpp writes.
+// Builds the page. `data` is what app/report_html.cpp writes.
 
 const SECTIONS = [
   ['motion', 'Motion'], ['pictures', 'Pictures'], ['reprojection', 'Reprojection'],
@@ -68,7 +68,7 @@ function fillPage(data, options) {
   return viewer;
 }
 
-/** Plays while the viewer can be seen, unless motion is unwelcome. */
+/** Plays while the viewer is visible, unless reduced motion is set. */
 function playWhenSeen(viewer) {
   if (matchMedia('(prefers-reduced-motion: reduce)').matches) return;
   let started = false;
@@ -84,7 +84,7 @@ function playWhenSeen(viewer) {
   }, {threshold: 0.15}).observe(viewer.canvas);
 }
 
-/** For tests: says on <html> whether the page came up and what the viewer drew. */
+/** For tests: records on <html> that the page is ready and what the viewer drew. */
 function tellStatus(viewer) {
   const state = document.documentElement.dataset;
   if (viewer) {

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Ways from a report to the page of `marey view`. A report is a file that needs no server:
-// there it says what to call. Served by `marey view` it links to the moment itself.
+// Links from a report to the page of `marey view`. A report opened as a file needs no server
+// and shows the command to run. Served by `marey view`, it links to the instant.
 
 /** `marey view` serves the report of its results under this name. */
 const SERVED = location.protocol === 'http:' && location.pathname === '/report.html';
 
-/** The page at a trial, at a frame as the recording numbers it; null: nobody serves it. */
+/** Returns a link to a trial and a frame (the recording's number); null if not served. */
 function pageLink(trial, frame, words) {
   if (!SERVED) return null;
   const at = frame === null ? '' : `&frame=${frame}`;
@@ -15,19 +15,19 @@ function pageLink(trial, frame, words) {
     words);
 }
 
-/** A place of the file system as a shell takes it. */
+/** Quotes a path for a shell. */
 function shellWord(path) {
   return /^[\w@%+=:,./-]+$/.test(path) ? path : `'${path.replaceAll("'", "'\\''")}'`;
 }
 
-/** What to call for the page of these results; `pathname` and `protocol` of the report. */
+/** Returns the command that shows these results; `pathname` and `protocol` of the report. */
 function viewCommand({protocol, pathname}) {
   const parts = pathname.split('/');
   const folder = parts.slice(0, -1).map(decodeURIComponent).join('/') || '/';
   return `marey view ${protocol === 'file:' ? shellWord(folder) : 'RESULTS'}`;
 }
 
-/** Says how to see it move. */
+/** Returns the text that explains how to see the motion. */
 function pageWords() {
   if (SERVED) {
     return el('p', {class: 'about'}, el('a', {class: 'page-link', href: '/'},

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Video frames with the solved skeleton and the detected tags drawn over.
+// Video frames with the solved skeleton and the detected tags.
 
 function tagOutline(tag) {
   const middle = [0, 1].map((k) =>
@@ -19,7 +19,7 @@ function boneLine([x1, y1, x2, y2, source]) {
 }
 
 function overlay(picture) {
-  // The middle of the first pixel is 0, 0: its corner is half a pixel away.
+  // The centre of the first pixel is (0, 0): its corner is half a pixel away.
   return svg('svg', {viewBox: `-0.5 -0.5 ${picture.width_px} ${picture.height_px}`,
     class: 'overlay', 'aria-hidden': 'true'},
   ...picture.tags.map(tagOutline),

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Time, which the viewer and every graph of a trial share.
+// The current time, shared by the viewer and every graph of a trial.
 
 class Player {
   constructor() {
@@ -13,12 +13,12 @@ class Player {
     this.listeners = new Set();
   }
 
-  /** `then` is called whenever time or playing changed. */
+  /** `then` is called whenever the time or the playing state changes. */
   listen(then) {
     this.listeners.add(then);
   }
 
-  /** Another trial; whoever showed the last one is forgotten. */
+  /** Sets another trial and removes all listeners of the last one. */
   load(frames, rate) {
     this.listeners.clear();
     this.frames = Math.max(frames, 1);
@@ -46,7 +46,7 @@ class Player {
 
   #advance(now) {
     if (!this.playing) return;
-    // A page that slept does not leap.
+    // The step is limited, so that a page that was suspended does not jump.
     const elapsed = this.before === null ? 0 : Math.min((now - this.before) / 1000, 0.1);
     this.before = now;
     let time = this.time + elapsed * this.rate * this.speed;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cameras where they stand, what they take in, and where the board was.
+// Camera positions, their fields of view, and the positions of the board.
 
-/** Three great circles of the ellipsoid of a covariance [mm^2], `scale` times too large:
+/** Returns three great circles of the ellipsoid of a covariance [mm^2], `scale` times too large:
  *  L u over unit circles u, with the covariance's Cholesky factor L. */
 function sigmaCircles(covariance, scale) {
   const l = [[0, 0, 0], [0, 0, 0], [0, 0, 0]];
@@ -24,7 +24,7 @@ function sigmaCircles(covariance, scale) {
   }));
 }
 
-/** What was shown to the cameras, in a word. */
+/** Returns the word for the calibration target. */
 function shownTarget(figures) {
   return figures.target.startsWith('wand') ? 'wand' : 'board';
 }
@@ -37,7 +37,7 @@ class RigStage {
     this.hasFloor = data.figures.has_floor;
     const points = [...this.places.flat(), ...this.floorPlaces.flat(),
       ...this.cameras.map((camera) => camera.centre_in_world_m)];
-    // Without a floor the grid lies below everything.
+    // Without a known floor the grid is below everything.
     this.down = this.hasFloor ? 0
       : Math.min(...points.map((p) => p[1])) - 0.05 * data.figures.distance_m;
     this.points = points.map((p) => this.lifted(p));
@@ -63,7 +63,7 @@ class RigStage {
     };
   }
 
-  /** Everything in the picture, seen from above and from where most cameras are not. */
+  /** Returns a view of everything, from above and from the side with the fewest cameras. */
   view(aspect) {
     const [azimuth, height] = [0.6, 0.5];
     const right = [Math.cos(azimuth), 0, -Math.sin(azimuth)];
@@ -128,7 +128,7 @@ class RigStage {
     const corners = [corner(0, 0), corner(w, 0), corner(w, h), corner(0, h)];
     loop(corners, this.theme.sight);
     corners.forEach((p) => line(centre, p, this.theme.sight));
-    // The picture's upper edge has a mark: it says which way up the camera is.
+    // A mark on the picture's upper edge shows the camera's orientation.
     const top = corner(w / 2, -0.18 * h);
     line(corner(0.4 * w, 0), top, this.theme.sight);
     line(corner(0.6 * w, 0), top, this.theme.sight);

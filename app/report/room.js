@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The cameras: figures, and where they stand.
+// The cameras: figures and positions.
 
 /** One view of the room along an axis. `flat` takes a world point to the paper [m]. */
 function roomView(title, flat, cameras, way, grounded) {
@@ -51,7 +51,7 @@ function camerasSection(calibration, trial, hasPage) {
     el('p', {class: 'lead'}, `The board lies ${fixed(calibration.rms_px, 2)} px from where ` +
       'the cameras expect it. Coverage is the share of the picture in which it was shown: ' +
       'lenses are known only there. ',
-      // Of files `marey view` serves its own report alone.
+      // `marey view` serves no file other than its own report.
       hasPage && !SERVED ? el('a', {href: './calibration.html'}, 'More in the calibration’s own page')
         : null),
     table([

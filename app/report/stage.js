@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What stands before the eye: the bodies of one trial, the cameras that saw them.
+// The scene: the bodies of one trial and its cameras.
 
 const DOUBT_SCALE_M = 0.03; // Sigma at the far end of the colour scale.
 const FOLLOW_BEYOND_M = 1.5; // A subject that travels farther is followed.
@@ -26,8 +26,8 @@ class Stage {
     return Math.max(high[0] - low[0], high[1] - low[1]) > FOLLOW_BEYOND_M;
   }
 
-  /** Visits sampled places of the bodies (of the subject's root alone), relative to where
-   *  the subject stands when it is followed. */
+  /** Visits sampled places of the bodies (or of the subject's root only), relative to the
+   *  subject's place if it is followed. */
   #visit(followed, rootOnly, then) {
     const step = Math.max(1, Math.floor(this.frames / 60));
     for (let frame = 0; frame < this.frames; frame += step) {
@@ -58,7 +58,7 @@ class Stage {
     return Math.max(high[0], high[1], -low[0], -low[1]) + 0.9;
   }
 
-  /** The subject's root on the floor, between frames too. */
+  /** Returns the subject's root on the floor, interpolated between frames. */
   standsAt(time) {
     const [subject] = this.bodies;
     const last = subject.frames - 1;
@@ -69,7 +69,7 @@ class Stage {
     return [p[0], 0, p[2]];
   }
 
-  /** Which way the subject looks on the whole: angle about Y from +Z. [rad] */
+  /** Returns the mean heading of the subject: angle about Y from +Z. [rad] */
   heading() {
     const [subject] = this.bodies;
     let sum = [0, 0, 0];
@@ -81,8 +81,8 @@ class Stage {
     return Math.atan2(sum[0], sum[2]);
   }
 
-  /** Where to look from so that all of the motion is in a picture of this aspect: what
-   *  Orbit.frame() wants. */
+  /** Returns the view for Orbit.frame() that contains the whole motion in a picture of this
+   *  aspect. */
   view(followed, withCameras, aspect) {
     const [azimuth, height] = [this.heading() + 0.55, 0.2];
     const right = [Math.cos(azimuth), 0, -Math.sin(azimuth)];
@@ -97,7 +97,7 @@ class Stage {
       const along = cameras.map((p) => dot(axis, p));
       return (Math.min(low[k], ...along) + Math.max(high[k], ...along)) / 2;
     });
-    // Far enough for every point: flesh is some way from the joints.
+    // Far enough for every point, with a margin for the body around the joints.
     const flesh = 0.2; // [m]
     const slope = Math.tan(VIEW_ANGLE / 2);
     let distance = 1;
@@ -135,7 +135,7 @@ class Stage {
     return () => theme.subject;
   }
 
-  /** The scene at `time`, in frames, for draw(). */
+  /** Returns the scene at `time` [frames] for draw(). */
   scene(time, orbit, aspect, {colouring, cameras}) {
     if (!this.theme) this.readTheme();
     this.capsules.clear();
@@ -177,12 +177,12 @@ class Stage {
     return new Float32Array(values);
   }
 
-  /** Names and where they hang, for the scene made last. */
+  /** Returns the names and their places for the last scene. */
   labels(withCameras) {
     const labels = this.frames === 0 ? [] : this.bodies.map((body, k) => {
       let top = -Infinity;
       for (let i = 1; i < body.points.length; i += 3) top = Math.max(top, body.points[i]);
-      // The head's joint is at the root of the skull; not every body knows its top.
+      // The head's joint is at the base of the skull; not every body has the top of the head.
       if (!body.tips.has(body.places.get('head'))) top += 0.13 * this.figures[k].stature;
       const [x, , z] = body.at(0);
       return {text: body.name, at: [x, top + 0.04, z]};

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The sections that are mostly figures.
+// The sections with tables.
 
-/** Up to which value a figure is good, and up to which fair. */
+/** Upper limits of good and of fair values. */
 const GRADES = {
   unsolved_percent: [2, 10], calibration_px: [0.5, 1.0], solve_px: [1.0, 2.0],
   sigma_mm: [10, 20], worst_camera_px: [2.0, 4.0], worst_frame_px: [6.0, 12.0],
@@ -18,12 +18,12 @@ function grade(kind, value) {
   return value <= fair ? {word: 'fair', mark: '◐'} : {word: 'look closer', mark: '○'};
 }
 
-/** The worst of several grades: what is good on the whole may hide what is not. */
+/** Returns the worst of several grades, because a good mean may hide a poor part. */
 function worstGrade(...grades) {
   return grades.reduce((a, b) => (WORDS.indexOf(b.word) > WORDS.indexOf(a.word) ? b : a));
 }
 
-/** The grade of summary.worst[kind], and whose it is. */
+/** Returns the grade of summary.worst[kind] and the name of its owner. */
 function worstOf(worst, kind, gradeKind) {
   const found = worst[kind];
   return found === null ? grade(gradeKind, 0) : grade(gradeKind, found.value);
@@ -36,7 +36,7 @@ function named(worst, kind, unit, digits) {
     `${fixed(found.value, digits)} ${unit}`;
 }
 
-/** Results that the program itself does not trust have no good figure. */
+/** Results that the program rates as unreliable have no good figure. */
 function trust(summary) {
   const reasons = summary.poor.length;
   return reasons === 0 ? {word: 'good', mark: '●'} : {word: 'look closer', mark: '○'};
@@ -106,7 +106,7 @@ function headSection({summary, warnings, session, trials}) {
   ];
 }
 
-/** Where the residual is highest. */
+/** Returns the place of the highest residual. */
 function worstFrame(trial, {name, first_frame: first}) {
   const worst = trial.frame_rms_px.reduce((best, value, i, all) =>
     (value > all[best] ? i : best), 0);
@@ -135,7 +135,7 @@ function reprojectionSection(player, trial, figures) {
   ];
 }
 
-/** Median as a bar, 95 % as a whisker, on a common scale. */
+/** Draws the median as a bar and 95 % as a whisker, on a common scale. */
 function doubtBar(joint, highest) {
   const share = (value) => `${Math.min(100, 100 * value / highest)}%`;
   return el('div', {class: 'doubt', 'aria-hidden': 'true'},
@@ -168,7 +168,7 @@ function jointsSection(figures) {
   ];
 }
 
-/** Left and right of the same bone in one row. */
+/** Puts left and right of the same bone in one row. */
 function pairBones(bones) {
   const rows = [];
   for (const bone of bones) {

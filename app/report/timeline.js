@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Tags seen when, and the gaps that were bridged.
+// Visibility of tags over time, and the bridged gaps.
 
 const ROW_PX = 13;
 const GROUP_GAP_PX = 5;
 
-/** Rows of tags, those of one segment together, in the order of the session. */
+/** Returns rows of tags, grouped by segment, in the order of the session. */
 function groupTags(tags) {
   const groups = new Map();
   for (const tag of tags) {
@@ -16,7 +16,7 @@ function groupTags(tags) {
   return groups;
 }
 
-/** The most cameras that ever saw one of them at once. */
+/** Returns the maximum number of cameras that saw one of the tags at once. */
 function mostSeeing(groups) {
   let most = 1;
   for (const tag of [...groups.values()].flat()) {
@@ -25,7 +25,7 @@ function mostSeeing(groups) {
   return most;
 }
 
-/** The shade of a number of cameras. */
+/** Returns the shade for a number of cameras. */
 function seenColour(count, most) {
   const [none, all] = [rgb('seen-none'), rgb('seen-all')];
   return cssRgb(mix(none, all, count === 0 ? 0 : 0.3 + 0.7 * count / Math.max(most, 1)));
@@ -53,7 +53,7 @@ function tagMatrix(player, groups, cameras, firstFrame) {
       row.cameras.forEach((count, frame) => {
         if (count === 0) return;
         context.fillStyle = shades[Math.min(count, cameras)];
-        // A little wider than the cell, lest seams shimmer between the cells.
+        // A little wider than the cell, to avoid visible seams.
         context.fillRect(frame * cell, row.top, cell + 0.4, ROW_PX - 1);
       });
     }
@@ -79,7 +79,7 @@ function seenLegend(cameras) {
     i === 0 ? ' unseen' : ` ${plural(i, 'camera', 'cameras')}`)));
 }
 
-/** One row per segment that was lost: when, and what became of it. */
+/** Draws one row per segment with gaps: their frames and their repair. */
 function gapRows(player, gaps, firstFrame) {
   const segments = [...new Set(gaps.map((gap) => gap.segment))];
   const height = 20;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The viewer: a canvas with the bodies in motion and what steers it.
+// The viewer: a canvas with the moving bodies and its controls.
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 const KEYS = [
@@ -88,7 +88,7 @@ class Viewer {
     return el('label', {class: 'toggle'}, box, ` ${label}`);
   }
 
-  /** Shows another trial: its page data, its figures. */
+  /** Shows another trial, given its page data and figures. */
   load(trial, figures, cameras) {
     this.stage = new Stage(trial, cameras);
     this.figures = figures;
@@ -113,7 +113,7 @@ class Viewer {
     this.redraw();
   }
 
-  /** Takes the eye along with the subject. */
+  /** Moves the eye with the subject. */
   #follow() {
     if (!this.options.follow || !this.stood || this.stage.frames === 0) return;
     const stands = this.stage.standsAt(this.player.time);
@@ -148,7 +148,7 @@ class Viewer {
     this.redraw();
   }
 
-  /** At most once per picture of the screen. */
+  /** Draws at most once per screen refresh. */
   redraw() {
     if (this.waiting) return;
     this.waiting = true;
@@ -188,7 +188,7 @@ class Viewer {
       ...(colouring === 'doubt' ? [scale()] : []));
   }
 
-  /** Under the scrub bar: how many segments were not seen, frame by frame. */
+  /** Draws the number of unseen segments per frame, under the scrub bar. */
   #drawGaps() {
     if (!this.figures) return;
     const {gaps, first_frame: first} = this.figures;
@@ -197,7 +197,7 @@ class Viewer {
     canvas.width = Math.max(1, Math.round(canvas.clientWidth * (devicePixelRatio || 1)));
     canvas.height = 8;
     const context = canvas.getContext('2d');
-    // Inferred over repaired: the graver one shows.
+    // Inferred is drawn over repaired, because it is worse.
     for (const source of ['repaired', 'inferred']) {
       context.fillStyle = cssColour(source);
       for (const gap of gaps.filter((g) => g.bridged_as === source)) {

@@ -29,7 +29,7 @@ std::string row_of(const RetargetRun& run, const AvatarResult& avatar) {
          "</tr>\n";
 }
 
-/// Runs of frames that are alike: over, or beside, what bears.
+/// Returns bars for runs of frames of one state: above the support, or off it.
 std::string bars_of(const retarget::BalanceTrack& track,
                     const std::vector<int>& moments,
                     double hz) {

@@ -20,18 +20,18 @@ namespace {
 using B = HumanBone;
 using retarget::BodyMap;
 
-// A picture's size, in heights of the body.
+// Size of a picture, in body heights.
 constexpr double kHalfWidth = 0.54;
 constexpr double kAbove = 1.36;
 constexpr double kBelow = 0.3;
 
-/// Orthographic, in heights of the body: x to the right, y downward, depth to the eye.
+/// Orthographic view, in body heights: x to the right, y downward, depth towards the eye.
 struct Eye {
   glm::dvec3 right;
   glm::dvec3 up;
   glm::dvec3 to_eye;
   double height_m;
-  glm::dvec3 middle_in_world{0.0};  ///< Of the picture, on the floor.
+  glm::dvec3 middle_in_world{0.0};  ///< Point on the floor at the picture's middle.
 
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& p_in_world) const {
     const glm::dvec3 d = (p_in_world - middle_in_world) / height_m;
@@ -65,7 +65,7 @@ const char* class_of(Side side) {
   return side == Side::kRight ? "right" : "trunk";
 }
 
-/// The body's bones in the world at one posture.
+/// The body's bones in the world for one posture.
 class Posed {
  public:
   Posed(const Motion& motion, const BodyMap& map, int frame)
@@ -80,7 +80,7 @@ class Posed {
     return world_[index(*joint)].translation;
   }
   [[nodiscard]] glm::dvec3 hips() const { return world_[index(map_.hips())].translation; }
-  /// The end of a chain's last bone: as the file has it, else `along` further on.
+  /// Returns the tip of a chain's last bone: the file's, else the point `along_m` beyond.
   [[nodiscard]] std::optional<glm::dvec3> tip(B bone, B before, double along_m) const {
     const auto joint = map_.joint_of[index(bone)];
     if (!joint) return std::nullopt;
@@ -97,7 +97,7 @@ class Posed {
   std::vector<RigidTransform> world_;
 };
 
-/// Limbs from bone to bone along a chain; bones that are not there are skipped.
+/// Adds limbs from bone to bone along a chain; missing bones are skipped.
 void add_chain(const Posed& posed,
                std::initializer_list<std::pair<B, double>> chain,
                Side side,
@@ -183,7 +183,7 @@ std::string draw(std::vector<Limb> limbs, const Eye& eye) {
   return out;
 }
 
-/// Lines on the floor, half a body apart, that stay where they are in the world.
+/// Returns floor lines half a body apart, which are fixed in the world.
 std::string floor_of(const Eye& eye) {
   const double step_m = 0.5 * eye.height_m;
   std::string out =
@@ -208,7 +208,7 @@ glm::dvec3 on_floor(const glm::dvec3& p) {
   return {p.x, 0.0, p.z};
 }
 
-/// A footprint of each stance: ankle to ball, on the floor.
+/// The footprint of a stance: ankle to ball, on the floor.
 struct Footprint {
   glm::dvec3 heel;
   glm::dvec3 ball;
@@ -239,7 +239,7 @@ bool holds(const std::vector<retarget::FrameInterval>& runs, int frame) {
   });
 }
 
-/// Points on the floor below what bears.
+/// Returns points on the floor below the bearing feet.
 std::string bearing_of(const Posed& posed,
                        const retarget::Contacts& contacts,
                        int frame,

@@ -19,7 +19,7 @@ using retarget::RetargetedMotion;
 Result<RetargetedMotion> put_on_live(const Motion& source,
                                      const Skeleton& avatar,
                                      const retarget::RetargetOptions& options) {
-  // What stands when, and what it was before the ground, is judged as for whole motions.
+  // Contacts, and the figures `before` the ground, are computed as for whole motions.
   retarget::RetargetOptions free = options;
   free.adapt_ground = false;
   free.hands.reset();
@@ -49,10 +49,10 @@ Result<RetargetedMotion> put_on_live(const Motion& source,
   return out;
 }
 
-/// Frames that are kept of those at `multiple` times their rate.
+/// The frames kept from a motion at `multiple` times the output rate.
 struct Kept {
   int multiple = 1;
-  int before = 0;  ///< Frames ahead of the first that is kept.
+  int before = 0;  ///< Number of frames before the first kept one.
   int count = 0;
 };
 
@@ -60,7 +60,7 @@ std::vector<retarget::FrameInterval> kept_of(
     const std::vector<retarget::FrameInterval>& runs, const Kept& kept) {
   std::vector<retarget::FrameInterval> out;
   for (const retarget::FrameInterval& run : runs) {
-    // First that is not earlier, last that is not later.
+    // First frame that is not earlier, last frame that is not later.
     const int first =
         std::max(0, (run.first - kept.before + kept.multiple - 1) / kept.multiple);
     if (run.last < kept.before) continue;
@@ -82,7 +82,7 @@ retarget::Contacts kept_of(const retarget::Contacts& contacts, const Kept& kept)
   return out;
 }
 
-// Touches of no kept frame are left out.
+// Drops touches without a kept frame.
 template <class Found>
 std::vector<Found> kept_of(const std::vector<Found>& all, const Kept& kept) {
   std::vector<Found> out;
@@ -140,7 +140,7 @@ Result<RetargetedMotion> retarget_at_rate(const Motion& source,
   auto map = retarget::map_body(avatar);
   if (!map) return map.error();
   retarget::apply_soles(options.retarget.soles, *map);
-  // What it was before the ground stays that of all frames: it was never kept.
+  // The figures `before` refer to all frames, because that motion was not kept.
   out->report.after = retarget::measure_feet(out->motion, *map, out->report.contacts);
   return out;
 }

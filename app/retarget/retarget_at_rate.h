@@ -23,8 +23,8 @@ struct RetargetAtRateOptions {
 /// For another rate the source is first resampled to the smallest whole multiple of that
 /// rate that is at least the source's rate. The frames at the output rate are then kept.
 /// Feet therefore stand still in every frame, and frames at instants shared by both rates
-/// are equal. Contacts, touches and the figures `after` refer to the kept frames, the rest
-/// of the report to all solved frames. Same input, same bytes. Linear in frames.
+/// are equal. Contacts, touches and the figures `after` refer to the kept frames, the
+/// rest of the report to all solved frames. Same input, same bytes. Linear in frames.
 ///
 /// Errors (kBadInput): retarget_motion()'s; no instant of the rate lies in the motion.
 /// Precondition: retarget_motion()'s; rate_hz > 0; `live` is not combined with options

@@ -27,15 +27,15 @@
 namespace marey::app {
 namespace {
 
-/// A run while it is made.
+/// State of a run.
 struct Work {
   const RetargetArguments& args;
   const RetargetPlan& plan;
   Console& console;
   RetargetRun run;
   std::vector<std::optional<OpenedAvatar>> opened;  ///< One per avatar of the plan.
-  Exit exit = Exit::kOk;                            ///< The first failure's.
-  std::optional<Error> source_error = std::nullopt;  ///< Makes every result poor.
+  Exit exit = Exit::kOk;                            ///< Exit code of the first failure.
+  std::optional<Error> source_error = std::nullopt;  ///< If set, all results are poor.
   std::optional<retarget::BodyVolume> source_volume = std::nullopt;
 
   void fail(const Error& error) {
@@ -64,7 +64,7 @@ void open_avatars(Work& work) {
   }
 }
 
-/// The formats of the plan that this body can have. Errors: it can have none.
+/// Returns the formats of the plan that this body can have. Errors: it can have none.
 Result<std::vector<MotionFormat>> formats_of(Work& work, const OpenedAvatar& body) {
   std::vector<MotionFormat> out;
   std::optional<Error> first;
@@ -75,8 +75,8 @@ Result<std::vector<MotionFormat>> formats_of(Work& work, const OpenedAvatar& bod
       continue;
     }
     const Error error = of_file(body.file, ok.error());
-    // A body without a mesh has no .glb, of course; one without the bones of a humanoid
-    // is to be looked at.
+    // That a body without a mesh has no .glb is expected; one without the bones of a
+    // humanoid should be checked by the user.
     const bool is_told = work.plan.formats_are_wanted || format == MotionFormat::kVrma;
     if (is_told && work.plan.file.empty()) {
       work.console.warn(body.file.string() + ": no ." + std::string(name(format)) + ": " +
@@ -97,15 +97,15 @@ MotionFileOptions file_options(const RetargetArguments& args) {
   return options;
 }
 
-/// Where feet stand, and what hands touch or lean on.
+/// Writes foot supports and hand touches as constraints.
 Status write_contacts(const RetargetArguments& args,
                       const OpenedAvatar& body,
                       const AvatarResult& avatar) {
   const Motion& motion = avatar.retargeted.motion;
   const auto map = retarget::map_body(motion.skeleton);
   if (!map) return map.error();
-  // Short: its feet stand already, so that what fades in has nothing to move, while it
-  // would hold a foot in the air back.
+  // A short ramp: the feet already stand, so a longer fade-in has no use, and it would
+  // delay a foot that is still in the air.
   const retarget::PlanSupportsOptions options{.ramp_s = 0.05};
   const auto tracks =
       retarget::plan_supports(motion, *map, avatar.retargeted.report.contacts, options);
@@ -114,7 +114,7 @@ Status write_contacts(const RetargetArguments& args,
   retarget::TouchConstraintsOptions fading;
   fading.world = hands.world;
   fading.nearest_alone = true;
-  // Files of motions begin at 0.
+  // Frames of motion files begin at 0.
   ConstraintSet touches = retarget::constraints_of(
       hands.touches,
       motion.skeleton,
@@ -127,7 +127,7 @@ Status write_contacts(const RetargetArguments& args,
   return recordings::write_constraints(args.constraints_out, set);
 }
 
-/// Judges what was made of an avatar, and warns of what is wrong with it.
+/// Checks an avatar's result and prints warnings on its faults.
 Status judge(const OpenedAvatar& body,
              std::span<const WrittenFile> files,
              Work& work,
@@ -147,14 +147,14 @@ Status judge(const OpenedAvatar& body,
       work.console.warn(problem.error.message());
     }
   }
-  // The console has it already.
+  // The console has already reported it.
   if (work.source_error) {
     avatar.verdict.problems.push_back({*work.source_error, true});
   }
   return Done{};
 }
 
-/// Everything of one avatar: its motion, then its files.
+/// Processes an avatar: its motion, then its files.
 Status put_on_one(const Motion& source,
                   const OpenedAvatar& body,
                   std::size_t i,
@@ -215,7 +215,7 @@ bool has_any(const RetargetRun& run) {
                              [](const auto& avatar) { return !avatar.error; });
 }
 
-/// What avatars are held against, and how they do.
+/// Measures the source and the avatars, for the report.
 Status measure(Work& work) {
   RetargetRun& run = work.run;
   for (const AvatarResult& avatar : run.avatars) {
@@ -242,7 +242,7 @@ void tell(const Work& work) {
   }
 }
 
-/// The motion; also told is what of it is left out. Errors: as read_motion()'s.
+/// Reads the motion and reports ignored bone translation. Errors: as read_motion()'s.
 Result<RawBody> read_source(const RetargetArguments& args, Console& console) {
   auto raw = read_raw_body(args.motion);
   if (!raw) return raw.error();
@@ -256,7 +256,8 @@ Result<RawBody> read_source(const RetargetArguments& args, Console& console) {
   return raw;
 }
 
-/// Of its skin; a skeleton of marey's own wears a mannequin, which is nobody's skin.
+/// Returns the volume of the source's skin. A skeleton made by marey has a mannequin,
+/// which is not the subject's skin.
 std::optional<retarget::BodyVolume> volume_of_source(const ReadBody& source) {
   const bool is_ours = std::ranges::all_of(
       source.skeleton().joints,

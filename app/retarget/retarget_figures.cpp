@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Joints of the bones that both have, in the order of bones.
+/// Returns the joints of the bones that both bodies have, in the order of bones.
 std::array<std::vector<JointIndex>, 2> common_joints(const retarget::BodyMap& a,
                                                      const retarget::BodyMap& b) {
   std::array<std::vector<JointIndex>, 2> out;
@@ -42,7 +42,7 @@ Json contact_list(const retarget::ContactFigures& figures) {
   return list;
 }
 
-/// Masses by the tables: where the centre of mass is, whatever the body weighs.
+/// Uses tabulated mass shares: the centre of mass does not depend on the total mass.
 Result<retarget::BalanceTrack> balance_of(const Motion& motion,
                                           const retarget::BodyMap& map,
                                           const retarget::Contacts& contacts) {
@@ -73,7 +73,7 @@ Json balance_json(const RetargetRun& run, const AvatarResult& avatar) {
   return out;
 }
 
-/// What the motion is judged by, as it leaves.
+/// Adds the checks of the written motion.
 void add_verdict(const AvatarVerdict& verdict,
                  const retarget::RetargetReport& report,
                  Json& out) {
@@ -129,7 +129,7 @@ Status measure_source(RetargetRun& run) {
   run.map = *std::move(map);
   const auto paths = retarget::contact_paths(run.source, run.map);
   run.labels = retarget::label_contacts(paths, run.source.rate.hz);
-  // Its floor is where its feet rest, be that at Y = 0 or not.
+  // The source's floor is where its feet rest, at any height.
   auto rest_heights_m = retarget::rest_heights_m(run.map);
   for (std::size_t side = 0; side < 2; ++side) {
     const retarget::FootContacts& foot = run.contacts.feet[side];

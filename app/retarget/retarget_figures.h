@@ -33,8 +33,8 @@ struct AvatarResult {
   retarget::BodyMap map;            ///< With the soles applied.
   retarget::Contacts own_contacts;  ///< Detected by detect_contacts() on the avatar.
   retarget::ContactFigures contacts;
-  /// Mean jerk of the bones that both bodies have, divided by the source's, scaled to this
-  /// avatar's height.
+  /// Mean jerk of the bones that both bodies have, divided by the source's, scaled to
+  /// this avatar's height.
   double jerk_ratio = 0.0;
   retarget::BalanceTrack balance;  ///< Of the written motion.
 };

@@ -15,7 +15,7 @@
 namespace marey::app {
 namespace {
 
-/// Over that of the report's page (app/report/report.css).
+/// CSS in addition to that of the report's page (app/report/report.css).
 constexpr std::string_view kStyle = R"(
 main { padding-bottom: 2rem; max-width: 84rem; }
 main > h2 { margin-top: 2.2rem; }
@@ -51,7 +51,7 @@ main > h2 { margin-top: 2.2rem; }
 .bars .left { fill: #2f86c4; } .bars .right { fill: #c8553d; }
 )";
 
-/// What a body may at most have; beyond it its figure is marked.
+/// Limits; figures above them are marked.
 constexpr double kMaxSlide_cm_per_s = 0.3;
 constexpr double kMaxDrift_mm = 1.0;
 constexpr double kMaxSinking_mm = 1.0;
@@ -64,7 +64,7 @@ std::string name_of(const std::filesystem::path& file) {
 }
 
 std::string cell(const char* format, double value, double most) {
-  // What is written counts: 1.0004 is 1.00.
+  // The rounded value is compared: 1.0004 is printed as 1.00.
   return std::string("<td class=\"number") + (value > 1.0005 * most ? " bad" : "") +
          "\">" + text_of(format, value) + "</td>";
 }
@@ -161,7 +161,7 @@ std::string bars_of(const std::vector<retarget::FrameInterval>& runs,
   return out;
 }
 
-/// When each foot's heel and ball bear: four rows.
+/// Returns a chart of the contacts of each foot's heel and ball: four rows.
 std::string contacts_of(const retarget::Contacts& contacts,
                         const std::vector<int>& moments,
                         double hz) {
@@ -235,7 +235,7 @@ std::string strips_of(const RetargetRun& run, const std::vector<int>& moments) {
   return out + "</div>\n";
 }
 
-/// Drift of every contact of one body, as bars over time.
+/// Returns the drift of every contact of one body, as bars over time.
 std::string drifts_of(const AvatarResult& avatar, double hz) {
   const auto& drifts = avatar.contacts.drifts;
   const double scale_mm = std::max(kMaxDrift_mm, avatar.contacts.worst_drift_mm);

@@ -43,7 +43,7 @@ Status choose_formats(const RetargetArguments& args, RetargetPlan& plan) {
                    "leave out --bvh-dialect");
 }
 
-/// Whether OUT is one file.
+/// Returns true if OUT is a file.
 Result<bool> is_file(const RetargetArguments& args, std::size_t avatars) {
   std::error_code ignored;
   if (fs::is_directory(args.out, ignored) || !args.out.has_filename()) return false;
@@ -60,7 +60,7 @@ Result<bool> is_file(const RetargetArguments& args, std::size_t avatars) {
     }
     return true;
   }
-  // A file of a kind that is not written, rather than a folder with a point in its name.
+  // Assumes an unsupported file format, not a folder with a point in its name.
   if (avatars == 1 && args.formats.empty() && args.out.has_extension()) {
     return bad_input(
         args.out.string(),
@@ -70,7 +70,7 @@ Result<bool> is_file(const RetargetArguments& args, std::size_t avatars) {
   return false;
 }
 
-/// What is read, and what it is.
+/// Returns the input files and their roles.
 std::vector<std::pair<fs::path, std::string>> inputs_of(const RetargetArguments& args,
                                                         const RetargetPlan& plan) {
   std::vector<std::pair<fs::path, std::string>> in{
@@ -111,7 +111,7 @@ Status check_outs(const RetargetArguments& args, const RetargetPlan& plan) {
   return Done{};
 }
 
-/// Options that do not go together.
+/// Checks for options that exclude each other.
 Status check_options(const RetargetArguments& args) {
   const retarget::RetargetOptions& options = args.options.retarget;
   if (args.balance && args.no_ground) {

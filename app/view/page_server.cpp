@@ -32,20 +32,20 @@ const std::map<std::string, std::string> kTypes = {
     {".svg", "image/svg+xml"},
 };
 
-/// `address` is for everybody to see, in the list of processes.
+/// All users of this machine can see `address` in the list of processes.
 void open_in_browser(const std::string& address) {
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) {
     return;
   }
   std::string program = "/bin/sh";
   std::string option = "-c";
-  // A shell that ends at once, so that nobody has to wait for a browser that stays.
+  // The shell ends at once, so that marey does not wait for the browser.
   std::string script = "xdg-open \"$0\" &";
   std::string argument = address;
   const std::array<char*, 5> arguments{
       program.data(), option.data(), script.data(), argument.data(), nullptr};
   pid_t child = 0;
-  // Without a browser the address is on the screen still.
+  // If the browser fails, the address was already printed.
   if (posix_spawn(
           &child, program.c_str(), nullptr, nullptr, arguments.data(), environ) == 0) {
     while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
@@ -118,7 +118,7 @@ Result<PageServer> start_page(const PageServerOptions& options) {
 void print_addresses(const PageServer& page, const PageServerOptions& options) {
   for (const std::string& address : page.addresses) std::printf("%s\n", address.c_str());
   std::fflush(stdout);
-  // An address with a token is told to nobody else.
+  // An address with a token must not appear in the list of processes.
   if (!options.open || options.lan || isatty(STDOUT_FILENO) == 0) return;
   open_in_browser(page.addresses.front());
 }

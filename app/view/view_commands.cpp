@@ -21,8 +21,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Notes one message. What is said to the page; empty: nothing. `drags`: it wants a
-/// frame.
+/// Processes one message and returns the reply to the page; empty: no reply. Sets `drags`
+/// if the page needs a frame.
 std::string note(const live::ReceivedText& text,
                  live::WebServer& server,
                  ViewTrials& trials,
@@ -38,7 +38,7 @@ std::string note(const live::ReceivedText& text,
   }
   if (const auto* hold = std::get_if<live::ConstraintRequest>(&*request)) {
     drags = !hold->active && handles.release(text.client, hold->id);
-    // The page has shown it as switched already.
+    // The page has already shown the change.
     return drags ? std::string() : live::constraints_json(handles.constraints());
   }
   if (const auto* other = std::get_if<live::TrialRequest>(&*request)) {
@@ -49,12 +49,12 @@ std::string note(const live::ReceivedText& text,
                         std::holds_alternative<live::ShownRequest>(*request) ||
                         std::holds_alternative<live::ThumbnailsRequest>(*request);
   return harmless ? std::string()
-                  : live::error_json("a recording is only looked at here");
+                  : live::error_json("this page can only show a recording");
 }
 
 void answer(live::WebServer& server, const ViewedTrial& shown, live::ClientId client) {
   const auto answered = shown.handles.adapted(client);
-  if (!answered) return;  // Too many have dragged since.
+  if (!answered) return;  // Too many other pages have dragged since.
   const Result<ViewHandles::Adapted>& adapted = *answered;
   if (!adapted) {
     server.answer_text(client, live::error_json(adapted.error().message()));
@@ -65,8 +65,8 @@ void answer(live::WebServer& server, const ViewedTrial& shown, live::ClientId cl
       frame_with(shown.recording, adapted->frame, shown.handles.figure(), adapted->pose));
 }
 
-/// Of what a page dragged meanwhile only the last counts, and nothing once it has turned
-/// to another trial.
+/// Replies to the pages. Only the last drag of a page is processed, and none after a
+/// change to another trial.
 void answer_pages(live::WebServer& server,
                   std::vector<live::ReceivedText>& texts,
                   ViewTrials& trials) {
@@ -87,7 +87,7 @@ void answer_pages(live::WebServer& server,
   }
 }
 
-/// Until Ctrl-C or the time is over.
+/// Serves until Ctrl-C or the time limit.
 Status serve(live::WebServer& server, const ViewArguments& args, ViewTrials& trials) {
   constexpr std::chrono::milliseconds kLook{100};
   const auto end =
@@ -123,10 +123,10 @@ Exit run_view(const ViewArguments& args, Console& console) {
 }
 
 void add_page_options(CLI::App& command, PageServerOptions& options) {
-  command.add_option("--port", options.port, "Port of the page; 0: any that is free")
+  command.add_option("--port", options.port, "Port of the page; 0: any free port")
       ->check(CLI::Range(0, 65535));
   command.add_flag(
-      "--lan", options.lan, "Let other machines look, by an address with a token");
+      "--lan", options.lan, "Allow other machines, by an address with a token");
   command.add_option("--web-root",
                      options.web_root,
                      "Serve the page from this folder, for its development");
@@ -149,13 +149,13 @@ void add_view_command(CLI::App& app,
   command
       ->add_option("-a,--avatar",
                    args.choice.avatars,
-                   "Body to show the motion on, too (.glb, .vrm, .bvh); may be repeated")
+                   "Body to retarget the motion to (.glb, .vrm, .bvh); may be repeated")
       ->allow_extra_args(false);
   command->add_option("-x,--constraints",
                       args.constraints,
-                      "Constraints (.xml) that hold in frames that are dragged in");
+                      "Constraints (.xml) for frames with dragged handles");
   add_page_options(*command, args.page);
-  command->add_option("--seconds", args.seconds, "Stop by itself after so long")
+  command->add_option("--seconds", args.seconds, "Stop after this time [s]")
       ->check(between(0.001, 1e6));
   command->callback(
       [&] { chosen = [&args](Console& console) { return run_view(args, console); }; });

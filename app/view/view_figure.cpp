@@ -24,12 +24,12 @@ void stand_still(Motion& motion) {
   if (motion.poses.empty()) motion.poses.push_back(rest_pose(motion.skeleton));
 }
 
-/// How a file's body was turned as it was read.
+/// Returns the rotation that the reader applied to the body.
 glm::dquat turn_of(bool faces_back) {
   return faces_back ? glm::dquat(0.0, 0.0, 1.0, 0.0) : glm::dquat(1.0, 0.0, 0.0, 0.0);
 }
 
-/// As people say it.
+/// Returns the everyday name of a contact.
 std::string place_name(const std::string& joint) {
   if (joint == "leftFoot") return "left heel";
   if (joint == "leftToes") return "left ball";
@@ -78,7 +78,7 @@ Result<ViewedFigure> figure_of_file(const std::filesystem::path& file,
     figure.skin = skin_of(file, *body);
     figure.motion = std::move(body->raw.motion);
   } else {
-    remarks.push_back(body.error().message() + " It is shown as it is in its file");
+    remarks.push_back(body.error().message() + " The body is shown as in its file");
     figure.motion = as_in_file;
     if (has_skin && is_fetched_alone(file)) {
       figure.skin = FigureSkin{file, nodes, 1.0, turn_of(faces_back)};

@@ -32,7 +32,7 @@ Result<ViewedRecording> motion_view(const fs::path& file) {
   return out;
 }
 
-/// Runs of frames in which a marker was not measured.
+/// Returns the spans of frames in which a marker was not measured.
 live::PageTrack track_of(const MarkerTracks& tracks, std::size_t marker) {
   live::PageTrack track{tracks.labels[marker], {}};
   for (std::size_t i = 0; i < tracks.frames(); ++i) {
@@ -118,12 +118,12 @@ Result<ViewedRecording> any_view(const fs::path& what, const std::string& trial)
   if (kind == ".toml" && recordings::is_calibration(what)) return camera_view(what);
   return bad_input(
       what.string(),
-      "is nothing that can be shown",
+      "is not a kind of file that can be shown",
       "give a motion (.bvh, .amc, .npz, .glb, .vrm, .vrma), markers (.c3d, .trc), a "
       "calibration.toml, a folder of results or a take of marey live");
 }
 
-/// At the recording's rate, from its first frame on.
+/// Resamples the motion to the recording's rate, from its first frame on.
 void take_rate(FrameRate rate, Motion& motion) {
   if (motion.rate.hz != rate.hz) motion = resample(motion, rate);
 }

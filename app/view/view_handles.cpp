@@ -16,7 +16,7 @@
 namespace marey::app {
 namespace {
 
-/// Goals whose place a page may move.
+/// Returns the goal if a page may move its position, else null.
 const DistanceToPoint* place_of(const Constraint& constraint) {
   return std::get_if<DistanceToPoint>(&constraint.goal);
 }
@@ -36,7 +36,7 @@ live::PageConstraintKind kind_of(const Constraint& constraint) {
   return is_box ? live::PageConstraintKind::kBox : live::PageConstraintKind::kDistance;
 }
 
-/// Where it wants its point, if that is one place.
+/// Returns the target of the goal, if it is a single point.
 std::optional<glm::dvec3> wanted_in_world(const Goal& goal) {
   if (const auto* place = std::get_if<DistanceToPoint>(&goal)) return place->p_in_world;
   if (const auto* support = std::get_if<Support>(&goal)) {
@@ -65,7 +65,7 @@ std::optional<Character> character_of(const ViewedFigure& figure) {
   return *std::move(character);
 }
 
-/// When a foot's ankle or toe joint rests.
+/// Detects the frames in which the ankle or toe joint of a foot is in contact.
 std::array<std::vector<bool>, 2> bearing(const Motion& motion) {
   std::array<std::vector<bool>, 2> out;
   const recordings::NpzContacts contacts = foot_contacts(motion);
@@ -102,7 +102,7 @@ Result<ViewHandles> ViewHandles::make(const ViewedRecording& recording,
   if (constraints.empty()) return out;
   if (out.handles_.empty()) {
     return bad_input(constraints.string(),
-                     "nobody is shown that could have constraints",
+                     "constraints need a human body, and none is shown",
                      "give the motion of a human body, or leave --constraints out");
   }
   auto file = recordings::read_constraints(constraints);
@@ -113,7 +113,7 @@ Result<ViewHandles> ViewHandles::make(const ViewedRecording& recording,
     error.where = constraints.string() + ": " + error.where;
     return error;
   }
-  // A name is one constraint's: the file's go first.
+  // Names are unique: constraints of the file replace handles of the same name.
   std::erase_if(out.handles_, [&out](const BodyHandle& handle) {
     return out.of_file_.find(handle.id) != nullptr;
   });
@@ -182,7 +182,8 @@ bool ViewHandles::release(live::ClientId client, const std::string& id) {
          }) > 0;
 }
 
-/// What holds in the frame of a page. What is dragged holds wholly and at once.
+/// Returns the constraints of the page's frame. Dragged handles have full weight, without
+/// a fade.
 ConstraintSet ViewHandles::constraints_of(const Page& page) const {
   ConstraintSet set = of_file_;
   std::vector<std::string> dragged;  // Segments.

@@ -24,12 +24,12 @@ fs::path folder_of(const fs::path& what) {
   return what.filename() == recordings::kLiveTakeFile ? what.parent_path() : what;
 }
 
-/// Who moves in a take, and how far that has been made again.
+/// Collects the recomputed figures of a take.
 class Remade {
  public:
   Remade(ViewedRecording& out, FrameRate rate)
       : out_(out),
-        most_(static_cast<std::int64_t>(kLongestPause_s * rate.hz)) {}
+        max_pause_(static_cast<std::int64_t>(kLongestPause_s * rate.hz)) {}
 
   void add(const LiveResult& result) {
     if (result.track.state == reconstruct::TrackState::kWaiting) return;
@@ -48,10 +48,10 @@ class Remade {
   [[nodiscard]] bool left_out() const { return left_out_; }
 
  private:
-  /// The last frame again, of instants that the run did not take up.
+  /// Repeats the last frame for instants that the run skipped.
   void hold(std::int64_t instants) {
-    left_out_ |= instants > most_;
-    for (std::int64_t i = 0; i < std::min(instants, most_); ++i) {
+    left_out_ |= instants > max_pause_;
+    for (std::int64_t i = 0; i < std::min(instants, max_pause_); ++i) {
       for (ViewedFigure& figure : out_.figures) {
         figure.motion.poses.push_back(figure.motion.poses.back());
       }
@@ -65,7 +65,7 @@ class Remade {
   }
 
   ViewedRecording& out_;
-  std::int64_t most_;
+  std::int64_t max_pause_;
   std::int64_t last_number_ = 0;
   bool left_out_ = false;
 };
@@ -82,7 +82,7 @@ Status add_figures(const OpenedTake& opened,
     const OpenedAvatar& avatar = opened.avatars[a];
     auto figure = figure_of_file(avatar.file, out.remarks);
     if (!figure) return figure.error();
-    // Not that of the take's file, which is a number.
+    // The original name, because the file in the take is numbered.
     figure->name = fs::path(opened.settings.avatars[a]).stem().string();
     figure->kind = live::PageSkeletonKind::kAvatar;
     figure->motion = Motion{avatar.skeleton, rate, 0, {}};
@@ -121,14 +121,14 @@ Result<ViewedRecording> read_live_take_view(const fs::path& what) {
     const auto requests = parse_live_requests(one.requests, file);
     if (!requests) return requests.error();
     const LiveResult& result = chain->step(one.seen, *requests);
-    // Without results: the lead-in of a take that begins in the middle of a run.
+    // An instant without results belongs to the lead-in of a take.
     if (!one.results.empty()) remade.add(result);
   }
   const ViewedFigure& performer = out.figures.front();
   if (performer.motion.poses.empty()) {
     return bad_input(folder.string(),
-                     "in no instant of this take was a body found",
-                     "see the cameras: marey view " +
+                     "no body was found in any instant of this take",
+                     "check the cameras: marey view " +
                          (folder / "calibration.toml").string());
   }
   out.frames = static_cast<int>(performer.motion.poses.size());
@@ -138,10 +138,10 @@ Result<ViewedRecording> read_live_take_view(const fs::path& what) {
   if (!cameras) return cameras.error();
   out.cameras = *std::move(cameras);
   if (!opened->take.finished) {
-    out.remarks.push_back("the recording was cut off; what there is of it is shown");
+    out.remarks.push_back("the recording was cut off; the recorded part is shown");
   }
   if (remade.left_out()) {
-    out.remarks.push_back("of pauses of more than 10 s the rest is left out");
+    out.remarks.push_back("pauses of more than 10 s are shortened to 10 s");
   }
   return out;
 }

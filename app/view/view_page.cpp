@@ -13,7 +13,7 @@
 namespace marey::app {
 namespace {
 
-/// How far apart two bodies stand, side by side: their arms are out at most.
+/// Returns the distance between two bodies side by side with extended arms.
 double breadth_m(const Skeleton& skeleton) {
   constexpr double kNarrowest_m = 1.0;
   double low = 0.0;
@@ -25,8 +25,8 @@ double breadth_m(const Skeleton& skeleton) {
   return std::max(kNarrowest_m, 0.8 * (high - low));
 }
 
-/// Where on the floor a body is on the whole. Bodies of other sizes go other ways than the
-/// first, and must not come through each other.
+/// Returns the mean position of a body on the floor. Bodies of different size move on
+/// different paths and must not intersect.
 glm::dvec3 middle_of_way(const Motion& motion) {
   glm::dvec3 sum(0.0);
   for (const Pose& pose : motion.poses) sum += pose.root_in_world;
@@ -74,7 +74,7 @@ void append_frame(const ViewedRecording& recording,
                   std::string& out) {
   live::append_frame(
       {.frame = i + static_cast<std::uint32_t>(std::max(0, recording.first_frame)),
-       // Markers may begin before frame 0: no unsigned sum.
+       // Signed sum, because markers may start before frame 0.
        .time_s = (recording.first_frame + static_cast<int>(i)) / recording.rate.hz,
        .sent_s = 0.0,
        .figures = figures},
@@ -119,7 +119,7 @@ std::string frame_with(const ViewedRecording& recording,
     figures.push_back(figure_at(one, static_cast<std::size_t>(frame)));
   }
   figures[figure].pose = &pose;
-  figures[figure].balance.reset();  // The recording's is not this posture's.
+  figures[figure].balance.reset();  // It belongs to the recorded pose.
   std::string out;
   append_frame(recording, static_cast<std::uint32_t>(frame), figures, out);
   return out;

@@ -39,7 +39,8 @@ JointPlaces places_of(const Skeleton& skeleton) {
   return out;
 }
 
-/// The doubt at a row's frame and joint; nullptr: the motion has no such.
+/// Returns the uncertainty at a row's frame and joint, or nullptr if the motion lacks
+/// them.
 JointUncertainty* find(int frame,
                  const std::string& joint,
                  const JointPlaces& places,
@@ -53,8 +54,8 @@ JointUncertainty* find(int frame,
   return &uncertainty[static_cast<std::size_t>(i)][place->second];
 }
 
-/// Where each joint of each frame comes from and how well it is known, from the tables
-/// beside the motion. Sets where frames begin.
+/// Reads the source and uncertainty of each joint and frame from the tables in the folder
+/// of the motion. Sets the number of the first frame.
 Status read_uncertainty(const fs::path& folder, ViewedFigure& figure, int& first_frame) {
   const auto segments = recordings::read_segments_csv(folder / "segments.csv");
   if (!segments) return segments.error();
@@ -79,7 +80,7 @@ Status read_uncertainty(const fs::path& folder, ViewedFigure& figure, int& first
   return Done{};
 }
 
-/// What the report says of this trial; null where there is none.
+/// Returns the entry of this trial in the report, or null.
 Json report_of(const fs::path& results, const std::string& trial) {
   const auto read = read_json(results / "report.json");
   if (!read) return {};
@@ -103,7 +104,7 @@ void add_residual(const Json& report, ViewedRecording& out) {
   out.graphs.push_back(std::move(graph));
 }
 
-/// How well joints are known, over time.
+/// Adds the graph of the joints' uncertainty over time.
 void add_uncertainty_graph(const ViewedFigure& figure, ViewedRecording& out) {
   live::PageGraph graph{"joint doubt", "mm", {}};
   for (const auto& frame : figure.uncertainty) {
@@ -116,7 +117,7 @@ void add_uncertainty_graph(const ViewedFigure& figure, ViewedRecording& out) {
   out.graphs.push_back(std::move(graph));
 }
 
-/// Whom the motion was put on: a skinned file where there is one.
+/// Returns the files of the retargeted avatars: the skinned file if there is one.
 std::vector<fs::path> avatar_files(const fs::path& folder) {
   std::map<std::string, fs::path> found;
   std::error_code ignored;
@@ -142,14 +143,14 @@ Status add_avatars(const fs::path& folder, ViewedRecording& out) {
   return Done{};
 }
 
-/// The markers without gaps, where markers were the source; tags' corners would hide the
-/// body that they are on.
+/// Adds the repaired markers if markers were the source. Tag corners are left out,
+/// because they would hide the body.
 Status add_points(const fs::path& results, const fs::path& folder, ViewedRecording& out) {
   const fs::path file = folder / "markers.c3d";
   if (!is_there(results / "fit.json") || !is_there(file)) return Done{};
   auto markers = recordings::read_markers(file);
   if (!markers) return markers.error();
-  // Frame by frame beside the motion, or not at all.
+  // Only if their frames match those of the motion.
   if (markers->tracks.frames() == static_cast<std::size_t>(out.frames)) {
     out.points = std::move(markers->tracks);
   }
@@ -159,7 +160,7 @@ Status add_points(const fs::path& results, const fs::path& folder, ViewedRecordi
 Result<ViewedFigure> performer(const fs::path& folder, ViewedRecording& out) {
   const fs::path skinned = folder / "motion.glb";
   const fs::path file = is_there(skinned) ? skinned : folder / "motion.bvh";
-  std::vector<std::string> ours;  // What is said of strangers' bodies.
+  std::vector<std::string> ours;  // Notes meant for other bodies; not shown.
   auto figure = figure_of_file(file, ours);
   if (!figure) return figure.error();
   figure->name = "performer";
@@ -191,12 +192,12 @@ Result<ViewedRecording> read_trial_view(const fs::path& trial_folder) {
   ViewedRecording out;
   out.title = folder.filename().string();
   if (const Status ok = check_links(folder, results); !ok) return ok.error();
-  for (const char* beside : {"report.json", "calibration.toml", "fit.json"}) {
-    if (const Status ok = check_link(results / beside, results); !ok) return ok.error();
+  for (const char* name : {"report.json", "calibration.toml", "fit.json"}) {
+    if (const Status ok = check_link(results / name, results); !ok) return ok.error();
   }
   auto figure = performer(folder, out);
   if (!figure) return figure.error();
-  // A .glb has no numbers of frames; those of segments.csv count for the page.
+  // A .glb has no frame numbers; the page uses those of segments.csv.
   figure->motion.first_frame = out.first_frame;
   out.tracks = tracks_of(*figure, out.first_frame);
   out.contacts = contact_spans(figure->motion, out.first_frame);

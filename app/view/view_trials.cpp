@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxPages = 64;
 
-/// The folder of results that something belongs to; empty: to none.
+/// Returns the folder of results that contains `what`; empty: none.
 fs::path results_of(const fs::path& what) {
   std::error_code ignored;
   if (!fs::is_directory(what, ignored)) return {};
@@ -24,8 +24,8 @@ fs::path results_of(const fs::path& what) {
   return is_trial ? fs::weakly_canonical(what, ignored).parent_path() : what;
 }
 
-/// The report of `marey process` or `marey fit`. It is one file with its script in it,
-/// which may fetch nothing.
+/// Reads the report of `marey process` or `marey fit`: one file with an inline script
+/// that may not load other content.
 std::optional<live::WebContent> report_in(const fs::path& results) {
   std::error_code ignored;
   for (const char* name : {"report.html", "fit.html"}) {
@@ -57,13 +57,13 @@ Result<ViewTrials> ViewTrials::open(const ViewChoice& choice,
   const auto first = out.read(choice.trial);
   if (!first) return first.error();
   if (!out.names_.empty()) {
-    // Named from here on: others are found beside it.
+    // Trials are named relative to the folder of results.
     out.choice_.what = results_of(choice.what);
   }
   return out;
 }
 
-/// Adds it to `trials_`, and what it needs to `unserved_`.
+/// Reads a trial. Adds it to `trials_`, and its media to `unserved_`.
 Result<ViewedTrial*> ViewTrials::read(const std::string& name) {
   ViewChoice choice = choice_;
   choice.trial = name;

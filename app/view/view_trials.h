@@ -58,7 +58,7 @@ class ViewTrials {
 
   ViewChoice choice_;
   std::filesystem::path constraints_;
-  std::vector<std::string> names_;  ///< Of all trials; empty: a single recording.
+  std::vector<std::string> names_;  ///< Names of all trials; empty: a single recording.
   std::optional<live::WebContent> report_;
   std::vector<std::unique_ptr<ViewedTrial>> trials_;  ///< Trials read so far.
   std::vector<live::WebContent> unserved_;

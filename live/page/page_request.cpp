@@ -73,7 +73,7 @@ class Members {
     const Json* value = find("version");
     if (value == nullptr) return 0;
     return *value == kRequestVersion ? kRequestVersion
-                              : wrong("version", "1: the page is of another marey", 0);
+                              : wrong("version", "1: the page is from another marey version", 0);
   }
 
   /// Returns the value of the member's word in `words`.

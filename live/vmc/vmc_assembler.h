@@ -26,7 +26,7 @@ struct VmcReceived {
   std::int64_t packets = 0;
   std::int64_t malformed = 0;    ///< Packets that are not OSC; they are not used.
   std::int64_t bones = 0;        ///< Bone messages used, fingers included.
-  std::int64_t not_of_ours = 0;  ///< Those of `bones` for which marey has no bone.
+  std::int64_t not_of_ours = 0;  ///< Part of `bones`: marey has no such bone.
   std::int64_t declined = 0;     ///< VMC messages with wrong arguments, unknown bones,
                               ///< numbers not finite, places beyond 10 km, no rotation.
   std::int64_t ignored = 0;     ///< Messages that contain no part of a pose.

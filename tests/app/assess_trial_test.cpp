@@ -233,7 +233,8 @@ TEST(AssessFloorHeight, NamesTheThicknessOfTheBoard) {
   const auto finding = assess_floor_height(with_floor(0.1), standing_at(0.095), motions);
   ASSERT_TRUE(finding);
   EXPECT_TRUE(finding->is_poor);
-  EXPECT_TRUE(says(finding->error, "95 mm above the floor, and equally high in the motions"))
+  EXPECT_TRUE(
+      says(finding->error, "95 mm above the floor, and equally high in the motions"))
       << finding->error.message();
   EXPECT_TRUE(
       says(finding->error, "thickness_m under [board] (0.100 now, some 95 mm too much"))

@@ -99,7 +99,7 @@ TEST(BadSession, WithAnOffsetOfManyFramesIsDeclined) {
   EXPECT_TRUE(
       declines(session,
                session.run(),
-               {"session.toml:", "\"cam1\" is more than two frames", "start together"}));
+               {"session.toml:", "\"cam1\" is more than two frames", "start within"}));
 }
 
 TEST(BadAvatar, ThatIsNotThereIsToldBeforeAnyWork) {

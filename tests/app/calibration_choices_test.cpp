@@ -163,7 +163,9 @@ TEST(CalibrationChoices, DeclineLensesOfOtherCameras) {
       }));
   EXPECT_TRUE(declines(session,
                        session.run("calibrate"),
-                       {"session.toml:", "no lens of a camera of the session", "alike"}));
+                       {"session.toml:",
+                        "no lens of a camera of the session",
+                        "same camera names"}));
 }
 
 // --- The floor

@@ -142,8 +142,8 @@ TEST(MatchTimes, DeclinesTimesThatReachTooFar) {
   ASSERT_FALSE(matched);
   EXPECT_EQ(matched.error().code, Errc::kBadInput);
   EXPECT_EQ(matched.error().cause,
-            "its times reach too far for so few frames: frame 40 of cam0.mkv comes "
-            "3000000.0 s after the one before it");
+            "its times span too long for the number of frames: frame 40 of cam0.mkv "
+            "comes 3000000.0 s after the previous one");
 }
 
 TEST(MatchTimes, AddsUpMoreDroppedFramesThanAnyTakeHas) {

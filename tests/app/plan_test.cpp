@@ -110,7 +110,8 @@ TEST_F(Plan, WarnsOfACameraAlone) {
   const ProgramRun run = plan();
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(
-      run.err.find("plan.toml: one camera alone places no tag. Next: plan two or more"),
+      run.err.find("plan.toml: one camera alone cannot locate a tag. Next: plan two or "
+                   "more"),
       std::string::npos)
       << run.err;
 }
@@ -146,7 +147,8 @@ TEST_F(Plan, KnowsCalibratedCamerasAsTheirCalibrationSays) {
     for (const Json& camera : figures().at("cameras")) {
       EXPECT_EQ(camera.at("centre_sigma_mm"), 4.0) << width_px;
     }
-    EXPECT_EQ(run.err.find("each is taken to err by itself") != std::string::npos,
+    EXPECT_EQ(run.err.find("the errors of each camera are taken as independent") !=
+                  std::string::npos,
               width_px == 320)
         << run.err;
   }

@@ -313,7 +313,7 @@ TEST(UnevenVideo, WhoseFramesAreChosenByNumberIsRefused) {
   const ProgramRun run = session.run();
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find("its frame rate varies"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("leave out \"frames\" of trial walk"), std::string::npos)
+  EXPECT_NE(run.err.find("remove \"frames\" from trial walk"), std::string::npos)
       << run.err;
 }
 

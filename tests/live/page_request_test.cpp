@@ -65,7 +65,7 @@ TEST(PageRequest, RefusesWhatItDoesNotUnderstand) {
       {R"({"type":1})", "type is not a text"},
       {R"({"type":"erase"})", "its type is unknown"},
       {R"({"type":"hello","version":2})",
-       "version is not 1: the page is of another marey"},
+       "version is not 1: the page is from another marey version"},
       {R"({"type":"shown","sent_s":"1"})", "sent_s is not a finite number"},
       {R"({"type":"record","on":1})", "on is not true or false"},
       {R"({"type":"record"})", "on is missing"},

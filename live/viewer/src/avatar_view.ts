@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// An avatar in its skin: the file is loaded once, its nodes follow the skeleton.
+// An avatar with its skin: the file is loaded once; its nodes follow the skeleton.
 
 import {
   Group, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, SkinnedMesh, TextureLoader,
@@ -20,7 +20,7 @@ export class AvatarView {
   private readonly driver: NodeDriver;
   private readonly local = new Float32Array(4);
   private readonly root: Object3D;
-  /** From the world to the frame of the root node's parent. */
+  /** Transform from the world to the frame of the root node's parent. */
   private readonly parent_from_world: Matrix4;
   private readonly file: GLTF;
 
@@ -40,14 +40,14 @@ export class AvatarView {
     file.scene.traverse(lighten);
   }
 
-  /** Fetches and dresses a skeleton. Throws an Error that says what is wrong. Precondition:
+  /** Fetches the skin of a skeleton. Throws an Error with the cause. Precondition:
    *  the pose is at rest. */
   static async load(words: SkeletonWords, skin: SkinWords, pose: PosedSkeleton,
     signal: AbortSignal): Promise<AvatarView> {
     const answer = await fetch(skin.media, {signal, credentials: 'same-origin'});
     if (!answer.ok) throw new Error(`${skin.media}: ${answer.status} ${answer.statusText}`);
     const loader = new GLTFLoader();
-    // Pictures as <img>: the usual way fetches blob: addresses, which the page may not.
+    // Load pictures with <img>: the default loader fetches blob: URLs, which the policy forbids.
     loader.register((parser: GLTFParser) => {
       parser.textureLoader = new TextureLoader(parser.options.manager);
       return {name: 'MAREY_pictures'};
@@ -57,12 +57,12 @@ export class AvatarView {
     return new AvatarView(file, words, skin, pose);
   }
 
-  /** Whose pose it takes on from now on. Precondition: of the same skeleton. */
+  /** Sets the source of the pose. Precondition: the same skeleton. */
   follow(pose: PosedSkeleton): void {
     this.pose = pose;
   }
 
-  /** Takes on the pose as it is now. No allocation. */
+  /** Applies the current pose. No allocation. */
   update(): void {
     const {nodes, local, pose, root} = this;
     for (let i = 0; i < nodes.length; ++i) {
@@ -85,14 +85,14 @@ export class AvatarView {
     });
   }
 
-  /** Scale and turn: the file at rest then is where the skeleton is at rest. */
+  /** Scales and rotates the file, so that its rest pose matches the skeleton's. */
   private stand(skin: SkinWords): void {
     this.object.quaternion.set(...(skin.scene_from_file ?? [0, 0, 0, 1]));
     this.object.scale.setScalar(1 / skin.unit_from_m);
     this.object.updateMatrixWorld(true);
   }
 
-  /** Precondition: the pose is at rest, and so is the file. */
+  /** Computes the fit. Precondition: the pose and the file are at rest. */
   private fit(): NodeDriver {
     const {nodes, pose} = this;
     const count = nodes.length;
@@ -115,7 +115,7 @@ export class AvatarView {
   }
 }
 
-/** The file's nodes by their index in it; null for those that are not in the scene. */
+/** Returns the file's nodes by index; null for a node that is not in the scene. */
 function nodesOf(file: GLTF, indices: number[]): (Object3D | null)[] {
   const byIndex = new Map<number, Object3D>();
   file.scene.traverse((node) => {
@@ -125,7 +125,7 @@ function nodesOf(file: GLTF, indices: number[]): (Object3D | null)[] {
   return indices.map((index) => byIndex.get(index) ?? null);
 }
 
-/** What costs much and shows little goes: shine, faces that nobody moves. */
+/** Removes costly details of little effect: specular shine, unused morph targets. */
 function lighten(node: Object3D): void {
   const mesh = node as Mesh;
   if (!mesh.isMesh) return;

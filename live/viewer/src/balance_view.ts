@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Balance: the centre of mass, its plumb line, and the polygon that carries it.
+// Balance: the centre of mass, its vertical line, and the support polygon.
 
 import {
   BufferAttribute, BufferGeometry, Color, DoubleSide, DynamicDrawUsage, Group, Line,
@@ -14,8 +14,8 @@ import type {Colours} from './theme';
 const MOST_CORNERS = 64;
 const ABOVE_FLOOR_M = 0.004;
 
-/** Whether a place on the floor is within a convex polygon (x z per corner, either way
- *  round). */
+/** Returns true if a point on the floor is within a convex polygon (x z per corner, in
+ *  either orientation). */
 export function carries(corners_xz: ArrayLike<number>, corners: number, x: number,
   z: number): boolean {
   if (corners < 3) return false;

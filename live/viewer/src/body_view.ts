@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// One body on the stage: its pose, its bones, its skin when it has one, its balance.
+// One body on the stage: its pose, bones, optional skin, and balance.
 
 import {Group} from 'three';
 import {AvatarView} from './avatar_view';
@@ -12,7 +12,7 @@ import type {SkeletonWords} from './protocol';
 import {SkeletonView} from './skeleton_view';
 import type {Colours} from './theme';
 
-/** What is drawn; the person who watches chooses. */
+/** The parts that are drawn; the user chooses them. */
 export interface Shown {
   skin: boolean;
   bones: boolean;
@@ -27,7 +27,7 @@ export interface Shown {
 export class BodyView {
   readonly object = new Group();
   readonly pose: PosedSkeleton;
-  /** A pose was shown at least once. */
+  /** True once a pose was shown. */
   present = false;
   private readonly skeleton: SkeletonView;
   private readonly balance: BalanceView;
@@ -47,7 +47,7 @@ export class BodyView {
 
   private async dress(loaded: (trouble: string) => void): Promise<void> {
     const {words, loading} = this;
-    // A pose of its own, at rest: this one moves on while the file is loaded.
+    // A separate pose at rest, because this one changes while the file is loaded.
     const rest = new PosedSkeleton(words);
     try {
       const avatar = await AvatarView.load(words, words.skin!, rest, loading.signal);
@@ -72,7 +72,7 @@ export class BodyView {
     this.balance.paint(colours);
   }
 
-  /** Shows it as in this frame; nothing of a body that was not there. */
+  /** Shows the body of this frame; hides it if the body is absent. */
   update(frame: SkeletonFrame): void {
     this.object.visible = frame.hasPose;
     if (!frame.hasPose) return;
@@ -89,7 +89,7 @@ export class BodyView {
     if (this.balance.object.visible) this.balance.update(frame, this.floor_m);
   }
 
-  /** Highest joint. [m] */
+  /** Height of the highest joint. [m] */
   top_m(): number {
     let top = -Infinity;
     for (let i = 1; i < this.pose.p_in_world.length; i += 3) {

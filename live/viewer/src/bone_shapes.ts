@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Shapes that bones and joints are drawn with, and where an instance of them goes.
+// Shapes of bones and joints, and the matrices of their instances.
 
 import {BufferGeometry, Float32BufferAttribute, IcosahedronGeometry} from 'three';
 
-const WAIST = 0.2; // Where an octahedron is widest, from its near end.
+const WAIST = 0.2; // Widest place of an octahedron, from its near end.
 
-/** An octahedron from the origin to (0, 1, 0), of radius 1 at its waist, flat faces. */
+/** Returns an octahedron from the origin to (0, 1, 0), radius 1 at its waist, flat faces. */
 export function boneGeometry(): BufferGeometry {
   const around = [[1, 0], [0, -1], [-1, 0], [0, 1]];
   const corners: number[] = [];
@@ -26,8 +26,8 @@ export function ballGeometry(detail: number): BufferGeometry {
   return new IcosahedronGeometry(1, detail);
 }
 
-/** Column-major matrix k of `out`: the bone from place `a` to place `b` of `p`, `radius` wide,
- *  moved by (dx, dy, dz). Nothing of a bone without length. */
+/** Writes column-major matrix k of `out`: the bone from point `a` to point `b` of `p` with
+ *  `radius`, moved by (dx, dy, dz). A bone of length 0 is not drawn. */
 export function boneMatrix(out: Float32Array, k: number, p: Float32Array, a: number, b: number,
   radius: number, dx: number, dy: number, dz: number): void {
   const o = 16 * k;
@@ -39,7 +39,7 @@ export function boneMatrix(out: Float32Array, k: number, p: Float32Array, a: num
     return;
   }
   ux /= length; uy /= length; uz /= length;
-  // Any axis across will do; it must only not jump from frame to frame.
+  // Any perpendicular axis is suitable, if it does not jump from frame to frame.
   let sx: number, sy: number, sz: number;
   if (Math.abs(uy) < 0.94) {
     sx = uz; sy = 0; sz = -ux;
@@ -56,7 +56,7 @@ export function boneMatrix(out: Float32Array, k: number, p: Float32Array, a: num
   out[o + 15] = 1;
 }
 
-/** Column-major matrix k of `out`: a ball at place `a` of `p`. */
+/** Writes column-major matrix k of `out`: a ball at point `a` of `p`. */
 export function ballMatrix(out: Float32Array, k: number, p: Float32Array, a: number,
   radius: number, dx: number, dy: number, dz: number): void {
   const o = 16 * k;
@@ -66,7 +66,7 @@ export function ballMatrix(out: Float32Array, k: number, p: Float32Array, a: num
   out[o + 15] = 1;
 }
 
-/** Presses matrix k flat onto the floor, along light from above and a little aside. */
+/** Projects matrix k onto the floor, along light from slightly oblique above. */
 export function flatten(out: Float32Array, k: number, floor_m: number): void {
   const o = 16 * k;
   for (let c = 0; c < 12; c += 4) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What each camera sees, with the tags found in it.
+// The picture of each camera with its detected tags.
 
 import type {Thumbnail} from './decode_thumbnail';
 import {el, setText} from './elements';
@@ -14,7 +14,7 @@ interface Picture {
   canvas: HTMLCanvasElement;
   caption: HTMLElement;
   state: HTMLElement;
-  /** A picture is being unpacked; the newest that came meanwhile waits. */
+  /** A picture is being decoded; the newest one received meanwhile is kept. */
   busy: boolean;
   next: Thumbnail | null;
 }
@@ -25,7 +25,7 @@ export class CamerasPanel {
   private wanted = false;
   private live = false;
 
-  /** `want`: whether pictures are looked at now. */
+  /** `want` is called with true while pictures are visible. */
   constructor(private readonly want: (on: boolean) => void) {
     this.section = new Section('cameras', 'Cameras', true, () => this.ask());
     document.addEventListener('visibilitychange', () => this.ask());
@@ -51,7 +51,7 @@ export class CamerasPanel {
     this.ask();
   }
 
-  /** Tells again whether pictures are wanted: to a server that came back. */
+  /** Repeats the request for pictures after a reconnection. */
   repeat(): void {
     this.want(this.wanted);
   }
@@ -94,7 +94,7 @@ export class CamerasPanel {
       bitmap.close();
       drawTags(context, thumbnail, canvas.width / Math.max(thumbnail.width_px, 1));
     } catch {
-      // A picture that cannot be unpacked is left out; the next one comes soon.
+      // A picture that cannot be decoded is skipped; the next one arrives soon.
     }
     picture.busy = false;
     const {next} = picture;
@@ -108,9 +108,9 @@ function sizeWords(camera: CameraWords): string {
   return `${camera.width_px} × ${camera.height_px}${error}`;
 }
 
-/** Outlines and ids. Yellow with a dark edge is seen on everything. */
+/** Draws outlines and ids. Yellow with a dark edge is visible on any background. */
 function drawTags(context: CanvasRenderingContext2D, {tags}: Thumbnail, scale: number): void {
-  // In pixels of the page, however small the picture is shown.
+  // Line widths are in pixels of the page, independent of the picture's size.
   const fine = context.canvas.width / Math.max(context.canvas.clientWidth, 1);
   context.font = `600 ${(11 * fine).toFixed(1)}px system-ui, sans-serif`;
   context.textAlign = 'center';

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The line to marey: comes back by itself, at once when the page is looked at again.
+// The connection to marey. Reconnects automatically, at once when the page becomes visible.
 
 import type {PageWords, ServerWords} from './protocol';
 import {PROTOCOL_VERSION, readServerWords} from './protocol';
@@ -26,7 +26,7 @@ export class Connection {
 
   constructor(listener: Listener) {
     const {protocol, host, search} = window.location;
-    // A token in the address is good for the first time; then there is a cookie.
+    // The token in the address is used once; a cookie replaces it.
     this.address = `${protocol === 'https:' ? 'wss' : 'ws'}://${host}/live${search}`;
     this.listener = listener;
     document.addEventListener('visibilitychange', () => {
@@ -38,7 +38,7 @@ export class Connection {
     this.open();
   }
 
-  /** Gives up a line on which nothing was heard for so long, and opens another. */
+  /** Replaces a connection that has received nothing for this time. */
   renewAfter(silence_ms: number): void {
     if (this.socket?.readyState !== WebSocket.OPEN) return;
     if (performance.now() - this.heard_ms > silence_ms) this.drop(this.socket);
@@ -74,7 +74,7 @@ export class Connection {
     };
   }
 
-  /** A line that does not close in time is left behind: another is opened meanwhile. */
+  /** Abandons a connection that does not close in time and opens another. */
   private drop(socket: WebSocket): void {
     if (this.socket !== socket) return;
     this.socket = null;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Handles of constraints: shapes that say of what kind each is, above everything else.
+// Handles of constraints: one shape per kind, drawn over everything else.
 
 import {
   BoxGeometry, BufferGeometry, ConeGeometry, CylinderGeometry, Group, Mesh, MeshBasicMaterial,
@@ -11,7 +11,7 @@ import type {PosedSkeleton} from './posed_skeleton';
 import type {ConstraintWords, SkeletonWords, Vector} from './protocol';
 import type {Colours} from './theme';
 
-/** Of the distance to the eye: handles look the same size from anywhere. */
+/** Share of the distance to the eye, so that handles have a constant size on screen. */
 const SIZE = 0.0105;
 
 const SHAPES: Record<ConstraintWords['kind'], () => BufferGeometry> = {
@@ -24,9 +24,9 @@ const SHAPES: Record<ConstraintWords['kind'], () => BufferGeometry> = {
 
 export interface Handle {
   words: ConstraintWords;
-  /** Where it is drawn: moved aside with its skeleton. */
+  /** Drawn position, including the offset of its skeleton. */
   shown_in_world: Vector;
-  /** How far its skeleton is moved aside. */
+  /** Offset of its skeleton. */
   offset_m: Vector;
   object: Group;
 }
@@ -34,7 +34,7 @@ export interface Handle {
 export class ConstraintView {
   readonly object = new Group();
   handles: Handle[] = [];
-  /** The handle under the pointer or in hand. */
+  /** The handle under the pointer or being dragged. */
   held: string | null = null;
   private readonly plain = new MeshBasicMaterial({depthTest: false, transparent: true});
   private readonly bright = new MeshBasicMaterial({depthTest: false, transparent: true});
@@ -42,7 +42,7 @@ export class ConstraintView {
     opacity: 0.45});
   private readonly rim = new MeshBasicMaterial({depthTest: false, transparent: true});
 
-  /** What a person holds stays where they hold it. */
+  /** Keeps a dragged handle at its dragged position. */
   set(constraints: readonly ConstraintWords[], skeletons: readonly SkeletonWords[],
     inHand: string | null): void {
     const before = new Map(this.handles.map((handle) => [handle.words.id, handle]));
@@ -60,9 +60,8 @@ export class ConstraintView {
     });
   }
 
-  /** Those that are at a joint go along with it, but for what a person holds; those of a
-   *  body that is not there are nowhere. `poses` has one for each skeleton of the scene,
-   *  null where a body is not there. */
+  /** Moves handles with their joints, except a dragged one; hides those of absent bodies.
+   *  `poses` has one entry per skeleton of the scene, null for an absent body. */
   follow(poses: readonly (PosedSkeleton | null)[], inHand: string | null): void {
     for (const handle of this.handles) {
       const {joint, skeleton, id} = handle.words;
@@ -77,7 +76,7 @@ export class ConstraintView {
     }
   }
 
-  /** `shown_in_world` is where the handle is drawn. */
+  /** `shown_in_world` is the drawn position of the handle. */
   move(handle: Handle, shown_in_world: Vector): void {
     handle.shown_in_world = shown_in_world;
     handle.words.p_in_world = shown_in_world.map((v, k) => v - handle.offset_m[k]) as Vector;

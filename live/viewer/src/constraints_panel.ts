@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Constraints by name, to be switched on and off.
+// List of constraints, each with a switch.
 
 import {el, setText} from './elements';
 import {Section} from './panels';
@@ -20,7 +20,7 @@ export class ConstraintsPanel {
     this.section.hidden = constraints.length === 0;
     const active = constraints.filter((constraint) => constraint.active).length;
     this.section.tell(`${active} of ${constraints.length}`);
-    // Made anew only for others: a box that has the focus keeps it.
+    // Rebuilt only if the constraints differ, so that a focused box keeps the focus.
     const shown = constraints.map(({id, kind}) => `${id}\n${kind}`).join('\n');
     if (shown !== this.shown) {
       this.shown = shown;

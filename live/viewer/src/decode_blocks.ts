@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Blocks: a whole recording in one answer (docs/formats/page.md). They are read where
-// they lie; only where frames begin is noted.
+// Blocks: a whole recording in one answer (docs/formats/page.md). They are read in
+// place; only the offsets of frames are stored.
 
 import {decodeFrame, SceneFrame} from './decode_frame';
 
@@ -26,15 +26,15 @@ export class MotionBlock {
   private readonly view: DataView;
   private readonly starts: Float64Array;
 
-  /** Throws an Error that says what is wrong. `scratch` is of the block's scene; it ends up
-   *  holding the last frame. Linear in the block's size. */
+  /** Throws an Error with the cause. `scratch` belongs to the block's scene; it holds the
+   *  last frame afterwards. Linear in the block's size. */
   constructor(buffer: ArrayBuffer, scratch: SceneFrame) {
     const [frames, skeletons] = readHeader(buffer, 'MRMB');
     if (skeletons !== scratch.skeletons.length) {
       throw new Error(`the block has ${skeletons} skeletons, ` +
         `the scene ${scratch.skeletons.length}`);
     }
-    // Before memory is asked for: a frame has 24 bytes at least.
+    // Checked before memory is allocated: a frame has at least 24 bytes.
     if (frames > buffer.byteLength / 24) throw new Error('the block is cut short');
     this.frames = frames;
     this.view = new DataView(buffer);
@@ -47,7 +47,7 @@ export class MotionBlock {
     }
   }
 
-  /** Precondition: 0 <= i < frames. */
+  /** Reads frame i. Precondition: 0 <= i < frames. */
   read(i: number, into: SceneFrame): void {
     decodeFrame(this.view, this.starts[i], into);
   }
@@ -59,7 +59,7 @@ export class PointBlock {
   readonly points: number;
   private readonly view: DataView;
 
-  /** Throws an Error that says what is wrong. */
+  /** Throws an Error with the cause. */
   constructor(buffer: ArrayBuffer) {
     [this.frames, this.points] = readHeader(buffer, 'MRPB');
     if (BLOCK_HEADER_BYTES + this.frames * this.points * POINT_BYTES > buffer.byteLength) {
@@ -68,7 +68,7 @@ export class PointBlock {
     this.view = new DataView(buffer);
   }
 
-  /** The first frame in which any point is there; 0 when none ever is. */
+  /** Returns the first frame with a point; 0 if there is none. */
   firstSeen(): number {
     for (let k = 0; k < this.frames * this.points; ++k) {
       if (!Number.isNaN(this.view.getFloat32(BLOCK_HEADER_BYTES + k * POINT_BYTES, true))) {
@@ -78,7 +78,7 @@ export class PointBlock {
     return 0;
   }
 
-  /** Every point of frame i: x y z into `p_in_world` (NaN: not there), indices into SOURCES
+  /** Reads the points of frame i: x y z into `p_in_world` (NaN: absent), indices into SOURCES
    *  into `source`. Precondition: 0 <= i < frames; room for all points. */
   read(i: number, p_in_world: Float32Array, source: Uint8Array): void {
     const start = BLOCK_HEADER_BYTES + i * this.points * POINT_BYTES;

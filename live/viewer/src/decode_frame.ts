@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Binary frames (docs/formats/page.md, kind 1), read into arrays that are kept: a
+// Binary frames (docs/formats/page.md, kind 1), read into reused arrays: a
 // frame costs no allocation.
 
 import type {SkeletonWords} from './protocol';
@@ -13,7 +13,7 @@ const HAS_POSE = 1;
 const HAS_DOUBT = 2;
 const HAS_BALANCE = 4;
 const HAS_TRACKING = 8;
-/** Corners of a support polygon that are kept; feet and hands make far fewer. */
+/** Maximum stored corners of a support polygon; feet and hands have far fewer. */
 const MOST_CORNERS = 64;
 
 /** One skeleton at one instant. */
@@ -30,10 +30,10 @@ export class SkeletonFrame {
   /** Indices into SOURCES. */
   readonly source: Uint8Array;
   readonly centre_of_mass_in_world = new Float32Array(3);
-  /** x z of every corner, on the floor. */
+  /** x z of every corner on the floor. */
   readonly support_xz = new Float32Array(2 * MOST_CORNERS);
   corners = 0;
-  /** NaN: not known. */
+  /** NaN: unknown. */
   residual_px = NaN;
   /** Bits: left heel, left ball, right heel, right ball. */
   bears = 0;
@@ -46,7 +46,7 @@ export class SkeletonFrame {
     for (let i = 0; i < joints; ++i) this.parent_from_joint[4 * i + 3] = 1;
   }
 
-  /** Takes over another's values. Precondition: of as many joints. */
+  /** Copies another figure's values. Precondition: the same number of joints. */
   copy(other: SkeletonFrame): void {
     this.hasPose = other.hasPose;
     this.hasDoubt = other.hasDoubt;
@@ -77,8 +77,8 @@ export class SceneFrame {
   }
 }
 
-/** Reads the frame that starts at `offset`. Returns where it ends, or -1 when it is cut
- *  short or is not of this scene; `into` then holds nothing of use. */
+/** Reads the frame that starts at `offset`. Returns its end, or -1 if it is truncated or
+ *  belongs to another scene; the content of `into` is then undefined. */
 export function decodeFrame(view: DataView, offset: number, into: SceneFrame): number {
   if (offset + HEADER_BYTES > view.byteLength) return -1;
   if (view.getUint8(offset) !== FRAME_KIND) return -1;

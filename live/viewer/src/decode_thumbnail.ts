@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Small pictures of what a camera sees (docs/formats/page.md, kind 2).
+// Small camera pictures (docs/formats/page.md, kind 2).
 
 export const THUMBNAIL_KIND = 2;
 const HEADER_BYTES = 8;
@@ -15,14 +15,14 @@ export interface SeenTag {
 
 export interface Thumbnail {
   camera: number;
-  /** Of the original picture. */
+  /** Size of the original picture. */
   width_px: number;
   height_px: number;
   tags: SeenTag[];
   jpeg: Uint8Array<ArrayBuffer>;
 }
 
-/** null when it is cut short. */
+/** Returns null if the message is truncated. */
 export function decodeThumbnail(buffer: ArrayBuffer): Thumbnail | null {
   if (buffer.byteLength < HEADER_BYTES) return null;
   const view = new DataView(buffer);

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where a dragged point goes: with the pointer's ray, in a plane through where it was
-// taken up.
+// Position of a dragged point: the pointer's ray meets a plane through the point where the
+// drag began.
 
 import type {Vector} from './protocol';
 
 const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
-/** Where the ray meets the plane through `on_plane` that faces the eye (`normal`). null when
- *  the ray runs along it or away from it. */
+/** Returns the intersection of the ray and the plane through `on_plane` that faces the eye
+ *  (`normal`); null if the ray is parallel to it or points away. */
 export function dragInPlane(eye: Vector, ray: Vector, on_plane: Vector,
   normal: Vector): Vector | null {
   const slope = dot(ray, normal);
@@ -20,8 +20,8 @@ export function dragInPlane(eye: Vector, ray: Vector, on_plane: Vector,
   return [eye[0] + reach * ray[0], eye[1] + reach * ray[1], eye[2] + reach * ray[2]];
 }
 
-/** The point of the vertical line through `start` that the ray comes nearest to: x and z
- *  stay. null when one looks straight down on it. */
+/** Returns the point of the vertical line through `start` nearest to the ray: x and z are
+ *  kept. null if the ray is vertical. */
 export function dragVertically(eye: Vector, ray: Vector, start: Vector): Vector | null {
   const level: Vector = [ray[0], 0, ray[2]];
   const length = Math.hypot(level[0], level[2]);

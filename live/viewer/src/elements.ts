@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Elements of the page, made briefly.
+// Short constructors for elements of the page.
 
 type Child = Node | string | null | undefined | false;
 type Attributes = Record<string, string | number | boolean | null | undefined |
@@ -23,12 +23,12 @@ export function el<K extends keyof HTMLElementTagNameMap>(name: K, attributes: A
   return made;
 }
 
-/** Only when it differs: what a screen reader announces is then not said again. */
+/** Sets the text only if it differs, so that a screen reader does not repeat it. */
 export function setText(node: HTMLElement, text: string): void {
   if (node.textContent !== text) node.textContent = text;
 }
 
-/** Rows that are written again and again keep their elements. */
+/** Reuses the elements of rows that are rewritten often. */
 export function keepRows<T>(parent: HTMLElement, items: readonly T[],
   make: () => HTMLElement, write: (row: HTMLElement, item: T, index: number) => void): void {
   while (parent.childElementCount > items.length) parent.lastElementChild!.remove();
@@ -38,7 +38,7 @@ export function keepRows<T>(parent: HTMLElement, items: readonly T[],
   });
 }
 
-/** What this browser was told before, if it keeps such things. */
+/** Returns the value stored in this browser, if storage is available. */
 export function remembered(key: string): string | null {
   try {
     return localStorage.getItem(`marey.${key}`);
@@ -51,6 +51,6 @@ export function remember(key: string, value: string): void {
   try {
     localStorage.setItem(`marey.${key}`, value);
   } catch {
-    // Private windows forget; nothing depends on it.
+    // Private windows may refuse storage; it is optional.
   }
 }

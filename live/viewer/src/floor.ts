@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The floor: a grid of metres that fades with the distance.
+// The floor: a grid of metres that fades with distance.
 
 import {
   BufferGeometry, Color, Float32BufferAttribute, LineBasicMaterial, LineSegments, Mesh,
@@ -28,7 +28,7 @@ float lines(vec2 at, float width) {
   vec2 step_size = fwidth(at);
   vec2 off = abs(fract(at - 0.5) - 0.5);
   vec2 cover = clamp((width + step_size - off) / max(step_size, 1e-6), 0.0, 1.0);
-  // Where lines lie closer than pixels they become a tint.
+  // Lines closer than pixels become a tint.
   cover *= clamp(0.5 / max(step_size, 1e-6) - 0.5, 0.0, 1.0);
   return max(cover.x, cover.y);
 }
@@ -41,16 +41,16 @@ void main() {
   #include <colorspace_fragment>
 }`;
 
-/** What bodies stand on. */
+/** The floor of the scene. */
 export interface Floor {
   readonly object: Object3D;
   height_m: number;
   paint(colours: Colours): void;
-  /** Around what is looked at. */
+  /** Centre of the drawn area: the target of the view. */
   place(x: number, z: number): void;
 }
 
-/** `software`: every pixel costs, so the floor is lines alone. */
+/** `software`: pixels are costly, so the floor consists of lines only. */
 export function makeFloor(software: boolean): Floor {
   return software ? new LinedFloor() : new ShadedFloor();
 }
@@ -71,7 +71,7 @@ class ShadedFloor implements Floor {
     });
     this.object = new Mesh(new PlaneGeometry(2 * REACH_M, 2 * REACH_M).rotateX(-Math.PI / 2),
       material);
-    // First of all, without depth: nothing flickers against it.
+    // Drawn first and without depth, to avoid flicker.
     this.object.renderOrder = -10;
     this.object.frustumCulled = false;
   }
@@ -102,7 +102,7 @@ class LinedFloor implements Floor {
     const ends: number[] = [];
     const reach = LINED_REACH_M;
     for (let line = -reach; line <= reach; ++line) {
-      // In pieces of two metres: colour runs evenly from end to end.
+      // In pieces of two metres, because colour is interpolated linearly per piece.
       for (let along = -reach; along < reach; along += 2) {
         for (const [x, z] of [[along, line], [along + 2, line], [line, along],
           [line, along + 2]]) {
@@ -130,7 +130,7 @@ class LinedFloor implements Floor {
     tints.needsUpdate = true;
   }
 
-  /** In whole metres: lines stay where they are in the world. */
+  /** Moves in whole metres, so that lines stay fixed in the world. */
   place(x: number, z: number): void {
     this.object.position.set(Math.round(x), this.height_m, Math.round(z));
   }

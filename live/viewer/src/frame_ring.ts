@@ -1,23 +1,23 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The last minute of a live session, to look back at while it goes on.
+// The last minute of a live session, for review while it continues.
 
-/** Nobody was there: beyond the numbers of SOURCES. */
+/** The body was absent; a value outside SOURCES. */
 export const ABSENT = 3;
 
 export class FrameRing {
   readonly capacity: number;
   readonly rows: number;
-  /** Frames are counted from 0 for as long as the page is open; `first` to `next - 1` are
-   *  still here. */
+  /** Frames are counted from 0 since the page was opened; `first` to `next - 1` are
+   *  stored. */
   next = 0;
   private readonly views: (DataView | null)[];
   private readonly sources: Uint8Array;
   private readonly bearing: Uint8Array;
   private readonly residuals_px: Float32Array;
 
-  /** `rows`: joints whose source is kept for the timeline. */
+  /** `rows`: number of joints whose source is stored for the timeline. */
   constructor(capacity: number, rows: number) {
     this.capacity = capacity;
     this.rows = rows;
@@ -35,8 +35,8 @@ export class FrameRing {
     return Math.max(0, this.next - 1);
   }
 
-  /** Keeps a frame as it came (no copy). `source` of every row, null when nobody was
-   *  there; `bears` and `residual_px` as a frame has them. */
+  /** Stores a received frame (no copy). `source` has one entry per row, null if the body was
+   *  absent; `bears` and `residual_px` as a frame has them. */
   push(view: DataView, source: Uint8Array | null, bears = 0, residual_px = NaN): void {
     const slot = this.next % this.capacity;
     this.views[slot] = view;
@@ -47,23 +47,23 @@ export class FrameRing {
     ++this.next;
   }
 
-  /** null for a frame that is not here (any more). */
+  /** Returns null for a frame that is not stored (any more). */
   at(frame: number): DataView | null {
     if (frame < this.first || frame >= this.next) return null;
     return this.views[frame % this.capacity];
   }
 
-  /** Index into SOURCES, or ABSENT. Precondition: the frame is here. */
+  /** Returns an index into SOURCES, or ABSENT. Precondition: the frame is stored. */
   source(frame: number, row: number): number {
     return this.sources[(frame % this.capacity) * this.rows + row];
   }
 
-  /** What bore, in bits. Precondition: the frame is here. */
+  /** Returns the contacts as bits. Precondition: the frame is stored. */
   bears(frame: number): number {
     return this.bearing[frame % this.capacity];
   }
 
-  /** NaN: not known. Precondition: the frame is here. */
+  /** Returns the residual; NaN: unknown. Precondition: the frame is stored. */
   residual_px(frame: number): number {
     return this.residuals_px[frame % this.capacity];
   }

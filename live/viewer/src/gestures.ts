@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Mouse, touch and wheel on the canvas: the eye goes around, handles are dragged.
+// Mouse, touch and wheel on the canvas: orbit the view and drag handles.
 
 import type {Orbit} from './orbit';
 
 export interface Grip {
-  /** The pointer moved there, with shift or without; pixels of the canvas. */
+  /** Pointer position in pixels of the canvas, with or without shift. */
   move(x_px: number, y_px: number, vertical: boolean): void;
-  /** It is let go, or the gesture was broken off. */
+  /** The pointer is released, or the gesture was cancelled. */
   end(): void;
 }
 
 export interface GestureListener {
-  /** What a pointer takes hold of there, if anything. `reach_px`: how near is near. */
+  /** Returns the handle at this place, if any, within `reach_px`. */
   grip(x_px: number, y_px: number, reach_px: number): Grip | null;
-  /** The pointer is over this place without being down. */
+  /** The pointer is over this place and not pressed. */
   hover(x_px: number, y_px: number): void;
   changed(): void;
   reset(): void;
@@ -50,7 +50,7 @@ export class Gestures {
     this.canvas.setPointerCapture(event.pointerId);
     this.pointers.set(event.pointerId, [x, y]);
     if (this.pointers.size > 1) {
-      // A second finger turns a drag into looking around.
+      // A second finger turns a drag into a change of the view.
       this.letGo();
       return;
     }

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What to do now, over the stage in letters that are read from where one stands while one is
-// measured. The panel says the same, to those who listen as well.
+// The current instruction over the stage, in letters that the subject can read from a
+// distance. The panel repeats it for screen readers.
 
 import {el, setText} from './elements';
 import type {WizardWords} from './protocol';
 
-/** Without an end that is known, a bar that only moves. */
+/** Shows an indeterminate bar if the end is unknown. */
 export function setProgress(bar: HTMLProgressElement, {step, progress}: WizardWords): void {
   if (step === 'solve' && progress === 0) bar.removeAttribute('value');
   else bar.value = Math.min(Math.max(progress, 0), 1);

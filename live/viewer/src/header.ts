@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The bar at the top: what this is, how it does, what can be called up.
+// The bar at the top: title, status, and buttons.
 
 import {el, setText} from './elements';
 import {pillOf} from './pill';
@@ -9,7 +9,7 @@ import type {SceneWords, StatusWords} from './protocol';
 import type {Theme} from './theme';
 import {milliseconds} from './status_panel';
 
-/** What pressing the button does, and how the take does that there is. */
+/** Action of the record button, and state of the current recording. */
 function recordWords(recording: StatusWords['recording']): string {
   if (!recording) return 'Record';
   if (recording.trouble) return 'Recording failed';
@@ -52,7 +52,7 @@ export class Header {
 
   setConnected(connected: boolean): void {
     this.connected = connected;
-    // What was said before the line was lost is old.
+    // A status from before the disconnection is outdated.
     if (!connected) this.status = null;
     this.banner.hidden = connected;
     setText(this.banner, connected ? ''
@@ -72,7 +72,7 @@ export class Header {
     this.tell();
   }
 
-  /** Also some times a second: a status that does not come shows, too. */
+  /** Also called a few times per second, so that a missing status becomes visible. */
   tell(): void {
     const {state, words, why} = pillOf(this.connected, this.live, this.status,
       performance.now() - this.statusAt_ms);

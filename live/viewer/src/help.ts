@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Keys and gestures: what they are and what they do.
+// List of keys and gestures.
 
 import {el} from './elements';
 
@@ -30,7 +30,7 @@ export class Help {
   constructor() {
     document.body.append(this.dialog);
     this.dialog.addEventListener('click', (event) => {
-      // Beside the box, that is, on the backdrop.
+      // A click outside the box, on the backdrop.
       if (event.target === this.dialog) this.dialog.close();
     });
   }
@@ -41,7 +41,7 @@ export class Help {
   }
 }
 
-/** Calls what belongs to a key; leaves those alone that a control of the page wants. */
+/** Runs the action of a key, unless a control of the page needs the key. */
 export function listenToKeys(actions: Record<string, (event: KeyboardEvent) => void>): void {
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -49,7 +49,7 @@ export function listenToKeys(actions: Record<string, (event: KeyboardEvent) => v
     if (target.closest('select, input:not([type=checkbox]), dialog[open]')) {
       if (!(event.key === '?' && target.closest('dialog'))) return;
     }
-    // Space presses what has the focus.
+    // Space presses the focused control.
     if (event.key === ' ' && target.closest('button, summary, input')) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const action = actions[key];
@@ -59,8 +59,8 @@ export function listenToKeys(actions: Record<string, (event: KeyboardEvent) => v
   });
 }
 
-/** What was pressed with the mouse does not keep the focus: keys then go to the scene again.
- *  Whoever goes from control to control by keyboard is left alone. */
+/** Removes the focus from a control pressed with the mouse, so that keys go to the scene
+ *  again. Keyboard navigation keeps its focus. */
 export function giveFocusBack(): void {
   let byPointer = false;
   document.addEventListener('pointerdown', () => { byPointer = true; }, true);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Names that hang in the scene: elements over the canvas.
+// Name labels in the scene: elements over the canvas.
 
 import type {PerspectiveCamera} from 'three';
 import {Vector3} from 'three';
@@ -23,7 +23,7 @@ export class Labels {
     this.height = height;
   }
 
-  /** Above this place. */
+  /** The label is drawn above this point. */
   add(text: string, kind: string, camera: PerspectiveCamera, x: number, y: number,
     z: number): void {
     const {at} = this;
@@ -34,7 +34,7 @@ export class Labels {
     setText(span, text);
     if (span.className !== kind) span.className = kind;
     if (span.hidden) span.hidden = false;
-    // Within the stage, as far as its width can be guessed: to ask for it costs a layout.
+    // Kept within the stage with an estimated width, because measuring it costs a layout.
     const half = Math.min(HALF_LETTER_PX * text.length, this.width / 2);
     const left = Math.round(Math.min(Math.max((at.x + 1) / 2 * this.width, half),
       this.width - half));

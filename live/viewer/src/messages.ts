@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What there is to say, newest first: the server's messages for as long as it says them,
-// the page's own, which nobody takes back, for as long as there is room.
+// Messages, newest first: the server's while they are in its status, and the page's own,
+// which are never withdrawn, while there is room.
 
 const MOST_MESSAGES = 8;
 
@@ -10,12 +10,12 @@ export class Messages {
   private ofServer: readonly string[] = [];
   private ofPage: string[] = [];
 
-  /** Newest last, as a status has them. */
+  /** Newest last, as in a status. */
   serve(messages: readonly string[]): void {
     this.ofServer = messages;
   }
 
-  /** What was said last is not said again. */
+  /** Ignores a repetition of the last message. */
   add(message: string): void {
     if (this.ofPage.includes(message)) return;
     this.ofPage = [message, ...this.ofPage].slice(0, MOST_MESSAGES);

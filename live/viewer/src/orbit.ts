@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The eye that goes around what is looked at. Knows no screen: gestures.ts moves it.
+// The eye that orbits a target. Independent of the screen: gestures.ts moves it.
 
 import type {Vector} from './protocol';
 
-/** Vertical. [rad] */
+/** Vertical angle of view. [rad] */
 export const VIEW_ANGLE = 0.62;
 
 export interface View {
   target_in_world: Vector;
   distance_m: number;
-  /** About Y, from +Z towards +X. [rad] */
+  /** Angle about Y, from +Z towards +X. [rad] */
   azimuth: number;
-  /** Above the horizon. [rad] */
+  /** Angle above the horizon. [rad] */
   height: number;
 }
 
@@ -26,7 +26,7 @@ export class Orbit implements View {
   distance_m = 4.2;
   azimuth = 0.55;
   height = 0.2;
-  /** Where it is going, when a person did not take it elsewhere meanwhile. */
+  /** Target of the current motion; the user's input cancels it. */
   private goal: View | null = null;
 
   eye(out: Vector): Vector {
@@ -48,7 +48,7 @@ export class Orbit implements View {
     this.distance_m = Math.min(Math.max(this.distance_m * factor, NEAREST_M), FARTHEST_M);
   }
 
-  /** What is at the target stays under the pointer. */
+  /** Pans, so that the target stays under the pointer. */
   pan(dx_px: number, dy_px: number, height_px: number): void {
     this.goal = null;
     const metres = 2 * this.distance_m * Math.tan(VIEW_ANGLE / 2) / Math.max(height_px, 1);
@@ -60,15 +60,15 @@ export class Orbit implements View {
     this.target_in_world[2] += dx_px * metres * sin - away * cos;
   }
 
-  /** Goes there in a few steps of glide(); at once where motion is not wanted. */
+  /** Moves there in a few steps of glide(); at once if reduced motion is set. */
   goTo(view: View, atOnce: boolean): void {
-    // The shorter way around.
+    // Rotate the shorter way.
     const turns = Math.round((this.azimuth - view.azimuth) / (2 * Math.PI));
     this.goal = {...view, azimuth: view.azimuth + 2 * Math.PI * turns};
     if (atOnce) this.glide(Infinity);
   }
 
-  /** True while it still moves. */
+  /** Advances the motion; returns true while it continues. */
   glide(seconds: number): boolean {
     const {goal} = this;
     if (!goal) return false;
@@ -86,7 +86,7 @@ export class Orbit implements View {
     return true;
   }
 
-  /** Takes the eye along with whom it follows. */
+  /** Moves the eye with the followed body. */
   shift(dx_m: number, dz_m: number): void {
     this.target_in_world[0] += dx_m;
     this.target_in_world[2] += dz_m;
@@ -98,21 +98,21 @@ export class Orbit implements View {
 
 const LEASH_M = 0.25;
 
-/** How far the eye moves along with a body that is so far (x, z) from where it was thought to
- *  be: steps on the spot do not move it. */
+/** Returns the move of the eye for a followed body at offset (x, z) from its assumed place.
+ *  Small steps do not move the eye. */
 export function leash(x_m: number, z_m: number): [number, number] {
   const away = Math.hypot(x_m, z_m);
   const share = away > LEASH_M ? 1 - LEASH_M / away : 0;
   return [share * x_m, share * z_m];
 }
 
-/** Looks at all of these points (x y z each; those that are not finite do not count) from this
- *  side, with a hand's breadth around them. null without points. */
+/** Returns the view from this side that contains all finite points (x y z each), with a
+ *  small margin; null without points. */
 export function framing(points_in_world: ArrayLike<number>, azimuth: number, height: number,
   aspect: number): View | null {
   const [sin, cos] = [Math.sin(azimuth), Math.cos(azimuth)];
   const [rise, flat] = [Math.sin(height), Math.cos(height)];
-  // Right, up and towards the eye.
+  // Axes: right, up, and towards the eye.
   const axes = [[cos, 0, -sin], [-rise * sin, flat, -rise * cos], [flat * sin, rise, flat * cos]];
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The page: what comes from marey goes to the stage, the timeline and the panels; what a
-// person does goes back.
+// The page: passes data from marey to the stage, the timeline and the panels, and user input
+// back.
 
 import {CamerasPanel} from './cameras_panel';
 import {Connection} from './connection';
@@ -29,18 +29,18 @@ import {WizardPanel} from './wizard_panel';
 
 const SHOWN_EVERY_MS = 500;
 const REPAINT_EVERY_MS = 250;
-/** marey tells its status twice a second: after this it is gone, whatever the line says. */
+/** marey sends its status twice a second; after this time without one it counts as silent. */
 const SILENCE_MS = 3000;
 const DRAG_EVERY_MS = 15;
-/** What goes on live moves the timeline's words no more often: each costs a layout. */
+/** Minimum interval of updates of the timeline's text when live: each costs a layout. */
 const PLACED_EVERY_MS = 100;
 
 class Page implements Listener, StageListener {
   readonly reel = new Reel();
   readonly stage: Stage;
-  /** Pictures drawn since the page was opened. */
+  /** Number of pictures drawn since the page was opened. */
   drawnCount = 0;
-  /** Told after every picture of a frame that is new; for measuring. */
+  /** Called after every picture of a new frame; for measurements. */
   onDrawn: ((sent_s: number) => void) | null = null;
   connected = false;
   private readonly theme = new Theme();
@@ -137,9 +137,9 @@ class Page implements Listener, StageListener {
   }
 
   private async setScene(scene: SceneWords): Promise<void> {
-    // The one that is looked at follows.
+    // The requested trial was asked for; its scene follows.
     if (this.trials.asksInsteadOf(scene.file)) return;
-    // A server that came back says what it said before.
+    // A reconnected server repeats its messages.
     const text = JSON.stringify({...scene, revision: 0, wizard: null, constraints: []});
     const same = text === this.sceneText;
     this.scene = scene;
@@ -160,7 +160,7 @@ class Page implements Listener, StageListener {
     this.header.setScene(scene);
     this.cameras.load(scene.cameras, scene.mode === 'live');
     this.status.load(scene.mode === 'live');
-    loadWizard(); // The last: it is scrolled to when it begins.
+    loadWizard(); // Last, because the page scrolls to it when it begins.
     this.timeline.load(timelineOf(scene, this.reel));
     this.transport.setMode(scene.mode === 'live');
     this.trials.show(scene.file);
@@ -221,13 +221,13 @@ class Page implements Listener, StageListener {
   }
 
   drag(id: string, p_in_world: Vector, phase: DragPhase): void {
-    // Of many movements the server needs no more than it can show; the last is in the end.
+    // Send at most as many moves as the server can show; the end contains the last one.
     const now_ms = performance.now();
     if (phase === 'move' && now_ms - this.dragged_ms < DRAG_EVERY_MS) return;
     this.dragged_ms = now_ms;
     if (!this.live && phase === 'begin') {
       this.reel.playback.pause();
-      // Between frames there is nothing to adapt.
+      // Only whole frames can be adapted.
       if (this.reel.playback.time !== this.reel.playback.frame) {
         this.reel.playback.seek(this.reel.playback.frame);
       }
@@ -247,11 +247,11 @@ class Page implements Listener, StageListener {
   }
 
   private send(words: Parameters<Connection['send']>[0]): void {
-    // Panels ask before there is a line; what they ask is repeated when there is one.
+    // Requests before the connection is open are repeated when it opens.
     this.connection?.send(words);
   }
 
-  /** What is shown changed. */
+  /** Called when the shown instant has changed. */
   private renew(): void {
     this.stale = true;
     this.stage.refresh();
@@ -265,7 +265,7 @@ class Page implements Listener, StageListener {
     if (this.live && this.connected) this.connection.renewAfter(SILENCE_MS);
   }
 
-  /** A timeline that moves on is painted a few times a second. */
+  /** Repaints an advancing timeline a few times per second. */
   private repaintLive(): void {
     if (this.live && !document.hidden) this.timeline.repaint();
   }
@@ -310,7 +310,7 @@ class Page implements Listener, StageListener {
 
 declare global {
   interface Window {
-    /** For those who test or measure the page. */
+    /** For tests and measurements of the page. */
     mareyPage?: Page;
   }
 }

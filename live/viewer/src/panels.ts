@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Panels beside the stage: sections that fold, and remember whether they were open.
+// Panels next to the stage: foldable sections that store their state.
 
 import {el, remember, remembered, setText} from './elements';
 
@@ -28,13 +28,13 @@ export class Section {
     this.element.hidden = hidden;
   }
 
-  /** Opens it; its beginning is seen then, and as much of the rest as there is room for. */
+  /** Opens the section and scrolls to its beginning, and to as much of the rest as fits. */
   reveal(): void {
     this.element.open = true;
     this.element.scrollIntoView({block: 'start'});
   }
 
-  /** A few words that are seen when it is folded, too. */
+  /** Sets a short summary that is also visible when folded. */
   tell(words: string): void {
     setText(this.hint, words);
   }
@@ -42,7 +42,7 @@ export class Section {
 
 const NARROW = '(max-width: 48rem), (max-height: 30rem)';
 
-/** Shows or hides them all; on a phone they lie over the stage, and begin hidden. */
+/** Shows or hides all panels; on a phone they cover the stage and start hidden. */
 export class Panels {
   private readonly narrow = window.matchMedia(NARROW);
   readonly button: HTMLButtonElement;

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The badge at the top: how the subject is. Good only where all of it is.
+// The badge at the top: state of the subject. It is good only if there is no fault.
 
 import type {StatusWords} from './protocol';
 
-/** marey sends its status twice a second: without one for so long nothing is known. */
+/** marey sends its status twice a second; after this time the state is unknown. */
 export const STATUS_SILENCE_MS = 1250;
 
 const WORDS: Record<StatusWords['subject'], string> = {
@@ -14,14 +14,14 @@ const WORDS: Record<StatusWords['subject'], string> = {
 };
 
 export interface Pill {
-  /** Ends the class: pill-tracked. */
+  /** Suffix of the CSS class: pill-tracked. */
   state: StatusWords['subject'] | 'offline' | 'file' | 'silent';
   words: string;
-  /** Why it is not good; empty where there is nothing to say. */
+  /** Reasons why it is not good; empty: none. */
   why: string;
 }
 
-/** `silent_ms`: since the status came. Null: none has come yet. */
+/** `silent_ms`: time since the last status. `status` null: none received yet. */
 export function pillOf(connected: boolean, live: boolean,
   status: Pick<StatusWords, 'subject' | 'doubts'> | null, silent_ms: number): Pill {
   if (!connected) return {state: 'offline', words: 'not connected', why: ''};

@@ -1,29 +1,29 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which instant is shown, counted in frames and between them. Knows no clock: advance() is
-// told how long it was.
+// The shown instant, in frames and fractions. Has no clock: advance() gets the elapsed
+// time.
 
 export class Playback {
-  /** First and last frame there is, both included. */
+  /** First and last available frame, both included. */
   first = 0;
   last = 0;
-  /** The instant shown. */
+  /** The shown instant [frames]. */
   time = 0;
   rate_hz = 30;
   speed = 1;
   loop = false;
   playing = false;
-  /** Live: shows the newest, whatever comes. */
+  /** Live: always shows the newest frame. */
   following = false;
-  /** How often somebody went somewhere. */
+  /** Number of jumps by the user. */
   seeks = 0;
 
   get frame(): number {
     return Math.min(Math.max(Math.round(this.time), this.first), this.last);
   }
 
-  /** A ring that forgets its oldest frames takes the instant along. */
+  /** Moves the instant forward if the ring drops its frame. */
   setRange(first: number, last: number): void {
     this.first = first;
     this.last = Math.max(last, first);
@@ -36,7 +36,7 @@ export class Playback {
     this.time = this.clamped(time);
   }
 
-  /** To a whole frame, `count` away; playing ends. */
+  /** Goes to the whole frame at distance `count` and stops playing. */
   step(count: number): void {
     this.playing = false;
     this.seek(this.frame + count);
@@ -58,8 +58,8 @@ export class Playback {
     this.time = this.last;
   }
 
-  /** Goes on by so many seconds of the viewer's time. At the end it starts anew (loop),
-   *  follows (`live`: what comes next has just arrived) or stops. */
+  /** Advances by `seconds` of real time. At the end it restarts (loop), follows the newest
+   *  frame (`live`) or stops. */
   advance(seconds: number, live: boolean): void {
     if (!this.playing || this.following) return;
     const length = this.last - this.first;

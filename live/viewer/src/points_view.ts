@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Labelled points: dots in the colour of where they come from.
+// Labelled points: dots in the colour of their source.
 
 import {BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, PointsMaterial} from
   'three';
@@ -11,7 +11,7 @@ import type {Colours} from './theme';
 export class PointsView {
   readonly object: Points<BufferGeometry, PointsMaterial>;
   readonly labels: readonly string[];
-  /** x y z of every point; NaN: not there. */
+  /** x y z of every point; NaN: absent. */
   readonly p_in_world: Float32Array;
   private readonly source: Uint8Array;
   private readonly drawn: BufferAttribute;
@@ -33,7 +33,7 @@ export class PointsView {
     this.object.frustumCulled = false;
   }
 
-  /** x and z of the middle of those that are there; null without any. */
+  /** Returns x and z of the centre of the visible points; null if there are none. */
   middle(): [number, number] | null {
     const {p_in_world: p} = this;
     let [x, z, count] = [0, 0, 0];

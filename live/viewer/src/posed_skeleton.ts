@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where the joints of a skeleton are.
+// Joint positions and rotations of a posed skeleton.
 
 import type {SkeletonFrame} from './decode_frame';
 import type {SkeletonWords} from './protocol';
@@ -10,7 +10,7 @@ import {blend, multiply, turn} from './quaternions';
 export class PosedSkeleton {
   readonly joints: number;
   readonly parents: Int16Array;
-  /** x y z of every joint. The offset that sets it beside others is not in it. */
+  /** x y z of every joint, without the display offset of the skeleton. */
   readonly p_in_world: Float32Array;
   /** x y z w of every joint. */
   readonly world_from_joint: Float32Array;
@@ -33,12 +33,13 @@ export class PosedSkeleton {
     this.set(local, this.p_in_parent);
   }
 
-  /** One pass. Precondition: the frame has a pose of as many joints. */
+  /** Computes all joints in one pass. Precondition: the frame has a pose of the same number
+   *  of joints. */
   setFrame(frame: SkeletonFrame): void {
     this.set(frame.parent_from_joint, frame.root_in_world);
   }
 
-  /** Which way the body looks: about Y from +Z, where it looks at rest. [rad] */
+  /** Heading of the body: angle about Y from +Z, its heading at rest. [rad] */
   heading(): number {
     const ahead = [0, 0, 1];
     const {world_from_root_rest: rest} = this;
@@ -63,8 +64,8 @@ export class PosedSkeleton {
   }
 }
 
-/** `into` = the instant between two frames: poses are blended, the rest is the nearer
- *  frame's. Where one has no pose, the nearer frame alone counts. */
+/** Writes the instant between two frames to `into`: poses are interpolated, other values
+ *  are the nearer frame's. If one frame has no pose, only the nearer frame is used. */
 export function blendFrames(into: SkeletonFrame, a: SkeletonFrame, b: SkeletonFrame,
   share: number): void {
   into.copy(share < 0.5 ? a : b);

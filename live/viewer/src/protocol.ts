@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What marey and its page say to each other, version 1 (docs/formats/page.md). The
+// Messages between marey and its page, version 1 (docs/formats/page.md). The
 // world is right-handed, Y up, in metres and seconds; quaternions are x y z w.
 
 export const PROTOCOL_VERSION = 1;
@@ -10,10 +10,10 @@ export type Vector = [number, number, number];
 export type Quaternion = [number, number, number, number];
 export type Source = 'measured' | 'repaired' | 'inferred';
 
-/** As numbered in frames and point blocks. */
+/** Sources, indexed by the numbers in frames and point blocks. */
 export const SOURCES: readonly Source[] = ['measured', 'repaired', 'inferred'];
 
-/** In the parent's frame (a root's: in the world). */
+/** Transform in the parent's frame (of a root: in the world). */
 export interface Placement {
   p: Vector;
   q: Quaternion;
@@ -32,7 +32,7 @@ export interface SkinWords {
   nodes: string[];
   node_index: number[];
   unit_from_m: number;
-  /** How the whole file is turned to stand as the scene does. */
+  /** Rotation of the whole file into the scene's axes. */
   scene_from_file: Quaternion;
 }
 
@@ -64,12 +64,12 @@ export interface ConstraintWords {
   active: boolean;
   p_in_world: Vector;
   draggable: boolean;
-  /** It is where this joint of its skeleton is, frame by frame, and p_in_world is void. */
+  /** Joint of its skeleton that it follows frame by frame; p_in_world is then unused. */
   joint?: number;
 }
 
-/** First and last frame, both included, as the recording numbers them: from `first_frame`
- *  on. */
+/** First and last frame, both included, in the recording's numbering, which starts at
+ *  `first_frame`. */
 export type Gap = [number, number, 'repaired' | 'inferred'];
 
 export interface TrackWords {
@@ -88,7 +88,7 @@ export interface GraphWords {
   values: (number | null)[];
 }
 
-/** Spans and notes number frames as the recording does, from `first_frame` on. */
+/** Spans and notes use the recording's frame numbers, from `first_frame` on. */
 export interface FileWords {
   frames: number;
   first_frame: number;
@@ -98,10 +98,10 @@ export interface FileWords {
   contacts: ContactWords[];
   graphs: GraphWords[];
   notes: {frame: number; text: string}[];
-  /** Which of `trials` this is, or empty; a page may ask for another. */
+  /** Name of this trial in `trials`, or empty; a page may request another. */
   trial?: string;
   trials?: string[];
-  /** Where the report is served; empty: nowhere. */
+  /** Path of the report; empty: none. */
   report?: string;
 }
 
@@ -125,7 +125,7 @@ export interface StatusWords {
   type: 'status';
   clock_s: number;
   subject: 'waiting' | 'tracked' | 'partly' | 'behind' | 'stopped' | 'lost';
-  /** Why the subject is not well. */
+  /** Faults of the subject's tracking. */
   doubts: string[];
   frame: number;
   rate_hz: number;
@@ -179,8 +179,8 @@ export type PageWords =
   | {type: 'thumbnails'; on: boolean}
   | {type: 'trial'; name: string};
 
-/** A text of the server, or what is wrong with it. Only the outline is looked at: the
- *  server is ours, and a page of another version is told so. */
+/** Parses a text of the server, or returns its error. Only the outline is checked: the
+ *  server is marey, and another version is reported. */
 export function readServerWords(text: string): ServerWords | {type: 'bad'; why: string} {
   let words: unknown;
   try {
@@ -205,7 +205,7 @@ function readScene(scene: SceneWords): ServerWords | {type: 'bad'; why: string} 
       `this page version ${PROTOCOL_VERSION}: reload the page`};
   }
   for (const skeleton of scene.skeletons) {
-    // Poses are worked out in one pass, so parents come first.
+    // Poses are computed in one pass, so parents must come first.
     const orphan = skeleton.joints.findIndex((joint, i) => joint.parent >= i);
     if (orphan >= 0) {
       return {type: 'bad', why: `${skeleton.name}: joint ${orphan} comes before its parent`};

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How fine the picture is, so that a slow machine keeps up. Knows no clock: it is told once
-// a second what was wanted and what was drawn.
+// Resolution of the picture, reduced on slow machines. Has no clock: it gets the numbers of
+// due and drawn pictures once a second.
 
-/** Pixels of the picture per pixel of the page, from the finest. */
+/** Pixels of the picture per pixel of the page, in descending order. */
 const RATIOS = [2, 1.5, 1, 0.75, 0.6];
-const PATIENCE = 2; // Seconds of one kind before anything changes.
-const CALM = 20; // Seconds without trouble before it is tried finer.
-/** Pixels below which it gets uglier and hardly faster. */
+const PATIENCE = 2; // Successive seconds of one kind before a change.
+const CALM = 20; // Seconds without slow pictures before a finer ratio is tried.
+/** Number of pixels below which a coarser picture is hardly faster. */
 const FEWEST_PX = 200_000;
 
 export class Quality {
@@ -16,7 +16,7 @@ export class Quality {
   private behind = 0;
   private fine = 0;
   private readonly finest: number;
-  /** What was too much once is not tried again. */
+  /** Ratios that were too slow once are not tried again. */
   private limit: number;
 
   /** `software`: there is no graphics processor. */
@@ -31,10 +31,10 @@ export class Quality {
     return RATIOS[this.level];
   }
 
-  /** Pictures that were due within the last second and those that were drawn, and the area
-   *  they take on the page. True when the ratio changed. */
+  /** Evaluates one second: pictures due, pictures drawn, and their area on the page. Returns
+   *  true if the ratio changed. */
   second(due: number, drawn: number, area_px: number): boolean {
-    // Few pictures say nothing: the page was hidden, or nothing moved.
+    // Few pictures are no evidence: the page was hidden, or nothing moved.
     if (due < 10) return false;
     const slow = drawn < 0.85 * Math.min(due, 60);
     this.behind = slow ? this.behind + 1 : 0;

@@ -16,7 +16,7 @@ export function multiply(out: Numbers, o: number, a: Numbers, i: number, b: Numb
   out[o + 3] = aw * bw - ax * bx - ay * by - az * bz;
 }
 
-/** out = the inverse of a times b, of unit quaternions. `out` may be one of them. */
+/** out = inverse(a) b, for unit quaternions. `out` may be one of them. */
 export function multiplyInverse(out: Numbers, o: number, a: Numbers, i: number, b: Numbers,
   k: number): void {
   const ax = -a[i], ay = -a[i + 1], az = -a[i + 2], aw = a[i + 3];
@@ -27,7 +27,7 @@ export function multiplyInverse(out: Numbers, o: number, a: Numbers, i: number, 
   out[o + 3] = aw * bw - ax * bx - ay * by - az * bz;
 }
 
-/** out = v turned by q. `out` may be v. */
+/** out = v rotated by q. `out` may be v. */
 export function turn(out: Numbers, o: number, q: Numbers, i: number, v: Numbers,
   k: number): void {
   const x = q[i], y = q[i + 1], z = q[i + 2], w = q[i + 3];
@@ -40,8 +40,8 @@ export function turn(out: Numbers, o: number, q: Numbers, i: number, v: Numbers,
   out[o + 2] = vz + w * tz + x * ty - y * tx;
 }
 
-/** out = the way from a to b, by the shorter side; `share` 0 is a, 1 is b. Normalised
- *  linear: frames of a recording lie too near each other for the difference to show. */
+/** out = interpolation from a to b along the shorter arc; `share` 0 is a, 1 is b. Normalised
+ *  linear: frames are so close that the difference to slerp is invisible. */
 export function blend(out: Numbers, a: Numbers, b: Numbers, i: number, share: number): void {
   const alike = a[i] * b[i] + a[i + 1] * b[i + 1] + a[i + 2] * b[i + 2] + a[i + 3] * b[i + 3];
   const far = alike < 0 ? -share : share;

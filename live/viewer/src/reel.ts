@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where shown instants come from: a recording's block, or the last minute of a live session.
+// Source of the shown instants: a recording's block, or the last minute of a live session.
 
 import {MotionBlock, PointBlock} from './decode_blocks';
 import {decodeFrame, SceneFrame} from './decode_frame';
@@ -18,10 +18,10 @@ const MOST_FRAMES = 7200;
 
 export class Reel {
   readonly playback = new Playback();
-  /** The instant that is shown, after compose(). */
+  /** The shown instant, after compose(). */
   shown = new SceneFrame([]);
   rows: Rows = new RingRows([], new FrameRing(1, 0));
-  /** What bears, over time; null of a session without a performer. */
+  /** Contacts over time; null for a session without a performer. */
   contacts: Rows | null = null;
   curves: readonly Curve[] = [];
   points: PointBlock | null = null;
@@ -31,13 +31,13 @@ export class Reel {
   private ring = new FrameRing(1, 0);
   private live = true;
   private layout = '';
-  /** Whose sources the timeline shows. */
+  /** Skeleton whose sources the timeline shows. */
   private witness = -1;
-  /** What comes of dragging a constraint of a recording at frame `at`, until one goes
-   *  elsewhere: answers that come later than that are not looked at. */
+  /** Frame `at` of a recording, adapted to a dragged constraint, until another frame is
+   *  shown; later answers are ignored. */
   private adapted: {at: number; seeks: number; frame: SceneFrame | null} | null = null;
 
-  /** A session that goes on keeps its past. */
+  /** Keeps the stored frames if the session continues. */
   setScene(scene: SceneWords): void {
     this.live = scene.mode === 'live';
     this.playback.rate_hz = scene.rate_hz > 0 ? scene.rate_hz : 30;
@@ -77,7 +77,7 @@ export class Reel {
     playback.follow();
   }
 
-  /** Fetches what the scene names. Throws an Error that says what is wrong. */
+  /** Fetches the blocks of the scene. Throws an Error with the cause. */
   async load(scene: SceneWords, signal: AbortSignal): Promise<void> {
     const {file} = scene;
     if (!file) return;
@@ -91,15 +91,15 @@ export class Reel {
       const points = new PointBlock(await fetched(file.points_block, signal));
       if (signal.aborted) return;
       this.points = points;
-      // Markers alone are often seen later than the cameras ran.
+      // Without skeletons, start at the first visible marker, often after the first frame.
       if (scene.skeletons.length === 0) this.playback.seek(points.firstSeen());
     }
   }
 
-  /** A frame came. False when it is not of this scene. */
+  /** Stores a received frame. Returns false if it belongs to another scene. */
   push(view: DataView): boolean {
     if (!this.live) return this.adapt(view);
-    // Read once now, for the timeline, and again when it is shown: it may never be.
+    // Decoded now for the timeline, and again when shown, which may never happen.
     if (decodeFrame(view, 0, this.after) < 0) return false;
     const witness = this.after.skeletons[this.witness];
     if (witness && !witness.hasDoubt) witness.source.fill(0);
@@ -110,7 +110,7 @@ export class Reel {
     return true;
   }
 
-  /** A constraint is dragged: what the server answers is this frame, adapted. */
+  /** Begins a drag of a constraint: the server answers with this frame, adapted. */
   expectAdapted(): void {
     const {frame: at, seeks} = this.playback;
     if (!this.live) this.adapted = {at, seeks, frame: this.adapted?.frame ?? null};
@@ -125,7 +125,7 @@ export class Reel {
     return true;
   }
 
-  /** Makes `shown` the instant of the playback. False when there is nothing to show. */
+  /** Sets `shown` to the instant of the playback. Returns false if there is nothing to show. */
   compose(): boolean {
     const {time, frame} = this.playback;
     if (this.adapted?.at !== time || this.adapted.seeks !== this.playback.seeks) {

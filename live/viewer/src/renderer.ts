@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The canvas and what draws on it. Draws when it is asked to, not all the time.
+// The canvas and its renderer. Draws only on request.
 
 import {
   Color, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer,
@@ -13,7 +13,7 @@ import type {Vector} from './protocol';
 import {Quality} from './quality';
 import type {Colours} from './theme';
 
-/** Drawing without a graphics processor: SwiftShader, llvmpipe and their kin. */
+/** Names of software renderers: SwiftShader, llvmpipe and similar. */
 function drawsInSoftware(): boolean {
   const gl = el('canvas').getContext('webgl2');
   if (!gl) return true;
@@ -39,7 +39,7 @@ export class Renderer {
   private readonly ray = new Vector3();
   private asked = 0;
 
-  /** Throws where there is no WebGL 2. `draw` is called with the time of the picture. */
+  /** Throws without WebGL 2. `draw` is called with the time of the picture. */
   constructor(private readonly draw: (now_ms: number) => void, resized: () => void) {
     this.gl = new WebGLRenderer({canvas: this.canvas, antialias: !this.software,
       powerPreference: 'high-performance', alpha: false, stencil: false});
@@ -53,7 +53,7 @@ export class Renderer {
     this.canvas.addEventListener('webglcontextrestored', () => this.invalidate());
   }
 
-  /** Asks for one picture, at the screen's next. */
+  /** Requests one picture, at the screen's next refresh. */
   invalidate(): void {
     if (this.asked !== 0) return;
     this.asked = requestAnimationFrame((now_ms) => {
@@ -71,7 +71,7 @@ export class Renderer {
     orbit.eye(this.eye);
     this.camera.position.set(...this.eye);
     this.camera.lookAt(...orbit.target_in_world);
-    // Two depths far apart cost precision; one metre in front of the eye is near.
+    // A large ratio of far to near depth costs precision.
     this.camera.near = Math.min(0.1, orbit.distance_m / 20);
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
@@ -81,32 +81,32 @@ export class Renderer {
     this.gl.render(this.scene, this.camera);
   }
 
-  /** Which way a place on the canvas looks, from the eye. Not of unit length. */
+  /** Returns the direction from the eye through a place on the canvas, not normalised. */
   rayThrough(x_px: number, y_px: number): Vector {
     this.ray.set(2 * x_px / this.width - 1, 1 - 2 * y_px / this.height, 0.5)
       .unproject(this.camera).sub(this.camera.position);
     return [this.ray.x, this.ray.y, this.ray.z];
   }
 
-  /** Towards the eye. */
+  /** Returns the direction towards the eye. */
   facing(): Vector {
     this.camera.getWorldDirection(this.ray);
     return [-this.ray.x, -this.ray.y, -this.ray.z];
   }
 
-  /** On the canvas; null behind the eye. */
+  /** Returns the place on the canvas; null behind the eye. */
   pixelOf(p_in_world: Vector): [number, number] | null {
     this.ray.set(...p_in_world).project(this.camera);
     if (this.ray.z > 1) return null;
     return [(this.ray.x + 1) / 2 * this.width, (1 - this.ray.y) / 2 * this.height];
   }
 
-  /** Once a second: pictures that were due, and those drawn. */
+  /** Called once a second with the numbers of due and drawn pictures. */
   adapt(due: number, drawn: number): void {
     if (this.quality.second(due, drawn, this.width * this.height)) this.resize();
   }
 
-  /** Waits until everything asked for is drawn. For measuring. */
+  /** Waits until every request is drawn. For measurements. */
   finish(): void {
     const gl = this.gl.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
@@ -118,7 +118,7 @@ export class Renderer {
     this.gl.setPixelRatio(this.quality.ratio);
     this.gl.setSize(this.width, this.height, false);
     this.camera.aspect = this.width / this.height;
-    // Drawn at once: a canvas that was resized is empty.
+    // Drawn at once, because a resized canvas is empty.
     if (this.asked !== 0) cancelAnimationFrame(this.asked);
     this.asked = 0;
     this.draw(performance.now());

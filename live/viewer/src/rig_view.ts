@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The cameras, each with the pyramid that it sees.
+// The cameras, each with its viewing pyramid.
 
 import {BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments} from 'three';
 import {turn} from './quaternions';
@@ -10,8 +10,8 @@ import type {Colours} from './theme';
 
 const DEPTH_M = 0.24;
 
-/** Ends of the lines of one camera's pyramid, x y z each, in the world. A short stroke marks
- *  the top of its picture. */
+/** Returns the end points of the lines of a camera's pyramid, x y z each, in the world. A
+ *  short stroke marks the top of its picture. */
 export function frustumLines(camera: CameraWords): number[] {
   const {p, q} = camera.world_from_camera;
   const corner = (x_px: number, y_px: number): Vector => {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A skeleton as it is drawn: bones in the colour of where they come from, doubt as balls,
-// a shadow on the floor.
+// Drawing of a skeleton: bones in the colour of their source, uncertainty as balls, a shadow
+// on the floor.
 
 import {
   Color, DoubleSide, DynamicDrawUsage, Group, InstancedMesh, MeshBasicMaterial,
@@ -15,14 +15,14 @@ import type {PosedSkeleton} from './posed_skeleton';
 import type {Vector} from './protocol';
 import type {Colours} from './theme';
 
-const SIGMAS = 2; // A ball of two sigma holds most of what a joint may be off by.
+const SIGMAS = 2; // A ball of two sigma contains most position errors of a joint.
 const LARGEST_BALL_M = 0.3;
 
 export class SkeletonView {
   readonly object = new Group();
   private readonly pose: PosedSkeleton;
   private readonly offset: Vector;
-  /** The far joint of every bone. */
+  /** Joint at the far end of every bone. */
   private readonly ends: number[];
   private readonly radii: number[];
   private readonly jointRadius: number;
@@ -54,7 +54,7 @@ export class SkeletonView {
     this.doubt.renderOrder = 5;
     if (fleshed) {
       this.shadowWidth = 3.2;
-      // Seen through the skin.
+      // Visible through the skin.
       this.bones.material.depthTest = false;
       this.balls.material.depthTest = false;
       this.bones.renderOrder = 3;
@@ -77,7 +77,7 @@ export class SkeletonView {
     this.doubt.visible = doubt;
   }
 
-  /** Draws the pose as it is now. */
+  /** Draws the current pose. */
   update(frame: SkeletonFrame, floor_m: number): void {
     const {pose, ends} = this;
     const [dx, dy, dz] = this.offset;
@@ -135,7 +135,7 @@ function restLength(pose: PosedSkeleton, joint: number): number {
   return Math.hypot(p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]);
 }
 
-/** From the lowest to the highest joint at rest. [m] */
+/** Returns the height from the lowest to the highest joint at rest. [m] */
 function stature(pose: PosedSkeleton): number {
   let low = Infinity;
   let high = -Infinity;

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How the nodes of an avatar's file follow the joints of its skeleton. The file may stand in
-// other units, look the other way (VRM 0), and have its own axes in every joint.
+// Mapping from the joints of a skeleton to the nodes of an avatar's file. The file may have
+// other units, face the other way (VRM 0), and have its own axes in every joint.
 
 import {multiply, multiplyInverse} from './quaternions';
 
-/** Turns the world rotations of joints into local rotations of nodes. */
+/** Converts world rotations of joints to local rotations of nodes. */
 export class NodeDriver {
   private readonly count: number;
   private readonly ancestors: Int16Array;
@@ -15,9 +15,9 @@ export class NodeDriver {
   private readonly after: Float32Array;
   private readonly scratch = new Float32Array(4);
 
-  /** At rest, x y z w each: the joints' and nodes' world rotations (the file turned as the
-   *  scene stands), and the rotations of the nodes' own parents. `ancestors`: of each node,
-   *  the nearest node above it that is driven, too; -1 for none. */
+  /** At rest, x y z w each: the world rotations of joints and nodes (the file rotated into the
+   *  scene's axes), and of the nodes' parents. `ancestors`: for each node, the nearest
+   *  driven node above it; -1 for none. */
   constructor(joint_rest: Float32Array, node_rest: Float32Array, node_parent_rest: Float32Array,
     ancestors: Int16Array) {
     this.count = ancestors.length;
@@ -29,7 +29,7 @@ export class NodeDriver {
     for (let i = 0; i < this.count; ++i) {
       multiplyInverse(this.after, 4 * i, joint_rest, 4 * i, node_rest, 4 * i);
       const above = ancestors[i];
-      // What hangs between two driven nodes moves with the upper one.
+      // Nodes between two driven nodes move with the upper one.
       if (above < 0) {
         joint_from_parent.set(node_parent_rest.subarray(4 * i, 4 * i + 4));
       } else {
@@ -39,7 +39,7 @@ export class NodeDriver {
     }
   }
 
-  /** Local rotation of node i when the joints have these world rotations. */
+  /** Computes the local rotation of node i from the world rotations of the joints. */
   local(i: number, world_from_joint: Float32Array, out: Float32Array): void {
     const above = this.ancestors[i];
     const {scratch} = this;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Everything that stands before the eye.
+// The scene: bodies, cameras, points, floor and handles.
 
 import {BodyView} from './body_view';
 import type {Shown} from './body_view';
@@ -24,13 +24,13 @@ import {RigView} from './rig_view';
 import type {Theme} from './theme';
 
 const MOST_POINT_NAMES = 80;
-const ROOM_HEIGHT = 0.4; // Of the eye above the horizon. [rad]
-const NAME_ABOVE_M = 0.2; // Over the highest joint, which is not the top of the head.
+const ROOM_HEIGHT = 0.4; // Angle of the eye above the horizon. [rad]
+const NAME_ABOVE_M = 0.2; // Height of names above the highest joint, which is below the top of the head.
 
 export interface StageListener {
-  /** A picture is due; the stage draws itself after that. */
+  /** Called before the stage draws a picture. */
   beforePicture(now_ms: number): void;
-  /** A picture was drawn. */
+  /** Called after a picture was drawn. */
   afterPicture(): void;
   drag(id: string, p_in_world: Vector, phase: DragPhase): void;
   trouble(text: string): void;
@@ -51,7 +51,7 @@ export class Stage {
   private points: PointsView | null = null;
   private words: SceneWords | null = null;
   private inHand: string | null = null;
-  /** Where on the floor (x, z) the followed body is thought to be. */
+  /** Assumed place of the followed body on the floor (x, z). */
   private readonly anchor: [number, number] = [0, 0];
   private framed = false;
   private last_ms = 0;
@@ -100,7 +100,7 @@ export class Stage {
     this.renderer.invalidate();
   }
 
-  /** Shows this instant. Precondition: of the scene that was set last. */
+  /** Shows this instant. Precondition: it belongs to the scene set last. */
   show(frame: SceneFrame): void {
     this.bodies.forEach((body, i) => body.update(frame.skeletons[i]));
     this.takeAlong();
@@ -122,12 +122,12 @@ export class Stage {
     this.follow();
   }
 
-  /** The look of everything changed, not the instant. */
+  /** Redraws after a change of appearance without a new instant. */
   refresh(): void {
     this.renderer.invalidate();
   }
 
-  /** Goes to where all bodies are in the picture. */
+  /** Moves the eye so that all bodies are in the picture. */
   frameBodies(atOnce = false, azimuth = this.orbit.azimuth, height = this.orbit.height): void {
     const places = this.bodies.filter((body) => body.present).flatMap((body) => {
       const [dx, dy, dz] = body.words.offset_m;
@@ -148,7 +148,7 @@ export class Stage {
     this.renderer.invalidate();
   }
 
-  /** Nobody is there yet: looks at the cameras, and at the floor between them. */
+  /** Looks at the cameras and the floor between them while there is no body. */
   private frameRoom(): void {
     const places = (this.words?.cameras ?? []).flatMap(({world_from_camera: {p}}) =>
       [...p, p[0], this.floor.height_m, p[2]]);
@@ -158,20 +158,20 @@ export class Stage {
     this.renderer.invalidate();
   }
 
-  /** From the front, from their left, from above. */
+  /** Views from the front, from the bodies' left, from above. */
   viewFrom(side: 'front' | 'left' | 'above'): void {
     const aside = side === 'left' ? Math.PI / 2 : 0;
     this.frameBodies(false, this.heading() + aside, side === 'above' ? 1.5 : 0.12);
   }
 
-  /** Bodies side by side stand in a row along X: it is not looked along. */
+  /** Avoids a view along X, the direction of the row of bodies. */
   private firstAzimuth(): number {
     const heading = this.heading();
     if (this.bodies.length < 2) return heading + 0.5;
     return (Math.cos(heading) >= 0 ? 0 : Math.PI) + 0.35;
   }
 
-  /** Where (x, z) those who are looked at are: the first body, or all points. */
+  /** Returns the place (x, z) to follow, which is that of the first body or the centre of all points. */
   private place(): [number, number] | null {
     const body = this.bodies.find((one) => one.present);
     if (!body) return this.points?.middle() ?? null;
@@ -187,12 +187,12 @@ export class Stage {
     this.orbit.shift(dx, dz);
   }
 
-  /** Where the first body looks. */
+  /** Returns the heading of the first body. */
   private heading(): number {
     return this.bodies.find((body) => body.present)?.pose.heading() ?? 0;
   }
 
-  /** Where a handle is on the canvas: what tests take hold of. */
+  /** Returns the place of a handle on the canvas, for tests. */
   pixelOfHandle(id: string): [number, number] | null {
     const handle = this.handles.handles.find(({words}) => words.id === id);
     return handle ? this.renderer.pixelOf(handle.shown_in_world) : null;
@@ -206,7 +206,7 @@ export class Stage {
     this.renderer.paint(colours);
   }
 
-  /** A stage that was turned or folded shows its bodies again. */
+  /** Frames the bodies again after the stage was resized. */
   private settle(): void {
     if (this.framed) this.frameBodies(true);
     else this.frameRoom();
@@ -261,7 +261,7 @@ export class Stage {
     });
   }
 
-  /** Only the one under the pointer: names of all would hide the body. */
+  /** Shows the name of the handle under the pointer only; all names would hide the body. */
   private nameHandles(): void {
     const handle = this.handles.handles.find(({words}) => words.id === this.handles.held);
     if (!handle) return;
@@ -295,12 +295,12 @@ export class Stage {
     const taken = this.nearest(x_px, y_px, reach_px);
     if (!taken) return null;
     const {id} = taken.words;
-    // The server may send handles anew meanwhile.
+    // The server may send the handles again meanwhile.
     const handle = (): Handle | undefined =>
       this.handles.handles.find(({words}) => words.id === id);
     const start: Vector = [...taken.shown_in_world];
     const normal = this.renderer.facing();
-    // Taken off its middle, it stays off it.
+    // A handle gripped off its centre keeps this offset.
     const at = this.renderer.pixelOf(start)!;
     const [off_x, off_y] = [at[0] - x_px, at[1] - y_px];
     this.inHand = id;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How the session does: latency, stages, cameras, outputs, what there is to say.
+// Status of the session: latency, stages, cameras, outputs, messages.
 
 import {el, keepRows, setText} from './elements';
 import {Messages} from './messages';
@@ -35,7 +35,7 @@ export class StatusPanel {
       this.outputs.table]) part.hidden = true;
   }
 
-  /** A file has no status, but perhaps something to say. */
+  /** A file has no status but may have messages. */
   load(live: boolean): void {
     this.section.hidden = !live && this.said.shown().length === 0;
   }
@@ -56,7 +56,7 @@ export class StatusPanel {
     this.showMessages();
   }
 
-  /** What this page found itself. */
+  /** Adds a message of the page itself. */
   tell(message: string): void {
     this.said.add(message);
     this.section.hidden = false;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Dark or light, and the colours that what is drawn takes from page.css.
+// Dark or light theme, and the colours of page.css that the canvas uses.
 
 import {el, remember, remembered} from './elements';
 import type {Source} from './protocol';
@@ -51,7 +51,7 @@ export class Theme {
     this.listeners.push(then);
   }
 
-  /** Whether dark is shown, whoever chose it. */
+  /** True if the dark theme is active, by choice or by the system. */
   get dark(): boolean {
     if (this.choice !== 'system') return this.choice === 'dark';
     return window.matchMedia('(prefers-color-scheme: dark)').matches;

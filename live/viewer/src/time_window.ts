@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The part of a recording that the timeline shows: frames to pixels and back.
+// The part of a recording that the timeline shows; converts frames to pixels and back.
 
 const FEWEST_FRAMES = 8;
 
 export class TimeWindow {
-  /** Frames at the left and the right edge; they may lie between whole ones. */
+  /** Frames at the left and the right edge; fractions are allowed. */
   from = 0;
   to = 1;
   private first = 0;
   private last = 1;
 
-  /** What there is to show. A window that showed all of it goes on doing so; one that was
-   *  zoomed stays where it is, or goes along when what it showed is gone. */
+  /** Sets the available frames. A window that showed all of them still does; a zoomed window
+   *  stays, or moves if its frames are gone. */
   setRange(first: number, last: number): void {
     const whole = this.whole;
     this.first = first;
@@ -34,7 +34,7 @@ export class TimeWindow {
     this.to = this.last;
   }
 
-  /** By `factor` (below 1: nearer), the frame at `centre` staying where it is. */
+  /** Zooms by `factor` (below 1: nearer) with the frame at `centre` fixed. */
   zoom(factor: number, centre: number): void {
     const all = this.last - this.first;
     const length = Math.min(Math.max((this.to - this.from) * factor,
@@ -47,7 +47,7 @@ export class TimeWindow {
     this.place(this.from + frames, this.to - this.from);
   }
 
-  /** Moves as little as needed for this frame to be in sight. */
+  /** Moves as little as needed to make this frame visible. */
   reveal(frame: number): void {
     if (frame < this.from) this.pan(frame - this.from);
     else if (frame > this.to) this.pan(frame - this.to);
@@ -68,8 +68,8 @@ export class TimeWindow {
   }
 }
 
-/** Even times for an axis: the first that is at least `least` apart, of 1, 2 and 5 times
- *  powers of ten and of the minutes of a clock. [s] */
+/** Returns the step of a time axis: the first of at least `least_s` among 1, 2 and 5 times
+ *  powers of ten and the usual multiples of minutes. [s] */
 export function tickStep_s(least_s: number): number {
   for (const minutes of [60, 120, 300, 600, 1800, 3600]) {
     if (least_s > 30 && least_s <= minutes) return minutes;

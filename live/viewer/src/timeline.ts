@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The timeline: shows where in the recording one is, and goes elsewhere.
+// The timeline: shows the position in the recording and changes it.
 
 import {el, setText} from './elements';
 import type {Theme} from './theme';
@@ -37,7 +37,7 @@ export class Timeline {
     this.fold(this.folded);
   }
 
-  /** Whether there is more to show than the summary. */
+  /** True if there are bands besides the summary. */
   get foldable(): boolean {
     const {data} = this;
     return data !== null &&
@@ -53,7 +53,7 @@ export class Timeline {
     this.repaint();
   }
 
-  /** Shows what there is and where one is. */
+  /** Sets the shown data and the position. */
   place(first: number, last: number, time: number, shownFrame: number): void {
     const {window: seen, canvas, data} = this;
     const {from, to} = seen;
@@ -72,7 +72,7 @@ export class Timeline {
     canvas.setAttribute('aria-valuetext', this.clock(shownFrame));
   }
 
-  /** At the screen's next picture, once. */
+  /** Paints once, at the screen's next refresh. */
   repaint(): void {
     if (this.waiting) return;
     this.waiting = true;
@@ -87,7 +87,7 @@ export class Timeline {
     this.repaint();
   }
 
-  /** "0:12.40 · frame 372", or how long ago. */
+  /** Returns "0:12.40 · frame 372", or the age when live. */
   clock(frame: number): string {
     const {data} = this;
     if (!data) return '';
@@ -170,7 +170,7 @@ export class Timeline {
     this.repaint();
   }
 
-  /** What is under the pointer. */
+  /** Returns the text for the place under the pointer. */
   private tell(event: PointerEvent, x: number): void {
     const {data, tip} = this;
     const frame = Math.round(this.frameAt(x));

@@ -26,7 +26,7 @@ export interface TimelineData {
   live: boolean;
 }
 
-/** What the timeline shows of a scene: frames counted from 0, as the playback does. */
+/** Timeline data of a scene; frames are counted from 0, as in the playback. */
 export function timelineOf(scene: SceneWords, reel: Reel): TimelineData {
   const {file} = scene;
   const first_frame = file?.first_frame ?? 0;
@@ -42,7 +42,7 @@ export interface Band {
   height: number;
 }
 
-/** Bands from the top. Folded: only the summary. */
+/** Returns the bands from top to bottom. Folded: only the summary. */
 export function layOut(data: TimelineData, folded: boolean): Band[] {
   const bands: Band[] = [];
   let top = AXIS_PX;
@@ -69,7 +69,7 @@ export function heightOf(bands: readonly Band[]): number {
   return (last ? last.top + last.height : AXIS_PX) + GAP_PX;
 }
 
-/** Lowest and highest value that is known; null of a graph without any. */
+/** Returns the lowest and highest known value; null if there is none. */
 export function rangeOf(values: Iterable<number | null>): [number, number] | null {
   let low = Infinity;
   let high = -Infinity;
@@ -79,7 +79,7 @@ export function rangeOf(values: Iterable<number | null>): [number, number] | nul
     high = Math.max(high, value);
   }
   if (low > high) return null;
-  // From zero, where that does not squeeze the curve.
+  // The axis starts at zero if this does not flatten the curve.
   return [low >= 0 && low < 0.6 * high ? 0 : low, high > low ? high : low + 1];
 }
 
@@ -115,13 +115,13 @@ export class TimelinePainter {
     context.clip();
     context.fillStyle = colours.quiet;
     context.textAlign = 'left';
-    // Where there is little room the side is one letter.
+    // With little room the side is abbreviated to one letter.
     const words = gutter < 100 ? text.replace(/^left /, 'L ').replace(/^right /, 'R ') : text;
     context.fillText(words, 0, band.top + band.height / 2);
     context.restore();
   }
 
-  /** From frame `first` to `last`, both included, within the plot. */
+  /** Fills frames `first` to `last`, both included, within the plot. */
   private bar(first: number, last: number, top: number, height: number): void {
     const left = Math.max(this.x(first - 0.5), this.gutter);
     const right = Math.min(this.x(last + 0.5), this.gutter + this.width);
@@ -144,7 +144,7 @@ export class TimelinePainter {
       context.fillRect(Math.round(x), AXIS_PX - 5, 1, 5);
       const text = data.live && i === 0 ? 'now' : clockWords(i * step_s, decimals);
       const half = context.measureText(text).width / 2;
-      // The first and the last tick move their words inwards; others that do not fit have none.
+      // Labels of the first and the last tick move inwards; others that do not fit are omitted.
       const end = x - this.gutter < 1 || this.gutter + width - x < 1;
       const at = Math.min(Math.max(x, this.gutter + half), this.gutter + width - half);
       if (at !== x && !end) continue;
@@ -166,7 +166,7 @@ export class TimelinePainter {
     return (this.window.to - this.window.from) / Math.max(this.width, 1);
   }
 
-  /** How many segments were measured, repaired, inferred: one column per pixel. */
+  /** Paints the numbers of measured, repaired and inferred segments, one column per pixel. */
   private summary(data: TimelineData, band: Band): void {
     const {rows} = data;
     const {from, to} = this.window;
@@ -188,7 +188,7 @@ export class TimelinePainter {
     this.columns(counts, all, band.top, height);
   }
 
-  /** The graver the source, the higher up. */
+  /** Paints worse sources higher up. */
   private columns(counts: readonly Uint16Array[], all: number, top: number,
     height: number): void {
     const {context} = this;
@@ -196,7 +196,7 @@ export class TimelinePainter {
     for (const source of [3, 2, 1]) {
       const count = counts[source - 1];
       context.fillStyle = this.colourOf(source);
-      // Columns alike are one rectangle.
+      // Equal neighbouring columns become one rectangle.
       for (let x = 0, start = 0; x < count.length; x = start) {
         while (start < count.length && count[start] === count[x] && above[start] === above[x]) {
           ++start;
@@ -252,7 +252,7 @@ export class TimelinePainter {
     let drawing = false;
     const step = Math.max(1, Math.floor(this.stride / 2));
     const to = Math.min(graph.end - 1, Math.ceil(window.to));
-    // Whole steps since the beginning: a live curve must not change as it goes on.
+    // Steps are counted from the beginning, so that a live curve keeps its samples.
     const from = Math.floor(Math.max(graph.first, window.from) / step) * step;
     for (let i = from; i <= to; i += step) {
       const value = highest(graph, i, step);
@@ -288,7 +288,7 @@ function* valuesOf(curve: Curve): Iterable<number | null> {
   for (let i = curve.first; i < curve.end; ++i) yield curve.at(i);
 }
 
-/** The worst of several frames that share a pixel. */
+/** Returns the worst source of the frames that share a pixel. */
 function highest(curve: Curve, from: number, count: number): number | null {
   let best: number | null = null;
   for (let i = from; i < Math.min(from + count, curve.end); ++i) {
@@ -303,7 +303,7 @@ export function short(value: number): string {
   return size >= 100 ? value.toFixed(0) : size >= 10 ? value.toFixed(1) : value.toFixed(2);
 }
 
-/** leftLowerArm: left lower arm */
+/** Converts "leftLowerArm" to "left lower arm". */
 export function boneWords(bone: string): string {
   return bone.replace(/[a-z][A-Z]/g, (pair) => `${pair[0]} ${pair[1].toLowerCase()}`);
 }

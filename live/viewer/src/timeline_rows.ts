@@ -1,23 +1,24 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the timeline shows of each segment: where it was measured, repaired, inferred or
-// absent. A file tells its gaps; a live session remembers a source per frame.
+// Timeline rows of segments: frames measured, repaired, inferred or absent. A file lists its
+// gaps; a live session stores a source per frame.
 
 import {ABSENT} from './frame_ring';
 import type {FrameRing} from './frame_ring';
 import type {ContactWords, FileWords, GraphWords} from './protocol';
 import {SOURCES} from './protocol';
 
-/** Visited from left to right; both ends included; `source` into SOURCES, or ABSENT. */
+/** Visited from left to right; both ends included; `source` is an index into SOURCES or
+ *  ABSENT. */
 export type Visit = (first: number, last: number, source: number) => void;
 
 export interface Rows {
   readonly names: readonly string[];
-  /** What is not plainly measured in row `row`, from frame `from` to `to`. Looks at every
-   *  `stride`-th frame at least. */
+  /** Visits the runs of row `row` that are not measured, from frame `from` to `to`. Checks at
+   *  least every `stride`-th frame. */
   spans(row: number, from: number, to: number, stride: number, visit: Visit): void;
-  /** Of one frame. */
+  /** Returns the source of one frame. */
   source(row: number, frame: number): number;
 }
 
@@ -26,7 +27,7 @@ export class FileRows implements Rows {
   private readonly tracks: FileWords['tracks'];
 
   constructor(file: FileWords) {
-    // Counted from 0, as the playback does.
+    // Counted from 0, as in the playback.
     this.tracks = file.tracks.map(({name, gaps}) => ({name, gaps: gaps.map(
       ([first, last, source]) => [first - file.first_frame, last - file.first_frame, source])}));
     this.names = file.tracks.map((track) => track.name);
@@ -56,7 +57,7 @@ export class RingRows implements Rows {
   }
 }
 
-/** When something bears, as runs of BEARS. */
+/** Contacts over time, as runs of BEARS. */
 export const BEARS = 1;
 
 export class FileContacts implements Rows {
@@ -98,12 +99,12 @@ function isHere(ring: FrameRing, frame: number): boolean {
   return frame >= ring.first && frame < ring.next;
 }
 
-/** Runs of frames whose value is the same and not 0. */
+/** Visits runs of frames with the same value other than 0. */
 function ringRuns(ring: FrameRing, from: number, to: number, stride: number,
   value: (frame: number) => number, visit: Visit): void {
   const last = Math.min(Math.floor(to), ring.next - 1);
   const step = Math.max(1, Math.floor(stride));
-  // Whole strides since the beginning: what is skipped stays the same as time goes on.
+  // Strides are counted from the beginning, so that the skipped frames stay the same.
   let frame = Math.ceil(Math.max(from, ring.first) / step) * step;
   let start = frame;
   let run = 0;
@@ -117,14 +118,14 @@ function ringRuns(ring: FrameRing, from: number, to: number, stride: number,
   if (run !== 0 && start <= last) visit(start, last, run);
 }
 
-/** A value over time: of a file, or what is remembered of a live session. */
+/** A value over time, from a file or from the stored part of a live session. */
 export interface Curve {
   readonly name: string;
   readonly unit: string;
   /** Frames from `first` to `end - 1`. */
   readonly first: number;
   readonly end: number;
-  /** null: not known, or not there. */
+  /** null: unknown or absent. */
   at(frame: number): number | null;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Buttons of time: play, step, speed, loop, live.
+// Playback buttons: play, step, speed, loop, live.
 
 import {el, remember, remembered, setText} from './elements';
 import type {Playback} from './playback';
@@ -20,7 +20,7 @@ export class Transport {
   private live = false;
   private folded = false;
 
-  /** `changed`: time or its passing was set by a person. */
+  /** `changed` is called when the user changes the time or its speed. */
   constructor(private readonly playback: Playback, private readonly timeline: Timeline,
     private readonly changed: () => void) {
     this.playButton = this.button('play', 'Play (space)', () => this.toggle());
@@ -46,7 +46,7 @@ export class Transport {
     this.setFolded(remembered('timeline') !== 'open', false);
   }
 
-  /** A scene of another kind. */
+  /** Adapts the buttons to a scene of another kind. */
   setMode(live: boolean): void {
     this.live = live;
     this.liveButton.hidden = !live;

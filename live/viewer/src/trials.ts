@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which trial of a folder of results is looked at. The address says it, too: a report links
-// to /?trial=walk&frame=372 (as the recording numbers it) or &t=12.4 (seconds from its start).
+// The selected trial of a results folder. The address contains it, too: a report links to
+// /?trial=walk&frame=372 (the recording's frame number) or &t=12.4 (seconds from its start).
 
 import {el} from './elements';
 import {Section} from './panels';
@@ -18,7 +18,7 @@ export class Trials {
     this.section.element.hidden = true;
   }
 
-  /** True when this scene is not of the trial that is wanted, which was asked for. */
+  /** Returns true if this scene belongs to another trial than the requested one. */
   asksInsteadOf(file: FileWords | null): boolean {
     const {wanted} = this;
     if (!wanted || !file?.trials?.includes(wanted) || file.trial === wanted) return false;
@@ -26,7 +26,7 @@ export class Trials {
     return true;
   }
 
-  /** What there is to choose from. */
+  /** Sets the available trials. */
   show(file: FileWords | null): void {
     const trials = file?.trials ?? [];
     const report = file?.report ?? '';
@@ -38,7 +38,7 @@ export class Trials {
       ...(report ? [el('a', {class: 'report', href: report}, 'Its report')] : []));
   }
 
-  /** The frame that the address names, counted from 0, once. */
+  /** Returns the frame of the address, counted from 0; only once. */
   takeFrame(file: FileWords | null, rate_hz: number): number | null {
     if (!file) return null;
     const [frame, seconds] = ['frame', 't'].map((name) => {
@@ -53,7 +53,7 @@ export class Trials {
   private turnTo(name: string): void {
     this.wanted = name;
     this.query.set('trial', name);
-    // So that the address is this one's, and a reload stays here.
+    // The address names this trial, so that a reload shows it again.
     history.replaceState(null, '', `?${this.query.toString()}`);
     this.ask(name);
   }

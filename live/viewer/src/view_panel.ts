@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is drawn, from where, in which colours.
+// Settings of the view: drawn parts, view directions, colours.
 
 import type {Shown} from './body_view';
 import {el, remember, remembered} from './elements';

@@ -12,7 +12,7 @@ const STEPS: [WizardStep, string][] = [['stand', 'Stand'], ['move', 'Move'], ['s
   ['done', 'Done']];
 const COLUMNS = 8;
 const ROWS = 6;
-/** So long is read why something was not done. */
+/** Time for which an error is shown. */
 const REFUSAL_MS = 6000;
 
 export class WizardPanel {
@@ -34,7 +34,7 @@ export class WizardPanel {
   private error_said = '';
   private refusal = '';
   private refusal_timer = 0;
-  /** Width over height of each camera's picture. */
+  /** Aspect ratio of each camera's picture, width over height. */
   private shapes = new Map<string, number>();
 
   constructor(private readonly act: (action: WizardAction) => void) {
@@ -84,11 +84,11 @@ export class WizardPanel {
     this.showGrids(wizard.cameras);
     this.showQuality(wizard.quality);
     this.showButtons(wizard, busy);
-    // With all of it there: it is scrolled to.
+    // After all content is set, because the page scrolls to it.
     if (begins) this.section.reveal();
   }
 
-  /** What was asked for is not done, and why; it is forgotten after a while. */
+  /** Shows why a request failed; removed after a while. */
   refuse(why: string): void {
     window.clearTimeout(this.refusal_timer);
     this.refusal = why && `${why[0].toUpperCase()}${why.slice(1)}.`;
@@ -102,7 +102,7 @@ export class WizardPanel {
     this.error.hidden = text === '';
   }
 
-  /** What is poor is better measured again than accepted. */
+  /** Poor results should be measured again rather than accepted. */
   private showButtons({step, quality}: WizardWords, busy: boolean): void {
     const {start, next, accept, cancel} = this.buttons;
     const poor = step === 'done' && quality.some(({good}) => !good);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the server says is read as it was written; what is cut short is refused.
+// Decodes server messages as they were encoded; rejects truncated messages.
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
