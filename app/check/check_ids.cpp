@@ -98,8 +98,8 @@ std::string in_words(const std::vector<TagId>& ids) {
 /// has more rows or columns than the declared one. The calibration is correct without
 /// these tags.
 void warn_of_board_tags(const Session& session,
-                       const std::map<std::string, std::vector<CameraDetections>>& found,
-                       RecordingTroubles& troubles) {
+                        const std::map<std::string, std::vector<CameraDetections>>& found,
+                        RecordingTroubles& troubles) {
   const Trial* waved = session.find(TrialKind::kCalibration);
   if (!waved || !found.contains(waved->name) || session.families.size() != 1 ||
       !std::holds_alternative<AprilGrid>(session.target)) {

@@ -80,10 +80,10 @@ const TakeCamera* find_camera(const Take& take, const TrialVideo& video) {
 }
 
 void report_losses(const TakeCamera& recorded,
-                 const CameraDetections& camera,
-                 const capture::AlignedCamera& aligned,
-                 FrameRate rate,
-                 RecordingTroubles& troubles) {
+                   const CameraDetections& camera,
+                   const capture::AlignedCamera& aligned,
+                   FrameRate rate,
+                   RecordingTroubles& troubles) {
   std::int64_t dropped = 0;
   for (const recordings::TakeFrame& frame : recorded.frames) {
     dropped += frame.dropped_before;

@@ -28,12 +28,12 @@ namespace {
 /// which one it is. A calibration contains only the sigmas of each camera; the
 /// correlations come from the plan of a calibration, if it succeeds.
 std::optional<calib::RigCovariance> rig_covariance_of(const recordings::CapturePlan& plan,
-                                             PlanReport& report) {
+                                                      PlanReport& report) {
   auto covariance = calib::plan_calibration(report.cameras,
-                                       report.grid,
-                                       AprilGrid{},
-                                       capture::expected_corner_sigma_px,
-                                       report.options);
+                                            report.grid,
+                                            AprilGrid{},
+                                            capture::expected_corner_sigma_px,
+                                            report.options);
   report.is_calibrated = std::any_of(
       plan.quality.begin(), plan.quality.end(), [](const CameraQuality& quality) {
         return quality.centre_sigma_m > 0.0;

@@ -91,9 +91,9 @@ std::string text(const char* pattern, Values... values) {
 
 /// Adds a note about the chosen lens model, if a camera has no given lens.
 void add_lens_note(const recordings::Session& session,
-               const Lenses& given,
-               const calib::CalibratedRig& rig,
-               std::vector<std::string>& notes) {
+                   const Lenses& given,
+                   const calib::CalibratedRig& rig,
+                   std::vector<std::string>& notes) {
   if (session.calibration.lens) return;
   const auto found = std::find(given.begin(), given.end(), std::nullopt);
   if (found == given.end()) return;
@@ -104,9 +104,9 @@ void add_lens_note(const recordings::Session& session,
 
 /// Adds notes about clocks, line delays, lens, bend of the board and cross-validation.
 void add_solution_notes(const recordings::Session& session,
-                   const Lenses& given,
-                   const calib::CalibratedRig& rig,
-                   std::vector<std::string>& notes) {
+                        const Lenses& given,
+                        const calib::CalibratedRig& rig,
+                        std::vector<std::string>& notes) {
   std::string clocks;
   std::string delays;
   for (std::size_t c = 0; c < rig.clocks.size(); ++c) {

@@ -33,9 +33,9 @@ Status run_stages(Stage stage, Pipeline& pipeline) {
 /// Prints the figures and warnings of the report. Failures are not printed here: the
 /// caller prints them as errors.
 void print_results(const Report& report,
-          const std::vector<Error>& failures,
-          const std::filesystem::path& out,
-          Console& console) {
+                   const std::vector<Error>& failures,
+                   const std::filesystem::path& out,
+                   Console& console) {
   std::array<char, 200> text{};
   for (const ReportCamera& camera : report.cameras) {
     std::snprintf(

@@ -115,10 +115,10 @@ long frames_of(const Recorders& recorders) {
 
 /// Commits the file of the take and reports progress, until the recording is over.
 Status commit_until_over(recordings::TakeWriter& take,
-              const Recorders& recorders,
-              const RecordOptions& options,
-              const std::function<bool()>& stop,
-              const Progress& progress) {
+                         const Recorders& recorders,
+                         const RecordOptions& options,
+                         const std::function<bool()>& stop,
+                         const Progress& progress) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point begin = Clock::now();
   while (!stop()) {
