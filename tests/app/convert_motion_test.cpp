@@ -153,7 +153,7 @@ TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(Json::parse(run.out).at("joints"), 31);
   EXPECT_EQ(Json::parse(run.out).at("rate_hz"), 120.0);
-  EXPECT_NE(run.err.find("it is taken for 120 Hz"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("120 Hz is assumed"), std::string::npos) << run.err;
   fs::copy_file(trial, folder / "b.amc");
   const ProgramRun alone = convert(folder / "b.amc", folder / "b.bvh");
   EXPECT_EQ(alone.exit_code, 3);
@@ -218,8 +218,8 @@ TEST(ConvertMotion, RefusesWhatDoesNotGoTogether) {
        "b.npz",
        {"--bvh-dialect", "maya"},
        "only a .bvh is written in a dialect"},
-      {"a.bvh", "b.bvh", {"--up", "+Z"}, "motions of skeletons are Y up always"},
-      {"a.vrma", "b.bvh", {"--unit", "m"}, "glTF is in metres always"},
+      {"a.bvh", "b.bvh", {"--up", "+Z"}, "motions of skeletons are always Y up"},
+      {"a.vrma", "b.bvh", {"--unit", "m"}, "glTF is always in metres"},
       {"a.c3d", "b.c3d", {"--to-rate", "30"}, "are for motions alone"},
       {"none.bvh", "b.bvh", {}, "none.bvh"}};
   for (const auto& [in, out, options, says] : cases) {

@@ -133,7 +133,7 @@ TEST_F(LiveNetwork, TellsThatATargetIsGoneAndThatItIsBack) {
   LiveOutputs outputs = open({"127.0.0.1", port});
   (void)send(outputs);
   (void)send(outputs);  // The kernel tells of a refusal with the next packet.
-  EXPECT_EQ(send(outputs).detail, "nobody listens there");
+  EXPECT_EQ(send(outputs).detail, "no program receives the packets there");
   auto back = *live::UdpListener::open({"127.0.0.1", port});
   (void)send(outputs);
   const auto told = send(outputs);

@@ -247,7 +247,7 @@ TEST_F(View, SaysWhatItCannotShow) {
             "holds no results: no trial in it has a segments.csv");
   std::ofstream(in_folder("a.txt")) << "text";
   EXPECT_EQ(cause({.what = in_folder("a.txt"), .trial = {}, .avatars = {}}),
-            "is nothing that can be shown");
+            "is not a kind of file that can be shown");
 }
 
 // Somebody else's results: what they link to is ours, and not theirs to have served.
