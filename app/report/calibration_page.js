@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Builds the page of a calibration. `data` is what app/calibration_html.cpp writes.
+// Builds the page of a calibration. app/calibration_html.cpp writes `data`.
 
 const SECTIONS = [
   ['layout', 'Where the cameras stand'], ['errors', 'Expected error'],

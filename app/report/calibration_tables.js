@@ -59,7 +59,7 @@ function judgement({verdict, middle_error_mm: error, findings}) {
     return `Fair: these cameras can be used, and ${counted(fair, 'one thing', 'things')} ` +
       `below would make them better. ${stands}`;
   }
-  return `Look closer: do not trust these cameras before ${counted(poor, 'one thing is',
+  return `Look closer: do not use these cameras before ${counted(poor, 'one thing is',
     'things are')} put right. ${stands}`;
 }
 
@@ -94,7 +94,7 @@ function headSection(figures) {
 function togetherSection(figures) {
   const shared = figures.shared_views;
   const enough = figures.limits.shared_instants;
-  if (shared.length === 0) return [el('p', {}, 'Nothing is known of this.')];
+  if (shared.length === 0) return [el('p', {}, 'No data.')];
   const rows = figures.cameras.map((camera, i) => ({camera, i}));
   // Opposite cameras may share no view, but every camera must be connected to the rest.
   const best = (i) => Math.max(...shared[i].filter((_, k) => k !== i));
@@ -144,12 +144,12 @@ function checksSection(figures) {
   const out = [];
   if (check === null) {
     out.push(el('p', {class: 'lead'}, 'The calibration was not checked against frames that ' +
-      'it did not see.'));
+      'it did not use.'));
   } else {
     out.push(el('p', {class: 'lead'}, `Calibrated from the even frames alone, the cameras ` +
       `are ${fixed(check.seen_rms_px, 2)} px off in these and ` +
-      `${fixed(check.held_out_rms_px, 2)} px in the odd ones, which they had not seen: the ` +
-      'nearer the better. Below, how far even and odd frames put each camera apart, and ' +
+      `${fixed(check.held_out_rms_px, 2)} px in the odd ones, which were not used: the ` +
+      'closer the better. Below, how far even and odd frames put each camera apart, and ' +
       `how far off it is when the others alone say where the ${target} was.`),
     table([
       {title: 'Camera', cell: (camera) => camera.name},
@@ -218,7 +218,7 @@ function parametersSection(figures) {
   return [
     el('p', {class: 'lead'}, 'Every number that was found, with its standard deviation. ' +
       `These are ${fixed(figures.sigma_factor, 1)} times as large as independent corners ` +
-      'with the errors that their detector claims would leave.'),
+      'with the stated errors of their detector would give.'),
     table([
       {title: 'Parameter', cell: (name) => `${PARAMETER_WORDS[name] ?? name}${unit(name)}`},
       ...figures.cameras.map((camera) => ({title: camera.name, number: true,
@@ -227,12 +227,12 @@ function parametersSection(figures) {
   ];
 }
 
-const MOST_OUTLIERS = 15;
+const MAX_OUTLIER_ROWS = 15;
 
 function outliersSection(figures) {
   const frames = figures.outlier_frames;
   if (frames.length === 0) {
-    return [el('p', {class: 'lead'}, 'Every sighting went with the rest: none was left out.')];
+    return [el('p', {class: 'lead'}, 'All sightings agree: none was left out.')];
   }
   const made = (rows) => table([
     {title: 'Camera', cell: (row) => row.camera},
@@ -242,13 +242,13 @@ function outliersSection(figures) {
     {title: 'Left out', number: true, cell: (row) => `${row.left_out} of ${row.of}`},
     {title: 'Median error', number: true, cell: (row) => `${fixed(row.median_error_px, 1)} px`},
   ], rows, 'Frames with outliers');
-  const rest = frames.slice(MOST_OUTLIERS);
+  const rest = frames.slice(MAX_OUTLIER_ROWS);
   return [
     el('p', {class: 'lead'}, `${figures.outliers} of ${figures.sightings} sightings do not ` +
-      'go with the rest and were left out, in the frames below, the worst first. A hand, ' +
+      'agree with the rest and were left out, in the frames below, the worst first. A hand, ' +
       'blur or a mirror explains single ones; a camera that fills the list was moved or is ' +
       'out of step.'),
-    made(frames.slice(0, MOST_OUTLIERS)),
+    made(frames.slice(0, MAX_OUTLIER_ROWS)),
     rest.length === 0 ? null
       : el('details', {}, el('summary', {}, `${plural(rest.length, 'more', 'more')}`),
         made(rest)),

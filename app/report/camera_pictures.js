@@ -74,8 +74,8 @@ function tiltPicture(page) {
       svg('title', {}, `${fixed(tilt, 0)}°, ${fixed(distance, 1)} m away`));
     }),
     ...[30, 60].map((tilt) => svg('text', {x: 0, y: -radius(tilt) + 2}, `${tilt}°`))),
-    el('figcaption', {}, 'Tilt of the board, and which way. In the middle it tells little ' +
-      'of a lens.'));
+    el('figcaption', {}, 'Tilt of the board and its direction. Views near the centre add ' +
+      'little about a lens.'));
 }
 
 function seenWords(camera) {

@@ -144,13 +144,13 @@ function errorsSection(figures) {
     el('p', {class: 'lead'}, 'How far a point would be from the truth (root mean square) ' +
       'if every camera that sees it found it as well as it found the ' +
       `${shownTarget(figures)}. Cameras’ own ` +
-      `doubts are counted, bodies in the way are not. ${ground}`),
+      `uncertainties are included, occlusion by bodies is not. ${ground}`),
     mapKey(top),
     el('div', {class: 'maps'}, ...map.heights.map((height) =>
       errorMap(figures, height, top))),
     el('p', {class: 'about'}, `From above, squares of ${map.heights[0].error_mm.length *
       map.step_m > 2 ? 'a metre' : 'ten centimetres'}, x to the right, z down; the cross ` +
-      'is the middle that the verdict speaks of, dashed lines are what cameras take in. ' +
+      'is the middle of the verdict, dashed lines are what cameras take in. ' +
       'Point at a place for its figure.'),
   ];
 }

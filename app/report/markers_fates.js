@@ -4,12 +4,12 @@
 // Classification of every sample: one row per marker, time along x.
 
 const FATE_MEANING = {
-  'measured': 'as it was read',
+  'measured': 'as read from the file',
   'swapped': 'measured under another marker’s name; put right',
   'cluster': 'filled: carried along by the markers that it moves with most stiffly',
   'structure': 'filled: and by how this trial’s markers move together',
   'spline': 'filled: on its own path from before to after',
-  'predicted': 'filled: where the solved skeleton has it',
+  'predicted': 'filled: from its place on the solved skeleton',
   'left-empty': 'not known',
 };
 const FAULT_MEANING = 'what was read there was wrong (ghost, jump, frozen, no number) and ' +
@@ -130,7 +130,7 @@ function fateGraph(player, trial, figure, fates, rows) {
     el('div', {class: 'gutter'}), frameAxis(player, trial.first_frame));
 }
 
-const MOST_ROWS = 300;
+const MAX_ROWS = 300;
 
 function repairTable(trial, figure, fates) {
   const rows = trial.markers.flatMap((marker) => [
@@ -155,9 +155,9 @@ function repairTable(trial, figure, fates) {
     {title: 'Sigma', number: true, cell: (row) => sigma(row, 3)},
     {title: 'at most', number: true, cell: (row) => sigma(row, 4)},
     {title: 'By, or how wrong', cell: names},
-  ], rows.slice(0, MOST_ROWS), 'Gaps and wrong samples, the longest first');
+  ], rows.slice(0, MAX_ROWS), 'Gaps and wrong samples, the longest first');
   made.classList.add('bounded');
-  const more = rows.length - MOST_ROWS;
+  const more = rows.length - MAX_ROWS;
   return el('details', {}, el('summary', {},
     `${plural(rows.length, 'gap or run', 'gaps and runs')} of wrong samples as a table`),
   made, more > 0 ? el('p', {class: 'about'}, `${more} shorter ones are not listed here.`)

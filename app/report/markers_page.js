@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Builds the page of labelled markers. `data` is what app/marker_report.cpp writes.
+// Builds the page of labelled markers. app/marker_report.cpp writes `data`.
 
 const SECTIONS = [
   ['samples', 'Samples'], ['residuals', 'Distance from the body'],

@@ -105,8 +105,8 @@ function stillsSection(data, trial, figure) {
   return [
     el('p', {class: 'lead'}, 'The skeleton and the markers at instants spread over the ' +
       'trial, and where markers are furthest from the body. Thin lines lead from a marker ' +
-      'to where the body has it; rings are markers that were filled, thin grey rings those ' +
-      'that the body does not wear. Point at a marker to read its name.'),
+      'to its place on the body; rings are markers that were filled, thin grey rings those ' +
+      'that do not belong to the body. Point at a marker to read its name.'),
     el('p', {class: 'key'}, el('span', {}, 'off the body'), el('span', {}, '0'),
       el('span', {class: 'ramp', style: `background: linear-gradient(to right, ${
         ramp.join(', ')})`}), el('span', {}, `${WORST_COLOUR_MM} mm and more`)),

@@ -33,7 +33,7 @@ function headCards({kind, figures, fates, trials}) {
       .reduce((a, b) => (a && a.rms_mm >= b.rms_mm ? a : b), null);
     cards.push(
       figureCard('Off the body', worst ? fixed(worst.rms_mm, 1) : '–', 'mm',
-        'RMS distance of markers from where the body has them' +
+        'RMS distance of markers from their places on the body' +
         (figures.trials.length > 1 && worst ? `, worst in ${worst.trial}` : '')),
       figureCard('Solved', fixed(100 * solved / Math.max(frames, 1), 1), '%',
         `${solved} of ${plural(frames, 'frame', 'frames')} with markers`));

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Builds the page. `data` is what app/report_html.cpp writes.
+// Builds the page. app/report_html.cpp writes `data`.
 
 const SECTIONS = [
   ['motion', 'Motion'], ['pictures', 'Pictures'], ['reprojection', 'Reprojection'],
@@ -84,7 +84,7 @@ function playWhenSeen(viewer) {
   }, {threshold: 0.15}).observe(viewer.canvas);
 }
 
-/** For tests: records on <html> that the page is ready and what the viewer drew. */
+/** For tests: records on <html> that the page is ready and the state of the viewer. */
 function tellStatus(viewer) {
   const state = document.documentElement.dataset;
   if (viewer) {

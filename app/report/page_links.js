@@ -31,10 +31,10 @@ function viewCommand({protocol, pathname}) {
 function pageWords() {
   if (SERVED) {
     return el('p', {class: 'about'}, el('a', {class: 'page-link', href: '/'},
-      'See it move on the page'));
+      'View the motion on the page'));
   }
   const code = el('code', {class: 'command', title: 'Click to select it all', onclick: () =>
     getSelection().selectAllChildren(code)}, viewCommand(location));
-  return el('p', {class: 'about'}, 'To see it move in a browser, and go from here to every ' +
-    'moment: ', code);
+  return el('p', {class: 'about'}, 'To view the motion in a browser, with links from here to every ' +
+    'frame: ', code);
 }

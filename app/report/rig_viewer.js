@@ -191,7 +191,7 @@ class RigViewer {
       el('div', {class: 'stage'}, this.canvas, this.labels),
       el('div', {class: 'controls'},
         toggle('places', target === 'wand' ? 'Wand' : 'Board'),
-        toggle('doubt', 'Doubt'),
+        toggle('doubt', 'Uncertainty'),
         el('button', {type: 'button', onclick: () => this.#frame()}, 'Reset view'),
         el('span', {class: 'clock'}, 'Drag turns, shift drag moves, the wheel zooms ' +
           'once the picture was clicked.')));
@@ -260,7 +260,7 @@ function layoutSection(figures, viewer) {
   return [
     el('p', {class: 'lead'}, 'Check that every camera stands and looks as in the room. ' +
       `Orange outlines are where the ${shownTarget(figures)} ` +
-      `was.${floor} Rings around a camera are the doubt of its place (one sigma), ` +
+      `was.${floor} Rings around a camera are the uncertainty of its place (one sigma), ` +
       (scale > 1 ? `drawn ${scale} times too large.` : 'as large as it is.')),
     viewer.root,
   ];

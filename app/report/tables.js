@@ -83,7 +83,7 @@ function verdicts(summary) {
         worstOf(worst, 'camera', 'worst_camera_px'),
         worstOf(worst, 'frame', 'worst_frame_px')), 'solve_px'),
     verdict('Joints', `± ${fixed(summary.joint_sigma_median_mm, 1)}`, 'mm',
-      'typical doubt (sigma) of a joint centre in a frame' +
+      'typical uncertainty (sigma) of a joint centre in a frame' +
         named(worst, 'joint', 'mm', 1),
       worstGrade(trust(summary), grade('sigma_mm', summary.joint_sigma_median_mm),
         worstOf(worst, 'joint', 'worst_sigma_mm')), 'sigma_mm'));

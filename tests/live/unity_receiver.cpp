@@ -48,15 +48,15 @@ std::vector<glm::dmat4> normalised_unity_nodes(const Skeleton& avatar) {
 
 std::vector<glm::dmat4> shown_in_unity(const Skeleton& avatar,
                                        std::vector<glm::dmat4> local,
-                                       const VmcPose& told) {
+                                       const VmcPose& sent) {
   for (std::size_t i = 0; i < local.size(); ++i) {
     const auto bone = avatar.joints[i].bone;
-    if (!bone || !told.contains(unity_bone(*bone))) continue;
-    const UnityTransform& set = told.local[index(unity_bone(*bone))];
+    if (!bone || !sent.contains(unity_bone(*bone))) continue;
+    const UnityTransform& set = sent.local[index(unity_bone(*bone))];
     local[i] = matrix(set.position, set.rotation);
   }
   auto world = placed(avatar, std::move(local));
-  const glm::dmat4 root = matrix(told.root.position, told.root.rotation);
+  const glm::dmat4 root = matrix(sent.root.position, sent.root.rotation);
   for (glm::dmat4& node : world) node = root * node;
   return world;
 }

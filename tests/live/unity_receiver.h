@@ -21,10 +21,10 @@ namespace marey::live {
 /// away: nodes that are only shifted.
 [[nodiscard]] std::vector<glm::dmat4> normalised_unity_nodes(const Skeleton& avatar);
 
-/// Every node's transform in Unity's world once `told` was applied to those that are
+/// Every node's transform in Unity's world once `sent` was applied to those that are
 /// bones; `avatar` says who is whose parent.
 [[nodiscard]] std::vector<glm::dmat4> shown_in_unity(const Skeleton& avatar,
                                                      std::vector<glm::dmat4> local,
-                                                     const VmcPose& told);
+                                                     const VmcPose& sent);
 
 }  // namespace marey::live

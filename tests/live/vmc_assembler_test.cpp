@@ -33,7 +33,7 @@ struct Performance {
   Skeleton body = make_humanoid(average_proportions(1.7));
   VmcBody vmc = *VmcBody::make(body);
   std::vector<Pose> poses;
-  std::vector<VmcPose> told;
+  std::vector<VmcPose> sent;
   std::vector<Packets> packets;
 
   explicit Performance(int frames, std::optional<int> mtu_bytes = std::nullopt) {
@@ -41,8 +41,8 @@ struct Performance {
     VmcEncoder encoder = *VmcEncoder::make({.mtu_bytes = mtu_bytes});
     for (int frame = 0; frame < frames; ++frame) {
       poses.push_back(testing::random_pose(body, dice));
-      vmc.to_vmc(poses.back(), told.emplace_back());
-      packets.push_back(copied(encoder.encode(frame * 10ms, told.back())));
+      vmc.to_vmc(poses.back(), sent.emplace_back());
+      packets.push_back(copied(encoder.encode(frame * 10ms, sent.back())));
     }
   }
 };
@@ -51,14 +51,14 @@ void take_all(VmcAssembler& assembler, const Packets& packets) {
   for (const auto& packet : packets) assembler.take(packet);
 }
 
-void expect_same(const VmcPose& got, const VmcPose& told) {
-  EXPECT_EQ(got.has, told.has);
+void expect_same(const VmcPose& got, const VmcPose& sent) {
+  EXPECT_EQ(got.has, sent.has);
   for (std::size_t i = 0; i < kUnityBoneCount; ++i) {
-    if (!told.has[i]) continue;
+    if (!sent.has[i]) continue;
     // Floats, in metres.
-    EXPECT_LT(glm::distance(got.local[i].position, told.local[i].position), 1e-6);
+    EXPECT_LT(glm::distance(got.local[i].position, sent.local[i].position), 1e-6);
     EXPECT_NEAR(
-        std::abs(glm::dot(got.local[i].rotation, told.local[i].rotation)), 1.0, 1e-6);
+        std::abs(glm::dot(got.local[i].rotation, sent.local[i].rotation)), 1.0, 1e-6);
   }
 }
 
@@ -73,7 +73,7 @@ TEST(VmcAssembler, GivesEveryFrameAsSoonAsItsBundleIsThere) {
     ASSERT_TRUE(assembler.take_frame(frame));
     EXPECT_NEAR(*frame.time_s, 0.01 * static_cast<double>(i), 1e-6);
     EXPECT_TRUE(frame.status.tracking);
-    expect_same(frame.pose, performance.told[i]);
+    expect_same(frame.pose, performance.sent[i]);
     EXPECT_FALSE(assembler.take_frame(frame));
   }
   EXPECT_EQ(assembler.received().frames, 20);
@@ -107,7 +107,7 @@ TEST(VmcAssembler, PutsFramesOfSeveralPacketsTogether) {
     take_all(assembler, performance.packets[i]);
     EXPECT_EQ(assembler.take_frame(frame), i > 0);
     if (i == 0) continue;
-    expect_same(frame.pose, performance.told[i]);
+    expect_same(frame.pose, performance.sent[i]);
     EXPECT_NEAR(*frame.time_s, 0.01 * static_cast<double>(i), 1e-6);
   }
 }
@@ -122,7 +122,7 @@ TEST(VmcAssembler, DropsAFrameOfWhichAPacketWasLost) {
     take_all(assembler, packets);
     ASSERT_EQ(assembler.take_frame(frame), i != 0 && i != 3);
     if (i == 0 || i == 3) continue;
-    expect_same(frame.pose, performance.told[i]);
+    expect_same(frame.pose, performance.sent[i]);
   }
   EXPECT_EQ(assembler.received().incomplete, 1);
 }

@@ -103,9 +103,9 @@ TEST(VmcBody, RawIsWhatTheAvatarsOwnNodesShowInUnity) {
     const Skeleton body = any_body(dice);
     const VmcBody vmc = *VmcBody::make(body, {.rest = VmcRest::kRaw});
     const Pose pose = any_pose(body, dice);
-    VmcPose told;
-    vmc.to_vmc(pose, told);
-    expect_shown(body, pose, shown_in_unity(body, unity_nodes(body), told));
+    VmcPose sent;
+    vmc.to_vmc(pose, sent);
+    expect_shown(body, pose, shown_in_unity(body, unity_nodes(body), sent));
   }
 }
 
@@ -117,11 +117,11 @@ TEST(VmcBody, Vrm0IsWhatANormalisedAvatarShowsInUnity) {
     const VmcBody vmc =
         *VmcBody::make(rest.body, {.t_pose_from_joint = rest.t_pose_from_joint});
     const Pose pose = any_pose(rest.body, dice);
-    VmcPose told;
-    vmc.to_vmc(pose, told);
+    VmcPose sent;
+    vmc.to_vmc(pose, sent);
     expect_shown(rest.body,
                  pose,
-                 shown_in_unity(t_posed, normalised_unity_nodes(t_posed), told),
+                 shown_in_unity(t_posed, normalised_unity_nodes(t_posed), sent),
                  rest.t_pose_from_joint);
   }
 }
@@ -144,8 +144,8 @@ TEST(VmcBody, RawOfAFileThatFacesBackIsItsNodesWithZMirrored) {
                                         .file_from_root_parent = file_from_above,
                                         .file_faces_back = true});
     const Pose pose = with_resting_others(body, any_pose(body, dice));
-    VmcPose told;
-    vmc.to_vmc(pose, told);
+    VmcPose sent;
+    vmc.to_vmc(pose, sent);
     for (std::size_t i = 0; i < body.joints.size(); ++i) {
       const Joint& joint = body.joints[i];
       if (!joint.bone || (node_above && joint.bone == HumanBone::kHips)) continue;
@@ -155,14 +155,14 @@ TEST(VmcBody, RawOfAFileThatFacesBackIsItsNodesWithZMirrored) {
         node = inverse(half_turn * file_from_above) * node;
       }
       const RigidTransform expected = mirrored_z(node);
-      const UnityTransform& got = told.local[index(unity_bone(*joint.bone))];
+      const UnityTransform& got = sent.local[index(unity_bone(*joint.bone))];
       EXPECT_LT(glm::distance(got.position, expected.translation), kRounding_m)
           << joint.name;
       EXPECT_NEAR(std::abs(glm::dot(got.rotation, expected.rotation)), 1.0, 1e-12)
           << joint.name;
     }
     Pose again;
-    vmc.from_vmc(told, again);
+    vmc.from_vmc(sent, again);
     const auto before = world_from_joints(body, pose);
     const auto after = world_from_joints(body, again);
     for (std::size_t k = node_above ? 1 : 0; k < after.size(); ++k) {
@@ -179,9 +179,9 @@ TEST(VmcBody, RawKnowsOfANodeAboveTheFirstJoint) {
   const VmcBody vmc = *VmcBody::make(
       body, {.rest = VmcRest::kRaw, .file_from_root_parent = world_from_above});
   const Pose pose = any_pose(body, dice);
-  VmcPose told;
-  vmc.to_vmc(pose, told);
-  const UnityTransform& hips = told.local[index(UnityBone::kHips)];
+  VmcPose sent;
+  vmc.to_vmc(pose, sent);
+  const UnityTransform& hips = sent.local[index(UnityBone::kHips)];
   const RigidTransform above_from_hips{mirrored_x(hips.rotation),
                                        mirrored_x(hips.position)};
   const RigidTransform world_from_hips = world_from_above * above_from_hips;
@@ -190,7 +190,7 @@ TEST(VmcBody, RawKnowsOfANodeAboveTheFirstJoint) {
               1.0,
               1e-12);
   Pose again;
-  vmc.from_vmc(told, again);
+  vmc.from_vmc(sent, again);
   EXPECT_LT(glm::distance(again.root_in_world, pose.root_in_world), kRounding_m);
   EXPECT_NEAR(std::abs(glm::dot(again.parent_from_joint[0], pose.parent_from_joint[0])),
               1.0,
@@ -201,12 +201,12 @@ TEST(VmcBody, TellsIdentityInTheTPoseAndTheAvatarsOwnOffsets) {
   Dice dice(3);
   const Skeleton body = any_body(dice);
   const VmcBody vmc = *VmcBody::make(body);
-  VmcPose told;
-  vmc.to_vmc(rest_pose(body), told);
+  VmcPose sent;
+  vmc.to_vmc(rest_pose(body), sent);
   const auto nodes = normalised_unity_nodes(body);
   for (std::size_t i = 0; i < body.joints.size(); ++i) {
     if (!body.joints[i].bone) continue;
-    const UnityTransform& local = told.local[index(unity_bone(*body.joints[i].bone))];
+    const UnityTransform& local = sent.local[index(unity_bone(*body.joints[i].bone))];
     EXPECT_NEAR(std::abs(local.rotation.w), 1.0, 1e-14);
     EXPECT_LT(glm::distance(local.position, glm::dvec3(nodes[i][3])), kRounding_m);
   }
@@ -219,27 +219,27 @@ TEST(VmcBody, TellsALoweredLeftArmAsAQuarterTurnAboutZ) {
   Pose pose = rest_pose(body);
   pose.parent_from_joint[index(HumanBone::kLeftUpperArm)] =
       rotation_from_vector({0.0, 0.0, -glm::radians(90.0)});
-  VmcPose told;
-  VmcBody::make(body)->to_vmc(pose, told);
-  const glm::dquat arm = told.local[index(UnityBone::kLeftUpperArm)].rotation;
+  VmcPose sent;
+  VmcBody::make(body)->to_vmc(pose, sent);
+  const glm::dquat arm = sent.local[index(UnityBone::kLeftUpperArm)].rotation;
   EXPECT_NEAR(arm.w, std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(arm.z, std::sqrt(0.5), 1e-12);
   // The left hand is at -X.
-  EXPECT_LT(told.local[index(UnityBone::kLeftLowerArm)].position.x, -0.1);
+  EXPECT_LT(sent.local[index(UnityBone::kLeftLowerArm)].position.x, -0.1);
 }
 
 TEST(VmcBody, TellsTheBonesThatThereAreAndNoOthers) {
   Dice dice(4);
   const Skeleton body = testing::without(any_body(dice), HumanBone::kUpperChest);
   const VmcBody vmc = *VmcBody::make(body);
-  VmcPose told;
-  told.set(UnityBone::kJaw, {});
-  vmc.to_vmc(rest_pose(body), told);
-  EXPECT_EQ(told.has.count(), 21U);
+  VmcPose sent;
+  sent.set(UnityBone::kJaw, {});
+  vmc.to_vmc(rest_pose(body), sent);
+  EXPECT_EQ(sent.has.count(), 21U);
   EXPECT_EQ(vmc.bones().size(), 21U);
-  EXPECT_FALSE(told.contains(UnityBone::kUpperChest));
+  EXPECT_FALSE(sent.contains(UnityBone::kUpperChest));
   for (const HumanBone bone : human_bones()) {
-    EXPECT_TRUE(told.contains(unity_bone(bone)) || !is_required(bone));
+    EXPECT_TRUE(sent.contains(unity_bone(bone)) || !is_required(bone));
   }
 }
 
@@ -262,10 +262,10 @@ TEST(VmcBody, ReadsBackWhatItTells) {
         pose = with_resting_others(rest.body, pose);
       }
       const VmcBody vmc = *VmcBody::make(rest.body, options);
-      VmcPose told;
+      VmcPose sent;
       Pose again;
-      vmc.to_vmc(pose, told);
-      vmc.from_vmc(told, again);
+      vmc.to_vmc(pose, sent);
+      vmc.from_vmc(sent, again);
       const auto expected = world_from_joints(rest.body, pose);
       const auto got = world_from_joints(rest.body, again);
       for (std::size_t k = 0; k < got.size(); ++k) {
@@ -284,12 +284,12 @@ TEST(VmcBody, MovesTheWholeBodyWithTheRoot) {
   for (const VmcRest kind : {VmcRest::kVrm0, VmcRest::kRaw}) {
     const VmcBody vmc = *VmcBody::make(body, {.rest = kind});
     const Pose pose = with_resting_others(body, any_pose(body, dice));
-    VmcPose told;
+    VmcPose sent;
     Pose again;
-    vmc.to_vmc(pose, told);
+    vmc.to_vmc(pose, sent);
     const RigidTransform root{dice.turn(2.0), {0.3, -0.2, 0.1}};
-    told.root = {mirrored_x(root.translation), mirrored_x(root.rotation)};
-    vmc.from_vmc(told, again);
+    sent.root = {mirrored_x(root.translation), mirrored_x(root.rotation)};
+    vmc.from_vmc(sent, again);
     const auto before = world_from_joints(body, pose);
     const auto after = world_from_joints(body, again);
     for (std::size_t k = 1; k < after.size(); ++k) {
@@ -306,10 +306,10 @@ TEST(VmcBody, GivesWhatALackedBoneTurnsToTheBonesBelow) {
   Dice dice(7);
   Pose pose = rest_pose(whole);
   for (glm::dquat& rotation : pose.parent_from_joint) rotation = dice.turn(1.0);
-  VmcPose told;
+  VmcPose sent;
   Pose shown;
-  VmcBody::make(whole)->to_vmc(pose, told);
-  VmcBody::make(lacking)->from_vmc(told, shown);
+  VmcBody::make(whole)->to_vmc(pose, sent);
+  VmcBody::make(lacking)->from_vmc(sent, shown);
   const auto expected = world_from_joints(whole, pose);
   const auto got = world_from_joints(lacking, shown);
   for (std::size_t k = 0; k < got.size(); ++k) {
@@ -347,14 +347,14 @@ TEST(VmcBody, AllocatesNothingPerFrame) {
   const Skeleton body = any_body(dice);
   const VmcBody vmc = *VmcBody::make(body);
   const Pose pose = any_pose(body, dice);
-  VmcPose told;
+  VmcPose sent;
   Pose again;
-  vmc.to_vmc(pose, told);
-  vmc.from_vmc(told, again);
+  vmc.to_vmc(pose, sent);
+  vmc.from_vmc(sent, again);
   const long before = testing::allocations();
   for (int i = 0; i < 10; ++i) {
-    vmc.to_vmc(pose, told);
-    vmc.from_vmc(told, again);
+    vmc.to_vmc(pose, sent);
+    vmc.from_vmc(sent, again);
   }
   EXPECT_EQ(testing::allocations() - before, 0);
 }

@@ -17,23 +17,23 @@ VmcSender sender_to(const VmcReceiver& receiver) {
       {.targets = {{"127.0.0.1", receiver.port()}}, .listen = std::nullopt});
 }
 
-VmcPose somebody_at_rest() {
+VmcPose body_at_rest() {
   const Skeleton body = make_humanoid(average_proportions(1.7));
-  VmcPose told;
-  VmcBody::make(body)->to_vmc(rest_pose(body), told);
-  return told;
+  VmcPose sent;
+  VmcBody::make(body)->to_vmc(rest_pose(body), sent);
+  return sent;
 }
 
 TEST(VmcReceiver, HearsWhatASenderSends) {
   auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
   auto sender = sender_to(receiver);
-  const VmcPose told = somebody_at_rest();
+  const VmcPose sent = body_at_rest();
   VmcFrame frame;
   EXPECT_FALSE(receiver.receive(frame));
-  for (int i = 0; i < 3; ++i) sender.send(i * 10ms, told, {.tracking = i != 2});
+  for (int i = 0; i < 3; ++i) sender.send(i * 10ms, sent, {.tracking = i != 2});
   receiver.wait(1000ms);
   ASSERT_TRUE(receiver.receive(frame));
-  EXPECT_EQ(frame.pose.has, told.has);
+  EXPECT_EQ(frame.pose.has, sent.has);
   EXPECT_NEAR(*frame.time_s, 0.02, 1e-6);
   EXPECT_FALSE(frame.status.tracking);
   EXPECT_EQ(receiver.received().packets, 3);
@@ -43,15 +43,15 @@ TEST(VmcReceiver, HearsWhatASenderSends) {
 TEST(VmcReceiver, HandsOutEveryFrameToWhomeverWantsAll) {
   auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
   auto sender = sender_to(receiver);
-  const VmcPose told = somebody_at_rest();
+  const VmcPose sent = body_at_rest();
   VmcFrame frame;
   EXPECT_FALSE(receiver.receive_next(frame));
-  for (int i = 0; i < 20; ++i) sender.send(i * 10ms, told);
+  for (int i = 0; i < 20; ++i) sender.send(i * 10ms, sent);
   for (int i = 1; i < 20; ++i) {  // The first is known to be one with the second.
     receiver.wait(1000ms);
     ASSERT_TRUE(receiver.receive_next(frame)) << i;
     EXPECT_NEAR(*frame.time_s, 0.01 * i, 1e-6);
-    EXPECT_EQ(frame.pose.has, told.has);
+    EXPECT_EQ(frame.pose.has, sent.has);
   }
   EXPECT_FALSE(receiver.receive_next(frame));
 }

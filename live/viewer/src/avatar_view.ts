@@ -31,7 +31,7 @@ export class AvatarView {
     this.object.add(file.scene);
     this.nodes = nodesOf(file, skin.node_index);
     const [root] = this.nodes;
-    if (!root) throw new Error('its root joint is none of the file’s nodes');
+    if (!root) throw new Error('its root joint is not a node of the file');
     this.root = root;
     this.stand(skin);
     this.driver = this.fit();

@@ -11,7 +11,7 @@ import type {SkeletonFrame} from './decode_frame';
 import type {Vector} from './protocol';
 import type {Colours} from './theme';
 
-const MOST_CORNERS = 64;
+const MAX_CORNERS = 64;
 const ABOVE_FLOOR_M = 0.004;
 
 /** Returns true if a point on the floor is within a convex polygon (x z per corner, in
@@ -35,7 +35,7 @@ export function carries(corners_xz: ArrayLike<number>, corners: number, x: numbe
 export class BalanceView {
   readonly object = new Group();
   private readonly offset: Vector;
-  private readonly corners = new BufferAttribute(new Float32Array(3 * MOST_CORNERS), 3);
+  private readonly corners = new BufferAttribute(new Float32Array(3 * MAX_CORNERS), 3);
   private readonly plumbEnds = new BufferAttribute(new Float32Array(6), 3);
   private readonly mark = new MeshBasicMaterial({depthTest: false});
   private readonly line = new LineBasicMaterial({depthTest: false, transparent: true,
@@ -58,7 +58,7 @@ export class BalanceView {
     this.foot = new Mesh(new SphereGeometry(0.014, 8, 6), this.mark);
     const fan = new BufferGeometry();
     fan.setAttribute('position', this.corners);
-    fan.setIndex(Array.from({length: MOST_CORNERS - 2}, (_, i) => [0, i + 1, i + 2]).flat());
+    fan.setIndex(Array.from({length: MAX_CORNERS - 2}, (_, i) => [0, i + 1, i + 2]).flat());
     this.area = new Mesh(fan, this.fill);
     const loop = new BufferGeometry();
     loop.setAttribute('position', this.corners);
@@ -83,7 +83,7 @@ export class BalanceView {
   update(frame: SkeletonFrame, floor_m: number): void {
     const [dx, dy, dz] = this.offset;
     const [x, y, z] = frame.centre_of_mass_in_world;
-    const corners = Math.min(frame.corners, MOST_CORNERS);
+    const corners = Math.min(frame.corners, MAX_CORNERS);
     const held = carries(frame.support_xz, corners, x, z);
     for (const material of [this.mark, this.line, this.fill]) {
       material.color.copy(held ? this.good : this.poor);

@@ -20,7 +20,7 @@ export interface Listener {
 export class Connection {
   private socket: WebSocket | null = null;
   private timer = 0;
-  private heard_ms = 0;
+  private received_ms = 0;
   private readonly address: string;
   private readonly listener: Listener;
 
@@ -41,7 +41,7 @@ export class Connection {
   /** Replaces a connection that has received nothing for this time. */
   renewAfter(silence_ms: number): void {
     if (this.socket?.readyState !== WebSocket.OPEN) return;
-    if (performance.now() - this.heard_ms > silence_ms) this.drop(this.socket);
+    if (performance.now() - this.received_ms > silence_ms) this.drop(this.socket);
   }
 
   send(words: PageWords): boolean {
@@ -58,13 +58,13 @@ export class Connection {
     const patience = window.setTimeout(() => this.drop(socket), OPENING_MS);
     socket.onopen = () => {
       window.clearTimeout(patience);
-      this.heard_ms = performance.now();
+      this.received_ms = performance.now();
       this.send({type: 'hello', version: PROTOCOL_VERSION});
       this.listener.state('open');
     };
     socket.onmessage = ({data}) => {
       if (this.socket !== socket) return;
-      this.heard_ms = performance.now();
+      this.received_ms = performance.now();
       if (typeof data === 'string') this.read(data);
       else this.listener.binary(data as ArrayBuffer);
     };

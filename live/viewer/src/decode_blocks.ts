@@ -35,7 +35,7 @@ export class MotionBlock {
         `the scene ${scratch.skeletons.length}`);
     }
     // Checked before memory is allocated: a frame has at least 24 bytes.
-    if (frames > buffer.byteLength / 24) throw new Error('the block is cut short');
+    if (frames > buffer.byteLength / 24) throw new Error('the block is truncated');
     this.frames = frames;
     this.view = new DataView(buffer);
     this.starts = new Float64Array(frames);
@@ -43,7 +43,7 @@ export class MotionBlock {
     for (let i = 0; i < frames; ++i) {
       this.starts[i] = at;
       at = decodeFrame(this.view, at, scratch);
-      if (at < 0) throw new Error(`the block's frame ${i} is cut short or of another scene`);
+      if (at < 0) throw new Error(`the block's frame ${i} is truncated or belongs to another scene`);
     }
   }
 
@@ -63,7 +63,7 @@ export class PointBlock {
   constructor(buffer: ArrayBuffer) {
     [this.frames, this.points] = readHeader(buffer, 'MRPB');
     if (BLOCK_HEADER_BYTES + this.frames * this.points * POINT_BYTES > buffer.byteLength) {
-      throw new Error('the block of points is cut short');
+      throw new Error('the block of points is truncated');
     }
     this.view = new DataView(buffer);
   }

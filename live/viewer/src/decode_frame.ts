@@ -14,7 +14,7 @@ const HAS_DOUBT = 2;
 const HAS_BALANCE = 4;
 const HAS_TRACKING = 8;
 /** Maximum stored corners of a support polygon; feet and hands have far fewer. */
-const MOST_CORNERS = 64;
+const MAX_CORNERS = 64;
 
 /** One skeleton at one instant. */
 export class SkeletonFrame {
@@ -31,7 +31,7 @@ export class SkeletonFrame {
   readonly source: Uint8Array;
   readonly centre_of_mass_in_world = new Float32Array(3);
   /** x z of every corner on the floor. */
-  readonly support_xz = new Float32Array(2 * MOST_CORNERS);
+  readonly support_xz = new Float32Array(2 * MAX_CORNERS);
   corners = 0;
   /** NaN: unknown. */
   residual_px = NaN;
@@ -126,7 +126,7 @@ function decodeBalance(view: DataView, start: number, into: SkeletonFrame): numb
   const corners = view.getUint16(at, true);
   at += 4;
   if (at + 8 * corners > view.byteLength) return -1;
-  into.corners = Math.min(corners, MOST_CORNERS);
+  into.corners = Math.min(corners, MAX_CORNERS);
   readFloats(view, at, into.support_xz, 2 * into.corners);
   return at + 8 * corners;
 }

@@ -4,7 +4,7 @@
 // Messages, newest first: the server's while they are in its status, and the page's own,
 // which are never withdrawn, while there is room.
 
-const MOST_MESSAGES = 8;
+const MAX_MESSAGES = 8;
 
 export class Messages {
   private ofServer: readonly string[] = [];
@@ -18,7 +18,7 @@ export class Messages {
   /** Ignores a repetition of the last message. */
   add(message: string): void {
     if (this.ofPage.includes(message)) return;
-    this.ofPage = [message, ...this.ofPage].slice(0, MOST_MESSAGES);
+    this.ofPage = [message, ...this.ofPage].slice(0, MAX_MESSAGES);
   }
 
   shown(): string[] {

@@ -29,7 +29,7 @@ export function pillOf(connected: boolean, live: boolean,
   if (!status) return {state: 'waiting', words: WORDS.waiting, why: ''};
   if (silent_ms > STATUS_SILENCE_MS) {
     return {state: 'silent', words: 'marey is silent',
-      why: 'marey has not said how it does for more than a second: the computer may be too busy'};
+      why: 'marey has sent no status for more than a second: the computer may be too busy'};
   }
   const {subject, doubts} = status;
   return {state: subject, words: WORDS[subject] ?? subject, why: (doubts ?? []).join('\n')};

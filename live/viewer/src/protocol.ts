@@ -186,7 +186,7 @@ export function readServerWords(text: string): ServerWords | {type: 'bad'; why: 
   try {
     words = JSON.parse(text);
   } catch {
-    return {type: 'bad', why: 'a message is no JSON'};
+    return {type: 'bad', why: 'a message is not JSON'};
   }
   if (typeof words !== 'object' || words === null || !('type' in words)) {
     return {type: 'bad', why: 'a message has no type'};
@@ -196,12 +196,12 @@ export function readServerWords(text: string): ServerWords | {type: 'bad'; why: 
   if (type === 'status' || type === 'wizard' || type === 'constraints' || type === 'error') {
     return words as ServerWords;
   }
-  return {type: 'bad', why: `a message of the unknown type ${String(type)}`};
+  return {type: 'bad', why: `a message has the unknown type ${String(type)}`};
 }
 
 function readScene(scene: SceneWords): ServerWords | {type: 'bad'; why: string} {
   if (scene.version !== PROTOCOL_VERSION) {
-    return {type: 'bad', why: `marey speaks version ${scene.version} of the page's protocol, ` +
+    return {type: 'bad', why: `marey uses version ${scene.version} of the page's protocol, ` +
       `this page version ${PROTOCOL_VERSION}: reload the page`};
   }
   for (const skeleton of scene.skeletons) {

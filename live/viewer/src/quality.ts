@@ -9,7 +9,7 @@ const RATIOS = [2, 1.5, 1, 0.75, 0.6];
 const PATIENCE = 2; // Successive seconds of one kind before a change.
 const CALM = 20; // Seconds without slow pictures before a finer ratio is tried.
 /** Number of pixels below which a coarser picture is hardly faster. */
-const FEWEST_PX = 200_000;
+const MIN_PX = 200_000;
 
 export class Quality {
   private level: number;
@@ -40,7 +40,7 @@ export class Quality {
     this.behind = slow ? this.behind + 1 : 0;
     this.fine = slow ? 0 : this.fine + 1;
     const coarser = RATIOS[this.level + 1];
-    const worthIt = coarser !== undefined && coarser ** 2 * area_px >= FEWEST_PX;
+    const worthIt = coarser !== undefined && coarser ** 2 * area_px >= MIN_PX;
     if (this.behind >= PATIENCE && worthIt) {
       this.limit = this.level + 1;
       return this.change(this.level + 1);

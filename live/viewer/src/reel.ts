@@ -14,7 +14,7 @@ import {FileContacts, FileCurve, FileRows, RingContacts, RingResidual, RingRows}
 import type {Curve, Rows} from './timeline_rows';
 
 const KEPT_S = 60;
-const MOST_FRAMES = 7200;
+const MAX_FRAMES = 7200;
 
 export class Reel {
   readonly playback = new Playback();
@@ -68,7 +68,7 @@ export class Reel {
     }
     const witness = scene.skeletons[this.witness];
     const names = witness ? witness.joints.map(({name, bone}) => bone || name) : [];
-    const capacity = Math.min(Math.ceil(KEPT_S * playback.rate_hz), MOST_FRAMES);
+    const capacity = Math.min(Math.ceil(KEPT_S * playback.rate_hz), MAX_FRAMES);
     this.ring = new FrameRing(capacity, names.length);
     this.rows = new RingRows(names, this.ring);
     this.contacts = witness ? new RingContacts(this.ring) : null;

@@ -3,7 +3,7 @@
 
 // The part of a recording that the timeline shows; converts frames to pixels and back.
 
-const FEWEST_FRAMES = 8;
+const MIN_FRAMES = 8;
 
 export class TimeWindow {
   /** Frames at the left and the right edge; fractions are allowed. */
@@ -38,7 +38,7 @@ export class TimeWindow {
   zoom(factor: number, centre: number): void {
     const all = this.last - this.first;
     const length = Math.min(Math.max((this.to - this.from) * factor,
-      Math.min(FEWEST_FRAMES, all)), all);
+      Math.min(MIN_FRAMES, all)), all);
     const share = (centre - this.from) / (this.to - this.from);
     this.place(centre - share * length, length);
   }

@@ -28,7 +28,7 @@ export class Transport {
       playback.follow();
       changed();
     }, 'Live');
-    this.loopButton = this.button('loop', 'Begin anew at the end', () => this.setLoop(
+    this.loopButton = this.button('loop', 'Repeat from the start', () => this.setLoop(
       !playback.loop), 'Loop');
     this.foldButton = this.button('fold', 'Segments, contacts and graphs',
       () => this.toggleFold(), 'Details');

@@ -11,14 +11,14 @@ import type {Stage} from './stage';
 import type {Choice, Theme} from './theme';
 
 const LAYERS: [keyof Shown, string, string][] = [
-  ['skin', 'Skin', 'Avatars as they look; without it their bones'],
-  ['bones', 'Bones', 'Also of avatars in their skin'],
-  ['doubt', 'Doubt', 'A ball of two sigma around every joint'],
+  ['skin', 'Skin', 'Avatars with their skin; otherwise their bones'],
+  ['bones', 'Bones', 'Also of avatars with skin'],
+  ['doubt', 'Uncertainty', 'A ball of two sigma around every joint'],
   ['balance', 'Balance', 'Centre of mass, its plumb line, the polygon that carries it'],
-  ['cameras', 'Cameras', 'Where they stand and what they see'],
-  ['handles', 'Handles', 'Constraints, to be dragged'],
+  ['cameras', 'Cameras', 'Their positions and fields of view'],
+  ['handles', 'Handles', 'Constraints that can be dragged'],
   ['names', 'Names', 'Of bodies, cameras and points'],
-  ['follow', 'Follow', 'The eye goes along with whom it looks at'],
+  ['follow', 'Follow', 'The view moves with the subject'],
 ];
 
 const MEANINGS = {

@@ -111,7 +111,7 @@ export class WizardPanel {
     next.hidden = step !== 'stand' && step !== 'move';
     accept.hidden = step !== 'done';
     accept.className = poor ? '' : 'primary';
-    setText(accept, poor ? 'Accept all the same' : 'Accept');
+    setText(accept, poor ? 'Accept anyway' : 'Accept');
     cancel.hidden = !busy && step !== 'done';
   }
 
@@ -133,7 +133,7 @@ export class WizardPanel {
     const poor = quality.filter(({good}) => !good).length;
     this.verdict.hidden = quality.length === 0;
     this.verdict.className = poor ? 'verdict poor' : 'verdict good';
-    setText(this.verdict, poor ? `${poor} of ${quality.length} are poor.` : 'All of it is good.');
+    setText(this.verdict, poor ? `${poor} of ${quality.length} are poor.` : 'All results are good.');
     keepRows(this.quality, quality, () => el('li', {}, el('span'), el('b')),
       (row, {name, value, good}) => {
         row.className = good ? 'good' : 'poor';

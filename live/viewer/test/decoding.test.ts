@@ -12,8 +12,8 @@ import {readServerWords} from '../src/protocol';
 
 const two = [{joints: new Array(2)}, {joints: new Array(1)}];
 
-/** Two skeletons: one with pose, doubt, a triangle to stand on and how it was found; one that is
- *  not there. Written out by hand after docs/formats/README.md. */
+/** Two skeletons: one with pose, uncertainty, a support triangle and tracking data; one that
+ *  is absent. Written by hand after docs/formats/README.md. */
 function frameBytes(frame = 7): ArrayBuffer {
   const bytes = new ArrayBuffer(24 + (4 + 12 + 32 + 8 + 4 + 16 + 24 + 8) + 4);
   const view = new DataView(bytes);
@@ -84,7 +84,7 @@ test('a frame is read as it was written', () => {
   assert.equal(gone.hasTracking, false);
 });
 
-test('a frame that is cut short anywhere is refused', () => {
+test('a frame that is truncated anywhere is rejected', () => {
   const bytes = frameBytes();
   for (let length = 0; length < bytes.byteLength; ++length) {
     const end = decodeFrame(new DataView(bytes, 0, length), 0, new SceneFrame(two));
@@ -129,16 +129,16 @@ test('blocks that are not whole say what is wrong', () => {
   const cut = block('MRMB', frameBytes(0));
   new DataView(cut).setUint32(8, 2, true);
   new DataView(cut).setUint32(12, 2, true);
-  assert.throws(() => new MotionBlock(cut, new SceneFrame(two)), /frame 1 is cut short/);
+  assert.throws(() => new MotionBlock(cut, new SceneFrame(two)), /frame 1 is truncated/);
   assert.throws(() => new MotionBlock(block('GLTF'), new SceneFrame(two)), /MRMB/);
   const huge = block('MRMB');
   new DataView(huge).setUint32(8, 0xffffffff, true);
   new DataView(huge).setUint32(12, 2, true);
-  assert.throws(() => new MotionBlock(huge, new SceneFrame(two)), /cut short/);
+  assert.throws(() => new MotionBlock(huge, new SceneFrame(two)), /truncated/);
   const points = block('MRPB');
   new DataView(points).setUint32(8, 10, true);
   new DataView(points).setUint32(12, 10, true);
-  assert.throws(() => new PointBlock(points), /cut short/);
+  assert.throws(() => new PointBlock(points), /truncated/);
 });
 
 function frameOfOnePoint(): ArrayBuffer {
@@ -189,7 +189,7 @@ test('texts of another version, kind or form are told apart', () => {
     const words = readServerWords(text);
     return words.type === 'bad' ? words.why : '';
   };
-  assert.match(why('{'), /no JSON/);
+  assert.match(why('{'), /not JSON/);
   assert.match(why('3'), /no type/);
   assert.match(why('{"type":"dance"}'), /dance/);
   assert.match(why('{"type":"scene","version":2,"skeletons":[]}'), /version 2/);

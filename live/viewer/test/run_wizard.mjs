@@ -103,9 +103,9 @@ async function drive(page, folder) {
   }
   const poor = rows.filter(([, , look]) => look === 'poor').length;
   assert.equal(await wizard.locator('.verdict').textContent(),
-    poor ? `${poor} of 11 are poor.` : 'All of it is good.');
+    poor ? `${poor} of 11 are poor.` : 'All results are good.');
   const before = readFileSync(`${folder}/subject.toml`, 'utf8');
-  await press(poor ? 'Accept all the same' : 'Accept');
+  await press(poor ? 'Accept anyway' : 'Accept');
   await title('Measured');
 
   const after = limbsIn(`${folder}/subject.toml`);
