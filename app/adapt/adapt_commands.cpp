@@ -67,7 +67,7 @@ Status check_out(const AdaptArguments& args) {
     std::error_code absent;
     if (!fs::equivalent(args.out, file, absent)) continue;
     return bad_input(args.out.string(),
-                     std::string("that is ") + role + ", which it would replace",
+                     std::string("the result would replace ") + role,
                      "give the result another name");
   }
   return Done{};
@@ -159,8 +159,8 @@ Status read_floor(const AdaptArguments& args, SupportsFrom supports, AdaptRun& r
   if (args.floor.empty()) return Done{};
   if (supports != SupportsFrom::kAuto) {
     return bad_input("--floor",
-                     "no foot is put on it: supports are not found in the motion",
-                     "use --supports auto, or leave --floor out");
+                     "no foot stands on this floor: supports of the motion are not used",
+                     "use --supports auto, or leave out --floor");
   }
   auto floor = recordings::read_floor(args.floor);
   if (!floor) return floor.error();
@@ -207,7 +207,7 @@ Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
     console.warn(args.motion.string() + ": " + *note);
   }
   run.source_error = exchanged_sides_error(
-      args.motion, source->exchanged, "a .bones.toml file beside the motion");
+      args.motion, source->exchanged, "a .bones.toml file next to the motion");
   AdaptBodyOptions options;
   options.motion = args.motion;
   options.character = args.character;
@@ -261,12 +261,12 @@ void add_solve_options(CLI::App& command, retarget::AdaptOptions& options) {
                      "--method",
                      options.method,
                      {{"strict", Method::kStrict}, {"thesis", Method::kThesis}},
-                     "How postures are found; default strict");
+                     "Method that solves postures; default strict");
   add_choice<Control>(command,
                       "--control",
                       options.control,
                       {{"priority", Control::kPriority}, {"blend", Control::kBlend}},
-                      "What the importance of constraints means; default priority");
+                      "Meaning of the importance of constraints; default priority");
   add_choice<BalanceMode>(command,
                           "--balance",
                           options.balance,
@@ -277,20 +277,20 @@ void add_solve_options(CLI::App& command, retarget::AdaptOptions& options) {
   command
       .add_option("--root-share",
                   options.root_for_constraints,
-                  "How much of its way the root goes for constraints; default 1")
+                  "Share of the root's correction used for constraints; default 1")
       ->check(between(0.0, 1.0));
   command
       .add_option("--balance-root-share",
                   options.root_for_balance,
-                  "How much of its way the root goes for balance; default 1")
+                  "Share of the root's correction used for balance; default 1")
       ->check(between(0.0, 1.0));
   command
       .add_option("--max-iterations",
                   options.max_iterations,
-                  "At most so many a try, of which a frame has several while constraints "
-                  "fade, or by priority when not all can be met; default 50. The strict "
-                  "method makes " +
-                      std::to_string(retarget::kFirstSteps) + " at least, with balance " +
+                  "Maximum number per try; default 50. A frame has several tries while "
+                  "constraints fade, or by priority if not all can be met. The strict "
+                  "method makes at least " +
+                      std::to_string(retarget::kFirstSteps) + ", with balance " +
                       std::to_string(retarget::kFirstStepsBalanced))
       ->check(CLI::Range(1, 100000));
 }
@@ -320,11 +320,11 @@ void add_adapt_command(CLI::App& app,
                        AdaptArguments& args,
                        std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand(
-      "adapt", "Bring a motion to constraints, its feet kept standing");
+      "adapt", "Adapt a motion to constraints, with feet that do not slide");
   command->add_option("motion", args.motion, ".bvh, .glb, .vrm or .vrma")->required();
   command->add_option("-c,--character",
                       args.character,
-                      "character.toml: whose body; default the motion's own");
+                      "character.toml of the body; default the motion's body");
   command->add_option("-x,--constraints", args.constraints, "Constraints (.xml)");
   command->add_option("-o,--out", args.out, "Result: .glb or .bvh")->required();
   add_choice<std::optional<SupportsFrom>>(
@@ -334,8 +334,8 @@ void add_adapt_command(CLI::App& app,
       {{"auto", SupportsFrom::kAuto},
        {"file", SupportsFrom::kFile},
        {"none", SupportsFrom::kNone}},
-      "Where feet stand: as the motion has them (auto) where the constraints do not say, "
-      "as the constraints say (file), or nowhere; default file if they say, else auto");
+      "Source of foot supports: the constraints, else the motion (auto); the constraints "
+      "alone (file); or none; default file if they contain supports, else auto");
   add_solve_options(*command, args.options);
   command
       ->add_option("--balance-groups",
@@ -346,7 +346,7 @@ void add_adapt_command(CLI::App& app,
   command
       ->add_option("--load",
                    args.loads,
-                   "Load of the character that it carries from the beginning; may be "
+                   "Load that the character carries from the first frame; may be "
                    "repeated")
       ->allow_extra_args(false);
   command->add_option(

@@ -27,7 +27,7 @@ std::string name_at(const AdaptDeparture& departure, const Motion& motion, int f
   return motion.skeleton[departure.trunk[static_cast<std::size_t>(frame)].joint].name;
 }
 
-/// Returns hips, spine, neck and head, except those that a constraint controls.
+/// Returns hips, spine, neck and head, without the joints that a constraint controls.
 std::vector<JointIndex> trunk_of(const Skeleton& skeleton,
                                  const ConstraintSet& constraints) {
   std::vector<JointIndex> out;
@@ -53,8 +53,8 @@ std::vector<JointIndex> trunk_of(const Skeleton& skeleton,
 }
 
 /// Returns true if `without` meets all constraints that `with` meets.
-bool keeps_what_is_met(const retarget::AdaptedMotion& with,
-                       const retarget::AdaptedMotion& without) {
+bool meets_same_constraints(const retarget::AdaptedMotion& with,
+                            const retarget::AdaptedMotion& without) {
   for (std::size_t i = 0; i < with.constraints.size(); ++i) {
     if (without.constraints[i].met_frames < with.constraints[i].met_frames) return false;
   }
@@ -84,7 +84,7 @@ void compare_without_balance(const Motion& source,
                              const retarget::AdaptedMotion& with,
                              const retarget::AdaptedMotion& without,
                              AdaptDeparture& departure) {
-  if (departure.trunk.empty() || !keeps_what_is_met(with, without)) return;
+  if (departure.trunk.empty() || !meets_same_constraints(with, without)) return;
   std::vector<JointIndex> trunk;
   for (const retarget::FrameDeparture& frame : departure.trunk) {
     if (std::find(trunk.begin(), trunk.end(), frame.joint) == trunk.end()) {
@@ -142,7 +142,7 @@ std::string departure_text(const AdaptDeparture& departure, const Motion& motion
     const int frame = departure.worst_needless_frame;
     return format_text(
         "balance turns %s by up to %.0f degrees from its source (frame %d, at %.2f s), "
-        "in %d frames in which the same constraints are met without",
+        "in %d frames in which the same constraints are met without balance",
         name_at(departure, motion, frame).c_str(),
         degrees_at(departure, frame),
         frame,

@@ -25,7 +25,7 @@ inline constexpr double kNearTrunk_deg = 10.0;
 /// Differences between the postures of a run and those of its source.
 struct AdaptDeparture {
   std::vector<retarget::SegmentDeparture> segments;  ///< One per joint.
-  /// Hips, spine, neck and head, except those that a constraint controls; per frame.
+  /// Hips, spine, neck and head, without constrained joints; per frame.
   /// Empty: constraints control all of them.
   std::vector<retarget::FrameDeparture> trunk;
   int worst_frame = 0;  ///< Index into `trunk`.

@@ -140,7 +140,7 @@ std::string advice_for(const KeptConstraint& kept,
   const Constraint* own = run.constraints.find(kept.id);
   if (kept.ran_out && is_nearly_there(kept, args, run)) return more_iterations(args);
   if (own != nullptr && own->range) {
-    return "let more segments turn for it: a greater <range>, or none";
+    return "let more segments turn for it: use a larger <range>, or none";
   }
   const retarget::AdaptOptions& options = args.options;
   if (options.root_for_constraints < 1.0) return "let the root help: --root-share 1";
@@ -152,15 +152,15 @@ std::string advice_for(const KeptConstraint& kept,
     for (const Constraint& other : run.constraints.constraints) {
       if (other.importance > own->importance) {
         return "\"" + other.id +
-               "\" comes before it: exchange their importance, or move "
-               "one of the two";
+               "\" has priority over it: exchange their importance, or "
+               "move one of the two";
       }
     }
   }
   if (options.balance != retarget::BalanceMode::kOff) {
-    return "move its target nearer, or do without --balance";
+    return "move its target nearer, or leave out --balance";
   }
-  return "move its target nearer to the body, or let a foot go";
+  return "move its target nearer to the body, or remove the support of a foot";
 }
 
 std::string miss_of(const KeptConstraint& kept, const AdaptRun& run) {
@@ -174,7 +174,7 @@ std::string miss_of(const KeptConstraint& kept, const AdaptRun& run) {
 }
 
 constexpr const char* kDepartureAdvice =
-    "move targets nearer, or do without --balance, or use --method thesis";
+    "move targets nearer, leave out --balance, or use --method thesis";
 
 /// Returns advice for a centre of mass that is off its target.
 std::string balance_advice(const AdaptArguments& args, const AdaptRun& run) {
@@ -183,7 +183,7 @@ std::string balance_advice(const AdaptArguments& args, const AdaptRun& run) {
     return "let the root help: --balance-root-share 1";
   }
   if (!args.balance_groups.empty()) return "let more --balance-groups move for it";
-  return "move targets nearer, or carry less";
+  return "move targets nearer, or reduce the load";
 }
 
 }  // namespace
@@ -223,16 +223,16 @@ std::string adapt_summary(const AdaptArguments& args, const AdaptRun& run) {
   const retarget::AdaptedMotion& adapted = run.adapted;
   const std::size_t frames = adapted.motion.poses.size();
   std::size_t met = 0;
-  std::size_t wishes = 0;
+  std::size_t wanted = 0;
   for (const KeptConstraint& kept : adapted.constraints) {
     if (kept.is_support || kept.active_frames == 0) continue;
-    ++wishes;
+    ++wanted;
     if (!is_missed(kept)) ++met;
   }
   std::string text = args.out.string() + ": " + std::to_string(frames) + " frames";
-  if (wishes > 0) {
-    text += format_text(", %zu of %zu constraints met", met, wishes);
-    if (met < wishes) {
+  if (wanted > 0) {
+    text += format_text(", %zu of %zu constraints met", met, wanted);
+    if (met < wanted) {
       text += " (worst " + worst_miss_of(adapted) + " off)";
     }
   }
@@ -286,17 +286,17 @@ std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptR
   const retarget::AdaptedMotion& adapted = run.adapted;
   const KeptConstraint* failure = find_failure(args, run);
   for (const KeptConstraint& kept : adapted.constraints) {
-    const std::string who =
+    const std::string line =
         args.constraints.string() + ": constraint \"" + kept.id + "\": ";
     if (kept.active_frames == 0) {
       const int last = static_cast<int>(adapted.motion.poses.size()) - 1;
-      out.push_back(who +
+      out.push_back(line +
                     format_text("fully active in no frame of the motion, which lasts "
                                 "from %.2f s to %.2f s. Next: check its times",
                                 time_of(run, 0),
                                 time_of(run, last)));
     } else if (is_missed(kept) && &kept != failure) {
-      out.push_back(who + miss_of(kept, run) + ". Next: " + advice_for(kept, args, run));
+      out.push_back(line + miss_of(kept, run) + ". Next: " + advice_for(kept, args, run));
     }
   }
   if (run.out_of_reach_frames > 0) {
@@ -316,7 +316,7 @@ std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptR
   if (adapted.worst_balance_error_m > kOffBalance_m) {
     out.push_back(
         args.out.string() +
-        format_text(": the centre of mass is up to %.1f mm from where it is wanted "
+        format_text(": the centre of mass is up to %.1f mm from its target "
                     "(at %.2f s). Next: ",
                     1e3 * adapted.worst_balance_error_m,
                     time_of(run, adapted.worst_balance_frame)) +
@@ -326,8 +326,9 @@ std::vector<std::string> adapt_warnings(const AdaptArguments& args, const AdaptR
   if (adapted.added.m_per_s2 > kJump_m_per_s2) {
     out.push_back(
         args.out.string() +
-        format_text(": %s is thrown off its way at %.2f s, by %.0f m/s2. Next: give "
-                    "constraints longer start and stop durations, or nearer targets",
+        format_text(": %s jumps at %.2f s, with %.0f m/s2 of added acceleration. Next: "
+                    "give constraints longer start and stop durations, or nearer "
+                    "targets",
                     adapted.motion.skeleton[adapted.added.joint].name.c_str(),
                     time_of(run, adapted.added.frame),
                     adapted.added.m_per_s2));

@@ -45,7 +45,7 @@ double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
   return glm::degrees(std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0)));
 }
 
-void look_at_trunk(const glm::dvec3& was,
+void measure_trunk(const glm::dvec3& was,
                    const glm::dvec3& is,
                    int frame,
                    AdaptPosture& out) {
@@ -117,7 +117,7 @@ AdaptPosture measure_adapt_posture(const Motion& source,
     world_from_joints(source.skeleton, source.poses[t], was);
     world_from_joints(adapted.skeleton, adapted.poses[t], is);
     const int frame = static_cast<int>(t);
-    look_at_trunk(trunk_of(map, was), trunk_of(map, is), frame, out);
+    measure_trunk(trunk_of(map, was), trunk_of(map, is), frame, out);
     const double time_s = frame_time_s(adapted, frame);
     const double before_m = deepest(map, was, floor, time_s).first;
     const auto [depth_m, joint] = deepest(map, is, floor, time_s);

@@ -66,7 +66,7 @@ struct PostureProblem {
   Error error;
   bool is_poor = false;
 };
-/// Returns the worst fault of the postures; nullopt: there is none.
+/// Returns the worst fault of the postures; nullopt: no fault.
 [[nodiscard]] std::optional<PostureProblem> posture_problem(
     const std::string& where,
     const AdaptPosture& posture,

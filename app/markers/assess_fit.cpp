@@ -23,7 +23,7 @@ constexpr double kMarkerFarOff_m = 0.055;
 constexpr double kOtherStatureSigmas = 4.0;
 constexpr double kMinSolvedShare = 0.8;
 // Right labels have a places_off of 0.6 to 1.4 (fit_labels.cpp).
-constexpr double kNobodysPlaces = 2.0;
+constexpr double kMaxPlacesOff = 2.0;
 
 Error far_off(const MarkerTrial& trial, const SubjectFit* subject) {
   Error error{
@@ -31,12 +31,12 @@ Error far_off(const MarkerTrial& trial, const SubjectFit* subject) {
       trial.path.string(),
       format_text("its markers are %.0f mm away from the body (RMS)",
                   1e3 * trial.solved->rms_m),
-      "see which in fit.json: labels may be wrong or moved (--markers MAP.toml), or "
-      "the unit (--unit)"};
+      "find them in fit.json: labels may be wrong, markers moved (--markers MAP.toml), "
+      "or the unit wrong (--unit)"};
   if (subject == nullptr) {
     error.next =
-        "see which in fit.json, and whether this is the subject of --subject with its "
-        "markers where they were";
+        "find them in fit.json; check that this is the subject of --subject, with its "
+        "markers at the same places";
   }
   return error;
 }
@@ -74,7 +74,7 @@ void assess_worst(const MarkerTrial& trial, const Body& body, std::vector<Error>
                     trial.path.string(),
                     "the markers of " + far +
                         format_text(" are %.0f mm away from the body (RMS)", 1e3 * far_m),
-                    "see in fit.json which of them: labels may be wrong or markers moved "
+                    "find them in fit.json: labels may be wrong or markers moved "
                     "(--markers MAP.toml)"});
   } else if (worst_m > kMarkerFarOff_m) {
     poor.push_back(
@@ -82,7 +82,7 @@ void assess_worst(const MarkerTrial& trial, const Body& body, std::vector<Error>
          trial.path.string(),
          "the marker \"" + worst +
              format_text("\" is %.0f mm away from its place (RMS)", 1e3 * worst_m),
-         "see whether it fell off or bears another's label, and leave it out "
+         "check whether it fell off or has another's label, and leave it out "
          "with --markers MAP.toml"});
   }
 }
@@ -95,7 +95,7 @@ Error other_stature(const reconstruct::MeasuredStature& measured,
           format_text("by its markers the subject is %.2f m tall", measured.stature_m) +
               format_text(" (standard deviation %.2f m)", measured.sigma_m) +
               format_text(", not the %.2f m given", given_m),
-          "see --stature, the unit (--unit) and the labels (--markers MAP.toml)"};
+          "check --stature, the unit (--unit) and the labels (--markers MAP.toml)"};
 }
 
 }  // namespace
@@ -115,23 +115,24 @@ std::vector<Error> assess_fit(std::span<const MarkerTrial> trials,
     poor.push_back(
         {Errc::kQuality,
          trials.size() == 1 ? trials[0].path.string() : "",
-         "left and right seem exchanged: as they are called, markers sit" +
+         "left and right seem exchanged: with these labels, markers are" +
              format_text(" %.1f times as far from their landmarks as on others,",
                          subject->places_off) +
-             format_text(" and %.1f times in the mirror", *subject->mirrored_places_off),
-         "call left what is left, in the recording or with --markers MAP.toml, or see "
+             format_text(" and %.1f times with left and right exchanged",
+                         *subject->mirrored_places_off),
+         "correct left and right, in the recording or with --markers MAP.toml, or check "
          "whether the file's axes are left-handed"});
   }
   if (subject != nullptr && poor.empty()) {
-    if (subject->places_off > kNobodysPlaces) {
+    if (subject->places_off > kMaxPlacesOff) {
       poor.push_back(
           {Errc::kQuality,
            trials.size() == 1 ? trials[0].path.string() : "",
-           format_text("markers sit %.1f times as far from their landmarks as "
+           format_text("markers are %.1f times as far from their landmarks as "
                        "on others",
                        subject->places_off),
-           "see whether labels mean what their names say (--markers MAP.toml), "
-           "and the unit (--unit)"});
+           "check the meaning of the labels (--markers MAP.toml), and the unit "
+           "(--unit)"});
     }
   }
   if (subject != nullptr && stature_m && subject->fit.measured_stature) {

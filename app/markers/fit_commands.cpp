@@ -48,7 +48,7 @@ Status take_subject(const FitArguments& args, FitRun& run) {
   if (!body) return body.error();
   if (body->markers.empty()) {
     return bad_input(args.subject.string(),
-                     "the subject wears no markers",
+                     "the subject has no markers",
                      "give the subject.toml of an earlier `marey fit`");
   }
   run.body = std::move(*body);
@@ -56,7 +56,7 @@ Status take_subject(const FitArguments& args, FitRun& run) {
 }
 
 /// Returns the subject's data given by the user.
-reconstruct::MarkerSubject subject_asked(const FitArguments& args, const FitRun& run) {
+reconstruct::MarkerSubject given_subject(const FitArguments& args, const FitRun& run) {
   reconstruct::MarkerSubject subject;
   subject.name = name_of_subject(args, run.trials);
   subject.stature_m = args.stature_m;
@@ -72,7 +72,7 @@ Status find_subject(const FitArguments& args,
   if (size) {
     if (const Status ok = check_size(run.trials, size->stature_m); !ok) return ok;
   }
-  auto fit = fit_subject_to(subject_asked(args, run), checked, run.labels, progress);
+  auto fit = fit_subject_to(given_subject(args, run), checked, run.labels, progress);
   if (!fit) return fit.error();
   run.body = fit->fit.body;
   run.subject = std::move(*fit);
@@ -119,7 +119,7 @@ std::vector<Error> assess_all(const FitArguments& args, FitRun& run) {
   if (!failures.empty()) return failures;
   const SubjectFit* subject = run.subject ? &*run.subject : nullptr;
   run.checks =
-      check_labels(run.body, subject_asked(args, run), subject, run.labels, run.trials);
+      check_labels(run.body, given_subject(args, run), subject, run.labels, run.trials);
   failures = assess_fit(run.trials, subject, run.body, args.stature_m);
   if (subject != nullptr && subject->fit.measured_stature) {
     auto small =
@@ -226,25 +226,25 @@ void add_fit_command(CLI::App& app,
   command->add_option("in", args.in, "Trials of one subject, .c3d or .trc")->required();
   command->add_option("-o,--out", args.out, "Folder for the results")->required();
   CLI::Option* map = command->add_option(
-      "--markers", args.map, "What labels mean, where they do not say (MAP.toml)");
+      "--markers", args.map, "Meaning of labels with unknown names (MAP.toml)");
   CLI::Option* subject = command->add_option(
       "--subject", args.subject, "subject.toml of an earlier fit, instead of fitting");
-  CLI::Option* who = command->add_option("--name", args.name, "The subject's name");
+  CLI::Option* person = command->add_option("--name", args.name, "The subject's name");
   CLI::Option* stature =
       command->add_option("--stature", args.stature_m, "How tall the subject is [m]")
           ->check(between(0.3, 3.0));
   CLI::Option* mass = command->add_option("--mass", args.mass_kg, "Its mass [kg]")
                           ->check(between(1.0, 500.0));
-  for (CLI::Option* option : {map, who, stature, mass}) option->excludes(subject);
+  for (CLI::Option* option : {map, person, stature, mass}) option->excludes(subject);
   command
       ->add_option("-a,--avatar",
                    args.avatars,
                    "Body to put the motion on (.glb, .vrm, .bvh); may be repeated")
       // One value per option: the next argument may be a trial.
       ->allow_extra_args(false);
-  command->add_option("--up", args.up, "Axis of the files that is up, if not as found")
+  command->add_option("--up", args.up, "Up axis of the files; default as detected")
       ->check(CLI::IsMember({"+X", "+Y", "+Z", "-X", "-Y", "-Z"}));
-  command->add_option("--unit", args.unit, "Unit of the files, if not as they say")
+  command->add_option("--unit", args.unit, "Unit of the files; default as stated in them")
       ->check(CLI::IsMember({"mm", "cm", "m", "in", "ft"}));
   command->add_flag("--json", args.json, "Print fit.json on standard output");
   command->callback(

@@ -24,7 +24,7 @@ using reconstruct::NamedMarker;
 // labels with left and right exchanged 1.5 to 4. The distances of markers from the fitted
 // body often do not differ. Above the first limit the mirrored labels are tested; they
 // are accepted if their value is smaller by the second factor.
-constexpr double kUsualPlacesOff = 1.4;
+constexpr double kTypicalPlacesOff = 1.4;
 constexpr double kFarBetter = 0.75;
 
 const Landmark* mirrored(const Landmark* landmark) {
@@ -79,15 +79,15 @@ std::optional<double> places_off(const reconstruct::MarkersFit& fit,
 Error exchanged_error() {
   return bad_input(
       "",
-      "left and right seem exchanged: no body explains these markers as they "
-      "are called, and one does in the mirror",
-      "call left what is left, in the recording or with --markers MAP.toml");
+      "left and right seem exchanged: no body fits these markers with their "
+      "labels, and one does with left and right exchanged",
+      "correct left and right, in the recording or with --markers MAP.toml");
 }
 
 /// Ignores prefixes that the labels of the map have in common with those of the files.
-void leave_out(std::span<const std::string> prefixes,
-               std::span<const std::string> labels,
-               MarkerMapEntry& entry) {
+void drop_prefix(std::span<const std::string> prefixes,
+                 std::span<const std::string> labels,
+                 MarkerMapEntry& entry) {
   if (std::find(labels.begin(), labels.end(), entry.label) != labels.end()) return;
   for (const std::string& prefix : prefixes) {
     if (!entry.label.starts_with(prefix)) continue;
@@ -131,7 +131,7 @@ Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
   out.names.notes.clear();  // Already printed for every file.
   if (map) {
     MarkerMap bare = *map;
-    for (MarkerMapEntry& entry : bare.entries) leave_out(prefixes, out.labels, entry);
+    for (MarkerMapEntry& entry : bare.entries) drop_prefix(prefixes, out.labels, entry);
     auto names = reconstruct::apply_map(bare, out.labels, std::move(out.names));
     if (!names) return names.error();
     out.names = std::move(*names);
@@ -143,7 +143,7 @@ Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
   return bad_input(
       "",
       "no label is known: " + some_of(out.labels),
-      "say what they mean with --markers MAP.toml (docs/formats/README.md, \"Marker "
+      "give their meaning with --markers MAP.toml (docs/formats/README.md, \"Marker "
       "names\")");
 }
 
@@ -158,13 +158,13 @@ Result<SubjectFit> fit_subject_to(const reconstruct::MarkerSubject& subject,
     const auto off = places_off(*fit, markers);
     out.places_off = off.value_or(0.0);
     out.fit = std::move(*fit);
-    if (!off || *off < kUsualPlacesOff) return out;
+    if (!off || *off < kTypicalPlacesOff) return out;
   }
   for (NamedMarker& marker : markers) marker.landmark = mirrored(marker.landmark);
   const auto mirror = reconstruct::fit_markers(subject, trials, markers);
   const auto mirror_off = mirror ? places_off(*mirror, markers) : std::optional<double>();
   if (!fit) {
-    if (mirror_off && *mirror_off < kUsualPlacesOff) return exchanged_error();
+    if (mirror_off && *mirror_off < kTypicalPlacesOff) return exchanged_error();
     return fit.error();
   }
   if (mirror_off && *mirror_off < kFarBetter * out.places_off &&

@@ -41,10 +41,10 @@ Status write_marker_files(const fs::path& folder,
   // Other content of a C3D is copied in the file's axes. If the user gave other axes, it
   // is not copied, because the copy would keep the wrong ones.
   const FileAxes& axes = trial.file.axes;
-  const bool is_told = axes.up_from == recordings::Evidence::kUser ||
-                       axes.unit_from == recordings::Evidence::kUser;
+  const bool is_given = axes.up_from == recordings::Evidence::kUser ||
+                        axes.unit_from == recordings::Evidence::kUser;
   recordings::MarkerWriteOptions c3d;
-  if (!is_told && kind_by_extension(trial.path) == ".c3d") c3d.source = trial.path;
+  if (!is_given && kind_by_extension(trial.path) == ".c3d") c3d.source = trial.path;
   Status ok = recordings::write_markers(folder / "markers.c3d", trial.file, c3d);
   if (ok) {
     // A TRC does not store the up axis; readers assume Y up.

@@ -49,9 +49,9 @@ std::string set_words(const FitRun& run) {
   const auto named = landmarks.size() - static_cast<std::size_t>(std::count(
                                             landmarks.begin(), landmarks.end(), nullptr));
   const std::string& set = run.labels.names.set;
-  std::string text = set.empty() ? "labels of no set that is known" : "labels: " + set;
+  std::string text = set.empty() ? "labels of an unknown set" : "labels: " + set;
   return text + ", " + std::to_string(named) + " of " + std::to_string(landmarks.size()) +
-         " say where they are";
+         " have a known place";
 }
 
 /// Returns the unused labels, grouped by reason.
@@ -74,7 +74,7 @@ std::vector<std::string> unused_words(const FitRun& run) {
 std::string stature_words(const SubjectFit& subject, const Body& body) {
   const auto& measured = subject.fit.measured_stature;
   if (!measured) {
-    return formatted("subject: %.3f m tall (as given, or average: no markers tell)",
+    return formatted("subject: %.3f m tall (given or average: markers do not show it)",
                      body.stature_m);
   }
   if (measured->stature_m != body.stature_m) {
@@ -132,7 +132,7 @@ std::vector<std::string> fit_warnings(const FitRun& run) {
       if (verdict.use != LabelUse::kMoved) continue;
       lines.push_back(verdict.label + " moves with " +
                       std::string(name(verdict.segment)) +
-                      ", which is not what it is called after: taken for one of its "
+                      ", and not with the segment of its name: used as one of its "
                       "markers");
     }
   }

@@ -104,16 +104,15 @@ void assess_places(const LabelChecks& checks,
                    std::span<const MarkerTrial> trials,
                    std::vector<Error>& poor) {
   const std::string next =
-      "see whether labels mean what their names say, or are exchanged (--markers "
+      "check the meaning of these labels, and whether labels are exchanged (--markers "
       "MAP.toml)";
   const auto off = labels_with(checks.of_fit, LabelFault::kOffLandmark);
   if (!off.empty()) {
     poor.push_back(
         {Errc::kQuality,
          all_trials(trials),
-         "markers are where their landmark can be on nobody: " + listed_labels(off) +
-             ", up to " + in_mm(farthest_m(checks.of_fit, LabelFault::kOffLandmark)) +
-             " from it",
+         "markers are too far from their landmark for any body: " + listed_labels(off) +
+             ", up to " + in_mm(farthest_m(checks.of_fit, LabelFault::kOffLandmark)),
          next});
   }
   const auto moved = labels_with(checks.of_fit, LabelFault::kMoved);
@@ -139,7 +138,7 @@ void assess_places(const LabelChecks& checks,
 }  // namespace
 
 LabelChecks check_labels(const Body& body,
-                         const reconstruct::MarkerSubject& asked,
+                         const reconstruct::MarkerSubject& given,
                          const SubjectFit* subject,
                          const FitLabels& labels,
                          std::span<const MarkerTrial> trials) {
@@ -154,13 +153,13 @@ LabelChecks check_labels(const Body& body,
   if (subject == nullptr) return checks;
   checks.of_fit = reconstruct::check_fit(subject->fit, markers);
   // Labels with few samples are left out for that reason, not for their motion.
-  const std::size_t most =
+  const std::size_t max_samples =
       *std::max_element(labels.samples.begin(), labels.samples.end());
-  const std::size_t least = std::max<std::size_t>(kMinSamples, most / 20);
+  const std::size_t needed = std::max<std::size_t>(kMinSamples, max_samples / 20);
   std::erase_if(checks.of_fit, [&](const LabelFinding& finding) {
     const auto at = std::find(labels.labels.begin(), labels.labels.end(), finding.label);
     return at != labels.labels.end() &&
-           labels.samples[static_cast<std::size_t>(at - labels.labels.begin())] < least;
+           labels.samples[static_cast<std::size_t>(at - labels.labels.begin())] < needed;
   });
   const bool is_explained = std::any_of(
       checks.of_trials.begin(), checks.of_trials.end(), [](const LabelFinding& finding) {
@@ -169,7 +168,7 @@ LabelChecks check_labels(const Body& body,
   if (is_explained || subject->mirrored_places_off) return checks;
   std::vector<MarkerTracks> tracks;
   for (const MarkerTrial& trial : trials) tracks.push_back(trial.repair.repaired.tracks);
-  checks.exchange = reconstruct::find_exchange(asked, tracks, markers, subject->fit);
+  checks.exchange = reconstruct::find_exchange(given, tracks, markers, subject->fit);
   return checks;
 }
 

@@ -25,7 +25,7 @@ struct LabelChecks {
 /// used. If single trials show no exchange and the fit is suspicious, searches for an
 /// exchange in all trials, which costs up to nine small fits.
 [[nodiscard]] LabelChecks check_labels(const Body& body,
-                                       const reconstruct::MarkerSubject& asked,
+                                       const reconstruct::MarkerSubject& given,
                                        const SubjectFit* subject,
                                        const FitLabels& labels,
                                        std::span<const MarkerTrial> trials);

@@ -26,7 +26,7 @@ constexpr std::size_t kMaxInstants = 400;
 constexpr double kMinAround_s = 0.3;
 constexpr double kShareAround = 0.3;
 // Larger than any room: coordinates beyond it come from a broken file. [m]
-constexpr double kWidestRoom_m = 1e3;
+constexpr double kMaxRoom_m = 1e3;
 
 /// Frames [first, first + frames) of a marker that were repaired.
 struct Repaired {
@@ -79,7 +79,7 @@ std::vector<Repaired> sorted(std::vector<Repaired> all, Worse worse) {
 
 std::vector<Repaired> chosen(const Repair& repair,
                              const MarkerHistory& history,
-                             std::size_t most) {
+                             std::size_t max_count) {
   const std::vector<Repaired> filled = fills(history);
   const std::array<std::vector<Repaired>, 3> rankings{
       sorted(filled, [](const auto& a, const auto& b) { return a.frames > b.frames; }),
@@ -92,9 +92,9 @@ std::vector<Repaired> chosen(const Repair& repair,
   std::set<std::size_t> markers;
   std::vector<Repaired> out;
   bool is_any_left = true;
-  while (out.size() < most && is_any_left) {
+  while (out.size() < max_count && is_any_left) {
     is_any_left = false;
-    for (std::size_t r = 0; r < rankings.size() && out.size() < most; ++r) {
+    for (std::size_t r = 0; r < rankings.size() && out.size() < max_count; ++r) {
       while (next[r] < rankings[r].size()) {
         const Repaired& one = rankings[r][next[r]++];
         if (!markers.insert(one.marker).second) continue;
@@ -110,7 +110,7 @@ std::vector<Repaired> chosen(const Repair& repair,
 Json coordinate_mm(const std::optional<MarkerSample>& sample, int axis) {
   if (!sample) return {};
   const double p_m = sample->p_in_world[axis];
-  if (!std::isfinite(p_m) || std::abs(p_m) > kWidestRoom_m) return {};
+  if (!std::isfinite(p_m) || std::abs(p_m) > kMaxRoom_m) return {};
   return rounded(1e3 * p_m, 1);
 }
 
@@ -169,9 +169,11 @@ Json curve(const Repair& repair, const MarkerHistory& history, const Repaired& r
 
 }  // namespace
 
-Json repair_curves(const Repair& repair, const MarkerHistory& history, std::size_t most) {
+Json repair_curves(const Repair& repair,
+                   const MarkerHistory& history,
+                   std::size_t max_count) {
   Json out = Json::array();
-  for (const Repaired& repaired : chosen(repair, history, most)) {
+  for (const Repaired& repaired : chosen(repair, history, max_count)) {
     out.push_back(curve(repair, history, repaired));
   }
   return out;

@@ -13,11 +13,11 @@ namespace marey::app {
 
 /// Returns the positions of markers around the most important repairs, before and after:
 /// in turn the longest fill, the fill of the largest sigma, and the wrong samples that
-/// were furthest off, one of each marker, at most `most` in all.
+/// were furthest off, one of each marker, at most `max_count` in all.
 /// docs/formats/README.md, "The pages of labelled markers". Each curve has at most a few
 /// hundred instants.
 [[nodiscard]] nlohmann::ordered_json repair_curves(const Repair& repair,
                                                    const MarkerHistory& history,
-                                                   std::size_t most);
+                                                   std::size_t max_count);
 
 }  // namespace marey::app

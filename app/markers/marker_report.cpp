@@ -40,17 +40,17 @@ Json residual_curve(const std::vector<double>& frame_rms_m) {
   Json worst = Json::array();
   for (std::size_t from = 0; from < frames; from += step) {
     double squares = 0.0;
-    double most_m = 0.0;
+    double max_m = 0.0;
     std::size_t count = 0;
     for (std::size_t f = from; f < std::min(frames, from + step); ++f) {
       if (frame_rms_m[f] <= 0.0) continue;
       squares += frame_rms_m[f] * frame_rms_m[f];
-      most_m = std::max(most_m, frame_rms_m[f]);
+      max_m = std::max(max_m, frame_rms_m[f]);
       ++count;
     }
     const double mean = count > 0 ? squares / static_cast<double>(count) : 0.0;
     rms.push_back(count > 0 ? Json(rounded(1e3 * std::sqrt(mean), 2)) : Json());
-    worst.push_back(count > 0 ? Json(rounded(1e3 * most_m, 2)) : Json());
+    worst.push_back(count > 0 ? Json(rounded(1e3 * max_m, 2)) : Json());
   }
   return {{"step", step}, {"rms_mm", rms}, {"worst_mm", worst}};
 }
@@ -77,7 +77,7 @@ Json page_trial(const Body& body, const MarkerTrial& trial, std::size_t curves) 
   return out;
 }
 
-/// Removes lists whose data the page has as runs and faults.
+/// Removes lists that the page has in another form.
 void drop_lists(Json& trial) {
   trial.erase("gaps");
   trial.erase("faults");

@@ -85,7 +85,7 @@ Status check_paths(std::span<const fs::path> paths,
 
 /// Removes the subject's name from the labels. It may differ between the recordings of
 /// one subject: "Bob_static:LASI", "Bob:LASI".
-void leave_out_subject(MarkerTrial& trial, Console& console) {
+void remove_subject_prefix(MarkerTrial& trial, Console& console) {
   const std::vector<std::string>& labels = trial.repair.as_read.labels;
   const reconstruct::MarkerNames names = reconstruct::name_markers(labels);
   for (const std::string& note : names.notes) {
@@ -129,7 +129,7 @@ Result<std::vector<MarkerTrial>> read_trials(std::span<const fs::path> paths,
     if (!is_any_seen(read->tracks)) {
       return bad_input(paths[i].string(),
                        "no marker is seen in any frame",
-                       "leave the file out, or see in the program that wrote it");
+                       "leave the file out, or check it in the program that wrote it");
     }
     if (names[i] != paths[i].stem().string()) {
       console.say(paths[i].string() + ": its results are in " +
@@ -138,7 +138,7 @@ Result<std::vector<MarkerTrial>> read_trials(std::span<const fs::path> paths,
     trial.repair.name = paths[i].filename().string();
     trial.repair.as_read = std::move(read->tracks);
     read->tracks = {};
-    leave_out_subject(trial, console);
+    remove_subject_prefix(trial, console);
     trial.file = std::move(*read);
   }
   return trials;
@@ -172,11 +172,13 @@ void solve_trials(const Body& body,
   JointProgress all(progress, static_cast<int>(frames));
   in_parallel(trials.size(), 0, [&](std::size_t i) {
     const MarkerTracks& tracks = trials[i].repair.repaired.tracks;
-    int told = 0;
-    const auto tell = [&](int done, int) { all.add(done - std::exchange(told, done)); };
-    trials[i].solved = reconstruct::solve_markers(body, tracks, {}, tell);
+    int reported = 0;
+    const auto report = [&](int done, int) {
+      all.add(done - std::exchange(reported, done));
+    };
+    trials[i].solved = reconstruct::solve_markers(body, tracks, {}, report);
     // A trial that cannot be solved has reported no progress.
-    if (!trials[i].solved) tell(static_cast<int>(tracks.frames()), 0);
+    if (!trials[i].solved) report(static_cast<int>(tracks.frames()), 0);
   });
 }
 

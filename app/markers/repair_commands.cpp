@@ -35,7 +35,9 @@ Status check_labels(const std::filesystem::path& file, const MarkerTracks& track
   return Done{};
 }
 
-void tell(const Repair& repair, const std::filesystem::path& out, Console& console) {
+void report_repair(const Repair& repair,
+                   const std::filesystem::path& out,
+                   Console& console) {
   const MarkerTracks& tracks = repair.repaired.tracks;
   for (const auto& finding : repair.checked.findings) {
     std::string text =
@@ -55,8 +57,8 @@ void tell(const Repair& repair, const std::filesystem::path& out, Console& conso
               std::to_string(filled + empty));
   if (empty > 0) {
     console.warn(counted(empty, "gap is", "gaps are") +
-                 " left empty: what is in them cannot be known. Next: "
-                 "see which in " +
+                 " left empty: no data determines them. Next: "
+                 "find them in " +
                  out.filename().string() + ".repair.html");
   }
 }
@@ -67,7 +69,7 @@ Exit run_repair(const RepairArguments& args, Console& console) {
   std::error_code ignored;
   if (std::filesystem::equivalent(args.in, args.out, ignored)) {
     return console.fail(bad_input(args.out.string(),
-                                  "that is the file to be repaired",
+                                  "the result would replace the file to repair",
                                   "give the result another name"));
   }
   auto read = recordings::read_markers(args.in);
@@ -82,7 +84,7 @@ Exit run_repair(const RepairArguments& args, Console& console) {
   if (std::none_of(samples.begin(), samples.end(), [](const auto& s) { return s; })) {
     return console.fail(bad_input(args.in.string(),
                                   "no marker is seen in any frame",
-                                  "there is nothing to repair from"));
+                                  "check the file in the program that wrote it"));
   }
   Repair repair;
   repair.name = args.in.filename().string();
@@ -116,7 +118,7 @@ Exit run_repair(const RepairArguments& args, Console& console) {
     const Status ok = recordings::write_file(args.out.string() + suffix, text);
     if (!ok) return console.fail(ok.error());
   }
-  tell(repair, args.out, console);
+  report_repair(repair, args.out, console);
   if (args.json) std::fputs(json.c_str(), stdout);
   return Exit::kOk;
 }
@@ -131,7 +133,7 @@ void add_repair_command(CLI::App& app,
   command
       ->add_option("--most-sigma",
                    args.max_sigma_m,
-                   "Samples known no better than this are left empty [m]")
+                   "Samples with a larger sigma are left empty [m]")
       ->check(CLI::Range(0.001, 10.0));
   command->add_flag("--json", args.json, "Print OUT.repair.json on standard output");
   command->callback(

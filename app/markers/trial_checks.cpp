@@ -83,17 +83,17 @@ std::string how_it_lies(const TrialGeometry& geometry) {
 
 std::string axis_advice(const MarkerTrial& trial, const TrialGeometry& geometry) {
   const FileAxis body = nearest_axis(trial.file.axes.up, *geometry.body_up);
-  return "say with --up which axis of the file is up: the body stands along its " +
+  return "give the up axis of the file with --up: the body stands along its " +
          std::string(name(body)) + " (--up " + std::string(name(body)) + ")";
 }
 
 Error axis_error(const MarkerTrial& trial, const TrialGeometry& geometry) {
   const auto& axes = trial.file.axes;
   const std::string up(name(axes.up));
-  std::string why = " is taken for up, as in most files of its kind";
+  std::string why = " is taken as up, as in most files of its kind";
   if (axes.up_from == Evidence::kUser) why = " is up by --up";
-  if (axes.up_from == Evidence::kFile) why = " is up by what the file says";
-  if (axes.up_from == Evidence::kPlates) why = " is up by how the force plates lie";
+  if (axes.up_from == Evidence::kFile) why = " is up according to the file";
+  if (axes.up_from == Evidence::kPlates) why = " is up according to the force plates";
   return {Errc::kQuality,
           trial.path.string(),
           how_it_lies(geometry) + ": its axis " + up + why,
@@ -140,18 +140,18 @@ Error sides_error(std::span<const MarkerTrial> trials,
   std::string cause = "left and right seem exchanged on " + part;
   if (!is_alone) cause += in_all ? " in all trials" : " in this trial";
   cause += sides == SwappedSides::kAll
-               ? ": the markers, as they are called, are a mirror image of a body"
-               : ": as they are called, left is on the trunk's right";
+               ? ": with these labels, the markers are a mirror image of a body"
+               : ": with these labels, left is on the trunk's right";
   std::string next = "exchange left and right in the labels of " +
                      (sides == SwappedSides::kAll ? "this file" : part);
   next += is_alone || in_all ? ", in the recording or with --markers MAP.toml"
                              : " in this file, not in the others";
   if (sides == SwappedSides::kAll) {
     next = is_alone || in_all
-               ? "call left what is left, in the recording or with --markers MAP.toml, or "
-                 "see whether the file's axes are left-handed"
+               ? "correct left and right, in the recording or with --markers MAP.toml, "
+                 "or check whether the file's axes are left-handed"
                : "exchange left and right in all labels of this file, not in the others, "
-                 "or see whether its axes are left-handed";
+                 "or check whether its axes are left-handed";
   }
   return {Errc::kQuality, in_all ? "" : trials[trial].path.string(), cause, next};
 }
@@ -247,7 +247,7 @@ std::vector<std::string> axis_warnings(std::span<const MarkerTrial> trials,
   for (std::size_t t = 0; t < trials.size(); ++t) {
     if (!is_never_upright(geometry[t]) || is_axis_wrong(trials[t], geometry[t])) continue;
     lines.push_back(trials[t].path.string() + ": " + how_it_lies(geometry[t]) +
-                    ". Next: if it is not so, " + axis_advice(trials[t], geometry[t]));
+                    ". Next: if this is wrong, " + axis_advice(trials[t], geometry[t]));
   }
   return lines;
 }

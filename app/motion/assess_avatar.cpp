@@ -43,8 +43,8 @@ void assess_skin(const std::string& name, AvatarVerdict& out) {
       text("the skin%s is %.0f mm below the floor, where the source is not",
            words.c_str(),
            deep_mm),
-      "look at it with marey view; adapt the result with a constraint on what is too "
-      "low, or give the body a bone map if its bones are mistaken",
+      "look at it with marey view; adapt the result with a constraint on the part that "
+      "is too low, or give the body a bone map if its bones are wrong",
       deep_mm > kPoorSkin_mm,
       out);
 }
@@ -64,8 +64,8 @@ void assess_direction(const std::string& name,
            apart_deg,
            glm::degrees(direction.worst_rad),
            direction.worst_frame),
-      "check with marey inspect --picture that the bones of both bodies are the right "
-      "ones, and that their rest poses are postures",
+      "check with marey inspect --picture that the bones of both bodies are right, and "
+      "that their rest poses are those of a body",
       apart_deg > poor_deg,
       out);
 }
@@ -92,8 +92,8 @@ void assess_posture(const std::string& name, AvatarVerdict& out) {
   const retarget::PostureFigures& posture = out.posture;
   if (posture.source_fastest > kPoorSourceSpeed) {
     add(name + ", frame " + std::to_string(posture.source_fastest_frame),
-        text("the motion that was given moves its %s at %.0f body heights per second: a "
-             "sample there is wrong, and frames around it follow it",
+        text("the source motion moves its %s at %.0f body heights per second: a sample "
+             "there is wrong, and it affects the frames around it",
              std::string(marey::name(posture.source_fastest_bone)).c_str(),
              posture.source_fastest),
         "repair or cut that frame in the motion, then retarget it again",
@@ -257,7 +257,7 @@ Status assess_files(const Motion& made,
                "bone of VRM",
                std::string(marey::name(figures.lost_bone)).c_str(),
                lost_mm),
-          "use the .glb or .bvh where that matters",
+          "use the .glb or .bvh if this distance matters",
           false,
           out);
     }

@@ -40,9 +40,9 @@ Status write_bytes(const std::filesystem::path& out, const Result<std::string>& 
 
 Error no_angles() {
   return bad_input("",
-                   "joint angles are of bodies as marey makes them: all 22 bones of "
-                   "VRM's humanoid, at rest without rotations",
-                   "put the motion on one first: marey mannequin makes some");
+                   "joint angles need a body made by marey: all 22 bones of VRM's "
+                   "humanoid, at rest without rotations",
+                   "retarget the motion to such a body first: marey mannequin makes one");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ Error no_neutral(const std::string& word) {
     names += ", " + std::string(known.name);
   }
   std::string quoted("\"");
-  quoted.append(word, 0, 80).append("\" is no neutral");
+  quoted.append(word, 0, 80).append("\" is not a neutral posture");
   return bad_input("--neutral",
                    quoted,
                    "give auto, rest, t-pose, frame:N" + names +
@@ -39,8 +39,8 @@ Status check_stands(const Motion& motion,
   if (retarget::stands_at_rest(motion.skeleton, found)) return Done{};
   return bad_input("",
                    what +
-                       " is no neutral: its feet are not below its hips and its head "
-                       "above",
+                       " is not a standing posture: its feet are not below its hips and "
+                       "its head above",
                    "give another frame or file in which the body stands, or --neutral "
                    "t-pose");
 }
@@ -53,7 +53,7 @@ Status take_frame(int frame,
   if (frame < 0 || static_cast<std::size_t>(frame) >= count) {
     return bad_input("",
                      "there is no frame " + std::to_string(frame) +
-                         " to be the neutral: "
+                         " for the neutral: "
                          "the motion has " +
                          std::to_string(count) + " frames, from 0",
                      "give a frame from 0 to " + std::to_string(count - 1));

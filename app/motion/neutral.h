@@ -54,8 +54,8 @@ struct Neutral {
 
 /// Help text of --neutral.
 inline constexpr const char* kNeutralHelp =
-    "From which posture the motion's turns are counted: auto (the file's rest where it "
-    "stands, else a T-pose by its bones), rest, t-pose, frame:N (from 0), a file of the "
-    "same skeleton, bandai or iclone";
+    "Posture from which the motion's rotations are counted: auto (the file's rest if the "
+    "body stands in it, else a T-pose from its bones), rest, t-pose, frame:N (from 0), a "
+    "file of the same skeleton, bandai or iclone";
 
 }  // namespace marey::app

@@ -31,13 +31,13 @@ Result<RawBody> read_bvh(const std::filesystem::path& path) {
 }
 
 Result<RawBody> read_acclaim(const std::filesystem::path& path) {
-  const auto beside = recordings::find_skeleton_file(path);
-  if (!beside) {
+  const auto asf_file = recordings::find_skeleton_file(path);
+  if (!asf_file) {
     return bad_input(path.string(),
-                     "the .asf file that goes with this motion is not beside it",
-                     "put it there");
+                     "the .asf file of this motion is not in its folder",
+                     "put it next to the .amc file");
   }
-  const auto skeleton = recordings::read_asf(*beside);
+  const auto skeleton = recordings::read_asf(*asf_file);
   if (!skeleton) return skeleton.error();
   auto amc = recordings::read_amc(path, *skeleton);
   if (!amc) return amc.error();

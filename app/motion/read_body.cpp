@@ -24,7 +24,7 @@ void put_into_frame(const retarget::BodyFrame& frame, recordings::SkinnedMesh& m
 }
 
 // Measures a body by its skin. Bodies that cannot be mapped are rejected by other checks.
-void look_at_skin(const recordings::SkinnedMesh& mesh, ReadBody& body) {
+void measure_by_skin(const recordings::SkinnedMesh& mesh, ReadBody& body) {
   const Skeleton& skeleton = body.skeleton();
   const auto map = retarget::map_body(skeleton);
   if (!map) return;
@@ -44,13 +44,13 @@ void look_at_skin(const recordings::SkinnedMesh& mesh, ReadBody& body) {
   body.skin = retarget::Skin(skeleton, *map, vertices);
 }
 
-Result<BoneMap> told_of(const BodyFile& file, ReadBody& body) {
-  const std::filesystem::path beside = recordings::bone_map_path(file.path);
+Result<BoneMap> find_bone_map(const BodyFile& file, ReadBody& body) {
+  const std::filesystem::path default_map = recordings::bone_map_path(file.path);
   std::error_code ignored;
   if (file.bone_map) {
     body.bone_map = file.bone_map;
-  } else if (std::filesystem::exists(beside, ignored)) {
-    body.bone_map = beside;
+  } else if (std::filesystem::exists(default_map, ignored)) {
+    body.bone_map = default_map;
   } else {
     return BoneMap{};
   }
@@ -87,7 +87,7 @@ std::vector<T> reordered(const std::vector<T>& list,
 }
 
 /// Changes the parents of bones that have other parents in the file.
-Status hang(ReadBody& body) {
+Status reparent_bones(ReadBody& body) {
   RawBody& raw = body.raw;
   auto hung =
       retarget::hang_bones(raw.motion.skeleton, body.bones, raw.carries_skin);
@@ -125,12 +125,12 @@ std::vector<std::string> ReadBody::remarks() const {
   all.insert(all.end(), frame.remarks.begin(), frame.remarks.end());
   if (neutral == NeutralKind::kTPose && file_rest_stands) {
     all.push_back(
-        "a T-pose made of the directions of its bones is its neutral, as --neutral says, "
-        "and not its rest, in which it stands");
+        "its neutral is a T-pose computed from the directions of its bones, as set by "
+        "--neutral, although the body stands in its rest");
   } else if (neutral == NeutralKind::kTPose) {
     all.push_back(
-        "its rest is no posture of a body: a T-pose made of the directions of its bones "
-        "is its neutral, the slope of its feet is an average one's; --neutral sets "
+        "its rest is not a standing posture: its neutral is a T-pose computed from the "
+        "directions of its bones, with the average slope of feet; --neutral sets "
         "another");
   }
   constexpr double kMinUprightShare = 0.7;
@@ -138,7 +138,7 @@ std::vector<std::string> ReadBody::remarks() const {
                         guessed_up->share >= kMinUprightShare;
   if (guessed_up && !is_usual) {
     const auto percent = std::lround(100.0 * guessed_up->share);
-    all.push_back("its rest does not say where up is, and it does not stand most of the "
+    all.push_back("its rest does not show where up is, and it does not stand most of the "
                   "time: up is taken as " +
                   retarget::axis_word(guessed_up->axis) +
                   ", along which its hips are above its feet in " +
@@ -147,14 +147,15 @@ std::vector<std::string> ReadBody::remarks() const {
   }
   if (rests_as_bound) {
     all.push_back(
-        "its nodes rest in another posture than its skin was bound in, which is taken");
+        "its nodes rest in another posture than the bind pose of its skin; the bind pose "
+        "is used");
   }
   if (std::ranges::any_of(bones.bones, [](const auto& found) {
         return found && found->evidence == retarget::BoneEvidence::kShape;
       })) {
     all.push_back(
-        "its bones are told by its shape, no names or marks say them: look at what "
-        "marey inspect --picture draws, and correct it with a bone map");
+        "its bones were found by its shape, without names or marks: check them with "
+        "marey inspect --picture, and correct them with a bone map");
   }
   std::string unsure;
   for (const HumanBone bone : human_bones()) {
@@ -170,27 +171,27 @@ Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
   ReadBody body;
   body.raw = std::move(raw);
   Motion& motion = body.raw.motion;
-  const auto told = told_of(file, body);
-  if (!told) return told.error();
-  auto bones = retarget::identify_bones(motion.skeleton, *told);
+  const auto bone_map = find_bone_map(file, body);
+  if (!bone_map) return bone_map.error();
+  auto bones = retarget::identify_bones(motion.skeleton, *bone_map);
   if (!bones) return of_file(file.path, bones.error());
   body.bones = *std::move(bones);
   take_bound_pose(body);
-  if (const Status ok = hang(body); !ok) return of_file(file.path, ok.error());
+  if (const Status ok = reparent_bones(body); !ok) return of_file(file.path, ok.error());
   if (!motion.poses.empty()) {
     body.file_rest_stands = retarget::stands_at_rest(motion.skeleton, body.bones);
     body.exchanged =
         retarget::exchanged_sides(retarget::side_evidence(motion, body.bones));
-    if (!body.file_rest_stands && !told->up) {
+    if (!body.file_rest_stands && !bone_map->up) {
       body.guessed_up = retarget::up_of_motion(motion, body.bones);
     }
   }
   const auto neutral =
-      set_neutral(file.neutral.value_or(Neutral{}), body.bones, motion, told->up);
+      set_neutral(file.neutral.value_or(Neutral{}), body.bones, motion, bone_map->up);
   if (!neutral) return of_file(file.path, neutral.error());
   body.neutral = *neutral;
   auto frame =
-      retarget::find_body_frame(motion.skeleton, body.raw.unit, *told, body.bones);
+      retarget::find_body_frame(motion.skeleton, body.raw.unit, *bone_map, body.bones);
   if (!frame) return of_file(file.path, frame.error());
   body.frame = *std::move(frame);
   retarget::mark(body.bones, motion.skeleton);
@@ -198,7 +199,7 @@ Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
   body.raw.ignored_translation_m *= body.frame.scale;
   if (body.raw.mesh) {
     put_into_frame(body.frame, *body.raw.mesh);
-    look_at_skin(*body.raw.mesh, body);
+    measure_by_skin(*body.raw.mesh, body);
   }
   return body;
 }

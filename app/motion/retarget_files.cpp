@@ -78,8 +78,8 @@ std::optional<std::string> left_out(const ReadMotion& read) {
   std::array<char, 200> text{};
   std::snprintf(text.data(),
                 text.size(),
-                "bones move up to %.0f mm against their parents; bones of a body keep "
-                "their lengths, so that this is left out",
+                "bones move up to %.0f mm relative to their parents; this is ignored, "
+                "because bones of a body keep their lengths",
                 1000.0 * read.ignored_translation_m);
   return text.data();
 }

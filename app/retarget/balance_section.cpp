@@ -71,12 +71,12 @@ const std::string_view kBalanceStyle = R"(
 std::string balance_section(const RetargetRun& run, const std::vector<int>& moments) {
   const auto source = retarget::balance_figures(run.balance);
   std::string out =
-      "<h2>Centre of mass and the feet</h2>\n<p class=\"about\">Of the frames in which a "
-      "foot bears, those in which the centre of mass (average shares of mass) is above "
-      "what bears: dynamic motions are beside it most of the time. Lost: the source is "
-      "above, the body is not. Off: from where the source has it in its support. "
-      "Without: "
-      "the root not moved for it, before hands; empty where balance was not asked for."
+      "<h2>Centre of mass and the feet</h2>\n<p class=\"about\">Share of the frames with "
+      "a bearing foot in which the centre of mass (average shares of mass) is above the "
+      "support; in dynamic motions it is mostly outside. Lost: frames in which the "
+      "source is above its support and the body is not. Off: distance from the source's "
+      "place in the support. Without: before the root is moved for balance, and before "
+      "hands; empty without --balance."
       "</p>\n<div class=\"scroll\"><table><thead><tr><th>Body</th><th "
       "class=\"number\">Over its support</th><th class=\"number\">Frames lost</th><th "
       "class=\"number\">Without: over</th><th class=\"number\">lost</th><th "
@@ -90,7 +90,7 @@ std::string balance_section(const RetargetRun& run, const std::vector<int>& mome
   }
   out +=
       "</tbody></table></div>\n<p class=\"key\"><i style=\"background:#1a9b62\"></i>over "
-      "its support<i style=\"background:#d9a441\"></i>beside it; nothing: no foot bears. "
+      "its support<i style=\"background:#d9a441\"></i>outside; nothing: no foot bears. "
       "Dashed: the moments of the pictures.</p>\n<div class=\"contacts\">";
   const auto add = [&](const std::string& name, const retarget::BalanceTrack& track) {
     out += "<div class=\"who\">" + name + "</div>" +

@@ -39,8 +39,8 @@ struct Work {
   std::optional<retarget::BodyVolume> source_volume = std::nullopt;
 
   void fail(const Error& error) {
-    const Exit told = console.fail(error);
-    if (exit == Exit::kOk) exit = told;
+    const Exit failure = console.fail(error);
+    if (exit == Exit::kOk) exit = failure;
   }
   void fail(AvatarResult& avatar, const Error& error) {
     fail(error);
@@ -77,8 +77,8 @@ Result<std::vector<MotionFormat>> formats_of(Work& work, const OpenedAvatar& bod
     const Error error = of_file(body.file, ok.error());
     // That a body without a mesh has no .glb is expected; one without the bones of a
     // humanoid should be checked by the user.
-    const bool is_told = work.plan.formats_are_wanted || format == MotionFormat::kVrma;
-    if (is_told && work.plan.file.empty()) {
+    const bool is_warned = work.plan.formats_are_wanted || format == MotionFormat::kVrma;
+    if (is_warned && work.plan.file.empty()) {
       work.console.warn(body.file.string() + ": no ." + std::string(name(format)) + ": " +
                         error.cause);
     }
@@ -128,10 +128,10 @@ Status write_contacts(const RetargetArguments& args,
 }
 
 /// Checks an avatar's result and prints warnings on its faults.
-Status judge(const OpenedAvatar& body,
-             std::span<const WrittenFile> files,
-             Work& work,
-             AvatarResult& avatar) {
+Status check_avatar_result(const OpenedAvatar& body,
+                           std::span<const WrittenFile> files,
+                           Work& work,
+                           AvatarResult& avatar) {
   auto verdict = assess_avatar(body.file.string(),
                               work.run.source,
                               avatar.retargeted,
@@ -155,10 +155,10 @@ Status judge(const OpenedAvatar& body,
 }
 
 /// Processes an avatar: its motion, then its files.
-Status put_on_one(const Motion& source,
-                  const OpenedAvatar& body,
-                  std::size_t i,
-                  Work& work) {
+Status retarget_one_avatar(const Motion& source,
+                           const OpenedAvatar& body,
+                           std::size_t i,
+                           Work& work) {
   AvatarResult& avatar = work.run.avatars[i];
   const auto formats = formats_of(work, body);
   if (!formats) return formats.error();
@@ -185,7 +185,7 @@ Status put_on_one(const Motion& source,
   if (!work.args.constraints_out.empty()) {
     if (const Status ok = write_contacts(work.args, body, avatar); !ok) return ok;
   }
-  return judge(body, written, work, avatar);
+  return check_avatar_result(body, written, work, avatar);
 }
 
 void put_on_all(const Motion& source, Work& work) {
@@ -197,7 +197,7 @@ void put_on_all(const Motion& source, Work& work) {
     auto& body = work.opened[at];
     AvatarResult& avatar = work.run.avatars[at];
     if (!body) continue;
-    const Status ok = put_on_one(source, *body, at, work);
+    const Status ok = retarget_one_avatar(source, *body, at, work);
     if (!ok) {
       work.fail(avatar, ok.error());
       continue;
@@ -229,7 +229,7 @@ Status measure(Work& work) {
   return Done{};
 }
 
-void tell(const Work& work) {
+void print_summary(const Work& work) {
   if (work.args.json) {
     constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
     const auto figures = work.plan.file.empty()
@@ -304,7 +304,7 @@ Exit run_retarget(const RetargetArguments& args, Console& console) {
     const Status ok = recordings::write_file(plan->page, retarget_page(work.run));
     if (!ok) return console.fail(ok.error());
   }
-  tell(work);
+  print_summary(work);
   return work.exit;
 }
 

@@ -19,12 +19,12 @@ void add_result_options(CLI::App& command, RetargetArguments& args) {
   command
       .add_option("--formats",
                   args.formats,
-                  "Kinds of files in the folder, with commas between; default glb, bvh "
-                  "and vrma, as far as the body can have them")
+                  "File formats in the folder, separated by commas; default glb, bvh "
+                  "and vrma, if the body can have them")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->check(CLI::IsMember(formats));
-  command.add_option("--bvh-dialect", args.bvh_dialect, "For whom a .bvh is")
+  command.add_option("--bvh-dialect", args.bvh_dialect, "Program that reads the .bvh")
       ->check(CLI::IsMember({"blender", "mobu", "maya", "unity"}));
   command
       .add_option_function<double>(
@@ -43,9 +43,9 @@ void add_result_options(CLI::App& command, RetargetArguments& args) {
       });
   command.add_option("--constraints-out",
                      args.constraints_out,
-                     "Where feet stand and what hands touch, as constraints for marey "
+                     "File for foot supports and hand touches, as constraints for marey "
                      "adapt (.xml)");
-  command.add_flag("--report", args.report, "Write a page of figures and pictures, too");
+  command.add_flag("--report", args.report, "Also write a page of figures and pictures");
   command.add_flag("--json", args.json, "Print the figures as JSON on standard output");
 }
 
@@ -63,7 +63,7 @@ void add_body_options(CLI::App& command, RetargetArguments& args) {
           [&args, roots](const std::string& word) {
             args.options.retarget.root = roots.at(word);
           },
-          "What the way of the root grows with; default leg-length")
+          "Length that scales the path of the root; default leg-length")
       ->check(CLI::IsMember(roots))
       ->type_name("WORD");
   using Lengths = retarget::WorldLengths;
@@ -80,20 +80,20 @@ void add_body_options(CLI::App& command, RetargetArguments& args) {
   };
   add_lengths("--path",
               args.options.retarget.path,
-              "The way over the ground grows with the body, or keeps its metres; default "
+              "Path over the ground: scaled with the body, or kept in metres; default "
               "scaled");
   add_lengths("--heights",
               args.options.retarget.heights,
-              "How high hands and feet reach, seats and jumps are; default scaled");
+              "Heights of hands, feet and jumps: scaled or kept; default scaled");
   command.add_flag("--balance",
                    args.balance,
-                   "The centre of mass is kept over the feet where the source stands so");
-  command.add_flag("--no-ground", args.no_ground, "Feet are not kept to the floor");
+                   "Keep the centre of mass over the feet where the source does");
+  command.add_flag("--no-ground", args.no_ground, "Do not keep feet on the floor");
   command.add_flag("--no-hands",
                    args.no_hands,
-                   "What hands do to the body is not kept, nor arms kept out of it");
+                   "Keep neither contacts of hands with the body, nor arms out of it");
   command.add_flag(
-      "--live", args.options.live, "Posture by posture, knowing nothing of the future");
+      "--live", args.options.live, "Retarget frame by frame, without future frames");
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ void add_retarget_command(CLI::App& app,
   command
       ->add_option("-o,--out",
                    args.out,
-                   "Result: a folder, or of one avatar a .glb, .bvh, .vrma, .npz, .csv "
+                   "Result: a folder, or for one avatar a .glb, .bvh, .vrma, .npz, .csv "
                    "or .mot")
       ->required();
   add_body_options(*command, args);

@@ -36,7 +36,7 @@ struct AvatarResult {
   /// Mean jerk of the bones that both bodies have, divided by the source's, scaled to
   /// this avatar's height.
   double jerk_ratio = 0.0;
-  retarget::BalanceTrack balance;  ///< Of the written motion.
+  retarget::BalanceTrack balance;  ///< Balance of the written motion.
 };
 
 /// Result of `marey retarget`.

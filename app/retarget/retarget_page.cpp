@@ -63,9 +63,9 @@ std::string name_of(const std::filesystem::path& file) {
   return escaped(file.filename().string());
 }
 
-std::string cell(const char* format, double value, double most) {
+std::string cell(const char* format, double value, double limit) {
   // The rounded value is compared: 1.0004 is printed as 1.00.
-  return std::string("<td class=\"number") + (value > 1.0005 * most ? " bad" : "") +
+  return std::string("<td class=\"number") + (value > 1.0005 * limit ? " bad" : "") +
          "\">" + text_of(format, value) + "</td>";
 }
 
@@ -265,10 +265,9 @@ std::string drifts_of(const AvatarResult& avatar, double hz) {
 
 std::string drift_section(const RetargetRun& run) {
   std::string out =
-      "<h2>Drift of each contact</h2>\n<p class=\"about\">How far an ankle or a toe "
-      "joint "
-      "ever is from where its contact began, over time. Point at a bar for its figures."
-      "</p>\n";
+      "<h2>Drift of each contact</h2>\n<p class=\"about\">Largest distance of an "
+      "ankle or a toe joint from the place where its contact began, over time. Point at "
+      "a bar for its figures.</p>\n";
   for (const AvatarResult& avatar : run.avatars) {
     if (!avatar.error) out += drifts_of(avatar, run.source.rate.hz);
   }
@@ -294,8 +293,8 @@ std::string retarget_page(const RetargetRun& run) {
                  frames,
                  run.source.rate.hz,
                  seconds(run)) +
-         (run.live ? ", put on posture by posture, knowing nothing of the future"
-                   : ", put on as a whole") +
+         (run.live ? ", retargeted frame by frame, without future frames"
+                   : ", retargeted as a whole") +
          ".</p>\n" + errors_of(run) + figures_of(run) + strips_of(run, moments) +
          timeline_of(run, moments) + balance_section(run, moments) + drift_section(run);
   return out + "</main>\n</body>\n</html>\n";

@@ -50,12 +50,12 @@ Result<bool> is_file(const RetargetArguments& args, std::size_t avatars) {
   if (format_by_extension(args.out)) {
     if (avatars > 1) {
       return bad_input(args.out.string(),
-                       "that is one file, and there are several avatars",
+                       "--out is one file, but there are several avatars",
                        "name a folder");
     }
     if (!args.formats.empty()) {
       return bad_input(args.out.string(),
-                       "that is one file, of a kind that its name tells",
+                       "--out is one file, and its extension sets the format",
                        "name a folder, or leave out --formats");
     }
     return true;
@@ -97,14 +97,14 @@ Status check_outs(const RetargetArguments& args, const RetargetPlan& plan) {
   for (const fs::path& out : outs) {
     if (!names.insert(out.lexically_normal()).second) {
       return bad_input(out.string(),
-                       "two results would be called that",
+                       "two results would have this name",
                        "rename an avatar's file: results are named after it");
     }
     for (const auto& [in, role] : inputs_of(args, plan)) {
       std::error_code absent;
       if (!fs::equivalent(in, out, absent)) continue;
       return bad_input(out.string(),
-                       "that is " + role + ", which it would replace",
+                       "the result would replace " + role,
                        "give the result another name or folder");
     }
   }
@@ -116,7 +116,7 @@ Status check_options(const RetargetArguments& args) {
   const retarget::RetargetOptions& options = args.options.retarget;
   if (args.balance && args.no_ground) {
     return bad_input("--balance",
-                     "feet that are not kept to the floor are nothing to stand over",
+                     "balance needs feet that are kept on the floor",
                      "leave out --no-ground");
   }
   if (!args.options.live) return Done{};
@@ -126,7 +126,7 @@ Status check_options(const RetargetArguments& args) {
   return bad_input(args.balance ? "--balance"
                    : path       ? "--path kept"
                                 : "--heights kept",
-                   "that is done of whole motions alone",
+                   "this option needs the whole motion",
                    "leave out --live");
 }
 
@@ -143,12 +143,12 @@ Result<RetargetPlan> plan_retarget(const RetargetArguments& args) {
   MAREY_ASSERT(!avatars.empty());
   if (args.bones && avatars.size() > 1) {
     return bad_input("--bones",
-                     "a bone map is of one avatar, and there are several",
-                     "store maps beside them: marey inspect AVATAR --write-map");
+                     "this bone map is for one avatar, but there are several",
+                     "store a map next to each avatar: marey inspect AVATAR --write-map");
   }
   if (!args.constraints_out.empty() && avatars.size() > 1) {
     return bad_input("--constraints-out",
-                     "footprints are those of one avatar, and there are several",
+                     "footprints are written for one avatar, but there are several",
                      "give one avatar");
   }
   if (const Status ok = check_options(args); !ok) return ok.error();

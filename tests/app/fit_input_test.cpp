@@ -164,7 +164,7 @@ TEST(FitProgram, RefusesWhatItCannotUse) {
   refused({(folder / "dark.trc").string()}, "no marker is seen in any frame");
   ASSERT_TRUE(recordings::write_subject(folder / "tags.toml", tagged_person()));
   refused({in.string(), "--subject", (folder / "tags.toml").string()},
-          "the subject wears no markers");
+          "the subject has no markers");
 }
 
 TEST(FitProgram, RefusesAFolderThatIsAFile) {
@@ -195,7 +195,7 @@ TEST(FitProgram, TellsWhenAnotherSubjectIsGiven) {
                               (folder / "out").string()});
   EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_NE(run.err.find("away from the body (RMS)"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("whether this is the subject of --subject"), std::string::npos)
+  EXPECT_NE(run.err.find("this is the subject of --subject"), std::string::npos)
       << run.err;
   // What there is can be looked at.
   EXPECT_TRUE(fs::exists(folder / "out/pose/motion.bvh"));

@@ -93,12 +93,14 @@ TEST(Neutral, TakesTheNeutralThatIsAskedFor) {
     EXPECT_FALSE(body) << word;
     return body ? "" : body.error().message();
   };
-  EXPECT_NE(refused("rest").find("the file's rest is no neutral"), std::string::npos);
+  EXPECT_NE(refused("rest").find("the file's rest is not a standing posture"),
+            std::string::npos);
   EXPECT_NE(refused("frame:100000").find("there is no frame 100000"), std::string::npos);
   EXPECT_NE(refused(shared("mocap/cmu_bvh_tmoco/rest.bvh").string())
                 .find("of the same skeleton"),
             std::string::npos);
-  EXPECT_EQ(read_neutral("frame:x").error().cause, "\"frame:x\" is no neutral");
+  EXPECT_EQ(read_neutral("frame:x").error().cause,
+            "\"frame:x\" is not a neutral posture");
   EXPECT_NE(neutral_mistake("nobody").find("bandai"), std::string::npos);
   EXPECT_EQ(neutral_mistake("t-pose"), "");
 }
@@ -113,8 +115,8 @@ TEST(Neutral, RemarksOnATPoseThatReplacesARest) {
   ASSERT_TRUE(read) << read.error().message();
   std::string all;
   for (const std::string& remark : read->remarks()) all += remark + "\n";
-  EXPECT_NE(all.find("not its rest, in which it stands"), std::string::npos) << all;
-  EXPECT_EQ(all.find("its rest is no posture"), std::string::npos) << all;
+  EXPECT_NE(all.find("although the body stands in its rest"), std::string::npos) << all;
+  EXPECT_EQ(all.find("its rest is not a standing posture"), std::string::npos) << all;
 }
 
 }  // namespace

@@ -50,13 +50,15 @@ TEST(RetargetInput, WhatIsReadIsNotWrittenOver) {
   const RetargetScene scene;
   for (const auto& [options, role] :
        std::vector<std::pair<std::vector<std::string>, std::string>>{
-           {{"small.glb", "--out", "small.glb"}, "small.glb: that is an avatar"},
-           {{"small.glb", "--out", "."}, "small.glb: that is an avatar"},
-           {{"small.glb", "--out", "walk.bvh"}, "walk.bvh: that is the motion"},
+           {{"small.glb", "--out", "small.glb"},
+            "small.glb: the result would replace an avatar"},
+           {{"small.glb", "--out", "."}, "small.glb: the result would replace an avatar"},
+           {{"small.glb", "--out", "walk.bvh"},
+            "walk.bvh: the result would replace the motion"},
            {{"small.glb", "--out", "o.bvh", "--constraints-out", "walk.bvh"},
-            "that is the motion"},
+            "would replace the motion"},
            {{"small.glb", "--out", "o.bvh", "--constraints-out", "o.bvh"},
-            "two results would be called that"}}) {
+            "two results would have this name"}}) {
     const std::string avatar = scene.bytes("small.glb");
     const std::string walk = scene.bytes("walk.bvh");
     refuses(scene, options, 3, role);
@@ -65,7 +67,7 @@ TEST(RetargetInput, WhatIsReadIsNotWrittenOver) {
   }
   // By another name, too.
   std::filesystem::create_symlink(scene / "walk.bvh", scene / "link.bvh");
-  refuses(scene, {"small.glb", "--out", "link.bvh"}, 3, "that is the motion");
+  refuses(scene, {"small.glb", "--out", "link.bvh"}, 3, "would replace the motion");
 }
 
 TEST(RetargetInput, RefusesWhatCannotBeMeant) {
@@ -84,12 +86,12 @@ TEST(RetargetInput, RefusesWhatCannotBeMeant) {
            {{"small.glb", "--out", "o.glb", "--bvh-dialect", "maya"}, 3, "a dialect"},
            {{"small.glb", "--out", "o.fbx"}, 3, "cannot write a \".fbx\" file"},
            {{"small.glb", "tall.glb", "--out", "o.glb"}, 3, "there are several avatars"},
-           {{"small.glb", "--out", "o.glb", "--formats", "bvh"}, 3, "that is one file"},
-           {{"small.glb", "other/small.glb", "--out", "o"}, 3, "two results would be"},
+           {{"small.glb", "--out", "o.glb", "--formats", "bvh"}, 3, "--out is one file"},
+           {{"small.glb", "other/small.glb", "--out", "o"}, 3, "two results would"},
            {{"small.glb", "tall.glb", "--out", "o", "--bones", "b.toml"}, 3, "--bones"},
            {{"small.glb", "tall.glb", "--out", "o", "--constraints-out", "s.xml"},
             3,
-            "footprints are those of one avatar"},
+            "footprints are written for one avatar"},
            {{"small.glb", "--out", "o", "--heights", "tall"}, 2, "tall"},
            {{"small.glb", "--out", "o", "--balance", "--no-ground"}, 3, "--balance"},
            {{"small.glb", "--out", "o", "--balance", "--live"}, 3, "leave out --live"},
