@@ -52,7 +52,7 @@ inline constexpr int kMaxBundleDepth = 4;
 ///
 /// Reads every byte at most twice, never outside the packet, never beyond the depth
 /// above; allocates nothing. (liblo's deserialiser builds messages on the heap and
-/// follows bundles to any depth; tests/live/osc_parse_test.cpp compares valid packets
+/// follows bundles to any depth; tests/live/vmc/osc_parse_test.cpp compares valid packets
 /// with it.)
 bool parse_osc(std::span<const std::uint8_t> packet,
                const std::function<void(const OscMessage&)>& take);

@@ -14,8 +14,8 @@ namespace marey::live {
 ///
 /// Writes directly into buffers that are reused: nothing is allocated after the first
 /// frame of a size. The same calls give the same bytes. (liblo builds a list of messages
-/// on the heap for every bundle and then copies it; tests/live/osc_writer_test.cpp uses
-/// it as the reference for these bytes.)
+/// on the heap for every bundle and then copies it; tests/live/vmc/osc_writer_test.cpp
+/// uses it as the reference for these bytes.)
 class OscWriter {
  public:
   /// `limit_bytes`: maximum size of one packet. A larger message gets its own packet.

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/spoiled_session.h"
-#include "tests/support/run_program.h"
+#include "tests/support/program/run_program.h"
 
 namespace marey::testing {
 

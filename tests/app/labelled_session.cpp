@@ -10,9 +10,9 @@
 #include "reconstruct/labels/landmarks.h"
 #include "recordings/markers/marker_file.h"
 #include "recordings/motion/motion_tables.h"
-#include "tests/support/paths.h"
-#include "tests/support/random_bodies.h"
-#include "tests/support/worn_markers.h"
+#include "tests/support/bodies/random_bodies.h"
+#include "tests/support/bodies/worn_markers.h"
+#include "tests/support/program/paths.h"
 
 namespace marey::testing {
 namespace {

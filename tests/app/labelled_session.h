@@ -10,9 +10,9 @@
 
 #include "core/body.h"
 #include "core/marker_tracks.h"
-#include "tests/support/run_program.h"
-#include "tests/support/scratch_folder.h"
-#include "tests/support/synthetic_person.h"
+#include "tests/support/bodies/synthetic_person.h"
+#include "tests/support/program/run_program.h"
+#include "tests/support/program/scratch_folder.h"
 
 namespace marey::testing {
 

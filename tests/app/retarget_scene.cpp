@@ -10,11 +10,11 @@
 
 #include "core/base/extension.h"
 #include "core/pose.h"
-#include "recordings/text/atomic_file.h"
-#include "recordings/motion/bvh.h"
-#include "recordings/gltf/gltf.h"
 #include "recordings/body/mannequin.h"
-#include "tests/support/paths.h"
+#include "recordings/gltf/gltf.h"
+#include "recordings/motion/bvh.h"
+#include "recordings/text/atomic_file.h"
+#include "tests/support/program/paths.h"
 
 namespace marey::testing {
 namespace {
@@ -57,8 +57,9 @@ RetargetScene::RetargetScene() : walk_(synthetic_walk(120, 60.0)) {
 }
 
 ProgramRun RetargetScene::marey(const std::vector<std::string>& arguments) const {
-  return run_program(
-      marey::testing::program(), arguments, {.folder = folder_.path(), .interrupt_at = {}});
+  return run_program(marey::testing::program(),
+                     arguments,
+                     {.folder = folder_.path(), .interrupt_at = {}});
 }
 
 ProgramRun RetargetScene::retarget(const std::vector<std::string>& more) const {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/motion.h"
-#include "tests/support/run_program.h"
-#include "tests/support/scratch_folder.h"
-#include "tests/support/synthetic_walk.h"
+#include "tests/support/program/run_program.h"
+#include "tests/support/program/scratch_folder.h"
+#include "tests/support/simulation/synthetic_walk.h"
 
 namespace marey::testing {
 

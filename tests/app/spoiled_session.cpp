@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/app/spoiled_session.h"
-#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <fstream>
@@ -10,6 +9,8 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+
+#include "tests/support/program/paths.h"
 
 namespace marey::testing {
 namespace {

@@ -18,9 +18,9 @@
 #include "capture/v4l2/check_camera.h"
 #include "capture/v4l2/reopening_device.h"
 #include "capture/v4l2/v4l2_device.h"
-#include "tests/capture/guest_take.h"
-#include "tests/support/count_allocations.h"
-#include "tests/support/vivid.h"
+#include "tests/capture/v4l2/guest_take.h"
+#include "tests/support/program/count_allocations.h"
+#include "tests/support/program/vivid.h"
 
 namespace marey::guest {
 namespace {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tests/support/judge_session.h"
+#include "tests/support/truth/judge_session.h"
 
 namespace marey::testing {
 

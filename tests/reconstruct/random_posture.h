@@ -3,7 +3,7 @@
 #pragma once
 
 #include "reconstruct/posture/posture.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace marey::reconstruct {
 

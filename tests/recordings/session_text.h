@@ -9,7 +9,7 @@
 
 #include "recordings/session/session.h"
 #include "recordings/text/atomic_file.h"
-#include "tests/support/scratch_folder.h"
+#include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {
 

@@ -15,7 +15,7 @@
 #include "retarget/character/make_character.h"
 #include "retarget/constraints/resolve_segment.h"
 #include "tests/retarget/mapped.h"
-#include "tests/support/quadruped.h"
+#include "tests/support/bodies/quadruped.h"
 
 namespace marey::retarget {
 namespace {

@@ -12,7 +12,7 @@
 #include "core/constraint.h"
 #include "core/pose.h"
 #include "retarget/adapt/adapter.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 /// Bodies, postures and measures for tests of the adapter. All measures are computed here
 /// independently, in double, from postures alone; values reported by the adapter are not

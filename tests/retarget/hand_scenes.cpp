@@ -12,7 +12,7 @@
 #include "retarget/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"
 #include "tests/retarget/mapped.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace marey::retarget {
 namespace {

@@ -3,7 +3,7 @@
 #include "tests/retarget/named_bodies.h"
 
 #include "core/base/assert.h"
-#include "tests/support/random_bodies.h"
+#include "tests/support/bodies/random_bodies.h"
 
 namespace marey::retarget {
 

@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "benchmarks/adaptation/gauss_newton_baseline.h"
+#include <glm/vec3.hpp>
+
+#include "core/character.h"
+#include "core/pose.h"
+#include "core/skeleton.h"
+
+namespace marey {
+
+/// What a posture is worth, by one forward kinematics in double, whoever found it.
+struct PostureMeasure {
+  double worst_point_m = 0.0;   ///< The largest error of a goal.
+  double mean_point_m = 0.0;    ///< Of the goals that are not planted.
+  double planted_m = 0.0;       ///< The largest error of a planted goal.
+  double com_m = 0.0;           ///< Horizontal, of the centre of mass.
+  double deviation_rad = 0.0;   ///< From the reference: root mean square over joints of
+                                ///< the angle of each one's rotation in its parent.
+  double displacement_m = 0.0;  ///< From the reference: mean over joints.
+};
+
+[[nodiscard]] PostureMeasure measure_posture(const Character& character,
+                                             std::span<const PointGoal> goals,
+                                             std::span<const glm::dvec3> targets_in_world,
+                                             const glm::dvec3& com_in_world,
+                                             const Pose& reference,
+                                             const Pose& found);
+
+/// Mean distance between the joints of two postures. [m]
+[[nodiscard]] double mean_joint_distance_m(const Skeleton& skeleton,
+                                           const Pose& a,
+                                           const Pose& b);
+
+/// The centre of mass. Precondition: the masses' sum is positive.
+[[nodiscard]] glm::dvec3 centre_of_mass(const Character& character, const Pose& pose);
+
+/// Microseconds of a clock that never goes back.
+[[nodiscard]] double now_us();
+
+/// Microseconds that this thread has had of its processor: for what takes long enough to
+/// be interrupted by other programs. Reading it takes a good part of a microsecond.
+[[nodiscard]] double processor_us();
+
+/// Arithmetic mean; 0 of nothing.
+[[nodiscard]] double mean(std::span<const double> values);
+
+}  // namespace marey

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "benchmarks/adaptation/gauss_newton_baseline.h"
+#include <glm/vec3.hpp>
+
+#include "core/character.h"
+#include "core/pose.h"
+
+namespace marey {
+
+/// A scene like the thesis' (Kulpa 2005, figure 4.23, of which no numbers are told): a
+/// person of 1.75 m who stands at ease, wrists and the right ankle wanted somewhere, the
+/// left foot planted.
+struct StandingScene {
+  Character character;
+  Pose reference;
+  std::vector<PointGoal> goals;  ///< Right wrist, left wrist, right ankle, left ankle.
+  glm::dvec3 com_in_world{0.0};  ///< Of the reference.
+
+  using Targets = std::array<glm::dvec3, 4>;
+  Targets near{};         ///< The limbs suffice.
+  Targets far{};          ///< The whole body can reach them.
+  Targets unreachable{};  ///< Apart from each other, none to be reached.
+};
+
+[[nodiscard]] StandingScene standing_scene();
+
+}  // namespace marey

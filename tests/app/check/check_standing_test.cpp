@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "app/check/check_standing.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/bodies/synthetic_person.h"
+
+namespace marey::app {
+namespace {
+
+using recordings::Session;
+using recordings::Trial;
+using recordings::TrialKind;
+using testing::Movement;
+
+/// A session of a person in a room of cameras, with what the detectors find.
+struct Recorded {
+  Body body = testing::tagged_person();
+  std::vector<Camera> cameras = testing::ring_of_cameras();
+  Session session;
+  std::map<std::string, std::vector<CameraDetections>> found;
+
+  Recorded() {
+    session.file = "session.toml";
+    session.tags = testing::tags_of(body);
+  }
+
+  void add(const std::string& name, TrialKind kind, const Movement& movement) {
+    Trial trial;
+    trial.name = name;
+    trial.kind = kind;
+    session.trials.push_back(trial);
+    testing::Film film;
+    film.trial = name;
+    film.frames = 40;
+    film.hz = 10.0;
+    found[name] = testing::film(body, movement, cameras, film);
+  }
+};
+
+TEST(ExchangedExercise, IsNamedWhereTheOtherTrialStaysInOnePlace) {
+  Recorded recorded;
+  recorded.add("rom", TrialKind::kRangeOfMotion, testing::walking(recorded.body));
+  recorded.add("walk", TrialKind::kMotion, testing::range_of_motion(recorded.body));
+  const auto warning = exchanged_exercise_warning(recorded.session, recorded.found);
+  ASSERT_TRUE(warning);
+  EXPECT_NE(warning->find("in trial rom"), std::string::npos) << *warning;
+  EXPECT_NE(warning->find("the videos of rom and walk"), std::string::npos) << *warning;
+}
+
+TEST(ExchangedExercise, IsNotSuspectedInASessionAsItShouldBe) {
+  Recorded recorded;
+  recorded.add("rom", TrialKind::kRangeOfMotion, testing::range_of_motion(recorded.body));
+  recorded.add("walk", TrialKind::kMotion, testing::walking(recorded.body));
+  recorded.add("stand", TrialKind::kMotion, testing::standing(recorded.body));
+  EXPECT_FALSE(exchanged_exercise_warning(recorded.session, recorded.found));
+}
+
+TEST(ExchangedExercise, IsNotSuspectedWhereEverybodyWalks) {
+  Recorded recorded;
+  recorded.add("rom", TrialKind::kRangeOfMotion, testing::walking(recorded.body));
+  recorded.add("walk", TrialKind::kMotion, testing::walking(recorded.body));
+  EXPECT_FALSE(exchanged_exercise_warning(recorded.session, recorded.found));
+}
+
+TEST(CheckStanding, NamesTheTrialInWhichTheSubjectDoesStandStill) {
+  Recorded recorded;
+  recorded.add("static", TrialKind::kStatic, testing::walking(recorded.body));
+  recorded.add("walk", TrialKind::kMotion, testing::standing(recorded.body));
+  const Status checked = check_standing(recorded.session, recorded.found);
+  ASSERT_FALSE(checked);
+  EXPECT_NE(checked.error().message().find("exchange the videos of static and walk"),
+            std::string::npos)
+      << checked.error().message();
+}
+
+}  // namespace
+}  // namespace marey::app

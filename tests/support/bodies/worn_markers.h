@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "core/body.h"
+#include "core/marker_tracks.h"
+#include "tests/support/bodies/synthetic_person.h"
+
+namespace marey::testing {
+
+struct MarkerFilm {
+  int frames = 200;
+  double hz = 100.0;
+  double noise_m = 0.0;  ///< Of every coordinate; fixed seed.
+};
+
+/// Where the markers of `body` are while it moves, every one in every frame. Frame 1 is
+/// at time 0.
+[[nodiscard]] MarkerTracks film_markers(const Body& body,
+                                        const Movement& movement,
+                                        const MarkerFilm& film = {});
+
+}  // namespace marey::testing

@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "tests/support/simulation/simulated_body.h"
+
+namespace marey::testing {
+
+/// A part of the body that no camera looks through, rigid with one bone: a capsule around
+/// the line from `a` to `b` of radius `radii.x`, or an ellipsoid about `a` with axes
+/// parallel to the bone's when `a` equals `b`.
+struct FleshPart {
+  HumanBone bone{};
+  glm::dvec3 a{0.0};
+  glm::dvec3 b{0.0};
+  glm::dvec3 radii{0.0};
+};
+
+/// The whole body, some thirty parts. [m]
+[[nodiscard]] std::vector<FleshPart> flesh_of(const SimulatedBody& body);
+
+/// A point on the skin and the direction that its surface faces.
+struct SkinPoint {
+  glm::dvec3 p_in_bone{0.0};
+  glm::dvec3 out{0.0};
+};
+
+/// Where the ray from a point inside the flesh of `bone` leaves it for good. Parts of
+/// other bones do not count.
+[[nodiscard]] SkinPoint skin_point(std::span<const FleshPart> flesh,
+                                   HumanBone bone,
+                                   const glm::dvec3& from_in_bone,
+                                   const glm::dvec3& direction);
+
+/// Whether flesh hides a point from an eye. Parts of `own` count as if thinner by
+/// `thinner_m`, so that a plate that lies on them does not sink in.
+[[nodiscard]] bool is_hidden(std::span<const FleshPart> flesh,
+                             const BoneFrames& world_from_bone,
+                             const glm::dvec3& p_in_world,
+                             const glm::dvec3& eye_in_world,
+                             HumanBone own,
+                             double thinner_m);
+
+}  // namespace marey::testing
