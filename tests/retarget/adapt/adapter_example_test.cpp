@@ -70,7 +70,7 @@ TEST(AdapterExample, StandsInTheDocument) {
   // In two pieces, so that this line is not found.
   const std::string mark = std::string("// [exa") + "mple]\n";
   EXPECT_EQ(between(text_of("/docs/adaptation.md"), "```cpp\n", "```"),
-            between(text_of("/tests/retarget/adapter_example_test.cpp"), mark, mark));
+            between(text_of("/tests/retarget/adapt/adapter_example_test.cpp"), mark, mark));
 }
 
 TEST(AdapterExample, TakesTheCup) {
