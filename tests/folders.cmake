@@ -6,7 +6,8 @@
 # Checks the folders inside the rooms. Fails when a file includes a folder that stands
 # above its own in the room's layers, when two modules of a room include each other in a
 # cycle, when a folder holds more than MAX_MODULES modules, when a folder is missing in the
-# table, or when nothing was checked. A module is a header with the sources of its name.
+# table, or when nothing was checked. Folders of tests/, benchmarks/ and the page's sources
+# hold at most MAX_MODULES modules, too. A module is a header with the sources of its name.
 cmake_minimum_required(VERSION 3.25)
 
 if(NOT DEFINED MAX_MODULES)
@@ -126,6 +127,28 @@ foreach(room ${ROOMS})
     list(SUBLIST path ${first} -1 cycle)
     list(JOIN cycle " -> " text)
     complain("${room}: cycle of modules: ${text} -> ${module}")
+  endif()
+endforeach()
+
+# Tests, benchmarks and the page: the size of their folders only.
+file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/tests/*.h ${ROOT}/tests/*.cpp
+  ${ROOT}/benchmarks/*.h ${ROOT}/benchmarks/*.cpp ${ROOT}/live/viewer/src/*.ts)
+set(other_folders "")
+set(other_modules "")
+foreach(file ${files})
+  string(REGEX REPLACE "\\.(h|cpp|ts)$" "" module "${file}")
+  get_filename_component(folder "${file}" DIRECTORY)
+  list(APPEND other_folders ${folder})
+  list(APPEND other_modules ${module})
+endforeach()
+list(REMOVE_DUPLICATES other_folders)
+list(REMOVE_DUPLICATES other_modules)
+foreach(folder ${other_folders})
+  set(held ${other_modules})
+  list(FILTER held INCLUDE REGEX "^${folder}/[^/]+$")
+  list(LENGTH held count)
+  if(count GREATER MAX_MODULES)
+    complain("${folder}: ${count} modules are more than ${MAX_MODULES}")
   endif()
 endforeach()
 

@@ -40,6 +40,7 @@ struct Cloud { std::vector<double> points; };")
   source(tests/calib/place_test.cpp "#include <gtest/gtest.h>
 #include \"calib/place.h\"
 #include \"tests/support/scene.h\"")
+  source(tests/calib/more_test.cpp "#include \"calib/place.h\"")
   script(CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
 project(tree LANGUAGES CXX)
 set(CMAKE_CXX_STANDARD 20)
@@ -197,6 +198,9 @@ fault(a_folder_that_includes_the_one_above folders calib/place.cpp
   "#include \"calib/rig/solve.h\"" "the folder . may not include calib/rig/solve.h")
 fault(a_folder_of_too_many_modules folders_of_two calib/third.h
   "#pragma once" "calib/.: 3 modules are more than 2")
+fault(a_test_folder_of_too_many_modules folders_of_two tests/calib/third_test.cpp
+  "// Two others stand here: place_test.cpp and more_test.cpp."
+  "tests/calib: 3 modules are more than 2")
 fault(a_folder_without_a_layer folders calib/plan/plan.h
   "#pragma once" "the folder plan is missing in calib_LAYERS")
 fault(modules_that_include_each_other folders calib/residuals.h
