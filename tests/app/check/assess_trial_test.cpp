@@ -238,7 +238,7 @@ TEST(AssessFloorHeight, NamesTheThicknessOfTheBoard) {
       says(finding->error, "95 mm above the floor, and equally high in the motions"))
       << finding->error.message();
   EXPECT_TRUE(
-      says(finding->error, "thickness_m under [board] (0.100 now, some 95 mm too much"))
+      says(finding->error, "thickness_m under [board] (0.100 now, about 95 mm too much"))
       << finding->error.message();
 }
 

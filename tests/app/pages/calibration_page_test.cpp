@@ -22,7 +22,7 @@ TEST_F(CalibrationInABrowser, OpensWithoutAWordOnTheConsole) {
   const ShownPage shown = show_page(calibration_html(rich_calibration()), "check");
   EXPECT_EQ(shown.status("status"), "ready");
   EXPECT_EQ(shown.console.find("CONSOLE"), std::string::npos) << shown.console;
-  EXPECT_NE(shown.page.find("Look closer: do not trust"), std::string::npos);
+  EXPECT_NE(shown.page.find("Look closer: do not use these cameras"), std::string::npos);
 }
 
 TEST_F(CalibrationInABrowser, MakesNoElementOutOfAName) {
