@@ -41,7 +41,7 @@ export class BodyViewer {
       afterPicture: () => {},
       reset: () => this.frame(),
       trouble: () => {},
-    }, {drawing: reportDrawing(), scrolled: true,
+    }, {drawing: reportDrawing(), scrolled: true, solid: true,
       label: 'The motion in three dimensions. Space plays, arrow keys step.'});
     Object.assign(this.stage.shown, {doubt: false, cameras: false});
     this.stage.renderer.canvas.setAttribute('role', 'img');

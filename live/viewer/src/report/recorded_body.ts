@@ -41,8 +41,9 @@ export class RecordedBody implements Pose {
     this.source = data.source ? bytesOf(data.source) : null;
     this.sigma = data.sigma ? new Uint16Array(bytesOf(data.sigma).buffer) : null;
     this.frame.hasDoubt = this.source !== null && this.sigma !== null;
-    this.words = {name, kind: isSubject ? 'performer' : 'avatar', joints: [], skin: null,
-      offset_m: [0, 0, 0], estimate: isSubject};
+    this.words = {name, kind: isSubject ? 'performer' : 'avatar', skin: null,
+      joints: points.map((point) => ({...point, bone: point.bone ?? '',
+        rest: {p: [0, 0, 0], q: [0, 0, 0, 1]}})), offset_m: [0, 0, 0], estimate: isSubject};
     this.show(0);
   }
 

@@ -47,9 +47,9 @@ export class BodyView {
   private readonly loading = new AbortController();
 
   constructor(readonly words: SkeletonWords, readonly pose: Pose, private readonly shown: Shown,
-    private readonly floor_m: number) {
-    this.skeleton = new SkeletonView(this.pose, words.offset_m, words.kind === 'performer',
-      words.skin !== null);
+    private readonly floor_m: number, isSolid: boolean) {
+    this.skeleton = new SkeletonView(pose, words.offset_m, words.kind === 'performer',
+      words.skin !== null, isSolid ? words.joints.map(({bone}) => bone) : null);
     this.balance = new BalanceView(words.offset_m);
     this.object.add(this.skeleton.object, this.balance.object);
     this.object.visible = false;

@@ -3,7 +3,8 @@
 
 // Shapes of bones and joints, and the matrices of their instances.
 
-import {BufferGeometry, Float32BufferAttribute, IcosahedronGeometry} from 'three';
+import {BufferGeometry, CylinderGeometry, Float32BufferAttribute, IcosahedronGeometry} from
+  'three';
 
 const WAIST = 0.2; // Widest place of an octahedron, from its near end.
 
@@ -20,6 +21,22 @@ export function boneGeometry(): BufferGeometry {
   geometry.setAttribute('position', new Float32BufferAttribute(corners, 3));
   geometry.computeVertexNormals();
   return geometry;
+}
+
+/** Returns an open tube from the origin to (0, 1, 0), radius 1. */
+export function tubeGeometry(): BufferGeometry {
+  return new CylinderGeometry(1, 1, 1, 20, 1, true).translate(0, 0.5, 0);
+}
+
+// Radii of a solid body, as shares of its stature, by the bone's end without its side.
+const GIRTHS: [RegExp, number][] = [[/LowerArm$/, 0.026], [/Hand$/, 0.02], [/LowerLeg$/, 0.042],
+  [/Foot$/, 0.028], [/Toes$/, 0.021], [/UpperLeg$/, 0.05], [/Shoulder$/, 0.03],
+  [/UpperArm$/, 0.03], [/^(spine|chest|upperChest)$/, 0.075], [/^neck$/, 0.05], [/^head$/, 0.032]];
+
+/** Returns the radius of the bone that ends at `bone`, which `near` begins. */
+export function girthOf(bone: string, near: string): number {
+  const known = GIRTHS.find(([end]) => end.test(bone));
+  return known ? known[1] : near === 'head' ? 0.047 : /Hand$/.test(near) ? 0.016 : 0.014;
 }
 
 export function ballGeometry(detail: number): BufferGeometry {

@@ -50,9 +50,9 @@ export interface Floor {
   place(x: number, z: number): void;
 }
 
-/** `software`: pixels are costly, so the floor consists of lines only. */
-export function makeFloor(software: boolean): Floor {
-  return software ? new LinedFloor() : new ShadedFloor();
+/** `lined`: pixels are costly, so the floor consists of lines only. */
+export function makeFloor(lined: boolean): Floor {
+  return lined ? new LinedFloor() : new ShadedFloor();
 }
 
 class ShadedFloor implements Floor {

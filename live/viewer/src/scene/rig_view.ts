@@ -3,12 +3,15 @@
 
 // The cameras, each with its viewing pyramid.
 
-import {BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments} from 'three';
+import {BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh,
+  MeshLambertMaterial} from 'three';
 import {turn} from './quaternions';
+import {ballGeometry} from './bone_shapes';
 import type {CameraWords, Vector} from '../protocol/protocol';
 import type {Theme} from '../base/theme';
 
 const DEPTH_M = 0.24;
+const BODY = 0.09; // Radius of a camera, as a share of its pyramid's depth.
 
 /** Returns the place in the world of a pixel at this depth. */
 function pixelInWorld(camera: CameraWords, depth_m: number, x_px: number, y_px: number): Vector {
@@ -39,18 +42,28 @@ export function frustumLines(camera: CameraWords, depth_m = DEPTH_M): number[] {
 }
 
 export class RigView {
-  readonly object = new LineSegments(new BufferGeometry(), new LineBasicMaterial({
+  readonly object = new Group();
+  private readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial({
     transparent: true, opacity: 0.6}));
+  private readonly skin = new MeshLambertMaterial();
+  private readonly ball = ballGeometry(2);
 
-  set(cameras: readonly CameraWords[], depth_m?: number): void {
-    this.object.geometry.dispose();
-    this.object.geometry = new BufferGeometry();
-    this.object.geometry.setAttribute('position',
-      new Float32BufferAttribute(cameras.flatMap((camera) => frustumLines(camera, depth_m)), 3));
-    this.object.frustumCulled = false;
+  set(cameras: readonly CameraWords[], depth_m = DEPTH_M): void {
+    this.lines.geometry.dispose();
+    this.lines.geometry = new BufferGeometry();
+    this.lines.geometry.setAttribute('position', new Float32BufferAttribute(
+      cameras.flatMap((camera) => frustumLines(camera, depth_m)), 3));
+    this.lines.frustumCulled = false;
+    this.object.clear().add(this.lines, ...cameras.map(({world_from_camera: {p}}) => {
+      const body = new Mesh(this.ball, this.skin);
+      body.position.set(...p);
+      body.scale.setScalar(BODY * depth_m);
+      return body;
+    }));
   }
 
   paint(theme: Theme): void {
-    this.object.material.color.setStyle(theme.colour('stage-line'));
+    this.lines.material.color.setStyle(theme.colour('stage-line'));
+    this.skin.color.setStyle(theme.colour('subject'));
   }
 }

@@ -9,7 +9,8 @@ import {
   MeshLambertMaterial,
 } from 'three';
 import type {BufferGeometry, Material} from 'three';
-import {ballGeometry, ballMatrix, boneGeometry, boneMatrix, flatten} from './bone_shapes';
+import {ballGeometry, ballMatrix, boneGeometry, boneMatrix, flatten, girthOf, tubeGeometry} from
+  './bone_shapes';
 import type {SkeletonFrame} from '../protocol/decode_frame';
 import type {Pose} from './posed_skeleton';
 import {SOURCES} from '../protocol/protocol';
@@ -32,7 +33,7 @@ export class SkeletonView {
   /** Joint at the far end of every bone. */
   private readonly ends: number[];
   private readonly radii: number[];
-  private readonly jointRadius: number;
+  private readonly jointRadii: Float32Array;
   private readonly bones: InstancedMesh<BufferGeometry, MeshLambertMaterial>;
   private readonly balls: InstancedMesh<BufferGeometry, MeshLambertMaterial>;
   private readonly doubt: InstancedMesh<BufferGeometry, MeshBasicMaterial>;
@@ -40,21 +41,31 @@ export class SkeletonView {
   private readonly sourceColours = [new Color(), new Color(), new Color()];
   private readonly plain = new Color();
   private readonly performer: boolean;
+  private readonly shadowWidth: number;
   private colouring: Colouring = 'source';
   private readonly scaled = new Color();
 
-  constructor(pose: Pose, offset: Vector, performer: boolean, fleshed: boolean) {
+  /** `solid`: names of the joints' bones of a body that is drawn as a mannequin. `fleshed`: the
+   *  bones are seen through a skin. */
+  constructor(pose: Pose, offset: Vector, performer: boolean, fleshed: boolean,
+    solid: readonly string[] | null = null) {
     this.pose = pose;
     this.offset = offset;
     this.performer = performer;
     this.ends = [...pose.parents.keys()].filter((i) => pose.parents[i] >= 0);
     const lengths = this.ends.map((i) => restLength(pose, i));
     const size = stature(pose);
-    this.radii = lengths.map((length) => Math.min(0.13 * length, 0.022 * size));
-    this.jointRadius = 0.0095 * size;
-    const shape = boneGeometry();
+    this.radii = lengths.map((length, k) => (solid
+      ? size * girthOf(solid[this.ends[k]], solid[pose.parents[this.ends[k]]])
+      : Math.min(0.13 * length, 0.022 * size)));
+    this.jointRadii = new Float32Array(pose.joints).fill(solid ? 0.01 * size : 0.0095 * size);
+    // Joints of a mannequin close its tubes.
+    if (solid) this.ends.forEach((end, k) => [end, pose.parents[end]].forEach((joint) => {
+      this.jointRadii[joint] = Math.max(this.jointRadii[joint], this.radii[k]);
+    }));
+    const shape = solid ? tubeGeometry() : boneGeometry();
     this.bones = instances(shape, new MeshLambertMaterial(), this.ends.length);
-    this.balls = instances(ballGeometry(0), new MeshLambertMaterial(), pose.joints);
+    this.balls = instances(ballGeometry(solid ? 3 : 0), new MeshLambertMaterial(), pose.joints);
     this.doubt = instances(ballGeometry(1), new MeshBasicMaterial({transparent: true, opacity: 0.28,
       depthWrite: false}), pose.joints);
     this.shadow = instances(shape, new MeshBasicMaterial({side: DoubleSide,
@@ -63,8 +74,8 @@ export class SkeletonView {
     this.shadow.userData.long = true;
     this.shadow.renderOrder = -5;
     this.doubt.renderOrder = 5;
+    this.shadowWidth = solid ? 1 : fleshed ? 3.2 : 1.5;
     if (fleshed) {
-      this.shadowWidth = 3.2;
       // Visible through the skin.
       this.bones.material.depthTest = false;
       this.balls.material.depthTest = false;
@@ -73,8 +84,6 @@ export class SkeletonView {
     }
     this.object.add(this.shadow, this.bones, this.balls, this.doubt);
   }
-
-  private readonly shadowWidth: number = 1.5;
 
   paint(theme: Theme): void {
     SOURCES.forEach((source, i) => this.sourceColours[i].setStyle(theme.colour(source)));
@@ -108,7 +117,7 @@ export class SkeletonView {
     }
     for (let i = 0; i < pose.joints; ++i) {
       ballMatrix(this.balls.instanceMatrix.array as Float32Array, i, p, 3 * i,
-        this.jointRadius, dx, dy, dz);
+        this.jointRadii[i], dx, dy, dz);
       const colour = this.colour(frame, i);
       this.balls.setColorAt(i, colour);
       if (!this.doubt.visible) continue;

@@ -46,6 +46,8 @@ export type StageWords = Pick<SceneWords, 'skeletons' | 'cameras' | 'points' | '
 export interface StageOptions extends RendererOptions {
   /** Without it, bodies have no skin. */
   load_skin?: SkinLoader;
+  /** Bodies are mannequins instead of bones. */
+  solid?: boolean;
   /** Length of the cameras' pyramids. */
   pyramid_m?: number;
 }
@@ -75,7 +77,8 @@ export class Stage {
     this.renderer = new Renderer((now_ms) => this.picture(now_ms), () => this.settle(), options);
     this.orbit = this.renderer.orbit;
     const {scene, canvas, software} = this.renderer;
-    this.floor = makeFloor(software);
+    // A report is drawn rarely, so that it can afford pixels.
+    this.floor = makeFloor(options.drawing === 'lines' || (software && !options.scrolled));
     scene.add(this.floor.object, this.rig.object, this.handles.object);
     this.element = el('div', {class: 'stage'}, canvas, this.labels.element);
     this.drags = listener.drag ? new HandleDrag(this.renderer, this.handles,
@@ -94,7 +97,7 @@ export class Stage {
     this.floor.height_m = words.floor?.height_m ?? 0;
     this.bodies = words.skeletons.map((skeleton, i) => {
       const body = new BodyView(skeleton, poses?.[i] ?? new PosedSkeleton(skeleton), this.shown,
-        this.floor.height_m);
+        this.floor.height_m, this.options.solid ?? false);
       if (skeleton.skin && this.options.load_skin) {
         void body.dress(this.options.load_skin, (trouble) => {
           if (trouble) this.listener.trouble(trouble);

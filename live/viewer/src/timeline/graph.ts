@@ -82,12 +82,11 @@ export class Graph {
     const frames = Array.from({length: Math.max(end - first, 0)}, (_, i) => first + i);
     const lines = curves.map((curve) => frames.map((frame) => curve.at(frame)));
     const [low, high] = rangeOf([...lines.flat(), level?.value ?? null]) ?? [0, 1];
-    this.y = [low, high + (this.plot.height > TALL_PX ? 0.08 * (high - low) : 0)];
+    this.y = this.plot.height > TALL_PX ? [Math.min(low, 0), 1.08 * high] : [low, high];
     this.gutter = gutter;
     if (this.plot.width !== width) this.plot.setSize({width, height: this.plot.height});
     this.plot.setData([frames, ...lines], false);
     this.plot.setScale('x', {min: from, max: to});
-    this.plot.redraw();
   }
 
   words(frame: number): string {

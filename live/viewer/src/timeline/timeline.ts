@@ -77,10 +77,7 @@ export class Timeline {
     seen.setRange(first, last);
     if (time !== this.frame && this.pointers.size === 0) seen.reveal(time);
     this.frame = time;
-    const x = this.gutter + seen.x(time, this.plot);
-    const visible = x >= this.gutter - 1 && x <= this.gutter + this.plot + 1;
-    this.head.style.transform = `translateX(${x.toFixed(1)}px)`;
-    if (this.head.hidden === visible) this.head.hidden = !visible;
+    this.placeHead();
     if (!data) return;
     canvas.setAttribute('aria-valuemin', String(first));
     canvas.setAttribute('aria-valuemax', String(last));
@@ -130,9 +127,18 @@ export class Timeline {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     new TimelinePainter(context, this.theme, this.window, this.gutter, this.plot)
       .paint(this.data, this.bands);
+    this.placeHead();
     if (this.folded) return;
     const {from, to} = this.window;
     for (const graph of this.graphs) graph.show(from, to, this.gutter, this.element.clientWidth);
+  }
+
+  private placeHead(): void {
+    const {head, gutter, plot} = this;
+    const x = gutter + this.window.x(this.frame, plot);
+    const visible = x >= gutter - 1 && x <= gutter + plot + 1;
+    head.style.transform = `translateX(${x.toFixed(1)}px)`;
+    if (head.hidden === visible) head.hidden = !visible;
   }
 
   private frameAt(x_px: number): number {
