@@ -10,7 +10,7 @@ import {
 import type {Material, Mesh, MeshStandardMaterial, Object3D} from 'three';
 import {GLTFLoader} from 'three/addons/loaders/GLTFLoader.js';
 import type {GLTF, GLTFParser} from 'three/addons/loaders/GLTFLoader.js';
-import {VRMLoaderPlugin, VRMUtils} from '@pixiv/three-vrm';
+import {VRMLoaderPlugin, VRMLookAtLoaderPlugin, VRMUtils} from '@pixiv/three-vrm';
 import type {VRM} from '@pixiv/three-vrm';
 import type {Skin} from './body_view';
 import {PosedSkeleton} from './posed_skeleton';
@@ -19,6 +19,11 @@ import type {SkeletonWords, SkinWords} from '../protocol/protocol';
 import {NodeDriver} from './skin_fit';
 
 const LONGEST_STEP_S = 0.1;
+
+/** Poses turn the eyes; a gaze of the file would be reported as unsupported in the console. */
+class NoGaze extends VRMLookAtLoaderPlugin {
+  override async afterRoot(): Promise<void> {}
+}
 
 export class AvatarView implements Skin {
   readonly object = new Group();
@@ -60,7 +65,8 @@ export class AvatarView implements Skin {
       return {name: 'MAREY_pictures'};
     });
     if (skin.format === 'vrm') {
-      loader.register((parser) => new VRMLoaderPlugin(parser, {autoUpdateHumanBones: false}));
+      loader.register((parser) => new VRMLoaderPlugin(parser,
+        {autoUpdateHumanBones: false, lookAtPlugin: new NoGaze(parser)}));
     }
     const file = await loader.parseAsync(await answer.arrayBuffer(), '');
     signal.throwIfAborted();
