@@ -11,9 +11,7 @@ import type {CameraWords, StatusWords} from '../protocol/protocol';
 const STATES = {streaming: '', silent: 'silent', lost: 'lost'};
 
 interface Picture {
-  canvas: HTMLCanvasElement;
-  caption: HTMLElement;
-  state: HTMLElement;
+  canvas: HTMLCanvasElement; caption: HTMLElement; state: HTMLElement;
   /** A picture is being decoded; the newest one received meanwhile is kept. */
   busy: boolean;
   next: Thumbnail | null;

@@ -3,7 +3,7 @@
 
 // List of constraints, each with a switch.
 
-import {el, setText} from '../base/elements';
+import {checkbox, el, setText} from '../base/elements';
 import {Section} from './panels';
 import type {ConstraintWords} from '../protocol/protocol';
 
@@ -35,9 +35,8 @@ export class ConstraintsPanel {
   }
 
   private row({id, kind}: ConstraintWords): HTMLElement {
-    const box = el('input', {type: 'checkbox',
-      onchange: () => this.activate(id, box.checked)});
-    return el('li', {}, el('label', {}, box, ` ${id}`), el('span', {class: 'kind'}, kind),
+    return el('li', {}, checkbox(id, false, (on) => this.activate(id, on)),
+      el('span', {class: 'kind'}, kind),
       el('span', {class: 'place', title: 'x, y, z in metres'}));
   }
 }

@@ -4,7 +4,7 @@
 // Settings of the view: drawn parts, view directions, colours.
 
 import type {Shown} from '../scene/body_view';
-import {el, remember, remembered} from '../base/elements';
+import {button, checkbox, chooser, el, remember, remembered} from '../base/elements';
 import {Section} from './panels';
 import {SOURCES} from '../protocol/protocol';
 import type {Stage} from '../scene/stage';
@@ -47,32 +47,28 @@ export class ViewPanel {
       ...LAYERS.map(([layer, label, title]) => {
         const kept = remembered(`layer.${layer}`);
         if (kept !== null) stage.shown[layer] = kept === 'on';
-        const box = el('input', {type: 'checkbox', checked: stage.shown[layer],
-          onchange: () => {
-            stage.shown[layer] = box.checked;
-            remember(`layer.${layer}`, box.checked ? 'on' : 'off');
-            changed();
-          }});
-        return el('label', {title}, box, ` ${label}`);
+        return checkbox(label, stage.shown[layer], (on) => {
+          stage.shown[layer] = on;
+          remember(`layer.${layer}`, on ? 'on' : 'off');
+          changed();
+        }, {title});
       }));
   }
 }
 
 function views(stage: Stage): HTMLElement {
-  const button = (label: string, key: string, pressed: () => void): HTMLElement =>
-    el('button', {type: 'button', title: `Key ${key}`, onclick: pressed}, label);
+  const look = (label: string, key: string, pressed: () => void): HTMLElement =>
+    button({title: `Key ${key}`, onclick: pressed}, label);
   return el('div', {class: 'row', role: 'group', 'aria-label': 'Look from'},
-    button('Frame', 'F', () => stage.frameBodies()),
-    button('Front', '1', () => stage.viewFrom('front')),
-    button('Left', '2', () => stage.viewFrom('left')),
-    button('Above', '3', () => stage.viewFrom('above')));
+    look('Frame', 'F', () => stage.frameBodies()),
+    look('Front', '1', () => stage.viewFrom('front')),
+    look('Left', '2', () => stage.viewFrom('left')),
+    look('Above', '3', () => stage.viewFrom('above')));
 }
 
 function themeChoice(theme: Theme): HTMLElement {
-  const choice = el('select', {onchange: () => theme.choose(choice.value as Choice)},
-    ...(['system', 'light', 'dark'] as const).map((value) =>
-      el('option', {value, selected: theme.choice === value},
-        value === 'system' ? 'as the system' : value)));
+  const choice = chooser([['system', 'as the system'], ['light', 'light'], ['dark', 'dark']],
+    theme.choice, (value) => theme.choose(value as Choice));
   theme.onChange(() => { choice.value = theme.choice; });
   return el('label', {class: 'row'}, 'Colours ', choice);
 }

@@ -17,9 +17,7 @@ export interface Thumbnail {
   camera: number;
   /** Size of the original picture. */
   width_px: number;
-  height_px: number;
-  tags: SeenTag[];
-  jpeg: Uint8Array<ArrayBuffer>;
+  height_px: number; tags: SeenTag[]; jpeg: Uint8Array<ArrayBuffer>;
 }
 
 /** Returns null if the message is truncated. */

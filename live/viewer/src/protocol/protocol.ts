@@ -15,55 +15,32 @@ export const SOURCES: readonly Source[] = ['measured', 'repaired', 'inferred'];
 
 /** Transform in the parent's frame (of a root: in the world). */
 export interface Placement {
-  p: Vector;
-  q: Quaternion;
+  p: Vector; q: Quaternion;
 }
 
 export interface JointWords {
-  name: string;
-  parent: number;
-  bone: string;
-  rest: Placement;
+  name: string; parent: number; bone: string; rest: Placement;
 }
 
 export interface SkinWords {
-  media: string;
-  format: string;
-  nodes: string[];
-  node_index: number[];
-  unit_from_m: number;
+  media: string; format: string; nodes: string[]; node_index: number[]; unit_from_m: number;
   /** Rotation of the whole file into the scene's axes. */
   scene_from_file: Quaternion;
 }
 
 export interface SkeletonWords {
-  name: string;
-  kind: 'performer' | 'avatar' | 'motion';
-  joints: JointWords[];
-  skin: SkinWords | null;
-  offset_m: Vector;
-  estimate: boolean;
+  name: string; kind: 'performer' | 'avatar' | 'motion'; joints: JointWords[];
+  skin: SkinWords | null; offset_m: Vector; estimate: boolean;
 }
 
 export interface CameraWords {
-  name: string;
-  width_px: number;
-  height_px: number;
-  fx: number;
-  fy: number;
-  cx: number;
-  cy: number;
-  world_from_camera: Placement;
-  rms_px: number | null;
+  name: string; width_px: number; height_px: number; fx: number; fy: number; cx: number;
+  cy: number; world_from_camera: Placement; rms_px: number | null;
 }
 
 export interface ConstraintWords {
-  id: string;
-  skeleton: number;
-  kind: 'position' | 'distance' | 'box' | 'orientation' | 'support';
-  active: boolean;
-  p_in_world: Vector;
-  draggable: boolean;
+  id: string; skeleton: number; kind: 'position' | 'distance' | 'box' | 'orientation' | 'support';
+  active: boolean; p_in_world: Vector; draggable: boolean;
   /** Joint of its skeleton that it follows frame by frame; p_in_world is then unused. */
   joint?: number;
 }
@@ -73,30 +50,22 @@ export interface ConstraintWords {
 export type Gap = [number, number, 'repaired' | 'inferred'];
 
 export interface TrackWords {
-  name: string;
-  gaps: Gap[];
+  name: string; gaps: Gap[];
 }
 
 export interface ContactWords {
-  name: string;
-  spans: [number, number][];
+  name: string; spans: [number, number][];
 }
 
 export interface GraphWords {
-  name: string;
-  unit: string;
+  name: string; unit: string;
   values: (number | null)[];
 }
 
 /** Spans and notes use the recording's frame numbers, from `first_frame` on. */
 export interface FileWords {
-  frames: number;
-  first_frame: number;
-  block: string | null;
-  points_block: string | null;
-  tracks: TrackWords[];
-  contacts: ContactWords[];
-  graphs: GraphWords[];
+  frames: number; first_frame: number; block: string | null; points_block: string | null;
+  tracks: TrackWords[]; contacts: ContactWords[]; graphs: GraphWords[];
   notes: {frame: number; text: string}[];
   /** Name of this trial in `trials`, or empty; a page may request another. */
   trial?: string;
@@ -106,57 +75,32 @@ export interface FileWords {
 }
 
 export interface SceneWords {
-  type: 'scene';
-  version: number;
-  revision: number;
-  title: string;
-  mode: 'live' | 'file';
-  rate_hz: number;
-  skeletons: SkeletonWords[];
-  cameras: CameraWords[];
-  points: {labels: string[]} | null;
-  floor: {height_m: number} | null;
-  constraints: ConstraintWords[];
-  file: FileWords | null;
-  wizard: WizardWords | null;
+  type: 'scene'; version: number; revision: number; title: string; mode: 'live' | 'file';
+  rate_hz: number; skeletons: SkeletonWords[]; cameras: CameraWords[];
+  points: {labels: string[]} | null; floor: {height_m: number} | null;
+  constraints: ConstraintWords[]; file: FileWords | null; wizard: WizardWords | null;
 }
 
 export interface StatusWords {
-  type: 'status';
-  clock_s: number;
+  type: 'status'; clock_s: number;
   subject: 'waiting' | 'tracked' | 'partly' | 'behind' | 'stopped' | 'lost';
   /** Faults of the subject's tracking. */
   doubts: string[];
-  frame: number;
-  rate_hz: number;
-  latency_ms: {p50: number; p95: number} | null;
-  stages: {name: string; p50_ms: number; p95_ms: number}[];
-  overload: string;
-  cameras: {
-    name: string;
-    state: 'streaming' | 'silent' | 'lost';
-    frames: number;
-    dropped: number;
-    tags: number;
-    detail: string;
-  }[];
+  frame: number; rate_hz: number; latency_ms: {p50: number; p95: number} | null;
+  stages: {name: string; p50_ms: number; p95_ms: number}[]; overload: string;
+  cameras: {name: string; state: 'streaming' | 'silent' | 'lost'; frames: number; dropped: number;
+    tags: number; detail: string}[];
   outputs: {name: string; sent: number; failed: number; detail: string}[];
-  recording: {file: string; seconds: number; trouble: string} | null;
-  clients: number;
+  recording: {file: string; seconds: number; trouble: string} | null; clients: number;
   messages: string[];
 }
 
 export type WizardStep = 'idle' | 'stand' | 'move' | 'solve' | 'done' | 'failed';
 
 export interface WizardWords {
-  type: 'wizard';
-  step: WizardStep;
-  title: string;
-  text: string;
-  progress: number;
+  type: 'wizard'; step: WizardStep; title: string; text: string; progress: number;
   cameras: {name: string; coverage: number; grid: number[]; rms_px: number | null}[];
-  quality: {name: string; value: string; good: boolean}[];
-  error: string;
+  quality: {name: string; value: string; good: boolean}[]; error: string;
 }
 
 export type ServerWords =

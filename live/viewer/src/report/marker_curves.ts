@@ -57,6 +57,7 @@ function strip(curve: MarkerCurve, axis: number, fates: readonly Fate[], theme: 
     series.push({spanGaps: false, points: {size: 3, filter: lonePoints}, ...look});
   };
   fates.forEach((fate, k) => {
+    if (fate === 'left-empty') return;
     const values = samplesOf(curve, axis, k);
     const name = k === 0 ? 'measured' : `fate-${fate}`;
     const edge = (sign: number): Values => cut(values.map((value, i) =>

@@ -100,14 +100,8 @@ function fateStrip(trial: MarkerTrial, figure: MarkerTrialFigures, fates: readon
 
 /** A gap or a run of wrong samples, as a row of the table. */
 interface Repair {
-  marker: string;
-  first: number;
-  frames: number;
-  what: string;
-  colour: string;
-  sigma_mm?: number;
-  worst_mm?: number;
-  why: string;
+  marker: string; first: number; frames: number; what: string; colour: string; sigma_mm?: number;
+  worst_mm?: number; why: string;
 }
 
 function repairs({markers}: MarkerTrial, fates: readonly Fate[]): Repair[] {

@@ -28,8 +28,7 @@ export function reportDrawing(): Drawing {
 export function drawnStatus(renderer: Renderer): {drawing: string; colours: string} {
   const pixels = renderer.pixels();
   const seen = new Set<number>();
-  // On a coarse grid of pixels.
-  for (let i = 0; i < pixels.length; i += 4 * 7) {
+  for (let i = 0; i < pixels.length; i += 4) {
     seen.add((pixels[i] << 16) | (pixels[i + 1] << 8) | pixels[i + 2]);
   }
   return {drawing: renderer.options.drawing === 'lines' ? 'lines' : 'shaded',

@@ -15,15 +15,8 @@ import type {Theme} from '../base/theme';
 
 /** The parts that are drawn; the user chooses them. */
 export interface Shown {
-  skin: boolean;
-  bones: boolean;
-  doubt: boolean;
-  balance: boolean;
-  cameras: boolean;
-  handles: boolean;
-  names: boolean;
-  follow: boolean;
-  colouring: Colouring;
+  skin: boolean; bones: boolean; doubt: boolean; balance: boolean; cameras: boolean;
+  handles: boolean; names: boolean; follow: boolean; colouring: Colouring;
 }
 
 /** The skin of a body. */

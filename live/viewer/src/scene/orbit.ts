@@ -11,8 +11,7 @@ import type {Vector} from '../protocol/protocol';
 export const VIEW_ANGLE = 0.62;
 
 export interface View {
-  target_in_world: Vector;
-  distance_m: number;
+  target_in_world: Vector; distance_m: number;
   /** Angle about Y, from +Z towards +X. [rad] */
   azimuth: number;
   /** Angle above the horizon. [rad] */

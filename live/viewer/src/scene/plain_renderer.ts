@@ -7,12 +7,10 @@ import {Color, InstancedMesh, LineSegments, Matrix4, Vector3} from 'three';
 import type {BufferAttribute, Camera, LineBasicMaterial, Scene} from 'three';
 
 interface Stroke {
-  from: Vector3;
-  to: Vector3;
+  from: Vector3; to: Vector3;
   /** Width on the canvas; 1.5 pixels for a line without a width in the world. */
   width: number;
-  colour: string;
-  order: number;
+  colour: string; order: number;
 }
 
 /** Depths at which a point is in front of the eye, after the projection. */

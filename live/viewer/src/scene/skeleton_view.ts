@@ -6,7 +6,7 @@
 
 import {
   Color, DoubleSide, DynamicDrawUsage, Group, InstancedMesh, MeshBasicMaterial,
-  MeshLambertMaterial,
+  MeshLambertMaterial, MeshStandardMaterial,
 } from 'three';
 import type {BufferGeometry, Material} from 'three';
 import {ballGeometry, ballMatrix, boneGeometry, boneMatrix, flatten, girthOf, tubeGeometry} from
@@ -34,8 +34,8 @@ export class SkeletonView {
   private readonly ends: number[];
   private readonly radii: number[];
   private readonly jointRadii: Float32Array;
-  private readonly bones: InstancedMesh<BufferGeometry, MeshLambertMaterial>;
-  private readonly balls: InstancedMesh<BufferGeometry, MeshLambertMaterial>;
+  private readonly bones: InstancedMesh<BufferGeometry, Material>;
+  private readonly balls: InstancedMesh<BufferGeometry, Material>;
   private readonly doubt: InstancedMesh<BufferGeometry, MeshBasicMaterial>;
   private readonly shadow: InstancedMesh<BufferGeometry, MeshBasicMaterial>;
   private readonly sourceColours = [new Color(), new Color(), new Color()];
@@ -64,8 +64,9 @@ export class SkeletonView {
       this.jointRadii[joint] = Math.max(this.jointRadii[joint], this.radii[k]);
     }));
     const shape = solid ? tubeGeometry() : boneGeometry();
-    this.bones = instances(shape, new MeshLambertMaterial(), this.ends.length);
-    this.balls = instances(ballGeometry(solid ? 3 : 0), new MeshLambertMaterial(), pose.joints);
+    const skin = solid ? new MeshStandardMaterial({roughness: 0.5}) : new MeshLambertMaterial();
+    this.bones = instances(shape, skin, this.ends.length);
+    this.balls = instances(ballGeometry(solid ? 3 : 0), skin, pose.joints);
     this.doubt = instances(ballGeometry(1), new MeshBasicMaterial({transparent: true, opacity: 0.28,
       depthWrite: false}), pose.joints);
     this.shadow = instances(shape, new MeshBasicMaterial({side: DoubleSide,
@@ -77,8 +78,7 @@ export class SkeletonView {
     this.shadowWidth = solid ? 1 : fleshed ? 3.2 : 1.5;
     if (fleshed) {
       // Visible through the skin.
-      this.bones.material.depthTest = false;
-      this.balls.material.depthTest = false;
+      skin.depthTest = false;
       this.bones.renderOrder = 3;
       this.balls.renderOrder = 3;
     }

@@ -15,10 +15,7 @@ const TALL_PX = 100;
 
 /** Curves with a common axis. */
 export interface GraphData {
-  name: string;
-  unit: string;
-  curves: readonly Curve[];
-  level?: {value: number; name: string};
+  name: string; unit: string; curves: readonly Curve[]; level?: {value: number; name: string};
 }
 
 /** Returns the lowest and highest known value; null if there is none. */

@@ -21,9 +21,7 @@ const GAP_PX = 6;
 
 /** How runs of one source are drawn: a colour, and the part of the row that they fill. */
 export interface Look {
-  colour: string;
-  top?: number;
-  height?: number;
+  colour: string; top?: number; height?: number;
   /** Width that a short run has at least. */
   least?: number;
 }
@@ -45,11 +43,8 @@ export interface TimelineData {
   strips: readonly Strip[];
   /** Rows of sources whose numbers are summed up in a first band. */
   summary: Rows | null;
-  graphs: readonly GraphData[];
-  notes: readonly {frame: number; text: string}[];
-  rate_hz: number;
-  first_frame: number;
-  live: boolean;
+  graphs: readonly GraphData[]; notes: readonly {frame: number; text: string}[]; rate_hz: number;
+  first_frame: number; live: boolean;
 }
 
 const SOURCE_COLOURS = [...SOURCES, 'seen-none'];
@@ -79,9 +74,7 @@ export function timelineOf(scene: SceneWords, reel: Reel): TimelineData {
 export interface Band {
   /** null: the summary. */
   strip: Strip | null;
-  row: number;
-  top: number;
-  height: number;
+  row: number; top: number; height: number;
 }
 
 /** Returns the bands from top to bottom. Folded: only the summary. */
