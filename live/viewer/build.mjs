@@ -34,6 +34,8 @@ async function bundle(names, format, folder) {
     format,
     target: ['chrome110', 'firefox115', 'safari16.4'],
     legalComments: 'inline',
+    // uPlot's own notice is not marked as one to keep.
+    banner: {js: '/*! Contains uPlot, Copyright (c) 2025 Leon Sorokin, MIT License. */'},
     logLevel: 'warning',
   };
   if (isWatching) await (await esbuild.context(options)).watch();
