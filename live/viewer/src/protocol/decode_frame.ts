@@ -48,19 +48,14 @@ export class SkeletonFrame {
 
   /** Copies another figure's values. Precondition: the same number of joints. */
   copy(other: SkeletonFrame): void {
-    this.hasPose = other.hasPose;
-    this.hasDoubt = other.hasDoubt;
-    this.hasBalance = other.hasBalance;
+    const {hasPose, hasDoubt, hasBalance, hasTracking, corners, residual_px, bears} = other;
+    Object.assign(this, {hasPose, hasDoubt, hasBalance, hasTracking, corners, residual_px, bears});
     this.root_in_world.set(other.root_in_world);
     this.parent_from_joint.set(other.parent_from_joint);
     this.sigma_m.set(other.sigma_m);
     this.source.set(other.source);
     this.centre_of_mass_in_world.set(other.centre_of_mass_in_world);
     this.support_xz.set(other.support_xz);
-    this.corners = other.corners;
-    this.hasTracking = other.hasTracking;
-    this.residual_px = other.residual_px;
-    this.bears = other.bears;
   }
 }
 

@@ -14,13 +14,9 @@ export type Source = 'measured' | 'repaired' | 'inferred';
 export const SOURCES: readonly Source[] = ['measured', 'repaired', 'inferred'];
 
 /** Transform in the parent's frame (of a root: in the world). */
-export interface Placement {
-  p: Vector; q: Quaternion;
-}
+export interface Placement {p: Vector; q: Quaternion}
 
-export interface JointWords {
-  name: string; parent: number; bone: string; rest: Placement;
-}
+export interface JointWords {name: string; parent: number; bone: string; rest: Placement}
 
 export interface SkinWords {
   media: string; format: string; nodes: string[]; node_index: number[]; unit_from_m: number;
@@ -49,13 +45,9 @@ export interface ConstraintWords {
  *  `first_frame`. */
 export type Gap = [number, number, 'repaired' | 'inferred'];
 
-export interface TrackWords {
-  name: string; gaps: Gap[];
-}
+export interface TrackWords {name: string; gaps: Gap[]}
 
-export interface ContactWords {
-  name: string; spans: [number, number][];
-}
+export interface ContactWords {name: string; spans: [number, number][]}
 
 export interface GraphWords {
   name: string; unit: string;

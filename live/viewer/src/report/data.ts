@@ -69,9 +69,7 @@ export interface TrialData {
   frame_rms_px: number[]; pictures: Picture[]; bodies: BodyData[];
   tags: {id: number; segment: string; cameras: string}[];
 }
-export interface ReportData {
-  figures: ReportFigures; trials: TrialData[]; calibration_page: boolean;
-}
+export interface ReportData {figures: ReportFigures; trials: TrialData[]; calibration_page: boolean}
 
 // --- Report of a calibration ---
 

@@ -12,9 +12,7 @@ const MOUSE_REACH_PX = 14;
 const TOUCH_REACH_PX = 28;
 
 /** A drag: where it began, its plane, and how far off the handle's centre the pointer is. */
-interface Grip {
-  id: string; pointer: number; start: Vector; normal: Vector; off: [number, number];
-}
+interface Grip {id: string; pointer: number; start: Vector; normal: Vector; off: [number, number]}
 
 export class HandleDrag {
   private grip: Grip | null = null;
