@@ -6,6 +6,7 @@
 # Writes the definition of live/web/page_embedded.h: every file of the folder, gzipped, under
 # its own name, index.html under "/". The same files give the same bytes.
 cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/embed_file.cmake)
 
 set(TYPE_html "text/html; charset=utf-8")
 set(TYPE_js "text/javascript; charset=utf-8")
@@ -19,7 +20,7 @@ if(NOT "index.html" IN_LIST names)
   message(FATAL_ERROR "${FOLDER}: holds no index.html")
 endif()
 
-set(arrays "")
+set(symbols "")
 set(entries "")
 set(count 0)
 foreach(name ${names})
@@ -28,38 +29,34 @@ foreach(name ${names})
     continue()  # Source maps and the like.
   endif()
   # Without a name and a time in its head, gzip's bytes follow from the file's alone.
+  set(gz ${OUT}.${count}.gz)
   execute_process(COMMAND ${GZIP} -9 -n -c ${FOLDER}/${name}
-    OUTPUT_FILE ${OUT}.gz RESULT_VARIABLE failed)
+    OUTPUT_FILE ${gz} RESULT_VARIABLE failed)
   if(failed)
     message(FATAL_ERROR "${FOLDER}/${name}: gzip failed: ${failed}")
   endif()
-  file(READ ${OUT}.gz bytes HEX)
-  file(SHA256 ${OUT}.gz hash)
+  file(SHA256 ${gz} hash)
   string(SUBSTRING ${hash} 0 16 hash)
-  string(REGEX REPLACE "(................................)" "\\1\n" bytes "${bytes}")
-  string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${bytes}")
-  string(APPEND arrays "constexpr char kBytes${count}[] = {\n${bytes}};\n")
+  set(symbol marey_page_${count})
+  embed_file(${symbol} symbols ${gz})
   string(REGEX REPLACE "^index\\.html$" "" path "${name}")
-  string(APPEND entries
-    "      entry(\"/${path}\", \"${TYPE_${kind}}\", kBytes${count}, \"\\\"${hash}\\\"\"),\n")
+  string(APPEND entries "      entry(\"/${path}\", \"${TYPE_${kind}}\", "
+    "{${symbol}, ${symbol}_end}, \"\\\"${hash}\\\"\"),\n")
   math(EXPR count "${count}+1")
 endforeach()
-file(REMOVE ${OUT}.gz)
 
 file(WRITE ${OUT} "#include \"live/web/page_embedded.h\"
 
-#include <cstddef>
-
+#include <string_view>
+${symbols}
 namespace marey::live {
 namespace {
 
-${arrays}
-template <std::size_t N>
 WebContent entry(const char* path,
                  const char* type,
-                 const char (&bytes)[N],
+                 std::string_view bytes,
                  const char* etag) {
-  return {path, type, std::make_shared<const std::string>(bytes, N), true, etag};
+  return {path, type, std::make_shared<const std::string>(bytes), true, etag};
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace marey::app {
 /// strings only, and are replaced by escapes with the same meaning.
 [[nodiscard]] std::string json_in_html(const nlohmann::ordered_json& json);
 
-/// Replaces every `{{name}}` of a page of app/report/ by its part. Precondition: every
+/// Replaces every `{{name}}` of a page of app/pages/report_page.h by its part. Precondition: every
 /// name has a part.
 [[nodiscard]] std::string fill_page(
     std::string_view page,

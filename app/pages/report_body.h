@@ -8,7 +8,7 @@
 
 namespace marey::app {
 
-/// Returns a body in motion in the format of the page's viewer (app/report/motion.js):
+/// Returns a body in motion in the format of the page's viewer (live/viewer/src/report/recorded_body.ts):
 /// points with names and parents, then little-endian arrays in base64, frame by frame.
 ///
 ///   xyz     int16, three per point: origin_m + unit_m * value, in the world

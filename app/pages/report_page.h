@@ -6,24 +6,25 @@
 
 namespace marey::app {
 
-// Files of app/report/ that are built into the program (app/report/embed.cmake).
+// Pages of live/viewer that are built into the program (app/report/embed.cmake).
 
-/// Returns report.html, with the places {{style}}, {{data}} and {{script}}.
+/// Returns the shell of a session's report, with the places {{style}}, {{data}} and
+/// {{script}}.
 [[nodiscard]] std::string_view report_page();
 
-/// Returns report.css.
+/// Returns the style that all reports share.
 [[nodiscard]] std::string_view report_style();
 
-/// Returns the .js files, one after the other, in one common scope.
+/// Returns the bundled script. Empty in a build with -DMAREY_VIEWER=OFF, whose pages state
+/// this.
 [[nodiscard]] std::string_view report_script();
 
-// The same for the page of a calibration: calibration.html, calibration.css after
-// report.css, and the .js files that this page needs.
+// The same for the page of a calibration. Its style is in addition to report_style().
 [[nodiscard]] std::string_view calibration_page();
 [[nodiscard]] std::string_view calibration_style();
 [[nodiscard]] std::string_view calibration_script();
 
-// The same for the pages of labelled markers: markers.html, markers.css after report.css.
+// The same for the pages of labelled markers.
 [[nodiscard]] std::string_view markers_page();
 [[nodiscard]] std::string_view markers_style();
 [[nodiscard]] std::string_view markers_script();

@@ -23,7 +23,7 @@
 namespace marey::app {
 namespace {
 
-/// Added to the style of the report's page (app/report/report.css).
+/// Added to the style of the report's page (live/viewer/src/styles/report.css).
 constexpr std::string_view kStyle = R"(
 main { padding-bottom: 2rem; }
 .maps { display: grid; gap: 1.4rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 24rem), 1fr)); }

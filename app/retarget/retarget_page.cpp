@@ -15,7 +15,7 @@
 namespace marey::app {
 namespace {
 
-/// CSS in addition to that of the report's page (app/report/report.css).
+/// CSS in addition to that of the report's page (live/viewer/src/styles/report.css).
 constexpr std::string_view kStyle = R"(
 main { padding-bottom: 2rem; max-width: 84rem; }
 main > h2 { margin-top: 2.2rem; }

@@ -60,6 +60,9 @@ inline ShownPage show_page(const std::string& html, const std::string& wishes) {
 class InABrowser : public ::testing::Test {
  protected:
   void SetUp() override {
+#ifdef MAREY_PLAIN_PAGES
+    GTEST_SKIP() << "built with -DMAREY_VIEWER=OFF, without the pages of the reports";
+#endif
     if (!std::filesystem::exists(kBrowser)) {
       GTEST_SKIP() << kBrowser << " is missing; apt-get install chromium";
     }

@@ -5,10 +5,10 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {MotionBlock, PointBlock} from '../src/decode_blocks';
-import {decodeFrame, SceneFrame} from '../src/decode_frame';
-import {decodeThumbnail} from '../src/decode_thumbnail';
-import {readServerWords} from '../src/protocol';
+import {MotionBlock, PointBlock} from '../src/protocol/decode_blocks';
+import {decodeFrame, SceneFrame} from '../src/protocol/decode_frame';
+import {decodeThumbnail} from '../src/protocol/decode_thumbnail';
+import {readServerWords} from '../src/protocol/protocol';
 
 const two = [{joints: new Array(2)}, {joints: new Array(1)}];
 

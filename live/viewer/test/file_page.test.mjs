@@ -115,7 +115,7 @@ test('loop begins anew', async () => {
 });
 
 test('details show segments, contacts and graphs', async () => {
-  const height = () => page.evaluate(() => document.querySelector('.strips').clientHeight);
+  const height = () => page.evaluate(() => document.querySelector('.timeline').clientHeight);
   const before_px = await height();
   await page.keyboard.press('d');
   assert.ok(await height() > before_px + 200);

@@ -8,8 +8,10 @@ import {fileURLToPath} from 'node:url';
 
 const here = fileURLToPath(new URL('..', import.meta.url));
 
-/** Where the page was built. */
-export const pageFolder = `${process.env.MAREY_PAGE ?? `${here}dist`}/`;
+const built = process.env.MAREY_PAGE ?? `${here}dist`;
+/** Where the served page was built, and the parts of reports. */
+export const pageFolder = `${built}/served/`;
+export const reportFolder = `${built}/reports/`;
 
 /** Why there are no packages; null when there are. */
 export function missingPackages() {

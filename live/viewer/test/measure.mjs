@@ -31,7 +31,7 @@ async function measure(browser, {label, rate_hz, width, height, finish, avatar})
     const delays_ms = [];
     const start = performance.now();
     mareyPage.onDrawn = (sent_s) => {
-      if (wait) mareyPage.stage.renderer.finish();
+      if (wait) mareyPage.stage.renderer.pixels();
       delays_ms.push(performance.timeOrigin + performance.now() - 1000 * sent_s);
     };
     setTimeout(() => done({delays_ms, ratio: mareyPage.stage.renderer.quality.ratio,

@@ -3,7 +3,7 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {Messages} from '../src/messages';
+import {Messages} from '../src/panels/messages';
 
 test('what the server does not say any more is gone, what the page found is not', () => {
   const messages = new Messages();

@@ -5,7 +5,7 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {pillOf, STATUS_SILENCE_MS} from '../src/pill';
+import {pillOf, STATUS_SILENCE_MS} from '../src/panels/pill';
 
 const good = {subject: 'tracked' as const, doubts: []};
 

@@ -161,7 +161,7 @@ test('live: who walks is seen with its weight and steps, its avatar dragged and 
       skeletons.some(({corners}) => corners >= 4);
   });
   await until('contacts and residuals of the past', () => page.evaluate(() => {
-    const {contacts, curves: [residual], playback: {last}} = window.mareyPage.reel;
+    const {contacts, graphs: [{curves: [residual]}], playback: {last}} = window.mareyPage.reel;
     const frames = [...Array(last + 1).keys()];
     return contacts.names.some((_, row) => frames.some((i) => contacts.source(row, i) === 1)) &&
       frames.some((i) => residual.at(i) > 0 && residual.at(i) < 10);

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Builds the page as `npm run build` does, where that can be; then looks at what came out:
-// all of it there, nothing in it that fetches from elsewhere or runs text as code.
+// Builds the page and the reports as `npm run build` does, where that can be; then looks at what
+// came out: all of it there, nothing in it that fetches from elsewhere or runs text as code.
 
 import assert from 'node:assert/strict';
 import {readFileSync} from 'node:fs';
-import {pageFolder, skipWithoutPackages} from './installed.mjs';
+import {pageFolder, reportFolder, skipWithoutPackages} from './installed.mjs';
 
 skipWithoutPackages();
 await import('../build.mjs');
@@ -16,4 +16,14 @@ assert.match(read('icon.svg'), /^<svg/);
 assert.doesNotMatch(html, /<script>|style=|\son[a-z]+=|https?:/, 'the policy forbids these');
 assert.doesNotMatch(script, /\beval\(|new Function\(/);
 assert.doesNotMatch(style, /url\(|@import/);
+for (const kind of ['report', 'calibration', 'markers']) {
+  const [shell, code, look] = ['html', 'js', 'css'].map((end) =>
+    readFileSync(`${reportFolder}${kind}.${end}`, 'utf8'));
+  for (const place of ['style', 'data', 'script']) assert.ok(shell.includes(`{{${place}}}`));
+  // A parser of HTML would end the script, or its page, there.
+  assert.doesNotMatch(code, /<\/script|<!--/i);
+  assert.doesNotMatch(code, /\beval\(|new Function\(/);
+  assert.doesNotMatch(look, /url\(|@import|<\/style/i);
+  console.log(`${kind}.js ${code.length} bytes`);
+}
 console.log(`page.js ${script.length} bytes, page.css ${style.length} bytes`);

@@ -5,12 +5,13 @@
 
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {ABSENT, FrameRing} from '../src/frame_ring';
-import {Playback} from '../src/playback';
-import {clockWords, TimeWindow, tickStep_s} from '../src/time_window';
-import {layOut, rangeOf} from '../src/timeline_paint';
+import {ABSENT, FrameRing} from '../src/timeline/frame_ring';
+import {Playback} from '../src/timeline/playback';
+import {clockWords, TimeWindow, tickStep_s} from '../src/timeline/time_window';
+import {rangeOf} from '../src/timeline/graph';
+import {layOut, sourceStrip} from '../src/timeline/timeline_paint';
 import {BEARS, FileContacts, FileRows, RingContacts, RingResidual, RingRows}
-  from '../src/timeline_rows';
+  from '../src/timeline/timeline_rows';
 
 const view = (frame: number): DataView => {
   const made = new DataView(new ArrayBuffer(4));
@@ -179,12 +180,11 @@ test('axes have round steps and clocks carry over', () => {
 });
 
 test('bands do not overlap, and folded there is one', () => {
-  const data = {rows: new RingRows(['a', 'b'], new FrameRing(1, 2)), notes: [], rate_hz: 30,
-    contacts: new RingRows(['heel'], new FrameRing(1, 1)),
-    graphs: [new RingResidual(new FrameRing(1, 0))],
-    first_frame: 0, live: false};
+  const summary = new RingRows(['a', 'b'], new FrameRing(1, 2));
+  const data = {summary, strips: [sourceStrip(summary),
+    sourceStrip(new RingRows(['heel'], new FrameRing(1, 1)))]};
   const bands = layOut(data, false);
-  assert.equal(bands.length, 5);
+  assert.equal(bands.length, 4);
   bands.slice(1).forEach(({top}, i) => assert.ok(top >= bands[i].top + bands[i].height));
   assert.equal(layOut(data, true).length, 1);
 });

@@ -159,11 +159,11 @@ TEST(ReportHtml, LetsNoNameBecomeMarkup) {
 TEST(ReportHtml, NeedsNothingFromElsewhere) {
   const std::string html = report_html(report());
   // Names of XML namespaces are no addresses: nothing is fetched from them.
-  const std::string svg = "http://www.w3.org/2000/svg";
+  const std::string names = "http://www.w3.org/";
   std::size_t addresses = 0;
   for (std::size_t at = html.find("://"); at != std::string::npos;
        at = html.find("://", at + 1)) {
-    if (html.substr(at - 4, svg.size()) != svg) ++addresses;
+    if (html.substr(at - 4, names.size()) != names) ++addresses;
   }
   EXPECT_EQ(addresses, 0u);
   EXPECT_EQ(html.find(" src="), std::string::npos);
@@ -171,6 +171,9 @@ TEST(ReportHtml, NeedsNothingFromElsewhere) {
 }
 
 TEST(ReportHtml, HasAPlaceForEverySection) {
+#ifdef MAREY_PLAIN_PAGES
+  GTEST_SKIP() << "built with -DMAREY_VIEWER=OFF, without the pages of the reports";
+#endif
   const std::string html = report_html(report());
   for (const char* section : {"head",
                               "motion",

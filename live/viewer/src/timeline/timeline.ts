@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The timeline: shows the position in the recording and changes it.
+
+import {el, setText} from '../base/elements';
+import type {Theme} from '../base/theme';
+import {clockWords, TimeWindow} from './time_window';
+import {Graph, RIGHT_PX} from './graph';
+import type {Band, TimelineData} from './timeline_paint';
+import {AXIS_PX, heightOf, layOut, TimelinePainter} from './timeline_paint';
+
+const WIDE_PX = 640;
+const GRAPH_PX = 58;
+
+export interface TimelineOptions {
+  /** Shared by timelines that show the same frames. */
+  window?: TimeWindow;
+  /** Part of a page that scrolls: the wheel zooms only after a click on the timeline. */
+  scrolled?: boolean;
+  graph_px?: number;
+}
+
+export class Timeline {
+  readonly window: TimeWindow;
+  private readonly canvas = el('canvas', {class: 'strips', tabindex: 0, role: 'slider',
+    'aria-label': 'Frame'});
+  private readonly plots = el('div', {class: 'graphs'});
+  private readonly head = el('div', {class: 'playhead'});
+  private readonly tip = el('output', {class: 'tip', hidden: true});
+  readonly element = el('div', {class: 'timeline'}, this.canvas, this.plots, this.head, this.tip);
+  private data: TimelineData | null = null;
+  private bands: Band[] = [];
+  private graphs: Graph[] = [];
+  private folded = false;
+  private frame = 0;
+  private readonly pointers = new Map<number, number>();
+  private waiting = false;
+
+  constructor(private readonly theme: Theme, private readonly seek: (frame: number) => void,
+    private readonly options: TimelineOptions = {}) {
+    this.window = options.window ?? new TimeWindow();
+    this.window.watch(() => this.repaint());
+    new ResizeObserver(() => this.repaint()).observe(this.element);
+    theme.onChange(() => this.repaint());
+    this.listen();
+  }
+
+  load(data: TimelineData): void {
+    this.data = data;
+    this.graphs = data.graphs.map((graph) =>
+      new Graph(graph, this.theme, this.options.graph_px ?? GRAPH_PX));
+    this.plots.replaceChildren(...this.graphs.map(({element}) => element));
+    this.fold(this.folded);
+  }
+
+  /** True if there are bands besides the summary. */
+  get foldable(): boolean {
+    const {data} = this;
+    return data !== null &&
+      (data.graphs.length > 0 || data.strips.some(({rows}) => rows.names.length > 0));
+  }
+
+  fold(folded: boolean): void {
+    this.folded = folded;
+    if (!this.data) return;
+    this.bands = layOut(this.data, folded);
+    this.canvas.style.height = `${heightOf(this.bands)}px`;
+    this.plots.hidden = folded;
+    this.element.classList.toggle('folded', folded);
+    this.repaint();
+  }
+
+  /** Sets the shown data and the position. */
+  place(first: number, last: number, time: number, shownFrame: number): void {
+    const {window: seen, canvas, data} = this;
+    seen.setRange(first, last);
+    if (time !== this.frame && this.pointers.size === 0) seen.reveal(time);
+    this.frame = time;
+    this.placeHead();
+    if (!data) return;
+    canvas.setAttribute('aria-valuemin', String(first));
+    canvas.setAttribute('aria-valuemax', String(last));
+    canvas.setAttribute('aria-valuenow', String(shownFrame));
+    canvas.setAttribute('aria-valuetext', this.clock(shownFrame));
+  }
+
+  /** Paints once, at the screen's next refresh. */
+  repaint(): void {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => {
+      this.waiting = false;
+      this.paint();
+    });
+  }
+
+  /** Returns "0:12.40 · frame 372", or the age when live. */
+  clock(frame: number): string {
+    const {data} = this;
+    if (!data) return '';
+    if (data.live) return `${clockWords((frame - this.lastFrame) / data.rate_hz, 1)} s`;
+    return `${clockWords(frame / data.rate_hz)} · frame ${frame + data.first_frame}`;
+  }
+
+  private get lastFrame(): number {
+    return Number(this.canvas.getAttribute('aria-valuemax') ?? 0);
+  }
+
+  private get gutter(): number {
+    return this.element.clientWidth < WIDE_PX ? 74 : 118;
+  }
+
+  private get plot(): number {
+    return Math.max(1, this.element.clientWidth - this.gutter - RIGHT_PX);
+  }
+
+  private paint(): void {
+    if (!this.data || this.element.clientWidth === 0) return;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const {canvas} = this;
+    const width = Math.round(this.element.clientWidth * ratio);
+    const height = Math.round(heightOf(this.bands) * ratio);
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== height) canvas.height = height;
+    const context = canvas.getContext('2d')!;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    new TimelinePainter(context, this.theme, this.window, this.gutter, this.plot)
+      .paint(this.data, this.bands);
+    this.placeHead();
+    if (this.folded) return;
+    const {from, to} = this.window;
+    for (const graph of this.graphs) graph.show(from, to, this.gutter, this.element.clientWidth);
+  }
+
+  private placeHead(): void {
+    const {head, gutter, plot} = this;
+    const x = gutter + this.window.x(this.frame, plot);
+    const visible = x >= gutter - 1 && x <= gutter + plot + 1;
+    head.style.transform = `translateX(${x.toFixed(1)}px)`;
+    if (head.hidden === visible) head.hidden = !visible;
+  }
+
+  private frameAt(x_px: number): number {
+    return this.window.frame(x_px - this.gutter, this.plot);
+  }
+
+  private listen(): void {
+    const {element, canvas, pointers} = this;
+    const at = (event: MouseEvent): number => event.clientX - element.getBoundingClientRect().left;
+    element.addEventListener('pointerdown', (event) => {
+      element.setPointerCapture(event.pointerId);
+      canvas.focus({preventScroll: true});
+      pointers.set(event.pointerId, at(event));
+      if (pointers.size === 1) this.seek(Math.round(this.frameAt(at(event))));
+    });
+    element.addEventListener('pointermove', (event) => {
+      const before = pointers.get(event.pointerId);
+      this.tell(event, at(event));
+      if (before === undefined) return;
+      pointers.set(event.pointerId, at(event));
+      if (pointers.size === 1) this.seek(Math.round(this.frameAt(at(event))));
+      else this.pinch(event.pointerId, before, at(event));
+    });
+    for (const kind of ['pointerup', 'pointercancel', 'lostpointercapture'] as const) {
+      element.addEventListener(kind, (event) => pointers.delete(event.pointerId));
+    }
+    element.addEventListener('pointerleave', () => { this.tip.hidden = true; });
+    element.addEventListener('wheel', (event) => {
+      if (this.options.scrolled && document.activeElement !== canvas && !event.ctrlKey) return;
+      if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
+        const share = (event.deltaX || event.deltaY) / this.plot;
+        this.window.pan(share * (this.window.to - this.window.from));
+      } else {
+        this.window.zoom(Math.exp(0.0015 * event.deltaY), this.frameAt(at(event)));
+      }
+      event.preventDefault();
+    }, {passive: false});
+    element.addEventListener('dblclick', () => this.window.showAll());
+  }
+
+  private pinch(id: number, before: number, now: number): void {
+    for (const [other, x] of this.pointers) {
+      if (other === id) continue;
+      this.window.zoom(Math.max(Math.abs(before - x), 1) / Math.max(Math.abs(now - x), 1),
+        this.frameAt((now + x) / 2));
+    }
+  }
+
+  /** Shows the text for the place under the pointer. */
+  private tell(event: PointerEvent, x: number): void {
+    const {data, tip} = this;
+    const frame = Math.round(this.frameAt(x));
+    tip.hidden = !data || x < this.gutter || frame < this.window.from - 1 ||
+      frame > this.window.to + 1;
+    if (!data || tip.hidden) return;
+    const [top, words] = this.wordsAt(event.clientY, x, frame);
+    setText(tip, `${this.clock(frame)}${words}`);
+    const left = Math.min(Math.max(x, tip.offsetWidth / 2),
+      this.element.clientWidth - tip.offsetWidth / 2);
+    tip.style.transform = `translate(${left.toFixed(0)}px, ${top}px) translate(-50%, -105%)`;
+  }
+
+  /** Returns the upper edge of what is at this place, and its text. */
+  private wordsAt(clientY: number, x: number, frame: number): [number, string] {
+    const {top} = this.element.getBoundingClientRect();
+    const y = clientY - top;
+    const band = this.bands.find((one) => y >= one.top && y < one.top + one.height);
+    if (band?.strip) return [band.top, ` · ${band.strip.words(band.row, frame)}`];
+    for (const graph of this.folded ? [] : this.graphs) {
+      const box = graph.element.getBoundingClientRect();
+      if (clientY >= box.top && clientY < box.bottom) {
+        return [box.top - top, ` · ${graph.words(frame)}`];
+      }
+    }
+    const note = y < AXIS_PX && this.data?.notes.find((n) =>
+      Math.abs(this.gutter + this.window.x(n.frame, this.plot) - x) < 6);
+    return [0, note ? `: ${note.text}` : ''];
+  }
+}
