@@ -77,7 +77,7 @@ async function drive(page, folder) {
   await title('Move every joint');
   await press('Next');
   // The program says no, and the page says so beside what was pressed.
-  await wizard.getByText('five seconds of moving are the least').waitFor();
+  await wizard.getByText('move for at least five seconds').waitFor();
   await press('Cancel');
   await title('Measure a person');
   assert.ok(!await guidance.isVisible(), 'what was called off is not asked for');

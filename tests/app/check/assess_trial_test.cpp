@@ -260,8 +260,8 @@ TEST(BodyWarnings, NameShouldersAndHipsThatMotionsCallInferred) {
   body.joint_centre_sigma_m[index(HumanBone::kRightUpperArm)] = 0.014;
   const auto warnings = body_warnings(body);
   ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_NE(warnings[0].find("\"leftUpperArm\" is known to 16 mm"), std::string::npos);
-  EXPECT_NE(warnings[1].find("\"rightUpperLeg\" is known to 15 mm"), std::string::npos);
+  EXPECT_NE(warnings[0].find("\"leftUpperArm\" has a standard deviation of 16 mm"), std::string::npos);
+  EXPECT_NE(warnings[1].find("\"rightUpperLeg\" has a standard deviation of 15 mm"), std::string::npos);
 }
 
 TEST(AssessFloorHeight, TellsWhoStoodOnSomethingFromAFloorThatIsWrong) {

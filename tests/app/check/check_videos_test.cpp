@@ -49,7 +49,7 @@ TEST(CheckVideos, DeclinesAnotherRotationMark) {
   copy_marked_upside_down(SpoiledSession::sample_video("walk", "cam1"),
                           session.new_video("walk", "cam1"));
   EXPECT_TRUE(declines_at_once(
-      session, {"walk-cam1.mp4: ", "turns its pictures by 180 degrees", "same way"}));
+      session, {"walk-cam1.mp4: ", "turns its pictures by 180 degrees", "in one orientation"}));
 }
 
 TEST(CheckVideos, DeclinesImagesWithAGapInTheirNumbers) {

@@ -79,7 +79,7 @@ TEST(RecordedTake, WithoutItsTimesIsDeclined) {
   const ProgramRun run = walk.session().run("track");
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_EQ(error_lines(run.err), 1) << run.err;
-  EXPECT_NE(run.err.find("take.sqlite: it is missing"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("take.sqlite: the file is missing"), std::string::npos) << run.err;
 }
 
 TEST(RecordedTake, OfANewerVersionIsDeclined) {

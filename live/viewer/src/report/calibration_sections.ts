@@ -52,7 +52,7 @@ function judgement({verdict, middle_error_mm: error, findings}: RigFigures): str
     return `Fair: these cameras can be used, and ${count('fair', 'one thing', 'things')} ` +
       `below would make them better. ${point}`;
   }
-  return `Look closer: do not trust these cameras before ${count('poor', 'one thing is',
+  return `Look closer: do not use these cameras before ${count('poor', 'one thing is',
     'things are')} put right. ${point}`;
 }
 

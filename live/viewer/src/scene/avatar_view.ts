@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// An avatar with its skin: the file is loaded once; its nodes follow the skeleton. Of a VRM
-// file, three-vrm draws the materials and moves hair and clothes.
+// An avatar with its skin: the file is loaded once; its nodes follow the skeleton. For a
+// VRM file, three-vrm draws the materials and moves hair and clothes.
 
 import {
   Group, Matrix4, MeshBasicMaterial, MeshLambertMaterial, Quaternion, SkinnedMesh, TextureLoader,

@@ -29,7 +29,7 @@ export function drawingOfBrowser(): Drawing {
 
 export interface RendererOptions {
   drawing: Drawing;
-  /** What screen readers say of the canvas. */
+  /** Text of the canvas for screen readers. */
   label: string;
   /** The canvas is part of a page that scrolls. */
   scrolled?: boolean;

@@ -18,7 +18,7 @@ import type {Vector} from '../protocol/protocol';
 import {scaleColour} from '../base/theme';
 import type {Theme} from '../base/theme';
 
-/** What colours a skeleton shows. */
+/** Quantity that the colours of a skeleton show. */
 export type Colouring = 'source' | 'doubt' | 'plain';
 
 /** Sigma at the end of the colour scale. */

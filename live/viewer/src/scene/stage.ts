@@ -33,7 +33,7 @@ export interface StageListener {
   beforePicture(now_ms: number): void;
   /** Called after a picture was drawn. */
   afterPicture(): void;
-  /** Frames everything anew, instead of the bodies at this instant. */
+  /** Frames the whole scene again, instead of the bodies at this instant. */
   reset?(): void;
   drag?(id: string, p_in_world: Vector, phase: DragPhase): void;
   trouble(text: string): void;

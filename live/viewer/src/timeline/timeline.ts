@@ -201,7 +201,7 @@ export class Timeline {
     tip.style.transform = `translate(${left.toFixed(0)}px, ${top}px) translate(-50%, -105%)`;
   }
 
-  /** Returns the upper edge of what is at this place, and its text. */
+  /** Returns the upper edge and the text of the row at this place. */
   private wordsAt(clientY: number, x: number, frame: number): [number, string] {
     const {top} = this.element.getBoundingClientRect();
     const y = clientY - top;

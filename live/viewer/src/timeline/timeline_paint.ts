@@ -29,13 +29,13 @@ export interface Look {
 /** Rows that are drawn alike. */
 export interface Strip {
   rows: Rows;
-  /** Colour of what is in no run. */
+  /** Colour of frames that are in no run. */
   base: string;
   /** Indexed by source. */
   looks: readonly Look[];
   /** Text on a place, after the time. */
   words(row: number, frame: number): string;
-  /** Texts beside the names. */
+  /** Texts next to the names. */
   marks?: readonly string[];
 }
 
