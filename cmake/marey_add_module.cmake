@@ -5,14 +5,15 @@ include(${CMAKE_CURRENT_LIST_DIR}/marey_precompile.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/marey_unity.cmake)
 
 # marey_add_module(<name> HEADERS ... SOURCES ... [USES public...] [HIDES private...]
-#                  [PRECOMPILES header...])
+#                  [PRECOMPILES header...] [ALONE source...])
 #
 # One room. HEADERS are public: each must compile alone (the target
 # all_verify_interface_header_sets tries it) and name no heavy library
 # (tests/layering.cmake). USES is seen by the room's includers, HIDES only by its .cpp files
-# and by the headers that are not listed. PRECOMPILES: see marey_precompile().
+# and by the headers that are not listed. PRECOMPILES: see marey_precompile(); ALONE: see
+# marey_unite().
 function(marey_add_module name)
-  cmake_parse_arguments(M "" "" "HEADERS;SOURCES;USES;HIDES;PRECOMPILES" ${ARGN})
+  cmake_parse_arguments(M "" "" "HEADERS;SOURCES;USES;HIDES;PRECOMPILES;ALONE" ${ARGN})
   add_library(marey_${name} STATIC ${M_SOURCES})
   add_library(marey::${name} ALIAS marey_${name})
   target_sources(marey_${name} PUBLIC
@@ -20,7 +21,7 @@ function(marey_add_module name)
   target_link_libraries(marey_${name} PUBLIC ${M_USES} PRIVATE ${M_HIDES})
   set_target_properties(marey_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
   marey_precompile(marey_${name} ${M_PRECOMPILES})
-  marey_unite(marey_${name})
+  marey_unite(marey_${name} ${M_ALONE})
 endfunction()
 
 # marey_find_package(<package> <version> DEBIAN <package that brings it> [COMPONENTS ...])

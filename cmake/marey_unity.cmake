@@ -8,12 +8,13 @@ if(CMAKE_CXX_CLANG_TIDY OR MAREY_FUZZ)
 endif()
 set(MAREY_UNITY_SIZE 8 CACHE STRING "Sources in one group, at most")
 
-# marey_unite(<target>)
+# marey_unite(<target> [<source>...])
 #
 # Compiles the target's sources in groups of at most MAREY_UNITY_SIZE, each of one folder:
 # most of a file's time goes into headers that its neighbours include too. Names in unnamed
 # namespaces must therefore be unique within a folder. Sources with compile options of
-# their own stay alone. Call it after these options are set.
+# their own stay alone; so do the sources named here, whose templates take 10 seconds or
+# more (tests/tools/slowest_files.py measures them). Call it after these options are set.
 function(marey_unite target)
   if(NOT MAREY_UNITY)
     return()
@@ -24,7 +25,7 @@ function(marey_unite target)
   list(SORT sources)
   foreach(source ${sources})
     get_source_file_property(options ${source} COMPILE_OPTIONS)
-    if(options)
+    if(options OR source IN_LIST ARGN)
       continue()
     endif()
     get_filename_component(folder "${source}" DIRECTORY)
