@@ -126,13 +126,12 @@ void add_solution_notes(const recordings::Session& session,
     }
   }
   if (!clocks.empty()) {
-    notes.push_back(
-        "the cameras' clocks in the calibration, against " + session.cameras.front() +
-        "'s: " + clocks +
-        (session.calibration.clocks == ClockChoice::kAuto
-             ? ". The clocks differ, and the calibration corrects this. The "
-               "videos of motions must start within two frames of each other"
-             : ""));
+    notes.push_back("the cameras' clocks in the calibration, against " +
+                    session.cameras.front() + "'s: " + clocks +
+                    (session.calibration.clocks == ClockChoice::kAuto
+                         ? ". The clocks differ, and the calibration corrects this. The "
+                           "videos of motions must start within two frames of each other"
+                         : ""));
   }
   if (!delays.empty()) {
     notes.push_back("delay from one picture row to the next: " + delays);
@@ -171,16 +170,7 @@ Result<calib::CalibratedRig> solve(const recordings::Session& session,
         session.cameras, sights.waved, sights.floor, session.target, options);
   }
   calib::WandOptions wand_options;
-  wand_options.lens = options.lens;
-  wand_options.choose_lens = options.choose_lens;
-  wand_options.lenses = options.lenses;
-  wand_options.choose_clocks = options.choose_clocks;
-  wand_options.solve_offsets = options.solve_offsets;
-  wand_options.solve_drifts = options.solve_drifts;
-  wand_options.solve_line_delays = options.solve_line_delays;
-  wand_options.max_offset_s = options.max_offset_s;
-  wand_options.cross_validate = options.cross_validate;
-  wand_options.progress = options.progress;
+  static_cast<calib::RigOptions&>(wand_options) = options;
   auto calibrated =
       calib::calibrate_wand(session.cameras, sights.waved, *wand, wand_options);
   if (!calibrated) return calibrated.error();

@@ -13,13 +13,13 @@
 #include "calib/model/estimate_intrinsics.h"
 #include "calib/model/place_cameras.h"
 #include "calib/model/steps.h"
-#include "calib/rig/apparent_faults.h"
 #include "calib/rig/check_rig.h"
 #include "calib/rig/choose_model.h"
 #include "calib/rig/coarse_clocks.h"
 #include "calib/rig/cross_validate.h"
 #include "calib/rig/flipped_camera.h"
 #include "calib/rig/make_calibrated_rig.h"
+#include "calib/rig/solve_rig.h"
 #include "core/base/assert.h"
 
 namespace marey::calib {
@@ -37,20 +37,12 @@ struct Work {
   std::function<void()> on_iteration;
 };
 
-bool has_lens(const Work& work, std::size_t camera) {
-  return camera < work.options.lenses.size() && work.options.lenses[camera].has_value();
-}
-
-bool moves(const CalibrateOptions& options) {
-  return options.solve_offsets || options.solve_drifts || options.solve_line_delays;
-}
-
 /// Returns true if a camera meets the preconditions of calibrate_cameras().
 bool meets_preconditions(const Work& work, std::size_t c) {
   const CameraDetections& camera = work.waved[c];
-  const bool needs_rate = work.options.choose_clocks || moves(work.options);
+  const bool needs_rate = work.options.choose_clocks || work.options.solves_clocks();
   if (needs_rate && !(camera.rate.hz > 0.0)) return false;
-  if (!has_lens(work, c)) return true;
+  if (!work.options.has_lens(c)) return true;
   const Intrinsics& k = *work.options.lenses[c];
   return k.width_px == camera.width_px && k.height_px == camera.height_px;
 }
@@ -58,7 +50,7 @@ bool meets_preconditions(const Work& work, std::size_t c) {
 Result<std::vector<Intrinsics>> first_intrinsics(const Work& work, LensModel lens) {
   std::vector<Intrinsics> intrinsics;
   for (std::size_t c = 0; c < work.waved.size(); ++c) {
-    if (has_lens(work, c)) {
+    if (work.options.has_lens(c)) {
       intrinsics.push_back(*work.options.lenses[c]);
       continue;
     }
@@ -79,12 +71,7 @@ RefineOptions refine_options(const Work& work, const RigModel& model) {
   RefineOptions refine;
   refine.on_iteration = work.on_iteration;
   refine.shrinkage = std::holds_alternative<AprilGrid>(*work.board);
-  refine.offsets = work.options.solve_offsets;
-  refine.drifts = work.options.solve_drifts;
-  refine.line_delays = work.options.solve_line_delays;
-  for (std::size_t c = 0; c < work.waved.size(); ++c) {
-    refine.held_lenses.push_back(has_lens(work, c));
-  }
+  set_unknowns(work.options, work.waved.size(), refine);
   const bool has_floor = !model.targets[0].world_from_target.empty();
   if (!has_floor) refine.fixed_camera = 0;
   return refine;
@@ -112,7 +99,7 @@ Result<RigModel> first_model(Work& work, LensModel lens) {
   const auto intrinsics = first_intrinsics(work, lens);
   if (!intrinsics) return intrinsics.error();
   if (const Status ok = check_mirrored(work.views, *intrinsics); !ok) return ok.error();
-  const bool is_moving = moves(work.options);
+  const bool is_moving = work.options.solves_clocks();
   if (is_moving && work.offsets_s.empty()) {
     work.offsets_s.assign(work.waved.size(), 0.0);
     if (work.options.solve_offsets) {
@@ -137,11 +124,14 @@ Result<SolvedRig> first_rig(Work& work, LensModel lens) {
   return first;
 }
 
-Result<SolvedRig> solve(Work& work) {
+Result<SolvedRig> solve_board(Work work, const Clocks& clocks) {
+  work.options.solve_offsets = clocks.offsets;
+  work.options.solve_drifts = clocks.drifts;
+  work.options.solve_line_delays = clocks.line_delays;
   const auto of_lens = [&](LensModel lens) { return first_rig(work, lens); };
   bool all_given = true;
   for (std::size_t c = 0; c < work.waved.size(); ++c) {
-    all_given = all_given && has_lens(work, c);
+    all_given = all_given && work.options.has_lens(c);
   }
   const bool chooses = work.options.choose_lens && !all_given;
   auto solved = of_lens(chooses ? choose_lens(of_lens) : work.options.lens);
@@ -152,13 +142,6 @@ Result<SolvedRig> solve(Work& work) {
     solved->uncertainty = refine_rig(solved->model, solved->refine);
   }
   return solved;
-}
-
-Result<SolvedRig> solve_with(Work work, const Clocks& clocks) {
-  work.options.solve_offsets = clocks.offsets;
-  work.options.solve_drifts = clocks.drifts;
-  work.options.solve_line_delays = clocks.line_delays;
-  return solve(work);
 }
 
 }  // namespace
@@ -181,18 +164,13 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
             [&steps] { steps.tick(); }};
   for (std::size_t c = 0; c < waved.size(); ++c)
     MAREY_ASSERT(meets_preconditions(work, c));
-  auto solved = options.choose_clocks
-                    ? solve_choosing_clocks(names,
-                                            waved,
-                                            false,
-                                            options.solve_line_delays,
-                                            [&](const Clocks& clocks) {
-                                              auto one = solve_with(work, clocks);
-                                              steps.step();
-                                              return one;
-                                            })
-                    : solve(work);
-  steps.reach(kSolveSteps);
+  auto solved = solve_rig(
+      names,
+      waved,
+      false,
+      options,
+      [&](const Clocks& clocks) { return solve_board(work, clocks); },
+      steps);
   if (!solved) return solved.error();
   if (!solved->uncertainty) {
     return bad_input("",
@@ -207,17 +185,8 @@ Result<CalibratedRig> calibrate_cameras(std::span<const std::string> names,
   }
   if (const Status ok = check_rig(rig, work.views, waved, floor, board); !ok)
     return ok.error();
-  const double rate_hz = waved.front().rate.hz;
-  rig.apparent_line_delays = apparent_line_delays(model, solved->refine, rate_hz);
-  steps.step();
-  rig.apparent_move = apparent_move(model, solved->refine, rate_hz);
   rig.ambiguous = ambiguous_camera(model);
-  steps.step();
-  if (options.cross_validate) {
-    rig.cross_validation = cross_validate(model, solved->refine, steps);
-    widen_by_halves(rig);
-  }
-  steps.finish();
+  validate_rig(*solved, options, waved.front().rate.hz, steps, rig);
   return rig;
 }
 

@@ -2,44 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "calib/model/calibrated_rig.h"
-#include "core/base/progress.h"
+#include "calib/model/rig_options.h"
 #include "core/base/result.h"
 #include "core/board.h"
-#include "core/camera.h"
 #include "core/detection.h"
 
 namespace marey::calib {
 
-struct CalibrateOptions {
-  LensModel lens = LensModel::kBrownConrady;
-  /// Replaces `lens` by the model with the lowest error on odd frames after a fit to the
-  /// even frames. Applies to cameras without a given lens; free if all are given.
-  bool choose_lens = false;
-  /// Per camera: its lens if it is already known; it is held fixed. Empty: none is known.
-  std::vector<std::optional<Intrinsics>> lenses{};
-  /// For cameras that were started separately: estimate the clock offsets relative to the
-  /// first camera from the board's motion, and optionally the drifts and the delay from
-  /// one sensor row to the next. Needs detections with rates above zero.
-  bool solve_offsets = false;
-  bool solve_drifts = false;
-  bool solve_line_delays = false;
-  /// Replaces solve_offsets and solve_drifts: both are solved for if the cameras turn out
-  /// not to share one clock. Cameras with different rates never share one. Needs rates
-  /// too.
-  bool choose_clocks = false;
-  double max_offset_s = 5.0;  ///< Search range of the offsets, in both directions.
+/// Options of calibrate_cameras(). The choice of lenses is free if all are given.
+struct CalibrateOptions : RigOptions {
   /// Tests whether the board is bent (CalibratedRig::warp_m); doubles the time.
   bool find_warp = false;
-  /// Fills CalibratedRig::cross_validation; multiplies the time.
-  bool cross_validate = false;
-  /// Called as parts of the work finish.
-  Progress progress{};
 };
 
 /// Calibrates all cameras together from a board that is waved through the volume and then

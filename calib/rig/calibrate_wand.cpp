@@ -13,13 +13,12 @@
 #include "calib/model/rig_model.h"
 #include "calib/model/steps.h"
 #include "calib/model/wand_model.h"
-#include "calib/rig/apparent_faults.h"
 #include "calib/rig/check_rig.h"
 #include "calib/rig/choose_model.h"
 #include "calib/rig/coarse_clocks.h"
-#include "calib/rig/cross_validate.h"
 #include "calib/rig/make_calibrated_rig.h"
 #include "calib/rig/place_tags.h"
+#include "calib/rig/solve_rig.h"
 #include "core/base/assert.h"
 #include "core/base/quantile.h"
 
@@ -34,10 +33,6 @@ struct WandWork {
   WandOptions options;
   std::function<void()> on_iteration;
 };
-
-bool has_lens(const WandOptions& options, std::size_t camera) {
-  return camera < options.lenses.size() && options.lenses[camera].has_value();
-}
 
 /// Fills in initial intrinsics. A camera without an estimate starts with those of the
 /// cameras of its image size, or of any camera.
@@ -54,7 +49,7 @@ bool start_lenses(RigModel& model, const WandOptions& options) {
       if (s.target == kWand) of_wand.push_back(&s);
     }
     const Intrinsics& k = model.cameras[c].intrinsics;
-    const bool is_given = has_lens(options, c);
+    const bool is_given = options.has_lens(c);
     found.push_back(
         is_given
             ? options.lenses[c]
@@ -68,7 +63,7 @@ bool start_lenses(RigModel& model, const WandOptions& options) {
   const double usual = median(std::move(ratios));
   for (std::size_t c = 0; c < model.cameras.size(); ++c) {
     Intrinsics& k = model.cameras[c].intrinsics;
-    if (has_lens(options, c)) {
+    if (options.has_lens(c)) {
       k = *options.lenses[c];
       continue;
     }
@@ -157,8 +152,7 @@ Result<SolvedRig> first_rig(const WandWork& work, LensModel lens) {
                      "record the calibration again: carry the wand through the whole "
                      "volume, near and far, and turn it");
   }
-  const bool is_moving =
-      options.solve_offsets || options.solve_drifts || options.solve_line_delays;
+  const bool is_moving = options.solves_clocks();
   std::vector<double> offsets_s(work.waved.size(), 0.0);
   if (options.solve_offsets) {
     offsets_s = coarse_offsets_s(tracks_of(model), work.waved, options.max_offset_s);
@@ -178,28 +172,19 @@ Result<SolvedRig> first_rig(const WandWork& work, LensModel lens) {
   SolvedRig first{std::move(model), {}, {}};
   first.refine.on_iteration = work.on_iteration;
   first.refine.fixed_camera = 0;
-  first.refine.offsets = options.solve_offsets;
-  first.refine.drifts = options.solve_drifts;
-  first.refine.line_delays = options.solve_line_delays;
-  for (std::size_t c = 0; c < work.waved.size(); ++c) {
-    first.refine.held_lenses.push_back(has_lens(options, c));
-  }
+  set_unknowns(options, work.waved.size(), first.refine);
   return first;
 }
 
-Result<SolvedRig> solve(const WandWork& work) {
+Result<SolvedRig> solve_wand(WandWork work, const Clocks& clocks) {
+  work.options.solve_offsets = clocks.offsets;
+  work.options.solve_drifts = clocks.drifts;
+  work.options.solve_line_delays = clocks.line_delays;
   const auto of_lens = [&](LensModel lens) { return first_rig(work, lens); };
   auto solved =
       of_lens(work.options.choose_lens ? choose_lens(of_lens) : work.options.lens);
   if (solved) solved->uncertainty = refine_rig(solved->model, solved->refine);
   return solved;
-}
-
-Result<SolvedRig> solve_wand_with(WandWork work, const Clocks& clocks) {
-  work.options.solve_offsets = clocks.offsets;
-  work.options.solve_drifts = clocks.drifts;
-  work.options.solve_line_delays = clocks.line_delays;
-  return solve(work);
 }
 
 Error too_far_off(const CalibratedRig& rig) {
@@ -223,18 +208,13 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
   MAREY_ASSERT(names.size() == waved.size() && !wand.tags.empty());
   Steps steps(options.progress, calibration_steps(names.size(), options.cross_validate));
   const WandWork work{names, waved, &wand, options, [&steps] { steps.tick(); }};
-  auto solved = options.choose_clocks
-                    ? solve_choosing_clocks(names,
-                                            waved,
-                                            true,
-                                            options.solve_line_delays,
-                                            [&](const Clocks& clocks) {
-                                              auto one = solve_wand_with(work, clocks);
-                                              steps.step();
-                                              return one;
-                                            })
-                    : solve(work);
-  steps.reach(kSolveSteps);
+  auto solved = solve_rig(
+      names,
+      waved,
+      true,
+      options,
+      [&](const Clocks& clocks) { return solve_wand(work, clocks); },
+      steps);
   if (!solved) return solved.error();
   if (!solved->uncertainty) {
     return bad_input("",
@@ -248,16 +228,7 @@ Result<WandCalibration> calibrate_wand(std::span<const std::string> names,
              *solved->uncertainty);
   WandCalibration out = to_calibration(names, model, *solved->uncertainty);
   if (is_unusable(out.rig)) return too_far_off(out.rig);
-  const double rate_hz = waved.front().rate.hz;
-  out.rig.apparent_line_delays = apparent_line_delays(model, solved->refine, rate_hz);
-  steps.step();
-  out.rig.apparent_move = apparent_move(model, solved->refine, rate_hz);
-  steps.step();
-  if (options.cross_validate) {
-    out.rig.cross_validation = cross_validate(model, solved->refine, steps);
-    widen_by_halves(out.rig);
-  }
-  steps.finish();
+  validate_rig(*solved, options, waved.front().rate.hz, steps, out.rig);
   return out;
 }
 

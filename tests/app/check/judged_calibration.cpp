@@ -251,8 +251,7 @@ Result<calib::CalibratedRig> calibrate(const SimulatedCalibration& scene,
         names_of(scene.truth), scene.waved, scene.floor, scene.board, options);
   }
   calib::WandOptions wand_options;
-  wand_options.choose_clocks = options.choose_clocks;
-  wand_options.cross_validate = options.cross_validate;
+  static_cast<calib::RigOptions&>(wand_options) = options;
   auto found = calib::calibrate_wand(
       names_of(scene.truth), scene.waved, *scene.wand, wand_options);
   if (!found) return found.error();

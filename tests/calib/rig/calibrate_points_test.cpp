@@ -89,7 +89,9 @@ std::vector<CameraDetections> film(const std::vector<Camera>& cameras,
 
 Result<CalibratedRig> calibrate(const std::vector<Camera>& cameras,
                                 const Scene& scene,
-                                const CalibrateOptions& options = {}) {
+                                const RigOptions& rig_options = {},
+                                bool find_warp = false) {
+  const CalibrateOptions options{rig_options, find_warp};
   return calibrate_cameras(
       marey::testing::names_of(cameras), film(cameras, scene), {}, board(), options);
 }
@@ -174,14 +176,14 @@ TEST(CalibratePoints, RefuseAMirroredBoard) {
 TEST(CalibratePoints, FindABentBoardAndLeaveAFlatOneFlat) {
   const auto cameras = three_cameras();
   const auto bent = calibrate(
-      cameras, {.noise_px = 0.1, .bend_m = 0.002, .seconds = 4.0}, {.find_warp = true});
+      cameras, {.noise_px = 0.1, .bend_m = 0.002, .seconds = 4.0}, {}, true);
   ASSERT_TRUE(bent) << bent.error().message();
   ASSERT_TRUE(bent->warp_m);
   // The ends of the visible part are the corners at 4 squares from the middle.
   EXPECT_NEAR((*bent->warp_m)[0], 0.002, 2e-4);
   EXPECT_NEAR((*bent->warp_m)[1], 0.0, 2e-4);
   const auto flat =
-      calibrate(cameras, {.noise_px = 0.1, .seconds = 4.0}, {.find_warp = true});
+      calibrate(cameras, {.noise_px = 0.1, .seconds = 4.0}, {}, true);
   ASSERT_TRUE(flat) << flat.error().message();
   EXPECT_FALSE(flat->warp_m);
 }
