@@ -17,24 +17,27 @@ constexpr std::size_t kMinToStart = 6;
 }  // namespace
 
 MarkerFilter::MarkerFilter(const MarkerModel& model, FrameRate rate)
-    : model_(&model),
-      process_(model.lengths, rate),
-      solver_(model),
+    : PostureFilter(model, rate),
+      model_(&model),
       cost_solver_(model),
       relocalizer_(model) {}
-
-FrameLimits MarkerFilter::limits() const {
-  FrameLimits limits;
-  limits.prior_share = process_.prior_share();
-  return limits;
-}
 
 void MarkerFilter::start(const Posture& posture) {
   filtered_ = process_.start(posture);
   started_ = true;
 }
 
-bool MarkerFilter::is_lost(std::span<const SeenMarker> seen, const Posture& posture) {
+std::optional<Posture> MarkerFilter::find(Markers seen) {
+  if (seen.size() < kMinToStart) return std::nullopt;
+  return relocalizer_.find(seen).posture;
+}
+
+void MarkerFilter::solve(Markers seen, Posture& posture) {
+  PoseParameterProcess::to_prior(predicted_, prior_);
+  (void)solver_.solve(seen, &prior_, posture, limits());
+}
+
+bool MarkerFilter::is_lost(Markers seen, const Posture& posture) {
   if (seen.size() < kMinToStart) return false;
   const UnfoldedPosture& unfolded = solver_.unfold(posture);
   std::size_t off = 0;
@@ -47,7 +50,8 @@ bool MarkerFilter::is_lost(std::span<const SeenMarker> seen, const Posture& post
   return static_cast<double>(off) > kLostShare * static_cast<double>(seen.size());
 }
 
-void MarkerFilter::relocalize(std::span<const SeenMarker> seen, Posture& posture) {
+void MarkerFilter::repair(Markers seen, Posture& posture) {
+  if (!is_lost(seen, posture)) return;
   if (until_next_search_ > 0) {
     --until_next_search_;
     return;
@@ -59,28 +63,16 @@ void MarkerFilter::relocalize(std::span<const SeenMarker> seen, Posture& posture
   if (found.cost >= cost) return;
   posture = found.posture;
   // The prediction was wrong.
-  predicted_ = process_.start(posture);
-  PoseParameterProcess::to_prior(predicted_, prior_);
-  (void)solver_.solve(seen, &prior_, posture, limits());
+  restart(posture);
+  solve(seen, posture);
   until_next_search_ = 0;
   is_relocalized_ = true;
 }
 
 void MarkerFilter::step(std::span<const SeenMarker> seen) {
   is_relocalized_ = false;
-  if (!started_) {
-    if (seen.size() < kMinToStart) return;
-    start(relocalizer_.find(seen).posture);
-    predicted_ = filtered_;
-  } else {
-    process_.predict(filtered_, predicted_);
-  }
-  PoseParameterProcess::to_prior(predicted_, prior_);
-  Posture posture = predicted_.posture;
-  (void)solver_.solve(seen, &prior_, posture, limits());
-  if (is_lost(seen, posture)) relocalize(seen, posture);
-  solver_.factor().covariance(covariance_);
-  process_.update(predicted_, posture, covariance_, filtered_);
+  Posture posture;
+  (void)process_frame(seen, posture);
 }
 
 }  // namespace marey::reconstruct

@@ -42,14 +42,6 @@ struct SeenMarker {
 /// Scale of the Cauchy loss, in sigmas of a marker.
 inline constexpr double kMarkerLossSigmas = 3.0;
 
-struct FrameLimits : DescentLimits {
-  /// Factor on the markers' sigmas: at a start far from the solution, outliers are
-  /// indistinguishable from inliers until the posture is close.
-  double sigma_scale = 1.0;
-  /// Share of the pose priors' weight.
-  double prior_share = 1.0;
-};
-
 /// Levenberg-Marquardt's method on one frame: markers, pose priors and a prior of the
 /// frame. Storage is fixed: no allocation. Borrows the model.
 class MarkerFrameSolver {

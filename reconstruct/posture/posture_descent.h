@@ -19,6 +19,15 @@ struct DescentLimits {
   double last_step = 3e-3;
 };
 
+/// Limits of the solution of one frame.
+struct FrameLimits : DescentLimits {
+  /// Factor on the observations' sigmas: at a start far from the solution, outliers are
+  /// indistinguishable from inliers until the posture is close.
+  double sigma_scale = 1.0;
+  /// Share of the pose priors' weight.
+  double prior_share = 1.0;
+};
+
 /// Levenberg-Marquardt's method on one posture. Storage is fixed: no allocation.
 class PostureDescent {
  public:

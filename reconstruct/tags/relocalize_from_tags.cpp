@@ -175,7 +175,7 @@ bool TagPoseRelocalizer::limb_misfits(std::size_t limb,
 bool TagPoseRelocalizer::retry_limb(std::size_t limb,
                                     std::span<const SeenTag> seen,
                                     const TagFrameSolver::SolveInputs& inputs,
-                                    const TagLimits& limits,
+                                    const FrameLimits& limits,
                                     Posture& posture) {
   own_.clear();
   for (const SeenTag& one : seen) {
@@ -187,7 +187,7 @@ bool TagPoseRelocalizer::retry_limb(std::size_t limb,
     set_motion_prior(limb, start, *inputs.prior);
     own.prior = &motion_prior_;
   }
-  TagLimits quick = limits;
+  FrameLimits quick = limits;
   quick.iterations = 8;
   locate(own_);
   const FoundSegments found = found_;

@@ -33,7 +33,7 @@ class TagPoseRelocalizer {
   [[nodiscard]] bool retry_limb(std::size_t limb,
                                 std::span<const SeenTag> seen,
                                 const TagFrameSolver::SolveInputs& inputs,
-                                const TagLimits& limits,
+                                const FrameLimits& limits,
                                 Posture& posture);
 
   /// Returns true if a tag of the limb is further from its model than noise explains.

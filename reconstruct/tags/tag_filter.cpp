@@ -34,10 +34,9 @@ constexpr double kLongestStep_s = 2.0;
 TagFilter::TagFilter(const TagModel& model,
                      FrameRate rate,
                      const std::vector<bool>& lag_known)
-    : model_(&model),
+    : PostureFilter(model, rate, {kAccelerationScale, kPriorMemory_s}),
+      model_(&model),
       nominal_(rate),
-      process_(model.lengths, rate, {kAccelerationScale, kPriorMemory_s}),
-      solver_(model),
       relocalizer_(model),
       ambiguity_(model),
       lags_(lag_known),
@@ -55,23 +54,24 @@ bool TagFilter::is_used(const SightingFit& fit) {
   return fit.squared < kTagLossSigmas * kTagLossSigmas || fit.rms_px < kNear_px;
 }
 
-TagLimits TagFilter::limits() const {
-  TagLimits limits;
-  limits.prior_share = process_.prior_share();
-  return limits;
+std::optional<Posture> TagFilter::find(const Frame& frame) {
+  until_next_search_s_ = std::max(0.0, until_next_search_s_ - frame.since_s);
+  if (until_next_search_s_ > 0.0 || frame.seen.size() < kMinToJudge) return std::nullopt;
+  auto found = relocalizer_.find(frame.seen);
+  if (!found) until_next_search_s_ = kSearchInterval_s;
+  return found;
 }
 
-void TagFilter::start(const Posture& posture) {
-  predicted_ = process_.start(posture);
-  started_ = true;
+void TagFilter::restart(const Posture& posture) {
+  PostureFilter::restart(posture);
   relocalize_ = false;
   unexplained_s_ = 0.0;
   limb_unexplained_s_.fill(0.0);
 }
 
 /// Predicts in whole steps as near to the nominal frame's duration as possible.
-void TagFilter::predict(double since_s) {
-  const double span_s = std::min(since_s, kLongestStep_s);
+void TagFilter::predict(const Frame& frame) {
+  const double span_s = std::min(frame.since_s, kLongestStep_s);
   const auto steps = std::max(1L, std::lround(span_s * nominal_.hz));
   const double hz = static_cast<double>(steps) / span_s;
   if (hz != process_.rate().hz) process_.change_rate(FrameRate{hz}, filtered_);
@@ -102,7 +102,9 @@ void TagFilter::prepare(std::span<const double> late_s) {
   }
 }
 
-void TagFilter::refine(std::span<const SeenTag> seen, Posture& posture) {
+void TagFilter::solve(const Frame& frame, Posture& posture) {
+  const std::span<const SeenTag> seen = frame.seen;
+  prepare(frame.late_s);
   (void)solver_.solve(seen, inputs_, posture, limits());
   bool turned = false;
   for (const ChainEnd& end : kChainEnds) {
@@ -119,7 +121,7 @@ void TagFilter::refine(std::span<const SeenTag> seen, Posture& posture) {
 /// Resets these parameters to `posture`, with the initial uncertainty: their prediction
 /// was wrong.
 void TagFilter::reset_parameters(std::span<const PoseParameter> parameters,
-                       const Posture& posture) {
+                                 const Posture& posture) {
   const PostureEstimate restarted = process_.start(posture);
   for (const PoseParameter parameter : parameters) {
     std::copy_n(posture.block(parameter),
@@ -143,10 +145,9 @@ double TagFilter::unexplained(std::span<const SeenTag> seen, const Posture& post
 
 /// Searches for parts that do not fit: the body if it is lost, or a limb that bends in
 /// the wrong direction.
-void TagFilter::repair(std::span<const SeenTag> seen,
-                       std::span<const double> late_s,
-                       double since_s,
-                       Posture& posture) {
+void TagFilter::repair(const Frame& frame, Posture& posture) {
+  const std::span<const SeenTag> seen = frame.seen;
+  const double since_s = frame.since_s;
   const double off = unexplained(seen, posture);
   const bool is_evaluated = seen.size() >= kMinToJudge;
   if (is_evaluated)
@@ -159,8 +160,8 @@ void TagFilter::repair(std::span<const SeenTag> seen,
     if (!found) return;
     Posture other = *found;
     if (unexplained(seen, other) < off) {
-      start(other);
-      prepare(late_s);
+      restart(other);
+      prepare(frame.late_s);
       posture = other;
       (void)solver_.solve(seen, inputs_, posture, limits());
     }
@@ -189,37 +190,20 @@ void TagFilter::repair(std::span<const SeenTag> seen,
 void TagFilter::step(std::span<const SeenTag> seen,
                      std::span<const double> late_s,
                      double since_s) {
-  if (!started_) {
-    until_next_search_s_ = std::max(0.0, until_next_search_s_ - since_s);
-    if (until_next_search_s_ > 0.0 || seen.size() < kMinToJudge) return;
-    const auto found = relocalizer_.find(seen);
-    if (!found) {
-      until_next_search_s_ = kSearchInterval_s;
-      return;
-    }
-    start(*found);
-  } else {
-    predict(since_s);
-  }
-  prepare(late_s);
-  Posture posture = predicted_.posture;
-  refine(seen, posture);
-  repair(seen, late_s, since_s, posture);
-  solver_.factor().covariance(covariance_);
-  process_.update(predicted_, posture, covariance_, filtered_);
-  update_lags_and_slips(seen, since_s, posture);
+  const Frame frame{seen, late_s, since_s};
+  Posture posture;
+  if (process_frame(frame, posture)) update_lags_and_slips(frame, posture);
 }
 
 /// Updates the cameras' lags and the tags' slip from the solved frame.
-void TagFilter::update_lags_and_slips(std::span<const SeenTag> seen,
-                      double since_s,
-                      const Posture& posture) {
-  solver_.slips(seen, inputs_, posture, covariance_, slip_scores_);
+void TagFilter::update_lags_and_slips(const Frame& frame, const Posture& posture) {
+  solver_.slips(frame.seen, inputs_, posture, covariance_, slip_scores_);
   if (lags_.any()) {
-    solver_.lateness(seen, inputs_, posture, limits(), lateness_);
-    lags_.update(lateness_, solver_.late_factor(), 1.0 / process_.rate().hz, since_s);
+    solver_.lateness(frame.seen, inputs_, posture, limits(), lateness_);
+    lags_.update(
+        lateness_, solver_.late_factor(), 1.0 / process_.rate().hz, frame.since_s);
   }
-  slips_.update(slip_scores_, since_s);
+  slips_.update(slip_scores_, frame.since_s);
 }
 
 }  // namespace marey::reconstruct

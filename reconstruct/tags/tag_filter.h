@@ -5,10 +5,11 @@
 // Private to reconstruct: postures of successive frames, from tags.
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "reconstruct/posture/pose_parameter_filter.h"
+#include "reconstruct/posture/posture_filter.h"
 #include "reconstruct/tags/camera_lags.h"
 #include "reconstruct/tags/planar_ambiguity.h"
 #include "reconstruct/tags/relocalize_from_tags.h"
@@ -16,10 +17,8 @@
 
 namespace marey::reconstruct {
 
-/// Tracks a body through frames. Each frame is solved from its tags and from the
-/// prediction of the earlier frames. Storage is fixed after construction. Borrows the
-/// model.
-class TagFilter {
+/// Tracks a body through frames of tags. Borrows the model.
+class TagFilter : public PostureFilter<TagFilter, TagFrameSolver> {
  public:
   TagFilter(const TagModel& model, FrameRate rate, const std::vector<bool>& lag_known);
   // Not copyable: members point at each other.
@@ -33,11 +32,6 @@ class TagFilter {
             std::span<const double> late_s,
             double since_s);
 
-  [[nodiscard]] bool started() const { return started_; }
-  /// State after the last step, tags included. Precondition of these functions:
-  /// started().
-  [[nodiscard]] const PostureEstimate& filtered() const { return filtered_; }
-  [[nodiscard]] const PostureCovariance& covariance() const { return covariance_; }
   /// Fit of the last step's sightings.
   [[nodiscard]] std::span<const SightingFit> fits() const { return fits_; }
   /// Returns whether a sighting with this fit is used.
@@ -53,45 +47,40 @@ class TagFilter {
   }
 
  private:
-  void start(const Posture& posture);
-  void predict(double since_s);
+  friend PostureFilter;
+  struct Frame {
+    std::span<const SeenTag> seen;
+    std::span<const double> late_s;
+    double since_s;
+  };
+
+  [[nodiscard]] std::optional<Posture> find(const Frame& frame);
+  void restart(const Posture& posture);
+  void predict(const Frame& frame);
   void prepare(std::span<const double> late_s);
-  void refine(std::span<const SeenTag> seen, Posture& posture);
-  void repair(std::span<const SeenTag> seen,
-              std::span<const double> late_s,
-              double since_s,
-              Posture& posture);
+  void solve(const Frame& frame, Posture& posture);
+  void repair(const Frame& frame, Posture& posture);
   void reset_parameters(std::span<const PoseParameter> parameters,
                         const Posture& posture);
-  void update_lags_and_slips(std::span<const SeenTag> seen,
-                             double since_s,
-                             const Posture& posture);
+  void update_lags_and_slips(const Frame& frame, const Posture& posture);
   [[nodiscard]] double unexplained(std::span<const SeenTag> seen, const Posture& posture);
-  [[nodiscard]] TagLimits limits() const;
 
   const TagModel* model_;
   FrameRate nominal_;
-  PoseParameterProcess process_;
-  TagFrameSolver solver_;
   TagPoseRelocalizer relocalizer_;
   PlanarPoseAmbiguity ambiguity_;
   CameraLags lags_;
-  PostureEstimate predicted_;
-  PostureEstimate filtered_;
-  PosturePrior prior_;
   Drift drift_;
   std::vector<double> late_frames_;
   std::vector<double> late_sigma_frames_;
   SlipTracker slips_;
   std::array<TagFrameSolver::SlipScore, kHumanBoneCount> slip_scores_{};
   TagFrameSolver::SolveInputs inputs_;
-  PostureCovariance covariance_;
   std::vector<SightingFit> fits_;
   std::vector<TagFrameSolver::Lateness> lateness_;
   std::array<double, 4> limb_unexplained_s_{};
   double unexplained_s_ = 0.0;
   double until_next_search_s_ = 0.0;
-  bool started_ = false;
   bool relocalize_ = false;
 };
 

@@ -233,7 +233,7 @@ void TagFrameSolver::scale_late(const SeenTag& seen) {
 void TagFrameSolver::accumulate(std::span<const SeenTag> seen,
                                 const SolveInputs& inputs,
                                 const Posture& posture,
-                                const TagLimits& limits,
+                                const FrameLimits& limits,
                                 PostureEquations& out) {
   unfold_all(posture, inputs.drift);
   out.clear();
@@ -256,7 +256,7 @@ void TagFrameSolver::accumulate(std::span<const SeenTag> seen,
 double TagFrameSolver::solve(std::span<const SeenTag> seen,
                              const SolveInputs& inputs,
                              Posture& posture,
-                             const TagLimits& limits) {
+                             const FrameLimits& limits) {
   return descent_.run(
       [&](const Posture& at, PostureEquations& out) {
         accumulate(seen, inputs, at, limits, out);
@@ -268,7 +268,7 @@ double TagFrameSolver::solve(std::span<const SeenTag> seen,
 const PostureEquations& TagFrameSolver::evaluate(std::span<const SeenTag> seen,
                                                  const SolveInputs& inputs,
                                                  const Posture& posture,
-                                                 const TagLimits& limits) {
+                                                 const FrameLimits& limits) {
   accumulate(seen, inputs, posture, limits, evaluated_);
   return evaluated_;
 }
@@ -291,7 +291,7 @@ void TagFrameSolver::fit(std::span<const SeenTag> seen,
 void TagFrameSolver::lateness(std::span<const SeenTag> seen,
                               const SolveInputs& inputs,
                               const Posture& posture,
-                              const TagLimits& limits,
+                              const FrameLimits& limits,
                               std::span<Lateness> out) {
   std::fill(out.begin(), out.end(), Lateness{});
   if (!inputs.drift) return;

@@ -71,13 +71,6 @@ struct Drift {
   std::array<Eigen::Matrix3d, kPoseParameterCount> gain;
 };
 
-struct TagLimits : DescentLimits {
-  /// Factor on the corners' sigmas: at a start far from the solution, outliers are
-  /// indistinguishable from inliers until the posture is close.
-  double sigma_scale = 1.0;
-  double prior_share = 1.0;  ///< Share of the pose priors' weight.
-};
-
 /// Fit of a sighting to the posture.
 struct SightingFit {
   double squared = 0.0;  ///< Sum of its eight squared residuals in sigmas, slip included.
@@ -107,13 +100,13 @@ class TagFrameSolver {
   double solve(std::span<const SeenTag> seen,
                const SolveInputs& inputs,
                Posture& posture,
-               const TagLimits& limits = {});
+               const FrameLimits& limits = {});
 
   /// Computes the cost of a posture without moving it, and its equations.
   const PostureEquations& evaluate(std::span<const SeenTag> seen,
                                    const SolveInputs& inputs,
                                    const Posture& posture,
-                                   const TagLimits& limits = {});
+                                   const FrameLimits& limits = {});
 
   /// Computes the fit of each sighting to `posture`; `fits` has one entry per sighting.
   void fit(std::span<const SeenTag> seen,
@@ -132,7 +125,7 @@ class TagFrameSolver {
   void lateness(std::span<const SeenTag> seen,
                 const SolveInputs& inputs,
                 const Posture& posture,
-                const TagLimits& limits,
+                const FrameLimits& limits,
                 std::span<Lateness> out);
   /// Factored equations of the posture of the last lateness(), with all delays taken as
   /// exact.
@@ -172,7 +165,7 @@ class TagFrameSolver {
   void accumulate(std::span<const SeenTag> seen,
                   const SolveInputs& inputs,
                   const Posture& posture,
-                  const TagLimits& limits,
+                  const FrameLimits& limits,
                   PostureEquations& out);
   [[nodiscard]] bool sight(const SeenTag& seen,
                            const SolveInputs& inputs,
