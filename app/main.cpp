@@ -5,6 +5,8 @@
 #include <exception>
 #include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <unistd.h>
@@ -26,6 +28,8 @@
 #include "app/retarget/retarget_commands.h"
 #include "app/shell/console.h"
 #include "app/shell/option_checks.h"
+#include "app/shell/program_name.h"
+#include "app/shell/sample_session.h"
 #include "app/shell/version.h"
 #include "app/view/view_commands.h"
 #include "recordings/text/atomic_file.h"
@@ -60,13 +64,21 @@ struct Arguments {
   ViewArguments view;
   InspectArguments inspect;
   DoctorArguments doctor;
-  DemoArguments demo{.sample = MAREY_SAMPLE, .out = {}};
+  DemoArguments demo{.sample = sample_session(), .out = {}};
 
   [[nodiscard]] ProgressStyle style_of_progress() const {
     if (progress == "json") return ProgressStyle::kJson;
     return progress == "none" ? ProgressStyle::kQuiet : ProgressStyle::kAuto;
   }
 };
+
+ProgramName name_of(const CLI::App& app, const char* called) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    commands.push_back(command->get_name());
+  }
+  return {called == nullptr ? "" : called, std::move(commands)};
+}
 
 int run(int argc, char** argv) {
   CLI::App app{"marey turns camera-seen markers into clean human motion on any body"};
@@ -100,7 +112,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(Exit::kUsage);
   }
-  Console console(args.style_of_progress());
+  Console console(args.style_of_progress(), name_of(app, argv[0]));
   const Exit exit = chosen(console);
   const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
   if (told || exit != Exit::kOk) return static_cast<int>(exit);

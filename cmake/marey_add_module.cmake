@@ -1,25 +1,32 @@
 # SPDX-FileCopyrightText: The marey authors
 # SPDX-License-Identifier: Apache-2.0
 
+include(${CMAKE_CURRENT_LIST_DIR}/marey_install.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/marey_precompile.cmake)
 include(${CMAKE_CURRENT_LIST_DIR}/marey_unity.cmake)
 
 # marey_add_module(<name> HEADERS ... SOURCES ... [USES public...] [HIDES private...]
-#                  [PRECOMPILES header...] [ALONE source...])
+#                  [READS private...] [PRECOMPILES header...] [ALONE source...])
 #
 # One room. HEADERS are public: each must compile alone (the target
 # all_verify_interface_header_sets tries it) and name no heavy library
 # (tests/layering.cmake). USES is seen by the room's includers, HIDES only by its .cpp files
-# and by the headers that are not listed. PRECOMPILES: see marey_precompile(); ALONE: see
-# marey_unite().
+# and by the headers that are not listed. READS are hidden libraries of headers alone: a
+# program that links the installed room does not need them. PRECOMPILES: see
+# marey_precompile(); ALONE: see marey_unite(). The room is installed
+# (cmake/marey_install.cmake).
 function(marey_add_module name)
-  cmake_parse_arguments(M "" "" "HEADERS;SOURCES;USES;HIDES;PRECOMPILES;ALONE" ${ARGN})
+  cmake_parse_arguments(M "" "" "HEADERS;SOURCES;USES;HIDES;READS;PRECOMPILES;ALONE" ${ARGN})
   add_library(marey_${name} STATIC ${M_SOURCES})
   add_library(marey::${name} ALIAS marey_${name})
   target_sources(marey_${name} PUBLIC
     FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${M_HEADERS})
   target_link_libraries(marey_${name} PUBLIC ${M_USES} PRIVATE ${M_HIDES})
-  set_target_properties(marey_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+  list(TRANSFORM M_READS REPLACE "(.+)" "$<BUILD_INTERFACE:\\1>")
+  target_link_libraries(marey_${name} PRIVATE ${M_READS})
+  set_target_properties(marey_${name} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON
+                                                   EXPORT_NAME ${name})
+  marey_install_module(marey_${name})
   marey_precompile(marey_${name} ${M_PRECOMPILES})
   marey_unite(marey_${name} ${M_ALONE})
 endfunction()

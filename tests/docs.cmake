@@ -41,7 +41,7 @@ foreach(page ${pages} ${notes})
   # Sources are named from the top: core/camera.h. A link was looked at above.
   string(REGEX REPLACE "LINK=[^)]*[)]" " " text "${text}")
   string(REGEX MATCHALL
-    "(${rooms}|tests|benchmarks|docs|cmake)/[A-Za-z0-9_./-]*[A-Za-z0-9_]\\.(${endings})"
+    "(${rooms}|tests|benchmarks|examples|docs|cmake)/[A-Za-z0-9_./-]*[A-Za-z0-9_]\\.(${endings})"
     sources "${text}")
   foreach(source ${sources})
     want(${ROOT}/${source} ${page})

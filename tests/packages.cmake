@@ -7,8 +7,8 @@
 # a library without naming its package. Also when there was nothing to check.
 cmake_minimum_required(VERSION 3.25)
 
-# They come with the compiler.
-set(NEEDS_NO_PACKAGE Threads)
+# They come with the compiler, and from this source tree.
+set(NEEDS_NO_PACKAGE Threads marey)
 
 file(READ ${ROOT}/run text)
 if(NOT text MATCHES "BUILD_PACKAGES=\\(([^)]*)\\)")

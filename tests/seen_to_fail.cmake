@@ -41,6 +41,7 @@ struct Cloud { std::vector<double> points; };")
 #include \"calib/place.h\"
 #include \"tests/support/scene.h\"")
   source(tests/calib/more_test.cpp "#include \"calib/place.h\"")
+  source(examples/place.cpp "#include \"calib/place.h\"")
   script(CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
 project(tree LANGUAGES CXX)
 set(CMAKE_CXX_STANDARD 20)
@@ -194,6 +195,8 @@ fault(a_shared_scene_that_includes_a_room layering tests/support/scene.h
   "#include \"calib/place.h\"" "tests/support may not include calib/place.h")
 fault(a_benchmark_that_includes_tests_of_the_app layering benchmarks/frames.cpp
   "#include \"tests/app/page.h\"" "benchmarks may not include tests/app/page.h")
+fault(an_example_that_includes_a_private_header layering examples/place.cpp
+  "#include \"calib/residuals.h\"" "calib/residuals.h. is not a public header")
 fault(a_folder_that_includes_the_one_above folders calib/place.cpp
   "#include \"calib/rig/solve.h\"" "the folder . may not include calib/rig/solve.h")
 fault(a_folder_of_too_many_modules folders_of_two calib/third.h

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/shell/lens_words.h"
+#include "app/shell/program_name.h"
 #include "recordings/body/character_file.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/body/floor_file.h"
@@ -285,11 +286,12 @@ Result<Json> inspect_kind(const fs::path& file, FileKind kind) {
       break;
   }
   return bad_input(file.string(),
-                   kind == FileKind::kBoneMap ? "a bone map can only be read with its body"
-                                              : "is not a kind of file that marey supports",
+                   kind == FileKind::kBoneMap
+                       ? "a bone map can only be read with its body"
+                       : "is not a kind of file that marey supports",
                    kind == FileKind::kBoneMap
                        ? "inspect the body with it: marey inspect BODY --bones " +
-                             file.filename().string()
+                             shell_command({file.string()})
                        : "give a file that marey reads or writes; "
                          "docs/formats/README.md lists them");
 }

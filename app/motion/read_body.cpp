@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/motion/error_of_file.h"
+#include "app/shell/program_name.h"
 #include "core/base/extension.h"
 #include "recordings/body/bone_map_file.h"
 #include "retarget/body/body_map.h"
@@ -38,8 +39,7 @@ void measure_by_skin(const recordings::SkinnedMesh& mesh, ReadBody& body) {
   if (!skin.empty()) body.volume = retarget::volume_of_skin(skeleton, *map, skin);
   std::vector<retarget::SkinVertex> vertices;
   for (std::size_t i = 0; i < mesh.skin.size(); ++i) {
-    vertices.push_back(
-        {mesh.p_in_world[i], mesh.skin[i].joints, mesh.skin[i].weights});
+    vertices.push_back({mesh.p_in_world[i], mesh.skin[i].joints, mesh.skin[i].weights});
   }
   body.skin = retarget::Skin(skeleton, *map, vertices);
 }
@@ -89,8 +89,7 @@ std::vector<T> reordered(const std::vector<T>& list,
 /// Changes the parents of bones that have other parents in the file.
 Status reparent_bones(ReadBody& body) {
   RawBody& raw = body.raw;
-  auto hung =
-      retarget::hang_bones(raw.motion.skeleton, body.bones, raw.carries_skin);
+  auto hung = retarget::hang_bones(raw.motion.skeleton, body.bones, raw.carries_skin);
   if (!hung) return hung.error();
   if (!*hung) return Done{};
   retarget::HungBody& made = **hung;
@@ -138,12 +137,12 @@ std::vector<std::string> ReadBody::remarks() const {
                         guessed_up->share >= kMinUprightShare;
   if (guessed_up && !is_usual) {
     const auto percent = std::lround(100.0 * guessed_up->share);
-    all.push_back("its rest does not show where up is, and it does not stand most of the "
-                  "time: up is taken as " +
-                  retarget::axis_word(guessed_up->axis) +
-                  ", along which its hips are above its feet in " +
-                  std::to_string(percent) +
-                  " % of its frames; if that is wrong, give `up` in a bone map");
+    all.push_back(
+        "its rest does not show where up is, and it does not stand most of the "
+        "time: up is taken as " +
+        retarget::axis_word(guessed_up->axis) +
+        ", along which its hips are above its feet in " + std::to_string(percent) +
+        " % of its frames; if that is wrong, give `up` in a bone map");
   }
   if (rests_as_bound) {
     all.push_back(
@@ -221,7 +220,8 @@ std::optional<Error> exchanged_sides_error(const std::filesystem::path& path,
   return Error{Errc::kQuality,
                path.string(),
                cause,
-               "exchange the names in a bone map (marey inspect " + path.string() +
+               "exchange the names in a bone map (" +
+                   shell_command({"marey", "inspect", path.string()}) +
                    " --write-map MAP.toml stores one to edit) and give it with " +
                    map_option};
 }

@@ -13,6 +13,7 @@
 #include "app/convert/mannequin_commands.h"
 #include "app/process/earlier_calibration.h"
 #include "app/shell/option_checks.h"
+#include "app/shell/program_name.h"
 
 namespace marey::app {
 namespace {
@@ -69,7 +70,7 @@ void print_results(const Report& report,
   }
   if (!report.trials.empty()) {
     console.say("report: " + (out / "report.html").string());
-    console.say("to see it move: marey view " + out.string());
+    console.say("to see it move: " + shell_command({"marey", "view", out.string()}));
   } else if (report.cameras_are_judged) {
     console.say("report: " + (out / "calibration.html").string());
   }
@@ -186,10 +187,11 @@ Exit run_demo(const std::filesystem::path& sample,
   if (done != Exit::kOk) return done;
   std::error_code ignored;
   const auto page = std::filesystem::absolute(out / "report.html", ignored);
-  std::printf("results: %s\npage:    file://%s\nnext:    marey view %s\n",
+  const std::string next = shell_command({"marey", "view", out.string()});
+  std::printf("results: %s\npage:    file://%s\nnext:    %s\n",
               out.c_str(),
               page.c_str(),
-              out.c_str());
+              console.as_called(next).c_str());
   return Exit::kOk;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 #include <unistd.h>
@@ -72,8 +73,8 @@ Exit exit_for(Errc code) {
   return Exit::kInternal;
 }
 
-Console::Console(ProgressStyle style)
-    : style_(style), terminal_(isatty(STDERR_FILENO) == 1) {}
+Console::Console(ProgressStyle style, ProgramName name)
+    : style_(style), name_(std::move(name)), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress Console::stage(const std::string& label) {
   return [this, label, start = Clock::now()](int done, int total) {
@@ -122,7 +123,7 @@ void Console::say(const std::string& text) {
   if (style_ == ProgressStyle::kJson) {
     print_json({{"message", text}});
   } else {
-    std::fprintf(stderr, "%s\n", on_one_line(text).c_str());
+    std::fprintf(stderr, "%s\n", on_one_line(as_called(text)).c_str());
   }
 }
 
@@ -132,7 +133,7 @@ void Console::warn(const std::string& text) {
   if (style_ == ProgressStyle::kJson) {
     print_json({{"warning", text}});
   } else {
-    std::fprintf(stderr, "warning: %s\n", on_one_line(text).c_str());
+    std::fprintf(stderr, "warning: %s\n", on_one_line(as_called(text)).c_str());
   }
 }
 
@@ -142,9 +143,13 @@ Exit Console::fail(const Error& error) {
   if (style_ == ProgressStyle::kJson) {
     print_json({{"error", error.message()}, {"exit_code", exit_for(error.code)}});
   } else {
-    std::fprintf(stderr, "error: %s\n", on_one_line(error.message()).c_str());
+    std::fprintf(stderr, "error: %s\n", on_one_line(as_called(error.message())).c_str());
   }
   return exit_for(error.code);
+}
+
+std::string Console::as_called(const std::string& text) const {
+  return name_.written_into(text);
 }
 
 }  // namespace marey::app

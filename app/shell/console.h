@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include "app/shell/program_name.h"
 #include "core/base/progress.h"
 #include "core/base/result.h"
 
@@ -31,10 +32,11 @@ enum class ProgressStyle {
 };
 
 /// Writes messages and progress to standard error. Standard output is for data.
+/// Commands in messages name the program as it was called, except in JSON.
 /// Thread-safe: worker threads of one stage may report at the same time.
 class Console {
  public:
-  explicit Console(ProgressStyle style);
+  explicit Console(ProgressStyle style, ProgramName name = {});
 
   /// Returns a progress callback for one stage; `label` has one or two words.
   [[nodiscard]] Progress stage(const std::string& label);
@@ -42,6 +44,8 @@ class Console {
   void warn(const std::string& text);
   /// Prints the error and returns its exit code.
   Exit fail(const Error& error);
+  /// Returns `text` with the program's name as it was called.
+  [[nodiscard]] std::string as_called(const std::string& text) const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -49,6 +53,7 @@ class Console {
   void clear_bar();
 
   ProgressStyle style_;
+  ProgramName name_;
   bool terminal_ = false;
   bool bar_shown_ = false;
   Clock::time_point last_shown_{};

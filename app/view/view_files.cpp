@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/shell/program_name.h"
 #include "app/view/view_cameras.h"
 #include "app/view/view_figure.h"
 #include "app/view/view_live_take.h"
@@ -83,10 +84,10 @@ Result<ViewedRecording> folder_view(const fs::path& folder, const std::string& w
   if (trials.empty()) {
     const fs::path cameras = folder / "calibration.toml";
     if (fs::exists(cameras, ignored) && wanted.empty()) return camera_view(cameras);
-    return bad_input(
-        folder.string(),
-        "holds no results: no trial in it has a segments.csv",
-        "run: marey process " + folder.string() + " --out DIR; marey view DIR");
+    return bad_input(folder.string(),
+                     "holds no results: no trial in it has a segments.csv",
+                     "run: " + shell_command({"marey", "process", folder.string()}) +
+                         " --out DIR; marey view DIR");
   }
   std::string others;
   for (const std::string& name : trials) others += " " + name;

@@ -9,6 +9,7 @@
 #include "app/live_chain/live_chain.h"
 #include "app/live_chain/open_live_take.h"
 #include "app/shell/inside_folder.h"
+#include "app/shell/program_name.h"
 #include "app/view/view_cameras.h"
 #include "app/view/view_figure.h"
 #include "recordings/takes/live_take.h"
@@ -28,8 +29,7 @@ fs::path folder_of(const fs::path& what) {
 class Remade {
  public:
   Remade(ViewedRecording& out, FrameRate rate)
-      : out_(out),
-        max_pause_(static_cast<std::int64_t>(kLongestPause_s * rate.hz)) {}
+      : out_(out), max_pause_(static_cast<std::int64_t>(kLongestPause_s * rate.hz)) {}
 
   void add(const LiveResult& result) {
     if (result.track.state == reconstruct::TrackState::kWaiting) return;
@@ -126,10 +126,11 @@ Result<ViewedRecording> read_live_take_view(const fs::path& what) {
   }
   const ViewedFigure& performer = out.figures.front();
   if (performer.motion.poses.empty()) {
-    return bad_input(folder.string(),
-                     "no body was found in any instant of this take",
-                     "check the cameras: marey view " +
-                         (folder / "calibration.toml").string());
+    return bad_input(
+        folder.string(),
+        "no body was found in any instant of this take",
+        "check the cameras: " +
+            shell_command({"marey", "view", (folder / "calibration.toml").string()}));
   }
   out.frames = static_cast<int>(performer.motion.poses.size());
   out.tracks = tracks_of(performer, 0);

@@ -1,0 +1,32 @@
+# SPDX-FileCopyrightText: The marey authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# check_truth(<output> <file>): fails unless each line "KEY LOWEST HIGHEST" of the file has
+# lines "KEY VALUE" in the output, all with a value in this range.
+function(check_truth said file)
+  string(REPLACE "\n" ";" lines "${said}")
+  file(STRINGS ${file} truths)
+  if(NOT truths)
+    message(FATAL_ERROR "${file}: has no truth")
+  endif()
+  foreach(truth ${truths})
+    string(REPLACE " " ";" words "${truth}")
+    list(GET words 0 key)
+    list(GET words 1 lowest)
+    list(GET words 2 highest)
+    set(seen FALSE)
+    foreach(line ${lines})
+      if(NOT line MATCHES "^${key} (-?[0-9.]+)$")
+        continue()
+      endif()
+      set(seen TRUE)
+      if(CMAKE_MATCH_1 LESS lowest OR CMAKE_MATCH_1 GREATER highest)
+        message(FATAL_ERROR "${line} is not in ${lowest} to ${highest}\n${said}")
+      endif()
+    endforeach()
+    if(NOT seen)
+      message(FATAL_ERROR "there is no ${key} in: ${said}")
+    endif()
+  endforeach()
+  message(STATUS "${said}")
+endfunction()
