@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <functional>
@@ -9,7 +8,6 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
-#include <unistd.h>
 
 #include "app/adapt/adapt_commands.h"
 #include "app/convert/convert_commands.h"
@@ -27,24 +25,16 @@
 #include "app/record/record_commands.h"
 #include "app/retarget/retarget_commands.h"
 #include "app/shell/console.h"
+#include "app/shell/exit_codes.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/program_name.h"
 #include "app/shell/sample_session.h"
+#include "app/shell/stop_signal.h"
 #include "app/shell/version.h"
 #include "app/view/view_commands.h"
-#include "recordings/text/atomic_file.h"
 
 namespace marey::app {
 namespace {
-
-/// Removes half-written files. All other files appear whole or not at all.
-extern "C" void on_interrupt(int /*signal*/) {
-  static constexpr char kText[] = "\ninterrupted\n";
-  [[maybe_unused]] const ssize_t written =
-      write(STDERR_FILENO, static_cast<const char*>(kText), sizeof kText - 1);
-  recordings::visit_partial_files([](const char* path) { unlink(path); });
-  _exit(static_cast<int>(Exit::kInterrupted));
-}
 
 struct Arguments {
   std::string progress = "auto";
@@ -114,8 +104,8 @@ int run(int argc, char** argv) {
   }
   Console console(args.style_of_progress(), name_of(app, argv[0]));
   const Exit exit = chosen(console);
-  const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  if (told || exit != Exit::kOk) return static_cast<int>(exit);
+  const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (is_written || exit != Exit::kOk) return static_cast<int>(exit);
   return static_cast<int>(console.fail({Errc::kDevice,
                                         "standard output",
                                         "what was asked for cannot be written",
@@ -127,12 +117,7 @@ int run(int argc, char** argv) {
 }  // namespace marey::app
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, marey::app::on_interrupt);
-  std::signal(SIGTERM, marey::app::on_interrupt);
-  // Under nohup(1) a hang-up of the terminal is ignored.
-  if (std::signal(SIGHUP, marey::app::on_interrupt) == SIG_IGN) {
-    std::signal(SIGHUP, SIG_IGN);
-  }
+  marey::app::exit_on_stop_signals();
   try {
     return marey::app::run(argc, argv);
   } catch (const std::exception& error) {

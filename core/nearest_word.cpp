@@ -8,14 +8,11 @@
 #include <vector>
 
 #include "core/base/assert.h"
+#include "core/base/lower_case.h"
 #include "core/humanoid.h"
 
 namespace marey {
 namespace {
-
-char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
 
 // All costs are times four, so that a change of case can cost a quarter of a letter.
 constexpr std::size_t kLetter = 4;
@@ -24,7 +21,7 @@ constexpr std::size_t kLongestWord = 64;  // No key is longer; keeps the search 
 
 std::size_t cost_of_change(char a, char b) {
   if (a == b) return 0;
-  return lower(a) == lower(b) ? kLetter / 4 : kLetter;
+  return lower_case(a) == lower_case(b) ? kLetter / 4 : kLetter;
 }
 
 std::size_t distance(std::string_view a, std::string_view b) {

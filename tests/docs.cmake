@@ -18,7 +18,7 @@ macro(want path page)
 endmacro()
 
 # Longer endings first: the first that fits is taken.
-set(rooms "core|capture|calib|reconstruct|retarget|recordings|live|app")
+set(rooms "core|capture|calib|reconstruct|retarget|recordings|live|dynamics|edit|engine|library|app")
 set(endings "html|hpp|h|cpp|cmake|css|json|js|mjs|py|toml|txt|md")
 
 file(GLOB pages ${ROOT}/*.md)

@@ -13,7 +13,8 @@ cmake_minimum_required(VERSION 3.25)
 if(NOT DEFINED MAX_MODULES)
   set(MAX_MODULES 25)
 endif()
-set(ROOMS core capture calib reconstruct retarget recordings live app)
+set(ROOMS core capture calib reconstruct retarget recordings live
+  dynamics edit engine library app)
 
 # Folders of each room, lowest first: a file may include its own folder and those before
 # it. "." is the room's top folder.

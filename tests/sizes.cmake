@@ -8,8 +8,8 @@
 cmake_minimum_required(VERSION 3.25)
 
 set(LIMIT 400)
-set(FOLDERS core capture calib reconstruct retarget recordings live app tests benchmarks
-  cmake)
+set(FOLDERS core capture calib reconstruct retarget recordings live
+  dynamics edit engine library app tests benchmarks cmake)
 set(KINDS h cpp js mjs ts py cmake css html)
 
 set(checked 0)

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/adapt/load_character.h"
+#include "app/motion/error_of_file.h"
 #include "app/motion/retarget_files.h"
 #include "core/base/extension.h"
 #include "recordings/body/character_file.h"
@@ -24,19 +25,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Error in_file(const fs::path& file, Error error) {
-  error.where = file.string() + (error.where.empty() ? "" : ": " + error.where);
-  return error;
-}
-
 /// Returns the character of the file, or of the motion itself.
 Result<Character> find_character(const Motion& source, const AdaptBodyOptions& options) {
   if (!options.character.empty()) return load_character(options.character);
   const auto map = retarget::map_body(source.skeleton);
-  if (!map) return in_file(options.motion, map.error());
+  if (!map) return of_file(options.motion, map.error());
   auto character =
       retarget::make_character(options.motion.stem().string(), source.skeleton, *map);
-  if (!character) return in_file(options.motion, character.error());
+  if (!character) return of_file(options.motion, character.error());
   return character;
 }
 
@@ -85,7 +81,7 @@ Status place_motion(const Motion& source,
   }
   if (!is_own || options.plant_feet) {
     auto retargeted = retarget::retarget_motion(source, skeleton);
-    if (!retargeted) return in_file(options.motion, retargeted.error());
+    if (!retargeted) return of_file(options.motion, retargeted.error());
     body.reference = std::move(retargeted->motion);
     body.contacts = std::move(retargeted->report.contacts);
     if (is_own) lift(body.reference, body.floor_height_m);
@@ -111,7 +107,7 @@ Result<AdaptBody> make_adapt_body(const Motion& source, const AdaptBodyOptions& 
   auto character = find_character(source, options);
   if (!character) return character.error();
   auto map = retarget::map_body(character->skeleton);
-  if (!map) return in_file(options.character, map.error());
+  if (!map) return of_file(options.character, map.error());
   auto look = look_of(options);
   if (!look) return look.error();
   AdaptBody body{std::move(*character), std::move(*map), {}, {}, 0.0, *std::move(look)};

@@ -14,9 +14,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/adapt/adapt_body.h"
-#include "app/adapt/adapt_figures.h"
 #include "app/adapt/adapt_iterations.h"
+#include "app/adapt/adapt_json.h"
 #include "app/motion/retarget_files.h"
+#include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
 #include "core/base/extension.h"
 #include "core/base/stopwatch.h"
@@ -206,7 +207,7 @@ Status run_all(const AdaptArguments& args, Console& console, AdaptRun& run) {
   if (const auto note = left_out(*source)) {
     console.warn(args.motion.string() + ": " + *note);
   }
-  run.source_error = exchanged_sides_error(
+  run.source_finding = assess_exchanged_sides(
       args.motion, source->exchanged, "a .bones.toml file next to the motion");
   AdaptBodyOptions options;
   options.motion = args.motion;
@@ -308,11 +309,12 @@ Exit run_adapt(const AdaptArguments& args, Console& console) {
   if (const Status ok = run_all(args, console, run); !ok) return console.fail(ok.error());
   if (args.json) {
     constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-    std::printf("%s\n", adapt_figures(args, run).dump(2, ' ', false, kReplace).c_str());
+    std::printf("%s\n", adapt_json(args, run).dump(2, ' ', false, kReplace).c_str());
   }
-  for (const std::string& warning : adapt_warnings(args, run)) console.warn(warning);
+  print_warnings(console, assess_adapted(args, run));
   console.say(adapt_summary(args, run));
-  if (const Status ok = check_adapted(args, run); !ok) return console.fail(ok.error());
+  if (const auto failure = assess_failure(args, run))
+    return console.fail(failure->error());
   return Exit::kOk;
 }
 

@@ -104,7 +104,7 @@ void compare_without_balance(const Motion& source,
   }
 }
 
-Json departure_figures(const AdaptDeparture& departure, const Motion& motion) {
+Json departure_json(const AdaptDeparture& departure, const Motion& motion) {
   Json segments = Json::array();
   double sum_deg = 0.0;
   for (const retarget::SegmentDeparture& segment : departure.segments) {

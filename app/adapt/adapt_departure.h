@@ -50,8 +50,8 @@ void compare_without_balance(const Motion& source,
                              AdaptDeparture& departure);
 
 /// Returns the figures for `--json`. Precondition: `motion` is the measured motion.
-[[nodiscard]] nlohmann::ordered_json departure_figures(const AdaptDeparture& departure,
-                                                       const Motion& motion);
+[[nodiscard]] nlohmann::ordered_json departure_json(const AdaptDeparture& departure,
+                                                    const Motion& motion);
 
 /// Returns ", trunk up to 12 degrees from its source"; empty if no trunk was measured.
 [[nodiscard]] std::string departure_summary(const AdaptDeparture& departure);

@@ -57,7 +57,7 @@ void measure_trunk(const glm::dvec3& was,
   if (tilt_deg > kUpsideDown_deg && degrees_between(was, is) > kTurnedTrunk_deg) {
     ++out.upside_down_frames;
   }
-  if (out.tilt_frame >= 0 && tilt_deg <= out.trunk_tilt_deg) return;
+  if (out.tilt_frame && tilt_deg <= out.trunk_tilt_deg) return;
   out.trunk_tilt_deg = tilt_deg;
   out.source_tilt_deg = source_deg;
   out.tilt_frame = frame;
@@ -130,32 +130,34 @@ AdaptPosture measure_adapt_posture(const Motion& source,
   return out;
 }
 
-nlohmann::ordered_json posture_figures(const AdaptPosture& posture,
-                                       const Motion& motion) {
+nlohmann::ordered_json posture_json(const AdaptPosture& posture, const Motion& motion) {
   nlohmann::ordered_json out{{"upside_down_frames", posture.upside_down_frames},
                              {"below_floor_mm", posture.depth_mm}};
-  if (posture.tilt_frame >= 0) {
+  if (posture.tilt_frame) {
     out["trunk_tilt_deg"] = posture.trunk_tilt_deg;
     out["source_tilt_deg"] = posture.source_tilt_deg;
-    out["tilt_frame"] = posture.tilt_frame;
+    out["tilt_frame"] = *posture.tilt_frame;
   }
-  if (posture.depth_frame >= 0) {
+  if (posture.depth_frame) {
     out["below_floor_joint"] = motion.skeleton[posture.joint].name;
-    out["below_floor_frame"] = posture.depth_frame;
+    out["below_floor_frame"] = *posture.depth_frame;
   }
   return out;
 }
 
-std::optional<PostureProblem> posture_problem(const std::string& where,
-                                              const AdaptPosture& posture,
-                                              const Motion& motion,
-                                              const ConstraintSet& constraints) {
+std::optional<Finding> assess_posture(const std::string& where,
+                                      const AdaptPosture& posture,
+                                      const Motion& motion,
+                                      const ConstraintSet& constraints) {
   const auto problem = [&](std::string cause, std::string next, bool is_poor) {
-    return PostureProblem{{Errc::kQuality, where, std::move(cause), std::move(next)},
-                          is_poor};
+    return Finding{is_poor ? Severity::kPoor : Severity::kFair,
+                   "posture",
+                   where,
+                   std::move(cause),
+                   std::move(next)};
   };
   if (posture.upside_down_frames > 0) {
-    const int frame = posture.tilt_frame;
+    const int frame = *posture.tilt_frame;
     return problem(
         format_text(
             "the trunk is upside down, %.0f degrees from upright (its source %.0f), "
@@ -170,7 +172,7 @@ std::optional<PostureProblem> posture_problem(const std::string& where,
         true);
   }
   if (posture.depth_mm <= kDeepJoint_mm) return std::nullopt;
-  const int frame = posture.depth_frame;
+  const int frame = *posture.depth_frame;
   return problem(
       format_text(
           "%s is %.0f mm below the floor, where its source is not, in frame %d at "

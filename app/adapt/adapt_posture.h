@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/constraint.h"
+#include "core/finding.h"
 #include "core/floor.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
@@ -35,12 +36,12 @@ struct AdaptPosture {
   /// [deg]
   double trunk_tilt_deg = 0.0;
   double source_tilt_deg = 0.0;
-  int tilt_frame = -1;  ///< -1: the body has no trunk.
+  std::optional<int> tilt_frame;  ///< nullopt: the body has no trunk.
   int upside_down_frames = 0;
   /// Depth of the deepest joint below the floor, beyond the source's deepest joint. [mm]
   double depth_mm = 0.0;
   JointIndex joint{};
-  int depth_frame = -1;  ///< -1: no joint is below the floor.
+  std::optional<int> depth_frame;  ///< nullopt: no joint is below the floor.
 };
 
 /// The floor of a motion. Heights of `floor` are relative to `height_m`.
@@ -57,20 +58,14 @@ struct StandingFloor {
                                                  const StandingFloor& floor);
 
 /// Returns the figures for `--json`.
-[[nodiscard]] nlohmann::ordered_json posture_figures(const AdaptPosture& posture,
-                                                     const Motion& motion);
+[[nodiscard]] nlohmann::ordered_json posture_json(const AdaptPosture& posture,
+                                                  const Motion& motion);
 
-/// A fault of the postures: kQuality beyond the gate (`is_poor`), else a warning. The
-/// text names the frame, the time and the constraints that are active there.
-struct PostureProblem {
-  Error error;
-  bool is_poor = false;
-};
-/// Returns the worst fault of the postures; nullopt: no fault.
-[[nodiscard]] std::optional<PostureProblem> posture_problem(
-    const std::string& where,
-    const AdaptPosture& posture,
-    const Motion& motion,
-    const ConstraintSet& constraints);
+/// Returns the worst fault of the postures, with the frame, the time and the constraints
+/// that are active there: poor beyond the gate, else fair. nullopt: no fault.
+[[nodiscard]] std::optional<Finding> assess_posture(const std::string& where,
+                                                    const AdaptPosture& posture,
+                                                    const Motion& motion,
+                                                    const ConstraintSet& constraints);
 
 }  // namespace marey::app

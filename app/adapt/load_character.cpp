@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "app/motion/error_of_file.h"
 #include "app/motion/retarget_files.h"
 #include "recordings/body/character_file.h"
 #include "recordings/session/subject_file.h"
@@ -37,11 +38,6 @@ Result<LoadedBody> load_body(const std::filesystem::path& path, CharacterSpec& s
   return LoadedBody{make_humanoid(subject->proportions), file};
 }
 
-Error of_file(const std::string& file, Error error) {
-  error.where = error.where.empty() ? file : file + ": " + error.where;
-  return error;
-}
-
 }  // namespace
 
 Result<Character> load_character(const std::filesystem::path& path) {
@@ -53,7 +49,7 @@ Result<Character> load_character(const std::filesystem::path& path) {
   if (!map) return of_file(body->file, map.error());
   auto character = retarget::make_character(
       spec->name, std::move((*body).skeleton), *map, spec->traits);
-  if (!character) return of_file(path.string(), character.error());
+  if (!character) return of_file(path, character.error());
   return character;
 }
 

@@ -111,10 +111,9 @@ std::optional<double> sole_height_m(const EstimatedMotion& estimate, double stat
   return quantile(std::move(lowest_m), 0.05);
 }
 
-std::optional<FloorHeightFinding> assess_floor_height(
-    const Session& session,
-    const SoleHeight& standing,
-    std::span<const SoleHeight> motions) {
+std::optional<Finding> assess_floor_height(const Session& session,
+                                           const SoleHeight& standing,
+                                           std::span<const SoleHeight> motions) {
   const bool is_below = standing.height_m < 0.0;
   const double off_m = std::abs(standing.height_m);
   if (off_m < (is_below ? kFairBelow_m : kFairAbove_m)) return std::nullopt;
@@ -132,12 +131,12 @@ std::optional<FloorHeightFinding> assess_floor_height(
     cause += *alike ? "" : ")";
   }
   const bool has_floor = session.find(TrialKind::kFloor) != nullptr;
-  return FloorHeightFinding{
-      {Errc::kQuality,
-       "trial " + standing.trial,
-       std::move(cause),
-       next_step(session, standing, alike)},
-      has_floor && off_m > (is_below ? kPoorBelow_m : kPoorAbove_m)};
+  const bool is_poor = has_floor && off_m > (is_below ? kPoorBelow_m : kPoorAbove_m);
+  return Finding{is_poor ? Severity::kPoor : Severity::kFair,
+                 "floor",
+                 "trial " + standing.trial,
+                 std::move(cause),
+                 next_step(session, standing, alike)};
 }
 
 }  // namespace marey::app

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/base/result.h"
+#include "core/finding.h"
 #include "core/motion.h"
 #include "recordings/session/session.h"
 
@@ -25,19 +25,13 @@ struct SoleHeight {
 [[nodiscard]] std::optional<double> sole_height_m(const EstimatedMotion& estimate,
                                                   double stature_m);
 
-/// Floor at another height than the soles of the subject.
-struct FloorHeightFinding {
-  Error error;           ///< kQuality, with the key to correct or the trial to repeat.
-  bool is_poor = false;  ///< More than shoes explain; else a warning.
-};
-
 /// Compares the floor with the soles of the subject in the static trial, `standing`, and
 /// with the lowest soles of the motions. Equal heights in the motions indicate a wrong
 /// floor; other heights indicate a subject who stood on an object. Returns nullopt if the
-/// soles are less than 50 mm above the floor and less than 25 mm below it. The finding is
-/// poor beyond 65 mm above or 40 mm below, and only a warning if the session has no floor
-/// trial.
-[[nodiscard]] std::optional<FloorHeightFinding> assess_floor_height(
+/// soles are less than 50 mm above the floor and less than 25 mm below it. The finding
+/// names the key to correct or the trial to repeat. It is poor beyond 65 mm above or 40
+/// mm below, as shoes do not explain more, and fair if the session has no floor trial.
+[[nodiscard]] std::optional<Finding> assess_floor_height(
     const recordings::Session& session,
     const SoleHeight& standing,
     std::span<const SoleHeight> motions);

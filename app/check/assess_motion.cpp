@@ -49,7 +49,7 @@ std::string in_quotes(HumanBone bone) {
 
 }  // namespace
 
-std::vector<Error> assess_motion(const ReportTrial& trial) {
+std::vector<Finding> assess_motion(const ReportTrial& trial) {
   if (trial.bodies.empty()) return {};
   const ReportBody& body = trial.bodies.front();
   const Motion& motion = body.motion;
@@ -89,12 +89,12 @@ std::vector<Error> assess_motion(const ReportTrial& trial) {
     cause += " (" + std::to_string(others) + " other frame" + (others > 1 ? "s" : "") +
              " also)";
   }
-  return {
-      {Errc::kQuality,
-       "trial " + trial.name,
-       std::move(cause),
-       "look at these frames in report.html, and check that two cameras see the tags of "
-       "that segment there; a second tag on it helps"}};
+  return {poor_finding(
+      "leap",
+      "trial " + trial.name,
+      std::move(cause),
+      "look at these frames in report.html, and check that two cameras see the tags of "
+      "that segment there; a second tag on it helps")};
 }
 
 }  // namespace marey::app

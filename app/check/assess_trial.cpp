@@ -30,11 +30,11 @@ constexpr double kClock_s = 1e-3;
 /// residual below `any_m` is an error only if the others are far smaller.
 struct Limits {
   double any_m = 0.0;
-  double least_m = 0.0;
+  double min_m = 0.0;
   double times_others = 0.0;
 
   [[nodiscard]] bool is_beyond(double here_m, double others_m) const {
-    return here_m > any_m || (here_m > least_m && here_m > times_others * others_m);
+    return here_m > any_m || (here_m > min_m && here_m > times_others * others_m);
   }
 };
 constexpr Limits kCamera{20e-3, 5e-3, 4.0};    // Root mean square.
@@ -44,10 +44,6 @@ constexpr int kMinCorners = 80;                // 20 pictures.
 
 std::string in_mm(double m) {
   return format_text("%.1f mm", 1e3 * m);
-}
-
-Error poor(std::string where, std::string cause, std::string next) {
-  return {Errc::kQuality, std::move(where), std::move(cause), std::move(next)};
 }
 
 /// Returns the item with the largest value, and the median of all values; nullopt if no
@@ -66,9 +62,9 @@ std::optional<std::pair<const Item*, double>> worst_of(const std::vector<Item>& 
   return std::pair(worst, median(std::move(all)));
 }
 
-std::optional<Error> assess_clock(const recordings::Session& session,
-                                  const recordings::Trial& trial,
-                                  const TrialResiduals& residuals) {
+std::optional<Finding> assess_clock(const recordings::Session& session,
+                                    const recordings::Trial& trial,
+                                    const TrialResiduals& residuals) {
   std::string cause;
   for (std::size_t c = 0; c < residuals.cameras.size(); ++c) {
     const CameraResidual& camera = residuals.cameras[c];
@@ -86,39 +82,44 @@ std::optional<Error> assess_clock(const recordings::Session& session,
       std::any_of(trial.videos.begin(), trial.videos.end(), [](const auto& video) {
         return video.offset.has_value();
       });
-  return poor("trial " + trial.name,
-              "clocks of cameras do not fit the movement: " + cause,
-              is_given ? "correct time_offset_s of that trial in session.toml, or leave "
-                         "it out: offsets are then found"
-                       : "check that these videos skip no frames and run at one rate, "
-                         "and that no camera has a rolling shutter; give the trial "
-                         "`timestamps` if frames were dropped");
+  return poor_finding(
+      "clock",
+      "trial " + trial.name,
+      "clocks of cameras do not fit the movement: " + cause,
+      is_given ? "correct time_offset_s of that trial in session.toml, or leave "
+                 "it out: offsets are then found"
+               : "check that these videos skip no frames and run at one rate, "
+                 "and that no camera has a rolling shutter; give the trial "
+                 "`timestamps` if frames were dropped");
 }
 
-std::optional<Error> assess_camera(const recordings::Session& session,
-                                   const recordings::Trial& trial,
-                                   const TrialResiduals& residuals) {
+std::optional<Finding> assess_camera(const recordings::Session& session,
+                                     const recordings::Trial& trial,
+                                     const TrialResiduals& residuals) {
   const auto worst =
       worst_of(residuals.cameras, [](const CameraResidual& c) { return c.size.rms_m; });
   if (!worst || !kCamera.is_beyond(worst->first->size.rms_m, worst->second)) {
     return std::nullopt;
   }
   const auto c = static_cast<std::size_t>(worst->first - residuals.cameras.data());
-  return poor("trial " + trial.name + ", camera " + session.cameras[c],
-              "its reprojection error at the body is " + in_mm(worst->first->size.rms_m) +
-                  " RMS (the cameras' median is " + in_mm(worst->second) + ")",
-              "check that this is its video of this trial, that it was not moved or "
-              "refocused since the calibration, and that its video skips no frames");
+  return poor_finding(
+      "camera",
+      "trial " + trial.name + ", camera " + session.cameras[c],
+      "its reprojection error at the body is " + in_mm(worst->first->size.rms_m) +
+          " RMS (the cameras' median is " + in_mm(worst->second) + ")",
+      "check that this is its video of this trial, that it was not moved or "
+      "refocused since the calibration, and that its video skips no frames");
 }
 
-std::optional<Error> assess_tag(const recordings::Trial& trial,
-                                const TrialResiduals& residuals) {
+std::optional<Finding> assess_tag(const recordings::Trial& trial,
+                                  const TrialResiduals& residuals) {
   const auto worst =
       worst_of(residuals.tags, [](const TagResidual& t) { return t.size.median_m; });
   if (!worst || !kTag.is_beyond(worst->first->size.median_m, worst->second)) {
     return std::nullopt;
   }
-  return poor(
+  return poor_finding(
+      "tag",
       "trial " + trial.name + ", tag " + std::to_string(number(worst->first->id)),
       "it is seen " + in_mm(worst->first->size.median_m) + " from its place on segment " +
           std::string(name(worst->first->segment)) + " (median; that of all tags is " +
@@ -127,14 +128,15 @@ std::optional<Error> assess_tag(const recordings::Trial& trial,
       "that segment; then record again, or remove it from session.toml");
 }
 
-std::optional<Error> assess_stretch(const recordings::Trial& trial,
-                                    const TrialResiduals& residuals) {
+std::optional<Finding> assess_stretch(const recordings::Trial& trial,
+                                      const TrialResiduals& residuals) {
   const auto worst = worst_of(residuals.stretches,
                               [](const StretchResidual& s) { return s.size.rms_m; });
   if (!worst || !kStretch.is_beyond(worst->first->size.rms_m, worst->second)) {
     return std::nullopt;
   }
-  return poor(
+  return poor_finding(
+      "stretch",
       "trial " + trial.name,
       format_text(
           "in frames %d to %d", worst->first->first_frame, worst->first->last_frame) +
@@ -147,12 +149,12 @@ std::optional<Error> assess_stretch(const recordings::Trial& trial,
 
 }  // namespace
 
-std::optional<Error> assess_trial(const recordings::Session& session,
-                                  const recordings::Trial& trial,
-                                  const TrialResiduals& residuals) {
-  if (auto error = assess_clock(session, trial, residuals)) return error;
-  if (auto error = assess_camera(session, trial, residuals)) return error;
-  if (auto error = assess_tag(trial, residuals)) return error;
+std::optional<Finding> assess_trial(const recordings::Session& session,
+                                    const recordings::Trial& trial,
+                                    const TrialResiduals& residuals) {
+  if (auto found = assess_clock(session, trial, residuals)) return found;
+  if (auto found = assess_camera(session, trial, residuals)) return found;
+  if (auto found = assess_tag(trial, residuals)) return found;
   return assess_stretch(trial, residuals);
 }
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "core/base/result.h"
+#include "core/finding.h"
 #include "reconstruct/tags/trial_residuals.h"
 #include "recordings/session/session.h"
 
@@ -14,9 +14,9 @@ namespace marey::app {
 /// errors that follow the movement (clock errors), the worst camera, the worst tag, the
 /// worst half second. Each has an absolute limit and a limit relative to the median of
 /// the others. Slips of tags on soft skin pass. Returns the first test that fails, since
-/// later ones are mostly its consequence: kQuality, with the next step. nullopt if all
+/// later ones are mostly its consequence: poor, with the next step. nullopt if all
 /// tests pass.
-[[nodiscard]] std::optional<Error> assess_trial(
+[[nodiscard]] std::optional<Finding> assess_trial(
     const recordings::Session& session,
     const recordings::Trial& trial,
     const reconstruct::TrialResiduals& residuals);

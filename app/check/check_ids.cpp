@@ -99,7 +99,7 @@ std::string in_words(const std::vector<TagId>& ids) {
 /// these tags.
 void warn_of_board_tags(const Session& session,
                         const std::map<std::string, std::vector<CameraDetections>>& found,
-                        RecordingTroubles& troubles) {
+                        std::vector<Finding>& findings) {
   const Trial* waved = session.find(TrialKind::kCalibration);
   if (!waved || !found.contains(waved->name) || session.families.size() != 1 ||
       !std::holds_alternative<AprilGrid>(session.target)) {
@@ -123,20 +123,21 @@ void warn_of_board_tags(const Session& session,
     }
   }
   if (unlisted.empty()) return;
-  troubles.warnings.push_back(
-      session.file.string() + ": [board]: " + in_words(unlisted) +
-      (unlisted.size() == 1 ? " moves" : " move") + " with the board in trial \"" +
-      waved->name + "\" but " + (unlisted.size() == 1 ? "is" : "are") +
-      " not part of it, and not used. Next: correct `rows`, `columns` and `first_id` to "
-      "match the printed board.");
+  findings.push_back(fair_finding(
+      "board-tags",
+      session.file.string() + ": [board]",
+      in_words(unlisted) + (unlisted.size() == 1 ? " moves" : " move") +
+          " with the board in trial \"" + waved->name + "\" but " +
+          (unlisted.size() == 1 ? "is" : "are") + " not part of it, and not used",
+      "correct `rows`, `columns` and `first_id` to match the printed board"));
 }
 
 }  // namespace
 
 Status check_ids(const Session& session,
                  const std::map<std::string, std::vector<CameraDetections>>& found,
-                 RecordingTroubles& troubles) {
-  warn_of_board_tags(session, found, troubles);
+                 std::vector<Finding>& findings) {
+  warn_of_board_tags(session, found, findings);
   const Trial* moving = session.find(TrialKind::kRangeOfMotion);
   // A standing body may hide a tag in all frames; a moving body shows all tags.
   if (session.tags.empty() || session.families.size() != 1 || !moving ||
@@ -159,11 +160,12 @@ Status check_ids(const Session& session,
   if (unlisted.empty()) return Done{};
   const char* one = unlisted.size() == 1 ? " is" : " are";
   if (never.empty()) {
-    troubles.warnings.push_back(
-        session.file.string() + ": [[tags.tag]]: " + in_words(unlisted) + one +
-        " often seen but not listed, and therefore not used. Next: list " +
-        (unlisted.size() == 1 ? "it" : "them") + " if the subject wears " +
-        (unlisted.size() == 1 ? "it." : "them."));
+    const std::string them = unlisted.size() == 1 ? "it" : "them";
+    findings.push_back(fair_finding(
+        "unlisted",
+        session.file.string() + ": [[tags.tag]]",
+        in_words(unlisted) + one + " often seen but not listed, and therefore not used",
+        "list " + them + " if the subject wears " + them));
     return Done{};
   }
   return bad_input(session.file.string() + ": [[tags.tag]]",

@@ -9,6 +9,7 @@
 #include "app/check/match_times.h"
 #include "core/base/result.h"
 #include "core/detection.h"
+#include "core/finding.h"
 #include "recordings/session/session.h"
 
 namespace marey::app {
@@ -19,12 +20,12 @@ namespace marey::app {
 ///
 /// Errors (kBadInput): listed tags that are never seen while unlisted tags of the family
 /// are often seen, that is, mistyped ids. Unlisted tags alone, and tags that move with
-/// the board and do not belong to it, are warnings in `troubles`. Passes without a check
+/// the board and do not belong to it, are fair findings. Passes without a check
 /// if the session has several tag families (only listed tags are detected then) or no
 /// range-of-motion trial.
 [[nodiscard]] Status check_ids(
     const recordings::Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found,
-    RecordingTroubles& troubles);
+    std::vector<Finding>& findings);
 
 }  // namespace marey::app

@@ -38,7 +38,7 @@ std::string quoted_name(HumanBone bone) {
 
 }  // namespace
 
-std::optional<std::string> uneven_sides_warning(const Session& session) {
+std::optional<Finding> assess_sides(const Session& session) {
   for (const HumanLimb& limb : human_limbs()) {
     const std::array<std::pair<HumanBone, HumanBone>, 2> neighbours{
         {{limb.upper, limb.lower}, {limb.lower, limb.end}}};
@@ -49,11 +49,13 @@ std::optional<std::string> uneven_sides_warning(const Session& session) {
       for (const int id : ids_on(session, more)) {
         ids += (ids.empty() ? "" : ", ") + std::to_string(id);
       }
-      return session.file.string() + ": [[tags.tag]]: segment " + quoted_name(fewer) +
-             " has fewer tags than the other side, and " + quoted_name(more) +
-             " more. Next: check which of the tags " + ids + " are worn on " +
-             quoted_name(more) + "; correct the `segment` of one that is worn on " +
-             quoted_name(fewer) + ".";
+      return fair_finding(
+          "sides",
+          session.file.string() + ": [[tags.tag]]",
+          "segment " + quoted_name(fewer) + " has fewer tags than the other side, and " +
+              quoted_name(more) + " more",
+          "check which of the tags " + ids + " are worn on " + quoted_name(more) +
+              "; correct the `segment` of one that is worn on " + quoted_name(fewer));
     }
   }
   return std::nullopt;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "core/finding.h"
 #include "recordings/session/session.h"
 
 namespace marey::app {
@@ -17,12 +18,11 @@ namespace marey::app {
 /// segment without a tag.
 [[nodiscard]] Status check_worn_segments(const recordings::Session& session);
 
-/// Returns a warning if a segment has fewer tags than its other side while its neighbour
-/// has more than the other side of that neighbour: one of these may be declared on the
-/// wrong segment. The warning names the segments and the ids. nullopt if both sides have
+/// Returns a fair finding if a segment has fewer tags than its other side while its
+/// neighbour has more than the other side of that neighbour: one of these may be declared
+/// on the wrong segment. It names the segments and the ids. nullopt if both sides have
 /// equally many tags, or differ in another way.
-[[nodiscard]] std::optional<std::string> uneven_sides_warning(
-    const recordings::Session& session);
+[[nodiscard]] std::optional<Finding> assess_sides(const recordings::Session& session);
 
 /// Checks that every camera has a video in the calibration trial. Errors (kBadInput): the
 /// first camera without one. Passes if there is no such trial, or if `marey record` names

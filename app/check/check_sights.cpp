@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "app/check/board_elsewhere.h"
@@ -57,6 +58,12 @@ bool shows_body(const recordings::Session& session, const CameraDetections& came
   return 2 * frames > static_cast<std::ptrdiff_t>(camera.frames.size());
 }
 
+/// Returns true for tags of the common family, as a grid or a body has them.
+bool shows_grid_tags(const capture::AlternativeTarget& seen) {
+  return seen.kind == capture::AlternativeKind::kMarkers &&
+         seen.codes == "DICT_APRILTAG_36h11" && !seen.is_mirrored;
+}
+
 /// Returns the largest number of detections in a frame: tags of an AprilGrid, points of a
 /// board of squares, or all tags if the target is a wand.
 int max_seen(const CameraDetections& camera, const CalibrationTarget& target) {
@@ -92,7 +99,7 @@ Status check_board(const recordings::Session& session,
 Status check_seen(const recordings::Session& session,
                   const Trial& trial,
                   const CameraDetections& camera,
-                  const Wanted& wanted) {
+                  const WantedContent& wanted) {
   const auto in_any = [&](const auto& shows) {
     return std::any_of(camera.frames.begin(), camera.frames.end(), shows);
   };
@@ -112,13 +119,11 @@ Status check_seen(const recordings::Session& session,
     // The person who holds the board may also wear tags. Undeclared tags are reported in
     // a later check.
     const auto seen = capture::survey_boards(camera.source, AprilGrid{});
-    const auto contains = [&](const char* word) {
-      return seen->what.find(word) != std::string::npos;
-    };
-    if (!seen || (contains("APRILTAG_36h11") && !contains("mirrored"))) return Done{};
+    if (!seen || shows_grid_tags(*seen)) return Done{};
     // Floors and windows resemble chessboards; a body in most of the frames shows another
     // trial.
-    if (contains("chessboard") && shows_body(session, camera)) {
+    if (seen->kind == capture::AlternativeKind::kChessboard &&
+        shows_body(session, camera)) {
       return bad_input(camera.source,
                        "no tag of the " + name_of(*wanted.grid) +
                            " is seen, but tags of the body are: it looks like the video "
@@ -148,15 +153,15 @@ Status check_seen(const recordings::Session& session,
 Status check_floor_seen(const recordings::Session& session,
                         const Trial& trial,
                         const std::vector<CameraDetections>& found,
-                        const Wanted& wanted,
-                        RecordingTroubles& troubles) {
+                        const WantedContent& wanted,
+                        std::vector<Finding>& findings) {
   // The limit of calib::board_views(). Tags on the floor are triangulated from two
   // cameras.
   const int enough = has_points(session.target) ? 6 : 3;
   const bool is_wand = std::holds_alternative<Wand>(session.target);
   const CameraDetections* first_poor = nullptr;
   std::string good;
-  std::vector<std::string> poor_views;
+  std::vector<Finding> poor_views;
   for (const TrialVideo& video : trial.videos) {
     const CameraDetections& camera = found[index(video.camera)];
     if (camera.frames.empty()) continue;
@@ -173,17 +178,21 @@ Status check_floor_seen(const recordings::Session& session,
     if (seen == 0 && (wanted.target || wanted.shows_grid)) {
       if (const auto other = board_elsewhere(session, whole, camera)) return *other;
     }
-    poor_views.push_back(camera.source + ": camera \"" + name + "\" sees " +
-                   (seen == 0 ? std::string("nothing")
-                              : std::to_string(seen) +
-                                    (has_points(session.target) ? " points" : " tags")) +
-                   (is_wand ? " on the floor" : " of the board on the floor"));
+    poor_views.push_back(fair_finding(
+        "floor-view",
+        camera.source,
+        "camera \"" + name + "\" sees " +
+            (seen == 0 ? std::string("nothing")
+                       : std::to_string(seen) +
+                             (has_points(session.target) ? " points" : " tags")) +
+            (is_wand ? " on the floor" : " of the board on the floor")));
   }
   if (good.empty()) {
     return first_poor ? check_seen(session, trial, *first_poor, wanted) : Done{};
   }
-  for (const std::string& one : poor_views) {
-    troubles.warnings.push_back(one + ", too little: the floor is taken from " + good);
+  for (Finding& one : poor_views) {
+    one.cause += ", too little: the floor is taken from " + good;
+    findings.push_back(std::move(one));
   }
   return Done{};
 }

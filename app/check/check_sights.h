@@ -8,24 +8,15 @@
 #include <vector>
 
 #include "app/check/match_times.h"
+#include "app/check/wanted_content.h"
 #include "capture/search/detect_videos.h"
 #include "core/base/result.h"
 #include "core/board.h"
 #include "core/detection.h"
+#include "core/finding.h"
 #include "recordings/session/session.h"
 
 namespace marey::app {
-
-/// Contents that are detected in the frames of a trial. A board of squares is detected
-/// only in trials of the target; tags are detected in all trials, if the session has
-/// tags.
-struct Wanted {
-  std::vector<TagFamilyUse> families;       ///< Empty: no tags.
-  std::optional<CalibrationTarget> target;  ///< A board of squares.
-  bool shows_grid = false;                  ///< The trial shows an AprilGrid.
-  /// The AprilGrid that every camera must see.
-  std::optional<AprilGrid> grid;
-};
 
 /// Checks for another board than the declared one, before all frames are searched for the
 /// declared one. Errors (kBadInput): the first video with another board, with the name of
@@ -39,7 +30,7 @@ struct Wanted {
 [[nodiscard]] Status check_seen(const recordings::Session& session,
                                 const recordings::Trial& trial,
                                 const CameraDetections& camera,
-                                const Wanted& wanted);
+                                const WantedContent& wanted);
 
 /// Checks that at least one camera sees enough of the target on the floor. The floor is
 /// computed from the cameras that do; each other camera gives a warning. Errors
@@ -48,7 +39,7 @@ struct Wanted {
 [[nodiscard]] Status check_floor_seen(const recordings::Session& session,
                                       const recordings::Trial& trial,
                                       const std::vector<CameraDetections>& found,
-                                      const Wanted& wanted,
-                                      RecordingTroubles& troubles);
+                                      const WantedContent& wanted,
+                                      std::vector<Finding>& findings);
 
 }  // namespace marey::app

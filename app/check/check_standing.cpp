@@ -84,7 +84,7 @@ Status check_standing(const Session& session,
       session.file.string() + ":" + std::to_string(standing->line), cause, next);
 }
 
-std::optional<std::string> exchanged_exercise_warning(
+std::optional<Finding> assess_exercise(
     const Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found) {
   const Trial* exercise = session.find(TrialKind::kRangeOfMotion);
@@ -96,11 +96,14 @@ std::optional<std::string> exchanged_exercise_warning(
     if (trial.kind != TrialKind::kMotion) continue;
     const auto other_m = travel_in(trial, tags, found);
     if (!other_m || *other_m > kStays_m) continue;
-    return session.file.string() + ":" + std::to_string(exercise->line) + ": in trial " +
-           exercise->name + ", the range of motion, the subject walks about (" +
-           in_metres(*travel_m, 1) + "), and in trial " + trial.name +
-           " it stays in one place. Next: if the videos of " + exercise->name + " and " +
-           trial.name + " are exchanged, correct `videos`, or the trials' `kind`.";
+    return fair_finding("exercise",
+                        session.file.string() + ":" + std::to_string(exercise->line),
+                        "in trial " + exercise->name +
+                            ", the range of motion, the subject walks about (" +
+                            in_metres(*travel_m, 1) + "), and in trial " + trial.name +
+                            " it stays in one place",
+                        "if the videos of " + exercise->name + " and " + trial.name +
+                            " are exchanged, correct `videos`, or the trials' `kind`");
   }
   return std::nullopt;
 }

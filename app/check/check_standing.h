@@ -9,6 +9,7 @@
 
 #include "core/base/result.h"
 #include "core/detection.h"
+#include "core/finding.h"
 #include "recordings/session/session.h"
 
 namespace marey::app {
@@ -21,11 +22,11 @@ namespace marey::app {
     const recordings::Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found);
 
-/// Returns a warning if the subject walks about in the range-of-motion trial and stays in
-/// one place in another motion, as their videos may be exchanged. Uses the tags on hips
-/// and chest; nullopt also if there are fewer than six of them. Cost: as
+/// Returns a fair finding if the subject walks about in the range-of-motion trial and
+/// stays in one place in another motion, as their videos may be exchanged. Uses the tags
+/// on hips and chest; nullopt also if there are fewer than six of them. Cost: as
 /// check_standing().
-[[nodiscard]] std::optional<std::string> exchanged_exercise_warning(
+[[nodiscard]] std::optional<Finding> assess_exercise(
     const recordings::Session& session,
     const std::map<std::string, std::vector<CameraDetections>>& found);
 

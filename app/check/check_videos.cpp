@@ -73,7 +73,7 @@ std::vector<Opened> open_all(const Session& session) {
 
 /// Checks that the videos can be opened. A motion passes if at least two of its videos
 /// can.
-Status check_opened(const std::vector<Opened>& all, RecordingTroubles& troubles) {
+Status check_opened(const std::vector<Opened>& all, std::vector<Finding>& findings) {
   std::map<const Trial*, int> readable;
   for (const Opened& one : all) readable[one.trial] += one.trouble ? 0 : 1;
   for (const Opened& one : all) {
@@ -81,7 +81,7 @@ Status check_opened(const std::vector<Opened>& all, RecordingTroubles& troubles)
     if (one.trial->kind != TrialKind::kMotion || readable[one.trial] < 2) {
       return *one.trouble;
     }
-    troubles.warnings.push_back(one.trouble->message());
+    findings.push_back(tolerated(Severity::kFair, "unreadable", *one.trouble));
   }
   return Done{};
 }
@@ -151,7 +151,7 @@ Status compare(const capture::StreamInfo& earlier, const capture::StreamInfo& in
 
 }  // namespace
 
-Status check_videos(const Session& session, RecordingTroubles& troubles) {
+Status check_videos(const Session& session, std::vector<Finding>& findings) {
   for (const Trial& trial : session.trials) {
     std::error_code ignored;
     if (!trial.timestamps || fs::exists(*trial.timestamps, ignored)) continue;
@@ -161,7 +161,7 @@ Status check_videos(const Session& session, RecordingTroubles& troubles) {
         "correct `timestamps` of that trial, or leave it out");
   }
   const std::vector<Opened> all = open_all(session);
-  if (const Status ok = check_opened(all, troubles); !ok) return ok;
+  if (const Status ok = check_opened(all, findings); !ok) return ok;
   std::map<CameraId, const capture::StreamInfo*> of_camera;
   for (const Opened& one : all) {
     if (!one.info) continue;
@@ -177,7 +177,7 @@ Status check_videos(const Session& session, RecordingTroubles& troubles) {
 void warn_of_short_videos(const Session& session,
                           const Trial& trial,
                           const std::vector<CameraDetections>& found,
-                          RecordingTroubles& troubles) {
+                          std::vector<Finding>& findings) {
   constexpr double kMinShortfall_s = 0.5;
   constexpr double kMinShortfallShare = 0.05;
   if (trial.kind == TrialKind::kCalibration || trial.kind == TrialKind::kFloor ||
@@ -195,13 +195,14 @@ void warn_of_short_videos(const Session& session,
         missing <= kMinShortfallShare * static_cast<double>(max_frames)) {
       continue;
     }
-    troubles.warnings.push_back(
-        camera.source + ": it has " + std::to_string(camera.frames.size()) +
-        " frames, another video of trial " + trial.name + " has " +
-        std::to_string(max_frames) + ": later frames are solved without camera " +
-        session.cameras[index(video.camera)] +
-        ". Next: copy the file again; if it was cut at its beginning, cut the others "
-        "there too.");
+    findings.push_back(fair_finding(
+        "short",
+        camera.source,
+        "it has " + std::to_string(camera.frames.size()) +
+            " frames, another video of trial " + trial.name + " has " +
+            std::to_string(max_frames) + ": later frames are solved without camera " +
+            session.cameras[index(video.camera)],
+        "copy the file again; if it was cut at its beginning, cut the others there too"));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/check/match_times.h"
 #include "core/base/result.h"
+#include "core/finding.h"
 #include "recordings/session/session.h"
 
 namespace marey::app {
@@ -23,7 +24,7 @@ namespace marey::app {
 /// without it. check_files() reports missing videos. Cost: a few tens of milliseconds per
 /// video and core.
 [[nodiscard]] Status check_videos(const recordings::Session& session,
-                                  RecordingTroubles& troubles);
+                                  std::vector<Finding>& findings);
 
 /// Warns of videos that end before others of their trial, by more than 0.5 s and 5 % of
 /// the longest. `found` has one entry per camera of the session, with all frames. Videos
@@ -32,6 +33,6 @@ namespace marey::app {
 void warn_of_short_videos(const recordings::Session& session,
                           const recordings::Trial& trial,
                           const std::vector<CameraDetections>& found,
-                          RecordingTroubles& troubles);
+                          std::vector<Finding>& findings);
 
 }  // namespace marey::app

@@ -24,11 +24,10 @@ constexpr double kSureGain = 400.0;
 
 }  // namespace
 
-std::optional<MovedFinding> find_moved_cameras(
-    const std::string& trial,
-    std::span<const Camera> cameras,
-    std::span<const CameraDetections> detections,
-    std::span<const TagOnSegment> tags) {
+std::optional<Finding> find_moved_cameras(const std::string& trial,
+                                          std::span<const Camera> cameras,
+                                          std::span<const CameraDetections> detections,
+                                          std::span<const TagOnSegment> tags) {
   std::map<TagId, double> sizes_m;
   for (const TagOnSegment& tag : tags) sizes_m[tag.id] = tag.size_m;
   const auto move = calib::find_moved_camera(cameras, detections, sizes_m);
@@ -37,7 +36,8 @@ std::optional<MovedFinding> find_moved_cameras(
   const double scale = calib::pixel_scale(camera);
   if (move->gain < kSureGain || move->moved_px < kFairPx * scale) return std::nullopt;
   std::string names = "camera " + camera.name;
-  for (const CameraId other : move->alternatives) names += " or " + cameras[index(other)].name;
+  for (const CameraId other : move->alternatives)
+    names += " or " + cameras[index(other)].name;
   std::string cause =
       format_text(
           "its tags fit a camera that was moved by %.1f px (%.2f degrees, %.0f mm) ",
@@ -46,13 +46,13 @@ std::optional<MovedFinding> find_moved_cameras(
           1e3 * move->shift_m) +
       (move->from_frame ? format_text("from frame %d on", *move->from_frame)
                         : std::string("after the calibration"));
-  return MovedFinding{
-      {Errc::kQuality,
-       "trial " + trial + ", " + names,
-       std::move(cause),
-       "its joints are off by as much; calibrate again as the cameras stand now, and "
-       "record the trial again, or leave that camera's video out of it"},
-      move->moved_px > kPoorPx * scale};
+  return Finding{
+      move->moved_px > kPoorPx * scale ? Severity::kPoor : Severity::kFair,
+      "moved",
+      "trial " + trial + ", " + names,
+      std::move(cause),
+      "its joints are off by as much; calibrate again as the cameras stand now, and "
+      "record the trial again, or leave that camera's video out of it"};
 }
 
 }  // namespace marey::app

@@ -53,19 +53,21 @@ void renumber(const capture::AlignedCamera& aligned,
 
 /// Returns the number of frames that are in the video and in the file of the take. The
 /// two differ if the recording was cut off in its last moments, or if the video is
-/// incomplete; the second is a failure in `troubles`.
+/// incomplete; the second is a poor finding.
 std::size_t usable_frames(const Take& take,
                           const TakeCamera& recorded,
                           const CameraDetections& camera,
-                          RecordingTroubles& troubles) {
+                          std::vector<Finding>& findings) {
   const std::size_t seen = camera.frames.size();
   const std::size_t timed = recorded.frames.size();
   if (take.finished && seen < timed && !camera.broken_off) {
-    troubles.failures.push_back(
-        bad_input(camera.source,
-                  "the video ends after " + std::to_string(seen) + " of the " +
-                      std::to_string(timed) + " frames that were recorded",
-                  "copy the file again from where it was recorded"));
+    findings.push_back(
+        tolerated(Severity::kPoor,
+                  "short",
+                  bad_input(camera.source,
+                            "the video ends after " + std::to_string(seen) + " of the " +
+                                std::to_string(timed) + " frames that were recorded",
+                            "copy the file again from where it was recorded")));
   }
   return std::min(seen, timed);
 }
@@ -83,7 +85,7 @@ void report_losses(const TakeCamera& recorded,
                    const CameraDetections& camera,
                    const capture::AlignedCamera& aligned,
                    FrameRate rate,
-                   RecordingTroubles& troubles) {
+                   std::vector<Finding>& findings) {
   std::int64_t dropped = 0;
   for (const recordings::TakeFrame& frame : recorded.frames) {
     dropped += frame.dropped_before;
@@ -91,25 +93,29 @@ void report_losses(const TakeCamera& recorded,
   const auto frames = static_cast<std::int64_t>(recorded.frames.size());
   // Up to 1 % of dropped frames is normal; they are bridged like hidden frames.
   if (dropped > frames / 100) {
-    troubles.warnings.push_back(camera.source + ": " + std::to_string(dropped) +
-                                " frames were dropped while recording, and " +
-                                std::to_string(frames) + " recorded");
+    findings.push_back(fair_finding("dropped",
+                                    camera.source,
+                                    std::to_string(dropped) +
+                                        " frames were dropped while recording, and " +
+                                        std::to_string(frames) + " recorded"));
   }
   if (aligned.surplus > 0) {
-    troubles.warnings.push_back(format_text(
-        "%s: %d frames are left out: the camera took them between two instants of "
-        "the others",
-        camera.source.c_str(),
-        aligned.surplus));
+    findings.push_back(fair_finding(
+        "surplus",
+        camera.source,
+        format_text("%d frames are left out: the camera took them between two instants "
+                    "of the others",
+                    aligned.surplus)));
   }
   // In 0.01 s the fastest limb of a person moves by 3 cm.
   const double spread_s = seconds(aligned.spread);
   if (spread_s > 0.01 || spread_s > 0.25 / rate.hz) {
-    troubles.warnings.push_back(
-        format_text("%s: its frames are up to %.1f ms away from a steady rate of %.2f Hz",
-                    camera.source.c_str(),
+    findings.push_back(fair_finding(
+        "uneven",
+        camera.source,
+        format_text("its frames are up to %.1f ms away from a steady rate of %.2f Hz",
                     1e3 * spread_s,
-                    rate.hz));
+                    rate.hz)));
   }
 }
 
@@ -185,8 +191,8 @@ Result<Take> read_stamped(const Trial& trial,
         camera.frames.size() != times.size()) {
       return bad_input(trial.timestamps->string(),
                        "it has " + std::to_string(times.size()) + " times for " +
-                           camera.source + ", which has frames: " +
-                           std::to_string(camera.frames.size()),
+                           camera.source +
+                           ", which has frames: " + std::to_string(camera.frames.size()),
                        "name the table that was written with this video");
     }
     TakeCamera& one = take.cameras.emplace_back();
@@ -198,16 +204,17 @@ Result<Take> read_stamped(const Trial& trial,
 
 Status match_take(const Trial& trial,
                   std::vector<CameraDetections>& found,
-                  RecordingTroubles& troubles) {
+                  std::vector<Finding>& findings) {
   const auto file =
       trial.timestamps ? *trial.timestamps : take_file_of(trial.videos.front());
   const Result<Take> take =
       trial.timestamps ? read_stamped(trial, found) : recordings::read_take(file);
   if (!take) return take.error();
   if (!take->finished) {
-    troubles.warnings.push_back(file.string() +
-                                ": the recording was cut off; what was recorded until "
-                                "then is used");
+    findings.push_back(
+        fair_finding("cut-off",
+                     file.string(),
+                     "the recording was cut off; what was recorded until then is used"));
   }
   std::vector<capture::CameraTimes> times;
   std::vector<const TakeCamera*> recorded;
@@ -222,7 +229,7 @@ Status match_take(const Trial& trial,
     }
     capture::CameraTimes& stamps = times.emplace_back();
     stamps.camera = video.camera;
-    const std::size_t usable = usable_frames(*take, *one, camera, troubles);
+    const std::size_t usable = usable_frames(*take, *one, camera, findings);
     for (std::size_t i = 0; i < usable; ++i) stamps.times.push_back(one->frames[i].time);
     recorded.push_back(one);
   }
@@ -236,21 +243,22 @@ Status match_take(const Trial& trial,
     renumber(aligned, trial.frames, camera);
     camera.rate = alignment->rate;
     camera.offset = camera.offset.value_or(Timestamp{0}) + aligned.offset;
-    report_losses(*recorded[i], camera, aligned, alignment->rate, troubles);
+    report_losses(*recorded[i], camera, aligned, alignment->rate, findings);
   }
   return Done{};
 }
 
 /// Warns of a file of a take that is not used. Such a file covers only some of the
 /// videos, if they lie in several folders.
-void warn_of_unused_take(const Trial& trial, RecordingTroubles& troubles) {
+void warn_of_unused_take(const Trial& trial, std::vector<Finding>& findings) {
   for (const TrialVideo& video : trial.videos) {
     std::error_code ignored;
     const auto file = take_file_of(video);
     if (!std::filesystem::exists(file, ignored)) continue;
-    troubles.warnings.push_back(file.string() +
-                                ": it is not used, since the videos of trial " +
-                                trial.name + " lie in several folders");
+    findings.push_back(fair_finding("unused",
+                                    file.string(),
+                                    "it is not used, since the videos of trial " +
+                                        trial.name + " lie in several folders"));
     return;
   }
 }
@@ -268,16 +276,16 @@ bool has_take(const Trial& trial) {
 
 Status match_times(const Trial& trial,
                    std::vector<CameraDetections>& found,
-                   RecordingTroubles& troubles) {
+                   std::vector<Finding>& findings) {
   if (has_take(trial) && trial.slow_motion != 1.0) {
     return bad_input(take_file_of(trial.videos.front()).string(),
                      "it states when the frames of trial " + trial.name +
                          " were taken, so that slow_motion has no meaning",
                      "remove slow_motion of that trial from session.toml");
   }
-  if (has_take(trial)) return match_take(trial, found, troubles);
-  warn_of_unused_take(trial, troubles);
-  if (trial.rate || trial.frames) return check_even(trial, found, troubles);
+  if (has_take(trial)) return match_take(trial, found, findings);
+  warn_of_unused_take(trial, findings);
+  if (trial.rate || trial.frames) return check_even(trial, found, findings);
   std::vector<capture::CameraTimes> uneven;
   std::optional<FrameRate> steady;
   for (const TrialVideo& video : trial.videos) {
@@ -289,9 +297,12 @@ Status match_times(const Trial& trial,
     const bool usable =
         own->own.times.size() == camera.frames.size() + camera.frames.front().frame &&
         !capture::reach_too_far(std::span(&own->own, 1), camera.rate);
-    troubles.warnings.push_back(
-        camera.source + ": " + how_uneven(*own, camera.rate) + "; " +
-        (usable ? "its own times are used" : "its frames are matched by their numbers"));
+    findings.push_back(
+        fair_finding("uneven",
+                     camera.source,
+                     how_uneven(*own, camera.rate) + "; " +
+                         (usable ? "its own times are used"
+                                 : "its frames are matched by their numbers")));
     if (usable) uneven.push_back(std::move(own->own));
   }
   for (const capture::CameraTimes& times : uneven) {
@@ -299,9 +310,10 @@ Status match_times(const Trial& trial,
     if (!steady) steady = camera.rate;
     const auto alignment = capture::align_frames(std::span(&times, 1), steady);
     if (!alignment) {
-      troubles.warnings.push_back(camera.source +
-                                  ": its times contradict its rate; its frames are "
-                                  "matched by their numbers");
+      findings.push_back(fair_finding(
+          "uneven",
+          camera.source,
+          "its times contradict its rate; its frames are matched by their numbers"));
       continue;
     }
     renumber(alignment->cameras.front(), std::nullopt, camera);

@@ -4,9 +4,9 @@
 
 #include <vector>
 
-#include "app/check/recording_troubles.h"
 #include "core/base/result.h"
 #include "core/detection.h"
+#include "core/finding.h"
 #include "recordings/session/session.h"
 
 namespace marey::app {
@@ -29,7 +29,7 @@ namespace marey::app {
 /// number. Precondition: `found` has all frames of the videos of a take.
 [[nodiscard]] Status match_times(const recordings::Trial& trial,
                                  std::vector<CameraDetections>& found,
-                                 RecordingTroubles& troubles);
+                                 std::vector<Finding>& findings);
 
 /// Returns true if match_times() renumbers the frames of the trial by a file of times:
 /// the trial was recorded, all its videos lie in one folder with such a file, or the

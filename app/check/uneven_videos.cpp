@@ -88,7 +88,7 @@ Status check_slow_motion(const Trial& trial,
 Status check_stated(const Trial& trial,
                     const std::vector<std::pair<std::string, FrameRate>>& others,
                     const std::string& steady,
-                    RecordingTroubles& troubles) {
+                    std::vector<Finding>& findings) {
   if (others.empty()) return Done{};
   const auto& [source, rate] = others.front();
   const auto is_alike = [&](const auto& other) {
@@ -106,17 +106,16 @@ Status check_stated(const Trial& trial,
                      "record all cameras at one rate; if this file states its rate "
                      "wrongly, correct the file");
   }
-  troubles.failures.push_back(
-      {Errc::kQuality,
-       source,
-       own + " (as for the other videos), and " + declared +
-           format_text(
-               ": movements are taken to be %.2f times as fast as the video shows",
-               trial.rate->hz / rate.hz),
-       format_text(
-           "correct fps in session.toml, or leave it out; if the videos play in slow "
-           "motion, add slow_motion = %.3g to the trial",
-           trial.rate->hz / rate.hz)});
+  findings.push_back(poor_finding(
+      "rate",
+      source,
+      own + " (as for the other videos), and " + declared +
+          format_text(": movements are taken to be %.2f times as fast as the video shows",
+                      trial.rate->hz / rate.hz),
+      format_text(
+          "correct fps in session.toml, or leave it out; if the videos play in slow "
+          "motion, add slow_motion = %.3g to the trial",
+          trial.rate->hz / rate.hz)));
   return Done{};
 }
 
@@ -148,7 +147,7 @@ std::string how_uneven(const UnevenVideo& video, FrameRate rate) {
 
 Status check_even(const Trial& trial,
                   std::span<const CameraDetections> found,
-                  RecordingTroubles& troubles) {
+                  std::vector<Finding>& findings) {
   std::vector<std::pair<std::string, FrameRate>> others;  // Sources of another rate.
   std::string steady;  // A source of the trial's own rate.
   for (const TrialVideo& video : trial.videos) {
@@ -169,18 +168,20 @@ Status check_even(const Trial& trial,
       continue;
     }
     if (!trial.rate) {
-      return bad_input(camera.source,
-                       how_uneven(*uneven, rate) +
-                           ", so frame numbers do not determine the times",
-                       "remove \"frames\" from trial " + trial.name +
-                           ", so that the times of the video are used; or give the trial "
-                           "an \"fps\", if frames with equal numbers belong together");
+      return bad_input(
+          camera.source,
+          how_uneven(*uneven, rate) + ", so frame numbers do not determine the times",
+          "remove \"frames\" from trial " + trial.name +
+              ", so that the times of the video are used; or give the trial "
+              "an \"fps\", if frames with equal numbers belong together");
     }
-    troubles.warnings.push_back(camera.source + ": " + how_uneven(*uneven, rate) +
-                                "; the session's fps is still used");
+    findings.push_back(
+        fair_finding("uneven",
+                     camera.source,
+                     how_uneven(*uneven, rate) + "; the session's fps is still used"));
   }
   return trial.slow_motion != 1.0 ? check_slow_motion(trial, others, steady)
-                                  : check_stated(trial, others, steady, troubles);
+                                  : check_stated(trial, others, steady, findings);
 }
 
 }  // namespace marey::app

@@ -8,10 +8,10 @@
 #include <span>
 #include <string>
 
-#include "app/check/recording_troubles.h"
 #include "capture/sync/align_frames.h"
 #include "core/base/result.h"
 #include "core/detection.h"
+#include "core/finding.h"
 #include "recordings/session/session.h"
 
 namespace marey::app {
@@ -35,9 +35,9 @@ struct UnevenVideo {
 /// Errors (kBadInput): an uneven video in a trial without `fps`; a video with another
 /// constant rate than `fps` while other videos have that of `fps`; declared slow motion
 /// that contradicts the rates of the videos. If all videos have one other constant rate,
-/// this is a failure in `troubles`, unless slow motion is declared.
+/// this is a poor finding, unless slow motion is declared.
 [[nodiscard]] Status check_even(const recordings::Trial& trial,
                                 std::span<const CameraDetections> found,
-                                RecordingTroubles& troubles);
+                                std::vector<Finding>& findings);
 
 }  // namespace marey::app

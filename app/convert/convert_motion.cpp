@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/motion/angle_table.h"
+#include "app/motion/error_of_file.h"
 #include "app/motion/motion_files.h"
 #include "app/motion/neutral.h"
 #include "app/motion/read_body.h"
@@ -113,9 +114,7 @@ Status take_neutral(const ConvertArguments& arguments, Motion& motion) {
   const auto bones = retarget::identify_bones(motion.skeleton);
   const auto taken = bones ? set_neutral(*neutral, *bones, motion) : bones.error();
   if (taken) return Done{};
-  Error error = taken.error();
-  error.where = arguments.in.string() + (error.where.empty() ? "" : ": " + error.where);
-  return error;
+  return of_file(arguments.in, taken.error());
 }
 
 Error cannot(const ConvertArguments& arguments, std::string cause, std::string next) {

@@ -33,7 +33,7 @@ struct Onward {
   live::VmcEncoder encoder;
   live::UdpSender sender;
   Pose pose;
-  live::VmcPose told;
+  live::VmcPose vmc_pose;
 };
 
 live::VmcRest rest_of(const ListenArguments& arguments) {
@@ -150,12 +150,12 @@ class Listening {
     const double since_s = last_s_ ? time_s - *last_s_ : kUsual_s;
     const bool goes_on = since_s > 0.0 && since_s < kLongest_s;
     last_s_ = time_s;
-    if (!goes_on) onward_->retarget.forget();
+    if (!goes_on) onward_->retarget.reset();
     onward_->retarget.step(pose_, goes_on ? since_s : kUsual_s, onward_->pose);
-    onward_->body.to_vmc(onward_->pose, onward_->told);
+    onward_->body.to_vmc(onward_->pose, onward_->vmc_pose);
     live::VmcStatus status = frame_.status;
     for (const auto& packet :
-         onward_->encoder.encode(from_seconds(time_s), onward_->told, status)) {
+         onward_->encoder.encode(from_seconds(time_s), onward_->vmc_pose, status)) {
       onward_->sender.send(packet);
     }
   }
@@ -271,8 +271,7 @@ void add_listen_command(CLI::App& app,
                         std::function<Exit(Console&)>& chosen) {
   CLI::App* command = app.add_subcommand(
       "listen", "Receive VMC and write a motion or send it on another body");
-  command
-      ->add_option("body", arguments.body, "The sender's avatar (.vrm, .glb)")
+  command->add_option("body", arguments.body, "The sender's avatar (.vrm, .glb)")
       ->required();
   command->add_option("-o,--out", arguments.out, "The motion: .bvh, .glb, .vrma, .npz");
   command->add_option("--at", arguments.from, "Address to listen on: HOST[:PORT]");

@@ -144,7 +144,7 @@ Exit run(const LiveArguments& arguments, OpenedLive& live, Console& console) {
   figures->takes = takes.finished();
   figures->recording_trouble = takes.trouble();
   tell(*figures, console);
-  if (arguments.json) std::fputs(live_figures_text(*figures).c_str(), stdout);
+  if (arguments.json) std::fputs(live_json_text(*figures).c_str(), stdout);
   return exit;
 }
 
@@ -183,9 +183,8 @@ void add_live_command(CLI::App& app,
                    "Body to retarget to (.glb, .vrm, .bvh); may be repeated")
       ->allow_extra_args(false);
   command
-      ->add_option("--vmc",
-                   live.vmc,
-                   "Receiver of VMC: [AVATAR=]HOST[:PORT]; may be repeated")
+      ->add_option(
+          "--vmc", live.vmc, "Receiver of VMC: [AVATAR=]HOST[:PORT]; may be repeated")
       ->allow_extra_args(false);
   command->add_option("--vmc-rest", live.vmc_rest, "Pose without rotations: vrm0 or raw")
       ->check(CLI::IsMember({"vrm0", "raw"}));
@@ -209,8 +208,7 @@ void add_live_command(CLI::App& app,
                  "Measure the subject first, or again: standing, then moving")
       ->excludes("--record");
   command
-      ->add_option(
-          "--stand-s", live.guide.stand_s, "Duration of the standing step [s]")
+      ->add_option("--stand-s", live.guide.stand_s, "Duration of the standing step [s]")
       ->check(between(0.5, 60.0));
   command
       ->add_option("--move-s",

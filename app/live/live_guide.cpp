@@ -182,8 +182,9 @@ void LiveGuide::tell() {
   if (!is_new_step) return console_.say(now.text);
   console_.say(now.title + ". " + now.text);
   if (!now.error.empty()) console_.warn(now.error);
-  for (const live::WizardQuality& one : now.quality) {
-    console_.say("  " + one.name + ": " + one.value + (one.good ? "" : " (poor)"));
+  for (const Finding& one : now.quality) {
+    const bool is_good = one.severity == Severity::kNote;
+    console_.say("  " + one.where + ": " + one.cause + (is_good ? "" : " (poor)"));
   }
 }
 

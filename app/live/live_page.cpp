@@ -128,7 +128,7 @@ void LivePage::watch(const Body& body) {
   body_warnings_.clear();
   for (const BodyWarning& warning : body.warnings) {
     body_warnings_.push_back("the measured body may be wrong: " + warning.cause +
-                           ". Next: " + warning.next);
+                             ". Next: " + warning.next);
   }
 }
 
@@ -241,11 +241,11 @@ void LivePage::on_frame(const LiveInstant& instant, const LiveResult& result) {
   update_balance(instant, result);
   uncertainty_.assign(result.uncertainty.begin(), result.uncertainty.end());
   if (page_.server.client_count() == 0) {
-    thumbnails_.forget();
+    thumbnails_.reset();
     ++frame_;
     return;
   }
-  pose_figures(result);
+  pose_bodies(result);
   live::PageFrame frame;
   frame.frame = frame_++;
   frame.time_s = seconds(instant.time - *first_);

@@ -68,7 +68,7 @@ class LivePage final : public LiveWatcher {
   void watch(const Body& body);
   void make_balance();
   void update_balance(const LiveInstant& instant, const LiveResult& result);
-  void pose_figures(const LiveResult& result);
+  void pose_bodies(const LiveResult& result);
   void publish_handles(std::span<const HandleState> handles);
   void show_wizard();
   void note(reconstruct::TrackState state, const LiveFigures& figures);

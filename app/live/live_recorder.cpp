@@ -67,7 +67,7 @@ Status copy_avatar(const std::filesystem::path& file, const std::filesystem::pat
 
 /// Removes the files that create() made in a folder, and the folder itself if it is
 /// empty.
-void forget(const std::filesystem::path& folder, bool was_there) {
+void remove_take_files(const std::filesystem::path& folder, bool was_there) {
   std::error_code ignored;
   const std::string take = recordings::kLiveTakeFile;
   for (const std::string& name : {std::string("calibration.toml"),
@@ -122,7 +122,7 @@ Result<std::unique_ptr<LiveRecorder>> LiveRecorder::create(
         folder.string(), "the folder is not empty", "record into a new folder");
   }
   const auto give_up = [&](const Error& error) {
-    forget(folder, was_there);
+    remove_take_files(folder, was_there);
     return error;
   };
   LiveSettings kept = settings;
@@ -165,8 +165,7 @@ void LiveRecorder::add(const LiveInstant& instant,
   keep();
 }
 
-void LiveRecorder::add_lead_in(const LiveInstant& instant,
-                               const LiveRequests& requests) {
+void LiveRecorder::add_lead_in(const LiveInstant& instant, const LiveRequests& requests) {
   if (trouble()) return;
   instant_.seen = instant;
   instant_.requests = live_requests_text(requests);
@@ -208,7 +207,7 @@ void LiveRecorder::end_commits() {
 void LiveRecorder::discard() {
   end_commits();
   { const LiveTakeWriter closed = std::move(writer_); }
-  forget(folder_, was_there_);
+  remove_take_files(folder_, was_there_);
 }
 
 Status LiveRecorder::finish() {

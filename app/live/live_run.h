@@ -13,6 +13,7 @@
 #include "app/live_chain/live_figures.h"
 #include "app/live_chain/live_outputs.h"
 #include "app/shell/console.h"
+#include "capture/sync/group_frames.h"
 
 namespace marey::app {
 
@@ -45,7 +46,7 @@ class LiveWatcher {
 
 struct LiveRunOptions {
   std::optional<double> seconds;  ///< nullopt: until stopped or the videos end.
-  std::chrono::nanoseconds longest_wait = std::chrono::milliseconds(50);
+  std::chrono::nanoseconds longest_wait = capture::kLongestWait;
 };
 
 /// Runs until `stop` returns true. One thread per camera detects its tags. The calling

@@ -20,7 +20,7 @@ class ThumbnailRequests {
     }
   }
   /// Clears the set when no page is open.
-  void forget() { pages_.clear(); }
+  void reset() { pages_.clear(); }
   [[nodiscard]] bool any() const { return !pages_.empty(); }
 
  private:

@@ -74,8 +74,8 @@ SubjectGuide::SubjectGuide(GuideSetup setup, const GuideOptions& options)
 
 std::optional<std::string> SubjectGuide::act(WizardAction action) {
   const WizardStep now = step();
-  const bool is_busy = now == WizardStep::kStand || now == WizardStep::kMove ||
-                       now == WizardStep::kSolve;
+  const bool is_busy =
+      now == WizardStep::kStand || now == WizardStep::kMove || now == WizardStep::kSolve;
   switch (action) {
     case WizardAction::kStart:
       if (is_busy) return "a subject is already being measured";
@@ -170,8 +170,9 @@ void SubjectGuide::see(const LiveInstant& instant) {
 void SubjectGuide::end() {
   if (step() == WizardStep::kMove && counted_s_ >= kMinMove_s) return begin_solve();
   if (step() == WizardStep::kStand) {
-    fail("no subject was seen standing still for long enough. Next: check that the "
-         "cameras see the tags, and stand still for some seconds.");
+    fail(
+        "no subject was seen standing still for long enough. Next: check that the "
+        "cameras see the tags, and stand still for some seconds.");
   } else if (step() == WizardStep::kMove) {
     fail("the run ended before every joint had moved. Next: move for " +
          std::to_string(static_cast<int>(options_.move_s)) + " seconds.");
@@ -186,9 +187,8 @@ void SubjectGuide::look(const LiveInstant& instant) {
     MAREY_ASSERT(c < setup_.cameras.size());
     for (const TagDetection& seen : view.tags) {
       const auto& tags = setup_.prior.tags;
-      const auto found = std::find_if(tags.begin(), tags.end(), [&](const auto& tag) {
-        return tag.id == seen.id;
-      });
+      const auto found = std::find_if(
+          tags.begin(), tags.end(), [&](const auto& tag) { return tag.id == seen.id; });
       if (found == tags.end()) continue;
       ++now_[static_cast<std::size_t>(found - tags.begin())];
       const std::size_t cell = cell_of(centre_of(seen), setup_.cameras[c].intrinsics);
@@ -218,7 +218,7 @@ void SubjectGuide::add_standing(const LiveInstant& instant) {
   keep(instant, material_.standing);
   if (counted_s_ >= kMinStand_s) was_restless_ = false;
   ui_state_.text = was_restless_ ? "Stand still: you moved, so the step starts again."
-                             : "Stay like this for a moment.";
+                                 : "Stay like this for a moment.";
   ui_state_.progress = std::min(counted_s_ / options_.stand_s, 1.0);
   if (counted_s_ >= options_.stand_s) begin_move();
 }
@@ -355,9 +355,9 @@ void SubjectGuide::finish(const Result<reconstruct::SubjectFit>& fit) {
   if (!fit) return fail(fit.error().message());
   ui_state_.step = WizardStep::kDone;
   ui_state_.title = "The body is measured";
-  ui_state_.quality = quality_of(*fit);
+  ui_state_.quality = assess_subject(*fit);
   ui_state_.text = is_good() ? "Accept stores it, and the run continues with it."
-                         : "Some values are poor: cancel and start again.";
+                             : "Some values are poor: cancel and start again.";
 }
 
 void SubjectGuide::refuse_acceptance(const std::string& why) {
@@ -369,9 +369,9 @@ void SubjectGuide::refuse_acceptance(const std::string& why) {
 
 bool SubjectGuide::is_good() const {
   return step() == WizardStep::kDone &&
-         std::all_of(ui_state_.quality.begin(), ui_state_.quality.end(), [](const auto& one) {
-           return one.good;
-         });
+         std::all_of(ui_state_.quality.begin(),
+                     ui_state_.quality.end(),
+                     [](const auto& one) { return one.severity == Severity::kNote; });
 }
 
 }  // namespace marey::app

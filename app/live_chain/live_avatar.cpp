@@ -4,18 +4,11 @@
 
 #include <vector>
 
+#include "app/motion/error_of_file.h"
 #include "app/motion/motion_files.h"
 #include "retarget/body/body_map.h"
 
 namespace marey::app {
-namespace {
-
-Error of_avatar(const OpenedAvatar& avatar, Error error) {
-  error.where = avatar.file.string() + (error.where.empty() ? "" : ": " + error.where);
-  return error;
-}
-
-}  // namespace
 
 Result<retarget::LiveRetarget> make_live_retarget(const Skeleton& performer,
                                                   const OpenedAvatar& avatar) {
@@ -24,7 +17,7 @@ Result<retarget::LiveRetarget> make_live_retarget(const Skeleton& performer,
   options.skin = avatar.skin;
   options.hands->avatar_volume = avatar.volume;
   auto made = retarget::LiveRetarget::make(performer, avatar.skeleton, options);
-  if (!made) return of_avatar(avatar, made.error());
+  if (!made) return of_file(avatar.file, made.error());
   return made;
 }
 
@@ -32,14 +25,14 @@ Result<live::VmcBody> make_vmc_body(const Skeleton& skeleton,
                                     const OpenedAvatar* avatar,
                                     live::VmcRest rest) {
   const auto map = retarget::map_body(skeleton);
-  if (!map) return avatar ? of_avatar(*avatar, map.error()) : map.error();
+  if (!map) return avatar ? of_file(avatar->file, map.error()) : map.error();
   const std::vector<glm::dquat> t_pose = t_pose_of(skeleton, *map);
   live::VmcBodyOptions options;
   options.rest = rest;
   options.t_pose_from_joint = t_pose;
   options.file_faces_back = avatar != nullptr && avatar->file_faces_back;
   auto body = live::VmcBody::make(skeleton, options);
-  if (!body && avatar) return of_avatar(*avatar, body.error());
+  if (!body && avatar) return of_file(avatar->file, body.error());
   return body;
 }
 

@@ -33,7 +33,7 @@ class LiveBalance {
   /// Processes the performer's next pose. Precondition: since_last_s > 0.
   void step(const Pose& performer, double since_last_s);
   /// Resets the detection of supporting feet: the next pose is treated as the first.
-  void forget() { stance_.reset(); }
+  void reset() { stance_.reset(); }
 
   /// Returns the performer's supporting feet as of the last step().
   [[nodiscard]] const std::array<retarget::StandingFoot, 2>& standing() const {

@@ -133,7 +133,7 @@ void LiveChain::put_on_avatars(double since_last_s) {
   const bool is_lost = result_.track.state == TrackState::kLost;
   for (std::size_t a = 0; a < retargets_.size(); ++a) {
     // After a relocalization the feet must not be dragged to the new position.
-    if (was_lost_ && !is_lost) retargets_[a].forget();
+    if (was_lost_ && !is_lost) retargets_[a].reset();
     retargets_[a].step(pose_, since_last_s, avatar_poses_[a]);
   }
   was_lost_ = is_lost;

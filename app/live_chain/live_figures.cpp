@@ -42,7 +42,7 @@ ordered_json of(const LiveFigures& figures, std::size_t c) {
 
 }  // namespace
 
-std::string live_figures_text(const LiveFigures& figures) {
+std::string live_json_text(const LiveFigures& figures) {
   const LiveTimes& times = figures.times;
   ordered_json out{{"frames", figures.frames},
                    {"tracked", figures.tracked},

@@ -70,10 +70,10 @@ struct LiveFigures {
   std::vector<LiveCameraFigures> cameras;
   std::vector<OutputCounts> outputs;
   std::vector<LiveMinute> minutes;
-  bool has_unmatched_tags = false;  ///< Current state of UnmatchedTagsDetector.
-  Flow flow = Flow::kSteady;  ///< Current state.
-  std::string flow_text{};    ///< LiveFlow::text().
-  double behind_s = 0.0;      ///< Total time in which poses did not keep up.
+  bool has_unmatched_tags = false;         ///< Current state of UnmatchedTagsDetector.
+  Flow flow = Flow::kSteady;               ///< Current state.
+  std::string flow_text{};                 ///< LiveFlow::text().
+  double behind_s = 0.0;                   ///< Total time in which poses did not keep up.
   std::optional<LiveRecording> recording;  ///< Current one.
   std::vector<std::string> takes;          ///< Folders of completed takes.
   std::optional<Error> recording_trouble;
@@ -82,7 +82,7 @@ struct LiveFigures {
 };
 
 /// Returns the figures as indented JSON (docs/formats/README.md) with a final newline.
-[[nodiscard]] std::string live_figures_text(const LiveFigures& figures);
+[[nodiscard]] std::string live_json_text(const LiveFigures& figures);
 
 /// Returns the resident memory of this process [MB], or 0 if the system does not report
 /// it.

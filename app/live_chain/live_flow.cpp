@@ -34,7 +34,7 @@ void LiveFlow::on_instant(Timestamp now) {
   last_instant_ = now;
 }
 
-Flow LiveFlow::judge(Timestamp now) const {
+Flow LiveFlow::flow_at(Timestamp now) const {
   const double allowed_s = instants_ == 0 ? kHeadStart_s : stopped_after_s_;
   if (seconds(now - last_instant_) > allowed_s) return Flow::kStopped;
   if (instants_ == 0) return Flow::kSteady;
@@ -80,7 +80,7 @@ Flow LiveFlow::look(Timestamp now, long pictures) {
   while (samples_.size() > 2 && seconds(now - samples_[1].time) >= kWindow_s) {
     samples_.pop_front();
   }
-  flow_ = judge(now);
+  flow_ = flow_at(now);
   word(now);
   return flow_;
 }

@@ -51,7 +51,7 @@ class LiveFlow {
     long pictures = 0;
     long instants = 0;
   };
-  [[nodiscard]] Flow judge(Timestamp now) const;
+  [[nodiscard]] Flow flow_at(Timestamp now) const;
   void word(Timestamp now);
 
   double stopped_after_s_;

@@ -50,8 +50,7 @@ json to_json(const VmcStream& stream) {
 VmcStream to_stream(const json& object) {
   VmcStream stream;
   stream.avatar = optional_at<std::size_t>(object, "avatar");
-  stream.rest =
-      object.at("rest") == "raw" ? live::VmcRest::kRaw : live::VmcRest::kVrm0;
+  stream.rest = object.at("rest") == "raw" ? live::VmcRest::kRaw : live::VmcRest::kVrm0;
   stream.mtu_bytes = optional_at<int>(object, "mtu_bytes");
   stream.listen_port = optional_at<int>(object, "listen_port");
   return stream;
@@ -112,13 +111,12 @@ json to_json(const HandleRequest& request) {
 
 /// Returns nullopt if a value is invalid.
 std::optional<HandleRequest> to_handle(const json& object) {
-  constexpr double kFarthest_m = 1e4;
+  constexpr double kMaxDistance_m = 1e4;
   HandleRequest request;
   request.id = object.at("id").get<std::string>();
   const auto word = object.at("action").get<std::string>();
-  const auto* action = std::ranges::find(kActions, word, [](const auto& known) {
-    return std::string_view(known.second);
-  });
+  const auto* action = std::ranges::find(
+      kActions, word, [](const auto& known) { return std::string_view(known.second); });
   if (action == kActions.end()) return std::nullopt;
   request.action = action->first;
   if (request.action != HandleAction::kMove) return request;
@@ -126,7 +124,7 @@ std::optional<HandleRequest> to_handle(const json& object) {
   if (!place.is_array() || place.size() != 3) return std::nullopt;
   for (int i = 0; i < 3; ++i) {
     const auto x = place[static_cast<std::size_t>(i)].get<double>();
-    if (!(std::abs(x) <= kFarthest_m)) return std::nullopt;
+    if (!(std::abs(x) <= kMaxDistance_m)) return std::nullopt;
     request.p_in_world[i] = x;
   }
   return request;
@@ -168,11 +166,11 @@ std::string live_settings_text(const LiveSettings& settings) {
   json streams = json::array();
   for (const VmcStream& stream : settings.streams) streams.push_back(to_json(stream));
   json object{{"rate_hz", settings.rate.hz},
-                    {"camera_sigma_m", settings.camera_sigma_m},
-                    {"lag_known", settings.lag_known},
-                    {"avatars", settings.avatars},
-                    {"vmc", std::move(streams)},
-                    {"vrchat", settings.vrchat}};
+              {"camera_sigma_m", settings.camera_sigma_m},
+              {"lag_known", settings.lag_known},
+              {"avatars", settings.avatars},
+              {"vmc", std::move(streams)},
+              {"vrchat", settings.vrchat}};
   if (settings.vmc_begin) object["vmc_begin_ns"] = settings.vmc_begin->count();
   if (!settings.avatar_files.empty()) object["avatar_files"] = settings.avatar_files;
   return text_of(object);

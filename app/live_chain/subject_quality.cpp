@@ -3,11 +3,12 @@
 #include "app/live_chain/subject_quality.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 
 #include <glm/geometric.hpp>
+
+#include "core/base/lower_case.h"
 
 namespace marey::app {
 namespace {
@@ -26,28 +27,37 @@ std::string format(const char* form, double a, double b = 0.0) {
   return text;
 }
 
+/// Returns a row of the table: a note if the value is good.
+Finding row(std::string name, std::string value, bool is_good) {
+  return {is_good ? Severity::kNote : Severity::kFair,
+          "subject",
+          std::move(name),
+          std::move(value),
+          ""};
+}
+
 /// Returns the length of a bone, from its joint to the joint of its child.
-live::WizardQuality length_of(const Body& body, HumanBone bone, HumanBone child) {
+Finding length_of(const Body& body, HumanBone bone, HumanBone child) {
   const double length_m = glm::length(body.proportions[child]);
   const double other_m = glm::length(body.proportions[mirrored(child)]);
   const double sigma_m = body.joint_centre_sigma_m[index(child)];
   // A displayed sigma of zero would be misleading.
   const double sigma_cm = std::max(100.0 * sigma_m, 0.1);
-  return {in_words(bone),
-          format("%.1f cm \u00b1 %.1f", 100.0 * length_m, sigma_cm),
-          sigma_m <= kPoorSigma_m &&
-              std::abs(length_m - other_m) <= kPoorSide * std::max(length_m, other_m)};
+  return row(in_words(bone),
+             format("%.1f cm \u00b1 %.1f", 100.0 * length_m, sigma_cm),
+             sigma_m <= kPoorSigma_m &&
+                 std::abs(length_m - other_m) <= kPoorSide * std::max(length_m, other_m));
 }
 
-live::WizardQuality unplaced_of(const reconstruct::SubjectFit& fit) {
+Finding unplaced_of(const reconstruct::SubjectFit& fit) {
   std::string names;
   for (const TagId id : fit.unplaced) {
     names += (names.empty() ? "" : ", ") + std::to_string(number(id));
   }
   const std::size_t all = fit.body.tags.size() + fit.unplaced.size();
-  return {"tags without a position",
-          names.empty() ? "none" : names,
-          kTagsPerUnplaced * fit.unplaced.size() <= all};
+  return row("tags without a position",
+             names.empty() ? "none" : names,
+             kTagsPerUnplaced * fit.unplaced.size() <= all);
 }
 
 }  // namespace
@@ -55,29 +65,28 @@ live::WizardQuality unplaced_of(const reconstruct::SubjectFit& fit) {
 std::string in_words(HumanBone bone) {
   std::string words;
   for (const char letter : name(bone)) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (std::isupper(code)) words += ' ';
-    words += static_cast<char>(std::tolower(code));
+    if (lower_case(letter) != letter) words += ' ';
+    words += lower_case(letter);
   }
   return words;
 }
 
-std::vector<live::WizardQuality> quality_of(const reconstruct::SubjectFit& fit) {
-  std::vector<live::WizardQuality> out;
+std::vector<Finding> assess_subject(const reconstruct::SubjectFit& fit) {
+  std::vector<Finding> out;
   for (const HumanLimb& limb : human_limbs()) {
     out.push_back(length_of(fit.body, limb.upper, limb.lower));
     out.push_back(length_of(fit.body, limb.lower, limb.end));
   }
   std::string distance = format("%.2f px", fit.rms_px);
-  for (const Error& warning : fit.warnings) {
-    distance += "; " + warning.cause + ": " + warning.next;
+  for (const Finding& finding : fit.findings) {
+    distance += "; " + finding.cause + ": " + finding.next;
   }
-  out.push_back({"residual to the detected tags",
-                 distance,
-                 fit.rms_px <= kPoorRms_px && fit.warnings.empty()});
-  out.push_back({"limbs relative to an average person",
-                 format("%.0f %%", 100.0 * fit.limb_ratio),
-                 std::abs(fit.limb_ratio - 1.0) <= kPoorRatio});
+  out.push_back(row("residual to the detected tags",
+                    distance,
+                    fit.rms_px <= kPoorRms_px && fit.findings.empty()));
+  out.push_back(row("limbs relative to an average person",
+                    format("%.0f %%", 100.0 * fit.limb_ratio),
+                    std::abs(fit.limb_ratio - 1.0) <= kPoorRatio));
   out.push_back(unplaced_of(fit));
   return out;
 }

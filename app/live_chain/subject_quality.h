@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/finding.h"
 #include "core/humanoid.h"
 #include "live/page/page_wizard.h"
 #include "reconstruct/subject/fit_subject.h"
@@ -19,7 +20,6 @@ namespace marey::app {
 /// side), the residual to the detections (poor above 5 px), the limb lengths relative to
 /// an average person (poor beyond 15 %), and the tags without a position (poor above a
 /// fifth).
-[[nodiscard]] std::vector<live::WizardQuality> quality_of(
-    const reconstruct::SubjectFit& fit);
+[[nodiscard]] std::vector<Finding> assess_subject(const reconstruct::SubjectFit& fit);
 
 }  // namespace marey::app

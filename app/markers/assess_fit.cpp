@@ -25,24 +25,27 @@ constexpr double kMinSolvedShare = 0.8;
 // Right labels have a places_off of 0.6 to 1.4 (fit_labels.cpp).
 constexpr double kMaxPlacesOff = 2.0;
 
-Error far_off(const MarkerTrial& trial, const SubjectFit* subject) {
-  Error error{
-      Errc::kQuality,
+Finding far_off(const MarkerTrial& trial, const SubjectFit* subject) {
+  Finding finding{
+      Severity::kPoor,
+      "fit",
       trial.path.string(),
       format_text("its markers are %.0f mm away from the body (RMS)",
                   1e3 * trial.solved->rms_m),
       "find them in fit.json: labels may be wrong, markers moved (--markers MAP.toml), "
       "or the unit wrong (--unit)"};
   if (subject == nullptr) {
-    error.next =
+    finding.next =
         "find them in fit.json; check that this is the subject of --subject, with its "
         "markers at the same places";
   }
-  return error;
+  return finding;
 }
 
 /// Reports the segment or the marker that is farthest off the body.
-void assess_worst(const MarkerTrial& trial, const Body& body, std::vector<Error>& poor) {
+void assess_worst(const MarkerTrial& trial,
+                  const Body& body,
+                  std::vector<Finding>& poor) {
   struct Sum {
     double squares = 0.0;
     double frames = 0.0;
@@ -70,7 +73,8 @@ void assess_worst(const MarkerTrial& trial, const Body& body, std::vector<Error>
     far = name(bone);
   }
   if (far_m > kSegmentFarOff_m) {
-    poor.push_back({Errc::kQuality,
+    poor.push_back({Severity::kPoor,
+                    "segment",
                     trial.path.string(),
                     "the markers of " + far +
                         format_text(" are %.0f mm away from the body (RMS)", 1e3 * far_m),
@@ -78,7 +82,8 @@ void assess_worst(const MarkerTrial& trial, const Body& body, std::vector<Error>
                     "(--markers MAP.toml)"});
   } else if (worst_m > kMarkerFarOff_m) {
     poor.push_back(
-        {Errc::kQuality,
+        {Severity::kPoor,
+         "marker",
          trial.path.string(),
          "the marker \"" + worst +
              format_text("\" is %.0f mm away from its place (RMS)", 1e3 * worst_m),
@@ -87,10 +92,11 @@ void assess_worst(const MarkerTrial& trial, const Body& body, std::vector<Error>
   }
 }
 
-Error other_stature(const reconstruct::MeasuredStature& measured,
-                    double given_m,
-                    std::span<const MarkerTrial> trials) {
-  return {Errc::kQuality,
+Finding other_stature(const reconstruct::MeasuredStature& measured,
+                      double given_m,
+                      std::span<const MarkerTrial> trials) {
+  return {Severity::kPoor,
+          "stature",
           trials.size() == 1 ? trials[0].path.string() : "",
           format_text("by its markers the subject is %.2f m tall", measured.stature_m) +
               format_text(" (standard deviation %.2f m)", measured.sigma_m) +
@@ -106,14 +112,15 @@ double share_solved(const MarkerTrial& trial) {
   return std::min(1.0, trial.solved->frames_solved / static_cast<double>(frames));
 }
 
-std::vector<Error> assess_fit(std::span<const MarkerTrial> trials,
-                              const SubjectFit* subject,
-                              const Body& body,
-                              std::optional<double> stature_m) {
-  std::vector<Error> poor;
+std::vector<Finding> assess_fit(std::span<const MarkerTrial> trials,
+                                const SubjectFit* subject,
+                                const Body& body,
+                                std::optional<double> stature_m) {
+  std::vector<Finding> poor;
   if (subject != nullptr && subject->mirrored_places_off) {
     poor.push_back(
-        {Errc::kQuality,
+        {Severity::kPoor,
+         "sides",
          trials.size() == 1 ? trials[0].path.string() : "",
          "left and right seem exchanged: with these labels, markers are" +
              format_text(" %.1f times as far from their landmarks as on others,",
@@ -126,7 +133,8 @@ std::vector<Error> assess_fit(std::span<const MarkerTrial> trials,
   if (subject != nullptr && poor.empty()) {
     if (subject->places_off > kMaxPlacesOff) {
       poor.push_back(
-          {Errc::kQuality,
+          {Severity::kPoor,
+           "places",
            trials.size() == 1 ? trials[0].path.string() : "",
            format_text("markers are %.1f times as far from their landmarks as "
                        "on others",
@@ -144,11 +152,13 @@ std::vector<Error> assess_fit(std::span<const MarkerTrial> trials,
   }
   for (const MarkerTrial& trial : trials) {
     if (!trial.solved) {
-      poor.push_back(
+      poor.push_back(tolerated(
+          Severity::kPoor,
+          "unsolved",
           bad_input(trial.path.string(),
                     "no frame shows six of the subject's markers: the trial is "
                     "not solved",
-                    "leave it out, or see its labels in `marey inspect FILE`"));
+                    "leave it out, or see its labels in `marey inspect FILE`")));
       continue;
     }
     if (trial.solved->rms_m > kFarOff_m) {
@@ -157,7 +167,8 @@ std::vector<Error> assess_fit(std::span<const MarkerTrial> trials,
       assess_worst(trial, body, poor);
     }
     if (share_solved(trial) < kMinSolvedShare) {
-      poor.push_back({Errc::kQuality,
+      poor.push_back({Severity::kPoor,
+                      "unsolved",
                       trial.path.string(),
                       format_text("only %.0f %% of its frames are solved",
                                   100.0 * share_solved(trial)),

@@ -9,12 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/markers/assess_fit.h"
-#include "app/markers/fit_figures.h"
+#include "app/markers/fit_json.h"
 #include "app/markers/fit_results.h"
 #include "app/markers/fit_words.h"
 #include "app/markers/label_checks.h"
 #include "app/markers/marker_report.h"
 #include "app/markers/trial_checks.h"
+#include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
 #include "core/base/stopwatch.h"
 #include "reconstruct/markers/estimate_stature.h"
@@ -107,26 +108,26 @@ Status read_all(const FitArguments& args,
 
 /// Returns the cause of a failed fit: exchanged sides or a wrong axis, else `error`.
 Error cause_of(const FitRun& run, Error error) {
-  const std::vector<Error> causes = side_and_axis_errors(run.trials, run.geometry);
+  const std::vector<Finding> causes = assess_sides_and_axes(run.trials, run.geometry);
   if (causes.empty()) return error;
   return bad_input(causes.front().where, causes.front().cause, causes.front().next);
 }
 
-/// Returns the errors of the result. Exchanged sides and wrong axes are the cause of
-/// other errors and are returned alone.
-std::vector<Error> assess_all(const FitArguments& args, FitRun& run) {
-  std::vector<Error> failures = side_and_axis_errors(run.trials, run.geometry);
+/// Returns the poor findings on the result. Exchanged sides and wrong axes are the cause
+/// of others and are returned alone.
+std::vector<Finding> assess_all(const FitArguments& args, FitRun& run) {
+  std::vector<Finding> failures = assess_sides_and_axes(run.trials, run.geometry);
   if (!failures.empty()) return failures;
   const SubjectFit* subject = run.subject ? &*run.subject : nullptr;
-  run.checks =
-      check_labels(run.body, given_subject(args, run), subject, run.labels, run.trials);
+  run.checks = find_label_faults(
+      run.body, given_subject(args, run), subject, run.labels, run.trials);
   failures = assess_fit(run.trials, subject, run.body, args.stature_m);
   if (subject != nullptr && subject->fit.measured_stature) {
     auto small =
-        small_stature(run.trials, *subject->fit.measured_stature, args.stature_m);
+        assess_small_stature(run.trials, *subject->fit.measured_stature, args.stature_m);
     if (small) failures.push_back(std::move(*small));
   }
-  for (Error& failure : assess_labels(run.checks, run.trials)) {
+  for (Finding& failure : assess_labels(run.checks, run.trials)) {
     failures.push_back(std::move(failure));
   }
   return failures;
@@ -153,8 +154,7 @@ Status solve_all(const FitArguments& args,
     return somewhere(labels.error());
   }
   run.geometry = reconstruct::compare_trials(checked, used_labels(run.labels));
-  const std::vector<Error> other_units = unit_errors(run.trials, run.geometry);
-  if (!other_units.empty()) return other_units.front();
+  if (const Status ok = check_units(run.trials, run.geometry); !ok) return ok;
   if (args.subject.empty()) {
     const Status ok = find_subject(args, checked, console.stage("fit"), run);
     if (!ok) return cause_of(run, somewhere(ok.error()));
@@ -184,7 +184,7 @@ Status write_all(const FitArguments& args, FitRun& run, std::string& json) {
   }
   run.times.write_s = watch.seconds();
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-  json = fit_figures(run).dump(1, ' ', false, kReplace) + "\n";
+  json = fit_json(run).dump(1, ' ', false, kReplace) + "\n";
   const Status ok = recordings::write_file(args.out / "fit.html", fit_page(run));
   if (!ok) return ok;
   return recordings::write_file(args.out / "fit.json", json);
@@ -201,21 +201,18 @@ Exit run_fit(const FitArguments& args, Console& console) {
   if (const Status ok = solve_all(args, map, console, run); !ok) {
     return console.fail(ok.error());
   }
-  const std::vector<Error> failures = assess_all(args, run);
-  run.warnings = fit_warnings(run);
-  const std::vector<std::string> warnings = run.warnings;
-  for (const Error& failure : failures) run.warnings.push_back(failure.message());
+  std::vector<Finding> failures = assess_all(args, run);
+  run.findings = assess_run(run);
+  std::move(failures.begin(), failures.end(), std::back_inserter(run.findings));
   std::string json;
   if (const Status ok = write_all(args, run, json); !ok) return console.fail(ok.error());
   for (const std::string& line : subject_words(run)) console.say(line);
-  for (const std::string& warning : warnings) console.warn(warning);
+  print_warnings(console, run.findings);
   for (const MarkerTrial& trial : run.trials) console.say(trial_words(trial));
   console.say("results: " + args.out.string());
   if (args.json) std::fputs(json.c_str(), stdout);
   // All results are written, but the exit code must still report a fault.
-  Exit exit = Exit::kOk;
-  for (const Error& failure : failures) exit = console.fail(failure);
-  return exit;
+  return print_failures(console, run.findings);
 }
 
 void add_fit_command(CLI::App& app,

@@ -125,30 +125,36 @@ std::vector<std::string> subject_words(const FitRun& run) {
   return lines;
 }
 
-std::vector<std::string> fit_warnings(const FitRun& run) {
-  std::vector<std::string> lines = run.labels.names.notes;
+std::vector<Finding> assess_run(const FitRun& run) {
+  std::vector<Finding> found;
+  for (const std::string& note : run.labels.names.notes) {
+    found.push_back(fair_finding("names", "", note));
+  }
   if (run.subject) {
     for (const auto& verdict : run.subject->fit.labels) {
       if (verdict.use != LabelUse::kMoved) continue;
-      lines.push_back(verdict.label + " moves with " +
-                      std::string(name(verdict.segment)) +
-                      ", and not with the segment of its name: used as one of its "
-                      "markers");
+      found.push_back(fair_finding(
+          "segment",
+          "",
+          verdict.label + " moves with " + std::string(name(verdict.segment)) +
+              ", and not with the segment of its name: used as one of its markers"));
     }
   }
   for (const MarkerTrial& trial : run.trials) {
     const std::size_t faults = trial.repair.checked.findings.size();
     if (faults > 0) {
-      lines.push_back(trial.path.string() + ": " + std::to_string(faults) +
-                      (faults == 1 ? " run" : " runs") +
-                      " of wrong samples (swapped, ghosts, jumps) put right or taken "
-                      "out: fit.json lists them");
+      found.push_back(fair_finding(
+          "repaired",
+          trial.path.string(),
+          std::to_string(faults) + (faults == 1 ? " run" : " runs") +
+              " of wrong samples (swapped, ghosts, jumps) put right or taken out: "
+              "fit.json lists them"));
     }
   }
-  for (std::string& line : axis_warnings(run.trials, run.geometry)) {
-    lines.push_back(std::move(line));
+  for (Finding& finding : assess_lying(run.trials, run.geometry)) {
+    found.push_back(std::move(finding));
   }
-  return lines;
+  return found;
 }
 
 std::string trial_words(const MarkerTrial& trial) {

@@ -45,8 +45,8 @@ std::string all_trials(std::span<const MarkerTrial> trials) {
   return trials.size() == 1 ? trials[0].path.string() : "";
 }
 
-Error exchanged_in_trial(const LabelFinding& finding,
-                         std::span<const MarkerTrial> trials) {
+Finding exchanged_in_trial(const LabelFinding& finding,
+                           std::span<const MarkerTrial> trials) {
   const MarkerTrial& trial = trials[*finding.trial];
   std::string cause = "markers " + quoted(finding.label) + " and " +
                       quoted(finding.other) + " look exchanged: they are " +
@@ -60,13 +60,14 @@ Error exchanged_in_trial(const LabelFinding& finding,
             " when exchanged";
     next = "exchange the two labels in the file that is wrong";
   }
-  return {Errc::kQuality, trial.path.string(), cause, next};
+  return {Severity::kPoor, "exchanged", trial.path.string(), cause, next};
 }
 
-Error exchanged_in_all(const reconstruct::LabelExchange& exchange,
-                       std::span<const MarkerTrial> trials) {
+Finding exchanged_in_all(const reconstruct::LabelExchange& exchange,
+                         std::span<const MarkerTrial> trials) {
   if (!exchange.limbs.empty()) {
-    return {Errc::kQuality,
+    return {Severity::kPoor,
+            "exchanged",
             all_trials(trials),
             "left and right of " + exchange.limbs +
                 " seem exchanged: the body explains the markers far better so",
@@ -74,7 +75,8 @@ Error exchanged_in_all(const reconstruct::LabelExchange& exchange,
                 ", in the recording or with --markers MAP.toml"};
   }
   const auto& [a, b] = exchange.labels.front();
-  return {Errc::kQuality,
+  return {Severity::kPoor,
+          "exchanged",
           all_trials(trials),
           "markers " + quoted(a) + " and " + quoted(b) +
               " look exchanged in all trials: the body explains the markers far "
@@ -102,14 +104,15 @@ double farthest_m(std::span<const LabelFinding> findings, LabelFault fault) {
 
 void assess_places(const LabelChecks& checks,
                    std::span<const MarkerTrial> trials,
-                   std::vector<Error>& poor) {
+                   std::vector<Finding>& poor) {
   const std::string next =
       "check the meaning of these labels, and whether labels are exchanged (--markers "
       "MAP.toml)";
   const auto off = labels_with(checks.of_fit, LabelFault::kOffLandmark);
   if (!off.empty()) {
     poor.push_back(
-        {Errc::kQuality,
+        {Severity::kPoor,
+         "landmark",
          all_trials(trials),
          "markers are too far from their landmark for any body: " + listed_labels(off) +
              ", up to " + in_mm(farthest_m(checks.of_fit, LabelFault::kOffLandmark)),
@@ -117,7 +120,8 @@ void assess_places(const LabelChecks& checks,
   }
   const auto moved = labels_with(checks.of_fit, LabelFault::kMoved);
   if (!moved.empty()) {
-    poor.push_back({Errc::kQuality,
+    poor.push_back({Severity::kPoor,
+                    "moved",
                     all_trials(trials),
                     "markers move with segments far from those they are named for: " +
                         listed_labels(moved),
@@ -127,7 +131,8 @@ void assess_places(const LabelChecks& checks,
   const auto left_out = labels_with(checks.of_fit, LabelFault::kLeftOut);
   if (left_out.size() > kMaxLeftOut) {
     poor.push_back(
-        {Errc::kQuality,
+        {Severity::kPoor,
+         "left-out",
          all_trials(trials),
          "markers move with no segment of the body: " + listed_labels(left_out),
          "see whether all trials are of one person with the markers where "
@@ -137,11 +142,11 @@ void assess_places(const LabelChecks& checks,
 
 }  // namespace
 
-LabelChecks check_labels(const Body& body,
-                         const reconstruct::MarkerSubject& given,
-                         const SubjectFit* subject,
-                         const FitLabels& labels,
-                         std::span<const MarkerTrial> trials) {
+LabelChecks find_label_faults(const Body& body,
+                              const reconstruct::MarkerSubject& given,
+                              const SubjectFit* subject,
+                              const FitLabels& labels,
+                              std::span<const MarkerTrial> trials) {
   const std::vector<reconstruct::NamedMarker> markers = used_labels(labels);
   std::vector<reconstruct::CheckedTrial> checked;
   for (const MarkerTrial& trial : trials) {
@@ -149,9 +154,9 @@ LabelChecks check_labels(const Body& body,
         {&trial.repair.repaired.tracks, trial.solved ? &*trial.solved : nullptr});
   }
   LabelChecks checks;
-  checks.of_trials = reconstruct::check_trials(body, markers, checked);
+  checks.of_trials = reconstruct::assess_trial_labels(body, markers, checked);
   if (subject == nullptr) return checks;
-  checks.of_fit = reconstruct::check_fit(subject->fit, markers);
+  checks.of_fit = reconstruct::assess_fit_labels(subject->fit, markers);
   // Labels with few samples are left out for that reason, not for their motion.
   const std::size_t max_samples =
       *std::max_element(labels.samples.begin(), labels.samples.end());
@@ -172,9 +177,9 @@ LabelChecks check_labels(const Body& body,
   return checks;
 }
 
-std::vector<Error> assess_labels(const LabelChecks& checks,
-                                 std::span<const MarkerTrial> trials) {
-  std::vector<Error> poor;
+std::vector<Finding> assess_labels(const LabelChecks& checks,
+                                   std::span<const MarkerTrial> trials) {
+  std::vector<Finding> poor;
   for (const LabelFinding& finding : checks.of_trials) {
     if (finding.fault == LabelFault::kExchanged) {
       poor.push_back(exchanged_in_trial(finding, trials));
@@ -193,7 +198,8 @@ std::vector<Error> assess_labels(const LabelChecks& checks,
       off_m = std::max(off_m, finding.off_m);
     }
     if (labels.empty()) continue;
-    poor.push_back({Errc::kQuality,
+    poor.push_back({Severity::kPoor,
+                    "places",
                     trials[t].path.string(),
                     "markers are not at their places on the body: " +
                         listed_labels(labels) + ", up to " + in_mm(off_m) + " off",

@@ -8,8 +8,8 @@
 
 #include "app/markers/fit_labels.h"
 #include "app/markers/marker_trials.h"
-#include "core/base/result.h"
-#include "reconstruct/markers/check_labels.h"
+#include "core/finding.h"
+#include "reconstruct/markers/assess_labels.h"
 #include "reconstruct/markers/find_exchanges.h"
 
 namespace marey::app {
@@ -24,16 +24,16 @@ struct LabelChecks {
 /// Checks every label of the solved trials. `subject` may be null: an earlier fit was
 /// used. If single trials show no exchange and the fit is suspicious, searches for an
 /// exchange in all trials, which costs up to nine small fits.
-[[nodiscard]] LabelChecks check_labels(const Body& body,
-                                       const reconstruct::MarkerSubject& given,
-                                       const SubjectFit* subject,
-                                       const FitLabels& labels,
-                                       std::span<const MarkerTrial> trials);
+[[nodiscard]] LabelChecks find_label_faults(const Body& body,
+                                            const reconstruct::MarkerSubject& given,
+                                            const SubjectFit* subject,
+                                            const FitLabels& labels,
+                                            std::span<const MarkerTrial> trials);
 
-/// Returns the findings as errors (kQuality): exchanged labels, with the correction;
+/// Returns the poor findings: exchanged labels, with the correction;
 /// markers at implausible distances from their landmark; markers at another place in one
 /// trial; labels left out.
-[[nodiscard]] std::vector<Error> assess_labels(const LabelChecks& checks,
-                                               std::span<const MarkerTrial> trials);
+[[nodiscard]] std::vector<Finding> assess_labels(const LabelChecks& checks,
+                                                 std::span<const MarkerTrial> trials);
 
 }  // namespace marey::app

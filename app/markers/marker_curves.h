@@ -7,7 +7,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "app/markers/marker_history.h"
-#include "app/markers/repair_figures.h"
+#include "app/markers/repair_json.h"
 
 namespace marey::app {
 

@@ -86,10 +86,10 @@ const GapRepair* gap_at(const Repair& repair, std::size_t marker, std::size_t fr
   return gap.marker == marker && frame < gap.first + gap.frames ? &gap : nullptr;
 }
 
-Json run_figures(const Repair& repair,
-                 const MarkerHistory& history,
-                 std::size_t marker,
-                 const Run& run) {
+Json run_json(const Repair& repair,
+              const MarkerHistory& history,
+              std::size_t marker,
+              const Run& run) {
   const SampleFate fate = history.fate(run.first, marker);
   Json out{run.first, run.end - run.first, static_cast<int>(fate)};
   if (fate == SampleFate::kSwapped || fate == SampleFate::kLeftEmpty) return out;
@@ -122,7 +122,7 @@ Json marker_timeline(const Repair& repair,
   Json runs = Json::array();
   for (Run run = next_run(history, marker, 0); run.first < run.end;
        run = next_run(history, marker, run.end)) {
-    runs.push_back(run_figures(repair, history, marker, run));
+    runs.push_back(run_json(repair, history, marker, run));
   }
   Json faults = Json::array();
   for (const TrackFinding& finding : repair.checked.findings) {
@@ -185,7 +185,7 @@ MarkerHistory history_of(const Repair& repair, MarkerTracks after) {
   return out;
 }
 
-Json timeline_figures(const Repair& repair, const MarkerHistory& history) {
+Json timeline_json(const Repair& repair, const MarkerHistory& history) {
   Json markers = Json::array();
   for (std::size_t m = 0; m < history.after.markers(); ++m) {
     markers.push_back(marker_timeline(repair, history, m));

@@ -10,7 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "app/markers/repair_figures.h"
+#include "app/markers/repair_json.h"
 
 namespace marey::app {
 
@@ -52,7 +52,7 @@ struct MarkerHistory {
 /// Returns for each marker its label, the number of samples of each fate, and every run
 /// of samples that differ from the samples read; docs/formats/README.md, "The pages
 /// of labelled markers".
-[[nodiscard]] nlohmann::ordered_json timeline_figures(const Repair& repair,
-                                                      const MarkerHistory& history);
+[[nodiscard]] nlohmann::ordered_json timeline_json(const Repair& repair,
+                                                   const MarkerHistory& history);
 
 }  // namespace marey::app

@@ -58,7 +58,7 @@ Json residual_curve(const std::vector<double>& frame_rms_m) {
 Json page_trial(const Repair& repair, const MarkerHistory& history, std::size_t curves) {
   const MarkerTracks& tracks = history.after;
   return {{"first_frame", tracks.first_frame},
-          {"markers", timeline_figures(repair, history)},
+          {"markers", timeline_json(repair, history)},
           {"curves", repair_curves(repair, history, curves)},
           {"residuals", Json()},
           {"stills", Json::array()}};
@@ -113,7 +113,7 @@ std::string filled(const Json& data) {
 }
 
 /// Returns the meaning of the labels of a file that was only repaired.
-Json label_figures(const MarkerTracks& tracks, const reconstruct::MarkerNames& names) {
+Json label_json(const MarkerTracks& tracks, const reconstruct::MarkerNames& names) {
   Json out = Json::array();
   for (std::size_t m = 0; m < tracks.markers(); ++m) {
     std::size_t samples = 0;
@@ -129,7 +129,7 @@ Json label_figures(const MarkerTracks& tracks, const reconstruct::MarkerNames& n
 }  // namespace
 
 std::string fit_page(const FitRun& run) {
-  Json figures = fit_figures(run);
+  Json figures = fit_json(run);
   // Durations differ between runs.
   figures.erase("seconds");
   for (Json& trial : figures["trials"]) drop_lists(trial);
@@ -150,14 +150,14 @@ std::string fit_page(const FitRun& run) {
 
 std::string repair_page(const Repair& repair, std::span<const std::string> notes) {
   const auto names = reconstruct::name_markers(repair.as_read.labels);
-  Json trial = repair_figures(repair);
+  Json trial = repair_json(repair);
   drop_lists(trial);
   const MarkerHistory history = history_of(repair, repair.repaired.tracks);
   Json page = page_trial(repair, history, kMaxCurves);
   page["notes"] = notes;
   const Json figures{{"label_set", names.set},
                      {"prefix", names.prefix},
-                     {"labels", label_figures(repair.as_read, names)},
+                     {"labels", label_json(repair.as_read, names)},
                      {"trials", Json::array({trial})},
                      {"warnings", names.notes}};
   return filled({{"kind", "repair"},

@@ -5,8 +5,8 @@
 #include <span>
 #include <string>
 
-#include "app/markers/fit_figures.h"
-#include "app/markers/repair_figures.h"
+#include "app/markers/fit_json.h"
+#include "app/markers/repair_json.h"
 
 namespace marey::app {
 

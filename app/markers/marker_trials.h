@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/markers/repair_figures.h"
+#include "app/markers/repair_json.h"
 #include "app/shell/console.h"
 #include "core/body.h"
 #include "reconstruct/markers/solve_markers.h"
@@ -28,7 +28,7 @@ struct MarkerTrial {
   Repair repair;
   std::optional<reconstruct::SolvedMarkers> solved;  ///< nullopt: too few markers.
   std::vector<std::string> avatars;                  ///< Result files of the avatars.
-  std::size_t samples_predicted = 0;  ///< Samples of the written markers.
+  std::size_t samples_predicted = 0;                 ///< Samples of the written markers.
   std::size_t samples_empty = 0;
 };
 

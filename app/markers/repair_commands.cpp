@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/markers/marker_report.h"
-#include "app/markers/repair_figures.h"
+#include "app/markers/repair_json.h"
 #include "core/base/extension.h"
 #include "recordings/markers/marker_file.h"
 #include "recordings/text/atomic_file.h"
@@ -106,7 +106,7 @@ Exit run_repair(const RepairArguments& args, Console& console) {
     write.axes->up = recordings::FileAxis::kPlusY;
   }
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-  const std::string json = repair_figures(repair).dump(1, ' ', false, kReplace) + "\n";
+  const std::string json = repair_json(repair).dump(1, ' ', false, kReplace) + "\n";
   // The markers are written first: if that fails, no other file is left behind.
   if (const Status ok = recordings::write_markers(args.out, *read, write); !ok) {
     return console.fail(ok.error());

@@ -13,10 +13,10 @@
 namespace marey::app {
 namespace {
 
-using recordings::Evidence;
-using recordings::FileAxis;
 using reconstruct::SwappedSides;
 using reconstruct::TrialGeometry;
+using recordings::Evidence;
+using recordings::FileAxis;
 
 // Units differ by a factor of 2.5 or more, people by less.
 constexpr double kOtherUnit = 1.8;
@@ -87,14 +87,15 @@ std::string axis_advice(const MarkerTrial& trial, const TrialGeometry& geometry)
          std::string(name(body)) + " (--up " + std::string(name(body)) + ")";
 }
 
-Error axis_error(const MarkerTrial& trial, const TrialGeometry& geometry) {
+Finding axis_finding(const MarkerTrial& trial, const TrialGeometry& geometry) {
   const auto& axes = trial.file.axes;
   const std::string up(name(axes.up));
   std::string why = " is taken as up, as in most files of its kind";
   if (axes.up_from == Evidence::kUser) why = " is up by --up";
   if (axes.up_from == Evidence::kFile) why = " is up according to the file";
   if (axes.up_from == Evidence::kPlates) why = " is up according to the force plates";
-  return {Errc::kQuality,
+  return {Severity::kPoor,
+          "axis",
           trial.path.string(),
           how_it_lies(geometry) + ": its axis " + up + why,
           axis_advice(trial, geometry)};
@@ -131,10 +132,10 @@ std::string_view part_words(SwappedSides sides) {
   }
 }
 
-Error sides_error(std::span<const MarkerTrial> trials,
-                  std::size_t trial,
-                  SwappedSides sides,
-                  bool in_all) {
+Finding sides_finding(std::span<const MarkerTrial> trials,
+                      std::size_t trial,
+                      SwappedSides sides,
+                      bool in_all) {
   const std::string part(part_words(sides));
   const bool is_alone = trials.size() == 1;
   std::string cause = "left and right seem exchanged on " + part;
@@ -153,7 +154,8 @@ Error sides_error(std::span<const MarkerTrial> trials,
                : "exchange left and right in all labels of this file, not in the others, "
                  "or check whether its axes are left-handed";
   }
-  return {Errc::kQuality, in_all ? "" : trials[trial].path.string(), cause, next};
+  return {
+      Severity::kPoor, "sides", in_all ? "" : trials[trial].path.string(), cause, next};
 }
 
 }  // namespace
@@ -167,12 +169,12 @@ std::optional<std::string> unit_by_scale(double per_metre, double scale) {
   return std::nullopt;
 }
 
-std::vector<Error> unit_errors(std::span<const MarkerTrial> trials,
-                               std::span<const TrialGeometry> geometry) {
-  std::vector<Error> errors;
+Status check_units(std::span<const MarkerTrial> trials,
+                   std::span<const TrialGeometry> geometry) {
   for (std::size_t t = 0; t < trials.size(); ++t) {
     const auto& scale = geometry[t].scale;
-    if (!scale || (*scale < kOtherUnit && *scale > 1.0 / kOtherUnit)) continue;
+    const double times = scale.value_or(1.0);
+    if (times < kOtherUnit && times > 1.0 / kOtherUnit) continue;
     const auto& axes = trials[t].file.axes;
     const std::string other = trials[geometry[t].scale_of].path.string();
     const auto unit = unit_by_scale(axes.per_metre, *scale);
@@ -180,23 +182,22 @@ std::vector<Error> unit_errors(std::span<const MarkerTrial> trials,
     if (unit) {
       next += ", or write it again with `marey convert FILE NEW --unit " + *unit + "`";
     }
-    errors.push_back(
-        bad_input(trials[t].path.string(),
-                  "its markers are " + format_text("%.3g", *scale) +
-                      " times as far apart as in " + other + ": it was read in " +
-                      axes.unit +
-                      (unit ? ", and its numbers seem to be " + *unit : std::string()),
-                  next));
+    return bad_input(trials[t].path.string(),
+                     "its markers are " + format_text("%.3g", *scale) +
+                         " times as far apart as in " + other + ": it was read in " +
+                         axes.unit +
+                         (unit ? ", and its numbers seem to be " + *unit : std::string()),
+                     next);
   }
-  return errors;
+  return Done{};
 }
 
 Status check_size(std::span<const MarkerTrial> trials, double stature_m) {
   // Below any human stature, children included; a wrong unit is mostly a factor of 10.
   // [m]
   constexpr double kMinStature_m = 0.4;
-  constexpr double kGreatestStature_m = 2.7;
-  if (stature_m > kMinStature_m && stature_m < kGreatestStature_m) return Done{};
+  constexpr double kMaxStature_m = 2.7;
+  if (stature_m > kMinStature_m && stature_m < kMaxStature_m) return Done{};
   return bad_input(
       only_path(trials),
       format_text("by the distances of its markers this body is %.3g m tall", stature_m),
@@ -205,51 +206,55 @@ Status check_size(std::span<const MarkerTrial> trials, double stature_m) {
           "MAP.toml corrects");
 }
 
-std::optional<Error> small_stature(std::span<const MarkerTrial> trials,
-                                   const reconstruct::MeasuredStature& measured,
-                                   std::optional<double> given_m) {
+std::optional<Finding> assess_small_stature(std::span<const MarkerTrial> trials,
+                                            const reconstruct::MeasuredStature& measured,
+                                            std::optional<double> given_m) {
   // Children walk from about 0.75 m on; an adult's inches read as centimetres give 0.55
   // to 0.8 m.
   constexpr double kMinWalker_m = 0.8;
   const bool is_expected = given_m && *given_m < kMinWalker_m;
   if (measured.stature_m >= kMinWalker_m || is_expected) return std::nullopt;
-  return Error{Errc::kQuality,
-               only_path(trials),
-               format_text("by its markers the subject is %.2f m tall",
-                           measured.stature_m),
-               unit_advice(trials, measured.stature_m) +
-                   "if the subject is a small child, give its --stature"};
+  return Finding{
+      Severity::kPoor,
+      "stature",
+      only_path(trials),
+      format_text("by its markers the subject is %.2f m tall", measured.stature_m),
+      unit_advice(trials, measured.stature_m) +
+          "if the subject is a small child, give its --stature"};
 }
 
-std::vector<Error> side_and_axis_errors(std::span<const MarkerTrial> trials,
-                                        std::span<const TrialGeometry> geometry) {
-  std::vector<Error> errors;
+std::vector<Finding> assess_sides_and_axes(std::span<const MarkerTrial> trials,
+                                           std::span<const TrialGeometry> geometry) {
+  std::vector<Finding> found;
   bool in_all = trials.size() > 1;
   for (const TrialGeometry& one : geometry) {
-    in_all = in_all && one.sides != SwappedSides::kNone &&
-             one.sides == geometry.front().sides;
+    in_all =
+        in_all && one.sides != SwappedSides::kNone && one.sides == geometry.front().sides;
   }
-  if (in_all) errors.push_back(sides_error(trials, 0, geometry.front().sides, true));
+  if (in_all) found.push_back(sides_finding(trials, 0, geometry.front().sides, true));
   for (std::size_t t = 0; t < trials.size(); ++t) {
     if (is_never_upright(geometry[t]) && is_axis_wrong(trials[t], geometry[t])) {
-      errors.push_back(axis_error(trials[t], geometry[t]));
+      found.push_back(axis_finding(trials[t], geometry[t]));
     }
     if (!in_all && geometry[t].sides != SwappedSides::kNone) {
-      errors.push_back(sides_error(trials, t, geometry[t].sides, false));
+      found.push_back(sides_finding(trials, t, geometry[t].sides, false));
     }
   }
-  return errors;
+  return found;
 }
 
-std::vector<std::string> axis_warnings(std::span<const MarkerTrial> trials,
-                                       std::span<const TrialGeometry> geometry) {
-  std::vector<std::string> lines;
+std::vector<Finding> assess_lying(std::span<const MarkerTrial> trials,
+                                  std::span<const TrialGeometry> geometry) {
+  std::vector<Finding> found;
   for (std::size_t t = 0; t < trials.size(); ++t) {
     if (!is_never_upright(geometry[t]) || is_axis_wrong(trials[t], geometry[t])) continue;
-    lines.push_back(trials[t].path.string() + ": " + how_it_lies(geometry[t]) +
-                    ". Next: if this is wrong, " + axis_advice(trials[t], geometry[t]));
+    found.push_back(
+        fair_finding("axis",
+                     trials[t].path.string(),
+                     how_it_lies(geometry[t]),
+                     "if this is wrong, " + axis_advice(trials[t], geometry[t])));
   }
-  return lines;
+  return found;
 }
 
 }  // namespace marey::app

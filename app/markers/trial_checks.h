@@ -9,6 +9,7 @@
 
 #include "app/markers/marker_trials.h"
 #include "core/base/result.h"
+#include "core/finding.h"
 #include "reconstruct/markers/body_stature.h"
 #include "reconstruct/markers/compare_trials.h"
 
@@ -18,34 +19,33 @@ namespace marey::app {
 /// shorter: "in" for (100, 0.394). nullopt: no unit fits.
 [[nodiscard]] std::optional<std::string> unit_by_scale(double per_metre, double scale);
 
-/// Returns the trials whose unit differs from the others': kBadInput, with the file and
-/// the unit of its numbers. `geometry` is compare_trials() of the trials.
-[[nodiscard]] std::vector<Error> unit_errors(
-    std::span<const MarkerTrial> trials,
-    std::span<const reconstruct::TrialGeometry> geometry);
+/// Checks that all trials have one unit. Errors (kBadInput): the first trial with another
+/// one, with the unit of its numbers. `geometry` is compare_trials() of the trials.
+[[nodiscard]] Status check_units(std::span<const MarkerTrial> trials,
+                                 std::span<const reconstruct::TrialGeometry> geometry);
 
 /// Returns kBadInput for a stature that no human has, with the unit that gives an adult's
 /// stature. `stature_m` is estimate_stature() of all trials.
 [[nodiscard]] Status check_size(std::span<const MarkerTrial> trials, double stature_m);
 
-/// Returns kQuality for a stature below that of walking children, unless the stature is
-/// the given one. An adult's lengths in inches that were read as centimetres give such a
-/// stature.
-[[nodiscard]] std::optional<Error> small_stature(
+/// Returns a poor finding for a stature below that of walking children, unless the
+/// stature is the given one. An adult's lengths in inches that were read as centimetres
+/// give such a stature.
+[[nodiscard]] std::optional<Finding> assess_small_stature(
     std::span<const MarkerTrial> trials,
     const reconstruct::MeasuredStature& measured,
     std::optional<double> given_m);
 
-/// Returns an error (kQuality, with the file and the correction) for each trial whose
+/// Returns a poor finding, with the file and the correction, for each trial whose
 /// left and right are exchanged, or in which the body lies or hangs head down along an
 /// axis that the markers do not confirm as up.
-[[nodiscard]] std::vector<Error> side_and_axis_errors(
+[[nodiscard]] std::vector<Finding> assess_sides_and_axes(
     std::span<const MarkerTrial> trials,
     std::span<const reconstruct::TrialGeometry> geometry);
 
-/// Returns a warning for each trial in which the body always lies or hangs head down, and
-/// the file or its markers confirm the up axis.
-[[nodiscard]] std::vector<std::string> axis_warnings(
+/// Returns a fair finding for each trial in which the body always lies or hangs head
+/// down, and the file or its markers confirm the up axis.
+[[nodiscard]] std::vector<Finding> assess_lying(
     std::span<const MarkerTrial> trials,
     std::span<const reconstruct::TrialGeometry> geometry);
 

@@ -29,8 +29,11 @@ void add(const std::string& where,
          std::string next,
          bool is_poor,
          AvatarVerdict& out) {
-  out.problems.push_back(
-      {{Errc::kQuality, where, std::move(cause), std::move(next)}, is_poor});
+  out.problems.push_back({is_poor ? Severity::kPoor : Severity::kFair,
+                          "avatar",
+                          where,
+                          std::move(cause),
+                          std::move(next)});
 }
 
 void assess_skin(const std::string& name, AvatarVerdict& out) {
@@ -50,10 +53,10 @@ void assess_skin(const std::string& name, AvatarVerdict& out) {
 }
 
 void assess_direction(const std::string& name,
-                     const retarget::DirectionFigures& direction,
-                     double far_deg,
-                     double poor_deg,
-                     AvatarVerdict& out) {
+                      const retarget::DirectionFigures& direction,
+                      double far_deg,
+                      double poor_deg,
+                      AvatarVerdict& out) {
   const double apart_deg = glm::degrees(direction.median_rad);
   if (apart_deg <= far_deg) return;
   const std::string segment(retarget::segment_name(direction));
@@ -71,18 +74,19 @@ void assess_direction(const std::string& name,
 }
 
 void assess_foot(const std::string& name,
-                const retarget::DirectionFigures& foot,
-                AvatarVerdict& out) {
+                 const retarget::DirectionFigures& foot,
+                 AvatarVerdict& out) {
   const double apart_deg = glm::degrees(foot.sustained_rad);
   if (apart_deg <= kFarFoot_deg) return;
   add(name + ", frame " + std::to_string(foot.sustained_frame),
-      text("the %s points %.0f degrees or more away from the source's for %.2f s (at most "
-           "%.0f, in frame %d)",
-           std::string(retarget::segment_name(foot)).c_str(),
-           apart_deg,
-           retarget::kSustained_s,
-           glm::degrees(foot.worst_rad),
-           foot.worst_frame),
+      text(
+          "the %s points %.0f degrees or more away from the source's for %.2f s (at most "
+          "%.0f, in frame %d)",
+          std::string(retarget::segment_name(foot)).c_str(),
+          apart_deg,
+          retarget::kSustained_s,
+          glm::degrees(foot.worst_rad),
+          foot.worst_frame),
       "look at that frame with marey view; --no-ground keeps feet as the source has them",
       apart_deg > kPoorFoot_deg,
       out);
@@ -160,10 +164,10 @@ void name_far_segments(const retarget::RetargetReport& report, AvatarVerdict& ou
 
 /// Reports joints that are mapped as feet although other skin touches the floor at rest.
 void assess_feet(const std::string& name,
-                const Skeleton& body,
-                const retarget::BodyMap& map,
-                const retarget::Skin& skin,
-                AvatarVerdict& out) {
+                 const Skeleton& body,
+                 const retarget::BodyMap& map,
+                 const retarget::Skin& skin,
+                 AvatarVerdict& out) {
   using retarget::SkinPart;
   const auto world = world_from_joints(body, rest_pose(body));
   std::vector<glm::dvec4> rows(body.joints.size());
@@ -202,8 +206,8 @@ void assess_feet(const std::string& name,
 
 /// Reports feet that are upside down in the source; they were turned back.
 void assess_source_feet(const Motion& source,
-                       const retarget::BodyMap& map,
-                       AvatarVerdict& out) {
+                        const retarget::BodyMap& map,
+                        AvatarVerdict& out) {
   retarget::FootUnroller unroller;
   std::vector<RigidTransform> world(source.skeleton.joints.size());
   retarget::NormalizedPose posture;
@@ -231,9 +235,9 @@ void assess_source_feet(const Motion& source,
 /// Reads the written files again and reports bones that are not at their solved
 /// positions.
 Status assess_files(const Motion& made,
-                   std::span<const double> allowed_m,
-                   std::span<const WrittenFile> files,
-                   AvatarVerdict& out) {
+                    std::span<const double> allowed_m,
+                    std::span<const WrittenFile> files,
+                    AvatarVerdict& out) {
   for (const WrittenFile& file : files) {
     const auto reread = reread_motion(file, made);
     if (!reread) return reread.error();
@@ -288,11 +292,11 @@ double AvatarVerdict::penetration_mm(const retarget::RetargetReport& report) con
 }
 
 Result<AvatarVerdict> assess_avatar(const std::string& name,
-                                   const Motion& source,
-                                   const retarget::RetargetedMotion& made,
-                                   const retarget::Skin& skin,
-                                   bool grounded,
-                                   std::span<const WrittenFile> files) {
+                                    const Motion& source,
+                                    const retarget::RetargetedMotion& made,
+                                    const retarget::Skin& skin,
+                                    bool grounded,
+                                    std::span<const WrittenFile> files) {
   const auto source_map = retarget::map_body(source.skeleton);
   if (!source_map) return source_map.error();
   const auto map = retarget::map_body(made.motion.skeleton);

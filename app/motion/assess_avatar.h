@@ -9,6 +9,7 @@
 
 #include "app/motion/reread_motion.h"
 #include "core/base/result.h"
+#include "core/finding.h"
 #include "core/motion.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/skin.h"
@@ -60,12 +61,6 @@ inline constexpr double kLostPlace_mm = 10.0;
 /// lengths, above which another joint is mapped as the foot.
 inline constexpr double kFootAboveSkin = 0.1;
 
-/// A fault of an avatar's motion.
-struct AvatarProblem {
-  Error error;  ///< kQuality; states the body, the part, the frame and the next step.
-  bool is_poor = false;  ///< True beyond the gate.
-};
-
 /// A segment whose direction differs from the source's, and the reason.
 struct FarSegment {
   retarget::DirectionFigures direction;
@@ -85,7 +80,9 @@ struct AvatarVerdict {
   /// nullopt: no file was read again.
   std::optional<double> reread_off_mm;
   double arms_in_body_mm = 0.0;  ///< ArmCollisionReport::deepest_after_m.
-  std::vector<AvatarProblem> problems;
+  /// Faults; each states the body, the part, the frame and the next step. Poor beyond the
+  /// gate.
+  std::vector<Finding> problems;
 
   /// Returns the penetration of the skin into the floor, or of the ends of the feet if
   /// the body has no skin. [mm]

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/motion/angle_table.h"
+#include "app/motion/error_of_file.h"
 #include "app/motion/foot_contacts.h"
 #include "core/pose.h"
 #include "recordings/gltf/vrma.h"
@@ -33,9 +34,7 @@ Motion at_rest(const Skeleton& skeleton) {
 
 Status write_bytes(const std::filesystem::path& out, const Result<std::string>& bytes) {
   if (bytes) return recordings::write_file(out, *bytes);
-  Error error = bytes.error();
-  error.where = out.string() + (error.where.empty() ? "" : ": " + error.where);
-  return error;
+  return of_file(out, bytes.error());
 }
 
 Error no_angles() {

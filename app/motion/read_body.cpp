@@ -11,8 +11,8 @@
 #include "recordings/body/bone_map_file.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/fit_volume.h"
-#include "retarget/bones/hang_bones.h"
 #include "retarget/bones/identify_bones.h"
+#include "retarget/bones/reparent_bones.h"
 
 namespace marey::app {
 namespace {
@@ -89,15 +89,16 @@ std::vector<T> reordered(const std::vector<T>& list,
 /// Changes the parents of bones that have other parents in the file.
 Status reparent_bones(ReadBody& body) {
   RawBody& raw = body.raw;
-  auto hung = retarget::hang_bones(raw.motion.skeleton, body.bones, raw.carries_skin);
-  if (!hung) return hung.error();
-  if (!*hung) return Done{};
-  retarget::HungBody& made = **hung;
+  auto moved =
+      retarget::reparent_to_carriers(raw.motion.skeleton, body.bones, raw.carries_skin);
+  if (!moved) return moved.error();
+  if (!*moved) return Done{};
+  retarget::ReparentedBody& made = **moved;
   std::vector<std::size_t> new_joint(raw.motion.skeleton.joints.size());
   for (std::size_t i = 0; i < made.read_joint.size(); ++i) {
     if (made.read_joint[i]) new_joint[index(*made.read_joint[i])] = i;
   }
-  retarget::put_on_hung(made, raw.motion);
+  retarget::convert_to_reparented(made, raw.motion);
   body.bones = std::move(made.found);
   if (!raw.node_of_joint.empty()) {
     raw.node_of_joint = reordered(raw.node_of_joint, made.read_joint, -1);
@@ -203,9 +204,9 @@ Result<ReadBody> identify_body(RawBody raw, const BodyFile& file) {
   return body;
 }
 
-std::optional<Error> exchanged_sides_error(const std::filesystem::path& path,
-                                           retarget::ExchangedSides exchanged,
-                                           const std::string& map_option) {
+std::optional<Finding> assess_exchanged_sides(const std::filesystem::path& path,
+                                              retarget::ExchangedSides exchanged,
+                                              const std::string& map_option) {
   using retarget::ExchangedSides;
   if (exchanged == ExchangedSides::kNone) return std::nullopt;
   const bool is_arms = exchanged == ExchangedSides::kArms;
@@ -217,13 +218,14 @@ std::optional<Error> exchanged_sides_error(const std::filesystem::path& path,
             "other side: left and right of the legs are exchanged"
           : "knees bend, feet point or the body walks backwards, against the front that "
             "its left and right give: left and right are exchanged";
-  return Error{Errc::kQuality,
-               path.string(),
-               cause,
-               "exchange the names in a bone map (" +
-                   shell_command({"marey", "inspect", path.string()}) +
-                   " --write-map MAP.toml stores one to edit) and give it with " +
-                   map_option};
+  return Finding{Severity::kPoor,
+                 "sides",
+                 path.string(),
+                 cause,
+                 "exchange the names in a bone map (" +
+                     shell_command({"marey", "inspect", path.string()}) +
+                     " --write-map MAP.toml stores one to edit) and give it with " +
+                     map_option};
 }
 
 Result<ReadBody> read_body(const BodyFile& file) {

@@ -13,6 +13,7 @@
 #include "app/motion/raw_body.h"
 #include "core/base/result.h"
 #include "core/bone_map.h"
+#include "core/finding.h"
 #include "core/motion.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/text/mesh.h"
@@ -46,8 +47,8 @@ struct ReadBody {
   retarget::FoundBones bones;
   retarget::BodyFrame frame;
   std::optional<std::filesystem::path> bone_map;  ///< The bone map used.
-  NeutralKind neutral = NeutralKind::kRest;  ///< Kind of the skeleton's rest.
-  bool file_rest_stands = false;             ///< For a file with a motion.
+  NeutralKind neutral = NeutralKind::kRest;       ///< Kind of the skeleton's rest.
+  bool file_rest_stands = false;                  ///< For a file with a motion.
   /// Estimated up direction, if the body does not stand in its rest and the bone map does
   /// not state it.
   std::optional<retarget::MotionUp> guessed_up;
@@ -56,7 +57,7 @@ struct ReadBody {
   /// Set if joints have other parents than in the file: recordings::ChangedFrame's.
   std::vector<std::optional<JointIndex>> read_joint;
   bool rests_as_bound = false;  ///< The rest is the skin's bind pose, not the nodes'.
-  retarget::Soles soles;  ///< Measured from the skin, in marey's frame.
+  retarget::Soles soles;        ///< Measured from the skin, in marey's frame.
   /// Volume of the body, measured from the skin; nullopt: unknown.
   std::optional<retarget::BodyVolume> volume;
   retarget::Skin skin;  ///< In marey's frame; empty: no skin, or no mapped body.
@@ -75,14 +76,14 @@ struct ReadBody {
 /// If the body does not stand in the rest of its motion, it gets a T-pose computed from
 /// its geometry, or the neutral of `file`. If the rest of the nodes is less symmetric
 /// than the skin's bind pose, the bind pose becomes the rest.
-/// Errors, with the file: those of identify_bones(), hang_bones(), set_neutral(),
-/// find_body_frame() and of reading the bone map.
+/// Errors, with the file: those of identify_bones(), reparent_to_carriers(),
+/// set_neutral(), find_body_frame() and of reading the bone map.
 [[nodiscard]] Result<ReadBody> identify_body(RawBody raw, const BodyFile& file);
 
-/// Returns the error (kQuality) for a motion whose left and right are exchanged, with the
+/// Returns a poor finding for a motion whose left and right are exchanged, with the
 /// correction; nullopt: they are not exchanged. `path` is the motion's file, `map_option`
 /// the command-line option for its bone map.
-[[nodiscard]] std::optional<Error> exchanged_sides_error(
+[[nodiscard]] std::optional<Finding> assess_exchanged_sides(
     const std::filesystem::path& path,
     retarget::ExchangedSides exchanged,
     const std::string& map_option);

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "app/pages/calibration_figures.h"
+#include "app/pages/calibration_json.h"
 #include "app/pages/fill_page.h"
 #include "app/pages/report_json.h"
 #include "app/pages/report_page.h"
@@ -112,7 +112,7 @@ std::string calibration_html(const calib::CalibrationReport& report) {
   for (std::size_t c = 0; c < report.rig.cameras.size(); ++c) {
     cameras.push_back(page_camera(report, c));
   }
-  const Json data{{"figures", calibration_figures(report)},
+  const Json data{{"figures", calibration_json(report)},
                   {"cameras", cameras},
                   {"places", page_places(report, false)},
                   {"floor_places", page_places(report, true)}};

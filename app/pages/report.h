@@ -15,6 +15,7 @@
 #include "core/camera.h"
 #include "core/camera_quality.h"
 #include "core/detection.h"
+#include "core/finding.h"
 #include "core/motion.h"
 #include "core/provenance.h"
 
@@ -127,8 +128,8 @@ struct Report {
   std::vector<ReportCamera> cameras;
   double calibration_rms_px = 0.0;
   /// True if this run calibrated the cameras, so that their findings are already reported
-  /// (calib/quality/check_calibration.h).
-  bool cameras_are_judged = false;
+  /// (calib/quality/assess_calibration.h).
+  bool cameras_are_assessed = false;
   bool has_calibration_page = false;  ///< calibration.html is next to the report.
   std::optional<Body> subject;        ///< nullopt before the fit.
   double subject_rms_px = 0.0;
@@ -137,14 +138,13 @@ struct Report {
   std::vector<ReportTrial> trials;
   std::vector<ReportTiming> timings;
   double recorded_s = 0.0;  ///< Duration of all trials together.
-  std::vector<std::string> warnings;
-  /// The warnings that make the results unreliable: exit code 4.
-  std::vector<std::string> poor;
+  /// Problems with which the run was completed. Poor ones determine the exit code.
+  std::vector<Finding> findings;
 };
 
 /// Returns the figures as JSON, without pictures and motions: the content of report.json.
 /// Precondition: all numbers are finite.
-[[nodiscard]] std::string report_json(const Report& report);
+[[nodiscard]] std::string report_json_text(const Report& report);
 
 /// Returns the report as one HTML file that loads no other file and needs no network.
 [[nodiscard]] std::string report_html(const Report& report);

@@ -70,7 +70,7 @@ Json page_trial(const ReportTrial& trial) {
 std::string report_html(const Report& report) {
   Json trials = Json::array();
   for (const ReportTrial& trial : report.trials) trials.push_back(page_trial(trial));
-  const Json data{{"figures", report_figures(report)},
+  const Json data{{"figures", report_json(report)},
                   {"trials", trials},
                   {"calibration_page", report.has_calibration_page}};
   return fill_page(report_page(),

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/shell/findings.h"
 #include "core/base/assert.h"
 #include "core/base/quantile.h"
 
@@ -50,7 +51,7 @@ void collect_sigmas(const ReportTrial& trial, std::vector<double>& sigmas_m) {
   }
 }
 
-Json camera_figures(const ReportCamera& camera) {
+Json camera_json(const ReportCamera& camera) {
   const Intrinsics& k = camera.camera.intrinsics;
   const RigidTransform world_from_camera = inverse(camera.camera.camera_from_world);
   Json distortion = Json::array();
@@ -75,16 +76,16 @@ Json camera_figures(const ReportCamera& camera) {
           {"views", camera.quality.views}};
 }
 
-Json calibration_figures(const Report& report) {
+Json calibration_json(const Report& report) {
   Json cameras = Json::array();
   for (const ReportCamera& camera : report.cameras) {
-    cameras.push_back(camera_figures(camera));
+    cameras.push_back(camera_json(camera));
   }
   return {{"rms_px", px(report.calibration_rms_px)}, {"cameras", cameras}};
 }
 
 /// Returns the distance of every bone's joint from its parent joint.
-Json bone_figures(const Body& body) {
+Json bone_json(const Body& body) {
   Json bones = Json::array();
   for (const HumanBone bone : human_bones()) {
     const auto from = parent(bone);
@@ -97,7 +98,7 @@ Json bone_figures(const Body& body) {
   return bones;
 }
 
-Json subject_figures(const Report& report) {
+Json subject_json(const Report& report) {
   if (!report.subject) return nullptr;
   const Body& body = *report.subject;
   Json tags = Json::array();
@@ -114,7 +115,7 @@ Json subject_figures(const Report& report) {
           {"mass_kg", body.mass_kg ? Json(rounded(*body.mass_kg, 1)) : Json(nullptr)},
           {"rms_px", px(report.subject_rms_px)},
           {"limb_ratio", rounded(report.limb_ratio, 3)},
-          {"bones", bone_figures(body)},
+          {"bones", bone_json(body)},
           {"tags", tags},
           {"unplaced_tags", report.unplaced_tags}};
 }
@@ -131,7 +132,7 @@ const char* clock_word(ClockSource clock) {
   return "";
 }
 
-Json trial_camera_figures(const ReportTrial& trial) {
+Json trial_camera_json(const ReportTrial& trial) {
   Json cameras = Json::array();
   for (const ReportTrialCamera& camera : trial.cameras) {
     cameras.push_back({{"name", camera.name},
@@ -146,7 +147,7 @@ Json trial_camera_figures(const ReportTrial& trial) {
   return cameras;
 }
 
-Json tag_figures(const ReportTrial& trial) {
+Json tag_json(const ReportTrial& trial) {
   Json tags = Json::array();
   for (const ReportTag& tag : trial.tags) {
     const auto unseen =
@@ -164,7 +165,7 @@ Json tag_figures(const ReportTrial& trial) {
   return tags;
 }
 
-Json gap_figures(const ReportTrial& trial) {
+Json gap_json(const ReportTrial& trial) {
   Json gaps = Json::array();
   for (const ReportGap& gap : trial.gaps) {
     const int frames = gap.last_frame - gap.first_frame + 1;
@@ -177,7 +178,7 @@ Json gap_figures(const ReportTrial& trial) {
   return gaps;
 }
 
-Json joint_figures(const ReportTrial& trial) {
+Json joint_json(const ReportTrial& trial) {
   Json joints = Json::array();
   if (trial.bodies.empty()) return joints;
   const ReportBody& subject = trial.bodies.front();
@@ -202,7 +203,7 @@ Json joint_figures(const ReportTrial& trial) {
   return joints;
 }
 
-Json avatar_figures(const ReportTrial& trial) {
+Json avatar_json(const ReportTrial& trial) {
   Json avatars = Json::array();
   for (std::size_t i = 1; i < trial.bodies.size(); ++i) {
     const ReportBody& body = trial.bodies[i];
@@ -231,7 +232,7 @@ Json residuals_over_time(const ReportTrial& trial) {
   return values;
 }
 
-Json trial_figures(const ReportTrial& trial) {
+Json trial_json(const ReportTrial& trial) {
   std::vector<double> sigmas_m;
   collect_sigmas(trial, sigmas_m);
   return {
@@ -248,11 +249,11 @@ Json trial_figures(const ReportTrial& trial) {
       {"joint_sigma_p95_mm", quantile_mm(sigmas_m, 0.95)},
       {"files",
        trial.bodies.empty() ? std::vector<std::string>{} : trial.bodies.front().files},
-      {"cameras", trial_camera_figures(trial)},
-      {"tags", tag_figures(trial)},
-      {"gaps", gap_figures(trial)},
-      {"joints", joint_figures(trial)},
-      {"avatars", avatar_figures(trial)}};
+      {"cameras", trial_camera_json(trial)},
+      {"tags", tag_json(trial)},
+      {"gaps", gap_json(trial)},
+      {"joints", joint_json(trial)},
+      {"avatars", avatar_json(trial)}};
 }
 
 /// Returns the root mean square over the corners of all trials.
@@ -269,7 +270,7 @@ double solve_rms_px(const Report& report) {
 }
 
 /// Returns the worst camera, tag, frame and joint, which averages may hide.
-Json worst_figures(const Report& report) {
+Json worst_json(const Report& report) {
   Json worst{
       {"camera", nullptr}, {"tag", nullptr}, {"frame", nullptr}, {"joint", nullptr}};
   const auto raise = [&](const char* kind, double value, Json row) {
@@ -294,7 +295,7 @@ Json worst_figures(const Report& report) {
             px(trial.frame_rms_px[i]),
             {{"trial", trial.name}, {"name", trial.first_frame + static_cast<int>(i)}});
     }
-    for (const Json& joint : joint_figures(trial)) {
+    for (const Json& joint : joint_json(trial)) {
       if (!joint.at("median_sigma_mm").is_number()) continue;
       raise("joint",
             joint.at("median_sigma_mm").get<double>(),
@@ -304,7 +305,7 @@ Json worst_figures(const Report& report) {
   return worst;
 }
 
-Json summary_figures(const Report& report) {
+Json summary_json(const Report& report) {
   int frames = 0;
   int solved = 0;
   double processing_s = 0.0;
@@ -316,6 +317,9 @@ Json summary_figures(const Report& report) {
   }
   for (const ReportTiming& timing : report.timings) processing_s += timing.seconds;
   const double recorded_s = report.recorded_s;
+  // Without results there is nothing that a finding could make unreliable.
+  std::vector<std::string> poor;
+  if (!report.trials.empty()) poor = messages(report.findings, Severity::kPoor);
   return {{"trials", report.trials.size()},
           {"frames", frames},
           {"frames_solved", solved},
@@ -324,8 +328,8 @@ Json summary_figures(const Report& report) {
           {"solve_rms_px", px(solve_rms_px(report))},
           {"joint_sigma_median_mm", quantile_mm(sigmas_m, 0.5)},
           {"joint_sigma_p95_mm", quantile_mm(sigmas_m, 0.95)},
-          {"worst", worst_figures(report)},
-          {"poor", report.poor},
+          {"worst", worst_json(report)},
+          {"poor", poor},
           {"recorded_s", rounded(recorded_s, 3)},
           {"processing_s", rounded(processing_s, 3)},
           {"times_real_time",
@@ -341,27 +345,26 @@ double rounded(double value, int decimals) {
   return std::round(value * scale) / scale + 0.0;
 }
 
-Json report_figures(const Report& report) {
+Json report_json(const Report& report) {
   Json trials = Json::array();
-  for (const ReportTrial& trial : report.trials) trials.push_back(trial_figures(trial));
+  for (const ReportTrial& trial : report.trials) trials.push_back(trial_json(trial));
   Json timings = Json::array();
   for (const ReportTiming& timing : report.timings) {
     timings.push_back({{"stage", timing.stage}, {"seconds", rounded(timing.seconds, 3)}});
   }
   return {{"session", report.session},
           {"marey_version", report.version},
-          {"summary", summary_figures(report)},
-          {"warnings", report.warnings},
+          {"summary", summary_json(report)},
+          {"warnings", messages(report.findings, Severity::kFair)},
           {"trials", trials},
-          {"calibration", calibration_figures(report)},
-          {"subject", subject_figures(report)},
+          {"calibration", calibration_json(report)},
+          {"subject", subject_json(report)},
           {"timings", timings}};
 }
 
-std::string report_json(const Report& report) {
+std::string report_json_text(const Report& report) {
   // Names come from files and may have any bytes. Bytes that are not UTF-8 become U+FFFD.
-  return report_figures(report).dump(2, ' ', false, Json::error_handler_t::replace) +
-         "\n";
+  return report_json(report).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace marey::app

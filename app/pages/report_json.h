@@ -10,7 +10,7 @@ namespace marey::app {
 
 /// Returns the content of report.json; the page shows the same figures. Numbers are
 /// rounded, keys end in their units. Precondition: all numbers are finite.
-[[nodiscard]] nlohmann::ordered_json report_figures(const Report& report);
+[[nodiscard]] nlohmann::ordered_json report_json(const Report& report);
 
 /// Rounds `value` to `decimals` decimals; never returns minus zero. Precondition: `value`
 /// is finite.

@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/plan/plan_figures.h"
+#include "app/plan/plan_json.h"
 #include "app/plan/plan_page.h"
 #include "calib/plan/body_heights.h"
 #include "calib/plan/plan_calibration.h"
@@ -55,8 +55,8 @@ PlanReport report_of(const PlanArguments& args, recordings::CapturePlan plan) {
   PlanReport report;
   report.name = args.plan.filename().string();
   report.cameras = std::move(plan.cameras);
-  report.options.tag_size_m =
-      args.tag_size_m.value_or(plan.tag_size_m.value_or(recordings::kDefaultPlannedTag_m));
+  report.options.tag_size_m = args.tag_size_m.value_or(
+      plan.tag_size_m.value_or(recordings::kDefaultPlannedTag_m));
   report.stature_m =
       args.stature_m.value_or(plan.stature_m.value_or(calib::kTypicalStature_m));
   report.grid = calib::grid_before(report.cameras);
@@ -120,7 +120,7 @@ Exit run_plan(const PlanArguments& args, Console& console) {
   if (!plan) return console.fail(plan.error());
   const PlanReport report = report_of(args, *std::move(plan));
   constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
-  const std::string json = plan_figures(report).dump(1, ' ', false, kReplace) + "\n";
+  const std::string json = plan_json(report).dump(1, ' ', false, kReplace) + "\n";
   if (const Status ok = recordings::write_file(args.out / "plan.json", json); !ok) {
     return console.fail(ok.error());
   }

@@ -8,7 +8,7 @@
 
 #include <glm/vec2.hpp>
 
-#include "app/plan/plan_figures.h"
+#include "app/plan/plan_json.h"
 
 namespace marey::app {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "app/plan/plan_figures.h"
+#include "app/plan/plan_json.h"
 
 namespace marey::app {
 

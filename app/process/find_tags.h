@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "app/check/match_times.h"
 #include "app/shell/console.h"
 #include "core/base/result.h"
 #include "core/camera.h"
 #include "core/detection.h"
+#include "core/finding.h"
 #include "recordings/session/session.h"
 
 namespace marey::app {
@@ -23,7 +23,7 @@ namespace marey::app {
 ///
 /// Frames of recorded takes, and of videos with uneven rates, are matched by time
 /// (match_times()). A motion is processed without a video that cannot be read, and every
-/// trial with the readable part of a video; `troubles` lists both.
+/// trial with the readable part of a video; both are poor findings.
 ///
 /// Errors: a video that cannot be read in a trial that is not a motion; a video without
 /// any tag, or without the board where the board is required (the error names what the
@@ -35,13 +35,7 @@ namespace marey::app {
     const recordings::Trial& trial,
     const std::filesystem::path& out,
     Console& console,
-    RecordingTroubles& troubles);
-
-/// Checks that each camera has the same picture size in two trials, as it is calibrated
-/// for one size. Errors (kBadInput): the first camera with two sizes. Precondition: both
-/// arguments have one entry per camera of the session.
-[[nodiscard]] Status check_picture_sizes(const std::vector<CameraDetections>& earlier,
-                                         const std::vector<CameraDetections>& found);
+    std::vector<Finding>& findings);
 
 /// Moves the corners of every tag to where they would be detected without shrinkage.
 /// Precondition: the detections are of these cameras.

@@ -6,8 +6,9 @@
 #include <set>
 #include <utility>
 
-#include "app/check/check_body.h"
-#include "app/check/check_clocks.h"
+#include "app/check/assess_body.h"
+#include "app/check/assess_clocks.h"
+#include "app/check/check_detections.h"
 #include "app/check/check_ids.h"
 #include "app/check/check_session.h"
 #include "app/check/check_standing.h"
@@ -18,6 +19,7 @@
 #include "app/motion/retarget_files.h"
 #include "app/motion/write_motion.h"
 #include "app/process/find_tags.h"
+#include "app/shell/findings.h"
 #include "app/shell/version.h"
 #include "core/base/assert.h"
 #include "core/base/parallel.h"
@@ -121,17 +123,18 @@ Result<Pipeline> Pipeline::open(Stage stage,
   }
   if (const Status ok = check_before(stage, *session); !ok) return ok.error();
   if (const Status ok = recordings::check_files(*session); !ok) return ok.error();
-  if (const auto warning = uneven_sides_warning(*session)) console.warn(*warning);
-  RecordingTroubles troubles;
-  if (const Status ok = check_videos(*session, troubles); !ok) return ok.error();
-  for (const std::string& warning : troubles.warnings) console.warn(warning);
+  std::vector<Finding> findings;
+  if (auto sides = assess_sides(*session)) findings.push_back(std::move(*sides));
+  const Status opened = check_videos(*session, findings);
+  print_warnings(console, findings);
+  if (!opened) return opened.error();
   std::set<std::string> names{"motion"};
   for (const auto& avatar : options.avatars) {
     if (!names.insert(avatar.stem().string()).second) {
-      return bad_input(avatar.string(),
-                       "two results would have the name \"" + avatar.stem().string() +
-                           "\"",
-                       "rename the file of the avatar: results are named after it");
+      return bad_input(
+          avatar.string(),
+          "two results would have the name \"" + avatar.stem().string() + "\"",
+          "rename the file of the avatar: results are named after it");
     }
     if (const Status ok = check_avatar(avatar); !ok) return ok.error();
   }
@@ -156,6 +159,15 @@ Error Pipeline::in_session(Error error) const {
   return error;
 }
 
+void Pipeline::add(Finding finding) {
+  report_.findings.push_back(std::move(finding));
+}
+
+void Pipeline::add_of_trial(const std::string& trial, Finding finding) {
+  if (finding.severity == Severity::kPoor) poor_trials_.insert(trial);
+  add(std::move(finding));
+}
+
 void Pipeline::time_stage(const std::string& name, double seconds) {
   report_.timings.push_back({name, seconds});
 }
@@ -168,37 +180,35 @@ Status Pipeline::track() {
     if (ok) continue;
     if (trial.kind != TrialKind::kMotion) return ok;
     // Other motions do not depend on this one.
-    report_.warnings.push_back(ok.error().message());
-    failures_.push_back(ok.error());
+    add(tolerated(Severity::kPoor, "trial", ok.error()));
     lost.insert(trial.name);
   }
   std::erase_if(session_.trials, [&](const Trial& t) { return lost.contains(t.name); });
   if (!lost.empty() && motion_trials().empty()) {
-    const Error error = failures_.back();
-    failures_.pop_back();
+    // The last of these findings ends the work.
+    std::vector<Finding>& all = report_.findings;
+    const auto last = std::find_if(all.rbegin(), all.rend(), [](const Finding& finding) {
+      return finding.severity == Severity::kPoor;
+    });
+    MAREY_ASSERT(last != all.rend());
+    const Error error = last->error();
+    all.erase(std::next(last).base());
     return error;
   }
   time_stage("tags", watch.seconds());
-  RecordingTroubles troubles;
-  const Status ok = check_ids(session_, detections_, troubles);
-  for (std::string& warning : troubles.warnings) {
-    report_.warnings.push_back(std::move(warning));
-  }
-  return ok;
+  return check_ids(session_, detections_, report_.findings);
 }
 
 Status Pipeline::track_trial(const Trial& trial) {
   if (detections_.contains(trial.name)) return Done{};
-  RecordingTroubles troubles;
-  auto found = find_tags(session_, trial, options_.out, *console_, troubles);
+  std::vector<Finding> findings;
+  auto found = find_tags(session_, trial, options_.out, *console_, findings);
   if (!found) return found.error();
-  for (const std::string& warning : troubles.warnings) {
-    report_.warnings.push_back(warning);
-  }
-  for (const Error& failure : troubles.failures) {
-    report_.warnings.push_back(failure.message());
-    failures_.push_back(failure);
-  }
+  std::stable_sort(
+      findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+        return a.severity < b.severity;
+      });
+  for (Finding& finding : findings) add(std::move(finding));
   for (const auto& [name, earlier] : detections_) {
     if (const Status ok = check_picture_sizes(earlier, *found); !ok) return ok;
   }
@@ -234,19 +244,14 @@ Status Pipeline::check_trials() {
       const auto turned = find_turned_video(cameras_, *detections, session_.tags);
       return in_session(turned ? *turned : ok.error());
     }
-    if (auto wrong =
-            check_offsets(session_, trial, cameras_, *detections, max_centre_sigma_m)) {
-      report_.warnings.push_back(wrong->message());
-      failures_.push_back(std::move(*wrong));
-      poor_trials_.insert(trial.name);
+    if (auto wrong = assess_trial_offsets(
+            session_, trial, cameras_, *detections, max_centre_sigma_m)) {
+      add_of_trial(trial.name, std::move(*wrong));
     }
-    const auto moved =
-        find_moved_cameras(trial.name, cameras_, *detections, session_.tags);
-    if (!moved) continue;
-    report_.warnings.push_back(moved->error.message());
-    if (!moved->is_poor) continue;
-    failures_.push_back(moved->error);
-    poor_trials_.insert(trial.name);
+    if (auto moved =
+            find_moved_cameras(trial.name, cameras_, *detections, session_.tags)) {
+      add_of_trial(trial.name, std::move(*moved));
+    }
   }
   return Done{};
 }
@@ -263,9 +268,7 @@ Status Pipeline::fit() {
   // All trials are checked before the long computation, so swapped videos are reported
   // early.
   if (const Status ok = check_trials(); !ok) return ok;
-  if (const auto warning = exchanged_exercise_warning(session_, detections_)) {
-    report_.warnings.push_back(*warning);
-  }
+  if (auto exercise = assess_exercise(session_, detections_)) add(std::move(*exercise));
   const Stopwatch watch;
   const reconstruct::SubjectPrior prior{session_.subject.name,
                                         session_.subject.stature_m,
@@ -277,19 +280,21 @@ Status Pipeline::fit() {
   body_ = fit->body;
   report_.subject_rms_px = fit->rms_px;
   report_.limb_ratio = fit->limb_ratio;
-  for (const Error& warning : fit->warnings) {
-    const Error located = in_session(warning);
-    report_.warnings.push_back(located.message());
-    failures_.push_back(located);
+  for (Finding finding : fit->findings) {
+    finding.where = in_session(finding.error()).where;
+    add(std::move(finding));
   }
-  for (const std::string& warning : body_warnings(*body_)) {
-    report_.warnings.push_back(session_.file.string() + ": " + warning);
+  for (Finding& finding : assess_body(*body_)) {
+    finding.where = session_.file.string();
+    add(std::move(finding));
   }
   for (const TagId id : fit->unplaced) {
     report_.unplaced_tags.push_back(number(id));
-    report_.warnings.push_back(
-        "tag " + std::to_string(number(id)) +
-        " is not used: it was never seen well enough to locate it on the body");
+    add(fair_finding("unplaced",
+                     "",
+                     "tag " + std::to_string(number(id)) +
+                         " is not used: it was never seen well enough to locate it on "
+                         "the body"));
   }
   time_stage("subject", watch.seconds());
   return recordings::write_subject(options_.out / "subject.toml", *body_);
@@ -346,7 +351,7 @@ Status Pipeline::solve() {
     if (!tags) return tags;
   }
   time_stage("files", writing.seconds());
-  return assess_standing();
+  return add_floor_findings();
 }
 
 }  // namespace marey::app

@@ -18,6 +18,7 @@
 #include "core/body.h"
 #include "core/camera.h"
 #include "core/detection.h"
+#include "core/finding.h"
 #include "reconstruct/tags/solve_motion.h"
 #include "recordings/session/session.h"
 
@@ -71,10 +72,9 @@ class Pipeline {
   /// Writes OUT/report.json and OUT/report.html.
   [[nodiscard]] Status write_report();
 
+  /// Its findings are the problems with which the run was completed: missing inputs, and
+  /// results of insufficient quality (both poor), and warnings (fair).
   [[nodiscard]] const Report& report() const { return report_; }
-  /// Problems with which the run was completed: missing inputs, and results of
-  /// insufficient quality. They are also among the warnings of the report.
-  [[nodiscard]] const std::vector<Error>& failures() const { return failures_; }
 
  private:
   struct SolvedMotion {
@@ -99,14 +99,16 @@ class Pipeline {
   [[nodiscard]] Status check_trials();
   [[nodiscard]] Result<reconstruct::SolvedTrial> solve_trial(
       const recordings::Trial& trial, const Progress& progress);
-  [[nodiscard]] Status assess_standing();
-  [[nodiscard]] Status assess_trials();
+  [[nodiscard]] Status add_floor_findings();
+  [[nodiscard]] Status add_trial_findings();
   [[nodiscard]] Result<ReportBody> retarget_one(SolvedMotion& motion,
                                                 const std::filesystem::path& avatar);
   [[nodiscard]] std::vector<const recordings::Trial*> motion_trials() const;
   /// Adds the session file to an error. Functions without access to files leave the place
   /// empty, or name a table of session.toml, such as "[board]".
   [[nodiscard]] Error in_session(Error error) const;
+  void add(Finding finding);
+  void add_of_trial(const std::string& trial, Finding finding);
   void time_stage(const std::string& name, double seconds);
 
   recordings::Session session_;
@@ -116,8 +118,7 @@ class Pipeline {
   std::vector<Camera> cameras_;
   std::optional<Body> body_;
   std::vector<SolvedMotion> motions_;
-  std::vector<Error> failures_;
-  std::set<std::string> poor_trials_;  ///< Names of trials with an entry in failures_.
+  std::set<std::string> poor_trials_;  ///< Names of trials with poor findings.
   Report report_;
 };
 

@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "app/check/check_standing.h"
-#include "app/pages/calibration_figures.h"
 #include "app/pages/calibration_html.h"
+#include "app/pages/calibration_json.h"
 #include "app/process/calibrate_session.h"
 #include "app/process/find_tags.h"
 #include "app/process/pipeline.h"
 #include "app/process/stand_on_floor.h"
 #include "app/shell/version.h"
+#include "calib/quality/assess_calibration.h"
 #include "calib/quality/calibration_report.h"
-#include "calib/quality/check_calibration.h"
 #include "calib/quality/report_calibration.h"
 #include "core/base/assert.h"
 #include "core/base/stopwatch.h"
@@ -99,16 +99,14 @@ Status Pipeline::show_cameras(SessionRig found, double rate_hz) {
                                  rate_hz,
                                  found.has_floor},
                                 std::move(found.rig));
-  for (Error& poor : calib::poor_of(report)) {
-    report_.warnings.push_back(poor.message());
-    failures_.push_back(std::move(poor));
+  for (Finding finding : report.findings) {
+    if (finding.severity == Severity::kNote) continue;
+    finding.where = "calibration, " + finding.where;
+    add(std::move(finding));
   }
-  for (std::string& warning : calib::warnings_of(report)) {
-    report_.warnings.push_back(std::move(warning));
-  }
-  report_.cameras_are_judged = true;
-  const Status written =
-      recordings::write_file(options_.out / "calibration.json", calibration_json(report));
+  report_.cameras_are_assessed = true;
+  const Status written = recordings::write_file(options_.out / "calibration.json",
+                                                calibration_json_text(report));
   if (!written) return written;
   return recordings::write_file(options_.out / "calibration.html",
                                 calibration_html(report));

@@ -9,8 +9,8 @@
 #include <glm/trigonometric.hpp>
 
 #include "app/check/assess_floor_height.h"
+#include "app/check/assess_results.h"
 #include "app/check/assess_trial.h"
-#include "app/check/check_results.h"
 #include "app/motion/retarget_files.h"
 #include "app/process/pipeline.h"
 #include "app/process/report_trial.h"
@@ -38,7 +38,7 @@ std::vector<CameraDetections> middle_frames(std::vector<CameraDetections> detect
 
 }  // namespace
 
-Status Pipeline::assess_standing() {
+Status Pipeline::add_floor_findings() {
   const recordings::Trial* trial = session_.find(recordings::TrialKind::kStatic);
   if (!trial) return Done{};
   const auto detections = unshrunk_detections_of(*trial);
@@ -54,9 +54,7 @@ Status Pipeline::assess_standing() {
     if (lowest_m) motions.push_back({motion.trial->name, *lowest_m});
   }
   auto finding = assess_floor_height(session_, {trial->name, *height_m}, motions);
-  if (!finding) return Done{};
-  report_.warnings.push_back(finding->error.message());
-  if (finding->is_poor) failures_.push_back(std::move(finding->error));
+  if (finding) add(std::move(*finding));
   return Done{};
 }
 
@@ -95,14 +93,10 @@ Result<ReportBody> Pipeline::retarget_one(SolvedMotion& motion,
   body.legs_deg = glm::degrees(verdict.posture.legs.median_rad);
   body.arms_deg = glm::degrees(verdict.posture.arms.median_rad);
   body.trunk_deg = glm::degrees(verdict.posture.trunk.median_rad);
-  for (const AvatarProblem& problem : verdict.problems) {
-    Error error = problem.error;
-    error.where = "trial " + folder.string() + ", " + error.where;
-    body.problems.push_back(error.message());
-    report_.warnings.push_back(error.message());
-    if (!problem.is_poor) continue;
-    failures_.push_back(std::move(error));
-    poor_trials_.insert(motion.trial->name);
+  for (Finding problem : verdict.problems) {
+    problem.where = "trial " + folder.string() + ", " + problem.where;
+    body.problems.push_back(problem.message());
+    add_of_trial(motion.trial->name, std::move(problem));
   }
   for (const auto& file : written->files) {
     body.files.push_back((folder / file.filename()).string());
@@ -110,10 +104,10 @@ Result<ReportBody> Pipeline::retarget_one(SolvedMotion& motion,
   return body;
 }
 
-Status Pipeline::assess_trials() {
-  std::vector<Error> found = check_rig_and_subject(report_);
+Status Pipeline::add_trial_findings() {
+  std::vector<Finding> found = assess_rig_and_subject(report_);
   for (const ReportTrial& trial : report_.trials) {
-    std::vector<Error> poor = check_trial_results(trial);
+    std::vector<Finding> poor = assess_trial_results(trial);
     if (!poor.empty()) poor_trials_.insert(trial.name);
     std::move(poor.begin(), poor.end(), std::back_inserter(found));
   }
@@ -128,10 +122,7 @@ Status Pipeline::assess_trials() {
       found.push_back(std::move(*poor));
     }
   }
-  for (Error& poor : found) {
-    report_.warnings.push_back(poor.message());
-    failures_.push_back(std::move(poor));
-  }
+  for (Finding& poor : found) add(std::move(poor));
   return Done{};
 }
 
@@ -157,15 +148,13 @@ Status Pipeline::write_report() {
     }
     report_.recorded_s += longest_s;
   }
-  if (const Status ok = assess_trials(); !ok) return ok;
-  report_.poor.clear();
-  for (const Error& failure : failures_) report_.poor.push_back(failure.message());
+  if (const Status ok = add_trial_findings(); !ok) return ok;
   std::error_code ignored;
   report_.has_calibration_page =
       std::filesystem::exists(options_.out / "calibration.html", ignored);
   time_stage("report", watch.seconds());
   if (const Status ok =
-          recordings::write_file(options_.out / "report.json", report_json(report_));
+          recordings::write_file(options_.out / "report.json", report_json_text(report_));
       !ok) {
     return ok;
   }

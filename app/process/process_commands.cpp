@@ -9,9 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/check/check_results.h"
+#include "app/check/assess_results.h"
 #include "app/convert/mannequin_commands.h"
 #include "app/process/earlier_calibration.h"
+#include "app/shell/findings.h"
 #include "app/shell/option_checks.h"
 #include "app/shell/program_name.h"
 
@@ -31,10 +32,9 @@ Status run_stages(Stage stage, Pipeline& pipeline) {
   return pipeline.write_report();
 }
 
-/// Prints the figures and warnings of the report. Failures are not printed here: the
+/// Prints the figures and warnings of the report. Poor findings are not printed here: the
 /// caller prints them as errors.
 void print_results(const Report& report,
-                   const std::vector<Error>& failures,
                    const std::filesystem::path& out,
                    Console& console) {
   std::array<char, 200> text{};
@@ -61,17 +61,11 @@ void print_results(const Report& report,
                   trial.median_px);
     console.say(text.data());
   }
-  for (const std::string& warning : report.warnings) {
-    const bool is_failure =
-        std::any_of(failures.begin(), failures.end(), [&](const Error& f) {
-          return f.message() == warning;
-        });
-    if (!is_failure) console.warn(warning);
-  }
+  print_warnings(console, report.findings);
   if (!report.trials.empty()) {
     console.say("report: " + (out / "report.html").string());
     console.say("to see it move: " + shell_command({"marey", "view", out.string()}));
-  } else if (report.cameras_are_judged) {
+  } else if (report.cameras_are_assessed) {
     console.say("report: " + (out / "calibration.html").string());
   }
 }
@@ -141,25 +135,21 @@ Exit run_session(Stage stage,
     if (!used.empty()) console.say(used);
   }
   if (const Status ok = run_stages(stage, *pipeline); !ok) {
-    for (const Error& failure : pipeline->failures()) {
-      if (failure.message() != ok.error().message()) console.warn(failure.message());
+    for (const Finding& finding : pipeline->report().findings) {
+      if (finding.severity == Severity::kPoor) console.warn(finding.message());
     }
     warn_of_kept();
     return console.fail(ok.error());
   }
-  std::vector<Error> failures = pipeline->failures();
-  if (stage == Stage::kCalibrate) {
-    // The other stages check the results when they write the report.
-    for (Error& poor : check_results(pipeline->report())) {
-      failures.push_back(std::move(poor));
-    }
-  }
-  print_results(pipeline->report(), failures, options.out, console);
-  if (json) std::fputs(report_json(pipeline->report()).c_str(), stdout);
+  const Report& report = pipeline->report();
+  print_results(report, options.out, console);
+  if (json) std::fputs(report_json_text(report).c_str(), stdout);
   // The other results are written. The exit code still shows that a result is missing.
-  Exit exit = Exit::kOk;
-  for (const Error& failure : failures) exit = console.fail(failure);
-  return exit;
+  const Exit exit = print_failures(console, report.findings);
+  if (stage != Stage::kCalibrate) return exit;
+  // The other stages assess the results when they write the report.
+  const Exit later = print_failures(console, assess_results(report));
+  return later == Exit::kOk ? exit : later;
 }
 
 Exit run_demo(const std::filesystem::path& sample,

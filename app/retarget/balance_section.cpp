@@ -16,7 +16,7 @@ std::string share_cell(const retarget::BalanceFigures& figures) {
 }
 
 std::string row_of(const RetargetRun& run, const AvatarResult& avatar) {
-  const auto made = retarget::balance_figures(avatar.balance, run.balance);
+  const auto made = retarget::balance_measures(avatar.balance, run.balance);
   std::string out = "<tr><th>" + escaped(avatar.name) + "</th>" + share_cell(made) +
                     frames_cell(made.lost_frames);
   const auto& report = avatar.retargeted.report.balance;
@@ -69,7 +69,7 @@ const std::string_view kBalanceStyle = R"(
 )";
 
 std::string balance_section(const RetargetRun& run, const std::vector<int>& moments) {
-  const auto source = retarget::balance_figures(run.balance);
+  const auto source = retarget::balance_measures(run.balance);
   std::string out =
       "<h2>Centre of mass and the feet</h2>\n<p class=\"about\">Share of the frames with "
       "a bearing foot in which the centre of mass (average shares of mass) is above the "

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/retarget/retarget_figures.h"
+#include "app/retarget/retarget_json.h"
 
 namespace marey::app {
 

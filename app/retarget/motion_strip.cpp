@@ -12,7 +12,7 @@
 
 #include "app/pages/page_text.h"
 #include "core/pose.h"
-#include "retarget/contacts/contact_figures.h"
+#include "retarget/contacts/measure_contacts.h"
 
 namespace marey::app {
 namespace {

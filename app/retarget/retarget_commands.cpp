@@ -14,7 +14,7 @@
 #include "app/motion/error_of_file.h"
 #include "app/motion/neutral.h"
 #include "app/motion/retarget_files.h"
-#include "app/retarget/retarget_figures.h"
+#include "app/retarget/retarget_json.h"
 #include "app/retarget/retarget_page.h"
 #include "app/retarget/retarget_plan.h"
 #include "core/resample.h"
@@ -35,7 +35,8 @@ struct Work {
   RetargetRun run;
   std::vector<std::optional<OpenedAvatar>> opened;  ///< One per avatar of the plan.
   Exit exit = Exit::kOk;                            ///< Exit code of the first failure.
-  std::optional<Error> source_error = std::nullopt;  ///< If set, all results are poor.
+  std::optional<Finding> source_finding =
+      std::nullopt;  ///< If set, all results are poor.
   std::optional<retarget::BodyVolume> source_volume = std::nullopt;
 
   void fail(const Error& error) {
@@ -133,23 +134,23 @@ Status check_avatar_result(const OpenedAvatar& body,
                            Work& work,
                            AvatarResult& avatar) {
   auto verdict = assess_avatar(body.file.string(),
-                              work.run.source,
-                              avatar.retargeted,
-                              body.skin,
-                              !work.args.no_ground,
-                              files);
+                               work.run.source,
+                               avatar.retargeted,
+                               body.skin,
+                               !work.args.no_ground,
+                               files);
   if (!verdict) return verdict.error();
   avatar.verdict = *std::move(verdict);
-  for (const AvatarProblem& problem : avatar.verdict.problems) {
-    if (problem.is_poor) {
-      work.fail(problem.error);
+  for (const Finding& problem : avatar.verdict.problems) {
+    if (problem.severity == Severity::kPoor) {
+      work.fail(problem.error());
     } else {
-      work.console.warn(problem.error.message());
+      work.console.warn(problem.message());
     }
   }
   // The console has already reported it.
-  if (work.source_error) {
-    avatar.verdict.problems.push_back({*work.source_error, true});
+  if (work.source_finding) {
+    avatar.verdict.problems.push_back(*work.source_finding);
   }
   return Done{};
 }
@@ -233,8 +234,8 @@ void print_summary(const Work& work) {
   if (work.args.json) {
     constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
     const auto figures = work.plan.file.empty()
-                             ? retarget_figures(work.run)
-                             : avatar_figures(work.run, work.run.avatars.front());
+                             ? retarget_json(work.run)
+                             : avatar_json(work.run, work.run.avatars.front());
     std::printf("%s\n", figures.dump(2, ' ', false, kReplace).c_str());
   }
   for (const AvatarResult& avatar : work.run.avatars) {
@@ -288,9 +289,9 @@ Exit run_retarget(const RetargetArguments& args, Console& console) {
   for (const std::string& remark : source->remarks()) {
     console.warn(args.motion.string() + ": " + remark);
   }
-  work.source_error =
-      exchanged_sides_error(args.motion, source->exchanged, "--motion-bones");
-  if (work.source_error) work.fail(*work.source_error);
+  work.source_finding =
+      assess_exchanged_sides(args.motion, source->exchanged, "--motion-bones");
+  if (work.source_finding) work.fail(work.source_finding->error());
   work.source_volume = volume_of_source(*source);
   const Motion& motion = source->raw.motion;
   work.run.source =

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "app/retarget/retarget_figures.h"
+#include "app/retarget/retarget_json.h"
 
 namespace marey::app {
 

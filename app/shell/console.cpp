@@ -59,20 +59,6 @@ void print_json(const nlohmann::ordered_json& line) {
 
 }  // namespace
 
-Exit exit_for(Errc code) {
-  switch (code) {
-    case Errc::kInternal:
-      return Exit::kInternal;
-    case Errc::kBadInput:
-      return Exit::kBadInput;
-    case Errc::kQuality:
-      return Exit::kQualityGate;
-    case Errc::kDevice:
-      return Exit::kDevice;
-  }
-  return Exit::kInternal;
-}
-
 Console::Console(ProgressStyle style, ProgramName name)
     : style_(style), name_(std::move(name)), terminal_(isatty(STDERR_FILENO) == 1) {}
 

@@ -6,24 +6,12 @@
 #include <mutex>
 #include <string>
 
+#include "app/shell/exit_codes.h"
 #include "app/shell/program_name.h"
 #include "core/base/progress.h"
 #include "core/base/result.h"
 
 namespace marey::app {
-
-/// Exit codes of every command (docs/formats/README.md).
-enum class Exit {
-  kOk = 0,
-  kInternal = 1,
-  kUsage = 2,
-  kBadInput = 3,
-  kQualityGate = 4,
-  kDevice = 5,
-  kInterrupted = 130,
-};
-
-[[nodiscard]] Exit exit_for(Errc code);
 
 enum class ProgressStyle {
   kAuto,   ///< A bar on a terminal, lines otherwise.

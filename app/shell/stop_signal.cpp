@@ -7,26 +7,46 @@
 
 #include <unistd.h>
 
+#include "app/shell/exit_codes.h"
+#include "recordings/text/atomic_file.h"
+
 namespace marey::app {
 namespace {
-
-constexpr int kInterrupted = 130;
 
 std::atomic<bool> is_wanted = false;
 static_assert(std::atomic<bool>::is_always_lock_free);  // Required in signal handlers.
 
-extern "C" void on_stop(int /*signal*/) {
-  if (is_wanted.exchange(true)) _exit(kInterrupted);
+using SignalHandler = void (*)(int);
+
+// Handlers call functions only that are safe in signal handlers.
+extern "C" void exit_at_once(int /*signal*/) {
+  static constexpr char kText[] = "\ninterrupted\n";
+  [[maybe_unused]] const ssize_t written =
+      write(STDERR_FILENO, static_cast<const char*>(kText), sizeof kText - 1);
+  recordings::visit_partial_files([](const char* path) { unlink(path); });
+  _exit(static_cast<int>(Exit::kInterrupted));
+}
+
+extern "C" void request_stop(int /*signal*/) {
+  if (is_wanted.exchange(true)) _exit(static_cast<int>(Exit::kInterrupted));
+}
+
+void install(SignalHandler handler) {
+  std::signal(SIGINT, handler);
+  std::signal(SIGTERM, handler);
+  // SIGHUP: the terminal was closed. If nohup(1) set it to be ignored, it stays ignored.
+  if (std::signal(SIGHUP, handler) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 }  // namespace
 
+void exit_on_stop_signals() {
+  install(exit_at_once);
+}
+
 void catch_stop_signals() {
   is_wanted = false;
-  std::signal(SIGINT, on_stop);
-  std::signal(SIGTERM, on_stop);
-  // SIGHUP: the terminal was closed. If nohup(1) set it to be ignored, it stays ignored.
-  if (std::signal(SIGHUP, on_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+  install(request_stop);
   // The reader of the messages may end with the terminal; the recording must still be
   // completed.
   std::signal(SIGPIPE, SIG_IGN);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/motion/error_of_file.h"
 #include "app/motion/foot_contacts.h"
 #include "core/base/extension.h"
 #include "retarget/body/body_map.h"
@@ -99,11 +100,7 @@ Result<ViewedFigure> figure_on_avatar(const Motion& motion,
   options.skin = &body->skin;
   options.hands.emplace().avatar_volume = body->volume;
   auto retargeted = retarget::retarget_motion(motion, body->skeleton(), options);
-  if (!retargeted) {
-    Error error = retargeted.error();
-    error.where = avatar.string() + (error.where.empty() ? "" : ": " + error.where);
-    return error;
-  }
+  if (!retargeted) return of_file(avatar, retargeted.error());
   ViewedFigure figure;
   figure.name = avatar.stem().string();
   figure.kind = live::PageSkeletonKind::kAvatar;

@@ -70,9 +70,9 @@ class Remade {
   bool left_out_ = false;
 };
 
-Status add_figures(const OpenedTake& opened,
-                   const Skeleton& performer,
-                   ViewedRecording& out) {
+Status add_bodies(const OpenedTake& opened,
+                  const Skeleton& performer,
+                  ViewedRecording& out) {
   const FrameRate rate = opened.settings.rate;
   const std::string& name = opened.body.name;
   out.figures.push_back({name.empty() ? "performer" : name,
@@ -112,7 +112,7 @@ Result<ViewedRecording> read_live_take_view(const fs::path& what) {
   out.title = fs::weakly_canonical(folder).filename().string();
   out.rate = opened->settings.rate;
   out.graphs.push_back({"reprojection", "px", {}});
-  if (const Status ok = add_figures(*opened, chain->performer(), out); !ok) {
+  if (const Status ok = add_bodies(*opened, chain->performer(), out); !ok) {
     return ok.error();
   }
   Remade remade(out, out.rate);

@@ -19,7 +19,7 @@
 namespace marey {
 namespace {
 
-constexpr std::size_t kMostPairs = 12;
+constexpr std::size_t kMaxPairs = 12;
 
 /// Where the centre of mass is wanted.
 enum class Balance { kOff, kAsReference, kAsCaptured };
@@ -45,7 +45,7 @@ Distances measure_clip(const CapturedClip& clip,
                        Balance balance) {
   const Skeleton& skeleton = clip.character.skeleton;
   Distances distances_mm(kinds.size() + 1);
-  for (const CapturedPair& pair : choose_pairs(clip, kMostPairs)) {
+  for (const CapturedPair& pair : choose_pairs(clip, kMaxPairs)) {
     const Pose& near = clip.poses[pair.near_frame];
     const Pose& far = clip.poses[pair.far_frame];
     const auto world_from_far = world_from_joints(skeleton, far);

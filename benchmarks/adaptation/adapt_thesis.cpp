@@ -25,7 +25,7 @@ using retarget::AdaptOptions;
 using retarget::Method;
 
 constexpr int kRuns = 301;
-constexpr int kMostIterations = 100;
+constexpr int kMaxIterations = 100;
 constexpr double kTick_us = 40000.0;  // 25 Hz.
 
 /// A row as it is printed there. The first two are CmThreshold and the constraints'
@@ -161,7 +161,7 @@ class ThesisScene {
 AdaptOptions options_of(const PrintedTable& table, const PrintedRow& row, Method method) {
   AdaptOptions options;
   options.method = method;
-  options.max_iterations = kMostIterations;
+  options.max_iterations = kMaxIterations;
   if (table.is_balance) {
     options.constraint_threshold_m = 1e-3;
     options.balance_threshold_m = 1e-3 * row.threshold_mm;

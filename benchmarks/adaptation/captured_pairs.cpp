@@ -16,7 +16,7 @@ namespace {
 constexpr double kStill_m = 0.03;
 constexpr double kLow_m = 0.05;  // An ankle, above the lowest that it ever is.
 constexpr double kLongestStance_s = 2.0;
-constexpr double kLeastExcursion_m = 0.15;
+constexpr double kMinExcursion_m = 0.15;
 
 /// What decides on pairs, of one frame. Sides: left, right.
 struct Places {
@@ -104,7 +104,7 @@ class PairFinder {
     }
     const double gain_m =
         excursion_m(places_[far], side) - excursion_m(places_[near], side);
-    if (gain_m < kLeastExcursion_m) return;
+    if (gain_m < kMinExcursion_m) return;
     const bool other = stands(near, near, 1 - side) && stands(far, near, 1 - side);
     const CapturedPair pair{near, far, side == 0 || other, side == 1 || other};
     for (const Candidate& c : found) {

@@ -96,7 +96,7 @@ class DualSolver final : public Solver<T> {
     T least = T(1e9);
     int stalled = 0;
     int step = 0;
-    for (; step < kMostSteps; ++step) {
+    for (; step < kMaxSteps; ++step) {
       this->body_.forward(this->found_);
       const T worst = measure(targets_in_world, com_in_world);
       if (worst < T(kGoodEnough_m)) break;
@@ -114,7 +114,7 @@ class DualSolver final : public Solver<T> {
   }
 
  private:
-  static constexpr int kMostSteps = 50;
+  static constexpr int kMaxSteps = 50;
   static constexpr double kDamping = 1e-4;
 
   T weight(std::size_t k) const {
@@ -196,7 +196,7 @@ class StrictSolver final : public Solver<double> {
     double least_m = 1e9;
     int stalled = 0;
     int step = 0;
-    for (; step < kMostSteps; ++step) {
+    for (; step < kMaxSteps; ++step) {
       body_.forward(trial_);
       const double second_worst_m = measure(targets_in_world, com_in_world);
       // What is left of level 1 is added: at last the root takes all else along by it.
@@ -215,7 +215,7 @@ class StrictSolver final : public Solver<double> {
   }
 
  private:
-  static constexpr int kMostSteps = 48;
+  static constexpr int kMaxSteps = 48;
   static constexpr double kLongestLean_m = 0.2;
 
   /// Fills the errors of both levels; the largest of level 2. [m]

@@ -223,8 +223,8 @@ app::FitLabels fit_labels(const NamedWearer& one) {
   return labels;
 }
 
-void refuse_all(Outcome& out, std::span<const Error> errors) {
-  for (const Error& error : errors) refuse(out, error.cause);
+void refuse_all(Outcome& out, std::span<const Finding> findings) {
+  for (const Finding& finding : findings) refuse(out, finding.cause);
 }
 
 Outcome run(int seed, Mistake mistake, FitHonesty& honesty) {
@@ -238,13 +238,15 @@ Outcome run(int seed, Mistake mistake, FitHonesty& honesty) {
     trials[t].repair.as_read = trials[t].repair.repaired.tracks = one.trials[t];
   }
   const auto geometry = reconstruct::compare_trials(one.trials, one.labels);
-  refuse_all(out, app::unit_errors(trials, geometry));
+  if (const Status ok = app::check_units(trials, geometry); !ok) {
+    refuse(out, ok.error().cause);
+  }
   if (out.is_refused) return out;
   const app::FitLabels labels = fit_labels(one);
   app::SubjectFit subject;
   {
     auto fit = app::fit_subject_to({}, one.trials, labels, {});
-    refuse_all(out, app::side_and_axis_errors(trials, geometry));
+    refuse_all(out, app::assess_sides_and_axes(trials, geometry));
     if (!fit) {
       refuse(out, "no fit");
       return out;
@@ -258,7 +260,7 @@ Outcome run(int seed, Mistake mistake, FitHonesty& honesty) {
   }
   if (!out.is_refused) {
     refuse_all(out, app::assess_fit(trials, &subject, body, {}));
-    const auto checks = app::check_labels(body, {}, &subject, labels, trials);
+    const auto checks = app::find_label_faults(body, {}, &subject, labels, trials);
     refuse_all(out, app::assess_labels(checks, trials));
   }
   if (mistake == Mistake::kNone && !out.is_refused) {

@@ -24,7 +24,7 @@
 namespace marey {
 namespace {
 
-constexpr std::size_t kLeastMarkers = 3;
+constexpr std::size_t kMinMarkers = 3;
 
 using reconstruct::MarkerCluster;
 using testing::JointSimulation;
@@ -40,7 +40,7 @@ std::optional<RigidTransform> world_from_cluster(const MarkerCluster& cluster,
     own.push_back(shape[m]);
     world.push_back(*p);
   }
-  if (own.size() < kLeastMarkers) return std::nullopt;
+  if (own.size() < kMinMarkers) return std::nullopt;
   return reconstruct::align(own, world, std::vector<double>(own.size(), 1.0));
 }
 

@@ -17,7 +17,7 @@
 
 #include "core/pose.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/contact_figures.h"
+#include "retarget/contacts/measure_contacts.h"
 #include "retarget/motion/live_retarget.h"
 #include "retarget/motion/retarget_motion.h"
 

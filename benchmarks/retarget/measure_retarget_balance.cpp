@@ -16,7 +16,7 @@
 #include "benchmarks/retarget/scaled_bodies.h"
 
 #include "retarget/body/anthropometry.h"
-#include "retarget/contacts/contact_figures.h"
+#include "retarget/contacts/measure_contacts.h"
 #include "retarget/motion/retarget_motion.h"
 
 namespace marey {

@@ -11,7 +11,7 @@
 
 #include "core/pose.h"
 #include "retarget/body/body_map.h"
-#include "retarget/contacts/contact_figures.h"
+#include "retarget/contacts/measure_contacts.h"
 #include "retarget/motion/retarget_motion.h"
 
 namespace marey {
@@ -19,7 +19,7 @@ namespace {
 
 using B = HumanBone;
 
-constexpr int kMostCount = 6;
+constexpr int kMaxCount = 6;
 
 std::vector<JointIndex> vertebrae_of(const retarget::BodyMap& map) {
   std::vector<JointIndex> out;
@@ -159,7 +159,7 @@ Result<ResultTable> measure_spines(std::span<const CapturedClip> clips) {
     const Motion source{clip.character.skeleton, {clip.rate_hz}, 0, clip.poses};
     const auto map = retarget::map_body(source.skeleton);
     if (!map) return map.error();
-    for (int count = 1; count <= kMostCount; ++count) {
+    for (int count = 1; count <= kMaxCount; ++count) {
       const Skeleton body = with_count(source.skeleton, *map, count);
       const auto whole = retarget::retarget_motion(source, body, options);
       if (!whole) return whole.error();

@@ -148,15 +148,15 @@ int measure_single_tags(int first, int last) {
     };
     // A session that is refused without the mistake shows nothing.
     const auto right = fit_with(tags);
-    if (!right || !right->warnings.empty()) continue;
+    if (!right || !right->findings.empty()) continue;
     const B worn = tags[change.tag].segment;
     tags[change.tag].segment = change.segment;
     ++made;
     std::string words;
     const auto fit = fit_with(tags);
     if (!fit) words = fit.error().message();
-    for (std::size_t i = 0; fit && i < fit->warnings.size(); ++i) {
-      words += fit->warnings[i].message() + "\n";
+    for (std::size_t i = 0; fit && i < fit->findings.size(); ++i) {
+      words += fit->findings[i].message() + "\n";
     }
     // The program warns of those.
     const TagOnSegment& changed = tags[change.tag];

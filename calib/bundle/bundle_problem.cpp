@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "calib/bundle/bundle_priors.h"
+#include "calib/bundle/sighting_loss.h"
 
 namespace marey::calib {
 namespace {
@@ -116,14 +117,11 @@ void BundleProblem::add_sighting(const RigModel& model,
   const std::size_t same = target.same_board_as.value_or(sighting.target);
   if (parts.piece) parameters.push_back(targets_[same].pieces[sighting.piece].data());
   if (parts.warp) parameters.push_back(targets_[same].warp.data());
-  // The norm of a tag's eight residuals is near 2.8 without outliers, of a point's 1.4. A
-  // tag's corners have correlated errors (a shadow, a fold of the paper): a mild robust
-  // loss is therefore used in the last pass too.
   ceres::LossFunction* loss = nullptr;
   if (sighting.count == 4) {
-    loss = new ceres::CauchyLoss(5.0);
+    loss = new ceres::CauchyLoss(kTagLossSigmas);
   } else if (robust) {
-    loss = new ceres::CauchyLoss(3.0);
+    loss = new ceres::CauchyLoss(kPointLossSigmas);
   }
   problem_.AddResidualBlock(
       new SightingCost(

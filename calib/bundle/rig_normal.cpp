@@ -11,6 +11,7 @@
 #include <ceres/ceres.h>
 
 #include "calib/bundle/bundle_priors.h"
+#include "calib/bundle/sighting_loss.h"
 #include "core/base/quantile.h"
 
 namespace marey::calib {
@@ -52,7 +53,7 @@ std::vector<double> weights_of(const RigModel& model) {
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (!own[i]) continue;
     const double scale = usual[model.sightings[i].camera];
-    const double far = *own[i] / (3.0 * scale);
+    const double far = *own[i] / (kWeightScale * scale);
     weights[i] = 1.0 / (scale * scale * (1.0 + far * far));
   }
   return weights;

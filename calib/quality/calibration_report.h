@@ -10,23 +10,9 @@
 #include "calib/model/board_views.h"
 #include "calib/model/calibrated_rig.h"
 #include "core/board.h"
+#include "core/finding.h"
 
 namespace marey::calib {
-
-enum class Severity {
-  kNote,  ///< Information; no action is needed.
-  kFair,  ///< The cameras can be used, but can be improved.
-  kPoor,  ///< The cameras should not be trusted.
-};
-
-/// A deficiency of a calibration, and the next step.
-struct Finding {
-  Severity severity = Severity::kNote;
-  std::string kind;   ///< One word for programs: "coverage", "tilt"...
-  std::string where;  ///< "camera left", "cameras left and right", "all cameras".
-  std::string cause;  ///< The measured value, in a sentence.
-  std::string next;   ///< The recording to repeat, and how.
-};
 
 /// Attitude of the board in one view. Lens parameters are observable if it varies.
 struct ViewTilt {

@@ -25,23 +25,23 @@ struct FindingList {
   std::vector<SharedFinding> found;
 
   void add(Severity severity,
-           const char* kind,
+           const char* id,
            std::string where,
            std::string cause,
            std::string next) {
     found.push_back(
-        {{severity, kind, std::move(where), std::move(cause), std::move(next)}, "", ""});
+        {{severity, id, std::move(where), std::move(cause), std::move(next)}, "", ""});
   }
   /// Adds a finding that several cameras may have. `cause_of_many` follows their names
   /// and values in the text.
   void add_shared(Severity severity,
-                  const char* kind,
+                  const char* id,
                   std::size_t c,
                   std::string cause,
                   std::string next,
                   std::string figure,
                   std::string cause_of_many) {
-    add(severity, kind, camera(c), std::move(cause), std::move(next));
+    add(severity, id, camera(c), std::move(cause), std::move(next));
     found.back().figure = report.rig.cameras[c].name + " (" + figure + ")";
     found.back().cause = std::move(cause_of_many);
   }

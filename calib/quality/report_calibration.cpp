@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "calib/plan/body_heights.h"
-#include "calib/quality/check_calibration.h"
+#include "calib/quality/assess_calibration.h"
 #include "calib/quality/map_errors.h"
 #include "calib/quality/measure_calibration.h"
 #include "core/base/assert.h"
@@ -42,7 +42,7 @@ CalibrationReport report_calibration(const CalibrationSource& source, Calibrated
   report.corner_sigma_px = std::max(report.rig.inlier_rms_px / std::numbers::sqrt2, 0.01);
   report.cameras = measure_cameras(report);
   report.map = map_errors(report);
-  report.findings = check_calibration(report);
+  report.findings = assess_calibration(report);
   return report;
 }
 

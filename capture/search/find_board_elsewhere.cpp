@@ -80,6 +80,9 @@ std::optional<AlternativeTarget> find_other_grid(const std::vector<cv::Mat>& fra
   const std::string all = std::to_string(frames.size());
   if (const auto shown = count(mirrored, grid_finder(grid, family)); shown > 0) {
     return AlternativeTarget{
+        AlternativeKind::kAprilGrid,
+        family,
+        true,
         "the mirror image of " + std::to_string(shown) + " of " + all +
             " frames shows its tags: the video is mirrored",
         "switch off mirroring in the camera's software and record again, or flip the "
@@ -92,6 +95,9 @@ std::optional<AlternativeTarget> find_other_grid(const std::vector<cv::Mat>& fra
     const auto shown = count(frames, grid_finder(grid, other));
     if (shown < (other == "tag16h5" ? 3 : 1)) continue;
     return AlternativeTarget{
+        AlternativeKind::kAprilGrid,
+        other,
+        false,
         "tags of family " + other + " are in " + std::to_string(shown) + " of " + all +
             " frames, and [board] names the family " + family,
         "write family = \"" + other + "\" in [board] of session.toml"};
@@ -116,6 +122,9 @@ std::optional<AlternativeTarget> find_board_elsewhere(
     const auto shown = count(frames, finder_of(target, family));
     if (shown > 0) {
       return AlternativeTarget{
+          AlternativeKind::kExpected,
+          "",
+          false,
           "the board is in " + std::to_string(shown) + " of " +
               std::to_string(frames.size()) + " frames from all over the video",
           "widen `frames` of the trial in session.toml, or leave it out"};

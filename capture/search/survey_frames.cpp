@@ -87,6 +87,9 @@ std::optional<AlternativeTarget> survey_own_board(const std::vector<cv::Mat>& fr
   const Look own{board.is_inverted, false};
   if (const auto ids = best_ids(frames, board.dictionary, own); !ids.empty()) {
     return AlternativeTarget{
+        AlternativeKind::kMarkers,
+        board.dictionary,
+        false,
         range_of(ids) + " of " + board.dictionary + " are, in other places than on it",
         "correct rows and columns, which count squares, or legacy; marker_size_m is that "
         "of a marker's black square"};
@@ -94,6 +97,9 @@ std::optional<AlternativeTarget> survey_own_board(const std::vector<cv::Mat>& fr
   const Look other{!board.is_inverted, false};
   if (const auto ids = best_ids(frames, board.dictionary, other); !ids.empty()) {
     return AlternativeTarget{
+        AlternativeKind::kMarkers,
+        board.dictionary,
+        false,
         range_of(ids) + " of " + board.dictionary +
             " are, with black and white exchanged",
         board.is_inverted ? "leave out inverted = true" : "write inverted = true"};
@@ -101,6 +107,9 @@ std::optional<AlternativeTarget> survey_own_board(const std::vector<cv::Mat>& fr
   const Look mirror{board.is_inverted, true};
   if (const auto ids = best_ids(frames, board.dictionary, mirror); !ids.empty()) {
     return AlternativeTarget{
+        AlternativeKind::kMarkers,
+        board.dictionary,
+        true,
         range_of(ids) + " of " + board.dictionary + " are, mirrored",
         "record without mirroring; where the back of a board shows it "
         "mirrored, write two_sided = true"};
@@ -166,7 +175,11 @@ std::optional<AlternativeTarget> survey_markers(const std::vector<cv::Mat>& fram
         "for an AprilGrid write type = \"aprilgrid\"; for a ChArUco board "
         "dictionary = \"DICT_APRILTAG_36h11\"";
   }
-  return AlternativeTarget{range_of(best) + " of " + name + " are", std::move(remedy)};
+  return AlternativeTarget{AlternativeKind::kMarkers,
+                           name,
+                           false,
+                           range_of(best) + " of " + name + " are",
+                           std::move(remedy)};
 }
 
 /// Searches for tags seen from behind: a mirrored image or print.
@@ -176,6 +189,9 @@ std::optional<AlternativeTarget> survey_mirrored_tags(
     const auto ids = best_ids(frames, name, {false, true});
     if (ids.empty()) continue;
     return AlternativeTarget{
+        AlternativeKind::kMarkers,
+        std::string(name),
+        true,
         range_of(ids) + " of " + std::string(name) + " are, mirrored",
         "record without mirroring, and print the board as it is"};
   }
@@ -191,6 +207,9 @@ std::optional<AlternativeTarget> survey_kalibr(const std::vector<cv::Mat>& frame
         frame.data, frame.cols, frame.rows, static_cast<int>(frame.step[0]), 0};
     if (detector->detect(view).size() < kMinMarkers) continue;
     return AlternativeTarget{
+        AlternativeKind::kAprilGrid,
+        "tag36h11b2",
+        false,
         "an AprilGrid of tag36h11b2 is",
         "write type = \"aprilgrid\", family = \"tag36h11b2\" and its sizes"};
   }
@@ -233,6 +252,9 @@ std::optional<AlternativeTarget> survey_chessboard(const std::vector<cv::Mat>& f
   const std::string columns = std::to_string(squares->width);
   const std::string rows = std::to_string(squares->height);
   return AlternativeTarget{
+      AlternativeKind::kChessboard,
+      "",
+      false,
       "a chessboard of " + columns + " x " + rows + " squares is",
       "if all of it was seen, write type = \"chessboard\", columns = " + columns +
           " and rows = " + rows + ": squares are counted, not their corners"};

@@ -33,6 +33,9 @@ enum class GroupingMode {
   kOffline,
 };
 
+/// Waiting time of live work for the frames of missing cameras.
+inline constexpr std::chrono::nanoseconds kLongestWait = std::chrono::milliseconds(50);
+
 struct GroupFramesOptions {
   GroupingMode mode = GroupingMode::kOffline;
   /// Group k has the instant origin + k / rate, in common time.
@@ -40,7 +43,7 @@ struct GroupFramesOptions {
   /// nullopt, live only: the time of the first frame offered.
   std::optional<Timestamp> origin = Timestamp{0};
   /// Live: waiting time for missing cameras after a group's instant.
-  std::chrono::nanoseconds longest_wait = std::chrono::milliseconds(50);
+  std::chrono::nanoseconds longest_wait = kLongestWait;
   /// Live: a camera without a frame for this time is not waited for until its next frame.
   std::chrono::nanoseconds silent_after = std::chrono::milliseconds(500);
   /// Maximum number of frames of one camera that wait for their group.

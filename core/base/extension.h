@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/base/lower_case.h"
+
 namespace marey {
 
 /// Returns the extension that determines a file's type: with its point and in lower case,
@@ -13,7 +15,7 @@ namespace marey {
 [[nodiscard]] inline std::string kind_by_extension(const std::filesystem::path& path) {
   std::string text = path.extension().string();
   for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    c = lower_case(c);
   }
   return text;
 }

@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 
 constexpr std::size_t kMaxBytes = 16 * 1024;
 constexpr std::size_t kMaxIdBytes = 200;
-constexpr double kFarthest_m = 10'000.0;
+constexpr double kMaxDistance_m = 10'000.0;
 constexpr int kRequestVersion = 1;
 
 Error refused(std::string cause) {
@@ -54,7 +54,7 @@ class Members {
     bool good = value->is_array() && value->size() == 3;
     for (int i = 0; good && i < 3; ++i) {
       const Json& one = (*value)[static_cast<std::size_t>(i)];
-      good = one.is_number() && std::abs(one.get<double>()) <= kFarthest_m;
+      good = one.is_number() && std::abs(one.get<double>()) <= kMaxDistance_m;
       if (good) p[i] = one.get<double>();
     }
     return good ? p : wrong(name, "three numbers within 10 km", glm::dvec3(0.0));
@@ -72,8 +72,9 @@ class Members {
   int version() {
     const Json* value = find("version");
     if (value == nullptr) return 0;
-    return *value == kRequestVersion ? kRequestVersion
-                              : wrong("version", "1: the page is from another marey version", 0);
+    return *value == kRequestVersion
+               ? kRequestVersion
+               : wrong("version", "1: the page is from another marey version", 0);
   }
 
   /// Returns the value of the member's word in `words`.

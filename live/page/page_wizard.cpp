@@ -35,8 +35,10 @@ PageJson wizard_camera_object(const WizardCamera& camera) {
           {"rms_px", or_null(camera.rms_px)}};
 }
 
-PageJson quality_object(const WizardQuality& quality) {
-  return {{"name", quality.name}, {"value", quality.value}, {"good", quality.good}};
+PageJson quality_object(const Finding& finding) {
+  return {{"name", finding.where},
+          {"value", finding.cause},
+          {"good", finding.severity == Severity::kNote}};
 }
 
 }  // namespace

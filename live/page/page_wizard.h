@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/finding.h"
+
 namespace marey::live {
 
 /// Current step of the calibration and fitting of a subject.
@@ -27,20 +29,15 @@ struct WizardCamera {
   [[nodiscard]] double coverage() const;
 };
 
-/// One result: name "left forearm", value "24.1 cm ± 0.3".
-struct WizardQuality {
-  std::string name{};
-  std::string value{};
-  bool good = true;
-};
-
 struct PageWizard {
   WizardStep step = WizardStep::kIdle;
   std::string title{};
   std::string text{};
   double progress = 0.0;  ///< 0 to 1.
   std::vector<WizardCamera> cameras{};
-  std::vector<WizardQuality> quality{};
+  /// Results: `where` is the name, "left forearm", `cause` the value, "24.1 cm ± 0.3". A
+  /// note is good.
+  std::vector<Finding> quality{};
   std::string error{};
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/lower_case.h"
+
 namespace marey::live {
 namespace {
 
@@ -66,12 +68,9 @@ constexpr std::array<std::string_view, kUnityBoneCount> kNames{
     "UpperChest",
 };
 
-constexpr char lower(char c) {
-  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
 bool same_letters(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, {}, lower, lower);
+  return std::ranges::equal(
+      a, b, [](char one, char other) { return lower_case(one) == lower_case(other); });
 }
 
 /// Tables of both directions, built from the names: VRM's and Unity's differ only in

@@ -11,6 +11,7 @@
 #include "reconstruct/clusters/locate_rigid.h"
 #include "reconstruct/posture/initial_posture.h"
 #include "reconstruct/posture/posture_descent.h"
+#include "reconstruct/tags/tag_loss.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -65,12 +66,12 @@ void BundleFrameSolver::evaluate(const BundleFrame& frame,
     if (!bundle_->model.place(s.tag)) continue;
     const SightingNoise noise = bundle_->noise(s.tag, posture, unfolded);
     if (!sight_.look(bundle_->model, unfolded, s, noise, true, sighted)) {
-      out.cost += robust_cost(kBehind2);
+      out.cost += tag_cost(kBehind2);
       continue;
     }
     const double squared = sighted.residual.squaredNorm();
-    out.cost += robust_cost(squared);
-    const double weight = robust_weight(squared);
+    out.cost += tag_cost(squared);
+    const double weight = tag_weight(squared);
     for (int i = 0; i < sighted.posture_columns; ++i) {
       const int row = sighted.posture_column[static_cast<std::size_t>(i)];
       out.gradient[row] += weight * sighted.by_posture.col(i).dot(sighted.residual);

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "core/base/assert.h"
+#include "reconstruct/tags/tag_loss.h"
 #include "reconstruct/tags/tag_model.h"
 
 namespace marey::reconstruct {
@@ -20,8 +21,6 @@ using Eigen::VectorXd;
 
 // Priors of usual behaviour carry much the same information in all frames of a trial.
 constexpr double kPriorShare = 0.05;
-
-constexpr double kLoss2 = kTagLossSigmas * kTagLossSigmas;
 
 /// Returns the factors of the tag's slide rates in this frame. [rad]
 SlideAngles slide_moves(const SubjectBundle& bundle,
@@ -54,14 +53,6 @@ void add_slide_priors(const SubjectBundle& bundle,
 }
 
 }  // namespace
-
-double robust_cost(double squared) {
-  return 0.5 * kLoss2 * std::log1p(squared / kLoss2);
-}
-
-double robust_weight(double squared) {
-  return 1.0 / (1.0 + squared / kLoss2);
-}
 
 std::vector<int> columns_outside(std::size_t limb) {
   const LimbParameters& s = kLimbParameters[limb];
@@ -137,12 +128,12 @@ void BundleSolver::linearise_frame(const SubjectBundle& bundle,
     if (!bundle.model.place(s.tag)) continue;
     const SightingNoise noise = bundle.noise(s.tag, frame.posture, unfolded);
     if (!sight_.look(bundle.model, unfolded, s, noise, true, sighted)) {
-      out.posture.cost += robust_cost(kBehind2);
+      out.posture.cost += tag_cost(kBehind2);
       continue;
     }
     const double squared = sighted.residual.squaredNorm();
-    out.posture.cost += robust_cost(squared);
-    out.add(sighted, *columns_.of_tag(s.tag), robust_weight(squared));
+    out.posture.cost += tag_cost(squared);
+    out.add(sighted, *columns_.of_tag(s.tag), tag_weight(squared));
   }
   // This person's collar bones can deviate from the usual rest attitude in all frames
   // alike: all frames together count as one, otherwise they would move the shoulders'

@@ -18,15 +18,6 @@ namespace marey::reconstruct {
 /// Twist priors of a frame that is solved alone.
 inline constexpr TwistPriors kFrameTwists{};
 
-/// Cost of a tag behind the camera that saw it: such a posture is wrong, but the solver
-/// must be able to leave it.
-inline constexpr double kBehind2 = 8e6;
-
-/// Return half the robust square of a tag's eight residuals (Cauchy loss), and its weight
-/// in the normal equations.
-[[nodiscard]] double robust_cost(double squared);
-[[nodiscard]] double robust_weight(double squared);
-
 /// Returns the posture's columns that do not belong to the limb: not to its frame, its
 /// bends and twists, and not to its extremity.
 [[nodiscard]] std::vector<int> columns_outside(std::size_t limb);

@@ -7,6 +7,7 @@
 #include <cctype>
 
 #include "core/base/assert.h"
+#include "core/base/lower_case.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -107,7 +108,7 @@ std::string plain_label(std::string_view label) {
   std::string plain;
   for (const char c : label) {
     if (is_letter(c) || is_digit(c)) {
-      plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      plain += lower_case(c);
     }
   }
   return plain;

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/pose.h"
-#include "reconstruct/markers/check_labels.h"
+#include "reconstruct/markers/assess_labels.h"
 
 namespace marey::reconstruct {
 namespace {

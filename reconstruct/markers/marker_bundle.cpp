@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "core/base/assert.h"
+#include "reconstruct/markers/marker_loss.h"
 #include "reconstruct/posture/length_terms.h"
 #include "reconstruct/posture/normal_matrix.h"
 #include "reconstruct/posture/posture_terms.h"

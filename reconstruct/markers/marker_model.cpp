@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "reconstruct/markers/marker_loss.h"
+
 namespace marey::reconstruct {
 const UnfoldedPosture& MarkerFrameSolver::unfold(const Posture& posture) {
   unfolded_.unfold(posture, model_->lengths, model_->body);
@@ -15,7 +17,6 @@ void MarkerFrameSolver::evaluate(std::span<const SeenMarker> seen,
                                  const Posture& posture,
                                  const FrameLimits& limits,
                                  PostureEquations& out) {
-  constexpr double kC2 = kMarkerLossSigmas * kMarkerLossSigmas;
   unfold(posture);
   out.clear();
   for (const SeenMarker& sample : seen) {
@@ -26,9 +27,9 @@ void MarkerFrameSolver::evaluate(std::span<const SeenMarker> seen,
         1.0 / (limits.sigma_scale * limits.sigma_scale *
                (marker.sigma_m * marker.sigma_m + sample.sigma_m * sample.sigma_m));
     const double squared = information * off.squaredNorm();
-    out.cost += 0.5 * kC2 * std::log1p(squared / kC2);
+    out.cost += marker_cost(squared);
     unfolded_.derivative(marker.bone, p, derivative_);
-    out.add(derivative_, off, information / (1.0 + squared / kC2));
+    out.add(derivative_, off, marker_weight(information, squared));
   }
   out.add_posture_priors(posture, unfolded_, model_->twists, limits.prior_share);
   if (prior) out.add_prior(posture, model_->lengths, *prior);

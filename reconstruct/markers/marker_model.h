@@ -39,8 +39,6 @@ struct SeenMarker {
   double sigma_m = 0.0;  ///< Sample's own sigma, in addition to the marker's.
 };
 
-/// Scale of the Cauchy loss, in sigmas of a marker.
-inline constexpr double kMarkerLossSigmas = 3.0;
 
 /// Levenberg-Marquardt's method on one frame: markers, pose priors and a prior of the
 /// frame. Storage is fixed: no allocation. Borrows the model.

@@ -71,8 +71,8 @@ std::string percent(double share) {
   return std::to_string(std::lround(100.0 * share)) + " %";
 }
 
-Error warning(std::string cause, std::string next) {
-  return {Errc::kQuality, "", std::move(cause), std::move(next)};
+Finding doubtful(std::string cause, std::string next) {
+  return poor_finding("subject", "", std::move(cause), std::move(next));
 }
 
 std::string in_quotes(HumanBone bone) {
@@ -84,7 +84,7 @@ std::string in_quotes(HumanBone bone) {
 
 void assess_tags(const SubjectBundle& bundle,
                  const SubjectEvidence& evidence,
-                 std::vector<Error>& out) {
+                 std::vector<Finding>& out) {
   for (const std::size_t tag : evidence.unexplained) {
     int sightings = 0;
     for (const BundleFrame& frame : bundle.frames) {
@@ -92,18 +92,18 @@ void assess_tags(const SubjectBundle& bundle,
     }
     if (sightings < kMinSightings) continue;
     const TagOnSegment& declared = bundle.model.tags[tag];
-    out.push_back(warning("tag " + std::to_string(number(declared.id)) +
-                              " does not move with segment " +
-                              in_quotes(declared.segment),
-                          "check its `segment` and `size_m` under [[tags.tag]], and that "
-                          "it is glued firmly"));
+    out.push_back(
+        doubtful("tag " + std::to_string(number(declared.id)) +
+                     " does not move with segment " + in_quotes(declared.segment),
+                 "check its `segment` and `size_m` under [[tags.tag]], and that "
+                 "it is glued firmly"));
   }
 }
 
 /// Checks the sightings of placed tags, each against the detector's own noise.
 void assess_sightings(const SubjectBundle& bundle,
                       const SubjectEvidence& evidence,
-                      std::vector<Error>& out) {
+                      std::vector<Finding>& out) {
   for (const TagEvidence& e : evidence.tags) {
     const bool is_explained =
         e.explained_share >= kMinExplainedTags && e.median_ratio <= kMaxRatioOfMedian;
@@ -115,22 +115,22 @@ void assess_sightings(const SubjectBundle& bundle,
                   " of its sightings"
             : " fits its place worse than its corners' noise explains, in most of its "
               "sightings";
-    out.push_back(warning("tag " + std::to_string(number(tag.id)) + " on segment " +
-                              in_quotes(tag.segment) + how,
-                          "check that it is glued firmly and did not shift during the "
-                          "trials; then record the range of motion again"));
+    out.push_back(doubtful("tag " + std::to_string(number(tag.id)) + " on segment " +
+                               in_quotes(tag.segment) + how,
+                           "check that it is glued firmly and did not shift during the "
+                           "trials; then record the range of motion again"));
   }
 }
 
 /// Returns why the tags of a limb's hand or foot have no certain place.
-std::optional<Error> place_finding(std::size_t limb,
-                                   const SubjectBundle& bundle,
-                                   const SubjectEvidence& evidence) {
+std::optional<Finding> place_finding(std::size_t limb,
+                                     const SubjectBundle& bundle,
+                                     const SubjectEvidence& evidence) {
   const ExtremityFit& fit = evidence.extremities[limb];
   const std::string segment = in_quotes(human_limbs()[limb].end);
   if (!fit.placed && fit.sightings < kMinSightings) return std::nullopt;
   if (!fit.placed) {
-    return warning(
+    return doubtful(
         "no place of the tags on segment " + segment +
             " explains their positions in the images",
         "check their `segment` and `size_m` under [[tags.tag]]; then record the "
@@ -140,21 +140,21 @@ std::optional<Error> place_finding(std::size_t limb,
   if (fit.runner_up_cost > sure_gain || fit.runner_up_m < kElsewhere_m) {
     return std::nullopt;
   }
-  return warning(
+  return doubtful(
       "the tags on segment " + segment + " fit in two ways, " +
           millimetres(fit.runner_up_m) + " apart",
       "record the range of motion again, turning that segment slowly in view of "
       "two cameras, or glue a second tag to it");
 }
 
-std::optional<Error> view_finding(std::size_t limb, const SubjectEvidence& evidence) {
+std::optional<Finding> view_finding(std::size_t limb, const SubjectEvidence& evidence) {
   const HumanLimb& bones = human_limbs()[limb];
   if (evidence.extremities[limb].sightings < kMinSightings) return std::nullopt;
   const double end = evidence.seen_twice_share[index(bones.end)];
   const double lower = evidence.seen_twice_share[index(bones.lower)];
   const bool is_seen = end >= kSeenTwice && lower >= kBoneHardlySeenTwice;
   if (is_seen || lower >= kBoneSeenTwice) return std::nullopt;
-  return warning(
+  return doubtful(
       "in the range of motion, two cameras at once see segments " +
           in_quotes(bones.lower) + " and " + in_quotes(bones.end) + " in only " +
           percent(lower) + " and " + percent(end) + " of frames",
@@ -162,15 +162,15 @@ std::optional<Error> view_finding(std::size_t limb, const SubjectEvidence& evide
       "cameras, or glue tags to other sides of it");
 }
 
-void assess_extremities(const SubjectEvidence& evidence, std::vector<Error>& out) {
-  for (const std::optional<Error>& reason : evidence.left_out) {
+void assess_extremities(const SubjectEvidence& evidence, std::vector<Finding>& out) {
+  for (const std::optional<Finding>& reason : evidence.left_out) {
     if (reason) out.push_back(*reason);
   }
 }
 
 void assess_locations(const SubjectBundle& bundle,
                       const SubjectEvidence& evidence,
-                      std::vector<Error>& out) {
+                      std::vector<Finding>& out) {
   for (const HumanLimb& limb : human_limbs()) {
     for (const HumanBone bone : {limb.upper, limb.lower}) {
       const bool has_tags = std::ranges::any_of(
@@ -178,7 +178,7 @@ void assess_locations(const SubjectBundle& bundle,
           [&](const auto& placed) { return bundle.model.bone(placed.first) == bone; });
       const int frames = evidence.located_frames[index(bone)];
       if (!has_tags || frames >= kMinLocated) continue;
-      out.push_back(warning(
+      out.push_back(doubtful(
           "segment " + in_quotes(bone) + " is seen well enough in only " +
               std::to_string(frames) +
               " frames of the range of motion; in the others one camera sees one of "
@@ -190,35 +190,36 @@ void assess_locations(const SubjectBundle& bundle,
 }
 
 /// Checks for tags that the fit placed off the flesh of their segment.
-void assess_places(const SubjectBundle& bundle, std::vector<Error>& out) {
+void assess_places(const SubjectBundle& bundle, std::vector<Finding>& out) {
   for (const auto& [tag, place] : bundle.model.segment_from_tag) {
     if (off_flesh(bundle.model, tag) < kMaxOffFlesh) continue;
     const TagOnSegment& declared = bundle.model.tags[tag];
-    out.push_back(warning("tag " + std::to_string(number(declared.id)) +
-                              " is fitted to a place where segment " +
-                              in_quotes(declared.segment) + " has no skin",
-                          "check its `segment` and `size_m` under [[tags.tag]]; then "
-                          "record the range of motion again, turning that segment slowly "
-                          "in view of two cameras"));
+    out.push_back(
+        doubtful("tag " + std::to_string(number(declared.id)) +
+                     " is fitted to a place where segment " +
+                     in_quotes(declared.segment) + " has no skin",
+                 "check its `segment` and `size_m` under [[tags.tag]]; then "
+                 "record the range of motion again, turning that segment slowly "
+                 "in view of two cameras"));
   }
 }
 
-void assess_turns(const SubjectBundle& bundle, std::vector<Error>& out) {
+void assess_turns(const SubjectBundle& bundle, std::vector<Finding>& out) {
   for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
     const auto turn_rad = standing_turn_rad(limb, bundle);
     if (!turn_rad || std::abs(*turn_rad) < kMaxStandingTurn_rad) continue;
     out.push_back(
-        warning("segment " + in_quotes(human_limbs()[limb].upper) +
-                    " is fitted turned about its own axis by " + degrees(*turn_rad) +
-                    " in the static trial",
-                "check that its tags and the next segment's are declared on the "
-                "right segments; then record the range of motion again, bending " +
-                    std::string(limb < 2 ? "that elbow" : "that knee") +
-                    " far in view of two cameras"));
+        doubtful("segment " + in_quotes(human_limbs()[limb].upper) +
+                     " is fitted turned about its own axis by " + degrees(*turn_rad) +
+                     " in the static trial",
+                 "check that its tags and the next segment's are declared on the "
+                 "right segments; then record the range of motion again, bending " +
+                     std::string(limb < 2 ? "that elbow" : "that knee") +
+                     " far in view of two cameras"));
   }
 }
 
-void assess_lengths(const SubjectBundle& bundle, std::vector<Error>& out) {
+void assess_lengths(const SubjectBundle& bundle, std::vector<Finding>& out) {
   const auto length = [&](Length which) { return bundle.model.lengths[index(which)]; };
   const auto sigma = [&](Length which) { return bundle.length_sigma_m[index(which)]; };
   const auto check = [&](Length left, Length right, HumanBone bone) {
@@ -226,19 +227,19 @@ void assess_lengths(const SubjectBundle& bundle, std::vector<Error>& out) {
     const double sure_m = 3.0 * std::hypot(sigma(left), sigma(right));
     const double ratio = 0.5 * (length(left) + length(right)) / bundle.usual[index(left)];
     if (apart_m > std::max(kSidesDiffer_m, sure_m)) {
-      out.push_back(warning("segment " + in_quotes(bone) + " is " +
-                                millimetres(length(left)) + " long on the left and " +
-                                millimetres(length(right)) + " on the right",
-                            "record the range of motion again, bending both sides far, "
-                            "in view of at least two cameras"));
+      out.push_back(doubtful("segment " + in_quotes(bone) + " is " +
+                                 millimetres(length(left)) + " long on the left and " +
+                                 millimetres(length(right)) + " on the right",
+                             "record the range of motion again, bending both sides far, "
+                             "in view of at least two cameras"));
     }
     if (ratio < kShortest || ratio > kLongest) {
-      out.push_back(warning("segment " + in_quotes(bone) + " is " +
-                                millimetres(length(left)) + " long, where " +
-                                millimetres(bundle.usual[index(left)]) +
-                                " is usual at this stature",
-                            "check stature_m of [subject] and size_m of the tags; then "
-                            "record the range of motion again"));
+      out.push_back(doubtful("segment " + in_quotes(bone) + " is " +
+                                 millimetres(length(left)) + " long, where " +
+                                 millimetres(bundle.usual[index(left)]) +
+                                 " is usual at this stature",
+                             "check stature_m of [subject] and size_m of the tags; then "
+                             "record the range of motion again"));
     }
   };
   check(Length::kLeftUpperArm, Length::kRightUpperArm, HumanBone::kLeftUpperArm);
@@ -247,7 +248,7 @@ void assess_lengths(const SubjectBundle& bundle, std::vector<Error>& out) {
   check(Length::kLeftLowerLeg, Length::kRightLowerLeg, HumanBone::kLeftLowerLeg);
 }
 
-void assess_joints(const SubjectBundle& bundle, std::vector<Error>& out) {
+void assess_joints(const SubjectBundle& bundle, std::vector<Finding>& out) {
   for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
     const HumanLimb& bones = human_limbs()[limb];
     for (const HumanBone bone : {bones.upper, bones.lower}) {
@@ -256,11 +257,11 @@ void assess_joints(const SubjectBundle& bundle, std::vector<Error>& out) {
       if (sigma_m && *sigma_m < (is_shoulder ? kKnownShoulder_m : kKnownJoint_m))
         continue;
       out.push_back(
-          warning("the joint at the near end of segment " + in_quotes(bone) +
-                      (sigma_m ? " has an uncertainty of " + millimetres(*sigma_m)
-                               : " could not be determined"),
-                  "record the range of motion again, bending that joint far "
-                  "in view of two cameras at once"));
+          doubtful("the joint at the near end of segment " + in_quotes(bone) +
+                       (sigma_m ? " has an uncertainty of " + millimetres(*sigma_m)
+                                : " could not be determined"),
+                   "record the range of motion again, bending that joint far "
+                   "in view of two cameras at once"));
     }
   }
 }
@@ -270,7 +271,7 @@ void assess_joints(const SubjectBundle& bundle, std::vector<Error>& out) {
 bool leave_out_extremities(SubjectBundle& bundle, SubjectEvidence& evidence) {
   bool has_changed = false;
   for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
-    std::optional<Error>& reason = evidence.left_out[limb];
+    std::optional<Finding>& reason = evidence.left_out[limb];
     reason = place_finding(limb, bundle, evidence);
     if (!reason) reason = view_finding(limb, evidence);
     if (!reason) continue;
@@ -286,18 +287,18 @@ bool leave_out_extremities(SubjectBundle& bundle, SubjectEvidence& evidence) {
   return has_changed;
 }
 
-std::vector<Error> assess_subject(const SubjectBundle& bundle,
-                                  const SubjectEvidence& evidence) {
-  std::vector<Error> warnings;
-  assess_tags(bundle, evidence, warnings);
-  assess_sightings(bundle, evidence, warnings);
-  assess_extremities(evidence, warnings);
-  assess_locations(bundle, evidence, warnings);
-  assess_places(bundle, warnings);
-  assess_turns(bundle, warnings);
-  assess_lengths(bundle, warnings);
-  assess_joints(bundle, warnings);
-  return warnings;
+std::vector<Finding> assess_subject(const SubjectBundle& bundle,
+                                    const SubjectEvidence& evidence) {
+  std::vector<Finding> findings;
+  assess_tags(bundle, evidence, findings);
+  assess_sightings(bundle, evidence, findings);
+  assess_extremities(evidence, findings);
+  assess_locations(bundle, evidence, findings);
+  assess_places(bundle, findings);
+  assess_turns(bundle, findings);
+  assess_lengths(bundle, findings);
+  assess_joints(bundle, findings);
+  return findings;
 }
 
 }  // namespace marey::reconstruct

@@ -253,9 +253,9 @@ Result<SubjectFit> fit_located(const SubjectPrior& prior,
   if (const Status ok = check_size(fit.limb_ratio, prior.stature_m); !ok) {
     return ok.error();
   }
-  fit.warnings = assess_subject(bundle, evidence);
-  for (const Error& warning : fit.warnings) {
-    fit.body.warnings.push_back({warning.cause, warning.next});
+  fit.findings = assess_subject(bundle, evidence);
+  for (const Finding& finding : fit.findings) {
+    fit.body.warnings.push_back({finding.cause, finding.next});
   }
   return fit;
 }
@@ -297,7 +297,7 @@ Result<SubjectFit> fit_subject(const SubjectPrior& prior,
   auto fit =
       fit_located(prior, cameras, {trials, clusters, stood, moved}, tell, evidence);
   const bool is_refuted =
-      *warning && fit && fit->warnings.empty() && explains((*warning)->tags, evidence);
+      *warning && fit && fit->findings.empty() && explains((*warning)->tags, evidence);
   if (*warning && !is_refuted) return (*warning)->error;
   return fit;
 }

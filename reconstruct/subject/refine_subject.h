@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/finding.h"
 #include "reconstruct/bundle/subject_bundle.h"
 #include "reconstruct/subject/place_extremity.h"
 
@@ -34,7 +35,7 @@ struct SubjectEvidence {
   /// By segment: frames of the moving trial that locate it (located_frames.h).
   std::array<int, kHumanBoneCount> located_frames{};
   /// By limb: reason for leaving out the tags of its hand or foot.
-  std::array<std::optional<Error>, 4> left_out;
+  std::array<std::optional<Finding>, 4> left_out;
 };
 
 /// Returns the number of pictures of the bundle's frames that show the tag.

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "core/body.h"
 #include "core/base/result.h"
+#include "core/body.h"
+#include "core/finding.h"
 
 namespace marey::reconstruct {
 
@@ -24,7 +25,7 @@ struct SubjectPrior {
 /// and is never reported as measured in a motion.
 struct LeftOutSegment {
   HumanBone segment{};
-  Error reason;  ///< kQuality: the cause and the movement to record.
+  Finding reason;  ///< Poor: the cause and the movement to record.
 };
 
 struct SubjectFit {
@@ -38,11 +39,11 @@ struct SubjectFit {
   /// In the order of human_limbs(). Each reason is also one of `warnings`; if `warnings`
   /// has no others, the rest of the body is trusted.
   std::vector<LeftOutSegment> left_out;
-  /// Reasons not to trust the fit (kQuality), each with the segment and the next step:
+  /// Reasons not to trust the fit (poor), each with the segment and the next step:
   /// sightings that no place of a tag explains, hands and feet that fit in two ways,
   /// lengths that no person has. Empty if all sightings are consistent. body.warnings has
   /// them as text.
-  std::vector<Error> warnings;
+  std::vector<Finding> findings;
 };
 
 }  // namespace marey::reconstruct

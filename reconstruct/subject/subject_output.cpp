@@ -112,7 +112,7 @@ SubjectFit to_fit(const SubjectPrior& prior,
     fit.body.tags.push_back(placed);
   }
   for (std::size_t limb = 0; limb < human_limbs().size(); ++limb) {
-    const std::optional<Error>& reason = evidence.left_out[limb];
+    const std::optional<Finding>& reason = evidence.left_out[limb];
     if (reason) fit.left_out.push_back({human_limbs()[limb].end, *reason});
   }
   fit.rms_px = bundle.rms_px;

@@ -7,6 +7,7 @@
 
 #include "core/base/assert.h"
 #include "reconstruct/posture/posture_terms.h"
+#include "reconstruct/tags/tag_loss.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -141,7 +142,7 @@ void TagCornerCost::fill(const double* const* parameters,
 }
 
 ceres::LossFunction* tag_loss() {
-  return new ceres::CauchyLoss(5.0);
+  return new ceres::CauchyLoss(kTagLossSigmas);
 }
 
 void add_sighting(const BodyModel& model,

@@ -7,6 +7,8 @@
 
 #include <Eigen/LU>
 
+#include "reconstruct/tags/tag_loss.h"
+
 namespace marey::reconstruct {
 namespace {
 
@@ -51,7 +53,7 @@ TagFilter::TagFilter(const TagModel& model,
 }
 
 bool TagFilter::is_used(const SightingFit& fit) {
-  return fit.squared < kTagLossSigmas * kTagLossSigmas || fit.rms_px < kNear_px;
+  return fit.squared < kTagLossSigmas2 || fit.rms_px < kNear_px;
 }
 
 std::optional<Posture> TagFilter::find(const Frame& frame) {

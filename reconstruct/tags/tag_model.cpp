@@ -8,6 +8,7 @@
 #include <Eigen/LU>
 
 #include "reconstruct/clusters/sightings.h"
+#include "reconstruct/tags/tag_loss.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -15,10 +16,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kC2 = kTagLossSigmas * kTagLossSigmas;
-// Cost of a tag behind the camera that saw it: such a posture is wrong, but the solver
-// must be able to leave it.
-constexpr double kBehind2 = 8e6;
 // Limit on one sighting's squares, relative to their expectation: outliers are not slip.
 constexpr double kMaxCost = 9.0;
 // Minimum derivative of a late posture by the posture; for a camera so early that its
@@ -240,14 +237,14 @@ void TagFrameSolver::accumulate(std::span<const SeenTag> seen,
   TagSighted sighted;
   for (const SeenTag& one : seen) {
     if (!sight(one, inputs, limits.sigma_scale, sighted)) {
-      out.cost += 0.5 * kC2 * std::log1p(kBehind2 / kC2);
+      out.cost += tag_cost(kBehind2);
       continue;
     }
     const double squared = sighted.squared();
-    out.cost += 0.5 * kC2 * std::log1p(squared / kC2);
+    out.cost += tag_cost(squared);
     derive(one, sighted);
     scale_late(one);
-    derivative_.add_to(sighted, 1.0 / (1.0 + squared / kC2), out);
+    derivative_.add_to(sighted, tag_weight(squared), out);
   }
   out.add_posture_priors(posture, unfolded_, model_->twists, limits.prior_share);
   if (inputs.prior) out.add_prior(posture, model_->lengths, *inputs.prior);
@@ -311,7 +308,7 @@ void TagFrameSolver::lateness(std::span<const SeenTag> seen,
   for (const SeenTag& one : seen) {
     if (!sight(one, own, 1.0, sighted)) continue;
     const double squared = sighted.squared();
-    const double weight = 1.0 / (1.0 + squared / kC2);
+    const double weight = tag_weight(squared);
     derive(one, sighted);
     Eigen::Matrix<double, 8, 1> speed = Eigen::Matrix<double, 8, 1>::Zero();
     for (int i = 0; i < derivative_.columns; ++i) {

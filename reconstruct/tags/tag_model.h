@@ -78,10 +78,6 @@ struct SightingFit {
                          ///< positions.
 };
 
-/// Scale of the Cauchy loss of a tag, in sigmas of its eight residuals together, whose
-/// norm is near 2.8 for inliers.
-inline constexpr double kTagLossSigmas = 5.0;
-
 /// Levenberg-Marquardt's method on one frame: corners, pose priors and SolveInputs. No
 /// allocation after construction. Borrows the model.
 class TagFrameSolver {

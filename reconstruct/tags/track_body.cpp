@@ -17,13 +17,14 @@ namespace marey::reconstruct {
 namespace {
 
 // Corners further out are ignored. [px]
-constexpr double kFarthest_px = 1e5;
+constexpr double kMaxDistance_px = 1e5;
 
 bool is_sane(const TagDetection& tag) {
   if (!std::isfinite(tag.sigma_px) || !(tag.sigma_px > 1e-3)) return false;
   return std::all_of(
       tag.corners_px.begin(), tag.corners_px.end(), [](const glm::dvec2& corner) {
-        return std::abs(corner.x) < kFarthest_px && std::abs(corner.y) < kFarthest_px;
+        return std::abs(corner.x) < kMaxDistance_px &&
+               std::abs(corner.y) < kMaxDistance_px;
       });
 }
 

@@ -9,6 +9,7 @@
 
 #include <glm/common.hpp>
 
+#include "core/base/lower_case.h"
 #include "core/base/quantile.h"
 
 namespace marey::recordings {
@@ -28,7 +29,7 @@ std::string letters_of(std::string_view text) {
   std::string out;
   for (const char c : text) {
     if (static_cast<unsigned char>(c) > ' ' && c != '"' && c != '.') {
-      out += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+      out += lower_case(c);
     }
   }
   return out;

@@ -9,6 +9,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/lower_case.h"
+
 namespace marey::recordings {
 namespace {
 
@@ -25,7 +27,7 @@ std::size_t channels_of(int type) {
 double moment_metres(const C3dInfo& info, const FileAxes& axes, std::size_t channel) {
   const std::vector<std::string> units = texts_of_all(info.groups, "ANALOG", "UNITS");
   std::string unit = channel < units.size() ? units[channel] : "";
-  for (char& c : unit) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (char& c : unit) c = lower_case(c);
   if (unit.starts_with("n") && unit.ends_with("mm")) return 1e-3;
   if (unit == "nm" || unit == "n.m" || unit == "n*m" || unit == "ntm") return 1.0;
   return 1.0 / axes.per_metre;

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "core/base/assert.h"
+#include "core/base/lower_case.h"
 #include "recordings/text/motion_limits.h"
 #include "recordings/text/text_reader.h"
 #include "recordings/text/word_text.h"

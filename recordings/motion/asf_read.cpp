@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/lower_case.h"
 #include "core/humanoid.h"
 #include "recordings/body/floor_height.h"
 #include "recordings/motion/asf.h"

@@ -12,6 +12,7 @@
 
 #include "core/base/assert.h"
 #include "core/base/extension.h"
+#include "core/base/lower_case.h"
 #include "recordings/motion/asf.h"
 #include "recordings/motion/bake_root_motion.h"
 #include "recordings/text/atomic_file.h"
@@ -109,8 +110,8 @@ class AmcParser {
     }
     const std::size_t joint = found->second;
     if (is_given_[joint]) {
-      return fail("frame " + std::to_string(*number_) + " has the bone " + quoted_start(name) +
-                  " twice");
+      return fail("frame " + std::to_string(*number_) + " has the bone " +
+                  quoted_start(name) + " twice");
     }
     is_given_[joint] = true;
     return values(joint);

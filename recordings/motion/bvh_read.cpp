@@ -11,6 +11,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/lower_case.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
 #include "recordings/body/floor_height.h"
@@ -54,7 +55,8 @@ class BvhParser {
       : reader_(text, file), furthest_(kMaxDistance_m / unit_m) {}
 
   Result<BvhFile> parse() {
-    for (const auto step : {&BvhParser::hierarchy, &BvhParser::motion_head, &BvhParser::frames}) {
+    for (const auto step :
+         {&BvhParser::hierarchy, &BvhParser::motion_head, &BvhParser::frames}) {
       if (const Status done = (this->*step)(); !done) return done.error();
     }
     return std::move(file_);
@@ -80,7 +82,8 @@ class BvhParser {
     const std::string_view found = reader_.word_on_line();
     const auto value = to_number(found);
     if (value) return *value;
-    return fail("expected a number for " + std::string(what) + ", found " + quoted_start(found));
+    return fail("expected a number for " + std::string(what) + ", found " +
+                quoted_start(found));
   }
 
   /// Reads a length in the file's unit.
@@ -200,8 +203,8 @@ class BvhParser {
       const std::string keyword = lower_case(word);
       Status done = Done{};
       if (keyword == "joint" && open.size() >= kMaxSkeletonDepth) {
-        done = fail("joints are nested more than " +
-                    std::to_string(kMaxSkeletonDepth) + " levels deep");
+        done = fail("joints are nested more than " + std::to_string(kMaxSkeletonDepth) +
+                    " levels deep");
       } else if (keyword == "joint" && file_.skeleton.joints.size() >= kMaxJoints) {
         done = fail("there are more than " + std::to_string(kMaxJoints) + " joints");
       } else if (keyword == "joint") {
@@ -216,7 +219,8 @@ class BvhParser {
       } else if (keyword.empty()) {
         done = fail("the file ends inside the HIERARCHY");
       } else {
-        done = fail("expected JOINT, CHANNELS, End Site or '}', found " + quoted_start(word));
+        done = fail("expected JOINT, CHANNELS, End Site or '}', found " +
+                    quoted_start(word));
       }
       if (!done) return done;
     }
@@ -299,7 +303,8 @@ class BvhParser {
         return too_far("a position of " + quoted_start(word));
       }
       if (is_known && !is_length_[found] && std::abs(*value) > kMaxTurned_deg) {
-        return fail("a rotation of " + quoted_start(word) + " degrees is more than 1000 turns");
+        return fail("a rotation of " + quoted_start(word) +
+                    " degrees is more than 1000 turns");
       }
       file_.values.push_back(*value);
     }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/base/lower_case.h"
 #include "recordings/motion/mot.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/text_reader.h"
@@ -187,13 +188,12 @@ class MotReader {
   }
 
   void note_counts() {
-    const auto compare = [&](const std::optional<double>& declared,
-                             std::size_t there,
-                             const char* what) {
-      if (!declared || *declared == static_cast<double>(there)) return;
-      table_.notes.push_back("the header has another number of " + std::string(what) +
-                             " than there are, " + std::to_string(there));
-    };
+    const auto compare =
+        [&](const std::optional<double>& declared, std::size_t there, const char* what) {
+          if (!declared || *declared == static_cast<double>(there)) return;
+          table_.notes.push_back("the header has another number of " + std::string(what) +
+                                 " than there are, " + std::to_string(there));
+        };
     compare(header_.rows, table_.rows(), "rows");
     compare(header_.columns, table_.columns.size() + 1, "columns");
   }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/base/assert.h"
+#include "core/base/lower_case.h"
 #include "recordings/motion/mot.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/number_text.h"
@@ -34,7 +35,7 @@ std::string first_line(const MotTable& table) {
   if (begin == std::string::npos) return "Coordinates";
   std::string line = name.substr(begin, name.find_last_not_of(' ') - begin + 1);
   std::string key = line.substr(0, line.find_first_of(" ="));
-  for (char& c : key) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (char& c : key) c = lower_case(c);
   constexpr std::array<std::string_view, 11> kKeys{"name",
                                                    "nrows",
                                                    "datarows",

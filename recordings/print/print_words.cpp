@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include "recordings/print/print_words.h"
-#include "recordings/text/word_text.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +11,9 @@
 #include <string>
 #include <utility>
 
+#include "core/base/lower_case.h"
 #include "core/nearest_word.h"
+#include "recordings/text/word_text.h"
 
 namespace marey::recordings {
 namespace {

@@ -53,7 +53,7 @@ void remember(const std::string& path) {
   }
 }
 
-void forget(const std::string& path) {
+void unregister(const std::string& path) {
   for (PartialPath& place : partial_paths) {
     if (place.state.load() != PartialPath::kNamed || path != place.path.data()) continue;
     place.state.store(PartialPath::kFree);
@@ -171,7 +171,7 @@ void AtomicFile::discard() {
   std::error_code ignored;
   fs::remove(partial_, ignored);
   unlock();
-  forget(partial_.string());
+  unregister(partial_.string());
 }
 
 void AtomicFile::unlock() {
@@ -214,7 +214,7 @@ Result<AtomicFile> AtomicFile::create(const fs::path& path) {
   remember(file.partial_.string());
   if (!file.open_partial()) {
     const int error = errno;
-    forget(file.partial_.string());
+    unregister(file.partial_.string());
     return bad_input(path.string(),
                      "the file cannot be written" + reason(error),
                      "check that its folder may be written to");
@@ -248,7 +248,7 @@ Status AtomicFile::commit() {
   }
   open_ = false;
   unlock();
-  forget(partial_.string());
+  unregister(partial_.string());
   return Done{};
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/base/lower_case.h"
+
 namespace marey::recordings {
 namespace {
 
@@ -73,7 +75,7 @@ bool is_missing(std::string_view cell) {
   std::string_view word = cell.substr(0, 3);
   const auto is = [&](std::string_view name) {
     return std::equal(word.begin(), word.end(), name.begin(), [](char a, char b) {
-      return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+      return lower_case(a) == b;
     });
   };
   // "nan(ind)", "Infinity".

@@ -10,13 +10,6 @@
 
 namespace marey::recordings {
 
-/// Returns `text` with the letters A to Z in lower case. Other bytes stay as they are.
-[[nodiscard]] inline std::string lower_case(std::string_view text) {
-  std::string out(text);
-  for (char& c : out) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return out;
-}
-
 /// Returns the first 40 characters of `word` in quotes, for messages: a broken file may
 /// contain very long words.
 [[nodiscard]] inline std::string quoted_start(std::string_view word) {

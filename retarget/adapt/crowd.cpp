@@ -14,38 +14,6 @@
 namespace marey::retarget {
 namespace {
 
-bool has(LaneWidth width) {
-#if defined(__x86_64__)
-  switch (width) {
-    case LaneWidth::kOne:
-    case LaneWidth::kFour:
-      return true;
-    case LaneWidth::kEight:
-      return __builtin_cpu_supports("avx2") != 0;
-    case LaneWidth::kSixteen:
-      return __builtin_cpu_supports("avx512f") != 0 &&
-             __builtin_cpu_supports("avx512dq") != 0 &&
-             __builtin_cpu_supports("avx512bw") != 0 &&
-             __builtin_cpu_supports("avx512vl") != 0;
-  }
-#endif
-  return width == LaneWidth::kOne;
-}
-
-std::unique_ptr<LaneKernel> make_kernel(LaneWidth width, const Plan& plan) {
-  switch (width) {
-    case LaneWidth::kOne:
-      break;
-    case LaneWidth::kFour:
-      return make_narrow_kernel(plan);
-    case LaneWidth::kEight:
-      return make_wide_kernel(plan);
-    case LaneWidth::kSixteen:
-      return make_widest_kernel(plan);
-  }
-  return make_scalar_kernel(plan);
-}
-
 bool same_options(const AdaptOptions& a, const AdaptOptions& b) {
   return a.method == b.method && a.control == b.control && a.balance == b.balance &&
          a.max_iterations == b.max_iterations &&
@@ -53,14 +21,6 @@ bool same_options(const AdaptOptions& a, const AdaptOptions& b) {
 }
 
 }  // namespace
-
-LaneWidth widest_lanes() {
-  for (const LaneWidth width :
-       {LaneWidth::kSixteen, LaneWidth::kEight, LaneWidth::kFour}) {
-    if (has(width)) return width;
-  }
-  return LaneWidth::kOne;
-}
 
 /// Jobs of one thread: a contiguous range of members.
 class Crowd::Jobs final : public LaneJobs {
@@ -168,7 +128,7 @@ Result<Crowd> Crowd::make(std::vector<Adapter> members, const CrowdOptions& opti
   if (options.threads < 1) {
     return bad_input("crowd", "the number of threads is below 1", "use at least 1");
   }
-  if (!has(options.width)) {
+  if (!has_lanes(options.width)) {
     return bad_input("crowd",
                      "this processor has no vectors of " +
                          std::to_string(static_cast<int>(options.width)) + " lanes",
@@ -189,7 +149,7 @@ Result<Crowd> Crowd::make(std::vector<Adapter> members, const CrowdOptions& opti
   }
   auto state = std::make_unique<State>();
   for (int t = 0; t < options.threads; ++t) {
-    auto kernel = make_kernel(options.width, first.plan);
+    auto kernel = make_lane_kernel(options.width, first.plan);
     MAREY_ASSERT(kernel != nullptr);
     state->workers.push_back(
         {std::move(kernel), std::make_unique<Jobs>(first.plan, members.size())});

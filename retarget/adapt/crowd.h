@@ -6,18 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "core/pose.h"
 #include "core/base/result.h"
+#include "core/pose.h"
 #include "retarget/adapt/adapter.h"
+#include "retarget/adapt/lane_dispatch.h"
 
 namespace marey::retarget {
-
-/// Number of bodies that are adapted in parallel in the vector registers of the
-/// processor.
-enum class LaneWidth { kOne = 1, kFour = 4, kEight = 8, kSixteen = 16 };
-
-/// Returns the largest width that this processor supports.
-[[nodiscard]] LaneWidth widest_lanes();
 
 struct CrowdOptions {
   LaneWidth width = widest_lanes();

@@ -217,7 +217,7 @@ std::vector<BalanceFrame> balance_frames(const Motion& motion,
   return out;
 }
 
-BalanceFigures balance_figures(const BalanceTrack& track, const BalanceTrack& source) {
+BalanceFigures balance_measures(const BalanceTrack& track, const BalanceTrack& source) {
   MAREY_ASSERT(source.empty() || source.size() == track.size());
   BalanceFigures out;
   for (std::size_t t = 0; t < track.size(); ++t) {

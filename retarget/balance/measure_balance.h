@@ -75,7 +75,7 @@ struct BalanceFigures {
 
 /// Computes figures of a track. Precondition: both have the same frames, or `source` is
 /// absent.
-[[nodiscard]] BalanceFigures balance_figures(const BalanceTrack& track,
-                                             const BalanceTrack& source = {});
+[[nodiscard]] BalanceFigures balance_measures(const BalanceTrack& track,
+                                              const BalanceTrack& source = {});
 
 }  // namespace marey::retarget

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "retarget/bones/hang_bones.h"
+#include "retarget/bones/reparent_bones.h"
 
 namespace marey::retarget {
 namespace {
@@ -33,7 +33,7 @@ Status check_there(const BoneMap& overrides, const FoundBones& found) {
                        B::kRightUpperLeg,
                        B::kRightLowerLeg,
                        B::kRightFoot}) {
-    // A leg may end without a joint: hang_bones() makes one.
+    // A leg may end without a joint: reparent_to_carriers() makes one.
     const bool is_declared_absent = is_foot(bone) && overrides.bones[index(bone)].is_set;
     if (found.joint(bone) || is_declared_absent) continue;
     missing += (missing.empty() ? "" : ", ") + std::string(name(bone));
@@ -57,7 +57,8 @@ Status check_once(const SkeletonTree& tree, const FoundBones& found) {
 }
 
 /// Returns true for bones that files place elsewhere, below a root or a control:
-/// hang_bones() moves them. Shins and forearms are moved only if the user names them.
+/// reparent_to_carriers() moves them. Shins and forearms are moved only if the user names
+/// them.
 bool may_hang_elsewhere(const BoneMap& overrides, B bone) {
   const auto is_lower = [&](const HumanLimb& limb) { return limb.lower == bone; };
   const bool is_spine = bone == B::kSpine || bone == B::kChest || bone == B::kUpperChest;

@@ -7,6 +7,8 @@
 #include <map>
 #include <span>
 
+#include "core/base/lower_case.h"
+
 namespace marey::retarget {
 namespace {
 
@@ -41,8 +43,7 @@ Words split(std::string_view name) {
     before = kind;
     if (kind == Letter::kOther) continue;
     if (begins) words.emplace_back();
-    const bool is_capital = kind == Letter::kUpper;
-    words.back() += is_capital ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
+    words.back() += lower_case(name[i]);
   }
   for (std::string& word : words) {
     if (kind_of(word[0]) != Letter::kDigit) continue;

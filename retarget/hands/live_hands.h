@@ -51,7 +51,7 @@ struct PosedVolume {
 /// rotate with the hips. A body equal to the source's is unchanged to 1e-9 m.
 class LiveHands {
  public:
-  void forget() { *this = LiveHands(); }
+  void reset() { *this = LiveHands(); }
   /// Moves the arms of `posture`, the avatar's posed body. Allocates nothing; some ten
   /// microseconds. Precondition: since_last_s > 0.
   void move(const PosedVolume& source,

@@ -11,10 +11,10 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
-#include "core/pose.h"
 #include "core/base/quantile.h"
+#include "core/pose.h"
 #include "retarget/body/t_pose_turn.h"
-#include "retarget/contacts/contact_figures.h"
+#include "retarget/contacts/measure_contacts.h"
 #include "retarget/feet/leg_on_foot.h"
 
 namespace marey::retarget {

@@ -142,8 +142,8 @@ Result<LiveRetarget> LiveRetarget::make(const Skeleton& source,
   state->wrists_to_keep = spines_differ(state->from, state->to);
   if (options.hands) {
     const LiveHandsOptions& hands = *options.hands;
-    state->source_volume = hands.source_volume ? *hands.source_volume
-                                               : average_volume(source, state->from);
+    state->source_volume =
+        hands.source_volume ? *hands.source_volume : average_volume(source, state->from);
     state->avatar_volume =
         hands.avatar_volume ? *hands.avatar_volume : average_volume(avatar, state->to);
   }
@@ -180,11 +180,11 @@ void LiveRetarget::step(const Pose& source, double since_last_s, Pose& out) {
   }
 }
 
-void LiveRetarget::forget() {
+void LiveRetarget::reset() {
   state_->stance.reset();
   state_->unroller = FootUnroller();
   for (LiveFoot& foot : state_->feet) foot.reset();
-  state_->hands.forget();
+  state_->hands.reset();
   state_->skin.reset();
   state_->sink_m = 0.0;
 }

@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "core/pose.h"
 #include "core/base/result.h"
+#include "core/pose.h"
 #include "core/skeleton.h"
 #include "core/transform.h"
 #include "retarget/body/find_soles.h"
@@ -22,14 +22,14 @@ namespace marey::retarget {
 
 struct LiveRetargetOptions {
   RootNormalization root = RootNormalization::kLegLength;
-  Soles soles;            ///< Soles of the avatar, if its skin is known.
+  Soles soles;  ///< Soles of the avatar, if its skin is known.
   /// The avatar's skin, raised out of the floor while feet are held
   /// (retarget/feet/live_skin.h); empty: unknown.
   Skin skin;
   bool hold_feet = true;  ///< Feet that stand in the source stand still on the avatar.
   LiveStanceOptions stance;
   LiveFootOptions foot;
-  double rise_s = 0.3;      ///< Time constant of the hips' rise after they had to sink.
+  double rise_s = 0.3;  ///< Time constant of the hips' rise after they had to sink.
   /// Options for keeping hand contacts and moving arms out of the body; nullopt: arms
   /// keep the normalized posture.
   std::optional<LiveHandsOptions> hands = LiveHandsOptions{};
@@ -61,7 +61,7 @@ class LiveRetarget {
   void step(const Pose& source, double since_last_s, Pose& out);
   /// Resets the state: the next posture is treated as the first one, after the performer
   /// was lost or jumped.
-  void forget();
+  void reset();
 
   /// Returns the standing feet, left and right, detected in the source by the last
   /// step().

@@ -261,9 +261,9 @@ Status settle_in_balance(const Task& task,
   out.report.ground = report.kept.ground;
   const BalanceTrack source =
       track_balance(task.source, task.from, *source_masses, contacts);
-  report.source = balance_figures(source);
+  report.source = balance_measures(source);
   const auto figures = [&](const Motion& motion) {
-    return balance_figures(track_balance(motion, task.to, *masses, contacts), source);
+    return balance_measures(track_balance(motion, task.to, *masses, contacts), source);
   };
   report.before = figures(expand_all(still, task.source, task.avatar, task.to));
   report.after = figures(expand_all(poses, task.source, task.avatar, task.to));

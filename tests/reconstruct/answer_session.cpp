@@ -53,11 +53,13 @@ SessionAnswer answer_session(const SimulatedSession& session) {
   if (!fit) return refuse("fit_subject", fit.error());
   for (const reconstruct::LeftOutSegment& left : fit->left_out) {
     out.left_out.push_back(left.segment);
-    std::erase_if(fit->warnings, [&](const Error& warning) {
-      return warning.cause == left.reason.cause;
+    std::erase_if(fit->findings, [&](const Finding& finding) {
+      return finding.cause == left.reason.cause;
     });
   }
-  if (!fit->warnings.empty()) return refuse("fit_subject", fit->warnings.front());
+  if (!fit->findings.empty()) {
+    return refuse("fit_subject", fit->findings.front().error());
+  }
   out.body = std::move(fit->body);
   start = processor_s();
   reconstruct::SolveMotionOptions options;

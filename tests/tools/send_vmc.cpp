@@ -26,7 +26,7 @@ using namespace marey;
 using namespace std::chrono_literals;
 
 // Half of what Linux gives a socket unless it asks for more.
-constexpr long kMostWaiting_bytes = 100000;
+constexpr long kMaxWaiting_bytes = 100000;
 
 /// What waits to be read on the port, on all sockets that have it; nullopt: nobody does.
 std::optional<long> waiting_bytes(int port) {
@@ -75,7 +75,7 @@ int send(int port, int count) {
   if (!sender || !body) return 1;
   live::VmcPose told;
   for (int frame = 0; frame < count; ++frame) {
-    if (frame % 10 == 0 && !wait_for(port, kMostWaiting_bytes)) return 1;
+    if (frame % 10 == 0 && !wait_for(port, kMaxWaiting_bytes)) return 1;
     const auto k = static_cast<std::size_t>(frame) % motion.poses.size();
     body->to_vmc(motion.poses[k], told);
     sender->send(frame_time(frame, {60.0}), told);

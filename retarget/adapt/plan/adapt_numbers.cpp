@@ -49,14 +49,14 @@ double quarter_tangent(double angle_rad) {
 }
 
 // Larger distances are treated as infinite; the square of this one is finite.
-constexpr double kFarthest = 1e6;
+constexpr double kMaxDistance = 1e6;
 
 /// Writes consecutive numbers.
 class Packer {
  public:
   explicit Packer(std::span<float> out) : out_(out) {}
   void put(double x) {
-    out_[next_++] = static_cast<float>(std::clamp(x, -kFarthest, kFarthest));
+    out_[next_++] = static_cast<float>(std::clamp(x, -kMaxDistance, kMaxDistance));
   }
   void put(const glm::dvec3& v) {
     put(v.x);

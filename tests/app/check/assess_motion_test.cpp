@@ -60,7 +60,7 @@ TEST(AssessMotion, NamesASegmentThatTurnsAboutInOneFrame) {
   turn(trial, HumanBone::kRightHand, 12, 3.0);
   const auto found = assess_motion(trial);
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].code, Errc::kQuality);
+  EXPECT_EQ(found[0].severity, Severity::kPoor);
   EXPECT_EQ(found[0].where, "trial walk");
   EXPECT_EQ(found[0].cause,
             "segment \"rightHand\" turns by 172 degrees between frames 111 and 112, "
@@ -79,7 +79,7 @@ TEST(AssessMotion, NamesABodyThatLeaps) {
       << found[0].cause;
 }
 
-TEST(AssessMotion, SaysNothingOfWhatNobodySaw) {
+TEST(AssessMotion, IgnoresUnmeasuredFrames) {
   ReportTrial trial = quick(0.3, 0.0);
   turn(trial, HumanBone::kRightHand, 12, 3.0);
   trial.bodies[0].uncertainty[12][index(HumanBone::kRightHand)].source =

@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
+#include "app/check/assess_body.h"
+#include "app/check/assess_clocks.h"
 #include "app/check/assess_floor_height.h"
-#include "app/check/check_body.h"
-#include "app/check/check_clocks.h"
 #include "core/skeleton.h"
 #include "reconstruct/tags/trial_residuals.h"
 #include "tests/support/bodies/synthetic_person.h"
@@ -31,8 +31,8 @@ using testing::Movement;
 constexpr double kHz = 30.0;
 constexpr int kFrames = 60;
 
-bool says(const Error& error, const std::string& words) {
-  return error.message().find(words) != std::string::npos;
+bool says(const Finding& finding, const std::string& words) {
+  return finding.message().find(words) != std::string::npos;
 }
 
 Session session_of(const std::vector<Camera>& cameras) {
@@ -79,7 +79,7 @@ TEST(AssessOffsets, NamesCameraAmountAndKey) {
   const auto error =
       assess_offsets(session, walk_with({0.0, 0.0073, 0.0, 0.0049}), seen(kTrue_s));
   ASSERT_TRUE(error);
-  EXPECT_EQ(error->code, Errc::kQuality);
+  EXPECT_EQ(error->severity, Severity::kPoor);
   EXPECT_TRUE(says(*error, "session.toml:7: trial walk")) << error->message();
   EXPECT_TRUE(says(*error, session.cameras[2] + " is 0.0 ms")) << error->message();
   EXPECT_TRUE(says(*error, "-11.1 ms by its tags")) << error->message();
@@ -87,7 +87,7 @@ TEST(AssessOffsets, NamesCameraAmountAndKey) {
   EXPECT_FALSE(says(*error, session.cameras[1] + " is")) << error->message();
 }
 
-TEST(AssessOffsets, TellsTheOtherSignAndTheFirstCamera) {
+TEST(AssessOffsets, ReportsTheOtherSignAndTheFirstCamera) {
   const Session session = session_of(testing::ring_of_cameras());
   const auto sign =
       assess_offsets(session, walk_with({0.0, -0.0073, 0.0111, -0.0049}), seen(kTrue_s));
@@ -100,7 +100,7 @@ TEST(AssessOffsets, TellsTheOtherSignAndTheFirstCamera) {
       << first->message();
 }
 
-TEST(CheckOffsets, FindsThemFromTheTagsOfAWalk) {
+TEST(AssessTrialOffsets, FindsThemFromTheTagsOfAWalk) {
   const Body body = testing::tagged_person();
   const auto cameras = testing::ring_of_cameras();
   Session session = session_of(cameras);
@@ -115,7 +115,7 @@ TEST(CheckOffsets, FindsThemFromTheTagsOfAWalk) {
     for (std::size_t c = 0; c < found.size(); ++c) {
       found[c].offset = from_seconds(given_s[c]);
     }
-    return check_offsets(session, walk_with(given_s), cameras, found, 1e-3);
+    return assess_trial_offsets(session, walk_with(given_s), cameras, found, 1e-3);
   };
   EXPECT_FALSE(check(kTrue_s));
   const auto wrong = check({0.0, -0.0073, 0.0111, -0.0049});
@@ -149,7 +149,7 @@ struct SolvedWalk {
   [[nodiscard]] reconstruct::TrialResiduals residuals() const {
     return reconstruct::trial_residuals(body, cameras, detections, solved);
   }
-  [[nodiscard]] std::optional<Error> verdict(
+  [[nodiscard]] std::optional<Finding> verdict(
       const std::vector<double>& given_s = {}) const {
     return assess_trial(session_of(cameras), walk_with(given_s), residuals());
   }
@@ -177,7 +177,7 @@ TEST(TrialResiduals, TellByHowMuchACameraIsLate) {
 TEST(AssessTrial, NamesTheCameraWhoseClockIsOff) {
   const auto found = SolvedWalk({0.0, 0.0, 0.012, 0.0}).verdict();
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->code, Errc::kQuality);
+  EXPECT_EQ(found->severity, Severity::kPoor);
   EXPECT_TRUE(says(*found, "by 12 ms or more late")) << found->message();
   EXPECT_TRUE(says(*found, "skip no frames")) << found->message();
   const auto given = SolvedWalk({0.0, 0.0, 0.012, 0.0}).verdict({0.0, 0.0, 0.001, 0.0});
@@ -233,13 +233,11 @@ TEST(AssessFloorHeight, NamesTheThicknessOfTheBoard) {
   const std::vector<SoleHeight> motions{{"walk", 0.09}};
   const auto finding = assess_floor_height(with_floor(0.1), standing_at(0.095), motions);
   ASSERT_TRUE(finding);
-  EXPECT_TRUE(finding->is_poor);
-  EXPECT_TRUE(
-      says(finding->error, "95 mm above the floor, and equally high in the motions"))
-      << finding->error.message();
-  EXPECT_TRUE(
-      says(finding->error, "thickness_m under [board] (0.100 now, about 95 mm too much"))
-      << finding->error.message();
+  EXPECT_EQ(finding->severity, Severity::kPoor);
+  EXPECT_TRUE(says(*finding, "95 mm above the floor, and equally high in the motions"))
+      << finding->message();
+  EXPECT_TRUE(says(*finding, "thickness_m under [board] (0.100 now, about 95 mm too much"))
+      << finding->message();
 }
 
 TEST(AssessFloorHeight, NamesTheLowestCornerThatWouldFitWhereNoFloorTrialIs) {
@@ -247,33 +245,35 @@ TEST(AssessFloorHeight, NamesTheLowestCornerThatWouldFitWhereNoFloorTrialIs) {
   session.calibration.lowest_corner_m = 0.11;
   const auto finding = assess_floor_height(session, standing_at(0.06), {});
   ASSERT_TRUE(finding);
-  EXPECT_FALSE(finding->is_poor);
-  EXPECT_TRUE(says(finding->error, "set lowest_corner_m under [calibration] to 0.050"))
-      << finding->error.message();
+  EXPECT_EQ(finding->severity, Severity::kFair);
+  EXPECT_TRUE(says(*finding, "set lowest_corner_m under [calibration] to 0.050"))
+      << finding->message();
 }
 
-TEST(BodyWarnings, NameShouldersAndHipsThatMotionsCallInferred) {
+TEST(AssessBody, ReportsUncertainShouldersAndHips) {
   Body body = testing::tagged_person();
-  EXPECT_TRUE(body_warnings(body).empty());
+  EXPECT_TRUE(assess_body(body).empty());
   body.joint_centre_sigma_m[index(HumanBone::kLeftUpperArm)] = 0.016;
   body.joint_centre_sigma_m[index(HumanBone::kRightUpperLeg)] = 0.0131;
   body.joint_centre_sigma_m[index(HumanBone::kRightUpperArm)] = 0.014;
-  const auto warnings = body_warnings(body);
+  const auto warnings = assess_body(body);
   ASSERT_EQ(warnings.size(), 2U);
-  EXPECT_NE(warnings[0].find("\"leftUpperArm\" has a standard deviation of 16 mm"), std::string::npos);
-  EXPECT_NE(warnings[1].find("\"rightUpperLeg\" has a standard deviation of 15 mm"), std::string::npos);
+  EXPECT_NE(warnings[0].cause.find("\"leftUpperArm\" has a standard deviation of 16 mm"),
+            std::string::npos);
+  EXPECT_NE(warnings[1].cause.find("\"rightUpperLeg\" has a standard deviation of 15 mm"),
+            std::string::npos);
 }
 
-TEST(AssessFloorHeight, TellsWhoStoodOnSomethingFromAFloorThatIsWrong) {
+TEST(AssessFloorHeight, DistinguishesARaisedSubjectFromAWrongFloor) {
   const std::vector<SoleHeight> motions{{"walk", 0.002}};
   const auto box = assess_floor_height(with_floor(0.005), standing_at(0.2), motions);
   ASSERT_TRUE(box);
-  EXPECT_TRUE(says(box->error, "not in the motions (walk 2 mm)")) << box->error.message();
-  EXPECT_TRUE(says(box->error, "record trial static again")) << box->error.message();
+  EXPECT_TRUE(says(*box, "not in the motions (walk 2 mm)")) << box->message();
+  EXPECT_TRUE(says(*box, "record trial static again")) << box->message();
   const auto chair = assess_floor_height(with_floor(0.005), standing_at(-0.1), {});
   ASSERT_TRUE(chair);
-  EXPECT_TRUE(says(chair->error, "100 mm below the floor")) << chair->error.message();
-  EXPECT_TRUE(says(chair->error, "nothing under it")) << chair->error.message();
+  EXPECT_TRUE(says(*chair, "100 mm below the floor")) << chair->message();
+  EXPECT_TRUE(says(*chair, "nothing under it")) << chair->message();
 }
 
 TEST(SoleHeight, IsThatOfWhoStandsOnTheFloor) {

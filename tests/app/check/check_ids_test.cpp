@@ -49,20 +49,25 @@ CameraDetections seen(const std::map<int, double>& speed_px) {
 
 std::vector<std::string> warnings(const std::map<int, double>& waved,
                                   const std::map<int, double>& worn) {
-  RecordingTroubles troubles;
+  std::vector<Finding> findings;
   const Status ok =
       check_ids(session(),
                 {{"calibration", {seen(waved)}}, {"range-of-motion", {seen(worn)}}},
-                troubles);
+                findings);
   EXPECT_TRUE(ok) << ok.error().message();
-  return troubles.warnings;
+  std::vector<std::string> lines;
+  for (const Finding& finding : findings) {
+    EXPECT_EQ(finding.severity, Severity::kFair);
+    lines.push_back(finding.message());
+  }
+  return lines;
 }
 
 TEST(CheckIds, PassesTagsThatAreListed) {
   EXPECT_TRUE(warnings({{0, 2.0}, {3, 2.0}}, {{41, 2.0}}).empty());
 }
 
-TEST(CheckIds, TellsOfTagsThatMoveWithTheBoard) {
+TEST(CheckIds, ReportsTagsThatMoveWithTheBoard) {
   const auto told = warnings({{0, 2.0}, {4, 2.0}, {5, 2.0}}, {{41, 2.0}});
   ASSERT_EQ(told.size(), 1U);
   EXPECT_TRUE(told[0].starts_with(
@@ -70,7 +75,7 @@ TEST(CheckIds, TellsOfTagsThatMoveWithTheBoard) {
       << told[0];
 }
 
-TEST(CheckIds, TellsOfTagsThatMoveWithTheBody) {
+TEST(CheckIds, ReportsTagsThatMoveWithTheBody) {
   const auto told = warnings({{0, 2.0}}, {{41, 2.0}, {50, 2.0}});
   ASSERT_EQ(told.size(), 1U);
   EXPECT_TRUE(told[0].starts_with(
@@ -78,16 +83,16 @@ TEST(CheckIds, TellsOfTagsThatMoveWithTheBody) {
       << told[0];
 }
 
-TEST(CheckIds, LeavesTagsOnWallsAlone) {
+TEST(CheckIds, IgnoresTagsOnWalls) {
   EXPECT_TRUE(warnings({{0, 2.0}, {4, 0.1}}, {{41, 2.0}, {50, 0.1}}).empty());
 }
 
 TEST(CheckIds, RefusesIdsThatLookMistyped) {
-  RecordingTroubles troubles;
+  std::vector<Finding> findings;
   const Status ok = check_ids(
       session(),
       {{"calibration", {seen({{0, 2.0}})}}, {"range-of-motion", {seen({{14, 2.0}})}}},
-      troubles);
+      findings);
   ASSERT_FALSE(ok);
   EXPECT_TRUE(ok.error().cause.starts_with("tag 41 is listed but never seen; tag 14"))
       << ok.error().cause;

@@ -39,29 +39,30 @@ struct Recorded {
   }
 };
 
-TEST(ExchangedExercise, IsNamedWhereTheOtherTrialStaysInOnePlace) {
+TEST(AssessExercise, ReportsATrialThatStaysInOnePlace) {
   Recorded recorded;
   recorded.add("rom", TrialKind::kRangeOfMotion, testing::walking(recorded.body));
   recorded.add("walk", TrialKind::kMotion, testing::range_of_motion(recorded.body));
-  const auto warning = exchanged_exercise_warning(recorded.session, recorded.found);
-  ASSERT_TRUE(warning);
-  EXPECT_NE(warning->find("in trial rom"), std::string::npos) << *warning;
-  EXPECT_NE(warning->find("the videos of rom and walk"), std::string::npos) << *warning;
+  const auto found = assess_exercise(recorded.session, recorded.found);
+  ASSERT_TRUE(found);
+  EXPECT_NE(found->cause.find("in trial rom"), std::string::npos) << found->message();
+  EXPECT_NE(found->next.find("the videos of rom and walk"), std::string::npos)
+      << found->message();
 }
 
-TEST(ExchangedExercise, IsNotSuspectedInASessionAsItShouldBe) {
+TEST(AssessExercise, PassesACorrectSession) {
   Recorded recorded;
   recorded.add("rom", TrialKind::kRangeOfMotion, testing::range_of_motion(recorded.body));
   recorded.add("walk", TrialKind::kMotion, testing::walking(recorded.body));
   recorded.add("stand", TrialKind::kMotion, testing::standing(recorded.body));
-  EXPECT_FALSE(exchanged_exercise_warning(recorded.session, recorded.found));
+  EXPECT_FALSE(assess_exercise(recorded.session, recorded.found));
 }
 
-TEST(ExchangedExercise, IsNotSuspectedWhereEverybodyWalks) {
+TEST(AssessExercise, PassesIfTheSubjectWalksInAllTrials) {
   Recorded recorded;
   recorded.add("rom", TrialKind::kRangeOfMotion, testing::walking(recorded.body));
   recorded.add("walk", TrialKind::kMotion, testing::walking(recorded.body));
-  EXPECT_FALSE(exchanged_exercise_warning(recorded.session, recorded.found));
+  EXPECT_FALSE(assess_exercise(recorded.session, recorded.found));
 }
 
 TEST(CheckStanding, NamesTheTrialInWhichTheSubjectDoesStandStill) {

@@ -91,7 +91,7 @@ TEST(TurnedVideo, ThatIsUpsideDownIsNamed) {
                        {"calibration.html", "calibration.json", "calibration.toml"}));
 }
 
-TEST(UnevenSides, AreToldWhereATagMayBeOnTheWrongSegment) {
+TEST(AssessSides, ReportsATagOnTheWrongSegment) {
   SpoiledSession session;
   session.replace("segment = \"leftFoot\"", "segment = \"leftLowerLeg\"");
   const ProgramRun run = session.run("solve");

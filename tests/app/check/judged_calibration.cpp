@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/check/find_moved_cameras.h"
+#include "calib/quality/assess_calibration.h"
 #include "calib/quality/calibration_report.h"
-#include "calib/quality/check_calibration.h"
 #include "calib/quality/report_calibration.h"
 #include "calib/rig/calibrate_cameras.h"
 #include "calib/rig/calibrate_wand.h"
@@ -179,9 +179,10 @@ void assess_motions(const SimulatedCalibration& scene,
     }
     const auto moved = app::find_moved_cameras(name, rig.cameras, detections, tags);
     if (!moved) continue;
-    if (moved->is_poor && out.exit_code == 0) out.exit_code = 4;
-    out.words.push_back(std::string(moved->is_poor ? "poor " : "fair ") +
-                        "moved: " + moved->error.message());
+    if (moved->severity == Severity::kPoor && out.exit_code == 0) out.exit_code = 4;
+    out.words.push_back(
+        std::string(moved->severity == Severity::kPoor ? "poor " : "fair ") +
+        "moved: " + moved->message());
   }
 }
 
@@ -258,8 +259,8 @@ Result<calib::CalibratedRig> calibrate(const SimulatedCalibration& scene,
   return std::move(found->rig);
 }
 
-bool is_about_views(const calib::Finding& finding) {
-  const std::string kind = finding.kind;
+bool is_about_views(const Finding& finding) {
+  const std::string kind = finding.id;
   return kind == "coverage" || kind == "views" || kind == "tilt" || kind == "volume" ||
          kind == "shared";
 }
@@ -289,11 +290,11 @@ JudgedCalibration judge(const SimulatedCalibration& scene) {
     const calib::CalibrationReport report = calib::report_calibration(
         {"simulated", "1.0", &target, 1.75, scene.rate_hz, !scene.floor.empty()},
         std::move(*rig));
-    for (const calib::Finding& finding : report.findings) {
-      if (finding.severity == calib::Severity::kNote) continue;
-      const bool is_poor = finding.severity == calib::Severity::kPoor;
+    for (const Finding& finding : report.findings) {
+      if (finding.severity == Severity::kNote) continue;
+      const bool is_poor = finding.severity == Severity::kPoor;
       if (is_poor) out.exit_code = 4;
-      out.words.push_back(std::string(is_poor ? "poor " : "fair ") + finding.kind + ": " +
+      out.words.push_back(std::string(is_poor ? "poor " : "fair ") + finding.id + ": " +
                           finding.where + ": " + finding.cause + ": " + finding.next);
       out.is_noticed = out.is_noticed || is_poor || !is_about_views(finding);
     }

@@ -67,7 +67,7 @@ class SmallTake {
     EXPECT_TRUE(writer->finish());
   }
 
-  Status match() { return match_times(trial, found, troubles); }
+  Status match() { return match_times(trial, found, findings); }
 
   /// What is at an instant of a camera; nullopt when it took nothing then.
   [[nodiscard]] std::optional<int> at(std::size_t camera, int instant) const {
@@ -83,7 +83,7 @@ class SmallTake {
 
   Trial trial;
   std::vector<CameraDetections> found;
-  RecordingTroubles troubles;
+  std::vector<Finding> findings;
 };
 
 void run_sql(const fs::path& file, const std::string& text) {
@@ -151,12 +151,12 @@ TEST(MatchTimes, AddsUpMoreDroppedFramesThanAnyTakeHas) {
   SmallTake take(folder.path());
   run_sql(folder / kTakeFile, "UPDATE frame SET dropped_before = 2147483647");
   ASSERT_TRUE(take.match());
-  ASSERT_EQ(take.troubles.warnings.size(), 2U);
-  EXPECT_NE(take.troubles.warnings[0].find(": 193273528230 frames were dropped"),
+  ASSERT_EQ(take.findings.size(), 2U);
+  EXPECT_NE(take.findings[0].message().find(": 193273528230 frames were dropped"),
             std::string::npos);
 }
 
-TEST(MatchTimes, TellsTroublesOfLongPathsToTheirEnds) {
+TEST(MatchTimes, DoesNotTruncateMessagesOfLongPaths) {
   const ScratchFolder folder;
   const fs::path deep = folder.path() / std::string(200, 'a') / std::string(200, 'b');
   SmallTake take(deep);
@@ -164,14 +164,14 @@ TEST(MatchTimes, TellsTroublesOfLongPathsToTheirEnds) {
   run_sql(deep / kTakeFile,
           "UPDATE frame SET time_ns = time_ns + 11000000 WHERE number % 9 = 4");
   ASSERT_TRUE(take.match());
-  ASSERT_FALSE(take.troubles.warnings.empty());
-  const std::string& warning = take.troubles.warnings.front();
+  ASSERT_FALSE(take.findings.empty());
+  const std::string& warning = take.findings.front().cause;
   EXPECT_NE(warning.find("ms away from a steady rate of"), std::string::npos) << warning;
   EXPECT_TRUE(warning.ends_with(" Hz")) << warning;
 }
 
 // A file of times knows the videos beside it and no others.
-TEST(MatchTimes, LeavesATakeAloneThatHasNotAllVideosAndSaysSo) {
+TEST(MatchTimes, ReportsATakeThatIsNotUsed) {
   const ScratchFolder folder;
   SmallTake take(folder / "one");
   fs::create_directories(folder / "other");
@@ -180,8 +180,8 @@ TEST(MatchTimes, LeavesATakeAloneThatHasNotAllVideosAndSaysSo) {
   const std::vector<CameraDetections> before = take.found;
   ASSERT_TRUE(take.match());
   EXPECT_EQ(take.found[1].frames.size(), before[1].frames.size());
-  ASSERT_EQ(take.troubles.warnings.size(), 1U);
-  EXPECT_NE(take.troubles.warnings[0].find("it is not used"), std::string::npos);
+  ASSERT_EQ(take.findings.size(), 1U);
+  EXPECT_NE(take.findings[0].cause.find("it is not used"), std::string::npos);
   std::swap(take.trial.videos[0], take.trial.videos[1]);
   EXPECT_FALSE(has_take(take.trial));
 }
@@ -204,15 +204,15 @@ struct RatedVideos {
   }
   Trial trial;
   std::vector<CameraDetections> found;
-  RecordingTroubles troubles;
+  std::vector<Finding> findings;
 };
 
 TEST(CheckEven, NamesAnFpsThatIsNotTheVideos) {
   RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 60.0);
-  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.troubles));
-  EXPECT_TRUE(videos.troubles.warnings.empty());
-  ASSERT_EQ(videos.troubles.failures.size(), 1U);
-  const Error& failure = videos.troubles.failures[0];
+  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.findings));
+  ASSERT_EQ(videos.findings.size(), 1U);
+  const Finding& failure = videos.findings[0];
+  EXPECT_EQ(failure.severity, Severity::kPoor);
   EXPECT_EQ(failure.code, Errc::kQuality);
   EXPECT_NE(failure.cause.find("a steady 30.00 frames per second"), std::string::npos);
   EXPECT_NE(failure.cause.find("fps of trial walk is 60.00"), std::string::npos);
@@ -221,25 +221,24 @@ TEST(CheckEven, NamesAnFpsThatIsNotTheVideos) {
 
 TEST(CheckEven, NamesSlowMotionAsAReasonForAnotherRate) {
   RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 120.0);
-  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.troubles));
-  ASSERT_EQ(videos.troubles.failures.size(), 1U);
-  EXPECT_NE(videos.troubles.failures[0].next.find("slow_motion = 4"), std::string::npos)
-      << videos.troubles.failures[0].next;
+  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.findings));
+  ASSERT_EQ(videos.findings.size(), 1U);
+  EXPECT_NE(videos.findings[0].next.find("slow_motion = 4"), std::string::npos)
+      << videos.findings[0].next;
 }
 
 TEST(CheckEven, TakesSlowMotionThatIsDeclared) {
   RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 120.0);
   videos.trial.slow_motion = 4.0;
-  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.troubles));
-  EXPECT_TRUE(videos.troubles.warnings.empty());
-  EXPECT_TRUE(videos.troubles.failures.empty());
+  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.findings));
+  EXPECT_TRUE(videos.findings.empty());
 }
 
 TEST(CheckEven, DeclinesSlowMotionThatTheVideosDoNotState) {
   for (const auto& [hz, slow] : {std::pair(120.0, 8.0), std::pair(30.0, 4.0)}) {
     RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, hz);
     videos.trial.slow_motion = slow;
-    const Status checked = check_even(videos.trial, videos.found, videos.troubles);
+    const Status checked = check_even(videos.trial, videos.found, videos.findings);
     ASSERT_FALSE(checked) << hz;
     EXPECT_EQ(checked.error().code, Errc::kBadInput);
     EXPECT_NE(checked.error().where.find("walk/cam"), std::string::npos)
@@ -250,7 +249,7 @@ TEST(CheckEven, DeclinesSlowMotionThatTheVideosDoNotState) {
 
 TEST(CheckEven, DeclinesAVideoOfAnotherRateAmongOthers) {
   RatedVideos videos({"walk/cam0.mp4", "calib/cam1.mp4"}, 30.0);
-  const Status checked = check_even(videos.trial, videos.found, videos.troubles);
+  const Status checked = check_even(videos.trial, videos.found, videos.findings);
   ASSERT_FALSE(checked);
   EXPECT_EQ(checked.error().code, Errc::kBadInput);
   EXPECT_NE(checked.error().where.find("calib/cam1.mp4"), std::string::npos);
@@ -259,11 +258,10 @@ TEST(CheckEven, DeclinesAVideoOfAnotherRateAmongOthers) {
       << checked.error().cause;
 }
 
-TEST(CheckEven, SaysNothingOfVideosOfTheRateThatIsGiven) {
+TEST(CheckEven, PassesVideosOfTheGivenRate) {
   RatedVideos videos({"walk/cam0.mp4", "walk/cam1.mp4"}, 30.0);
-  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.troubles));
-  EXPECT_TRUE(videos.troubles.warnings.empty());
-  EXPECT_TRUE(videos.troubles.failures.empty());
+  ASSERT_TRUE(check_even(videos.trial, videos.found, videos.findings));
+  EXPECT_TRUE(videos.findings.empty());
 }
 
 }  // namespace

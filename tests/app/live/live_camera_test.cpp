@@ -59,7 +59,7 @@ TEST(ThumbnailRequests, OfOnePageAreNotEndedByAnother) {
   wishes.ask(live::ClientId{1}, false);
   EXPECT_FALSE(wishes.any());
   wishes.ask(live::ClientId{3}, true);
-  wishes.forget();
+  wishes.reset();
   EXPECT_FALSE(wishes.any());
 }
 

@@ -143,10 +143,11 @@ TEST_F(Guiding, WhatIsGoodIsAcceptedAndWhatIsPoorIsToldSo) {
   other.finish(fit);
   EXPECT_EQ(other.step(), WizardStep::kDone);
   EXPECT_FALSE(other.is_good());
-  const auto poor = std::find_if(other.ui_state().quality.begin(),
-                                 other.ui_state().quality.end(),
-                                 [](const auto& one) { return !one.good; });
-  EXPECT_EQ(poor->name, "left lower arm");
+  const auto poor =
+      std::find_if(other.ui_state().quality.begin(),
+                   other.ui_state().quality.end(),
+                   [](const auto& one) { return one.severity != Severity::kNote; });
+  EXPECT_EQ(poor->where, "left lower arm");
 
   fit.body.joint_centre_sigma_m.fill(0.002);
   fit.body.proportions[HumanBone::kRightFoot] *= 0.85;

@@ -78,7 +78,8 @@ TEST_F(ReportInABrowser, CallsNoFigureGoodThatOneFrameOrJointSpoils) {
   }
   EXPECT_EQ(cards_to_look_at(spoiled), usual + 2);
   Report doubted = good;
-  doubted.poor = {"subject.toml: the tags on segment \"leftFoot\" fit in two ways"};
+  doubted.findings.push_back(poor_finding(
+      "subject", "subject.toml", "the tags on segment \"leftFoot\" fit in two ways", ""));
   EXPECT_EQ(cards_to_look_at(doubted), usual + 3);
 }
 

@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 
 json parsed(const Report& value) {
-  return json::parse(report_json(value));
+  return json::parse(report_json_text(value));
 }
 
 /// The data that the page's scripts read.
@@ -64,7 +64,8 @@ TEST(ReportJson, NamesTheWorstCameraTagFrameAndJoint) {
   for (auto& frame : trial.bodies.front().uncertainty) {
     if (frame.size() > kJoint) frame[kJoint].sigma_m = 0.345;
   }
-  told.poor = {"tag 7 does not move with its segment"};
+  told.findings.push_back(
+      poor_finding("tag", "", "tag 7 does not move with its segment", ""));
   const json summary = parsed(told).at("summary");
   const json& worst = summary.at("worst");
   EXPECT_EQ(worst.at("camera").at("trial"), trial.name);
@@ -79,7 +80,7 @@ TEST(ReportJson, NamesTheWorstCameraTagFrameAndJoint) {
   EXPECT_EQ(worst.at("joint").at("name"),
             trial.bodies.front().motion.skeleton.joints[kJoint].name);
   EXPECT_EQ(worst.at("joint").at("value"), 345.0);
-  EXPECT_EQ(summary.at("poor"), json(told.poor));
+  EXPECT_EQ(summary.at("poor"), json({"tag 7 does not move with its segment."}));
 }
 
 TEST(ReportJson, RoundsPixelsToThreeDecimalsAndMillimetresToTwo) {
@@ -135,7 +136,7 @@ TEST(ReportJson, ReplacesBytesThatAreNotUtf8) {
 }
 
 TEST(ReportJson, HoldsNoPicturesAndNoMotions) {
-  EXPECT_LT(report_json(report()).size(), 60000u);
+  EXPECT_LT(report_json_text(report()).size(), 60000u);
 }
 
 TEST(ReportJson, OfNothingIsStillWhole) {
@@ -147,7 +148,7 @@ TEST(ReportJson, OfNothingIsStillWhole) {
 TEST(ReportJsonDeathTest, RefusesANumberThatIsNone) {
   Report broken = report();
   broken.calibration_rms_px = std::nan("");
-  EXPECT_DEATH((void)report_json(broken), "isfinite");
+  EXPECT_DEATH((void)report_json_text(broken), "isfinite");
 }
 
 TEST(ReportHtml, LetsNoNameBecomeMarkup) {

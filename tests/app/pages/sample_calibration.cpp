@@ -51,13 +51,9 @@ calib::CalibrationReport rich_calibration() {
                                {CameraId{2}, calib::kFloorInstant, 1, 36, 4.0}};
   report.cameras[1].lag = calib::CameraLag{0.4, 0.01, 1.2};
   report.findings = {
-      {calib::Severity::kPoor, "error", "all cameras", kHostile, "do this"},
-      {calib::Severity::kFair,
-       "coverage",
-       "camera " + std::string(kHostile),
-       "cause",
-       "next"},
-      {calib::Severity::kNote, "warp", "board", "bent", "next"}};
+      {Severity::kPoor, "error", "all cameras", kHostile, "do this"},
+      {Severity::kFair, "coverage", "camera " + std::string(kHostile), "cause", "next"},
+      {Severity::kNote, "warp", "board", "bent", "next"}};
   return report;
 }
 

@@ -105,7 +105,8 @@ Report report() {
   out.trials = {trial("walk"), trial(kHostile)};
   out.timings = {{"tags", 3.0}, {kHostile, 1.0}};
   out.recorded_s = 2.0;
-  out.warnings = {std::string("tag 99 was never seen ") + kHostile};
+  out.findings = {
+      fair_finding("unplaced", "", std::string("tag 99 was never seen ") + kHostile)};
   return out;
 }
 

@@ -13,7 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/pages/calibration_figures.h"
+#include "app/pages/calibration_json.h"
 #include "calib/quality/calibration_report.h"
 #include "calib/quality/report_calibration.h"
 #include "calib/rig/calibrate_wand.h"
@@ -135,10 +135,10 @@ TEST(WandReport, CountsSceneryAsNeitherWandNorFloor) {
   }
   EXPECT_TRUE(
       std::any_of(report.findings.begin(), report.findings.end(), [](const auto& f) {
-        return f.kind == "scenery" && f.where == "camera cam2";
+        return f.id == "scenery" && f.where == "camera cam2";
       }));
-  for (const calib::Finding& finding : report.findings) {
-    EXPECT_NE(finding.kind, "floor") << finding.cause;
+  for (const Finding& finding : report.findings) {
+    EXPECT_NE(finding.id, "floor") << finding.cause;
     EXPECT_EQ((finding.where + finding.cause + finding.next).find("board"),
               std::string::npos)
         << finding.where << ": " << finding.cause << ": " << finding.next;
@@ -149,7 +149,7 @@ TEST(WandReport, KnowsAFloorWithoutABoardOnIt) {
   const calib::CalibrationReport report = wand_report(true);
   EXPECT_TRUE(report.has_floor);
   EXPECT_FALSE(report.board_on_floor);
-  const auto figures = calibration_figures(report);
+  const auto figures = calibration_json(report);
   EXPECT_TRUE(figures.at("has_floor").get<bool>());
   EXPECT_FALSE(figures.at("board_on_floor").get<bool>());
   EXPECT_EQ(report.map.height_names.front(), "ankle");

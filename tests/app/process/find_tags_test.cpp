@@ -41,8 +41,8 @@ TEST(FindTags, DeclinesARecordedTrialOfAnotherKindThatLacksAVideo) {
     // Without the check, this would be the error.
     ASSERT_TRUE(recordings::write_file(folder / "right.mkv", "no video"));
     Console console(ProgressStyle::kQuiet);
-    RecordingTroubles troubles;
-    const auto found = find_tags(session, trial, folder / "out", console, troubles);
+    std::vector<Finding> findings;
+    const auto found = find_tags(session, trial, folder / "out", console, findings);
     ASSERT_FALSE(found) << name(kind);
     EXPECT_EQ(found.error().code, Errc::kBadInput);
     EXPECT_EQ(found.error().where, (folder / "left.mkv").string());
@@ -70,34 +70,34 @@ struct FloorScene {
       }
     }
   }
-  Status check() { return check_floor_seen(session, trial, found, wanted, troubles); }
+  Status check() { return check_floor_seen(session, trial, found, wanted, findings); }
 
   recordings::Session session;
   Trial trial;
   std::vector<CameraDetections> found;
-  Wanted wanted;
-  RecordingTroubles troubles;
+  WantedContent wanted;
+  std::vector<Finding> findings;
 };
 
-TEST(CheckFloorSeen, GoesOnWithTheCamerasThatSeeEnoughAndSaysSo) {
+TEST(CheckFloorSeen, ReportsCamerasThatSeeTooLittle) {
   for (const int few : {0, 1, 2}) {
     FloorScene scene({20, few, 3});
     ASSERT_TRUE(scene.check());
-    ASSERT_EQ(scene.troubles.warnings.size(), 1U);
-    const std::string& warning = scene.troubles.warnings[0];
+    ASSERT_EQ(scene.findings.size(), 1U);
+    const std::string warning = scene.findings[0].message();
     EXPECT_NE(warning.find("camera \"middle\" sees"), std::string::npos) << warning;
     EXPECT_NE(warning.find("the floor is taken from left, right"), std::string::npos);
     EXPECT_EQ(warning.find("widen"), std::string::npos) << warning;
   }
 }
 
-TEST(CheckFloorSeen, SaysNothingWhereAllSeeIt) {
+TEST(CheckFloorSeen, PassesIfAllCamerasSeeEnough) {
   FloorScene scene({20, 3, 9});
   ASSERT_TRUE(scene.check());
-  EXPECT_TRUE(scene.troubles.warnings.empty());
+  EXPECT_TRUE(scene.findings.empty());
 }
 
-TEST(CheckFloorSeen, DeclinesAFloorThatNobodySees) {
+TEST(CheckFloorSeen, DeclinesAnUnseenFloor) {
   FloorScene scene({0, 0, 0});
   const Status checked = scene.check();
   ASSERT_FALSE(checked);

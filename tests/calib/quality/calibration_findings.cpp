@@ -52,7 +52,7 @@ CalibrationReport decent() {
 }
 
 Finding only(const CalibrationReport& report) {
-  const auto found = check_calibration(report);
+  const auto found = assess_calibration(report);
   EXPECT_EQ(found.size(), 1U);
   return found.empty() ? Finding{} : found.front();
 }
@@ -63,7 +63,7 @@ void expect(const Finding& found,
             const std::string& where,
             const std::string& figure) {
   EXPECT_EQ(found.severity, severity) << found.cause;
-  EXPECT_EQ(found.kind, kind);
+  EXPECT_EQ(found.id, kind);
   EXPECT_EQ(found.where, where);
   EXPECT_NE(found.cause.find(figure), std::string::npos) << found.cause;
   EXPECT_FALSE(found.next.empty());

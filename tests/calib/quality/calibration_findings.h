@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "calib/quality/assess_calibration.h"
 #include "calib/quality/calibration_report.h"
-#include "calib/quality/check_calibration.h"
 
 namespace marey::testing {
 
@@ -13,12 +13,12 @@ namespace marey::testing {
 [[nodiscard]] calib::CalibrationReport decent();
 
 /// Returns the only finding; the test fails if there are none or several.
-[[nodiscard]] calib::Finding only(const calib::CalibrationReport& report);
+[[nodiscard]] Finding only(const calib::CalibrationReport& report);
 
 /// Expects a finding of this severity, kind and place, with a cause that contains the
 /// figure and with a next step.
-void expect(const calib::Finding& found,
-            calib::Severity severity,
+void expect(const Finding& found,
+            Severity severity,
             const std::string& kind,
             const std::string& where,
             const std::string& figure);

@@ -44,7 +44,7 @@ std::filesystem::path record(const ScratchFolder& folder,
   return folder.path();
 }
 
-TEST(LookElsewhere, TellsThatAVideoIsMirrored) {
+TEST(FindBoardElsewhere, DetectsAMirroredVideo) {
   for (const int axis : {0, 1}) {
     const ScratchFolder folder;
     cv::Mat mirrored;
@@ -52,33 +52,40 @@ TEST(LookElsewhere, TellsThatAVideoIsMirrored) {
     const auto path = record(folder, {mirrored, empty_picture(), mirrored});
     const auto seen = find_board_elsewhere(path, kGrid, "tag36h11", std::nullopt);
     ASSERT_TRUE(seen);
+    EXPECT_EQ(seen->kind, AlternativeKind::kAprilGrid);
+    EXPECT_EQ(seen->codes, "tag36h11");
+    EXPECT_TRUE(seen->is_mirrored);
     EXPECT_EQ(seen->what,
               "the mirror image of 2 of 3 frames shows its tags: the video is mirrored");
     EXPECT_NE(seen->remedy.find("switch off mirroring"), std::string::npos);
   }
 }
 
-TEST(LookElsewhere, FindsTheBoardInFramesThatWereNotSearched) {
+TEST(FindBoardElsewhere, SearchesFramesOutsideTheRange) {
   const ScratchFolder folder;
   const cv::Mat board = picture_of("tag36h11");
   const auto path = record(folder, {board, empty_picture(), empty_picture(), board});
   const auto seen = find_board_elsewhere(path, kGrid, "tag36h11", FrameRange{1, 2});
   ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->kind, AlternativeKind::kExpected);
   EXPECT_EQ(seen->what, "the board is in 2 of 4 frames from all over the video");
   EXPECT_NE(seen->remedy.find("widen `frames`"), std::string::npos);
 }
 
-TEST(LookElsewhere, NamesTheFamilyThatWasFilmed) {
+TEST(FindBoardElsewhere, ReturnsTheFamilyInView) {
   const ScratchFolder folder;
   const auto path = record(folder, {picture_of("tag36h11")});
   const auto seen = find_board_elsewhere(path, kGrid, "tag36h11b2", std::nullopt);
   ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->kind, AlternativeKind::kAprilGrid);
+  EXPECT_EQ(seen->codes, "tag36h11");
+  EXPECT_FALSE(seen->is_mirrored);
   EXPECT_NE(seen->what.find("tags of family tag36h11 are in 1 of 1"), std::string::npos)
       << seen->what;
   EXPECT_EQ(seen->remedy, "write family = \"tag36h11\" in [board] of session.toml");
 }
 
-TEST(LookElsewhere, SaysNothingWhereThereIsNoBoard) {
+TEST(FindBoardElsewhere, ReturnsNothingWithoutABoard) {
   const ScratchFolder folder;
   const auto path = record(folder, {empty_picture()});
   EXPECT_FALSE(find_board_elsewhere(path, kGrid, "tag36h11", FrameRange{0, 0}));

@@ -41,68 +41,84 @@ void record(const ScratchFolder& folder,
   }
 }
 
+/// Expects codes ("DICT_5X5_100"; empty: a chessboard) and parts of both texts.
 void expect_seen(const ScratchFolder& folder,
                  const CalibrationTarget& target,
+                 const std::string& codes,
                  const std::string& what,
                  const std::string& remedy) {
   const auto seen = survey_boards(folder.path(), target);
   ASSERT_TRUE(seen);
+  EXPECT_EQ(seen->kind,
+            codes.empty() ? AlternativeKind::kChessboard : AlternativeKind::kMarkers);
+  EXPECT_EQ(seen->codes, codes);
+  EXPECT_EQ(seen->is_mirrored, what == "mirrored");
   EXPECT_NE(seen->what.find(what), std::string::npos) << seen->what;
   EXPECT_NE(seen->remedy.find(remedy), std::string::npos) << seen->remedy;
 }
 
-TEST(LookForBoards, NamesTheDictionaryThatIsSeen) {
+TEST(SurveyBoards, ReturnsTheDictionaryInView) {
   const ScratchFolder folder;
   record(folder, charuco());
   CharucoBoard wanted = charuco();
   wanted.dictionary = "DICT_4X4_50";
+  expect_seen(folder,
+              wanted,
+              "DICT_5X5_50",
+              "markers 0 to 16 of DICT_5X5_50",
+              "dictionary = \"DICT_5X5_50\"");
   expect_seen(
-      folder, wanted, "markers 0 to 16 of DICT_5X5_50", "dictionary = \"DICT_5X5_50\"");
-  expect_seen(folder, Chessboard{}, "of DICT_5X5_50", "type = \"charuco\"");
+      folder, Chessboard{}, "DICT_5X5_50", "of DICT_5X5_50", "type = \"charuco\"");
 }
 
-TEST(LookForBoards, TellsABoardOfAnotherSize) {
+TEST(SurveyBoards, DetectsABoardOfAnotherSize) {
   const ScratchFolder folder;
   record(folder, charuco());
   CharucoBoard wanted = charuco();
   wanted.rows = 7;
   wanted.columns = 5;
-  expect_seen(folder, wanted, "in other places", "rows and columns");
+  expect_seen(folder, wanted, "DICT_5X5_100", "in other places", "rows and columns");
 }
 
-TEST(LookForBoards, TellsBlackAndWhiteExchanged) {
+TEST(SurveyBoards, DetectsBlackAndWhiteExchanged) {
   const ScratchFolder folder;
   CharucoBoard inverted = charuco();
   inverted.is_inverted = true;
   record(folder, inverted);
-  expect_seen(folder, charuco(), "black and white", "write inverted = true");
+  expect_seen(
+      folder, charuco(), "DICT_5X5_100", "black and white", "write inverted = true");
 }
 
-TEST(LookForBoards, TellsAMirroredBoard) {
+TEST(SurveyBoards, DetectsAMirroredBoard) {
   const ScratchFolder folder;
   record(folder, charuco(), kMirrored);
-  expect_seen(folder, charuco(), "mirrored", "two_sided = true");
+  expect_seen(folder, charuco(), "DICT_5X5_100", "mirrored", "two_sided = true");
 }
 
-TEST(LookForBoards, TellsAprilTags) {
+TEST(SurveyBoards, DetectsAprilTags) {
   const ScratchFolder folder;
   CharucoBoard tags = charuco();
   tags.dictionary = "DICT_APRILTAG_36h11";
   record(folder, tags);
-  expect_seen(folder, charuco(), "of DICT_APRILTAG_36h11", "type = \"aprilgrid\"");
+  expect_seen(folder,
+              charuco(),
+              "DICT_APRILTAG_36h11",
+              "of DICT_APRILTAG_36h11",
+              "type = \"aprilgrid\"");
 }
 
-TEST(LookForBoards, CountsTheSquaresOfAChessboard) {
+TEST(SurveyBoards, CountsTheSquaresOfAChessboard) {
   const ScratchFolder folder;
   record(folder, Chessboard{.rows = 6, .columns = 9, .square_size_m = 0.03});
   expect_seen(folder,
               Chessboard{.rows = 5, .columns = 8, .square_size_m = 0.03},
+              "",
               "9 x 6 squares",
               "columns = 9 and rows = 6");
-  expect_seen(folder, charuco(), "9 x 6 squares", "type = \"chessboard\"");
+  expect_seen(folder, charuco(), "", "9 x 6 squares", "type = \"chessboard\"");
 }
 
-TEST(LookForBoards, SeesNothingInAnEmptyPicture) {
+TEST(SurveyBoards, ReturnsNothingForAnEmptyPicture) {
   const ScratchFolder folder;
   ASSERT_TRUE(cv::imwrite((folder / "0.png").string(),
                           cv::Mat(480, 640, CV_8UC1, cv::Scalar(90))));
@@ -116,7 +132,7 @@ CameraInput input_of(const ScratchFolder& folder) {
   return input;
 }
 
-TEST(GlanceForOtherBoard, TellsWhatIsThereInsteadOfTheTarget) {
+TEST(DetectWrongBoard, ReturnsTheBoardInView) {
   const ScratchFolder first;
   const ScratchFolder second;
   ASSERT_TRUE(cv::imwrite((first / "0.png").string(),
@@ -132,7 +148,7 @@ TEST(GlanceForOtherBoard, TellsWhatIsThereInsteadOfTheTarget) {
   EXPECT_NE(other->seen.what.find("of DICT_5X5_50"), std::string::npos);
 }
 
-TEST(GlanceForOtherBoard, IsContentWithOneCameraThatSeesTheTarget) {
+TEST(DetectWrongBoard, StopsAtOneCameraThatSeesTheTarget) {
   const ScratchFolder first;
   const ScratchFolder second;
   record(first, Chessboard{.rows = 6, .columns = 9, .square_size_m = 0.03});
@@ -141,7 +157,7 @@ TEST(GlanceForOtherBoard, IsContentWithOneCameraThatSeesTheTarget) {
   EXPECT_FALSE(detect_wrong_board(inputs, charuco()));
 }
 
-TEST(GlanceForOtherBoard, TakesWornTagsForNoBoard) {
+TEST(DetectWrongBoard, IgnoresWornTags) {
   const ScratchFolder folder;
   CharucoBoard tags = charuco();
   tags.dictionary = "DICT_APRILTAG_36h11";
@@ -158,7 +174,7 @@ TEST(GlanceForOtherBoard, TakesWornTagsForNoBoard) {
   EXPECT_FALSE(shows_tags(detect_wrong_board(inputs, wanted, std::array{worn})));
 }
 
-TEST(GlanceForOtherBoard, SaysNothingWhereNothingIsSeen) {
+TEST(DetectWrongBoard, ReturnsNothingWithoutABoard) {
   const ScratchFolder folder;
   ASSERT_TRUE(cv::imwrite((folder / "0.png").string(),
                           cv::Mat(480, 640, CV_8UC1, cv::Scalar(90))));

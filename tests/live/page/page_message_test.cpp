@@ -193,7 +193,8 @@ TEST(PageStatus, HasTheMembersOfTheProtocol) {
 TEST(PageWizard, TellsHowMuchOfEachPictureWasSeen) {
   PageWizard wizard;
   wizard.step = WizardStep::kMove;
-  wizard.quality.push_back({"left forearm", "24.1 cm ± 0.3", true});
+  wizard.quality.push_back(
+      {Severity::kNote, "subject", "left forearm", "24.1 cm ± 0.3", ""});
   WizardCamera camera{.name = "left"};
   for (std::size_t i = 0; i < 12; ++i) camera.grid[i] = 0.5;
   wizard.cameras.push_back(camera);

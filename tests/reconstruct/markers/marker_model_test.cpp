@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
+#include "reconstruct/markers/marker_loss.h"
 #include "reconstruct/markers/marker_model.h"
 
 #include <vector>

@@ -40,8 +40,8 @@ struct Fitted {
     std::string text;
     Fitted left = *this;
     (void)leave_out_extremities(left.bundle, left.evidence);
-    for (const Error& warning : assess_subject(left.bundle, left.evidence)) {
-      EXPECT_EQ(warning.code, Errc::kQuality);
+    for (const Finding& warning : assess_subject(left.bundle, left.evidence)) {
+      EXPECT_EQ(warning.severity, Severity::kPoor);
       EXPECT_FALSE(warning.next.empty()) << warning.cause;
       text += warning.cause + "\n";
     }

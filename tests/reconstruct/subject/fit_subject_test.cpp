@@ -190,9 +190,9 @@ TEST(FitSubject, NamesATagThatShiftedDuringTheTrial) {
     EXPECT_NE(fit.error().message().find(id), std::string::npos) << fit.error().message();
     return;
   }
-  ASSERT_FALSE(fit->warnings.empty());
-  EXPECT_NE(fit->warnings.front().cause.find(id), std::string::npos)
-      << fit->warnings.front().cause;
+  ASSERT_FALSE(fit->findings.empty());
+  EXPECT_NE(fit->findings.front().cause.find(id), std::string::npos)
+      << fit->findings.front().cause;
 }
 
 TEST(FitSubject, GivesTheSameBytesTwice) {
@@ -318,9 +318,10 @@ TEST(FitSubject, NamesATagThatMovesWithAnotherSegment) {
     EXPECT_NE(fit.error().message().find(id), std::string::npos) << fit.error().message();
     return;
   }
-  const bool is_reported = std::ranges::any_of(fit->warnings, [&](const Error& warning) {
-    return warning.cause.find(id) != std::string::npos;
-  });
+  const bool is_reported =
+      std::ranges::any_of(fit->findings, [&](const Finding& warning) {
+        return warning.cause.find(id) != std::string::npos;
+      });
   const bool is_left_out =
       std::ranges::find(fit->unplaced, tag->id) != fit->unplaced.end();
   EXPECT_TRUE(is_reported || is_left_out);

@@ -156,7 +156,7 @@ double fastest_rad_per_activation(Adapter& adapter,
                                   const std::string& id) {
   constexpr int kSteps = 2000;
   // Steps are compared where rounding errors of single precision are negligible.
-  constexpr double kLeastChange = 1e-5;
+  constexpr double kMinChange = 1e-5;
   Pose now;
   Pose before;
   double fastest = 0.0;
@@ -165,7 +165,7 @@ double fastest_rad_per_activation(Adapter& adapter,
   for (int step = 1; step <= kSteps; ++step) {
     static_cast<void>(adapter.adapt(reference, static_cast<double>(step) / kSteps, now));
     const double next = adapter.constraint(id)->outcome().activation;
-    const double change = std::max(next - active, kLeastChange);
+    const double change = std::max(next - active, kMinChange);
     fastest = std::max(fastest, (most_turned_rad(now, before) - 1e-3) / change);
     active = next;
     std::swap(now, before);

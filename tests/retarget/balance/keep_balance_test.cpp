@@ -11,7 +11,7 @@
 
 #include "core/pose.h"
 #include "retarget/body/place_masses.h"
-#include "retarget/contacts/contact_figures.h"
+#include "retarget/contacts/measure_contacts.h"
 #include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/balance_scenes.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -155,7 +155,7 @@ TEST(LiveRetarget, SaysTheSameTwiceAndAfterForgetting) {
     live->step(pose, 1.0 / kRate_hz, out);
     first.push_back(out);
   }
-  live->forget();
+  live->reset();
   for (std::size_t t = 0; t < walk.poses.size(); ++t) {
     live->step(walk.poses[t], 1.0 / kRate_hz, out);
     EXPECT_EQ(out.root_in_world, first[t].root_in_world);

@@ -28,7 +28,7 @@ namespace {
 using B = HumanBone;
 using testing::Dice;
 
-constexpr int kMostCount = 6;
+constexpr int kMaxCount = 6;
 constexpr std::array kUpperBody{B::kNeck,
                                 B::kHead,
                                 B::kLeftShoulder,
@@ -74,10 +74,10 @@ double too_short_m(const Skeleton& source,
 // From any count to three and more: within a millimetre, or the missing length. Rotations
 // are the source's throughout.
 TEST(SpineCount, ThreeBonesAndMorePutNeckAndShouldersWhereTheSourceHasThem) {
-  for (int m = 1; m <= kMostCount; ++m) {
+  for (int m = 1; m <= kMaxCount; ++m) {
     const Skeleton source = with_count(m);
     const BodyMap source_map = mapped(source);
-    for (int n = 3; n <= kMostCount; ++n) {
+    for (int n = 3; n <= kMaxCount; ++n) {
       const Skeleton body = with_count(n);
       const BodyMap map = mapped(body);
       Dice dice(71);
@@ -117,11 +117,11 @@ TEST(SpineCount, ThreeBonesAndMoreFollowBendsThatPeopleMake) {
          return glm::angleAxis(0.8 * way / count, glm::dvec3(1, 0, 0));
        }}};
   for (const Bend& bend : bends) {
-    for (int m = 3; m <= kMostCount; ++m) {
+    for (int m = 3; m <= kMaxCount; ++m) {
       const Skeleton source = with_count(m);
       const Pose pose = bent(source, m, bend.turn);
       const auto from = world_from_joints(source, pose);
-      for (int n = 3; n <= kMostCount; ++n) {
+      for (int n = 3; n <= kMaxCount; ++n) {
         const Skeleton body = with_count(n);
         const auto to = world_from_joints(
             body, expand(normalize(source, mapped(source), pose), body, mapped(body)));
@@ -134,7 +134,7 @@ TEST(SpineCount, ThreeBonesAndMoreFollowBendsThatPeopleMake) {
 }
 
 TEST(SpineCount, GetsItsOwnPostureBackExactly) {
-  for (int n = 1; n <= kMostCount; ++n) {
+  for (int n = 1; n <= kMaxCount; ++n) {
     const Skeleton body = with_count(n);
     const BodyMap map = mapped(body);
     Dice dice(72);
@@ -157,7 +157,7 @@ TEST(SpineCount, GetsItsOwnPostureBackExactly) {
 TEST(SpineCount, WristsAreWhereTheSourceHasThem) {
   const Skeleton source = with_count(3);
   const BodyMap source_map = mapped(source);
-  for (int n = 1; n <= kMostCount; ++n) {
+  for (int n = 1; n <= kMaxCount; ++n) {
     const Skeleton body = with_count(n);
     const BodyMap map = mapped(body);
     ASSERT_EQ(spines_differ(source_map, map), n != 3);

@@ -207,8 +207,8 @@ void turn_around(Exercise& exercise, Dice& dice, double most_rad) {
 void walk(Exercise& exercise, Dice& dice) {
   const double cycle_s = dice.between(1.0, 1.3);
   const double speed = dice.between(0.6, 1.0);
-  constexpr double kFarthest_m = 2.4;
-  exercise.duration_s = std::min(exercise.duration_s, kFarthest_m / speed);
+  constexpr double kMaxDistance_m = 2.4;
+  exercise.duration_s = std::min(exercise.duration_s, kMaxDistance_m / speed);
   const double heading = exercise.base[index(Angle::kHeading)];
   exercise.velocity_m = speed * glm::dvec2(std::sin(heading), std::cos(heading));
   const glm::dvec2 start = -0.5 * exercise.duration_s * exercise.velocity_m;

@@ -113,10 +113,10 @@ SkinPoint skin_point(std::span<const FleshPart> flesh,
                      const glm::dvec3& direction) {
   // By steps: shapes are many, and this is done once for each tag.
   constexpr double kStep_m = 0.0005;
-  constexpr double kFarthest_m = 0.35;
+  constexpr double kMaxDistance_m = 0.35;
   const glm::dvec3 d = glm::normalize(direction);
   SkinPoint found{from_in_bone, d};
-  for (double s = 0.0; s < kFarthest_m; s += kStep_m) {
+  for (double s = 0.0; s < kMaxDistance_m; s += kStep_m) {
     const glm::dvec3 p = from_in_bone + s * d;
     for (const FleshPart& part : flesh) {
       if (part.bone != bone || depth(part, p) > 1.0) continue;

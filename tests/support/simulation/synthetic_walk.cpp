@@ -38,7 +38,7 @@ Foot foot_at(double cycles, const glm::dvec3& ankle, const glm::dvec3& ball_from
   const auto pitched = [&](double pitch) {
     return glm::angleAxis(pitch, glm::dvec3(1, 0, 0)) * ball_from_ankle;
   };
-  constexpr double kLeastPitch = 0.6;
+  constexpr double kMinPitch = 0.6;
   const glm::dvec3 print = ankle + glm::dvec3(0, 0, n * kStride_m);
   Foot foot;
   foot.heel = phase < kHeelOff;
@@ -46,11 +46,11 @@ Foot foot_at(double cycles, const glm::dvec3& ankle, const glm::dvec3& ball_from
   if (phase < kHeelOff) {
     foot.ankle = print;
   } else if (phase < kToeOff) {
-    foot.pitch_rad = kLeastPitch * smooth((phase - kHeelOff) / (kToeOff - kHeelOff));
+    foot.pitch_rad = kMinPitch * smooth((phase - kHeelOff) / (kToeOff - kHeelOff));
     foot.ankle = print + ball_from_ankle - pitched(foot.pitch_rad);
   } else {
     const double s = (phase - kToeOff) / (1.0 - kToeOff);
-    foot.pitch_rad = kLeastPitch * (1.0 - smooth(s));
+    foot.pitch_rad = kMinPitch * (1.0 - smooth(s));
     foot.ankle =
         print + ball_from_ankle - pitched(foot.pitch_rad) +
         glm::dvec3(

@@ -15,6 +15,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "core/base/lower_case.h"
 #include "tests/support/files/acclaim.h"
 #include "tests/support/files/plain_bvh.h"
 #include "tests/support/truth/foot_judge.h"
@@ -99,7 +100,7 @@ std::string plain(const std::string& node) {
   std::string out;
   for (const char c : colon == std::string::npos ? node : node.substr(colon + 1)) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      out += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      out += lower_case(c);
     }
   }
   return out;

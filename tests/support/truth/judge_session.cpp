@@ -20,7 +20,7 @@ namespace {
 using B = HumanBone;
 
 constexpr double kGross_m = 0.060;
-constexpr double kLeastGross_m = 0.020;
+constexpr double kMinGross_m = 0.020;
 constexpr double kGrossSigmas = 5.0;
 constexpr int kSpikeRun = 3;
 constexpr double kSpikeShare = 0.05;
@@ -39,7 +39,7 @@ struct JointSample {
   [[nodiscard]] bool is_gross() const {
     if (source != Source::kMeasured) return false;
     return error_m > kGross_m ||
-           (error_m > kLeastGross_m && error_m > kGrossSigmas * sigma_m);
+           (error_m > kMinGross_m && error_m > kGrossSigmas * sigma_m);
   }
 };
 

@@ -24,11 +24,11 @@ double delay_s(std::span<const std::vector<TimedPlace>> joints,
     }
     return sum;
   };
-  constexpr double kMost_s = 0.06;
+  constexpr double kMax_s = 0.06;
   constexpr double kStep_s = 0.004;
   double best_s = 0.0;
   double least = std::numeric_limits<double>::infinity();
-  for (double delay_s = -kMost_s; delay_s <= kMost_s; delay_s += kStep_s) {
+  for (double delay_s = -kMax_s; delay_s <= kMax_s; delay_s += kStep_s) {
     const double here = spread(delay_s);
     if (here >= least) continue;
     least = here;

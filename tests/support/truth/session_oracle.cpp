@@ -18,9 +18,9 @@ namespace {
 using B = HumanBone;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-constexpr int kLeastMovingFrames = 15;
-constexpr int kLeastStandingFrames = 3;
-constexpr double kMostSigma_m = 0.020;
+constexpr int kMinMovingFrames = 15;
+constexpr int kMinStandingFrames = 3;
+constexpr double kMaxSigma_m = 0.020;
 constexpr double kFacesBone_m = 0.020;
 constexpr double kSlipTurn_rad = 0.01;
 
@@ -215,7 +215,7 @@ Eigen::Matrix3d flesh_information(const SimulatedSession& session, B segment) {
 double joint_sigma_m(const SimulatedSession& session,
                      const std::vector<LocatedFrame>& frames,
                      const JointPair& pair) {
-  constexpr double kMostFrames = 100.0;
+  constexpr double kMaxFrames = 100.0;
   const glm::dvec3 in_trunkward = pair.trunkward == B::kUpperChest
                                       ? session.body.proportions[*parent(pair.joint)] +
                                             session.body.proportions[pair.joint]
@@ -243,7 +243,7 @@ double joint_sigma_m(const SimulatedSession& session,
     normal += j.transpose() * noise.ldlt().solve(j);
     count += 1.0;
   }
-  normal *= std::min(1.0, kMostFrames / std::max(1.0, count));
+  normal *= std::min(1.0, kMaxFrames / std::max(1.0, count));
   normal.topLeftCorner<3, 3>() += flesh_information(session, pair.trunkward);
   normal.bottomRightCorner<3, 3>() += flesh_information(session, pair.joint);
   const Matrix6 covariance =
@@ -283,10 +283,10 @@ Sufficiency judge_sufficiency(const SimulatedSession& session) {
     out.lacking += what + " " + std::string(name(bone));
   };
   for (const B segment : kNeeded) {
-    if (count_of(frames, segment) < kLeastMovingFrames) lack("frames of", segment);
+    if (count_of(frames, segment) < kMinMovingFrames) lack("frames of", segment);
   }
   for (const B segment : {B::kHips, B::kUpperChest}) {
-    if (count_of(standing, segment) < kLeastStandingFrames) {
+    if (count_of(standing, segment) < kMinStandingFrames) {
       lack("standing frames of", segment);
     }
   }
@@ -294,7 +294,7 @@ Sufficiency judge_sufficiency(const SimulatedSession& session) {
   for (const JointPair& pair : kPairs) {
     const double sigma_m = joint_sigma_m(session, frames, pair);
     out.joint_sigma_m[pair.joint] = sigma_m;
-    if (sigma_m > kMostSigma_m) lack("movement at", pair.joint);
+    if (sigma_m > kMaxSigma_m) lack("movement at", pair.joint);
   }
   out.is_sufficient = out.lacking.empty();
   return out;
