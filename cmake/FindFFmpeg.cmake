@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 
 # FFmpeg's libraries, which bring no CMake files of their own: FFmpeg::avformat,
-# FFmpeg::avcodec and FFmpeg::avutil. The version is libavformat's.
+# FFmpeg::avcodec, FFmpeg::avutil and FFmpeg::swscale. The version is libavformat's.
 find_path(FFmpeg_INCLUDE_DIR libavformat/version.h PATH_SUFFIXES ffmpeg)
 set(FFmpeg_LIBRARIES)
-foreach(library avformat avcodec avutil)
+foreach(library avformat avcodec avutil swscale)
   find_library(FFmpeg_${library}_LIBRARY ${library})
   list(APPEND FFmpeg_LIBRARIES FFmpeg_${library}_LIBRARY)
   mark_as_advanced(FFmpeg_${library}_LIBRARY)
@@ -24,7 +24,7 @@ include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(FFmpeg
   REQUIRED_VARS ${FFmpeg_LIBRARIES} FFmpeg_INCLUDE_DIR VERSION_VAR FFmpeg_VERSION)
 if(FFmpeg_FOUND)
-  foreach(library avformat avcodec avutil)
+  foreach(library avformat avcodec avutil swscale)
     if(NOT TARGET FFmpeg::${library})
       add_library(FFmpeg::${library} UNKNOWN IMPORTED GLOBAL)
       set_target_properties(FFmpeg::${library} PROPERTIES

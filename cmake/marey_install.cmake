@@ -36,6 +36,11 @@ function(marey_install_package)
     ${PROJECT_BINARY_DIR}/marey-config-version.cmake
     ${PROJECT_SOURCE_DIR}/cmake/FindCairo.cmake
     ${PROJECT_SOURCE_DIR}/cmake/FindFFmpeg.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindLibExif.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindLibZip.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindOpenCV.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindTurboJPEG.cmake
+    ${PROJECT_SOURCE_DIR}/cmake/FindxxHash.cmake
     DESTINATION ${MAREY_PACKAGE_DIR})
   set(pc_dir ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig)
   file(RELATIVE_PATH MAREY_PREFIX_FROM_PC ${pc_dir} ${CMAKE_INSTALL_PREFIX})

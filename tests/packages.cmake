@@ -3,8 +3,9 @@
 #
 # cmake -D ROOT=<source tree> -P packages.cmake
 #
-# Fails when a CMakeLists.txt asks for a Debian package that ./run does not install, or for
-# a library without naming its package. Also when there was nothing to check.
+# Fails when a CMakeLists.txt asks for a Debian package that ./run does not install (of
+# tests and benchmarks: that ./run test does not install), or for a library without naming
+# its package. Also when there was nothing to check.
 cmake_minimum_required(VERSION 3.25)
 
 # They come with the compiler, and from this source tree.
@@ -15,6 +16,10 @@ if(NOT text MATCHES "BUILD_PACKAGES=\\(([^)]*)\\)")
   message(FATAL_ERROR "run: has no list BUILD_PACKAGES")
 endif()
 string(REGEX MATCHALL "[^ \t\r\n]+" installed "${CMAKE_MATCH_1}")
+if(NOT text MATCHES "TEST_PACKAGES=\\(([^)]*)\\)")
+  message(FATAL_ERROR "run: has no list TEST_PACKAGES")
+endif()
+string(REGEX MATCHALL "[^ \t\r\n]+" installed_for_tests "${CMAKE_MATCH_1}")
 
 set(checked 0)
 set(errors "")
@@ -34,9 +39,14 @@ foreach(list ${lists})
     elseif(NOT call MATCHES "^marey_find_package.*[ \t\r\n]DEBIAN[ \t\r\n]+([a-z0-9.+-]+)")
       string(APPEND errors
         "${list}: ${library} names no package: use marey_find_package( ... DEBIAN ...)\n")
-    elseif(NOT CMAKE_MATCH_1 IN_LIST installed)
+      continue()
+    endif()
+    set(package ${CMAKE_MATCH_1})
+    if(list MATCHES "^(tests|benchmarks)/" AND package IN_LIST installed_for_tests)
+      continue()
+    elseif(NOT package IN_LIST installed)
       string(APPEND errors
-        "${list}: ${CMAKE_MATCH_1} is not in BUILD_PACKAGES of ./run\n")
+        "${list}: ${package} is not in BUILD_PACKAGES of ./run\n")
     endif()
   endforeach()
 endforeach()

@@ -14,8 +14,8 @@
 #include "capture/sync/number_gaps.h"
 #include "capture/video/frame_source.h"
 #include "capture/video/image_folder.h"
-#include "capture/video/mp4_duration.h"
 #include "capture/video/open_frames.h"
+#include "capture/video/video_file.h"
 #include "core/base/parallel.h"
 
 namespace marey::app {

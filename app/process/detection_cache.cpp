@@ -21,7 +21,7 @@ namespace {
 std::string cache_words(const CalibrationTarget& target) {
   std::string words;
   if (const auto* board = std::get_if<CharucoBoard>(&target)) {
-    words.append(" charuco-1 ").append(board->dictionary);
+    words.append(" charuco-2 ").append(board->dictionary);
     if (board->is_legacy) words.append(" legacy");
     if (board->is_inverted) words.append(" inverted");
     if (board->is_two_sided) words.append(" two-sided");

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include <opencv2/aruco.hpp>
 #include <opencv2/core.hpp>
 
 #include "capture/boards/checker_corner.h"
+#include "capture/boards/read_markers.h"
 #include "core/board.h"
 #include "core/detection.h"
 
@@ -20,16 +20,6 @@ struct NumberedGuess {
   int point = 0;
   CheckerGuess guess;
 };
-
-/// A detected marker.
-struct ReadMarker {
-  int id = 0;
-  std::vector<cv::Point2f> corners_px;  ///< From its top left, clockwise when upright.
-};
-
-/// Returns all markers of `dictionary` in `gray`, in the order of detection.
-[[nodiscard]] std::vector<ReadMarker> read_markers(
-    const cv::Mat& gray, const cv::Ptr<cv::aruco::Dictionary>& dictionary);
 
 /// Returns the markers that fit the board's layout on one plane. Returns none if only one
 /// fits, or at most half of those with an id of the board.

@@ -74,18 +74,6 @@ bool is_seen_from_the_front(const ReadMarker& marker) {
 
 }  // namespace
 
-std::vector<ReadMarker> read_markers(const cv::Mat& gray,
-                                     const cv::Ptr<cv::aruco::Dictionary>& dictionary) {
-  std::vector<std::vector<cv::Point2f>> corners_px;
-  std::vector<int> ids;
-  cv::aruco::detectMarkers(gray, dictionary, corners_px, ids);
-  std::vector<ReadMarker> markers;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    markers.push_back({ids[i], std::move(corners_px[i])});
-  }
-  return markers;
-}
-
 std::vector<ReadMarker> markers_of_board(std::vector<ReadMarker> markers,
                                          const CharucoBoard& board) {
   const std::vector<Square> squares = squares_of_markers(board);

@@ -3,31 +3,32 @@
 #include "capture/boards/find_board_points.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <utility>
 #include <variant>
 
 #include "capture/boards/board_search.h"
 #include "capture/tags/aruco_dictionary.h"
-#include "capture/video/opencv_reading.h"
+#include "capture/video/read_image.h"
 #include "core/base/assert.h"
 
 namespace marey::capture {
 
 struct BoardFinder::Impl {
   std::variant<CharucoBoard, Chessboard> board;
-  cv::Ptr<cv::aruco::Dictionary> dictionary;  ///< For ChArUco: the markers on the board.
+  std::optional<MarkerReader> markers;  ///< For ChArUco: those on the board.
   cv::Mat inverted{};
   cv::Mat mirrored{};
 
-  [[nodiscard]] std::vector<NumberedGuess> guesses(const cv::Mat& gray) const;
-  [[nodiscard]] std::vector<PointDetection> find_front(const cv::Mat& gray) const;
+  [[nodiscard]] std::vector<NumberedGuess> guesses(const cv::Mat& gray);
+  [[nodiscard]] std::vector<PointDetection> find_front(const cv::Mat& gray);
   [[nodiscard]] std::vector<PointDetection> find(const GrayFrame& frame);
 };
 
-std::vector<NumberedGuess> BoardFinder::Impl::guesses(const cv::Mat& gray) const {
+std::vector<NumberedGuess> BoardFinder::Impl::guesses(const cv::Mat& gray) {
   if (const auto* charuco = std::get_if<CharucoBoard>(&board)) {
-    return charuco_guesses(markers_of_board(read_markers(gray, dictionary), *charuco),
-                           *charuco);
+    return charuco_guesses(markers_of_board(markers->read(gray), *charuco), *charuco);
   }
   const auto& chess = std::get<Chessboard>(board);
   const auto grid = find_chess_grid(gray, chess.rows - 1, chess.columns - 1);
@@ -35,7 +36,7 @@ std::vector<NumberedGuess> BoardFinder::Impl::guesses(const cv::Mat& gray) const
   return chessboard_guesses(gray, grid, chess);
 }
 
-std::vector<PointDetection> BoardFinder::Impl::find_front(const cv::Mat& gray) const {
+std::vector<PointDetection> BoardFinder::Impl::find_front(const cv::Mat& gray) {
   // One or two corners of a board are probably a false detection.
   constexpr std::size_t kMinPoints = 4;
   const GrayFrame frame = view_of(gray, 0);
@@ -79,20 +80,17 @@ BoardFinder::~BoardFinder() = default;
 Result<BoardFinder> BoardFinder::create(const CharucoBoard& board) {
   MAREY_ASSERT(std::min(board.rows, board.columns) > 1 &&
                std::max(board.rows, board.columns) > 2);
-  const auto all = aruco_dictionary(board.dictionary, board.marker_count());
-  if (!all) return all.error();
+  auto markers = aruco_dictionary(board.dictionary, board.marker_count());
+  if (!markers) return markers.error();
   // Only the board's markers: fewer false detections.
-  auto own = cv::makePtr<cv::aruco::Dictionary>(
-      (*all)->bytesList.rowRange(0, board.marker_count()).clone(),
-      (*all)->markerSize,
-      (*all)->maxCorrectionBits);
-  return BoardFinder(std::make_unique<Impl>(Impl{board, std::move(own)}));
+  markers->codes.resize(static_cast<std::size_t>(board.marker_count()));
+  return BoardFinder(std::make_unique<Impl>(Impl{board, MarkerReader(*markers)}));
 }
 
 Result<BoardFinder> BoardFinder::create(const Chessboard& board) {
   MAREY_ASSERT(std::min(board.rows, board.columns) > 1 &&
                std::max(board.rows, board.columns) > 2);
-  return BoardFinder(std::make_unique<Impl>(Impl{board, {}}));
+  return BoardFinder(std::make_unique<Impl>(Impl{board, std::nullopt}));
 }
 
 std::vector<PointDetection> BoardFinder::find(const GrayFrame& frame) {

@@ -64,9 +64,10 @@ std::set<int> best_ids(const std::vector<cv::Mat>& frames,
   const auto on_body = worn.find(dictionary);
   const auto codes = aruco_dictionary(dictionary, 0);
   MAREY_ASSERT(codes);
+  MarkerReader reader(*codes);
   for (const cv::Mat& frame : frames) {
     std::set<int> ids;
-    for (const ReadMarker& marker : read_markers(looked_at(frame, look), *codes)) {
+    for (const ReadMarker& marker : reader.read(looked_at(frame, look))) {
       const bool is_worn = on_body != worn.end() && on_body->second.contains(marker.id);
       if (!is_worn) ids.insert(marker.id);
     }

@@ -52,22 +52,10 @@ Result<std::vector<TagPattern>> tag_patterns(std::string_view name,
 
 Result<std::vector<TagPattern>> aruco_patterns(std::string_view dictionary, int count) {
   MAREY_ASSERT(count >= 0);
-  const auto known = aruco_dictionary(dictionary, count);
-  if (!known) return known.error();
-  const cv::aruco::Dictionary& codes = **known;
+  const auto markers = aruco_dictionary(dictionary, count);
+  if (!markers) return markers.error();
   std::vector<TagPattern> patterns;
-  for (int id = 0; id < count; ++id) {
-    TagPattern pattern;
-    pattern.cells = codes.markerSize + 2;
-    cv::Mat picture;
-    codes.drawMarker(id, pattern.cells, picture);
-    for (int y = 0; y < pattern.cells; ++y) {
-      for (int x = 0; x < pattern.cells; ++x) {
-        pattern.white.push_back(picture.at<std::uint8_t>(y, x) != 0 ? 1 : 0);
-      }
-    }
-    patterns.push_back(std::move(pattern));
-  }
+  for (int id = 0; id < count; ++id) patterns.push_back(marker_pattern(*markers, id));
   return patterns;
 }
 

@@ -11,7 +11,7 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
-#include "capture/video/opencv_reading.h"
+#include "capture/video/read_image.h"
 
 namespace marey::capture {
 

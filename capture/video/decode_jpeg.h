@@ -12,8 +12,9 @@
 // Private to capture.
 namespace marey::capture {
 
-/// Decodes only the brightness, with libjpeg. OpenCV's decoder would fill in the missing
-/// part of a truncated image, and print messages.
+/// Decodes only the brightness, with libjpeg, and reports damaged images. TurboJPEG
+/// keeps only the text of the last warning: it cannot tell missing parts of an image from
+/// harmless bytes between its markers, which cameras write.
 class JpegDecoder {
  public:
   JpegDecoder();

@@ -5,17 +5,19 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <memory>
 #include <utility>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
+#include <turbojpeg.h>
 
 #include "capture/video/frame_source.h"
 #include "capture/video/image_folder.h"
 #include "capture/video/open_frames.h"
-#include "capture/video/opencv_reading.h"
+#include "capture/video/read_image.h"
+#include "capture/video/video_reader.h"
+#include "core/base/assert.h"
 
 namespace marey::capture {
 namespace {
@@ -27,6 +29,31 @@ Error no_such_frame(const std::string& name, int frame, std::size_t has) {
                    "ask for an earlier frame");
 }
 
+struct DestroyEncoder {
+  void operator()(void* handle) const { tjDestroy(handle); }
+};
+
+std::vector<std::byte> jpeg_of(const cv::Mat& bgr, int quality) {
+  const std::unique_ptr<void, DestroyEncoder> encoder(tjInitCompress());
+  std::vector<std::byte> jpeg(tjBufSize(bgr.cols, bgr.rows, TJSAMP_420));
+  auto* bytes = reinterpret_cast<unsigned char*>(jpeg.data());
+  unsigned long size = jpeg.size();
+  const int failed = tjCompress2(encoder.get(),
+                                 bgr.data,
+                                 bgr.cols,
+                                 static_cast<int>(bgr.step[0]),
+                                 bgr.rows,
+                                 TJPF_BGR,
+                                 &bytes,
+                                 &size,
+                                 TJSAMP_420,
+                                 quality,
+                                 TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT);
+  MAREY_ASSERT(failed == 0);  // Fails only without memory, or beyond 65535 pixels.
+  jpeg.resize(size);
+  return jpeg;
+}
+
 FramePicture encode(const cv::Mat& image, int frame, const PictureOptions& options) {
   FramePicture picture;
   picture.frame = frame;
@@ -35,10 +62,7 @@ FramePicture encode(const cv::Mat& image, int frame, const PictureOptions& optio
   cv::resize(image, small, {}, picture.scale, picture.scale, cv::INTER_AREA);
   picture.width_px = small.cols;
   picture.height_px = small.rows;
-  std::vector<unsigned char> bytes;
-  cv::imencode(".jpg", small, bytes, {cv::IMWRITE_JPEG_QUALITY, options.jpeg_quality});
-  const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
-  picture.jpeg.assign(first, first + bytes.size());
+  picture.jpeg = jpeg_of(small, options.jpeg_quality);
   return picture;
 }
 
@@ -49,20 +73,25 @@ Result<Pictures> from_video(const std::filesystem::path& path,
                             std::span<const int> frames,
                             const PictureOptions& options,
                             const std::string& name) {
-  auto video = open_capture(path, name);
+  auto video = VideoReader::open_pictures(path, name);
   if (!video) return video.error();
+  const VideoFacts& facts = video->facts();
   Pictures pictures;
   cv::Mat image;
   int next = 0;
   for (const int frame : frames) {
     // grab() decodes without a conversion to colour: sufficient for skipped frames.
-    for (; next < frame; ++next) {
+    for (; next <= frame; ++next) {
       if (!video->grab())
         return no_such_frame(name, frame, static_cast<std::size_t>(next));
     }
-    if (!video->read(image))
-      return no_such_frame(name, frame, static_cast<std::size_t>(next));
-    ++next;
+    const cv::Size size = video->grabbed_size();
+    const bool too_small = size.width < facts.width_px || size.height < facts.height_px;
+    const cv::Mat stored = too_small ? cv::Mat() : video->picture();
+    if (stored.empty()) {
+      return no_such_frame(name, frame, static_cast<std::size_t>(frame));
+    }
+    turn(stored, facts.turned_deg, image);
     pictures[frame] = encode(image, frame, options);
   }
   return pictures;
@@ -80,7 +109,7 @@ Result<Pictures> from_folder(const std::filesystem::path& path,
     if (place >= files->size()) return no_such_frame(name, frame, files->size());
     const auto& file = (*files)[place];
     const auto image =
-        read_image(file, cv::IMREAD_COLOR, name + "/" + file.filename().string());
+        read_image(file, ImageColours::kBgr, name + "/" + file.filename().string());
     if (!image) return image.error();
     pictures[frame] = encode(*image, frame, options);
   }

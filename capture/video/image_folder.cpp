@@ -8,9 +8,8 @@
 #include <utility>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgcodecs.hpp>
 
-#include "capture/video/opencv_reading.h"
+#include "capture/video/read_image.h"
 #include "core/base/extension.h"
 #include "core/base/name_pattern.h"
 
@@ -75,12 +74,13 @@ class ImageFolder final : public FrameSource {
     if (place >= images_.size()) return std::optional<GrayFrame>();
     if (index_ > 0) {  // The first image was read on opening.
       const std::string where = info_.name + "/" + images_[place].filename().string();
-      auto image = read_image(images_[place], cv::IMREAD_GRAYSCALE, where);
+      auto image = read_image(images_[place], ImageColours::kGrey, where);
       if (!image) return image.error();
       gray_ = std::move(*image);
       if (gray_.cols != info_.width_px || gray_.rows != info_.height_px) {
         return bad_input(where,
-                         "the image is " + size_text(gray_) + ", the first one is " +
+                         "the image is " + size_text(gray_.size()) +
+                             ", the first one is " +
                              size_text(info_.width_px, info_.height_px),
                          "keep only images of one camera and size in the folder");
       }
@@ -138,7 +138,7 @@ Result<std::unique_ptr<FrameSource>> open_image_folder(const fs::path& folder,
   if (!images) return images.error();
   const fs::path& path = images->front();
   auto first =
-      read_image(path, cv::IMREAD_GRAYSCALE, name + "/" + path.filename().string());
+      read_image(path, ImageColours::kGrey, name + "/" + path.filename().string());
   if (!first) return first.error();
   return std::unique_ptr<FrameSource>(std::make_unique<ImageFolder>(
       std::move(*images), std::move(*first), std::move(name)));

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "capture/video/decode_jpeg.h"
-#include "capture/video/opencv_reading.h"
+#include "capture/video/read_image.h"
+#include "capture/video/video_reader.h"
 #include "core/base/extension.h"
 
 namespace marey::capture {
@@ -18,10 +19,6 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 constexpr std::uint8_t kGrey = 128;
-
-Bytes bytes_of(const cv::Mat& packet) {
-  return std::as_bytes(std::span(packet.data, packet.total() * packet.elemSize()));
-}
 
 int at(Bytes bytes, std::size_t i) {
   return std::to_integer<int>(bytes[i]);
@@ -53,31 +50,28 @@ std::optional<cv::Size> size_in_header(Bytes bytes) {
 /// Tests the first frames, as any of them may be damaged.
 bool holds_jpeg(const std::filesystem::path& path) {
   constexpr int kAsked = 10;
-  auto video = open_packets(path);
-  cv::Mat packet;
+  auto video = VideoReader::open_packets(path);
   for (int i = 0; video && i < kAsked; ++i) {
-    try {
-      if (!video->read(packet)) return false;
-    } catch (const cv::Exception&) {
-      return false;
-    }
-    if (is_jpeg(bytes_of(packet))) return true;
+    const auto packet = video->next_packet();
+    if (!packet) return false;
+    if (is_jpeg(*packet)) return true;
   }
   return false;
 }
 
 class MjpgFile final : public FrameSource {
  public:
-  MjpgFile(const cv::VideoCapture& video, StreamInfo info, int least)
-      : video_(video), info_(std::move(info)), min_frames_(least) {
+  MjpgFile(VideoReader video, StreamInfo info, int least)
+      : video_(std::move(video)), info_(std::move(info)), min_frames_(least) {
     gray_.create(info_.height_px, info_.width_px, CV_8UC1);
   }
 
   [[nodiscard]] const StreamInfo& info() const override { return info_; }
 
   Result<std::optional<GrayFrame>> next() override {
-    if (!read_packet()) return at_end();
-    const Bytes jpeg = bytes_of(packet_);
+    const auto packet = video_.next_packet();
+    if (!packet) return at_end();
+    const Bytes jpeg = *packet;
     const auto wrong = decoder_.decode(jpeg, info_.width_px, info_.height_px, gray_.data);
     if (wrong) {
       const auto size = is_jpeg(jpeg) ? size_in_header(jpeg) : std::nullopt;
@@ -91,14 +85,6 @@ class MjpgFile final : public FrameSource {
   }
 
  private:
-  bool read_packet() {
-    try {
-      return video_.read(packet_);
-    } catch (const cv::Exception&) {
-      return false;
-    }
-  }
-
   [[nodiscard]] Error changed(const cv::Size& size) const {
     return bad_input(info_.name + ": frame " + std::to_string(index_),
                      "the picture changes its size to " +
@@ -122,8 +108,7 @@ class MjpgFile final : public FrameSource {
                      "copy the file from the camera again");
   }
 
-  cv::VideoCapture video_;  // A handle: copies share one reader.
-  cv::Mat packet_;
+  VideoReader video_;
   StreamInfo info_;
   int min_frames_;
   JpegDecoder decoder_;
@@ -137,25 +122,24 @@ class MjpgFile final : public FrameSource {
 std::unique_ptr<FrameSource> open_mjpg_file(const std::filesystem::path& path,
                                             const std::string& name) {
   if (!holds_jpeg(path)) return nullptr;
-  auto video = open_packets(path);
+  auto video = VideoReader::open_packets(path);
   if (!video) return nullptr;
+  const VideoFacts& facts = video->facts();
   StreamInfo info;
   info.name = name;
-  info.width_px = static_cast<int>(video->get(cv::CAP_PROP_FRAME_WIDTH));
-  info.height_px = static_cast<int>(video->get(cv::CAP_PROP_FRAME_HEIGHT));
-  const double rate_hz = video->get(cv::CAP_PROP_FPS);
-  if (std::isfinite(rate_hz) && rate_hz > 0.0) info.rate = FrameRate{rate_hz};
+  info.width_px = facts.width_px;
+  info.height_px = facts.height_px;
+  if (facts.rate_hz > 0.0) info.rate = FrameRate{facts.rate_hz};
   if (info.width_px <= 0 || info.height_px <= 0) return nullptr;
-  const double count = video->get(cv::CAP_PROP_FRAME_COUNT);
   int least = 1;
-  if (count >= 1.0 && count < 1e9) {
-    const int promised = static_cast<int>(std::lround(count));
+  if (facts.frames >= 1.0 && facts.frames < 1e9) {
+    const int promised = static_cast<int>(std::lround(facts.frames));
     info.expected_frames = promised;
     // AVI stores its number of frames. Matroska stores at most a duration, in which
     // frames dropped by the camera are not included.
     if (kind_by_extension(path) == ".avi") least = promised - std::max(2, promised / 50);
   }
-  return std::make_unique<MjpgFile>(*video, std::move(info), least);
+  return std::make_unique<MjpgFile>(*std::move(video), std::move(info), least);
 }
 
 }  // namespace marey::capture

@@ -9,11 +9,11 @@
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "capture/video/mjpg_file.h"
-#include "capture/video/mp4_duration.h"
-#include "capture/video/opencv_reading.h"
+#include "capture/video/read_image.h"
+#include "capture/video/video_reader.h"
+#include "core/base/extension.h"
 
 namespace marey::capture {
 namespace {
@@ -25,27 +25,23 @@ struct Promise {
 };
 
 std::optional<Promise> promise_of(const std::filesystem::path& path,
-                                  const cv::VideoCapture& video,
-                                  double rate_hz) {
-  const double count = video.get(cv::CAP_PROP_FRAME_COUNT);
-  if (!(count >= 1.0) || count > 1e9) return std::nullopt;
-  const int stored = static_cast<int>(std::lround(count));
+                                  const VideoFacts& facts) {
+  if (!(facts.frames >= 1.0) || facts.frames > 1e9) return std::nullopt;
+  const int stored = static_cast<int>(std::lround(facts.frames));
   if (!is_mp4(path)) {
-    // Here FFmpeg multiplies a rounded duration by a rounded rate.
+    // Here the number is the product of a rounded duration and a rounded rate.
     return Promise{stored, stored - std::max(2, stored / 50)};
   }
-  const std::optional<double> duration_s = mp4_duration_s(path);
-  if (!duration_s || rate_hz <= 0.0) return Promise{stored, stored};
   // An edit list hides some of the stored frames; only the duration considers it.
-  const int shown = static_cast<int>(std::lround(*duration_s * rate_hz));
+  const int shown = static_cast<int>(std::lround(facts.duration_s * facts.rate_hz));
   if (shown >= stored || shown < 1) return Promise{stored, stored};
   return Promise{shown, shown - 1};
 }
 
 class VideoFile final : public FrameSource {
  public:
-  VideoFile(const cv::VideoCapture& video, StreamInfo info, int min_frames)
-      : video_(video), info_(std::move(info)), min_frames_(min_frames) {}
+  VideoFile(VideoReader video, StreamInfo info, int min_frames)
+      : video_(std::move(video)), info_(std::move(info)), min_frames_(min_frames) {}
 
   [[nodiscard]] const StreamInfo& info() const override { return info_; }
 
@@ -59,15 +55,21 @@ class VideoFile final : public FrameSource {
 
  private:
   Result<std::optional<GrayFrame>> read_next() {
-    if (!video_.read(colour_)) return at_end();
-    if (colour_.cols != info_.width_px || colour_.rows != info_.height_px) {
+    if (!video_.grab()) return at_end();
+    const cv::Size stored(video_.facts().width_px, video_.facts().height_px);
+    const cv::Size size = video_.grabbed_size();
+    if (index_ == 0) first_size_ = size;
+    const bool too_small = size.width < stored.width || size.height < stored.height;
+    if (too_small || size != first_size_) {
       return bad_input(where(),
-                       "the picture changes its size to " + size_text(colour_) +
-                           ", the video began with " +
-                           size_text(info_.width_px, info_.height_px),
+                       "the picture changes its size to " + size_text(size) +
+                           ", the video began with " + size_text(stored),
                        "record with one size, or cut the video there");
     }
-    to_gray(colour_, gray_);
+    const cv::Mat colour = video_.picture();
+    if (colour.empty()) return at_end();
+    cv::cvtColor(colour, as_stored_, cv::COLOR_BGR2GRAY);
+    turn(as_stored_, info_.turned_deg, gray_);
     return std::optional(view_of(gray_, index_++));
   }
 
@@ -85,15 +87,21 @@ class VideoFile final : public FrameSource {
     return info_.name + ": frame " + std::to_string(index_);
   }
 
-  cv::VideoCapture video_;  // A handle: copies share one decoder.
+  VideoReader video_;
   StreamInfo info_;
   int min_frames_;
   int index_ = 0;
-  cv::Mat colour_;
+  cv::Size first_size_;
+  cv::Mat as_stored_;
   cv::Mat gray_;
 };
 
 }  // namespace
+
+bool is_mp4(const std::filesystem::path& path) {
+  const std::string kind = kind_by_extension(path);
+  return kind == ".mp4" || kind == ".mov" || kind == ".m4v";
+}
 
 Result<std::unique_ptr<FrameSource>> open_video_file(const std::filesystem::path& path,
                                                      std::string name) {
@@ -108,21 +116,21 @@ Result<std::unique_ptr<FrameSource>> open_video_file(const std::filesystem::path
   if (!is_mp4(path)) {
     if (auto mjpg = open_mjpg_file(path, name)) return mjpg;
   }
-  auto video = open_capture(path, name);
+  auto video = VideoReader::open_pictures(path, name);
   if (!video) return video.error();
+  const VideoFacts& facts = video->facts();
   StreamInfo info;
   info.name = std::move(name);
-  info.width_px = static_cast<int>(video->get(cv::CAP_PROP_FRAME_WIDTH));
-  info.height_px = static_cast<int>(video->get(cv::CAP_PROP_FRAME_HEIGHT));
-  const auto turned_deg = static_cast<int>(video->get(cv::CAP_PROP_ORIENTATION_META));
-  info.turned_deg = (turned_deg % 360 + 360) % 360;
-  const double rate_hz = video->get(cv::CAP_PROP_FPS);
-  if (std::isfinite(rate_hz) && rate_hz > 0.0) info.rate = FrameRate{rate_hz};
-  const auto promise = promise_of(path, *video, info.rate ? rate_hz : 0.0);
+  info.turned_deg = facts.turned_deg;
+  info.width_px = facts.width_px;
+  info.height_px = facts.height_px;
+  if (facts.turned_deg % 180 != 0) std::swap(info.width_px, info.height_px);
+  if (facts.rate_hz > 0.0) info.rate = FrameRate{facts.rate_hz};
+  const auto promise = promise_of(path, facts);
   if (promise) info.expected_frames = promise->expected;
   const int min_frames = promise ? promise->least : 1;
   return std::unique_ptr<FrameSource>(
-      std::make_unique<VideoFile>(*video, std::move(info), min_frames));
+      std::make_unique<VideoFile>(*std::move(video), std::move(info), min_frames));
 }
 
 }  // namespace marey::capture

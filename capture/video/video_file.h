@@ -10,6 +10,10 @@
 
 namespace marey::capture {
 
+/// Returns true if the file name is that of MP4 or QuickTime: the containers that count
+/// their frames.
+[[nodiscard]] bool is_mp4(const std::filesystem::path& path);
+
 /// Opens a video file, decoded by FFmpeg one frame at a time: memory does not grow with
 /// the video. A frame's index is the number of frames before it, never the container's
 /// time stamp, which is unreliable in several containers. info() has the container's
@@ -22,8 +26,7 @@ namespace marey::capture {
 /// image of another size; a video without any undamaged frame; a video that ends before
 /// the number of frames in its header. The header of an MP4 with an edit list counts only
 /// the remaining frames; other containers are accurate to within 2 frames or 2 %.
-/// Precondition: `path` is a file. FFmpeg prints nothing unless the environment variable
-/// OPENCV_FFMPEG_LOGLEVEL is set.
+/// Precondition: `path` is a file. FFmpeg prints nothing.
 [[nodiscard]] Result<std::unique_ptr<FrameSource>> open_video_file(
     const std::filesystem::path& path, std::string name);
 

@@ -56,8 +56,8 @@ struct NpzExtras {
 /// contacts are given. Numbers are float64 unless stated otherwise. Quaternions are of
 /// length 1, and those of one joint keep their sign from frame to frame.
 ///
-/// Same input, same bytes. Errors (kBadInput): more than 4 GiB, the limit of this kind of
-/// archive. Linear in frames times joints. Preconditions: one root, the first joint;
+/// Same input, same bytes. Errors (kBadInput): more than 4 GiB, the limit of
+/// read_npz(). Linear in frames times joints. Preconditions: one root, the first joint;
 /// uncertainty and contacts have an entry per frame.
 [[nodiscard]] Result<std::string> npz_bytes(const Motion& motion,
                                             const NpzExtras& extras = {});

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <utility>
+#include <variant>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -12,7 +13,7 @@
 #include "recordings/motion/npz.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/motion_limits.h"
-#include "recordings/text/zip_store.h"
+#include "recordings/text/zip_archive.h"
 
 namespace marey::recordings {
 namespace {
@@ -46,34 +47,51 @@ class Reader {
   }
 
   Status open(std::string_view bytes) {
-    const auto entries = zip_entries(bytes);
-    if (!entries) return fail("it is not a .npz archive, or it is damaged");
-    for (const ZipEntry& entry : *entries) {
-      std::string_view name = entry.name;
-      if (!name.ends_with(".npy")) continue;
-      name.remove_suffix(4);
-      arrays_.emplace(name, entry);
+    zip_ = ZipReader::open(bytes);
+    if (!zip_) return fail("it is not a .npz archive, or it is damaged");
+    if (!zip_->contains_ending(".npy")) {
+      return fail("it is not a .npz archive: it holds no array");
     }
-    if (arrays_.empty()) return fail("it is not a .npz archive: it holds no array");
     return Done{};
   }
 
-  [[nodiscard]] bool has(std::string_view name) const { return arrays_.contains(name); }
+  static std::string file_of(std::string_view name) { return std::string(name) + ".npy"; }
+
+  [[nodiscard]] bool has(std::string_view name) const {
+    return zip_->contains(file_of(name));
+  }
+
+  /// Returns the bytes of an array's file, which stay valid; reads each file once.
+  Result<std::string_view> bytes_of(std::string_view name) {
+    const auto known = files_.find(name);
+    if (known != files_.end()) return std::string_view(known->second);
+    auto read = zip_->read(file_of(name));
+    if (auto* bytes = std::get_if<std::string>(&read)) {
+      return std::string_view(
+          files_.emplace(std::string(name), std::move(*bytes)).first->second);
+    }
+    switch (std::get<ZipProblem>(read)) {
+      case ZipProblem::kAbsent:
+        return fail(name, "the array is missing");
+      case ZipProblem::kCompressed:
+        return bad_input(file_,
+                         "its arrays are compressed",
+                         "write them with numpy.savez instead of savez_compressed");
+      case ZipProblem::kWrongChecksum:
+        return fail(name, "its checksum is wrong");
+      case ZipProblem::kDamaged:
+        break;
+    }
+    return fail(name, "it is not an array of numpy, or it is damaged");
+  }
 
   /// Returns an array, checked for its type ("<U" for text of any length) and shape.
   Result<NpyArray> array(std::string_view name,
                          std::string_view type,
                          const NpyShape& shape) {
-    const auto found = arrays_.find(name);
-    if (found == arrays_.end()) return fail(name, "the array is missing");
-    const ZipEntry& entry = found->second;
-    if (entry.is_compressed) {
-      return bad_input(file_,
-                       "its arrays are compressed",
-                       "write them with numpy.savez instead of savez_compressed");
-    }
-    if (crc32(entry.bytes) != entry.crc) return fail(name, "its checksum is wrong");
-    const auto array = npy_array(entry.bytes);
+    const auto bytes = bytes_of(name);
+    if (!bytes) return bytes.error();
+    const auto array = npy_array(*bytes);
     if (!array) return fail(name, "it is not an array of numpy, or it is damaged");
     const bool fits = type == "<U" ? array->type.starts_with(type) : array->type == type;
     if (!fits || array->shape != shape) {
@@ -119,16 +137,13 @@ class Reader {
 
   /// Returns the size of a list of any length.
   Result<std::size_t> length(std::string_view name) {
-    const auto found = arrays_.find(name);
-    const auto array =
-        found == arrays_.end() ? std::nullopt : npy_array(found->second.bytes);
-    if (array && array->shape.size() == 1) return array->shape[0];
-    if (found != arrays_.end() && found->second.is_compressed) {
-      return this->array(name, "", {}).error();
+    const auto bytes = bytes_of(name);
+    if (!bytes) return bytes.error();
+    const auto array = npy_array(*bytes);
+    if (!array || array->shape.size() != 1) {
+      return fail(name, "it is not a list of numpy's");
     }
-    return fail(
-        name,
-        found == arrays_.end() ? "the array is missing" : "it is not a list of numpy's");
+    return array->shape[0];
   }
 
   Status head() {
@@ -284,7 +299,8 @@ class Reader {
   }
 
   const std::string& file_;
-  std::map<std::string_view, ZipEntry> arrays_;
+  std::optional<ZipReader> zip_;
+  std::map<std::string, std::string, std::less<>> files_;  ///< By name of the array.
   NpzMotion out_;
   std::size_t joints_ = 0;
   std::size_t frames_ = 0;

@@ -12,7 +12,7 @@
 #include "core/pose.h"
 #include "recordings/motion/npz.h"
 #include "recordings/text/atomic_file.h"
-#include "recordings/text/zip_store.h"
+#include "recordings/text/zip_archive.h"
 
 namespace marey::recordings {
 namespace {
@@ -123,7 +123,7 @@ class Arrays {
   std::optional<std::string> finish() { return std::move(zip_).finish(); }
 
  private:
-  ZipStore zip_;
+  ZipWriter zip_;
 };
 
 void add_skeleton(Arrays& arrays, const Skeleton& skeleton) {
@@ -179,8 +179,8 @@ void add_poses(Arrays& arrays, const Motion& motion) {
 }
 
 void add_uncertainty(Arrays& arrays,
-               std::span<const std::vector<JointUncertainty>> uncertainty,
-               std::size_t joints) {
+                     std::span<const std::vector<JointUncertainty>> uncertainty,
+                     std::size_t joints) {
   std::string sigmas;
   std::string sources;
   std::string valid;
@@ -233,9 +233,7 @@ Result<std::string> npz_bytes(const Motion& motion, const NpzExtras& extras) {
     arrays.add("contacts", "|b1", {frames, names.size()}, data);
   }
   if (auto bytes = arrays.finish()) return *std::move(bytes);
-  return bad_input("",
-                   "the motion takes more than 4 GiB, which a .npz cannot hold",
-                   "write fewer frames");
+  return bad_input("", "the motion takes more than 4 GiB", "write fewer frames");
 }
 
 Status write_npz(const std::filesystem::path& path,

@@ -3,26 +3,28 @@
 #include "recordings/takes/jpeg_encoder.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <utility>
+#include <vector>
+
+#include <turbojpeg.h>
 
 #include "core/base/assert.h"
-
-extern "C" {
-#include <libavcodec/avcodec.h>
-#include <libavutil/frame.h>
-}
 
 namespace marey::recordings {
 namespace {
 
-/// JPEG's second finest quantization: twice the size of a camera's own JPEG.
-constexpr int kQuality = 2;
-constexpr std::uint8_t kNoChroma = 128;
+/// About twice the size of a camera's own JPEG.
+constexpr int kQuality = 92;
 
-std::uint8_t grey(std::byte value) {
-  return std::to_integer<std::uint8_t>(value);
+const unsigned char* bytes_at(std::span<const std::byte> raw, std::size_t at) {
+  return reinterpret_cast<const unsigned char*>(raw.data()) + at;
 }
+
+struct DestroyHandle {
+  void operator()(void* handle) const { tjDestroy(handle); }
+};
 
 }  // namespace
 
@@ -31,47 +33,17 @@ struct JpegEncoder::Impl {
   std::size_t width = 0;
   std::size_t height = 0;
   std::size_t stride = 0;
-  AVCodecContext* codec = nullptr;
-  AVFrame* picture = av_frame_alloc();
-  AVPacket* packet = av_packet_alloc();
+  std::unique_ptr<void, DestroyHandle> codec{tjInitCompress()};
+  int sampling = TJSAMP_GRAY;
+  std::vector<unsigned char> luma;  ///< Planes that the raw frame does not have.
+  std::vector<unsigned char> u;
+  std::vector<unsigned char> v;
+  std::vector<unsigned char> jpeg;
 
-  Impl() = default;
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
-  ~Impl() {
-    avcodec_free_context(&codec);
-    av_frame_free(&picture);
-    av_packet_free(&packet);
-  }
-
-  [[nodiscard]] bool open();
   [[nodiscard]] std::size_t raw_size() const;
-  [[nodiscard]] std::uint8_t* row(int plane, std::size_t y) const {
-    return picture->data[plane] + y * static_cast<std::size_t>(picture->linesize[plane]);
-  }
-  void fill(std::span<const std::byte> raw) const;
-  void fill_yuyv(std::span<const std::byte> raw) const;
-  void fill_planes(std::span<const std::byte> raw) const;
+  void split_yuyv(std::span<const std::byte> raw);
+  void split_uv(std::span<const std::byte> raw);
 };
-
-bool JpegEncoder::Impl::open() {
-  const AVCodec* encoder = avcodec_find_encoder(AV_CODEC_ID_MJPEG);
-  codec = encoder != nullptr ? avcodec_alloc_context3(encoder) : nullptr;
-  if (codec == nullptr || picture == nullptr || packet == nullptr) return false;
-  codec->width = static_cast<int>(width);
-  codec->height = static_cast<int>(height);
-  codec->time_base = {1, 1000};
-  codec->pix_fmt = layout == RawLayout::kYuyv ? AV_PIX_FMT_YUVJ422P : AV_PIX_FMT_YUVJ420P;
-  codec->flags |= AV_CODEC_FLAG_QSCALE;
-  codec->global_quality = kQuality * FF_QP2LAMBDA;
-  codec->thread_count = 1;
-  if (avcodec_open2(codec, encoder, nullptr) < 0) return false;
-  picture->format = codec->pix_fmt;
-  picture->width = codec->width;
-  picture->height = codec->height;
-  picture->quality = codec->global_quality;
-  return av_frame_get_buffer(picture, 0) >= 0;
-}
 
 std::size_t JpegEncoder::Impl::raw_size() const {
   const std::size_t last_row = layout == RawLayout::kYuyv ? 2 * width : width;
@@ -79,46 +51,25 @@ std::size_t JpegEncoder::Impl::raw_size() const {
   return (rows - 1) * stride + last_row;
 }
 
-void JpegEncoder::Impl::fill(std::span<const std::byte> raw) const {
-  if (layout == RawLayout::kYuyv) {
-    fill_yuyv(raw);
-  } else {
-    fill_planes(raw);
-  }
-}
-
-void JpegEncoder::Impl::fill_yuyv(std::span<const std::byte> raw) const {
+void JpegEncoder::Impl::split_yuyv(std::span<const std::byte> raw) {
   for (std::size_t y = 0; y < height; ++y) {
-    const std::byte* in = raw.data() + y * stride;
-    std::uint8_t* const luma = row(0, y);
-    std::uint8_t* const u = row(1, y);
-    std::uint8_t* const v = row(2, y);
+    const unsigned char* in = bytes_at(raw, y * stride);
     for (std::size_t x = 0; x < width / 2; ++x, in += 4) {
-      luma[2 * x] = grey(in[0]);
-      u[x] = grey(in[1]);
-      luma[2 * x + 1] = grey(in[2]);
-      v[x] = grey(in[3]);
+      const std::size_t at = y * width / 2 + x;
+      luma[2 * at] = in[0];
+      u[at] = in[1];
+      luma[2 * at + 1] = in[2];
+      v[at] = in[3];
     }
   }
 }
 
-void JpegEncoder::Impl::fill_planes(std::span<const std::byte> raw) const {
-  for (std::size_t y = 0; y < height; ++y) {
-    const std::byte* const in = raw.data() + y * stride;
-    std::transform(in, in + width, row(0, y), grey);
-  }
-  for (std::size_t y = 0; y < (height + 1) / 2; ++y) {
-    std::uint8_t* const u = row(1, y);
-    std::uint8_t* const v = row(2, y);
-    if (layout == RawLayout::kGrey) {
-      std::fill_n(u, width / 2, kNoChroma);
-      std::fill_n(v, width / 2, kNoChroma);
-      continue;
-    }
-    const std::byte* in = raw.data() + (height + y) * stride;
+void JpegEncoder::Impl::split_uv(std::span<const std::byte> raw) {
+  for (std::size_t y = 0; y < height / 2; ++y) {
+    const unsigned char* in = bytes_at(raw, (height + y) * stride);
     for (std::size_t x = 0; x < width / 2; ++x, in += 2) {
-      u[x] = grey(in[0]);
-      v[x] = grey(in[1]);
+      u[y * width / 2 + x] = in[0];
+      v[y * width / 2 + x] = in[1];
     }
   }
 }
@@ -140,11 +91,21 @@ Result<JpegEncoder> JpegEncoder::create(RawLayout layout,
   impl->width = static_cast<std::size_t>(width_px);
   impl->height = static_cast<std::size_t>(height_px);
   impl->stride = static_cast<std::size_t>(stride);
-  if (!impl->open()) {
+  if (layout == RawLayout::kYuyv) {
+    impl->sampling = TJSAMP_422;
+    impl->luma.resize(impl->width * impl->height);
+    impl->u.resize(impl->luma.size() / 2);
+  } else if (layout == RawLayout::kNv12) {
+    impl->sampling = TJSAMP_420;
+    impl->u.resize(impl->width * impl->height / 4);
+  }
+  impl->v.resize(impl->u.size());
+  impl->jpeg.resize(tjBufSize(width_px, height_px, impl->sampling));
+  if (impl->codec == nullptr) {
     return Error{Errc::kInternal,
                  "",
-                 "libavcodec cannot encode JPEG",
-                 "install Debian's libavcodec59, or a camera that sends MJPG"};
+                 "TurboJPEG cannot encode: " + std::string(tjGetErrorStr2(nullptr)),
+                 "close other programs, as memory is probably short"};
   }
   return JpegEncoder(std::move(impl));
 }
@@ -152,14 +113,31 @@ Result<JpegEncoder> JpegEncoder::create(RawLayout layout,
 std::span<const std::byte> JpegEncoder::encode(std::span<const std::byte> raw) {
   Impl& impl = *impl_;
   if (raw.size() < impl.raw_size()) return {};
-  if (av_frame_make_writable(impl.picture) < 0) return {};
-  impl.fill(raw);
-  ++impl.picture->pts;
-  av_packet_unref(impl.packet);
-  if (avcodec_send_frame(impl.codec, impl.picture) < 0) return {};
-  if (avcodec_receive_packet(impl.codec, impl.packet) < 0) return {};
-  return std::as_bytes(
-      std::span(impl.packet->data, static_cast<std::size_t>(impl.packet->size)));
+  const auto width = static_cast<int>(impl.width);
+  std::array<const unsigned char*, 3> planes{
+      bytes_at(raw, 0), impl.u.data(), impl.v.data()};
+  std::array<int, 3> strides{static_cast<int>(impl.stride), width / 2, width / 2};
+  if (impl.layout == RawLayout::kYuyv) {
+    impl.split_yuyv(raw);
+    planes[0] = impl.luma.data();
+    strides[0] = width;
+  } else if (impl.layout == RawLayout::kNv12) {
+    impl.split_uv(raw);
+  }
+  unsigned char* jpeg = impl.jpeg.data();
+  unsigned long size = impl.jpeg.size();
+  const int failed = tjCompressFromYUVPlanes(impl.codec.get(),
+                                             planes.data(),
+                                             width,
+                                             strides.data(),
+                                             static_cast<int>(impl.height),
+                                             impl.sampling,
+                                             &jpeg,
+                                             &size,
+                                             kQuality,
+                                             TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT);
+  if (failed != 0) return {};
+  return std::as_bytes(std::span(jpeg, size));
 }
 
 }  // namespace marey::recordings

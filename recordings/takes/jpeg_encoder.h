@@ -22,8 +22,8 @@ enum class RawLayout {
 class JpegEncoder {
  public:
   /// Creates an encoder. `stride`: bytes per row of the first plane. Errors (kInternal):
-  /// libavcodec has no such encoder. Preconditions: positive even width; positive height,
-  /// even for kNv12; a stride of at least one row.
+  /// no memory. Preconditions: positive even width; positive height, even for kNv12; a
+  /// stride of at least one row.
   [[nodiscard]] static Result<JpegEncoder> create(RawLayout layout,
                                                   int width_px,
                                                   int height_px,

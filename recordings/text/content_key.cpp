@@ -6,11 +6,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <memory>
 #include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include <xxhash.h>
+
+#include "core/base/assert.h"
 #include "core/base/input_file.h"
 #include "core/base/name_pattern.h"
 
@@ -19,25 +23,32 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo; offset basis and prime of IETF
-/// draft-eastlake-fnv).
-class Fnv {
+/// XXH3 with 128 bits over the bytes that are added.
+class Hash {
  public:
+  Hash() : state_(XXH3_createState(), XXH3_freeState) {
+    MAREY_ASSERT(state_ != nullptr);
+    XXH3_128bits_reset(state_.get());
+  }
+
   void add(std::string_view bytes) {
-    for (const char byte : bytes) {
-      hash_ = (hash_ ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-    }
+    XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
   }
 
   [[nodiscard]] std::string hex() const {
     constexpr std::string_view kDigits = "0123456789abcdef";
+    XXH128_canonical_t bytes{};
+    XXH128_canonicalFromHash(&bytes, XXH3_128bits_digest(state_.get()));
     std::string text;
-    for (int shift = 60; shift >= 0; shift -= 4) text += kDigits[(hash_ >> shift) & 15U];
+    for (const unsigned char byte : bytes.digest) {
+      text += kDigits[byte >> 4U];
+      text += kDigits[byte & 15U];
+    }
     return text;
   }
 
  private:
-  std::uint64_t hash_ = 0xcbf29ce484222325ULL;
+  std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
 };
 
 Error unreadable(const fs::path& path) {
@@ -46,19 +57,19 @@ Error unreadable(const fs::path& path) {
 
 Result<std::string> key_of_file(const fs::path& path) {
   if (const Status ok = check_input_file(path); !ok) return ok.error();
-  std::error_code problem;
-  const std::uintmax_t size = fs::file_size(path, problem);
   std::ifstream stream(path, std::ios::binary);
-  if (problem || !stream) return unreadable(path);
-  constexpr std::uintmax_t kPiece = std::uintmax_t{1} << 20;
-  std::string piece(static_cast<std::size_t>(std::min(size, kPiece)), '\0');
-  Fnv hash;
-  for (const std::uintmax_t start : {std::uintmax_t{0}, size - piece.size()}) {
-    stream.seekg(static_cast<std::streamoff>(start));
+  if (!stream) return unreadable(path);
+  constexpr std::size_t kPiece = std::size_t{1} << 20;
+  std::string piece(kPiece, '\0');
+  std::uintmax_t size = 0;
+  Hash hash;
+  while (stream) {
     stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    if (!stream) return unreadable(path);
-    hash.add(piece);
+    const auto count = static_cast<std::size_t>(stream.gcount());
+    hash.add(std::string_view(piece).substr(0, count));
+    size += count;
   }
+  if (stream.bad()) return unreadable(path);
   return std::to_string(size) + "-" + hash.hex();
 }
 
@@ -76,7 +87,7 @@ Result<std::string> key_of_folder(const fs::path& path) {
   }
   if (problem) return unreadable(path);
   std::sort(files.begin(), files.end());  // Folders list their files in any order.
-  Fnv hash;
+  Hash hash;
   for (const auto& [name, key] : files) {
     hash.add(name);
     // Cannot be part of a name: "a1" 2 differs from "a" 12.

@@ -10,7 +10,6 @@
 #include "core/pose.h"
 #include "recordings/motion/npy_array.h"
 #include "recordings/motion/npz.h"
-#include "recordings/text/zip_store.h"
 
 namespace {
 
@@ -35,19 +34,43 @@ void check(const NpzMotion& read) {
   MAREY_ASSERT(bytes.has_value() && parse_npz(*bytes, "again.npz").has_value());
 }
 
+std::uint32_t number_at(std::string_view bytes, std::size_t at, std::size_t size) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    value |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i]))
+             << (8U * i);
+  }
+  return value;
+}
+
+std::uint32_t crc32(std::string_view bytes) {
+  std::uint32_t crc = 0xffffffffU;
+  for (const char c : bytes) {
+    crc ^= static_cast<unsigned char>(c);
+    for (int bit = 0; bit < 8; ++bit) {
+      crc = (crc & 1U) != 0 ? 0xedb88320U ^ (crc >> 1U) : crc >> 1U;
+    }
+  }
+  return ~crc;
+}
+
 /// The archive with its checksums corrected, which no mutation hits.
 std::string with_checksums(std::string_view archive) {
   std::string corrected(archive);
-  const auto entries = zip_entries(archive);
-  if (!entries) return corrected;
-  std::size_t at = corrected.find("PK\x01\x02");
-  for (const ZipEntry& entry : *entries) {
-    if (at == std::string::npos || corrected.size() - at < 46) break;
-    const std::uint32_t crc = crc32(entry.bytes);
+  for (std::size_t at = corrected.find("PK\x01\x02");
+       at != std::string::npos && corrected.size() - at >= 46;
+       at = corrected.find("PK\x01\x02", at + 46)) {
+    const std::size_t size = number_at(archive, at + 20, 4);
+    const std::size_t local = number_at(archive, at + 42, 4);
+    if (local > archive.size() || archive.size() - local < 30) continue;
+    const std::size_t begin = local + 30 + number_at(archive, local + 26, 2) +
+                              number_at(archive, local + 28, 2);
+    if (begin > archive.size() || archive.size() - begin < size) continue;
+    const std::uint32_t crc = crc32(archive.substr(begin, size));
     for (unsigned i = 0; i < 4; ++i) {
       corrected[at + 16 + i] = static_cast<char>(crc >> (8U * i));
+      corrected[local + 14 + i] = corrected[at + 16 + i];
     }
-    at = corrected.find("PK\x01\x02", at + 46);
   }
   return corrected;
 }

@@ -22,9 +22,9 @@ std::string key_of_bytes(const std::string& bytes) {
   return key ? *key : "";
 }
 
-// Pins the hash: "a" twice (first and last MiB are the same byte), FNV-1a 64.
-TEST(ContentKey, IsSizeAndFnvOfFirstAndLastMebibyte) {
-  EXPECT_EQ(key_of_bytes("a"), "1-089c4307b54596b7");
+// Pins the hash: `printf a | xxh128sum` prints it.
+TEST(ContentKey, IsSizeAndXxh3OfTheWholeFile) {
+  EXPECT_EQ(key_of_bytes("a"), "1-a96faf705af16834e6c632b61e964e1f");
 }
 
 TEST(ContentKey, ChangesWithTheFirstAndTheLastByte) {
@@ -37,6 +37,19 @@ TEST(ContentKey, ChangesWithTheFirstAndTheLastByte) {
   EXPECT_NE(key_of_bytes(bytes), before);
 }
 
+// Three MiB, and no multiple of the pieces that are read.
+TEST(ContentKey, ChangesWithAByteInTheMiddle) {
+  std::string bytes((3U << 20) + 17, 'x');
+  const std::string before = key_of_bytes(bytes);
+  for (const std::size_t at :
+       {bytes.size() / 2, std::size_t{1} << 20, (std::size_t{1} << 20) - 1}) {
+    bytes[at] = 'y';
+    EXPECT_NE(key_of_bytes(bytes), before) << at;
+    bytes[at] = 'x';
+  }
+  EXPECT_EQ(key_of_bytes(bytes), before);
+}
+
 TEST(ContentKey, ChangesWithTheSize) {
   EXPECT_NE(key_of_bytes(std::string(3U << 20, 'x')),
             key_of_bytes(std::string((3U << 20) + 1, 'x')));
@@ -47,7 +60,7 @@ TEST(ContentKey, StaysForTheSameBytes) {
 }
 
 TEST(ContentKey, KnowsAnEmptyFile) {
-  EXPECT_EQ(key_of_bytes(""), "0-cbf29ce484222325");
+  EXPECT_EQ(key_of_bytes(""), "0-99aa06d3014798d86001c324468d497f");
 }
 
 TEST(ContentKey, OfAFolderChangesWithNamesAndSizes) {
