@@ -78,7 +78,8 @@ endif()")
     "marey_add_module(library HEADERS index.h SOURCES index.cpp)")
   script(app/CMakeLists.txt "add_executable(tree report/page.cpp)")
   file(WRITE ${tree}/README.md "see [the app](app/report/page.cpp#there), core/point.h\n")
-  script(run "readonly BUILD_PACKAGES=(\n  cmake libglm-dev)")
+  script(run "readonly BUILD_PACKAGES=(\n  cmake libglm-dev)
+readonly TEST_PACKAGES=(\n  make)")
 endfunction()
 
 # Each guard, run on the small tree as ctest runs it on the real tree.

@@ -85,7 +85,7 @@ VideoFacts facts_of(const AVFormatContext& input, const AVStream& stream) {
 
 struct VideoReader::Impl {
   std::unique_ptr<AVFormatContext, CloseInput> input;
-  AVStream* stream = nullptr;  ///< Of the input.
+  AVStream* stream = nullptr;  ///< Video stream of the input.
   VideoFacts facts;
   std::unique_ptr<AVPacket, FreePacket> packet{av_packet_alloc()};
   // For pictures.
@@ -223,7 +223,7 @@ std::optional<std::span<const std::byte>> VideoReader::next_packet() {
 bool VideoReader::grab() {
   Impl& impl = *impl_;
   MAREY_ASSERT(impl.decoder != nullptr);
-  // Frames beyond those that the container states are not part of the video.
+  // The video has no more frames than the container states.
   if (impl.stream->nb_frames > 0 && impl.grabbed > impl.stream->nb_frames) return false;
   if (!impl.decode()) return false;
   ++impl.grabbed;

@@ -18,11 +18,11 @@ namespace marey::capture {
 
 /// Properties of a video that its container states.
 struct VideoFacts {
-  int width_px = 0;  ///< Of the pictures as stored, before their rotation.
+  int width_px = 0;  ///< Width of the stored pictures, before rotation.
   int height_px = 0;
   double rate_hz = 0.0;  ///< Mean rate of its frames; 0 if it is not known.
   double frames = 0.0;   ///< Number of frames, partly by duration and rate; 0: unknown.
-  double duration_s = 0.0;  ///< Of the movie, with edit lists applied; 0: unknown.
+  double duration_s = 0.0;  ///< Duration of the movie by its edit lists; 0: unknown.
   int turned_deg = 0;       ///< Clockwise rotation by the rotation mark: 0 to 359.
 };
 

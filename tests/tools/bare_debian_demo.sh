@@ -75,7 +75,7 @@ registry=$(npm config get registry 2>/dev/null || true)
 make_system
 begin=$EPOCHREALTIME
 before=$(times | tail -1)
-chroot "$ROOT" /usr/bin/env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
+chroot "$ROOT" /usr/bin/env -i HOME=/ PATH=/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 \
   ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} \
   ${no_proxy:+no_proxy="$no_proxy"} ${registry:+npm_config_registry="$registry"} \
   /marey/run demo

@@ -79,7 +79,7 @@ async function drive(page, folder) {
   // The program says no, and the page says so beside what was pressed.
   await wizard.getByText('move for at least five seconds').waitFor();
   await press('Cancel');
-  await title('Measure a person');
+  await title('Measure a subject');
   assert.ok(!await guidance.isVisible(), 'what was called off is not asked for');
 
   await press('Start');
