@@ -3,16 +3,17 @@
 # The recorder, with cameras of a real kernel.
 #
 # As tests/capture/CMakeLists.txt has it for the cameras alone. A static program again, for
-# which FFmpeg's and SQLite's static libraries are there, and the codecs' are not.
+# which FFmpeg's, TurboJPEG's and SQLite's static libraries exist, and the codecs' do not.
 find_library(MAREY_STATIC_AVFORMAT libavformat.a)
 find_library(MAREY_STATIC_AVCODEC libavcodec.a)
 find_library(MAREY_STATIC_AVUTIL libavutil.a)
 find_library(MAREY_STATIC_SWRESAMPLE libswresample.a)
 find_library(MAREY_STATIC_SQLITE libsqlite3.a)
+find_library(MAREY_STATIC_TURBOJPEG libturbojpeg.a)
 find_library(MAREY_STATIC_Z libz.a)
 if(NOT MAREY_SANITIZE AND MAREY_STATIC_AVFORMAT AND MAREY_STATIC_AVCODEC AND
    MAREY_STATIC_AVUTIL AND MAREY_STATIC_SWRESAMPLE AND MAREY_STATIC_SQLITE AND
-   MAREY_STATIC_Z)
+   MAREY_STATIC_TURBOJPEG AND MAREY_STATIC_Z)
   set(rooms ${PROJECT_SOURCE_DIR})
   add_executable(record_guest
     record/absent_libraries.cpp
@@ -34,7 +35,8 @@ if(NOT MAREY_SANITIZE AND MAREY_STATIC_AVFORMAT AND MAREY_STATIC_AVCODEC AND
   target_include_directories(record_guest SYSTEM PRIVATE ${FFmpeg_INCLUDE_DIR})
   target_link_libraries(record_guest PRIVATE marey::v4l2
     ${MAREY_STATIC_AVFORMAT} ${MAREY_STATIC_AVCODEC} ${MAREY_STATIC_SWRESAMPLE}
-    ${MAREY_STATIC_AVUTIL} ${MAREY_STATIC_SQLITE} ${MAREY_STATIC_Z} m)
+    ${MAREY_STATIC_AVUTIL} ${MAREY_STATIC_SQLITE} ${MAREY_STATIC_TURBOJPEG}
+    ${MAREY_STATIC_Z} m)
   target_link_options(record_guest PRIVATE
     -static -s LINKER:--unresolved-symbols=ignore-all,--no-warnings)
   add_test(NAME app/RecordInAMachine
