@@ -136,9 +136,8 @@ TagPattern marker_pattern(const MarkerCodes& markers, int id) {
     for (int x = -1; x <= markers.side; ++x) {
       const bool inside = std::min(x, y) >= 0 && std::max(x, y) < markers.side;
       const int bit = markers.side * markers.side - 1 - (y * markers.side + x);
-      pattern.white.push_back(
-          inside ? static_cast<std::uint8_t>(code >> static_cast<unsigned>(bit) & 1U)
-                 : 0);
+      const bool white = inside && (code >> static_cast<unsigned>(bit) & 1U) != 0;
+      pattern.white.push_back(static_cast<std::uint8_t>(white));
     }
   }
   return pattern;
