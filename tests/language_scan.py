@@ -5,7 +5,8 @@
 
 Counts sentences that break the rules of plain technical English in docs/conventions.md.
 Kinds: headers (comments of *.h), sources (comments of *.cpp, *.ts and *.js), messages (text
-of string literals), docs (*.md). Prints for each kind the number of sentences, the number
+of string literals), docs (*.md), tests (names of tests in tests/**/*.cpp, split into words).
+Prints for each kind the number of sentences, the number
 with at least one idiom and the share in percent. --list prints the sentences of one kind,
 optionally only of files whose path begins with PREFIX. --check fails when a share is above
 its ceiling (lines "KIND PERCENT"), or when a kind has no sentences.
@@ -127,6 +128,16 @@ def markdown_sentences(text):
     return found
 
 
+TEST_NAME = re.compile(r"^TEST(?:_[FP])?\(\s*\w+,\s*(\w+)\s*\)", re.M)
+WORD_START = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+
+
+def test_names(text):
+    """Names of GoogleTest's tests as sentences: "RejectsAnEmptyFile" is "Rejects an empty
+    file"."""
+    return [WORD_START.sub(" ", name).capitalize() for name in TEST_NAME.findall(text)]
+
+
 def sources_of(root, pattern):
     for room in ROOMS:
         for path in sorted((root / room).rglob(pattern)):
@@ -136,7 +147,7 @@ def sources_of(root, pattern):
 
 def scan(root):
     """Returns {kind: [(path, sentence, idioms)]}."""
-    result = {"headers": [], "sources": [], "messages": [], "docs": []}
+    result = {"headers": [], "sources": [], "messages": [], "docs": [], "tests": []}
 
     def add(kind, path, found):
         for sentence in found:
@@ -156,6 +167,8 @@ def scan(root):
     for pattern in MARKDOWN:
         for path in sorted(root.glob(pattern)):
             add("docs", path, markdown_sentences(path.read_text()))
+    for path in sorted((root / "tests").rglob("*.cpp")):
+        add("tests", path, test_names(path.read_text()))
     return result
 
 

@@ -84,7 +84,7 @@ TEST(Project, IsOpenCvsFisheyeFormula) {
   EXPECT_NEAR(pixel_px.y, 44.26901883, 1e-6);
 }
 
-TEST(Project, OfAFisheyeHasADerivativeOnTheAxis) {
+TEST(Project, HasADerivativeOnTheAxisOfAFisheye) {
   using Jet = ceres::Jet<double, 2>;
   const Intrinsics k = fisheye();
   const std::array<Jet, 3> p{Jet(0.0, 0), Jet(0.0, 1), Jet(1.0)};
@@ -169,7 +169,7 @@ TEST(Project, HasTheDerivativesThatFiniteDifferencesShow) {
   }
 }
 
-TEST(Project, OfAWorldPointGoesThroughTheCamerasPlace) {
+TEST(Project, AppliesTheCameraPoseToAWorldPoint) {
   Camera camera{"side", webcam(), {}, {}};
   // Turned a quarter about Y: the camera looks along the world's X.
   const RigidTransform world_from_camera{

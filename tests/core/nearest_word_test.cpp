@@ -38,7 +38,7 @@ TEST(NearestWords, AreInOrderOfNearness) {
   EXPECT_EQ(nearest_words("rows", kWords, 9).size(), kWords.size());
 }
 
-TEST(Suggestion, OfABoneKnowsTheForearm) {
+TEST(Suggestion, SuggestsTheForearmBone) {
   EXPECT_EQ(bone_suggestion("left_lower_arm"), "perhaps you mean \"leftLowerArm\"");
 }
 

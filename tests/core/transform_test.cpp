@@ -59,7 +59,7 @@ TEST(RotationVector, ComesBackFromItsQuaternionAtEveryAngle) {
   }
 }
 
-TEST(RotationVector, OfAHalfTurnIsOneOfItsTwoAxes) {
+TEST(RotationVector, RecoversAHalfTurnUpToItsSign) {
   Dice dice(10);
   for (int i = 0; i < 10; ++i) {
     const glm::dvec3 vector_rad = kPi * dice.direction();

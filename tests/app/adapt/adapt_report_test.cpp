@@ -64,7 +64,7 @@ TEST(Adapt, SupportsOfACapturedWalkAreExactWithinLimits) {
 }
 
 // A head cannot look back: by how much is an angle.
-TEST(Adapt, TellsWhatAnOrientationLacksInDegrees) {
+TEST(Adapt, ReportsAnOrientationErrorInDegrees) {
   const AdaptScene scene;
   const ProgramRun run = scene.adapt(
       {"--constraints",

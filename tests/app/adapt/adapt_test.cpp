@@ -129,7 +129,7 @@ TEST(Adapt, KeepsNamesAndJointsAndIsTheSameEveryTime) {
   }
 }
 
-TEST(Adapt, LeavesAMotionThatNothingIsAskedOf) {
+TEST(Adapt, KeepsAMotionWithoutConstraints) {
   const AdaptScene scene;
   ASSERT_EQ(scene.adapt({"--supports", "none"}).exit_code, 0);
   const Motion motion = scene.motion();
@@ -187,7 +187,7 @@ TEST(Adapt, StandsOnAMovingFloor) {
 }
 
 // A step that is higher than legs are long.
-TEST(Adapt, TellsOfAFloorThatLegsDoNotReach) {
+TEST(Adapt, ReportsAFloorThatLegsDoNotReach) {
   const AdaptScene scene;
   const std::string parts =
       scene.file("floor.toml",
@@ -290,7 +290,7 @@ TEST(Adapt, WritesAMannequinThatMovesTheSame) {
 }
 
 // Told, written, and not called a success.
-TEST(Adapt, TellsWhatItCouldNotReach) {
+TEST(Adapt, ReportsMissedConstraints) {
   const AdaptScene scene;
   const std::string set = scene.constraints(hand_at({0.0, 5.0, 1.0}));
   const ProgramRun run = scene.adapt({"--constraints", set});
@@ -310,7 +310,7 @@ TEST(Adapt, TellsWhatItCouldNotReach) {
       << blend.err;
 }
 
-TEST(Adapt, TellsOfAFootprintOutOfReach) {
+TEST(Adapt, ReportsAFootprintOutOfReach) {
   const AdaptScene scene;
   const ProgramRun run = scene.adapt(
       {"--root-share",
@@ -327,7 +327,7 @@ TEST(Adapt, TellsOfAFootprintOutOfReach) {
   EXPECT_NE(run.err.find("support \"f"), std::string::npos) << run.err;
 }
 
-TEST(Adapt, TellsOfConstraintsThatNeverHold) {
+TEST(Adapt, ReportsConstraintsThatNeverHold) {
   const AdaptScene scene;
   std::string late = hand_at(in_reach(scene));
   for (const auto& [from, to] :

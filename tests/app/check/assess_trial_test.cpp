@@ -63,7 +63,7 @@ std::vector<ClockOffset> seen(const std::vector<double>& offsets_s) {
 
 const std::vector<double> kTrue_s{0.0, 0.0073, -0.0111, 0.0049};
 
-TEST(AssessOffsets, PassesThoseThatTheTagsShow) {
+TEST(AssessOffsets, AcceptsOffsetsThatAgreeWithTheTags) {
   const Session session = session_of(testing::ring_of_cameras());
   EXPECT_FALSE(assess_offsets(session, walk_with(kTrue_s), seen(kTrue_s)));
   // Neither what is two milliseconds off, nor what nothing tells.
@@ -168,7 +168,7 @@ TEST(TrialResiduals, AreTheDetectorsWhereNothingIsWrong) {
   EXPECT_FALSE(SolvedWalk().verdict());
 }
 
-TEST(TrialResiduals, TellByHowMuchACameraIsLate) {
+TEST(TrialResiduals, EstimateTheDelayOfACamera) {
   const auto residuals = SolvedWalk({0.0, 0.0, 0.012, 0.0}).residuals();
   EXPECT_NEAR(residuals.cameras[2].late_s, 0.012, 0.001);
   EXPECT_GT(residuals.cameras[2].explained, 0.8);

@@ -99,7 +99,7 @@ TEST(ConvertMotion, PutsABvhIntoEveryKindOfFile) {
                   ->starts_with("frame,time,joint,x,y,z\n0,0.000000,hips,"));
 }
 
-TEST(ConvertMotion, WritesABvhForWhomItIsAskedFor) {
+TEST(ConvertMotion, WritesABvhInTheRequestedDialect) {
   const ScratchFolder folder;
   const Motion motion = a_motion();
   ASSERT_TRUE(recordings::write_vrma(folder / "a.vrma", motion));
@@ -170,7 +170,7 @@ TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {
 
 // Its bones are told by their names. Legs hang on the hips by joints that do not turn, so
 // that they are where the file has them.
-TEST(ConvertMotion, TellsTheBonesOfAMotionThatAVrmaOrADialectNames) {
+TEST(ConvertMotion, IdentifiesTheBonesForAVrmaOrADialect) {
   const fs::path trial = marey::testing::shared_data() / "mocap/cmu_asfamc/02_01.amc";
   if (!fs::exists(trial)) GTEST_SKIP() << trial << " is not here";
   const ScratchFolder folder;

@@ -61,7 +61,7 @@ TEST(Convert, PutsAC3dsMarkersIntoATrcYUp) {
   EXPECT_NEAR(trc->tracks.at(2, 3)->p_in_world.y, 1.7, 1e-7);
 }
 
-TEST(Convert, OfAC3dIntoAC3dChangesNoByte) {
+TEST(Convert, KeepsEveryByteFromC3dToC3d) {
   const ScratchFolder folder;
   write_standing(folder / "a.c3d");
   const ProgramRun run =
@@ -71,7 +71,7 @@ TEST(Convert, OfAC3dIntoAC3dChangesNoByte) {
             *recordings::read_file(folder / "b.c3d"));
 }
 
-TEST(Convert, WritesInTheUnitAndAxesThatAreAskedFor) {
+TEST(Convert, WritesTheRequestedUnitAndAxes) {
   const ScratchFolder folder;
   write_standing(folder / "a.c3d");
   const ProgramRun run = marey({"convert",
@@ -89,7 +89,7 @@ TEST(Convert, WritesInTheUnitAndAxesThatAreAskedFor) {
   EXPECT_NEAR(read->tracks.at(0, 3)->p_in_world.y, 1.7, 1e-6);
 }
 
-TEST(Convert, AFileThatWasToldBetterSaysSoFromThenOn) {
+TEST(Convert, StoresTheCorrectedUnitInTheFile) {
   const ScratchFolder folder;
   write_standing(folder / "a.c3d");
   const ProgramRun run = marey({"convert",
@@ -104,7 +104,7 @@ TEST(Convert, AFileThatWasToldBetterSaysSoFromThenOn) {
   EXPECT_NEAR(read->tracks.at(0, 3)->p_in_world.y, 17.0, 1e-5);
 }
 
-TEST(Convert, OfWhatIsNoMarkerFileEndsWith3) {
+TEST(Convert, ExitsWith3WhenAFileIsNotAMarkerFile) {
   const ScratchFolder folder;
   write_standing(folder / "a.c3d");
   const ProgramRun other =
@@ -120,7 +120,7 @@ TEST(Convert, OfWhatIsNoMarkerFileEndsWith3) {
   EXPECT_EQ(marey({"convert", "a.c3d", "b.trc", "--up", "up"}).exit_code, 2);
 }
 
-TEST(InspectMarkers, TellsWhatAC3dHolds) {
+TEST(InspectMarkers, ReportsTheContentsOfAC3d) {
   const ScratchFolder folder;
   write_standing(folder / "a.c3d");
   const ProgramRun run = marey({"inspect", (folder / "a.c3d").string(), "--json"});

@@ -116,7 +116,7 @@ TEST_F(Print, LeavesNothingWhereItCannotWrite) {
 }
 
 // The table that comes with a board, in a session of two cameras.
-TEST_F(Print, TablesOfEveryTypeAndFamilyAreWhatSessionsRead) {
+TEST_F(Print, TablesOfEveryTypeAndFamilyAreReadBySessions) {
   std::vector<std::vector<std::string>> boards{
       {"--type", "charuco"},
       {"--type", "charuco", "--squares-y", "6", "--legacy", "--thickness", "3mm"},

@@ -41,7 +41,7 @@ TEST_F(Doctor, EndsWithFiveOnlyForCamerasAndTheFolder) {
   EXPECT_EQ(run_.exit_code, device_trouble ? 5 : 0) << run_.out;
 }
 
-TEST_F(Doctor, SaysWhenThereIsNoCamera) {
+TEST_F(Doctor, ReportsWhenThereIsNoCamera) {
   ASSERT_TRUE(said_.is_object()) << run_.out;
   ASSERT_TRUE(said_.at("cameras").is_array());
   const bool says_none = run_.out.find("none is plugged in") != std::string::npos;
@@ -52,7 +52,7 @@ TEST_F(Doctor, SaysWhenThereIsNoCamera) {
   }
 }
 
-TEST_F(Doctor, SaysTheSameInWords) {
+TEST_F(Doctor, ReportsTheSameChecksAsText) {
   ASSERT_TRUE(said_.is_object()) << run_.out;
   const ProgramRun words = run_program(marey::testing::program(), {"doctor"});
   EXPECT_EQ(words.exit_code, run_.exit_code);

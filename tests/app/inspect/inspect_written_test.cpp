@@ -221,7 +221,7 @@ TEST(ConvertWritten, TakesAnNpzBackToTheMotionItWas) {
   }
 }
 
-TEST(ConvertWritten, SaysWhatToUseInstead) {
+TEST(ConvertWritten, SuggestsAnAlternativeInTheError) {
   const ScratchFolder folder;
   ASSERT_TRUE(recordings::write_npz(folder / "motion.npz", small_motion()));
   run_well({"convert", (folder / "motion.npz").string(), (folder / "a.mot").string()});
@@ -281,7 +281,7 @@ TEST(InspectBombs, EndWithOneMessage) {
 }
 
 // As ASF chains come in: with their motion, to be converted.
-TEST(ConvertBombs, OfAcclaimEndWithOneMessage) {
+TEST(ConvertBombs, EndWithOneMessageForAcclaim) {
   const ScratchFolder folder;
   for (const Bomb& bomb : skeleton_bombs()) {
     if (!bomb.name.ends_with(".asf") || bomb.may_be_read) continue;

@@ -14,7 +14,7 @@ namespace marey::app {
 namespace {
 
 // 1284 / 4, 1366 / 4, 606 / 4 and 404 / 4 are odd, and a JPEG's width here is not.
-TEST(LiveCamera, ShrinksPicturesOfAnyWidthToWhatAPageIsSent) {
+TEST(LiveCamera, ShrinksPicturesOfAnyWidthToThumbnails) {
   for (const int width_px : {1280, 1284, 1366, 606, 404, 6}) {
     constexpr int kHeight = 90;
     testing::SyntheticFeed feed(0, {});
@@ -51,7 +51,7 @@ TEST(LiveCamera, ShrinksPicturesOfAnyWidthToWhatAPageIsSent) {
   }
 }
 
-TEST(ThumbnailRequests, OfOnePageAreNotEndedByAnother) {
+TEST(ThumbnailRequests, AreNotEndedByAnotherPage) {
   ThumbnailRequests wishes;
   wishes.ask(live::ClientId{1}, true);
   wishes.ask(live::ClientId{2}, false);

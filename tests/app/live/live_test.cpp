@@ -165,7 +165,7 @@ TEST_F(LiveRecording, IsReplayedToTheSameBytesOnOneCore) {
 }
 
 // So that the two above can fail.
-TEST_F(LiveRecording, IsToldFromOneThatWasChanged) {
+TEST_F(LiveRecording, FailsReplayAfterAChange) {
   ASSERT_EQ(run_->exit_code, 0) << run_->err;
   const ScratchFolder folder;
   std::filesystem::copy(
@@ -192,7 +192,7 @@ TEST_F(LiveRecording, IsToldFromOneThatWasChanged) {
 }
 
 // What one marey sends another hears, with the same avatar: the packets of the walk.
-TEST_F(LiveRecording, IsHeardAsAMotion) {
+TEST_F(LiveRecording, IsReceivedAsAMotion) {
   ASSERT_EQ(run_->exit_code, 0) << run_->err;
   const auto free = live::UdpListener::open({"127.0.0.1", 0});
   ASSERT_TRUE(free);
@@ -326,7 +326,7 @@ TEST(LiveRefuses, CamerasThatWereNotCalibrated) {
       "\"cam2\" is not in the calibration");
 }
 
-TEST(LiveRefuses, WhatThereIsNot) {
+TEST(LiveRefuses, MissingOrInvalidInputs) {
   expect_refused(with(played(), {"--camera", "cam7"}), 3, "there is no camera");
   expect_refused(with(played(), {"--camera", "cam1"}), 3, "at least two");
   expect_refused({"live", kSample.string(), "--play", "dance"}, 3, "there is no trial");

@@ -57,7 +57,7 @@ int grey_of(const capture::RawFrame& frame) {
 }
 
 // As one of several cameras, whose others go on.
-TEST(VideoFeed, TellsWhyItBrokeOff) {
+TEST(VideoFeed, ReportsWhyItBrokeOff) {
   const testing::ScratchFolder folder;
   const auto first = make_video(folder, 8);
   const auto second = folder / "second.mkv";
@@ -93,7 +93,7 @@ TEST(VideoFeed, GivesEveryFrameAtItsInstantAndEnds) {
   EXPECT_FALSE(feed->next(milliseconds(1)));
 }
 
-TEST(VideoFeed, DropsTheOldestThatNobodyFetchesAndCountsThem) {
+TEST(VideoFeed, DropsTheOldestUnfetchedFramesAndCountsThem) {
   const testing::ScratchFolder folder;
   const auto feed = open({.name = "left", .path = make_video(folder, 10), .buffers = 2});
   // All of them are due; no more than two wait.

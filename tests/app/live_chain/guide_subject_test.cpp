@@ -102,7 +102,7 @@ void expect_shown(const std::vector<Camera>& cameras,
 }
 
 // That a subject is found from such detections is claimed of fit_subject() itself.
-TEST_F(Guiding, WhatWasShownIsWhatIsSolved) {
+TEST_F(Guiding, PassesTheShownDetectionsToTheSolver) {
   ASSERT_FALSE(guide_.act(WizardAction::kStart));
   const auto stood = filmed(marey::testing::standing(truth_), 77.0 / kRate_hz);
   show(stood);
@@ -121,7 +121,7 @@ TEST_F(Guiding, WhatWasShownIsWhatIsSolved) {
   }
 }
 
-TEST_F(Guiding, WhatIsGoodIsAcceptedAndWhatIsPoorIsToldSo) {
+TEST_F(Guiding, AcceptsAGoodFitAndFlagsAPoorOne) {
   stand();
   show(filmed(marey::testing::range_of_motion(truth_), 7.0));
   reconstruct::SubjectFit fit{truth_, 0.5, 1.02, {}, {}, {}};
@@ -156,7 +156,7 @@ TEST_F(Guiding, WhatIsGoodIsAcceptedAndWhatIsPoorIsToldSo) {
   EXPECT_FALSE(third.is_good()) << "legs of different lengths";
 }
 
-TEST_F(Guiding, WhoMovesHasNotStood) {
+TEST_F(Guiding, RejectsStandingWhileTheSubjectMoves) {
   ASSERT_FALSE(guide_.act(WizardAction::kStart));
   show(filmed(marey::testing::walking(truth_), 4.0));
   EXPECT_EQ(guide_.step(), WizardStep::kStand);
@@ -166,7 +166,7 @@ TEST_F(Guiding, WhoMovesHasNotStood) {
   EXPECT_EQ(guide_.step(), WizardStep::kMove);
 }
 
-TEST_F(Guiding, WhoIsNotSeenIsNotCounted) {
+TEST_F(Guiding, CountsNoProgressWhileTheSubjectIsUnseen) {
   ASSERT_FALSE(guide_.act(WizardAction::kStart));
   show_nobody(10.0);
   EXPECT_EQ(guide_.step(), WizardStep::kStand);
@@ -205,7 +205,7 @@ TEST_F(Guiding, APartThatIsNeverSeenIsWaitedForButNotForEver) {
   EXPECT_EQ(guide_.step(), WizardStep::kSolve);
 }
 
-TEST_F(Guiding, WhoIsInAHurryGoesOnOnceItIsEnough) {
+TEST_F(Guiding, AllowsNextOnceThereIsEnoughMaterial) {
   stand();
   show(filmed(marey::testing::range_of_motion(truth_), 3.0));
   EXPECT_TRUE(guide_.act(WizardAction::kNext));
@@ -214,7 +214,7 @@ TEST_F(Guiding, WhoIsInAHurryGoesOnOnceItIsEnough) {
   EXPECT_EQ(guide_.step(), WizardStep::kSolve);
 }
 
-TEST_F(Guiding, WhatEndsTooEarlyFailsAndSaysWhatToDo) {
+TEST_F(Guiding, FailsWithAdviceWhenEndedEarly) {
   guide_.end();
   EXPECT_EQ(guide_.step(), WizardStep::kIdle);
   ASSERT_FALSE(guide_.act(WizardAction::kStart));
@@ -227,7 +227,7 @@ TEST_F(Guiding, WhatEndsTooEarlyFailsAndSaysWhatToDo) {
   EXPECT_FALSE(guide_.take_material());
 }
 
-TEST_F(Guiding, AFitThatFailsIsToldAndBegunAnew) {
+TEST_F(Guiding, ReportsAFailedFitAndRestarts) {
   stand();
   show(filmed(marey::testing::range_of_motion(truth_), 7.0));
   ASSERT_TRUE(guide_.take_material());
@@ -240,7 +240,7 @@ TEST_F(Guiding, AFitThatFailsIsToldAndBegunAnew) {
   EXPECT_TRUE(guide_.ui_state().error.empty());
 }
 
-TEST_F(Guiding, WhatIsCancelledIsForgotten) {
+TEST_F(Guiding, DiscardsTheMaterialOnCancel) {
   stand();
   show(filmed(marey::testing::range_of_motion(truth_), 7.0));
   EXPECT_TRUE(guide_.act(WizardAction::kStart));

@@ -52,7 +52,7 @@ class BalanceOfAWalk : public ::testing::Test {
 };
 
 // To the bit, but for the moments at which live a foot is known to stand or leave later.
-TEST_F(BalanceOfAWalk, IsWhatTheRecordingHas) {
+TEST_F(BalanceOfAWalk, MatchesTheRecording) {
   const std::array<const Skeleton*, 1> bodies{&walk_.skeleton};
   LiveBalance live(bodies);
   int alike = 0;
@@ -100,7 +100,7 @@ TEST_F(BalanceOfAWalk, AllocatesNothingOnceItHasLooked) {
   EXPECT_EQ(testing::allocations(), before);
 }
 
-TEST(LiveBalance, IsNotToldOfBodiesThatAreNotHuman) {
+TEST(LiveBalance, IsAbsentForBodiesThatAreNotHuman) {
   Skeleton box;
   box.joints.push_back({});
   const std::array<const Skeleton*, 1> bodies{&box};

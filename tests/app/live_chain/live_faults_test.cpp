@@ -196,7 +196,7 @@ TEST_F(LiveFaults, TwoSecondsHiddenAreOverWithinOne) {
   EXPECT_LE(took_s, 1.0);
 }
 
-TEST_F(LiveFaults, WhoLeavesAndReturnsElsewhereIsFollowedWithinASecond) {
+TEST_F(LiveFaults, ASubjectReturningElsewhereIsFollowedWithinASecond) {
   const Movement before = movement_;
   const RigidTransform moved{rotation_from_vector({0.0, 2.5, 0.0}), {0.4, 0.0, 0.5}};
   const Movement elsewhere = [=](double time_s) {
@@ -239,7 +239,7 @@ TEST_F(LiveFaults, ACameraThatIsGoneForThreeSecondsIsDoneWithout) {
   }
 }
 
-TEST_F(LiveFaults, CamerasInAnotherOrderAreTold) {
+TEST_F(LiveFaults, CamerasInAnotherOrderAreDetected) {
   auto instants = film(120);
   LiveChain right = make_chain();
   UnmatchedTagsDetector never(body_);

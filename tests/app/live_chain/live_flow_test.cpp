@@ -95,7 +95,7 @@ TEST(LiveFlow, IsSteadyWithSlowCamerasAndWithHalfOfThePictures) {
 }
 
 // Six of 150 instants, as on a computer that is starved; and a tenth, a quarter.
-TEST(LiveFlow, TellsWithinASecondThatFewPosesComeOut) {
+TEST(LiveFlow, ReportsFewPosesWithinASecond) {
   for (const int one_in : {4, 10, 25}) {
     PlayedRun run;
     run.keep_up_until(3.0);
@@ -107,7 +107,7 @@ TEST(LiveFlow, TellsWithinASecondThatFewPosesComeOut) {
   }
 }
 
-TEST(LiveFlow, TellsWithinASecondThatNothingComes) {
+TEST(LiveFlow, ReportsAStopWithinASecond) {
   for (const double rate_hz : {5.0, 30.0, 60.0}) {
     PlayedRun run(rate_hz);
     run.keep_up_until(3.0);
@@ -158,7 +158,7 @@ class WatchedLive : public ::testing::Test {
   live::VmcAssembler assembler_;
 };
 
-TEST_F(WatchedLive, TellsReceiversAndTheConsoleThoughNoInstantComes) {
+TEST_F(WatchedLive, NotifiesReceiversAndTheConsoleWithoutInstants) {
   LiveWatchdog watchdog({kRate_hz}, at(0.0), outputs_, console_);
   ::testing::internal::CaptureStderr();
   long pictures = 0;

@@ -62,7 +62,7 @@ class DraggedAvatar : public ::testing::Test {
   int frame_ = 0;
 };
 
-TEST_F(DraggedAvatar, IsLeftAsItIsWhileNobodyTouchesIt) {
+TEST_F(DraggedAvatar, KeepsTheSourcePoseWhileNoHandleIsDragged) {
   EXPECT_EQ(handles_->handles().size(), 6U);
   for (int i = 0; i < 5; ++i) {
     const Pose pose = step();

@@ -19,7 +19,7 @@ using live::PageCameraState;
 using live::PageSubject;
 using reconstruct::TrackState;
 
-TEST(LiveHealth, TellsOfACameraThatIsLostAndBack) {
+TEST(LiveHealth, ReportsALostCameraAndItsReturn) {
   LiveCameraFigures before;
   before.pictures = 10;
   LiveCameraFigures now = before;
@@ -124,7 +124,7 @@ class LiveNetwork : public ::testing::Test {
   std::optional<OutputCounts> before_;
 };
 
-TEST_F(LiveNetwork, TellsThatATargetIsGoneAndThatItIsBack) {
+TEST_F(LiveNetwork, ReportsALostTargetAndItsReturn) {
   int port = 0;
   {
     const auto gone = *live::UdpListener::open({"127.0.0.1", 0});

@@ -80,7 +80,7 @@ TEST(LiveSettings, AreRefusedWhereTheyCannotBe) {
   }
 }
 
-TEST(LiveSettings, OfStrangersAreRefusedWhereNothingCouldRunByThem) {
+TEST(LiveSettings, AreDeclinedWithUnusableValues) {
   LiveSettings sound;
   sound.rate = {30.0};
   sound.streams = {{std::nullopt, live::VmcRest::kVrm0, 1472, 39540}};
@@ -102,7 +102,7 @@ TEST(LiveSettings, OfStrangersAreRefusedWhereNothingCouldRunByThem) {
   }
 }
 
-TEST(LiveRequests, AreKeptAndAreNothingWhenNobodyAsked) {
+TEST(LiveRequests, AreRestoredAndAreEmptyByDefault) {
   EXPECT_EQ(live_requests_text({}), "");
   EXPECT_EQ(live_requests_text({{{std::nullopt, false}}}), "");
   LiveRequests asked;

@@ -123,7 +123,7 @@ TEST_F(TakesOfARun, AreTakenAwayWhenTheyEndBeforeTheirFirstFrame) {
   EXPECT_FALSE(take->take.instants.back().results.empty());
 }
 
-TEST_F(TakesOfARun, OfAllOfItAreTakenAwayWithoutAFrame) {
+TEST_F(TakesOfARun, AreRemovedWhenAWholeRunHasNoFrame) {
   const auto folder = folder_ / "whole";
   std::filesystem::create_directory(folder);
   ASSERT_TRUE(takes_->begin_with_run(folder));
@@ -217,7 +217,7 @@ TEST_F(TakesOfARun, KeepAvatarsWhoseNamesAreAlike) {
 }
 
 // Nobody is asked to stand still by a run that is over.
-TEST_F(TakesOfARun, MeasureNobodyAfterTheEnd) {
+TEST_F(TakesOfARun, MeasureNoSubjectAfterTheEnd) {
   live_.prior = {"first", 1.75, std::nullopt, testing::tags_of(*live_.body)};
   live_.subject_file = folder_ / "subject.toml";
   LiveGuide guide(live_, {.begin = true, .by_itself = true}, console_);

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-TEST(FitProgram, TakesLabelsForWhatTheMapSays) {
+TEST(FitProgram, ReadsLabelsThroughTheMarkerMap) {
   const ScratchFolder folder;
   const Body person = labelled_person();
   MarkerTracks tracks = film_markers(person, standing(person), {20, 100.0, 3e-4});
@@ -176,7 +176,7 @@ TEST(FitProgram, RefusesAFolderThatIsAFile) {
   EXPECT_EQ(*recordings::read_file(folder / "out"), "a file");
 }
 
-TEST(FitProgram, TellsWhenAnotherSubjectIsGiven) {
+TEST(FitProgram, DetectsThatAnotherSubjectIsGiven) {
   const ScratchFolder folder;
   Body other = labelled_person();
   // Somebody a third taller.

@@ -136,7 +136,7 @@ TEST_F(FittedSession, WritesEveryFileOfEveryTrial) {
   EXPECT_NEAR(rows->front().time_s, 0.0, 1e-9);
 }
 
-TEST_F(FittedSession, TellsWhatItFoundInFitJson) {
+TEST_F(FittedSession, ReportsItsFindingsInFitJson) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json figures = Json::parse(run.out);
   EXPECT_EQ(*recordings::read_file(*folder / "out/fit.json"), run.out);

@@ -160,7 +160,7 @@ class LandmarksOnPeople : public ::testing::TestWithParam<Person> {};
 
 // Of two palpated landmarks of one segment. Four sigmas, because there are some 300
 // pairs.
-TEST_P(LandmarksOnPeople, AreAsFarApartAsTheirDoubtAllows) {
+TEST_P(LandmarksOnPeople, AreSpacedWithinTheirUncertainty) {
   const fs::path path = kMocap / GetParam().file;
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto read = recordings::read_markers(path);

@@ -153,7 +153,7 @@ TEST(MarkerPage, HasTheSameBytesTwice) {
   EXPECT_EQ(fitted_page(folder), fitted_page(folder));
 }
 
-TEST(MarkerPage, TellsOfJointsLabelsAndStills) {
+TEST(MarkerPage, ShowsJointsLabelsAndStills) {
   const ScratchFolder folder;
   const Json data = data_of(fitted_page(folder));
   EXPECT_EQ(data["lengths"].size(), 21U);

@@ -209,7 +209,7 @@ double allowed(const std::string& column) {
   return kDigits;
 }
 
-TEST_P(OpenSimAngles, AreThoseThatPosedItsModel) {
+TEST_P(OpenSimAngles, MatchTheAnglesThatPosedTheModel) {
   const OpenSimModel model(folder() / GetParam().model);
   ASSERT_TRUE(model.loaded());
   const auto theirs = recordings::read_mot(folder() / GetParam().motion);

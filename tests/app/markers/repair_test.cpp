@@ -43,7 +43,7 @@ void write_spoilt(const fs::path& path) {
   ASSERT_TRUE(recordings::write_markers(path, file));
 }
 
-TEST(RepairProgram, FillsAndTellsOfEverySample) {
+TEST(RepairProgram, FillsGapsAndReportsEverySample) {
   const ScratchFolder folder;
   const std::vector<std::pair<std::string, std::string>> files{
       {"a.c3d", "b.c3d"}, {"a.trc", "b.trc"}, {"a.c3d", "c.trc"}};

@@ -68,7 +68,7 @@ TEST(Neutral, HasOneNeutralForAllClipsOfASkeleton) {
   }
 }
 
-TEST(Neutral, TakesTheNeutralThatIsAskedFor) {
+TEST(Neutral, UsesTheRequestedNeutral) {
   const auto file = shared("mocap/bandai/dataset-1_kick_normal_001.bvh");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the file is not there";
   const auto with = [&](const std::string& word) {

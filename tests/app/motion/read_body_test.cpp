@@ -197,7 +197,7 @@ std::string said(const std::filesystem::path& file) {
   return body ? "" : body.error().message();
 }
 
-TEST(ReadBody, TakesTheMapBesideABodyAndTheOneThatIsGiven) {
+TEST(ReadBody, ReadsTheAdjacentMapAndTheGivenOne) {
   const ScratchFolder folder;
   Motion motion;
   motion.rate.hz = 30.0;

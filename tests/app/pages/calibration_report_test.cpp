@@ -101,7 +101,7 @@ TEST(MeasureCalibration, FindsTheFrameFromWhichACameraFitsNoMore) {
   EXPECT_FALSE(measured[0].mismatch_until);
 }
 
-TEST(MeasureCalibration, TellsAPatternFromNoise) {
+TEST(MeasureCalibration, SeparatesAPatternFromNoise) {
   calib::CalibrationReport report = of_one_camera();
   for (int frame = 0; frame < 60; ++frame) {
     // The same half pixel to the right wherever the board is, or now right, now left.

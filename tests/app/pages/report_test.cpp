@@ -99,14 +99,14 @@ TEST(ReportJson, GivesMedianAnd95PercentOfEveryJointsSigma) {
   EXPECT_EQ(joint.at("p95_sigma_mm"), 38.0);
 }
 
-TEST(ReportJson, SaysHowOftenAJointWasMeasuredRepairedAndInferred) {
+TEST(ReportJson, ReportsHowOftenAJointWasMeasuredRepairedAndInferred) {
   const json joint = parsed(report()).at("trials")[0].at("joints")[3];
   EXPECT_EQ(joint.at("measured_percent"), 50.0);
   EXPECT_EQ(joint.at("repaired_percent"), 25.0);
   EXPECT_EQ(joint.at("inferred_percent"), 25.0);
 }
 
-TEST(ReportJson, SaysHowLongAGapIsAndHowItWasBridged) {
+TEST(ReportJson, ReportsHowLongAGapIsAndHowItWasBridged) {
   const json gap = parsed(report()).at("trials")[0].at("gaps")[0];
   EXPECT_EQ(gap.at("segment"), "leftFoot");
   EXPECT_EQ(gap.at("duration_s"), 0.333);
@@ -119,7 +119,7 @@ TEST(ReportJson, CountsTheFramesInWhichATagWasSeen) {
   EXPECT_EQ(tags[1].at("seen_frames"), 1);
 }
 
-TEST(ReportJson, TellsWhereACameraStandsAndLooks) {
+TEST(ReportJson, ReportsThePositionAndDirectionOfACamera) {
   const json camera = parsed(report()).at("calibration").at("cameras")[0];
   EXPECT_EQ(camera.at("centre_in_world_m"), json({-2.0, 1.5, 4.0}));
   EXPECT_EQ(camera.at("forward_in_world"), json({0.0, 0.0, -1.0}));
@@ -139,7 +139,7 @@ TEST(ReportJson, HoldsNoPicturesAndNoMotions) {
   EXPECT_LT(report_json_text(report()).size(), 60000u);
 }
 
-TEST(ReportJson, OfNothingIsStillWhole) {
+TEST(ReportJson, IsCompleteForAnEmptyReport) {
   const json figures = parsed(Report{});
   EXPECT_EQ(figures.at("summary").at("solved_percent"), 0.0);
   EXPECT_TRUE(figures.at("trials").empty());

@@ -66,7 +66,7 @@ class Plan : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(Plan, TellsEveryHeightInATableAndInFiles) {
+TEST_F(Plan, ReportsEveryHeightInATableAndInFiles) {
   write_plan();
   const ProgramRun run = plan({"--tag", "90mm", "--height", "2"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -128,7 +128,7 @@ TEST_F(Plan, TakesPlannedCamerasAsExactWhereNoBoardIsRead) {
       << run.err;
 }
 
-TEST_F(Plan, KnowsCalibratedCamerasAsTheirCalibrationSays) {
+TEST_F(Plan, UsesTheUncertaintyOfCalibratedCameras) {
   // Whether a board would be read there or not: with small pictures it is not.
   for (const int width_px : {1280, 320}) {
     write_plan("", 2, width_px);

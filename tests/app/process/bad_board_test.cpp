@@ -70,7 +70,7 @@ AssertionResult calibrates(const PaintedSession& session) {
   return AssertionSuccess();
 }
 
-TEST(GoodBoard, OfEveryKindCalibrates) {
+TEST(GoodBoard, CalibratesForEveryKind) {
   PaintedSession charuco(charuco_table());
   charuco.film(painted_charuco());
   EXPECT_TRUE(calibrates(charuco));
@@ -83,7 +83,7 @@ TEST(GoodBoard, OfEveryKindCalibrates) {
 }
 
 // Who looks at a few frames only sees the tags.
-TEST(GoodBoard, ThatIsSeldomSeenBesideTagsCalibrates) {
+TEST(GoodBoard, CalibratesWhenSeldomSeenAmongTags) {
   PaintedSession session(chessboard_table());
   session.film(painted_chessboard(), 48);
   const auto hide_mostly = [](cv::Mat& picture, int frame) {
@@ -97,7 +97,7 @@ TEST(GoodBoard, ThatIsSeldomSeenBesideTagsCalibrates) {
 // --- Another board
 // ----------------------------------------------------------------------
 
-TEST(BadBoard, ThatIsNowhereToBeSeenIsToldByTheVideo) {
+TEST(BadBoard, IsReportedByVideoWhenNeverSeen) {
   for (const std::string& table :
        {charuco_table(), chessboard_table(), april_grid_table()}) {
     PaintedSession session(table);
@@ -107,7 +107,7 @@ TEST(BadBoard, ThatIsNowhereToBeSeenIsToldByTheVideo) {
   }
 }
 
-TEST(BadBoard, OfAnotherDictionaryIsToldByIts) {
+TEST(BadBoard, IsReportedWithItsActualDictionary) {
   PaintedSession session(replaced(charuco_table(), "DICT_5X5_100", "DICT_4X4_50"));
   session.film(painted_charuco());
   EXPECT_TRUE(declines(session,
@@ -118,7 +118,7 @@ TEST(BadBoard, OfAnotherDictionaryIsToldByIts) {
                         "dictionary = \"DICT_5X5_50\""}));
 }
 
-TEST(BadBoard, OfSquaresWhereTagsWereDeclaredIsToldThoughABodyIsInView) {
+TEST(BadBoard, IsDetectedWhenSquaresReplaceTagsDespiteABodyInView) {
   PaintedSession session(april_grid_table());
   session.film(painted_charuco());
   session.change_all([](cv::Mat& picture, int) { paint_worn_tags(picture); });
@@ -130,7 +130,7 @@ TEST(BadBoard, OfSquaresWhereTagsWereDeclaredIsToldThoughABodyIsInView) {
                         "type = \"charuco\""}));
 }
 
-TEST(BadBoard, OfTagsWhereSquaresWereDeclaredIsToldThoughABodyIsInView) {
+TEST(BadBoard, IsDetectedWhenTagsReplaceSquaresDespiteABodyInView) {
   for (const std::string& table : {charuco_table(), chessboard_table()}) {
     PaintedSession session(table);
     session.film(painted_april_grid());
@@ -141,7 +141,7 @@ TEST(BadBoard, OfTagsWhereSquaresWereDeclaredIsToldThoughABodyIsInView) {
   }
 }
 
-TEST(BadBoard, OfMarkersWhereAChessboardWasDeclaredIsTold) {
+TEST(BadBoard, IsDetectedWhenMarkersReplaceAChessboard) {
   PaintedSession session(chessboard_table());
   session.film(painted_charuco());
   EXPECT_TRUE(declines(
@@ -149,7 +149,7 @@ TEST(BadBoard, OfMarkersWhereAChessboardWasDeclaredIsTold) {
       {"no chessboard of 9 x 6 squares is seen", "of DICT_5X5_50 are", "\"charuco\""}));
 }
 
-TEST(BadBoard, WithoutMarkersWhereACharucoWasDeclaredIsTold) {
+TEST(BadBoard, IsDetectedWhenAChessboardReplacesACharuco) {
   PaintedSession session(charuco_table());
   session.film(painted_chessboard());
   EXPECT_TRUE(declines(session,
@@ -158,7 +158,7 @@ TEST(BadBoard, WithoutMarkersWhereACharucoWasDeclaredIsTold) {
                         "type = \"chessboard\", columns = 9 and rows = 6"}));
 }
 
-TEST(BadBoard, OfOtherRowsAndColumnsIsTold) {
+TEST(BadBoard, IsDetectedWithOtherRowsAndColumns) {
   PaintedSession turned(replaced(
       replaced(charuco_table(), "rows = 6", "rows = 8"), "columns = 8", "columns = 6"));
   turned.film(painted_charuco());
@@ -182,13 +182,13 @@ TEST(BadBoard, OfOtherRowsAndColumnsIsTold) {
                         "columns = 4, rows = 3"}));
 }
 
-TEST(BadBoard, OfOtherTagsIsTold) {
+TEST(BadBoard, IsDetectedWithOtherTagIds) {
   PaintedSession session(april_grid_table());
   session.film(painted_april_grid(100));
   EXPECT_TRUE(declines(session, {"seen0", "no tag of the ", "ids 0 to 11", "Next: "}));
 }
 
-TEST(BadBoard, ThatIsMirroredIsTold) {
+TEST(BadBoard, IsDetectedWhenMirrored) {
   PaintedSession charuco(charuco_table());
   charuco.film(painted_charuco());
   charuco.change_all(mirror);
@@ -216,7 +216,7 @@ TEST(BadViews, ThatAreTooFewAreCounted) {
   }
 }
 
-TEST(BadViews, ThatAreAllAlikeAreTold) {
+TEST(BadViews, AreReportedWhenAllAlike) {
   for (const auto& [table, board] :
        {std::pair{charuco_table(), painted_charuco()},
         std::pair{chessboard_table(), painted_chessboard()},
@@ -254,7 +254,7 @@ TEST(BadViews, ThatNoTwoGroupsShareNameTheGroups) {
 }
 
 // A mirrored chessboard is a chessboard still: only the other cameras contradict it.
-TEST(BadViews, OfOneCameraThatMirrorsFitNoneOfTheOthers) {
+TEST(BadViews, AreDeclinedWhenOneCameraMirrors) {
   PaintedSession session(chessboard_table());
   session.film(painted_chessboard());
   session.change(1, mirror);
@@ -262,7 +262,7 @@ TEST(BadViews, OfOneCameraThatMirrorsFitNoneOfTheOthers) {
       session, {"session.toml: ", "the error of the calibration is ", "Next: check"}));
 }
 
-TEST(BadFloor, WhoseBoardLiesFaceDownIsTold) {
+TEST(BadFloor, IsReportedWhenItsBoardLiesFaceDown) {
   for (const auto& [table, board] :
        {std::pair{charuco_table(), painted_charuco()},
         std::pair{april_grid_table(), painted_april_grid()}}) {

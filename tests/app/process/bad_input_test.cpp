@@ -82,7 +82,7 @@ TEST(BadSession, WithTwoStaticTrialsIsDeclinedByTheSecondsLine) {
                        {"session.toml:", "\"static\" already has the kind", "keep the"}));
 }
 
-TEST(BadSession, WhoseFloorIsAllOfTheCalibrationIsDeclined) {
+TEST(BadSession, IsDeclinedWhenTheFloorUsesTheWholeCalibration) {
   SpoiledSession session;
   session.replace_in_trial("floor", "frames = [0, 3]\n", "");
   EXPECT_TRUE(declines(
@@ -102,7 +102,7 @@ TEST(BadSession, WithAnOffsetOfManyFramesIsDeclined) {
                {"session.toml:", "\"cam1\" is more than two frames", "start within"}));
 }
 
-TEST(BadAvatar, ThatIsNotThereIsToldBeforeAnyWork) {
+TEST(BadAvatar, IsReportedBeforeAnyWorkWhenMissing) {
   SpoiledSession session;
   const ProgramRun run = session.run("process", {"--avatar", "no-such-body.glb"});
   EXPECT_TRUE(declines(session, run, {"no-such-body.glb: ", "does not exist", "check"}));
@@ -134,7 +134,7 @@ AssertionResult goes_on(const SpoiledSession& session,
   return AssertionSuccess();
 }
 
-TEST(BadVideo, OfAMotionCutBeforeItsIndexIsLeftOut) {
+TEST(BadVideo, IsLeftOutWhenAMotionIsCutBeforeItsIndex) {
   SpoiledSession session;
   copy_part_without_index(SpoiledSession::sample_video("walk", "cam1"),
                           session.new_video("walk", "cam1"),
@@ -143,7 +143,7 @@ TEST(BadVideo, OfAMotionCutBeforeItsIndexIsLeftOut) {
       goes_on(session, session.run(), "walk-cam1.mp4: ", "cannot be opened as a video"));
 }
 
-TEST(BadVideo, OfAMotionCutAfterItsIndexIsUsedAsFarAsItGoes) {
+TEST(BadVideo, IsUsedUpToTheCutWhenAMotionIsCutAfterItsIndex) {
   SpoiledSession session;
   copy_part(SpoiledSession::sample_video("walk", "cam1"),
             session.new_video("walk", "cam1"),
@@ -171,7 +171,7 @@ TEST(BadVideo, ThatIsATextFileCannotBeOpened) {
 // --- Sizes that were not measured
 // -------------------------------------------------------
 
-TEST(BadSize, OfAllTagsIsNoticedAgainstTheBoard) {
+TEST(BadSize, IsDetectedForAllTagsAgainstTheBoard) {
   SpoiledSession session;
   session.replace("size_m = 0.09\n", "size_m = 0.18\n");
   session.replace("\nsize_m = 0.075\n", "\nsize_m = 0.15\n");
@@ -180,7 +180,7 @@ TEST(BadSize, OfAllTagsIsNoticedAgainstTheBoard) {
 }
 
 // Two cameras see it only while the subject moves.
-TEST(BadSize, OfOneTagIsNoticedByItsNumber) {
+TEST(BadSize, IsDetectedForOneTagByItsNumber) {
   SpoiledSession session;
   session.replace("id = 41\nsegment = \"hips\"\nsize_m = 0.09",
                   "id = 41\nsegment = \"hips\"\nsize_m = 0.18");
@@ -191,7 +191,7 @@ TEST(BadSize, OfOneTagIsNoticedByItsNumber) {
       kCalibrated));
 }
 
-TEST(BadSize, OfTheBoardIsNoticedAgainstTheTags) {
+TEST(BadSize, IsDetectedForTheBoardAgainstTheTags) {
   SpoiledSession session;
   session.replace("tag_size_m = 0.1\n", "tag_size_m = 0.2\n");
   session.replace("gap_m = 0.03", "gap_m = 0.06");
@@ -200,13 +200,13 @@ TEST(BadSize, OfTheBoardIsNoticedAgainstTheTags) {
                        {"session.toml: [[tags.tag]]", "2.00 times", "tag_size_m"}));
 }
 
-TEST(BadSize, OfTheBoardsTagsAloneIsNoticedByTheBoard) {
+TEST(BadSize, IsDetectedForTheTagsOfTheBoardAlone) {
   SpoiledSession session;
   session.replace("tag_size_m = 0.1\n", "tag_size_m = 0.2\n");
   EXPECT_TRUE(declines(session, session.run(), {"session.toml", "board", "gap_m"}));
 }
 
-TEST(BadSize, OfThePersonIsNoticedByTheLimbs) {
+TEST(BadSize, IsDetectedForThePersonByTheLimbs) {
   SpoiledSession session;
   session.replace("stature_m = 1.734", "stature_m = 0.9");
   EXPECT_TRUE(declines(session,
@@ -234,7 +234,7 @@ TEST(SwappedCameras, InTheWalkAreNamed) {
                        kCalibrated));
 }
 
-TEST(SwappedCameras, InTheCalibrationAreNoticedInWhatFollows) {
+TEST(SwappedCameras, InTheCalibrationAreDetectedInLaterTrials) {
   SpoiledSession session;
   swap_cameras(session, "calib");
   swap_cameras(session, "floor");
@@ -280,7 +280,7 @@ TEST(BadCalibration, WithABoardThatNoTwoCamerasSeeTogetherNamesTheCamera) {
                         "record the calibration again"}));
 }
 
-TEST(BadCalibration, WithoutCamerasTheSolverSaysWhatToRun) {
+TEST(BadCalibration, IsReportedBySolveWithTheCommandToRun) {
   const SpoiledSession session;
   EXPECT_TRUE(declines(session,
                        session.run("solve"),
@@ -308,7 +308,7 @@ AssertionResult is_poor(const SpoiledSession& session,
   return AssertionFailure() << run.err;
 }
 
-TEST(PoorCalibration, OfAMomentOfWavingIsToldByTheFewViews) {
+TEST(PoorCalibration, IsReportedByTheFewViewsAfterBriefWaving) {
   SpoiledSession session;
   session.replace_in_trial(
       "calib", "kind = \"calibration\"", "kind = \"calibration\"\nframes = [10, 30]");

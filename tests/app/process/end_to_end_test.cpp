@@ -169,7 +169,7 @@ TEST(FirstLight, LeavesNothingHalfWritten) {
   }
 }
 
-TEST(FirstLight, EveryJointOfEveryFrameHasADoubt) {
+TEST(FirstLight, EveryJointOfEveryFrameHasAnUncertainty) {
   std::map<int, std::set<std::string>> joints;
   for (const recordings::JointRow& row : walk_joints()) {
     joints[row.frame].insert(row.joint);
@@ -182,14 +182,14 @@ TEST(FirstLight, EveryJointOfEveryFrameHasADoubt) {
 }
 
 // The reader declines a source that is none of the three words.
-TEST(FirstLight, EverySegmentOfEveryFrameSaysWhereItComesFrom) {
+TEST(FirstLight, EverySegmentOfEveryFrameHasASource) {
   const auto rows = recordings::read_segments_csv(kRuns / "once/walk/segments.csv");
   ASSERT_TRUE(rows) << rows.error().message();
   EXPECT_EQ(rows->size(), kHumanBoneCount * kWalkFrames);
 }
 
 /// An error of the doubts that the program states: how many sigmas the joints are off.
-TEST(FirstLight, DoubtsAreOfTheSizeOfTheErrors) {
+TEST(FirstLight, UncertaintiesMatchTheSizeOfTheErrors) {
   const auto truth = truth_joints(kSample / "walk/truth/joints.csv");
   ASSERT_TRUE(truth);
   int within = 0;
@@ -207,7 +207,7 @@ TEST(FirstLight, DoubtsAreOfTheSizeOfTheErrors) {
   EXPECT_GT(share, 0.5);
 }
 
-TEST(FirstLight, JsonIsAllThatStandardOutputSays) {
+TEST(FirstLight, StandardOutputContainsOnlyJson) {
   const std::string out = text_of(kRuns / "once.process.out");
   const Json figures = Json::parse(out, nullptr, false);
   ASSERT_FALSE(figures.is_discarded()) << out.substr(0, 200);

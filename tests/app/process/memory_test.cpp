@@ -73,7 +73,7 @@ long peak_kb() {
 
 // The peak of the whole process. What a frame cost, if it were kept: a tag's corners are
 // 100 bytes, so that 9,000 frames of a few tags would be some MB.
-TEST(Memory, OfTrackingAndGroupingIsFlatOverTenThousandFrames) {
+TEST(Memory, StaysFlatWhileTenThousandFramesAreTrackedAndGrouped) {
   const std::vector<std::uint8_t> wall = draw_wall();
   std::vector<capture::TagTracker> trackers;
   for (int c = 0; c < kCameras; ++c) {

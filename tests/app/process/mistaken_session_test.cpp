@@ -125,7 +125,7 @@ TEST(MistakenSession, WithACameraThatSeesNoBoardIsDeclinedBeforeAnyWork) {
   EXPECT_FALSE(says(run, "tags in")) << run.err;
 }
 
-TEST(MistakenSession, WithFewerRowsThanTheBoardHasIsToldOfTheOthers) {
+TEST(MistakenSession, ReportsTagsBeyondTheDeclaredRows) {
   SpoiledSession session;
   session.replace("rows = 6\n", "rows = 5\n");
   const ProgramRun run = session.run();

@@ -62,7 +62,7 @@ std::size_t compare_with_motion(const MarkerTracks& tracks) {
   return samples;
 }
 
-TEST(SessionMarkers, OfTheC3dAreWhereTheMotionCarriesTags) {
+TEST(SessionMarkers, InC3dMatchTheTagsOfTheMotion) {
   const auto read = recordings::read_markers(kWalk / "markers.c3d");
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_EQ(read->tracks.frames(), 90U);
@@ -84,7 +84,7 @@ TEST(SessionMarkers, OfTheC3dAreWhereTheMotionCarriesTags) {
   EXPECT_LT(measured, samples);
 }
 
-TEST(SessionMarkers, OfTheTrcAreTheSame) {
+TEST(SessionMarkers, InTrcMatchTheC3d) {
   const auto c3d = recordings::read_markers(kWalk / "markers.c3d");
   const auto trc = recordings::read_markers(kWalk / "markers.trc");
   ASSERT_TRUE(c3d) << c3d.error().message();

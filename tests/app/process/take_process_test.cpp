@@ -58,7 +58,7 @@ TEST(RecordedTake, IsMatchedByTimeThroughDropsAndJitter) {
       << warnings_of(run);
 }
 
-TEST(RecordedTake, ThatWasCutOffIsUsedAndTold) {
+TEST(RecordedTake, IsUsedWithAWarningWhenCutOff) {
   if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   const RecordedWalk walk;
   // The last moments of one camera's times, and of another's video.
@@ -82,7 +82,7 @@ TEST(RecordedTake, WithoutItsTimesIsDeclined) {
   EXPECT_NE(run.err.find("take.sqlite: the file is missing"), std::string::npos) << run.err;
 }
 
-TEST(RecordedTake, OfANewerVersionIsDeclined) {
+TEST(RecordedTake, IsDeclinedWhenItsVersionIsNewer) {
   if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   const RecordedWalk walk;
   walk.spoil_take("PRAGMA user_version=9");
@@ -142,7 +142,7 @@ TEST(RecordedTake, IsCutToTheRangeThatTheTrialNames) {
   EXPECT_LT(median_error_mm(walk.session()), 6.0);
 }
 
-TEST(RecordedTake, OfFewerFramesThanTheTrialNamesIsDeclined) {
+TEST(RecordedTake, IsDeclinedWithFewerFramesThanTheTrialNames) {
   if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   RecordedWalk walk;
   walk.session().replace_in_trial(
@@ -265,7 +265,7 @@ TEST(RecordedTake, IsProcessedAsTheRecorderMadeIt) {
 }
 
 // A phone's video: frames at times of their own.
-TEST(Record, TellsOfEveryCameraThatCannotBeOpened) {
+TEST(Record, ReportsEveryCameraThatCannotBeOpened) {
   SpoiledSession session;
   session.replace("name = \"cam0\"", "name = \"cam0\"\ndevice = \"/dev/no-video0\"");
   session.replace("name = \"cam1\"", "name = \"cam1\"\ndevice = \"/dev/no-video1\"");
@@ -305,7 +305,7 @@ void leave_out_frames(SpoiledSession& session) {
   ASSERT_EQ(made.exit_code, 0) << made.err;
 }
 
-TEST(UnevenVideo, WhoseFramesAreChosenByNumberIsRefused) {
+TEST(UnevenVideo, IsDeclinedWhenFramesAreChosenByNumber) {
   if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   SpoiledSession session;
   leave_out_frames(session);
@@ -317,7 +317,7 @@ TEST(UnevenVideo, WhoseFramesAreChosenByNumberIsRefused) {
       << run.err;
 }
 
-TEST(UnevenVideo, IsUsedByItsOwnTimesAndTold) {
+TEST(UnevenVideo, IsUsedByItsOwnTimesWithAWarning) {
   if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   SpoiledSession session;
   leave_out_frames(session);

@@ -233,7 +233,7 @@ TEST(WandProgram, FindsClocksFromTheTagsOfASegment) {
 }
 
 // Who says that cameras start together is taken at his word, and told what that gives.
-TEST(WandProgram, NamesCamerasThatAreSaidToStartTogetherAndDoNot) {
+TEST(WandProgram, NamesCamerasThatDoNotStartTogetherAsDeclared) {
   const PaintedSession session(48, {0.0, 0.43, -0.27, 0.0}, false);
   const ProgramRun run = session.calibrate(
       "[calibration]\nclocks = \"shared\"\ncross_validate = false\n" + wand_of_tags());

@@ -38,7 +38,7 @@ recordings::Take take_in(const fs::path& folder) {
   return take ? *take : recordings::Take{};
 }
 
-TEST(RecordTrouble, OfACameraIsKeptWithItsOwnTime) {
+TEST(RecordTrouble, KeepsCameraEventsWithTheirOwnTimes) {
   const ScratchFolder folder;
   SyntheticFeed left(0,
                      {.frames = 90, .events = {{20, "lost: gone"}, {50, "streaming"}}});
@@ -62,7 +62,7 @@ TEST(RecordTrouble, OfACameraIsKeptWithItsOwnTime) {
 }
 
 // Every tenth frame is more than all that may wait.
-TEST(RecordTrouble, OfFramesForWhichThereIsNoRoomIsCounted) {
+TEST(RecordTrouble, CountsFramesThatExceedTheQueue) {
   const ScratchFolder folder;
   SyntheticFeed feed(0, {.frames = 100, .big_every = 10, .big_bytes = 1 << 20});
   RecordOptions options = options_for(folder / "walk", feed);
@@ -81,7 +81,7 @@ TEST(RecordTrouble, OfFramesForWhichThereIsNoRoomIsCounted) {
   }
 }
 
-TEST(RecordTrouble, OfACameraThatComesBackWithOtherPicturesIsAnError) {
+TEST(RecordTrouble, ReportsACameraThatReturnsWithAnotherSize) {
   const ScratchFolder folder;
   SyntheticFeed changing(1, {.frames = 80, .other_size_from = 30});
   SyntheticFeed good(0, {.frames = 80});
@@ -104,7 +104,7 @@ TEST(RecordTrouble, OfACameraThatComesBackWithOtherPicturesIsAnError) {
   EXPECT_EQ(take.events[0].time, changing.time_of(30));
 }
 
-TEST(RecordTrouble, OfACameraThatDiesHalfWayIsAnError) {
+TEST(RecordTrouble, ReportsACameraThatStopsHalfWay) {
   const ScratchFolder folder;
   SyntheticFeed dying(1, {.frames = 50});
   SyntheticFeed good(0, {.frames = 300});
@@ -122,7 +122,7 @@ TEST(RecordTrouble, OfACameraThatDiesHalfWayIsAnError) {
   EXPECT_EQ(done->at(1).frames, 300);
 }
 
-TEST(RecordTrouble, OfACameraThatNeverSendsIsAnError) {
+TEST(RecordTrouble, ReportsACameraThatNeverSends) {
   const ScratchFolder folder;
   SyntheticFeed dead(1, {.frames = 0});
   SyntheticFeed good(0, {.frames = 50});
@@ -150,7 +150,7 @@ bool holds_with_small_files(rlim_t bytes, const std::function<bool()>& claim) {
          WEXITSTATUS(status) == 0;
 }
 
-TEST(RecordTrouble, OfADiskThatRefusesIsToldAndWhatWasWrittenIsRead) {
+TEST(RecordTrouble, ReportsAFailedDiskAndKeepsTheWrittenFramesReadable) {
   const ScratchFolder folder;
   const auto claim = [&] {
     SyntheticFeed small(0, {.frames = 100});
@@ -175,7 +175,7 @@ TEST(RecordTrouble, OfADiskThatRefusesIsToldAndWhatWasWrittenIsRead) {
   EXPECT_TRUE(recordings::video_times(folder / "walk" / "big.mkv"));
 }
 
-TEST(RecordTrouble, OfADiskThatIsFullFromTheBeginningLeavesNothingBehind) {
+TEST(RecordTrouble, LeavesNoFilesWhenTheDiskIsFullFromTheStart) {
   const ScratchFolder folder;
   for (const rlim_t bytes : {rlim_t{10}, rlim_t{5000}, rlim_t{20000}}) {
     const auto claim = [&] {
@@ -199,7 +199,7 @@ void expect_refused(const fs::path& folder) {
   EXPECT_EQ(again.error().cause, "there is a recording already");
 }
 
-TEST(RecordTrouble, OfARecordingThatIsThereIsRefusedAndItIsKept) {
+TEST(RecordTrouble, RefusesToReplaceARecordingAndKeepsIt) {
   const ScratchFolder folder;
   SyntheticFeed feed(0, {.frames = 5});
   const std::array<RecordedCamera, 1> cameras{{{"cam", &feed}}};
@@ -226,7 +226,7 @@ struct Odd {
   int stride;
 };
 
-TEST(RecordTrouble, OfADriverThatSpeaksNonsenseIsToldAndLeavesNothingBehind) {
+TEST(RecordTrouble, ReportsInvalidDriverSettingsAndLeavesNoFiles) {
   const ScratchFolder folder;
   for (const Odd& odd : {Odd{"no width", PixelFormat::kMjpg, 0, 48, 0},
                          Odd{"less than no height", PixelFormat::kMjpg, 64, -48, 0},

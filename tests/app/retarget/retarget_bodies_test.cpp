@@ -71,7 +71,7 @@ TEST(RetargetBodies, KeepTheirSkinAboveTheFloorAndThePosture) {
 }
 
 // Without the ground the skin is deep, so that the figure is one to compare.
-TEST(RetargetBodies, AreToldTheDepthThatTheirSkinHas) {
+TEST(RetargetBodies, MatchTheReportedSkinDepth) {
   const RetargetScene scene;
   const fs::path folder = scene / "bodies";
   fs::create_directories(folder);

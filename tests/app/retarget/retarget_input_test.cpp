@@ -46,7 +46,7 @@ TEST(RetargetInput, ABadAvatarDoesNotStopTheOthers) {
   refuses(scene, {"bad.glb", "none.vrm", "--out", "o"}, 3, "bad.glb: this is neither");
 }
 
-TEST(RetargetInput, WhatIsReadIsNotWrittenOver) {
+TEST(RetargetInput, IsNotOverwritten) {
   const RetargetScene scene;
   for (const auto& [options, role] :
        std::vector<std::pair<std::vector<std::string>, std::string>>{
@@ -103,7 +103,7 @@ TEST(RetargetInput, RefusesWhatCannotBeMeant) {
   }
 }
 
-TEST(RetargetInput, TellsWhichWantedFormatABodyCannotHave) {
+TEST(RetargetInput, ReportsARequestedFormatThatABodyCannotHave) {
   const RetargetScene scene;
   const ProgramRun run = scene.retarget(
       {"arms.bvh", "plain.bvh", "--out", "all", "--formats", "bvh,vrma,glb"});

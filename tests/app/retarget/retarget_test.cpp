@@ -57,7 +57,7 @@ TEST(Retarget, PutsAMotionOnSeveralBodiesInEveryFormatThatTheyCanHave) {
   }
 }
 
-TEST(Retarget, WritesTheFileOfOneBodyThatItsNameTells) {
+TEST(Retarget, WritesTheFileFormatOfOneBodyByItsName) {
   const RetargetScene scene;
   for (const char* out : {"o.glb", "o.bvh", "o.vrma", "o.npz", "o.csv", "o.mot"}) {
     const ProgramRun run =
@@ -113,7 +113,7 @@ TEST(Retarget, ResamplesSoThatSharedInstantsAreTheSameAndFeetStand) {
   }
 }
 
-TEST(Retarget, NamesTheClipAndSpeaksTheDialect) {
+TEST(Retarget, NamesTheClipAndWritesTheDialect) {
   const RetargetScene scene;
   ASSERT_EQ(scene
                 .retarget({"small.glb",
@@ -148,7 +148,7 @@ TEST(Retarget, KeepsTheWayInMetresIfAsked) {
   EXPECT_GT(way("scaled"), 1.2 * way("kept"));
 }
 
-TEST(Retarget, TellsWhetherBodiesAreOverTheirFeetAndKeepsThemThere) {
+TEST(Retarget, ReportsWhetherBodiesAreOverTheirFeetAndKeepsThemThere) {
   const RetargetScene scene;
   const ProgramRun without =
       scene.retarget({"small.glb", "plain.bvh", "--out", "a", "--json", "--report"});

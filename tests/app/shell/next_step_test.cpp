@@ -57,7 +57,7 @@ void copy_detections(const fs::path& to) {
   }
 }
 
-TEST_F(NextStep, OfTheDemoShowsTheResults) {
+TEST_F(NextStep, ShowsTheResultsAfterTheDemo) {
   copy_detections(folder() / "the results");
   const ProgramRun demo = shell("'" + called() + "' demo --out 'the results'");
   ASSERT_EQ(demo.exit_code, 0) << demo.err;
@@ -70,7 +70,7 @@ TEST_F(NextStep, OfTheDemoShowsTheResults) {
   }
 }
 
-TEST_F(NextStep, OfAnErrorNamesTheProgramAsItWasCalled) {
+TEST_F(NextStep, NamesTheProgramAsItWasCalledAfterAnError) {
   const ProgramRun run = shell("'" + called() + "' view . --no-open --seconds 1");
   EXPECT_EQ(run.exit_code, 3);
   EXPECT_NE(run.err.find(called() + " process . --out DIR; " + called() + " view DIR"),

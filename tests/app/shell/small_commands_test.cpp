@@ -54,38 +54,38 @@ Json inspected(const fs::path& file) {
   return Json::parse(run.out, nullptr, false);
 }
 
-TEST_F(Inspect, TellsOfTheSession) {
+TEST_F(Inspect, ReportsTheSession) {
   const Json session = inspected(kSample);
   EXPECT_EQ(session.at("kind"), "session");
   EXPECT_EQ(session.at("cameras").size(), 4U);
   EXPECT_EQ(session.at("tags"), 29);
 }
 
-TEST_F(Inspect, TellsOfTheCalibration) {
+TEST_F(Inspect, ReportsTheCalibration) {
   const Json calibration = inspected(kResults / "calibration.toml");
   EXPECT_EQ(calibration.at("kind"), "calibration");
   EXPECT_EQ(calibration.at("cameras").size(), 4U);
 }
 
-TEST_F(Inspect, TellsOfTheSubject) {
+TEST_F(Inspect, ReportsTheSubject) {
   const Json subject = inspected(kResults / "subject.toml");
   EXPECT_EQ(subject.at("kind"), "subject");
   EXPECT_EQ(subject.at("name"), "S16");
 }
 
-TEST_F(Inspect, TellsOfJoints) {
+TEST_F(Inspect, ReportsJoints) {
   const Json joints = inspected(kResults / "walk/joints.csv");
   EXPECT_EQ(joints.at("kind"), "joints");
   EXPECT_EQ(joints.at("frames"), 90);
 }
 
-TEST_F(Inspect, TellsOfSegments) {
+TEST_F(Inspect, ReportsSegments) {
   const Json segments = inspected(kResults / "walk/segments.csv");
   EXPECT_EQ(segments.at("kind"), "segments");
   EXPECT_EQ(segments.at("frames"), 90);
 }
 
-TEST_F(Inspect, TellsOfMotions) {
+TEST_F(Inspect, ReportsMotions) {
   for (const char* name : {"motion.bvh", "motion.glb", "child.bvh", "giant.glb"}) {
     const Json motion = inspected(kResults / "walk" / name);
     EXPECT_EQ(motion.at("motion").at("frames"), 90) << name;
@@ -94,7 +94,7 @@ TEST_F(Inspect, TellsOfMotions) {
   }
 }
 
-TEST_F(Inspect, TellsOfTheReport) {
+TEST_F(Inspect, IdentifiesTheReport) {
   EXPECT_EQ(inspected(kResults / "report.json").at("kind"), "report");
 }
 
@@ -134,7 +134,7 @@ TEST_F(Mannequin, HasTheStatureThatWasAskedFor) {
   EXPECT_NEAR(highest.y - lowest.y, 1.4, 0.01 /* m */);
 }
 
-TEST_F(Mannequin, OfAHeightThatIsNoNumberIsAUsageError) {
+TEST_F(Mannequin, RejectsAMeasureThatIsNotANumber) {
   const auto body = in_folder("body.glb");
   for (const char* option : {"--height", "--arm-ratio", "--girth"}) {
     const ProgramRun run = marey({"mannequin", option, "nan", "--out", body.string()});
@@ -151,7 +151,7 @@ TEST_F(Mannequin, IsNotWrittenUnderAnotherKindsName) {
   EXPECT_FALSE(std::filesystem::exists(body));
 }
 
-TEST_F(Mannequin, OfAnImpossibleHeightIsAUsageError) {
+TEST_F(Mannequin, RejectsANegativeHeight) {
   const fs::path body = in_folder("body.glb");
   const ProgramRun run = marey({"mannequin", "--height", "-1", "--out", body.string()});
   EXPECT_EQ(run.exit_code, 2);
@@ -181,7 +181,7 @@ const char* const kWildBvh =
     "MOTION\nFrames: 1\nFrame Time: 0.01\n0 90 0 0 12 0\n";
 
 // Its spine leaves its place by 2 cm, and a joint's name is no UTF-8.
-TEST_F(Inspect, TellsOfMovementThatIsLeftOut) {
+TEST_F(Inspect, ReportsMovementThatIsLeftOut) {
   std::ofstream(in_folder("wild.BVH"), std::ios::binary) << kWildBvh;
   const Json wild = inspected(in_folder("wild.BVH"));
   EXPECT_EQ(wild.at("kind"), "bvh");

@@ -45,7 +45,7 @@ live::DragRequest drag(const std::string& id, const glm::dvec3& to, int frame) {
   return {id, to, DragPhase::kMove, frame};
 }
 
-TEST(ViewHandles, BringAFrameToWhatIsDraggedInIt) {
+TEST(ViewHandles, BringAFrameToItsDraggedTargets) {
   const ViewedRecording recording = standing();
   auto made = ViewHandles::make(recording, {});
   ASSERT_TRUE(made) << made.error().message();

@@ -115,7 +115,7 @@ TEST_F(ViewLiveTake, ShowsTheBodyAsItWasLive) {
   }
 }
 
-TEST_F(ViewLiveTake, SaysThatNobodyWasFound) {
+TEST_F(ViewLiveTake, ReportsThatNoSubjectWasFound) {
   write(kLeadIn);
   const auto view = read_view({folder_.path(), "", {}});
   ASSERT_FALSE(view);

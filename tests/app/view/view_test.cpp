@@ -71,7 +71,7 @@ class View : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-TEST_F(View, ShowsWhatWasSolvedWithItsDoubt) {
+TEST_F(View, ShowsTheSolutionWithItsUncertainty) {
   std::ofstream(out() / "report.json")
       << R"({"trials":[{"name":"walk","frame_rms_px":[0.5,0.25]}]})";
   const auto view = read_view({.what = out(), .trial = {}, .avatars = {}});
@@ -110,7 +110,7 @@ TEST_F(View, DragsInTheFrameThatThePageShows) {
   EXPECT_EQ((*adapted)->frame, kFrames - 1);
 }
 
-TEST_F(View, TellsTheTimeOfFramesBeforeTheFirst) {
+TEST_F(View, GivesNegativeTimesBeforeTheFirstFrame) {
   auto view = read_view({.what = out() / "walk", .trial = {}, .avatars = {}});
   ASSERT_TRUE(view) << view.error().message();
   view->first_frame = -3;
@@ -140,7 +140,7 @@ TEST_F(View, EncodesEveryFrameOfEveryFigure) {
   EXPECT_NEAR(z, 0.87, 1e-5);  // BVH has six decimals of a centimetre.
 }
 
-TEST_F(View, StandsAvatarsBesideTheSource) {
+TEST_F(View, PlacesAvatarsNextToTheSource) {
   const auto view =
       read_view({.what = out(), .trial = "walk", .avatars = {out() / "walk/motion.bvh"}});
   ASSERT_TRUE(view) << view.error().message();
@@ -237,7 +237,7 @@ TEST_F(View, TurnsToOtherTrialsFromOne) {
   EXPECT_TRUE(trials->show(live::ClientId{1}, "walk", *server));
 }
 
-TEST_F(View, SaysWhatItCannotShow) {
+TEST_F(View, ReportsInputsThatCannotBeShown) {
   const auto cause = [](const ViewChoice& choice) {
     const auto view = read_view(choice);
     return view ? std::string("shown") : view.error().cause;

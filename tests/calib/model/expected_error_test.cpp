@@ -79,7 +79,7 @@ TEST(CamerasThatSee, LeaveOutThoseWhoseImageThePointMisses) {
   EXPECT_TRUE(seen_by.empty() || seen_by[0] != CameraId{0});
 }
 
-TEST(ErrorMap, IsSmallAmidTheCameras) {
+TEST(ErrorMap, IsSmallBetweenTheCameras) {
   const auto cameras = ring_of_cameras();
   const auto map = error_map(cameras, nullptr, {{-1, 0, -1}, {1, 0, 1}, 0.5, {1.0}}, 0.3);
   ASSERT_EQ(map.size(), 25U);

@@ -160,7 +160,7 @@ TEST(PlanBody, IncludesTheUncertaintyOfCameras) {
   EXPECT_NEAR(plan.joints[6].lasting_error_m, std::sqrt(3e-4), 1e-3);
 }
 
-TEST(PlanBody, SaysSoWhenNobodySeesTheBody) {
+TEST(PlanBody, ReportsNoErrorsWhenNoCameraSeesTheBody) {
   const PlannedBody body = make_planned_body(1.75, typical_tags(0.01));
   const std::vector<Camera> cameras = ring_of_cameras();
   const BodyPlan plan = plan_body(cameras, nullptr, body, kSmall, tenth_px, quick());
@@ -202,7 +202,7 @@ TEST(PlanBody, MeasuresLimbsOfABodyThatIsNotFound) {
   EXPECT_LE(plan.measured_share, 2.0 / 12.0);
 }
 
-TEST(CovarianceOfQuality, IsWhatTheQualitySaysAndNoMore) {
+TEST(CovarianceOfQuality, ContainsOnlyTheSigmasOfTheQuality) {
   std::vector<CameraQuality> quality(2);
   quality[1].centre_sigma_m = 0.003;
   quality[1].focal_sigma_px = 2.0;

@@ -51,7 +51,7 @@ std::vector<Camera> square_of_cameras(double distance_m) {
   return cameras;
 }
 
-TEST(ExpectTag, IsSeenByNobodyWhenItFacesUpSmallOrOutside) {
+TEST(ExpectTag, FindsNoCameraForATagFacingUpTooSmallOrOutside) {
   const auto cameras = square_of_cameras(2.5);
   const PlanOptions options;
   const RigidTransform middle = tag_facing(0.3, {0.0, 1.0, 0.0});
@@ -151,7 +151,7 @@ TEST(ExpectTag, IncludesTheUncertaintyOfCameras) {
               1e-11);
 }
 
-TEST(PlanRig, OfASymmetricRigIsSymmetric) {
+TEST(PlanRig, ReturnsASymmetricPlanForASymmetricRig) {
   const auto cameras = square_of_cameras(2.5);
   const ErrorMapGrid grid{{-1.0, 0.0, -1.0}, {1.0, 0.0, 1.0}, 0.5, {0.9}};
   PlanOptions large;
@@ -175,7 +175,7 @@ TEST(PlanRig, OfASymmetricRigIsSymmetric) {
   }
 }
 
-TEST(PlanRig, SaysNothingOfErrorsWhereNoTwoCamerasSee) {
+TEST(PlanRig, ReportsNoErrorsWhereFewerThanTwoCamerasSee) {
   const std::vector<Camera> one{square_of_cameras(2.5)[0]};
   const ErrorMapGrid grid{{-1.0, 0.0, -1.0}, {1.0, 0.0, 1.0}, 1.0, {0.1, 1.4}};
   const RigPlan plan = plan_rig(one, nullptr, grid, tenth_px, {});

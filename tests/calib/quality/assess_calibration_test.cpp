@@ -246,7 +246,7 @@ TEST(AssessCalibration, ReportsLargeHeldOutErrors) {
   EXPECT_TRUE(assess_calibration(report).empty());
 }
 
-TEST(AssessCalibration, MakesErrorsOfWhatIsPoorAndWarningsOfTheRest) {
+TEST(AssessCalibration, GradesProblemsAsPoorOrFair) {
   CalibrationReport report = decent();
   report.cameras[0].mismatch_from = 71;
   report.rig.quality[1].coverage = 0.2;

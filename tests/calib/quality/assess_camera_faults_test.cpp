@@ -36,7 +36,7 @@ TEST(AssessCameraFaults, NamesADriftingFocusThatHardlyMovesThePicture) {
 
 // A focal length that changes by 0.6 % shifts the image by 0.8 px and the cameras by 50
 // mm.
-TEST(AssessCameraFaults, GradesASmallMoveByWhatItDoesToTheCameras) {
+TEST(AssessCameraFaults, GradesASmallMoveByTheShiftOfTheCameras) {
   CalibrationReport report = decent();
   ApparentMove move;
   move.camera = CameraId{1};
@@ -133,7 +133,7 @@ TEST(AssessCameraFaults, IgnoresMovesCausedByLenses) {
 
 // On 4K, half a pixel of lag is not significant: whole sections of outliers have another
 // cause.
-TEST(AssessCameraFaults, ExcusesNoMovedCameraByALagThatItDoesNotTell) {
+TEST(AssessCameraFaults, ReportsAMovedCameraDespiteAnInsignificantLag) {
   CalibrationReport report = decent();
   report.rig.cameras[1].intrinsics.width_px = 3840;
   report.cameras[1].lag = CameraLag{0.2, 0.01, 0.5};

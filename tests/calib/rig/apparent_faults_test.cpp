@@ -176,7 +176,7 @@ TEST(FindMovedCamera, MistakesNoClockOffsetForAMove) {
   EXPECT_LT(found->moved_px, 0.5);
 }
 
-TEST(FindMovedCamera, SaysNothingOfTagsThatOneCameraSees) {
+TEST(FindMovedCamera, ReturnsNothingForTagsSeenByOneCamera) {
   const auto cameras = ring_of_cameras();
   auto seen = flying_tags(cameras, 30, 0.1);
   for (std::size_t c = 1; c < seen.size(); ++c) {

@@ -127,7 +127,7 @@ TEST(CalibrateCameras, RecoversTheRigThroughTagsThatShrink) {
   EXPECT_LT(worst.focal, kExactFocal);
 }
 
-TEST(CalibrateCameras, SuffersLittleFromWrongTags) {
+TEST(CalibrateCameras, KeepsItsAccuracyWithWrongTags) {
   // One tag in twenty is 20 px off: plain least squares would have errors of centimetres.
   const auto cameras = ring_of_cameras();
   const auto rig = calibrate(cameras, {0.2, {}, 0.05});

@@ -197,7 +197,7 @@ TEST(CalibrateWand, NamesCamerasThatNothingJoins) {
             std::string::npos);
 }
 
-TEST(CalibrateWand, SaysWhenNoTagOfItIsSeen) {
+TEST(CalibrateWand, ReportsThatNoTagOfTheWandIsSeen) {
   const auto cameras = ring_of_cameras();
   const auto found = calibrate_wand(
       names_of(cameras), wave_wand(cameras, 10, 0.0), Wand{{{TagId{40}, 0.1}}});

@@ -33,7 +33,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(CalibrateCameras, TellsWhichVideoNeverShowsTheBoard) {
+TEST(CalibrateCameras, ReportsTheVideoWithoutTheBoard) {
   const auto cameras = ring_of_cameras();
   BoardRecording recording = wave_board(cameras, kBoard, kFrames);
   for (FrameDetections& frame : recording.waved[2].frames) frame.tags.clear();
@@ -44,7 +44,7 @@ TEST(CalibrateCameras, TellsWhichVideoNeverShowsTheBoard) {
             "no tag of the calibration board (ids 0 to 35) is seen in any frame");
 }
 
-TEST(CalibrateCameras, TellsWhichVideoShowsTheBoardTooLittle) {
+TEST(CalibrateCameras, ReportsTheVideoWithTooFewViewsOfTheBoard) {
   const auto cameras = ring_of_cameras();
   BoardRecording recording = wave_board(cameras, kBoard, kFrames);
   int left = 2;
@@ -165,7 +165,7 @@ TEST(CalibrateCameras, NoticesAWrongGap) {
 
 // Every view has a shape that is impossible for a flat board: no camera fits even one of
 // them.
-TEST(CalibrateCameras, TellsHowTheTagsLieWhereTheBoardIsDeclaredOtherwise) {
+TEST(CalibrateCameras, ReportsTheSeenArrangementOfTagsForAWrongDeclaration) {
   const auto cameras = ring_of_cameras();
   marey::testing::Disturbance noise;
   noise.noise_px = 0.3;
@@ -215,7 +215,7 @@ std::vector<FrameDetections> square_on(const std::vector<glm::dvec2>& places_px)
   return frames;
 }
 
-TEST(CalibrateCameras, TellsABoardThatLiesStillFromOneThatNeverTilts) {
+TEST(CalibrateCameras, DistinguishesAStillBoardFromAnUntiltedBoard) {
   const auto cameras = ring_of_cameras();
   BoardRecording recording = wave_board(cameras, kBoard, kFrames);
   // The floor shows a board that is tilted.

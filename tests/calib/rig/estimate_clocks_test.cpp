@@ -74,7 +74,7 @@ TEST(EstimateClocks, FindsOffsetsOfManyFramesUnderNoise) {
   EXPECT_LT(std::abs((*clocks)[1].offset_s - 0.2473), 3.0 * (*clocks)[1].offset_sigma_s);
 }
 
-TEST(EstimateClocks, KnowsThatTagsAtRestTellLittle) {
+TEST(EstimateClocks, ReportsALargeUncertaintyForTagsAtRest) {
   const auto still =
       estimate_clocks(three_cameras(), film({0.0, 0.0, 0.0}, 0.2, 0.0), kSizes);
   const auto moving =
@@ -84,7 +84,7 @@ TEST(EstimateClocks, KnowsThatTagsAtRestTellLittle) {
   EXPECT_GT((*still)[1].offset_sigma_s, 10.0 * (*moving)[1].offset_sigma_s);
 }
 
-TEST(EstimateClocks, DeclinesTagsThatNobodyShares) {
+TEST(EstimateClocks, DeclinesTagsWithoutASharedView) {
   auto detections = film({0.0, 0.0, 0.0}, 0.0);
   for (std::size_t c = 1; c < 3; ++c) {
     for (FrameDetections& frame : detections[c].frames) frame.tags.clear();

@@ -132,7 +132,7 @@ TEST(FindBoardPoints, TheOldPatternOfOddRowsIsTheNewOne) {
   expect_exact(board, kTilted);
 }
 
-TEST(FindBoardPoints, FindsABoardOfWhiteOnBlackWhenToldSo) {
+TEST(FindBoardPoints, FindsAnInvertedBoardWhenDeclared) {
   CharucoBoard board = charuco();
   board.is_inverted = true;
   expect_exact(board, kTilted);
@@ -203,7 +203,7 @@ TEST(FindBoardPoints, HalfACharucoBoardGivesItsCorners) {
   EXPECT_LT(worst_px(points, charuco(), place), kExactPx);
 }
 
-TEST(FindBoardPoints, WhatAHandCoversIsLeftOut) {
+TEST(FindBoardPoints, LeavesOutCoveredPoints) {
   cv::Mat picture = tests::draw_board(tests::flat_picture(charuco()), 640, 480, kTilted);
   const glm::dvec2 covered = tests::true_corner_px(5, 7, 8, kTilted);
   const cv::Point middle(static_cast<int>(covered.x) + 3,

@@ -131,7 +131,7 @@ TEST_F(DecodeMjpg, ForgivesBytesTooMany) {
   EXPECT_EQ(decode(jpeg_ + std::string(1000, '\0')), seen);
 }
 
-TEST_F(DecodeMjpg, OfAnotherSizeSaysWhich) {
+TEST_F(DecodeMjpg, ReportsBothSizesOnAMismatch) {
   const auto frame =
       decoder_.decode(frame_of(jpeg_), settings(PixelFormat::kMjpg, 640, 360));
   ASSERT_FALSE(frame);

@@ -94,7 +94,7 @@ TEST(BrokenVideo, WithDamagedJpegFramesLosesTheseAlone) {
   }
 }
 
-TEST(BrokenVideo, OfDamagedFramesAloneIsRefused) {
+TEST(BrokenVideo, IsRejectedWhenEveryFrameIsDamaged) {
   const ScratchFolder folder;
   tests::write_video(folder / "a.avi", 12);
   std::vector<int> all(12);
@@ -142,7 +142,7 @@ void write_growing_video(const fs::path& folder, const fs::path& to) {
   ASSERT_EQ(std::system(command.c_str()), 0);
 }
 
-TEST(BrokenVideo, ThatChangesItsSizeSaysWhere) {
+TEST(BrokenVideo, ReportsTheFrameWhereItsSizeChanges) {
   if (!fs::exists("/usr/bin/ffmpeg")) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   const ScratchFolder folder;
   write_growing_video(folder.path(), folder / "a.mkv");

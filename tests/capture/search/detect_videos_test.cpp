@@ -156,7 +156,7 @@ TEST(DetectVideos, CountsEveryFrameOfEveryCameraOnce) {
 }
 
 // JPEG images in sequence, as sent by network cameras: no header contains their number.
-TEST(DetectVideos, SaysThatItDoesNotKnowTheTotalUntilItsEnd) {
+TEST(DetectVideos, ReportsAnUnknownTotalUntilTheEnd) {
   const ScratchFolder scratch;
   {
     std::ofstream film(scratch / "a.mjpeg", std::ios::binary);

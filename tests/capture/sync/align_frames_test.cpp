@@ -95,7 +95,7 @@ TEST(AlignFrames, GivesACameraOfHalfTheRateEverySecondInstant) {
   EXPECT_EQ(slow[2], 1);
 }
 
-TEST(AlignFrames, LeavesOutWhatComesTwicePerInstant) {
+TEST(AlignFrames, CountsSurplusFramesOfAFasterCamera) {
   const std::vector<CameraTimes> cameras{camera(0, 0.0, 0.0, {}),
                                          camera(1, 0.0, 0.0, {}, 104.0)};
   const auto found = align_frames(cameras, FrameRate{100.0});
@@ -104,7 +104,7 @@ TEST(AlignFrames, LeavesOutWhatComesTwicePerInstant) {
   EXPECT_NEAR(found->cameras[1].surplus, 8, 1);
 }
 
-TEST(AlignFrames, DeclinesWhatTellsNoRate) {
+TEST(AlignFrames, DeclinesTimesWithoutARate) {
   const std::vector<CameraTimes> none{{CameraId{0}, {}}};
   EXPECT_FALSE(align_frames(none));
   const std::vector<CameraTimes> one{{CameraId{0}, {ms(3), ms(13)}}};

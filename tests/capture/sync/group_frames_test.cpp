@@ -163,7 +163,7 @@ TEST(GroupFramesOffline, HandsOutEveryFrameOnceAndAtItsInstant) {
   EXPECT_EQ(tickets.size(), taken);
 }
 
-TEST(GroupFramesOffline, SaysWhoIsMissingInEachGroup) {
+TEST(GroupFramesOffline, ReportsTheMissingCamerasOfEachGroup) {
   const std::vector<ClockModel> clocks(2);
   FrameGrouper grouper(clocks, offline());
   for (const double t : {0.0, 10.0, 30.0}) grouper.offer(kLeft, ms(t), FrameTicket{0});
@@ -299,7 +299,7 @@ TEST(GroupFramesLive, TheNewestGroupWinsWhenTheConsumerIsSlow) {
   EXPECT_FALSE(grouper.next(ms(45)));
 }
 
-TEST(GroupFramesLive, ANewerFrameTakesThePlaceOfAnOlderOneWhenNobodyFetches) {
+TEST(GroupFramesLive, ReplacesTheOldestFrameWhenTheQueueIsFull) {
   GroupFramesOptions options = live();
   options.capacity = 3;
   const std::vector<ClockModel> clocks(1);

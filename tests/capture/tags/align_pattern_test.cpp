@@ -78,7 +78,7 @@ TEST(AlignPattern, MeasuresTheBlur) {
   EXPECT_NEAR(found->blur_px, std::sqrt(1.0 + 1.0 / 12.0), 0.05 /* px */);
 }
 
-TEST(AlignPattern, HeedsNoShadowOverTheTag) {
+TEST(AlignPattern, IgnoresAShadowOverTheTag) {
   const DrawnTag tag = small_tag();
   cv::Mat image = tests::draw_tags(110, 100, {tag});
   for (int x = 0; x < image.cols; ++x) {

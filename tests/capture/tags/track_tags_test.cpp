@@ -91,7 +91,7 @@ TEST(TrackTags, FindsATagAgainWhereItWasGoing) {
   }
 }
 
-TEST(TrackTags, ComesUponANewTagOfTheSameBodySoon) {
+TEST(TrackTags, FindsANewTagOfTheSameBodyWithinTheBodyPeriod) {
   TrackTagsOptions options;
   options.full_every_frames = 1000;
   options.body_every_frames = 3;
@@ -110,7 +110,7 @@ TEST(TrackTags, ComesUponANewTagOfTheSameBodySoon) {
   EXPECT_LE(first_seen, 9);
 }
 
-TEST(TrackTags, ComesUponATagFarAwayWithTheNextWholeSearch) {
+TEST(TrackTags, FindsADistantTagInTheNextFullSearch) {
   TrackTagsOptions options;
   options.full_every_frames = 10;
   auto tracker = TagTracker::create(options);
@@ -141,7 +141,7 @@ TEST(TrackTags, LooksEverywhereOnceAllItFollowedHasLeft) {
   }
 }
 
-TEST(TrackTags, ComesUponATagFarAwayStripByStripAndNeverSearchesWholeForIt) {
+TEST(TrackTags, FindsADistantTagByStripsWithoutAFullSearch) {
   TrackTagsOptions options;
   options.full_every_frames = 10;
   options.strips = 5;
@@ -162,7 +162,7 @@ TEST(TrackTags, ComesUponATagFarAwayStripByStripAndNeverSearchesWholeForIt) {
   EXPECT_LE(first_seen, 13) << "its strip's turn comes once in ten frames";
 }
 
-TEST(TrackTags, LooksForSomebodyStripByStripWhileNobodyIsThere) {
+TEST(TrackTags, SearchesByStripsWhileItHasNoTag) {
   TrackTagsOptions options;
   options.strips = 4;
   auto tracker = TagTracker::create(options);
@@ -179,7 +179,7 @@ TEST(TrackTags, LooksForSomebodyStripByStripWhileNobodyIsThere) {
   EXPECT_LE(first_seen, 4);
 }
 
-TEST(TrackTags, ComesUponANewTagOfTheSameBodyBandByBand) {
+TEST(TrackTags, FindsANewTagOfTheSameBodyByBands) {
   TrackTagsOptions options;
   options.full_every_frames = 1000;
   options.strips = 2;
@@ -198,7 +198,7 @@ TEST(TrackTags, ComesUponANewTagOfTheSameBodyBandByBand) {
   }
 }
 
-TEST(TrackTags, HurriesOnceMostOfWhatItFollowedIsGone) {
+TEST(TrackTags, SearchesFasterAfterItLosesMostTags) {
   TrackTagsOptions options;
   options.full_every_frames = 600;
   options.strips = 12;

@@ -81,7 +81,7 @@ TEST_F(CheckCamera, AdvisesOnBandwidth) {
   EXPECT_NE(advice().find("YUYV needs 55 MB/s"), std::string::npos);
 }
 
-TEST_F(CheckCamera, TellsOfOneThatIsInUse) {
+TEST_F(CheckCamera, ReportsACameraInUse) {
   kernel_.refuse(VIDIOC_S_FMT, EBUSY);
   const CameraCheck found = check();
   EXPECT_TRUE(found.trouble);
@@ -89,7 +89,7 @@ TEST_F(CheckCamera, TellsOfOneThatIsInUse) {
   EXPECT_EQ(summary(found), "another program is using it");
 }
 
-TEST_F(CheckCamera, TellsOfOneThatIsSilentOrForbidden) {
+TEST_F(CheckCamera, ReportsASilentOrForbiddenCamera) {
   camera_.frames.clear();
   const CameraCheck silent = check();
   ASSERT_TRUE(silent.trouble);

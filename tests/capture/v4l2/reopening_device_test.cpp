@@ -57,7 +57,7 @@ TEST_F(Reopening, WithoutItsCameraDoesNotBegin) {
   EXPECT_EQ(device.error().cause, "there is no such device");
 }
 
-TEST_F(Reopening, TellsNothingWhileAllIsWell) {
+TEST_F(Reopening, ReportsNothingDuringNormalStreaming) {
   ReopeningDevice device = open();
   EXPECT_NEAR(run(device, seconds(3)), 90, 2);
   EXPECT_TRUE(told_.empty());
@@ -145,7 +145,7 @@ TEST_F(Reopening, DoesNotTryWithoutPauseWhereEveryAttemptFailsSoon) {
   EXPECT_LE(kernel_.opened - before, 3 * 22) << "three files for each attempt";
 }
 
-TEST_F(Reopening, TellsOfSilenceAndOpensASilentCameraAgain) {
+TEST_F(Reopening, ReportsSilenceOnceAndReopensASilentCamera) {
   ReopeningDevice device = open(30);
   run(device, milliseconds(2500));
   EXPECT_EQ(told_, std::vector<std::string>{"silent"});

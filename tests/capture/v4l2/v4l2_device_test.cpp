@@ -78,7 +78,7 @@ TEST(V4l2Open, RefusesPicturesWithoutASize) {
   EXPECT_EQ(kernel.open_files, 0);
 }
 
-TEST(V4l2List, IsOfCamerasAloneAndTellsOfTheRest) {
+TEST(V4l2List, ContainsOnlyCaptureDevices) {
   FakeKernel kernel;
   kernel.cameras.resize(3);
   kernel.cameras[1].path = "/dev/video1";
@@ -95,7 +95,7 @@ TEST(V4l2List, IsOfCamerasAloneAndTellsOfTheRest) {
   EXPECT_EQ(kernel.open_files, 0);
 }
 
-TEST(V4l2List, TellsOfADeviceThatMayNotBeOpened) {
+TEST(V4l2List, ReportsADeviceWithoutPermission) {
   FakeKernel kernel;
   kernel.refuse_to_open(EACCES);
   const DeviceList list = list_devices(kernel);
@@ -205,7 +205,7 @@ TEST(V4l2Settings, SayWhatACameraCannotSet) {
                    "asked for a focus of 30, and the camera has no such control"));
 }
 
-TEST(V4l2Settings, AreLeftAloneWhenNobodyAsks) {
+TEST(V4l2Settings, KeepTheCamerasValuesWithoutARequest) {
   FakeKernel kernel;
   kernel.cameras[0].controls = {{V4L2_CID_EXPOSURE_AUTO, {0, 3, 3}},
                                 {V4L2_CID_EXPOSURE_ABSOLUTE, {3, 2047, 156}}};
@@ -216,7 +216,7 @@ TEST(V4l2Settings, AreLeftAloneWhenNobodyAsks) {
   EXPECT_TRUE(device->settings().differences.empty());
 }
 
-TEST(V4l2Open, WithoutADeviceSaysSo) {
+TEST(V4l2Open, ReportsAMissingDevice) {
   FakeKernel kernel;
   kernel.cameras[0].plugged = false;
   EXPECT_EQ(refusal(kernel).cause, "there is no such device");
@@ -232,7 +232,7 @@ TEST(V4l2Open, WithoutPermissionNamesTheGroup) {
   }
 }
 
-TEST(V4l2Open, OfABusyDeviceSaysSoWhereverTheKernelDoes) {
+TEST(V4l2Open, ReportsABusyDeviceAtEveryStep) {
   for (const unsigned long request : {0UL, VIDIOC_S_FMT, VIDIOC_REQBUFS}) {
     FakeKernel kernel;
     kernel.refuse(request, EBUSY, 2);
@@ -242,7 +242,7 @@ TEST(V4l2Open, OfABusyDeviceSaysSoWhereverTheKernelDoes) {
   }
 }
 
-TEST(V4l2Open, OfSomethingElseSaysWhatItIs) {
+TEST(V4l2Open, ReportsTheKindOfANonCaptureDevice) {
   FakeKernel kernel;
   kernel.refuse(VIDIOC_QUERYCAP, ENOTTY);
   EXPECT_EQ(refusal(kernel).cause, "it is not a capture device: it is no video device");
@@ -253,7 +253,7 @@ TEST(V4l2Open, OfSomethingElseSaysWhatItIs) {
   EXPECT_EQ(refusal(kernel).cause, "it is not a capture device: it is a video output");
 }
 
-TEST(V4l2Open, WithoutAReadableFormatSaysSo) {
+TEST(V4l2Open, ReportsThatNoFormatIsReadable) {
   FakeKernel kernel;
   kernel.cameras[0].formats = {format(V4L2_PIX_FMT_H264, 640, 480, 30)};
   EXPECT_NE(refusal(kernel).cause.find("none of the picture formats"), std::string::npos);
@@ -273,7 +273,7 @@ TEST(V4l2Open, WithoutBandwidthExplainsIt) {
   }
 }
 
-TEST(V4l2Open, TellsWhichStepTheDriverRefused) {
+TEST(V4l2Open, ReportsTheStepThatTheDriverRefused) {
   const std::pair<unsigned long, const char*> steps[] = {{VIDIOC_REQBUFS, "REQBUFS"},
                                                          {VIDIOC_QUERYBUF, "mapped"},
                                                          {VIDIOC_QBUF, "QBUF"},

@@ -56,7 +56,7 @@ class V4l2Frames : public testing::Test {
   }
 };
 
-TEST(V4l2FramesBetween, AreThoseThatNobodySaw) {
+TEST(V4l2FramesBetween, CountsSkippedSequenceNumbers) {
   EXPECT_EQ(frames_between(4, 5), 0);
   EXPECT_EQ(frames_between(4, 9), 4);
   EXPECT_EQ(frames_between(0xFFFFFFFFU, 0), 0);
@@ -87,7 +87,7 @@ TEST_F(V4l2Frames, ThatAreMissingAreCountedExactlyAcrossTheWrapAround) {
   EXPECT_EQ(counted.dropped, 5);
 }
 
-TEST_F(V4l2Frames, OfBeforeTheStartAreSkippedAndTheJumpAfterThemIsNoLoss) {
+TEST_F(V4l2Frames, SkipStaleFramesBeforeTheStartWithoutCountingALoss) {
   use_mjpg();
   camera_.stamp_flags = 0;
   camera_.frames = frames_from(10, 4);

@@ -58,7 +58,7 @@ TEST(ReadPictures, KeepsColours) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(mean[i], orange[i], 4.0);
 }
 
-TEST(ReadPictures, MakesWidePicturesSmallerAndSaysByHowMuch) {
+TEST(ReadPictures, ScalesWidePicturesAndReportsTheScale) {
   const ScratchFolder scratch;
   tests::write_images(scratch.path(), 1);
   const std::array frames{0};

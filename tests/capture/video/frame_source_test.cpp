@@ -121,7 +121,7 @@ TEST(VideoFile, AcceptsAVideoTrimmedByAnEditList) {
   EXPECT_EQ(source->info().expected_frames, 25);
 }
 
-TEST(VideoFile, SaysHowManyFramesATruncatedVideoLacks) {
+TEST(VideoFile, ReportsHowManyFramesATruncatedVideoContains) {
   const ScratchFolder scratch;
   fs::copy_file(kData / "index_first.mp4", scratch / "cut.mp4");
   tests::truncate(scratch / "cut.mp4", 0.9);

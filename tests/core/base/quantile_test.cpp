@@ -34,7 +34,7 @@ TEST(Quantile, RunsFromTheLeastToTheGreatest) {
   EXPECT_EQ(quantile(values, 1.0), 9.0);
 }
 
-TEST(QuantileDeathTest, OfNothingIsTheCallersMistake) {
+TEST(QuantileDeathTest, MedianOfAnEmptyRangeBreaksTheContract) {
   EXPECT_DEATH((void)median({}), "contract broken");
 }
 

@@ -11,7 +11,7 @@
 namespace marey {
 namespace {
 
-TEST(ErrorMessage, SaysWhereWhatAndWhatNext) {
+TEST(ErrorMessage, ContainsThePlaceTheCauseAndTheNextStep) {
   const Error error = bad_input("walk/cam2.mp4: frame 63",
                                 "the video ends after 63 of 127 frames",
                                 "copy the file from the camera again");

@@ -94,7 +94,7 @@ TEST(PageFrame, AllocatesNothingInABufferThatHasGrown) {
   EXPECT_EQ(testing::allocations(), before);
 }
 
-TEST(PageFrame, BlocksBeginAsTheProtocolSays) {
+TEST(PageFrame, EncodesBlockHeadsByTheProtocol) {
   std::string out;
   append_motion_block_head(258, 3, out);
   EXPECT_EQ(out, "MRMB" + bytes({1, 0, 0, 0, 2, 1, 0, 0, 3, 0, 0, 0}));

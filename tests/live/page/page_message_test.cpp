@@ -91,7 +91,7 @@ TEST(PageScene, HasTheMembersOfTheProtocol) {
                             "scene_from_file":[0.0,0.0,0.0,1.0]})"));
 }
 
-TEST(PageScene, TellsWhereCamerasStand) {
+TEST(PageScene, DescribesCameraPoses) {
   const Json camera = Json::parse(scene_json(full_scene()))["cameras"][0];
   EXPECT_EQ(keys(camera),
             (Keys{"name",
@@ -107,7 +107,7 @@ TEST(PageScene, TellsWhereCamerasStand) {
   EXPECT_TRUE(camera["rms_px"].is_null());
 }
 
-TEST(PageScene, TellsOfARecording) {
+TEST(PageScene, DescribesARecording) {
   const Json scene = Json::parse(scene_json(full_scene()));
   EXPECT_EQ(scene["file"], Json::parse(R"({"frames":3,"first_frame":0,"block":"/media/2",
                 "points_block":null,"tracks":[{"name":"hips","gaps":[[0,2,"inferred"]]}],
@@ -122,7 +122,7 @@ TEST(PageScene, TellsOfARecording) {
                 "active":true,"p_in_world":[0.0,0.0,0.0],"draggable":true}])"));
 }
 
-TEST(PageScene, OfNothingHasEveryMemberStill) {
+TEST(PageScene, KeepsEveryMemberWhenEmpty) {
   const Json scene = Json::parse(scene_json({}));
   EXPECT_EQ(scene["mode"], "live");
   for (const char* name : {"points", "file", "wizard"}) {
@@ -190,7 +190,7 @@ TEST(PageStatus, HasTheMembersOfTheProtocol) {
             Json::parse(R"({"file":"take.sqlite","seconds":12.0,"trouble":""})"));
 }
 
-TEST(PageWizard, TellsHowMuchOfEachPictureWasSeen) {
+TEST(PageWizard, ReportsTheCoverageOfEachPicture) {
   PageWizard wizard;
   wizard.step = WizardStep::kMove;
   wizard.quality.push_back(
@@ -208,7 +208,7 @@ TEST(PageWizard, TellsHowMuchOfEachPictureWasSeen) {
   EXPECT_EQ(keys(message["quality"][0]), (Keys{"name", "value", "good"}));
 }
 
-TEST(PageError, SaysWhatWasNotUnderstood) {
+TEST(PageError, ReportsTheCauseAndTheSubject) {
   EXPECT_EQ(error_json("id is missing"), R"({"type":"error","text":"id is missing"})");
   EXPECT_EQ(error_json("too early", "wizard"),
             R"({"type":"error","text":"too early","about":"wizard"})");

@@ -21,7 +21,7 @@ T read(const char* text) {
   return found == nullptr ? T{} : *found;
 }
 
-TEST(PageRequest, ReadsWhatThePageSays) {
+TEST(PageRequest, ReadsEveryTypeOfRequest) {
   EXPECT_EQ(read<HelloRequest>(R"({"type":"hello","version":1})").version, 1);
   EXPECT_EQ(read<ShownRequest>(R"({"type":"shown","sent_s":2.5})").sent_s, 2.5);
   const auto constraint =

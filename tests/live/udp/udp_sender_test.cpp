@@ -62,7 +62,7 @@ TEST(UdpSender, ReachesEveryTarget) {
   EXPECT_EQ(sender.counts()[0].failed + sender.counts()[0].refused, 0);
 }
 
-TEST(UdpSender, GoesOnWhenNobodyListensAndWhenSomebodyComesBack) {
+TEST(UdpSender, KeepsSendingWhenATargetClosesAndReopens) {
   auto other = *UdpListener::open(here(0));
   int port = 0;
   {
@@ -103,7 +103,7 @@ TEST(UdpSender, NeverWaitsForAReceiverThatDoesNotRead) {
   EXPECT_EQ(counts.sent + counts.failed, 200);
 }
 
-TEST(UdpSender, SaysThatThereIsNoSuchHost) {
+TEST(UdpSender, ReportsAnUnknownHost) {
   // RFC 6761: nobody may ever be called so.
   const std::vector<UdpAddress> targets{{"nobody.invalid", 39539}};
   const auto sender = UdpSender::open(targets);
@@ -115,7 +115,7 @@ TEST(UdpSender, SaysThatThereIsNoSuchHost) {
               sender.error().code == Errc::kDevice);
 }
 
-TEST(UdpListener, SaysThatAPortIsTaken) {
+TEST(UdpListener, ReportsAPortInUse) {
   const auto first = *UdpListener::open(here(0));
   const auto second = UdpListener::open(here(first.port()));
   ASSERT_FALSE(second);

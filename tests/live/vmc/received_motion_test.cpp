@@ -59,7 +59,7 @@ TEST(MotionResampler, PassesOverWhatDoesNotGoOn) {
 
 // Two seconds of packets, of which one or all from the middle on tell another time: the
 // motion is two seconds long, with all that came of the rest.
-TEST(MotionResampler, IsAsLongAsItWasHeardWhateverTheSenderSaysOfItsTime) {
+TEST(MotionResampler, KeepsTheReceivedDurationWhenSenderTimesJump) {
   for (const double jump_s : {-5.0, 5.0, 0.9, 3e6, -3e6, 1e30, -1e30, 1.7e308}) {
     for (const bool stays : {false, true}) {
       SenderClock clock;

@@ -212,7 +212,7 @@ TEST(VmcAssembler, GetsUsedToFewerBones) {
   EXPECT_LE(other.assembler.received().incomplete, 4);
 }
 
-TEST(VmcAssembler, FollowsASenderThatBeginsAnew) {
+TEST(VmcAssembler, FollowsASenderThatRestarts) {
   OtherSender other;
   for (const float time : {100.0F, 100.1F, 0.0F, 0.1F}) {
     other.time(time).bone("Hips").send();

@@ -97,7 +97,7 @@ void expect_shown(const Skeleton& body,
   }
 }
 
-TEST(VmcBody, RawIsWhatTheAvatarsOwnNodesShowInUnity) {
+TEST(VmcBody, RawMatchesTheAvatarsOwnNodesInUnity) {
   Dice dice(1);
   for (int i = 0; i < 10; ++i) {
     const Skeleton body = any_body(dice);
@@ -109,7 +109,7 @@ TEST(VmcBody, RawIsWhatTheAvatarsOwnNodesShowInUnity) {
   }
 }
 
-TEST(VmcBody, Vrm0IsWhatANormalisedAvatarShowsInUnity) {
+TEST(VmcBody, Vrm0MatchesANormalisedAvatarInUnity) {
   Dice dice(2);
   for (int i = 0; i < 10; ++i) {
     const Skeleton t_posed = any_body(dice);
@@ -197,7 +197,7 @@ TEST(VmcBody, RawKnowsOfANodeAboveTheFirstJoint) {
               1e-12);
 }
 
-TEST(VmcBody, TellsIdentityInTheTPoseAndTheAvatarsOwnOffsets) {
+TEST(VmcBody, SendsIdentityInTheTPoseAndTheAvatarsOwnOffsets) {
   Dice dice(3);
   const Skeleton body = any_body(dice);
   const VmcBody vmc = *VmcBody::make(body);
@@ -214,7 +214,7 @@ TEST(VmcBody, TellsIdentityInTheTPoseAndTheAvatarsOwnOffsets) {
 
 // A hand computation: the left arm straight down is, in Unity, a turn of the left upper
 // arm by +90 degrees about Z.
-TEST(VmcBody, TellsALoweredLeftArmAsAQuarterTurnAboutZ) {
+TEST(VmcBody, SendsALoweredLeftArmAsAQuarterTurnAboutZ) {
   const Skeleton body = make_humanoid(average_proportions(1.7));
   Pose pose = rest_pose(body);
   pose.parent_from_joint[index(HumanBone::kLeftUpperArm)] =
@@ -228,7 +228,7 @@ TEST(VmcBody, TellsALoweredLeftArmAsAQuarterTurnAboutZ) {
   EXPECT_LT(sent.local[index(UnityBone::kLeftLowerArm)].position.x, -0.1);
 }
 
-TEST(VmcBody, TellsTheBonesThatThereAreAndNoOthers) {
+TEST(VmcBody, SendsOnlyTheBonesOfTheBody) {
   Dice dice(4);
   const Skeleton body = testing::without(any_body(dice), HumanBone::kUpperChest);
   const VmcBody vmc = *VmcBody::make(body);
@@ -243,7 +243,7 @@ TEST(VmcBody, TellsTheBonesThatThereAreAndNoOthers) {
   }
 }
 
-TEST(VmcBody, ReadsBackWhatItTells) {
+TEST(VmcBody, RecoversThePoseFromItsOwnOutput) {
   Dice dice(5);
   for (const VmcRest kind : {VmcRest::kVrm0, VmcRest::kRaw}) {
     for (int i = 0; i < 10; ++i) {
@@ -319,7 +319,7 @@ TEST(VmcBody, GivesWhatALackedBoneTurnsToTheBonesBelow) {
   }
 }
 
-TEST(VmcBody, RestsWhereNothingIsTold) {
+TEST(VmcBody, UsesTheRestPoseForMissingBones) {
   Dice dice(8);
   const Skeleton body = any_body(dice);
   const auto rest = world_from_joints(body, rest_pose(body));

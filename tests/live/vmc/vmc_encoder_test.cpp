@@ -136,7 +136,7 @@ TEST(VmcEncoder, SplitsAFrameAtTheLimitWithTInTheFirst) {
   for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].texts, parts[i].texts);
 }
 
-TEST(VmcEncoder, TellsTimeSinceTheFirstFrameWithoutGoingBack) {
+TEST(VmcEncoder, SendsIncreasingTimesSinceTheFirstFrame) {
   VmcEncoder encoder = *VmcEncoder::make();
   const VmcPose nobody;
   double last = -1.0;
@@ -153,7 +153,7 @@ TEST(VmcEncoder, TellsTimeSinceTheFirstFrameWithoutGoingBack) {
   }
 }
 
-TEST(VmcEncoder, SendsInEveryNthFrameWhatIsAskedForSeldom) {
+TEST(VmcEncoder, SendsStatusRootAndBonesAtTheirPeriods) {
   VmcEncoder encoder = *VmcEncoder::make();
   const VmcPose pose = some_pose(4);
   encoder.set_periods({.status = 2, .root = 3, .bone = 4});
@@ -188,7 +188,7 @@ TEST(VmcEncoder, TakesPeriodsThatCannotBeForTheNearestThatCan) {
   }
 }
 
-TEST(VmcEncoder, TellsOfItselfAtFirstOnceASecondAndWhenAsked) {
+TEST(VmcEncoder, SendsItsInfoAtFirstEverySecondAndOnRequest) {
   VmcEncoderOptions options;
   options.info = {
       .listen_port = 39540, .options = "marey", .vrm_path = "me.vrm", .vrm_title = "Me"};

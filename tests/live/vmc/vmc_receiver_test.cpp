@@ -24,7 +24,7 @@ VmcPose body_at_rest() {
   return sent;
 }
 
-TEST(VmcReceiver, HearsWhatASenderSends) {
+TEST(VmcReceiver, ReceivesTheFramesOfASender) {
   auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
   auto sender = sender_to(receiver);
   const VmcPose sent = body_at_rest();
@@ -56,7 +56,7 @@ TEST(VmcReceiver, HandsOutEveryFrameToWhomeverWantsAll) {
   EXPECT_FALSE(receiver.receive_next(frame));
 }
 
-TEST(VmcReceiver, DropsStrangersPackets) {
+TEST(VmcReceiver, CountsAndDropsForeignPackets) {
   auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
   const std::vector<UdpAddress> targets{{"127.0.0.1", receiver.port()}};
   auto stranger = *UdpSender::open(targets);
@@ -70,7 +70,7 @@ TEST(VmcReceiver, DropsStrangersPackets) {
   EXPECT_EQ(receiver.received().ignored, 1);
 }
 
-TEST(VmcReceiver, SaysThatItsPortIsTaken) {
+TEST(VmcReceiver, ReportsAPortInUse) {
   const auto first = *VmcReceiver::open({"127.0.0.1", 0});
   const auto second = VmcReceiver::open({"127.0.0.1", first.port()});
   ASSERT_FALSE(second);

@@ -41,7 +41,7 @@ int count(const std::vector<ReadMessage>& messages, const std::string& address) 
   return static_cast<int>(std::ranges::count(messages, address, &ReadMessage::address));
 }
 
-TEST(VmcSender, SendsOneBundleAFrameAndTellsItsPort) {
+TEST(VmcSender, SendsOneBundlePerFrameAndItsListenPort) {
   Stage stage;
   const auto first = stage.next_frame();
   EXPECT_EQ(count(first, "/VMC/Ext/Bone/Pos"), 1);
@@ -51,7 +51,7 @@ TEST(VmcSender, SendsOneBundleAFrameAndTellsItsPort) {
   EXPECT_EQ(stage.sender.counts()[0].sent, 2);
 }
 
-TEST(VmcSender, SendsAsSeldomAsItIsAskedTo) {
+TEST(VmcSender, AppliesRequestedPeriods) {
   Stage stage;
   (void)stage.next_frame();
   OscWriter command;
@@ -74,7 +74,7 @@ TEST(VmcSender, SendsAsSeldomAsItIsAskedTo) {
   EXPECT_EQ(roots, 4);
 }
 
-TEST(VmcSender, TellsOfItselfWhenAsked) {
+TEST(VmcSender, SendsItsInfoOnRequest) {
   Stage stage;
   (void)stage.next_frame();
   OscWriter command;
@@ -129,7 +129,7 @@ TEST(VmcSender, AllocatesNothingPerFrame) {
   EXPECT_EQ(testing::allocations() - before, 0);
 }
 
-TEST(VmcSender, SaysThatItsPortIsTaken) {
+TEST(VmcSender, ReportsAPortInUse) {
   const auto taken = *UdpListener::open({"127.0.0.1", 0});
   const auto sender = VmcSender::open({.targets = {{"127.0.0.1", 39539}},
                                        .listen = UdpAddress{"127.0.0.1", taken.port()}});

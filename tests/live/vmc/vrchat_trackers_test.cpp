@@ -91,7 +91,7 @@ TEST(VrchatTrackers, StandAtTheJointsAndAreNotTurnedInTheTPose) {
 }
 
 // In Unity a positive turn about x tips forward, about y turns to the right.
-TEST(VrchatTrackers, TellAngles) {
+TEST(VrchatTrackers, SendEulerAnglesInUnityAxes) {
   const Skeleton body = make_humanoid(average_proportions(1.7));
   Pose pose = rest_pose(body);
   // A quarter turn to the right (clockwise from above), after a bow by 30 degrees.

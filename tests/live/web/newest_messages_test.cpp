@@ -42,7 +42,7 @@ TEST(NewestMessages, AreHadOnceByEachReader) {
   EXPECT_EQ(all(messages, late), (Texts{"scene", "status 2"}));
 }
 
-TEST(NewestMessages, ReplaceWhatNobodyHadYet) {
+TEST(NewestMessages, ReplaceUnreadMessages) {
   NewestMessages messages;
   NewestMessages::Reader reader;
   for (int i = 0; i < 10; ++i) messages.put(kFrame, std::to_string(i));

@@ -117,7 +117,7 @@ TEST(RequestCheck, WantsTheTokenInQueryOrCookie) {
   }
 }
 
-TEST(RequestCheck, TellsEtagsApart) {
+TEST(RequestCheck, MatchesWholeEtagsAndAWildcard) {
   EXPECT_TRUE(has_etag("\"a\"", "\"a\""));
   EXPECT_TRUE(has_etag("\"b\" ,W/\"a\"", "\"a\""));
   EXPECT_TRUE(has_etag("*", "\"a\""));

@@ -40,7 +40,7 @@ bool soon(const Claim& claim) {
   return false;
 }
 
-TEST(WebPages, AreToldTheSceneFirst) {
+TEST(WebPages, ReceiveTheSceneFirst) {
   WebServer server = serve();
   server.publish_text(PageMessage::kStatus, "status");
   server.publish_frame("old frame");
@@ -86,7 +86,7 @@ TEST(WebPages, AreSentWhatIsPublishedWhileTheyAreOpen) {
   EXPECT_EQ(message->opcode, kText);
 }
 
-TEST(WebPages, ThatDoNotReadDelayNobodyAndMissFrames) {
+TEST(WebPages, SkipFramesWithoutDelayToTheServerWhenTheyReadSlowly) {
   WebServer server = serve();
   WebSocketClient slow(server.port());
   ASSERT_EQ(status(slow.upgrade()), 101);
@@ -128,7 +128,7 @@ TEST(WebPages, ArePublishedToWithoutAllocating) {
   EXPECT_EQ(allocations(), before);
 }
 
-TEST(WebPages, AreHeardInOrder) {
+TEST(WebPages, DeliverTheirTextsInOrder) {
   WebServer server = serve();
   EXPECT_FALSE(server.wait_for_text(0ms));
   for (int half = 0; half < 2; ++half) {
@@ -199,7 +199,7 @@ TEST(WebPages, AreCutOffWhenTheyPingTooMuch) {
   while (const auto answer = page.receive_message()) EXPECT_EQ(answer->opcode, kPong);
 }
 
-TEST(WebPages, AreClosedOnWhatIsNoMessageOfTheirs) {
+TEST(WebPages, AreClosedAfterAMalformedMessage) {
   WebServer server = serve();
   struct Case {
     const char* what;
@@ -235,7 +235,7 @@ TEST(WebPages, AreClosedOnWhatIsNoMessageOfTheirs) {
   EXPECT_FALSE(server.wait_for_text(0ms));
 }
 
-TEST(WebPages, AreForgottenWhenTheyLeave) {
+TEST(WebPages, AreRemovedWhenTheyDisconnect) {
   WebServer server = serve();
   {
     WebSocketClient polite(server.port());

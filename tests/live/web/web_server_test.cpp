@@ -58,7 +58,7 @@ TEST(WebServer, ServesWhatItWasGivenAndNothingElse) {
   }
 }
 
-TEST(WebServer, SaysWhatABrowserMayDoWithThePage) {
+TEST(WebServer, SendsSecurityHeadersWithThePage) {
   WebServer server = serve();
   const std::string answer = fetch(server.port(), "/page.js");
   const std::string policy = header(answer, "Content-Security-Policy");
@@ -73,7 +73,7 @@ TEST(WebServer, SaysWhatABrowserMayDoWithThePage) {
   EXPECT_EQ(header(answer, "Cross-Origin-Resource-Policy"), "same-origin");
 }
 
-TEST(WebServer, SaysWhatABrowserMayDoWithAPageOfItsOwnPolicy) {
+TEST(WebServer, SendsTheContentsOwnSecurityPolicy) {
   WebServer server = serve();
   WebContent report = text("/report.html", "<p>");
   report.policy = "default-src 'none'";
@@ -95,7 +95,7 @@ TEST(WebServer, SendsNothingAgainToWhoHasIt) {
   EXPECT_EQ(body(changed), "let b;");
 }
 
-TEST(WebServer, LetsNobodyKeepWhatBelongsToOneRun) {
+TEST(WebServer, ForbidsCachingOfMedia) {
   WebServer server = serve();
   server.put(text("/media/7", "first"));
   EXPECT_EQ(header(fetch(server.port(), "/media/7"), "Cache-Control"), "no-store");
@@ -103,7 +103,7 @@ TEST(WebServer, LetsNobodyKeepWhatBelongsToOneRun) {
   EXPECT_EQ(body(fetch(server.port(), "/media/7")), "second");
 }
 
-TEST(WebServer, TellsTheSizeToHead) {
+TEST(WebServer, ReturnsTheSizeForHead) {
   WebServer server = serve();
   const std::string answer = fetch(server.port(), "/page.js", {}, "HEAD");
   EXPECT_EQ(status(answer), 200);
@@ -196,7 +196,7 @@ TEST(WebServer, OnlyLetsRead) {
   EXPECT_EQ(status(fetch(server.port(), "/page.js", "Content-Length: 5\r\n")), 400);
 }
 
-TEST(WebServer, ClosesOnWhatIsNoRequest) {
+TEST(WebServer, RejectsMalformedRequests) {
   WebServer server = serve();
   const std::string long_header = "X-A: " + std::string(9000, 'a') + "\r\n";
   EXPECT_EQ(status(fetch(server.port(), "/page.js", long_header)), 431);
@@ -207,7 +207,7 @@ TEST(WebServer, ClosesOnWhatIsNoRequest) {
   EXPECT_EQ(status(fetch(server.port(), "/page.js")), 200);
 }
 
-TEST(WebServer, SaysThatItsPortIsInUse) {
+TEST(WebServer, ReportsAPortInUse) {
   WebServer server = serve();
   WebServerOptions options;
   options.port = server.port();

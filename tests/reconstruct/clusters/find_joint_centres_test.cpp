@@ -124,7 +124,7 @@ TEST(FindJointCentre, LeavesTheAxisOfAHingeAtItsExpectation) {
   EXPECT_LT(centre->observability, 1e-6);
 }
 
-TEST(FindJointCentre, SuffersLittleFromWrongPoses) {
+TEST(FindJointCentre, KeepsItsAccuracyWithWrongPoses) {
   Dice dice(3);
   std::vector<SegmentPair> instants;
   for (int i = 0; i < 100; ++i) {

@@ -67,7 +67,7 @@ TEST(JointBetweenClusters, SoftTissueAndDropoutsAreSeenThrough) {
   EXPECT_LT(found->soft_tissue_a_m, 0.001);
 }
 
-TEST(JointBetweenClusters, WhatDoesNotTurnIsKnownBadly) {
+TEST(JointBetweenClusters, ReportsALargeUncertaintyForASmallRotation) {
   const JointSimulation s = simulate_joint({.cone_rad = 0.02, .frames = 60, .seed = 3});
   const auto found = find(s);
   if (found) {

@@ -161,7 +161,7 @@ TEST(LocateRigid, IsUnambiguousWhenAllStartsEndInOnePlace) {
   EXPECT_EQ(pose->ambiguity_ratio, std::numeric_limits<double>::infinity());
 }
 
-TEST(LocateRigid, SuffersLittleFromOneWrongCorner) {
+TEST(LocateRigid, KeepsItsAccuracyWithOneWrongCorner) {
   const auto cameras = ring_of_cameras();
   const RigidTransform truth{rotation_from_vector({0.0, 0.7, 0.0}) *
                                  rotation_from_vector({std::numbers::pi, 0.0, 0.0}),

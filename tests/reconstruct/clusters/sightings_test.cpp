@@ -54,7 +54,7 @@ TEST(GroupSightings, OrderAFrameByTagThenCamera) {
   EXPECT_EQ(frame[2].detection, &detections[0].frames[0].tags[0]);
 }
 
-TEST(GroupSightings, LeaveOutTagsThatNobodyWears) {
+TEST(GroupSightings, LeavesOutTagsThatAreNotWorn) {
   const std::vector<CameraDetections> detections{camera_with(0, {{0, {7, 40, 99}}})};
   const auto frame = group_sightings(detections, kTags).frames.at(0);
   ASSERT_EQ(frame.size(), 1U);

@@ -47,7 +47,7 @@ TEST(Landmarks, HaveDifferentNamesThatFindThem) {
   EXPECT_EQ(find_landmark(""), nullptr);
 }
 
-TEST(Landmarks, OfTheLeftAreMirroredOnTheRight) {
+TEST(Landmarks, MirrorTheLeftSideOnTheRight) {
   std::size_t left = 0;
   std::size_t right = 0;
   for (const Landmark& landmark : landmarks()) {
@@ -64,7 +64,7 @@ TEST(Landmarks, OfTheLeftAreMirroredOnTheRight) {
   EXPECT_EQ(left, right);
 }
 
-TEST(Landmarks, OfTheMiddleAreOnTheMiddle) {
+TEST(Landmarks, LieInTheMiddlePlaneWithoutASide) {
   for (const Landmark& landmark : landmarks()) {
     if (landmark.name.starts_with("left_") || landmark.name.starts_with("right_"))
       continue;

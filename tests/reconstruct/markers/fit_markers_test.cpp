@@ -33,7 +33,7 @@ const LabelVerdict& verdict(const MarkersFit& fit, std::string_view label) {
   });
 }
 
-TEST(FitMarkers, MeasuresSomebodyWhoMoves) {
+TEST(FitMarkers, MeasuresAMovingBody) {
   MovingBodyOptions options;
   options.noise_m = 0.001;
   const MovingBody moving = moving_body(options);

@@ -93,7 +93,7 @@ TEST(FindFlights, NoiseOfATenthOfAMillimetreMovesThemByAPoseAtMost) {
   EXPECT_NEAR(flights[0].landing_s, jump.landing_s, 0.018);
 }
 
-TEST(FindFlights, WhoStandsOrOnlyCrouchesDoesNotFly) {
+TEST(FindFlights, FindsNoFlightInStandingOrCrouching) {
   EXPECT_TRUE(find_flights(jumping(Jump{1.0, 1.42}, 100.0, 0.9, 0.0)).empty());
   EXPECT_TRUE(find_flights(jumping(Jump{9.0, 9.4}, 100.0, 2.0, 0.0)).empty());
 }

@@ -78,7 +78,7 @@ TEST(JointAngles, NamesAreOpenSims) {
   EXPECT_FALSE(is_angle(C::kPelvisTy));
 }
 
-TEST(JointAngles, ThoseThatAPoseWasMadeOfComeBack) {
+TEST(JointAngles, MatchTheAnglesOfTheGeneratedPoses) {
   const Motion motion = swinging(400);
   const JointAngles angles = joint_angles(motion);
   ASSERT_EQ(angles.values.size(), 400 * kCoordinateCount);
@@ -263,7 +263,7 @@ TEST(JointAngles, AnArmThatIsRaisedSidewaysGoesOnOverhead) {
   }
 }
 
-TEST(JointAngles, AMotionThatBeginsInTheTPoseBeginsWithWhatComesAfter) {
+TEST(JointAngles, TakeLaterValuesInATPoseAtTheStart) {
   auto frames = sweep("arm_add_l", -90.0 * kDegree, 0.0, 50);
   frames.insert(frames.begin(), 20, frames.front());
   for (Angles& angles : frames) angles[index(C::kArmRotationLeft)] = 0.3;

@@ -120,7 +120,7 @@ TEST(BoneFrameOfPosture, BendsTheSpineHalfWayAtItsMiddle) {
       turn_rad(spine, posture.rotation(PoseParameter::kAbdomenEnd)), 0.5 * whole, 1e-12);
 }
 
-TEST(SlotsOf, AreExactlyThoseThatMoveTheBone) {
+TEST(SlotsOf, ListsExactlyTheParametersThatMoveTheBone) {
   Dice dice(6);
   const Lengths lengths = random_lengths(dice);
   const BodyFrame frame = average_frame();

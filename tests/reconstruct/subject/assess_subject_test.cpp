@@ -162,7 +162,7 @@ TEST(AssessSubject, NamesALimbThatStandsTurnedAboutItself) {
       << fit.warning_text();
 }
 
-TEST(AssessSubject, NamesSidesThatDifferAndLengthsThatNobodyHas) {
+TEST(AssessSubject, WarnsOfUnequalSidesAndImplausibleLengths) {
   Fitted fit;
   fit.bundle.model.lengths[index(Length::kRightLowerLeg)] = 0.455;
   EXPECT_NE(

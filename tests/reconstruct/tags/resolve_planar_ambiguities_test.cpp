@@ -75,7 +75,7 @@ struct LoneArm {
   }
 };
 
-TEST(ResolvePlanarAmbiguities, AreAskedWhereOneCameraSeesOneTagOfALimb) {
+TEST(ResolvePlanarAmbiguities, FindsStretchesWhereOneCameraSeesOneTagOfALimb) {
   const LoneArm scene(HumanBone::kRightLowerArm, 0, 1);
   const std::vector<SingleViewInterval> found = scene.stretches();
   ASSERT_EQ(found.size(), 1u);
@@ -83,7 +83,7 @@ TEST(ResolvePlanarAmbiguities, AreAskedWhereOneCameraSeesOneTagOfALimb) {
   EXPECT_GE(found[0].first + found[0].count, static_cast<std::size_t>(kLastLone + 1));
 }
 
-TEST(ResolvePlanarAmbiguities, AreAskedOfPiecesOfLongStretches) {
+TEST(ResolvePlanarAmbiguities, DividesLongStretchesIntoPieces) {
   const LoneArm scene(HumanBone::kRightLowerArm, 0, 1);
   const std::vector<SingleViewInterval> whole = scene.stretches();
   ASSERT_EQ(whole.size(), 1u);

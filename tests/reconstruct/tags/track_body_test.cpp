@@ -295,7 +295,7 @@ TEST(TrackBody, RejectsAnothersTagOfTheSameId) {
   EXPECT_EQ(rejected, scene.film.frames);
 }
 
-TEST(TrackBody, TakesDroppedFramesForWhatTheyAre) {
+TEST(TrackBody, KeepsItsAccuracyWhenFramesAreDropped) {
   Scene scene;
   scene.dropped = [](int frame) { return frame % 3 == 1 || (frame > 30 && frame < 36); };
   std::vector<double> off;

@@ -13,7 +13,7 @@
 namespace marey::reconstruct {
 namespace {
 
-TEST(CheckTracks, FindsNothingInWhatIsRight) {
+TEST(CheckTracks, ReportsNothingForCorrectTracks) {
   const MarkerTracks tracks = testing::synthetic_markers(400, 0.001);
   const CheckedTracks checked = check_tracks(tracks);
   EXPECT_TRUE(checked.findings.empty());
@@ -84,7 +84,7 @@ TEST(CheckTracks, TakesOutWhatFroze) {
   EXPECT_FALSE(checked.tracks.at(121, 6));
 }
 
-TEST(CheckTracks, WhoStandsStillIsNotFrozen) {
+TEST(CheckTracks, ReportsNoFrozenMarkersForAStillBody) {
   MarkerTracks tracks = testing::synthetic_markers(1, 0.0005);
   const auto first = tracks.samples;
   for (int f = 0; f < 99; ++f) {

@@ -106,7 +106,7 @@ TEST(RepairGaps, BeforeTheFirstSightItIsInferred) {
   EXPECT_EQ(repaired.tracks.at(10, 7)->source, Source::kInferred);
 }
 
-TEST(RepairGaps, WhatCannotBeKnownIsLeftEmpty) {
+TEST(RepairGaps, LeavesUnknownGapsEmpty) {
   MarkerTracks holed = testing::synthetic_markers(200);
   cut(holed, 4, 0, 200);  // never seen
   // From frame 100 on only one marker is seen.

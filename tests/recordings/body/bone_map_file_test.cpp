@@ -25,7 +25,7 @@ std::string refusal(const std::string& text, const Skeleton& skeleton = body()) 
   return map ? "" : map.error().message();
 }
 
-TEST(BoneMapFile, StandsBesideItsBody) {
+TEST(BoneMapFile, TakesItsPathFromTheBodyFile) {
   EXPECT_EQ(bone_map_path("a/man.v2.glb"), std::filesystem::path("a/man.v2.bones.toml"));
 }
 
@@ -77,7 +77,7 @@ TEST(BoneMapFile, NamesWhatIsWrongAndTheNearestWord) {
   EXPECT_NE(refusal("[bones\n").find("man.bones.toml:1"), std::string::npos);
 }
 
-TEST(BoneMapFile, CannotTellJointsOfOneNameApart) {
+TEST(BoneMapFile, DeclinesAndOmitsJointsThatShareAName) {
   Skeleton twins = body();
   twins.joints[5].name = twins.joints[4].name;
   EXPECT_EQ(refusal("[bones]\nneck = \"the neck\"\n", twins),

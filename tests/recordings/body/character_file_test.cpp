@@ -43,7 +43,7 @@ bool says(const std::string& message, const std::string& part) {
   return message.find(part) != std::string::npos;
 }
 
-TEST(CharacterFile, SaysWhatTheDocumentationSays) {
+TEST(CharacterFile, ReadsTheExampleOfTheDocumentation) {
   const CharacterSpec spec = parsed(documented());
   EXPECT_EQ(spec.name, "Ann");
   ASSERT_TRUE(std::holds_alternative<AvatarBody>(spec.body));
@@ -134,7 +134,7 @@ TEST(CharacterFile, IsBriefForAnAverageBody) {
   EXPECT_EQ(spec.traits.flexibility.min_trunk_thigh_angle_rad, 0.0);
 }
 
-TEST(CharacterFile, FindsBodiesBesideItself) {
+TEST(CharacterFile, ResolvesBodyPathsAgainstItsFolder) {
   const ScratchFolder folder;
   CharacterSpec spec = a_character();
   spec.body = SubjectBody{"../ann/subject.toml"};
@@ -176,7 +176,7 @@ TEST(CharacterFile, WantsOneBody) {
   EXPECT_TRUE(says(mistake("\"../avatars/ann.vrm\"", "\"\""), "the path is empty"));
 }
 
-TEST(CharacterFile, RefusesWhatNobodyWeighs) {
+TEST(CharacterFile, RefusesMassesOutsideTheirRange) {
   EXPECT_TRUE(says(mistake("mass_kg = 61.5", "mass_kg = 0"),
                    "c.toml:4: \"mass_kg\" is 0, not between 0.01 and 1000 kg"));
   EXPECT_TRUE(says(mistake("leftFoot = 0.4", "leftFoot = -0.4"), "\"leftFoot\" is -0.4"));
@@ -191,7 +191,7 @@ TEST(CharacterFile, RefusesLimitsTheWrongWayRound) {
                    "not between 0 and 180 degrees"));
 }
 
-TEST(CharacterFile, RefusesLoadsThatCannotBeToldApart) {
+TEST(CharacterFile, RefusesLoadsWithoutAUniqueNameOrASegment) {
   const std::string twice =
       documented() + "[[load]]\nname = \"bag\"\nsegment = \"head\"\nmass_kg = 1\n";
   const auto spec = parse_character_spec(twice, "c.toml");

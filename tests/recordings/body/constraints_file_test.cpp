@@ -151,7 +151,7 @@ TEST(ConstraintsFile, LeavesWhatAFileLeavesOutAsTheNounHasIt) {
   EXPECT_EQ(stands.point.offset_in_t_pose, glm::dvec3(0.0));
 }
 
-TEST(ConstraintsFile, KeepsWhatItDoesNotKnowAndSaysSo) {
+TEST(ConstraintsFile, KeepsAndReportsUnknownElements) {
   const std::string gaze = "<Gaze>\n    <name>g</name><at x=\"/\" y='>'/>\n  </Gaze>";
   const std::string colour = "<acuracy unit = \"m\">0.1<!-- </acuracy> --></acuracy>";
   std::string text = annex_with("<priority>", colour + "\n    <priority>");
@@ -171,7 +171,7 @@ TEST(ConstraintsFile, KeepsWhatItDoesNotKnowAndSaysSo) {
   EXPECT_NE(written.find("\n  " + gaze + "\n</ConstraintsSet>"), std::string::npos);
 }
 
-TEST(ConstraintsFile, TellsWhatItDoesNotKeep) {
+TEST(ConstraintsFile, ReportsUnknownContentThatItDoesNotKeep) {
   const ConstraintFile file =
       read(annex_with("<localOffset>", "<localOffset unit=\"mm\"><W/>"));
   ASSERT_EQ(file.notes.size(), 2U);
@@ -181,7 +181,7 @@ TEST(ConstraintsFile, TellsWhatItDoesNotKeep) {
             std::string::npos);
 }
 
-TEST(ConstraintsFile, TellsTwentyOddThingsAndHowManyMoreThereAre) {
+TEST(ConstraintsFile, ReportsTwentyNotesAndTheNumberOfTheOthers) {
   std::string text = "<ConstraintsSet>";
   for (int i = 0; i < 25; ++i) text += "<Odd/>";
   const ConstraintFile file = read(text + "</ConstraintsSet>");
@@ -230,7 +230,7 @@ TEST(ConstraintsFile, TakesS4DMakersNamesForVrms) {
   EXPECT_EQ(segment("tail_03"), "tail_03");
 }
 
-TEST(ConstraintsFile, RefusesAnOrientationThatIsNoneAndMendsARoundedOne) {
+TEST(ConstraintsFile, RefusesANonUnitQuaternionAndNormalizesARoundedOne) {
   const auto orientation = [](const std::string& w) {
     return "<ConstraintsSet><Orientation><name>o</name><bodyPoint><segment>head</segment>"
            "</bodyPoint>\n<specif><orientation><W>" +
@@ -295,7 +295,7 @@ TEST(ConstraintsFile, WritesAFileThatReadsBack) {
   EXPECT_EQ(text_of(read_constraints(path)->set), text_of(one_of_each()));
 }
 
-TEST(ConstraintsFile, SaysThatAFileIsNotThereOrTooBig) {
+TEST(ConstraintsFile, ReportsAMissingOrTooLargeFile) {
   const testing::ScratchFolder folder;
   const auto none = read_constraints(folder / "none.xml");
   ASSERT_FALSE(none);

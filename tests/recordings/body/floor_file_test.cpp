@@ -24,7 +24,7 @@ Floor parsed(const std::string& text) {
   return floor ? *floor : Floor{};
 }
 
-TEST(FloorFile, SaysWhatTheDocumentationSays) {
+TEST(FloorFile, ReadsTheExampleOfTheDocumentation) {
   const Floor floor = parsed(documented());
   EXPECT_EQ(floor.base_height_m, 0.0);
   ASSERT_EQ(floor.parts.size(), 3U);

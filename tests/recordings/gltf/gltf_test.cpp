@@ -222,7 +222,7 @@ TEST(WriteRetargeted, MovesRealAvatarsAndKeepsTheirMesh) {
   }
 }
 
-TEST(WriteRetargeted, TakesInTheImagesBesideATextFile) {
+TEST(WriteRetargeted, EmbedsTheImagesNextToATextFile) {
   const ScratchFolder folder;
   const auto source = avatar("kaykit/manny_med_mod.gltf");
   if (!exists(source)) GTEST_SKIP() << "no avatars here";
@@ -256,7 +256,7 @@ std::string refusal(const ScratchFolder& folder, std::string_view bytes) {
   return read.error().cause;
 }
 
-TEST(ReadCharacter, SaysThatAFileIsCutShort) {
+TEST(ReadCharacter, ReportsATruncatedFile) {
   const ScratchFolder folder;
   const Sample sample;
   ASSERT_TRUE(write_character(folder / "body.glb", sample.skeleton, sample.mesh));
@@ -267,7 +267,7 @@ TEST(ReadCharacter, SaysThatAFileIsCutShort) {
   EXPECT_EQ(refusal(folder, whole.substr(0, 15)), "the file ends in its header");
 }
 
-TEST(ReadCharacter, SaysThatAFileIsNotGltf) {
+TEST(ReadCharacter, ReportsAFileThatIsNotGltf) {
   const ScratchFolder folder;
   EXPECT_EQ(refusal(folder, "HIERARCHY\nROOT hips\n"),
             "this is neither a GLB file nor glTF text");

@@ -112,7 +112,7 @@ TEST(Vrma, TurnsABoneForJointsThatVrmDoesNotHave) {
 }
 
 // A body whose rest pose has a hanging left arm, with a given T-pose.
-TEST(Vrma, IsRelativeToTheTPoseThatItIsTold) {
+TEST(Vrma, IsRelativeToTheGivenTPose) {
   const ScratchFolder folder;
   const Skeleton t_posed = uneven_body();
   const auto upper = t_posed.find(HumanBone::kLeftUpperArm);
@@ -147,7 +147,7 @@ TEST(Vrma, IsRelativeToTheTPoseThatItIsTold) {
   EXPECT_LT(largest_distance_m(motion, read), kRounding_m);
 }
 
-TEST(Vrma, SaysWhatTheFormatAsksFor) {
+TEST(Vrma, HasTheFieldsThatTheFormatRequires) {
   const Motion motion = wild_motion(uneven_body(), 30);
   const auto bytes = vrma_bytes(motion, {.t_pose_from_joint = {}, .clip = "jump"});
   ASSERT_TRUE(bytes);
@@ -198,7 +198,7 @@ TEST(Vrma, KeepsNeighbouringQuaternionsOnOneSide) {
 }
 
 // The rotations of helper joints are applied to the bones below them.
-TEST(Vrma, HandsOnWhatOtherJointsTurn) {
+TEST(Vrma, AppliesRotationsOfHelperJointsToTheBonesBelow) {
   const ScratchFolder folder;
   Motion motion = wild_motion(uneven_body(), 20);
   const auto chest = motion.skeleton.find(HumanBone::kUpperChest);

@@ -53,7 +53,7 @@ std::string notes_of(std::string bytes) {
   return all;
 }
 
-TEST(C3dBroken, WhatIsNoC3dIsRefusedWithTheByte) {
+TEST(C3dBroken, RejectsOtherFormatsWithTheByte) {
   std::string bytes = example_bytes();
   bytes[1] = 'x';
   EXPECT_EQ(
@@ -96,7 +96,7 @@ TEST(C3dBroken, AFileWithoutARateIsRefused) {
       "0.1 and 20000 Hz. Next: export the file again with its rate.");
 }
 
-TEST(C3dBroken, OfAFileThatEndsEarlyTheWholeFramesAreRead) {
+TEST(C3dBroken, ReadsTheWholeFramesOfATruncatedFile) {
   const C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);
   std::string bytes = example_bytes(info);
   const std::size_t frame_bytes = 4 * (4 * 3 + 8);
@@ -124,7 +124,7 @@ TEST(C3dBroken, AFileThatEndsBeforeItsFirstFrameDoesIsRefused) {
 
 // The header's count of analog samples is that of one channel, as in MotionMonitor's
 // files.
-TEST(C3dBroken, CountsAreBelievedThatEndWhereTheFileDoes) {
+TEST(C3dBroken, PrefersCountsThatMatchTheFileSize) {
   // 40 frames, so that no other interpretation ends in the last block.
   C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);
   info.frames = 40;

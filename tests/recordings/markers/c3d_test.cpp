@@ -121,7 +121,7 @@ TEST(C3dWords, VaxRealsHaveTheBitsOfTheManual) {
   EXPECT_EQ(bytes, std::string("\x70\xC2\x00\x00", 4));
 }
 
-TEST(C3dWords, WhatAVaxHasNoRealForIsItsLargestOrNothing) {
+TEST(C3dWords, SaturateLargeVaxRealsAndReplaceNaNByZero) {
   const auto through = [](float value) {
     std::string bytes;
     append_c3d_real(bytes, C3dProcessor::kDec, value);

@@ -83,7 +83,7 @@ void expect_the_push(const ForcePlates& plates) {
   EXPECT_LT(glm::distance(sample.free_moment_in_world, {0.0, -kTwist, 0.0}), 1e-3);
 }
 
-TEST(ForcePlates, OfType1TellThePushAsItIs) {
+TEST(ForcePlates, ReadThePushOfType1Directly) {
   expect_the_push(plates_of(plate_info(1, {}),
                             {kForce.x,
                              kForce.y,
@@ -93,7 +93,7 @@ TEST(ForcePlates, OfType1TellThePushAsItIs) {
                              1000.0 * kTwist}));
 }
 
-TEST(ForcePlates, OfType2TellThePushFromForceAndMoment) {
+TEST(ForcePlates, ComputeThePushOfType2FromForceAndMoment) {
   // The sensor is 40 mm below the surface and a little off its middle.
   const glm::dvec3 origin_mm{2.0, -3.0, -40.0};
   const glm::dvec3 m = 1000.0 * moment_about(-1e-3 * origin_mm);
@@ -101,7 +101,7 @@ TEST(ForcePlates, OfType2TellThePushFromForceAndMoment) {
       plates_of(plate_info(2, origin_mm), {kForce.x, kForce.y, kForce.z, m.x, m.y, m.z}));
 }
 
-TEST(ForcePlates, AnOriginOfTheOtherSignIsTurnedAndSaidSo) {
+TEST(ForcePlates, CorrectAnOriginOfTheOtherSignAndReportIt) {
   const glm::dvec3 origin_mm{2.0, -3.0, -40.0};
   const glm::dvec3 m = 1000.0 * moment_about(-1e-3 * origin_mm);
   const ForcePlates plates =
@@ -111,7 +111,7 @@ TEST(ForcePlates, AnOriginOfTheOtherSignIsTurnedAndSaidSo) {
   EXPECT_NE(plates.notes[0].find("its sign is changed"), std::string::npos);
 }
 
-TEST(ForcePlates, OfType3TellThePushFromEightSensors) {
+TEST(ForcePlates, ComputeThePushOfType3FromEightSensors) {
   // Sensors at (+-a, +-b), 50 mm deep: forces that add up to the push.
   constexpr double kA = 0.12;
   constexpr double kB = 0.2;
@@ -132,7 +132,7 @@ TEST(ForcePlates, OfType3TellThePushFromEightSensors) {
                              fz - along_x - along_y}));
 }
 
-TEST(ForcePlates, OfType4TellThePushThroughTheirMatrix) {
+TEST(ForcePlates, ComputeThePushOfType4WithTheirMatrix) {
   const glm::dvec3 origin_mm{0.0, 0.0, -40.0};
   const glm::dvec3 m = 1000.0 * moment_about(-1e-3 * origin_mm);
   C3dInfo info = plate_info(4, origin_mm);
@@ -173,7 +173,7 @@ TEST(ForcePlates, ForcesOfTheBodyOnThePlateAreTurnedRound) {
   EXPECT_EQ(plates.notes[0], "plate 1: the forces point down; their sign was reversed");
 }
 
-TEST(ForcePlates, MomentsInAnotherUnitThanTheFileSaysAreFound) {
+TEST(ForcePlates, DetectMomentsInAnotherUnitThanTheFileStates) {
   const glm::dvec3 m = 1000.0 * moment_about({});
   C3dInfo info = plate_info(2, {});
   put_texts(info.groups, "ANALOG", "UNITS", {"N", "N", "N", "Nm", "Nm", "Nm"});
@@ -184,7 +184,7 @@ TEST(ForcePlates, MomentsInAnotherUnitThanTheFileSaysAreFound) {
   EXPECT_NE(plates.notes[0].find("the body would be next to"), std::string::npos);
 }
 
-TEST(ForcePlates, APlateThatNobodyIsOnHasNoCentre) {
+TEST(ForcePlates, HaveNoCentreWithoutAPersonOnThem) {
   const ForcePlates plates =
       plates_of(plate_info(2, {}), {0.0, 0.0, -19.0, 900.0, 0.0, 0.0});
   ASSERT_EQ(plates.plates.size(), 1U);
@@ -192,7 +192,7 @@ TEST(ForcePlates, APlateThatNobodyIsOnHasNoCentre) {
   EXPECT_NEAR(plates.plates[0].samples[0].force_in_world.y, 19.0, 1e-9);
 }
 
-TEST(ForcePlates, WhatCannotBeReadIsLeftOutAndSaidSo) {
+TEST(ForcePlates, OmitUnreadablePlatesAndReportTheReason) {
   C3dInfo info = plate_info(2, {});
   put_parameter(info.groups, "FORCE_PLATFORM", {"TYPE", "", false, {1}, C3dIntegers{7}});
   EXPECT_EQ(plates_of(info, std::vector<double>(6)).notes[0],

@@ -106,7 +106,7 @@ TEST(MarkerFile, AC3dOfEveryUnitAndUpwardAxisHoldsTheSameMarkers) {
   }
 }
 
-TEST(MarkerFile, AC3dKeepsWhatWasRepairedTheCamerasAndTheDoubt) {
+TEST(MarkerFile, KeepsRepairsCamerasAndUncertaintyInC3d) {
   const ScratchFolder folder;
   const MarkerFile markers = walker();
   const MarkerFile read = through_file(folder / "a.c3d", markers);
@@ -144,7 +144,7 @@ TEST(MarkerFile, ATrcHoldsTheSameMarkersToTheLastBit) {
   EXPECT_EQ(largest_error_m(exact.tracks, markers.tracks), 0.0);
 }
 
-TEST(MarkerFile, WhatIsNotChangedIsWrittenOverItsSourceBitForBit) {
+TEST(MarkerFile, WritesUnchangedDataOverItsSourceBitForBit) {
   const ScratchFolder folder;
   for (const auto processor :
        {C3dProcessor::kIntel, C3dProcessor::kDec, C3dProcessor::kMips}) {
@@ -235,7 +235,7 @@ TEST(MarkerFile, UnitAndUpwardAxisAreFoundWhereTheFileIsSilent) {
   }
 }
 
-TEST(MarkerFile, ACaptureThatIsUpsideDownIsTurnedAndSaidSo) {
+TEST(MarkerFile, TurnsAnUpsideDownCaptureAndReportsIt) {
   const ScratchFolder folder;
   MarkerFile markers = walker();
   FileAxes axes;
@@ -251,7 +251,7 @@ TEST(MarkerFile, ACaptureThatIsUpsideDownIsTurnedAndSaidSo) {
   EXPECT_LT(largest_error_m(read.tracks, walker().tracks), 1e-6);
 }
 
-TEST(MarkerFile, AnAxisThatMarkersAndPlatesContradictIsNotBelieved) {
+TEST(MarkerFile, RejectsAnAxisThatMarkersAndPlatesContradict) {
   const ScratchFolder folder;
   MarkerFile markers = walker();
   markers.axes.up = FileAxis::kPlusZ;
@@ -301,7 +301,7 @@ TEST(MarkerFile, LabelsThatAreMissingOrDoubleAreMadeDifferent) {
   EXPECT_TRUE(has_note(*read, "the label of another"));
 }
 
-TEST(MarkerFile, MarkersThatAreNeverSeenAreToldOf) {
+TEST(MarkerFile, ReportsMarkersThatAreNeverSeen) {
   const ScratchFolder folder;
   MarkerFile markers = walker();
   for (std::size_t f = 0; f < markers.tracks.frames(); ++f) {
@@ -349,7 +349,7 @@ TEST(MarkerFile, AFileWithoutMarkersIsReadAsSuch) {
 }
 
 // Theia's files: a section of matrices after the frames, in a group of its own.
-TEST(MarkerFile, RotationsBehindTheFramesAreToldOfAndLeftOut) {
+TEST(MarkerFile, ReportsAndOmitsRotationsBehindTheFrames) {
   const ScratchFolder folder;
   C3dInfo info = example_info(C3dProcessor::kIntel, C3dNumbers::kReal);
   put_parameter(info.groups, "ROTATION", {"DATA_START", "", false, {}, C3dIntegers{9}});

@@ -23,7 +23,7 @@ std::string mistake_of(const std::string& text) {
   return map ? "none" : map.error().message();
 }
 
-TEST(MarkerMap, SaysWhatLabelsMeanAndOnWhichLine) {
+TEST(MarkerMap, ReadsTheNameAndTheLineOfEachLabel) {
   const auto map = parse_marker_map(example(), "map.toml");
   ASSERT_TRUE(map) << map.error().message();
   EXPECT_EQ(map->file, "map.toml");
@@ -69,7 +69,7 @@ TEST(MarkerMap, RefusesWhatIsNotText) {
 }
 
 // In TOML that is a table R with a key ASIS.
-TEST(MarkerMap, SaysHowToWriteALabelWithAPoint) {
+TEST(MarkerMap, ReportsHowToQuoteALabelWithAPoint) {
   EXPECT_EQ(
       mistake_of("[markers]\nC7 = \"c7\"\nR.ASIS = \"right_asis\"\n"),
       "map.toml:3: \"R\" must be text in quotes. Next: write labels that have a point "

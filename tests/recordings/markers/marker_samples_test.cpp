@@ -191,7 +191,7 @@ TEST(MarkerSampleSextet, AgreesWithinTheIntegersStep) {
   }
 }
 
-TEST(MarkerSampleOptotrak, TruncatedItsWholeFramesAreReadAndSaidSo) {
+TEST(MarkerSampleOptotrak, ReadsWholeFramesAndReportsTheTruncation) {
   const fs::path path = kMocap / "ezc3d/Optotrak.c3d";
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto reader = C3dReader::open(path);

@@ -75,7 +75,7 @@ TEST(Trc, LineEndsOfEverySystemAreTheSame) {
   EXPECT_EQ(read("\xEF\xBB\xBF" + text).tracks.frames(), 2U);
 }
 
-TEST(Trc, WhatWasNotSeenIsSaidInManyWays) {
+TEST(Trc, AcceptsManySpellingsOfAMarkerNotSeen) {
   for (const char* missing : {"\t\t",
                               "NaN\tnan\tNAN",
                               " NaN\t -nan\t nan(ind)",
@@ -90,7 +90,7 @@ TEST(Trc, WhatWasNotSeenIsSaidInManyWays) {
   }
 }
 
-TEST(Trc, RowsThatEndEarlyAndLinesOfBlanksAreToldOf) {
+TEST(Trc, ReportsRowsThatEndEarlyAndSkipsBlankLines) {
   const MarkerFile file = read(head() + "1\t0.00\t1\t2\t3\n\t\t\n2\t0.01\n");
   EXPECT_EQ(file.tracks.frames(), 2U);
   EXPECT_TRUE(file.tracks.at(0, 0));
@@ -131,13 +131,13 @@ TEST(Trc, CellsMayLieBetweenOtherMarksThanTabs) {
             "export the file again.");
 }
 
-TEST(Trc, CommasForDecimalPointsAreToldOf) {
+TEST(Trc, ReportsCommasForDecimalPoints) {
   const MarkerFile file = read(head() + "1\t0,00\t1,5\t2\t3\t4\t5\t6\n");
   EXPECT_EQ(file.tracks.at(0, 0)->p_in_world.x, 0.0015);
   EXPECT_TRUE(has_note(file, "2 numbers have a comma"));
 }
 
-TEST(Trc, CountsOfTheHeaderThatAreWrongAreToldOf) {
+TEST(Trc, ReportsWrongCountsOfTheHeader) {
   const MarkerFile file = read(head("100\t100\t99\t3\tmm\t100\t1\t2") + kRows);
   EXPECT_TRUE(has_note(file, "the header states 3 markers, and there are 2"));
   EXPECT_TRUE(has_note(file, "the header states 99 frames, and there are 2"));
@@ -152,7 +152,7 @@ TEST(Trc, MarkersWithoutALabelGetOne) {
   EXPECT_EQ(file.tracks.at(0, 2)->p_in_world.x, 0.007);
 }
 
-TEST(Trc, TheClockOfTheRowsIsBelievedAgainstTheHeader) {
+TEST(Trc, PrefersTheTimesOfTheRowsToTheRateOfTheHeader) {
   const MarkerFile file = read(
       head("250\t250\t3\t2\tmm\t250\t1\t3") +
       "1\t0\t1\t2\t3\t4\t5\t6\n2\t0.04\t1\t2\t3\t4\t5\t6\n3\t0.08\t1\t2\t3\t4\t5\t6\n");

@@ -173,13 +173,13 @@ TEST(Asf, TakesRadiansWhereTheFilesSaySo) {
               1e-12);
 }
 
-TEST(Asf, TakesTheUnitThatItIsTold) {
+TEST(Asf, UsesTheGivenUnit) {
   const auto read = parse_asf(kSkeleton, "tiny.asf", {.unit_m = 0.01});
   ASSERT_TRUE(read);
   expect_near(read->skeleton.joints[2].parent_from_joint.translation, {0.02, 0, 0});
 }
 
-TEST(Asf, KeepsTheRateThatIsToldSaidOrUsual) {
+TEST(Asf, TakesTheRateFromOptionsThenFileThenDefault) {
   const std::string frame = "7\nroot 0 0 0 0 0 0\nthigh 0 0\nshank 0\n";
   const AsfSkeleton skeleton = tiny();
   const auto usual = parse_amc(frame, "a.amc", skeleton);
@@ -194,7 +194,7 @@ TEST(Asf, KeepsTheRateThatIsToldSaidOrUsual) {
   EXPECT_FALSE(overridden->rate_is_guessed);
 }
 
-TEST(Asf, TellsWhichMovementOfBonesIsLeftOut) {
+TEST(Asf, MovesTheRootForABoneTranslationAndIgnoresNone) {
   const std::string asf = with(kSkeleton, "dof rx\n", "dof rx ty l\n");
   const auto read =
       parse_amc("1\nroot 0 0 0 0 0 0\nthigh 0 0\nshank 0 0.5 2\n", "a.amc", tiny(asf));

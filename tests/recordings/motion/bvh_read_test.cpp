@@ -206,7 +206,7 @@ TEST(ReadBvh, NamesTheLineWithAWordAmongTheNumbers) {
             "correct that line in a text editor.");
 }
 
-TEST(ReadBvh, SaysHowManyFramesAreMissing) {
+TEST(ReadBvh, ReportsHowManyFramesAreMissing) {
   EXPECT_NE(refusal(kTwoJoints + "0 0 0 0 0 0 0 0 0\n")
                 .find("walk.bvh:20: expected 2 frames, found 1"),
             std::string::npos);
@@ -219,7 +219,7 @@ TEST(ReadBvh, RefusesMoreFramesThanAnnounced) {
             std::string::npos);
 }
 
-TEST(ReadBvh, SaysWhereTheHierarchyBreaksOff) {
+TEST(ReadBvh, ReportsTheLineWhereTheHierarchyEndsEarly) {
   EXPECT_NE(refusal(kTwoJoints.substr(0, kTwoJoints.find("    End Site")))
                 .find("walk.bvh:10: the file ends inside the HIERARCHY"),
             std::string::npos);

@@ -55,7 +55,7 @@ TEST(Mot, AnglesBecomeRadiansAndEverythingElseStays) {
   EXPECT_TRUE(table.notes.empty()) << table.notes[0];
 }
 
-TEST(Mot, TheHeaderOrItsAgeSaysWhatAnglesAreIn) {
+TEST(Mot, TakesTheAngleUnitFromTheHeaderOrItsAge) {
   const std::string rows = "time pelvis_tilt\n0 180\n";
   const auto tilt = [&](const std::string& head) {
     return read(head + "endheader\n" + rows).at(0, 0);
@@ -99,12 +99,12 @@ TEST(Mot, TheTimeMayBeAnyColumn) {
   EXPECT_EQ(table.columns[1].name, "x");
 }
 
-TEST(Mot, WhatIsNoNumberIsNaNInEverySpelling) {
+TEST(Mot, ReadsEverySpellingOfNaN) {
   const MotTable table = read("a\nendheader\ntime a b c\n0 NaN -nan(ind) 1.#QNAN\n");
   for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(std::isnan(table.at(0, i)));
 }
 
-TEST(Mot, OtherCountsThanTheHeadersAreTold) {
+TEST(Mot, ReportsCountsThatDifferFromTheHeader) {
   const MotTable table = read("a\nnRows=9\nnColumns=9\nendheader\ntime x\n0 1\n");
   ASSERT_EQ(table.notes.size(), 2U);
   EXPECT_EQ(table.notes[0], "the header has another number of rows than there are, 1");
@@ -219,7 +219,7 @@ TEST_F(RealMot, HeadersOfOpenSimAndOfSimmSayTheSame) {
   EXPECT_TRUE(old.notes.empty());
 }
 
-TEST_F(RealMot, AFileThatPromisesMoreRowsThanItHasSaysSo) {
+TEST_F(RealMot, ReportsFewerRowsThanTheHeaderStates) {
   const MotTable table = read_real("opensim-models/Hamner/subject02_running_grf.mot");
   EXPECT_EQ(table.rows(), 601U);
   ASSERT_EQ(table.notes.size(), 1U);

@@ -46,7 +46,7 @@ TEST(JointsCsv, IsWrittenAsPromised) {
             "4,0.133333,spine,0.250000,1.100000,0.000000,0.004000\n");
 }
 
-TEST(PlacesCsv, HasNoColumnForWhatIsNotKnown) {
+TEST(PlacesCsv, OmitsColumnsOfUnknownData) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_places_csv(folder / "places.csv", a_motion().motion));
   EXPECT_EQ(*read_file(folder / "places.csv"),
@@ -99,7 +99,7 @@ TEST(SegmentsCsv, GivesBackItsRows) {
   EXPECT_EQ(row.world_from_segment.rotation, glm::dquat(0.540302, 0.0, 0.841471, 0.0));
 }
 
-TEST(JointsCsv, OfNoFramesIsItsHeader) {
+TEST(JointsCsv, HasOnlyItsHeaderWithoutFrames) {
   const ScratchFolder folder;
   EstimatedMotion none = a_motion();
   none.motion.poses.clear();

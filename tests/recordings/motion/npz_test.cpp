@@ -102,7 +102,7 @@ TEST(Npz, DamagedAnywhereIsDeclinedOrRead) {
   }
 }
 
-TEST(Npz, OfAnotherProgramIsReadUnlessItIsCompressed) {
+TEST(Npz, ReadsFilesOfNumpyUnlessTheyAreCompressed) {
   const ScratchFolder folder;
   const auto again = [&](const std::string& how) {
     EXPECT_TRUE(write_npz(folder / "a.npz", a_motion()));
@@ -155,7 +155,7 @@ assert a['contacts'].tolist() == [[True, False], [True, True]]
 )");
 }
 
-TEST(Npz, SaysNothingOfWhatIsNotKnown) {
+TEST(Npz, OmitsArraysOfUnknownData) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_npz(folder / "a.npz", a_motion()));
   expect_in_numpy(folder / "a.npz", R"(

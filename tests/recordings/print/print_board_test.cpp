@@ -121,7 +121,7 @@ TEST(PrintBoard, OnOnePageOnlyIsRefusedWithThePageThatWouldDo) {
   EXPECT_TRUE(printed({6, 6, 0.03, 0.009, 0, 0.0}, {{"A3", 0.297, 0.42, 0.01}, true}));
 }
 
-TEST(PrintBoard, OfTagsLargerThanThePageIsRefused) {
+TEST(PrintBoard, RefusesTagsLargerThanThePage) {
   const auto document = printed({1, 2, 0.4, 0.1, 0, 0.0});
   ASSERT_FALSE(document);
   EXPECT_EQ(document.error().code, Errc::kBadInput);
@@ -145,7 +145,7 @@ Result<Session> session_with(const std::string& table) {
   return read(session);
 }
 
-TEST(PrintBoard, TableIsWhatSessionsRead) {
+TEST(PrintBoard, WritesATableThatSessionsRead) {
   const AprilGrid grid{4, 3, 0.0515, 0.0154, 400, 0.0045};
   const auto session = session_with(board_table(grid, "tag36h11b2"));
   ASSERT_TRUE(session) << session.error().message();
@@ -159,7 +159,7 @@ TEST(PrintBoard, TableIsWhatSessionsRead) {
   EXPECT_EQ(session->family_of(TagId{400}), "tag36h11b2");
 }
 
-TEST(PrintBoard, TableOfSquaresIsWhatSessionsRead) {
+TEST(PrintBoard, WritesATableOfSquaresThatSessionsRead) {
   const CharucoBoard board{.rows = 6,
                            .columns = 8,
                            .square_size_m = 0.0311,
@@ -206,7 +206,7 @@ std::vector<TagPattern> markers(const CharucoBoard& board) {
   return patterns(board.marker_count(), {"marker", 100, 7, 7, false});
 }
 
-TEST(PrintBoard, OfSquaresKeepsLayoutLaws) {
+TEST(PrintBoard, KeepsLayoutLawsForSquaresWithMarkers) {
   const CharucoBoard board = charuco();
   const auto document = lay_out_board(board, markers(board), {{}, true});
   ASSERT_TRUE(document) << document.error().message();
@@ -223,7 +223,7 @@ TEST(PrintBoard, WithMarkersAsLargeAsSquaresIsRefused) {
       << document.error().message();
 }
 
-TEST(PrintBoard, OfSquaresInTheOldMannerHasItsMarkersInTheOtherSquares) {
+TEST(PrintBoard, PutsLegacyMarkersInTheOtherSquares) {
   CharucoBoard board = charuco();
   board.rows = 6;
   const auto modern = lay_out_board(board, markers(board), {{}, true});
@@ -244,7 +244,7 @@ TEST(PrintBoard, InvertedIsRefused) {
   EXPECT_NE(document.error().cause.find("white on black"), std::string::npos);
 }
 
-TEST(PrintBoard, OfPlainSquaresKeepsLayoutLaws) {
+TEST(PrintBoard, KeepsLayoutLawsForPlainSquares) {
   const Chessboard board{.rows = 7, .columns = 6, .square_size_m = 0.025};
   const auto document = lay_out_board(board, {{}, true});
   ASSERT_TRUE(document) << document.error().message();

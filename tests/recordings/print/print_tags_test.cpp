@@ -63,7 +63,7 @@ TEST(PrintTags, KeepLayoutLaws) {
   }
 }
 
-TEST(PrintTags, OfManySizesKeepLayoutLaws) {
+TEST(PrintTags, KeepLayoutLawsForManySizes) {
   TagSheet sheet;
   for (int id = 0; id < 40; ++id) {
     sheet.tags.push_back(tag(id,

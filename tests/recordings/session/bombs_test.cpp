@@ -123,16 +123,16 @@ std::vector<Bomb> of_kind(const std::vector<Bomb>& bombs, const std::string& end
   return some;
 }
 
-TEST(Bombs, OfGltfAreDeclined) {
+TEST(Bombs, AreDeclinedInGltf) {
   expect_survived(testing::gltf_bombs(), {reader("character", read_character)});
 }
 
-TEST(Bombs, OfBvhAreDeclined) {
+TEST(Bombs, AreDeclinedInBvh) {
   expect_survived(of_kind(testing::skeleton_bombs(), ".bvh"),
                   {reader("bvh", [](const fs::path& file) { return read_bvh(file); })});
 }
 
-TEST(Bombs, OfAsfAreDeclined) {
+TEST(Bombs, AreDeclinedInAsf) {
   expect_survived(of_kind(testing::skeleton_bombs(), ".asf"),
                   {reader("asf", [](const fs::path& file) { return read_asf(file); })});
 }
@@ -152,7 +152,7 @@ TEST(Bombs, AChainOfAThousandBonesIsWrittenAndReadAgain) {
   EXPECT_EQ(read->motion.skeleton.joints.size(), 1000U);
 }
 
-TEST(Bombs, OfTomlAreDeclinedByEveryReader) {
+TEST(Bombs, AreDeclinedInTomlByEveryReader) {
   const Skeleton skeleton = make_humanoid(average_proportions(1.7));
   const auto copied = [](const fs::path& file) {
     // A lambda, because read_session() has a default argument.
@@ -171,7 +171,7 @@ TEST(Bombs, OfTomlAreDeclinedByEveryReader) {
                    })});
 }
 
-TEST(Bombs, OfYamlAndXmlAreDeclined) {
+TEST(Bombs, AreDeclinedInYamlAndXml) {
   std::vector<Bomb> calibrations = of_kind(testing::tree_bombs(), ".yaml");
   for (Bomb& bomb : of_kind(testing::tree_bombs(), ".xml")) calibrations.push_back(bomb);
   expect_survived(calibrations, {reader("calibration", read_calibration)});
@@ -179,7 +179,7 @@ TEST(Bombs, OfYamlAndXmlAreDeclined) {
                   {reader("constraints", read_constraints)});
 }
 
-TEST(Bombs, OfTablesAreDeclined) {
+TEST(Bombs, AreDeclinedInTables) {
   const std::vector<Bomb> bombs = testing::table_bombs();
   std::vector<Bomb> markers = of_kind(bombs, ".c3d");
   for (Bomb& bomb : of_kind(bombs, ".trc")) markers.push_back(bomb);
@@ -195,7 +195,7 @@ TEST(Bombs, OfTablesAreDeclined) {
                    })});
 }
 
-TEST(Bombs, OfNpzAreDeclined) {
+TEST(Bombs, AreDeclinedInNpz) {
   expect_survived(testing::npz_bombs(), {reader("npz", read_npz)});
 }
 
@@ -210,7 +210,7 @@ void make_database(const fs::path& file, int application, const std::string& sta
       << sqlite3_errmsg(database.get());
 }
 
-TEST(Bombs, OfTakesAreDeclined) {
+TEST(Bombs, AreDeclinedInTakes) {
   constexpr int kTake = 0x6d617265;
   constexpr int kLive = 0x6d61726c;
   const std::string endless =
@@ -254,7 +254,7 @@ TEST(Bombs, OfTakesAreDeclined) {
                "(1, x'00000000', ''), (2, x'00000000', ''), (3, x'00000000', '')");
 }
 
-TEST(Nesting, OfJsonCountsBracketsOutsideOfText) {
+TEST(Nesting, CountsJsonBracketsOutsideOfText) {
   EXPECT_FALSE(json_nests_too_deep(nested("[", "1", "]", kMaxNesting)));
   EXPECT_TRUE(json_nests_too_deep(nested("[", "1", "]", kMaxNesting + 1)));
   EXPECT_FALSE(json_nests_too_deep("[\"" + std::string(200, '[') + "\"]"));
@@ -279,7 +279,7 @@ TEST(Nesting, CountsTheKeysOfEachJsonObject) {
   EXPECT_TRUE(json_has_too_many_keys("{\"a\":" + object(kMaxKeys)));
 }
 
-TEST(Nesting, OfTomlCountsKeysHeadersAndBrackets) {
+TEST(Nesting, CountsTomlKeysHeadersAndBrackets) {
   const auto dots = [](std::size_t count) {
     std::string key;
     for (std::size_t i = 0; i < count; ++i) key += "a.";

@@ -183,7 +183,7 @@ TEST(CalibrationFile, NamesTheLineOfAMissingKey) {
       "c.toml:1: the key \"rotation\" is missing in [int_cam1_img]"));
 }
 
-TEST(CalibrationFile, OfAFisheyeHasFourTerms) {
+TEST(CalibrationFile, HasFourTermsForAFisheye) {
   const auto read =
       parse_calibration(with(std::string(kPose2Sim), "false", "true"), "c.toml");
   ASSERT_TRUE(read);

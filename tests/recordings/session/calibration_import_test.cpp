@@ -187,7 +187,7 @@ TEST_F(CalibrationImport, TakesAStereoPairOfOpenCv) {
   expect_quarter_turn(second.camera_from_world, 0.0);
 }
 
-TEST_F(CalibrationImport, LooksForRAndTBesideALensFile) {
+TEST_F(CalibrationImport, FindsRAndTInTheFolderOfALensFile) {
   EXPECT_EQ(mistake("intrinsics.yml", kPair),
             "intrinsics.yml:2: the pose of the second camera is missing: the file has no "
             "R and T. Next: add R and T as cv::stereoCalibrate gives them, or put "
@@ -261,7 +261,7 @@ TEST_F(CalibrationImport, IsReadUnderTheNameOfMareysOwn) {
   expect_quarter_turn(back->cameras[1].camera_from_world, 0.0);
 }
 
-TEST_F(CalibrationImport, TellsCalibrationsFromSessionsByContent) {
+TEST_F(CalibrationImport, DistinguishesCalibrationsFromSessionsByContent) {
   for (const std::string_view text : {kPair, kXml, kChain, kCaliscope}) {
     EXPECT_TRUE(write_file(folder_ / "a", text));
     EXPECT_TRUE(is_calibration(folder_ / "a")) << text;
@@ -334,7 +334,7 @@ TEST_F(CalibrationImport, RefusesMillimetresAndEndlessReferences) {
             "without & and *.");
 }
 
-TEST(RealCalibration, OfTagSlamSeesTheWandWhereThePicturesHaveIt) {
+TEST(RealCalibration, ProjectsTheWandOfTagSlamToItsImagePositions) {
   const fs::path file = kCamera / "tagslam_tracks/test_4/cameras.yaml";
   if (!fs::exists(file))
     GTEST_SKIP() << "the recordings camera/tagslam_tracks are not here";
@@ -357,7 +357,7 @@ TEST(RealCalibration, OfTagSlamSeesTheWandWhereThePicturesHaveIt) {
   }
 }
 
-TEST(RealCalibration, OfCaliscopeHasFourCamerasOfRooms) {
+TEST(RealCalibration, ReadsFourCamerasOfCaliscope) {
   const fs::path sessions = kCamera / "caliscope/sessions";
   if (!fs::exists(sessions))
     GTEST_SKIP() << "the recordings camera/caliscope are not here";
@@ -370,7 +370,7 @@ TEST(RealCalibration, OfCaliscopeHasFourCamerasOfRooms) {
   }
 }
 
-TEST(RealCalibration, OfOpenCvIsALensOrSaysWhatIsMissing) {
+TEST(RealCalibration, ReadsALensOfOpenCvOrReportsTheMissingPart) {
   const fs::path samples = kCamera / "opencv_samples";
   if (!fs::exists(samples)) GTEST_SKIP() << "camera/opencv_samples is not here";
   const auto lens = read_calibration(samples / "left_intrinsics.yml");

@@ -147,13 +147,13 @@ TEST(DetectionsFile, ThatIsAbsentIsNoAnswer) {
   EXPECT_FALSE(*read);
 }
 
-TEST(DetectionsFile, OfAnotherKeyIsNoAnswer) {
+TEST(DetectionsFile, ReturnsNothingForAnotherKey) {
   const auto read = parse_detections(detections_text(four_frames(), "k"), "k2", "d.csv");
   ASSERT_TRUE(read);
   EXPECT_FALSE(*read);
 }
 
-TEST(DetectionsFile, OfAnotherVersionIsNoAnswer) {
+TEST(DetectionsFile, ReturnsNothingForAnotherVersion) {
   const auto read = parse_detections("# marey detections 99 k\nfoo\n", "k", "d.csv");
   ASSERT_TRUE(read);
   EXPECT_FALSE(*read);

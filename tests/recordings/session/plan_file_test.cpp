@@ -52,7 +52,7 @@ std::string mistake_of(const std::string& text) {
   return plan ? "none" : plan.error().message();
 }
 
-TEST(PlanFile, SaysWhereCamerasStandAndLook) {
+TEST(PlanFile, ReadsPositionsAndDirectionsOfCameras) {
   const auto plan = parse_plan(plan_text(), "plan.toml");
   ASSERT_TRUE(plan) << plan.error().message();
   ASSERT_EQ(plan->cameras.size(), 2U);

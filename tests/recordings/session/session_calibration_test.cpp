@@ -62,7 +62,7 @@ TEST(SessionCalibration, DeclinesWordsThatItDoesNotKnow) {
   EXPECT_TRUE(mistake(asking("most_offset_s = 600\n")).starts_with("session.toml:19: "));
 }
 
-TEST(SessionCalibration, DeclinesWhatAWandDoesNotTell) {
+TEST(SessionCalibration, DeclinesOptionsThatAWandCannotDetermine) {
   const std::string board =
       "[board]\ntype = \"aprilgrid\"\nrows = 6\ncolumns = 5\ntag_size_m = 0.1\n"
       "gap_m = 0.03\nfirst_id = 0\nthickness_m = 0.005\n";
@@ -79,7 +79,7 @@ TEST(SessionCalibration, DeclinesWhatAWandDoesNotTell) {
 }
 
 // A subject who stands still determines the floor.
-TEST(SessionCalibration, NeedsNoFloorBesideAStaticTrial) {
+TEST(SessionCalibration, NeedsNoFloorTrialWithAStaticTrial) {
   std::string text = with("kind = \"floor\"", "kind = \"static\"");
   const auto session = read(text);
   ASSERT_TRUE(session) << session.error().message();

@@ -112,7 +112,7 @@ TEST(SessionDevices, WithoutAnyDeviceVideosAreNeeded) {
             std::string::npos);
 }
 
-TEST(SessionDevices, TellThatATrialIsNotRecordedYet) {
+TEST(SessionDevices, ReportATrialThatIsNotRecordedYet) {
   const testing::ScratchFolder folder;
   ASSERT_TRUE(write_file(folder / "session.toml", devices()));
   const Result<Session> session = read_session(folder.path());

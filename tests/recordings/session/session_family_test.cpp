@@ -8,7 +8,7 @@
 namespace marey::recordings {
 namespace {
 
-TEST(SessionFamilies, OfTheBoardAndOfEachTagMayDiffer) {
+TEST(SessionFamilies, MayDifferForTheBoardAndEachTag) {
   std::string text =
       with("type = \"aprilgrid\"", "type = \"aprilgrid\"\nfamily = \"tag36h11b2\"");
   const std::string head = "id = 73\n";

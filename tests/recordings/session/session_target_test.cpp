@@ -55,7 +55,7 @@ std::string target_with(std::string_view target,
   return text.replace(at, from.size(), to);
 }
 
-TEST(SessionTarget, IsAnAprilGridWhenTheTypeIsNotSaid) {
+TEST(SessionTarget, IsAnAprilGridWithoutAType) {
   const auto session = read(with("type = \"aprilgrid\"\n", ""));
   ASSERT_TRUE(session) << session.error().message();
   EXPECT_TRUE(std::holds_alternative<AprilGrid>(session->target));
@@ -118,13 +118,13 @@ TEST(SessionTarget, IsNoSegmentWithoutTags) {
           .starts_with("session.toml:19: the wand has tags of its own and is a segment"));
 }
 
-TEST(SessionTarget, OfAnUnknownTypeIsDeclinedWithTheNearest) {
+TEST(SessionTarget, DeclinesAnUnknownTypeAndSuggestsTheNearest) {
   EXPECT_EQ(mistake(target_with(kCharuco, "\"charuco\"", "\"charucoo\"")),
             "session.toml:19: unknown board type \"charucoo\". Next: perhaps you mean "
             "\"charuco\".");
 }
 
-TEST(SessionTarget, OfAnUnknownDictionaryIsDeclinedWithTheNearest) {
+TEST(SessionTarget, DeclinesAnUnknownDictionaryAndSuggestsTheNearest) {
   EXPECT_EQ(
       mistake(target_with(kCharuco, "DICT_4X4_1000", "dict_4x4_1000")),
       "session.toml:24: unknown dictionary \"dict_4x4_1000\". Next: perhaps you mean "
@@ -157,7 +157,7 @@ TEST(SessionTarget, ThatLooksTheSameAfterHalfATurnIsRefused) {
       << message;
 }
 
-TEST(SessionTarget, OfASingleCornerIsRefused) {
+TEST(SessionTarget, RefusesABoardWithASingleCorner) {
   std::string text = target_with(kCharuco, "rows = 5", "rows = 2");
   text.replace(text.find("columns = 4"), 11, "columns = 2");
   EXPECT_TRUE(mistake(text).starts_with("session.toml:20: a board of 2 x 2 squares"));

@@ -189,7 +189,7 @@ TEST(SubjectFile, RefusesARotationThatIsNone) {
             std::string::npos);
 }
 
-TEST(SubjectFile, RefusesANegativeDoubt) {
+TEST(SubjectFile, RefusesANegativeSigma) {
   EXPECT_NE(mistake("sigma_rad = ", "sigma_rad = -").find("\"sigma_rad\" is -"),
             std::string::npos);
 }

@@ -182,7 +182,7 @@ TEST(LiveTake, NeverWritesOverAnother) {
   EXPECT_TRUE(read_live_take(file));
 }
 
-TEST(LiveTake, SaysThatItIsMissingOrSomethingElse) {
+TEST(LiveTake, ReportsAMissingFileOrAnotherFormat) {
   const testing::ScratchFolder folder;
   const auto missing = read_live_take(folder.path() / kLiveTakeFile);
   ASSERT_FALSE(missing);

@@ -159,7 +159,7 @@ TEST(MjpgVideo, MayHaveAnyName) {
   }
 }
 
-TEST(MjpgVideo, ThatCannotBeMadeIsTold) {
+TEST(MjpgVideo, ReportsAFileThatCannotBeCreated) {
   const ScratchFolder folder;
   const auto video = MjpgVideo::create(folder / "nowhere" / "a.mkv", small());
   ASSERT_FALSE(video);

@@ -169,7 +169,7 @@ TEST(TakeFile, IsNotWrittenOverAnother) {
   EXPECT_EQ(second.error().cause, "there is a recording already");
 }
 
-TEST(TakeFile, ThatIsMissingIsTold) {
+TEST(TakeFile, ReportsAMissingFile) {
   const ScratchFolder folder;
   const Result<Take> take = read_take(folder / kTakeFile);
   ASSERT_FALSE(take);
@@ -178,7 +178,7 @@ TEST(TakeFile, ThatIsMissingIsTold) {
             "the file is missing, so the times of the frames are unknown");
 }
 
-TEST(TakeFile, OfANewerVersionIsTold) {
+TEST(TakeFile, ReportsANewerVersion) {
   const ScratchFolder folder;
   make_take(folder / kTakeFile);
   run_sql(folder / kTakeFile, "PRAGMA user_version=2");
@@ -189,7 +189,7 @@ TEST(TakeFile, OfANewerVersionIsTold) {
   EXPECT_EQ(take.error().next, "install the newer marey");
 }
 
-TEST(TakeFile, ThatIsSomethingElseIsTold) {
+TEST(TakeFile, ReportsAFileOfAnotherFormat) {
   const ScratchFolder folder;
   for (const std::string& bytes :
        {std::string(), std::string("not a database"), std::string(5000, 'x')}) {
@@ -200,7 +200,7 @@ TEST(TakeFile, ThatIsSomethingElseIsTold) {
   }
 }
 
-TEST(TakeFile, ThatLacksItsTablesOrAFrameIsTold) {
+TEST(TakeFile, ReportsAMissingTableOrFrame) {
   const ScratchFolder folder;
   make_take(folder / kTakeFile);
   run_sql(folder / kTakeFile, "UPDATE frame SET number=3");
@@ -209,7 +209,7 @@ TEST(TakeFile, ThatLacksItsTablesOrAFrameIsTold) {
   EXPECT_FALSE(read_take(folder / kTakeFile));
 }
 
-TEST(TakeFile, WithWhatNoRecorderWritesIsTold) {
+TEST(TakeFile, ReportsValuesThatNoRecorderWrites) {
   const ScratchFolder folder;
   for (const char* change :
        {"UPDATE frame SET time_ns = -1 WHERE number = 0",
@@ -237,7 +237,7 @@ TEST(TakeFile, WithWhatNoRecorderWritesIsTold) {
 }
 
 // Only complete data are ever returned.
-TEST(TakeFile, CutAtAnyPlaceIsToldOrRead) {
+TEST(TakeFile, IsReportedOrReadWholeWhenTruncatedAnywhere) {
   const ScratchFolder folder;
   auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
   ASSERT_TRUE(writer);
@@ -265,7 +265,7 @@ TEST(TakeFile, CutAtAnyPlaceIsToldOrRead) {
 }
 
 // The message has the first error, not a consequence of it.
-TEST(TakeFile, ThatCannotBeBegunSaysWhyAndLeavesNothing) {
+TEST(TakeFile, ReportsAFailedCreationAndLeavesNoFile) {
   const ScratchFolder folder;
   const pid_t child = fork();
   ASSERT_GE(child, 0);

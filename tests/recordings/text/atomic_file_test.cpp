@@ -197,7 +197,7 @@ TEST(AtomicFile, LeavesPipesAndDevicesAsTheyAre) {
 }
 
 // Reading a pipe would block, and reading a device would fill the memory.
-TEST(ReadFile, DeclinesPipesDevicesAndWhatIsTooLarge) {
+TEST(ReadFile, DeclinesPipesDevicesAndTooLargeFiles) {
   const ScratchFolder folder;
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   fs::create_symlink("/dev/zero", folder / "zero");

@@ -63,7 +63,7 @@ TEST(ContentKey, KnowsAnEmptyFile) {
   EXPECT_EQ(key_of_bytes(""), "0-99aa06d3014798d86001c324468d497f");
 }
 
-TEST(ContentKey, OfAFolderChangesWithNamesAndSizes) {
+TEST(ContentKey, ChangesWithNamesAndSizesInAFolder) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_file(folder / "1.png", "a"));
   const std::string one = *content_key(folder.path());
@@ -76,7 +76,7 @@ TEST(ContentKey, OfAFolderChangesWithNamesAndSizes) {
 }
 
 // Raw frames of a camera all have one size.
-TEST(ContentKey, OfAFolderChangesWithTheBytesOfAFile) {
+TEST(ContentKey, ChangesWithTheBytesOfAFileInAFolder) {
   const ScratchFolder folder;
   ASSERT_TRUE(write_file(folder / "1.png", "a"));
   ASSERT_TRUE(write_file(folder / "2.png", "a"));

@@ -182,7 +182,7 @@ TEST(AdaptMotion, ALoadIsBalancedWhereFootprintsTakeTheBody) {
 // A constraint without a fade moves the hand by the whole distance in a frame or two. One
 // that fades in over 0.2 s accelerates it by 5.8 / 0.04 of the distance, the maximum of a
 // quintic, and by half as much again because the distance grows meanwhile.
-TEST(AdaptMotion, TellsWhatThrowsAJoint) {
+TEST(AdaptMotion, ReportsJointAndFrameOfTheLargestAddedAcceleration) {
   const Scene scene;
   ConstraintSet set = hand_near(scene);
   const double way_m =

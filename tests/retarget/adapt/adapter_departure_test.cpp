@@ -102,7 +102,7 @@ TEST(AdapterDepartureFromBeyond, LeavesWhatIsBeyondItsLimitsAsItWas) {
   }
 }
 
-TEST(MeasureDeparture, TellsSegmentFrameAndAngle) {
+TEST(MeasureDeparture, ReportsSegmentFrameAndAngle) {
   const Character body = human(false);
   Motion source{body.skeleton, {30.0}, 0, {4, waiting(body)}};
   Motion turned = source;

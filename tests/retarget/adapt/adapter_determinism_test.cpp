@@ -49,7 +49,7 @@ TEST_P(AdapterDeterminism, GivesTheSameBitsForTheSameQuestion) {
   }
 }
 
-TEST_P(AdapterDeterminism, DoesNotDependOnWhatWasAskedBefore) {
+TEST_P(AdapterDeterminism, DoesNotDependOnPreviousRequests) {
   const Character body = human(true);
   Dice dice(8);
   const Pose reference = random_posture(body, dice, 0.4);
@@ -81,7 +81,7 @@ TEST_P(AdapterDeterminism, DoesNotDependOnWhatWasAskedBefore) {
 }
 
 // A section rotates as a whole, even where only its first vertebra has a target.
-TEST_P(AdapterDeterminism, DoesNotDependOnWhatWasAskedOfAPartOfASectionBefore) {
+TEST_P(AdapterDeterminism, DoesNotDependOnPreviousRequestsForPartOfASection) {
   const Character body = bodies().back();
   Dice dice(10);
   for (const char* segment : {"tail1", "tail3", "neck1", "back2", "head"}) {

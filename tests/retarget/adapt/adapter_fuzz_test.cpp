@@ -113,7 +113,7 @@ bool has_numbers(const AdaptReport& report) {
 class AdapterFuzz : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterFuzz, both_methods(), name_of);
 
-TEST_P(AdapterFuzz, GivesPosturesWithinTheLimitsWhateverIsAsked) {
+TEST_P(AdapterFuzz, ReturnsPosturesWithinTheLimitsForRandomConstraints) {
   constexpr int kQuestions = 700;
   constexpr int kPostures = 10;
   int solved = 0;
@@ -174,7 +174,7 @@ void go_far(ConstraintSet& set, Dice& dice) {
   }
 }
 
-TEST_P(AdapterFuzz, GivesPosturesHoweverFarItIsAskedToGo) {
+TEST_P(AdapterFuzz, ReturnsValidPosturesForFarTargets) {
   constexpr int kQuestions = 2500;
   int solved = 0;
   for (const Character& body : bodies()) {

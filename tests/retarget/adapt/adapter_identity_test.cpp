@@ -17,7 +17,7 @@ constexpr int kPostures = 100;
 class AdapterIdentity : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterIdentity, both_methods(), name_of);
 
-TEST_P(AdapterIdentity, LeavesAPostureThatNothingIsAskedOf) {
+TEST_P(AdapterIdentity, KeepsAPostureWithoutConstraints) {
   for (const Character& body : bodies()) {
     Dice dice(1);
     for (const BalanceMode balance :
@@ -36,7 +36,7 @@ TEST_P(AdapterIdentity, LeavesAPostureThatNothingIsAskedOf) {
   }
 }
 
-TEST_P(AdapterIdentity, LeavesAPostureThatHasWhatIsAsked) {
+TEST_P(AdapterIdentity, KeepsAPostureThatMeetsItsConstraints) {
   const Character body = human(true);
   Dice dice(2);
   for (int i = 0; i < kPostures; ++i) {
@@ -71,7 +71,7 @@ TEST_P(AdapterIdentity, IgnoresConstraintsThatAreNotActive) {
 }
 
 // Checks that the reported joint frames are those of the returned pose.
-TEST_P(AdapterIdentity, TellsWhereTheJointsOfItsPoseAre) {
+TEST_P(AdapterIdentity, ReportsTheJointFramesOfItsPose) {
   for (const Character& body : bodies()) {
     Dice dice(3);
     const std::string end = body.skeleton.joints.back().name;

@@ -131,7 +131,7 @@ TEST_P(AdapterOptions, OutcomesAreTrue) {
   EXPECT_FALSE(adapter.constraint("nobody").has_value());
 }
 
-TEST_P(AdapterOptions, HandlesChangeWhatIsAsked) {
+TEST_P(AdapterOptions, HandlesChangeTheirConstraints) {
   const Character body = human(false);
   const Pose reference = waiting(body);
   const glm::dvec3 here = place_of(body, reference, {"leftHand"});

@@ -85,15 +85,15 @@ void expect_feet_to_stand(const Character& body, AdaptOptions options) {
   }
 }
 
-TEST_P(AdapterPriority, FeetStandWhateverElseIsAsked) {
+TEST_P(AdapterPriority, KeepsFeetInPlaceDespiteOtherConstraints) {
   expect_feet_to_stand(human(false), options());
 }
 
-TEST_P(AdapterPriority, FeetStandWithinLimitsWhateverElseIsAsked) {
+TEST_P(AdapterPriority, KeepsFeetInPlaceWithinLimitsDespiteOtherConstraints) {
   expect_feet_to_stand(human(true), options());
 }
 
-TEST_P(AdapterPriority, FeetStandWhereTheyAreTold) {
+TEST_P(AdapterPriority, PutsFeetAtTheirTargets) {
   const Character body = human(false);
   const Pose reference = waiting(body);
   Dice dice(12);

@@ -54,7 +54,7 @@ TEST_P(AdapterQuadruped, LiftsOnePawAndStandsOnThree) {
 }
 
 // A neck of 0.36 m and a back of 0.5 m permit 15 cm in any direction.
-TEST_P(AdapterQuadruped, SniffsAtWhatIsNearOnFourPaws) {
+TEST_P(AdapterQuadruped, ReachesNearTargetsWithTheNoseOnFourPaws) {
   const Character animal = testing::make_quadruped();
   const Pose reference = waiting(animal);
   Dice dice(52);

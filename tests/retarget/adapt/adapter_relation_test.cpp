@@ -74,7 +74,7 @@ TEST_P(AdapterRelations, KeepADistanceToAPoint) {
   }
 }
 
-TEST_P(AdapterRelations, TurnSegmentsAsTheyAreAsked) {
+TEST_P(AdapterRelations, RotateSegmentsToTheirTargets) {
   for (const bool with_limits : {false, true}) {
     const Character body = human(with_limits);
     for (const Control control : {Control::kPriority, Control::kBlend}) {
@@ -157,11 +157,11 @@ void expect_first_exact_second_near(const Character& body, const AdaptOptions& o
   }
 }
 
-TEST_P(AdapterRelations, OfTwoOnALimbTheFirstIsMetAndTheSecondAsNearAsItGets) {
+TEST_P(AdapterRelations, MeetTheFirstOfTwoOnALimbAndApproachTheSecond) {
   expect_first_exact_second_near(human(false), options());
 }
 
-TEST_P(AdapterRelationsStrict, OfTwoBlendedOnALimbBothAreBetterOffThanWithoutTheirs) {
+TEST_P(AdapterRelationsStrict, ReduceBothErrorsOfTwoBlendedOnALimb) {
   for (const bool with_limits : {false, true}) {
     const Character body = human(with_limits);
     AdaptOptions blended = options();

@@ -100,7 +100,7 @@ TEST_P(AdapterReport, TheMeanIsOfConstraintsByImportance) {
   }
 }
 
-TEST_P(AdapterReport, TellsWhetherTheCapEndedIt) {
+TEST_P(AdapterReport, ReportsWhetherTheCapEndedTheSolve) {
   const Character body = human(false);
   const Pose reference = waiting(body);
   const ConstraintSet near{{off_by(body, reference, "leftHand", {0, 0.1, 0.1})}, {}};
@@ -121,7 +121,7 @@ TEST_P(AdapterReport, TellsWhetherTheCapEndedIt) {
 }
 
 // Each of two solves may be below the cap and their sum above it, and the reverse.
-TEST_P(AdapterReport, TellsWhetherTheCapEndedAnySolveWhileFading) {
+TEST_P(AdapterReport, ReportsWhetherTheCapEndedAnySolveWhileFading) {
   const Character body = human(false);
   const Pose reference = waiting(body);
   ConstraintSet asked{{off_by(body, reference, "leftHand", {0.3, 0.5, 0.6}),

@@ -44,13 +44,13 @@ void expect_named(const std::string& message, const std::string& reason) {
   EXPECT_NE(message.find(reason), std::string::npos) << message;
 }
 
-TEST(CrowdRefusals, OfNobody) {
+TEST(CrowdRefusals, IncludeACrowdWithoutMembers) {
   const auto crowd = Crowd::make({});
   ASSERT_FALSE(crowd);
   EXPECT_NE(crowd.error().message().find("no members"), std::string::npos);
 }
 
-TEST(CrowdRefusals, OfFewerThanOneThread) {
+TEST(CrowdRefusals, IncludeFewerThanOneThread) {
   for (const int threads : {0, -1}) {
     std::vector<Adapter> members;
     members.push_back(somebody());
@@ -60,7 +60,7 @@ TEST(CrowdRefusals, OfFewerThanOneThread) {
   }
 }
 
-TEST(CrowdRefusals, OfAWidthThatTheProcessorDoesNotHave) {
+TEST(CrowdRefusals, IncludeAWidthThatTheProcessorDoesNotHave) {
   for (const int width : {0, 2, 8, 16, 32}) {
     const auto lanes = static_cast<LaneWidth>(width);
     bool exists = false;
@@ -76,7 +76,7 @@ TEST(CrowdRefusals, OfAWidthThatTheProcessorDoesNotHave) {
   }
 }
 
-TEST(CrowdRefusals, OfAnotherSkeleton) {
+TEST(CrowdRefusals, IncludeAnotherSkeleton) {
   const Character animal = named(testing::make_quadruped());
   expect_named(
       refused(make_adapter(animal, {{contact("paw", "front left paw", {})}, {}})),
@@ -86,18 +86,18 @@ TEST(CrowdRefusals, OfAnotherSkeleton) {
   expect_named(refused(make_adapter(longer, one_hand())), "differ in structure");
 }
 
-TEST(CrowdRefusals, OfLimitsThatOthersDoNotHave) {
+TEST(CrowdRefusals, IncludeLimitsThatOthersDoNotHave) {
   expect_named(refused(make_adapter(named(human(true)), one_hand())),
                "differ in structure");
 }
 
-TEST(CrowdRefusals, OfOtherGroups) {
+TEST(CrowdRefusals, IncludeOtherGroups) {
   Character body = named(human(false));
   body.groups.front().balances = !body.groups.front().balances;
   expect_named(refused(make_adapter(body, one_hand())), "differ in structure");
 }
 
-TEST(CrowdRefusals, OfOtherConstraints) {
+TEST(CrowdRefusals, IncludeOtherConstraints) {
   const Character body = named(human(false));
   const auto expect_refused = [&](const ConstraintSet& wishes) {
     expect_named(refused(make_adapter(body, wishes)), "differ in structure");
@@ -113,7 +113,7 @@ TEST(CrowdRefusals, OfOtherConstraints) {
   expect_refused({});
 }
 
-TEST(CrowdRefusals, OfOtherOptions) {
+TEST(CrowdRefusals, IncludeOtherOptions) {
   const auto expect_refused = [](const AdaptOptions& options) {
     expect_named(refused(make_adapter(named(human(false)), one_hand(), options)),
                  "options");
@@ -139,7 +139,7 @@ TEST(CrowdRefusals, OfOtherOptions) {
 }
 
 // Numbers may differ between members.
-TEST(CrowdRefusals, NotOfOtherNumbers) {
+TEST(CrowdRefusals, ExcludeOtherValuesOfOptions) {
   AdaptOptions options;
   options.root_for_constraints = 0.3;
   options.root_for_balance = 0.2;
@@ -154,7 +154,7 @@ TEST(CrowdRefusals, NotOfOtherNumbers) {
 }
 
 // Lanes use one plan and one set of options, so a member must not change its own.
-TEST(CrowdRefusals, OfChangesThatWouldMakeAMemberAnotherKind) {
+TEST(CrowdRefusals, IncludeChangesOfAMembersOptionsOrPlan) {
   std::vector<Adapter> members;
   members.push_back(make_adapter(human(false), one_hand()));
   auto crowd = Crowd::make(std::move(members), {LaneWidth::kOne, 1});

@@ -155,7 +155,7 @@ TEST_P(CrowdOfMany, AnswersAsItsMembersDoWithinLimits) {
   expect_own_answers(members(human(true), 21, dice), options(), dice);
 }
 
-TEST_P(CrowdOfMany, OfQuadrupedsAnswersAsItsMembersDo) {
+TEST_P(CrowdOfMany, MatchesItsMembersForQuadrupeds) {
   Dice dice(2003);
   expect_own_answers(members(testing::make_quadruped(), 21, dice), options(), dice);
 }
@@ -178,7 +178,7 @@ TEST_P(CrowdOfMany, AnswersAsItsMembersDoWhenTheyMayNotFinish) {
 }
 
 // A body for which single precision finds no step does not affect its neighbours.
-TEST_P(CrowdOfMany, AnswersAsItsMembersDoHoweverFarSomeAreAskedToGo) {
+TEST_P(CrowdOfMany, MatchesItsMembersWhenSomeHaveFarTargets) {
   Dice dice(2008);
   auto some = members(human(false), 21, dice);
   for (std::size_t i = 0; i < some.size(); i += 2) {

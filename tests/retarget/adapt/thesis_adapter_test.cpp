@@ -151,7 +151,7 @@ TEST(ThesisAdapter, SettlesOnTargetsThatAreOutOfReach) {
 }
 
 // Figures 4.10 and 4.11: the root moves by its share for constraints.
-TEST(ThesisAdapter, SpendsOfTheRootWhatItIsTold) {
+TEST(ThesisAdapter, MovesTheRootByItsShare) {
   Standing scene;
   scene.want({0.0, 0.2, 1.0}, {0.0, 0.2, 1.0});
   double before_m = -1.0;

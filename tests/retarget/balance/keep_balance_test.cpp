@@ -99,7 +99,7 @@ TEST(TrackBalance, KnowsHowFarAStandingBodyIsFromTheEdgeOfItsFeet) {
   EXPECT_FALSE(track_balance(motion, map, middle, contacts)[0]) << "in the air";
 }
 
-TEST(BalanceFrames, TellTheMassAndTheCornersOfWhatBears) {
+TEST(BalanceFrames, ReportTheCentreOfMassAndTheCornersOfTheSupport) {
   Motion motion{make_humanoid(average_proportions(1.75)), {60.0}, 0, {}};
   const BodyMap map = *map_body(motion.skeleton);
   motion.poses.push_back(rest_pose(motion.skeleton));

@@ -12,7 +12,7 @@ namespace {
 
 using B = HumanBone;
 
-TEST(MapBody, SaysWhichBoneIsMissing) {
+TEST(MapBody, ReportsTheMissingBone) {
   const auto map = map_body(testing::without(testing::child(), B::kLeftLowerLeg));
   ASSERT_FALSE(map);
   EXPECT_EQ(map.error().message(),

@@ -136,7 +136,7 @@ TEST(BodyFrame, TurnsAMotionAsItsBody) {
 }
 
 // A body without names gets its sides by its toes, whatever its orientation.
-TEST(BodyFrame, TellsSidesOfAShapeByItsToes) {
+TEST(BodyFrame, FindsTheSidesOfAShapeByItsToes) {
   for (const double turn : {0.0, 1.0, 2.0, 3.0}) {
     const Skeleton truth = adult();
     Motion motion =

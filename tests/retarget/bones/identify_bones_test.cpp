@@ -94,7 +94,7 @@ TEST(IdentifyBones, TakesTheJointThatCarriesLegsAndSpineForHips) {
   EXPECT_NE(found->remarks[0].find("'Hips' has the name of the hips"), std::string::npos);
 }
 
-TEST(IdentifyBones, TellsABodyWithoutNamesByItsShape) {
+TEST(IdentifyBones, IdentifiesABodyWithoutNamesByItsShape) {
   const Skeleton truth = make_humanoid(average_proportions(1.75));
   Skeleton body = truth;
   for (Joint& joint : body.joints) {
@@ -126,7 +126,7 @@ TEST(IdentifyBones, KeepsTheMarksOfAFile) {
   }
 }
 
-TEST(IdentifyBones, BelievesTheUserFirst) {
+TEST(IdentifyBones, PrefersTheMapOfTheUser) {
   Skeleton body = mixamo_body();
   body.joints[index(*body.find("LeftUpLeg"))].name = "Oberschenkel";
   BoneMap overrides;
@@ -141,7 +141,7 @@ TEST(IdentifyBones, BelievesTheUserFirst) {
 }
 
 // A map may state for every bone that the body has none.
-TEST(IdentifyBones, DeclinesABodyWhoseHipsOrLegsAreToldAway) {
+TEST(IdentifyBones, DeclinesABodyWhoseMapExcludesHipsOrAllBones) {
   const Skeleton body = mixamo_body();
   Skeleton nameless = body;
   for (std::size_t i = 0; i < nameless.joints.size(); ++i) {

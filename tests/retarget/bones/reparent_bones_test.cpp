@@ -186,7 +186,7 @@ TEST(HangBones, HangsWhatAMapNames) {
   EXPECT_EQ(parent_of(made, B::kLeftLowerLeg), "LeftUpLeg");
 }
 
-TEST(HangBones, MakesAFootWhereAMapSaysThatThereIsNone) {
+TEST(HangBones, MakesAFootWhereAMapStatesThatThereIsNone) {
   const Skeleton body = mixamo_body();
   BoneMap overrides;
   for (const B bone : {B::kLeftFoot, B::kLeftToes, B::kRightFoot, B::kRightToes}) {

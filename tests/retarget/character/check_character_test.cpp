@@ -329,7 +329,7 @@ TEST(CheckCharacter, RefusesMassesAndLengthsThatNoBodyHas) {
       "Next: give its place in metres.");
 }
 
-TEST(CheckCharacter, RefusesLoadsThatCannotBeToldApart) {
+TEST(CheckCharacter, RefusesLoadsWithoutAUniqueNameOrWithNegativeMass) {
   const Load bag{"bag", {JointIndex{2}, {0, 0, 0}, 5.0}};
   EXPECT_EQ(refusal([&](Character& c) { c.loads = {bag}; }), "");
   EXPECT_NE(refusal([&](Character& c) {

@@ -40,7 +40,7 @@ TEST(Activation, IsAStepWithoutDurations) {
   EXPECT_EQ(activation(held, 2.0), 0.0);
 }
 
-TEST(Activation, OfTwoThatHandOverExactlyOneHolds) {
+TEST(Activation, HoldsForExactlyOneOfTwoAtAHandover) {
   const Activation before{std::nullopt, 2.0, 0.0, 0.0};
   const Activation after{2.0, std::nullopt, 0.0, 0.0};
   for (const double t : {1.0, std::nextafter(2.0, 0.0), 2.0, 3.0}) {
@@ -126,7 +126,7 @@ TEST(LiveActivation, GoesOnSmoothlyWheneverItIsStartedAndStopped) {
   EXPECT_EQ(live.at(3.0), 1.0);
 }
 
-TEST(LiveActivation, HeedsNeitherASecondStartNorASecondStop) {
+TEST(LiveActivation, IgnoresASecondStartAndASecondStop) {
   LiveActivation live({0.0, std::nullopt, 1.0, 1.0});
   const double risen = live.at(0.6);
   live.start(0.6);

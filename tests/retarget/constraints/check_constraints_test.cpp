@@ -140,7 +140,7 @@ TEST(CheckConstraints, OffersTheNearestSegment) {
       "you mean \"leftHand\".");
 }
 
-TEST(CheckConstraints, RefusesNumbersThatAreNoneWhereverTheyStand) {
+TEST(CheckConstraints, RefusesNonFiniteNumbersInEveryField) {
   const std::string next =
       ". Next: correct what computes it: it must be a finite number.";
   EXPECT_EQ(reach_with([](Constraint& c) { c.point.offset_in_t_pose.y = kNan; }),

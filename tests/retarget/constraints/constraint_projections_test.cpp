@@ -91,7 +91,7 @@ void expect_lane(const Vec3<Four>& all, std::size_t i, const Single& alone) {
 
 // Each lane equals to the bit that body alone, for any neighbours: inside, outside, on a
 // face, and where a direction does not exist.
-TEST(ConstraintProjections, GiveEachLaneWhatItsBodyAloneWouldGet) {
+TEST(ConstraintProjections, MatchTheResultOfEachBodyAloneInItsLane) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> coordinate(-2.0F, 2.0F);
   const Single low{-1.0F, -0.5F, -1.5F};

@@ -92,7 +92,7 @@ TEST(ConstraintTargets, LeaveTheMiddleOfAForbiddenSpaceAlwaysTheSameWay) {
 }
 
 // Never further from the point than any other valid position.
-TEST(ConstraintTargets, OfSpacesAreTheNearest) {
+TEST(ConstraintTargets, AreTheNearestPositionsForSpaces) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> coordinate(-2.0, 2.0);
   const auto some = [&] {
@@ -119,7 +119,7 @@ RigidTransform some_segment() {
 }
 
 // Two levers at their targets define one rotation.
-TEST(ConstraintTargets, OfAnOrientationDetermineAllOfIt) {
+TEST(ConstraintTargets, DetermineAWholeOrientation) {
   const glm::dquat wanted = glm::normalize(glm::dquat(0.9, 0.1, -0.4, 0.3));
   Places places = at({9, 9, 9});
   places.world_from_segment = some_segment();
@@ -139,7 +139,7 @@ TEST(ConstraintTargets, OfAnOrientationDetermineAllOfIt) {
   }
 }
 
-TEST(ConstraintTargets, OfAnOrientationThatIsMetAreWhereTheLeversAre) {
+TEST(ConstraintTargets, MatchTheLeversOfAnOrientationThatIsMet) {
   Places places;
   places.world_from_segment = some_segment();
   const Goal goal = SegmentOrientation{places.world_from_segment.rotation};
@@ -149,7 +149,7 @@ TEST(ConstraintTargets, OfAnOrientationThatIsMetAreWhereTheLeversAre) {
   }
 }
 
-TEST(ConstraintTargets, OfASupportAreItsFootprint) {
+TEST(ConstraintTargets, MatchTheFootprintOfASupport) {
   Places places = at({0, 0.3, 0});
   places.footprint_in_world = {0.2, 0.08, 0.1};
   places.footprint_world_from_t_pose = some_segment().rotation;

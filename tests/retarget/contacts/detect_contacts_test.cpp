@@ -136,7 +136,7 @@ TEST(DetectContacts, BeginsWithTheFrameInWhichAFootHasLanded) {
 }
 
 // Flat for a second, then on the balls of the feet for another, heels up by 20 degrees.
-TEST(DetectContacts, TellsARaisedHeelThatKeepsStillFromOneThatRests) {
+TEST(DetectContacts, DistinguishesARaisedStillHeelFromARestingHeel) {
   Motion motion;
   motion.skeleton = testing::giant();
   motion.rate.hz = 60.0;

@@ -105,7 +105,7 @@ TEST(Footprint, TurnsAboutTheBallThatBearsAlone) {
   }
 }
 
-TEST(Footprint, OfAFootThatWaversIsOne) {
+TEST(Footprint, StaysConstantForAWaveringFoot) {
   TurningFoot foot(0.0, 1.0);
   for (std::size_t t = 0; t < foot.reference.size(); ++t) {
     foot.reference[t].foot = glm::angleAxis(0.04 * std::sin(0.3 * static_cast<double>(t)),

@@ -43,7 +43,7 @@ constexpr auto kScaled = WorldLengths::kScaled;
 constexpr auto kKept = WorldLengths::kKept;
 constexpr int kHeld = (kPostureFirst + kPostureLast) / 2;
 
-TEST(KeptHipsHeight, RisesWithTheSourcesFromTheSeatToTheAirWithoutACorner) {
+TEST(KeptHipsHeight, RisesSmoothlyWithTheSourceFromSittingToJumping) {
   for (const double stands_m : {0.15, 0.4, 0.7, 0.95, 1.3, 2.4}) {
     constexpr double kSource_m = 0.95;
     const auto at = [&](double y_m) {

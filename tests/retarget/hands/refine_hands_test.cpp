@@ -138,7 +138,7 @@ TEST_P(EveryBodyAndTouch, TouchesWhereTheSourceTouches) {
 }
 
 // The test is meaningful: without refinement most hands miss by centimetres.
-TEST(RefineHands, MendsWhatRetargetingAloneMisses) {
+TEST(RefineHands, IsNeededBecauseRetargetingAloneMissesByCentimetres) {
   const Motion source = hands_go_to(clapping());
   const auto without = retargeted(source, broad(1.4), false);
   EXPECT_GT(gap_in(without.motion, 120, 0, P::kRightHand), 0.03);

@@ -84,7 +84,7 @@ TEST(ComparePostures, FindsLeftAndRightExchanged) {
   EXPECT_EQ(compare_postures(walk, map, walk, exchanged).exchanged_share, 1.0);
 }
 
-TEST(ComparePostures, FindsAJointFasterThanTheSourcesAndSaysWhen) {
+TEST(ComparePostures, FindsAJointFasterThanTheSourcesAndReportsTheFrame) {
   const Motion walk = testing::synthetic_walk(60, 60.0).motion;
   Motion made = walk;
   glm::dquat& elbow = made.poses[31].parent_from_joint[index(HumanBone::kLeftLowerArm)];
@@ -97,7 +97,7 @@ TEST(ComparePostures, FindsAJointFasterThanTheSourcesAndSaysWhen) {
 }
 
 // A single bad sample of a recording, which a body that follows it cannot show.
-TEST(ComparePostures, SaysWhenTheSourceItselfJumps) {
+TEST(ComparePostures, ReportsTheFrameWhereTheSourceJumps) {
   Motion walk = testing::synthetic_walk(60, 60.0).motion;
   walk.poses[20].root_in_world.x += 5.0;
   const BodyMap map = *map_body(walk.skeleton);

@@ -144,7 +144,7 @@ TEST(LiveRetarget, IsRetargetMotionWhereFeetAreLeftAlone) {
   }
 }
 
-TEST(LiveRetarget, SaysTheSameTwiceAndAfterForgetting) {
+TEST(LiveRetarget, RepeatsItsResultsAfterAReset) {
   const Motion walk = testing::synthetic_walk(80, kRate_hz, 0.002, 0.001).motion;
   const Skeleton avatar = testing::giant();
   auto live = LiveRetarget::make(walk.skeleton, avatar);

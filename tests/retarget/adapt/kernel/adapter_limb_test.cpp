@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLimbs, both_methods(), name_of);
 class AdapterLimbsStrict : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLimbsStrict, strict_method(), name_of);
 
-TEST_P(AdapterLimbs, BringAnyOfTheirPointsToWhatTheyReachAtOnce) {
+TEST_P(AdapterLimbs, BringAnyOfTheirPointsToReachableTargetsAtOnce) {
   const Character body = human(false);
   for (const BodyPoint& point : points_on_limbs()) {
     const Limb limb = limb_of(body, joint_at(body, point.segment));
@@ -105,7 +105,7 @@ TEST_P(AdapterLimbs, BringAnyOfTheirPointsToWhatTheyReachAtOnce) {
   }
 }
 
-TEST_P(AdapterLimbsStrict, BringTheirPointsToWhatTheyHardlyReach) {
+TEST_P(AdapterLimbsStrict, BringTheirPointsToBarelyReachableTargets) {
   const Character body = human(false);
   for (const BodyPoint& point : points_on_limbs()) {
     const Limb limb = limb_of(body, joint_at(body, point.segment));
@@ -147,7 +147,7 @@ double nearest_m(const Character& body,
   return nearest;
 }
 
-TEST_P(AdapterLimbs, AreAsNearAsTheyCanToWhatTheyDoNotReach) {
+TEST_P(AdapterLimbs, ApproachUnreachableTargetsAsNearAsPossible) {
   const Character body = human(false);
   for (const auto& [point, range] :
        {std::pair(BodyPoint{"leftUpperArm", {0.2, 0.03, 0.0}}, 1),

@@ -34,7 +34,7 @@ AdaptOptions by(Method method) {
 
 constexpr std::array<Method, 2> kMethods{Method::kStrict, Method::kThesis};
 
-TEST(GroundReference, IsWhatWasGivenOnFlatGroundToTheBit) {
+TEST(GroundReference, KeepsTheReferenceOnFlatGroundToTheBit) {
   for (const double flexibility_rad : {0.0, 1.5}) {
     const Character character = thesis_human(flexibility_rad);
     const Pose pose = standing_pose(character);

@@ -32,7 +32,7 @@ struct LimbMasses {
 };
 
 // Verifies the tests' own reference: the formula that the next test uses.
-TEST(ThesisExtension, OfTheseTestsIsWhatTheTriangleSays) {
+TEST(ThesisExtension, MatchesTheTriangle) {
   testing::Dice dice(3);
   for (int k = 0; k < 1000; ++k) {
     const LimbMasses limb{dice.between(0.2, 0.5),
