@@ -4,7 +4,8 @@
 """language_scan.py ROOT [--list KIND [PREFIX]] [--check CEILINGS]
 
 Counts sentences that break the rules of plain technical English in docs/conventions.md.
-Kinds: headers (comments of *.h), sources (comments of *.cpp, *.ts and *.js), messages (text
+Kinds: headers (comments of *.h), sources (comments of *.cpp, *.ts and *.js, and of
+tests, benchmarks and examples), messages (text
 of string literals), docs (*.md), tests (names of tests in tests/**/*.cpp, split into words).
 Prints for each kind the number of sentences, the number
 with at least one idiom and the share in percent. --list prints the sentences of one kind,
@@ -169,6 +170,10 @@ def scan(root):
             add("docs", path, markdown_sentences(path.read_text()))
     for path in sorted((root / "tests").rglob("*.cpp")):
         add("tests", path, test_names(path.read_text()))
+    for folder in ("tests", "benchmarks", "examples"):
+        for pattern in ("*.h", "*.cpp"):
+            for path in sorted((root / folder).rglob(pattern)):
+                add("sources", path, comment_sentences(path.read_text(), LINE_COMMENT))
     return result
 
 

@@ -73,7 +73,7 @@ Result<CaseBody> read_body(const std::filesystem::path& file) {
   if (!map) return map.error();
   CharacterTraits free;
   free.has_limits = false;
-  free.mass.table = MassTable::kDempster;  // The thesis', whose figures stand beside.
+  free.mass.table = MassTable::kDempster;  // As in the thesis, to compare its figures.
   auto character = retarget::make_character("cases", std::move(skeleton), *map, free);
   if (!character) return character.error();
   body.character = *std::move(character);

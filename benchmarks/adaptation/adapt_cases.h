@@ -34,7 +34,7 @@ enum class CaseClass {
   kUnreachable,  ///< 1.9 to 2.6 m from the planted foot, apart from each other.
 };
 
-/// What one posture is asked for.
+/// The targets of one posture.
 struct AdaptCase {
   CaseClass kind = CaseClass::kNear;
   std::array<glm::dvec3, kCasePoints> targets_in_world{};
@@ -49,13 +49,13 @@ struct CaseSet {
   std::vector<AdaptCase> cases;
 };
 
-/// Reads `folder`/model.txt and targets.txt (their README says how). Errors (bad input):
-/// a file is missing, cut short or describes no human.
+/// Reads `folder`/model.txt and targets.txt (their README defines the format). Errors
+/// (bad input): a file is missing, cut short or describes no human.
 [[nodiscard]] Result<CaseSet> read_cases(const std::filesystem::path& folder);
 
-/// Whether every target is within its limb's reach, to 5 mm, from where hip or shoulder
-/// is at rest: then limbs alone suffice. Precondition: each point ends a limb of two
-/// bones.
+/// Returns true when every target is within its limb's reach, to 5 mm, from the place of
+/// hip or shoulder at rest. The limbs alone suffice for such a case. Precondition: each
+/// point ends a limb of two bones.
 [[nodiscard]] bool is_for_limbs_alone(const CaseBody& body, const AdaptCase& asked);
 
 }  // namespace marey

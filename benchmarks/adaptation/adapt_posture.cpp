@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What does it cost to adapt a posture, how near does it come, and how much of the
-// posture is kept?
+// Measures the cost of adapting a posture, the residual distance to the targets, and the
+// change of the posture.
 //
 //   adapt_posture [--data FOLDER] [--json FILE] [QUESTION]...
 //
 // QUESTIONs: classes, crowd, reach, thesis, captured. All of them when none is named.
 // FOLDER is that of the shared data (default: as configured), of which adapt/ and mocap/
-// are read. Everything that is told of a posture is computed here, from the posture, in
-// double.
+// are read. All measures of a posture are computed here, from the posture, in double.
 #include <algorithm>
 #include <array>
 #include <cstdio>

@@ -10,19 +10,19 @@
 
 namespace marey {
 
-/// How long and how near a posture takes, by class of cases, with and without balance.
+/// Measures time and error of a posture by class of cases, with and without balance.
 [[nodiscard]] std::vector<ResultTable> measure_classes(const CaseSet& cases);
 
-/// How many bodies a core moves, no two alike.
+/// Measures the number of different bodies that a core moves.
 [[nodiscard]] std::vector<ResultTable> measure_crowd(const CaseSet& cases);
 
-/// Whether a person with joint limits reaches what another posture of it reaches.
+/// Measures if a person with joint limits reaches the targets of its other postures.
 [[nodiscard]] std::vector<ResultTable> measure_reach();
 
-/// The thesis' tables 4.1 to 4.3, 5.2 and 5.3, printed beside ours.
+/// Measures the thesis' tables 4.1 to 4.3, 5.2 and 5.3, with its printed values.
 [[nodiscard]] std::vector<ResultTable> measure_thesis();
 
-/// How far adapted postures are from captured ones that did the same.
+/// Measures the difference of adapted postures from captured ones of the same action.
 [[nodiscard]] std::vector<ResultTable> measure_captured(
     const std::vector<CapturedClip>& clips);
 

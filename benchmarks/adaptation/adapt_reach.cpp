@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Does a person with joint limits reach what it can reach? Targets are where random
-// postures within the limits have wrists and ankle, the other foot planted; the further a
-// posture is from standing, the harder.
+// Measures if a person with joint limits reaches reachable targets. Targets are the
+// places of wrists and ankle in random postures within the limits, with the other foot
+// planted. A posture further from standing is harder.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -27,7 +27,7 @@ constexpr int kPostures = 300;
 constexpr std::uint64_t kSeed = 41;
 // Axes are limited one by one: so near to the middle no mix of them is beyond.
 constexpr double kShareOfRange = 0.6;
-constexpr double kFurthest_rad = 1.7;  // Of axes that are free.
+constexpr double kFurthest_rad = 1.7;  // Largest angle of free axes.
 
 struct Reached {
   StandingScene::Targets targets_in_world{};
@@ -67,7 +67,7 @@ Reached random_reach(const StandingScene& scene, double share, testing::Dice& di
   return reached;
 }
 
-/// Those that know of limits, and marey without them to see what these cost.
+/// Returns all solvers, and marey's without limits to measure the cost of the limits.
 std::vector<Contender> contenders_for(const PostureProblem& problem,
                                       const Character& without_limits) {
   auto contenders = all_contenders(problem);

@@ -43,7 +43,7 @@ struct PrintedTable {
   std::string id;
   std::string title;
   bool is_balance = false;  // Chapter 5: the error is that of the centre of mass.
-  bool above_best = false;  // The error is told above the least that can be had.
+  bool above_best = false;  // The error is relative to the least of all solvers.
   StandingScene::Targets StandingScene::*targets;
   std::vector<PrintedRow> rows;
 };

@@ -19,7 +19,7 @@
 
 namespace marey {
 
-/// Who is in a picture. The program ends, and says why, when it is no character.
+/// Makes the person of a picture. Prints the error and exits when it is no character.
 [[nodiscard]] Character make_actor(const recordings::MannequinOptions& body = {},
                                    const CharacterTraits& traits = {});
 
@@ -50,12 +50,12 @@ void turn(Pose& pose,
 
 struct Adapted {
   Pose pose;
-  glm::dvec3 com_in_world{0.0};  ///< Of the body with its loads.
+  glm::dvec3 com_in_world{0.0};  ///< Centre of mass of the body with its loads.
   retarget::AdaptReport report;
 };
 
-/// One posture, all loads of the character carried. Says on standard output how well.
-/// The program ends, and says why, when the adapter refuses.
+/// Adapts one posture with all loads of the character. Prints its errors on standard
+/// output. Prints the error and exits when the adapter refuses.
 [[nodiscard]] Adapted adapted(std::string_view who,
                               const Character& character,
                               const Pose& reference,

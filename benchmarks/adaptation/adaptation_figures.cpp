@@ -21,7 +21,7 @@ constexpr double kTarget_m = 0.045;  // Radius of the balls.
 constexpr glm::dvec3 kX{1, 0, 0};
 /// Where the label of a figure that stands at Z = 0 is, from a figure's place.
 constexpr glm::dvec3 kLabel{0, -0.10, 0.1};
-/// From their right, so that who faces +Z looks to the right of the picture.
+/// View from the right side: a person facing +Z looks to the right of the picture.
 constexpr PictureView kSide{-78.0, 7.0};
 
 AdaptOptions balanced(BalanceMode balance) {

@@ -4,8 +4,8 @@
 
 #include "benchmarks/adaptation/picture_scene.h"
 
-/// What docs/adaptation.md shows, after figures of Kulpa 2005. Each prints how well its
-/// postures do what is asked of them.
+/// The figures of docs/adaptation.md, after figures of Kulpa 2005. Each function prints
+/// the errors of its postures.
 namespace marey {
 
 [[nodiscard]] PictureScene draw_control();      ///< Figure 3.7: priority and blend.
@@ -13,8 +13,8 @@ namespace marey {
 [[nodiscard]] PictureScene draw_flexibility();  ///< 4.13: bending by hamstrings.
 [[nodiscard]] PictureScene draw_stair();        ///< 4.18: a walk onto a step.
 [[nodiscard]] PictureScene draw_balance();      ///< 5.1: reaching far.
-[[nodiscard]] PictureScene draw_strategies();   ///< 5.5: who keeps the balance.
+[[nodiscard]] PictureScene draw_strategies();   ///< 5.5: groups or root keep the balance.
 [[nodiscard]] PictureScene draw_crowd();        ///< 7.3: other bodies, the same targets.
-[[nodiscard]] PictureScene draw_loads();        ///< 7.5: what hands carry.
+[[nodiscard]] PictureScene draw_loads();        ///< 7.5: loads in the hands.
 
 }  // namespace marey

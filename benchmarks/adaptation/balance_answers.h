@@ -14,7 +14,7 @@
 
 namespace marey {
 
-/// One way to answer, and how it is called.
+/// A solver configuration and its name.
 struct Answerer {
   const char* name;
   retarget::Method method;
@@ -26,7 +26,7 @@ inline constexpr std::array<Answerer, 3> kAnswerers{
      {"thesis", retarget::Method::kThesis, retarget::BalanceMode::kHorizontal},
      {"no balance", retarget::Method::kStrict, retarget::BalanceMode::kOff}}};
 
-/// Figures of many answers of one answerer.
+/// Error figures of many answers of one answerer.
 struct Figures {
   std::vector<double> mean_deg;   ///< Mean over all segments, per question.
   std::vector<double> chest_deg;  ///< Largest of spine, chest, neck and head.
@@ -39,7 +39,7 @@ struct Figures {
 
 using AllFigures = std::array<Figures, kAnswerers.size()>;
 
-/// What one posture is asked: targets of joints, and joints that stand.
+/// The task for one posture: targets of the moved joints, and the standing joints.
 struct Question {
   const Pose* reference = nullptr;
   std::vector<JointIndex> standing;
@@ -47,7 +47,8 @@ struct Question {
   std::vector<glm::dvec3> targets_in_world;
 };
 
-/// Asks every answerer, each with an adapter of its own, and measures what it answers.
+/// Solves the task with every answerer, each with its own adapter. Adds the measured
+/// errors to `figures`.
 void answer_all(const Character& body, const Question& asked, AllFigures& figures);
 
 }  // namespace marey

@@ -18,7 +18,7 @@ constexpr double kTarget_m = 0.045;  // Radius of the balls.
 constexpr glm::dvec3 kLabel{0, -0.10, 0.1};
 constexpr PictureView kSide{-78.0, 7.0};
 
-/// Who moves for balance.
+/// Groups of the body that move for balance.
 enum class Who { kNobody, kGroups, kRoot, kAll };
 
 Character with_balancers(Character actor, Who who) {

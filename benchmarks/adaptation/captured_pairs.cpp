@@ -14,11 +14,11 @@ namespace marey {
 namespace {
 
 constexpr double kStill_m = 0.03;
-constexpr double kLow_m = 0.05;  // An ankle, above the lowest that it ever is.
+constexpr double kLow_m = 0.05;  // Height of an ankle above its lowest one.
 constexpr double kLongestStance_s = 2.0;
 constexpr double kMinExcursion_m = 0.15;
 
-/// What decides on pairs, of one frame. Sides: left, right.
+/// Joint positions of one frame that determine the pairs. Sides: left, right.
 struct Places {
   glm::dvec3 hips{0.0};
   std::array<glm::dvec3, 2> wrists{};

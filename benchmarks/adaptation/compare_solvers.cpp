@@ -18,13 +18,13 @@ constexpr int kRunsPerTask = 5;
 constexpr double kReached_m = 1e-3;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-/// What one contender did.
+/// Times and results of one contender.
 struct Record {
   Contender contender;
   std::vector<double> median_us;    // One per round.
   std::vector<double> p95_us;       // One per round.
   std::vector<double> in_a_row_us;  // One per round.
-  std::vector<double> iterations;   // From here on one per task.
+  std::vector<double> iterations;   // One per task, as `found`.
   std::vector<PostureMeasure> found;
 };
 

@@ -19,26 +19,26 @@ struct Contender {
   std::unique_ptr<PostureSolver> solver;
 };
 
-/// What all contenders are asked.
+/// The tasks that all contenders solve.
 struct Contest {
   std::string id;
   std::string title;
-  const Character* character = nullptr;  ///< Skeleton and masses by which it is judged.
+  const Character* character = nullptr;  ///< Skeleton and masses for the measures.
   std::vector<PointGoal> goals;
   std::vector<PostureTask> tasks;
 };
 
-/// How long and how near: one row for each contender.
+/// Measures times and errors of the contenders: one row for each contender.
 ///
-/// Solvers take turns, five rounds, so that a processor that changes its pace changes it
-/// for all. Of each task the fastest of five runs counts ("us", "p95 us": median and 95 %
-/// of the tasks); "in a row us" is all tasks once, one after the other, by their number,
-/// in time of the processor. Of the rounds always the median. Precondition: there are
-/// tasks.
+/// The solvers take turns in five rounds, so that a change of the processor's frequency
+/// affects all of them. The fastest of five runs counts for each task ("us", "p95 us":
+/// median and 95 % quantile over the tasks). "in a row us" is the processor time of one
+/// pass over all tasks, divided by their number. Each time is the median over the rounds.
+/// Precondition: there are tasks.
 [[nodiscard]] ResultTable compare_solvers(const Contest& contest,
                                           std::vector<Contender> contenders);
 
-/// Every solver there is, made for this problem.
+/// Returns every available solver, made for this problem.
 [[nodiscard]] std::vector<Contender> all_contenders(const PostureProblem& problem);
 
 }  // namespace marey

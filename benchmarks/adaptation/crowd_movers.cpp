@@ -25,7 +25,7 @@ using retarget::CrowdOptions;
 using retarget::LaneWidth;
 using retarget::Method;
 
-constexpr double kPrecision_m = 1e-3;  // As marey's columns one by one.
+constexpr double kPrecision_m = 1e-3;  // Same as in marey's "one by one" columns.
 
 class OneByOne final : public CrowdMover {
  public:
@@ -81,7 +81,7 @@ class SideBySide final : public CrowdMover {
 
  private:
   Crowd crowd_;
-  std::vector<Adapter::Handle> handles_;  // Of the crowd's members, goal by goal.
+  std::vector<Adapter::Handle> handles_;  // Goals of the members, in order.
   std::vector<Pose> references_;
 };
 

@@ -18,7 +18,7 @@
 
 namespace marey {
 
-/// One body of a crowd and what is asked of it.
+/// One body of a crowd and its task.
 struct CrowdMember {
   Character character;
   Pose reference;
@@ -35,8 +35,8 @@ struct CrowdMember {
 class CrowdMover {
  public:
   virtual ~CrowdMover() = default;
-  /// Adapts everybody: what is timed. Precondition: the crowd that it was made for, and
-  /// one place in `out` per member.
+  /// Adapts all members. The benchmark times this call. Precondition: `crowd` is the
+  /// crowd that the mover was made for, and `out` has one element per member.
   virtual void move(const std::vector<CrowdMember>& crowd, std::vector<Pose>& out) = 0;
 };
 
@@ -44,15 +44,15 @@ class CrowdMover {
 struct CrowdColumn {
   std::string name;
   std::unique_ptr<CrowdMover> mover;
-  /// Timed by the wall's clock instead of the thread's own.
+  /// Timed by wall-clock time instead of the thread's processor time.
   bool has_threads = false;
-  double KiB_each = 0.0;  ///< Of memory that the mover took; 0: not known.
+  double KiB_each = 0.0;  ///< Memory of the mover per member; 0: unknown.
   std::vector<Pose> found{};
   std::vector<double> us_each{};  ///< One per round.
 };
 
-/// Every baseline and both of marey's methods one by one; then marey's crowds, in every
-/// width that this processor has, and with two threads.
+/// Returns every baseline and both methods of marey one by one; then marey's crowds, in
+/// every lane width that this processor supports, and with two threads.
 [[nodiscard]] std::vector<CrowdColumn> crowd_columns(
     const std::vector<CrowdMember>& crowd,
     const std::vector<PointGoal>& goals,

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the adapter does, to be looked at: the scenes of docs/adaptation.md.
+// Draws results of the adapter: the scenes of docs/adaptation.md.
 //
 //   draw_adaptation FOLDER
 //
-// Writes a GLB for each, with a view and labels beside it in a JSON, of which
-// tests/tools/draw_scenes.py makes pictures.
+// Writes a GLB for each scene, and a JSON with the view and the labels.
+// tests/tools/draw_scenes.py renders pictures from both.
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   const std::filesystem::path folder = argv[1];
-  std::error_code ignored;  // A folder that is not there is told when it is written to.
+  std::error_code ignored;  // write() reports a missing folder.
   std::filesystem::create_directories(folder, ignored);
   for (const auto draw : {marey::draw_control,
                           marey::draw_root_share,

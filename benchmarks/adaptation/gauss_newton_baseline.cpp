@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Compiled for the processor at hand (benchmarks/CMakeLists.txt): what marey is compared
-// with shall not be slowed down by how marey itself is compiled.
+// This file is compiled for the processor at hand (benchmarks/CMakeLists.txt), so that
+// the compiler options of marey do not slow down the baselines.
 #include "benchmarks/adaptation/gauss_newton_baseline.h"
 
 #include <algorithm>
@@ -17,10 +17,10 @@ namespace marey {
 namespace {
 
 constexpr double kGoodEnough_m = 1e-3;
-constexpr double kLongestPull_m = 0.3;  // Of a point's error, in one step.
+constexpr double kLongestPull_m = 0.3;  // Limit of a point's error in one step.
 constexpr double kPlantedWeight = 5.0;
 
-/// What both kinds share: a body, its goals, and a posture in and out.
+/// Base of both solvers: a body, its goals, and input and output of postures.
 template <class T>
 class Solver : public GaussNewtonBaseline {
  public:
@@ -72,8 +72,8 @@ class Solver : public GaussNewtonBaseline {
   typename Body::Posture found_;
 };
 
-/// Rows known to the compiler save a tenth of the time; there may be more than are
-/// needed, which stay empty.
+/// A number of rows known at compile time saves a tenth of the time. Surplus rows stay
+/// zero.
 template <class T, int Rows>
 class DualSolver final : public Solver<T> {
  public:
@@ -121,7 +121,7 @@ class DualSolver final : public Solver<T> {
     return this->goals_[k].is_planted ? T(kPlantedWeight) : T(1);
   }
 
-  /// Fills the errors; the largest of them as it is. [m]
+  /// Fills the errors. Returns the largest one, without limit or weight. [m]
   T measure(std::span<const glm::dvec3> targets, const glm::dvec3& com) {
     T worst = T(0);
     Eigen::Index row = 0;
@@ -173,7 +173,7 @@ std::unique_ptr<GaussNewtonBaseline> make_dual(const Skeleton& skeleton,
       skeleton, masses, goals, with_balance);
 }
 
-/// Level 1 is solved first; level 2 is what is left, within level 1's null space.
+/// Solves level 1 first, then level 2 within the null space of level 1.
 class StrictSolver final : public Solver<double> {
  public:
   StrictSolver(const Skeleton& skeleton,
@@ -199,7 +199,8 @@ class StrictSolver final : public Solver<double> {
     for (; step < kMaxSteps; ++step) {
       body_.forward(trial_);
       const double second_worst_m = measure(targets_in_world, com_in_world);
-      // What is left of level 1 is added: at last the root takes all else along by it.
+      // The residual of level 1 is added because stand_exactly() moves all points with
+      // the root.
       const double worst_m = first_worst_m_ + second_worst_m;
       stalled = worst_m > least_m * 0.998 ? stalled + 1 : 0;
       if (worst_m < least_m || worst_m < kGoodEnough_m) {
@@ -218,7 +219,7 @@ class StrictSolver final : public Solver<double> {
   static constexpr int kMaxSteps = 48;
   static constexpr double kLongestLean_m = 0.2;
 
-  /// Fills the errors of both levels; the largest of level 2. [m]
+  /// Fills the errors of both levels. Returns the largest error of level 2. [m]
   double measure(std::span<const glm::dvec3> targets, const glm::dvec3& com) {
     first_worst_m_ = 0.0;
     double second_worst_m = 0.0;
@@ -264,7 +265,8 @@ class StrictSolver final : public Solver<double> {
     normal_.diagonal().array() += 1e-9;
     factor_.compute(normal_);
     first_step_.noalias() = first_.transpose() * factor_.solve(first_error_);
-    // Level 2 without what would disturb level 1, and without what level 1 does for it.
+    // Projects level 2 into the null space of level 1. Subtracts the effect of level 1's
+    // step from the errors of level 2.
     shared_.noalias() = first_ * second_.transpose();
     factor_.solveInPlace(shared_);
     second_error_.noalias() -= second_ * first_step_;
@@ -276,7 +278,7 @@ class StrictSolver final : public Solver<double> {
     step_.noalias() += second_.transpose() * factor_.solve(second_error_);
   }
 
-  /// Of several feet, on average.
+  /// Shifts the root by the mean error of the planted points.
   void stand_exactly(std::span<const glm::dvec3> targets) {
     if (planted_ == 0) return;
     body_.forward(found_);

@@ -16,24 +16,26 @@
 
 namespace marey {
 
-/// The general-purpose solver that an adapter has to be better than: damped Gauss-Newton
-/// steps on every joint as a ball joint and on the root's place, by the Jacobian's small
-/// side (J^T (J J^T + d I)^-1 e). One page, no thought for bodies.
+/// The kind of general-purpose solver that serves as the baseline for the adapters. It
+/// makes damped Gauss-Newton steps on every joint as a ball joint and on the position of
+/// the root, with the smaller normal matrix (J^T (J J^T + d I)^-1 e). It uses no
+/// knowledge of human bodies.
 enum class BaselineKind {
   kDualFloat,     ///< One weighted sum: a planted point counts five times.
-  kDualDouble,    ///< The same.
+  kDualDouble,    ///< The same in double precision.
   kStrictDouble,  ///< Planted points and the centre of mass first, the rest in the null
-                  ///< space; at last the root is moved so that the feet stand exactly.
+                  ///< space. A final shift of the root places the feet exactly.
 };
 
-/// A joint that is wanted somewhere.
+/// A joint that has a target position.
 struct PointGoal {
   JointIndex joint{};
   bool is_planted = false;
 };
 
-/// Stops when every point, and the centre of mass if it is asked for, is within 1 mm, or
-/// when nothing gets better, or after 50 steps. Allocates nothing once it has solved.
+/// Stops when every point (with balance, also the centre of mass) is within 1 mm, when
+/// the error no longer decreases, or after 50 steps (kStrictDouble: 48). It allocates no
+/// memory after the first solve().
 class GaussNewtonBaseline {
  public:
   /// Precondition: the first joint is the only root. `masses`' sum is positive if
@@ -46,13 +48,14 @@ class GaussNewtonBaseline {
       bool with_balance);
   virtual ~GaussNewtonBaseline() = default;
 
-  /// Where it starts from. Not part of the solver proper: a posture in its own numbers.
+  /// Sets the start posture, converted to the solver's number type. The conversion is not
+  /// part of solve().
   virtual void load(const Pose& reference) = 0;
-  /// Steps made. `targets_in_world` is as long as the goals; `com_in_world` is looked at
-  /// only with balance.
+  /// Returns the number of steps. `targets_in_world` is as long as the goals;
+  /// `com_in_world` is used only with balance.
   virtual int solve(std::span<const glm::dvec3> targets_in_world,
                     const glm::dvec3& com_in_world) = 0;
-  /// The posture found, in everybody's numbers.
+  /// Writes the posture found, converted to a Pose.
   virtual void store(Pose& out) const = 0;
 };
 

@@ -34,7 +34,7 @@ class MareySolver final : public PostureSolver {
 
  private:
   Adapter adapter_;
-  std::vector<Adapter::Handle> handles_;  // Of the adapter above.
+  std::vector<Adapter::Handle> handles_;  // Goals of `adapter_`.
   Pose found_;
 };
 
@@ -60,7 +60,7 @@ ConstraintSet marey_constraints(const PostureProblem& problem, double precision_
     constraint.point.segment = problem.character->skeleton[goal.joint].name;
     constraint.precision_m = precision_m;
     if (goal.is_planted) {
-      // The same question as the baselines': the ankle's place, not the foot's turn.
+      // The same goal as the baselines': the ankle's position, not the foot's rotation.
       constraint.goal = Support{std::nullopt, std::nullopt, true};
     } else {
       constraint.goal = DistanceToPoint{};

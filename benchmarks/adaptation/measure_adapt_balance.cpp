@@ -6,12 +6,12 @@
 //   measure_adapt_balance [--data FOLDER] [--postures N] [--targets N] [--json FILE]
 //                         [CLIP.(bvh|amc)]...
 //
-// Of each clip, postures at regular intervals in which a foot stands. Each posture gets
-// random targets for one wrist, all within reach of the arm alone (shoulder unmoved), and
-// the wrists and ankles of another posture of the clip. Each question is answered by the
-// strict method with balance, by the thesis' method with balance and by the strict method
-// without balance. Without clips: those of FOLDER/mocap. All angles are computed here,
-// from the postures, in double.
+// Each clip provides postures at regular intervals in which a foot stands. Each posture
+// gets random targets for one wrist, all within reach of the arm alone (shoulder
+// unmoved), and the wrists and ankles of another posture of the clip. Each task is solved
+// by the strict method with balance, by the thesis' method with balance and by the strict
+// method without balance. Default clips: the clips of FOLDER/mocap. All angles are
+// computed here, from the postures, in double.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -52,8 +52,8 @@ struct Arguments {
   std::vector<std::filesystem::path> clips;
 };
 
-/// The arm reaches alone when the answer without balance meets the target and turns no
-/// other segment by more.
+/// The arm reaches alone when the answer without balance meets the target (kMet_mm) and
+/// rotates no other segment by more than this angle.
 constexpr double kAlone_deg = 0.1;
 constexpr double kMet_mm = 1.0;
 /// Answers of the strict method beyond this angle are listed one by one.
@@ -72,7 +72,7 @@ std::array<JointIndex, 4> ends_of(const Skeleton& s) {
           *s.find(HumanBone::kRightHand)};
 }
 
-/// The frames of a clip that questions start from, and who stands in them.
+/// The start frames of the tasks of a clip, and the standing joints in them.
 struct Stances {
   std::vector<std::size_t> frames;
   std::vector<std::vector<JointIndex>> standing;

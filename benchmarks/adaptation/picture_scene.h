@@ -15,12 +15,13 @@
 
 namespace marey {
 
-/// Colours beside the mannequin's own. What is within bodies is drawn through them.
+/// Colours in addition to the mannequin's own. Marks inside a body are drawn through its
+/// surface.
 enum class Paint {
-  kTarget,        ///< Where a point is wanted.
-  kOtherTarget,   ///< Where another is.
-  kCentreOfMass,  ///< Of the posture. Within.
-  kWantedCentre,  ///< Where it is wanted. Within.
+  kTarget,        ///< Target of a point.
+  kOtherTarget,   ///< Target of another point.
+  kCentreOfMass,  ///< Centre of mass of the posture. Inside a body.
+  kWantedCentre,  ///< Target of the centre of mass. Inside a body.
   kGround,
   kPath,
   kLoad,
@@ -28,23 +29,23 @@ enum class Paint {
 
 /// Direction from which a picture is taken, without perspective.
 struct PictureView {
-  double azimuth_deg = 0.0;    ///< From +Z, in front of who faces +Z, towards +X.
+  double azimuth_deg = 0.0;    ///< From +Z, in front of a body that faces +Z, to +X.
   double elevation_deg = 8.0;  ///< Above the horizontal.
 };
 
-/// Posed bodies and marks, still, as one mesh.
+/// Posed bodies and marks without motion, as one mesh.
 class PictureScene {
  public:
   PictureScene(std::string name, PictureView view);
 
-  /// The way along the floor that is so far to the right in the picture. [m]
+  /// Returns the shift along the floor that is `way_m` to the right in the picture. [m]
   [[nodiscard]] glm::dvec3 to_the_right(double way_m) const;
 
-  /// A mannequin in `pose`, the whole moved by `shift_m`.
+  /// Adds a mannequin in `pose`, shifted by `shift_m`.
   /// Precondition: the skeleton is one of make_humanoid()'s.
   void add_body(const Skeleton& skeleton, const Pose& pose, const glm::dvec3& shift_m);
   void add_ball(const glm::dvec3& centre_in_world, double radius_m, Paint paint);
-  /// A straight round rod. Precondition: the ends are apart.
+  /// Adds a straight round rod. Precondition: the ends are apart.
   void add_rod(const glm::dvec3& from_in_world,
                const glm::dvec3& to_in_world,
                double radius_m,
@@ -52,7 +53,7 @@ class PictureScene {
   void add_box(const glm::dvec3& min_in_world,
                const glm::dvec3& max_in_world,
                Paint paint);
-  /// Text that faces the viewer, its middle at `p_in_world`.
+  /// Adds text that faces the viewer, centred at `p_in_world`.
   void add_label(std::string text, const glm::dvec3& p_in_world);
 
   /// Writes `folder`/NAME.glb, and NAME.json with view and labels.
@@ -67,7 +68,7 @@ class PictureScene {
   struct ProfilePoint {
     double along_m;
     double radius_m;
-    double slope_along;  ///< Of the normal: its part along the axis, -1 to 1.
+    double slope_along;  ///< Component of the normal along the axis, -1 to 1.
   };
   void add_turned(const glm::dvec3& from_in_world,
                   const glm::dvec3& axis,

@@ -15,12 +15,13 @@
 
 namespace marey {
 
-/// What a posture is worth, by one forward kinematics in double, whoever found it.
+/// Errors of a posture, computed by the same forward kinematics in double for every
+/// solver.
 struct PostureMeasure {
   double worst_point_m = 0.0;   ///< The largest error of a goal.
-  double mean_point_m = 0.0;    ///< Of the goals that are not planted.
+  double mean_point_m = 0.0;    ///< The mean error of the goals that are not planted.
   double planted_m = 0.0;       ///< The largest error of a planted goal.
-  double com_m = 0.0;           ///< Horizontal, of the centre of mass.
+  double com_m = 0.0;           ///< The horizontal error of the centre of mass.
   double deviation_rad = 0.0;   ///< From the reference: root mean square over joints of
                                 ///< the angle of each one's rotation in its parent.
   double displacement_m = 0.0;  ///< From the reference: mean over joints.
@@ -41,14 +42,15 @@ struct PostureMeasure {
 /// The centre of mass. Precondition: the masses' sum is positive.
 [[nodiscard]] glm::dvec3 centre_of_mass(const Character& character, const Pose& pose);
 
-/// Microseconds of a clock that never goes back.
+/// Microseconds of a monotonic clock.
 [[nodiscard]] double now_us();
 
-/// Microseconds that this thread has had of its processor: for what takes long enough to
-/// be interrupted by other programs. Reading it takes a good part of a microsecond.
+/// Returns the processor time of this thread in microseconds. It suits measurements that
+/// are long enough for an interruption by other programs. One call takes a large part of
+/// a microsecond.
 [[nodiscard]] double processor_us();
 
-/// Arithmetic mean; 0 of nothing.
+/// Arithmetic mean; 0 if there are no values.
 [[nodiscard]] double mean(std::span<const double> values);
 
 }  // namespace marey

@@ -15,34 +15,36 @@
 
 namespace marey {
 
-/// One posture and what is wanted of it. Views: the caller keeps what they look at.
+/// One posture and its targets. The members are views: the caller keeps the data.
 struct PostureTask {
   const Pose* reference = nullptr;
   std::span<const glm::dvec3> targets_in_world;  ///< One per goal.
   glm::dvec3 com_in_world{0.0};
 };
 
-/// Anything that adapts postures of one body to one list of goals.
+/// A solver that adapts postures of one body to one list of goals.
 class PostureSolver {
  public:
   virtual ~PostureSolver() = default;
 
-  /// What may be done before the clock starts: the reference in the solver's own numbers.
+  /// Prepares a solve outside the measured time: converts the reference to the solver's
+  /// number type.
   virtual void load(const PostureTask& task) = 0;
-  /// What is timed. Iterations. Precondition: load() of the same task.
+  /// Solves the task, within the measured time. Returns the number of iterations.
+  /// Precondition: load() of the same task.
   virtual int solve(const PostureTask& task) = 0;
-  /// The posture that was found last.
+  /// Writes the result of the last solve().
   virtual void store(Pose& out) const = 0;
 };
 
-/// What a solver is made for.
+/// The body and the goals that a solver is made for.
 struct PostureProblem {
-  const Character* character = nullptr;  ///< The caller's.
+  const Character* character = nullptr;  ///< Owned by the caller.
   std::vector<PointGoal> goals;
   bool with_balance = false;  ///< Horizontally.
 };
 
-/// A column of the tables: how to make this kind of solver, and what it is called.
+/// A kind of solver in the tables: its name and its factory function.
 struct SolverKind {
   std::string name;
   std::unique_ptr<PostureSolver> (*make)(const PostureProblem& problem) = nullptr;
@@ -51,7 +53,7 @@ struct SolverKind {
 /// The Gauss-Newton baselines: dual in float and in double, strict in double.
 [[nodiscard]] std::vector<SolverKind> baseline_solvers();
 
-/// marey's, in the order in which tables tell them.
+/// The solvers of marey, in the order of the tables.
 [[nodiscard]] std::vector<SolverKind> marey_solvers();
 
 }  // namespace marey

@@ -13,19 +13,19 @@
 
 namespace marey {
 
-/// A scene like the thesis' (Kulpa 2005, figure 4.23, of which no numbers are told): a
-/// person of 1.75 m who stands at ease, wrists and the right ankle wanted somewhere, the
-/// left foot planted.
+/// A scene like the thesis' (Kulpa 2005, figure 4.23, published without numbers): a
+/// person of 1.75 m stands at ease. The wrists and the right ankle have targets, and the
+/// left foot is planted.
 struct StandingScene {
   Character character;
   Pose reference;
   std::vector<PointGoal> goals;  ///< Right wrist, left wrist, right ankle, left ankle.
-  glm::dvec3 com_in_world{0.0};  ///< Of the reference.
+  glm::dvec3 com_in_world{0.0};  ///< Centre of mass of the reference.
 
   using Targets = std::array<glm::dvec3, 4>;
   Targets near{};         ///< The limbs suffice.
   Targets far{};          ///< The whole body can reach them.
-  Targets unreachable{};  ///< Apart from each other, none to be reached.
+  Targets unreachable{};  ///< Far from each other; none can be reached.
 };
 
 [[nodiscard]] StandingScene standing_scene();

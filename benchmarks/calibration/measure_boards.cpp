@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Boards: rendered ones, whose truth is known; photographs and webcams, whose is not.
+// Boards: rendered ones with known truth; photographs and webcams without truth.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,7 +37,7 @@ std::vector<CameraDetections> detect(const std::vector<capture::CameraInput>& in
   return std::move(*found);
 }
 
-/// The recording as a camera that started `late` frames later has it, from frame `first`
+/// Returns the recording of a camera that starts `late` frames later, from frame `first`
 /// to `last` of the whole.
 CameraDetections cut(const CameraDetections& whole, int late, int first, int last) {
   CameraDetections out = whole;
@@ -243,8 +243,9 @@ std::vector<CameraDetections> read_corners(const std::filesystem::path& path,
   return cameras;
 }
 
-/// Lengths between neighbouring corners of the board, triangulated from what the cameras
-/// saw, less the truth; corners whose cameras disagree by more than `most_px` left out.
+/// Computes the errors of the lengths between neighbouring corners of the board,
+/// triangulated from the detections of the cameras. Leaves out corners with an RMS
+/// reprojection error above `most_px`, or without a triangulation.
 std::vector<double> edge_errors_m(const std::vector<Camera>& cameras,
                                   const std::vector<CameraDetections>& waved,
                                   const CharucoBoard& board,

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Does a plan tell what `marey process` delivers? The plan of a rendered rig and of the
-// session's tags, against what was made of trials that it knows nothing of but the part
-// of the floor that they took place on:
+// Does a plan predict the results of `marey process`? This program compares the plan of a
+// rendered rig and of the session's tags with the results of trials. The plan's only
+// input from a trial is the part of the floor on which the trial takes place:
 //
 //   measure_body_plan SESSION OUT TRUTH TRIAL...
 //
-// SESSION is the session.toml that `marey process` took, OUT what it wrote, TRUTH the
-// recording's folder. Joints and statistics are those of measure_accuracy.
+// SESSION is the session.toml that `marey process` reads, OUT its output folder, TRUTH
+// the recording's folder. Joints and statistics are the same as in measure_accuracy.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -72,7 +72,7 @@ Measured read_trial(const fs::path& out, const fs::path& truth) {
   const auto places = testing::truth_joints(truth / "truth/joints.csv");
   if (!places) std::exit(1);
   for (const auto& [key, place] : *places) {
-    // Who walks is where the hips are.
+    // The hips represent the position of the person.
     if (key.second != HumanBone::kLeftUpperLeg) continue;
     measured.least = glm::min(measured.least, place);
     measured.greatest = glm::max(measured.greatest, place);

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Does a plan tell the truth? The plan of a rendered rig against tags that its cameras
-// found: in trials whose cameras run on one clock, every tag that two cameras or more
-// found is placed (by a rigid fit of its corners, with the true cameras) and held against
-// where it was.
+// Does a plan predict the true errors? This program compares the plan of a rendered rig
+// with tags that its cameras detect, in trials whose cameras run on one clock. It places
+// every tag that two cameras or more detect (by a rigid fit of its corners, with the true
+// cameras), and compares the result with the true position.
 //
 //   measure_plan ../shared/data/blender/dev reach rom static
 //
 // Prints per trial and size of tag: the error of tags' centres, as measured and as
-// expect_tag() would have it for the same tags seen by the same cameras; then what
-// plan_rig() says, which knows of the trial only the volume that its tags were in. Joints
-// are points 0.15 m from the tag, in six directions.
+// predicted by expect_tag() for the same tags and the same cameras; then the result of
+// plan_rig(), whose only input from the trial is the volume of its tags. Joints are
+// points 0.15 m from the tag, in six directions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -59,7 +59,7 @@ RigidTransform pose_of(const Corners& in_world) {
   std::exit(1);
 }
 
-/// By frame and tag: what the cameras found.
+/// Detections of the cameras by frame and tag.
 using Sightings = std::map<std::pair<int, int>, std::vector<testing::TagView>>;
 
 void find_tags(RenderedTruth& truth, std::size_t camera, Sightings& sightings) {
@@ -80,7 +80,7 @@ void find_tags(RenderedTruth& truth, std::size_t camera, Sightings& sightings) {
   }
 }
 
-/// Squared errors and what was expected of them.
+/// Squared errors, measured and expected.
 struct Tally {
   std::vector<double> found_m;
   double found_m2 = 0.0;
@@ -113,7 +113,7 @@ double joint_error_m2(const RigidTransform& found,
   return sum;
 }
 
-/// The cameras of some views alone, so that expect_tag() knows who saw the tag.
+/// Returns only the cameras of the views, so that expect_tag() uses no other camera.
 std::vector<Camera> cameras_of(const std::vector<testing::TagView>& views) {
   std::vector<Camera> cameras;
   for (const testing::TagView& view : views) cameras.push_back(*view.camera);
@@ -124,7 +124,7 @@ void judge(const std::vector<testing::TagView>& views,
            const RigidTransform& world_from_tag,
            PlanOptions options,
            Tally& tally) {
-  // Whoever found it does see it.
+  // A camera that detects the tag sees it: these limits reject none of them.
   options.max_angle_rad = 1.55;
   options.min_side_px = 1.0;
   const ExpectedTag expected = calib::expect_tag(cameras_of(views),
@@ -135,7 +135,7 @@ void judge(const std::vector<testing::TagView>& views,
   if (expected.seen_by.size() != views.size() || !expected.centre_error_m) return;
   const RigidTransform found = fit_tag_pose(views, options.tag_size_m, world_from_tag);
   const double off_m = glm::distance(found.translation, world_from_tag.translation);
-  constexpr double kElsewhere_m = 0.05;  // A wrong id is no error of a place.
+  constexpr double kElsewhere_m = 0.05;  // A wrong id is no position error.
   if (off_m > kElsewhere_m) return;
   ++tally.tags;
   tally.found_m.push_back(off_m);
@@ -166,7 +166,7 @@ void print_plan(const RenderedTruth& truth,
   }
   PlanOptions options;
   options.tag_size_m = size_m;
-  // As many heights as a body has, from the lowest tag to the highest.
+  // Five heights of a body, from the lowest tag to the highest.
   ErrorMapGrid grid{box.least, box.greatest, 0.1, {}};
   for (int i = 0; i < 5; ++i) {
     grid.heights_m.push_back(box.least.y + 0.25 * i * (box.greatest.y - box.least.y));

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A wand of tags calibrates the cameras; then each of its tags in turn is left out of the
-// calibration, triangulated, and its sides measured.
+// Calibrates the cameras with a wand of tags. Then leaves each of its tags in turn out of
+// the calibration, triangulates this tag, and measures its sides.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -94,7 +94,7 @@ Tracks read_tracks(const std::filesystem::path& folder, int width_px, int height
       std::stable_sort(frame.tags.begin(), frame.tags.end(), [](auto& a, auto& b) {
         return a.id < b.id;
       });
-      // A tag seen twice is one too many.
+      // Drops tags that occur twice in a frame: one of the two is wrong.
       std::vector<TagDetection> once;
       for (const TagDetection& tag : frame.tags) {
         const auto same = std::count_if(frame.tags.begin(),
@@ -109,11 +109,12 @@ Tracks read_tracks(const std::filesystem::path& folder, int width_px, int height
 }
 
 struct HeldOut {
-  std::vector<double> side_errors_m;    ///< Of every side of every tag and instant.
-  std::vector<double> reprojection_px;  ///< In a camera that took no part in placing.
+  std::vector<double> side_errors_m;    ///< One per side, tag and instant.
+  std::vector<double> reprojection_px;  ///< In a camera left out of the triangulation.
 };
 
-/// What the calibrated cameras make of a tag that took no part in their calibration.
+/// Triangulates a tag with the calibrated cameras. Adds the errors of its sides and the
+/// reprojection errors in held-out cameras to `out`.
 void judge_tag(const std::vector<Camera>& cameras,
                const Tracks& tracks,
                TagId id,

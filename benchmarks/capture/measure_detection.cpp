@@ -1,15 +1,17 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What does following tags cost and lose against looking everywhere in every frame? Both
-// on the same decoded frames, in turn, in one process; times are of the processor.
+// What are the cost and the losses of tag tracking, compared with a search of every whole
+// frame? Both run on the same decoded frames, in turn, in one process. Times are
+// processor time.
 //
 //   measure_detection ../shared/data/blender/dev walk reach jump rom static calib
 //
 // Prints per trial: the tags found by both, lost, or found by the tracker alone; the
-// ratio of times, of all frames and of those in which only regions were searched; how far
-// the corners of one are from those of the other; and how far the tracker's are from the
-// truth, per size of the tag, in cameras that run with the truth's clock.
+// ratio of times, over all frames and over frames with a search of regions only; the
+// distance between the corners of the two methods; and the distance of the tracker's
+// corners from the truth, per size of the tag, in cameras that run with the truth's
+// clock.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -97,7 +99,7 @@ CameraDetections follow(const std::filesystem::path& video, Tally& tally) {
       std::exit(1);
     }
     if (!*frame) break;
-    // Whoever comes second finds the picture in the cache: take turns.
+    // The second method finds the picture in the cache, so the order alternates.
     std::vector<TagDetection> full;
     const auto search_whole = [&] { full = detector->detect(**frame); };
     const std::vector<TagDetection>* followed = nullptr;
@@ -133,7 +135,7 @@ struct Bucket {
 void judge(const std::vector<tests::CornerResidual>& residuals,
            std::map<int, Bucket>& buckets) {
   for (const auto& r : residuals) {
-    // Another tag's place is no corner error.
+    // A detection at another tag's position is no corner error.
     constexpr double kElsewherePx = 5.0;
     if (glm::length(r.error_px) > kElsewherePx) continue;
     Bucket& bucket = buckets[static_cast<int>(r.side_px / 4.0) * 4];
@@ -180,7 +182,7 @@ void measure(const std::filesystem::path& session, std::map<int, Bucket>& all) {
     const CameraDetections found = follow(truth.video(c), tally);
     const auto residuals = tests::residuals(truth, c, found);
     wrong += wrong_ids(residuals);
-    // Where the camera runs late the truth is between frames, and no better than this.
+    // The truth of a late camera lies between frames and is too inaccurate.
     if (truth.late_frames[c] != 0.0) continue;
     judge(residuals, buckets);
     judge(residuals, all);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What does a frame of VMC cost the thread that sends or hears it? Time and allocations
-// per frame of 22 bones; the network is this machine's own.
+// What does a frame of VMC cost the thread that sends or receives it? The benchmark
+// counts time and allocations per frame of 22 bones. It uses the loopback network.
 #include <cstdlib>
 #include <vector>
 
@@ -56,7 +56,7 @@ void tell_and_encode(benchmark::State& state) {
 }
 BENCHMARK(tell_and_encode);
 
-/// Both ends in one thread: what a frame costs all in all, system calls included.
+/// Runs both ends in one thread: the total cost of a frame, including system calls.
 void send_and_receive(benchmark::State& state) {
   Scene s;
   auto receiver = *VmcReceiver::open({"127.0.0.1", 0});

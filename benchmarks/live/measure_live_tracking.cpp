@@ -1,20 +1,21 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-// How good and how fast a body is followed live, against the batch solve of the same tags
-// and against the truth of a rendered recording:
+// Measures the accuracy and the speed of live tracking of a body, against the batch solve
+// of the same tags and against the truth of a rendered recording:
 //
 //   measure_live_tracking OUT TRUTH KEEP TRIAL...
 //
-// OUT is what `marey process` wrote: its calibration and subject are used. TRUTH holds
-// TRIAL/cam0.mp4... and TRIAL/truth/joints.csv (see the recording's README). KEEP is a
-// folder in which detected tags are kept from run to run. Cameras' lags are told to
-// nobody. Prints, for tags of the full detector and as live cameras are searched, of all
-// cameras and of the first two: mean and 95 % errors of the twelve joints of the limbs,
-// live over batch in brackets, the same of joints of which the tracker says that it knows
-// them to 20 mm, and milliseconds of processor time of BodyTracker::step() per frame
-// (median, 95 %, worst); then joint by joint. Then, of each trial, by how much the body
-// trails the mean instant of the cameras' pictures [ms], no camera being the reference,
-// with all pictures and with half of them passed over in three ways
+// OUT is the output folder of `marey process`: its calibration and subject are used.
+// TRUTH holds TRIAL/cam0.mp4... and TRIAL/truth/joints.csv (see the recording's README).
+// KEEP is a folder in which detected tags are kept from run to run. Neither solver
+// receives the cameras' lags. Prints results for tags of the full detector and of the
+// live tag tracker, for all cameras and for the first two. The results are mean and 95 %
+// errors of the twelve joints of the limbs, with the ratio of live to batch in brackets;
+// share and mean error of the joints with a sigma below 20 mm; and milliseconds of
+// processor time of BodyTracker::step() per frame (median, 95 %, worst). The errors of
+// each joint follow. Then prints for each trial the delay of the body after the mean
+// instant of the cameras' pictures [ms], with no camera as the reference. The delay is
+// measured with all pictures and with half of them left out in three ways
 // (tests/support/truth/motion_delay.h).
 
 #include <cstdio>
@@ -55,7 +56,7 @@ constexpr double kKnown_m = 0.02;
 
 struct Errors {
   std::vector<double> mm;
-  std::vector<double> known_mm;  ///< Of those that are known to the tracker.
+  std::vector<double> known_mm;  ///< Errors of joints with a sigma below kKnown_m.
   std::map<HumanBone, std::vector<double>> by_joint_mm;
 
   void add(const marey::testing::TruthJoints& truth,
@@ -80,7 +81,7 @@ struct Errors {
   }
 };
 
-/// Of this thread: other work on the machine does not count.
+/// Returns the processor time of this thread, which excludes other load on the machine.
 double processor_ms() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);

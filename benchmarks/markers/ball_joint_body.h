@@ -17,8 +17,8 @@
 namespace marey {
 
 /// A tree of ball joints on a free root: forward kinematics and its derivatives, in
-/// scalars of type T. Of gauss_newton_baseline.cpp alone, which is compiled for another
-/// processor than the rest.
+/// scalars of type T. Only gauss_newton_baseline.cpp includes this file: it is
+/// compiled for another processor than the rest.
 template <class T>
 class BallJointBody {
  public:
@@ -68,7 +68,8 @@ class BallJointBody {
     }
   }
 
-  /// Where the last forward() has it. balance_rows() builds on it.
+  /// Computes the centre of mass of the posture of the last forward(). balance_rows()
+  /// uses its intermediate results.
   [[nodiscard]] Vec3 centre_of_mass() {
     for (std::size_t i = 0; i < size(); ++i) {
       subtree_mass_[i] = mass_[i];
@@ -82,8 +83,9 @@ class BallJointBody {
     return subtree_moment_[0];
   }
 
-  /// Three rows: how a joint's place follows the root and turns about the world's axes.
-  /// Columns of joints that do not carry it stay as they are.
+  /// Writes three rows: the derivatives of a joint's position by the root's position and
+  /// by rotations about the world's axes. Columns of joints outside its chain are
+  /// unchanged.
   template <class Rows>
   void point_rows(JointIndex joint, T weight, Rows&& rows) const {
     rows.template leftCols<3>() = weight * Mat3::Identity();
@@ -95,8 +97,8 @@ class BallJointBody {
     }
   }
 
-  /// Two rows: the same of the centre of mass, along x and z. Precondition:
-  /// centre_of_mass() of this posture.
+  /// Writes two rows: the same derivatives of the centre of mass, along x and z.
+  /// Precondition: centre_of_mass() of this posture.
   template <class Rows>
   void balance_rows(Rows&& rows) const {
     rows.template leftCols<3>() << 1, 0, 0, 0, 0, 1;
@@ -107,8 +109,8 @@ class BallJointBody {
     }
   }
 
-  /// Moves the root and turns each joint about a world axis, as the last forward() had
-  /// it.
+  /// Moves the root and rotates each joint about a world axis, from the joint rotations
+  /// of the last forward().
   template <class Step>
   void apply(const Step& step, Posture& posture) const {
     posture.root += step.template head<3>();
@@ -127,7 +129,7 @@ class BallJointBody {
   }
 
  private:
-  static constexpr T kLargestTurn_rad = T(0.5);  // In one step.
+  static constexpr T kLargestTurn_rad = T(0.5);  // Limit in one step.
 
   std::vector<int> parent_;
   std::vector<Vec3> offset_;

@@ -17,20 +17,20 @@ namespace marey {
 /// Ends the program with a message.
 [[noreturn]] void stop(const std::string& text);
 
-/// The recordings of one person, and what is measured of the person from them.
+/// The recordings of one person, and the fit of the person to them.
 struct MarkerPerson {
   std::vector<MarkerTracks> trials;
   reconstruct::MarkersFit fit;
 };
 
-/// Ends the program when the file is none.
+/// Ends the program when the file cannot be read.
 [[nodiscard]] MarkerTracks read_tracks(const std::filesystem::path& file);
 
-/// Names the labels and fits the person, with nothing given but the tracks. Ends the
-/// program when there is no fit.
+/// Names the labels and fits the person, with only the tracks as input. Ends the program
+/// when there is no fit.
 [[nodiscard]] reconstruct::MarkersFit fit_person(std::span<const MarkerTracks> trials);
 
-/// Both of them.
+/// Reads the tracks of the files and fits the person.
 [[nodiscard]] MarkerPerson read_person(std::span<const std::filesystem::path> files);
 
 /// Ends the program when there is no motion.
@@ -60,7 +60,7 @@ class Distances {
   std::vector<double> all_m_;
 };
 
-// One per question; `mocap` is the folder ../shared/data/mocap.
+// One function per benchmark; `mocap` is the folder ../shared/data/mocap.
 int measure_running(const std::filesystem::path& mocap);
 int measure_flexion(const std::filesystem::path& mocap);
 int measure_studio(const std::filesystem::path& mocap);

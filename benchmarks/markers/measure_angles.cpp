@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How far joint angles are from another program's, for every column that two motion files
-// share:
+// Measures the differences of joint angles from another program's, for every column that
+// two motion files share:
 //
 //   measure_angles MINE.mot THEIRS.mot [--negate COLUMN]... [--shift SECONDS]
 //
-// MINE is interpolated at the times of THEIRS that it covers. Two models of a body hardly
-// agree on where zero is, so that the mean difference is told apart, as the offset, from
-// the root mean square and the largest of what is left. Degrees; mm for pelvis_tx, ty,
-// tz; columns that are no coordinates in their own unit. A difference of full turns is
-// none.
+// MINE is interpolated at the times of THEIRS that it covers. Two models of a body rarely
+// agree on the zero of an angle. Therefore the mean difference is printed separately, as
+// the offset; the root mean square and the largest value are those of the residual.
+// Angles are in degrees, pelvis_tx, ty and tz in mm, and columns that are no coordinates
+// in their own unit. A difference of full turns counts as zero.
 //
-// Then the joints of three angles as what they are, one rotation: how far it is turned
-// from theirs, which gimbal lock, and a triple that was told by the other of its two, do
-// not blur.
+// Then compares the joints of three angles as one rotation each: the angle between the
+// two rotations. Neither gimbal lock nor the choice between the two equivalent triples of
+// a rotation affects this angle.
 //
-// --negate knee_angle: THEIRS counts knee_angle_r and _l the other way round, as
-// gait2392, gait2354 and Hamner's model do. --shift: MINE's times are that much too
-// early.
+// --negate knee_angle: THEIRS has the opposite sign of knee_angle_r and _l, as in
+// gait2392, gait2354 and Hamner's model. --shift: MINE's times are too early by this
+// amount.
 #include <cstdio>
 #include <cstdlib>
 #include <numbers>

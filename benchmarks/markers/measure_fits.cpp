@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How often is a fit to labelled markers wrong without a word? Simulated people by seed
-// (tests/support/bodies/labelled_wearer.h), half of them with a mistake that people make:
+// How often is a fit to labelled markers wrong without a message? The input is simulated
+// people by seed (tests/support/bodies/labelled_wearer.h), half of them with a common
+// mistake:
 //
 //   measure_fits FIRST COUNT
 //
 // One line per seed, then the table: sessions that are wrong and pass (a limb's joint
 // more than 60 mm off, or by more than 5 of its standard deviations and 25 mm, in a tenth
-// of the frames or more that call it measured), mistakes that pass, and right sessions
-// that are refused, by cause. The verdicts are those of `marey fit`:
+// of the frames or more that mark it as measured), mistakes that pass, and right sessions
+// that are refused, by cause. The checks are the same as in `marey fit`:
 // app/markers/trial_checks.cpp, app/markers/label_checks.cpp and
 // app/markers/assess_fit.cpp. At the end the shares of errors inside the 95 % of their
 // standard deviations: of joints, and of markers that were hidden.
@@ -41,7 +42,7 @@ using reconstruct::Landmark;
 using reconstruct::NamedMarker;
 using testing::exchange;
 
-/// A wearer with the names that its labels mean.
+/// A wearer with the landmarks of its labels.
 struct NamedWearer : testing::LabelledWearer {
   std::vector<NamedMarker> labels;
 };
@@ -60,7 +61,7 @@ NamedWearer wearer(int seed) {
   return out;
 }
 
-/// What is done to a session.
+/// A change to a session.
 enum class Mistake {
   kNone,
   kInTrial,
@@ -172,7 +173,8 @@ struct Outcome {
   double stature_off = 0.0;  ///< In standard deviations.
 };
 
-/// The ninth tenth of a joint's errors over the frames that call it measured.
+/// Computes the 90 % quantile of a joint's errors over the frames that mark it as
+/// measured.
 void assess_joints(const NamedWearer& one,
                    std::size_t trial,
                    const reconstruct::SolvedMarkers& solved,
@@ -211,7 +213,7 @@ void refuse(Outcome& out, const std::string& cause) {
   out.is_refused = true;
 }
 
-/// As app::fit has it, with landmarks that are known.
+/// Returns the labels as in app::fit, with known landmarks.
 app::FitLabels fit_labels(const NamedWearer& one) {
   app::FitLabels labels;
   for (const NamedMarker& marker : one.labels) {

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How well gaps are filled: complete trials with gaps cut into them.
+// Measures the accuracy of gap filling: complete trials with artificial gaps.
 //
 //   measure_gaps ../shared/data/mocap/gaps WalkL_masks.csv
 //   measure_gaps ../shared/data/mocap/gaps wild_masks.csv
 //
 // Prints per case the mean and the largest error over all samples of its gaps and the
-// time on one core, then what that is over all cases; how many of the errors lie within
-// the 95 % region of their sigmas; and what straight lines would have reached.
+// time on one core. Then prints the same figures over all cases; the share of errors
+// within the 95 % region of their sigmas; and the error of linear interpolation.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,8 +32,8 @@ namespace {
 
 struct Case {
   std::filesystem::path file;
-  std::size_t first = 0;  ///< Of the file's frames that are used.
-  std::size_t end = 0;    ///< 0: all of them.
+  std::size_t first = 0;  ///< First frame of the file that is used.
+  std::size_t end = 0;    ///< Frame after the last one used; 0: all.
   struct Gap {
     std::size_t marker, first, frames;
   };
@@ -45,9 +45,11 @@ struct Case {
   std::exit(1);
 }
 
-/// case,marker_index0,first_frame0,length: all of WalkL.trc.
-/// case,file,crop_first_frame0,crop_end_excl,marker_index0,label,gap_first_frame0_in_crop,
-/// gap_len,seed: of C3D files in mocaprecovery/ beside the folder.
+/// Reads the cases of a CSV file with one of two headers.
+/// case,marker_index0,first_frame0,length: all cases are in WalkL.trc.
+/// case,file,crop_first_frame0,crop_end_excl,marker_index0,label,
+/// gap_first_frame0_in_crop,gap_len,seed: C3D files in mocaprecovery/, a sibling of the
+/// folder.
 std::map<std::string, Case> read_cases(const std::filesystem::path& folder,
                                        const std::string& masks) {
   const auto text = recordings::read_file(folder / masks);
@@ -118,7 +120,7 @@ void measure(const std::string& name,
       holed.at(gap.first + i, gap.marker).reset();
     }
   }
-  // Of the processor, not of the clock on the wall: other programs may be running.
+  // Measures processor time instead of wall-clock time: other programs may be running.
   const std::clock_t start = std::clock();
   const auto repaired = reconstruct::repair_gaps(holed);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -199,7 +201,7 @@ int main(int argc, char** argv) {
     }
     const MarkerTracks& whole = files.at(one.file);
     const std::size_t end = one.end == 0 ? whole.frames() : one.end;
-    // Wild cases are called FILE_A0: three groups of them.
+    // Wild cases have names like FILE_A0 and form three groups.
     const bool wild = one.end != 0;
     measure(name,
             one,

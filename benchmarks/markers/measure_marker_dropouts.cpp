@@ -18,11 +18,11 @@
 namespace marey {
 namespace {
 
-/// What is done to the tracks.
+/// Errors that are added to the tracks.
 struct Harm {
   const char* name;
   double dropped = 0.0;  ///< Share of the samples, in gaps of 0.1 to 1 s.
-  int swaps = 0;         ///< Of a pair of labels, for 0.2 to 1.5 s.
+  int swaps = 0;         ///< Exchanges of two labels, for 0.2 to 1.5 s.
   double noise_m = 0.0;  ///< Standard deviation per coordinate.
   double spikes = 0.0;   ///< Share of the samples that are 5 to 10 cm off.
 };
@@ -34,7 +34,7 @@ std::size_t below(std::size_t count, Dice& dice) {
   return std::min(static_cast<std::size_t>(place), count - 1);
 }
 
-/// A stretch of frames that begins anywhere.
+/// A range of frames with a random start.
 struct Stretch {
   std::size_t first, end;
 };
@@ -86,7 +86,7 @@ MarkerTracks harmed(const MarkerTracks& clean, const Harm& harm, std::uint64_t s
   return out;
 }
 
-/// What a user does with such tracks before anything else.
+/// Checks and repairs the tracks, as a user does before the fit.
 MarkerTracks mended(const MarkerTracks& raw) {
   return reconstruct::repair_gaps(reconstruct::check_tracks(raw).tracks).tracks;
 }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kX = "_tx";
 
-/// The markers that the other program's result has, without the ending of its columns.
+/// Returns the markers of the other program's result, without the suffix of its columns.
 std::vector<std::string> compared_labels(const recordings::MotTable& theirs) {
   std::vector<std::string> out;
   for (const auto& column : theirs.columns) {
@@ -25,7 +25,7 @@ std::vector<std::string> compared_labels(const recordings::MotTable& theirs) {
   return out;
 }
 
-/// Their markers against the measured ones: what their result says of itself.
+/// Computes the distances of the other program's markers from the measured ones.
 Distances their_distances(const recordings::MotTable& theirs,
                           const MarkerTracks& tracks,
                           const std::vector<std::string>& labels) {
@@ -45,7 +45,7 @@ Distances their_distances(const recordings::MotTable& theirs,
   return out;
 }
 
-/// Of one marker of the body from where it was measured.
+/// Computes the distances of one marker of the body from its measured positions.
 Distances distances(const reconstruct::SolvedMarkers& solved,
                     const Body& body,
                     std::size_t marker,
@@ -105,7 +105,7 @@ Distances used(const Body& body,
   return all;
 }
 
-/// Every marker in turn is kept from the solver.
+/// Withholds every marker in turn from the solver.
 Distances held_out(const Body& body,
                    const MarkerTracks& running,
                    const std::vector<std::string>& labels,
@@ -123,8 +123,9 @@ Distances held_out(const Body& body,
   return all;
 }
 
-/// And kept from the fit's running trial too, so that its place is from standing still.
-/// Several at a time, no two of them neighbours in the list: a fit takes seconds.
+/// Withholds every marker also from the fit's running trial, so that its position on the
+/// body comes from the static trial. Withholds several markers at a time, because a fit
+/// takes seconds. No two of them are neighbours in the list.
 Distances refitted(const std::vector<MarkerTracks>& trials,
                    const std::vector<std::string>& labels) {
   constexpr std::size_t kGroups = 9;

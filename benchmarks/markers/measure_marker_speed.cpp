@@ -21,7 +21,7 @@
 namespace marey {
 namespace {
 
-/// Of the processor, not of the clock on the wall: other programs may be running.
+/// Returns processor time instead of wall-clock time: other programs may be running.
 double now_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -61,7 +61,7 @@ void measure_batch(const char* name, const Body& body, const MarkerTracks& track
 struct Live {
   std::vector<double> ms;
   Motion motion;
-  std::vector<double> numbers;  ///< Of all poses, one after the other.
+  std::vector<double> numbers;  ///< All poses, concatenated.
   long allocations = 0;         ///< After the first pose.
 };
 
@@ -132,9 +132,9 @@ double peak_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-/// What this process holds now.
+/// Returns the resident memory of this process.
 double held_mb() {
-  // What was freed goes back to the system first.
+  // Returns freed memory to the system first.
   malloc_trim(0);
   std::ifstream statm("/proc/self/statm");
   long pages = 0;
@@ -143,8 +143,9 @@ double held_mb() {
          1024.0 / 1024.0;
 }
 
-/// What solving a take needs, in a process of its own: how much the peak of memory lies
-/// above what is held before, and above what is held with the result afterwards.
+/// Measures the memory for the solve of a take, in a separate process. Prints the
+/// increase of resident memory by the result, and the peak above the memory after the
+/// solve.
 void measure_memory(const Body& body, const MarkerTracks& once, int times) {
   std::fflush(stdout);
   static_cast<void>(held_mb());

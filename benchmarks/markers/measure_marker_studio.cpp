@@ -43,18 +43,18 @@ Studio read_studio(const std::filesystem::path& folder) {
   return studio;
 }
 
-/// How the studio's file may lie in the tracks' world.
+/// A candidate alignment of the studio's file with the tracks' world.
 struct Alignment {
   glm::dmat3 world_from_file{1.0};
   int later = 0;            ///< The studio's frame f is the tracks' f + later.
-  double stray_m = 1e9;     ///< Of markers from their bones, RMS; median of the markers.
-  glm::dvec3 shift_m{0.0};  ///< Of the file, that markers would like.
+  double stray_m = 1e9;     ///< RMS per marker in its bone; median of the markers.
+  glm::dvec3 shift_m{0.0};  ///< Shift of the file with the least RMS.
 };
 
-/// Where a marker is in a bone, as far as it stays there: p = shift + start + turn * q.
+/// Mean position q of a marker in a bone, and its variance: p = shift + start + turn * q.
 struct Keeping {
   glm::dmat3 mean_turn{0.0};     ///< From file to bone.
-  glm::dvec3 mean_in_bone{0.0};  ///< Of p - start.
+  glm::dvec3 mean_in_bone{0.0};  ///< Mean of p - start.
   double variance_m2 = 1e9;
   int frames = 0;
 };
@@ -97,8 +97,9 @@ Keeping keeping(const Studio& studio,
   return out;
 }
 
-/// Every marker with the bone that it keeps to best: how far it strays, and how the whole
-/// file should be shifted for that to be least (linear least squares).
+/// Assigns every marker to the bone with the least variance. Computes the RMS deviation
+/// of the markers, and the shift of the whole file that minimizes it (linear least
+/// squares).
 void look(const Studio& studio, const MarkerTracks& tracks, Alignment& a) {
   Distances strays;
   glm::dmat3 normal(0.0);
@@ -125,7 +126,7 @@ void look(const Studio& studio, const MarkerTracks& tracks, Alignment& a) {
   a.shift_m = a.world_from_file * (glm::inverse(normal) * right);
 }
 
-/// The turns of a cube: the axes of one file in another's.
+/// Returns the rotations of a cube: the axes of one file in another's.
 std::vector<glm::dmat3> axis_maps() {
   std::vector<glm::dmat3> out;
   for (int x = 0; x < 3; ++x) {
@@ -145,7 +146,7 @@ std::vector<glm::dmat3> axis_maps() {
   return out;
 }
 
-/// The one where the markers keep to the studio's bones.
+/// Returns the alignment with the least deviation of the markers from the studio's bones.
 Alignment align_files(const Studio& studio, const MarkerTracks& tracks) {
   Alignment best;
   const auto try_one = [&](const glm::dmat3& map, int later) {
@@ -161,7 +162,7 @@ Alignment align_files(const Studio& studio, const MarkerTracks& tracks) {
 
 struct Compared {
   B joint;
-  const char* bone;  ///< Of the studio: the joint is where it starts.
+  const char* bone;  ///< Bone of the studio that starts at the joint.
 };
 
 constexpr std::array kCompared{
@@ -178,7 +179,7 @@ constexpr std::array kCompared{
     Compared{B::kLeftHand, "lwrist"},
     Compared{B::kRightHand, "rwrist"},
 };
-// Told as well, but not pooled: bodies of other ideas have them elsewhere.
+// Joints that are printed but not pooled: other body models place them elsewhere.
 constexpr std::array kTold{
     Compared{B::kLeftHand, "lhand"},
     Compared{B::kRightHand, "rhand"},
@@ -328,8 +329,8 @@ int measure_studio(const std::filesystem::path& mocap) {
       but_hands.add(d.distances);
     }
   }
-  // Their forearm is two bones: whether it is the first or the second that ends at the
-  // wrist is not said.
+  // The studio's forearm has two bones. The source does not specify which of them ends at
+  // the wrist.
   const auto sum = [](const char* what, const Distances& d) {
     std::printf("%-25s %6.1f %6.1f\n", what, d.quantile_mm(0.5), d.quantile_mm(0.95));
   };

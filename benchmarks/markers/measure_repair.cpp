@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What becomes of a file's own gaps, of which nobody knows the truth: whether bodies stay
-// rigid and nothing leaps. docs/accuracy/README.md says how to run it.
+// Measures the repair of a file's own gaps, whose truth is unknown: the changes of the
+// distances on rigid bones, and the steps from frame to frame. docs/accuracy/README.md
+// describes how to run it.
 
 #include <algorithm>
 #include <cmath>
@@ -30,8 +31,9 @@ bool is_measured(const std::optional<MarkerSample>& sample) {
   return sample && sample->source == Source::kMeasured;
 }
 
-/// Pairs of markers on one bone: no further from each other than they ever are by 2 % and
-/// by 5 mm, and far enough apart for a percentage to mean something.
+/// Compares repaired with measured distances of two markers on one bone. Two markers
+/// count as on one bone if their measured distance has a standard deviation of at most 2
+/// % and 5 mm, and a median of at least 0.05 m, so that a percentage is meaningful.
 void measure_bones(const MarkerTracks& tracks) {
   std::vector<double> off;
   std::vector<double> measured_off;

@@ -17,7 +17,7 @@
 namespace marey {
 namespace {
 
-/// Joints above the hips, which only carry them, taken out.
+/// Removes the joints above the hips, which only carry the hips.
 Motion without_helpers(const Motion& motion) {
   const std::size_t hips = index(*motion.skeleton.find(HumanBone::kHips));
   if (hips == 0) return motion;
@@ -50,7 +50,7 @@ Result<CapturedClip> clip_of(std::string name, const Motion& motion) {
   const auto map = retarget::map_body(motion.skeleton);
   if (!map) return map.error();
   CharacterTraits traits;
-  traits.mass.table = MassTable::kDempster;  // The thesis', whose figures stand beside.
+  traits.mass.table = MassTable::kDempster;  // As in the thesis.
   auto character = retarget::make_character(name, motion.skeleton, *map, traits);
   if (!character) return character.error();
   return CapturedClip{
@@ -77,7 +77,7 @@ Result<Motion> read_motion(const std::filesystem::path& file) {
 Result<CapturedClip> read_clip(const std::filesystem::path& file, std::string name) {
   auto motion = read_motion(file);
   if (!motion) return motion.error();
-  // A BVH's unit is custom alone; CMU's files say theirs.
+  // A BVH has its unit only by convention; CMU's files specify their unit.
   const bool is_bvh = file.extension() == ".bvh";
   const auto ok = stand_as_marey({is_bvh ? 0.01 : 1.0, !is_bvh}, *motion);
   if (!ok) return ok.error();

@@ -21,23 +21,23 @@ struct CapturedClip {
   std::vector<Pose> poses;
 };
 
-/// Reads one clip: a .bvh in centimetres, or an .amc with its .asf beside it.
+/// Reads one clip: a .bvh in centimetres, or an .amc with its .asf in the same folder.
 /// Errors: the file cannot be read, or is no human's.
 [[nodiscard]] Result<CapturedClip> read_clip(const std::filesystem::path& file,
                                              std::string name);
 
 enum class ClipSet {
-  kReaches,  ///< Of hands and feet: punch, scoop, kick, dance, walk.
-  kAll,      ///< And CMU's run and jump (02_03, 02_04).
+  kReaches,  ///< Reaches of hands and feet: punch, scoop, kick, dance, walk.
+  kAll,      ///< Also CMU's run and jump (02_03, 02_04).
 };
 
-/// CMU's punches (02_05) and scoops (02_06), Bandai Namco's kick, CMU's and Bandai's walk
-/// and dance, as far as `mocap` holds them, read as `marey` reads them.
+/// Reads CMU's punches (02_05) and scoops (02_06), Bandai Namco's kick, CMU's and
+/// Bandai's walk and dance, as far as `mocap` holds them, in the same way as `marey`.
 /// Errors: a file that exists cannot be read.
 [[nodiscard]] Result<std::vector<CapturedClip>> read_clips(
     const std::filesystem::path& mocap, ClipSet set);
 
-/// A posture to start from and one to arrive at, of one clip, and who stands in both.
+/// A start posture and an end posture of one clip, and the feet that stand in both.
 struct CapturedPair {
   std::size_t near_frame = 0;
   std::size_t far_frame = 0;
@@ -45,12 +45,14 @@ struct CapturedPair {
   bool right_stands = false;
 };
 
-/// While a foot stands (its ankle low, and within 3 cm of where the stance began; at most
-/// two seconds at a time), the frame in which the wrists and the other ankle are nearest
-/// to the body, and that in which they are furthest: wrists from the hips, the ankle from
-/// the standing one, distances added. Pairs less than 0.15 m apart in this are left out;
-/// the other foot stands, too, if its ankle is low and has moved less than 3 cm from the
-/// one frame to the other. At most `most` pairs, those furthest apart; in order of time.
+/// Finds one pair per stance of a foot. In a stance the ankle is low and within 3 cm of
+/// its position at the start; a stance lasts at most two seconds. The pair is the frame
+/// in which the wrists and the other ankle are nearest to the body, and the frame in
+/// which they are furthest. The measure is the sum of the wrists' distances from the hips
+/// and of the other ankle's distance from the standing one. Pairs with a difference of
+/// less than 0.15 m are left out. The other foot also stands if its ankle is low and
+/// moves less than 3 cm between the two frames. Returns at most `most` pairs with the
+/// largest differences, in order of time.
 [[nodiscard]] std::vector<CapturedPair> choose_pairs(const CapturedClip& clip,
                                                      std::size_t most);
 

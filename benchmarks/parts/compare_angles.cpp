@@ -15,10 +15,10 @@ using recordings::MotTable;
 
 namespace {
 
-/// A column at a time between two rows; nullopt before the first and after the last, and
-/// where a number is missing.
+/// Interpolates a column between two rows. Returns nullopt before the first row, after
+/// the last row, and for missing numbers.
 std::optional<double> at_time(const MotTable& table, std::size_t column, double time_s) {
-  // Times are written with few digits: a row that is a tenth of a millisecond off is it.
+  // Files store times with few digits: a row within a tenth of a millisecond matches.
   constexpr double kNearS = 1e-4;
   const auto& times = table.time_s;
   if (times.empty() || time_s < times.front() - kNearS ||
@@ -83,8 +83,8 @@ std::vector<AngleTriple> angle_triples() {
 
 namespace {
 
-/// The joint's rotation at a time; of a left one its mirror image's, which is turned by
-/// the same angle.
+/// Computes the joint's rotation at a time. For a left joint it is the rotation of the
+/// mirror image, which has the same angle.
 std::optional<glm::dquat> rotation_at(const MotTable& table,
                                       const AngleTriple& triple,
                                       double time_s) {

@@ -11,39 +11,40 @@
 
 namespace marey {
 
-/// How far two columns, or two joints, are from each other over the rows of one file that
-/// the other covers. In the columns' unit; angles in radians, and a difference of full
-/// turns is none.
+/// Difference of two columns, or of two joints, over the rows of one file that the other
+/// covers. The unit is the columns' unit; angles are in radians, and a difference of full
+/// turns counts as zero.
 struct Difference {
   std::size_t rows = 0;
-  double offset = 0.0;  ///< The mean difference: of joints, how far that is turned.
-  double rms = 0.0;     ///< Of what is left without it.
+  double offset = 0.0;  ///< Mean difference; for joints, the mean rotation.
+  double rms = 0.0;     ///< Root mean square of the residual without the offset.
   double worst = 0.0;
 };
 
-/// `mine` at the times of `theirs` that it covers, `shift_s` later than it says itself.
+/// Compares `mine`, with its times increased by `shift_s`, at the times of `theirs` that
+/// it covers.
 [[nodiscard]] Difference compare_columns(const recordings::MotTable& mine,
                                          std::size_t column,
                                          const recordings::MotTable& theirs,
                                          std::size_t their_column,
                                          double shift_s = 0.0);
 
-/// Angles about Z, X and Y, each axis carried along by those before.
+/// Angles about Z, X and Y; each rotation moves the axes of the following ones.
 struct AngleTriple {
   std::array<std::string, 3> columns;
 };
 
-/// Of pelvis, trunk, hips and shoulders.
+/// Returns the triples of pelvis, trunk, hips and shoulders.
 [[nodiscard]] std::vector<AngleTriple> angle_triples();
 
-/// The three angles as the one rotation that they are.
+/// Compares the three angles as one rotation.
 [[nodiscard]] Difference compare_rotations(const recordings::MotTable& mine,
                                            const recordings::MotTable& theirs,
                                            const AngleTriple& triple,
                                            double shift_s = 0.0);
 
-/// Turns round the columns that have this name, with or without a side; false when there
-/// is none.
+/// Negates the columns that have this name, with or without a side. Returns false when
+/// there is no such column.
 [[nodiscard]] bool negate_columns(recordings::MotTable& table, const std::string& name);
 
 }  // namespace marey

@@ -11,7 +11,7 @@
 
 namespace marey {
 
-/// What a column's numbers are printed with: "us" with two decimals.
+/// Format of a column's numbers: "us" with two decimals.
 struct TableColumn {
   std::string name;
   int decimals = 2;
@@ -19,7 +19,7 @@ struct TableColumn {
 
 using TableCell = std::variant<std::string, double>;
 
-/// What a benchmark found, for people and for programs.
+/// Result of a benchmark, for people and for programs.
 struct ResultTable {
   std::string id;     ///< "near_com": the same from run to run.
   std::string title;  ///< One line.
@@ -28,10 +28,10 @@ struct ResultTable {
   std::vector<std::string> notes;            ///< Printed below.
 };
 
-/// Text to the standard output, columns aligned.
+/// Prints the table to the standard output, with aligned columns.
 void print_table(const ResultTable& table);
 
-/// Numbers unrounded. Errors: the file cannot be written.
+/// Writes the numbers unrounded. Errors: the file cannot be written.
 [[nodiscard]] Status write_tables(const std::filesystem::path& path,
                                   const std::vector<ResultTable>& tables);
 

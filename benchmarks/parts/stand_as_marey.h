@@ -9,8 +9,9 @@
 
 namespace marey {
 
-/// Marks the bones of a motion that was read, and puts it into marey's frame, as `marey`
-/// does. What it did to the frame. Errors: identify_bones()'s and find_body_frame()'s.
+/// Marks the bones of a motion from a file, and transforms it into marey's frame, in the
+/// same way as `marey`. Returns the transform. Errors: identify_bones()'s and
+/// find_body_frame()'s.
 [[nodiscard]] Result<retarget::BodyFrame> stand_as_marey(const retarget::FileUnit& unit,
                                                          Motion& motion);
 

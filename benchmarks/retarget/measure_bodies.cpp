@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Do results on bodies from elsewhere hold? Generated bodies by seed and real ones, times
-// clips, judged by code that shares nothing with the program. docs/accuracy/README.md
-// says how to run it.
+// Are results on bodies from other sources correct? The cases are generated bodies by
+// seed and real ones, each with every clip. Independent code, which shares nothing with
+// the program, checks the results. docs/accuracy/README.md describes how to run it.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -124,7 +124,7 @@ std::vector<CampaignBody> real_bodies(const std::filesystem::path& root) {
 }
 
 int run(const std::vector<std::string>& args) {
-  // The program is run in folders of its own.
+  // The program runs in separate folders, so the paths are absolute.
   const auto folder = std::filesystem::absolute(args[2]);
   const auto program = std::filesystem::absolute(args[1]);
   std::filesystem::create_directories(folder);

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Do feet stay where they stand on other bodies? Recorded motions onto bodies of other
-// proportions: slide, drift, sinking and float of the points that touch the floor in the
-// source, and jerk against the source's own. docs/accuracy/README.md says how to run it.
+// Do standing feet stay in place on other bodies? This program retargets recorded motions
+// to bodies of other proportions. It measures slide, drift, sinking and float of the
+// points that touch the floor in the source, and the jerk relative to the source's.
+// docs/accuracy/README.md describes how to run it.
 #include <chrono>
 #include <cstdio>
 #include <filesystem>

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Does a body of other proportions or other masses stay over its feet where the source
-// does? Recorded motions with and without balance: share of frames with support in which
-// the centre of mass is above it, frames in which that is lost, and what it costs.
-// docs/accuracy/README.md says how to run it.
+// does? This program retargets recorded motions with and without balance. It measures the
+// share of frames with support in which the centre of mass is above the support, the
+// number of frames that lose this, and the cost in slide, drift, jerk and time.
+// docs/accuracy/README.md describes how to run it.
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -24,7 +25,7 @@ namespace {
 
 struct Body {
   BodyScale scale;
-  double trunk_mass = 1.0;  ///< Times the table's.
+  double trunk_mass = 1.0;  ///< Factor of the table's mass.
 };
 
 constexpr std::array kBodies{
@@ -46,7 +47,7 @@ MassSpec masses_of(const Body& body) {
   return out;
 }
 
-/// Feet and jerk of a result, held against the source.
+/// Contact figures and jerk of a result, relative to the source.
 struct Cost {
   retarget::ContactFigures contacts;
   double jerk = 0.0;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is seen of feet on real avatars: how far the skin is below the floor, and how far
-// feet drift while they stand, in GLB files that marey wrote; and whether the arms of a
-// T-pose are level on each body. docs/accuracy/README.md says how to run it.
+// Measures visible errors of feet on real avatars, in GLB files from marey: the depth of
+// the skin below the floor, and the drift of standing feet. Also measures the tilt of the
+// arms in a T-pose on each body. docs/accuracy/README.md describes how to run it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -25,9 +25,9 @@ namespace marey {
 namespace {
 
 struct SkinFigures {
-  double deepest_mm = 0.0;  ///< Of the skin below the floor, over the motion.
-  int deep_frames = 0;      ///< In which it is more than 5 mm.
-  std::string deepest_at;   ///< Which joint carries it, in which frame.
+  double deepest_mm = 0.0;  ///< Largest depth of the skin below the floor.
+  int deep_frames = 0;      ///< Frames with a depth of more than 5 mm.
+  std::string deepest_at;   ///< Joint and frame of the largest depth.
 };
 
 SkinFigures measure_skin(const recordings::Character& file,
@@ -83,7 +83,8 @@ double worst_drift_mm(const Motion& motion,
   return worst_mm;
 }
 
-/// How far the arms of somebody in a T-pose are from level on this body, at most. [deg]
+/// Computes the largest angle between an arm segment and the horizontal when the source
+/// is in a T-pose. [deg]
 double tilt_of_arms_deg(const Skeleton& body) {
   const Skeleton source = make_humanoid(average_proportions(1.75));
   const Motion t_pose{source, {30.0}, 0, {rest_pose(source), rest_pose(source)}};

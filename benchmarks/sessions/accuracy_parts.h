@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// The parts of measure_accuracy, all of results that `marey process` wrote. Each prints,
-// tells on stderr what it cannot read, and is false then.
+// The parts of measure_accuracy, all for results of `marey process`. Each part prints its
+// figures. It reports unreadable files on stderr, and then returns false.
 
 #include <filesystem>
 #include <string>
@@ -18,16 +18,16 @@ struct AccuracyCase {
   std::vector<std::string> trials;
 };
 
-/// How far the segments that wear tags are turned away from the truth. marey's axes
-/// and the truth's differ by a rotation that each segment keeps: it is taken off, one per
-/// segment for all trials together (the rotation that is least far from all in sum, not
-/// in squares, so that flips do not pull it). Flips are frames that are more than 60
+/// Measures the rotation errors of the segments with tags. marey's axes and the truth's
+/// differ by a constant rotation of each segment. This rotation is removed, one per
+/// segment for all trials together. It minimizes the sum of the angles instead of their
+/// squares, so that flips have little influence. Flips are frames that are more than 60
 /// degrees off. Frames without a row, and without hips and chest, are counted as lost.
 bool measure_segments(const AccuracyCase& a);
 
-/// Whether sigmas are honest: the share of joint centres whose error, in sigmas, is
-/// within what holds 95 % of three normal coordinates, by the joint's source; the twelve
-/// of the limbs.
+/// Measures the calibration of the sigmas: the share of joint centres whose error, in
+/// sigmas, is within the 95 % radius of three normal coordinates. Prints the shares of
+/// the twelve joints of the limbs by the joint's source.
 bool measure_honesty(const AccuracyCase& a);
 
 }  // namespace marey::benchmarks

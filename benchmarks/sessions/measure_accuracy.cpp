@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-// How far results are from the truth of a rendered recording, in millimetres and degrees,
-// and whether sigmas say so:
+// Measures the errors of results against the truth of a rendered recording, in
+// millimetres and degrees, and the agreement of the sigmas with these errors:
 //
 //   measure_accuracy OUT TRUTH TRIAL...
 //
-// OUT is what `marey process` wrote; TRUTH holds joints.csv, segments.csv and
+// OUT is the output folder of `marey process`. TRUTH holds joints.csv, segments.csv and
 // cameras.json in TRIAL/truth (see the recording's README). The truth's world is Z up;
-// nothing else is aligned but each segment's axes (accuracy_parts.h).
+// only the axes of each segment are aligned (accuracy_parts.h).
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +107,7 @@ bool measure_trial(const fs::path& out, const fs::path& truth, const std::string
 
 using Places = std::map<std::pair<int, HumanBone>, glm::dvec3>;
 
-/// Median distance of two joints over all frames that have both; nullopt without. [m]
+/// Median distance of two joints over all frames that have both; nullopt if none has. [m]
 std::optional<double> distance_m(const Places& places, HumanBone from, HumanBone to) {
   std::vector<double> lengths_m;
   for (const auto& [key, p_in_world] : places) {
@@ -120,7 +120,7 @@ std::optional<double> distance_m(const Places& places, HumanBone from, HumanBone
   return quantile(lengths_m, 0.5);
 }
 
-/// Lengths of the limbs' segments, which one trial tells.
+/// Measures the lengths of the limbs' segments, which are the same in all trials.
 bool measure_lengths(const fs::path& out,
                      const fs::path& truth,
                      const std::string& trial) {

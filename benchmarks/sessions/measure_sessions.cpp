@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Simulated sessions, judged: docs/accuracy/README.md says what the table means.
+// Assesses simulated sessions. docs/accuracy/README.md explains the table.
 //
 //   measure_sessions --seeds 0..99 [--threads 2] [--csv FILE]
 //   measure_sessions --only SEED,SEED... [--verbose] [--joints FILE]
@@ -33,7 +33,7 @@ namespace {
 using testing::SessionAnswer;
 using testing::SimulatedSession;
 
-/// Processor time of this thread: the machine may be busy with other things.
+/// Processor time of this thread: other programs may be running.
 double processor_s() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -50,7 +50,7 @@ struct Options {
   std::vector<std::string> sum;
 };
 
-/// Prints the fitted body beside the true one.
+/// Prints the fitted body next to the true one.
 void print_body(const SimulatedSession& session, const Body& found) {
   for (const HumanBone bone : human_bones()) {
     if (bone == HumanBone::kHips) continue;
@@ -242,12 +242,12 @@ int run(const Options& options) {
   in_parallel(rows.size(), options.threads, [&](std::size_t i) {
     rows[i] = measure(options.seeds[i], options);
     const std::lock_guard lock(writing);
-    // A run that is broken off leaves what it has measured.
+    // An interrupted run keeps the rows that it has measured.
     if (csv) write_row(csv, rows[i]);
     if (joints) write_joints(joints, rows[i]);
   });
   for (SessionRow& row : rows) {
-    // As the file has it, so that sums of files print the same.
+    // The same text as in the file, so that sums of files print the same.
     std::replace(row.session.begin(), row.session.end(), ',', ';');
   }
   if (!options.is_simulation_only) print_table(rows);

@@ -7,10 +7,10 @@
 //
 // simulates the sessions of these seeds (tests/support/simulation/simulated_session.h)
 // and runs check_worn() on each, as it is and with exchanges of segments. "reported": an
-// error. "named": it names the segments, or the limbs, that were exchanged. With --tags
-// one tag of a segment with several is declared on another segment instead, and
-// fit_subject() is run: "named" then is an error or a doubt that names the tag or one of
-// the two segments, or a fit that leaves the tag out.
+// error. "named": it names the exchanged segments or limbs. With --tags one tag of a
+// segment with several is declared on another segment instead, and fit_subject() is run.
+// Then "named" is an error or a finding that names the tag or one of the two segments, or
+// a fit that leaves the tag out.
 
 #include <algorithm>
 #include <array>
@@ -146,7 +146,7 @@ int measure_single_tags(int first, int last) {
           session.standing.detections,
           session.moving.detections);
     };
-    // A session that is refused without the mistake shows nothing.
+    // A session that is refused without the mistake is not usable.
     const auto right = fit_with(tags);
     if (!right || !right->findings.empty()) continue;
     const B worn = tags[change.tag].segment;
@@ -158,7 +158,7 @@ int measure_single_tags(int first, int last) {
     for (std::size_t i = 0; fit && i < fit->findings.size(); ++i) {
       words += fit->findings[i].message() + "\n";
     }
-    // The program warns of those.
+    // The program warns of tags that are left out.
     const TagOnSegment& changed = tags[change.tag];
     const bool is_left_out =
         fit && std::count(fit->unplaced.begin(), fit->unplaced.end(), changed.id) > 0;

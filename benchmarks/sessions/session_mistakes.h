@@ -14,7 +14,7 @@
 
 namespace marey::benchmarks {
 
-/// What a session.toml with one grid of tags says, in a form that mistakes can change.
+/// Content of a session.toml with one grid of tags, in a form that mistakes can change.
 struct PlainSession {
   struct Tag {
     int id = 0;
@@ -52,7 +52,7 @@ struct PlainSession {
 /// A message must contain at least one word of each list.
 using Needed = std::vector<std::vector<std::string>>;
 
-/// A common mistake, and what a message about it must name.
+/// A common mistake, and the words that a message about it must contain.
 struct SessionMistake {
   std::string name;
   std::function<void(PlainSession&)> make;

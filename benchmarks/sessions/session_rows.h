@@ -16,7 +16,7 @@
 
 namespace marey::benchmarks {
 
-/// What is kept of one session.
+/// Result of one session.
 struct SessionRow {
   std::uint64_t seed = 0;
   testing::SessionVerdict verdict;
@@ -24,8 +24,8 @@ struct SessionRow {
   std::string lacking;
   std::string refused_by;
   std::string message_class;
-  std::string causes;    ///< Of persistent gross errors: "leftFoot:fit leftHand:flip".
-  std::string left_out;  ///< Hands and feet that the body does without.
+  std::string causes;    ///< Persistent gross errors: "leftFoot:fit leftHand:flip".
+  std::string left_out;  ///< Hands and feet that the body lacks.
   std::string session;   ///< SimulatedSession::summary().
   int cameras = 0;
   /// Body::joint_centre_sigma_m; not in the table.
@@ -37,7 +37,7 @@ struct SessionRow {
 void write_header(std::ostream& out);
 void write_row(std::ostream& out, const SessionRow& row);
 
-/// The rows of such a file. nullopt when it is not one.
+/// Reads the rows of such a file. Returns nullopt for any other content.
 [[nodiscard]] std::optional<std::vector<SessionRow>> read_rows(std::istream& in);
 
 /// Prints the table of docs/accuracy/README.md, "Simulated sessions".

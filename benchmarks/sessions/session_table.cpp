@@ -71,7 +71,7 @@ void print_all_outcomes(const Rows& rows) {
     print_outcomes((std::to_string(cameras) + " cameras").c_str(),
                    some(rows, [&](const SessionRow& r) { return r.cameras == cameras; }));
   }
-  // Words of SimulatedSession::summary(), and what they mean.
+  // Words of SimulatedSession::summary(), and their meanings.
   constexpr std::array<std::array<const char*, 2>, 14> kParts{
       {{"(ring", "all around"},
        {"(arc", "in an arc"},

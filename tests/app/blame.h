@@ -12,18 +12,19 @@
 
 namespace marey::testing {
 
-/// What an error must say.
+/// The required parts of an error message.
 struct Blame {
-  std::string where;  ///< Part of what stands before the cause: a file's name.
+  std::string where;  ///< Part of the text before "Next: ": a file's name.
   std::string cause;
   std::string next;
 };
 
-/// The lines of a program's standard error that tell errors.
+/// Returns the lines of a program's standard error that begin with "error: ".
 [[nodiscard]] std::vector<std::string> error_lines(const std::string& err);
 
-/// Whether the run ended as a mistake of the user's must, blaming `blame`, with no other
-/// results than `kept`, which earlier stages made.
+/// Succeeds if the run ends as a mistake of the user requires: exit code 3, one error
+/// with the parts of `blame`, and no output. The only results are `kept`, which earlier
+/// stages write.
 [[nodiscard]] ::testing::AssertionResult declines(
     const SpoiledSession& session,
     const ProgramRun& run,

@@ -7,13 +7,13 @@
 
 namespace marey::testing {
 
-/// The first part of a file: what is left of it when the disk was full. `share` 0 to 1.
+/// Copies the first part of a file, as a full disk leaves it. `share` is 0 to 1.
 void copy_part(const std::filesystem::path& from,
                const std::filesystem::path& to,
                double share);
 
-/// The first part of an MP4 whose index ("moov") comes last, as cameras write them: the
-/// index is what gets lost. `from` may have it anywhere.
+/// Copies the first part of an MP4 whose index ("moov") is last, as in files of cameras.
+/// The copy has no index. `from` may have the index anywhere.
 void copy_part_without_index(const std::filesystem::path& from,
                              const std::filesystem::path& to,
                              double share);

@@ -16,7 +16,7 @@ namespace marey::testing {
 
 inline constexpr const char* kBrowser = "/usr/bin/chromium";
 
-/// A page after its scripts ran, and what the browser said.
+/// A page after its scripts ran, and the browser's console output.
 struct ShownPage {
   std::string page;
   std::string console;
@@ -31,7 +31,7 @@ struct ShownPage {
   }
 };
 
-/// Opens a page in a headless browser; `wishes` are what follows the # of its address.
+/// Opens a page in a headless browser; `wishes` is the part of its address after #.
 inline ShownPage show_page(const std::string& html, const std::string& wishes) {
   const ScratchFolder folder;
   std::ofstream(folder / "page.html") << html;
@@ -43,7 +43,7 @@ inline ShownPage show_page(const std::string& html, const std::string& wishes) {
       " --enable-logging=stderr --user-data-dir=profile --virtual-time-budget=5000"
       " --dump-dom 'file://" +
       (folder / "page.html").string() + "#" + wishes + "' > page 2> console";
-  // A browser that crashes or hangs says nothing of the page: it gets a second start.
+  // A crash or a hang of the browser is no result of the page: the browser starts again.
   if (std::system(command.c_str()) != 0) {
     std::filesystem::remove_all(folder / "profile");
     EXPECT_EQ(std::system(command.c_str()), 0);

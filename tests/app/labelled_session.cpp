@@ -80,7 +80,7 @@ Body without_markers_inside(Body body) {
 
 void write_tracks(const std::filesystem::path& path, MarkerTracks tracks) {
   recordings::MarkerFile file;
-  // A C3D says that Z is up; a TRC cannot, and is taken for Y up.
+  // A C3D stores that Z is up. A TRC has no such field, and its default is Y up.
   if (path.extension() == ".trc") file.axes.up = recordings::FileAxis::kPlusY;
   file.tracks = std::move(tracks);
   const Status ok = recordings::write_markers(path, file);

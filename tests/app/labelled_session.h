@@ -16,26 +16,27 @@
 
 namespace marey::testing {
 
-/// A label of Plug-in Gait and what it is glued to. Of what is on both sides L and left_,
-/// R and right_ come in front.
+/// A label of Plug-in Gait and the landmark of its marker. For markers of both sides, the
+/// label gets the prefix L or R, and the landmark left_ or right_.
 struct Glued {
   const char* label;
   const char* landmark;
 };
 [[nodiscard]] std::vector<Glued> worn_on_each_side();
 
-/// The person of the tags' tests, not an average one, with Plug-in Gait's markers and
-/// those inside of knees and ankles, every one some millimetres from where it is on
-/// others.
+/// Returns the person of the tags' tests, whose proportions are not average. The person
+/// wears Plug-in Gait's markers and medial markers of knees and ankles. Each marker is
+/// some millimetres from its average place.
 [[nodiscard]] Body labelled_person();
 
-/// Those inside of knees and ankles, the last four, are worn while standing alone.
+/// Removes the last four markers, the medial ones of knees and ankles: the person wears
+/// them only while standing.
 [[nodiscard]] Body without_markers_inside(Body body);
 
-/// As C3D or TRC. Throws std::runtime_error when it cannot.
+/// Writes a C3D or a TRC. Throws std::runtime_error when it cannot.
 void write_tracks(const std::filesystem::path& path, MarkerTracks tracks);
 
-/// The person standing, 20 frames: fitted in no time.
+/// Writes 20 frames of the standing person, which take little time to fit.
 std::filesystem::path write_static(const ScratchFolder& folder, const std::string& name);
 
 /// `marey fit` without progress.

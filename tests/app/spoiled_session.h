@@ -10,9 +10,9 @@
 
 namespace marey::testing {
 
-/// A copy of the sample session for one test to spoil, in a folder of its own that goes
-/// with it. Its videos are the sample's, and the tags in them were found before (by the
-/// fixture sample_once), so that only what a test changes is looked at again.
+/// A copy of the sample session that one test changes, in a folder that the destructor
+/// removes. Uses the sample's videos and the tags that the fixture sample_once detected
+/// in them, so that only changed videos are searched again.
 class SpoiledSession {
  public:
   SpoiledSession();
@@ -24,7 +24,8 @@ class SpoiledSession {
   /// a test that spoils nothing tests nothing.
   void replace(const std::string& from, const std::string& to);
 
-  /// Replaces every `from` in the table of one trial; likewise.
+  /// Replaces every `from` in the table of one trial. Throws std::logic_error when there
+  /// is none.
   void replace_in_trial(const std::string& trial,
                         const std::string& from,
                         const std::string& to);
@@ -43,9 +44,9 @@ class SpoiledSession {
   [[nodiscard]] std::filesystem::path file() const { return folder_ / "session.toml"; }
   [[nodiscard]] std::filesystem::path out() const { return folder_ / "out"; }
 
-  /// Whether the run left this result.
+  /// Returns whether the run wrote this result.
   [[nodiscard]] bool has_result(const std::string& name) const;
-  /// Everything in out() that is not detections: what stages leave.
+  /// Returns the files in out() except detections: the results of the stages.
   [[nodiscard]] std::vector<std::string> results() const;
 
  private:

@@ -14,7 +14,8 @@ namespace {
 constexpr int kWidth = 64;
 constexpr int kHeight = 48;
 
-/// A JPEG picture, to be told from others by what follows its end mark.
+/// Returns a JPEG picture; bytes_of() appends bytes after its end mark to distinguish
+/// frames.
 const std::vector<std::byte>& picture() {
   static const std::vector<std::byte> jpeg = [] {
     auto encoder = recordings::JpegEncoder::create(

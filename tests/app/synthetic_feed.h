@@ -15,9 +15,9 @@
 
 namespace marey::testing {
 
-/// A camera that is none: frame k of `camera` is made of its numbers alone, so that who
-/// reads a recording knows what must be in it. Its clock is its own, and goes on by a
-/// period with each frame, however long that takes.
+/// A simulated camera. The content of frame k depends only on `camera` and k, so that a
+/// test can compute the expected recording. The simulated clock advances by one period
+/// per frame, independent of the real duration.
 class SyntheticFeed final : public capture::FrameFeed {
  public:
   struct Behaviour {
@@ -47,15 +47,17 @@ class SyntheticFeed final : public capture::FrameFeed {
   /// Before anything is fetched.
   [[nodiscard]] capture::DeviceSettings& settings_to_spoil() { return settings_; }
 
-  // From any thread: frames handed out so far, whether that were all, and what time it
-  // is on its clock: that of the next frame, first of the one after those that are stale.
+  // From any thread. handed_out() counts the frames so far; is_done() is true after the
+  // last one. now() is the time of the next frame on the feed's clock, at first the time
+  // of the frame after the stale ones.
   [[nodiscard]] long handed_out() const { return handed_out_; }
   [[nodiscard]] bool is_done() const {
     return behaviour_.frames >= 0 && next_ >= behaviour_.frames;
   }
   [[nodiscard]] Timestamp now() const;
 
-  /// What frame k holds, when it was taken, and whether it never comes.
+  /// Return the content of frame k, its time, the time of its event, and whether it is
+  /// dropped.
   [[nodiscard]] std::vector<std::byte> bytes_of(long k) const;
   [[nodiscard]] Timestamp time_of(long k) const;
   [[nodiscard]] Timestamp event_time(long k) const;

@@ -38,7 +38,7 @@ struct DrawnTag {
 
 /// Conversion of light to grey in a camera.
 struct Exposure {
-  double gain = 1.0;  ///< Of the light; values above 1 are clipped. Paper is 0.72.
+  double gain = 1.0;  ///< Factor of the light; values above 1 are clipped. Paper is 0.72.
   double tone = 1.0;  ///< Exponent on top of sRGB's curve: below 1 lifts the shadows.
 };
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// make_example_inputs FOLDER: files that examples read, and the truth of what they print,
-// computed without the functions that the examples call. FOLDER/EXAMPLE.truth has a key,
-// the lowest and the highest right value per line.
+// make_example_inputs FOLDER: writes the input files of the examples and the true values
+// of their output, computed without the functions that the examples call.
+// FOLDER/EXAMPLE.truth has a key, the lowest and the highest right value per line.
 #include <cmath>
 #include <filesystem>
 #include <fstream>

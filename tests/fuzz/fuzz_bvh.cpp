@@ -17,8 +17,8 @@ namespace {
 using namespace marey;
 using namespace marey::recordings;
 
-/// What was read and written is read as the same: its joints' places, but for six
-/// decimals, and its rate.
+/// Asserts that a written motion is read back unchanged: the joints' places to six
+/// decimals, and the rate.
 void read_again(const Motion& first) {
   const Result<BvhMotion> second = parse_bvh(bvh_text(first), "again.bvh");
   MAREY_ASSERT(second.has_value());

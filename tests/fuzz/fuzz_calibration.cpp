@@ -32,7 +32,7 @@ void check(const Result<Calibration>& read) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  // Files beside it are looked for where none is.
+  // The parser searches for files in the same folder, which does not exist.
   const char* const kNames[] = {"/none/fuzz.toml", "/none/fuzz.yaml", "/none/fuzz.xml"};
   const unsigned kind = data[0] % 3U;
   check(kind == 0 ? parse_calibration(text, kNames[0])

@@ -12,7 +12,8 @@ namespace {
 using namespace marey;
 using namespace marey::recordings;
 
-/// What was read can be written, and is then the same for ever.
+/// Asserts that read constraints can be written, and that reading and writing them again
+/// changes nothing.
 void write_again(const ConstraintSet& first) {
   const Result<std::string> text = constraints_text(first);
   MAREY_ASSERT(text.has_value());

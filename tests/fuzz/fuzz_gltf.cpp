@@ -14,7 +14,7 @@ namespace {
 using namespace marey;
 using namespace marey::recordings;
 
-/// What was read can be posed, and its mesh hangs on its joints.
+/// Asserts that the mesh's indices are valid and that poses give finite joint places.
 void check(const Character& character) {
   const std::size_t joints = character.skeleton.joints.size();
   MAREY_ASSERT(joints > 0);

@@ -14,7 +14,7 @@ namespace {
 using namespace marey;
 using namespace marey::recordings;
 
-/// What was read and written is read as the same, angles to 12 digits.
+/// Asserts that a written table is read back unchanged, angles to 12 digits.
 void read_again(const MotTable& first) {
   const Result<MotTable> second = parse_mot(mot_text(first), "again.mot");
   MAREY_ASSERT(second.has_value());

@@ -28,7 +28,7 @@ void check(const NpzMotion& read) {
                read.uncertainty.size() == read.motion.poses.size());
   MAREY_ASSERT(read.contacts.bears.size() ==
                read.contacts.names.size() * read.motion.poses.size());
-  // What was read can be written and read again.
+  // A motion that was read can be written and read again.
   const auto bytes =
       npz_bytes(read.motion, {read.uncertainty, read.contacts, read.start_s});
   MAREY_ASSERT(bytes.has_value() && parse_npz(*bytes, "again.npz").has_value());

@@ -14,7 +14,7 @@ namespace {
 using namespace marey;
 using namespace marey::live;
 
-/// What a request may hold, whoever wrote it.
+/// Asserts the limits of a request, for any sender.
 void check(const PageRequest& request) {
   if (const auto* drag = std::get_if<DragRequest>(&request)) {
     MAREY_ASSERT(!drag->id.empty() && drag->id.size() <= 200);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Reports as JSON: what the scan lets through is no deeper than it says.
+// Reports as JSON: the scan detects exactly the texts that nest deeper than its limit.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

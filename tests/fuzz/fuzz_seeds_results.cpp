@@ -76,7 +76,7 @@ bool write_setting_seeds(const fs::path& folder) {
              .has_value();
 }
 
-/// The first byte says which kind of file the rest is.
+/// The first byte selects the format of the rest: 0 TOML, 1 YAML, 2 XML.
 bool write_calibration_seeds(const fs::path& folder) {
   const std::string toml =
       "[cam0]\nname = \"a\"\nsize = [640, 480]\nmatrix = [[500.0, 0.0, 320.0], [0.0, "

@@ -12,7 +12,7 @@ namespace {
 using namespace marey;
 using namespace marey::recordings;
 
-/// What was read and written is read as the same.
+/// Asserts that written markers are read back unchanged.
 void read_again(const MarkerFile& first) {
   MarkerReadOptions options;
   options.up = first.axes.up;

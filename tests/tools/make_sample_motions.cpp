@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes one wild motion for other programs to read, each file beside the .csv of joint
-// places that they must agree with: make_sample_motions FOLDER [AVATAR.vrm].
+// Writes one wild motion for other programs to read. Each file has a .csv of the joint
+// places that they must reproduce: make_sample_motions FOLDER [AVATAR.vrm].
 //   NAME.bvh        for every dialect and every order of rotations
 //   motion.vrma     to be played on child.glb
 //   avatar.vrma     of the bones that the avatar has, if one is named
@@ -76,8 +76,9 @@ bool write_dialects(const std::filesystem::path& folder, const Motion& motion) {
   return ok;
 }
 
-/// What a VRM player is to make of the motion: bones turned from the T-pose as the
-/// source's, the hips' place as much larger as they are higher. Both rest in T-poses.
+/// Returns the motion that a VRM player must show. Bones turn from the T-pose as in the
+/// source. The hips' place is scaled by the ratio of the hips' heights at rest. Both rest
+/// in T-poses.
 Motion played_on(const Skeleton& avatar, const Motion& source) {
   const auto rest = world_from_joints(avatar, rest_pose(avatar));
   const auto source_rest = world_from_joints(source.skeleton, rest_pose(source.skeleton));
@@ -148,8 +149,9 @@ int main(int argc, char** argv) {
     const auto avatar = read_character(argv[2]);
     if (!avatar) std::cerr << avatar.error().message() << "\n";
     if (!avatar) return 1;
-    // A player loses what bones turn that the avatar lacks: here they are no bones, and
-    // rest, as the bones above them aim at what such joints move.
+    // A player ignores the rotations of bones that the avatar lacks. Here such joints are
+    // no bones and rest, because write_vrma() aims the bones above joints that are no
+    // bones at the bones below them.
     for (std::size_t i = 0; i < turned.skeleton.joints.size(); ++i) {
       Joint& joint = turned.skeleton.joints[i];
       if (!joint.bone || avatar->skeleton.find(*joint.bone)) continue;

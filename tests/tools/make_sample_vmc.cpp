@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Writes wild motions as VMC packets for other programs to read, each NAME.vmc beside the
-// NAME.csv of joint places that they must agree with and NAME.json, which bone is which
-// node: make_sample_vmc FOLDER [AVATAR.vrm BODY.glb].
+// Writes wild motions as VMC packets for other programs to read. Each NAME.vmc has a
+// NAME.csv of the joint places that they must reproduce, and a NAME.json that maps bones
+// to nodes: make_sample_vmc FOLDER [AVATAR.vrm BODY.glb].
 //   raw          by the nodes of turned.glb, whose rest rotations are anything
 //   normalised   the same as VRM 0.x would have it
 //   vrm0         of AVATAR.vrm, a VRM 0.x; vrm0_raw: by its nodes
 //   body         by the nodes of BODY.glb
-// A .vmc has, for every packet, its size in four bytes, the highest first, and its bytes.
+// A .vmc has, for every packet, its size in four bytes (big-endian) and its bytes.
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -107,7 +107,7 @@ bool write_turned(const Path& folder) {
          write_all(folder, "normalised", skeleton, {.rest = live::VmcRest::kVrm0});
 }
 
-/// The file's body, its bones found if it does not tell them.
+/// Writes the samples of a file's body. Identifies its bones when the file has none.
 bool write_avatar(const Path& folder,
                   const std::string& name,
                   const Path& avatar,

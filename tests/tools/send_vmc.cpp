@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // send_vmc PORT COUNT: sends COUNT frames of a wild motion of 22 bones to a program of
-// this machine that listens on the UDP port, as fast as it reads them: what waits for it
-// is looked up in the kernel's table of sockets, and so nothing is lost on the way. Ends
-// when the last one was read; exit 1 when nobody listens or reads for ten seconds.
+// this machine that listens on the UDP port, as fast as it reads them. The kernel's table
+// of sockets contains the number of unread bytes, so no packet is lost on the way. Ends
+// when the last frame is read. Exits with 1 when no program listens, or it reads nothing
+// for ten seconds.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -25,10 +26,10 @@ namespace {
 using namespace marey;
 using namespace std::chrono_literals;
 
-// Half of what Linux gives a socket unless it asks for more.
+// Half of Linux's default receive buffer of a socket.
 constexpr long kMaxWaiting_bytes = 100000;
 
-/// What waits to be read on the port, on all sockets that have it; nullopt: nobody does.
+/// Returns the unread bytes of all sockets on the port; nullopt: there is no socket.
 std::optional<long> waiting_bytes(int port) {
   std::optional<long> waiting;
   for (const char* table : {"/proc/net/udp", "/proc/net/udp6"}) {

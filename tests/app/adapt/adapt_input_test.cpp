@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `marey adapt` refuses, and how.
+// Inputs that `marey adapt` refuses, and its error messages.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ends with 3 and one line that says all of `parts`; nothing is written.
+/// Expects exit code 3, one error line with all of `parts`, and no output file.
 void expect_refused(const AdaptScene& scene,
                     const std::vector<std::string>& more,
                     const std::vector<std::string>& parts) {
@@ -100,7 +100,7 @@ TEST(AdaptRefuses, CharactersWithoutMassOrLoadOrGroup) {
                  {"\"left arn\"", "perhaps you mean \"left arm\""});
 }
 
-// Whatever the input is called there.
+// The program protects an input under every name of its file.
 TEST(AdaptRefuses, ToWriteOverWhatItReads) {
   const AdaptScene scene;
   ASSERT_TRUE(recordings::write_bvh(scene / "body.bvh", scene.walk().motion));

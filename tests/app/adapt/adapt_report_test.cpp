@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `marey adapt` tells of what it could not do, and what would help.
+// Reports of `marey adapt` on requests that it does not meet, and its advice.
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -50,7 +50,8 @@ std::optional<std::string> bandai_walk() {
   return out;
 }
 
-// What is captured is beyond an adult's limits in places: supports are above limits.
+// The captured walk exceeds an adult's limits in places. Supports take priority over
+// limits.
 TEST(Adapt, SupportsOfACapturedWalkAreExactWithinLimits) {
   const AdaptScene scene;
   const auto walk = bandai_walk();
@@ -63,7 +64,7 @@ TEST(Adapt, SupportsOfACapturedWalkAreExactWithinLimits) {
   EXPECT_LT(report.at("worst_support_mm").get<double>(), 0.1) << run.err;
 }
 
-// A head cannot look back: by how much is an angle.
+// A head cannot look back. The report gives the error as an angle.
 TEST(Adapt, ReportsAnOrientationErrorInDegrees) {
   const AdaptScene scene;
   const ProgramRun run = scene.adapt(
@@ -78,13 +79,13 @@ TEST(Adapt, ReportsAnOrientationErrorInDegrees) {
   const Json report = Json::parse(run.out);
   const Json& look = of_id(report.at("constraints"), "look");
   EXPECT_EQ(look.at("met_frames"), 0);
-  // 180 are asked, 95 are a head's most, and the walk looks ahead.
+  // The target is 180 degrees, a head turns by 95 at most, and the walk looks ahead.
   EXPECT_GT(look.at("worst_error_deg").get<double>(), 70.0);
   EXPECT_LE(look.at("worst_error_deg").get<double>(), 180.0);
   EXPECT_FALSE(look.contains("worst_error_mm"));
 }
 
-// Who drags a ton at one foot has the centre of mass there, whatever else is done.
+// A load of a ton at one foot keeps the centre of mass there, in every posture.
 TEST(Adapt, AdvisesMoreIterationsOnlyWhereTheyWereShort) {
   const AdaptScene scene;
   const std::string who = scene.character(
@@ -120,7 +121,7 @@ std::string both_hands_at(const glm::dvec3& left, const glm::dvec3& right) {
   return hand_at(left) + second;
 }
 
-// Met, and a hand through the floor.
+// The constraint is met with a hand below the floor.
 TEST(Adapt, DoesNotTrustAHandBelowTheFloor) {
   const AdaptScene scene;
   // The root goes down with it, and nothing else is far.
@@ -151,7 +152,7 @@ TEST(Adapt, DoesNotTrustATrunkUpsideDown) {
   EXPECT_GT(Json::parse(run.out).at("posture").at("upside_down_frames").get<int>(), 0);
 }
 
-// Few iterations are not what a target out of reach lacks.
+// More iterations do not reach a target that is out of reach.
 TEST(Adapt, AdvisesNoIterationsForATargetOutOfReach) {
   const AdaptScene scene;
   for (const double height_m : {5.0, 2.4}) {

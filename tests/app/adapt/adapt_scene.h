@@ -26,7 +26,7 @@ class AdaptScene {
   [[nodiscard]] std::filesystem::path operator/(const std::string& name) const {
     return folder_ / name;
   }
-  /// Writes a text into the folder; answers its path.
+  /// Writes a text into the folder; returns its path.
   std::string file(const std::string& name, const std::string& text) const;
   /// A set with these elements.
   std::string constraints(const std::string& elements) const;
@@ -47,7 +47,8 @@ class AdaptScene {
                                   const std::string& more = "",
                                   const std::string& segment = "leftHand");
 
-/// What `--json` tells of one constraint or support; the test fails when it is not there.
+/// Returns the entry of one constraint or support in the output of `--json`. The test
+/// fails when there is none.
 [[nodiscard]] const nlohmann::json& of_id(const nlohmann::json& all,
                                           const std::string& id);
 

@@ -26,7 +26,7 @@ using Json = nlohmann::json;
 // for each joint of a chain; postures are solved in single precision (1e-7 of a metre
 // each step).
 constexpr double kFile_m = 2e-5;
-constexpr double kPrecision_m = 1e-3;  // A constraint's, unless it says otherwise.
+constexpr double kPrecision_m = 1e-3;  // The default precision of a constraint.
 
 /// Where the walking hand can get from 1 s to 1.4 s: in front of where it is halfway.
 glm::dvec3 in_reach(const AdaptScene& scene) {
@@ -212,7 +212,7 @@ TEST(Adapt, ALevelFloorIsNoFloor) {
   EXPECT_EQ(*recordings::read_file(scene / "out.bvh"), without);
 }
 
-// A file's support holds a foot where it says, and no other is added.
+// A file's support holds a foot at the file's place. The program adds no other support.
 TEST(Adapt, TakesItsSupportsFromTheFileWhenItHasAny) {
   const AdaptScene scene;
   const Motion& walk = scene.walk().motion;
@@ -289,7 +289,7 @@ TEST(Adapt, WritesAMannequinThatMovesTheSame) {
   EXPECT_LT(apart_m(*glb->motion, scene.motion(), 36), 1e-5);  // Single precision.
 }
 
-// Told, written, and not called a success.
+// The program reports the misses, writes the motion, and ends with exit code 4.
 TEST(Adapt, ReportsMissedConstraints) {
   const AdaptScene scene;
   const std::string set = scene.constraints(hand_at({0.0, 5.0, 1.0}));
@@ -302,7 +302,7 @@ TEST(Adapt, ReportsMissedConstraints) {
   const Motion motion = scene.motion();
   EXPECT_LT(slide_m(motion, scene.walk().feet[0].heel, B::kLeftFoot), 1e-4)
       << "a support comes before any wish";
-  // A blend promises nothing, and says what it came to.
+  // A blend has no required precision. The program reports the misses, and ends with 0.
   const ProgramRun blend = scene.adapt({"--constraints", set, "--control", "blend"});
   EXPECT_EQ(blend.exit_code, 0) << blend.err;
   EXPECT_NE(blend.err.find("c.xml: constraint \"hand\": missed in 13 of 13 frames"),

@@ -43,7 +43,8 @@ TEST(LoadCharacter, MakesAnAverageBody) {
   EXPECT_NEAR(total_kg(*character), 80.0, 1e-9);
 }
 
-// Beside its file, and as heavy as the subject is, unless it says otherwise.
+// The path of the subject is relative to the character's file. The character has the
+// subject's mass, unless it has its own.
 TEST(LoadCharacter, TakesTheLengthsAndTheMassOfASubject) {
   const ScratchFolder folder;
   Body body;

@@ -54,7 +54,8 @@ Trial walk_with(const std::vector<double>& offsets_s) {
   return trial;
 }
 
-/// Of four cameras, by their tags.
+/// Returns the offsets of four cameras as their tags determine them, with a sigma of
+/// 0.2 ms.
 std::vector<ClockOffset> seen(const std::vector<double>& offsets_s) {
   std::vector<ClockOffset> out;
   for (const double s : offsets_s) out.push_back({s, 2e-4});
@@ -66,7 +67,7 @@ const std::vector<double> kTrue_s{0.0, 0.0073, -0.0111, 0.0049};
 TEST(AssessOffsets, AcceptsOffsetsThatAgreeWithTheTags) {
   const Session session = session_of(testing::ring_of_cameras());
   EXPECT_FALSE(assess_offsets(session, walk_with(kTrue_s), seen(kTrue_s)));
-  // Neither what is two milliseconds off, nor what nothing tells.
+  // Differences of two milliseconds are accepted, and clocks that tags do not determine.
   EXPECT_FALSE(
       assess_offsets(session, walk_with(kTrue_s), seen({0.0, 0.0093, -0.0091, 0.0049})));
   auto unknown = seen({0.0, 0.0, 0.0, 0.0});
@@ -123,8 +124,8 @@ TEST(AssessTrialOffsets, FindsThemFromTheTagsOfAWalk) {
   EXPECT_TRUE(says(*wrong, "with the other sign")) << wrong->message();
 }
 
-/// A walk that was solved without an error, and what cameras with these clocks and this
-/// detector saw of it.
+/// A walk that is solved without an error, and its detections by cameras with these
+/// clocks and this detector.
 struct SolvedWalk {
   Body body = testing::tagged_person();
   std::vector<Camera> cameras = testing::ring_of_cameras();
@@ -205,7 +206,7 @@ TEST(AssessTrial, NamesTheFramesThatDoNotFit) {
   EXPECT_TRUE(says(*found, "in frames 30 to 44")) << found->message();
 }
 
-/// Who stands with soles `height_m` above the floor.
+/// Returns a standing trial's soles at `height_m` above the floor.
 SoleHeight standing_at(double height_m) {
   return {"static", height_m};
 }

@@ -14,7 +14,7 @@ using recordings::Trial;
 using recordings::TrialKind;
 using testing::Movement;
 
-/// A session of a person in a room of cameras, with what the detectors find.
+/// A session of a person in a room of cameras, with the detections.
 struct Recorded {
   Body body = testing::tagged_person();
   std::vector<Camera> cameras = testing::ring_of_cameras();

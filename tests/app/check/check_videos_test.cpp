@@ -16,7 +16,7 @@ namespace {
 using ::testing::AssertionFailure;
 using ::testing::AssertionResult;
 
-/// Whether the run declined at once: nothing was searched or solved.
+/// Succeeds if the run declines at once, before any search or solution.
 AssertionResult declines_at_once(const SpoiledSession& session, const Blame& blame) {
   const ProgramRun run = session.run();
   if (run.err.find("tags in") != std::string::npos ||

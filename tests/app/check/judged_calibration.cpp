@@ -91,8 +91,8 @@ void count_turns(const Camera& truth,
   }
 }
 
-/// Returns the median distance of tags that `cameras` triangulate from those that `truth`
-/// does. [m]
+/// Returns the median distance between the tags triangulated with `cameras` and the same
+/// tags triangulated with `truth`. [m]
 double body_off_m(const std::vector<Camera>& cameras,
                   const std::vector<Camera>& truth,
                   const std::vector<CameraDetections>& detections) {
@@ -218,7 +218,7 @@ void compare(const SimulatedCalibration& scene,
   }
 }
 
-/// What its tests of other hypotheses say.
+/// Formats the inlier RMS and the results of the tests of other hypotheses.
 std::string figures_of(const calib::CalibratedRig& rig) {
   std::string out = format_text("inliers %.3f px", rig.inlier_rms_px);
   if (const auto& move = rig.apparent_move) {

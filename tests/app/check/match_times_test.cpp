@@ -26,10 +26,10 @@ using recordings::Trial;
 using testing::ScratchFolder;
 
 constexpr int kFrames = 90;
-constexpr int kDropped = 40;  ///< By the second camera.
+constexpr int kDropped = 40;  ///< The frame that the second camera drops.
 
-/// Two cameras' take of 30 frames a second, and what a detector found in it: the tag and
-/// the point of each frame carry the number of the instant at which it was taken.
+/// A take of two cameras at 30 frames per second, with detections. The tag and the point
+/// of each frame carry the number of the instant at which the frame was taken.
 class SmallTake {
  public:
   explicit SmallTake(const fs::path& folder, const std::string& long_name = "cam") {
@@ -69,7 +69,8 @@ class SmallTake {
 
   Status match() { return match_times(trial, found, findings); }
 
-  /// What is at an instant of a camera; nullopt when it took nothing then.
+  /// Returns the number in a camera's frame of an instant; nullopt for a frame that the
+  /// camera does not have.
   [[nodiscard]] std::optional<int> at(std::size_t camera, int instant) const {
     const auto& frames = found[camera].frames;
     const FrameDetections& frame =
@@ -160,7 +161,7 @@ TEST(MatchTimes, DoesNotTruncateMessagesOfLongPaths) {
   const ScratchFolder folder;
   const fs::path deep = folder.path() / std::string(200, 'a') / std::string(200, 'b');
   SmallTake take(deep);
-  // One frame in nine late by a third of a period.
+  // One frame in nine is late by a third of a period.
   run_sql(deep / kTakeFile,
           "UPDATE frame SET time_ns = time_ns + 11000000 WHERE number % 9 = 4");
   ASSERT_TRUE(take.match());
@@ -170,7 +171,7 @@ TEST(MatchTimes, DoesNotTruncateMessagesOfLongPaths) {
   EXPECT_TRUE(warning.ends_with(" Hz")) << warning;
 }
 
-// A file of times knows the videos beside it and no others.
+// A file of times applies only to the videos in its own folder.
 TEST(MatchTimes, ReportsATakeThatIsNotUsed) {
   const ScratchFolder folder;
   SmallTake take(folder / "one");
@@ -186,7 +187,7 @@ TEST(MatchTimes, ReportsATakeThatIsNotUsed) {
   EXPECT_FALSE(has_take(take.trial));
 }
 
-/// Videos of the sample: of the walk at 30 frames per second, of the calibration at 5.
+/// Videos of the sample: the walk has 30 frames per second, the calibration 5.
 struct RatedVideos {
   RatedVideos(std::vector<std::string> files, double hz) {
     trial.name = "walk";

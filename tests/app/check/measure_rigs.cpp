@@ -80,7 +80,7 @@ struct Count {
   int named = 0;
   int beyond = 0;  ///< Coordinates of centres beyond three of their sigmas.
   int coordinates = 0;
-  int inside = 0;  ///< Likewise within 1.96.
+  int inside = 0;  ///< Coordinates within 1.96 of their sigmas.
   int turns = 0;
   int turns_inside = 0;
 };
@@ -150,7 +150,8 @@ std::string key_of(const std::filesystem::path& file) {
   return line;
 }
 
-/// What the camera would have seen had it been turned by `turn` in its own frame.
+/// Changes the detections to those of a camera turned by `turn` in its own frame, from
+/// `from_frame` on.
 void turn_camera(const marey::Camera& camera,
                  const glm::dquat& turn,
                  int from_frame,

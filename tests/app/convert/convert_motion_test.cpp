@@ -138,7 +138,7 @@ TEST(ConvertMotion, ChangesTheRate) {
   EXPECT_LT(
       glm::distance(read->motion.poses[20].root_in_world, motion.poses[60].root_in_world),
       1e-7);
-  // Told another rate, it has the same frames and lasts as long as these take.
+  // Another input rate keeps the frames, and changes the duration.
   const ProgramRun told = convert(folder / "a.bvh", folder / "c.bvh", {"--rate", "30"});
   ASSERT_EQ(told.exit_code, 0) << told.err;
   EXPECT_EQ(Json::parse(told.out).at("frames"), 61);
@@ -168,8 +168,8 @@ TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {
             *recordings::read_file(folder / "b.bvh"));
 }
 
-// Its bones are told by their names. Legs hang on the hips by joints that do not turn, so
-// that they are where the file has them.
+// The names of the bones identify them. Joints that do not turn connect the legs to the
+// hips, so that the legs are at the file's places.
 TEST(ConvertMotion, IdentifiesTheBonesForAVrmaOrADialect) {
   const fs::path trial = marey::testing::shared_data() / "mocap/cmu_asfamc/02_01.amc";
   if (!fs::exists(trial)) GTEST_SKIP() << trial << " is not here";

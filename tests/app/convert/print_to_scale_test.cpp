@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What marey prints, seen by others: poppler draws the pages, and the patterns are looked
-// for in the pictures.
+// Measures the prints of marey in pictures: poppler draws the pages, and detectors search
+// the pictures for the patterns.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +34,7 @@ using Json = nlohmann::json;
 
 constexpr double kDotsPerInch = 300.0;
 constexpr double kPxPerM = kDotsPerInch / 0.0254;
-/// What was asked of the print; a dot is 0.085 mm.
+/// The required accuracy of the print; a dot is 0.085 mm.
 constexpr double kTolerance_m = 0.0001;
 
 /// An empty folder; skips without poppler.
@@ -95,12 +95,12 @@ cv::Mat seen(const cv::Mat& page, int times) {
   return gray;
 }
 
-/// What the detector finds, its corners (good to 0.2 mm here, it sees few pixels) then
-/// looked for in the page itself.
+/// Returns the detected tags. The detector's corners are good to 0.2 mm, because it
+/// receives few pixels. The function then refines them in the page itself.
 std::vector<TagDetection> tags_in(const cv::Mat& page,
                                   const std::string& family,
                                   double largest_m) {
-  // So that the largest has a hundred pixels or so, as in front of a camera.
+  // The largest tag has some hundred pixels, as in front of a camera.
   const int times = std::max(3, static_cast<int>(largest_m * kPxPerM / 100.0));
   const cv::Mat picture = seen(page, times);
   auto detector = capture::TagDetector::create({.families = {{family, {}}}});
@@ -121,7 +121,7 @@ std::vector<TagDetection> tags_in(const cv::Mat& page,
   return tags;
 }
 
-/// Edges and diagonals against the size, and the middle against where the program says.
+/// Compares edges and diagonals with the size, and the middle with the reported centre.
 void expect_size(const TagDetection& tag, const Json& said, double page_height_m) {
   const double size_m = said.at("size_m");
   glm::dvec2 middle{0.0};
@@ -228,7 +228,7 @@ TEST_F(PrintToScale, TagsOnSeveralPagesOfLetterAreFound) {
                               "12mm"});
   const auto pictures = draw();
   EXPECT_EQ(summary.at("pages").size(), 3U);
-  // Two lie beside each other on the long edge.
+  // Two tags fit side by side on the long edge.
   EXPECT_NEAR(pictures.at(0).cols, 11.0 * kDotsPerInch, 1.0);
   EXPECT_NEAR(pictures.at(0).rows, 8.5 * kDotsPerInch, 1.0);
   expect_tags(summary, pictures, "tag36h11", {40, 41, 42, 43, 90});
@@ -261,8 +261,8 @@ TEST_F(PrintToScale, SessionsTagsHaveTheirOwnSizes) {
   expect_tags(summary, draw(), "tag36h11", ids);
 }
 
-/// The similarity that lies closest to pairs of points, and what is left of the worst:
-/// complex numbers make it linear, b = scale_and_turn * a + shift.
+/// Fits a similarity to pairs of points, and returns the largest residual. Complex
+/// numbers make the fit linear: b = scale_and_turn * a + shift.
 double worst_after_similarity(const std::vector<glm::dvec2>& from,
                               const std::vector<glm::dvec2>& to) {
   using Complex = std::complex<double>;

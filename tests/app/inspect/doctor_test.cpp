@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `marey doctor` on whatever machine this is. What it says of cameras is tested where
-// there are some: tests/capture/v4l2/check_camera_test.cpp, v4l2_guest.cpp.
+// `marey doctor` on the machine of the tests. Its report on cameras has tests with
+// cameras: tests/capture/v4l2/check_camera_test.cpp, v4l2_guest.cpp.
 #include <string>
 
 #include <gtest/gtest.h>

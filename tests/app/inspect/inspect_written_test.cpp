@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `marey inspect` reads what marey writes, or says which program does; `marey convert`
-// takes the motions among it back; files made to hurt end with one message.
+// `marey inspect` reads the files that marey writes, or names the program that reads
+// them. `marey convert` reads the motions among these files. Hostile files end with one
+// message.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -134,7 +135,7 @@ TEST(InspectWritten, ReadsWhatPrintingPlanningAndBodiesWrite) {
   run_well({"plan", path("plan.toml"), "--out", path("out/plan")});
   EXPECT_EQ(kind_of(folder / "plan.toml"), "plan");
   EXPECT_EQ(kind_of(folder / "out/plan"), "results");
-  // A bone map is nothing without its body, and the message says how to give both.
+  // A bone map requires its body. The message explains how to give both.
   const fs::path map = folder / "out/body.bones.toml";
   if (fs::exists(map)) {
     const ProgramRun run = marey({"inspect", map.string()});

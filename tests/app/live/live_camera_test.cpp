@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What cameras' pictures become on the way to a page.
+// Thumbnails of the cameras' pictures, and the requests of pages for them.
 #include "capture/feeds/live_camera.h"
 
 #include <gtest/gtest.h>

@@ -32,7 +32,7 @@ const std::filesystem::path kSample = marey::testing::sample_session();
 const std::filesystem::path kResults = marey::testing::sample_results() / "once";
 const std::filesystem::path kProgram = marey::testing::program();
 
-/// One that nobody had a moment ago.
+/// Returns a port that no program used a moment ago.
 int free_port() {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in any{};
@@ -85,7 +85,7 @@ class LiveTakesOfThePage : public ::testing::Test {
         std::async(std::launch::async, [words] { return run_program(kProgram, words); });
   }
 
-  /// A page; waits until there is somebody to answer.
+  /// Opens a page. Tries again until the server answers.
   [[nodiscard]] WebSocketClient open_page() const {
     for (int tries = 0;; ++tries) {
       WebSocketClient page(port_);
@@ -118,7 +118,7 @@ class LiveTakesOfThePage : public ::testing::Test {
   }
 
   ScratchFolder session_;
-  // Of a name that is not UTF-8, which no file of a take may depend on.
+  // The avatar's name is not UTF-8. No file of a take may depend on this name.
   std::filesystem::path avatar_ = session_ / "b\xF6rn.glb";
   int port_ = free_port();
   std::future<ProgramRun> run_;
@@ -127,14 +127,14 @@ class LiveTakesOfThePage : public ::testing::Test {
 TEST_F(LiveTakesOfThePage, BeginInTheMiddleAndAreReplayedToTheSameBytes) {
   start(12.0);
   WebSocketClient page = open_page();
-  // Two more browsers, one that is killed and one that hangs, are nobody's concern.
+  // Two more browsers, one that is killed and one that hangs, do not affect the run.
   { const WebSocketClient killed = open_page(); }
   const WebSocketClient hanging = open_page();
   const json before = status_when(
       page, [](const json& status) { return status["subject"] == "tracked"; });
   ASSERT_FALSE(before.is_null());
   EXPECT_TRUE(before["recording"].is_null());
-  // What is held as a take begins is part of what it begins with.
+  // The initial state of a take includes the drags that are active at its begin.
   page.send_frame(
       1, R"({"type":"drag","id":"left hand","p_in_world":[0.4,1.2,0.3],"phase":"move"})");
   record(page, true);

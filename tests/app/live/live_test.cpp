@@ -36,8 +36,8 @@ Words with(Words words, const Words& more) {
   return words;
 }
 
-/// As long as it takes on a machine that is busy with other tests: what is dropped then
-/// is dropped, and what follows from it must still hold.
+/// Returns the arguments of a run that plays the walk. Its wait for pictures is long,
+/// because other tests load the machine. The tests hold for a run that drops pictures.
 Words played() {
   return {"live",
           kSample.string(),
@@ -54,7 +54,7 @@ Words played() {
           "--vmc-deaf"};
 }
 
-/// What a shell does of `script`; $0 is the program, $@ are the words.
+/// Runs `script` in a shell; $0 is the program, $@ are the words.
 ProgramRun run_in_shell(const std::string& script, const Words& words) {
   return run_program("/bin/bash", with({"-c", script, kProgram.string()}, words));
 }
@@ -64,9 +64,9 @@ std::string content_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// A run that is sent `signal` as soon as `is_enough` holds, which is told how many
-/// instants it sent: how long that takes is the machine's affair. `limits` come before it
-/// in the shell.
+/// Runs the program, and sends it `signal` as soon as `is_enough` holds. `is_enough`
+/// receives the number of packets sent, because the time for them depends on the machine,
+/// and standard error. `limits` precede the program in the shell.
 ProgramRun run_until(
     const std::string& limits,
     const std::string& signal,
@@ -136,7 +136,7 @@ TEST_F(LiveRecording, FollowsTheWalkToItsEnd) {
   EXPECT_EQ(figures["outputs"][0]["sent"], figures["frames"]);
   EXPECT_EQ(figures["outputs"][1]["name"].get<std::string>().rfind("VRChat", 0), 0U);
   EXPECT_GE(figures["outputs"][1]["sent"], figures["tracked"]);
-  // The socket of a listener that nobody empties holds some hundred packets.
+  // The test reads the socket only after the run. A socket holds some hundred packets.
   EXPECT_GT(heard_, 20);
 }
 
@@ -191,7 +191,7 @@ TEST_F(LiveRecording, FailsReplayAfterAChange) {
       << replay.err;
 }
 
-// What one marey sends another hears, with the same avatar: the packets of the walk.
+// A second marey, with the same avatar, receives the packets of the walk.
 TEST_F(LiveRecording, IsReceivedAsAMotion) {
   ASSERT_EQ(run_->exit_code, 0) << run_->err;
   const auto free = live::UdpListener::open({"127.0.0.1", 0});
@@ -262,7 +262,7 @@ TEST(LiveRecordingInTrouble, GoesOnWithoutItWhenTheDiskIsFull) {
   EXPECT_GT(kept->instants.size(), 5U);
 }
 
-/// The exit code and what is on standard error.
+/// Expects the exit code, `because` and a next step on standard error, and no output.
 void expect_refused(const Words& words, int exit_code, const std::string& because) {
   const ProgramRun run = run_program(kProgram, words);
   EXPECT_EQ(run.exit_code, exit_code) << run.err;
@@ -271,7 +271,7 @@ void expect_refused(const Words& words, int exit_code, const std::string& becaus
   EXPECT_TRUE(run.out.empty()) << run.out;
 }
 
-// Of too short a stand nobody is measured, and nothing written.
+// A run with too short a stand measures no subject, and writes no subject.toml.
 TEST(LiveCalibration, NeedsASubjectToStandAndNoSubjectBefore) {
   const ScratchFolder folder;
   std::filesystem::copy(kResults / "calibration.toml", folder / "calibration.toml");

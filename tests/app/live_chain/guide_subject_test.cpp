@@ -80,7 +80,7 @@ class Guiding : public ::testing::Test {
   std::int64_t number_ = 0;
 };
 
-/// Whether the first frames kept are the first shown, without shrinkage.
+/// Expects that the first 50 frames kept are the first 50 shown, without shrinkage.
 void expect_shown(const std::vector<Camera>& cameras,
                   const std::vector<CameraDetections>& kept,
                   const std::vector<CameraDetections>& shown) {

@@ -22,7 +22,7 @@ using retarget::BalanceFrame;
 constexpr int kFrames = 200;
 constexpr double kRate_hz = 60.0;
 
-/// A walk, and what `marey view` tells of it as a recording.
+/// A walk, and its balance as `marey view` computes it from a recording.
 class BalanceOfAWalk : public ::testing::Test {
  protected:
   void SetUp() override {

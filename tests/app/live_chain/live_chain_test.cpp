@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// From what cameras see to an avatar that is dragged.
+// The live chain, from the cameras' tags to an avatar that is dragged.
 #include "app/live_chain/live_chain.h"
 
 #include <optional>
@@ -18,8 +18,8 @@ namespace marey::app {
 namespace {
 
 constexpr int kFrames = 60;
-constexpr int kHeld = 20;      // The first frame in which a hand is asked for,
-constexpr int kReleased = 40;  // and the first in which it is let go.
+constexpr int kHeld = 20;      // The first frame with a target for the hand.
+constexpr int kReleased = 40;  // The frame that releases the hand.
 constexpr double kRate_hz = 30.0;
 
 /// A person who walks before four cameras, with an avatar as tall.

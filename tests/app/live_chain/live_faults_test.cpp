@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What goes wrong before the cameras of a live run, from tags to packets: nobody to be
-// seen, people who come and go, two of them, a chain that takes over from another.
+// Faults in front of the cameras of a live run, from tags to packets: no visible person,
+// people who come and go, two people, a chain that takes over from another.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -32,13 +32,13 @@ class LiveFaults : public ::testing::Test {
  protected:
   struct Frame {
     TrackState state = TrackState::kWaiting;
-    double worst_mm = 0.0;  ///< Of the limbs' joints, to the truth.
-    int tracking = -1;      ///< As /VMC/Ext/OK says it; -1: not at all.
+    double worst_mm = 0.0;  ///< Largest distance of a limb's joint from the truth.
+    int tracking = -1;      ///< Tracking state in /VMC/Ext/OK; -1: absent.
     double time_s = 0.0;    ///< VMC's T.
     Pose pose;
   };
 
-  /// What the cameras see, instant by instant.
+  /// Returns the cameras' detections, instant by instant.
   [[nodiscard]] std::vector<LiveInstant> film(int frames) const {
     marey::testing::Film how;
     how.frames = frames;
@@ -146,8 +146,8 @@ class LiveFaults : public ::testing::Test {
     };
   }
 
-  /// From `frame` on: how long until it is tracked and stays within 2 cm of what is found
-  /// when nothing happens. [s]
+  /// Returns the time from `frame` until the subject is tracked and stays within 2 cm of
+  /// the result without a fault. [s]
   [[nodiscard]] double recovery_s(const std::vector<Frame>& frames,
                                   const std::vector<Frame>& unharmed,
                                   std::size_t frame) const {
@@ -216,7 +216,7 @@ TEST_F(LiveFaults, ASubjectReturningElsewhereIsFollowedWithinASecond) {
   EXPECT_LE(took_s, 1.0);
 }
 
-// The first, by whose clock frames are told; and the one that sees most.
+// Removes the first camera, whose clock times the frames, or the camera that sees most.
 TEST_F(LiveFaults, ACameraThatIsGoneForThreeSecondsIsDoneWithout) {
   const auto instants = film(180);
   const auto unharmed = follow(instants);
@@ -254,7 +254,7 @@ TEST_F(LiveFaults, CamerasInAnotherOrderAreDetected) {
     seen.add(instant, chain.step(instant, {}).track);
   }
   EXPECT_TRUE(seen.has_unmatched());
-  // Not where nobody is.
+  // An empty scene has no unmatched tags.
   UnmatchedTagsDetector nobody(body_);
   for (LiveInstant& instant : instants) {
     for (CameraTags& view : instant.views) view.tags.clear();
@@ -263,9 +263,9 @@ TEST_F(LiveFaults, CamerasInAnotherOrderAreDetected) {
   EXPECT_FALSE(nobody.has_unmatched());
 }
 
-// Another in a suit of other tags, and, for a second, one whose suit has the same
-// numbers: of those that are seen twice each fifth is the other's, elsewhere in every
-// picture.
+// Adds another person in a suit of other tags. A second run has, for one second, a person
+// whose suit has the same numbers. This person's tag replaces a fifth of the tags that
+// show on both, a different fifth in every picture.
 TEST_F(LiveFaults, AnotherPersonBeforeTheCamerasIsNotFollowed) {
   const auto alone = follow(film(75));
   auto instants = film(75);

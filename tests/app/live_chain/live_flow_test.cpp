@@ -34,8 +34,8 @@ class PlayedRun {
   explicit PlayedRun(double rate_hz = kRate_hz)
       : rate_hz_(rate_hz), flow({rate_hz}, at(0.0)) {}
 
-  /// Until `end_s`: pictures at `pictures_hz`, of which `becomes_pose` says which become
-  /// poses. The loop looks at every pose, and ten times a second.
+  /// Runs until `end_s` with pictures at `pictures_hz`. `becomes_pose` selects the
+  /// pictures that become poses. The loop looks at every pose, and ten times a second.
   void go_on(double end_s,
              double pictures_hz,
              const std::function<bool(long picture)>& becomes_pose) {
@@ -140,7 +140,7 @@ TEST(LiveFlow, GivesTheFirstPoseTimeButNotForEver) {
 /// A watchdog with a receiver of VMC.
 class WatchedLive : public ::testing::Test {
  protected:
-  /// What came since the last call says of tracking; nullopt: nothing came.
+  /// Returns the tracking state of the packets since the last call; nullopt: no packet.
   std::optional<bool> heard() {
     std::optional<bool> tracking;
     listener_.wait(50ms);

@@ -17,7 +17,7 @@ namespace {
 constexpr double kStep_s = 1.0 / 30.0;
 constexpr std::array<retarget::StandingFoot, 2> kBothStand{{{true, true}, {true, true}}};
 
-/// An avatar that sways, its feet where they are not by much; and with what is asked.
+/// An avatar that sways, with its root 5 cm below the rest pose, and its handles.
 class DraggedAvatar : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -83,7 +83,8 @@ TEST_F(DraggedAvatar, ReachesForWhereItIsDraggedOnFeetThatStand) {
     const double share = std::min(1.0, i / 15.0);
     handles_->ask({"left hand", HandleAction::kMove, from + share * (to - from)});
     const Pose pose = step();
-    // Half a metre a second, and what the body does itself: it does not jump.
+    // The target moves by 0.62 m in half a second, and the body sways. The hand does not
+    // jump.
     EXPECT_LT(glm::distance(place(pose, "left hand"), place(before, "left hand")), 0.12);
     before = pose;
     for (const char* foot : {"left foot", "right foot"}) {
@@ -92,7 +93,7 @@ TEST_F(DraggedAvatar, ReachesForWhereItIsDraggedOnFeetThatStand) {
     }
   }
   EXPECT_LT(glm::distance(place(before, "left hand"), to), 1e-3);
-  // Let go of, it stays.
+  // The hand stays at its place after its release.
   for (int i = 0; i < 10; ++i) before = step();
   EXPECT_LT(glm::distance(place(before, "left hand"), to), 1e-3);
   EXPECT_TRUE(handles_->handles()[1].active);

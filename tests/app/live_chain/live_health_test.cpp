@@ -105,7 +105,7 @@ TEST(WornSegments, AreUnseenWhereTheirPlaceIsAGuess) {
 /// Packets of one stream.
 class LiveNetwork : public ::testing::Test {
  protected:
-  /// One frame sent; what the page would tell of it.
+  /// Sends one frame. Returns the output's status for the page.
   live::PageOutput send(LiveOutputs& outputs) {
     LiveResult result;
     result.packets = packets_;
@@ -132,7 +132,7 @@ TEST_F(LiveNetwork, ReportsALostTargetAndItsReturn) {
   }
   LiveOutputs outputs = open({"127.0.0.1", port});
   (void)send(outputs);
-  (void)send(outputs);  // The kernel tells of a refusal with the next packet.
+  (void)send(outputs);  // The kernel reports a refusal with the next packet.
   EXPECT_EQ(send(outputs).detail, "no program receives the packets there");
   auto back = *live::UdpListener::open({"127.0.0.1", port});
   (void)send(outputs);
@@ -143,9 +143,9 @@ TEST_F(LiveNetwork, ReportsALostTargetAndItsReturn) {
   EXPECT_TRUE(back.receive());
 }
 
-// What no route leads to, or no answer comes from, is tried again with each packet.
+// Each packet is a new attempt to reach a host that has no route or does not answer.
 TEST_F(LiveNetwork, IsNotHeldUpByAHostThatCannotBeReached) {
-  // RFC 5737: for documentation, nobody's.
+  // RFC 5737 reserves this address for documentation: no host has it.
   auto outputs = LiveOutputs::open({VmcStream{}}, {{{{"192.0.2.1", 39539}}}});
   if (!outputs) {
     EXPECT_EQ(outputs.error().code, Errc::kDevice);

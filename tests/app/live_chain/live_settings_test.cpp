@@ -124,7 +124,7 @@ TEST(LiveRequests, AreRestoredAndAreEmptyByDefault) {
   EXPECT_FALSE(parse_live_requests("{\"vmc\":[],\"behind\":7}", "take"));
 }
 
-// A chain that comes later hears what was asked for before it.
+// A chain that starts later receives the requests from before its start.
 TEST(KeptPeriods, AreThoseAskedForLast) {
   KeptPeriods kept;
   LiveRequests nothing;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Takes that end before they began, those of another body, and what lies in their
+// Takes that end before their first frame, takes of another body, and the files in their
 // folders.
 #include <chrono>
 #include <filesystem>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kRate_hz = 30.0;
 
-/// Somebody who stands still before four cameras, as long as it takes.
+/// A person who stands still before four cameras, for as many instants as a test needs.
 class TakesOfARun : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -81,7 +81,7 @@ class TakesOfARun : public ::testing::Test {
     return false;
   }
 
-  /// As when somebody else was measured, and recording is asked for at once.
+  /// Follows another body, as after a measurement, and requests a recording at once.
   void follow_another() {
     Body other = *live_.body;
     other.name = "second";
@@ -188,7 +188,8 @@ TEST_F(TakesOfARun, KnowTheirCamerasByName) {
   EXPECT_NE(renamed.error().message().find("the cameras of the take"), std::string::npos);
 }
 
-// Of one name in two folders, and of two kinds beside one bone map.
+// Two avatars have the same name in two folders, and two kinds of avatars share one bone
+// map.
 TEST_F(TakesOfARun, KeepAvatarsWhoseNamesAreAlike) {
   const std::filesystem::path root = folder_.path();
   for (const char* folder : {"a", "b"}) {
@@ -216,7 +217,7 @@ TEST_F(TakesOfARun, KeepAvatarsWhoseNamesAreAlike) {
   EXPECT_EQ(content("3.bones.toml"), "bx.bones.toml");
 }
 
-// Nobody is asked to stand still by a run that is over.
+// A run that has ended does not wait for a subject to stand still.
 TEST_F(TakesOfARun, MeasureNoSubjectAfterTheEnd) {
   live_.prior = {"first", 1.75, std::nullopt, testing::tags_of(*live_.body)};
   live_.subject_file = folder_ / "subject.toml";

@@ -179,7 +179,7 @@ TEST(FitProgram, RefusesAFolderThatIsAFile) {
 TEST(FitProgram, DetectsThatAnotherSubjectIsGiven) {
   const ScratchFolder folder;
   Body other = labelled_person();
-  // Somebody a third taller.
+  // The other subject is a third taller.
   for (glm::dvec3& offset : other.proportions.offset_in_parent) offset *= 1.33;
   for (PlacedMarker& marker : other.markers) {
     marker.p_in_segment *= 1.33;
@@ -197,7 +197,7 @@ TEST(FitProgram, DetectsThatAnotherSubjectIsGiven) {
   EXPECT_NE(run.err.find("away from the body (RMS)"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("this is the subject of --subject"), std::string::npos)
       << run.err;
-  // What there is can be looked at.
+  // The program writes the results for inspection.
   EXPECT_TRUE(fs::exists(folder / "out/pose/motion.bvh"));
 }
 

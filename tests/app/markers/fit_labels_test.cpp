@@ -100,7 +100,7 @@ std::string array_of(const std::string& archive, const std::string& name) {
   const std::size_t entry = archive.find(name + ".npy");
   const std::size_t start = archive.find("\x93NUMPY", entry);
   if (entry == std::string::npos || start == std::string::npos) return {};
-  // Of zip's local header, 30 bytes before the name: the size of the entry.
+  // Zip's local header begins 30 bytes before the name. The entry's size is at byte 22.
   std::uint32_t size = 0;
   std::memcpy(&size, archive.data() + entry - 30 + 22, sizeof(size));
   std::uint16_t header = 0;
@@ -108,8 +108,8 @@ std::string array_of(const std::string& archive, const std::string& name) {
   return archive.substr(start + 10 + header, size - 10U - header);
 }
 
-// A drop jump: the plates bear nothing from 2.260 to 2.765 s, contacts said 2.230 to
-// 2.799 before they agreed with the flight of the centre of mass.
+// In this drop jump, the plates bear no load from 2.260 to 2.765 s. Contacts that ignore
+// the flight of the centre of mass give 2.230 to 2.799 s.
 TEST(FitLabels, ContactsOfAJumpAreThoseOfForcePlates) {
   const fs::path jump = kMocap / "nimblephysics/osim/LaiArnoldSubject5/DJ1.trc";
   if (!fs::exists(jump)) GTEST_SKIP() << jump << " is not there";

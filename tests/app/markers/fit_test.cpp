@@ -187,8 +187,8 @@ TEST_F(FittedSession, IsSolvedAgainWithTheSubjectItGave) {
             *recordings::read_file(*folder / "reused/subject.toml"));
 }
 
-// A marker that is never seen in a trial is where the skeleton says; one of a foot that
-// shows nothing at all stays empty.
+// The skeleton gives the place of a marker that a trial never shows. A marker of a foot
+// without any visible marker stays empty.
 TEST_F(FittedSession, PredictsMarkersWhereTheirSegmentIsKnown) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Body moving = without_markers_inside(person);

@@ -140,8 +140,8 @@ void scale(MarkerTracks& tracks, double by) {
 }
 
 struct OtherUnit {
-  double scale;      ///< Of what the file's numbers mean when read as mm.
-  const char* unit;  ///< In which they are meant.
+  double scale;      ///< Factor from mm to the unit of the file's numbers.
+  const char* unit;  ///< The unit of the file's numbers.
 };
 
 class TrialInAnotherUnit : public ::testing::TestWithParam<OtherUnit> {};

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What reconstruct makes of the labels, and of the places, in files that recordings
-// reads:
+// The landmarks that reconstruct derives from labels, and their places, in files that
+// recordings reads:
 // ../shared/data/mocap.
 #include <algorithm>
 #include <array>
@@ -26,8 +26,9 @@ namespace fs = std::filesystem;
 
 const fs::path kMocap = marey::testing::shared_data() / "mocap";
 
-/// How many of a file's markers have a name, and by which set. Those that have none are
-/// computed, wands, devices, doubles, or points whose label says nothing.
+/// The number of a file's markers that have a name, and the set of these names. Markers
+/// without a name are computed points, wands, devices, doubles, or points whose label has
+/// no meaning.
 struct Sample {
   const char* file;
   const char* set;
@@ -130,8 +131,8 @@ TEST_P(MarkerNameSamples, AreNamedAsFarAsTheyAreOnTheBody) {
 
 INSTANTIATE_TEST_SUITE_P(Mocap, MarkerNameSamples, ::testing::ValuesIn(kSamples));
 
-/// Somebody who stands, or walks; stature as far as the file's companions tell it, else
-/// what fits the distances best.
+/// A person who stands or walks. The stature is from the file's companions if they have
+/// it. Otherwise it is the stature that fits the distances best.
 struct Person {
   const char* file;
   double stature_m;
@@ -158,8 +159,8 @@ constexpr std::array kPeople{
 
 class LandmarksOnPeople : public ::testing::TestWithParam<Person> {};
 
-// Of two palpated landmarks of one segment. Four sigmas, because there are some 300
-// pairs.
+// Compares the distance of two palpated landmarks of one segment with its expectation.
+// The tolerance is three sigmas. There are some 300 pairs.
 TEST_P(LandmarksOnPeople, AreSpacedWithinTheirUncertainty) {
   const fs::path path = kMocap / GetParam().file;
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";

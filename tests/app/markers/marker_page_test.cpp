@@ -71,7 +71,7 @@ std::string fitted_page(const ScratchFolder& folder) {
                               (folder / "bare.c3d").string(),
                               "--out",
                               (folder / "out").string()});
-  // A trial without enough markers is told.
+  // The program reports a trial without enough markers.
   EXPECT_EQ(run.exit_code, 3) << run.err;
   const auto page = recordings::read_file(folder / "out/fit.html");
   EXPECT_TRUE(page);
@@ -110,12 +110,12 @@ TEST(MarkerPage, HasARunForEveryGapAndFault) {
     EXPECT_EQ(swapped["runs"][0][1], 40);
     EXPECT_EQ(swapped["faults"].size(), 1U);
   }
-  // Taken out, and filled.
+  // The program removes the leap, and fills the gap.
   const Json& jump = marker_of(trial, "M6");
   ASSERT_EQ(jump["faults"].size(), 1U);
   EXPECT_EQ(jump["faults"][0][0], 50);
   EXPECT_EQ(jump["faults"][0][1], 3);
-  // A metre, less what the leap does to what is expected.
+  // The fault is a metre, less the effect of the leap on the expected place.
   EXPECT_GT(jump["faults"][0][3].get<double>(), 500.0 /* mm */);
   EXPECT_EQ(jump["runs"].size(), 1U);
   EXPECT_TRUE(marker_of(trial, "M0")["runs"].empty());

@@ -4,7 +4,7 @@
 // OpenSim's own models, in the poses that OpenSim found for them: their bodies'
 // rotations, by the axes of the model's file and the angles of the motion's, become a
 // motion of this skeleton, and its joint angles are OpenSim's. Proves axes, orders and
-// signs of every column; says nothing of how well a skeleton is fitted to markers.
+// signs of every column. Does not test the fit of a skeleton to markers.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -197,7 +197,8 @@ class OpenSimAngles : public ::testing::TestWithParam<Case> {
   }
 };
 
-/// What of a column its definition leaves out of the model: docs/formats/README.md. [rad]
+/// Returns the tolerance of a column, for the parts of the model that the column's
+/// definition leaves out: docs/formats/README.md. [rad]
 double allowed(const std::string& column) {
   // Eight decimals in the file.
   constexpr double kDigits = 1e-6;

@@ -33,7 +33,7 @@ ProgramRun repair(const fs::path& in, const fs::path& out) {
 /// With a gap in M12, frames 100 to 139 of the file, and M2 and M17 exchanged in 40.
 void write_spoilt(const fs::path& path) {
   recordings::MarkerFile file;
-  // A C3D says that Z is up; a TRC cannot, and is taken for Y up.
+  // A C3D stores that Z is up. A TRC has no such field, and its default is Y up.
   if (path.extension() == ".trc") file.axes.up = recordings::FileAxis::kPlusY;
   file.tracks = synthetic_markers(250);
   for (std::size_t f = 99; f < 139; ++f) file.tracks.at(f, 12).reset();

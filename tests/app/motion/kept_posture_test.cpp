@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Whether bodies from elsewhere keep the posture of captured motions, by the files that
-// are written, and judged by places of joints that this test names itself.
+// Bodies from elsewhere keep the posture of captured motions in the written files. The
+// test compares places of joints that it names itself.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -160,8 +160,8 @@ struct Body {
 const std::array kBodies{
     Body{"avatars/makehuman/adult_male_mixamo_unity.glb", kMixamo},
     Body{"avatars/vrm/cryptovoxels.vrm", kVoxels},
-    // A skirt, and shanks half as long again as the thighs. Its right foot's joint ends
-    // beside where the shoe points.
+    // A skirt, and shanks half as long again as the thighs. The right foot's joint does
+    // not point along the shoe.
     Body{"avatars/hard/f_female_dress.glb", kQuaternius, 12.0, 11.0},
     // Legs of half a metre that begin a metre apart, below a trunk as broad.
     Body{"avatars/hard/q_humanoid.glb", kQuaternius, 45.0},
@@ -239,8 +239,9 @@ TEST_P(EveryBody, KeepsThePostureOfAWalkAKickAndADance) {
   }
 }
 
-/// Where a body faces: at rest by its thighs, in a pose as its hips' joint is turned. Of
-/// files whose thighs do not hang on the hips, a pose has no more than turns.
+/// Returns the direction that a body faces: at rest by its thighs, in a pose by the turn
+/// of its hips' joint. A pose has only turns in files whose thighs are not children of
+/// the hips.
 glm::dvec3 facing(const Skeleton& skeleton, const BoneJoints& joints, const Pose& pose) {
   const std::size_t hips = index(*joints[index(B::kHips)]);
   const Pose rest = rest_pose(skeleton);
@@ -251,7 +252,8 @@ glm::dvec3 facing(const Skeleton& skeleton, const BoneJoints& joints, const Pose
   return glm::normalize(glm::dvec3(front.x, 0.0, front.z));
 }
 
-/// Where a receiver's avatar faces, in marey's axes. Its T-pose faces +Z.
+/// Returns the direction that a receiver's avatar faces, in marey's axes. Its T-pose
+/// faces +Z.
 glm::dvec3 vmc_facing(const live::VmcBody& body, const Pose& pose) {
   live::VmcPose told;
   body.to_vmc(pose, told);
@@ -285,7 +287,7 @@ TEST_P(EveryBody, FacesTheSameWayInEveryFile) {
   ASSERT_TRUE(vmc) << vmc.error().message();
   auto glb = recordings::read_character(folder / "out.glb");
   ASSERT_TRUE(glb && glb->motion);
-  // What a reader does to a VRM 0.x is undone: this asks what the file says.
+  // Undoes the reader's turn of a VRM 0.x: the test uses the directions in the file.
   const glm::dquat as_in_file =
       glb->faces_back ? glm::dquat(0.0, 0.0, 1.0, 0.0) : glm::dquat(1.0, 0.0, 0.0, 0.0);
   const auto bvh = recordings::read_bvh(folder / "out.bvh");

@@ -106,7 +106,7 @@ TEST(Neutral, UsesTheRequestedNeutral) {
   EXPECT_EQ(neutral_mistake("t-pose"), "");
 }
 
-// A rest that stands is told, not called no posture.
+// A remark reports that the rest stands. No remark denies that it is a standing posture.
 TEST(Neutral, RemarksOnATPoseThatReplacesARest) {
   const auto file = shared("mocap/cmu_bvh_tmoco/rest.bvh");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the file is not there";

@@ -33,13 +33,13 @@ struct FileCase {
   const char* scheme;
   const char* left_knee;
   const char* right_hand;
-  double low_m;  ///< Of the stature that the bones tell.
+  double low_m;  ///< Bounds of the stature, computed from the bones.
   double high_m;
 };
 
 class EveryFile : public ::testing::TestWithParam<FileCase> {};
 
-/// What must hold of any body in marey's frame, whatever its names.
+/// Expects conditions that hold for any body in marey's frame, independent of its names.
 void expect_stands(const Skeleton& body) {
   const auto world = world_from_joints(body, rest_pose(body));
   const auto at = [&](B bone) {
@@ -253,7 +253,7 @@ std::vector<RigidTransform> placed(const std::filesystem::path& file, std::size_
   return world_from_joints(body->skeleton(), body->raw.motion.poses[frame]);
 }
 
-// CesiumMan looks to +X in its file: what is written there, read again, is what was made.
+// CesiumMan faces +X in its file: the written file, read again, contains the same motion.
 TEST(ReadBody, WritesAvatarsBackInTheirOwnFrame) {
   const auto avatar = shared("avatars/khronos/cesium_man.gltf");
   const auto source = shared("mocap/bvh_python/test_freebvh.bvh");

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What marey process and marey fit do with hands, on bodies whose skin says how wide they
-// are.
+// Arms and hands in the motions of marey process and marey fit, on bodies whose width is
+// measured from the skin.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -35,7 +35,7 @@ std::filesystem::path mannequin(const testing::ScratchFolder& folder, double gir
   return path;
 }
 
-// Somebody who lets both arms hang, and swings them past the trunk and in front of it.
+// Returns a motion whose arms hang down and swing past the trunk and in front of it.
 Motion swinging_arms() {
   Motion motion{make_humanoid(average_proportions(1.75)), {60.0}, 0, {}};
   const auto arm = [&](B bone) { return index(*motion.skeleton.find(bone)); };
@@ -55,8 +55,8 @@ Motion swinging_arms() {
   return motion;
 }
 
-// How deep elbows and wrists are in trunk and thighs, by the skin alone: upper arms of
-// one so wide begin within the chest. [m]
+// Returns the largest depth of elbows and wrists in trunk and thighs, from the skin
+// alone. Upper arms are left out: on a wide body they begin within the chest. [m]
 double deepest_m(const Motion& motion, const retarget::BodyVolume& volume) {
   double deepest = 0.0;
   for (const Pose& pose : motion.poses) {
@@ -94,7 +94,7 @@ TEST(RefinedAvatar, KeepsArmsOutOfTheBellyThatItsSkinHas) {
   }
 }
 
-// The girth of a mannequin is found: nobody would call the wide one average.
+// The radii follow the girth of the mannequin: a wide one does not get average radii.
 TEST(RefinedAvatar, IsAsWideAsItsSkin) {
   const testing::ScratchFolder folder;
   const auto lean = read_body(mannequin(folder, 1.0));

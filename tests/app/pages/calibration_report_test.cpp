@@ -85,7 +85,7 @@ TEST(MeasureCalibration, FindsByHowMuchACameraIsLate) {
   // Velocities are differences over two frames, which flatten a swing by 0.1 %.
   EXPECT_NEAR(measured[0].lag->frames, 0.5, 0.02);
   EXPECT_GT(measured[0].lag->explained_px, 3.0);
-  report.has_clocks = true;  // Then it has no more to say.
+  report.has_clocks = true;  // Then it reports no lag.
   EXPECT_FALSE(calib::measure_cameras(report)[0].lag);
 }
 
@@ -104,7 +104,8 @@ TEST(MeasureCalibration, FindsTheFrameFromWhichACameraFitsNoMore) {
 TEST(MeasureCalibration, SeparatesAPatternFromNoise) {
   calib::CalibrationReport report = of_one_camera();
   for (int frame = 0; frame < 60; ++frame) {
-    // The same half pixel to the right wherever the board is, or now right, now left.
+    // The first errors are half a pixel to the right for every place of the board. The
+    // second alternate between right and left.
     report.rig.views.push_back(view_at(frame, 0.3 * std::sin(frame), {0.5, 0.0}));
   }
   EXPECT_NEAR(calib::measure_cameras(report)[0].pattern_px, 0.5, 0.01);

@@ -47,8 +47,8 @@ RigidTransform world_from_wand(double share) {
            0.5 * std::cos(round)}};
 }
 
-/// Forty frames of the wand, and tags that lie on the floor all the while; kAskew sees
-/// these 12 px beside where they are, as in a mirror.
+/// Returns forty frames of the wand, with tags that lie on the floor all the time. kAskew
+/// sees the floor tags 12 px to the right of their places, as in a mirror.
 std::vector<CameraDetections> wave_wand(const std::vector<Camera>& cameras) {
   constexpr int kFrames = 40;
   auto waved = marey::testing::unseeing(cameras, kFrames, 10.0, "wand");
@@ -130,7 +130,7 @@ TEST(WandReport, CountsSceneryAsNeitherWandNorFloor) {
     EXPECT_NEAR(quality.coverage, static_cast<double>(cells.size()) / 48.0, 1e-9) << c;
     const auto& counts = report.cameras[c].cells;
     EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), corners) << c;
-    // Told of by a name of its own.
+    // Only kAskew has a large error of the floor tags; a finding of its own names it.
     EXPECT_EQ(report.cameras[c].floor_median_px > 6.0, c == kAskew) << c;
   }
   EXPECT_TRUE(

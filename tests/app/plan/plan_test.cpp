@@ -53,7 +53,7 @@ class Plan : public ::testing::Test {
     return run_program(marey::testing::program(), words);
   }
 
-  /// What the last run wrote.
+  /// Returns the figures of the last run.
   [[nodiscard]] Json figures() const {
     return Json::parse(text_of(in_folder("out/plan.json")), nullptr, false);
   }
@@ -129,7 +129,8 @@ TEST_F(Plan, TakesPlannedCamerasAsExactWhereNoBoardIsRead) {
 }
 
 TEST_F(Plan, UsesTheUncertaintyOfCalibratedCameras) {
-  // Whether a board would be read there or not: with small pictures it is not.
+  // A board cannot be detected in the images of 320 px. The uncertainty is used in both
+  // cases.
   for (const int width_px : {1280, 320}) {
     write_plan("", 2, width_px);
     const auto cameras = recordings::read_plan(in_folder("plan.toml"));

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Calibrations that cannot be: what was declared is not what was filmed, or not enough of
-// it was. Each ends in one sentence that says so, and leaves no calibration.
+// Calibrations that are impossible: the filmed board differs from the declared one, or
+// too few views show it. Each run reports one error with the cause, and writes no
+// calibration.
 #include <string>
 #include <vector>
 
@@ -18,8 +19,8 @@ using ::testing::AssertionFailure;
 using ::testing::AssertionResult;
 using ::testing::AssertionSuccess;
 
-/// Whether the run ended with one error, which has these words in this order, and left no
-/// cameras behind.
+/// Returns success if the run reported one error that contains these words in this order,
+/// and wrote no cameras.
 AssertionResult declines(const PaintedSession& session,
                          const std::vector<std::string>& words) {
   const ProgramRun run = session.calibrate();
@@ -57,12 +58,12 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-// --- What was filmed is what was declared: nobody is turned away
+// --- The declared board is the filmed one: the program calibrates
 // ------------------------
 
 AssertionResult calibrates(const PaintedSession& session) {
   const ProgramRun run = session.calibrate();
-  // A poor calibration is one: the pictures are few.
+  // A poor calibration counts as a calibration: the pictures are few.
   if ((run.exit_code != 0 && run.exit_code != 4) ||
       !session.has_result("calibration.toml")) {
     return AssertionFailure() << "exit code " << run.exit_code << "\n" << run.err;
@@ -82,7 +83,7 @@ TEST(GoodBoard, CalibratesForEveryKind) {
   EXPECT_TRUE(calibrates(grid));
 }
 
-// Who looks at a few frames only sees the tags.
+// A search in a few frames only can miss the board and find only the tags.
 TEST(GoodBoard, CalibratesWhenSeldomSeenAmongTags) {
   PaintedSession session(chessboard_table());
   session.film(painted_chessboard(), 48);
@@ -199,7 +200,7 @@ TEST(BadBoard, IsDetectedWhenMirrored) {
   EXPECT_TRUE(declines(grid, {"mirrored", "Next: switch off mirroring"}));
 }
 
-// --- Too little of it
+// --- Too few views of the board
 // -------------------------------------------------------------------
 
 TEST(BadViews, ThatAreTooFewAreCounted) {

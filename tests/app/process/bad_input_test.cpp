@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The mistakes that people make. Each must end in one sentence that names the file, the
-// cause and what to do, and leave nothing that looks like a result.
+// Frequent mistakes of users. Each run must report one error that names the file, the
+// cause and the next step. A run that fails must leave no file that looks like a result.
 #include <string>
 #include <vector>
 
@@ -112,7 +112,8 @@ TEST(BadAvatar, IsReportedBeforeAnyWorkWhenMissing) {
 // --- Videos
 // -----------------------------------------------------------------------------
 
-/// Whether the run ended with one error, which the report tells too, and with results.
+/// Returns success if the run reported one error, repeated it in the JSON report, and
+/// wrote the motion.
 AssertionResult goes_on(const SpoiledSession& session,
                         const ProgramRun& run,
                         const std::string& where,
@@ -287,8 +288,8 @@ TEST(BadCalibration, IsReportedBySolveWithTheCommandToRun) {
                        {"out/calibration.toml: ", "does not exist", "marey calibrate"}));
 }
 
-/// Whether the run ended as one of poor quality must: exit code 4, results all the same,
-/// and an error that blames `blame`.
+/// Returns success if the run reported poor quality: exit code 4, the results of a
+/// calibration, and an error that matches `blame`.
 AssertionResult is_poor(const SpoiledSession& session,
                         const ProgramRun& run,
                         const Blame& blame) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What [calibration] of a session asks of `marey calibrate`.
+// Effects of the [calibration] table of a session on `marey calibrate`.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -46,7 +46,8 @@ double worst_place_mm(const recordings::Calibration& found) {
   return 1e3 * worst;
 }
 
-/// Of distances between cameras, which know no world.
+/// Returns the largest error of the distances between cameras, which do not depend on the
+/// world frame. [mm]
 double worst_distance_mm(const recordings::Calibration& found) {
   const auto truth =
       truth_cameras(marey::testing::sample_session() / "walk/truth/cameras.json");
@@ -209,7 +210,7 @@ TEST(CalibrationChoices, ProcessWithoutAFloorTrial) {
   EXPECT_TRUE(session.has_result("walk/joints.csv")) << run.err;
 }
 
-// The board is held up in the frame that is said to show it on the floor.
+// The floor trial declares frame 40, in which the board is held up.
 TEST(CalibrationChoices, DeclineAFloorThatIsAWall) {
   SpoiledSession session;
   session.replace_in_trial("floor", "frames = [0, 3]", "frames = [40, 40]");

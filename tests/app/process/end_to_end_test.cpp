@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `marey process` made of the sample session, held against its truth. The runs
-// themselves are the fixtures of tests/app/CMakeLists.txt.
+// Compares the results of `marey process` on the sample session with its ground truth.
+// The runs themselves are the fixtures of tests/app/CMakeLists.txt.
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -188,7 +188,7 @@ TEST(FirstLight, EverySegmentOfEveryFrameHasASource) {
   EXPECT_EQ(rows->size(), kHumanBoneCount * kWalkFrames);
 }
 
-/// An error of the doubts that the program states: how many sigmas the joints are off.
+/// Compares the joint errors with the reported uncertainties, as multiples of sigma.
 TEST(FirstLight, UncertaintiesMatchTheSizeOfTheErrors) {
   const auto truth = truth_joints(kSample / "walk/truth/joints.csv");
   ASSERT_TRUE(truth);

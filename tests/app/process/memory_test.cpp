@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is kept of ten thousand frames: nothing.
+// Tracking and grouping of ten thousand frames keep no frame in memory.
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -25,7 +25,7 @@ constexpr int kCanvasHeight = 225;
 constexpr int kCell_px = 4;
 constexpr int kCameras = 2;
 
-/// A wall with six tags on it, larger than what cameras see of it at once.
+/// Draws a wall with six tags that is larger than the view of a camera.
 std::vector<std::uint8_t> draw_wall() {
   std::vector<std::uint8_t> wall(std::size_t{kCanvasWidth} * kCanvasHeight, 170);
   const std::array<TagId, 6> ids{
@@ -48,7 +48,7 @@ std::vector<std::uint8_t> draw_wall() {
   return wall;
 }
 
-/// What a camera sees whose view wanders about on the wall: tags come and go.
+/// Returns the view of a camera that moves over the wall: tags enter and leave the view.
 capture::GrayFrame look(const std::vector<std::uint8_t>& wall, int camera, int k) {
   const double turn = 2.0 * std::numbers::pi * (k + 40 * camera) / 300.0;
   const auto place = [](double wave, int room) {
@@ -71,8 +71,8 @@ long peak_kb() {
   return usage.ru_maxrss;
 }
 
-// The peak of the whole process. What a frame cost, if it were kept: a tag's corners are
-// 100 bytes, so that 9,000 frames of a few tags would be some MB.
+// Measures the peak of the whole process. Kept frames would exceed the limit: a tag's
+// corners take 100 bytes, so 9,000 frames of a few tags take some MB.
 TEST(Memory, StaysFlatWhileTenThousandFramesAreTrackedAndGrouped) {
   const std::vector<std::uint8_t> wall = draw_wall();
   std::vector<capture::TagTracker> trackers;

@@ -24,7 +24,7 @@ inline constexpr double kPixelsPerCm = 40.0;
 /// 4 x 3 tags of 6 cm, 2 cm apart, of tag36h11 from `first_id`.
 [[nodiscard]] cv::Mat painted_april_grid(int first_id = 0);
 
-/// What a session.toml says of each.
+/// Returns the [board] table of session.toml for each of these boards.
 [[nodiscard]] std::string charuco_table();
 [[nodiscard]] std::string chessboard_table();
 [[nodiscard]] std::string april_grid_table();

@@ -20,10 +20,10 @@ struct PaintedTag {
   RigidTransform world_from_tag;
 };
 
-/// What `camera` photographs of the tags before a grey wall: rays through every pixel,
-/// its lens's distortion included; later tags hide earlier ones, and who faces away is
-/// not seen. 8-bit, each pixel the mean of its light, coded by sRGB's curve, with noise
-/// of one grey level and a half. The same seed gives the same noise.
+/// Returns the 8-bit picture that `camera` takes of the tags in front of a grey wall.
+/// Traces rays through every pixel, with the lens's distortion. Later tags hide earlier
+/// ones; a tag that faces away is invisible. Each pixel is the mean of its light, coded
+/// with sRGB's curve, with noise of 1.5 grey levels. Equal seeds give equal noise.
 [[nodiscard]] cv::Mat paint_tags(const Camera& camera,
                                  const std::vector<PaintedTag>& tags,
                                  unsigned seed);

@@ -54,7 +54,7 @@ RecordedWalk::RecordedWalk(Made made) {
       "videos = { cam0 = \"walk/cam0.mp4\", cam1 = \"walk/cam1.mp4\", cam2 = "
       "\"walk/cam2.mp4\", cam3 = \"walk/cam3.mp4\" }\n",
       "");
-  fs::remove_all(session_.out() / "walk");  // What was found in the other videos.
+  fs::remove_all(session_.out() / "walk");  // Detections in the sample's videos.
   if (made == Made::kNothing) return;
   fs::create_directories(folder());
   for (std::size_t c = 0; c < cameras().size(); ++c) make_video(c);

@@ -20,10 +20,10 @@ inline constexpr double kWalkRate_hz = 30.0;
 /// frames and whose clocks jitter.
 class RecordedWalk {
  public:
-  /// What is recorded of it.
+  /// The recording that the constructor makes.
   enum class Made {
     kTake,    ///< Videos and times, as `marey record` would have made them.
-    kNothing  ///< That is left to the test.
+    kNothing  ///< The test makes the recording.
   };
 
   explicit RecordedWalk(Made made = Made::kTake);

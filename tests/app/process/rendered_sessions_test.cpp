@@ -95,12 +95,12 @@ std::string session_text(const fs::path& session, const std::set<std::string>& c
   return text;
 }
 
-/// What a run on some cameras gave.
+/// Result of a run on some of the cameras.
 struct Outcome {
   ProgramRun run;
   double median_mm = 0.0;
   double p95_mm = 0.0;
-  double worst_median_mm = 0.0;  ///< Of a joint.
+  double worst_median_mm = 0.0;  ///< Largest median error of a joint.
   double inside = 0.0;           ///< Share of the joints within their 95 %.
 };
 

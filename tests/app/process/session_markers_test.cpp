@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The corners of tags that a session is written as, and what other commands make of them.
+// Marker files that contain the tag corners of a session, read by other commands.
 #include <filesystem>
 #include <map>
 #include <string>
@@ -26,9 +26,8 @@ namespace fs = std::filesystem;
 
 const fs::path kWalk = marey::testing::sample_results() / "once/walk";
 
-// The first segments of a walk, from the file that says how the motion went: six decimals
-// of place and rotation, a tag within 0.3 m of its segment's origin; a C3D's 32-bit
-// reals.
+// Tolerance of a corner. segments.csv has six decimals of place and rotation, a tag is
+// within 0.3 m of its segment's origin, and a C3D has 32-bit reals.
 constexpr double kRoundingM = 2e-6;
 
 /// How many samples there are, after each was compared with the motion.
@@ -70,7 +69,7 @@ TEST(SessionMarkers, InC3dMatchTheTagsOfTheMotion) {
   EXPECT_EQ(read->axes.up, recordings::FileAxis::kPlusZ);
   EXPECT_EQ(read->axes.unit, "mm");
   const std::size_t samples = compare_with_motion(read->tracks);
-  // Of 116 corners in 90 frames.
+  // At least half of the 116 corners in 90 frames have a sample.
   EXPECT_GT(samples, 116U * 90U / 2U);
   std::size_t measured = 0;
   for (const auto& sample : read->tracks.samples) {

@@ -105,7 +105,8 @@ class PaintedSession {
     if (with_floor) trials_ += trial("floor", "floor");
   }
 
-  /// `marey calibrate`; `target` is what session.toml says of the wand.
+  /// Runs `marey calibrate`; `target` is the part of session.toml that describes the
+  /// wand.
   [[nodiscard]] ProgramRun calibrate(const std::string& target) const {
     std::ofstream(folder_ / "session.toml") << "format = 1\nname = \"wand\"\n"
                                             << target << cameras_ << trials_;
@@ -211,7 +212,7 @@ TEST(WandProgram, CalibratesFromPicturesAndStandsOnTheFloor) {
             std::string::npos);
 }
 
-// As somebody's hips before webcams that were started one after the other.
+// The wand is a person's hips; the webcams start at different times.
 TEST(WandProgram, FindsClocksFromTheTagsOfASegment) {
   const std::vector<double> late_s{0.0, 0.43, -0.27, 1.15};
   const PaintedSession session(70, late_s, false);
@@ -232,7 +233,8 @@ TEST(WandProgram, FindsClocksFromTheTagsOfASegment) {
   EXPECT_LT(worst_distance_m(found), 0.012);
 }
 
-// Who says that cameras start together is taken at his word, and told what that gives.
+// The session declares that the cameras start together. The program assumes this and
+// reports the cameras that contradict it.
 TEST(WandProgram, NamesCamerasThatDoNotStartTogetherAsDeclared) {
   const PaintedSession session(48, {0.0, 0.43, -0.27, 0.0}, false);
   const ProgramRun run = session.calibrate(

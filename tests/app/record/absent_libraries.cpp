@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// For record_guest, a static program: FFmpeg's libraries ask these of libraries of codecs
-// that there are not as static ones, when they list what they know. The recorder uses
-// none of those codecs; all else that is missing of them stays so (--unresolved-symbols).
+// Stubs for record_guest, a static program. FFmpeg's libraries refer to these functions
+// in their lists of codecs, and the codec libraries are not available as static ones. The
+// recorder uses none of these codecs. Other missing symbols stay unresolved
+// (--unresolved-symbols).
 extern "C" {
 int aom_codec_version() {
   return 0;

@@ -30,7 +30,7 @@ TEST(FrameQueue, RefusesWhatItHasNoPlaceForAndLosesNothingElse) {
   }
   EXPECT_FALSE(queue.push(bytes, stamp));
   EXPECT_EQ(queue.pop(kNow)->stamp.sequence, 0U);
-  EXPECT_FALSE(queue.push(bytes, stamp));  // The first is lent, and keeps its place.
+  EXPECT_FALSE(queue.push(bytes, stamp));  // The first is in use and keeps its place.
   EXPECT_EQ(queue.pop(kNow)->stamp.sequence, 1U);
   stamp.sequence = 7;
   EXPECT_TRUE(queue.push(bytes, stamp));
@@ -59,9 +59,9 @@ TEST(FrameQueue, RefusesABiggerFrameThanItsMemoryAndNothingElse) {
   EXPECT_TRUE(queue.push(std::vector<std::byte>(1), {}));
 }
 
-// Against a queue without limits: frames of any sizes, fetched and put in any order. What
-// waits is never written over, and no frame is refused while two of the largest would
-// fit.
+// Compares the queue with one without limits: frames of any sizes, pushed and popped in
+// any order. Waiting frames are never overwritten. No frame is refused while two of the
+// largest would fit.
 TEST(FrameQueue, KeepsEveryByteOfFramesOfManySizes) {
   constexpr std::size_t kMemory = 1000;
   constexpr std::size_t kLargest = 300;

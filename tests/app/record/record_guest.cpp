@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// record_guest: what the recorder claims, and what live runs do of cameras that come and
-// go, tried on a real kernel in an emulated machine
-// (tests/capture/run_v4l2_guest.sh), where vivid makes two cameras. Prints a line for
-// each claim; its exit code is the number of claims that failed.
+// record_guest: tests the recorder and live runs with cameras that disconnect and return.
+// It runs on a real kernel in an emulated machine (tests/capture/run_v4l2_guest.sh),
+// where vivid provides two cameras. Prints a line for each claim; its exit code is the
+// number of claims that failed.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -72,7 +72,7 @@ struct Recorded {
   Take take;
 };
 
-/// Records both for a while; `meanwhile` runs beside it.
+/// Records both cameras for `duration_s`; `meanwhile` runs at the same time.
 template <class Meanwhile>
 Recorded record(const fs::path& folder, double duration_s, Meanwhile meanwhile) {
   Recorded out;
@@ -99,7 +99,8 @@ Recorded record(const fs::path& folder, double duration_s, Meanwhile meanwhile) 
   return out;
 }
 
-/// Frames whose number does not follow from that before, and what is said of losses.
+/// Counts the frames whose number does not follow from the previous number and the
+/// reported losses.
 int gaps(const std::vector<TakeFrame>& frames) {
   int count = 0;
   for (std::size_t i = 1; i < frames.size(); ++i) {
@@ -165,18 +166,19 @@ void check_disconnect() {
         text_of(recorded.summaries[1]));
 }
 
-/// What a live run sees while its first camera is unplugged and back.
+/// Results of a live run whose first camera is unplugged and returns.
 struct Seen {
-  double longest_wait_s = 0.0;   ///< For an instant that any camera has.
-  double longest_pause_s = 0.0;  ///< Between two with the first camera.
+  double longest_wait_s = 0.0;   ///< Until the next instant of any camera.
+  double longest_pause_s = 0.0;  ///< Between two instants of the first camera.
   int with_second = 0;
   int alone = 0;  ///< Instants of the second camera alone.
   std::string told;
-  double back_after_s = -1.0;  ///< The first camera, since it was plugged in again.
+  double back_after_s = -1.0;  ///< First camera's next frame after its return.
 };
 
-/// vivid's device is there again when the last who had it open has closed it: whoever
-/// holds it keeps it unplugged. Tells when he let go.
+/// Unplugs the first camera for two seconds. vivid restores its device when the last file
+/// descriptor of it is closed: an open one keeps it unplugged. Returns the time of the
+/// release.
 Timestamp unplug_for_two_seconds() {
   const int held = ::open(kPaths[0].c_str(), O_RDWR);
   set_vivid(kPaths[0].c_str(), "Disconnect");

@@ -44,7 +44,8 @@ std::string expected_packets(const SyntheticFeed& feed,
   return all;
 }
 
-/// Whether every row is what the feed did, and nothing between two rows is unaccounted.
+/// Expects that each row matches the feed's frame, and that the rows count each frame
+/// between them as dropped.
 void expect_true_rows(const SyntheticFeed& feed,
                       const std::vector<recordings::TakeFrame>& frames) {
   long next = 0;
@@ -136,8 +137,8 @@ TEST(RecordTake, CountsFramesWithoutBytesAsDropped) {
   expect_true_rows(feed, take->cameras[0].frames);
 }
 
-// What lay in the driver's buffers since the camera was opened, and what found no room
-// there, is not of the take, and no loss of it.
+// Frames that the driver's buffers contain before the recording begins, and frames that
+// the full buffers drop, do not belong to the take. They are no losses of it.
 TEST(RecordTake, BeginsWithTheFirstFrameThatWasTakenSinceItsBeginning) {
   const ScratchFolder folder;
   SyntheticFeed feed(0, {.frames = 40, .stale = 4, .dropped_after_stale = 70});
@@ -184,8 +185,8 @@ struct Count {
   std::array<long, 2> frames;
 };
 
-// A child records from two cameras and is killed without warning; what is on the disk is
-// read back and compared with what the cameras had handed out a second before.
+// A child process records from two cameras and is killed without warning. The test
+// compares the files with the frames that the cameras had delivered one second earlier.
 TEST(RecordTake, LosesAtMostTheLastSecondWhenItsProcessIsKilled) {
   if (!fs::exists(kFfmpeg)) GTEST_SKIP() << "skipped: apt-get install ffmpeg";
   void* const memory = mmap(

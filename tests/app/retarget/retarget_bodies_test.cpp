@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `marey retarget` on bodies of many kinds: what leaves, judged by code that shares
-// nothing with the program (tests/support/truth/body_judge.h).
+// `marey retarget` on bodies of many kinds. Code that shares nothing with the program
+// judges the results (tests/support/truth/body_judge.h).
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -42,7 +42,7 @@ void expect_no_gross_errors(const std::vector<CampaignResult>& results,
   for (std::size_t i = 0; i < results.size(); ++i) {
     EXPECT_TRUE(results[i].judged) << results[i].body << ": " << results[i].error;
     for (const std::string& error : gross_errors(results[i])) {
-      // Hair does not lift a body that lies on it; that is told.
+      // Hair does not lift a body that lies on it; the report contains a problem instead.
       const bool is_hair = error == "skin in the floor" &&
                            results[i].judged->skin_node.starts_with("hair_");
       if (is_hair && !results[i].told_problems.empty()) continue;
@@ -91,7 +91,7 @@ TEST(RetargetBodies, MatchTheReportedSkinDepth) {
   EXPECT_GE(deep, 8);
 }
 
-// What would lift a whole body by its ears is told, by name, frame, depth and next step.
+// Ears do not lift the whole body. The error names the body, frame, depth and next step.
 TEST(RetargetBodies, AreRefusedTheirBadgeWhereSkinStaysInTheFloor) {
   const RetargetScene scene;
   MadeBodyRule rule;

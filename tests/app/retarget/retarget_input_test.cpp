@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `marey retarget`: what it refuses, and what of the rest is done.
+// `marey retarget`: inputs that it refuses, and results for the other inputs.
 #include <filesystem>
 #include <string>
 #include <tuple>
@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The run ends so, says so, and leaves nothing behind that was not there.
+/// Expects that the run ends with `exit_code`, reports `text` and leaves no output.
 void refuses(const RetargetScene& scene,
              const std::vector<std::string>& options,
              int exit_code,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `marey retarget`: what it makes.
+// `marey retarget`: the files that it writes.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -242,11 +242,11 @@ TEST(Retarget, WritesSupportsThatAdaptReadsAgain) {
   }
   const Motion before = scene.motion("o.bvh");
   const Motion after = scene.motion("adapted.bvh");
-  // What fades in holds the landing foot back a little, and the body with it.
+  // A support that fades in holds the landing foot back a little, and the body with it.
   EXPECT_LT(apart_m(before, after, HumanBone::kHead), 5e-3);
 }
 
-// Somebody lowers the left arm until its hand lies at the thigh.
+// Returns a motion that lowers the left arm until its hand lies at the thigh.
 Motion hand_to_thigh() {
   Motion motion{make_humanoid(average_proportions(1.75)), {60.0}, 0, {}};
   const JointIndex arm = *motion.skeleton.find(HumanBone::kLeftUpperArm);
@@ -330,8 +330,8 @@ TEST(Retarget, ReportsEveryBodyWithItsFiguresContactsAndPictures) {
   EXPECT_TRUE(scene.has("o.bvh.html"));
 }
 
-// CesiumMan looks to +X in its file: what adapt writes there, read again, is what it
-// made.
+// CesiumMan faces +X in its file: the GLB that adapt writes, read again, contains the
+// same motion as the BVH.
 TEST(Retarget, IsAdaptedFurtherOnATurnedAvatar) {
   const std::filesystem::path avatar =
       marey::testing::shared_data() / "avatars/khronos/cesium_man.gltf";

@@ -41,7 +41,7 @@ class NextStep : public ::testing::Test {
   ScratchFolder folder_;
 };
 
-/// The tags of the sample session need not be detected again.
+/// Copies the detections of the sample session, so that its tags are not detected again.
 void copy_detections(const fs::path& to) {
   const fs::path from = sample_results() / "once";
   for (const auto& entry : fs::directory_iterator(from)) {

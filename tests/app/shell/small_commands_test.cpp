@@ -191,7 +191,7 @@ TEST_F(Inspect, ReportsMovementThatIsLeftOut) {
 TEST_F(Inspect, ShowsNamesThatAreNoUtf8) {
   std::ofstream(in_folder("joints.csv"), std::ios::binary)
       << "frame,time,joint,x,y,z,sigma\n0,0.0,\xff,0,0,0,0\n";
-  // U+FFFD, the sign for what cannot be shown.
+  // U+FFFD replaces a byte that is not valid UTF-8.
   EXPECT_EQ(inspected(in_folder("joints.csv")).at("joints").at(0), "\xEF\xBF\xBD");
   EXPECT_EQ(marey({"inspect", in_folder("joints.csv").string()}).exit_code, 0);
 }
@@ -243,7 +243,7 @@ TEST_F(Exit, IsThreeForASessionThatDoesNotExist) {
   EXPECT_FALSE(fs::exists(in_folder("out")));
 }
 
-// A folder cannot be made below a file, whoever one is.
+// No user, root included, can create a folder below a file.
 TEST_F(Exit, IsThreeForAPlaceThatCannotHoldResults) {
   std::ofstream(in_folder("file")) << "in the way";
   const ProgramRun run = marey({"mannequin", "--out", in_folder("file/a.glb").string()});
@@ -267,8 +267,8 @@ TEST_F(Exit, IsThreeAtOnceForResultsWhereAFileIs) {
   }
 }
 
-// That files half written go is tests/recordings/text/atomic_file_test.cpp's matter:
-// nothing here tells when one is being written.
+// tests/recordings/text/atomic_file_test.cpp tests the removal of partly written files.
+// This test cannot detect the moment at which a file is being written.
 TEST_F(Exit, Is130WhenInterrupted) {
   const fs::path out = in_folder("out");
   RunOptions options;

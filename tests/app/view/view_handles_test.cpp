@@ -23,7 +23,7 @@ constexpr int kFirst = 7;
 constexpr int kFrames = 40;
 constexpr ClientId kPage{1};
 
-/// Somebody who stands still.
+/// Returns a recording of a person that stands still.
 ViewedRecording standing() {
   ViewedRecording out;
   out.rate = {30.0};

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// What `marey view` serves of files. That pages show it is tested in live/viewer.
+// Files that `marey view` serves. Tests in live/viewer check that pages show them.
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -222,7 +222,7 @@ TEST_F(View, TurnsToOtherTrialsAndServesTheReport) {
   }
 }
 
-// Of one trial's folder the others are beside it.
+// The other trials are in the parent folder of the opened trial's folder.
 TEST_F(View, TurnsToOtherTrialsFromOne) {
   fs::copy(out() / "walk", out() / "jump", fs::copy_options::recursive);
   auto trials =
@@ -254,7 +254,8 @@ TEST_F(View, ReportsInputsThatCannotBeShown) {
             "is not a kind of file that can be shown");
 }
 
-// Somebody else's results: what they link to is ours, and not theirs to have served.
+// Results can come from another person. A link in them can point to a private file of the
+// user, which the program must not serve.
 TEST_F(View, DoesNotFollowLinksOutOfTheFolder) {
   const fs::path secret = in_folder("secret.html");
   std::ofstream(secret) << "secret";

@@ -40,7 +40,8 @@ TEST(PointCovariance, IsThatOfAStereoPair) {
 }
 
 TEST(PointCovariance, MovesWithACommonShiftOfAllCameras) {
-  // All centres have a common error of a millimetre along x: so does every point.
+  // All centres have a common error of a millimetre along x; every point has the same
+  // error.
   const auto cameras = stereo_pair();
   RigCovariance rig_covariance{2, std::vector<double>(4 * 18 * 18, 0.0)};
   const std::size_t x = RigCovariance::kPerCamera - 3;

@@ -145,7 +145,8 @@ TEST(PlanBody, IncludesTheUncertaintyOfCameras) {
   const PlannedBody body = make_planned_body(1.75, typical_tags(0.1));
   const std::vector<Camera> cameras = ring_of_cameras();
   RigCovariance uncertainty{4, std::vector<double>(16 * 18 * 18, 0.0)};
-  // All centres have a common error of a centimetre along each axis: so does the body.
+  // All centres have a common error of a centimetre along each axis; the body has the
+  // same error.
   for (std::size_t axis = 15; axis < 18; ++axis) {
     for (std::size_t a = 0; a < 4; ++a) {
       for (std::size_t b = 0; b < 4; ++b) {

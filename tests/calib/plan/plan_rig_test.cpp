@@ -133,7 +133,8 @@ TEST(ExpectTag, IncludesTheUncertaintyOfCameras) {
   const auto cameras = square_of_cameras(2.5);
   const RigidTransform pose = tag_facing(0.0, {0.0, 1.0, 0.0});
   RigCovariance rig_covariance{4, std::vector<double>(16 * 18 * 18, 0.0)};
-  // All centres have a common error of a millimetre along each axis: so does every tag.
+  // All centres have a common error of a millimetre along each axis; every tag has the
+  // same error.
   for (std::size_t axis = 15; axis < 18; ++axis) {
     for (std::size_t a = 0; a < 4; ++a) {
       for (std::size_t b = 0; b < 4; ++b) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Recordings of others, of boards. What their corners leave of a camera model that is
-// fitted to them says how good they are; it is never less than their noise.
+// Recordings of boards by other projects. The residual of a camera model that is fitted
+// to the corners measures their accuracy; it is never less than their noise.
 #include <cmath>
 #include <filesystem>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Photographs of others, with what others found in them.
+// Photographs by other projects, with their reference detections.
 #include <algorithm>
 #include <array>
 #include <cctype>

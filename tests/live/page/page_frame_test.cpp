@@ -50,7 +50,7 @@ TEST(PageFrame, HasTheBytesOfTheProtocol) {
                 bytes({0, 0, 0, 0, 0, 0, 0, 0x40}) +          // 2
                 bytes({15, 0, 1, 0}) + kOne + kTwo + kHalf +  // root
                 kZero + kZero + kZero + kOne +                // x y z w
-                kHalf + bytes({1, 0, 0, 0}) +                 // doubt, filled up
+                kHalf + bytes({1, 0, 0, 0}) +                 // uncertainty, padded
                 kHalf + kOne + kTwo + bytes({1, 0, 0, 0}) + kTwo + kOne +  // balance
                 kHalf + bytes({9, 0, 0, 0}) +                              // tracking
                 bytes({0, 0, 25, 0}));

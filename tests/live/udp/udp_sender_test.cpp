@@ -72,7 +72,8 @@ TEST(UdpSender, KeepsSendingWhenATargetClosesAndReopens) {
   const std::vector<UdpAddress> targets{here(port), here(other.port())};
   auto sender = *UdpSender::open(targets);
   for (int i = 0; i < 5; ++i) sender.send(kPacket);
-  // The kernel tells of a refusal with a later packet; the last one's is not yet known.
+  // The kernel reports a refusal with a later packet: the last refusal is not counted
+  // yet.
   EXPECT_GE(sender.counts()[0].refused, 1);
   EXPECT_EQ(sender.counts()[1].sent, 5);
   EXPECT_EQ(sender.counts()[1].failed + sender.counts()[1].refused, 0);
@@ -104,13 +105,13 @@ TEST(UdpSender, NeverWaitsForAReceiverThatDoesNotRead) {
 }
 
 TEST(UdpSender, ReportsAnUnknownHost) {
-  // RFC 6761: nobody may ever be called so.
+  // RFC 6761 reserves the domain "invalid": no host has such a name.
   const std::vector<UdpAddress> targets{{"nobody.invalid", 39539}};
   const auto sender = UdpSender::open(targets);
   ASSERT_FALSE(sender);
   EXPECT_NE(sender.error().message().find("nobody.invalid:39539"), std::string::npos);
   EXPECT_FALSE(sender.error().next.empty());
-  // Without a network, nobody can say.
+  // Without a network, the resolver cannot decide: the error is one of the device.
   EXPECT_TRUE(sender.error().code == Errc::kBadInput ||
               sender.error().code == Errc::kDevice);
 }
@@ -126,7 +127,7 @@ TEST(UdpListener, ReportsAPortInUse) {
 }
 
 TEST(UdpListener, DeclinesAnAddressOfAnotherMachine) {
-  // RFC 5737: for documentation, nobody's.
+  // RFC 5737 reserves this address for documentation: no machine has it.
   const auto listener = UdpListener::open({"192.0.2.1", 0});
   ASSERT_FALSE(listener);
   EXPECT_EQ(listener.error().code, Errc::kBadInput);

@@ -57,8 +57,9 @@ TEST(MotionResampler, PassesOverWhatDoesNotGoOn) {
   EXPECT_EQ(motion->poses.size(), 3U);
 }
 
-// Two seconds of packets, of which one or all from the middle on tell another time: the
-// motion is two seconds long, with all that came of the rest.
+// Adds two seconds of packets. The sender's time jumps in the middle packet only, or in
+// all packets after it as well. The motion keeps its length, and jumps above 1 s lose no
+// packet.
 TEST(MotionResampler, KeepsTheReceivedDurationWhenSenderTimesJump) {
   for (const double jump_s : {-5.0, 5.0, 0.9, 3e6, -3e6, 1e30, -1e30, 1.7e308}) {
     for (const bool stays : {false, true}) {
@@ -80,7 +81,7 @@ TEST(MotionResampler, KeepsTheReceivedDurationWhenSenderTimesJump) {
   }
 }
 
-// One clock for all frames, whoever says how much of it.
+// The first frame selects the clock for all frames: the sender's or the receiver's.
 TEST(MotionResampler, IsOnTheClockThatTheFirstFrameDecides) {
   SenderClock silent;
   EXPECT_EQ(silent.at_s(std::nullopt, 2.0), 2.0);

@@ -11,8 +11,8 @@
 
 namespace marey::live {
 
-/// What a receiver in Unity makes of VMC, computed with 4x4 matrices and without a
-/// quaternion of ours: the avatar's nodes in a left-handed world, local transforms set.
+/// Reference for a VMC receiver in Unity, computed with 4x4 matrices and without marey's
+/// quaternion code: the avatar's nodes in a left-handed world, with local transforms set.
 
 /// The avatar's nodes, local, as importers mirror them: S L S with S = diag(-1, 1, 1).
 [[nodiscard]] std::vector<glm::dmat4> unity_nodes(const Skeleton& avatar);
@@ -21,8 +21,8 @@ namespace marey::live {
 /// away: nodes that are only shifted.
 [[nodiscard]] std::vector<glm::dmat4> normalised_unity_nodes(const Skeleton& avatar);
 
-/// Every node's transform in Unity's world once `sent` was applied to those that are
-/// bones; `avatar` says who is whose parent.
+/// Returns every node's transform in Unity's world after `sent` is applied to the nodes
+/// that are bones. `avatar` defines the parents.
 [[nodiscard]] std::vector<glm::dmat4> shown_in_unity(const Skeleton& avatar,
                                                      std::vector<glm::dmat4> local,
                                                      const VmcPose& sent);

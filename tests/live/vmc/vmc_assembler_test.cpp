@@ -127,7 +127,7 @@ TEST(VmcAssembler, DropsAFrameOfWhichAPacketWasLost) {
   EXPECT_EQ(assembler.received().incomplete, 1);
 }
 
-/// A sender of its own habits: each step writes one packet.
+/// A sender that composes packets of its own layout; each send() passes one packet.
 struct OtherSender {
   OscWriter writer;
   VmcAssembler assembler;

@@ -37,7 +37,7 @@ Skeleton any_body(Dice& dice) {
   return testing::with_random_axes(body, dice);
 }
 
-/// Every joint turned, those that are no bones too.
+/// Returns a pose that rotates every joint, including joints that are not bones.
 Pose any_pose(const Skeleton& body, Dice& dice) {
   Pose pose = rest_pose(body);
   for (glm::dquat& rotation : pose.parent_from_joint) rotation *= dice.turn(1.0);

@@ -45,7 +45,7 @@ int count(const std::vector<ReadMessage>& messages, const std::string& address) 
   return static_cast<int>(std::ranges::count(messages, address, &ReadMessage::address));
 }
 
-/// All 22 bones of somebody in some posture.
+/// Returns all 22 bones of a random person in a random posture.
 VmcPose some_pose(std::uint64_t seed) {
   testing::Dice dice(seed);
   const Skeleton body = testing::random_humanoid(dice);

@@ -15,7 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A sender on free ports, somebody who hears it, and somebody who commands it.
+/// A sender on free ports, a receiver of its packets, and a source of commands for it.
 struct Stage {
   UdpListener marionette = *UdpListener::open({"127.0.0.1", 0});
   VmcSender sender = *VmcSender::open({.targets = {{"127.0.0.1", marionette.port()}},

@@ -68,7 +68,7 @@ TEST(NewestMessages, TakeTurnsWithFrames) {
     got.push_back(message);
   }
   EXPECT_EQ(got, (Texts{"frame", "a", "frame", "a", "frame", "a"}));
-  // What waited longest is next.
+  // The message with the longest waiting time is next.
   messages.put(kThumbnail, "a");
   EXPECT_EQ(all(messages, reader), (Texts{"frame", "b", "a"}));
 }

@@ -30,7 +30,7 @@ WebServer serve(WebServerOptions options = {}) {
   return *std::move(server);
 }
 
-/// Waits for what another thread does soon.
+/// Waits at most 5 s until another thread makes `claim` true. Returns whether it does.
 template <class Claim>
 bool soon(const Claim& claim) {
   for (int i = 0; i < 500; ++i) {

@@ -231,7 +231,7 @@ TEST(WebServer, IsOpenToOthersOnlyWithAToken) {
   EXPECT_TRUE(WebServer::start(options));
   options.address = "somewhere";
   EXPECT_FALSE(WebServer::start(options));
-  options.address = "192.0.2.1";  // Reserved for examples: nobody has it.
+  options.address = "192.0.2.1";  // Reserved for examples: no machine has it.
   const auto elsewhere = WebServer::start(options);
   ASSERT_FALSE(elsewhere);
   EXPECT_EQ(elsewhere.error().code, Errc::kDevice);

@@ -17,31 +17,32 @@ namespace marey::testing {
 struct CampaignBody {
   std::filesystem::path path;
   std::map<HumanBone, std::string> nodes;
-  std::string words;  ///< What it is like.
+  std::string words;  ///< Description of the body.
 };
 
-/// What became of one clip on one body.
+/// Result of one clip on one body.
 struct CampaignResult {
   std::string body, clip;
-  /// What the program says of it: an error, or "" with its figures.
+  /// Error of the program or of the judge; "" if there is none.
   std::string error;
   std::optional<double> told_depth_mm;     ///< deepest_penetration_mm.
   std::optional<double> told_foot_deg;     ///< posture.feet.sustained_deg.
   std::vector<std::string> told_problems;  ///< The report's findings of this body.
   std::optional<BodyFigures> judged;
-  int exit_code = -1;  ///< Of the run that made all bodies.
+  int exit_code = -1;  ///< Exit code of the run that made all bodies.
 };
 
-/// How a result is wrong beyond doubt, in a word or two; empty: it is not. Skin more than
-/// 5 mm below the floor where the source is not, a leg's segment or a trunk whose median
-/// is more than 25 degrees away from the source's, an arm's 60 (arms give way to wide
-/// bodies), left and right exchanged, speeds over twice the
-/// source's and 12 heights a second, a foot whose yaw is over 45 degrees off the source's
-/// for a quarter of a second, a figure that is not the judge's.
+/// Returns the gross errors of a result, a few words each; empty if there are none. Gross
+/// errors are: skin more than 5 mm below the floor where the source is not, a leg's
+/// segment or a trunk whose median direction differs by more than 25 degrees from the
+/// source's, an arm's by more than 60 (wide bodies push arms away), left and right
+/// exchanged, speeds over twice the source's and 12 heights a second, a foot whose yaw
+/// differs by more than 45 degrees from the source's for a quarter of a second, a
+/// reported depth that differs from the judge's.
 [[nodiscard]] std::vector<std::string> gross_errors(const CampaignResult& result);
 
 /// Runs `marey retarget CLIP BODIES... --formats glb --json` in `folder` once, with
-/// `more` arguments, and judges each file that leaves.
+/// `more` arguments, and judges each written file.
 [[nodiscard]] std::vector<CampaignResult> run_campaign(
     const std::filesystem::path& program,
     const std::filesystem::path& folder,

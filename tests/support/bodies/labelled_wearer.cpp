@@ -21,7 +21,7 @@ struct Glued {
   const char* landmark;
 };
 
-// What labels mean, written down here once more: not by the tables that are tested.
+// Landmarks of the labels. This table is independent of the tables under test.
 constexpr std::array kMiddle{Glued{"C7", "c7"},
                              Glued{"T10", "t10"},
                              Glued{"CLAV", "suprasternal_notch"},
@@ -88,7 +88,8 @@ void glue(LabelledWearer& wearer,
   wearer.labels.push_back({label, name});
 }
 
-/// The markers' places while the person moves, with what goes wrong in laboratories.
+/// Returns the markers' tracks while the person moves, with the errors of laboratories:
+/// noise, sliding markers and gaps.
 MarkerTracks film(const Body& person, const Movement& movement, int frames, Dice& dice) {
   constexpr double kHz = 100.0;
   const double noise_m = dice.between(0.0003, 0.0015);

@@ -11,14 +11,14 @@
 
 namespace marey::testing {
 
-/// What a generated body is like. Angles in degrees, lengths of the finished body in m.
+/// Properties of a generated body. Angles in degrees, lengths of the finished body in m.
 struct MadeBodyRule {
   double stature_m = 1.7;
   double legs = 1.0;  ///< Over an average body's of that stature; trunk, arms, head too.
   double trunk = 1.0;
   double arms = 1.0;
   double head = 1.0;
-  double thick = 1.0;          ///< Of limbs and trunk.
+  double thick = 1.0;          ///< Factor of the radii of limbs and trunk.
   double shoes = 1.0;          ///< Length of the feet's skin.
   int naming = 0;              ///< 0 Mixamo, 1 Unreal, 2 VRM's names, 3 Blender, 4 CMU.
   double arms_down_deg = 0.0;  ///< 0 a T-pose, 45 an A-pose.
@@ -26,7 +26,7 @@ struct MadeBodyRule {
   double facing_deg = 0.0;     ///< About Y: 0 is +Z, 90 is +X, 180 is -Z.
   bool centimetres = false;    ///< Below an armature that is scaled by 0.01.
   bool z_up = false;           ///< Below an armature that is turned by -90 about X.
-  double root_scale = 1.0;     ///< Of a scaled node above the hips.
+  double root_scale = 1.0;     ///< Scale of a node above the hips.
   bool root_at_floor = false;
   bool twist_bones = false;
   bool ik_bones =
@@ -38,7 +38,7 @@ struct MadeBodyRule {
   bool random_axes = false;   ///< Each joint's axes turned at random.
   bool two_skins = false;     ///< Limbs in a mesh with a skin of their own.
   bool byte_weights = false;  ///< Normalized bytes.
-  std::uint64_t seed = 0;     ///< Of the axes.
+  std::uint64_t seed = 0;     ///< Seed of the random axes.
 };
 
 /// A rule by seed: every property drawn, statures of 0.6 to 2.5 m. Same seed, same rule.
@@ -47,8 +47,8 @@ struct MadeBodyRule {
 /// "1.21 m, unreal, A 45, faces 90, cm, twist".
 [[nodiscard]] std::string words(const MadeBodyRule& rule);
 
-/// What a naming scheme calls a bone, and the i-th bone of its spine. Precondition:
-/// `bone` is none of the spine; 0 <= scheme <= 4.
+/// Returns the name of a bone in a naming scheme, and of the i-th bone of the spine.
+/// Precondition: `bone` is none of the spine; 0 <= scheme <= 4.
 [[nodiscard]] std::string made_bone_name(int scheme, HumanBone bone);
 [[nodiscard]] std::string made_spine_name(int scheme, int i);
 

@@ -36,7 +36,7 @@ std::size_t at(const Skeleton& skeleton, B bone) {
   return index(*joint);
 }
 
-// Takes joint `gone` out; whoever hung on it hangs on its parent.
+// Removes joint `gone`. Its children become children of its parent.
 Skeleton without_joint(const Skeleton& skeleton, std::size_t gone) {
   Skeleton out;
   for (std::size_t i = 0; i < skeleton.joints.size(); ++i) {

@@ -19,8 +19,8 @@ namespace marey::testing {
 /// on hips, upper chest and head, 2 on every limb bone, 1 on hands and feet, 3 to 12 cm
 /// off the bone, a few degrees askew, ids 40 to 68.
 ///
-/// What no tag can tell is average: how high the hips' joint is above the hip centres,
-/// where the collar bones start, toes and tips.
+/// Quantities that no tag determines are average: the height of the hips' joint above the
+/// hip centres, the start of the collar bones, toes and tips.
 [[nodiscard]] Body tagged_person();
 
 /// A posture for every time. [s]
@@ -38,20 +38,20 @@ using Movement = std::function<Pose(double time_s)>;
 struct Film {
   int frames = 60;
   double hz = 30.0;
-  std::string trial = "walk";  ///< What the videos' names begin with.
+  std::string trial = "walk";  ///< Prefix of the videos' names.
   Disturbance disturbance;
-  std::vector<double> offsets_s;  ///< Per camera; none: all zero. Not told to anybody.
+  std::vector<double> offsets_s;  ///< Per camera; empty: all zero. Not reported.
   /// Tags that something hides in a frame. May be empty.
   std::function<bool(const TagOnSegment& tag, int frame)> hidden;
 };
 
-/// What the cameras' detectors report of the body in motion. The body hides nothing.
+/// Returns the cameras' detections of the body in motion. The body hides nothing.
 [[nodiscard]] std::vector<CameraDetections> film(const Body& body,
                                                  const Movement& movement,
                                                  const std::vector<Camera>& cameras,
                                                  const Film& film);
 
-/// The tags without their places: what a session's file says.
+/// Returns the tags without their places, as a session's file lists them.
 [[nodiscard]] std::vector<TagOnSegment> tags_of(const Body& body);
 
 /// The joints that tags on both sides pin down: hips, knees, ankles, shoulders, elbows

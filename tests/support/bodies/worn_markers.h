@@ -11,7 +11,7 @@ namespace marey::testing {
 struct MarkerFilm {
   int frames = 200;
   double hz = 100.0;
-  double noise_m = 0.0;  ///< Of every coordinate; fixed seed.
+  double noise_m = 0.0;  ///< Standard deviation of every coordinate; fixed seed.
 };
 
 /// Where the markers of `body` are while it moves, every one in every frame. Frame 1 is

@@ -19,26 +19,27 @@ namespace marey::testing {
 /// A bone of an Acclaim skeleton. The first is the root, which has no length.
 struct AcclaimBone {
   std::string name;
-  std::optional<std::size_t> parent;  ///< Nobody's is the root's alone.
+  std::optional<std::size_t> parent;  ///< nullopt only for the root.
   glm::dvec3 span_in_root{0.0};       ///< From its start to its end at rest. [m]
   /// The bone's own axes at rest, about which its angles turn.
   glm::dquat root_from_axes{1.0, 0.0, 0.0, 0.0};
-  /// What its numbers in a motion are: 'x', 'y', 'z' turn about the axis, in this order,
+  /// Channels of the bone in a motion: 'x', 'y', 'z' turn about the axis, in this order.
   /// 'X', 'Y', 'Z' move along it.
   std::string channels;
 };
 
-/// The studio's skeleton, as in CMU's ASF files. Angles in degrees; a length of 1 is
-/// 1/0.45 of an inch where the file says `length 0.45`.
+/// The studio's skeleton, as in CMU's ASF files. Angles are in degrees. A length of 1 is
+/// 1/0.45 of an inch where the file has `length 0.45`.
 struct AcclaimSkeleton {
   std::vector<AcclaimBone> bones;  ///< Parents first.
-  double unit_m = 0.0;             ///< Of lengths in the motion.
+  double unit_m = 0.0;             ///< Unit of lengths in the motion.
 
   [[nodiscard]] std::optional<std::size_t> find(std::string_view bone) const;
 };
 
-/// Reads what the motions of CMU's database need: the order of angles is XYZ and they are
-/// in degrees; else, and for what is no such file, an error with the line.
+/// Reads the parts of an ASF file that the motions of CMU's database need. The order of
+/// angles is XYZ, and they are in degrees. Returns an error with the line for other
+/// files.
 [[nodiscard]] Result<AcclaimSkeleton> parse_asf(const std::string& text,
                                                 const std::string& file);
 

@@ -7,11 +7,11 @@
 
 namespace marey::testing {
 
-/// A small file that asks its reader for much: made by rule, not by mutation.
+/// A small file that demands much of its reader. Made by rule, not by mutation.
 struct Bomb {
-  std::string name;  ///< "node_chain.gltf": what is too much of, and the kind of file.
+  std::string name;  ///< "node_chain.gltf": the excessive part and the kind of file.
   std::string bytes;
-  /// Readers may take it: it is only large or odd. Others must decline it.
+  /// True: readers may accept it, as it is only large or odd. False: they reject it.
   bool may_be_read = false;
 };
 
@@ -32,7 +32,7 @@ struct Bomb {
 /// JSON of marey's own reports.
 [[nodiscard]] std::vector<Bomb> json_bombs();
 
-/// `open` as often as `depth` says, `middle`, and `close` as often.
+/// Returns `depth` times `open`, then `middle`, then `depth` times `close`.
 [[nodiscard]] std::string nested(const std::string& open,
                                  const std::string& middle,
                                  const std::string& close,

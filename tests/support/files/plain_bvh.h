@@ -16,7 +16,7 @@ namespace marey::testing {
 /// axes. Shares no code with recordings/, so that it can judge what is made of the file.
 class PlainBvh {
  public:
-  /// Throws std::runtime_error for what is no such file.
+  /// Throws std::runtime_error when the file is no BVH file.
   explicit PlainBvh(const std::filesystem::path& path);
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }

@@ -25,14 +25,14 @@ struct GlbFile;
 /// judge them.
 class PosedGlb {
  public:
-  /// Throws std::runtime_error for what is no GLB with a skin, and for what it does not
-  /// know: sparse accessors, external buffers, cubic splines.
+  /// Throws std::runtime_error when the file is no GLB with a skin, or has unsupported
+  /// content: sparse accessors, external buffers, cubic splines.
   explicit PosedGlb(const std::filesystem::path& path);
 
   /// The times of the animation's keys, of the channel that has most; empty: none. [s]
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   [[nodiscard]] const std::vector<std::string>& node_names() const { return names_; }
-  /// Of the first node of that name.
+  /// Returns the first node of that name.
   [[nodiscard]] std::optional<std::size_t> node(const std::string& name) const;
 
   /// Poses the nodes at a time. Without an animation they rest.

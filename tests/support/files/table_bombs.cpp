@@ -36,7 +36,7 @@ std::string c3d(std::uint16_t points, std::uint16_t analog, std::uint16_t per_fr
 struct Entry {
   std::string name;
   std::string content;
-  std::uint64_t told_size = 0;  ///< What the directory says.
+  std::uint64_t told_size = 0;  ///< Size in the directory's row.
   std::uint64_t method = 0;
 };
 

@@ -27,7 +27,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-/// Two files for what the program says, gone afterwards.
+/// Two temporary files for the program's standard output and standard error.
 struct Ears {
   ScratchFolder folder;
 
@@ -45,7 +45,7 @@ pid_t start(const fs::path& program,
             const std::vector<std::string>& arguments,
             const fs::path& folder,
             const Ears& ears) {
-  // All memory is asked for before the fork.
+  // All memory is allocated before the fork.
   const std::string path = fs::absolute(program).string();
   const std::string out = ears.out().string();
   const std::string err = ears.err().string();

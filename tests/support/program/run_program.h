@@ -8,7 +8,7 @@
 
 namespace marey::testing {
 
-/// What a program said and how it ended.
+/// Output and exit code of a program.
 struct ProgramRun {
   int exit_code = -1;  ///< 128 + signal when a signal ended it, as shells have it.
   std::string out;     ///< Standard output.
@@ -23,7 +23,7 @@ struct RunOptions {
 };
 
 /// Runs `program` with `arguments`, without a shell, and waits for it. Its standard input
-/// is empty. What it says goes through files, so that it never waits for us.
+/// is empty. Its output goes to files, so that it never blocks on this process.
 /// Throws std::runtime_error when it cannot be started.
 [[nodiscard]] ProgramRun run_program(const std::filesystem::path& program,
                                      const std::vector<std::string>& arguments,

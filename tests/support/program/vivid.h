@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-// What the program in the emulated machine does to its cameras, past marey.
+// Changes to the cameras by the program in the emulated machine, without marey.
 namespace marey::guest {
 
 /// Sets a control of the driver vivid by its name, or presses it where it is a button.

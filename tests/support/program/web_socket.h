@@ -53,7 +53,7 @@ class WebSocketClient {
 
 /// The value of a header in an answer; empty: it has none.
 [[nodiscard]] std::string header(const std::string& answer, std::string_view name);
-/// What follows the headers.
+/// Returns the part of an answer after its headers.
 [[nodiscard]] std::string body(const std::string& answer);
 /// 200, 404...; 0: no answer.
 [[nodiscard]] int status(const std::string& answer);

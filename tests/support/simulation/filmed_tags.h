@@ -21,10 +21,10 @@ struct SimulationDraw {
   double line_delay_s = 0.0;  ///< Per row, of every camera.
   AprilGrid real_board;
   Camera moved;    ///< kNudged, kNudgedAfter: the camera afterwards.
-  int frames = 0;  ///< Of the waving.
+  int frames = 0;  ///< Number of waved frames.
 };
 
-/// A tag on what is filmed.
+/// A tag on a filmed object.
 struct FilmedTag {
   TagId id{};
   double size_m = 0.0;

@@ -27,7 +27,7 @@ struct JointSimulationOptions {
 /// marker of the second cluster in proportion to the joint's rotation vector, by a random
 /// matrix of its own.
 struct JointSimulation {
-  static constexpr std::size_t kMarkers = 4;  ///< Of each cluster.
+  static constexpr std::size_t kMarkers = 4;  ///< Markers per cluster.
   /// Frame after frame, kMarkers of them each. [m]
   std::vector<std::optional<glm::dvec3>> a_in_world;
   std::vector<std::optional<glm::dvec3>> b_in_world;

@@ -15,9 +15,9 @@ using B = HumanBone;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Spread of a length beyond stature's share, standard deviation over mean. Close to what
-/// the ratios of segment lengths to stature show in surveys (ANSUR: 3 to 6 %); parts
-/// that are small or cannot be measured outside spread more.
+/// Spread of a length beyond stature's share, standard deviation over mean. The values
+/// are close to the spread of the ratios of segment lengths to stature in surveys (ANSUR:
+/// 3 to 6 %). Parts that are small or cannot be measured from outside spread more.
 constexpr double kLimbSpread = 0.045;
 constexpr double kTrunkSpread = 0.06;
 constexpr double kWidthSpread = 0.07;

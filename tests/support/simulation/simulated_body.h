@@ -21,8 +21,8 @@ using BoneFrames = std::array<RigidTransform, kHumanBoneCount>;
 /// A joint angle of an Attitude. The trunk and the head have three each, limbs have seven
 /// (LimbAngle).
 enum class Angle : int {
-  kFloorX,   ///< Place of the hips on the floor. [m]
-  kFloorZ,   ///< Likewise. [m]
+  kFloorX,   ///< X of the hips on the floor. [m]
+  kFloorZ,   ///< Z of the hips on the floor. [m]
   kHeading,  ///< About Y; 0 faces +Z, positive turns towards +X.
   kHipsTilt,
   kHipsList,
@@ -41,7 +41,7 @@ enum class LimbAngle : int {
   kSwing,  ///< Forward.
   kSpin,   ///< About the upper bone.
   kBend,   ///< Elbow or knee.
-  kTwist,  ///< Of the lower bone about itself.
+  kTwist,  ///< Rotation of the lower bone about its own axis.
   kEndFlexion,
   kEndDeviation,
 };
@@ -65,18 +65,18 @@ using Attitude = std::array<double, kAngleCount>;
 /// that are askew, a spine that bends unevenly and shoulders that glide.
 struct SimulatedBody {
   double stature_m = 0.0;           ///< Floor to top of the head, standing.
-  double declared_stature_m = 0.0;  ///< What the person says.
+  double declared_stature_m = 0.0;  ///< Stature that the session declares.
   double build = 1.0;               ///< Thickness over that of a lean adult.
   Proportions proportions;          ///< In the T-pose, as core/skeleton.h defines them.
   struct Hinge {
     glm::dvec3 axis{0.0};          ///< Unit, in the upper bone's frame.
-    glm::dquat carry{1, 0, 0, 0};  ///< Of the lower bone in the upper when straight.
+    glm::dquat carry{1, 0, 0, 0};  ///< Lower bone in the upper bone when straight.
     double rollback_m = 0.0;       ///< The centre moves by this when bent by 90 degrees.
   };
   std::array<Hinge, 4> hinges;  ///< In the order of human_limbs().
   /// Shares of spine, chest and upper chest in the trunk's rotation, per axis.
   std::array<glm::dvec3, 3> spine_shares;
-  double neck_share = 0.5;      ///< Of the head's rotation.
+  double neck_share = 0.5;      ///< Share of the neck in the head's rotation.
   double clavicle_raise = 0.2;  ///< Rotation of the collar bone over the arm's elevation.
   double clavicle_forward = 0.1;
   double shoulder_glide_m = 0.0;  ///< Upward, when the arm is raised by 90 degrees.

@@ -13,7 +13,7 @@
 
 namespace marey::testing {
 
-/// What is wrong with a simulated calibration.
+/// Fault of a simulated calibration.
 enum class RigFault {
   kNone,
   kNudged,          ///< One camera is moved while the board is waved.
@@ -49,7 +49,7 @@ struct SimulatedCalibration {
   double rate_hz = 0.0;
   std::vector<CameraDetections> waved;
   std::vector<CameraDetections> floor;  ///< Empty: there is no floor trial.
-  /// What follows the calibration: a body stands still, and walks about.
+  /// Trials after the calibration: a body stands still, then walks about.
   std::vector<CameraDetections> standing;
   std::vector<CameraDetections> walk;
   std::vector<WornTag> worn;
@@ -67,7 +67,7 @@ struct SimulationOptions {
   RigFault fault = RigFault::kNone;
   std::optional<double> amount_px;  ///< kNudged, kNudgedAfter; otherwise 1 to 10.
   std::optional<double> picture_s;  ///< kRollingShutter; otherwise 0.005 to 0.03.
-  std::optional<double> seconds;    ///< Of waving; otherwise 6 to 12.
+  std::optional<double> seconds;    ///< Duration of the waving; otherwise 6 to 12.
   bool with_wand = false;           ///< A box of six tags is waved, no board.
 };
 

@@ -32,7 +32,7 @@ class Choreography {
   Choreography(Exercise& exercise, Dice& dice, double size)
       : exercise_(exercise), dice_(dice), size_(size) {}
 
-  /// What comes next lasts from `from_s` to `to_s`.
+  /// Sets the interval of the next waves. Draws their frequency and phase.
   void during(double from_s, double to_s) {
     from_s_ = from_s;
     to_s_ = to_s;
@@ -149,7 +149,7 @@ void dance(Choreography& steps, int block) {
   }
 }
 
-/// Nobody's limbs are quite straight at ease.
+/// Draws a posture at ease. Its limbs are slightly bent.
 Attitude at_ease(Dice& dice, double heading_rad) {
   Attitude a{};
   a[index(Angle::kHeading)] = heading_rad + dice.noise(0.1);

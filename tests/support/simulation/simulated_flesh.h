@@ -37,8 +37,8 @@ struct SkinPoint {
                                    const glm::dvec3& from_in_bone,
                                    const glm::dvec3& direction);
 
-/// Whether flesh hides a point from an eye. Parts of `own` count as if thinner by
-/// `thinner_m`, so that a plate that lies on them does not sink in.
+/// Returns true when flesh hides a point from an eye. The radii of `own`'s parts are
+/// reduced by `thinner_m`, so that a plate on these parts does not sink in.
 [[nodiscard]] bool is_hidden(std::span<const FleshPart> flesh,
                              const BoneFrames& world_from_bone,
                              const glm::dvec3& p_in_world,

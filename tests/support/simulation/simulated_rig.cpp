@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// What a person of 2 m needs of the picture's height where they stand. [m]
+/// Least height that a picture covers at the place of a person of 2 m. [m]
 constexpr double kVisible_m = 2.15;
 
 Intrinsics draw_intrinsics(Dice& dice, bool is_full_hd, double focal_px) {
@@ -128,7 +128,7 @@ Camera calibrated(const Camera& truth, double sigma_m, Dice& dice) {
   camera.intrinsics.focal_px *= 1.0 + longer;
   camera.camera_from_world.translation = -(camera.camera_from_world.rotation * centre);
   turn_to_fit(camera, truth);
-  // What the compensation leaves: hundredths of a pixel at the picture's middle.
+  // Residual of the compensation: hundredths of a pixel at the picture's middle.
   const glm::dquat rest =
       rotation_from_vector({dice.noise(5e-5), dice.noise(5e-5), dice.noise(5e-5)});
   camera.camera_from_world.rotation =

@@ -24,9 +24,9 @@ struct SimulatedRig {
 /// evenly or within an arc of at most 120 degrees; 720p and 1080p, focal lengths of 700
 /// to 1400 px, with distortion. A person of 2 m at the origin is in all pictures.
 ///
-/// Calibrated centres are off by 1 to 3 mm. As after a bundle adjustment, rotations and
-/// focal lengths make up for that in the middle of the volume, so that what is left there
-/// are tenths of a pixel.
+/// Calibrated centres are off by 1 to 3 mm. Rotations and focal lengths compensate for
+/// this error in the middle of the volume, as after a bundle adjustment. The residual
+/// there is tenths of a pixel.
 [[nodiscard]] SimulatedRig draw_rig(Dice& dice);
 
 }  // namespace marey::testing

@@ -15,12 +15,12 @@
 
 namespace marey::testing {
 
-/// One trial: the movement, and what the cameras report of it.
+/// One trial: the movement and the cameras' detections of it.
 struct SimulatedTrial {
   Exercise exercise;
   double hz = 30.0;
   std::vector<double> offsets_s;  ///< Per camera: frame k was exposed at k / hz + this.
-  std::vector<CameraDetections> detections;  ///< One per camera; told nothing of clocks.
+  std::vector<CameraDetections> detections;  ///< One per camera, without clock offsets.
 };
 
 /// A whole session at corner level, with its truth.
@@ -36,7 +36,7 @@ struct SimulatedSession {
   SimulatedTrial moving;  ///< The range of motion.
   SimulatedTrial motion;  ///< The trial to solve, 60 to 120 frames.
 
-  /// What session.toml says of the tags.
+  /// Returns the tags as session.toml lists them.
   [[nodiscard]] std::vector<TagOnSegment> declared_tags() const;
   /// Where all bones truly are at a time of a trial's first camera.
   [[nodiscard]] BoneFrames truth(const SimulatedTrial& trial, double time_s) const;

@@ -14,7 +14,7 @@
 namespace marey::testing {
 namespace {
 
-constexpr double kSlope_s = 0.01;  // Of finite differences.
+constexpr double kSlope_s = 0.01;  // Step of finite differences.
 constexpr double kCommonShare = 0.03;
 constexpr double kMissed = 0.02;
 constexpr double kBurstsPerSecond = 0.05;
@@ -96,7 +96,7 @@ Instant instant_at(const SimulatedScene& scene, const Exercise& exercise, double
   return now;
 }
 
-/// What one camera would see of a tag without noise.
+/// A tag in the picture of one camera, without noise.
 struct Sight {
   std::array<glm::dvec2, 4> corners_px{};
   double shortest_edge_px = 0.0;
@@ -143,7 +143,7 @@ std::optional<Sight> look(const Camera& camera,
   return sight;
 }
 
-/// One camera's detector, with what stays the same from frame to frame.
+/// One camera's detector. Keeps each tag's corner bias and dropout over the frames.
 class Detector {
  public:
   Detector(const SimulatedScene& scene,

@@ -23,7 +23,7 @@ struct SimulatedScene {
 
 /// How a trial is recorded.
 struct SimulatedFilm {
-  std::string name;  ///< What the videos' names begin with.
+  std::string name;  ///< Folder in the videos' names.
   double hz = 30.0;
   int frames = 0;
   std::vector<double> offsets_s;  ///< Per camera: frame k is exposed at k / hz + this.
@@ -31,11 +31,11 @@ struct SimulatedFilm {
   double sigma_factor = 1.0;  ///< Claimed noise of corners over the true one.
 };
 
-/// What the cameras' detectors report. By the laws of docs/accuracy/README.md, "Finding
-/// tags" and "Plans": tags are read with a chance that falls with their shortest edge,
-/// their angle and their motion blur; corners err by 0.08 to 0.10 px, 3 % of the variance
-/// common to all sightings of a tag by one camera; flesh hides. Sightings drop out at
-/// random and in bursts, and one in ten thousand is followed by a tag that is not there.
+/// Returns the cameras' detections. They follow docs/accuracy/README.md, "Finding tags"
+/// and "Plans". The chance of reading a tag falls with a shorter edge, a larger angle and
+/// more motion blur. Corners err by 0.08 to 0.10 px; 3 % of the variance is common to all
+/// sightings of a tag by one camera. Flesh hides tags. Sightings drop out at random and
+/// in bursts. One in ten thousand is followed by a tag that is not there.
 [[nodiscard]] std::vector<CameraDetections> film(const SimulatedScene& scene,
                                                  const Exercise& exercise,
                                                  const std::vector<Camera>& cameras,

@@ -24,7 +24,7 @@ constexpr double kPi = std::numbers::pi;
 struct Habit {
   B segment;
   bool is_needed;
-  double from_share;  ///< Of the way to the segment's end.
+  double from_share;  ///< Share of the way to the segment's end.
   double to_share;
   double size;   ///< Over the session's largest.
   double slide;  ///< Over that of a thigh.
@@ -228,7 +228,7 @@ std::vector<GluedTag> glue_tags(const SimulatedBody& body,
   std::vector<GluedTag> tags;
   const auto add = [&](const Habit& habit, bool right) {
     const B segment = right ? mirrored(habit.segment) : habit.segment;
-    // Thoroughness is a habit of the session; single tags are forgotten or added.
+    // The session's style limits the tags per segment. Single tags are omitted at random.
     int count = habit.is_needed ? style.most_per_segment : 1;
     if (count > 1 && dice.between(0, 1) < 0.25) --count;
     if (!habit.is_needed && dice.between(0, 1) < 0.3) count = 0;

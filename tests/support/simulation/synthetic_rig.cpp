@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Whether the printed face of a tag can be read from the camera's place.
+/// Returns true when a tag's normal is within `widest_rad` of the line to the camera.
 bool is_legible(const Camera& camera,
                 const RigidTransform& world_from_tag,
                 double widest_rad) {

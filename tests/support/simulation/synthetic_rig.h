@@ -34,12 +34,13 @@ namespace marey::testing {
 struct Disturbance {
   double noise_px = 0.0;  ///< Standard deviation of every corner coordinate.
   TagShrinkage shrinkage;
-  double wrong_share = 0.0;  ///< Of tags that are seen 20 px off, all four corners alike.
-  double declared_px = 0.3;  ///< What the detector believes its noise to be.
+  /// Share of tags that are detected 20 px off, with the same shift of all four corners.
+  double wrong_share = 0.0;
+  double declared_px = 0.3;  ///< Noise that the detector reports.
 };
 
-/// What a camera sees of a tag: nullopt when it faces away by more than `widest_rad`, or
-/// a corner is outside the image.
+/// Returns a camera's view of a tag; nullopt when it faces away by more than `widest_rad`
+/// or a corner is outside the image.
 [[nodiscard]] std::optional<TagDetection> see_tag(
     const Camera& camera,
     const RigidTransform& world_from_tag,

@@ -12,7 +12,7 @@ namespace marey::testing {
 /// A walk written down, not captured: every foot stands flat, rolls over its toe joint
 /// and swings to the next footprint; the truth is known to the frame.
 struct SyntheticWalk {
-  Motion motion;  ///< Of an average adult, towards +Z, 1.1 s per two steps.
+  Motion motion;  ///< An average adult walks towards +Z, 1.1 s per two steps.
   struct Foot {
     std::vector<char> heel;  ///< Per frame: the ankle rests.
     std::vector<char> ball;  ///< Per frame: the toe joint rests.

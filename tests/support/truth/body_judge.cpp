@@ -229,7 +229,8 @@ glm::dvec3 across(const Landmarks& marks) {
   return marks.at(B::kLeftUpperLeg) - marks.at(B::kRightUpperLeg);
 }
 
-/// Whether both feet point against the front that hips and trunk have.
+/// Returns true when the feet's mean direction opposes the front of hips and trunk;
+/// nullopt without toe joints.
 std::optional<bool> feet_backwards(const Landmarks& marks) {
   if (!marks.contains(B::kLeftToes) || !marks.contains(B::kRightToes))
     return std::nullopt;
@@ -358,7 +359,7 @@ BodyFigures judge_body(PosedGlb& body,
     ankles.push_back(
         std::min(source[t].at(B::kLeftFoot).y, source[t].at(B::kRightFoot).y));
   }
-  // Nobody's ankle is lower than 3 cm when it stands.
+  // The ankle joint of a standing foot is at least 3 cm above the floor.
   const double floor_m = quantile_of(ankles, 0.05) - 0.03;
   for (const Landmarks& marks : source) {
     for (const auto& [bone, place] : marks) {

@@ -18,17 +18,18 @@ namespace marey::testing {
 /// Where bones of a body are, in one frame. Y is up; any heading, any unit.
 using Landmarks = std::map<HumanBone, glm::dvec3>;
 
-/// Landmarks of a captured motion, by its file's own numbers: a .bvh with the names of
-/// Bandai or CMU, an .amc with its .asf beside it, a .glb. In metres, Y up.
+/// Reads the landmarks of a captured motion from its file's own numbers: a .bvh with the
+/// names of Bandai or CMU, an .amc with its .asf in the same folder, a .glb. In metres,
+/// Y up.
 /// Throws std::runtime_error for a file of another kind, or without these names.
 [[nodiscard]] std::vector<Landmarks> read_landmarks(const std::filesystem::path& path);
 
-/// Which node of a body is which bone, by the names of common schemes; what is not there
-/// is left out.
+/// Maps bones to the nodes of a body by the names of common schemes. Bones without a node
+/// are left out.
 [[nodiscard]] std::map<HumanBone, std::string> bone_nodes(
     const std::vector<std::string>& names);
 
-/// What a retargeted file shows.
+/// Measures of a retargeted file.
 struct BodyFigures {
   std::size_t frames = 0;
   double skin_depth_mm = 0.0;  ///< Deepest vertex below Y = 0; 0: none is.
@@ -53,7 +54,7 @@ struct BodyFigures {
   int foot_yaw_frame = -1;
   /// The median of each segment: "leftUpperLeg", ..., "trunk", "neck". [deg]
   std::map<std::string, double> medians_deg;
-  double heading_deg = 0.0;  ///< By which the body is turned against the source.
+  double heading_deg = 0.0;  ///< Mean heading of the body relative to the source.
   /// Share of frames in which left and right are exchanged: feet that point backwards
   /// where the source's do not.
   double exchanged_share = 0.0;
@@ -62,7 +63,7 @@ struct BodyFigures {
   double source_max_speed = 0.0;
 };
 
-/// Judges what left the program, frame by frame, without the program's code.
+/// Judges the program's output, frame by frame, without the program's code.
 /// Throws std::runtime_error when the frames do not agree.
 [[nodiscard]] BodyFigures judge_body(PosedGlb& body,
                                      const std::map<HumanBone, std::string>& nodes,

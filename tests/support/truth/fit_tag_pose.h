@@ -18,7 +18,7 @@ struct TagView {
 };
 
 /// The rigid pose of a tag that fits all views best, near `world_from_tag`: a few steps
-/// of Gauss-Newton, without any robustness. Precondition: views enough to tell it.
+/// of Gauss-Newton, without any robustness. Precondition: the views determine it.
 [[nodiscard]] RigidTransform fit_tag_pose(std::span<const TagView> views,
                                           double size_m,
                                           RigidTransform world_from_tag);

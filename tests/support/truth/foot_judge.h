@@ -8,8 +8,8 @@
 
 namespace marey::testing {
 
-/// Fills in the figures of feet: BodyFigures::foot_yaw_deg and what goes with it.
-/// Precondition: `heading_deg` of `out` is known; as many frames, at `hz`.
+/// Computes BodyFigures::foot_yaw_deg, foot_yaw_bone and foot_yaw_frame. Precondition:
+/// `heading_deg` of `out` is set; both have the same number of frames, at `hz`.
 void compare_feet(const std::vector<Landmarks>& source,
                   const std::vector<Landmarks>& body,
                   double hz,

@@ -14,7 +14,7 @@
 
 namespace marey::testing {
 
-/// What was answered for a session: a body and the motion of its trial, or an error.
+/// The result for a session: a body and the motion of its trial, or an error.
 struct SessionAnswer {
   std::optional<Error> refusal;
   std::string refused_by;  ///< The step that ended with the error.
@@ -44,8 +44,8 @@ struct GrossJoint {
   int measured_frames = 0;
   int gross_frames = 0;
   int longest_run = 0;  ///< Consecutive gross frames.
-  /// More than three consecutive frames, or more than 5 % of the trial's frames. What is
-  /// not are spikes.
+  /// More than three consecutive frames, or more than 5 % of the trial's frames. Other
+  /// gross frames are spikes.
   bool is_persistent = false;
   double worst_m = 0.0;
   double sigma_m = 0.0;  ///< In the worst frame.
@@ -76,9 +76,9 @@ struct SessionVerdict {
   /// Squared errors of joint centres over sigma squared, by source and joint.
   std::array<std::array<Tally, kJointKinds>, kSources> honest{};
   std::vector<JointFigures> joints;
-  Tally lengths;                    ///< Of limb segments, against 1.96 sigma.
+  Tally lengths;                    ///< Limb segments' lengths, against 1.96 sigma.
   double worst_length_share = 0.0;  ///< Largest error of a limb segment's length over it.
-  double median_m = 0.0;            ///< Of measured limb joint centres.
+  double median_m = 0.0;            ///< Error of measured limb joint centres.
   double p95_m = 0.0;
   double max_m = 0.0;
 };
@@ -88,7 +88,7 @@ struct SessionVerdict {
 [[nodiscard]] SessionVerdict judge(const SimulatedSession& session,
                                    const SessionAnswer& answer);
 
-/// The cause of an error without what is particular to it: digits become #, quoted names
+/// Returns the cause of an error without its particulars: digits become #, quoted names
 /// "...".
 [[nodiscard]] std::string message_class(const Error& error);
 

@@ -17,8 +17,8 @@ struct TimedPlace {
   glm::dvec3 p_in_world{0.0};
 };
 
-/// Returns by how much reported joints trail their truth [s]: the shift of the truth that
-/// explains them best, each joint's mean error taken off. Knows nothing of trackers.
+/// Returns the delay of reported joints against their truth [s]: the shift of the truth
+/// that fits them best, without each joint's mean error. Depends on no tracker.
 /// `joints` holds one list for each joint; `truth` is where that joint was at a time.
 /// Shifts of up to 60 ms are found, to some microseconds.
 [[nodiscard]] double delay_s(

@@ -35,7 +35,7 @@ struct RenderedTruth {
 /// Precondition: `folder` is a session of the rendered data set (board or body).
 [[nodiscard]] RenderedTruth load_rendered_truth(const std::filesystem::path& folder);
 
-/// A corner of a found tag beside where it truly was.
+/// Error of one corner of a found tag against the truth.
 struct CornerResidual {
   int frame = 0;
   int tag = 0;

@@ -15,7 +15,7 @@ namespace {
 
 using B = HumanBone;
 
-/// From which joint to which a segment goes, but for the trunk.
+/// First and last joint of each segment. directions_of() does not use the trunk's.
 constexpr std::array<std::pair<B, B>, kSegmentCount> kEnds{{
     {B::kHips, B::kNeck},
     {B::kNeck, B::kHead},

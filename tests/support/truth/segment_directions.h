@@ -18,8 +18,8 @@
 
 namespace marey::testing {
 
-// Judges whether one motion has the posture of another, by the places of joints alone:
-// nothing of normalized skeletons, T-poses or bone finding is used.
+// Judges whether one motion has the posture of another, by the places of joints alone.
+// Uses no normalized skeletons, T-poses or bone finding.
 
 /// The segments whose directions make a posture.
 enum class Segment : unsigned char {
@@ -41,7 +41,7 @@ inline constexpr std::size_t kSegmentCount = 12;
 
 [[nodiscard]] std::string_view name(Segment segment);
 
-/// Which joint is which bone, as the tester says.
+/// The joint of each bone, as the test defines it.
 using BoneJoints = std::array<std::optional<JointIndex>, kHumanBoneCount>;
 
 /// By the marks of a skeleton that the tester made.

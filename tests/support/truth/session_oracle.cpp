@@ -78,8 +78,8 @@ Eigen::Matrix<double, 2, 3> pixel_derivative(const Camera& camera, const glm::dv
   return derivative;
 }
 
-/// What is known of a segment's pose in one frame: information on a turn [rad] and a
-/// shift [m] in the world's axes about the segment's origin.
+/// A segment's pose in one frame, with the information on a turn [rad] and a shift [m] in
+/// the world's axes about the segment's origin.
 struct Located {
   RigidTransform world_from_segment;
   Matrix6 information = Matrix6::Zero();
@@ -93,8 +93,9 @@ struct TagSights {
   bool is_clear = false;  ///< To one camera alone.
 };
 
-/// Whether a single camera can tell a tag's tilt from the mirrored one: opposite edges
-/// differ in length by what perspective makes of the tilt, against the corners' noise.
+/// Returns true when a single camera distinguishes a tag's tilt from the mirrored tilt.
+/// The tilt's perspective makes opposite edges differ in length; the difference is
+/// compared with the corners' noise.
 bool is_clear(const RigidTransform& camera_from_tag,
               const TagDetection& detection,
               double size_m) {
@@ -155,7 +156,7 @@ class Locator {
     TagSights& sight = sights[i];
     for (int corner = 0; corner < 4; ++corner) {
       const glm::dvec3 p = world_from_tag * corner_in_tag(corner, tag->tag.size_m);
-      // A wrong read tells nothing.
+      // A wrong read has no information.
       const auto pixel = project(camera, p);
       const auto place = static_cast<std::size_t>(corner);
       if (!pixel || glm::distance(*pixel, detection.corners_px[place]) > 20.0) return;
@@ -209,9 +210,9 @@ Eigen::Matrix3d flesh_information(const SimulatedSession& session, B segment) {
   return information;
 }
 
-/// Worst standard deviation of a joint's place in the frames of both segments. Frames
-/// that are near in time say much the same of what slides, so no more than this many
-/// count.
+/// Worst standard deviation of a joint's place in the frames of both segments. Slides of
+/// tags are correlated in frames near in time, so the information is limited to that of
+/// kMaxFrames frames.
 double joint_sigma_m(const SimulatedSession& session,
                      const std::vector<LocatedFrame>& frames,
                      const JointPair& pair) {

@@ -45,7 +45,7 @@ struct TruthCamera {
   double offset_s = 0.0;            ///< Frame k was exposed at k / fps + offset.
 };
 
-/// The cameras of truth/cameras.json; likewise.
+/// Reads the cameras of truth/cameras.json; nullopt when the file is missing or invalid.
 [[nodiscard]] std::optional<std::vector<TruthCamera>> truth_cameras(
     const std::filesystem::path& json);
 
