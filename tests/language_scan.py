@@ -4,12 +4,11 @@
 """language_scan.py ROOT [--list KIND [PREFIX]] [--check CEILINGS]
 
 Counts sentences that break the rules of plain technical English in docs/conventions.md.
-Kinds: headers (comments of *.h), sources (comments of *.cpp, *.ts and *.js, and of
-tests, benchmarks and examples), messages (text
-of string literals), docs (*.md), tests (names of tests in tests/**/*.cpp, split into words).
-Prints for each kind the number of sentences, the number
-with at least one idiom and the share in percent. --list prints the sentences of one kind,
-optionally only of files whose path begins with PREFIX. --check fails when a share is above
+Kinds: headers (comments of *.h), sources (comments of *.cpp, *.ts and *.js, and of tests,
+benchmarks and examples), messages (text of string literals), docs (*.md), tests (names of
+tests in tests/**/*.cpp, split into words). Prints for each kind the number of sentences,
+the number with at least one idiom and the share in percent. --list prints the sentences of
+one kind, optionally only of files whose path begins with PREFIX. --check fails when a share is above
 its ceiling (lines "KIND PERCENT"), or when a kind has no sentences.
 """
 import re
