@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How good is a calibration?
+// Measures the errors of a calibration.
 //
 //   measure_calibration wand ../shared/data/camera/tagslam_tracks/test_4
 //   measure_calibration room ../shared/data/camera/tagslam_tracks/test_5

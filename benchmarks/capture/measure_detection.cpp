@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What are the cost and the losses of tag tracking, compared with a search of every whole
-// frame? Both run on the same decoded frames, in turn, in one process. Times are
+// Measures the cost and the losses of tag tracking against a search of every whole frame.
+// Both run on the same decoded frames, in turn, in one process. Times are
 // processor time.
 //
 //   measure_detection ../shared/data/blender/dev walk reach jump rom static calib

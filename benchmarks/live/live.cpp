@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What does a frame of VMC cost the thread that sends or receives it? The benchmark
-// counts time and allocations per frame of 22 bones. It uses the loopback network.
+// Measures the cost of a frame of VMC in the thread that sends or receives it. Counts
+// time and allocations per frame of 22 bones. It uses the loopback network.
 #include <cstdlib>
 #include <vector>
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How well people and motions are found from labelled markers, against what others found
-// in the same recordings:
+// Compares subjects and motions that are fitted to labelled markers with published results
+// of the same recordings:
 //
 //   measure_markers QUESTION ../shared/data/mocap
 //

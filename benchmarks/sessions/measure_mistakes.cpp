@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-// Does marey report mistakes in sessions, and name what to change?
+// Counts mistakes in sessions that marey reports with the next step.
 //
 //   measure_mistakes MAREY SESSION TRUTH OUT [NAME...]
 //

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-// How often are exchanged segments found, and how often falsely?
+// Counts exchanged segments that are detected, and false alarms.
 //
 //   measure_worn FIRST LAST
 //   measure_worn --tags FIRST LAST

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How often is a calibration silently wrong, how often refused although it is good?
+// Counts calibrations that are wrong without a message, and good ones that are refused.
 //
 //   measure_rigs FIRST LAST [FAULT] [wand]
 //                                       simulated rigs of these seeds, one line each

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How marey prints the same twice, and how it refuses what it cannot print.
+// Printed pages are reproducible, and invalid options are refused.
 #include <filesystem>
 #include <fstream>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// How a planned body moves to first order, against core's forward kinematics.
+// Compares the first-order motion of a planned body with core's forward kinematics.
 #include <array>
 #include <cmath>
 #include <initializer_list>
