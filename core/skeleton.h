@@ -60,12 +60,6 @@ struct Proportions {
   }
 };
 
-/// Returns an average adult of the given stature, by the segment ratios of Drillis and
-/// Contini (1966, as in Winter, "Biomechanics and Motor Control of Human Movement", fig.
-/// 4.1).
-/// Precondition: stature_m > 0.
-[[nodiscard]] Proportions average_proportions(double stature_m);
-
 /// Returns the T-pose skeleton of these proportions: the 22 bones in the order of
 /// human_bones(), so that JointIndex and HumanBone agree, with tips on head, hands and
 /// toes.

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/constraint.h"
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
 #include "retarget/body/body_map.h"

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/constraint.h"
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
 #include "retarget/adapt/adapter.h"

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
 #include "retarget/body/body_map.h"

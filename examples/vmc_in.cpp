@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
 #include "live/udp/udp_address.h"

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
 #include "live/udp/udp_address.h"

@@ -8,6 +8,7 @@
 
 #include "app/motion/error_of_file.h"
 #include "app/motion/retarget_files.h"
+#include "core/human/average_proportions.h"
 #include "recordings/body/character_file.h"
 #include "recordings/session/subject_file.h"
 #include "retarget/body/body_map.h"

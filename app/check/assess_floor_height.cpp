@@ -12,6 +12,7 @@
 #include "calib/model/board_views.h"
 #include "core/base/format_text.h"
 #include "core/base/quantile.h"
+#include "core/human/average_proportions.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
 #include "core/skeleton.h"

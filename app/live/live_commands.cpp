@@ -14,6 +14,7 @@
 #include "app/shell/option_checks.h"
 #include "app/shell/stop_signal.h"
 #include "app/view/view_commands.h"
+#include "core/human/average_proportions.h"
 #include "live/vmc/vmc_sender.h"
 
 namespace marey::app {

@@ -9,6 +9,7 @@
 #include "benchmarks/adaptation/posture_measures.h"
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/humanoid.h"
 #include "core/skeleton.h"
 #include "core/transform.h"

@@ -15,6 +15,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "recordings/gltf/gltf.h"
 #include "retarget/body/body_map.h"

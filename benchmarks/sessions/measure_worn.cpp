@@ -22,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "core/human/average_proportions.h"
 #include "reconstruct/clusters/sightings.h"
 #include "reconstruct/segments/check_worn.h"
 #include "reconstruct/subject/fit_subject.h"

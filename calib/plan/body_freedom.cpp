@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "calib/model/see_point.h"
+#include "core/human/posture_priors.h"
 
 namespace marey::calib {
 namespace {
@@ -196,29 +197,33 @@ PosturePriorRows posture_prior_rows(const BodyPlace& place,
                                     const BodyMotion& motion,
                                     double arm_twist_rad) {
   Prior prior;
-  prior.add(Rows(turning(kAbdomenEnd) - 0.5 * (turning(kHips) + turning(kThorax))), 0.12);
-  prior.add(Rows(turning(kNeck) - 0.5 * (turning(kThorax) + turning(kHead))), 0.15);
-  prior.add(relative(motion, B::kUpperChest, B::kHips), 0.7);
-  prior.add(relative(motion, B::kHead, B::kUpperChest), 0.7);
+  prior.add(Rows(turning(kAbdomenEnd) - 0.5 * (turning(kHips) + turning(kThorax))),
+            kAbdomenBendSigma_rad);
+  prior.add(Rows(turning(kNeck) - 0.5 * (turning(kThorax) + turning(kHead))),
+            kNeckBendSigma_rad);
+  prior.add(relative(motion, B::kUpperChest, B::kHips), kTrunkTurnSigma_rad);
+  prior.add(relative(motion, B::kHead, B::kUpperChest), kTrunkTurnSigma_rad);
   for (const B shoulder : {B::kLeftShoulder, B::kRightShoulder}) {
     const Rows turn = relative(motion, shoulder, B::kUpperChest);
     const auto axis = [&](const glm::dvec3& v) {
       return Row(in_world(place, shoulder, v).transpose() * turn);
     };
-    prior.add(axis({1, 0, 0}), 0.1);
-    prior.add(axis({0, 1, 0}), 0.25);
-    prior.add(axis({0, 0, 1}), 0.25);
+    prior.add(axis({1, 0, 0}), kCollarBoneSigma_rad.x);
+    prior.add(axis({0, 1, 0}), kCollarBoneSigma_rad.y);
+    prior.add(axis({0, 0, 1}), kCollarBoneSigma_rad.z);
   }
   for (std::size_t limb = 0; limb < 4; ++limb) {
     const bool arm = limb < 2;
     const int at = limb_column(limb);
     const B trunk = arm ? B::kUpperChest : B::kHips;
-    prior.add(Rows(turning(at) - motion.spin[index(trunk)]), arm ? 1.0 : 0.8);
+    prior.add(Rows(turning(at) - motion.spin[index(trunk)]),
+              arm ? kArmSigma_rad : kLegSigma_rad);
     const HumanLimb& bones = human_limbs()[limb];
-    prior.add(relative(motion, bones.end, bones.lower), arm ? 0.5 : 0.35);
-    prior.add_column(at + kUpperTwist, arm ? arm_twist_rad : 0.08);
-    prior.add_column(at + kLowerTwist, arm ? arm_twist_rad : 0.08);
-    prior.add_column(at + kFlexion, 1.0);
+    prior.add(relative(motion, bones.end, bones.lower),
+              arm ? kHandSigma_rad : kFootSigma_rad);
+    prior.add_column(at + kUpperTwist, arm ? arm_twist_rad : kLegTwistSigma_rad);
+    prior.add_column(at + kLowerTwist, arm ? arm_twist_rad : kLegTwistSigma_rad);
+    prior.add_column(at + kFlexion, kFlexionSigma_rad);
   }
   return prior.rows();
 }
@@ -229,49 +234,56 @@ PosturePriorRows standing_prior_rows(const BodyPlace& place, const BodyMotion& m
   // Hips: their roll is measured, not part of the prior.
   prior.add(Row(Eigen::Vector3d::UnitY().cross(ahead(B::kHips)).transpose() *
                 motion.spin[index(B::kHips)]),
-            0.03);
+            kStandingTrunkSigma_rad);
   for (const B bone : {B::kUpperChest, B::kHead, B::kLeftFoot, B::kRightFoot}) {
     const bool foot = bone == B::kLeftFoot || bone == B::kRightFoot;
-    prior.add_upright(motion.spin[index(bone)], ahead(bone), foot ? 0.02 : 0.03);
+    prior.add_upright(motion.spin[index(bone)],
+                      ahead(bone),
+                      foot ? kStandingFootSigma_rad : kStandingTrunkSigma_rad);
   }
-  prior.add(Rows(turning(kAbdomenEnd) - 0.5 * (turning(kHips) + turning(kThorax))), 0.03);
-  prior.add(relative(motion, B::kHead, B::kUpperChest), 0.1);
-  prior.add(relative(motion, B::kLeftShoulder, B::kUpperChest), 0.1);
-  prior.add(relative(motion, B::kRightShoulder, B::kUpperChest), 0.1);
+  prior.add(Rows(turning(kAbdomenEnd) - 0.5 * (turning(kHips) + turning(kThorax))),
+            kStandingBendSigma_rad);
+  prior.add(relative(motion, B::kHead, B::kUpperChest), kStandingTurnSigma_rad);
+  prior.add(relative(motion, B::kLeftShoulder, B::kUpperChest), kStandingTurnSigma_rad);
+  prior.add(relative(motion, B::kRightShoulder, B::kUpperChest), kStandingTurnSigma_rad);
   for (std::size_t limb = 0; limb < 4; ++limb) {
     const HumanLimb& bones = human_limbs()[limb];
-    prior.add(relative(motion, bones.end, bones.lower), limb < 2 ? 0.1 : 0.15);
-    prior.add_column(limb_column(limb) + kUpperTwist, 0.02);
-    prior.add_column(limb_column(limb) + kLowerTwist, 0.02);
+    prior.add(relative(motion, bones.end, bones.lower),
+              limb < 2 ? kStandingHandSigma_rad : kStandingAnkleSigma_rad);
+    prior.add_column(limb_column(limb) + kUpperTwist, kStandingTwistSigma_rad);
+    prior.add_column(limb_column(limb) + kLowerTwist, kStandingTwistSigma_rad);
   }
   return prior.rows();
 }
 
-StepPrior step_prior(double rate_hz) {
-  // White-noise acceleration at 30 frames a second [m/s^2, rad/s^2].
-  PostureVector acceleration;
-  acceleration.segment<3>(0).setConstant(10.0);
-  acceleration.segment<3>(kHips).setConstant(30.0);
-  acceleration.segment<3>(kAbdomenEnd).setConstant(30.0);
-  acceleration.segment<3>(kThorax).setConstant(30.0);
-  acceleration.segment<3>(kNeck).setConstant(40.0);
-  acceleration.segment<3>(kHead).setConstant(50.0);
-  acceleration.segment<6>(kShoulders).setConstant(30.0);
+StepPrior step_prior(FrameRate rate) {
+  StepPrior prior;
+  const auto set = [&prior](int column, int count, const StepProcess& process) {
+    prior.sigma.segment(column, count).setConstant(process.sigma);
+    prior.keeps.segment(column, count).setConstant(process.correlation);
+  };
+  const auto turns = [&](int column, int count, double acceleration_rad) {
+    set(column, count, step_process(acceleration_rad, rate));
+  };
+  set(0, 3, hips_step_process(rate));
+  for (const int column : {kHips, kAbdomenEnd, kThorax, kShoulders, kShoulders + 3}) {
+    turns(column, 3, kTrunkAcceleration_rad);
+  }
+  turns(kNeck, 3, kNeckAcceleration_rad);
+  turns(kHead, 3, kHeadAcceleration_rad);
   for (std::size_t limb = 0; limb < 4; ++limb) {
     const bool arm = limb < 2;
     const int at = limb_column(limb);
-    acceleration.segment<3>(at).setConstant(arm ? 70.0 : 60.0);
-    acceleration[at + kFlexion] = 80.0;
-    acceleration[at + kUpperTwist] = arm ? 40.0 : 30.0;
-    acceleration[at + kLowerTwist] = arm ? 60.0 : 30.0;
-    acceleration.segment<3>(at + kEnd).setConstant(arm ? 110.0 : 90.0);
+    turns(at, 3, arm ? kArmAcceleration_rad : kLegAcceleration_rad);
+    turns(at + kFlexion, 1, kFlexionAcceleration_rad);
+    turns(at + kUpperTwist,
+          1,
+          arm ? kUpperArmTwistAcceleration_rad : kLegTwistAcceleration_rad);
+    turns(at + kLowerTwist,
+          1,
+          arm ? kForearmTwistAcceleration_rad : kLegTwistAcceleration_rad);
+    turns(at + kEnd, 3, arm ? kHandAcceleration_rad : kFootAcceleration_rad);
   }
-  const double dt = 1.0 / rate_hz;
-  StepPrior prior;
-  prior.sigma = std::sqrt(dt * dt * dt / 30.0) * acceleration;
-  // Correlation time: one second for translations, a quarter of a second for rotations.
-  prior.keeps.setConstant(std::exp(-dt / 0.25));
-  prior.keeps.head<3>().setConstant(std::exp(-dt));
   return prior;
 }
 
@@ -283,15 +295,14 @@ Eigen::Matrix<double, kLengthColumns, kLengthColumns> typical_lengths(
     const auto stretch = stretch_of(bone, body.proportions);
     if (!stretch || bone == B::kRightUpperLeg) continue;
     const double typical_m = glm::dot(stretch->way, body.proportions[bone]);
-    const double sigma_m = std::max(0.012, 0.10 * typical_m);
+    const double sigma_m = length_sigma_m(typical_m);
     sum(stretch->column, stretch->column) += 1.0 / (sigma_m * sigma_m);
   }
-  constexpr double kSides_m = 0.008;
   for (int left = 6; left < kLengthColumns; left += 2) {
     Eigen::Matrix<double, 1, kLengthColumns> row;
     row.setZero();
-    row[left] = 1.0 / kSides_m;
-    row[left + 1] = -1.0 / kSides_m;
+    row[left] = 1.0 / kSidesDifferSigma_m;
+    row[left + 1] = -1.0 / kSidesDifferSigma_m;
     sum += row.transpose() * row;
   }
   return sum;

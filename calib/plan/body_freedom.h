@@ -3,15 +3,16 @@
 #pragma once
 
 // Private to calib: degrees of freedom of a planned body, to first order, and their
-// priors. The unknowns, their priors and their speeds are those of marey's own solver
-// (reconstruct/posture/posture.h, posture_terms.cpp); other priors would predict errors
-// that the solver does not achieve.
+// priors. The unknowns are those of marey's own solver (reconstruct/posture/posture.h);
+// their priors and speeds come from core/human/posture_priors.h, as the solver's do:
+// other priors would predict errors that the solver does not achieve.
 
 #include <array>
 
 #include <Eigen/Dense>
 
 #include "calib/plan/planned_body.h"
+#include "core/base/time.h"
 
 namespace marey::calib {
 
@@ -63,7 +64,7 @@ struct StepPrior {
   PostureVector keeps;
 };
 
-[[nodiscard]] StepPrior step_prior(double rate_hz);
+[[nodiscard]] StepPrior step_prior(FrameRate rate);
 
 /// Returns the information on lengths from anthropometry and from left-right symmetry.
 [[nodiscard]] Eigen::Matrix<double, kLengthColumns, kLengthColumns> typical_lengths(

@@ -16,6 +16,7 @@
 #include "calib/plan/subject_uncertainty.h"
 #include "core/base/assert.h"
 #include "core/base/quantile.h"
+#include "core/human/posture_priors.h"
 
 namespace marey::calib {
 namespace {
@@ -89,7 +90,7 @@ class BodyPlanner {
           see(walking_body(body_, middle_m + travelled_m * way, heading_rad, phase)));
       information.push_back(std::move(frames.back().information));
     }
-    const auto uncertainties = solve_chain(information, step_prior(options_.rate_hz));
+    const auto uncertainties = solve_chain(information, step_prior({options_.rate_hz}));
     const auto run_up =
         static_cast<std::size_t>(std::lround(kMargin_s * options_.rate_hz));
     for (std::size_t f = run_up; f + run_up < frames.size(); ++f) {
@@ -168,8 +169,7 @@ class BodyPlanner {
     }
     out.information =
         information_of(cameras_, body_, place, out.motion, views, sigma_, columns_);
-    constexpr double kArmTwist_rad = 0.4;
-    add_posture_prior(posture_prior_rows(place, out.motion, kArmTwist_rad),
+    add_posture_prior(posture_prior_rows(place, out.motion, kArmTwistSigma_rad),
                       out.information);
     return out;
   }

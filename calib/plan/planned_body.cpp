@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/base/assert.h"
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 
 namespace marey::calib {

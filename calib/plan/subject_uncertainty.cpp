@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "calib/model/see_point.h"
+#include "core/human/posture_priors.h"
 
 namespace marey::calib {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 // The same number as in marey's own bundle (reconstruct/subject/fit_subject.cpp).
 constexpr int kMovingFrames = 90;
 constexpr int kStandingFrames = 5;
-constexpr double kArmTwist_rad = 0.1;
 
 /// Adds a frame's information on the shared columns, with its posture eliminated.
 void add_frame(const FrameInformation& frame, Eigen::MatrixXd& shared) {
@@ -68,7 +68,7 @@ Eigen::MatrixXd subject_uncertainty(std::span<const Camera> cameras,
     const BodyMotion motion = motion_of(body, place);
     FrameInformation frame = information_of(
         cameras, body, place, motion, views, corner_sigma, columns, &shared);
-    add_posture_prior(posture_prior_rows(place, motion, kArmTwist_rad), frame);
+    add_posture_prior(posture_prior_rows(place, motion, kFitTwistSigma_rad), frame);
     if (stands) {
       const PosturePriorRows upright = standing_prior_rows(place, motion);
       frame.posture.noalias() += upright.transpose() * upright;

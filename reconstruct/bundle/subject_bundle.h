@@ -31,13 +31,12 @@ struct TagSigma {
   double rad = 0.0;
 };
 
-/// Twist priors of the first fit. Over a range-of-motion trial, elbows bend about one
-/// axis of the arm's skin; with a free twist of the bone, the elbow's position along that
-/// axis would not be determined.
-inline constexpr TwistPriors kFirstTwists{0.1, 0.1, 0.08};
+/// Twist priors of the first fit.
+inline constexpr TwistPriors kFirstTwists{
+    kFitTwistSigma_rad, kFitTwistSigma_rad, kLegTwistSigma_rad};
 /// Twist priors once the joints are nearly right: skin follows the turn of an upper arm
 /// only in part.
-inline constexpr TwistPriors kTrialTwists{0.3, 0.1, 0.08};
+inline constexpr TwistPriors kTrialTwists{0.3, kFitTwistSigma_rad, kLegTwistSigma_rad};
 
 struct SubjectBundle {
   BodyModel model;

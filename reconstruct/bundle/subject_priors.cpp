@@ -9,6 +9,7 @@
 #include <ceres/jet.h>
 
 #include "core/base/assert.h"
+#include "core/human/posture_priors.h"
 #include "reconstruct/posture/length_terms.h"
 
 namespace marey::reconstruct {
@@ -18,7 +19,6 @@ namespace {
 // pivot of a shoulder can be anywhere between.
 constexpr double kShoulderBase_m = 0.05;
 constexpr double kNeckForward_m = 0.012;
-constexpr double kSidesDiffer_m = 0.008;
 
 // A tag's plate lies on the flesh: at least the bone's own radius from its axis, on the
 // side that it faces, at most the radius of a heavy limb and a plate on a strap.
@@ -210,7 +210,7 @@ void add_lengths(const BodyModel& model, const Lengths& usual, SubjectSystem& ou
     out.gradient[i] += weight * off;
     out.cost += 0.5 * weight * off * off;
   }
-  constexpr double kWeight = 1.0 / (kSidesDiffer_m * kSidesDiffer_m);
+  constexpr double kWeight = 1.0 / (kSidesDifferSigma_m * kSidesDifferSigma_m);
   for (int left = static_cast<int>(Length::kLeftShoulder); left < kLengthCount;
        left += 2) {
     const auto place = static_cast<std::size_t>(left);

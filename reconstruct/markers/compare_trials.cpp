@@ -13,8 +13,9 @@
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>
 
-#include "core/pose.h"
 #include "core/base/quantile.h"
+#include "core/human/average_proportions.h"
+#include "core/pose.h"
 #include "core/skeleton.h"
 #include "reconstruct/markers/estimate_stature.h"
 

@@ -7,8 +7,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/pose.h"
 #include "core/base/quantile.h"
+#include "core/human/average_proportions.h"
+#include "core/pose.h"
 
 namespace marey::reconstruct {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/quantile.h"
+#include "core/human/average_proportions.h"
 #include "reconstruct/clusters/sightings.h"
 #include "reconstruct/markers/body_stature.h"
 #include "reconstruct/markers/estimate_stature.h"

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <glm/geometric.hpp>
 
+#include "core/human/posture_priors.h"
 #include "reconstruct/posture/length_terms.h"
 
 namespace marey::reconstruct {
@@ -71,7 +72,7 @@ std::vector<JointEvidence> joint_evidence(const MarkerBundle& bundle,
     const HumanBone up = *parent(bone);
     const auto length = length_of(bone);
     const double prior_m = length ? bundle.usual_sigma_m[index(*length)]
-                                  : usual_length_sigma_m(glm::length(average[bone]));
+                                  : length_sigma_m(glm::length(average[bone]));
     // For a joint whose length is held, the average is the only source.
     joint.sigma_m = length ? bundle.length_sigma_m[index(*length)] : prior_m;
     joint.range_rad = range_of(bundle, snapshots, bone, up);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/posture/length_terms.h"
 
-#include <algorithm>
+#include "core/human/posture_priors.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -34,14 +34,10 @@ struct UsualLengths {
 
 }  // namespace
 
-double usual_length_sigma_m(double usual_m) {
-  return std::max(0.012, 0.10 * usual_m);
-}
-
 Lengths usual_length_sigmas_m(const Lengths& usual) {
   Lengths sigmas_m{};
   for (std::size_t i = 0; i < usual.size(); ++i) {
-    sigmas_m[i] = usual_length_sigma_m(usual[i]);
+    sigmas_m[i] = length_sigma_m(usual[i]);
   }
   constexpr double kHeld_m = 1e-4;
   for (const Length length : {Length::kShoulderOut,
@@ -66,7 +62,7 @@ void add_length_priors(const Lengths& usual,
        left += 2) {
     problem.AddResidualBlock(
         new ceres::AutoDiffCostFunction<LengthDifference, 1, kLengthCount>(
-            new LengthDifference{Length{left}, Length{left + 1}, 0.008}),
+            new LengthDifference{Length{left}, Length{left + 1}, kSidesDifferSigma_m}),
         nullptr,
         lengths.data());
   }

@@ -10,11 +10,7 @@
 
 namespace marey::reconstruct {
 
-/// Returns the standard deviation of a length in people: a tenth of it, and at least a
-/// centimetre. [m]
-[[nodiscard]] double usual_length_sigma_m(double usual_m);
-
-/// Returns usual_length_sigma_m() of all lengths, but holds clavicles and the neck start.
+/// Returns length_sigma_m() of all lengths, but holds clavicles and the neck start.
 /// Callers with data on these increase their sigmas.
 [[nodiscard]] Lengths usual_length_sigmas_m(const Lengths& usual);
 

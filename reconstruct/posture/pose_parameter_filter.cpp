@@ -30,9 +30,9 @@ PoseParameterProcess::PoseParameterProcess(const Lengths& lengths,
 void PoseParameterProcess::set_rate(FrameRate rate) {
   rate_ = rate;
   prior_share_ = std::min(1.0, 1.0 / (noise_.prior_memory_s * rate.hz));
-  for (const PoseParameterAcceleration& row : kAccelerations) {
-    process_[index(row.parameter)] = process_of(row, rate);
-    process_[index(row.parameter)].sigma *= noise_.acceleration_scale;
+  for (const PoseParameter parameter : kAllPoseParameters) {
+    process_[index(parameter)] = process_of(parameter, rate);
+    process_[index(parameter)].sigma *= noise_.acceleration_scale;
   }
 }
 

@@ -32,7 +32,7 @@ struct PostureEstimate {
 
 /// Process noise of the filter.
 struct ProcessNoiseOptions {
-  /// Scale of the acceleration noise over kAccelerations (everyday movement). Athletes
+  /// Scale of the acceleration noise over process_of() (everyday movement). Athletes
   /// need more; a frame has enough markers to determine the movement.
   double acceleration_scale = 5.0;
   /// Time constant after which the pose priors count again in full. [s]

@@ -180,26 +180,13 @@ BoneFrame<T> bone_frame(HumanBone bone,
   const auto limb_bone = [&](std::size_t limb, const Vec3<T>& root, int place) {
     return detail::limb_bone<T, L>(limb, place, root, blocks, lengths, body.hinges[limb]);
   };
-  const auto leg = [&](std::size_t limb, double side, int place) {
+  const InLimb at = in_limb(bone);
+  const bool left = at.limb % 2 == 0 || bone == B::kLeftShoulder;
+  const double side = left ? 1.0 : -1.0;
+  if (at.limb == 2 || at.limb == 3) {
     const Vec3<T> hip(
         T(side) * length(Length::kHalfHipWidth), T(-body.hips_above_hip_centres_m), T(0));
-    return limb_bone(limb, p_hips + hips * hip, place);
-  };
-  switch (bone) {
-    case B::kLeftUpperLeg:
-      return leg(2, 1.0, 0);
-    case B::kLeftLowerLeg:
-      return leg(2, 1.0, 1);
-    case B::kLeftFoot:
-      return leg(2, 1.0, 2);
-    case B::kRightUpperLeg:
-      return leg(3, -1.0, 0);
-    case B::kRightLowerLeg:
-      return leg(3, -1.0, 1);
-    case B::kRightFoot:
-      return leg(3, -1.0, 2);
-    default:
-      break;
+    return limb_bone(at.limb, p_hips + hips * hip, at.place);
   }
 
   // Trunk: the abdomen's spline carries two bones, the torso's one.
@@ -221,9 +208,6 @@ BoneFrame<T> bone_frame(HumanBone bone,
     return {rotation(PoseParameter::kHead), p_neck + neck * up(Length::kHead)};
   }
 
-  const bool left = bone == B::kLeftShoulder || bone == B::kLeftUpperArm ||
-                    bone == B::kLeftLowerArm || bone == B::kLeftHand;
-  const double side = left ? 1.0 : -1.0;
   const Vec3<T> base(T(side) * length(Length::kShoulderOut),
                      length(Length::kShoulderUp),
                      length(Length::kShoulderForward));
@@ -236,10 +220,7 @@ BoneFrame<T> bone_frame(HumanBone bone,
   const Length clavicle = left ? Length::kLeftShoulder : Length::kRightShoulder;
   const Vec3<T> root =
       p_shoulder + shoulder * Vec3<T>(T(side) * length(clavicle), T(0), T(0));
-  const int place = (bone == B::kLeftUpperArm || bone == B::kRightUpperArm)   ? 0
-                    : (bone == B::kLeftLowerArm || bone == B::kRightLowerArm) ? 1
-                                                                              : 2;
-  return limb_bone(left ? 0 : 1, root, place);
+  return limb_bone(at.limb, root, at.place);
 }
 
 /// Computes bone_frame() of a whole posture, in double. Toes move with their foot.

@@ -190,16 +190,18 @@ void PostureEquations::add_standing(const Posture& posture,
   // A share of the weight is the inverse root of the share in the sigma.
   const double wider = 1.0 / std::sqrt(share);
   // The hips' roll is measured: their X axis runs through both hip centres.
-  add_upright(posture, PoseParameter::kHips, 0.03 * wider, false);
-  add_upright(posture, PoseParameter::kThorax, 0.03 * wider, true);
-  add_upright(posture, PoseParameter::kHead, 0.03 * wider, true);
-  add_upright(posture, PoseParameter::kLeftFoot, 0.02 * wider, true);
-  add_upright(posture, PoseParameter::kRightFoot, 0.02 * wider, true);
-  add_halfway(
-      posture,
-      {PoseParameter::kHips, PoseParameter::kAbdomenEnd, PoseParameter::kThorax, 0.03},
-      share);
-  const glm::dvec3 near(0.1);
+  add_upright(posture, PoseParameter::kHips, kStandingTrunkSigma_rad * wider, false);
+  add_upright(posture, PoseParameter::kThorax, kStandingTrunkSigma_rad * wider, true);
+  add_upright(posture, PoseParameter::kHead, kStandingTrunkSigma_rad * wider, true);
+  add_upright(posture, PoseParameter::kLeftFoot, kStandingFootSigma_rad * wider, true);
+  add_upright(posture, PoseParameter::kRightFoot, kStandingFootSigma_rad * wider, true);
+  add_halfway(posture,
+              {PoseParameter::kHips,
+               PoseParameter::kAbdomenEnd,
+               PoseParameter::kThorax,
+               kStandingBendSigma_rad},
+              share);
+  const glm::dvec3 near(kStandingTurnSigma_rad);
   for (const PoseParameter child : {PoseParameter::kHead,
                                     PoseParameter::kLeftShoulder,
                                     PoseParameter::kRightShoulder}) {
@@ -207,9 +209,17 @@ void PostureEquations::add_standing(const Posture& posture,
   }
   for (std::size_t limb = 0; limb < kLimbParameters.size(); ++limb) {
     const LimbParameters& s = kLimbParameters[limb];
-    add_extremity(posture, unfolded, limb, limb < 2 ? 0.1 : 0.15, share);
-    add_scalar(column_of(s.upper_twist), *posture.block(s.upper_twist), 0.02 * wider);
-    add_scalar(column_of(s.lower_twist), *posture.block(s.lower_twist), 0.02 * wider);
+    add_extremity(posture,
+                  unfolded,
+                  limb,
+                  limb < 2 ? kStandingHandSigma_rad : kStandingAnkleSigma_rad,
+                  share);
+    add_scalar(column_of(s.upper_twist),
+               *posture.block(s.upper_twist),
+               kStandingTwistSigma_rad * wider);
+    add_scalar(column_of(s.lower_twist),
+               *posture.block(s.lower_twist),
+               kStandingTwistSigma_rad * wider);
   }
 }
 

@@ -44,7 +44,7 @@ struct PostureEquations {
                           double share = 1.0,
                           double shoulders_wider = 1.0);
   /// Adds the prior of a person standing still and upright, feet flat, hands in line with
-  /// the forearms (add_standing() of posture_terms.h), with `share` of its weight.
+  /// the forearms with `share` of its weight.
   void add_standing(const Posture& posture,
                     const UnfoldedPosture& unfolded,
                     double share = 1.0);

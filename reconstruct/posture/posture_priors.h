@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to reconstruct: priors of human postures. They are wide compared with
-// measurements and matter only for parameters that no measurement determines.
+// Private to reconstruct: the human priors by parameters of the posture.
 
 #include <array>
-#include <cmath>
 
 #include <glm/vec3.hpp>
 
 #include "core/base/time.h"
+#include "core/human/posture_priors.h"
 #include "reconstruct/posture/posture.h"
 
 namespace marey::reconstruct {
@@ -24,8 +23,14 @@ struct SpineBendPrior {
   double sigma_rad;
 };
 inline constexpr std::array<SpineBendPrior, 2> kSpineBendPriors{{
-    {PoseParameter::kHips, PoseParameter::kAbdomenEnd, PoseParameter::kThorax, 0.12},
-    {PoseParameter::kThorax, PoseParameter::kNeck, PoseParameter::kHead, 0.15},
+    {PoseParameter::kHips,
+     PoseParameter::kAbdomenEnd,
+     PoseParameter::kThorax,
+     kAbdomenBendSigma_rad},
+    {PoseParameter::kThorax,
+     PoseParameter::kNeck,
+     PoseParameter::kHead,
+     kNeckBendSigma_rad},
 }};
 
 /// Prior: `child` is rotated by `usual_rad` (a rotation vector) relative to `parent`.
@@ -37,106 +42,82 @@ struct RelativePosePrior {
   /// Anatomy rather than usual behaviour: the prior has full weight in every frame.
   bool anatomy = false;
 };
-/// Usual angle of the arms below the T-pose.
-inline constexpr double kHangingArm_rad = 1.2217304763960306;  // 70 degrees
-inline constexpr std::array<RelativePosePrior, 8> kRelativePosePriors{{
-    {PoseParameter::kHips, PoseParameter::kThorax, {0, 0, 0}, {0.7, 0.7, 0.7}},
-    {PoseParameter::kThorax, PoseParameter::kHead, {0, 0, 0}, {0.7, 0.7, 0.7}},
-    // A collar bone does not rotate about its own axis; only its skin does.
-    {PoseParameter::kThorax,
-     PoseParameter::kLeftShoulder,
-     {0, 0, 0},
-     {0.1, 0.25, 0.25},
-     true},
-    {PoseParameter::kThorax,
-     PoseParameter::kRightShoulder,
-     {0, 0, 0},
-     {0.1, 0.25, 0.25},
-     true},
-    {PoseParameter::kThorax,
-     PoseParameter::kLeftArm,
-     {0, 0, -kHangingArm_rad},
-     {1, 1, 1}},
-    {PoseParameter::kThorax,
-     PoseParameter::kRightArm,
-     {0, 0, kHangingArm_rad},
-     {1, 1, 1}},
-    {PoseParameter::kHips, PoseParameter::kLeftLeg, {0, 0, 0}, {0.8, 0.8, 0.8}},
-    {PoseParameter::kHips, PoseParameter::kRightLeg, {0, 0, 0}, {0.8, 0.8, 0.8}},
-}};
-
-/// Elbows and knees are slightly bent, and do not bend backward.
-inline constexpr double kUsualFlexion_rad = 0.3;
-inline constexpr double kFlexionSigma_rad = 1.0;
-inline constexpr double kMinFlexion_rad = -0.05;
-inline constexpr double kMinFlexionSigma_rad = 0.1;
+inline constexpr std::array<RelativePosePrior, 8> kRelativePosePriors = [] {
+  using P = PoseParameter;
+  const glm::dvec3 none(0.0);
+  const glm::dvec3 trunk(kTrunkTurnSigma_rad);
+  const glm::dvec3 arm(kArmSigma_rad);
+  const glm::dvec3 leg(kLegSigma_rad);
+  return std::array<RelativePosePrior, 8>{{
+      {P::kHips, P::kThorax, none, trunk},
+      {P::kThorax, P::kHead, none, trunk},
+      {P::kThorax, P::kLeftShoulder, none, kCollarBoneSigma_rad, true},
+      {P::kThorax, P::kRightShoulder, none, kCollarBoneSigma_rad, true},
+      {P::kThorax, P::kLeftArm, {0, 0, -kHangingArm_rad}, arm},
+      {P::kThorax, P::kRightArm, {0, 0, kHangingArm_rad}, arm},
+      {P::kHips, P::kLeftLeg, none, leg},
+      {P::kHips, P::kRightLeg, none, leg},
+  }};
+}();
 
 /// Returns the sigma of hands and feet about the direction of the bone before them. [rad]
 [[nodiscard]] constexpr double extremity_sigma_rad(std::size_t limb) {
-  return limb < 2 ? 0.5 : 0.35;
+  return limb < 2 ? kHandSigma_rad : kFootSigma_rad;
 }
 /// Standard deviations of the twist of skin about its bones, in forearms also of
 /// pronation. [rad]
 struct TwistPriors {
-  double upper_arm = 0.4;
-  double forearm = 0.4;
-  double leg = 0.08;
+  double upper_arm = kArmTwistSigma_rad;
+  double forearm = kArmTwistSigma_rad;
+  double leg = kLegTwistSigma_rad;
 };
 
-/// White-noise acceleration of a pose parameter, [m/s^2] or [rad/s^2] at 30 frames per
-/// second: that of quick everyday movement. A jump's landing exceeds it by a small factor
-/// for a frame or two, which the measurements then determine.
-struct PoseParameterAcceleration {
-  PoseParameter parameter;
-  double sigma;
-};
-inline constexpr std::array<PoseParameterAcceleration, kPoseParameterCount>
-    kAccelerations{{
-        {PoseParameter::kHipsPosition, 10.0},
-        {PoseParameter::kHips, 30.0},
-        {PoseParameter::kAbdomenEnd, 30.0},
-        {PoseParameter::kThorax, 30.0},
-        {PoseParameter::kNeck, 40.0},
-        {PoseParameter::kHead, 50.0},
-        {PoseParameter::kLeftShoulder, 30.0},
-        {PoseParameter::kRightShoulder, 30.0},
-        {PoseParameter::kLeftArm, 70.0},
-        {PoseParameter::kRightArm, 70.0},
-        {PoseParameter::kLeftLeg, 60.0},
-        {PoseParameter::kRightLeg, 60.0},
-        {PoseParameter::kLeftHand, 110.0},
-        {PoseParameter::kRightHand, 110.0},
-        {PoseParameter::kLeftFoot, 90.0},
-        {PoseParameter::kRightFoot, 90.0},
-        {PoseParameter::kLeftElbow, 80.0},
-        {PoseParameter::kRightElbow, 80.0},
-        {PoseParameter::kLeftKnee, 80.0},
-        {PoseParameter::kRightKnee, 80.0},
-        {PoseParameter::kLeftForearmTwist, 60.0},
-        {PoseParameter::kRightForearmTwist, 60.0},
-        {PoseParameter::kLeftShankTwist, 30.0},
-        {PoseParameter::kRightShankTwist, 30.0},
-        {PoseParameter::kLeftUpperArmTwist, 40.0},
-        {PoseParameter::kRightUpperArmTwist, 40.0},
-        {PoseParameter::kLeftThighTwist, 30.0},
-        {PoseParameter::kRightThighTwist, 30.0},
-    }};
-
-/// The speed of a pose parameter from frame to frame: an Ornstein-Uhlenbeck process.
-struct StepProcess {
-  double sigma;  ///< Standard deviation of the change of a step from one frame to the
-                 ///< next.
-  double correlation;  ///< Correlation of consecutive steps: the share of a step that the
-                       ///< next one inherits.
-};
-
-[[nodiscard]] inline StepProcess process_of(const PoseParameterAcceleration& row,
-                                            FrameRate rate) {
-  const double dt = 1.0 / rate.hz;
-  const double memory_s = row.parameter == PoseParameter::kHipsPosition ? 1.0 : 0.25;
-  // The variance of a second difference of integrated white noise grows with the cube of
-  // dt.
-  return {row.sigma * std::sqrt(dt * dt * dt / 30.0), std::exp(-dt / memory_s)};
+/// Returns the process of the steps of a pose parameter from frame to frame.
+[[nodiscard]] inline StepProcess process_of(PoseParameter parameter, FrameRate rate) {
+  using P = PoseParameter;
+  switch (parameter) {
+    case P::kHipsPosition:
+      return hips_step_process(rate);
+    case P::kHips:
+    case P::kAbdomenEnd:
+    case P::kThorax:
+    case P::kLeftShoulder:
+    case P::kRightShoulder:
+      return step_process(kTrunkAcceleration_rad, rate);
+    case P::kNeck:
+      return step_process(kNeckAcceleration_rad, rate);
+    case P::kHead:
+      return step_process(kHeadAcceleration_rad, rate);
+    case P::kLeftArm:
+    case P::kRightArm:
+      return step_process(kArmAcceleration_rad, rate);
+    case P::kLeftLeg:
+    case P::kRightLeg:
+      return step_process(kLegAcceleration_rad, rate);
+    case P::kLeftHand:
+    case P::kRightHand:
+      return step_process(kHandAcceleration_rad, rate);
+    case P::kLeftFoot:
+    case P::kRightFoot:
+      return step_process(kFootAcceleration_rad, rate);
+    case P::kLeftElbow:
+    case P::kRightElbow:
+    case P::kLeftKnee:
+    case P::kRightKnee:
+      return step_process(kFlexionAcceleration_rad, rate);
+    case P::kLeftUpperArmTwist:
+    case P::kRightUpperArmTwist:
+      return step_process(kUpperArmTwistAcceleration_rad, rate);
+    case P::kLeftForearmTwist:
+    case P::kRightForearmTwist:
+      return step_process(kForearmTwistAcceleration_rad, rate);
+    case P::kLeftShankTwist:
+    case P::kRightShankTwist:
+    case P::kLeftThighTwist:
+    case P::kRightThighTwist:
+      return step_process(kLegTwistAcceleration_rad, rate);
+  }
+  return {};
 }
 
 }  // namespace marey::reconstruct

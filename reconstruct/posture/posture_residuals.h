@@ -210,22 +210,4 @@ struct FlexionLimit {
   }
 };
 
-/// Prior: the bone stands upright. Its Y axis is up: its Z axis is level (always), its X
-/// axis is level (if `roll`).
-struct UprightPrior {
-  double sigma_rad;
-  bool roll;
-
-  template <class T>
-  bool operator()(const T* world_from_bone, T* residual) const {
-    using Q = Eigen::Quaternion<T>;
-    const Q q = Eigen::Map<const Q>(world_from_bone);
-    const Eigen::Matrix<T, 3, 1> up =
-        q.conjugate() * Eigen::Matrix<T, 3, 1>(T(0), T(1), T(0));
-    residual[0] = up.z() / T(sigma_rad);
-    residual[1] = roll ? up.x() / T(sigma_rad) : T(0);
-    return true;
-  }
-};
-
 }  // namespace marey::reconstruct

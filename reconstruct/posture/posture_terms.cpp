@@ -89,13 +89,6 @@ void add_extremity(Posture& posture,
       posture.block(s.extremity));
 }
 
-void add_upright(double* rotation, double sigma_rad, bool roll, ceres::Problem& problem) {
-  problem.AddResidualBlock(new ceres::AutoDiffCostFunction<UprightPrior, 2, 4>(
-                               new UprightPrior{sigma_rad, roll}),
-                           nullptr,
-                           rotation);
-}
-
 }  // namespace
 
 std::vector<double*> blocks_of(Posture& posture, HumanBone bone) {
@@ -143,51 +136,18 @@ void add_posture_priors(Posture& posture,
   }
 }
 
-void add_standing(Posture& posture, const Lengths& lengths, ceres::Problem& problem) {
-  const glm::dquat none(1, 0, 0, 0);
-  // The hips' roll is not a prior but measured: their X axis runs through both hip
-  // centres.
-  add_upright(posture.block(PoseParameter::kHips), 0.03, false, problem);
-  add_upright(posture.block(PoseParameter::kThorax), 0.03, true, problem);
-  add_upright(posture.block(PoseParameter::kHead), 0.03, true, problem);
-  add_upright(posture.block(PoseParameter::kLeftFoot), 0.02, true, problem);
-  add_upright(posture.block(PoseParameter::kRightFoot), 0.02, true, problem);
-  add_halfway(posture,
-              PoseParameter::kHips,
-              PoseParameter::kAbdomenEnd,
-              PoseParameter::kThorax,
-              0.03,
-              problem);
-  add_relative(posture,
-               PoseParameter::kThorax,
-               PoseParameter::kHead,
-               none,
-               glm::dvec3(0.1),
-               problem);
-  for (const PoseParameter shoulder :
-       {PoseParameter::kLeftShoulder, PoseParameter::kRightShoulder}) {
-    add_relative(
-        posture, PoseParameter::kThorax, shoulder, none, glm::dvec3(0.1), problem);
-  }
-  for (std::size_t limb = 0; limb < kLimbParameters.size(); ++limb) {
-    add_extremity(posture, limb, lengths, limb < 2 ? 0.1 : 0.15, problem);
-    add_scalar(posture.block(kLimbParameters[limb].upper_twist), 0.0, 0.02, problem);
-    add_scalar(posture.block(kLimbParameters[limb].lower_twist), 0.0, 0.02, problem);
-  }
-}
-
 void add_smoothness(Posture& before,
                     Posture& now,
                     Posture& after,
                     FrameRate rate,
                     ceres::Problem& problem) {
-  for (const PoseParameterAcceleration& row : kAccelerations) {
-    const StepProcess process = process_of(row, rate);
+  for (const PoseParameter parameter : kAllPoseParameters) {
+    const StepProcess process = process_of(parameter, rate);
     ceres::CostFunction* cost = nullptr;
-    if (is_rotation(row.parameter)) {
+    if (is_rotation(parameter)) {
       cost = new ceres::AutoDiffCostFunction<RotationAcceleration, 3, 4, 4, 4>(
           new RotationAcceleration{process.sigma, process.correlation});
-    } else if (row.parameter == PoseParameter::kHipsPosition) {
+    } else if (parameter == PoseParameter::kHipsPosition) {
       cost = new ceres::AutoDiffCostFunction<Acceleration<3>, 3, 3, 3, 3>(
           new Acceleration<3>{process.sigma, process.correlation});
     } else {
@@ -196,9 +156,9 @@ void add_smoothness(Posture& before,
     }
     problem.AddResidualBlock(cost,
                              nullptr,
-                             before.block(row.parameter),
-                             now.block(row.parameter),
-                             after.block(row.parameter));
+                             before.block(parameter),
+                             now.block(parameter),
+                             after.block(parameter));
   }
 }
 
@@ -206,22 +166,22 @@ void add_first_speed(Posture& first,
                      Posture& second,
                      FrameRate rate,
                      ceres::Problem& problem) {
-  for (const PoseParameterAcceleration& row : kAccelerations) {
-    const StepProcess process = process_of(row, rate);
+  for (const PoseParameter parameter : kAllPoseParameters) {
+    const StepProcess process = process_of(parameter, rate);
     // Standard deviation of the stationary process x' = correlation x + noise.
     const double sigma =
         process.sigma / std::sqrt(1.0 - process.correlation * process.correlation);
     ceres::CostFunction* cost = nullptr;
-    if (is_rotation(row.parameter)) {
+    if (is_rotation(parameter)) {
       cost =
           new ceres::AutoDiffCostFunction<RotationStep, 3, 4, 4>(new RotationStep{sigma});
-    } else if (row.parameter == PoseParameter::kHipsPosition) {
+    } else if (parameter == PoseParameter::kHipsPosition) {
       cost = new ceres::AutoDiffCostFunction<Step<3>, 3, 3, 3>(new Step<3>{sigma});
     } else {
       cost = new ceres::AutoDiffCostFunction<Step<1>, 1, 1, 1>(new Step<1>{sigma});
     }
     problem.AddResidualBlock(
-        cost, nullptr, first.block(row.parameter), second.block(row.parameter));
+        cost, nullptr, first.block(parameter), second.block(parameter));
   }
 }
 

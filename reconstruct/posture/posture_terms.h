@@ -30,10 +30,6 @@ void add_posture_priors(Posture& posture,
                         double shoulders_wider = 1.0,
                         double prior_share = 1.0);
 
-/// Adds the prior of a person standing still and upright, feet flat, hands in line with
-/// the forearms: determines the directions of a static trial's bones.
-void add_standing(Posture& posture, const Lengths& lengths, ceres::Problem& problem);
-
 /// Adds the smoothness of movement: the speed of every block is an Ornstein-Uhlenbeck
 /// process (white-noise acceleration, and a time constant of a quarter of a second for
 /// rotations, a second for translations). Three consecutive frames; the sigmas follow the

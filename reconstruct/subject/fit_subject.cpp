@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/human/average_proportions.h"
 #include "reconstruct/bundle/subject_bundle.h"
 #include "reconstruct/bundle/subject_sigmas.h"
 #include "reconstruct/clusters/located_frames.h"

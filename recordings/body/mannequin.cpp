@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/assert.h"
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "recordings/body/mannequin_figure.h"
 

@@ -12,7 +12,7 @@
 #include "retarget/body/place_masses.h"
 #include "retarget/character/check_character.h"
 #include "retarget/character/check_groups.h"
-#include "retarget/character/joint_ranges.h"
+#include "retarget/character/joint_limits.h"
 
 namespace marey::retarget {
 namespace {

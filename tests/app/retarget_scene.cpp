@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/extension.h"
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "recordings/body/mannequin.h"
 #include "recordings/gltf/gltf.h"

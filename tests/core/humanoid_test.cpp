@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/skeleton.h"
 #include "core/transform.h"
 

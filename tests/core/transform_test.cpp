@@ -18,7 +18,7 @@ using testing::Dice;
 
 constexpr double kPi = std::numbers::pi;
 // A dozen operations on numbers near one, each rounded to 1e-16.
-constexpr double kRounding = 1e-14;
+constexpr double kTurnRounding = 1e-14;
 
 double angle_between_rad(const glm::dquat& a, const glm::dquat& b) {
   return glm::length(rotation_vector(glm::conjugate(a) * b));
@@ -32,7 +32,7 @@ TEST(RigidTransform, MovesAPointAsItsPartsDoOneAfterTheOther) {
     const glm::dvec3 p_in_a = dice.direction();
     EXPECT_LT(
         glm::distance((c_from_b * b_from_a) * p_in_a, c_from_b * (b_from_a * p_in_a)),
-        kRounding);
+        kTurnRounding);
   }
 }
 
@@ -41,7 +41,8 @@ TEST(RigidTransform, IsUndoneByItsInverse) {
   for (int i = 0; i < 20; ++i) {
     const RigidTransform b_from_a{dice.turn(kPi), dice.direction()};
     const glm::dvec3 p_in_a = dice.direction();
-    EXPECT_LT(glm::distance(inverse(b_from_a) * (b_from_a * p_in_a), p_in_a), kRounding);
+    EXPECT_LT(glm::distance(inverse(b_from_a) * (b_from_a * p_in_a), p_in_a),
+              kTurnRounding);
   }
 }
 
@@ -53,7 +54,7 @@ TEST(RotationVector, ComesBackFromItsQuaternionAtEveryAngle) {
       const glm::dvec3 vector_rad = angle_rad * dice.direction();
       EXPECT_LT(
           glm::distance(rotation_vector(rotation_from_vector(vector_rad)), vector_rad),
-          kRounding)
+          kTurnRounding)
           << "angle " << angle_rad;
     }
   }
@@ -65,7 +66,7 @@ TEST(RotationVector, RecoversAHalfTurnUpToItsSign) {
     const glm::dvec3 vector_rad = kPi * dice.direction();
     const glm::dvec3 back = rotation_vector(rotation_from_vector(vector_rad));
     EXPECT_LT(std::min(glm::distance(back, vector_rad), glm::distance(back, -vector_rad)),
-              kRounding);
+              kTurnRounding);
   }
 }
 
@@ -81,14 +82,14 @@ TEST(RotationVector, IsTheSameForAQuaternionAndItsNegative) {
   Dice dice(4);
   for (int i = 0; i < 20; ++i) {
     const glm::dquat q = dice.turn(3.0);
-    EXPECT_LT(glm::distance(rotation_vector(q), rotation_vector(-q)), kRounding);
+    EXPECT_LT(glm::distance(rotation_vector(q), rotation_vector(-q)), kTurnRounding);
   }
 }
 
 TEST(RotationVector, IsNeverLongerThanHalfATurn) {
   const glm::dvec3 three_quarters_rad{0.0, 0.0, 1.5 * kPi};
   const glm::dvec3 back = rotation_vector(rotation_from_vector(three_quarters_rad));
-  EXPECT_LT(glm::distance(back, {0.0, 0.0, -0.5 * kPi}), kRounding);
+  EXPECT_LT(glm::distance(back, {0.0, 0.0, -0.5 * kPi}), kTurnRounding);
 }
 
 TEST(RotationBetween, TakesOneDirectionOntoTheOther) {
@@ -122,7 +123,7 @@ TEST(RotationBetween, TurnsOppositeDirectionsByHalfATurn) {
                                  dice.direction()}) {
     const glm::dquat half_turn = rotation_between(from, -3.0 * from);
     EXPECT_LT(glm::distance(half_turn * from, -from), 1e-12);
-    EXPECT_NEAR(glm::length(half_turn), 1.0, kRounding);
+    EXPECT_NEAR(glm::length(half_turn), 1.0, kTurnRounding);
   }
 }
 

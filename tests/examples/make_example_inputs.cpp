@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/camera.h"
+#include "core/human/average_proportions.h"
 #include "core/skeleton.h"
 #include "reconstruct/labels/landmarks.h"
 #include "recordings/markers/marker_file.h"

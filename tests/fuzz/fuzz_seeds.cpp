@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <string>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
 #include "recordings/body/constraints_file.h"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/assert.h"
+#include "core/human/average_proportions.h"
 #include "core/skeleton.h"
 #include "recordings/body/bone_map_file.h"
 #include "recordings/body/character_file.h"

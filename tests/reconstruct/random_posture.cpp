@@ -4,6 +4,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/human/average_proportions.h"
+
 namespace marey::reconstruct {
 
 using marey::testing::Dice;

@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "retarget/character/make_character.h"
 #include "retarget/constraints/resolve_segment.h"
 #include "tests/retarget/mapped.h"

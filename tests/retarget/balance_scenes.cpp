@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "retarget/base/smooth_step.h"
 #include "retarget/body/anthropometry.h"

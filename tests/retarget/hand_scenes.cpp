@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "retarget/base/smooth_step.h"
 #include "retarget/body/normalized_skeleton.h"

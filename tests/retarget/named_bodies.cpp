@@ -3,6 +3,7 @@
 #include "tests/retarget/named_bodies.h"
 
 #include "core/base/assert.h"
+#include "core/human/average_proportions.h"
 #include "tests/support/bodies/random_bodies.h"
 
 namespace marey::retarget {

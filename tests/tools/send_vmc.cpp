@@ -16,6 +16,7 @@
 #include <string>
 #include <thread>
 
+#include "core/human/average_proportions.h"
 #include "core/skeleton.h"
 #include "live/vmc/vmc_body.h"
 #include "live/vmc/vmc_sender.h"

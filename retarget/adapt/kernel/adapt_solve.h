@@ -160,6 +160,33 @@ void leave_last_level(const Plan& plan,
   static_cast<void>(measure(plan, shape.rows.balance, p.level, s));
 }
 
+/// Closes the limbs on their targets again after a step of the whole body, in lanes of
+/// `closes`. `first` are those whose homing has just ended.
+template <class F>
+void close_after_step(const Plan& plan,
+                      const SolveSettings& settings,
+                      bool balance,
+                      const F& level,
+                      const Mask<F>& closes,
+                      const Mask<F>& first,
+                      Lanes<F>& s) {
+  // If the trunk hardly moved, limbs move as they would alone.
+  if (balance && any(first)) rest_on_root(plan, first, s);
+  if (!balance && any(first)) rest_limbs(plan, level, first, s);
+  measure_points(plan, s, level);
+  SolveSettings unmixed = settings;
+  unmixed.mixes = false;
+  if (balance) {
+    sink_to_supports(plan, unmixed, closes, s);
+    measure_points(plan, s, level);
+  }
+  close_limbs(plan, unmixed, level, closes, s);
+  if (balance) {
+    const F more = num<F>(kMobilityGrows) * s.mobility + num<F>(kMobilityGrowsBy);
+    s.mobility = select(closes, min(more, num<F>(1)), s.mobility);
+  }
+}
+
 /// Runs one iteration of the loop for all lanes. Returns the lanes that are done.
 template <class F>
 [[nodiscard]] Mask<F> advance_lanes(const Plan& plan,
@@ -181,22 +208,7 @@ template <class F>
   p.homing = select(p.steps < num<F>(homing_steps), fades * p.homing, zero);
   const Mask<F> closes = p.homing <= zero;
   if (any(closes)) {
-    // If the trunk hardly moved, limbs move as they would alone.
-    const Mask<F> first = closes & was_homing;
-    if (balance && any(first)) rest_on_root(plan, first, s);
-    if (!balance && any(first)) rest_limbs(plan, p.level, first, s);
-    measure_points(plan, s, p.level);
-    SolveSettings unmixed = settings;
-    unmixed.mixes = false;
-    if (balance) {
-      sink_to_supports(plan, unmixed, closes, s);
-      measure_points(plan, s, p.level);
-    }
-    close_limbs(plan, unmixed, p.level, closes, s);
-    if (balance) {
-      const F more = num<F>(kMobilityGrows) * s.mobility + num<F>(kMobilityGrowsBy);
-      s.mobility = select(closes, min(more, one), s.mobility);
-    }
+    close_after_step(plan, settings, balance, p.level, closes, closes & was_homing, s);
   }
   const Errors<F> errors = measure(plan, balance, p.level, s);
 

@@ -101,6 +101,28 @@ void close_first_again(const Plan& plan,
   }
 }
 
+/// Returns `wanted` without the lanes in which whole-body steps compute the compromise of
+/// a limb with two targets or more.
+template <class F>
+[[nodiscard]] Mask<F> without_mixed_limbs(const Plan& plan,
+                                          const LimbPlan& limb,
+                                          const SolveSettings& settings,
+                                          const F& level,
+                                          const Mask<F>& wanted,
+                                          const Lanes<F>& s) {
+  if (!settings.blend || settings.mixes || limb.points.size() <= 1) return wanted;
+  F target_count = num<F>(0);
+  for (const int k : limb.points) {
+    const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
+    const F counts = num<F>(point.goal == GoalKind::kSupport ? -9 : 1);
+    target_count = target_count +
+                   select(is_served(point, s.points[static_cast<std::size_t>(k)], level),
+                          counts,
+                          num<F>(0));
+  }
+  return wanted & (target_count < num<F>(1.5));
+}
+
 /// Closes one limb on its active targets: exactly or optimally for the first, with the
 /// remaining freedom for the second; or on both by their weights (thesis 4.2.2).
 template <class F>
@@ -112,20 +134,7 @@ void close_limb(const Plan& plan,
                 Lanes<F>& s) {
   const LimbPlan& limb = plan.limbs[static_cast<std::size_t>(number)];
   const Extremity<F> extremity = extremity_of(limb, settings.keeps_orientation, s);
-  Mask<F> mask = wanted;
-  if (settings.blend && !settings.mixes && limb.points.size() > 1) {
-    F target_count = num<F>(0);
-    for (const int k : limb.points) {
-      const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
-      const F counts = num<F>(point.goal == GoalKind::kSupport ? -9 : 1);
-      target_count =
-          target_count +
-          select(is_served(point, s.points[static_cast<std::size_t>(k)], level),
-                 counts,
-                 num<F>(0));
-    }
-    mask = mask & (target_count < num<F>(1.5));
-  }
+  const Mask<F> mask = without_mixed_limbs(plan, limb, settings, level, wanted, s);
   Mask<F> taken = num<F>(0) > num<F>(1);
   Mask<F> firm = taken;  // Taken by a support.
   Vec3<F> first_place{};

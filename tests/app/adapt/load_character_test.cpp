@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "recordings/body/character_file.h"
 #include "recordings/session/subject_file.h"
 #include "recordings/text/atomic_file.h"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/skeleton.h"
 #include "core/transform.h"
 

@@ -29,7 +29,7 @@ using recordings::TrialKind;
 using testing::Movement;
 
 constexpr double kHz = 30.0;
-constexpr int kFrames = 60;
+constexpr int kTrialFrames = 60;
 
 bool says(const Finding& finding, const std::string& words) {
   return finding.message().find(words) != std::string::npos;
@@ -107,7 +107,7 @@ TEST(AssessTrialOffsets, FindsThemFromTheTagsOfAWalk) {
   Session session = session_of(cameras);
   session.tags = testing::tags_of(body);
   testing::Film film;
-  film.frames = kFrames;
+  film.frames = kTrialFrames;
   film.hz = kHz;
   film.disturbance.noise_px = 0.1;
   film.offsets_s = kTrue_s;
@@ -134,7 +134,7 @@ struct SolvedWalk {
 
   explicit SolvedWalk(std::vector<double> offsets_s = {}) {
     testing::Film film;
-    film.frames = kFrames;
+    film.frames = kTrialFrames;
     film.hz = kHz;
     film.disturbance.noise_px = 0.1;
     film.offsets_s = std::move(offsets_s);
@@ -143,7 +143,7 @@ struct SolvedWalk {
     Motion& motion = solved.estimate.motion;
     motion.skeleton = make_humanoid(body.proportions);
     motion.rate = FrameRate{kHz};
-    for (int f = 0; f < kFrames; ++f) motion.poses.push_back(movement(f / kHz));
+    for (int f = 0; f < kTrialFrames; ++f) motion.poses.push_back(movement(f / kHz));
     solved.cameras.resize(cameras.size());
   }
 
@@ -237,7 +237,8 @@ TEST(AssessFloorHeight, NamesTheThicknessOfTheBoard) {
   EXPECT_EQ(finding->severity, Severity::kPoor);
   EXPECT_TRUE(says(*finding, "95 mm above the floor, and equally high in the motions"))
       << finding->message();
-  EXPECT_TRUE(says(*finding, "thickness_m under [board] (0.100 now, about 95 mm too much"))
+  EXPECT_TRUE(
+      says(*finding, "thickness_m under [board] (0.100 now, about 95 mm too much"))
       << finding->message();
 }
 

@@ -14,7 +14,7 @@ namespace {
 using recordings::Session;
 using recordings::TrialKind;
 
-constexpr int kFrames = 40;
+constexpr int kIdFrames = 40;
 
 /// A session with a board of the tags 0 to 3, and tag 41 worn on the hips.
 Session session() {
@@ -34,9 +34,9 @@ Session session() {
 
 /// One camera that sees these tags in every frame, of 20 px, moving by `speed_px` a
 /// frame.
-CameraDetections seen(const std::map<int, double>& speed_px) {
+CameraDetections seen_at_speeds(const std::map<int, double>& speed_px) {
   CameraDetections camera;
-  for (int f = 0; f < kFrames; ++f) {
+  for (int f = 0; f < kIdFrames; ++f) {
     auto& frame = camera.frames.emplace_back();
     for (const auto& [id, speed] : speed_px) {
       const double x = 30.0 * id + speed * f;
@@ -50,10 +50,10 @@ CameraDetections seen(const std::map<int, double>& speed_px) {
 std::vector<std::string> warnings(const std::map<int, double>& waved,
                                   const std::map<int, double>& worn) {
   std::vector<Finding> findings;
-  const Status ok =
-      check_ids(session(),
-                {{"calibration", {seen(waved)}}, {"range-of-motion", {seen(worn)}}},
-                findings);
+  const Status ok = check_ids(session(),
+                              {{"calibration", {seen_at_speeds(waved)}},
+                               {"range-of-motion", {seen_at_speeds(worn)}}},
+                              findings);
   EXPECT_TRUE(ok) << ok.error().message();
   std::vector<std::string> lines;
   for (const Finding& finding : findings) {
@@ -89,10 +89,10 @@ TEST(CheckIds, IgnoresTagsOnWalls) {
 
 TEST(CheckIds, RefusesIdsThatLookMistyped) {
   std::vector<Finding> findings;
-  const Status ok = check_ids(
-      session(),
-      {{"calibration", {seen({{0, 2.0}})}}, {"range-of-motion", {seen({{14, 2.0}})}}},
-      findings);
+  const Status ok = check_ids(session(),
+                              {{"calibration", {seen_at_speeds({{0, 2.0}})}},
+                               {"range-of-motion", {seen_at_speeds({{14, 2.0}})}}},
+                              findings);
   ASSERT_FALSE(ok);
   EXPECT_TRUE(ok.error().cause.starts_with("tag 41 is listed but never seen; tag 14"))
       << ok.error().cause;

@@ -25,7 +25,7 @@ using recordings::TakeWriter;
 using recordings::Trial;
 using testing::ScratchFolder;
 
-constexpr int kFrames = 90;
+constexpr int kVideoFrames = 90;
 constexpr int kDropped = 40;  ///< The frame that the second camera drops.
 
 /// A take of two cameras at 30 frames per second, with detections. The tag and the point
@@ -50,7 +50,7 @@ class SmallTake {
       CameraDetections& camera = found.emplace_back();
       camera.camera = CameraId{c};
       camera.source = (folder / description.cameras[static_cast<std::size_t>(c)].file);
-      for (int k = 0; k < kFrames; ++k) {
+      for (int k = 0; k < kVideoFrames; ++k) {
         if (c == 1 && k == kDropped) continue;
         recordings::TakeFrame stamp;
         stamp.time = from_seconds(7000.0 + k / 30.0);
@@ -99,7 +99,7 @@ TEST(MatchTimes, PutsAllThatWasFoundInAFrameAtItsInstant) {
   SmallTake take(folder.path());
   ASSERT_TRUE(has_take(take.trial));
   ASSERT_TRUE(take.match());
-  for (int k = 0; k < kFrames; ++k) {
+  for (int k = 0; k < kVideoFrames; ++k) {
     EXPECT_EQ(take.at(0, k), k);
     EXPECT_EQ(take.at(1, k), k == kDropped ? std::nullopt : std::optional(k));
   }
@@ -108,7 +108,7 @@ TEST(MatchTimes, PutsAllThatWasFoundInAFrameAtItsInstant) {
 TEST(MatchTimes, CutsATakeToItsRangeOfInstants) {
   const ScratchFolder folder;
   SmallTake take(folder.path());
-  take.trial.frames = {30, kFrames - 1};
+  take.trial.frames = {30, kVideoFrames - 1};
   ASSERT_TRUE(take.match());
   for (std::size_t c = 0; c < 2; ++c) {
     ASSERT_EQ(take.found[c].frames.size(), 60U);

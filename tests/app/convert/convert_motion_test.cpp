@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/gltf/vrma.h"

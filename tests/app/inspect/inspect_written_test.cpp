@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
 #include "recordings/body/character_file.h"

@@ -28,9 +28,9 @@ namespace {
 
 using nlohmann::json;
 
-const std::filesystem::path kSample = marey::testing::sample_session();
-const std::filesystem::path kResults = marey::testing::sample_results() / "once";
-const std::filesystem::path kProgram = marey::testing::program();
+const std::filesystem::path kTakesSample = marey::testing::sample_session();
+const std::filesystem::path kTakesResults = marey::testing::sample_results() / "once";
+const std::filesystem::path kTakesProgram = marey::testing::program();
 
 /// Returns a port that no program used a moment ago.
 int free_port() {
@@ -49,9 +49,9 @@ int free_port() {
 class LiveTakesOfThePage : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::filesystem::copy(kSample / "session.toml", session_ / "session.toml");
+    std::filesystem::copy(kTakesSample / "session.toml", session_ / "session.toml");
     const std::string glb = (session_ / "body.glb").string();
-    ASSERT_EQ(run_program(kProgram, {"mannequin", "--out", glb}).exit_code, 0);
+    ASSERT_EQ(run_program(kTakesProgram, {"mannequin", "--out", glb}).exit_code, 0);
     std::filesystem::rename(glb, avatar_);
   }
 
@@ -59,9 +59,9 @@ class LiveTakesOfThePage : public ::testing::Test {
     std::vector<std::string> words{"live",
                                    session_.path().string(),
                                    "--results",
-                                   kResults.string(),
+                                   kTakesResults.string(),
                                    "--media",
-                                   kSample.string(),
+                                   kTakesSample.string(),
                                    "--play",
                                    "walk",
                                    "--loop",
@@ -81,8 +81,8 @@ class LiveTakesOfThePage : public ::testing::Test {
                                    "--seconds",
                                    std::to_string(seconds)};
     words.insert(words.end(), more.begin(), more.end());
-    run_ =
-        std::async(std::launch::async, [words] { return run_program(kProgram, words); });
+    run_ = std::async(std::launch::async,
+                      [words] { return run_program(kTakesProgram, words); });
   }
 
   /// Opens a page. Tries again until the server answers.
@@ -111,7 +111,8 @@ class LiveTakesOfThePage : public ::testing::Test {
 
   /// Frames that can be replayed; -1 when one of them is not as it was.
   static long replayed(const std::string& take) {
-    const ProgramRun replay = run_program(kProgram, {"replay", take, "--fast", "--json"});
+    const ProgramRun replay =
+        run_program(kTakesProgram, {"replay", take, "--fast", "--json"});
     if (replay.exit_code != 0) return -1;
     const json found = json::parse(replay.out);
     return found["differing"] == 0 ? found["frames"].get<long>() : -1;

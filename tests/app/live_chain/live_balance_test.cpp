@@ -19,8 +19,8 @@ namespace {
 
 using retarget::BalanceFrame;
 
-constexpr int kFrames = 200;
-constexpr double kRate_hz = 60.0;
+constexpr int kBalanceFrames = 200;
+constexpr double kBalanceRate_hz = 60.0;
 
 /// A walk, and its balance as `marey view` computes it from a recording.
 class BalanceOfAWalk : public ::testing::Test {
@@ -46,7 +46,8 @@ class BalanceOfAWalk : public ::testing::Test {
     return true;
   }
 
-  Motion walk_ = testing::synthetic_walk(kFrames, kRate_hz, 0.002, 0.001).motion;
+  Motion walk_ =
+      testing::synthetic_walk(kBalanceFrames, kBalanceRate_hz, 0.002, 0.001).motion;
   retarget::Contacts contacts_;
   std::vector<BalanceFrame> recorded_;
 };
@@ -58,7 +59,7 @@ TEST_F(BalanceOfAWalk, MatchesTheRecording) {
   int alike = 0;
   int borne = 0;
   for (std::size_t i = 0; i < walk_.poses.size(); ++i) {
-    live.step(walk_.poses[i], 1.0 / kRate_hz);
+    live.step(walk_.poses[i], 1.0 / kBalanceRate_hz);
     const BalanceFrame* now = live.look(0, walk_.poses[i]);
     ASSERT_NE(now, nullptr);
     EXPECT_EQ(now->centre_of_mass_in_world, recorded_[i].centre_of_mass_in_world) << i;
@@ -67,15 +68,15 @@ TEST_F(BalanceOfAWalk, MatchesTheRecording) {
     ++alike;
     EXPECT_EQ(now->support_xz_m, recorded_[i].support_xz_m) << i;
   }
-  EXPECT_GT(alike, kFrames * 3 / 4);
-  EXPECT_GT(borne, kFrames * 9 / 10);
+  EXPECT_GT(alike, kBalanceFrames * 3 / 4);
+  EXPECT_GT(borne, kBalanceFrames * 9 / 10);
 }
 
 TEST_F(BalanceOfAWalk, TakesNoWeightOnAFootThatIsDragged) {
   const std::array<const Skeleton*, 2> bodies{&walk_.skeleton, &walk_.skeleton};
   LiveBalance live(bodies);
   const Pose rest = rest_pose(walk_.skeleton);
-  for (int i = 0; i < 3; ++i) live.step(rest, 1.0 / kRate_hz);
+  for (int i = 0; i < 3; ++i) live.step(rest, 1.0 / kBalanceRate_hz);
   ASSERT_TRUE(live.standing()[0].heel && live.standing()[1].heel);
   const auto both = live.look(1, rest)->support_xz_m;
   std::array<HandleState, 1> handles{};
@@ -90,11 +91,11 @@ TEST_F(BalanceOfAWalk, TakesNoWeightOnAFootThatIsDragged) {
 TEST_F(BalanceOfAWalk, AllocatesNothingOnceItHasLooked) {
   const std::array<const Skeleton*, 1> bodies{&walk_.skeleton};
   LiveBalance live(bodies);
-  live.step(walk_.poses[0], 1.0 / kRate_hz);
+  live.step(walk_.poses[0], 1.0 / kBalanceRate_hz);
   (void)live.look(0, walk_.poses[0]);
   const long before = testing::allocations();
   for (const Pose& pose : walk_.poses) {
-    live.step(pose, 1.0 / kRate_hz);
+    live.step(pose, 1.0 / kBalanceRate_hz);
     (void)live.look(0, pose);
   }
   EXPECT_EQ(testing::allocations(), before);

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/humanoid.h"
 #include "tests/support/bodies/synthetic_person.h"
 
@@ -20,7 +21,7 @@ namespace {
 constexpr int kFrames = 60;
 constexpr int kHeld = 20;      // The first frame with a target for the hand.
 constexpr int kReleased = 40;  // The frame that releases the hand.
-constexpr double kRate_hz = 30.0;
+constexpr double kChainRate_hz = 30.0;
 
 /// A person who walks before four cameras, with an avatar as tall.
 class DraggedLive : public ::testing::Test {
@@ -39,13 +40,13 @@ class DraggedLive : public ::testing::Test {
     film_ = testing::film(body_,
                           testing::walking(body_),
                           cameras_,
-                          {kFrames, kRate_hz, "walk", {}, {}, {}});
+                          {kFrames, kChainRate_hz, "walk", {}, {}, {}});
   }
 
   [[nodiscard]] LiveInstant instant(int frame) const {
     LiveInstant out;
     out.number = frame;
-    out.time = Timestamp(static_cast<std::int64_t>(1e9 * frame / kRate_hz));
+    out.time = Timestamp(static_cast<std::int64_t>(1e9 * frame / kChainRate_hz));
     for (std::size_t c = 0; c < cameras_.size(); ++c) {
       out.views.push_back({CameraId{static_cast<int>(c)},
                            out.time,
@@ -62,7 +63,7 @@ class DraggedLive : public ::testing::Test {
   /// With a hand dragged to this place and released, or with nothing asked.
   [[nodiscard]] std::vector<Frame> run(const std::optional<glm::dvec3>& to) const {
     LiveSettings settings;
-    settings.rate = FrameRate{kRate_hz};
+    settings.rate = FrameRate{kChainRate_hz};
     settings.avatars = {"man.glb"};
     auto chain = LiveChain::make(body_, cameras_, {&avatar_, 1}, settings);
     EXPECT_TRUE(chain) << chain.error().message();

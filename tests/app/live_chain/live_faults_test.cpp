@@ -16,6 +16,7 @@
 
 #include "app/live_chain/live_chain.h"
 #include "app/live_chain/live_health.h"
+#include "core/human/average_proportions.h"
 #include "live/vmc/osc_parse.h"
 #include "tests/support/bodies/synthetic_person.h"
 
@@ -25,7 +26,7 @@ namespace {
 using marey::testing::Movement;
 using reconstruct::TrackState;
 
-constexpr double kRate_hz = 30.0;
+constexpr double kFaultsRate_hz = 30.0;
 
 /// A person with tags before four cameras, and an avatar and trackers that follow.
 class LiveFaults : public ::testing::Test {
@@ -42,7 +43,7 @@ class LiveFaults : public ::testing::Test {
   [[nodiscard]] std::vector<LiveInstant> film(int frames) const {
     marey::testing::Film how;
     how.frames = frames;
-    how.hz = kRate_hz;
+    how.hz = kFaultsRate_hz;
     how.disturbance.noise_px = 0.2;
     how.offsets_s = lags_s_;
     how.hidden = hidden_;
@@ -50,7 +51,7 @@ class LiveFaults : public ::testing::Test {
     std::vector<LiveInstant> instants(static_cast<std::size_t>(frames));
     for (std::size_t f = 0; f < instants.size(); ++f) {
       instants[f].number = static_cast<std::int64_t>(f);
-      instants[f].time = to_timestamp(static_cast<double>(f) / kRate_hz);
+      instants[f].time = to_timestamp(static_cast<double>(f) / kFaultsRate_hz);
       for (std::size_t c = 0; c < cameras_.size(); ++c) {
         instants[f].views.push_back(
             {CameraId{static_cast<int>(c)}, instants[f].time, seen[c].frames[f].tags});
@@ -65,7 +66,7 @@ class LiveFaults : public ::testing::Test {
 
   [[nodiscard]] LiveChain make_chain() const {
     LiveSettings settings;
-    settings.rate = {kRate_hz};
+    settings.rate = {kFaultsRate_hz};
     settings.lag_known.assign(cameras_.size(), false);
     settings.avatars = {"giant.glb"};
     settings.streams = {{std::nullopt, live::VmcRest::kVrm0, {}, {}},
@@ -156,7 +157,7 @@ class LiveFaults : public ::testing::Test {
            farthest_mm(frames[good - 1].pose, unharmed[good - 1].pose) < 20.0) {
       --good;
     }
-    return static_cast<double>(good - frame) / kRate_hz;
+    return static_cast<double>(good - frame) / kFaultsRate_hz;
   }
 
   void tell(const std::string& name, double value) {

@@ -22,7 +22,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double kRate_hz = 30.0;
+constexpr double kFlowRate_hz = 30.0;
 
 Timestamp at(double time_s) {
   return Timestamp(1'000'000'000'000 + std::llround(1e9 * time_s));
@@ -31,7 +31,7 @@ Timestamp at(double time_s) {
 /// A run as its loop sees it: pictures come at a rate, of which some become poses.
 class PlayedRun {
  public:
-  explicit PlayedRun(double rate_hz = kRate_hz)
+  explicit PlayedRun(double rate_hz = kFlowRate_hz)
       : rate_hz_(rate_hz), flow({rate_hz}, at(0.0)) {}
 
   /// Runs until `end_s` with pictures at `pictures_hz`. `becomes_pose` selects the
@@ -90,7 +90,7 @@ TEST(LiveFlow, IsSteadyWithSlowCamerasAndWithHalfOfThePictures) {
   slow.go_on(10.0, 12.0, [](long) { return true; });
   EXPECT_EQ(slow.flow.troubled_s(), 0.0);
   PlayedRun half;
-  half.go_on(10.0, kRate_hz, [](long picture) { return picture % 2 == 0; });
+  half.go_on(10.0, kFlowRate_hz, [](long picture) { return picture % 2 == 0; });
   EXPECT_EQ(half.flow.troubled_s(), 0.0);
 }
 
@@ -99,7 +99,7 @@ TEST(LiveFlow, ReportsFewPosesWithinASecond) {
   for (const int one_in : {4, 10, 25}) {
     PlayedRun run;
     run.keep_up_until(3.0);
-    run.go_on(8.0, kRate_hz, [=](long picture) { return picture % one_in == 0; });
+    run.go_on(8.0, kFlowRate_hz, [=](long picture) { return picture % one_in == 0; });
     ASSERT_TRUE(run.trouble_since_s) << one_in;
     EXPECT_LE(*run.trouble_since_s, 4.0) << one_in;
     EXPECT_GT(run.flow.troubled_s(), 3.9) << one_in;
@@ -159,11 +159,11 @@ class WatchedLive : public ::testing::Test {
 };
 
 TEST_F(WatchedLive, NotifiesReceiversAndTheConsoleWithoutInstants) {
-  LiveWatchdog watchdog({kRate_hz}, at(0.0), outputs_, console_);
+  LiveWatchdog watchdog({kFlowRate_hz}, at(0.0), outputs_, console_);
   ::testing::internal::CaptureStderr();
   long pictures = 0;
   double time_s = 0.0;
-  for (; time_s < 2.0; time_s += 1.0 / kRate_hz) {
+  for (; time_s < 2.0; time_s += 1.0 / kFlowRate_hz) {
     watchdog.on_instant(at(time_s), true);
     EXPECT_FALSE(watchdog.look(at(time_s), ++pictures));
   }
@@ -177,7 +177,7 @@ TEST_F(WatchedLive, NotifiesReceiversAndTheConsoleWithoutInstants) {
   EXPECT_EQ(heard(), false);
   (void)watchdog.look(at(time_s + 0.3), pictures);
   EXPECT_EQ(heard(), false) << "it is told again and again";
-  for (const double end_s = time_s + 6.0; time_s < end_s; time_s += 1.0 / kRate_hz) {
+  for (const double end_s = time_s + 6.0; time_s < end_s; time_s += 1.0 / kFlowRate_hz) {
     watchdog.on_instant(at(time_s), true);
     (void)watchdog.look(at(time_s), ++pictures);
   }
@@ -190,11 +190,11 @@ TEST_F(WatchedLive, NotifiesReceiversAndTheConsoleWithoutInstants) {
 
 // One message, not one for each of many short gaps.
 TEST_F(WatchedLive, DoesNotFloodTheConsole) {
-  LiveWatchdog watchdog({kRate_hz}, at(0.0), outputs_, console_);
+  LiveWatchdog watchdog({kFlowRate_hz}, at(0.0), outputs_, console_);
   ::testing::internal::CaptureStderr();
   long pictures = 0;
   for (int f = 0; f < 60 * 30; ++f) {
-    const double time_s = f / kRate_hz;
+    const double time_s = f / kFlowRate_hz;
     ++pictures;
     if (f % 60 < 35) watchdog.on_instant(at(time_s), true);
     (void)watchdog.look(at(time_s), pictures);

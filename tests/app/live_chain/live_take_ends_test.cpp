@@ -22,7 +22,7 @@
 namespace marey::app {
 namespace {
 
-constexpr double kRate_hz = 30.0;
+constexpr double kTakeRate_hz = 30.0;
 
 /// A person who stands still before four cameras, for as many instants as a test needs.
 class TakesOfARun : public ::testing::Test {
@@ -35,11 +35,11 @@ class TakesOfARun : public ::testing::Test {
     live_.calibration.clocks.resize(cameras);
     live_.body = testing::tagged_person();
     live_.body->name = "first";
-    live_.settings.rate = FrameRate{kRate_hz};
+    live_.settings.rate = FrameRate{kTakeRate_hz};
     film_ = testing::film(*live_.body,
                           testing::standing(*live_.body),
                           live_.calibration.cameras,
-                          {1, kRate_hz, "stand", {}, {}, {}});
+                          {1, kTakeRate_hz, "stand", {}, {}, {}});
     chain_.emplace(chain_of(*live_.body));
     takes_.emplace(live_, folder_ / "live", console_);
   }
@@ -55,7 +55,7 @@ class TakesOfARun : public ::testing::Test {
     LiveInstant out;
     out.number = number_++;
     out.time = Timestamp(
-        static_cast<std::int64_t>(1e9 * static_cast<double>(out.number) / kRate_hz));
+        static_cast<std::int64_t>(1e9 * static_cast<double>(out.number) / kTakeRate_hz));
     for (std::size_t c = 0; c < film_.size(); ++c) {
       out.views.push_back(
           {CameraId{static_cast<int>(c)}, out.time, film_[c].frames[0].tags});

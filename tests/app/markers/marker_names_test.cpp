@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kMocap = marey::testing::shared_data() / "mocap";
+const fs::path kMocapFolder = marey::testing::shared_data() / "mocap";
 
 /// The number of a file's markers that have a name, and the set of these names. Markers
 /// without a name are computed points, wands, devices, doubles, or points whose label has
@@ -117,7 +117,7 @@ constexpr std::array kSamples{
 class MarkerNameSamples : public ::testing::TestWithParam<Sample> {};
 
 TEST_P(MarkerNameSamples, AreNamedAsFarAsTheyAreOnTheBody) {
-  const fs::path path = kMocap / GetParam().file;
+  const fs::path path = kMocapFolder / GetParam().file;
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto read = recordings::read_markers(path);
   ASSERT_TRUE(read) << read.error().message();
@@ -162,7 +162,7 @@ class LandmarksOnPeople : public ::testing::TestWithParam<Person> {};
 // Compares the distance of two palpated landmarks of one segment with its expectation.
 // The tolerance is three sigmas. There are some 300 pairs.
 TEST_P(LandmarksOnPeople, AreSpacedWithinTheirUncertainty) {
-  const fs::path path = kMocap / GetParam().file;
+  const fs::path path = kMocapFolder / GetParam().file;
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto read = recordings::read_markers(path);
   ASSERT_TRUE(read) << read.error().message();

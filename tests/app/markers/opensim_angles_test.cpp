@@ -20,6 +20,7 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "reconstruct/motion/joint_angles.h"
 #include "recordings/motion/mot.h"

@@ -22,7 +22,7 @@
 namespace marey::app {
 namespace {
 
-std::filesystem::path shared(const std::string& name) {
+std::filesystem::path neutral_file(const std::string& name) {
   return marey::testing::shared_data() / name;
 }
 
@@ -31,7 +31,7 @@ TEST(Neutral, HasOneNeutralForAllClipsOfASkeleton) {
   std::vector<Motion> clips;
   for (const char* clip : {"walk", "kick", "dance-short"}) {
     const auto file =
-        shared("mocap/bandai/dataset-1_" + std::string(clip) + "_normal_001.bvh");
+        neutral_file("mocap/bandai/dataset-1_" + std::string(clip) + "_normal_001.bvh");
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "the files are not there";
     auto raw = read_raw_body(file);
     ASSERT_TRUE(raw);
@@ -69,7 +69,7 @@ TEST(Neutral, HasOneNeutralForAllClipsOfASkeleton) {
 }
 
 TEST(Neutral, UsesTheRequestedNeutral) {
-  const auto file = shared("mocap/bandai/dataset-1_kick_normal_001.bvh");
+  const auto file = neutral_file("mocap/bandai/dataset-1_kick_normal_001.bvh");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the file is not there";
   const auto with = [&](const std::string& word) {
     BodyFile body(file);
@@ -83,7 +83,7 @@ TEST(Neutral, UsesTheRequestedNeutral) {
            {"t-pose", NeutralKind::kTPose},
            {"frame:0", NeutralKind::kFrame},
            {"bandai", NeutralKind::kNamed},
-           {shared("mocap/bandai/dataset-1_walk_normal_001.bvh").string(),
+           {neutral_file("mocap/bandai/dataset-1_walk_normal_001.bvh").string(),
             NeutralKind::kFile}}) {
     const auto body = with(word);
     ASSERT_TRUE(body) << body.error().message();
@@ -97,7 +97,7 @@ TEST(Neutral, UsesTheRequestedNeutral) {
   EXPECT_NE(refused("rest").find("the file's rest is not a standing posture"),
             std::string::npos);
   EXPECT_NE(refused("frame:100000").find("there is no frame 100000"), std::string::npos);
-  EXPECT_NE(refused(shared("mocap/cmu_bvh_tmoco/rest.bvh").string())
+  EXPECT_NE(refused(neutral_file("mocap/cmu_bvh_tmoco/rest.bvh").string())
                 .find("of the same skeleton"),
             std::string::npos);
   EXPECT_EQ(read_neutral("frame:x").error().cause,
@@ -108,7 +108,7 @@ TEST(Neutral, UsesTheRequestedNeutral) {
 
 // A remark reports that the rest stands. No remark denies that it is a standing posture.
 TEST(Neutral, RemarksOnATPoseThatReplacesARest) {
-  const auto file = shared("mocap/cmu_bvh_tmoco/rest.bvh");
+  const auto file = neutral_file("mocap/cmu_bvh_tmoco/rest.bvh");
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the file is not there";
   BodyFile body(file);
   body.neutral = *read_neutral("t-pose");

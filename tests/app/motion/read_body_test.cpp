@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "app/motion/retarget_files.h"
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "recordings/body/mannequin.h"
 #include "recordings/motion/bvh.h"
@@ -24,7 +25,7 @@ namespace {
 using B = HumanBone;
 using testing::ScratchFolder;
 
-std::filesystem::path shared(const std::string& name) {
+std::filesystem::path body_file(const std::string& name) {
   return marey::testing::shared_data() / name;
 }
 
@@ -66,8 +67,8 @@ void expect_stands(const Skeleton& body) {
 
 TEST_P(EveryFile, IsMappedAndStands) {
   const FileCase& c = GetParam();
-  if (!std::filesystem::exists(shared(c.file))) GTEST_SKIP() << "it is not there";
-  const auto body = read_body(shared(c.file));
+  if (!std::filesystem::exists(body_file(c.file))) GTEST_SKIP() << "it is not there";
+  const auto body = read_body(body_file(c.file));
   ASSERT_TRUE(body) << body.error().message();
   EXPECT_EQ(body->bones.scheme, c.scheme);
   const Skeleton& skeleton = body->skeleton();
@@ -255,8 +256,8 @@ std::vector<RigidTransform> placed(const std::filesystem::path& file, std::size_
 
 // CesiumMan faces +X in its file: the written file, read again, contains the same motion.
 TEST(ReadBody, WritesAvatarsBackInTheirOwnFrame) {
-  const auto avatar = shared("avatars/khronos/cesium_man.gltf");
-  const auto source = shared("mocap/bvh_python/test_freebvh.bvh");
+  const auto avatar = body_file("avatars/khronos/cesium_man.gltf");
+  const auto source = body_file("mocap/bvh_python/test_freebvh.bvh");
   if (!std::filesystem::exists(avatar) || !std::filesystem::exists(source)) {
     GTEST_SKIP() << "the files are not there";
   }

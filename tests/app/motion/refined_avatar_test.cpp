@@ -13,6 +13,7 @@
 
 #include "app/motion/read_body.h"
 #include "app/motion/retarget_files.h"
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "recordings/body/mannequin.h"
 #include "recordings/gltf/gltf.h"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/human/average_proportions.h"
 #include "tests/support/simulation/synthetic_walk.h"
 
 namespace marey::app {

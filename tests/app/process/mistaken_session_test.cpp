@@ -13,10 +13,10 @@
 namespace marey::testing {
 namespace {
 
-const std::vector<std::string> kCalibrated{
+const std::vector<std::string> kCalibratedArguments{
     "calibration.html", "calibration.json", "calibration.toml"};
 
-bool says(const ProgramRun& run, const std::string& words) {
+bool prints(const ProgramRun& run, const std::string& words) {
   return run.err.find(words) != std::string::npos;
 }
 
@@ -35,7 +35,7 @@ TEST(MistakenSession, WithLeftAndRightExchangedIsDeclined) {
                        {"session.toml: [[tags.tag]]",
                         "left and right look exchanged on the arms and legs",
                         "exchange left and right"},
-                       kCalibrated));
+                       kCalibratedArguments));
 }
 
 TEST(MistakenSession, WithForearmsExchangedIsDeclinedByTheirNames) {
@@ -48,7 +48,7 @@ TEST(MistakenSession, WithForearmsExchangedIsDeclinedByTheirNames) {
                        {"session.toml: [[tags.tag]]",
                         "\"leftLowerArm\" and \"rightLowerArm\" look exchanged",
                         "`segment`"},
-                       kCalibrated));
+                       kCalibratedArguments));
 }
 
 TEST(MistakenSession, WithStaticAndRangeOfMotionExchangedIsDeclinedByBoth) {
@@ -85,14 +85,14 @@ TEST(MistakenSession, WithMistypedIdsIsDeclinedByListedAndSeenIds) {
                        {"session.toml: [[tags.tag]]",
                         "tags 500, 501 are listed but never seen",
                         "correct the `id`"}));
-  EXPECT_TRUE(says(run, "tags 41, 46 are often seen but not listed")) << run.err;
+  EXPECT_TRUE(prints(run, "tags 41, 46 are often seen but not listed")) << run.err;
 }
 
 TEST(MistakenSession, WithAWrongStatureGetsAWarning) {
   SpoiledSession session;
   session.replace("stature_m = 1.734", "stature_m = 2.034");
   const ProgramRun run = session.run();
-  EXPECT_TRUE(says(run, "stature_m of [subject] is 2.03 m")) << run.err;
+  EXPECT_TRUE(prints(run, "stature_m of [subject] is 2.03 m")) << run.err;
 }
 
 TEST(MistakenSession, WithoutTagsOnAForearmIsDeclinedBeforeAnyWork) {
@@ -101,7 +101,7 @@ TEST(MistakenSession, WithoutTagsOnAForearmIsDeclinedBeforeAnyWork) {
   const ProgramRun run = session.run();
   EXPECT_TRUE(declines(
       session, run, {"session.toml: ", "on segment \"leftLowerArm\"", "glue a tag"}));
-  EXPECT_FALSE(says(run, "tags in")) << run.err;
+  EXPECT_FALSE(prints(run, "tags in")) << run.err;
 }
 
 TEST(MistakenSession, WithIdsBeyondItsFamilyIsDeclinedByTheFamily) {
@@ -110,7 +110,7 @@ TEST(MistakenSession, WithIdsBeyondItsFamilyIsDeclinedByTheFamily) {
   const ProgramRun run = session.run();
   EXPECT_TRUE(
       declines(session, run, {"session.toml:", "tag25h9 ends at 34", "`family`"}));
-  EXPECT_FALSE(says(run, "tags in")) << run.err;
+  EXPECT_FALSE(prints(run, "tags in")) << run.err;
 }
 
 TEST(MistakenSession, WithACameraThatSeesNoBoardIsDeclinedBeforeAnyWork) {
@@ -122,14 +122,14 @@ TEST(MistakenSession, WithACameraThatSeesNoBoardIsDeclinedBeforeAnyWork) {
                        {"session.toml:",
                         "camera \"cam3\" has no video in trial \"calib\"",
                         "add its video"}));
-  EXPECT_FALSE(says(run, "tags in")) << run.err;
+  EXPECT_FALSE(prints(run, "tags in")) << run.err;
 }
 
 TEST(MistakenSession, ReportsTagsBeyondTheDeclaredRows) {
   SpoiledSession session;
   session.replace("rows = 6\n", "rows = 5\n");
   const ProgramRun run = session.run();
-  EXPECT_TRUE(says(run, "[board]: tags 30, 31, 32, 33, 34, 35 move with the board"))
+  EXPECT_TRUE(prints(run, "[board]: tags 30, 31, 32, 33, 34, 35 move with the board"))
       << run.err;
 }
 
@@ -141,7 +141,7 @@ TEST(MistakenSession, IsCalibratedBeforeItsOtherTrialsAreRecorded) {
   const ProgramRun run = session.run("calibrate");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(session.has_result("calibration.toml"));
-  EXPECT_TRUE(says(run, "trial static is not recorded yet")) << run.err;
+  EXPECT_TRUE(prints(run, "trial static is not recorded yet")) << run.err;
 }
 
 }  // namespace

@@ -35,7 +35,7 @@ const fs::path kShared = marey::testing::shared_data();
 const fs::path kDevSession =
     marey::testing::source_dir() / "recordings/samples/blender-dev/session.toml";
 
-std::string text_of(const fs::path& file) {
+std::string content_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
@@ -79,7 +79,7 @@ std::string with_cameras(std::string trial, const std::set<std::string>& cameras
 /// no other motion.
 std::string session_text(const fs::path& session, const std::set<std::string>& cameras) {
   std::string text;
-  for (std::string table : tables_of(text_of(session))) {
+  for (std::string table : tables_of(content_of(session))) {
     if (table.starts_with("[[camera]]")) {
       const auto name = table.find("cam", table.find("name"));
       if (!cameras.contains(table.substr(name, 4))) continue;

@@ -15,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/motion/bvh.h"

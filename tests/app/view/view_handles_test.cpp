@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/humanoid.h"
 #include "tests/support/program/scratch_folder.h"
 

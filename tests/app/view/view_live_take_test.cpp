@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kRate_hz = 30.0;
-constexpr int kFrames = 36;
+constexpr int kTakeFrames = 36;
 constexpr int kLeadIn = 5;
 constexpr int kPassedOver = 20;
 
@@ -42,11 +42,11 @@ class ViewLiveTake : public ::testing::Test {
     settings_.rate = {kRate_hz};
     settings_.lag_known.assign(cameras_.size(), true);
     marey::testing::Film how;
-    how.frames = kFrames;
+    how.frames = kTakeFrames;
     how.hz = kRate_hz;
     const auto seen =
         marey::testing::film(body_, marey::testing::walking(body_), cameras_, how);
-    for (int f = 0; f < kFrames; ++f) {
+    for (int f = 0; f < kTakeFrames; ++f) {
       if (f == kPassedOver) continue;
       LiveInstant instant;
       instant.number = 100 + f;
@@ -85,7 +85,7 @@ class ViewLiveTake : public ::testing::Test {
 };
 
 TEST_F(ViewLiveTake, ShowsTheBodyAsItWasLive) {
-  write(kFrames - 1);
+  write(kTakeFrames - 1);
   auto chain = LiveChain::make(body_, cameras_, {}, settings_);
   ASSERT_TRUE(chain);
   std::vector<Pose> live;
@@ -97,11 +97,11 @@ TEST_F(ViewLiveTake, ShowsTheBodyAsItWasLive) {
     ASSERT_TRUE(view) << view.error().message();
     EXPECT_EQ(view->rate.hz, kRate_hz);
     EXPECT_EQ(view->cameras.size(), cameras_.size());
-    ASSERT_EQ(view->frames, kFrames - kLeadIn) << "with the one that was passed over";
+    ASSERT_EQ(view->frames, kTakeFrames - kLeadIn) << "with the one that was passed over";
     ASSERT_EQ(view->figures.size(), 1U);
     const std::vector<Pose>& shown = view->figures.front().motion.poses;
     ASSERT_EQ(shown.size(), static_cast<std::size_t>(view->frames));
-    for (int f = kLeadIn; f < kFrames; ++f) {
+    for (int f = kLeadIn; f < kTakeFrames; ++f) {
       // The one that was passed over shows the one before.
       const int i = f < kPassedOver ? f : f - 1;
       const Pose& expected = live[static_cast<std::size_t>(i)];

@@ -14,6 +14,7 @@
 #include "app/view/view_page.h"
 #include "app/view/view_trial.h"
 #include "app/view/view_trials.h"
+#include "core/human/average_proportions.h"
 #include "live/page/page_scene.h"
 #include "live/web/web_server.h"
 #include "recordings/markers/marker_file.h"
@@ -32,18 +33,18 @@ namespace {
 namespace fs = std::filesystem;
 using namespace marey::testing;
 
-constexpr int kFrames = 30;
+constexpr int kViewFrames = 30;
 
 /// A synthetic walk as `marey process` would leave it, in OUT/walk.
 class View : public ::testing::Test {
  protected:
   void SetUp() override {
     const Skeleton skeleton = make_humanoid(average_proportions(1.75));
-    walk_.motion = walking(skeleton, kFrames);
+    walk_.motion = walking(skeleton, kViewFrames);
     walk_.motion.first_frame = 7;
-    walk_.uncertainty.assign(kFrames,
+    walk_.uncertainty.assign(kViewFrames,
                              std::vector<JointUncertainty>(skeleton.joints.size()));
-    for (std::size_t i = 0; i < kFrames; ++i) {
+    for (std::size_t i = 0; i < kViewFrames; ++i) {
       walk_.uncertainty[i][0] = {0.001, i < 10 ? Source::kMeasured : Source::kRepaired};
     }
     fs::create_directories(out() / "walk");
@@ -78,7 +79,7 @@ TEST_F(View, ShowsTheSolutionWithItsUncertainty) {
   ASSERT_TRUE(view) << view.error().message();
   EXPECT_EQ(view->title, "walk");
   EXPECT_EQ(view->first_frame, 7);
-  EXPECT_EQ(view->frames, kFrames);
+  EXPECT_EQ(view->frames, kViewFrames);
   ASSERT_EQ(view->figures.size(), 1U);
   EXPECT_EQ(view->figures[0].uncertainty[9][0].source, Source::kMeasured);
   EXPECT_EQ(view->figures[0].uncertainty[9][0].sigma_m, 0.001);
@@ -91,7 +92,7 @@ TEST_F(View, ShowsTheSolutionWithItsUncertainty) {
   EXPECT_EQ(view->tracks[0].gaps[0].span.last, 36);
   ASSERT_EQ(view->graphs.size(), 2U);
   EXPECT_EQ(view->graphs[0].name, "reprojection");
-  EXPECT_EQ(view->graphs[0].values.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(view->graphs[0].values.size(), static_cast<std::size_t>(kViewFrames));
   EXPECT_EQ(view->graphs[0].values[1], 0.25);
 }
 
@@ -103,11 +104,11 @@ TEST_F(View, DragsInTheFrameThatThePageShows) {
   ASSERT_TRUE(handles);
   constexpr live::ClientId kPage{1};
   const live::DragRequest last{
-      "head", {0.0, 1.6, 0.9}, live::DragPhase::kMove, 7 + kFrames - 1};
+      "head", {0.0, 1.6, 0.9}, live::DragPhase::kMove, 7 + kViewFrames - 1};
   ASSERT_TRUE(handles->drag(kPage, last));
   const auto adapted = handles->adapted(kPage);
   ASSERT_TRUE(adapted && *adapted);
-  EXPECT_EQ((*adapted)->frame, kFrames - 1);
+  EXPECT_EQ((*adapted)->frame, kViewFrames - 1);
 }
 
 TEST_F(View, GivesNegativeTimesBeforeTheFirstFrame) {
@@ -131,7 +132,7 @@ TEST_F(View, EncodesEveryFrameOfEveryFigure) {
   constexpr std::size_t kJoints = 22;
   // Sources of 22 joints take 24 bytes; feet that slide like this bear nothing.
   constexpr std::size_t kFrameBytes = 24 + 4 + 12 + 16 * kJoints + 4 * kJoints + 24 + 16;
-  ASSERT_EQ(block.size(), 16 + kFrames * kFrameBytes);
+  ASSERT_EQ(block.size(), 16 + kViewFrames * kFrameBytes);
   std::uint32_t frame = 0;
   std::memcpy(&frame, block.data() + 16 + 29 * kFrameBytes + 4, sizeof frame);
   EXPECT_EQ(frame, 36U);

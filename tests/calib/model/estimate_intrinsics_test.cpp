@@ -16,14 +16,14 @@ using marey::testing::Disturbance;
 using marey::testing::ring_of_cameras;
 using marey::testing::wave_board;
 
-const AprilGrid kBoard{6, 6, 0.1, 0.03, 0, 0.0};
+const AprilGrid kGaplessBoard{6, 6, 0.1, 0.03, 0, 0.0};
 
 /// A camera at the origin that looks along z; boards are placed in front of it.
 BoardView view_of(const Intrinsics& k, const RigidTransform& camera_from_board) {
   BoardView view;
-  for (int id = 0; id < kBoard.tag_count(); ++id) {
+  for (int id = 0; id < kGaplessBoard.tag_count(); ++id) {
     for (int c = 0; c < 4; ++c) {
-      const glm::dvec3 p = *kBoard.corner_in_board(TagId{id}, c);
+      const glm::dvec3 p = *kGaplessBoard.corner_in_board(TagId{id}, c);
       const auto pixel = project(Camera{{}, k, {}, {}}, camera_from_board * p);
       EXPECT_TRUE(pixel);
       view.corners.push_back({p, *pixel, 0.3});

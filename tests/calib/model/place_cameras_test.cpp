@@ -14,7 +14,7 @@ using marey::testing::BoardRecording;
 using marey::testing::ring_of_cameras;
 using marey::testing::wave_board;
 
-const AprilGrid kBoard{6, 6, 0.1, 0.03, 0, 0.005};
+const AprilGrid kPlacedBoard{6, 6, 0.1, 0.03, 0, 0.005};
 
 std::vector<Intrinsics> intrinsics_of(const std::vector<Camera>& cameras) {
   std::vector<Intrinsics> out;
@@ -24,10 +24,10 @@ std::vector<Intrinsics> intrinsics_of(const std::vector<Camera>& cameras) {
 
 Result<RigGuess> place(const std::vector<Camera>& cameras,
                        const BoardRecording& recording) {
-  return place_cameras(board_views(recording.waved, recording.floor, kBoard),
+  return place_cameras(board_views(recording.waved, recording.floor, kPlacedBoard),
                        intrinsics_of(cameras),
                        marey::testing::names_of(cameras),
-                       kBoard);
+                       kPlacedBoard);
 }
 
 double worst_centre_m(const RigGuess& guess, const std::vector<Camera>& cameras) {
@@ -41,7 +41,7 @@ double worst_centre_m(const RigGuess& guess, const std::vector<Camera>& cameras)
 }
 
 TEST(WorldFromFloorBoard, LaysTheBoardFaceUpOnItsBack) {
-  const RigidTransform world_from_board = world_from_floor_board(kBoard);
+  const RigidTransform world_from_board = world_from_floor_board(kPlacedBoard);
   const auto direction = [&](const glm::dvec3& d) {
     return world_from_board.rotation * d;
   };
@@ -53,7 +53,7 @@ TEST(WorldFromFloorBoard, LaysTheBoardFaceUpOnItsBack) {
 
 TEST(PlaceCameras, FindsEveryCameraFromExactViews) {
   const auto cameras = ring_of_cameras();
-  const auto guess = place(cameras, wave_board(cameras, kBoard, 60));
+  const auto guess = place(cameras, wave_board(cameras, kPlacedBoard, 60));
   ASSERT_TRUE(guess) << guess.error().message();
   // OpenCV's planar pose takes rays as floats, good to 1e-5 m each; a few are chained.
   EXPECT_LT(worst_centre_m(*guess, cameras), 1e-3 /* m */);
@@ -61,7 +61,8 @@ TEST(PlaceCameras, FindsEveryCameraFromExactViews) {
 
 TEST(PlaceCameras, IsNotLedAstrayByAFewWrongViews) {
   const auto cameras = ring_of_cameras();
-  const auto guess = place(cameras, wave_board(cameras, kBoard, 60, {0.2, {}, 0.05}));
+  const auto guess =
+      place(cameras, wave_board(cameras, kPlacedBoard, 60, {0.2, {}, 0.05}));
   ASSERT_TRUE(guess) << guess.error().message();
   // Accurate enough for the bundle, which converges from a tenth of the distance.
   EXPECT_LT(worst_centre_m(*guess, cameras), 0.3 /* m */);
@@ -69,7 +70,7 @@ TEST(PlaceCameras, IsNotLedAstrayByAFewWrongViews) {
 
 TEST(PlaceCameras, NamesTheGroupsThatNeverSeeTheBoardTogether) {
   const auto cameras = ring_of_cameras();
-  BoardRecording recording = wave_board(cameras, kBoard, 60);
+  BoardRecording recording = wave_board(cameras, kPlacedBoard, 60);
   // cam0 and cam1 see the even frames, cam2 and cam3 the odd ones, only cam0 the floor.
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     for (FrameDetections& frame : recording.waved[c].frames) {
@@ -89,7 +90,7 @@ TEST(PlaceCameras, NamesTheGroupsThatNeverSeeTheBoardTogether) {
 
 TEST(PlaceCameras, AsksForAFloor) {
   const auto cameras = ring_of_cameras();
-  BoardRecording recording = wave_board(cameras, kBoard, 60);
+  BoardRecording recording = wave_board(cameras, kPlacedBoard, 60);
   for (CameraDetections& camera : recording.floor) {
     for (FrameDetections& frame : camera.frames) frame.tags.clear();
   }

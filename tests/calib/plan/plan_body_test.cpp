@@ -72,7 +72,7 @@ TEST(SolveChain, IsTheInverseOfTheWholeNormalMatrix) {
   constexpr int kShared = 3;
   constexpr int kN = kPostureColumns;
   Dice dice(3);
-  const StepPrior steps = step_prior(30.0);
+  const StepPrior steps = step_prior({30.0});
   std::vector<FrameInformation> frames(kFrames);
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(kFrames * kN, kFrames * kN);
   Eigen::MatrixXd right(kFrames * kN, kShared);

@@ -20,7 +20,7 @@ using marey::testing::Dice;
 using marey::testing::TagView;
 using marey::testing::webcam_at;
 
-double tenth_px(double /*side_px*/) {
+double constant_sigma_px(double /*side_px*/) {
   return 0.1;
 }
 
@@ -55,13 +55,15 @@ TEST(ExpectTag, FindsNoCameraForATagFacingUpTooSmallOrOutside) {
   const auto cameras = square_of_cameras(2.5);
   const PlanOptions options;
   const RigidTransform middle = tag_facing(0.3, {0.0, 1.0, 0.0});
-  EXPECT_FALSE(expect_tag(cameras, nullptr, middle, tenth_px, options).seen_by.empty());
+  EXPECT_FALSE(
+      expect_tag(cameras, nullptr, middle, constant_sigma_px, options).seen_by.empty());
   const RigidTransform outside = tag_facing(0.3, {0.0, 9.0, 0.0});
   PlanOptions tiny = options;
   tiny.tag_size_m = 0.02;  // 5 px at 3.6 m.
-  for (const ExpectedTag& tag : {expect_tag(cameras, nullptr, outside, tenth_px, options),
-                                 expect_tag(cameras, nullptr, middle, tenth_px, tiny),
-                                 expect_tag({}, nullptr, middle, tenth_px, options)}) {
+  for (const ExpectedTag& tag :
+       {expect_tag(cameras, nullptr, outside, constant_sigma_px, options),
+        expect_tag(cameras, nullptr, middle, constant_sigma_px, tiny),
+        expect_tag({}, nullptr, middle, constant_sigma_px, options)}) {
     EXPECT_TRUE(tag.seen_by.empty());
     EXPECT_EQ(tag.side_px, 0.0);
     EXPECT_FALSE(tag.centre_error_m || tag.joint_error_m);
@@ -69,14 +71,15 @@ TEST(ExpectTag, FindsNoCameraForATagFacingUpTooSmallOrOutside) {
   const RigidTransform lying{rotation_from_vector({0.5 * std::numbers::pi, 0.0, 0.0}),
                              {0.0, 1.0, 0.0}};
   // Its normal is 82 degrees from every camera, which stand half a metre above it.
-  EXPECT_TRUE(expect_tag(cameras, nullptr, lying, tenth_px, options).seen_by.empty());
+  EXPECT_TRUE(
+      expect_tag(cameras, nullptr, lying, constant_sigma_px, options).seen_by.empty());
 }
 
 TEST(ExpectTag, IsNotPlacedByOneCameraAlone) {
   auto cameras = square_of_cameras(2.5);
   cameras.resize(1);
   const RigidTransform facing_it = tag_facing(-0.75 * std::numbers::pi, {0.0, 1.0, 0.0});
-  const ExpectedTag tag = expect_tag(cameras, nullptr, facing_it, tenth_px, {});
+  const ExpectedTag tag = expect_tag(cameras, nullptr, facing_it, constant_sigma_px, {});
   ASSERT_EQ(tag.seen_by.size(), 1U);
   EXPECT_FALSE(tag.centre_error_m);
   // 80 mm at 3.57 m, 900 px: 20.2 px from the front.
@@ -87,8 +90,11 @@ TEST(ExpectTag, ErrsMoreFartherAway) {
   double last_m = 0.0;
   for (const double distance_m : {1.5, 2.0, 2.5, 2.8}) {
     const auto cameras = square_of_cameras(distance_m);
-    const ExpectedTag tag = expect_tag(
-        cameras, nullptr, tag_facing(0.0, {0.0, 1.0, 0.0}), tenth_px, large_tags());
+    const ExpectedTag tag = expect_tag(cameras,
+                                       nullptr,
+                                       tag_facing(0.0, {0.0, 1.0, 0.0}),
+                                       constant_sigma_px,
+                                       large_tags());
     ASSERT_TRUE(tag.centre_error_m) << distance_m;
     EXPECT_GT(*tag.centre_error_m, last_m);
     EXPECT_GT(*tag.joint_error_m, *tag.centre_error_m);
@@ -102,7 +108,8 @@ TEST(ExpectTag, ErrsAsFitsToNoisyCornersDo) {
   const auto cameras = square_of_cameras(2.0);
   const PlanOptions options = large_tags();
   const RigidTransform truth = tag_facing(0.1, {0.2, 0.9, 0.1});
-  const ExpectedTag expected = expect_tag(cameras, nullptr, truth, tenth_px, options);
+  const ExpectedTag expected =
+      expect_tag(cameras, nullptr, truth, constant_sigma_px, options);
   ASSERT_GE(expected.seen_by.size(), 2U);
   Dice dice(7);
   double centre_m2 = 0.0;
@@ -143,9 +150,10 @@ TEST(ExpectTag, IncludesTheUncertaintyOfCameras) {
       }
     }
   }
-  const ExpectedTag sure = expect_tag(cameras, nullptr, pose, tenth_px, large_tags());
+  const ExpectedTag sure =
+      expect_tag(cameras, nullptr, pose, constant_sigma_px, large_tags());
   const ExpectedTag uncertain =
-      expect_tag(cameras, &rig_covariance, pose, tenth_px, large_tags());
+      expect_tag(cameras, &rig_covariance, pose, constant_sigma_px, large_tags());
   ASSERT_TRUE(sure.centre_error_m && uncertain.centre_error_m);
   EXPECT_NEAR(std::pow(*uncertain.centre_error_m, 2) - std::pow(*sure.centre_error_m, 2),
               3e-6,
@@ -157,7 +165,7 @@ TEST(PlanRig, ReturnsASymmetricPlanForASymmetricRig) {
   const ErrorMapGrid grid{{-1.0, 0.0, -1.0}, {1.0, 0.0, 1.0}, 0.5, {0.9}};
   PlanOptions large;
   large.tag_size_m = 0.16;
-  const RigPlan plan = plan_rig(cameras, nullptr, grid, tenth_px, large);
+  const RigPlan plan = plan_rig(cameras, nullptr, grid, constant_sigma_px, large);
   ASSERT_EQ(plan.places.size(), 25U);
   ASSERT_EQ(plan.heights.size(), 1U);
   // Cameras 90 degrees apart with a range of 65 degrees to either side share 40 of these
@@ -179,7 +187,7 @@ TEST(PlanRig, ReturnsASymmetricPlanForASymmetricRig) {
 TEST(PlanRig, ReportsNoErrorsWhereFewerThanTwoCamerasSee) {
   const std::vector<Camera> one{square_of_cameras(2.5)[0]};
   const ErrorMapGrid grid{{-1.0, 0.0, -1.0}, {1.0, 0.0, 1.0}, 1.0, {0.1, 1.4}};
-  const RigPlan plan = plan_rig(one, nullptr, grid, tenth_px, {});
+  const RigPlan plan = plan_rig(one, nullptr, grid, constant_sigma_px, {});
   ASSERT_EQ(plan.heights.size(), 2U);
   EXPECT_GT(plan.heights[1].seen_share, 0.1);
   EXPECT_EQ(plan.heights[1].measured_share, 0.0);

@@ -23,8 +23,8 @@ using marey::testing::wave_board;
 const AprilGrid kBoard{6, 6, 0.1, 0.03, 0, 0.005};
 constexpr int kFrames = 60;
 
-Result<CalibratedRig> calibrate(const std::vector<Camera>& cameras,
-                                const Disturbance& disturbance) {
+Result<CalibratedRig> calibrate_from_board(const std::vector<Camera>& cameras,
+                                           const Disturbance& disturbance) {
   const BoardRecording recording = wave_board(cameras, kBoard, kFrames, disturbance);
   return calibrate_cameras(names_of(cameras), recording.waved, recording.floor, kBoard);
 }
@@ -65,7 +65,7 @@ constexpr double kNoisy_m = 4e-3;
 
 TEST(CalibrateCameras, RecoversTheRigFromExactCorners) {
   const auto cameras = ring_of_cameras();
-  const auto rig = calibrate(cameras, {});
+  const auto rig = calibrate_from_board(cameras, {});
   ASSERT_TRUE(rig) << rig.error().message();
   const Worst worst = compare(*rig, cameras);
   EXPECT_LT(worst.centre_m, kExact_m);
@@ -76,7 +76,7 @@ TEST(CalibrateCameras, RecoversTheRigFromExactCorners) {
 
 TEST(CalibrateCameras, StaysNearTheRigUnderNoise) {
   const auto cameras = ring_of_cameras();
-  const auto rig = calibrate(cameras, {0.2, {}, 0.0});
+  const auto rig = calibrate_from_board(cameras, {0.2, {}, 0.0});
   ASSERT_TRUE(rig) << rig.error().message();
   const Worst worst = compare(*rig, cameras);
   EXPECT_LT(worst.centre_m, kNoisy_m);
@@ -87,7 +87,7 @@ TEST(CalibrateCameras, StaysNearTheRigUnderNoise) {
 
 TEST(CalibrateCameras, ReturnsSigmasThatMatchItsErrors) {
   const auto cameras = ring_of_cameras();
-  const auto rig = calibrate(cameras, {0.2, {}, 0.0});
+  const auto rig = calibrate_from_board(cameras, {0.2, {}, 0.0});
   ASSERT_TRUE(rig) << rig.error().message();
   double sum = 0.0;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -109,7 +109,7 @@ TEST(CalibrateCameras, ReturnsSigmasThatMatchItsErrors) {
 
 TEST(CalibrateCameras, MeasuresHowMuchTagsShrink) {
   const auto cameras = ring_of_cameras();
-  const auto rig = calibrate(cameras, {0.0, {0.6, 0.01}, 0.0});
+  const auto rig = calibrate_from_board(cameras, {0.0, {0.6, 0.01}, 0.0});
   ASSERT_TRUE(rig) << rig.error().message();
   for (const Camera& camera : rig->cameras) {
     // The prior (zero with a sigma of half a pixel) has a small effect.
@@ -120,7 +120,7 @@ TEST(CalibrateCameras, MeasuresHowMuchTagsShrink) {
 
 TEST(CalibrateCameras, RecoversTheRigThroughTagsThatShrink) {
   const auto cameras = ring_of_cameras();
-  const auto rig = calibrate(cameras, {0.0, {0.6, 0.01}, 0.0});
+  const auto rig = calibrate_from_board(cameras, {0.0, {0.6, 0.01}, 0.0});
   ASSERT_TRUE(rig) << rig.error().message();
   const Worst worst = compare(*rig, cameras);
   EXPECT_LT(worst.centre_m, 2.0 * kExact_m);
@@ -130,14 +130,14 @@ TEST(CalibrateCameras, RecoversTheRigThroughTagsThatShrink) {
 TEST(CalibrateCameras, KeepsItsAccuracyWithWrongTags) {
   // One tag in twenty is 20 px off: plain least squares would have errors of centimetres.
   const auto cameras = ring_of_cameras();
-  const auto rig = calibrate(cameras, {0.2, {}, 0.05});
+  const auto rig = calibrate_from_board(cameras, {0.2, {}, 0.05});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_LT(compare(*rig, cameras).centre_m, kNoisy_m);
 }
 
 TEST(CalibrateCameras, OwnsUpToWrongTagsInItsRms) {
   const auto cameras = ring_of_cameras();
-  const auto rig = calibrate(cameras, {0.2, {}, 0.05});
+  const auto rig = calibrate_from_board(cameras, {0.2, {}, 0.05});
   ASSERT_TRUE(rig) << rig.error().message();
   // sqrt(0.05) of 20 px; the median remains at 1.18 times 0.2 px.
   EXPECT_NEAR(rig->rms_px, 4.47, 0.6);
@@ -146,8 +146,8 @@ TEST(CalibrateCameras, OwnsUpToWrongTagsInItsRms) {
 
 TEST(CalibrateCameras, GivesTheSameBytesTwice) {
   const auto cameras = ring_of_cameras();
-  const auto once = calibrate(cameras, {0.2, {}, 0.0});
-  const auto again = calibrate(cameras, {0.2, {}, 0.0});
+  const auto once = calibrate_from_board(cameras, {0.2, {}, 0.0});
+  const auto again = calibrate_from_board(cameras, {0.2, {}, 0.0});
   ASSERT_TRUE(once && again);
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     EXPECT_EQ(once->cameras[c].intrinsics.parameters(),

@@ -18,7 +18,7 @@ namespace {
 using marey::testing::webcam_at;
 
 constexpr double kSquare_m = 0.06;
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn_rad = std::numbers::pi;
 
 CharucoBoard board() {
   CharucoBoard b;
@@ -87,10 +87,10 @@ std::vector<CameraDetections> film(const std::vector<Camera>& cameras,
   return out;
 }
 
-Result<CalibratedRig> calibrate(const std::vector<Camera>& cameras,
-                                const Scene& scene,
-                                const RigOptions& rig_options = {},
-                                bool find_warp = false) {
+Result<CalibratedRig> calibrate_from_points(const std::vector<Camera>& cameras,
+                                            const Scene& scene,
+                                            const RigOptions& rig_options = {},
+                                            bool find_warp = false) {
   const CalibrateOptions options{rig_options, find_warp};
   return calibrate_cameras(
       marey::testing::names_of(cameras), film(cameras, scene), {}, board(), options);
@@ -113,7 +113,7 @@ double worst_distance_m(const CalibratedRig& rig, const std::vector<Camera>& tru
 
 TEST(CalibratePoints, RecoverTheRigFromExactCornersOfSquares) {
   const auto cameras = three_cameras();
-  const auto rig = calibrate(cameras, {});
+  const auto rig = calibrate_from_points(cameras, {});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_LT(worst_distance_m(*rig, cameras), 2e-5);
   EXPECT_LT(rig->rms_px, 1e-3);
@@ -123,7 +123,7 @@ TEST(CalibratePoints, RecoverTheRigFromExactCornersOfSquares) {
 
 TEST(CalibratePoints, StayNearUnderNoise) {
   const auto cameras = three_cameras();
-  const auto rig = calibrate(cameras, {.noise_px = 0.1});
+  const auto rig = calibrate_from_points(cameras, {.noise_px = 0.1});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_LT(worst_distance_m(*rig, cameras), 2e-3);
   EXPECT_NEAR(rig->rms_px, 0.141, 0.01);
@@ -136,7 +136,7 @@ TEST(CalibratePoints, RecoverFisheyes) {
     camera.intrinsics.focal_px = {560.0, 560.0};
     camera.intrinsics.distortion = {-0.02, 0.004};
   }
-  const auto rig = calibrate(
+  const auto rig = calibrate_from_points(
       cameras, {.noise_px = 0.05, .seconds = 4.0}, {.lens = LensModel::kFisheye});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_EQ(rig->cameras[0].intrinsics.lens, LensModel::kFisheye);
@@ -154,20 +154,21 @@ TEST(CalibratePoints, ChooseTheLensThatPredictsBest) {
     camera.intrinsics.distortion = {-0.05, 0.01};
   }
   const Scene scene{.noise_px = 0.05, .seconds = 2.0};
-  const auto rig = calibrate(cameras, scene, {.choose_lens = true});
+  const auto rig = calibrate_from_points(cameras, scene, {.choose_lens = true});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_EQ(rig->cameras[0].intrinsics.lens, LensModel::kFisheye);
 }
 
 TEST(CalibratePoints, KeepTheSimplestLensThatServes) {
   const Scene scene{.noise_px = 0.05, .seconds = 2.0};
-  const auto rig = calibrate(three_cameras(), scene, {.choose_lens = true});
+  const auto rig = calibrate_from_points(three_cameras(), scene, {.choose_lens = true});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_EQ(rig->cameras[0].intrinsics.lens, LensModel::kBrownConrady);
 }
 
 TEST(CalibratePoints, RefuseAMirroredBoard) {
-  const auto rig = calibrate(three_cameras(), {.mirrored = true, .seconds = 3.0});
+  const auto rig =
+      calibrate_from_points(three_cameras(), {.mirrored = true, .seconds = 3.0});
   ASSERT_FALSE(rig);
   EXPECT_EQ(rig.error().cause,
             "the cameras see the board from behind: its corners are mirrored");
@@ -175,7 +176,7 @@ TEST(CalibratePoints, RefuseAMirroredBoard) {
 
 TEST(CalibratePoints, FindABentBoardAndLeaveAFlatOneFlat) {
   const auto cameras = three_cameras();
-  const auto bent = calibrate(
+  const auto bent = calibrate_from_points(
       cameras, {.noise_px = 0.1, .bend_m = 0.002, .seconds = 4.0}, {}, true);
   ASSERT_TRUE(bent) << bent.error().message();
   ASSERT_TRUE(bent->warp_m);
@@ -183,17 +184,17 @@ TEST(CalibratePoints, FindABentBoardAndLeaveAFlatOneFlat) {
   EXPECT_NEAR((*bent->warp_m)[0], 0.002, 2e-4);
   EXPECT_NEAR((*bent->warp_m)[1], 0.0, 2e-4);
   const auto flat =
-      calibrate(cameras, {.noise_px = 0.1, .seconds = 4.0}, {}, true);
+      calibrate_from_points(cameras, {.noise_px = 0.1, .seconds = 4.0}, {}, true);
   ASSERT_TRUE(flat) << flat.error().message();
   EXPECT_FALSE(flat->warp_m);
 }
 
 TEST(CalibratePoints, SolveForClocksThatStartApart) {
   const auto cameras = three_cameras();
-  const auto rig =
-      calibrate(cameras,
-                {.noise_px = 0.1, .late_s = {0.0, 0.2613, -0.1471}, .seconds = 5.0},
-                {.solve_offsets = true, .max_offset_s = 0.6});
+  const auto rig = calibrate_from_points(
+      cameras,
+      {.noise_px = 0.1, .late_s = {0.0, 0.2613, -0.1471}, .seconds = 5.0},
+      {.solve_offsets = true, .max_offset_s = 0.6});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_NEAR(rig->clocks[1].offset_s, 0.2613, 1e-3);
   EXPECT_NEAR(rig->clocks[2].offset_s, -0.1471, 1e-3);
@@ -207,10 +208,10 @@ TEST(CalibratePoints, SolveForClocksThatStartApart) {
 TEST(CalibratePoints, FindOutThatClocksAreApart) {
   const auto cameras = three_cameras();
   for (const double late_s : {0.0087, 0.2613}) {
-    const auto rig =
-        calibrate(cameras,
-                  {.noise_px = 0.1, .late_s = {0.0, late_s, -0.02}, .seconds = 5.0},
-                  {.choose_clocks = true, .max_offset_s = 0.6});
+    const auto rig = calibrate_from_points(
+        cameras,
+        {.noise_px = 0.1, .late_s = {0.0, late_s, -0.02}, .seconds = 5.0},
+        {.choose_clocks = true, .max_offset_s = 0.6});
     ASSERT_TRUE(rig) << rig.error().message();
     EXPECT_NEAR(rig->clocks[1].offset_s, late_s, 1e-3);
     EXPECT_NEAR(rig->clocks[2].offset_s, -0.02, 1e-3);
@@ -221,9 +222,9 @@ TEST(CalibratePoints, FindOutThatClocksAreApart) {
 
 TEST(CalibratePoints, LeaveClocksAloneThatRunTogether) {
   const auto cameras = three_cameras();
-  const auto rig =
-      calibrate(cameras, {.noise_px = 0.1, .seconds = 5.0}, {.choose_clocks = true});
-  const auto shared = calibrate(cameras, {.noise_px = 0.1, .seconds = 5.0});
+  const auto rig = calibrate_from_points(
+      cameras, {.noise_px = 0.1, .seconds = 5.0}, {.choose_clocks = true});
+  const auto shared = calibrate_from_points(cameras, {.noise_px = 0.1, .seconds = 5.0});
   ASSERT_TRUE(rig && shared);
   EXPECT_EQ(rig->clocks[1].offset_sigma_s, 0.0);
   EXPECT_EQ(centre_in_world(rig->cameras[1]), centre_in_world(shared->cameras[1]));
@@ -232,7 +233,7 @@ TEST(CalibratePoints, LeaveClocksAloneThatRunTogether) {
 TEST(CalibratePoints, FindClocksOfManyFramesInALongRest) {
   // The board rests for a third of the time: frames of any times then match.
   const auto cameras = three_cameras();
-  const auto rig = calibrate(
+  const auto rig = calibrate_from_points(
       cameras,
       {.noise_px = 0.1, .late_s = {0.0, 0.0, 1.2}, .seconds = 9.0, .rest_s = 3.0},
       {.choose_clocks = true, .max_offset_s = 2.0});
@@ -247,7 +248,7 @@ TEST(CalibratePoints, FindClocksOfManyFramesInALongRest) {
 TEST(CalibratePoints, ChooseClocksWithLineDelays) {
   const auto cameras = three_cameras();
   for (const double late_s : {0.0, 0.1613}) {
-    const auto rig = calibrate(
+    const auto rig = calibrate_from_points(
         cameras,
         {.noise_px = 0.1, .late_s = {0.0, late_s, 0.0}, .seconds = 3.0},
         {.solve_line_delays = true, .choose_clocks = true, .max_offset_s = 0.3});
@@ -265,10 +266,10 @@ TEST(CalibratePoints, ChooseClocksWithLineDelays) {
 
 TEST(CalibratePoints, HoldLensesThatAreGiven) {
   const auto cameras = three_cameras();
-  const auto rig =
-      calibrate(cameras,
-                {.noise_px = 0.1, .seconds = 4.0},
-                {.lenses = {cameras[0].intrinsics, std::nullopt, cameras[2].intrinsics}});
+  const auto rig = calibrate_from_points(
+      cameras,
+      {.noise_px = 0.1, .seconds = 4.0},
+      {.lenses = {cameras[0].intrinsics, std::nullopt, cameras[2].intrinsics}});
   ASSERT_TRUE(rig) << rig.error().message();
   EXPECT_EQ(rig->cameras[0].intrinsics.parameters(), cameras[0].intrinsics.parameters());
   EXPECT_EQ(rig->cameras[2].intrinsics.parameters(), cameras[2].intrinsics.parameters());
@@ -280,8 +281,8 @@ TEST(CalibratePoints, HoldLensesThatAreGiven) {
 
 TEST(CalibratePoints, JudgeThemselvesByFramesAndCamerasLeftOut) {
   const auto cameras = three_cameras();
-  const auto rig =
-      calibrate(cameras, {.noise_px = 0.1, .seconds = 4.0}, {.cross_validate = true});
+  const auto rig = calibrate_from_points(
+      cameras, {.noise_px = 0.1, .seconds = 4.0}, {.cross_validate = true});
   ASSERT_TRUE(rig) << rig.error().message();
   ASSERT_TRUE(rig->cross_validation);
   const CrossValidation& v = *rig->cross_validation;

@@ -18,20 +18,23 @@ namespace {
 using marey::testing::names_of;
 using marey::testing::ring_of_cameras;
 
-constexpr double kSize_m = 0.16;
-constexpr double kPi = std::numbers::pi;
+constexpr double kWandTag_m = 0.16;
+constexpr double kWandHalfTurn_rad = std::numbers::pi;
 
-const Wand kWand{
-    {{TagId{0}, kSize_m}, {TagId{1}, kSize_m}, {TagId{2}, kSize_m}, {TagId{3}, kSize_m}}};
+const Wand kWand{{{TagId{0}, kWandTag_m},
+                  {TagId{1}, kWandTag_m},
+                  {TagId{2}, kWandTag_m},
+                  {TagId{3}, kWandTag_m}}};
 
 /// A tag on each side of a box, its printed face outwards.
 RigidTransform wand_from_tag(int side) {
-  const glm::dquat turn = rotation_from_vector({0.0, 0.5 * kPi * side, 0.0});
+  const glm::dquat turn =
+      rotation_from_vector({0.0, 0.5 * kWandHalfTurn_rad * side, 0.0});
   return {turn, turn * glm::dvec3(0.0, 0.0, -0.1)};
 }
 
 RigidTransform world_from_wand(double share) {
-  const double round = 2.0 * kPi * share;
+  const double round = 2.0 * kWandHalfTurn_rad * share;
   return {rotation_from_vector({0.0, 2.3 * round, 0.0}) *
               rotation_from_vector({0.6 * std::sin(5.0 * round), 0.0, 0.0}) *
               rotation_from_vector({0.0, 0.0, 0.6 * std::cos(4.0 * round)}),
@@ -56,7 +59,7 @@ std::vector<CameraDetections> wave_wand(const std::vector<Camera>& cameras,
             cameras[c],
             world_from_wand(at / static_cast<double>(frames)) * wand_from_tag(side),
             TagId{side},
-            kSize_m);
+            kWandTag_m);
         if (!tag) continue;
         out[c].frames[static_cast<std::size_t>(f)].tags.push_back(
             marey::testing::disturbed(*tag, {noise_px, {}, 0.0}, dice));
@@ -67,7 +70,7 @@ std::vector<CameraDetections> wave_wand(const std::vector<Camera>& cameras,
 }
 
 /// Distances between cameras do not depend on the world's frame.
-double worst_distance_m(const CalibratedRig& rig, const std::vector<Camera>& truth) {
+double worst_position_m(const CalibratedRig& rig, const std::vector<Camera>& truth) {
   double worst = 0.0;
   for (std::size_t a = 0; a < truth.size(); ++a) {
     for (std::size_t b = a + 1; b < truth.size(); ++b) {
@@ -87,7 +90,7 @@ TEST(CalibrateWand, RecoversCamerasAndLayoutFromExactCorners) {
       calibrate_wand(names_of(cameras), wave_wand(cameras, 60, 0.0), kWand);
   ASSERT_TRUE(found) << found.error().message();
   // Priors (a centred principal point, mild distortion) have a small effect.
-  EXPECT_LT(worst_distance_m(found->rig, cameras), 2e-3);
+  EXPECT_LT(worst_position_m(found->rig, cameras), 2e-3);
   ASSERT_EQ(found->wand_from_tag.size(), 4U);
   for (int side = 0; side < 4; ++side) {
     const RigidTransform expected = inverse(wand_from_tag(0)) * wand_from_tag(side);
@@ -103,7 +106,7 @@ TEST(CalibrateWand, StaysNearUnderNoise) {
       calibrate_wand(names_of(cameras), wave_wand(cameras, 60, 0.2), kWand);
   ASSERT_TRUE(found) << found.error().message();
   // A few hundred tags of 45 px: a fifth of a pixel is half a percent of each.
-  EXPECT_LT(worst_distance_m(found->rig, cameras), 0.03);
+  EXPECT_LT(worst_position_m(found->rig, cameras), 0.03);
   EXPECT_NEAR(found->rig.inlier_rms_px, 0.28, 0.05);
 }
 
@@ -143,7 +146,7 @@ TEST(CalibrateWand, FindsOutThatCamerasStartedApart) {
     EXPECT_NEAR(clock.offset_s, 0.1 * late[c], 0.002) << c;
     EXPECT_EQ(clock.offset_sigma_s > 0.0, c > 0);
   }
-  EXPECT_LT(worst_distance_m(found->rig, cameras), 0.03);
+  EXPECT_LT(worst_position_m(found->rig, cameras), 0.03);
   EXPECT_EQ(found->wand_from_tag.size(), 4U);
   EXPECT_TRUE(found->world_from_wand.empty());
 }

@@ -17,12 +17,12 @@ using marey::testing::names_of;
 using marey::testing::ring_of_cameras;
 using marey::testing::wave_board;
 
-const AprilGrid kBoard{6, 6, 0.1, 0.03, 0, 0.005};
-constexpr int kFrames = 40;
+const AprilGrid kMovedBoard{6, 6, 0.1, 0.03, 0, 0.005};
+constexpr int kErrorFrames = 40;
 
 Error error_of(const std::vector<Camera>& cameras,
                const BoardRecording& recording,
-               const AprilGrid& board = kBoard) {
+               const AprilGrid& board = kMovedBoard) {
   const auto rig =
       calibrate_cameras(names_of(cameras), recording.waved, recording.floor, board);
   EXPECT_FALSE(rig);
@@ -35,7 +35,7 @@ bool contains(const std::string& text, const std::string& part) {
 
 TEST(CalibrateCameras, ReportsTheVideoWithoutTheBoard) {
   const auto cameras = ring_of_cameras();
-  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames);
   for (FrameDetections& frame : recording.waved[2].frames) frame.tags.clear();
   for (FrameDetections& frame : recording.floor[2].frames) frame.tags.clear();
   const Error error = error_of(cameras, recording);
@@ -46,7 +46,7 @@ TEST(CalibrateCameras, ReportsTheVideoWithoutTheBoard) {
 
 TEST(CalibrateCameras, ReportsTheVideoWithTooFewViewsOfTheBoard) {
   const auto cameras = ring_of_cameras();
-  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames);
   int left = 2;
   for (FrameDetections& frame : recording.waved[1].frames) {
     if (frame.tags.size() >= 6 && left > 0) {
@@ -65,7 +65,7 @@ TEST(CalibrateCameras, ReportsTheVideoWithTooFewViewsOfTheBoard) {
 
 TEST(CalibrateCameras, NamesTheGroupsThatNeverSeeTheBoardTogether) {
   const auto cameras = ring_of_cameras();
-  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames);
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     for (FrameDetections& frame : recording.waved[c].frames) {
       if ((c == 3) != (frame.frame % 2 == 0)) frame.tags.clear();
@@ -82,7 +82,7 @@ TEST(CalibrateCameras, NamesTheGroupsThatNeverSeeTheBoardTogether) {
 
 TEST(CalibrateCameras, AsksForAFloor) {
   const auto cameras = ring_of_cameras();
-  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames);
   for (CameraDetections& camera : recording.floor) {
     for (FrameDetections& frame : camera.frames) frame.tags.clear();
   }
@@ -95,7 +95,7 @@ TEST(CalibrateCameras, AsksForAFloor) {
 // then see a board from behind.
 TEST(CalibrateCameras, NoticesABoardThatLiesFaceDown) {
   const auto cameras = ring_of_cameras();
-  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames);
   const RigidTransform face_down{rotation_from_vector({glm::radians(90.0), 0.0, 0.0}),
                                  glm::dvec3(0.0)};
   const RigidTransform upright_tag{rotation_from_vector({glm::radians(180.0), 0.0, 0.0}),
@@ -103,14 +103,14 @@ TEST(CalibrateCameras, NoticesABoardThatLiesFaceDown) {
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     for (FrameDetections& frame : recording.floor[c].frames) {
       frame.tags.clear();
-      for (int id = 0; id < kBoard.tag_count(); ++id) {
+      for (int id = 0; id < kMovedBoard.tag_count(); ++id) {
         RigidTransform board_from_tag = upright_tag;
-        board_from_tag.translation = 0.5 * (*kBoard.corner_in_board(TagId{id}, 0) +
-                                            *kBoard.corner_in_board(TagId{id}, 2));
+        board_from_tag.translation = 0.5 * (*kMovedBoard.corner_in_board(TagId{id}, 0) +
+                                            *kMovedBoard.corner_in_board(TagId{id}, 2));
         const auto tag = marey::testing::see_tag(cameras[c],
                                                  face_down * board_from_tag,
                                                  TagId{id},
-                                                 kBoard.tag_size_m,
+                                                 kMovedBoard.tag_size_m,
                                                  glm::radians(180.0));
         if (tag) frame.tags.push_back(*tag);
       }
@@ -125,7 +125,7 @@ TEST(CalibrateCameras, NoticesABoardThatLiesFaceDown) {
 TEST(CalibrateCameras, NamesTwoFloorVideosThatAreSwapped) {
   const auto cameras = ring_of_cameras();
   for (const auto& [a, b] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, 3}}) {
-    BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+    BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames);
     std::swap(recording.floor[a].frames, recording.floor[b].frames);
     const Error error = error_of(cameras, recording);
     EXPECT_EQ(error.where,
@@ -141,8 +141,8 @@ TEST(CalibrateCameras, NamesACameraThatWasMovedBeforeTheFloorTrial) {
   auto moved = cameras;
   // 20 cm to its right.
   moved[2].camera_from_world.translation.x -= 0.2;
-  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
-  recording.floor[2] = wave_board(moved, kBoard, kFrames).floor[2];
+  BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames);
+  recording.floor[2] = wave_board(moved, kMovedBoard, kErrorFrames).floor[2];
   const Error error = error_of(cameras, recording);
   EXPECT_EQ(error.where, "floor/cam2.mp4");
   EXPECT_TRUE(contains(error.next, "no camera was moved")) << error.next;
@@ -152,8 +152,8 @@ TEST(CalibrateCameras, NoticesAWrongGap) {
   // Printed with gaps of 30 mm, declared with 20: a world of 120/130 of its size would
   // fit every corner if the shrinkage of tags were unlimited.
   const auto cameras = ring_of_cameras();
-  const BoardRecording recording = wave_board(cameras, kBoard, kFrames);
-  AprilGrid declared = kBoard;
+  const BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames);
+  AprilGrid declared = kMovedBoard;
   declared.gap_m = 0.02;
   const Error error = error_of(cameras, recording, declared);
   EXPECT_EQ(error.cause,
@@ -169,7 +169,7 @@ TEST(CalibrateCameras, ReportsTheSeenArrangementOfTagsForAWrongDeclaration) {
   const auto cameras = ring_of_cameras();
   marey::testing::Disturbance noise;
   noise.noise_px = 0.3;
-  const BoardRecording recording = wave_board(cameras, kBoard, kFrames, noise);
+  const BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames, noise);
   struct Case {
     int columns, rows, first_id;
     const char* changes;
@@ -179,7 +179,7 @@ TEST(CalibrateCameras, ReportsTheSeenArrangementOfTagsForAWrongDeclaration) {
                             Case{10, 10, 0, " columns = 6, rows = 6"},
                             Case{6, 6, 100, " first_id = 0"},
                             Case{6, 6, 1, " first_id = 0"}}) {
-    AprilGrid declared = kBoard;
+    AprilGrid declared = kMovedBoard;
     declared.columns = wrong.columns;
     declared.rows = wrong.rows;
     declared.first_id = wrong.first_id;
@@ -200,11 +200,11 @@ std::vector<FrameDetections> square_on(const std::vector<glm::dvec2>& places_px)
   for (const glm::dvec2& place : places_px) {
     FrameDetections frame;
     frame.frame = static_cast<int>(frames.size());
-    for (int id = 0; id < kBoard.tag_count(); ++id) {
+    for (int id = 0; id < kMovedBoard.tag_count(); ++id) {
       TagDetection tag;
       tag.id = TagId{id};
       for (int corner = 0; corner < 4; ++corner) {
-        const glm::dvec3 p = *kBoard.corner_in_board(tag.id, corner);
+        const glm::dvec3 p = *kMovedBoard.corner_in_board(tag.id, corner);
         tag.corners_px[static_cast<std::size_t>(corner)] =
             place + kPxPerMetre * glm::dvec2(p.x, -p.y);
       }
@@ -217,16 +217,16 @@ std::vector<FrameDetections> square_on(const std::vector<glm::dvec2>& places_px)
 
 TEST(CalibrateCameras, DistinguishesAStillBoardFromAnUntiltedBoard) {
   const auto cameras = ring_of_cameras();
-  BoardRecording recording = wave_board(cameras, kBoard, kFrames);
+  BoardRecording recording = wave_board(cameras, kMovedBoard, kErrorFrames);
   // The floor shows a board that is tilted.
   for (FrameDetections& frame : recording.floor[0].frames) frame.tags.clear();
   recording.waved[0].frames =
-      square_on(std::vector<glm::dvec2>(kFrames, glm::dvec2(500.0, 600.0)));
+      square_on(std::vector<glm::dvec2>(kErrorFrames, glm::dvec2(500.0, 600.0)));
   const Error still = error_of(cameras, recording);
   EXPECT_TRUE(contains(still.cause, "the board lies still in the 40 frames"))
       << still.cause;
   std::vector<glm::dvec2> places;
-  for (int frame = 0; frame < kFrames; ++frame) {
+  for (int frame = 0; frame < kErrorFrames; ++frame) {
     places.emplace_back(100.0 + 20.0 * frame, 400.0 + 5.0 * frame);
   }
   recording.waved[0].frames = square_on(places);

@@ -19,7 +19,7 @@ constexpr double kHz = 30.0;
 constexpr double kSize_m = 0.15;
 const std::map<TagId, double> kSizes{{TagId{3}, kSize_m}, {TagId{7}, kSize_m}};
 
-std::vector<Camera> three_cameras() {
+std::vector<Camera> three_late_cameras() {
   return {webcam_at("cam0", {-1.2, 1.2, 2.2}, {0.0, 1.0, 0.0}),
           webcam_at("cam1", {0.1, 1.6, 2.4}, {0.0, 1.0, 0.0}),
           webcam_at("cam2", {1.3, 1.0, 2.1}, {0.0, 1.0, 0.0})};
@@ -34,10 +34,10 @@ RigidTransform world_from_tag(double time_s, double phase) {
            0.2 * std::sin(1.9 * time_s)}};
 }
 
-std::vector<CameraDetections> film(const std::array<double, 3>& late_s,
-                                   double noise_px,
-                                   double speed = 1.0) {
-  const auto cameras = three_cameras();
+std::vector<CameraDetections> film_late(const std::array<double, 3>& late_s,
+                                        double noise_px,
+                                        double speed = 1.0) {
+  const auto cameras = three_late_cameras();
   auto out = marey::testing::unseeing(cameras, 90, kHz, "motion");
   marey::testing::Dice dice(11);
   for (std::size_t c = 0; c < 3; ++c) {
@@ -56,8 +56,8 @@ std::vector<CameraDetections> film(const std::array<double, 3>& late_s,
 }
 
 TEST(EstimateClocks, FindsOffsetsBetweenFrames) {
-  const auto clocks =
-      estimate_clocks(three_cameras(), film({0.0, 0.0073, -0.0111}, 0.0), kSizes);
+  const auto clocks = estimate_clocks(
+      three_late_cameras(), film_late({0.0, 0.0073, -0.0111}, 0.0), kSizes);
   ASSERT_TRUE(clocks);
   EXPECT_EQ((*clocks)[0].offset_s, 0.0);
   // The remaining error is that of a spline of 1/30 s for a sine of 3 rad/s.
@@ -66,8 +66,8 @@ TEST(EstimateClocks, FindsOffsetsBetweenFrames) {
 }
 
 TEST(EstimateClocks, FindsOffsetsOfManyFramesUnderNoise) {
-  const auto clocks =
-      estimate_clocks(three_cameras(), film({0.0, 0.2473, -0.1311}, 0.2), kSizes);
+  const auto clocks = estimate_clocks(
+      three_late_cameras(), film_late({0.0, 0.2473, -0.1311}, 0.2), kSizes);
   ASSERT_TRUE(clocks);
   EXPECT_NEAR((*clocks)[1].offset_s, 0.2473, 1e-3);
   EXPECT_NEAR((*clocks)[2].offset_s, -0.1311, 1e-3);
@@ -76,20 +76,20 @@ TEST(EstimateClocks, FindsOffsetsOfManyFramesUnderNoise) {
 
 TEST(EstimateClocks, ReportsALargeUncertaintyForTagsAtRest) {
   const auto still =
-      estimate_clocks(three_cameras(), film({0.0, 0.0, 0.0}, 0.2, 0.0), kSizes);
+      estimate_clocks(three_late_cameras(), film_late({0.0, 0.0, 0.0}, 0.2, 0.0), kSizes);
   const auto moving =
-      estimate_clocks(three_cameras(), film({0.0, 0.0, 0.0}, 0.2), kSizes);
+      estimate_clocks(three_late_cameras(), film_late({0.0, 0.0, 0.0}, 0.2), kSizes);
   ASSERT_TRUE(still && moving);
   // Noise is equivalent to a small motion.
   EXPECT_GT((*still)[1].offset_sigma_s, 10.0 * (*moving)[1].offset_sigma_s);
 }
 
 TEST(EstimateClocks, DeclinesTagsWithoutASharedView) {
-  auto detections = film({0.0, 0.0, 0.0}, 0.0);
+  auto detections = film_late({0.0, 0.0, 0.0}, 0.0);
   for (std::size_t c = 1; c < 3; ++c) {
     for (FrameDetections& frame : detections[c].frames) frame.tags.clear();
   }
-  EXPECT_FALSE(estimate_clocks(three_cameras(), detections, kSizes));
+  EXPECT_FALSE(estimate_clocks(three_late_cameras(), detections, kSizes));
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace marey::calib {
 namespace {
 
-constexpr double kSize_m = 0.2;
+constexpr double kUprightTag_m = 0.2;
 
 /// Tags on a pillar in the middle, the lowest with its edge on the floor.
 std::vector<CameraDetections> pillar(const std::vector<Camera>& cameras) {
@@ -28,7 +28,7 @@ std::vector<CameraDetections> pillar(const std::vector<Camera>& cameras) {
             turn,
             glm::dvec3(0.0, 0.1 + 0.4 * (i / 4), 0.0) + turn * glm::dvec3(0, 0, -0.1)};
         const auto tag =
-            marey::testing::see_tag(cameras[c], tag_at, TagId{i}, kSize_m, 1.4);
+            marey::testing::see_tag(cameras[c], tag_at, TagId{i}, kUprightTag_m, 1.4);
         if (tag) frame.tags.push_back(*tag);
       }
     }
@@ -67,7 +67,7 @@ std::vector<CameraDetections> lying_tags(const std::vector<Camera>& cameras,
       const RigidTransform tag_at{
           flat, glm::dvec3(0.4 * (i % 2), i == 3 ? last_m : 0.0, 0.4 * (i / 2))};
       const auto tag =
-          marey::testing::see_tag(cameras[c], tag_at, TagId{i}, kSize_m, 1.4);
+          marey::testing::see_tag(cameras[c], tag_at, TagId{i}, kUprightTag_m, 1.4);
       if (tag) out[c].frames[0].tags.push_back(*tag);
     }
   }

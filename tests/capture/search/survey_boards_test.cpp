@@ -32,9 +32,9 @@ CharucoBoard charuco() {
 
 /// A folder of three pictures of a board.
 template <class Board>
-void record(const ScratchFolder& folder,
-            const Board& board,
-            const BoardPlace& place = kPlace) {
+void record_board(const ScratchFolder& folder,
+                  const Board& board,
+                  const BoardPlace& place = kPlace) {
   const cv::Mat picture = tests::draw_board(tests::flat_picture(board), 640, 480, place);
   for (const char* name : {"0.png", "1.png", "2.png"}) {
     ASSERT_TRUE(cv::imwrite((folder / name).string(), picture));
@@ -59,7 +59,7 @@ void expect_seen(const ScratchFolder& folder,
 
 TEST(SurveyBoards, ReturnsTheDictionaryInView) {
   const ScratchFolder folder;
-  record(folder, charuco());
+  record_board(folder, charuco());
   CharucoBoard wanted = charuco();
   wanted.dictionary = "DICT_4X4_50";
   expect_seen(folder,
@@ -73,7 +73,7 @@ TEST(SurveyBoards, ReturnsTheDictionaryInView) {
 
 TEST(SurveyBoards, DetectsABoardOfAnotherSize) {
   const ScratchFolder folder;
-  record(folder, charuco());
+  record_board(folder, charuco());
   CharucoBoard wanted = charuco();
   wanted.rows = 7;
   wanted.columns = 5;
@@ -84,14 +84,14 @@ TEST(SurveyBoards, DetectsBlackAndWhiteExchanged) {
   const ScratchFolder folder;
   CharucoBoard inverted = charuco();
   inverted.is_inverted = true;
-  record(folder, inverted);
+  record_board(folder, inverted);
   expect_seen(
       folder, charuco(), "DICT_5X5_100", "black and white", "write inverted = true");
 }
 
 TEST(SurveyBoards, DetectsAMirroredBoard) {
   const ScratchFolder folder;
-  record(folder, charuco(), kMirrored);
+  record_board(folder, charuco(), kMirrored);
   expect_seen(folder, charuco(), "DICT_5X5_100", "mirrored", "two_sided = true");
 }
 
@@ -99,7 +99,7 @@ TEST(SurveyBoards, DetectsAprilTags) {
   const ScratchFolder folder;
   CharucoBoard tags = charuco();
   tags.dictionary = "DICT_APRILTAG_36h11";
-  record(folder, tags);
+  record_board(folder, tags);
   expect_seen(folder,
               charuco(),
               "DICT_APRILTAG_36h11",
@@ -109,7 +109,7 @@ TEST(SurveyBoards, DetectsAprilTags) {
 
 TEST(SurveyBoards, CountsTheSquaresOfAChessboard) {
   const ScratchFolder folder;
-  record(folder, Chessboard{.rows = 6, .columns = 9, .square_size_m = 0.03});
+  record_board(folder, Chessboard{.rows = 6, .columns = 9, .square_size_m = 0.03});
   expect_seen(folder,
               Chessboard{.rows = 5, .columns = 8, .square_size_m = 0.03},
               "",
@@ -137,7 +137,7 @@ TEST(DetectWrongBoard, ReturnsTheBoardInView) {
   const ScratchFolder second;
   ASSERT_TRUE(cv::imwrite((first / "0.png").string(),
                           cv::Mat(480, 640, CV_8UC1, cv::Scalar(90))));
-  record(second, charuco());
+  record_board(second, charuco());
   CharucoBoard wanted = charuco();
   wanted.dictionary = "DICT_4X4_50";
   const std::array inputs{input_of(first), input_of(second)};
@@ -151,8 +151,8 @@ TEST(DetectWrongBoard, ReturnsTheBoardInView) {
 TEST(DetectWrongBoard, StopsAtOneCameraThatSeesTheTarget) {
   const ScratchFolder first;
   const ScratchFolder second;
-  record(first, Chessboard{.rows = 6, .columns = 9, .square_size_m = 0.03});
-  record(second, charuco());
+  record_board(first, Chessboard{.rows = 6, .columns = 9, .square_size_m = 0.03});
+  record_board(second, charuco());
   const std::array inputs{input_of(first), input_of(second)};
   EXPECT_FALSE(detect_wrong_board(inputs, charuco()));
 }
@@ -161,7 +161,7 @@ TEST(DetectWrongBoard, IgnoresWornTags) {
   const ScratchFolder folder;
   CharucoBoard tags = charuco();
   tags.dictionary = "DICT_APRILTAG_36h11";
-  record(folder, tags);
+  record_board(folder, tags);
   const std::array inputs{input_of(folder)};
   const Chessboard wanted{.rows = 6, .columns = 9, .square_size_m = 0.03};
   const auto shows_tags = [](const std::optional<OtherBoard>& other) {
@@ -183,7 +183,7 @@ TEST(DetectWrongBoard, ReturnsNothingWithoutABoard) {
 
 TEST(DetectVideos, FindsTheTargetsPointsInEveryFrame) {
   const ScratchFolder folder;
-  record(folder, charuco());
+  record_board(folder, charuco());
   CameraInput input;
   input.path = folder.path() / "*.png";
   input.rate = FrameRate{10.0};

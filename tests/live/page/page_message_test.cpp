@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/human/average_proportions.h"
 #include "live/page/page_scene.h"
 #include "live/page/page_status.h"
 #include "live/page/page_wizard.h"

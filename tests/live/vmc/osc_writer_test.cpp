@@ -11,7 +11,7 @@
 namespace marey::live {
 namespace {
 
-std::string bytes_of(std::span<const std::uint8_t> packet) {
+std::string text_of_packet(std::span<const std::uint8_t> packet) {
   return {packet.begin(), packet.end()};
 }
 
@@ -24,7 +24,7 @@ TEST(OscWriter, WritesTheBytesOfAHandMadeBundle) {
   writer.begin("/ab", "sf").add("root").add(1.5F);
   const auto packets = writer.packets();
   ASSERT_EQ(packets.size(), 1U);
-  EXPECT_EQ(bytes_of(packets[0]),
+  EXPECT_EQ(text_of_packet(packets[0]),
             "#bundle\0"
             "\0\0\0\0\0\0\0\1"
             "\0\0\0\x18"
@@ -53,7 +53,7 @@ TEST(OscWriter, WritesTheBytesThatLibloWrites) {
   OscWriter writer;
   writer.begin("/VMC/Ext/Bone/Pos", "sf").add("RightMiddleIntermediate").add(-0.0F);
   writer.begin("/VMC/Ext/Blend/Apply", "");
-  EXPECT_EQ(bytes_of(writer.packets()[0]), std::string(expected, size));
+  EXPECT_EQ(text_of_packet(writer.packets()[0]), std::string(expected, size));
   std::free(expected);
   lo_bundle_free_recursive(bundle);
 }
@@ -66,7 +66,7 @@ TEST(OscWriter, SplitsAtTheLimitBetweenMessages) {
   ASSERT_EQ(packets.size(), 3U);
   for (const auto packet : packets) {
     EXPECT_EQ(packet.size(), 36U);
-    EXPECT_EQ(bytes_of(packet.first(8)), "#bundle\0"s);
+    EXPECT_EQ(text_of_packet(packet.first(8)), "#bundle\0"s);
   }
   EXPECT_EQ(packets[2].back(), 3);
 }
@@ -76,7 +76,7 @@ TEST(OscWriter, EndsTextAtAZeroByte) {
   writer.begin("/a", "s").add(std::string_view("ab\0cd", 5));
   OscWriter shorter;
   shorter.begin("/a", "s").add("ab");
-  EXPECT_EQ(bytes_of(writer.packets()[0]), bytes_of(shorter.packets()[0]));
+  EXPECT_EQ(text_of_packet(writer.packets()[0]), text_of_packet(shorter.packets()[0]));
 }
 
 TEST(OscWriter, HasNothingToSendAfterClear) {

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "live/vmc/osc_writer.h"
 #include "live/vmc/vmc_body.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -7,6 +7,7 @@
 #include <glm/mat4x4.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "tests/live/vmc/unity_receiver.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/program/count_allocations.h"

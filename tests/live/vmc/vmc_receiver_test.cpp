@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "live/vmc/vmc_body.h"
 #include "tests/support/bodies/random_bodies.h"
 

@@ -37,17 +37,17 @@ struct Stage {
   }
 };
 
-int count(const std::vector<ReadMessage>& messages, const std::string& address) {
+int count_messages(const std::vector<ReadMessage>& messages, const std::string& address) {
   return static_cast<int>(std::ranges::count(messages, address, &ReadMessage::address));
 }
 
 TEST(VmcSender, SendsOneBundlePerFrameAndItsListenPort) {
   Stage stage;
   const auto first = stage.next_frame();
-  EXPECT_EQ(count(first, "/VMC/Ext/Bone/Pos"), 1);
-  ASSERT_EQ(count(first, "/VMC/Ext/Rcv"), 1);
+  EXPECT_EQ(count_messages(first, "/VMC/Ext/Bone/Pos"), 1);
+  ASSERT_EQ(count_messages(first, "/VMC/Ext/Rcv"), 1);
   EXPECT_EQ(first.back().numbers[1], *stage.sender.listen_port());
-  EXPECT_EQ(count(stage.next_frame(), "/VMC/Ext/Rcv"), 0);
+  EXPECT_EQ(count_messages(stage.next_frame(), "/VMC/Ext/Rcv"), 0);
   EXPECT_EQ(stage.sender.counts()[0].sent, 2);
 }
 
@@ -67,8 +67,8 @@ TEST(VmcSender, AppliesRequestedPeriods) {
   int roots = 0;
   for (int i = 0; i < 8; ++i) {
     const auto messages = stage.next_frame();
-    bones += count(messages, "/VMC/Ext/Bone/Pos");
-    roots += count(messages, "/VMC/Ext/Root/Pos");
+    bones += count_messages(messages, "/VMC/Ext/Bone/Pos");
+    roots += count_messages(messages, "/VMC/Ext/Root/Pos");
   }
   EXPECT_EQ(bones, 2);
   EXPECT_EQ(roots, 4);
@@ -80,8 +80,8 @@ TEST(VmcSender, SendsItsInfoOnRequest) {
   OscWriter command;
   command.begin("/VMC/Ext/Set/Req", "");
   stage.command(command);
-  EXPECT_EQ(count(stage.next_frame(), "/VMC/Ext/Rcv"), 1);
-  EXPECT_EQ(count(stage.next_frame(), "/VMC/Ext/Rcv"), 0);
+  EXPECT_EQ(count_messages(stage.next_frame(), "/VMC/Ext/Rcv"), 1);
+  EXPECT_EQ(count_messages(stage.next_frame(), "/VMC/Ext/Rcv"), 0);
 }
 
 TEST(VmcSender, HandsOverCalibrationsOnce) {
@@ -110,7 +110,7 @@ TEST(VmcSender, IgnoresWhatItCannotObeyAndCountsIt) {
   stage.command(command);
   stage.assistant.send(std::vector<std::uint8_t>{'h', 'e', 'l', 'l', 'o'});
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(count(stage.next_frame(), "/VMC/Ext/Bone/Pos"), 1);
+    EXPECT_EQ(count_messages(stage.next_frame(), "/VMC/Ext/Bone/Pos"), 1);
   }
   const VmcCommands commands = stage.sender.take_commands();
   EXPECT_EQ(commands.applied, 0);

@@ -9,6 +9,7 @@
 #include <glm/mat4x4.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "tests/live/vmc/read_vmc.h"
 #include "tests/support/bodies/random_bodies.h"

@@ -23,7 +23,7 @@ constexpr int kClose = 8;
 constexpr int kPing = 9;
 constexpr int kPong = 10;
 
-WebServer serve(WebServerOptions options = {}) {
+WebServer serve_pages(WebServerOptions options = {}) {
   options.port = 0;
   auto server = WebServer::start(options);
   EXPECT_TRUE(server) << server.error().message();
@@ -41,7 +41,7 @@ bool soon(const Claim& claim) {
 }
 
 TEST(WebPages, ReceiveTheSceneFirst) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   server.publish_text(PageMessage::kStatus, "status");
   server.publish_frame("old frame");
   server.publish_text(PageMessage::kScene, "scene");
@@ -61,7 +61,7 @@ TEST(WebPages, ReceiveTheSceneFirst) {
 }
 
 TEST(WebPages, AnswerTheHandshakeOfTheStandardsExample) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   WebSocketClient page(server.port());
   // RFC 6455, 1.3.
   EXPECT_EQ(header(page.upgrade(), "Sec-WebSocket-Accept"),
@@ -69,7 +69,7 @@ TEST(WebPages, AnswerTheHandshakeOfTheStandardsExample) {
 }
 
 TEST(WebPages, AreSentWhatIsPublishedWhileTheyAreOpen) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   WebSocketClient page(server.port());
   ASSERT_EQ(status(page.upgrade()), 101);
   for (int i = 0; i < 100; ++i) {
@@ -87,7 +87,7 @@ TEST(WebPages, AreSentWhatIsPublishedWhileTheyAreOpen) {
 }
 
 TEST(WebPages, SkipFramesWithoutDelayToTheServerWhenTheyReadSlowly) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   WebSocketClient slow(server.port());
   ASSERT_EQ(status(slow.upgrade()), 101);
   ASSERT_TRUE(soon([&] { return server.client_count() == 1; }));
@@ -111,7 +111,7 @@ TEST(WebPages, SkipFramesWithoutDelayToTheServerWhenTheyReadSlowly) {
 }
 
 TEST(WebPages, ArePublishedToWithoutAllocating) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   WebSocketClient page(server.port());
   ASSERT_EQ(status(page.upgrade()), 101);
   const std::string frame(500, 'f');
@@ -129,7 +129,7 @@ TEST(WebPages, ArePublishedToWithoutAllocating) {
 }
 
 TEST(WebPages, DeliverTheirTextsInOrder) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   EXPECT_FALSE(server.wait_for_text(0ms));
   for (int half = 0; half < 2; ++half) {
     // One page alone would talk too much.
@@ -153,7 +153,7 @@ TEST(WebPages, DeliverTheirTextsInOrder) {
 }
 
 TEST(WebPages, AreAnsweredOneByOne) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   WebSocketClient first(server.port());
   ASSERT_EQ(status(first.upgrade()), 101);
   WebSocketClient second(server.port());
@@ -172,7 +172,7 @@ TEST(WebPages, AreAnsweredOneByOne) {
 }
 
 TEST(WebPages, AreClosedWhenTheyTalkTooMuch) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   WebSocketClient page(server.port());
   ASSERT_EQ(status(page.upgrade()), 101);
   for (int i = 0; i < 500; ++i) page.send_frame(kText, "text");
@@ -184,7 +184,7 @@ TEST(WebPages, AreClosedWhenTheyTalkTooMuch) {
 }
 
 TEST(WebPages, AreCutOffWhenTheyPingTooMuch) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   WebSocketClient page(server.port());
   ASSERT_EQ(status(page.upgrade()), 101);
   for (int i = 0; i < 150; ++i) page.send_frame(kPing, "");
@@ -200,7 +200,7 @@ TEST(WebPages, AreCutOffWhenTheyPingTooMuch) {
 }
 
 TEST(WebPages, AreClosedAfterAMalformedMessage) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   struct Case {
     const char* what;
     std::string bytes;
@@ -236,7 +236,7 @@ TEST(WebPages, AreClosedAfterAMalformedMessage) {
 }
 
 TEST(WebPages, AreRemovedWhenTheyDisconnect) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   {
     WebSocketClient polite(server.port());
     ASSERT_EQ(status(polite.upgrade()), 101);
@@ -253,7 +253,7 @@ TEST(WebPages, AreRemovedWhenTheyDisconnect) {
 TEST(WebPages, AreTurnedAwayBeyondTheirLimit) {
   WebServerOptions options;
   options.max_clients = 2;
-  WebServer server = serve(options);
+  WebServer server = serve_pages(options);
   std::vector<WebSocketClient> pages;
   for (int i = 0; i < 2; ++i) {
     pages.emplace_back(server.port());
@@ -267,7 +267,7 @@ TEST(WebPages, AreTurnedAwayBeyondTheirLimit) {
 }
 
 TEST(WebPages, HaveAPathThatCannotBeFetched) {
-  WebServer server = serve();
+  WebServer server = serve_pages();
   EXPECT_EQ(status(fetch(server.port(), "/live")), 426);
 }
 

@@ -9,6 +9,7 @@
 #include <glm/gtc/constants.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/skeleton.h"
 
 namespace marey::reconstruct {

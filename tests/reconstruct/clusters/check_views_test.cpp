@@ -15,7 +15,7 @@ using marey::testing::ring_of_cameras;
 using marey::testing::tagged_person;
 using marey::testing::tags_of;
 
-struct Scene {
+struct ViewScene {
   Body body = tagged_person();
   std::vector<Camera> cameras = ring_of_cameras();
   std::vector<TagOnSegment> tags = tags_of(body);
@@ -37,14 +37,14 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 TEST(CheckViews, PassesViewsThatBelongTogether) {
-  const Scene scene;
+  const ViewScene scene;
   const Status status = check_views(scene.cameras, scene.detections, scene.tags);
   EXPECT_TRUE(status) << status.error().message();
 }
 
 TEST(CheckViews, PassesCamerasSideBySide) {
   // 8 cm apart and 5 m away: an angle of a degree, too little for a depth.
-  Scene scene;
+  ViewScene scene;
   scene.cameras = {marey::testing::webcam_at("cam0", {0.0, 1.4, 5.0}, {0.0, 1.0, 0.0}),
                    marey::testing::webcam_at("cam1", {0.08, 1.4, 5.0}, {0.0, 1.0, 0.0})};
   scene.detections = marey::testing::film(scene.body,
@@ -56,7 +56,7 @@ TEST(CheckViews, PassesCamerasSideBySide) {
 }
 
 TEST(CheckViews, NamesTheFilesThatAreSwapped) {
-  Scene scene;
+  ViewScene scene;
   scene.swap_files(1, 2);
   const Status status = check_views(scene.cameras, scene.detections, scene.tags);
   ASSERT_FALSE(status);
@@ -69,7 +69,7 @@ TEST(CheckViews, NamesTheFilesThatAreSwapped) {
 
 TEST(CheckViews, NoticesACameraThatSagged) {
   // Two degrees down: 31 px, in every pair that this camera is part of.
-  Scene scene;
+  ViewScene scene;
   scene.cameras[1].camera_from_world =
       RigidTransform{rotation_from_vector({glm::radians(2.0), 0.0, 0.0}),
                      glm::dvec3(0.0)} *
@@ -84,7 +84,7 @@ TEST(CheckViews, NoticesACameraThatSagged) {
 TEST(CheckViews, DoesNotTakeACameraThatWasMovedForWrongTags) {
   // Moved along the ring and still looking at its middle: its rays nearly meet the
   // others' at wrong places, so that tags seem to have wrong sizes.
-  Scene scene;
+  ViewScene scene;
   scene.cameras[1] = marey::testing::webcam_at("cam1", {2.6, 2.4, 1.8}, {0.0, 0.95, 0.0});
   const Status status = check_views(scene.cameras, scene.detections, scene.tags);
   ASSERT_FALSE(status);
@@ -93,7 +93,7 @@ TEST(CheckViews, DoesNotTakeACameraThatWasMovedForWrongTags) {
 }
 
 TEST(CheckViews, NamesTheOneTagOfAnotherSize) {
-  Scene scene;
+  ViewScene scene;
   scene.tags[3].size_m = 0.12;  // It is 0.09.
   const Status status = check_views(scene.cameras, scene.detections, scene.tags);
   ASSERT_FALSE(status);
@@ -102,7 +102,7 @@ TEST(CheckViews, NamesTheOneTagOfAnotherSize) {
 }
 
 TEST(CheckViews, BlamesThePrintWhenAllTagsAreOfAnotherSize) {
-  Scene scene;
+  ViewScene scene;
   for (TagOnSegment& tag : scene.tags) tag.size_m *= 1.25;
   const Status status = check_views(scene.cameras, scene.detections, scene.tags);
   ASSERT_FALSE(status);
@@ -112,12 +112,12 @@ TEST(CheckViews, BlamesThePrintWhenAllTagsAreOfAnotherSize) {
 }
 
 TEST(CheckViews, NoticesSizesThatAreThreePercentWrong) {
-  Scene one;
+  ViewScene one;
   one.tags[3].size_m *= 1.03;
   const Status of_one = check_views(one.cameras, one.detections, one.tags);
   ASSERT_FALSE(of_one);
   EXPECT_EQ(of_one.error().cause, "tag 43 measures 0.090 m, not 0.093 m");
-  Scene all;
+  ViewScene all;
   for (TagOnSegment& tag : all.tags) tag.size_m /= 1.03;
   const Status of_all = check_views(all.cameras, all.detections, all.tags);
   ASSERT_FALSE(of_all);
@@ -126,13 +126,13 @@ TEST(CheckViews, NoticesSizesThatAreThreePercentWrong) {
 }
 
 TEST(CheckViews, PassesWhatARulerMayBeWrongBy) {
-  Scene scene;
+  ViewScene scene;
   for (TagOnSegment& tag : scene.tags) tag.size_m *= 1.01;
   EXPECT_TRUE(check_views(scene.cameras, scene.detections, scene.tags));
 }
 
 TEST(CheckViews, NoticesASwapInEightFrames) {
-  Scene scene;
+  ViewScene scene;
   scene.swap_files(1, 2);
   for (CameraDetections& camera : scene.detections) camera.frames.resize(8);
   const Status status = check_views(scene.cameras, scene.detections, scene.tags);
@@ -143,7 +143,7 @@ TEST(CheckViews, NoticesASwapInEightFrames) {
 
 TEST(CheckViews, PassesWhenThereIsNothingToJudge) {
   // If only one camera sees tags, wrong sizes cannot be detected.
-  Scene scene;
+  ViewScene scene;
   for (std::size_t c = 1; c < scene.detections.size(); ++c) {
     for (FrameDetections& frame : scene.detections[c].frames) frame.tags.clear();
   }
@@ -152,7 +152,7 @@ TEST(CheckViews, PassesWhenThereIsNothingToJudge) {
 }
 
 TEST(CheckViews, PassesATrialWithoutFrames) {
-  Scene scene;
+  ViewScene scene;
   for (CameraDetections& camera : scene.detections) camera.frames.clear();
   EXPECT_TRUE(check_views(scene.cameras, scene.detections, scene.tags));
 }

@@ -14,13 +14,13 @@
 namespace marey::reconstruct {
 namespace {
 
-constexpr double kSize_m = 0.08;
+constexpr double kTagSize_m = 0.08;
 
 /// Two neighbouring cameras that look along +Z at tags of one shin, three metres away.
 struct Shin {
   std::vector<Camera> cameras;
-  std::vector<TagOnSegment> tags{{TagId{1}, HumanBone::kLeftLowerLeg, kSize_m},
-                                 {TagId{2}, HumanBone::kLeftLowerLeg, kSize_m}};
+  std::vector<TagOnSegment> tags{{TagId{1}, HumanBone::kLeftLowerLeg, kTagSize_m},
+                                 {TagId{2}, HumanBone::kLeftLowerLeg, kTagSize_m}};
 
   Shin() {
     for (int c = 0; c < 2; ++c) {
@@ -55,7 +55,7 @@ struct Shin {
       detection.id = tags[tag].id;
       for (int k = 0; k < 4; ++k) {
         detection.corners_px[static_cast<std::size_t>(k)] =
-            *project(cameras[camera], world_from_tag * corner_in_tag(k, kSize_m));
+            *project(cameras[camera], world_from_tag * corner_in_tag(k, kTagSize_m));
       }
       detections[camera].frames[0].tags.push_back(detection);
     }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "core/human/average_proportions.h"
 #include "reconstruct/posture/posture_derivatives.h"
 #include "tests/support/bodies/random_bodies.h"
 

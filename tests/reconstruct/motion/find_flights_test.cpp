@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "tests/support/bodies/random_bodies.h"
 

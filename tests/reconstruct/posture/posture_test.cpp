@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "reconstruct/clusters/sightings.h"
 #include "tests/reconstruct/random_posture.h"
 
@@ -18,7 +19,7 @@ namespace {
 
 using marey::testing::Dice;
 
-double turn_rad(const glm::dquat& a, const glm::dquat& b) {
+double turn_between_rad(const glm::dquat& a, const glm::dquat& b) {
   return glm::length(rotation_vector(glm::conjugate(a) * b));
 }
 
@@ -73,7 +74,7 @@ TEST(BoneFrameOfPosture, AgreesWithThePosesForwardKinematics) {
       const RigidTransform found = world_from_bone(bone, posture, lengths, frame);
       EXPECT_LT(glm::distance(found.translation, world[index(bone)].translation), 1e-12)
           << name(bone);
-      EXPECT_LT(turn_rad(found.rotation, world[index(bone)].rotation), 1e-12)
+      EXPECT_LT(turn_between_rad(found.rotation, world[index(bone)].rotation), 1e-12)
           << name(bone);
     }
   }
@@ -112,12 +113,14 @@ TEST(BoneFrameOfPosture, BendsTheSpineHalfWayAtItsMiddle) {
   const glm::dquat spine =
       world_from_bone(HumanBone::kSpine, posture, random_lengths(dice), average_frame())
           .rotation;
-  const double whole = turn_rad(posture.rotation(PoseParameter::kHips),
-                                posture.rotation(PoseParameter::kAbdomenEnd));
-  EXPECT_NEAR(
-      turn_rad(posture.rotation(PoseParameter::kHips), spine), 0.5 * whole, 1e-12);
-  EXPECT_NEAR(
-      turn_rad(spine, posture.rotation(PoseParameter::kAbdomenEnd)), 0.5 * whole, 1e-12);
+  const double whole = turn_between_rad(posture.rotation(PoseParameter::kHips),
+                                        posture.rotation(PoseParameter::kAbdomenEnd));
+  EXPECT_NEAR(turn_between_rad(posture.rotation(PoseParameter::kHips), spine),
+              0.5 * whole,
+              1e-12);
+  EXPECT_NEAR(turn_between_rad(spine, posture.rotation(PoseParameter::kAbdomenEnd)),
+              0.5 * whole,
+              1e-12);
 }
 
 TEST(SlotsOf, ListsExactlyTheParametersThatMoveTheBone) {
@@ -140,7 +143,7 @@ TEST(SlotsOf, ListsExactlyTheParametersThatMoveTheBone) {
       }
       const RigidTransform after = world_from_bone(bone, other, lengths, frame);
       const bool moved = glm::distance(before.translation, after.translation) > 1e-6 ||
-                         turn_rad(before.rotation, after.rotation) > 1e-6;
+                         turn_between_rad(before.rotation, after.rotation) > 1e-6;
       const bool listed =
           std::find(parameters.begin(), parameters.end(), parameter) != parameters.end();
       EXPECT_EQ(moved, listed) << name(bone) << ", slot " << static_cast<int>(parameter);
@@ -197,21 +200,21 @@ TEST(BoneFrameOfPosture, HasTheDerivativesThatFiniteDifferencesShow) {
   const Lengths lengths = random_lengths(dice);
   const BodyFrame body = average_frame();
   const Posture posture = random_posture(dice);
-  constexpr double kStep = 1e-6;
+  constexpr double kDifferenceStep = 1e-6;
   for (const HumanBone bone : human_bones()) {
     if (solved_segment(bone) != bone) continue;
     const auto jets = jet_frame(bone, posture, lengths, body);
     for (std::size_t i = 0; i < posture.values.size(); ++i) {
       Posture low = posture;
       Posture high = posture;
-      low.values[i] -= kStep;
-      high.values[i] += kStep;
+      low.values[i] -= kDifferenceStep;
+      high.values[i] += kDifferenceStep;
       const auto before = plain_frame(bone, low, lengths, body);
       const auto after = plain_frame(bone, high, lengths, body);
       for (std::size_t row = 0; row < jets.size(); ++row) {
         // Rounding 1e-16 over the step, and the step squared.
         EXPECT_NEAR(jets[row].v[static_cast<Eigen::Index>(i)],
-                    (after[row] - before[row]) / (2.0 * kStep),
+                    (after[row] - before[row]) / (2.0 * kDifferenceStep),
                     1e-8)
             << name(bone) << ", number " << i;
       }

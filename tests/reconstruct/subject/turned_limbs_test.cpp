@@ -10,6 +10,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/skeleton.h"
 #include "reconstruct/bundle/subject_solve.h"
 #include "reconstruct/posture/initial_posture.h"

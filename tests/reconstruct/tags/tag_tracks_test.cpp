@@ -16,7 +16,7 @@ namespace {
 using marey::testing::Film;
 using marey::testing::tagged_person;
 
-struct Scene {
+struct TrackScene {
   Body body = tagged_person();
   std::vector<Camera> cameras = marey::testing::ring_of_cameras();
   marey::testing::Movement movement = marey::testing::walking(body);
@@ -38,7 +38,7 @@ std::size_t tag_on(const Body& body, HumanBone segment) {
 }
 
 TEST(TagTracks, AreWhereTheCornersWere) {
-  const Scene scene;
+  const TrackScene scene;
   const auto trial = scene.solve();
   ASSERT_TRUE(trial);
   const MarkerTracks tracks = tag_tracks(scene.body, *trial);
@@ -70,7 +70,7 @@ TEST(TagTracks, AreWhereTheCornersWere) {
 }
 
 TEST(TagTracks, AreNamedAfterSegmentTagAndCorner) {
-  const Scene scene;
+  const TrackScene scene;
   const auto trial = scene.solve();
   ASSERT_TRUE(trial);
   const MarkerTracks tracks = tag_tracks(scene.body, *trial);
@@ -83,7 +83,7 @@ TEST(TagTracks, AreNamedAfterSegmentTagAndCorner) {
 }
 
 TEST(TagTracks, ReportSeenAndBridgedFrames) {
-  Scene scene;
+  TrackScene scene;
   const std::size_t hidden = tag_on(scene.body, HumanBone::kLeftFoot);
   scene.film.hidden = [](const TagOnSegment& tag, int frame) {
     return tag.segment == HumanBone::kLeftFoot && frame >= 5 && frame < 10;
@@ -103,7 +103,7 @@ TEST(TagTracks, ReportSeenAndBridgedFrames) {
 }
 
 TEST(TagTracks, AreEmptyWhereTheSegmentIsOnlyInferred) {
-  Scene scene;
+  TrackScene scene;
   const std::size_t hidden = tag_on(scene.body, HumanBone::kLeftFoot);
   scene.film.hidden = [](const TagOnSegment& tag, int frame) {
     return tag.segment == HumanBone::kLeftFoot && frame < 8;
@@ -117,7 +117,7 @@ TEST(TagTracks, AreEmptyWhereTheSegmentIsOnlyInferred) {
 }
 
 TEST(TagTracks, AreEmptyForATagThatIsNeverSeen) {
-  Scene scene;
+  TrackScene scene;
   const std::size_t lost = tag_on(scene.body, HumanBone::kHips);
   const TagId id = scene.body.tags[lost].tag.id;
   scene.film.hidden = [id](const TagOnSegment& tag, int /*frame*/) {

@@ -23,7 +23,7 @@ using marey::testing::ring_of_cameras;
 using marey::testing::tagged_person;
 
 /// A film of a body that is tracked frame by frame.
-class Scene {
+class BodyScene {
  public:
   Body body = tagged_person();
   std::vector<Camera> cameras = ring_of_cameras();
@@ -94,13 +94,13 @@ class Scene {
   }
 };
 
-double quantile(std::vector<double> values, double share) {
+double quantile_of(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const auto last = static_cast<double>(values.size() - 1);
   return values[static_cast<std::size_t>(std::lround(share * last))];
 }
 
-bool is_finite(const Scene::Frame& frame) {
+bool is_finite(const BodyScene::Frame& frame) {
   const auto& root = frame.pose.root_in_world;
   bool all = std::isfinite(root.x + root.y + root.z);
   for (const glm::dquat& q : frame.pose.parent_from_joint) {
@@ -113,7 +113,7 @@ bool is_finite(const Scene::Frame& frame) {
 }
 
 TEST(TrackBody, RecoversAWalkFromExactCorners) {
-  Scene scene;
+  BodyScene scene;
   std::vector<double> off;
   for (const auto& frame : scene.follow()) {
     ASSERT_TRUE(frame.found) << frame.number;
@@ -124,12 +124,12 @@ TEST(TrackBody, RecoversAWalkFromExactCorners) {
   }
   // The motion model and the pose priors have a thousandth of the tags' weight; more if
   // no tag of a foot or hand is seen.
-  EXPECT_LT(quantile(off, 0.5), 3e-4);
-  EXPECT_LT(quantile(off, 0.95), 3e-3);
+  EXPECT_LT(quantile_of(off, 0.5), 3e-4);
+  EXPECT_LT(quantile_of(off, 0.95), 3e-3);
 }
 
 TEST(TrackBody, StaysWithinMillimetresUnderNoise) {
-  Scene scene;
+  BodyScene scene;
   scene.film.disturbance.noise_px = 0.2;
   std::vector<double> off;
   double squares_px2 = 0.0;
@@ -141,14 +141,14 @@ TEST(TrackBody, StaysWithinMillimetresUnderNoise) {
     ++frames;
   }
   // A corner is 0.8 mm off in space; a few tags determine each joint.
-  EXPECT_LT(quantile(off, 0.5), 2e-3);
-  EXPECT_LT(quantile(off, 0.95), 6e-3);
+  EXPECT_LT(quantile_of(off, 0.5), 2e-3);
+  EXPECT_LT(quantile_of(off, 0.95), 6e-3);
   // Noise of two coordinates, of which the pose absorbs some.
   EXPECT_NEAR(std::sqrt(squares_px2 / frames), 0.24, 0.05);
 }
 
 TEST(TrackBody, FollowsCamerasThatAreLate) {
-  Scene scene;
+  BodyScene scene;
   scene.film.disturbance.noise_px = 0.2;
   scene.film.frames = 90;
   scene.movement = marey::testing::range_of_motion(scene.body);
@@ -161,7 +161,7 @@ TEST(TrackBody, FollowsCamerasThatAreLate) {
 }
 
 TEST(TrackBody, UsesGivenLags) {
-  Scene scene;
+  BodyScene scene;
   scene.options.lag_known = {true, true, true, true};
   scene.film.offsets_s = {0.0, 0.010, 0.0, 0.0};
   (void)scene.follow();
@@ -169,7 +169,7 @@ TEST(TrackBody, UsesGivenLags) {
 }
 
 TEST(TrackBody, BridgesALimbUnseenAndThenGuesses) {
-  Scene scene;
+  BodyScene scene;
   // Later the walk leaves the cameras' pictures.
   scene.film.frames = 100;
   scene.film.hidden = [](const TagOnSegment& tag, int frame) {
@@ -201,7 +201,7 @@ TEST(TrackBody, BridgesALimbUnseenAndThenGuesses) {
 }
 
 TEST(TrackBody, ReportsALostBodyAndRelocalizesIt) {
-  Scene scene;
+  BodyScene scene;
   scene.movement = marey::testing::range_of_motion(scene.body);
   scene.film.frames = 160;
   scene.hide_all(30, 119);
@@ -224,7 +224,7 @@ TEST(TrackBody, ReportsALostBodyAndRelocalizesIt) {
 }
 
 TEST(TrackBody, FindsABodyThatComesBackElsewhere) {
-  Scene scene;
+  BodyScene scene;
   const auto before = marey::testing::standing(scene.body);
   const RigidTransform moved{rotation_from_vector({0.0, 2.5, 0.0}), {0.5, 0.0, 0.4}};
   scene.movement = [=](double time_s) {
@@ -244,7 +244,7 @@ TEST(TrackBody, FindsABodyThatComesBackElsewhere) {
 }
 
 TEST(TrackBody, WaitsForABodyThatIsNotThere) {
-  Scene scene;
+  BodyScene scene;
   scene.hide_all(0, 19);
   for (const auto& frame : scene.follow()) {
     EXPECT_EQ(frame.found, frame.number >= 20) << frame.number;
@@ -254,9 +254,9 @@ TEST(TrackBody, WaitsForABodyThatIsNotThere) {
 }
 
 TEST(TrackBody, IgnoresTagsOfOthers) {
-  Scene alone;
+  BodyScene alone;
   alone.film.disturbance.noise_px = 0.2;
-  Scene crowded = alone;
+  BodyScene crowded = alone;
   crowded.tamper = [](std::vector<CameraDetections>& cameras) {
     for (CameraDetections& camera : cameras) {
       for (FrameDetections& frame : camera.frames) {
@@ -276,7 +276,7 @@ TEST(TrackBody, IgnoresTagsOfOthers) {
 }
 
 TEST(TrackBody, RejectsAnothersTagOfTheSameId) {
-  Scene scene;
+  BodyScene scene;
   scene.film.disturbance.noise_px = 0.2;
   // One of a camera's tags is far from its place in every frame.
   scene.tamper = [](std::vector<CameraDetections>& cameras) {
@@ -296,19 +296,19 @@ TEST(TrackBody, RejectsAnothersTagOfTheSameId) {
 }
 
 TEST(TrackBody, KeepsItsAccuracyWhenFramesAreDropped) {
-  Scene scene;
+  BodyScene scene;
   scene.dropped = [](int frame) { return frame % 3 == 1 || (frame > 30 && frame < 36); };
   std::vector<double> off;
   for (const auto& frame : scene.follow()) {
     const auto here = scene.off_m(frame);
     off.insert(off.end(), here.begin(), here.end());
   }
-  EXPECT_LT(quantile(off, 0.5), 5e-4);
-  EXPECT_LT(quantile(off, 0.95), 5e-3);
+  EXPECT_LT(quantile_of(off, 0.5), 5e-4);
+  EXPECT_LT(quantile_of(off, 0.95), 5e-3);
 }
 
 TEST(TrackBody, GivesTheSameBytesTwice) {
-  Scene scene;
+  BodyScene scene;
   scene.film.disturbance = {0.3, {}, 0.03};
   const auto a = scene.follow();
   const auto b = scene.follow();
@@ -320,7 +320,7 @@ TEST(TrackBody, GivesTheSameBytesTwice) {
 }
 
 TEST(TrackBody, DoesNotAllocateAfterItsFirstFrame) {
-  Scene scene;
+  BodyScene scene;
   scene.film.disturbance = {0.3, {}, 0.05};
   scene.film.frames = 120;
   // Lost and relocalized in between.
@@ -332,7 +332,7 @@ TEST(TrackBody, DoesNotAllocateAfterItsFirstFrame) {
 }
 
 TEST(TrackBody, IgnoresCornersThatAreNotFinite) {
-  Scene scene;
+  BodyScene scene;
   scene.tamper = [](std::vector<CameraDetections>& cameras) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double huge = std::numeric_limits<double>::max();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "recordings/body/skeleton_picture.h"
 #include "recordings/text/atomic_file.h"
 #include "tests/support/program/scratch_folder.h"

@@ -14,18 +14,18 @@ namespace marey::recordings {
 namespace {
 
 // The example of docs/formats/README.md: the first toml block after its heading.
-std::string documented() {
+std::string documented_floor() {
   return marey::testing::formats_example("floor");
 }
 
-Floor parsed(const std::string& text) {
+Floor parsed_floor(const std::string& text) {
   const Result<Floor> floor = parse_floor(text, "f.toml");
   EXPECT_TRUE(floor) << (floor ? "" : floor.error().message());
   return floor ? *floor : Floor{};
 }
 
 TEST(FloorFile, ReadsTheExampleOfTheDocumentation) {
-  const Floor floor = parsed(documented());
+  const Floor floor = parsed_floor(documented_floor());
   EXPECT_EQ(floor.base_height_m, 0.0);
   ASSERT_EQ(floor.parts.size(), 3U);
   EXPECT_EQ(floor.parts[0].name, "step");
@@ -47,7 +47,7 @@ TEST(FloorFile, GivesBackWhatWasWritten) {
   floor.parts.push_back({"é", {-4, -1}, {4, 7}, 0.1, {-0.25, 0}, {{-1.5, {1e-9, 2, 3}}}});
   floor.parts.push_back(
       {"c", {0, 0}, {1, 1}, -3.0, {0, 1.7}, {{0, {}}, {0.1, {1, 0, 0}}}});
-  const Floor read = parsed(floor_text(floor));
+  const Floor read = parsed_floor(floor_text(floor));
   EXPECT_EQ(read.base_height_m, floor.base_height_m);
   ASSERT_EQ(read.parts.size(), floor.parts.size());
   for (std::size_t i = 0; i < read.parts.size(); ++i) {
@@ -100,7 +100,7 @@ TEST(FloorFile, RefusesBrokenFilesWithTheirLine) {
            Fault{"times_s = [0.0, 2.0, 4.0]", "", ":16", "\"times_s\" is missing"},
            Fault{"[0.3, 0.2, 0.0]", "[0.3, 0.2]", ":22", "array of 3"},
        }) {
-    std::string text = documented();
+    std::string text = documented_floor();
     const std::size_t at = text.find(fault.from);
     ASSERT_NE(at, std::string::npos) << fault.from;
     text.replace(at, std::string(fault.from).size(), fault.to);

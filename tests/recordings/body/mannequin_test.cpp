@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "tests/recordings/wild_motion.h"
 
 namespace marey::recordings {

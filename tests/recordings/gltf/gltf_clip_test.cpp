@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/human/average_proportions.h"
 #include "recordings/body/mannequin.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/text/atomic_file.h"

@@ -33,7 +33,7 @@ Result<Character> read(const ScratchFolder& folder, const std::string& text) {
   return read_character(folder / "a.gltf");
 }
 
-std::string refusal(const ScratchFolder& folder, const std::string& text) {
+std::string node_refusal(const ScratchFolder& folder, const std::string& text) {
   const auto character = read(folder, text);
   EXPECT_FALSE(character);
   return character ? "" : character.error().cause;
@@ -57,19 +57,20 @@ TEST(GltfNodes, DeclinesMirroredAndUnevenNodesByName) {
   const ScratchFolder folder;
   const std::string mirrored =
       "the node \"Hips\" of its skeleton has a negative scale or none: it is mirrored";
-  EXPECT_EQ(refusal(folder, three_nodes(R"(,"scale":[-1,1,1])")), mirrored);
-  EXPECT_EQ(refusal(folder, three_nodes(R"(,"scale":[0,1,1])")), mirrored);
+  EXPECT_EQ(node_refusal(folder, three_nodes(R"(,"scale":[-1,1,1])")), mirrored);
+  EXPECT_EQ(node_refusal(folder, three_nodes(R"(,"scale":[0,1,1])")), mirrored);
   EXPECT_EQ(
-      refusal(folder, three_nodes(R"(,"matrix":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1])")),
+      node_refusal(folder,
+                   three_nodes(R"(,"matrix":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1])")),
       mirrored);
-  EXPECT_EQ(refusal(folder, three_nodes(R"(,"scale":[1,1.5,1])")),
+  EXPECT_EQ(node_refusal(folder, three_nodes(R"(,"scale":[1,1.5,1])")),
             "the node \"Hips\" of its skeleton is not scaled alike in all directions");
 }
 
 TEST(GltfNodes, NamesTheTreesOfTwoBodies) {
   const ScratchFolder folder;
-  EXPECT_EQ(refusal(folder,
-                    R"({"asset":{"version":"2.0"},
+  EXPECT_EQ(node_refusal(folder,
+                         R"({"asset":{"version":"2.0"},
  "nodes":[{"name":"Ann","children":[1]},{"name":"hips"},
           {"name":"Bob","children":[3]},{"name":"hips","translation":[1,0,0]}]})"),
             "the file holds two bodies: there is a joint \"hips\" below the node "

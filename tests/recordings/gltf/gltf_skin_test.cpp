@@ -14,7 +14,7 @@ namespace {
 
 using testing::ScratchFolder;
 
-std::string refusal(const ScratchFolder& folder, const std::string& text) {
+std::string skin_refusal(const ScratchFolder& folder, const std::string& text) {
   EXPECT_TRUE(write_file(folder / "broken.gltf", text));
   const auto read = read_character(folder / "broken.gltf");
   return read ? "no refusal" : read.error().cause;
@@ -48,7 +48,7 @@ TEST(ReadCharacter, HangsVerticesWithoutWeightsOnTheFirstJoint) {
 
 TEST(ReadCharacter, RefusesASkinWithoutJoints) {
   const ScratchFolder folder;
-  EXPECT_EQ(refusal(folder, skinned_triangle("")), "a skin has no joints");
+  EXPECT_EQ(skin_refusal(folder, skinned_triangle("")), "a skin has no joints");
 }
 
 // The bytes 80 80 80 3f are a weight of 1.004, and joints of -128 where bytes are signed.
@@ -59,7 +59,8 @@ TEST(ReadCharacter, RefusesVerticesOnJointsBelowZero) {
                64,
                "gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/gICAP4CAgD+AgIA/");
   text.replace(text.find("5121"), 4, "5120");
-  EXPECT_EQ(refusal(folder, text), "a vertex refers to joint -128, but its skin has 1");
+  EXPECT_EQ(skin_refusal(folder, text),
+            "a vertex refers to joint -128, but its skin has 1");
 }
 
 }  // namespace

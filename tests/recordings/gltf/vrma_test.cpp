@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "recordings/gltf/gltf.h"
 #include "recordings/text/atomic_file.h"
@@ -45,7 +46,7 @@ Motion read_again(const ScratchFolder& folder,
   return read && read->motion ? *read->motion : Motion{};
 }
 
-std::string refusal(const Motion& motion) {
+std::string write_refusal(const Motion& motion) {
   const auto bytes = vrma_bytes(motion);
   return bytes ? "no refusal" : bytes.error().message();
 }
@@ -245,15 +246,16 @@ TEST(Vrma, KeepsARealOneWhenWrittenAgain) {
 TEST(Vrma, RefusesABodyWithoutTheBonesThatVrmRequires) {
   Motion motion = wild_motion(uneven_body(), 1);
   motion.skeleton.joints[index(*motion.skeleton.find(HumanBone::kLeftHand))].bone.reset();
-  EXPECT_NE(refusal(motion).find("no joint is the leftHand, which VRM requires"),
+  EXPECT_NE(write_refusal(motion).find("no joint is the leftHand, which VRM requires"),
             std::string::npos);
   motion = wild_motion(uneven_body(), 1);
   const auto left = motion.skeleton.find(HumanBone::kLeftFoot);
   const auto right = motion.skeleton.find(HumanBone::kRightFoot);
   motion.skeleton.joints[index(*left)].bone = HumanBone::kRightFoot;
   motion.skeleton.joints[index(*right)].bone = HumanBone::kLeftFoot;
-  EXPECT_NE(refusal(motion).find("the leftFoot does not lie below the leftLowerLeg"),
-            std::string::npos);
+  EXPECT_NE(
+      write_refusal(motion).find("the leftFoot does not lie below the leftLowerLeg"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -32,12 +32,12 @@ MarkerFile read(const std::string& text) {
   return file ? *std::move(file) : MarkerFile{};
 }
 
-std::string refusal(const std::string& text) {
+std::string trc_refusal(const std::string& text) {
   const auto file = parse_trc(text, "a.trc");
   return file ? "no refusal" : file.error().message();
 }
 
-bool has_note(const MarkerFile& file, const std::string& words) {
+bool has_trc_note(const MarkerFile& file, const std::string& words) {
   for (const std::string& note : file.notes) {
     if (note.find(words) != std::string::npos) return true;
   }
@@ -95,7 +95,7 @@ TEST(Trc, ReportsRowsThatEndEarlyAndSkipsBlankLines) {
   EXPECT_EQ(file.tracks.frames(), 2U);
   EXPECT_TRUE(file.tracks.at(0, 0));
   EXPECT_FALSE(file.tracks.at(0, 1));
-  EXPECT_TRUE(has_note(file, "2 rows end before the last marker"));
+  EXPECT_TRUE(has_trc_note(file, "2 rows end before the last marker"));
 }
 
 TEST(Trc, ExtraTabsAndBlankColumnsDoNotMatter) {
@@ -126,7 +126,7 @@ TEST(Trc, CellsMayLieBetweenOtherMarksThanTabs) {
   std::string words = kKeys + "100 100 1 2 mm\nFrame# Time A B\n1 0 1 2 3 4 5 6\n";
   EXPECT_EQ(read(words).tracks.at(0, 1)->p_in_world.x, 0.004);
   words += "2 0.01 1 2 3\n";
-  EXPECT_EQ(refusal(words),
+  EXPECT_EQ(trc_refusal(words),
             "a.trc:6: the row has 5 numbers instead of 8. Next: correct the line, or "
             "export the file again.");
 }
@@ -134,13 +134,13 @@ TEST(Trc, CellsMayLieBetweenOtherMarksThanTabs) {
 TEST(Trc, ReportsCommasForDecimalPoints) {
   const MarkerFile file = read(head() + "1\t0,00\t1,5\t2\t3\t4\t5\t6\n");
   EXPECT_EQ(file.tracks.at(0, 0)->p_in_world.x, 0.0015);
-  EXPECT_TRUE(has_note(file, "2 numbers have a comma"));
+  EXPECT_TRUE(has_trc_note(file, "2 numbers have a comma"));
 }
 
 TEST(Trc, ReportsWrongCountsOfTheHeader) {
   const MarkerFile file = read(head("100\t100\t99\t3\tmm\t100\t1\t2") + kRows);
-  EXPECT_TRUE(has_note(file, "the header states 3 markers, and there are 2"));
-  EXPECT_TRUE(has_note(file, "the header states 99 frames, and there are 2"));
+  EXPECT_TRUE(has_trc_note(file, "the header states 3 markers, and there are 2"));
+  EXPECT_TRUE(has_trc_note(file, "the header states 99 frames, and there are 2"));
 }
 
 TEST(Trc, MarkersWithoutALabelGetOne) {
@@ -157,7 +157,7 @@ TEST(Trc, PrefersTheTimesOfTheRowsToTheRateOfTheHeader) {
       head("250\t250\t3\t2\tmm\t250\t1\t3") +
       "1\t0\t1\t2\t3\t4\t5\t6\n2\t0.04\t1\t2\t3\t4\t5\t6\n3\t0.08\t1\t2\t3\t4\t5\t6\n");
   EXPECT_EQ(file.tracks.rate.hz, 25.0);
-  EXPECT_TRUE(has_note(file, "DataRate is 250 Hz, the times 25 Hz"));
+  EXPECT_TRUE(has_trc_note(file, "DataRate is 250 Hz, the times 25 Hz"));
 }
 
 TEST(Trc, FramesThatAreLeftOutAreThereWithoutMarkers) {
@@ -169,7 +169,7 @@ TEST(Trc, FramesThatAreLeftOutAreThereWithoutMarkers) {
   EXPECT_EQ(file.tracks.start_s, 0.5);
   EXPECT_FALSE(file.tracks.at(2, 0));
   EXPECT_TRUE(file.tracks.at(3, 0));
-  EXPECT_TRUE(has_note(file, "2 frames are missing"));
+  EXPECT_TRUE(has_trc_note(file, "2 frames are missing"));
 }
 
 TEST(Trc, AUnitThatIsMissingIsFound) {
@@ -178,35 +178,35 @@ TEST(Trc, AUnitThatIsMissingIsFound) {
                                "2\t0.01\t0.1\t1.7\t0.1\t0\t0.1\t0.1\n");
   // Two markers are too few to estimate the size of a body.
   EXPECT_EQ(file.axes.unit_from, Evidence::kConvention);
-  EXPECT_TRUE(has_note(file, "Units names no unit of length"));
+  EXPECT_TRUE(has_trc_note(file, "Units names no unit of length"));
 }
 
 TEST(Trc, OneFrameNeedsNoRate) {
   const MarkerFile file =
       read(head("0\t0\t1\t2\tmm\t0\t1\t1") + "1\t0\t1\t2\t3\t4\t5\t6\n");
   EXPECT_EQ(file.tracks.frames(), 1U);
-  EXPECT_TRUE(has_note(file, "one frame needs none"));
+  EXPECT_TRUE(has_trc_note(file, "one frame needs none"));
 }
 
 TEST(Trc, FaultsAreRefusedWithTheirLine) {
-  EXPECT_EQ(refusal("frame,time\n1,2\n"),
+  EXPECT_EQ(trc_refusal("frame,time\n1,2\n"),
             "a.trc:1: this is not a TRC file: it does not begin with PathFileType. Next: "
             "give a TRC file as OpenSim, Cortex or Vicon write it.");
-  EXPECT_EQ(refusal(kKeys),
+  EXPECT_EQ(trc_refusal(kKeys),
             "a.trc:2: the file ends in its header. Next: give a TRC file as OpenSim, "
             "Cortex or Vicon write it.");
   EXPECT_EQ(
-      refusal(head() + "1\t0\t1\t2\tx7\t4\t5\t6\n"),
+      trc_refusal(head() + "1\t0\t1\t2\tx7\t4\t5\t6\n"),
       "a.trc:7: column 5, a coordinate: \"x7\" is not a number. Next: correct the line, "
       "or export the file again.");
   EXPECT_EQ(
-      refusal(head() + kRows + "3\t0.02\t1\t2\t3\t4\t5\t6\t7\n"),
+      trc_refusal(head() + kRows + "3\t0.02\t1\t2\t3\t4\t5\t6\t7\n"),
       "a.trc:9: the row has 9 cells; a frame, a time and 2 markers have room for 8. "
       "Next: correct the line, or export the file again.");
-  EXPECT_EQ(refusal(head() + kRows + "3\t0.005\t1\t2\t3\t4\t5\t6\n"),
+  EXPECT_EQ(trc_refusal(head() + kRows + "3\t0.005\t1\t2\t3\t4\t5\t6\n"),
             "a.trc:9: the time runs backwards. Next: correct the line, or export the "
             "file again.");
-  EXPECT_EQ(refusal(head("0\t0\t2\t2\tmm") + "1\t0\t\t\t\t\t\t\n2\t0\n"),
+  EXPECT_EQ(trc_refusal(head("0\t0\t2\t2\tmm") + "1\t0\t\t\t\t\t\t\n2\t0\n"),
             "a.trc:3: neither DataRate nor the times give a frame rate. Next: set "
             "DataRate, in Hz.");
 }
@@ -227,7 +227,7 @@ TEST(Trc, RowsThatAreTooShortForTheirLabelsDoNotFillTheMemory) {
   for (int i = 0; i < 20'000; ++i) text.append("\t").append(std::to_string(i));
   text += '\n';
   for (int i = 0; i < 20'000; ++i) text += "1\t1\n";
-  EXPECT_NE(refusal(text).find("do not fit into memory"), std::string::npos);
+  EXPECT_NE(trc_refusal(text).find("do not fit into memory"), std::string::npos);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ using testing::ScratchFolder;
 
 // A hip, a thigh whose axes are turned by a quarter about Z, and a shank. A unit is a
 // decimetre.
-const std::string kSkeleton = R"(# of our own
+const std::string kAsfSkeleton = R"(# of our own
 :version 1.10
 :name TINY
 :units
@@ -75,7 +75,7 @@ const std::string kSkeleton = R"(# of our own
   end
 )";
 
-std::filesystem::path real_file(const std::string& name) {
+std::filesystem::path real_asf(const std::string& name) {
   return marey::testing::shared_data() / "mocap" / name;
 }
 
@@ -85,19 +85,19 @@ std::string with(std::string text, const std::string& was, const std::string& is
   return at == std::string::npos ? text : text.replace(at, was.size(), is);
 }
 
-AsfSkeleton tiny(const std::string& text = kSkeleton) {
+AsfSkeleton tiny(const std::string& text = kAsfSkeleton) {
   auto read = parse_asf(text, "tiny.asf");
   EXPECT_TRUE(read) << read.error().message();
   return read ? *std::move(read) : AsfSkeleton{};
 }
 
-Motion motion_of(const std::string& amc, const std::string& asf = kSkeleton) {
+Motion motion_of(const std::string& amc, const std::string& asf = kAsfSkeleton) {
   const auto read = parse_amc(amc, "tiny.amc", tiny(asf));
   EXPECT_TRUE(read) << read.error().message();
   return read ? read->motion : Motion{};
 }
 
-std::string refusal(const std::string& asf) {
+std::string asf_refusal(const std::string& asf) {
   const auto read = parse_asf(asf, "tiny.asf");
   return read ? "no refusal" : read.error().message();
 }
@@ -107,7 +107,7 @@ std::string amc_refusal(const std::string& amc) {
   return read ? "no refusal" : read.error().message();
 }
 
-void expect_near(const glm::dvec3& a, const glm::dvec3& b) {
+void expect_close(const glm::dvec3& a, const glm::dvec3& b) {
   EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << " " << a.y << " " << a.z;
 }
 
@@ -117,11 +117,11 @@ TEST(Asf, PutsAJointAtTheNearEndOfEveryBone) {
   ASSERT_EQ(joints.size(), 4U);
   EXPECT_EQ(joints[0].name, "root");
   EXPECT_EQ(joints[2].name, "thigh");
-  expect_near(joints[1].parent_from_joint.translation, {0, 0, 0});
-  expect_near(joints[2].parent_from_joint.translation, {0.2, 0, 0});
-  expect_near(joints[3].parent_from_joint.translation, {0, -0.4, 0});
+  expect_close(joints[1].parent_from_joint.translation, {0, 0, 0});
+  expect_close(joints[2].parent_from_joint.translation, {0.2, 0, 0});
+  expect_close(joints[3].parent_from_joint.translation, {0, -0.4, 0});
   ASSERT_TRUE(joints[3].tip_in_joint);
-  expect_near(*joints[3].tip_in_joint, {0, -0.3, 0});
+  expect_close(*joints[3].tip_in_joint, {0, -0.3, 0});
   EXPECT_FALSE(joints[2].tip_in_joint);
   // A root without a position is placed with its lowest tip on the floor.
   EXPECT_NEAR(joints[0].parent_from_joint.translation.y, 0.7, 1e-12);
@@ -135,11 +135,11 @@ TEST(Asf, TurnsBonesAboutTheirOwnAxes) {
       "#!OML\n:FULLY-SPECIFIED\n:DEGREES\n1\nroot 0 0 0 0 0 0\nthigh 30 0\nshank 0\n"
       "2\nroot 0 0 0 0 0 0\nthigh 0 90\nshank 90\n");
   ASSERT_EQ(motion.poses.size(), 2U);
-  expect_near(world_from_joints(motion.skeleton, motion.poses[0])[3].translation,
-              {0.2, -0.4, 0.0});
+  expect_close(world_from_joints(motion.skeleton, motion.poses[0])[3].translation,
+               {0.2, -0.4, 0.0});
   const auto joints = world_from_joints(motion.skeleton, motion.poses[1]);
-  expect_near(joints[3].translation, {0.6, 0.0, 0.0});
-  expect_near(joints[3] * *motion.skeleton.joints[3].tip_in_joint, {0.6, 0.0, -0.3});
+  expect_close(joints[3].translation, {0.6, 0.0, 0.0});
+  expect_close(joints[3] * *motion.skeleton.joints[3].tip_in_joint, {0.6, 0.0, -0.3});
 }
 
 // The root rotates about the fixed axes X, then Y, then Z: (0, 0, 1) goes to (0, -1, 0),
@@ -147,23 +147,24 @@ TEST(Asf, TurnsBonesAboutTheirOwnAxes) {
 // and stays.
 TEST(Asf, TurnsInTheOrderInWhichTheFreedomsAreListed) {
   const Motion xyz = motion_of("1\nroot 0 0 0 90 90 90\nthigh 0 0\nshank 0\n");
-  expect_near(xyz.poses[0].parent_from_joint[0] * glm::dvec3(0, 0, 1), {1, 0, 0});
-  const Motion zyx = motion_of("1\nroot 90 90 90 30 20 10\nthigh 0 0\nshank 0\n",
-                               with(kSkeleton, "TX TY TZ RX RY RZ", "RZ RY RX TZ TY TX"));
-  expect_near(zyx.poses[0].parent_from_joint[0] * glm::dvec3(0, 0, 1), {1, 0, 0});
-  expect_near(zyx.poses[0].root_in_world, {1.0, 2.0, 3.0});
+  expect_close(xyz.poses[0].parent_from_joint[0] * glm::dvec3(0, 0, 1), {1, 0, 0});
+  const Motion zyx =
+      motion_of("1\nroot 90 90 90 30 20 10\nthigh 0 0\nshank 0\n",
+                with(kAsfSkeleton, "TX TY TZ RX RY RZ", "RZ RY RX TZ TY TX"));
+  expect_close(zyx.poses[0].parent_from_joint[0] * glm::dvec3(0, 0, 1), {1, 0, 0});
+  expect_close(zyx.poses[0].root_in_world, {1.0, 2.0, 3.0});
 }
 
 // Axes rotated about Z first, then X: the bone's own X is the root's Z.
 TEST(Asf, KeepsTheOrderOfABonesOwnAxes) {
-  const std::string asf = with(kSkeleton, "axis 0 0 90 XYZ", "axis 90 90 0 ZXY");
+  const std::string asf = with(kAsfSkeleton, "axis 0 0 90 XYZ", "axis 90 90 0 ZXY");
   const Motion motion = motion_of("1\nroot 0 0 0 0 0 0\nthigh 90 0\nshank 0\n", asf);
-  expect_near(motion.poses[0].parent_from_joint[2] * glm::dvec3(1, 0, 0), {0, 1, 0});
+  expect_close(motion.poses[0].parent_from_joint[2] * glm::dvec3(1, 0, 0), {0, 1, 0});
 }
 
 TEST(Asf, TakesRadiansWhereTheFilesSaySo) {
   const std::string asf = with(
-      with(kSkeleton, "angle deg", "angle rad"), "0 0 90 XYZ", "0 0 1.5707963267949 ");
+      with(kAsfSkeleton, "angle deg", "angle rad"), "0 0 90 XYZ", "0 0 1.5707963267949 ");
   const std::string frame = "1\nroot 0 0 0 0 0 0\nthigh 0 1.5707963267949\nshank 0\n";
   EXPECT_NEAR(glm::angle(motion_of(frame, asf).poses[0].parent_from_joint[2]),
               1.5707963267949,
@@ -174,9 +175,9 @@ TEST(Asf, TakesRadiansWhereTheFilesSaySo) {
 }
 
 TEST(Asf, UsesTheGivenUnit) {
-  const auto read = parse_asf(kSkeleton, "tiny.asf", {.unit_m = 0.01});
+  const auto read = parse_asf(kAsfSkeleton, "tiny.asf", {.unit_m = 0.01});
   ASSERT_TRUE(read);
-  expect_near(read->skeleton.joints[2].parent_from_joint.translation, {0.02, 0, 0});
+  expect_close(read->skeleton.joints[2].parent_from_joint.translation, {0.02, 0, 0});
 }
 
 TEST(Asf, TakesTheRateFromOptionsThenFileThenDefault) {
@@ -195,18 +196,18 @@ TEST(Asf, TakesTheRateFromOptionsThenFileThenDefault) {
 }
 
 TEST(Asf, MovesTheRootForABoneTranslationAndIgnoresNone) {
-  const std::string asf = with(kSkeleton, "dof rx\n", "dof rx ty l\n");
+  const std::string asf = with(kAsfSkeleton, "dof rx\n", "dof rx ty l\n");
   const auto read =
       parse_amc("1\nroot 0 0 0 0 0 0\nthigh 0 0\nshank 0 0.5 2\n", "a.amc", tiny(asf));
   ASSERT_TRUE(read) << read.error().message();
   // The shank is the first joint that ends: its position is kept by moving the root.
   EXPECT_EQ(read->ignored_translation_m, 0.0);
-  expect_near(read->motion.poses[0].root_in_world, {0, 0.05, 0});
+  expect_close(read->motion.poses[0].root_in_world, {0, 0.05, 0});
 }
 
 // An independent reader of the same files gives the same result for every bone.
 TEST(Asf, AgreesWithAnotherReaderOnRealTrials) {
-  const auto asf = real_file("cmu_asfamc/02.asf");
+  const auto asf = real_asf("cmu_asfamc/02.asf");
   if (!std::filesystem::exists(asf)) GTEST_SKIP() << asf << " is not here";
   const auto skeleton = read_asf(asf);
   ASSERT_TRUE(skeleton) << skeleton.error().message();
@@ -214,7 +215,7 @@ TEST(Asf, AgreesWithAnotherReaderOnRealTrials) {
   ASSERT_TRUE(other) << other.error().message();
   ASSERT_EQ(skeleton->skeleton.joints.size(), other->bones.size());
   for (const char* trial : {"02_01", "02_03", "02_04", "02_05", "02_06", "02_09"}) {
-    const auto amc = real_file(std::string("cmu_asfamc/") + trial + ".amc");
+    const auto amc = real_asf(std::string("cmu_asfamc/") + trial + ".amc");
     EXPECT_EQ(find_skeleton_file(amc), asf);
     const auto read = read_amc(amc, *skeleton);
     ASSERT_TRUE(read) << read.error().message();
@@ -239,7 +240,7 @@ TEST(Asf, AgreesWithAnotherReaderOnRealTrials) {
 }
 
 TEST(Asf, ReadsAnAdultOfOrdinaryStature) {
-  const auto asf = real_file("cmu_asfamc/02.asf");
+  const auto asf = real_asf("cmu_asfamc/02.asf");
   if (!std::filesystem::exists(asf)) GTEST_SKIP() << asf << " is not here";
   const auto read = read_asf(asf);
   ASSERT_TRUE(read) << read.error().message();
@@ -255,12 +256,12 @@ TEST(Asf, ReadsAnAdultOfOrdinaryStature) {
 // 1.0631. The root's path is equal. Shanks and forearms have the same directions, except
 // for differences of the skeletons' joints.
 TEST(Asf, AgreesWithTheBvhOfTheSameTrial) {
-  const auto asf = real_file("cmu_asfamc/02.asf");
-  const auto bvh = real_file("cmu_bvh_tmoco/02_01.bvh");
+  const auto asf = real_asf("cmu_asfamc/02.asf");
+  const auto bvh = real_asf("cmu_bvh_tmoco/02_01.bvh");
   if (!exists(asf) || !exists(bvh)) GTEST_SKIP() << "no mocap data here";
   const auto skeleton = read_asf(asf);
   ASSERT_TRUE(skeleton);
-  const auto amc = read_amc(real_file("cmu_asfamc/02_01.amc"), *skeleton);
+  const auto amc = read_amc(real_asf("cmu_asfamc/02_01.amc"), *skeleton);
   ASSERT_TRUE(amc);
   const auto other = read_bvh(bvh, {.unit_m = skeleton->unit_m / 1.0631});
   ASSERT_TRUE(other);
@@ -296,10 +297,10 @@ TEST(Asf, AgreesWithTheBvhOfTheSameTrial) {
 }
 
 TEST(Asf, RefusesASkeletonThatIsNone) {
-  EXPECT_EQ(refusal("BVH"),
+  EXPECT_EQ(asf_refusal("BVH"),
             "tiny.asf:1: expected a section (\":root\"): no .asf file. Next: export the "
             "file again, or correct that line in a text editor.");
-  EXPECT_NE(refusal("").find("the file has no bones"), std::string::npos);
+  EXPECT_NE(asf_refusal("").find("the file has no bones"), std::string::npos);
 }
 
 TEST(Asf, RefusesABrokenSkeletonWithItsLine) {
@@ -321,12 +322,12 @@ TEST(Asf, RefusesABrokenSkeletonWithItsLine) {
       {"thigh shank", "thigh root", "no bone \"root\" can have a parent"},
       {":hierarchy", ":skin", "the file ends before its :hierarchy"}};
   for (const auto& [was, is, message] : faults) {
-    const std::string said = refusal(with(kSkeleton, was, is));
+    const std::string said = asf_refusal(with(kAsfSkeleton, was, is));
     EXPECT_NE(said.find(message), std::string::npos) << is << ": " << said;
   }
-  EXPECT_NE(
-      refusal(kSkeleton.substr(0, kSkeleton.find("    dof rx"))).find("inside a bone"),
-      std::string::npos);
+  EXPECT_NE(asf_refusal(kAsfSkeleton.substr(0, kAsfSkeleton.find("    dof rx")))
+                .find("inside a bone"),
+            std::string::npos);
 }
 
 TEST(Asf, RefusesABrokenMotionWithItsLine) {

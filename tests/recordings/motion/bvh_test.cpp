@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "recordings/body/mannequin.h"
 #include "tests/recordings/wild_motion.h"
 #include "tests/support/program/scratch_folder.h"

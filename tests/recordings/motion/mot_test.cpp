@@ -35,7 +35,7 @@ MotTable read(const std::string& text) {
   return table ? *std::move(table) : MotTable{};
 }
 
-std::string refusal(const std::string& text) {
+std::string mot_refusal(const std::string& text) {
   const auto table = parse_mot(text, "a.mot");
   return table ? "no refusal" : table.error().message();
 }
@@ -148,29 +148,29 @@ TEST(Mot, GoesThroughAFile) {
 }
 
 TEST(Mot, BrokenFilesAreRefusedWithTheLine) {
-  EXPECT_EQ(refusal(""),
+  EXPECT_EQ(mot_refusal(""),
             "a.mot:1: this is no .mot or .sto file: there is no line endheader. Next: "
             "give a motion or storage file as OpenSim writes it.");
-  EXPECT_EQ(refusal("a\nendheader\n\n"),
+  EXPECT_EQ(mot_refusal("a\nendheader\n\n"),
             "a.mot:3: the file ends after its header. Next: export the file again from "
             "OpenSim.");
-  EXPECT_EQ(refusal("a\nendheader\nframe x\n"),
+  EXPECT_EQ(mot_refusal("a\nendheader\nframe x\n"),
             "a.mot:3: no column is called time; the columns begin with \"frame\". Next: "
             "name the column of times so, or export the file again.");
-  EXPECT_EQ(refusal("a\nendheader\ntime x y\n0 1 2\n1 2\n"),
+  EXPECT_EQ(mot_refusal("a\nendheader\ntime x y\n0 1 2\n1 2\n"),
             "a.mot:5: the row has 2 numbers, and there are 3 columns. Next: correct the "
             "line, or export the file again.");
-  EXPECT_EQ(refusal("a\nendheader\ntime x\n0 1,5\n"),
+  EXPECT_EQ(mot_refusal("a\nendheader\ntime x\n0 1,5\n"),
             "a.mot:4: \"1,5\" is not a number. Next: correct the line, or export the "
             "file again.");
-  EXPECT_EQ(refusal("a\nendheader\ntime x\n1 1\n0.5 1\n"),
+  EXPECT_EQ(mot_refusal("a\nendheader\ntime x\n1 1\n0.5 1\n"),
             "a.mot:5: the time runs backwards. Next: sort the rows by time.");
-  EXPECT_EQ(refusal("a\nendheader\ntime x\nnan 1\n"),
+  EXPECT_EQ(mot_refusal("a\nendheader\ntime x\nnan 1\n"),
             "a.mot:4: the time is not a number. Next: export the file again from "
             "OpenSim.");
-  EXPECT_EQ(refusal("a\ninDegrees=perhaps\nendheader\ntime x\n"),
+  EXPECT_EQ(mot_refusal("a\ninDegrees=perhaps\nendheader\ntime x\n"),
             "a.mot:2: inDegrees is \"perhaps\". Next: write yes or no there.");
-  EXPECT_EQ(refusal("DataType=Vec3\nversion=3\nendheader\ntime x\n0 1,2,3\n"),
+  EXPECT_EQ(mot_refusal("DataType=Vec3\nversion=3\nendheader\ntime x\n0 1,2,3\n"),
             "a.mot:1: the cells hold \"Vec3\", not single numbers. Next: export the "
             "table flattened, one number to a cell.");
 }

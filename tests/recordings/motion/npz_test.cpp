@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/zip_archive.h"
 #include "tests/recordings/wild_motion.h"
@@ -23,7 +24,7 @@ constexpr const char* kPython = "/usr/bin/python3";
 
 /// Three joints, two frames at 29.97 Hz from frame 5; the second is rotated by half a
 /// turn.
-Motion a_motion() {
+Motion short_motion() {
   Motion motion;
   motion.skeleton.joints.resize(3);
   motion.skeleton.joints[0].name = "hips";
@@ -58,7 +59,7 @@ void expect_in_numpy(const std::filesystem::path& path, const std::string& asser
 }
 
 TEST(Npz, IsReadBackAsItWasWritten) {
-  const Motion motion = a_motion();
+  const Motion motion = short_motion();
   const std::vector<std::vector<JointUncertainty>> uncertainty{
       {{0.001, Source::kMeasured}, {0.002, Source::kRepaired}, {0.5, Source::kInferred}},
       {{0.0, Source::kInferred}, {0.25, Source::kMeasured}, {0.5, Source::kRepaired}}};
@@ -88,7 +89,7 @@ TEST(Npz, IsReadBackAsItWasWritten) {
 }
 
 TEST(Npz, DamagedAnywhereIsDeclinedOrRead) {
-  const auto bytes = npz_bytes(a_motion());
+  const auto bytes = npz_bytes(short_motion());
   ASSERT_TRUE(bytes);
   for (std::size_t at = 0; at < bytes->size(); at += 7) {
     std::string damaged = *bytes;
@@ -105,7 +106,7 @@ TEST(Npz, DamagedAnywhereIsDeclinedOrRead) {
 TEST(Npz, ReadsFilesOfNumpyUnlessTheyAreCompressed) {
   const ScratchFolder folder;
   const auto again = [&](const std::string& how) {
-    EXPECT_TRUE(write_npz(folder / "a.npz", a_motion()));
+    EXPECT_TRUE(write_npz(folder / "a.npz", short_motion()));
     const std::string script =
         "import sys\nimport numpy as np\na = np.load(sys.argv[1])\n"
         "np." +
@@ -133,7 +134,7 @@ TEST(Npz, IsReadByNumpy) {
       {{0.001, Source::kMeasured}, {0.002, Source::kRepaired}, {0.5, Source::kInferred}},
       {{0.001, Source::kMeasured}, {0.002, Source::kMeasured}, {0.5, Source::kMeasured}}};
   const NpzExtras extras{uncertainty, {{"leftFoot", "rightFoot"}, {1, 0, 1, 1}}, 0.25};
-  ASSERT_TRUE(write_npz(folder / "a.npz", a_motion(), extras));
+  ASSERT_TRUE(write_npz(folder / "a.npz", short_motion(), extras));
   expect_in_numpy(folder / "a.npz", R"(
 assert a['format'] == 1 and a['rate_hz'] == 29.97 and a['first_frame'] == 5
 assert a['first_frame'].dtype == np.int64
@@ -157,7 +158,7 @@ assert a['contacts'].tolist() == [[True, False], [True, True]]
 
 TEST(Npz, OmitsArraysOfUnknownData) {
   const ScratchFolder folder;
-  ASSERT_TRUE(write_npz(folder / "a.npz", a_motion()));
+  ASSERT_TRUE(write_npz(folder / "a.npz", short_motion()));
   expect_in_numpy(folder / "a.npz", R"(
 assert np.abs(a['time_s'] - np.array([5, 6]) / 29.97).max() < 1e-15
 for key in 'sigma_m source source_names valid contacts contact_names'.split():
@@ -167,7 +168,7 @@ for key in 'sigma_m source source_names valid contacts contact_names'.split():
 
 TEST(Npz, HasNoFramesWhereAMotionHasNone) {
   const ScratchFolder folder;
-  Motion motion = a_motion();
+  Motion motion = short_motion();
   motion.poses.clear();
   ASSERT_TRUE(write_npz(folder / "a.npz", motion));
   expect_in_numpy(folder / "a.npz", "assert a['positions'].shape == (0, 3, 3)\n");
@@ -194,13 +195,13 @@ assert (np.sum(world[1:] * world[:-1], axis=2) >= 0).all()
 }
 
 TEST(Npz, IsTheSameBytesAgain) {
-  EXPECT_EQ(*npz_bytes(a_motion()), *npz_bytes(a_motion()));
+  EXPECT_EQ(*npz_bytes(short_motion()), *npz_bytes(short_motion()));
 }
 
 // A date of writing would differ between runs.
 TEST(Npz, HasOneDateForAllFiles) {
   const ScratchFolder folder;
-  ASSERT_TRUE(write_npz(folder / "a.npz", a_motion()));
+  ASSERT_TRUE(write_npz(folder / "a.npz", short_motion()));
   expect_in_numpy(folder / "a.npz", R"(
 files = zipfile.ZipFile(sys.argv[1]).infolist()
 assert files and all(f.date_time == (1980, 1, 1, 0, 0, 0) for f in files)

@@ -14,6 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/human/average_proportions.h"
 #include "recordings/body/bone_map_file.h"
 #include "recordings/body/character_file.h"
 #include "recordings/body/constraints_file.h"

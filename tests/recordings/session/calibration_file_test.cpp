@@ -58,7 +58,7 @@ adjusted = false
 error = 0.0
 )";
 
-std::string mistake(const std::string& text) {
+std::string calibration_mistake(const std::string& text) {
   const Result<Calibration> calibration = parse_calibration(text, "c.toml");
   return calibration ? "" : calibration.error().message();
 }
@@ -121,7 +121,7 @@ TEST(CalibrationFile, ReadsPose2SimsOwn) {
 TEST(CalibrationFile, PassesOverKeysOfOthers) {
   const std::string text =
       with(std::string(kPose2Sim), "fisheye", "rotation_count = 0\nport = 1\nfisheye");
-  EXPECT_EQ(mistake(text), "");
+  EXPECT_EQ(calibration_mistake(text), "");
 }
 
 TEST(CalibrationFile, WritesTheKeysThatPose2SimReads) {
@@ -153,7 +153,7 @@ TEST(CalibrationFile, RefusesAPoseWhoseFormsDisagree) {
   const std::string text =
       with(calibration_text(two_cameras()), "rotation = [0.3", "rotation = [0.4");
   EXPECT_EQ(
-      mistake(text),
+      calibration_mistake(text),
       "c.toml:12: \"rotation\" and \"rotation_wxyz\" are different rotations. Next: "
       "remove rotation_wxyz, and world_from_camera, if rotation is right.");
 }
@@ -161,14 +161,15 @@ TEST(CalibrationFile, RefusesAPoseWhoseFormsDisagree) {
 TEST(CalibrationFile, RefusesAMatrixThatIsNotThePose) {
   const std::string text =
       with(calibration_text(two_cameras()), "translation = [0.3", "translation = [0.4");
-  EXPECT_TRUE(mistake(text).starts_with("c.toml:13: \"world_from_camera\" is not the"));
+  EXPECT_TRUE(calibration_mistake(text).starts_with(
+      "c.toml:13: \"world_from_camera\" is not the"));
 }
 
 TEST(CalibrationFile, RefusesCamerasThatStandNowhereNear) {
   Calibration ours = two_cameras();
   const auto moved_to = [&](double x_m) {
     ours.cameras[0].camera_from_world.translation = {x_m, 0.0, 0.0};
-    return mistake(calibration_text(ours));
+    return calibration_mistake(calibration_text(ours));
   };
   EXPECT_EQ(moved_to(900.0), "");
   EXPECT_EQ(moved_to(1e17),
@@ -179,7 +180,7 @@ TEST(CalibrationFile, RefusesCamerasThatStandNowhereNear) {
 TEST(CalibrationFile, NamesTheLineOfAMissingKey) {
   const std::string text =
       with(std::string(kPose2Sim), "rotation = [ 1.2, 0.9, -0.8]\n", "");
-  EXPECT_TRUE(mistake(text).starts_with(
+  EXPECT_TRUE(calibration_mistake(text).starts_with(
       "c.toml:1: the key \"rotation\" is missing in [int_cam1_img]"));
 }
 
@@ -210,23 +211,26 @@ TEST(CalibrationFile, KeepsEveryLens) {
 }
 
 TEST(CalibrationFile, RefusesSkew) {
-  EXPECT_TRUE(mistake(with(std::string(kPose2Sim), "1681.244, 0.0", "1681.244, 0.5"))
-                  .starts_with("c.toml:4: \"matrix\" must be [[fx, 0, cx]"));
+  EXPECT_TRUE(
+      calibration_mistake(with(std::string(kPose2Sim), "1681.244, 0.0", "1681.244, 0.5"))
+          .starts_with("c.toml:4: \"matrix\" must be [[fx, 0, cx]"));
 }
 
 TEST(CalibrationFile, RefusesARowTooFew) {
-  EXPECT_TRUE(mistake(with(std::string(kPose2Sim), ", [ 0.0, 0.0, 1.0]]", "]"))
-                  .starts_with("c.toml:4: \"matrix\" has the wrong number of rows"));
+  EXPECT_TRUE(
+      calibration_mistake(with(std::string(kPose2Sim), ", [ 0.0, 0.0, 1.0]]", "]"))
+          .starts_with("c.toml:4: \"matrix\" has the wrong number of rows"));
 }
 
 TEST(CalibrationFile, RefusesAFileWithoutCameras) {
   EXPECT_EQ(
-      mistake("[metadata]\nerror = 0.0\n"),
+      calibration_mistake("[metadata]\nerror = 0.0\n"),
       "c.toml:1: no camera in it. Next: run marey calibrate, or name another file.");
 }
 
 TEST(CalibrationFile, NamesTheLineThatIsNotToml) {
-  EXPECT_TRUE(mistake("[left]\nname = \n").starts_with("c.toml:2: not valid TOML: "));
+  EXPECT_TRUE(
+      calibration_mistake("[left]\nname = \n").starts_with("c.toml:2: not valid TOML: "));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {
@@ -48,7 +49,7 @@ Body a_body() {
   return body;
 }
 
-std::string mistake(std::string_view from, std::string_view to) {
+std::string subject_mistake(std::string_view from, std::string_view to) {
   std::string text = subject_text(a_body());
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -93,7 +94,7 @@ TEST(SubjectFile, ReadsMissingHingesAsStraight) {
 }
 
 TEST(SubjectFile, DeclinesAHingeOfAnotherJoint) {
-  EXPECT_NE(mistake("left_knee", "left_hip").find("unknown key \"left_hip\""),
+  EXPECT_NE(subject_mistake("left_knee", "left_hip").find("unknown key \"left_hip\""),
             std::string::npos);
 }
 
@@ -148,49 +149,50 @@ TEST(SubjectFile, IsReadFromDisk) {
 }
 
 TEST(SubjectFile, RefusesAnUnknownKey) {
-  EXPECT_EQ(mistake("stature_m", "statura_m"),
+  EXPECT_EQ(subject_mistake("stature_m", "statura_m"),
             "s.toml:5: unknown key \"statura_m\". Next: perhaps you mean \"stature_m\".");
 }
 
 TEST(SubjectFile, RefusesAJointTooFew) {
-  EXPECT_NE(mistake("[joint.leftFoot]", "[joint.leftfoot]")
+  EXPECT_NE(subject_mistake("[joint.leftFoot]", "[joint.leftfoot]")
                 .find("unknown joint \"leftfoot\". Next: perhaps you mean \"leftFoot\"."),
             std::string::npos);
 }
 
 TEST(SubjectFile, RefusesAnotherParent) {
-  EXPECT_NE(mistake("parent = \"hips\"", "parent = \"head\"")
+  EXPECT_NE(subject_mistake("parent = \"hips\"", "parent = \"head\"")
                 .find("the parent must be \"hips\""),
             std::string::npos);
 }
 
 TEST(SubjectFile, RefusesALengthThatIsNotTheOffsets) {
-  EXPECT_NE(mistake("length_m = 0.", "length_m = 1.")
+  EXPECT_NE(subject_mistake("length_m = 0.", "length_m = 1.")
                 .find("\"length_m\" is not the length of \"offset_in_parent_m\""),
             std::string::npos);
 }
 
 TEST(SubjectFile, RefusesATagTwice) {
-  EXPECT_NE(mistake("id = 73", "id = 41").find("this tag is listed twice"),
+  EXPECT_NE(subject_mistake("id = 73", "id = 41").find("this tag is listed twice"),
             std::string::npos);
 }
 
 TEST(SubjectFile, RefusesAMarkerTwiceOrWithoutALabel) {
-  EXPECT_NE(mistake("label = \"RTOE\"", "label = \"LASI \\\"2\\\"\"")
+  EXPECT_NE(subject_mistake("label = \"RTOE\"", "label = \"LASI \\\"2\\\"\"")
                 .find("this marker is listed twice"),
             std::string::npos);
-  EXPECT_NE(mistake("label = \"RTOE\"", "label = \"\"").find("the label is empty"),
-            std::string::npos);
+  EXPECT_NE(
+      subject_mistake("label = \"RTOE\"", "label = \"\"").find("the label is empty"),
+      std::string::npos);
 }
 
 TEST(SubjectFile, RefusesARotationThatIsNone) {
-  EXPECT_NE(mistake("rotation_wxyz = [1.0", "rotation_wxyz = [2.0")
+  EXPECT_NE(subject_mistake("rotation_wxyz = [1.0", "rotation_wxyz = [2.0")
                 .find("\"rotation_wxyz\" is not a unit quaternion"),
             std::string::npos);
 }
 
 TEST(SubjectFile, RefusesANegativeSigma) {
-  EXPECT_NE(mistake("sigma_rad = ", "sigma_rad = -").find("\"sigma_rad\" is -"),
+  EXPECT_NE(subject_mistake("sigma_rad = ", "sigma_rad = -").find("\"sigma_rad\" is -"),
             std::string::npos);
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kDegree_rad = 0.01745329251994330;
 
-AdaptOptions balanced() {
+AdaptOptions balanced_options() {
   AdaptOptions options;
   options.balance = BalanceMode::kHorizontal;
   return options;
@@ -71,7 +71,7 @@ TEST_P(AdapterDeparture, BalanceLeavesTheTrunkAloneWhereTheArmReaches) {
     const Pose alone = adapted(body, asked, reference).pose;
     if (trunk_turn_rad(body, alone, reference) > 1e-6) continue;
     ++tried;
-    const Pose out = adapted(body, asked, reference, balanced()).pose;
+    const Pose out = adapted(body, asked, reference, balanced_options()).pose;
     EXPECT_LT(trunk_turn_rad(body, out, reference), 5.0 * kDegree_rad) << i;
     const auto& goal = std::get<DistanceToPoint>(asked.constraints[2].goal);
     EXPECT_LT(glm::distance(place_of(body, out, {"leftHand"}), goal.p_in_world), 1e-3)
@@ -93,7 +93,7 @@ TEST(AdapterDepartureFromBeyond, LeavesWhatIsBeyondItsLimitsAsItWas) {
   Dice dice(62);
   for (int i = 0; i < 50; ++i) {
     const ConstraintSet asked = reach(body, reference, dice);
-    const Pose out = adapted(body, asked, reference, balanced()).pose;
+    const Pose out = adapted(body, asked, reference, balanced_options()).pose;
     const std::size_t joint = joint_at(body, "rightLowerArm");
     EXPECT_LT(angle_between_rad(out.parent_from_joint[joint],
                                 reference.parent_from_joint[joint]),

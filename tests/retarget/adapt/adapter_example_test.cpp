@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/humanoid.h"
 #include "core/motion.h"
 #include "core/pose.h"
@@ -69,8 +70,9 @@ std::string between(const std::string& text, const std::string& a, const std::st
 TEST(AdapterExample, StandsInTheDocument) {
   // In two pieces, so that this line is not found.
   const std::string mark = std::string("// [exa") + "mple]\n";
-  EXPECT_EQ(between(text_of("/docs/adaptation.md"), "```cpp\n", "```"),
-            between(text_of("/tests/retarget/adapt/adapter_example_test.cpp"), mark, mark));
+  EXPECT_EQ(
+      between(text_of("/docs/adaptation.md"), "```cpp\n", "```"),
+      between(text_of("/tests/retarget/adapt/adapter_example_test.cpp"), mark, mark));
 }
 
 TEST(AdapterExample, TakesTheCup) {

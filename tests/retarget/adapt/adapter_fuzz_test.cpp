@@ -115,7 +115,7 @@ INSTANTIATE_TEST_SUITE_P(Adapter, AdapterFuzz, both_methods(), name_of);
 
 TEST_P(AdapterFuzz, ReturnsPosturesWithinTheLimitsForRandomConstraints) {
   constexpr int kQuestions = 700;
-  constexpr int kPostures = 10;
+  constexpr int kPosturesPerBody = 10;
   int solved = 0;
   for (const Character& body : bodies()) {
     Dice dice(77);
@@ -125,7 +125,7 @@ TEST_P(AdapterFuzz, ReturnsPosturesWithinTheLimitsForRandomConstraints) {
       if (!adapter)
         continue;  // Two targets may contradict each other; then there is no posture.
       Pose out;
-      for (int t = 0; t < kPostures; ++t) {
+      for (int t = 0; t < kPosturesPerBody; ++t) {
         const Pose reference = any_posture(body, dice);
         const auto frames = world_from_joints(body.skeleton, reference);
         for (const Constraint& wish : asked.set.constraints) {

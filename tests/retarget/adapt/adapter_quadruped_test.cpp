@@ -14,7 +14,7 @@
 namespace marey::retarget {
 namespace {
 
-constexpr double kStands_m = 1e-5;
+constexpr double kQuadrupedStands_m = 1e-5;
 constexpr std::array<const char*, 4> kPaws{
     "front left paw", "front right paw", "hind left paw", "hind right paw"};
 BodyPoint nose() {
@@ -45,7 +45,7 @@ TEST_P(AdapterQuadruped, LiftsOnePawAndStandsOnThree) {
       if (paw == lifted) continue;
       ASSERT_LT(glm::distance(place_of(animal, out.pose, {paw}),
                               place_of(animal, reference, {paw})),
-                kStands_m)
+                kQuadrupedStands_m)
           << i;
     }
     ASSERT_LT(glm::distance(place_of(animal, out.pose, {lifted}), target), 1.001e-3) << i;
@@ -67,7 +67,7 @@ TEST_P(AdapterQuadruped, ReachesNearTargetsWithTheNoseOnFourPaws) {
     for (const char* paw : kPaws) {
       ASSERT_LT(glm::distance(place_of(animal, out.pose, {paw}),
                               place_of(animal, reference, {paw})),
-                kStands_m)
+                kQuadrupedStands_m)
           << i;
     }
     ASSERT_LT(glm::distance(place_of(animal, out.pose, nose()), target), 1.001e-3) << i;

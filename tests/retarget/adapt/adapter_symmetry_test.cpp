@@ -12,23 +12,25 @@
 namespace marey::retarget {
 namespace {
 
-struct Question {
+struct SymmetryCase {
   ConstraintSet set;
   AdaptOptions options;
   Pose reference;
 };
 
 // Within reach of the whole body, or just beyond.
-Question any_question(const Character& body, const AdaptOptions& options, Dice& dice) {
-  constexpr std::array<const char*, 8> kSegments{"leftHand",
-                                                 "rightHand",
-                                                 "leftFoot",
-                                                 "head",
-                                                 "leftLowerArm",
-                                                 "chest",
-                                                 "rightUpperArm",
-                                                 "rightToes"};
-  Question out{{}, options, random_posture(body, dice, 0.3)};
+SymmetryCase any_symmetry_case(const Character& body,
+                               const AdaptOptions& options,
+                               Dice& dice) {
+  constexpr std::array<const char*, 8> kMirroredSegments{"leftHand",
+                                                         "rightHand",
+                                                         "leftFoot",
+                                                         "head",
+                                                         "leftLowerArm",
+                                                         "chest",
+                                                         "rightUpperArm",
+                                                         "rightToes"};
+  SymmetryCase out{{}, options, random_posture(body, dice, 0.3)};
   if (dice.between(0, 1) < 0.5) {
     out.set.constraints.push_back(standing("stands", "rightFoot"));
   }
@@ -38,7 +40,7 @@ Question any_question(const Character& body, const AdaptOptions& options, Dice& 
   const int count = static_cast<int>(dice.between(1, 4));
   for (int k = 0; k < count; ++k) {
     const std::string segment =
-        kSegments[static_cast<std::size_t>(dice.between(0, 7.999))];
+        kMirroredSegments[static_cast<std::size_t>(dice.between(0, 7.999))];
     const glm::dvec3 offset = k % 2 == 0 ? glm::dvec3(0.0) : 0.1 * dice.direction();
     const glm::dvec3 target = place_of(body, out.reference, {segment, offset}) +
                               dice.between(0, 0.5) * dice.direction();
@@ -102,7 +104,7 @@ Pose mirrored(const Character& body, const Pose& pose) {
   return out;
 }
 
-Pose turned(const Pose& pose, const glm::dquat& turn) {
+Pose turned_pose(const Pose& pose, const glm::dquat& turn) {
   Pose out = pose;
   out.root_in_world = turn * pose.root_in_world;
   out.parent_from_joint[0] = turn * pose.parent_from_joint[0];
@@ -140,8 +142,8 @@ TEST_P(AdapterSymmetry, LeftIsAsGoodAsRight) {
     Dice dice(24);
     Sameness same(body, kSameReached_m, kSameUnreached_m);
     for (int i = 0; i < 300; ++i) {
-      const Question asked = any_question(body, options(), dice);
-      Question other = asked;
+      const SymmetryCase asked = any_symmetry_case(body, options(), dice);
+      SymmetryCase other = asked;
       other.reference = mirrored(body, asked.reference);
       move_targets(other.set, [](const glm::dvec3& p) { return mirrored(p); });
       for (Constraint& c : other.set.constraints) {
@@ -161,14 +163,14 @@ TEST_P(AdapterSymmetry, TurnedWorldsMostlyHaveTurnedAnswers) {
     Dice dice(25);
     Sameness same(body, kSameTurned_m, kSameTurned_m);
     for (int i = 0; i < 300; ++i) {
-      const Question asked = any_question(body, options(), dice);
+      const SymmetryCase asked = any_symmetry_case(body, options(), dice);
       const glm::dquat turn = glm::angleAxis(dice.between(0.3, 3.0), glm::dvec3(0, 1, 0));
-      Question other = asked;
-      other.reference = turned(asked.reference, turn);
+      SymmetryCase other = asked;
+      other.reference = turned_pose(asked.reference, turn);
       move_targets(other.set, [&](const glm::dvec3& p) { return turn * p; });
       const Adapted here = adapted(body, asked.set, asked.reference, asked.options);
       const Adapted there = adapted(body, other.set, other.reference, other.options);
-      same.add(here, turned(here.pose, turn), there);
+      same.add(here, turned_pose(here.pose, turn), there);
     }
     same.judge();
   }
@@ -184,8 +186,8 @@ TEST_P(AdapterSymmetry, AGiantDoesWhatAChildDoes) {
     for (PointMass& mass : giant.masses) mass.p_in_joint *= kTimes;
     Dice dice(23);
     for (int i = 0; i < 150; ++i) {
-      const Question asked = any_question(body, options(), dice);
-      Question other = asked;
+      const SymmetryCase asked = any_symmetry_case(body, options(), dice);
+      SymmetryCase other = asked;
       other.reference.root_in_world *= kTimes;
       move_targets(other.set, [](const glm::dvec3& p) { return kTimes * p; });
       for (Constraint& c : other.set.constraints) {

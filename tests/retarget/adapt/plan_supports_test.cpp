@@ -15,11 +15,11 @@
 namespace marey::retarget {
 namespace {
 
-constexpr int kFrames = 240;
-constexpr double kRate_hz = 60.0;
+constexpr int kSupportFrames = 240;
+constexpr double kSupportRate_hz = 60.0;
 
-struct Scene {
-  testing::SyntheticWalk walk = testing::synthetic_walk(kFrames, kRate_hz);
+struct SupportScene {
+  testing::SyntheticWalk walk = testing::synthetic_walk(kSupportFrames, kSupportRate_hz);
   BodyMap map = mapped(walk.motion.skeleton);
   Contacts contacts = detect_contacts(walk.motion, map);
 
@@ -44,7 +44,7 @@ bool bears(const SupportTrack& track, int frame) {
 
 // The walk stands flat, then on the ball; never on the heel alone.
 TEST(PlanSupports, FindsFlatFeetAndFeetOnTheirBall) {
-  const Scene scene;
+  const SupportScene scene;
   const auto tracks = scene.plan();
   ASSERT_EQ(tracks.size(), 5U);  // The right foot begins on its ball.
   for (const auto& [side, segment] :
@@ -58,7 +58,7 @@ TEST(PlanSupports, FindsFlatFeetAndFeetOnTheirBall) {
     const testing::SyntheticWalk::Foot& truth = scene.walk.feet[side];
     int wrong = 0;
     int edges = 1;
-    for (int t = 0; t < kFrames; ++t) {
+    for (int t = 0; t < kSupportFrames; ++t) {
       const auto i = static_cast<std::size_t>(t);
       const bool is_flat = truth.heel[i] && truth.ball[i];
       if (bears(*flat, t) != is_flat) ++wrong;
@@ -72,9 +72,9 @@ TEST(PlanSupports, FindsFlatFeetAndFeetOnTheirBall) {
 }
 
 TEST(PlanSupports, PointsAreStillWhileTheyBearAndSmoothElsewhere) {
-  const Scene scene;
+  const SupportScene scene;
   for (const SupportTrack& track : scene.plan()) {
-    ASSERT_EQ(track.p_in_world.size(), static_cast<std::size_t>(kFrames));
+    ASSERT_EQ(track.p_in_world.size(), static_cast<std::size_t>(kSupportFrames));
     for (const FrameInterval& run : track.bears) {
       for (int t = run.first; t <= run.last; ++t) {
         const glm::dvec3 away = track.p_in_world[static_cast<std::size_t>(t)] -
@@ -88,7 +88,7 @@ TEST(PlanSupports, PointsAreStillWhileTheyBearAndSmoothElsewhere) {
     for (std::size_t t = 1; t + 1 < track.p_in_world.size(); ++t) {
       const glm::dvec3 bend =
           track.p_in_world[t + 1] - 2.0 * track.p_in_world[t] + track.p_in_world[t - 1];
-      EXPECT_LT(glm::length(bend) * kRate_hz * kRate_hz, 60.0)
+      EXPECT_LT(glm::length(bend) * kSupportRate_hz * kSupportRate_hz, 60.0)
           << track.constraint.id << " at " << t;
     }
   }
@@ -96,7 +96,7 @@ TEST(PlanSupports, PointsAreStillWhileTheyBearAndSmoothElsewhere) {
 
 // They are started by the caller that drives them.
 TEST(PlanSupports, DoNotBeginByThemselves) {
-  const Scene scene;
+  const SupportScene scene;
   for (const SupportTrack& track : scene.plan({.ramp_s = 0.1})) {
     const Activation& when = track.constraint.activation;
     ASSERT_TRUE(when.start_s);
@@ -110,7 +110,7 @@ TEST(PlanSupports, DoNotBeginByThemselves) {
 
 // The walk's flat stances are 0.64 s apart.
 TEST(PlanSupports, RunsWithoutRoomForTheirRampsAreOne) {
-  const Scene scene;
+  const SupportScene scene;
   const auto apart = scene.plan({.ramp_s = 0.2});
   const auto joined = scene.plan({.ramp_s = 0.5});
   EXPECT_GE(find(apart, "found leftFoot flat")->bears.size(), 3U);
@@ -118,7 +118,7 @@ TEST(PlanSupports, RunsWithoutRoomForTheirRampsAreOne) {
 }
 
 TEST(PlanSupports, StandOnTheFloorAndOnTheFeetThatAreWanted) {
-  Scene scene;
+  SupportScene scene;
   const auto low = scene.plan();
   for (Pose& pose : scene.walk.motion.poses) pose.root_in_world.y += 1.5;
   for (FootContacts& foot : scene.contacts.feet) {
@@ -134,7 +134,7 @@ TEST(PlanSupports, StandOnTheFloorAndOnTheFeetThatAreWanted) {
     EXPECT_EQ(track.constraint.point.segment, "rightFoot");
     const SupportTrack* same = find(low, track.constraint.id);
     ASSERT_NE(same, nullptr);
-    for (std::size_t t = 0; t < kFrames; t += 7) {
+    for (std::size_t t = 0; t < kSupportFrames; t += 7) {
       EXPECT_NEAR(track.p_in_world[t].y, same->p_in_world[t].y + 1.5, 1e-9);
     }
   }

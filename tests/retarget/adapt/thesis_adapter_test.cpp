@@ -10,7 +10,7 @@ namespace marey::retarget {
 namespace {
 
 // Positions in single precision over a leg of 0.85 m, and a chain of a dozen rotations.
-constexpr double kFloat_m = 2e-6;
+constexpr double kSinglePrecision_m = 2e-6;
 
 struct Standing {
   Character character = thesis_human();
@@ -60,9 +60,10 @@ TEST(ThesisAdapter, MeetsNearTargetsInOneIteration) {
     Pose out;
     const AdaptReport report = adapter.adapt(scene.reference, 0.0, out);
     EXPECT_EQ(report.iterations, 1);
-    EXPECT_LT(scene.worst_hand_m(out), kFloat_m);
-    EXPECT_LT(scene.worst_foot_m(out), kFloat_m);
-    EXPECT_LT(glm::distance(out.root_in_world, scene.reference.root_in_world), kFloat_m);
+    EXPECT_LT(scene.worst_hand_m(out), kSinglePrecision_m);
+    EXPECT_LT(scene.worst_foot_m(out), kSinglePrecision_m);
+    EXPECT_LT(glm::distance(out.root_in_world, scene.reference.root_in_world),
+              kSinglePrecision_m);
   }
 }
 
@@ -75,7 +76,7 @@ TEST(ThesisAdapter, ReachesFarTargetsWithTrunkAndRoot) {
   EXPECT_GT(report.iterations, 1);
   // A constraint's precision, where the loop stops.
   EXPECT_LT(scene.worst_hand_m(out), 1e-3);
-  EXPECT_LT(scene.worst_foot_m(out), kFloat_m);
+  EXPECT_LT(scene.worst_foot_m(out), kSinglePrecision_m);
 }
 
 // Thesis 4.2.1: a standing leg follows the ground alone; once it is free it kneels.
@@ -94,7 +95,7 @@ TEST(ThesisAdapter, LeavesLegsThatStandAlone) {
     static_cast<void>(adapter.adapt(scene.reference, 0.0, out));
     const double moved_m = glm::distance(scene.at(out, "leftLowerLeg"), knee);
     if (stands) {
-      EXPECT_LT(moved_m, kFloat_m);
+      EXPECT_LT(moved_m, kSinglePrecision_m);
     } else {
       EXPECT_GT(moved_m, 0.05);
     }
@@ -138,7 +139,8 @@ TEST(ThesisAdapter, SettlesOnTargetsThatAreOutOfReach) {
     const AdaptReport report = adapter.adapt(scene.reference, 0.0, out);
     // Table 4.1: 24 iterations at this threshold.
     EXPECT_LT(report.iterations, 50);
-    EXPECT_LT(scene.worst_foot_m(out), kFloat_m) << "supports are exact (4.2.4)";
+    EXPECT_LT(scene.worst_foot_m(out), kSinglePrecision_m)
+        << "supports are exact (4.2.4)";
     options.max_iterations = 500;
     options.constraint_threshold_m = 1e-6;
     Adapter patient = adapter_of(scene.character, scene.set, options);
@@ -165,7 +167,7 @@ TEST(ThesisAdapter, MovesTheRootByItsShare) {
     const double moved_m = out.root_in_world.z - scene.reference.root_in_world.z;
     EXPECT_GT(moved_m, before_m + 1e-3 * (share > 0.0 ? 1.0 : 0.0));
     if (share == 0.0) {
-      EXPECT_NEAR(moved_m, 0.0, kFloat_m);
+      EXPECT_NEAR(moved_m, 0.0, kSinglePrecision_m);
     }
     before_m = moved_m;
   }
@@ -187,7 +189,7 @@ TEST(ThesisBalance, KeepsTheCentreOfMassWhileHandsReach) {
     static_cast<void>(adapter.adapt(scene.reference, 0.0, out));
     const glm::dvec3 left = centre_of_mass_of(scene.character, out) - com;
     EXPECT_LT(std::hypot(left.x, left.z), 1.1 * options.balance_precision_m);
-    EXPECT_LT(scene.worst_foot_m(out), kFloat_m);
+    EXPECT_LT(scene.worst_foot_m(out), kSinglePrecision_m);
     scene.set.constraints[1].activation.start_s.reset();
   }
 }
@@ -287,7 +289,7 @@ TEST(ThesisAdapter, FadesConstraintsIn) {
     EXPECT_LT(step_m, 0.01);
     before = out;
   }
-  EXPECT_LT(scene.worst_hand_m(before), kFloat_m);
+  EXPECT_LT(scene.worst_hand_m(before), kSinglePrecision_m);
 }
 
 }  // namespace

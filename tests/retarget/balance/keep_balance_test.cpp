@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "retarget/body/place_masses.h"
 #include "retarget/contacts/measure_contacts.h"

@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/transform.h"
 #include "retarget/body/normalized_skeleton.h"
@@ -28,7 +29,7 @@ namespace {
 using B = HumanBone;
 using testing::Dice;
 
-Skeleton adult() {
+Skeleton any_rest_adult() {
   return make_humanoid(average_proportions(1.75));
 }
 
@@ -135,10 +136,10 @@ class AnyRest : public ::testing::TestWithParam<RestCase> {};
 TEST_P(AnyRest, PutsEveryJointWhereTheBodyHasIt) {
   Dice dice(4);
   const Skeleton body = GetParam().make(dice);
-  const Miss to = worst(adult(), body, human_bones());
+  const Miss to = worst(any_rest_adult(), body, human_bones());
   EXPECT_LT(to.place_m, 1e-3);
   EXPECT_LT(to.turn_rad, 0.03 * 0.0174533);
-  const Miss back = worst(body, adult(), human_bones());
+  const Miss back = worst(body, any_rest_adult(), human_bones());
   EXPECT_LT(back.place_m, 1e-3);
   EXPECT_LT(back.turn_rad, 0.03 * 0.0174533);
   const Miss same = worst(body, body, human_bones());
@@ -163,24 +164,28 @@ INSTANTIATE_TEST_SUITE_P(
     MapBody,
     AnyRest,
     ::testing::Values(
-        RestCase{"TPose", [](Dice&) { return adult(); }},
-        RestCase{"APose", [](Dice&) { return testing::in_a_pose(adult(), 0.8); }},
-        RestCase{"NPose", [](Dice&) { return in_n_pose(adult()); }},
-        RestCase{"Rolls", [](Dice& d) { return testing::with_random_axes(adult(), d); }},
+        RestCase{"TPose", [](Dice&) { return any_rest_adult(); }},
+        RestCase{"APose",
+                 [](Dice&) { return testing::in_a_pose(any_rest_adult(), 0.8); }},
+        RestCase{"NPose", [](Dice&) { return in_n_pose(any_rest_adult()); }},
+        RestCase{"Rolls",
+                 [](Dice& d) { return testing::with_random_axes(any_rest_adult(), d); }},
         RestCase{"APoseRolls",
                  [](Dice& d) {
-                   return testing::with_random_axes(testing::in_a_pose(adult(), 0.8), d);
+                   return testing::with_random_axes(
+                       testing::in_a_pose(any_rest_adult(), 0.8), d);
                  }},
-        RestCase{
-            "NPoseRolls",
-            [](Dice& d) { return testing::with_random_axes(in_n_pose(adult()), d); }},
-        RestCase{"Helpers", [](Dice&) { return with_helpers(adult()); }},
+        RestCase{"NPoseRolls",
+                 [](Dice& d) {
+                   return testing::with_random_axes(in_n_pose(any_rest_adult()), d);
+                 }},
+        RestCase{"Helpers", [](Dice&) { return with_helpers(any_rest_adult()); }},
         RestCase{"HelpersInAPoseRolls",
                  [](Dice& d) {
                    return testing::with_random_axes(
-                       testing::in_a_pose(with_helpers(adult()), 0.7), d);
+                       testing::in_a_pose(with_helpers(any_rest_adult()), 0.7), d);
                  }},
-        RestCase{"UnderRoots", [](Dice&) { return under_roots(adult()); }}),
+        RestCase{"UnderRoots", [](Dice&) { return under_roots(any_rest_adult()); }}),
     [](const auto& case_info) { return std::string(case_info.param.name); });
 
 constexpr std::array kLimbsAndHips{B::kHips,
@@ -202,7 +207,7 @@ constexpr std::array kSpineCosts_m{0.018, 0.005, 0.0015, 0.001, 0.001, 0.001};
 // the hips are not affected; arms and head have the same rotation.
 TEST(AnySpine, KeepsLegsExactlyAndTheUpperBodyNearly) {
   for (int count = 1; count <= 6; ++count) {
-    Skeleton body = testing::with_vertebrae(adult(), count);
+    Skeleton body = testing::with_vertebrae(any_rest_adult(), count);
     for (Joint& joint : body.joints) {
       if (joint.bone) joint.name = std::string(name(*joint.bone));
       joint.bone.reset();
@@ -210,7 +215,7 @@ TEST(AnySpine, KeepsLegsExactlyAndTheUpperBodyNearly) {
     const auto found = identify_bones(body);
     ASSERT_TRUE(found) << found.error().message();
     mark(*found, body);
-    const Miss legs = worst(adult(), body, kLimbsAndHips);
+    const Miss legs = worst(any_rest_adult(), body, kLimbsAndHips);
     EXPECT_LT(legs.place_m, 1e-3) << count;
     EXPECT_LT(legs.turn_rad, 1e-6) << count;
     constexpr std::array kTop{B::kNeck,
@@ -223,7 +228,7 @@ TEST(AnySpine, KeepsLegsExactlyAndTheUpperBodyNearly) {
                               B::kRightUpperArm,
                               B::kRightLowerArm,
                               B::kRightHand};
-    const Miss top = worst(adult(), body, kTop, 0.25);
+    const Miss top = worst(any_rest_adult(), body, kTop, 0.25);
     EXPECT_LT(top.place_m, kSpineCosts_m[static_cast<std::size_t>(count - 1)]) << count;
     EXPECT_LT(top.turn_rad, 1e-6) << count;
   }

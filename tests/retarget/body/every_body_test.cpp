@@ -23,16 +23,16 @@ namespace {
 using testing::Dice;
 using B = HumanBone;
 
-struct Miss {
+struct BodyMiss {
   double position_m = 0.0;
   double rotation_rad = 0.0;
 };
 
 // Returns the largest error over the joints of two postures of one skeleton.
-Miss miss(const Skeleton& skeleton, const Pose& a, const Pose& b) {
+BodyMiss miss(const Skeleton& skeleton, const Pose& a, const Pose& b) {
   const auto frames_a = world_from_joints(skeleton, a);
   const auto frames_b = world_from_joints(skeleton, b);
-  Miss worst;
+  BodyMiss worst;
   for (std::size_t i = 0; i < frames_a.size(); ++i) {
     worst.position_m =
         std::max(worst.position_m,
@@ -45,12 +45,12 @@ Miss miss(const Skeleton& skeleton, const Pose& a, const Pose& b) {
   return worst;
 }
 
-Miss worst_round_trip(const Skeleton& body, Dice& dice, int poses) {
+BodyMiss worst_round_trip(const Skeleton& body, Dice& dice, int poses) {
   const BodyMap map = mapped(body);
-  Miss worst;
+  BodyMiss worst;
   for (int k = 0; k < poses; ++k) {
     const Pose pose = testing::random_pose(body, dice);
-    const Miss m = miss(body, pose, expand(normalize(body, map, pose), body, map));
+    const BodyMiss m = miss(body, pose, expand(normalize(body, map, pose), body, map));
     worst.position_m = std::max(worst.position_m, m.position_m);
     worst.rotation_rad = std::max(worst.rotation_rad, m.rotation_rad);
   }
@@ -68,7 +68,7 @@ class EveryBody : public ::testing::TestWithParam<BodyCase> {};
 TEST_P(EveryBody, GetsItsOwnPostureBackToAMicrometre) {
   Dice dice(11);
   for (int k = 0; k < 20; ++k) {
-    const Miss worst = worst_round_trip(GetParam().make(dice), dice, 50);
+    const BodyMiss worst = worst_round_trip(GetParam().make(dice), dice, 50);
     ASSERT_LT(worst.position_m, 1e-6);
     ASSERT_LT(worst.rotation_rad, 1e-6);
   }

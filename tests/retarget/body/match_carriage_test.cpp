@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
 #include "retarget/motion/retarget_motion.h"

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/transform.h"
 #include "retarget/body/normalized_skeleton.h"
@@ -22,12 +23,12 @@ namespace {
 using B = HumanBone;
 using testing::Dice;
 
-Skeleton adult() {
+Skeleton adult_with_neck() {
   return make_humanoid(average_proportions(1.75));
 }
 
 Skeleton with_two_neck_joints() {
-  return with_joint_above(adult(), "head", "neck1", 0.5);
+  return with_joint_above(adult_with_neck(), "head", "neck1", 0.5);
 }
 
 std::size_t at(const Skeleton& body, const std::string& name) {
@@ -57,7 +58,7 @@ TEST(NeckCount, ASecondNeckJointGetsItsOwnTurnBack) {
 }
 
 TEST(NeckCount, TwoNeckJointsPutTheHeadWhereOneDoes) {
-  const Skeleton source = adult();
+  const Skeleton source = adult_with_neck();
   const Skeleton body = with_two_neck_joints();
   const BodyMap source_map = mapped(source);
   const BodyMap map = mapped(body);
@@ -76,7 +77,7 @@ TEST(NeckCount, TwoNeckJointsPutTheHeadWhereOneDoes) {
 
 // Looking over the shoulder: each joint takes its part.
 TEST(NeckCount, TwoNeckJointsShareATwist) {
-  const Skeleton source = adult();
+  const Skeleton source = adult_with_neck();
   const Skeleton body = with_two_neck_joints();
   const glm::dvec3 along =
       glm::normalize(source.joints[at(source, "head")].parent_from_joint.translation);
@@ -96,7 +97,7 @@ TEST(NeckCount, TwoNeckJointsShareATwist) {
 // One bone has a fixed length; it points to the source's head.
 TEST(NeckCount, OneNeckJointPointsAtTheHeadOfTwo) {
   const Skeleton source = with_two_neck_joints();
-  const Skeleton body = adult();
+  const Skeleton body = adult_with_neck();
   const BodyMap source_map = mapped(source);
   const BodyMap map = mapped(body);
   Dice dice(83);

@@ -10,6 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/transform.h"
 #include "retarget/body/normalized_skeleton.h"

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/transform.h"
 #include "retarget/body/body_map.h"

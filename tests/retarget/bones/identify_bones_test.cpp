@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "tests/retarget/named_bodies.h"
 #include "tests/support/bodies/quadruped.h"
 #include "tests/support/bodies/random_bodies.h"
@@ -14,20 +15,20 @@ namespace marey::retarget {
 namespace {
 
 using B = HumanBone;
-using Names = std::vector<std::string>;
+using BoneNames = std::vector<std::string>;
 
 std::string joint_of(const Skeleton& body, const FoundBones& found, B bone) {
   const auto joint = found.joint(bone);
   return joint ? body[*joint].name : "";
 }
 
-std::string cause(const Skeleton& body, const BoneMap& overrides = {}) {
+std::string refusal_cause(const Skeleton& body, const BoneMap& overrides = {}) {
   const auto found = identify_bones(body, overrides);
   EXPECT_FALSE(found);
   return found ? "" : found.error().cause;
 }
 
-Names mixamo() {
+BoneNames mixamo() {
   return {"Hips",
           "Spine",
           "Spine1",
@@ -152,8 +153,8 @@ TEST(IdentifyBones, DeclinesABodyWhoseMapExcludesHipsOrAllBones) {
   BoneMap nothing;
   for (BoneOverride& bone : nothing.bones) bone.is_set = true;
   for (const Skeleton& one : {body, nameless}) {
-    EXPECT_NE(cause(one, no_hips), "");
-    EXPECT_NE(cause(one, nothing), "");
+    EXPECT_NE(refusal_cause(one, no_hips), "");
+    EXPECT_NE(refusal_cause(one, nothing), "");
   }
 }
 
@@ -185,7 +186,7 @@ TEST(IdentifyBones, DeclinesTwoBodiesNamingTheJoints) {
                        : JointIndex{0};
     body.joints.push_back(joint);
   }
-  const std::string said = cause(body);
+  const std::string said = refusal_cause(body);
   EXPECT_NE(said.find("two joints have the name of a body's"), std::string::npos) << said;
   EXPECT_NE(said.find("'Neck' below 'Spine2'"), std::string::npos) << said;
 }
@@ -193,7 +194,7 @@ TEST(IdentifyBones, DeclinesTwoBodiesNamingTheJoints) {
 TEST(IdentifyBones, DeclinesBonesThatDoNotHangOnEachOther) {
   Skeleton body = mixamo_body();
   body.joints[index(*body.find("LeftLeg"))].parent = JointIndex{0};
-  EXPECT_EQ(cause(body),
+  EXPECT_EQ(refusal_cause(body),
             "'LeftLeg' is identified as leftLowerLeg but is not below 'LeftUpLeg', the "
             "leftUpperLeg");
 }
@@ -203,7 +204,7 @@ TEST(IdentifyBones, DeclinesLegsThatAreNoPair) {
   for (const char* joint : {"LeftLeg", "LeftFoot"}) {
     body.joints[index(*body.find(joint))].parent_from_joint.translation *= 0.4;
   }
-  EXPECT_EQ(cause(body),
+  EXPECT_EQ(refusal_cause(body),
             "the leg that ends at 'LeftFoot' has only 40 % of the other's length");
 }
 
@@ -217,10 +218,10 @@ TEST(IdentifyBones, DeclinesWhatIsNoBody) {
     boxes.joints.push_back(joint);
   }
   EXPECT_EQ(
-      cause(boxes),
+      refusal_cause(boxes),
       "no body was found among its 5 joints: no joint has two legs below it and two "
       "arms above");
-  EXPECT_EQ(cause(Skeleton{}), "it has no joints");
+  EXPECT_EQ(refusal_cause(Skeleton{}), "it has no joints");
 }
 
 // A chain of ten thousand joints, and a star of as many: no recursion, no quadratic cost.

@@ -13,6 +13,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/transform.h"
 #include "retarget/bones/body_frame.h"

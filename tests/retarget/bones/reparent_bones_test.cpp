@@ -23,7 +23,7 @@ namespace {
 
 using B = HumanBone;
 
-Skeleton mixamo_body() {
+Skeleton mixamo_skeleton() {
   return sided_body({"Hips",
                      "Spine",
                      "Spine1",
@@ -60,7 +60,7 @@ Skeleton hung_on_root(const Skeleton& body, const std::vector<std::string>& name
   return out;
 }
 
-std::string joint_of(const ReparentedBody& body, B bone) {
+std::string reparented_joint_of(const ReparentedBody& body, B bone) {
   const auto joint = body.found.joint(bone);
   return joint ? body.skeleton[*joint].name : "";
 }
@@ -84,7 +84,7 @@ ReparentedBody hung(const Skeleton& body,
 }
 
 TEST(HangBones, LeavesABodyAloneThatHangsTogether) {
-  const Skeleton body = mixamo_body();
+  const Skeleton body = mixamo_skeleton();
   const auto made = reparent_to_carriers(body, *identify_bones(body), {});
   ASSERT_TRUE(made);
   EXPECT_FALSE(*made);
@@ -92,16 +92,16 @@ TEST(HangBones, LeavesABodyAloneThatHangsTogether) {
 
 TEST(HangBones, HangsFeetOnTheirShins) {
   const ReparentedBody body =
-      hung(hung_on_root(mixamo_body(), {"LeftFoot", "RightFoot"}));
-  EXPECT_EQ(joint_of(body, B::kLeftFoot), "LeftFoot");
+      hung(hung_on_root(mixamo_skeleton(), {"LeftFoot", "RightFoot"}));
+  EXPECT_EQ(reparented_joint_of(body, B::kLeftFoot), "LeftFoot");
   EXPECT_EQ(parent_of(body, B::kLeftFoot), "LeftLeg");
   EXPECT_EQ(parent_of(body, B::kRightFoot), "RightLeg");
-  EXPECT_EQ(joint_of(body, B::kRightToes), "RightToeBase");
+  EXPECT_EQ(reparented_joint_of(body, B::kRightToes), "RightToeBase");
 }
 
 // The joint at the end of a shin is not the foot if there is another foot.
 TEST(HangBones, PrefersTheFootToTheEndOfTheShin) {
-  Skeleton body = hung_on_root(mixamo_body(), {"LeftFoot", "RightFoot"});
+  Skeleton body = hung_on_root(mixamo_skeleton(), {"LeftFoot", "RightFoot"});
   for (const std::string side : {"Left", "Right"}) {
     Joint end;
     end.name = side + "Leg_end";
@@ -112,21 +112,21 @@ TEST(HangBones, PrefersTheFootToTheEndOfTheShin) {
     body.joints.push_back(end);
   }
   const ReparentedBody made = hung(body);
-  EXPECT_EQ(joint_of(made, B::kLeftFoot), "LeftFoot");
+  EXPECT_EQ(reparented_joint_of(made, B::kLeftFoot), "LeftFoot");
   EXPECT_EQ(parent_of(made, B::kLeftFoot), "LeftLeg");
 }
 
 TEST(HangBones, TakesHipsThatCarryTheSpineForARootOnTheFloor) {
   const ReparentedBody body =
-      hung(hung_on_root(mixamo_body(), {"LeftUpLeg", "RightUpLeg"}));
-  EXPECT_EQ(joint_of(body, B::kHips), "Hips");
+      hung(hung_on_root(mixamo_skeleton(), {"LeftUpLeg", "RightUpLeg"}));
+  EXPECT_EQ(reparented_joint_of(body, B::kHips), "Hips");
   EXPECT_EQ(parent_of(body, B::kLeftUpperLeg), "Hips");
   EXPECT_EQ(parent_of(body, B::kRightUpperLeg), "Hips");
 }
 
 // Rigs whose deforming bones have no parents are exported like this.
 TEST(HangBones, HangsTogetherABodyInPieces) {
-  const Skeleton read = hung_on_root(mixamo_body(),
+  const Skeleton read = hung_on_root(mixamo_skeleton(),
                                      {"LeftUpLeg",
                                       "RightUpLeg",
                                       "LeftShoulder",
@@ -151,7 +151,7 @@ TEST(HangBones, HangsTogetherABodyInPieces) {
 
 // Skin left on the root would not follow the body.
 TEST(HangBones, HangsWhatCarriesSkinOnTheNearestBone) {
-  Skeleton body = hung_on_root(mixamo_body(), {"LeftUpLeg", "RightUpLeg"});
+  Skeleton body = hung_on_root(mixamo_skeleton(), {"LeftUpLeg", "RightUpLeg"});
   const auto world = world_from_joints(body, rest_pose(body));
   const auto add = [&](const char* joint, const char* beside) {
     Joint extra;
@@ -177,7 +177,7 @@ TEST(HangBones, HangsWhatCarriesSkinOnTheNearestBone) {
 
 // The map that the error requests.
 TEST(HangBones, HangsWhatAMapNames) {
-  Skeleton body = hung_on_root(mixamo_body(), {"LeftLeg", "RightLeg"});
+  Skeleton body = hung_on_root(mixamo_skeleton(), {"LeftLeg", "RightLeg"});
   EXPECT_FALSE(identify_bones(body));
   BoneMap overrides;
   overrides.bones[index(B::kLeftLowerLeg)] = {true, body.find("LeftLeg")};
@@ -187,13 +187,13 @@ TEST(HangBones, HangsWhatAMapNames) {
 }
 
 TEST(HangBones, MakesAFootWhereAMapStatesThatThereIsNone) {
-  const Skeleton body = mixamo_body();
+  const Skeleton body = mixamo_skeleton();
   BoneMap overrides;
   for (const B bone : {B::kLeftFoot, B::kLeftToes, B::kRightFoot, B::kRightToes}) {
     overrides.bones[index(bone)].is_set = true;
   }
   const ReparentedBody made = hung(body, overrides);
-  EXPECT_EQ(joint_of(made, B::kLeftFoot), "LeftLeg_foot");
+  EXPECT_EQ(reparented_joint_of(made, B::kLeftFoot), "LeftLeg_foot");
   const auto foot = *made.found.joint(B::kLeftFoot);
   EXPECT_FALSE(made.read_joint[index(foot)]);
   const auto world = world_from_joints(made.skeleton, rest_pose(made.skeleton));
@@ -207,7 +207,7 @@ TEST(HangBones, MakesAFootWhereAMapStatesThatThereIsNone) {
 }
 
 TEST(HangBones, DeclinesBonesThatCarryEachOther) {
-  const Skeleton body = mixamo_body();
+  const Skeleton body = mixamo_skeleton();
   BoneMap overrides;
   overrides.bones[index(B::kLeftLowerLeg)] = {true, body.find("LeftFoot")};
   overrides.bones[index(B::kLeftFoot)] = {true, body.find("LeftLeg")};
@@ -220,7 +220,7 @@ TEST(HangBones, DeclinesBonesThatCarryEachOther) {
 
 // A motion keeps its joints' positions and rotations.
 TEST(HangBones, PutsAMotionOnTheHungBody) {
-  const Skeleton read = hung_on_root(mixamo_body(), {"LeftUpLeg", "RightUpLeg"});
+  const Skeleton read = hung_on_root(mixamo_skeleton(), {"LeftUpLeg", "RightUpLeg"});
   const ReparentedBody body = hung(read);
   testing::Dice dice(4);
   Motion motion{read, FrameRate{30.0}, 0, {}};

@@ -10,9 +10,9 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/joint_ranges.h"
 #include "core/pose.h"
 #include "retarget/character/check_character.h"
-#include "retarget/character/joint_ranges.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/program/paths.h"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/simulation/synthetic_walk.h"

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/balance_scenes.h"

@@ -51,7 +51,7 @@ Motion dressed(const Motion& source,
   return out;
 }
 
-double gap_in(const Motion& motion, std::size_t t, const Scene& scene) {
+double live_gap_in(const Motion& motion, std::size_t t, const Scene& scene) {
   const BodyVolume volume = average_volume(motion.skeleton, mapped(motion.skeleton));
   return gap_m(volume,
                world_from_joints(motion.skeleton, motion.poses[t]),
@@ -78,10 +78,10 @@ TEST(LiveHands, TouchWhereTheSourceTouches) {
       const Motion with = dressed(source, avatar, LiveHandsOptions{});
       const Motion without = dressed(source, avatar, std::nullopt);
       for (std::size_t t = kHeldFirst + 10; t <= kHeldLast; t += 10) {
-        const double truth_m = gap_in(source, t, scene);
-        const double off_m = std::abs(gap_in(with, t, scene) - truth_m);
+        const double truth_m = live_gap_in(source, t, scene);
+        const double off_m = std::abs(live_gap_in(with, t, scene) - truth_m);
         worst_without_m =
-            std::max(worst_without_m, std::abs(gap_in(without, t, scene) - truth_m));
+            std::max(worst_without_m, std::abs(live_gap_in(without, t, scene) - truth_m));
         EXPECT_LT(off_m, 0.01) << scene.name << " " << t << " "
                                << mapped(avatar).leg_length_m;
       }

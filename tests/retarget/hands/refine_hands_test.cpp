@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/hand_scenes.h"
@@ -29,14 +30,15 @@ struct Avatar {
   std::function<Skeleton()> make;
 };
 
-struct Scene {
+struct RefinedScene {
   const char* name;
   HandPlaces (*places)();
   int side;
   P part;
 };
 
-class EveryBodyAndTouch : public ::testing::TestWithParam<std::tuple<Avatar, Scene>> {};
+class EveryBodyAndTouch
+    : public ::testing::TestWithParam<std::tuple<Avatar, RefinedScene>> {};
 
 Skeleton long_arms() {
   Proportions p = average_proportions(1.75);
@@ -50,24 +52,23 @@ Skeleton long_arms() {
 INSTANTIATE_TEST_SUITE_P(
     RefineHands,
     EveryBodyAndTouch,
-    ::testing::Combine(::testing::Values(Avatar{"Child", testing::child},
-                                         Avatar{"Giant", testing::giant},
-                                         Avatar{"LongLegs", testing::long_legs},
-                                         Avatar{"LongArms", long_arms},
-                                         Avatar{"Broad", [] { return broad(1.4); }},
-                                         Avatar{"APose",
-                                                [] {
-                                                  testing::Dice dice(3);
-                                                  return testing::with_random_axes(
-                                                      testing::in_a_pose(testing::child(),
-                                                                         0.8),
-                                                      dice);
-                                                }}),
-                       ::testing::Values(Scene{"Clap", clapping, 0, P::kRightHand},
-                                         Scene{"Head", hand_on_head, 0, P::kHead},
-                                         Scene{"LeftHip", hands_on_hips, 0, P::kPelvis},
-                                         Scene{"RightHip", hands_on_hips, 1, P::kPelvis},
-                                         Scene{"Belly", hand_on_belly, 0, P::kAbdomen})),
+    ::testing::Combine(
+        ::testing::Values(Avatar{"Child", testing::child},
+                          Avatar{"Giant", testing::giant},
+                          Avatar{"LongLegs", testing::long_legs},
+                          Avatar{"LongArms", long_arms},
+                          Avatar{"Broad", [] { return broad(1.4); }},
+                          Avatar{"APose",
+                                 [] {
+                                   testing::Dice dice(3);
+                                   return testing::with_random_axes(
+                                       testing::in_a_pose(testing::child(), 0.8), dice);
+                                 }}),
+        ::testing::Values(RefinedScene{"Clap", clapping, 0, P::kRightHand},
+                          RefinedScene{"Head", hand_on_head, 0, P::kHead},
+                          RefinedScene{"LeftHip", hands_on_hips, 0, P::kPelvis},
+                          RefinedScene{"RightHip", hands_on_hips, 1, P::kPelvis},
+                          RefinedScene{"Belly", hand_on_belly, 0, P::kAbdomen})),
     [](const auto& case_info) {
       return std::string(std::get<0>(case_info.param).name) +
              std::get<1>(case_info.param).name;
@@ -86,7 +87,7 @@ RetargetedMotion retargeted(const Motion& source,
   return *std::move(out);
 }
 
-double gap_in(const Motion& motion, std::size_t t, int side, P part) {
+double refined_gap_in(const Motion& motion, std::size_t t, int side, P part) {
   const BodyVolume volume = average_volume(motion.skeleton, mapped(motion.skeleton));
   return gap_m(volume,
                world_from_joints(motion.skeleton, motion.poses[t]),
@@ -94,7 +95,7 @@ double gap_in(const Motion& motion, std::size_t t, int side, P part) {
                part);
 }
 
-std::vector<glm::dvec3> path_of(const Motion& motion, B bone) {
+std::vector<glm::dvec3> refined_path_of(const Motion& motion, B bone) {
   const JointIndex joint = *motion.skeleton.find(bone);
   std::vector<glm::dvec3> path;
   for (const Pose& pose : motion.poses) {
@@ -109,8 +110,8 @@ struct Added {
   double distance_m = 0.0;
 };
 Added added(const Motion& before, const Motion& after, B bone) {
-  const auto a = path_of(before, bone);
-  const auto b = path_of(after, bone);
+  const auto a = refined_path_of(before, bone);
+  const auto b = refined_path_of(after, bone);
   Added out;
   for (std::size_t t = 0; t < a.size(); ++t) {
     out.distance_m = std::max(out.distance_m, glm::distance(a[t], b[t]));
@@ -130,8 +131,8 @@ TEST_P(EveryBodyAndTouch, TouchesWhereTheSourceTouches) {
   EXPECT_EQ(out.report.hands.unreachable_frames, 0);
   EXPECT_LT(out.report.hands.worst_touch_error_m, 0.01);
   for (std::size_t t = kHeldFirst; t <= kHeldLast; t += 15) {
-    EXPECT_NEAR(gap_in(out.motion, t, scene.side, scene.part),
-                gap_in(source, t, scene.side, scene.part),
+    EXPECT_NEAR(refined_gap_in(out.motion, t, scene.side, scene.part),
+                refined_gap_in(source, t, scene.side, scene.part),
                 0.01)
         << "frame " << t;
   }
@@ -141,7 +142,7 @@ TEST_P(EveryBodyAndTouch, TouchesWhereTheSourceTouches) {
 TEST(RefineHands, IsNeededBecauseRetargetingAloneMissesByCentimetres) {
   const Motion source = hands_go_to(clapping());
   const auto without = retargeted(source, broad(1.4), false);
-  EXPECT_GT(gap_in(without.motion, 120, 0, P::kRightHand), 0.03);
+  EXPECT_GT(refined_gap_in(without.motion, 120, 0, P::kRightHand), 0.03);
 }
 
 TEST_P(EveryBodyAndTouch, LeavesEverythingButArmsAlone) {
@@ -219,7 +220,7 @@ TEST(RefineHands, TakesBodiesWithoutArms) {
 }
 
 // Returns the depth of a motion's forearms and hands in abdomen, pelvis and thighs.
-double deepest_m(const Motion& motion, const BodyVolume& volume) {
+double deepest_of_hands_m(const Motion& motion, const BodyVolume& volume) {
   double deepest = 0.0;
   for (std::size_t t = 0; t < motion.poses.size(); t += 3) {
     const auto joints = world_from_joints(motion.skeleton, motion.poses[t]);
@@ -260,8 +261,8 @@ TEST(ResolveArmCollisions, PutsHangingArmsOutOfABiggerBelly) {
   const Belly scene = hanging_beside_a_belly(1.5);
   const auto without = retargeted(scene.source, scene.source.skeleton, false);
   const auto with = retargeted(scene.source, scene.source.skeleton, true, scene.volume);
-  EXPECT_GT(deepest_m(without.motion, scene.volume), 0.02);
-  EXPECT_LT(deepest_m(with.motion, scene.volume), 0.005);
+  EXPECT_GT(deepest_of_hands_m(without.motion, scene.volume), 0.02);
+  EXPECT_LT(deepest_of_hands_m(with.motion, scene.volume), 0.005);
   EXPECT_LT(with.report.hands.arms.deepest_after_m, 0.005);
 }
 
@@ -310,7 +311,8 @@ TEST(ResolveArmCollisions, LaysAHandOnABiggerBelly) {
     const auto joints = world_from_joints(out.motion.skeleton, out.motion.poses[t]);
     EXPECT_NEAR(gap_m(belly, joints, P::kLeftHand, P::kAbdomen), 0.003, 0.01);
   }
-  EXPECT_LT(deepest_m(out.motion, belly), deepest_m(source, own) + 0.005);
+  EXPECT_LT(deepest_of_hands_m(out.motion, belly),
+            deepest_of_hands_m(source, own) + 0.005);
 }
 
 // A hand on a hip next to a belly that overlaps it slides until it is clear of both.

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/skeleton.h"
 #include "core/transform.h"

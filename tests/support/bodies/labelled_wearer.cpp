@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "tests/support/bodies/random_bodies.h"
 

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/base/assert.h"
+#include "core/human/average_proportions.h"
 
 namespace marey::testing {
 namespace {

@@ -11,6 +11,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "core/human/average_proportions.h"
+
 namespace marey::testing {
 namespace {
 

@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/human/average_proportions.h"
+
 namespace marey::testing {
 namespace {
 

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/transform.h"
 #include "tests/support/bodies/random_bodies.h"

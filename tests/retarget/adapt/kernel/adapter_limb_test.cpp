@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "tests/retarget/adapter_bodies.h"
 #include "tests/retarget/named_bodies.h"
 

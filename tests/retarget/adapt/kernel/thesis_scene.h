@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/human/average_proportions.h"
 #include "retarget/adapt/adapter.h"
 #include "retarget/adapt/kernel/adapt_load.h"
 #include "retarget/adapt/kernel/thesis_solve.h"

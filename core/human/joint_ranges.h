@@ -3,14 +3,11 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "core/character.h"
 #include "core/character_spec.h"
 #include "core/humanoid.h"
-#include "retarget/body/body_map.h"
 
-namespace marey::retarget {
+namespace marey {
 
 /// Returns the range of rotation of an adult's bone in its parent, from the T-pose (palms
 /// down) and in its axes. nullopt: the hips, which have no parent, and spine, chest and
@@ -31,9 +28,4 @@ namespace marey::retarget {
 /// places. Precondition: count > 0.
 [[nodiscard]] BoneLimit spine_range(int count);
 
-/// Returns the limits of a body's joints: of its bones and of its vertebrae, marked or
-/// not. Limits in `traits` replace these, also if `traits` excludes all others.
-[[nodiscard]] std::vector<JointLimit> joint_limits(const BodyMap& map,
-                                                   const CharacterTraits& traits);
-
-}  // namespace marey::retarget
+}  // namespace marey
