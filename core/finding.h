@@ -32,6 +32,15 @@ struct Finding {
   /// program's exit code if the severity is kPoor.
   Errc code = Errc::kQuality;
 
+  /// Sets value, limit and unit; `value_limit` is nullopt if there is no fixed limit.
+  Finding& measured(double measured_value,
+                    std::optional<double> value_limit,
+                    std::string of_unit) {
+    value = measured_value;
+    limit = value_limit;
+    unit = std::move(of_unit);
+    return *this;
+  }
   [[nodiscard]] Error error() const { return {code, where, cause, next}; }
   /// One line: "where: cause. Next: next."
   [[nodiscard]] std::string message() const { return error().message(); }

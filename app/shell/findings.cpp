@@ -2,7 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/shell/findings.h"
 
+#include <cmath>
+#include <utility>
+
 namespace marey::app {
+namespace {
+
+double thousandths(double value) {
+  return std::round(1e3 * value) / 1e3;
+}
+
+}  // namespace
 
 void print_warnings(Console& console, std::span<const Finding> findings) {
   for (const Finding& finding : findings) {
@@ -41,11 +51,15 @@ const char* name(Severity severity) {
 nlohmann::ordered_json findings_json(std::span<const Finding> findings) {
   auto out = nlohmann::ordered_json::array();
   for (const Finding& finding : findings) {
-    out.push_back({{"severity", name(finding.severity)},
-                   {"kind", finding.id},
-                   {"where", finding.where},
-                   {"cause", finding.cause},
-                   {"next", finding.next}});
+    nlohmann::ordered_json row{{"severity", name(finding.severity)},
+                               {"kind", finding.id},
+                               {"where", finding.where},
+                               {"cause", finding.cause},
+                               {"next", finding.next}};
+    if (finding.value) row["value"] = thousandths(*finding.value);
+    if (finding.limit) row["limit"] = thousandths(*finding.limit);
+    if (finding.value || finding.limit) row["unit"] = finding.unit;
+    out.push_back(std::move(row));
   }
   return out;
 }

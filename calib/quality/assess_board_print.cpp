@@ -30,18 +30,19 @@ void assess_board_print(FindingList& list) {
   const double shrinkage = median(std::move(slopes));
   if (std::abs(shrinkage) <= kFairShrinkage) return;
   list.add(
-      severity_of(std::abs(shrinkage), kPoorShrinkage),
-      "print",
-      "[board]",
-      format_text("its black squares look %.1f %% ", 100.0 * std::abs(shrinkage)) +
-          (shrinkage > 0.0 ? "smaller" : "larger") +
-          format_text(
-              " than the gaps between them require (good: under %.1f): all lengths may "
-              "have the same error",
-              100.0 * kFairShrinkage),
-      "measure the print (edge of a black square, gap between two, best over a whole "
-      "row) and correct tag_size_m or gap_m; use a shorter exposure if squares look "
-      "swollen or eroded");
+          severity_of(std::abs(shrinkage), kPoorShrinkage),
+          "print",
+          "[board]",
+          format_text("its black squares look %.1f %% ", 100.0 * std::abs(shrinkage)) +
+              (shrinkage > 0.0 ? "smaller" : "larger") +
+              format_text(" than the gaps between them require (good: under %.1f): all "
+                          "lengths may "
+                          "have the same error",
+                          100.0 * kFairShrinkage),
+          "measure the print (edge of a black square, gap between two, best over a whole "
+          "row) and correct tag_size_m or gap_m; use a shorter exposure if squares look "
+          "swollen or eroded")
+      .measured(100.0 * std::abs(shrinkage), 100.0 * kFairShrinkage, "%");
 }
 
 }  // namespace marey::calib

@@ -36,6 +36,8 @@ std::vector<Finding> merge_shared(std::vector<SharedFinding> found) {
     if (count > 1) {
       first.finding.where = "cameras " + names;
       first.finding.cause = first.cause;
+      // Each camera has its own, in `where`.
+      first.finding.value.reset();
     }
     out.push_back(std::move(first.finding));
   }

@@ -114,19 +114,21 @@ void assess_unsteady(FindingList& list) {
     others += " or " + list.report.rig.cameras[index(other)].name;
   }
   list.add(
-      severity_of(move->rig_shift_m, limits[1]),
-      "unsteady",
-      list.camera(c) + others,
-      (move->from_frame ? format_text("its views from frame %d on", *move->from_frame)
-                        : std::string("its views of the floor")) +
-          format_text(
-              " and those before do not fit one camera: its focus changed or it was "
-              "moved a little (%.1f px); if that is taken into account, cameras shift "
-              "by up to %.0f mm",
-              move->moved_px,
-              1e3 * move->rig_shift_m),
-      "switch off its autofocus and stabilisation, fix it firmly, and record the "
-      "calibration again");
+          severity_of(move->rig_shift_m, limits[1]),
+          "unsteady",
+          list.camera(c) + others,
+          (move->from_frame ? format_text("its views from frame %d on", *move->from_frame)
+                            : std::string("its views of the floor")) +
+              format_text(
+                  " and those before do not fit one camera: its focus changed or it was "
+                  "moved a little (%.1f px); if that is taken into account, cameras "
+                  "shift "
+                  "by up to %.0f mm",
+                  move->moved_px,
+                  1e3 * move->rig_shift_m),
+          "switch off its autofocus and stabilisation, fix it firmly, and record the "
+          "calibration again")
+      .measured(1e3 * move->rig_shift_m, 1e3 * limits[0], "mm");
 }
 
 void assess_rows(FindingList& list) {
@@ -150,36 +152,39 @@ void assess_rows(FindingList& list) {
   }
   if (names.empty()) return;
   const double poor_m = limits_of(list.report).error_m[0];
-  list.add(
-      severity_of(shift_m, poor_m),
-      "rolling-shutter",
-      "cameras " + names,
-      format_text("their errors follow the %s's movement row by row: their sensors seem "
-                  "to take that long from the first row to the last; if that is taken "
-                  "into account, cameras shift by up to %.0f mm",
-                  list.target(),
-                  1e3 * shift_m),
-      "set line_delays = true under [calibration] in session.toml, or move the " +
-          std::string(list.target()) + " more slowly");
+  list.add(severity_of(shift_m, poor_m),
+           "rolling-shutter",
+           "cameras " + names,
+           format_text(
+               "their errors follow the %s's movement row by row: their sensors seem "
+               "to take that long from the first row to the last; if that is taken "
+               "into account, cameras shift by up to %.0f mm",
+               list.target(),
+               1e3 * shift_m),
+           "set line_delays = true under [calibration] in session.toml, or move the " +
+               std::string(list.target()) + " more slowly")
+      .measured(1e3 * shift_m, std::nullopt, "mm");
 }
 
 void assess_ambiguous(FindingList& list) {
   const auto& other = list.report.rig.ambiguous;
   if (!other) return;
-  list.add(
-      Severity::kPoor,
-      "ambiguous",
-      list.camera(index(other->camera)),
-      format_text("its place is ambiguous, it may also be %.2f m away: the %d instants "
-                  "that it shares with other cameras fit both places (%.2f px here, %.2f "
-                  "px there)",
-                  other->apart_m,
-                  other->instants,
-                  other->rms_px,
-                  other->other_rms_px),
-      format_text("hold the %s near it, tilted by 30 to 45 degrees, in view of another "
-                  "camera too, a dozen times",
-                  list.target()));
+  list.add(Severity::kPoor,
+           "ambiguous",
+           list.camera(index(other->camera)),
+           format_text(
+               "its place is ambiguous, it may also be %.2f m away: the %d instants "
+               "that it shares with other cameras fit both places (%.2f px here, %.2f "
+               "px there)",
+               other->apart_m,
+               other->instants,
+               other->rms_px,
+               other->other_rms_px),
+           format_text(
+               "hold the %s near it, tilted by 30 to 45 degrees, in view of another "
+               "camera too, a dozen times",
+               list.target()))
+      .measured(other->apart_m, std::nullopt, "m");
 }
 
 }  // namespace

@@ -133,16 +133,17 @@ void assess_halves(FindingList& list, std::size_t c, double apart_m) {
   }
   const bool is_poor =
       apart_m > kPoorRatio * typical_m && apart_m > 2.0 * poor_error_m(list.report);
-  list.add(
-      is_poor ? Severity::kPoor : Severity::kFair,
-      "halves",
-      list.camera(c),
-      format_text("its places from the even and from the odd frames are %.0f mm apart "
-                  "(expected: %.0f mm): its real error is larger than its sigma",
-                  1e3 * apart_m,
-                  1e3 * typical_m),
-      "check that it was not touched while the " + std::string(list.target()) +
-          " was shown, and show it longer, together with another camera");
+  list.add(is_poor ? Severity::kPoor : Severity::kFair,
+           "halves",
+           list.camera(c),
+           format_text(
+               "its places from the even and from the odd frames are %.0f mm apart "
+               "(expected: %.0f mm): its real error is larger than its sigma",
+               1e3 * apart_m,
+               1e3 * typical_m),
+           "check that it was not touched while the " + std::string(list.target()) +
+               " was shown, and show it longer, together with another camera")
+      .measured(1e3 * apart_m, 1e3 * typical_m, "mm");
 }
 
 /// Compares the first half of the recording with the second.
@@ -174,41 +175,44 @@ void assess_held_out(FindingList& list) {
   const auto& check = list.report.rig.cross_validation;
   if (!check) return;
   if (check->held_out_rms_px > 1.5 * check->seen_rms_px && check->held_out_rms_px > 0.3) {
-    list.add(
-        check->held_out_rms_px > 3.0 * check->seen_rms_px && check->held_out_rms_px > 1.0
-            ? Severity::kPoor
-            : Severity::kFair,
-        "held-out",
-        "all cameras",
-        format_text("their error is %.2f px in frames that were not used for the "
-                    "calibration, and %.2f px in the others",
-                    check->held_out_rms_px,
-                    check->seen_rms_px),
-        std::string("show the ") + list.target() +
-            " in more places and postures: "
-            "the recording is too short for so many unknowns");
+    list.add(check->held_out_rms_px > 3.0 * check->seen_rms_px &&
+                     check->held_out_rms_px > 1.0
+                 ? Severity::kPoor
+                 : Severity::kFair,
+             "held-out",
+             "all cameras",
+             format_text("their error is %.2f px in frames that were not used for the "
+                         "calibration, and %.2f px in the others",
+                         check->held_out_rms_px,
+                         check->seen_rms_px),
+             std::string("show the ") + list.target() +
+                 " in more places and postures: "
+                 "the recording is too short for so many unknowns")
+        .measured(check->held_out_rms_px, std::nullopt, "px");
   }
   for (std::size_t c = 0; c < list.report.cameras.size(); ++c) {
     const double scale = pixel_scale(list.report.rig.cameras[c]);
     if (const auto& px = check->held_out_camera_px[c];
         px && *px > 2.0 * scale && *px > 3.0 * list.report.rig.median_px) {
-      list.add(
-          severity_of(*px, 6.0 * scale),
-          "held-out",
-          list.camera(c),
-          format_text("its error is %.1f px if the place of the %s is computed from the "
-                      "other cameras alone, and %.2f px with its own views",
-                      *px,
-                      list.target(),
-                      list.report.cameras[c].median_px),
-          format_text(list.report.has_clocks
-                          ? "check that its video skips no frames, and that it was not "
-                            "moved; hold the %s where it and two others see it"
-                          : "if its video starts at another time, set clocks = "
-                            "\"offsets\" under [calibration] in session.toml; check that "
-                            "it was not moved, and hold the %s where it and two others "
-                            "see it",
-                      list.target()));
+      list.add(severity_of(*px, 6.0 * scale),
+               "held-out",
+               list.camera(c),
+               format_text(
+                   "its error is %.1f px if the place of the %s is computed from the "
+                   "other cameras alone, and %.2f px with its own views",
+                   *px,
+                   list.target(),
+                   list.report.cameras[c].median_px),
+               format_text(
+                   list.report.has_clocks
+                       ? "check that its video skips no frames, and that it was not "
+                         "moved; hold the %s where it and two others see it"
+                       : "if its video starts at another time, set clocks = "
+                         "\"offsets\" under [calibration] in session.toml; check that "
+                         "it was not moved, and hold the %s where it and two others "
+                         "see it",
+                   list.target()))
+          .measured(*px, std::nullopt, "px");
     }
     assess_halves(list, c, check->centre_apart_m[c]);
     assess_halves_in_time(list, c);

@@ -58,22 +58,25 @@ void assess_level(FindingList& list, std::size_t c) {
                          camera.inlier_rms_px,
                          *others),
              "check that its focus is fixed and sharp, that its exposure is short, that "
-             "it did not move, and that its video starts with the others'");
+             "it did not move, and that its video starts with the others'")
+        .measured(camera.inlier_rms_px, kWorseThanOthers * *others, "px");
   } else if (is_poor || camera.inlier_rms_px > kFairRmsPx * scale) {
     list.add_shared(
-        is_poor ? Severity::kPoor : Severity::kFair,
-        "residual",
-        c,
-        format_text("its error is %.2f px (median %.2f; good: under %.1f)",
-                    camera.inlier_rms_px,
-                    camera.median_px,
-                    kFairRmsPx * scale),
-        std::string("check the ") + list.target() +
-            "'s measures in session.toml, that it is flat and firm, that exposure is "
-            "short "
-            "and focus fixed, and that all videos start together",
-        format_text("%.2f px", camera.inlier_rms_px),
-        format_text("their errors are too large (good: under %.1f)", kFairRmsPx * scale));
+            is_poor ? Severity::kPoor : Severity::kFair,
+            "residual",
+            c,
+            format_text("its error is %.2f px (median %.2f; good: under %.1f)",
+                        camera.inlier_rms_px,
+                        camera.median_px,
+                        kFairRmsPx * scale),
+            std::string("check the ") + list.target() +
+                "'s measures in session.toml, that it is flat and firm, that exposure is "
+                "short "
+                "and focus fixed, and that all videos start together",
+            format_text("%.2f px", camera.inlier_rms_px),
+            format_text("their errors are too large (good: under %.1f)",
+                        kFairRmsPx * scale))
+        .measured(camera.inlier_rms_px, kFairRmsPx * scale, "px");
   }
 }
 
@@ -105,23 +108,25 @@ void assess_outliers(FindingList& list, std::size_t c) {
   }
   if (share <= kFairOutliers) return;
   list.add_shared(
-      severity_of(share, kPoorOutliers),
-      "outliers",
-      c,
-      format_text(
-          "%.0f %% of its sightings do not fit the rest and were left out (good: under "
-          "%.0f %%)",
-          100.0 * share,
-          100.0 * kFairOutliers),
-      std::string(
-          "look at the frames in calibration.html's list: blur, hands over the ") +
-          list.target() +
-          ", mirrors, another print with its tags, or cameras that are "
-          "out of step",
-      format_text("%.0f %%", 100.0 * share),
-      format_text("this share of their sightings does not fit the rest and was left out "
-                  "(good: under %.0f %%)",
-                  100.0 * kFairOutliers));
+          severity_of(share, kPoorOutliers),
+          "outliers",
+          c,
+          format_text("%.0f %% of its sightings do not fit the rest and were left out "
+                      "(good: under "
+                      "%.0f %%)",
+                      100.0 * share,
+                      100.0 * kFairOutliers),
+          std::string(
+              "look at the frames in calibration.html's list: blur, hands over the ") +
+              list.target() +
+              ", mirrors, another print with its tags, or cameras that are "
+              "out of step",
+          format_text("%.0f %%", 100.0 * share),
+          format_text(
+              "this share of their sightings does not fit the rest and was left out "
+              "(good: under %.0f %%)",
+              100.0 * kFairOutliers))
+      .measured(100.0 * share, 100.0 * kFairOutliers, "%");
 }
 
 /// Reports frames in which several cameras disagree with the board's pose.
@@ -156,22 +161,24 @@ void assess_lag(FindingList& list, std::size_t c) {
       list.report.rate_hz > 0.0 ? 1e3 * camera.lag->frames / list.report.rate_hz : 0.0;
   const char* way = camera.lag->frames > 0.0 ? "later" : "earlier";
   list.add_shared(
-      Severity::kFair,
-      "clock",
-      c,
-      format_text(
-          "its errors follow the %s's movement (%.2f px): it is %.0f ms or more %s than "
-          "the others",
-          list.target(),
-          camera.lag->explained_px,
-          std::abs(ms),
-          way),
-      std::string("start all cameras together, let marey solve for their clocks, or move "
-                  "the ") +
-          list.target() + " more slowly",
-      format_text("%.0f ms %s", std::abs(ms), way),
-      std::string("their errors follow the ") + list.target() +
-          "'s movement: they are out of step by this time or more");
+          Severity::kFair,
+          "clock",
+          c,
+          format_text("its errors follow the %s's movement (%.2f px): it is %.0f ms or "
+                      "more %s than "
+                      "the others",
+                      list.target(),
+                      camera.lag->explained_px,
+                      std::abs(ms),
+                      way),
+          std::string(
+              "start all cameras together, let marey solve for their clocks, or move "
+              "the ") +
+              list.target() + " more slowly",
+          format_text("%.0f ms %s", std::abs(ms), way),
+          std::string("their errors follow the ") + list.target() +
+              "'s movement: they are out of step by this time or more")
+      .measured(std::abs(ms), std::nullopt, "ms");
 }
 
 void assess_pattern(FindingList& list, std::size_t c) {
@@ -181,17 +188,18 @@ void assess_pattern(FindingList& list, std::size_t c) {
       camera.pattern_px < 0.5 * camera.inlier_rms_px) {
     return;
   }
-  list.add(
-      Severity::kFair,
-      "lens",
-      list.camera(c),
-      format_text("%.2f px of its errors are the same at each place in the picture for "
-                  "all places of the %s: the lens model does not describe this "
-                  "distortion",
-                  camera.pattern_px,
-                  list.target()),
-      "choose another lens model in session.toml, and switch off the camera's own "
-      "correction or stabilisation");
+  list.add(Severity::kFair,
+           "lens",
+           list.camera(c),
+           format_text(
+               "%.2f px of its errors are the same at each place in the picture for "
+               "all places of the %s: the lens model does not describe this "
+               "distortion",
+               camera.pattern_px,
+               list.target()),
+           "choose another lens model in session.toml, and switch off the camera's own "
+           "correction or stabilisation")
+      .measured(camera.pattern_px, kFairPatternPx * scale, "px");
 }
 
 void assess_floor(FindingList& list, std::size_t c) {
@@ -202,28 +210,30 @@ void assess_floor(FindingList& list, std::size_t c) {
     return;
   }
   if (!list.report.extent) {
-    list.add(
-        severity_of(*camera.floor_median_px, 5.0 * scale),
-        "scenery",
-        list.camera(c),
-        format_text("static tags are %.1f px from where they should be, the wand's %.2f "
-                    "px",
-                    *camera.floor_median_px,
-                    camera.inlier_rms_px),
-        "the camera or those tags were touched while the wand was carried about: "
-        "record the calibration again without touching anything");
+    list.add(severity_of(*camera.floor_median_px, 5.0 * scale),
+             "scenery",
+             list.camera(c),
+             format_text(
+                 "static tags are %.1f px from where they should be, the wand's %.2f "
+                 "px",
+                 *camera.floor_median_px,
+                 camera.inlier_rms_px),
+             "the camera or those tags were touched while the wand was carried about: "
+             "record the calibration again without touching anything")
+        .measured(*camera.floor_median_px, std::nullopt, "px");
     return;
   }
-  list.add(
-      severity_of(*camera.floor_median_px, 5.0 * scale),
-      "floor",
-      list.camera(c),
-      format_text("the board on the floor is %.1f px from where it should be, the moving "
-                  "one %.2f px",
-                  *camera.floor_median_px,
-                  camera.inlier_rms_px),
-      "the camera was touched between the two trials, or the board did not lie "
-      "still: record both again without touching anything");
+  list.add(severity_of(*camera.floor_median_px, 5.0 * scale),
+           "floor",
+           list.camera(c),
+           format_text(
+               "the board on the floor is %.1f px from where it should be, the moving "
+               "one %.2f px",
+               *camera.floor_median_px,
+               camera.inlier_rms_px),
+           "the camera was touched between the two trials, or the board did not lie "
+           "still: record both again without touching anything")
+      .measured(*camera.floor_median_px, std::nullopt, "px");
 }
 
 /// Reports an implausible floor. Cameras and a waved board must be above it.

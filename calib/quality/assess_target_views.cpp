@@ -32,21 +32,23 @@ void assess_coverage(FindingList& list, std::size_t c) {
   const std::string target = list.target();
   if (quality.coverage < kFairCoverage) {
     list.add_shared(
-        quality.coverage < kPoorCoverage ? Severity::kPoor : Severity::kFair,
-        "coverage",
-        c,
-        format_text(
-            "it saw the %s in %.0f %% of its picture (good: above %.0f %%), and its lens "
-            "is uncertain in the rest",
-            target.c_str(),
-            100.0 * quality.coverage,
-            100.0 * kFairCoverage),
-        "move the " + target + " slowly through the whole picture, up to the edges",
-        format_text("%.0f %%", 100.0 * quality.coverage),
-        format_text("they saw the %s in this share of their pictures only (good: above "
-                    "%.0f %%), and their lenses are uncertain in the rest",
-                    target.c_str(),
-                    100.0 * kFairCoverage));
+            quality.coverage < kPoorCoverage ? Severity::kPoor : Severity::kFair,
+            "coverage",
+            c,
+            format_text("it saw the %s in %.0f %% of its picture (good: above %.0f %%), "
+                        "and its lens "
+                        "is uncertain in the rest",
+                        target.c_str(),
+                        100.0 * quality.coverage,
+                        100.0 * kFairCoverage),
+            "move the " + target + " slowly through the whole picture, up to the edges",
+            format_text("%.0f %%", 100.0 * quality.coverage),
+            format_text(
+                "they saw the %s in this share of their pictures only (good: above "
+                "%.0f %%), and their lenses are uncertain in the rest",
+                target.c_str(),
+                100.0 * kFairCoverage))
+        .measured(100.0 * quality.coverage, 100.0 * kFairCoverage, "%");
     return;
   }
   constexpr std::array<const char*, 4> kHalves{"left", "right", "upper", "lower"};
@@ -75,40 +77,44 @@ void assess_camera(FindingList& list, std::size_t c) {
   const std::string target = list.target();
   if (camera.instants < kFairViews) {
     list.add_shared(
-        camera.instants < kPoorViews ? Severity::kPoor : Severity::kFair,
-        "views",
-        c,
-        format_text(
-            "it saw the moving %s at %d instants (good: %d or more), too few for a "
-            "reliable error",
-            target.c_str(),
-            camera.instants,
-            kFairViews),
-        "wave the " + target + " longer in its view: half a minute",
-        format_text("%d", camera.instants),
-        format_text(
-            "they saw the moving %s at too few instants for reliable errors (good: %d or "
-            "more)",
-            target.c_str(),
-            kFairViews));
+            camera.instants < kPoorViews ? Severity::kPoor : Severity::kFair,
+            "views",
+            c,
+            format_text(
+                "it saw the moving %s at %d instants (good: %d or more), too few for a "
+                "reliable error",
+                target.c_str(),
+                camera.instants,
+                kFairViews),
+            "wave the " + target + " longer in its view: half a minute",
+            format_text("%d", camera.instants),
+            format_text("they saw the moving %s at too few instants for reliable errors "
+                        "(good: %d or "
+                        "more)",
+                        target.c_str(),
+                        kFairViews))
+        .measured(camera.instants, kFairViews, "instants");
   }
   assess_coverage(list, c);
   if (!camera.tilts.empty() && camera.p90_tilt_rad < kFairTilt_rad) {
     list.add_shared(
-        Severity::kFair,
-        "tilt",
-        c,
-        format_text(
-            "the board was hardly tilted: nine of ten views by less than %.0f degrees "
-            "(good: more than %.0f), so its focal length is uncertain",
-            camera.p90_tilt_rad * kDegreesPerRadian,
-            kFairTilt_rad * kDegreesPerRadian),
-        "tilt the board to all sides by 30 to 45 degrees in its view",
-        format_text("%.0f degrees", camera.p90_tilt_rad * kDegreesPerRadian),
-        format_text(
-            "nine of ten views of the board were tilted less than that (good: more than "
-            "%.0f), so their focal lengths are uncertain",
-            kFairTilt_rad * kDegreesPerRadian));
+            Severity::kFair,
+            "tilt",
+            c,
+            format_text("the board was hardly tilted: nine of ten views by less than "
+                        "%.0f degrees "
+                        "(good: more than %.0f), so its focal length is uncertain",
+                        camera.p90_tilt_rad * kDegreesPerRadian,
+                        kFairTilt_rad * kDegreesPerRadian),
+            "tilt the board to all sides by 30 to 45 degrees in its view",
+            format_text("%.0f degrees", camera.p90_tilt_rad * kDegreesPerRadian),
+            format_text("nine of ten views of the board were tilted less than that "
+                        "(good: more than "
+                        "%.0f), so their focal lengths are uncertain",
+                        kFairTilt_rad * kDegreesPerRadian))
+        .measured(camera.p90_tilt_rad * kDegreesPerRadian,
+                  kFairTilt_rad * kDegreesPerRadian,
+                  "degrees");
   }
 }
 
@@ -140,17 +146,18 @@ void assess_shared(FindingList& list) {
     if (from == to) continue;
     std::replace(group.begin(), group.end(), from, to);
     if (link.instants >= kFairShared) continue;
-    list.add(
-        Severity::kFair,
-        "shared",
-        list.both(link.a, link.b),
-        format_text("they saw the %s together at %d instants (good: %d or more), and no "
-                    "other cameras connect them better",
-                    list.target(),
-                    link.instants,
-                    kFairShared),
-        format_text("hold the %s where both see it, in many places and postures",
-                    list.target()));
+    list.add(Severity::kFair,
+             "shared",
+             list.both(link.a, link.b),
+             format_text(
+                 "they saw the %s together at %d instants (good: %d or more), and no "
+                 "other cameras connect them better",
+                 list.target(),
+                 link.instants,
+                 kFairShared),
+             format_text("hold the %s where both see it, in many places and postures",
+                         list.target()))
+        .measured(link.instants, kFairShared, "instants");
   }
 }
 

@@ -38,16 +38,17 @@ void assess_line_delay(FindingList& list, std::size_t c) {
           : "set clocks = \"offsets\" under [calibration] in session.toml, or leave out "
             "line_delays: a clock offset looks like a line delay";
   if ((delay_s - kSignificant * sigma_s) * rows > longest_s) {
-    list.add(
-        Severity::kPoor,
-        "line-delay",
-        list.camera(c),
-        format_text("its line delay is %.0f us, which is %.0f ms for a picture (cameras: "
-                    "under %.0f)",
-                    1e6 * clock.line_delay_s,
-                    1e3 * rows * delay_s,
-                    1e3 * longest_s),
-        next);
+    list.add(Severity::kPoor,
+             "line-delay",
+             list.camera(c),
+             format_text(
+                 "its line delay is %.0f us, which is %.0f ms for a picture (cameras: "
+                 "under %.0f)",
+                 1e6 * clock.line_delay_s,
+                 1e3 * rows * delay_s,
+                 1e3 * longest_s),
+             next)
+        .measured(1e3 * rows * delay_s, 1e3 * longest_s, "ms");
   } else if (clock.line_delay_s < -kSignificant * sigma_s && rows * delay_s > 1e-3) {
     list.add(
         Severity::kFair,
@@ -80,22 +81,23 @@ void assess_slip(FindingList& list, std::size_t c) {
   const auto& slip = list.report.cameras[c].slip;
   const double scale = pixel_scale(list.report.rig.cameras[c]);
   if (!slip || slip->moved_px < 0.3 * scale || seems_moved(list.report, c)) return;
-  list.add(
-      severity_of(slip->moved_px, scale),
-      "slip",
-      list.camera(c),
-      format_text("from frame %d on it is %.1f frames %s than before, compared with the "
-                  "others (%.1f px of the %s's movement): %s",
-                  slip->from_frame,
-                  std::abs(slip->frames),
-                  slip->frames > 0.0 ? "later" : "earlier",
-                  slip->moved_px,
-                  list.target(),
-                  slip->frames > 0.0 ? "its video skips frames"
-                                     : "another camera's video skips frames, or its own "
-                                       "repeats some"),
-      "record the calibration again, at a rate that the camera and the computer "
-      "keep");
+  list.add(severity_of(slip->moved_px, scale),
+           "slip",
+           list.camera(c),
+           format_text(
+               "from frame %d on it is %.1f frames %s than before, compared with the "
+               "others (%.1f px of the %s's movement): %s",
+               slip->from_frame,
+               std::abs(slip->frames),
+               slip->frames > 0.0 ? "later" : "earlier",
+               slip->moved_px,
+               list.target(),
+               slip->frames > 0.0 ? "its video skips frames"
+                                  : "another camera's video skips frames, or its own "
+                                    "repeats some"),
+           "record the calibration again, at a rate that the camera and the computer "
+           "keep")
+      .measured(slip->moved_px, std::nullopt, "px");
 }
 
 }  // namespace

@@ -24,26 +24,29 @@ struct FindingList {
   const CalibrationReport& report;
   std::vector<SharedFinding> found;
 
-  void add(Severity severity,
-           const char* id,
-           std::string where,
-           std::string cause,
-           std::string next) {
+  /// Returns the finding, valid until the next one is added.
+  Finding& add(Severity severity,
+               const char* id,
+               std::string where,
+               std::string cause,
+               std::string next) {
     found.push_back(
         {{severity, id, std::move(where), std::move(cause), std::move(next)}, "", ""});
+    return found.back().finding;
   }
   /// Adds a finding that several cameras may have. `cause_of_many` follows their names
   /// and values in the text.
-  void add_shared(Severity severity,
-                  const char* id,
-                  std::size_t c,
-                  std::string cause,
-                  std::string next,
-                  std::string figure,
-                  std::string cause_of_many) {
+  Finding& add_shared(Severity severity,
+                      const char* id,
+                      std::size_t c,
+                      std::string cause,
+                      std::string next,
+                      std::string figure,
+                      std::string cause_of_many) {
     add(severity, id, camera(c), std::move(cause), std::move(next));
     found.back().figure = report.rig.cameras[c].name + " (" + figure + ")";
     found.back().cause = std::move(cause_of_many);
+    return found.back().finding;
   }
 
   [[nodiscard]] std::string camera(std::size_t c) const {

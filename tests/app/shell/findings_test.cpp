@@ -45,5 +45,16 @@ TEST(Findings, HaveTheKeysOfCalibrationJson) {
             R"("cause":"it sees 30 views","next":""})");
 }
 
+TEST(Findings, HaveTheirValueInJsonIfTheyHaveOne) {
+  Finding finding = fair_finding("views", "camera left", "it sees 30 views");
+  finding.measured(30.00049, 40.0, "instants");
+  EXPECT_EQ(findings_json({&finding, 1})[0].dump(),
+            R"({"severity":"fair","kind":"views","where":"camera left",)"
+            R"("cause":"it sees 30 views","next":"",)"
+            R"("value":30.0,"limit":40.0,"unit":"instants"})");
+  finding.measured(0.25, std::nullopt, "m");
+  EXPECT_FALSE(findings_json({&finding, 1})[0].contains("limit"));
+}
+
 }  // namespace
 }  // namespace marey::app
