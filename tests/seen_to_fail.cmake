@@ -26,6 +26,7 @@ function(build_sound_tree)
   file(REMOVE_RECURSE ${tree})
   source(core/point.h "#pragma once
 #include <vector>
+/// Points of one frame.
 struct Cloud { std::vector<double> points; };")
   source(core/point.cpp "#include \"core/point.h\"")
   source(calib/place.h "#include \"core/point.h\"")
@@ -123,6 +124,19 @@ macro(public_text out_result out_text)
   execute_process(COMMAND ${git} add -A COMMAND_ERROR_IS_FATAL ANY)
   run_script(public_text.cmake ${out_result} ${out_text})
 endmacro()
+
+function(language out_result out_text)
+  find_program(PYTHON3 python3)
+  if(NOT PYTHON3)
+    message(FATAL_ERROR "skipped: there is no python3")
+  endif()
+  file(WRITE ${tree}/ceilings.txt "headers 0\ndocs 0\n")
+  execute_process(
+    COMMAND ${PYTHON3} ${SOURCE}/tests/language_scan.py ${tree} --check ${tree}/ceilings.txt
+    RESULT_VARIABLE result OUTPUT_VARIABLE text ERROR_VARIABLE text)
+  set(${out_result} ${result} PARENT_SCOPE)
+  set(${out_text} "${text}" PARENT_SCOPE)
+endfunction()
 
 # The same helper and the same target as the project's.
 function(headers_stand_alone out_result out_text)
@@ -291,12 +305,18 @@ fault(a_function_without_end tidy core/point.cpp
   "int total() {\n  int sum = 0;\n${many_statements}  return sum;\n}"
   "readability-function-size")
 
+fault(a_comment_in_idiom language core/point.h
+  "/// What the caller said is doubted." "error: headers: ")
+fault(a_page_in_idiom language README.md
+  "\nHe who heeds it lends it his name." "error: docs: ")
+
 emptied(an_empty_tree layering "${tree}/*" "nothing was checked")
 emptied(a_tree_without_includes folders "${tree}/*" "nothing was checked")
 emptied(a_checkout_without_files public_text "${tree}/*" "nothing was checked")
 emptied(a_tree_without_pages docs "${tree}/README.md" "names checked: 0")
 emptied(a_tree_without_sources sizes "${tree}/*" "files checked: 0")
 emptied(a_tree_without_packages packages "${tree}/CMakeLists.txt" "packages checked: 0")
+emptied(a_tree_without_sentences language "${tree}/core;${tree}/calib" "error: headers: None")
 emptied(a_tree_without_rooms headers_stand_alone "${tree}/core"
   "all_verify_interface_header_sets")
 
