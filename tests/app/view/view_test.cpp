@@ -102,11 +102,11 @@ TEST_F(View, DragsInTheFrameThatThePageShows) {
   ASSERT_TRUE(view) << view.error().message();
   auto handles = ViewHandles::make(*view, {});
   ASSERT_TRUE(handles);
-  constexpr live::ClientId kPage{1};
+  constexpr live::ClientId kViewPage{1};
   const live::DragRequest last{
       "head", {0.0, 1.6, 0.9}, live::DragPhase::kMove, 7 + kViewFrames - 1};
-  ASSERT_TRUE(handles->drag(kPage, last));
-  const auto adapted = handles->adapted(kPage);
+  ASSERT_TRUE(handles->drag(kViewPage, last));
+  const auto adapted = handles->adapted(kViewPage);
   ASSERT_TRUE(adapted && *adapted);
   EXPECT_EQ((*adapted)->frame, kViewFrames - 1);
 }
