@@ -181,7 +181,7 @@ BoneFrame<T> bone_frame(HumanBone bone,
     return detail::limb_bone<T, L>(limb, place, root, blocks, lengths, body.hinges[limb]);
   };
   const InLimb at = in_limb(bone);
-  const bool left = at.limb % 2 == 0 || bone == B::kLeftShoulder;
+  const bool left = at.limb == 0 || at.limb == 2 || bone == B::kLeftShoulder;
   const double side = left ? 1.0 : -1.0;
   if (at.limb == 2 || at.limb == 3) {
     const Vec3<T> hip(

@@ -20,7 +20,7 @@ using std::chrono::seconds;
 constexpr CameraId kLeft{0};
 constexpr CameraId kRight{1};
 
-Timestamp time_of_ms(double value) {
+Timestamp at_ms(double value) {
   return from_seconds(1e-3 * value);
 }
 
@@ -91,7 +91,7 @@ Shooting shoot(unsigned seed) {
     all.clocks.push_back({seconds(c * 100), 20.0 * c});
     std::vector<Shot>& shots = all.cameras.emplace_back();
     for (int k = 0; k < 200; ++k) {
-      const Timestamp common = time_of_ms(10.0 * k + jitter_ms(random)) + seconds(1000);
+      const Timestamp common = at_ms(10.0 * k + jitter_ms(random)) + seconds(1000);
       if (dropped(random)) continue;
       const double own =
           static_cast<double>((common - all.clocks.back().offset).count()) /
@@ -166,10 +166,9 @@ TEST(GroupFramesOffline, HandsOutEveryFrameOnceAndAtItsInstant) {
 TEST(GroupFramesOffline, ReportsTheMissingCamerasOfEachGroup) {
   const std::vector<ClockModel> clocks(2);
   FrameGrouper grouper(clocks, offline());
-  for (const double t : {0.0, 10.0, 30.0})
-    grouper.offer(kLeft, time_of_ms(t), FrameTicket{0});
+  for (const double t : {0.0, 10.0, 30.0}) grouper.offer(kLeft, at_ms(t), FrameTicket{0});
   for (const double t : {0.0, 20.0, 31.0})
-    grouper.offer(kRight, time_of_ms(t), FrameTicket{0});
+    grouper.offer(kRight, at_ms(t), FrameTicket{0});
   grouper.end(kLeft);
   grouper.end(kRight);
   std::vector<std::vector<int>> missing;
@@ -182,10 +181,10 @@ TEST(GroupFramesOffline, ReportsTheMissingCamerasOfEachGroup) {
 TEST(GroupFramesOffline, HandsASecondFrameOfAnInstantOutAsSurplus) {
   const std::vector<ClockModel> clocks(1);
   FrameGrouper grouper(clocks, offline());
-  grouper.offer(kLeft, time_of_ms(-2), FrameTicket{1});
-  grouper.offer(kLeft, time_of_ms(3), FrameTicket{2});
-  grouper.offer(kLeft, time_of_ms(-5), FrameTicket{3});  // Its clock jumped back.
-  grouper.offer(kLeft, time_of_ms(11), FrameTicket{4});
+  grouper.offer(kLeft, at_ms(-2), FrameTicket{1});
+  grouper.offer(kLeft, at_ms(3), FrameTicket{2});
+  grouper.offer(kLeft, at_ms(-5), FrameTicket{3});  // Its clock jumped back.
+  grouper.offer(kLeft, at_ms(11), FrameTicket{4});
   grouper.end(kLeft);
   const auto group = grouper.next();
   ASSERT_TRUE(group);
@@ -200,13 +199,13 @@ TEST(GroupFramesOffline, WaitsForASlowCameraAndRefusesWhatHasNoRoom) {
   const std::vector<ClockModel> clocks(2);
   FrameGrouper grouper(clocks, options);
   for (int k = 0; k < 3; ++k) {
-    EXPECT_FALSE(grouper.offer(kLeft, time_of_ms(10.0 * k), FrameTicket{k}).refused);
+    EXPECT_FALSE(grouper.offer(kLeft, at_ms(10.0 * k), FrameTicket{k}).refused);
   }
-  EXPECT_TRUE(grouper.offer(kLeft, time_of_ms(30), FrameTicket{3}).refused);
+  EXPECT_TRUE(grouper.offer(kLeft, at_ms(30), FrameTicket{3}).refused);
   EXPECT_FALSE(grouper.next(seconds(1000)));
   grouper.end(kRight);
   EXPECT_TRUE(grouper.next());
-  EXPECT_FALSE(grouper.offer(kLeft, time_of_ms(30), FrameTicket{3}).refused);
+  EXPECT_FALSE(grouper.offer(kLeft, at_ms(30), FrameTicket{3}).refused);
   EXPECT_EQ(grouper.counts(kLeft).offered, 4);
 }
 
@@ -216,11 +215,11 @@ TEST(GroupFramesOffline, WaitsForASlowCameraAndRefusesWhatHasNoRoom) {
 TEST(GroupFramesLive, IsReadyAsSoonAsEveryCameraHasDelivered) {
   const std::vector<ClockModel> clocks(2);
   FrameGrouper grouper(clocks, live());
-  grouper.offer(kLeft, time_of_ms(0), FrameTicket{1});
-  EXPECT_FALSE(grouper.next(time_of_ms(3)));
-  EXPECT_EQ(grouper.deadline(), time_of_ms(15));
-  grouper.offer(kRight, time_of_ms(2), FrameTicket{2});
-  const auto group = grouper.next(time_of_ms(3));
+  grouper.offer(kLeft, at_ms(0), FrameTicket{1});
+  EXPECT_FALSE(grouper.next(at_ms(3)));
+  EXPECT_EQ(grouper.deadline(), at_ms(15));
+  grouper.offer(kRight, at_ms(2), FrameTicket{2});
+  const auto group = grouper.next(at_ms(3));
   ASSERT_TRUE(group);
   EXPECT_EQ(group->frames.size(), 2U);
   EXPECT_FALSE(grouper.deadline());
@@ -229,12 +228,12 @@ TEST(GroupFramesLive, IsReadyAsSoonAsEveryCameraHasDelivered) {
 TEST(GroupFramesLive, WaitsNoLongerThanItMay) {
   const std::vector<ClockModel> clocks(2);
   FrameGrouper grouper(clocks, live());
-  grouper.offer(kLeft, time_of_ms(0), FrameTicket{1});
-  EXPECT_FALSE(grouper.next(time_of_ms(14.9)));
-  const auto group = grouper.next(time_of_ms(15));
+  grouper.offer(kLeft, at_ms(0), FrameTicket{1});
+  EXPECT_FALSE(grouper.next(at_ms(14.9)));
+  const auto group = grouper.next(at_ms(15));
   ASSERT_TRUE(group);
   EXPECT_EQ(copy(*group).missing, std::vector<int>{1});
-  const Offer late = grouper.offer(kRight, time_of_ms(1), FrameTicket{2});
+  const Offer late = grouper.offer(kRight, at_ms(1), FrameTicket{2});
   EXPECT_EQ(late.dropped, FrameTicket{2});
   EXPECT_EQ(grouper.counts(kRight).late, 1);
 }
@@ -242,27 +241,27 @@ TEST(GroupFramesLive, WaitsNoLongerThanItMay) {
 TEST(GroupFramesLive, DoesNotWaitForAFrameThatWasPassedOver) {
   const std::vector<ClockModel> clocks(2);
   FrameGrouper grouper(clocks, live());
-  grouper.pass_over(kRight, time_of_ms(0));  // Before any other.
-  grouper.offer(kLeft, time_of_ms(0), FrameTicket{1});
-  grouper.offer(kRight, time_of_ms(10), FrameTicket{2});
-  const auto first = grouper.next(time_of_ms(11));
+  grouper.pass_over(kRight, at_ms(0));  // Before any other.
+  grouper.offer(kLeft, at_ms(0), FrameTicket{1});
+  grouper.offer(kRight, at_ms(10), FrameTicket{2});
+  const auto first = grouper.next(at_ms(11));
   ASSERT_TRUE(first);
   EXPECT_EQ(copy(*first).missing, std::vector<int>{1});
-  grouper.offer(kLeft, time_of_ms(10), FrameTicket{3});
-  ASSERT_TRUE(grouper.next(time_of_ms(12)));
+  grouper.offer(kLeft, at_ms(10), FrameTicket{3});
+  ASSERT_TRUE(grouper.next(at_ms(12)));
 
-  grouper.offer(kLeft, time_of_ms(20), FrameTicket{4});
-  EXPECT_FALSE(grouper.next(time_of_ms(21)));
-  grouper.pass_over(kRight, time_of_ms(20.5));
-  const auto third = grouper.next(time_of_ms(21));
+  grouper.offer(kLeft, at_ms(20), FrameTicket{4});
+  EXPECT_FALSE(grouper.next(at_ms(21)));
+  grouper.pass_over(kRight, at_ms(20.5));
+  const auto third = grouper.next(at_ms(21));
   ASSERT_TRUE(third);
   EXPECT_EQ(third->number, 2);
   EXPECT_EQ(copy(*third).missing, std::vector<int>{1});
   // It returns with its next frame, and nothing was counted as offered.
-  grouper.offer(kLeft, time_of_ms(30), FrameTicket{5});
-  EXPECT_FALSE(grouper.next(time_of_ms(31)));
-  grouper.offer(kRight, time_of_ms(30), FrameTicket{6});
-  const auto fourth = grouper.next(time_of_ms(31));
+  grouper.offer(kLeft, at_ms(30), FrameTicket{5});
+  EXPECT_FALSE(grouper.next(at_ms(31)));
+  grouper.offer(kRight, at_ms(30), FrameTicket{6});
+  const auto fourth = grouper.next(at_ms(31));
   ASSERT_TRUE(fourth);
   EXPECT_EQ(fourth->frames.size(), 2U);
   EXPECT_EQ(grouper.counts(kRight).offered, 2);
@@ -274,10 +273,10 @@ TEST(GroupFramesLive, DoesNotWaitForACameraThatDied) {
   std::vector<double> delays_ms;
   for (int k = 0; k < 100; ++k) {
     const double now = 10.0 * k;
-    grouper.offer(kLeft, time_of_ms(now), FrameTicket{k});
-    if (k < 20) grouper.offer(kRight, time_of_ms(now), FrameTicket{k});
+    grouper.offer(kLeft, at_ms(now), FrameTicket{k});
+    if (k < 20) grouper.offer(kRight, at_ms(now), FrameTicket{k});
     double waited = 0.0;
-    while (!grouper.next(time_of_ms(now + waited)) && waited < 9.9) waited += 0.1;
+    while (!grouper.next(at_ms(now + waited)) && waited < 9.9) waited += 0.1;
     delays_ms.push_back(waited);
   }
   // Silent for 200 ms at frame 40: after that, it causes no delay.
@@ -289,16 +288,16 @@ TEST(GroupFramesLive, TheNewestGroupWinsWhenTheConsumerIsSlow) {
   const std::vector<ClockModel> clocks(2);
   FrameGrouper grouper(clocks, live());
   for (int k = 0; k < 5; ++k) {
-    grouper.offer(kLeft, time_of_ms(10.0 * k), FrameTicket{k});
-    grouper.offer(kRight, time_of_ms(10.0 * k + 1), FrameTicket{10 + k});
+    grouper.offer(kLeft, at_ms(10.0 * k), FrameTicket{k});
+    grouper.offer(kRight, at_ms(10.0 * k + 1), FrameTicket{10 + k});
   }
-  const auto group = grouper.next(time_of_ms(45));
+  const auto group = grouper.next(at_ms(45));
   ASSERT_TRUE(group);
   EXPECT_EQ(group->number, 4);
   EXPECT_EQ(copy(*group).surplus,
             (std::vector<std::int64_t>{0, 1, 2, 3, 10, 11, 12, 13}));
   EXPECT_EQ(grouper.skipped_groups(), 4);
-  EXPECT_FALSE(grouper.next(time_of_ms(45)));
+  EXPECT_FALSE(grouper.next(at_ms(45)));
 }
 
 TEST(GroupFramesLive, ReplacesTheOldestFrameWhenTheQueueIsFull) {
@@ -307,9 +306,9 @@ TEST(GroupFramesLive, ReplacesTheOldestFrameWhenTheQueueIsFull) {
   const std::vector<ClockModel> clocks(1);
   FrameGrouper grouper(clocks, options);
   for (int k = 0; k < 3; ++k) {
-    EXPECT_FALSE(grouper.offer(kLeft, time_of_ms(10.0 * k), FrameTicket{k}).dropped);
+    EXPECT_FALSE(grouper.offer(kLeft, at_ms(10.0 * k), FrameTicket{k}).dropped);
   }
-  EXPECT_EQ(grouper.offer(kLeft, time_of_ms(30), FrameTicket{3}).dropped, FrameTicket{0});
+  EXPECT_EQ(grouper.offer(kLeft, at_ms(30), FrameTicket{3}).dropped, FrameTicket{0});
   EXPECT_EQ(grouper.counts(kLeft).displaced, 1);
 }
 
@@ -320,9 +319,9 @@ TEST(GroupFramesLive, JitterBetweenTwoInstantsLosesNoFrame) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> jitter_ms(-2.0, 2.0);
   for (int k = 0; k < 500; ++k) {
-    grouper.offer(kLeft, time_of_ms(10.0 * k), FrameTicket{k});
-    grouper.offer(kRight, time_of_ms(10.0 * k + 5.0 + jitter_ms(random)), FrameTicket{k});
-    while (grouper.next(time_of_ms(10.0 * k + 8.0))) {
+    grouper.offer(kLeft, at_ms(10.0 * k), FrameTicket{k});
+    grouper.offer(kRight, at_ms(10.0 * k + 5.0 + jitter_ms(random)), FrameTicket{k});
+    while (grouper.next(at_ms(10.0 * k + 8.0))) {
     }
   }
   // The first frames may fall to either side.
@@ -342,9 +341,9 @@ TEST(GroupFramesLive, CountsAddUpUnderAnyTreatment) {
   for (int step = 0; step < 20000; ++step) {
     const CameraId camera{static_cast<int>(random() % 3)};
     const double t = step * 3.0 + static_cast<double>(random() % 30);
-    if (grouper.offer(camera, time_of_ms(t), FrameTicket{step}).dropped) ++handed_back;
+    if (grouper.offer(camera, at_ms(t), FrameTicket{step}).dropped) ++handed_back;
     if (random() % 4 != 0) continue;
-    while (const auto group = grouper.next(time_of_ms(step * 3.0))) {
+    while (const auto group = grouper.next(at_ms(step * 3.0))) {
       grouped += static_cast<long>(group->frames.size());
       surplus += static_cast<long>(group->surplus.size());
     }
@@ -382,12 +381,11 @@ long allocations_of(const GroupFramesOptions& options) {
   for (int k = 0; k < 10000; ++k) {
     for (int c = 0; c < 4; ++c) {
       if (random() % 50 == 0) continue;
-      (void)grouper.offer(CameraId{c},
-                          time_of_ms(10.0 * k + 2.0 * c + jitter_ms(random)),
-                          FrameTicket{k});
+      (void)grouper.offer(
+          CameraId{c}, at_ms(10.0 * k + 2.0 * c + jitter_ms(random)), FrameTicket{k});
     }
     if (random() % 5 == 0) continue;
-    while (grouper.next(time_of_ms(10.0 * k))) {
+    while (grouper.next(at_ms(10.0 * k))) {
     }
   }
   return testing::allocations() - before;
