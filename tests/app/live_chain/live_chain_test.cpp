@@ -93,7 +93,7 @@ class DraggedLive : public ::testing::Test {
   std::vector<CameraDetections> film_;
 };
 
-bool are_same(const Pose& a, const Pose& b) {
+bool are_same_poses(const Pose& a, const Pose& b) {
   return a.root_in_world == b.root_in_world && a.parent_from_joint == b.parent_from_joint;
 }
 
@@ -105,7 +105,7 @@ TEST_F(DraggedLive, GoesWhereItIsDraggedAndItsOwnWayAgain) {
   const glm::dvec3 to = free[at(30)].hand + glm::dvec3(0.0, 0.12, 0.0);
   const std::vector<Frame> dragged = run(to);
   for (int i = 0; i < kHeld; ++i) {
-    EXPECT_TRUE(are_same(dragged[at(i)].avatar, free[at(i)].avatar)) << i;
+    EXPECT_TRUE(are_same_poses(dragged[at(i)].avatar, free[at(i)].avatar)) << i;
   }
   // In, within its fade, and there.
   EXPECT_TRUE(dragged[at(kHeld)].active);
@@ -120,7 +120,7 @@ TEST_F(DraggedLive, GoesWhereItIsDraggedAndItsOwnWayAgain) {
       glm::distance(dragged[at(kReleased)].hand, free[at(kReleased)].hand);
   EXPECT_GT(first_m, 0.5 * before_m);
   for (int i = kReleased + 10; i < kFrames; ++i) {
-    EXPECT_TRUE(are_same(dragged[at(i)].avatar, free[at(i)].avatar)) << i;
+    EXPECT_TRUE(are_same_poses(dragged[at(i)].avatar, free[at(i)].avatar)) << i;
   }
 }
 
@@ -130,7 +130,7 @@ TEST_F(DraggedLive, IsTheSameToTheBitWhenItIsDraggedTheSame) {
   const auto again = run(to);
   ASSERT_EQ(once.size(), again.size());
   for (std::size_t i = 0; i < once.size(); ++i) {
-    EXPECT_TRUE(are_same(once[i].avatar, again[i].avatar)) << i;
+    EXPECT_TRUE(are_same_poses(once[i].avatar, again[i].avatar)) << i;
   }
 }
 

@@ -24,7 +24,7 @@ using namespace std::chrono_literals;
 
 constexpr double kFlowRate_hz = 30.0;
 
-Timestamp at(double time_s) {
+Timestamp frame_time_of(double time_s) {
   return Timestamp(1'000'000'000'000 + std::llround(1e9 * time_s));
 }
 
@@ -32,7 +32,7 @@ Timestamp at(double time_s) {
 class PlayedRun {
  public:
   explicit PlayedRun(double rate_hz = kFlowRate_hz)
-      : rate_hz_(rate_hz), flow({rate_hz}, at(0.0)) {}
+      : rate_hz_(rate_hz), flow({rate_hz}, frame_time_of(0.0)) {}
 
   /// Runs until `end_s` with pictures at `pictures_hz`. `becomes_pose` selects the
   /// pictures that become poses. The loop looks at every pose, and ten times a second.
@@ -45,13 +45,13 @@ class PlayedRun {
       if (pictures_hz > 0.0 && time_s >= next_picture_s_) {
         next_picture_s_ = std::max(next_picture_s_, time_s - kTick_s) + 1.0 / pictures_hz;
         if (becomes_pose(++pictures_)) {
-          flow.on_instant(at(time_s));
+          flow.on_instant(frame_time_of(time_s));
           looks = true;
         }
       }
       if (!looks) continue;
       last_look_s_ = time_s;
-      const Flow now = flow.look(at(time_s), pictures_);
+      const Flow now = flow.look(frame_time_of(time_s), pictures_);
       if (now != Flow::kSteady && !trouble_since_s) trouble_since_s = time_s;
       if (now == Flow::kSteady) trouble_since_s.reset();
     }
@@ -159,27 +159,27 @@ class WatchedLive : public ::testing::Test {
 };
 
 TEST_F(WatchedLive, NotifiesReceiversAndTheConsoleWithoutInstants) {
-  LiveWatchdog watchdog({kFlowRate_hz}, at(0.0), outputs_, console_);
+  LiveWatchdog watchdog({kFlowRate_hz}, frame_time_of(0.0), outputs_, console_);
   ::testing::internal::CaptureStderr();
   long pictures = 0;
   double time_s = 0.0;
   for (; time_s < 2.0; time_s += 1.0 / kFlowRate_hz) {
-    watchdog.on_instant(at(time_s), true);
-    EXPECT_FALSE(watchdog.look(at(time_s), ++pictures));
+    watchdog.on_instant(frame_time_of(time_s), true);
+    EXPECT_FALSE(watchdog.look(frame_time_of(time_s), ++pictures));
   }
   EXPECT_EQ(heard(), std::nullopt) << "instants have their own";
   int changes = 0;
   for (const double end_s = time_s + 1.0; time_s < end_s; time_s += 0.1) {
-    changes += watchdog.look(at(time_s), ++pictures);
+    changes += watchdog.look(frame_time_of(time_s), ++pictures);
   }
   EXPECT_EQ(changes, 1);
   EXPECT_TRUE(watchdog.is_behind());
   EXPECT_EQ(heard(), false);
-  (void)watchdog.look(at(time_s + 0.3), pictures);
+  (void)watchdog.look(frame_time_of(time_s + 0.3), pictures);
   EXPECT_EQ(heard(), false) << "it is told again and again";
   for (const double end_s = time_s + 6.0; time_s < end_s; time_s += 1.0 / kFlowRate_hz) {
-    watchdog.on_instant(at(time_s), true);
-    (void)watchdog.look(at(time_s), ++pictures);
+    watchdog.on_instant(frame_time_of(time_s), true);
+    (void)watchdog.look(frame_time_of(time_s), ++pictures);
   }
   EXPECT_FALSE(watchdog.is_behind());
   const std::string said = ::testing::internal::GetCapturedStderr();
@@ -190,14 +190,14 @@ TEST_F(WatchedLive, NotifiesReceiversAndTheConsoleWithoutInstants) {
 
 // One message, not one for each of many short gaps.
 TEST_F(WatchedLive, DoesNotFloodTheConsole) {
-  LiveWatchdog watchdog({kFlowRate_hz}, at(0.0), outputs_, console_);
+  LiveWatchdog watchdog({kFlowRate_hz}, frame_time_of(0.0), outputs_, console_);
   ::testing::internal::CaptureStderr();
   long pictures = 0;
   for (int f = 0; f < 60 * 30; ++f) {
     const double time_s = f / kFlowRate_hz;
     ++pictures;
-    if (f % 60 < 35) watchdog.on_instant(at(time_s), true);
-    (void)watchdog.look(at(time_s), pictures);
+    if (f % 60 < 35) watchdog.on_instant(frame_time_of(time_s), true);
+    (void)watchdog.look(frame_time_of(time_s), pictures);
   }
   const std::string said = ::testing::internal::GetCapturedStderr();
   std::size_t count = 0;

@@ -21,8 +21,8 @@ using ::testing::AssertionSuccess;
 
 /// Returns success if the run reported one error that contains these words in this order,
 /// and wrote no cameras.
-AssertionResult declines(const PaintedSession& session,
-                         const std::vector<std::string>& words) {
+AssertionResult declines_board(const PaintedSession& session,
+                               const std::vector<std::string>& words) {
   const ProgramRun run = session.calibrate();
   if (run.exit_code != 3) {
     return AssertionFailure() << "exit code " << run.exit_code << "\n" << run.err;
@@ -104,31 +104,32 @@ TEST(BadBoard, IsReportedByVideoWhenNeverSeen) {
     PaintedSession session(table);
     session.film(painted_charuco(), 4);
     session.change_all([](cv::Mat& picture, int) { leave_grey(picture); });
-    EXPECT_TRUE(declines(session, {"seen0", "seen in its 4 frames", "Next: check"}));
+    EXPECT_TRUE(
+        declines_board(session, {"seen0", "seen in its 4 frames", "Next: check"}));
   }
 }
 
 TEST(BadBoard, IsReportedWithItsActualDictionary) {
   PaintedSession session(replaced(charuco_table(), "DICT_5X5_100", "DICT_4X4_50"));
   session.film(painted_charuco());
-  EXPECT_TRUE(declines(session,
-                       {"seen0",
-                        "no ChArUco board of 8 x 6 squares (DICT_4X4_50) is seen",
-                        "of DICT_5X5_50 are",
-                        "Next: ",
-                        "dictionary = \"DICT_5X5_50\""}));
+  EXPECT_TRUE(declines_board(session,
+                             {"seen0",
+                              "no ChArUco board of 8 x 6 squares (DICT_4X4_50) is seen",
+                              "of DICT_5X5_50 are",
+                              "Next: ",
+                              "dictionary = \"DICT_5X5_50\""}));
 }
 
 TEST(BadBoard, IsDetectedWhenSquaresReplaceTagsDespiteABodyInView) {
   PaintedSession session(april_grid_table());
   session.film(painted_charuco());
   session.change_all([](cv::Mat& picture, int) { paint_worn_tags(picture); });
-  EXPECT_TRUE(declines(session,
-                       {"seen0",
-                        "no tag of the AprilGrid",
-                        "of DICT_5X5_50 are",
-                        "Next: ",
-                        "type = \"charuco\""}));
+  EXPECT_TRUE(declines_board(session,
+                             {"seen0",
+                              "no tag of the AprilGrid",
+                              "of DICT_5X5_50 are",
+                              "Next: ",
+                              "type = \"charuco\""}));
 }
 
 TEST(BadBoard, IsDetectedWhenTagsReplaceSquaresDespiteABodyInView) {
@@ -136,7 +137,7 @@ TEST(BadBoard, IsDetectedWhenTagsReplaceSquaresDespiteABodyInView) {
     PaintedSession session(table);
     session.film(painted_april_grid());
     session.change_all([](cv::Mat& picture, int) { paint_worn_tags(picture); });
-    EXPECT_TRUE(declines(
+    EXPECT_TRUE(declines_board(
         session,
         {"seen0", " of DICT_APRILTAG_36h11 are", "Next: ", "type = \"aprilgrid\""}));
   }
@@ -145,7 +146,7 @@ TEST(BadBoard, IsDetectedWhenTagsReplaceSquaresDespiteABodyInView) {
 TEST(BadBoard, IsDetectedWhenMarkersReplaceAChessboard) {
   PaintedSession session(chessboard_table());
   session.film(painted_charuco());
-  EXPECT_TRUE(declines(
+  EXPECT_TRUE(declines_board(
       session,
       {"no chessboard of 9 x 6 squares is seen", "of DICT_5X5_50 are", "\"charuco\""}));
 }
@@ -153,51 +154,53 @@ TEST(BadBoard, IsDetectedWhenMarkersReplaceAChessboard) {
 TEST(BadBoard, IsDetectedWhenAChessboardReplacesACharuco) {
   PaintedSession session(charuco_table());
   session.film(painted_chessboard());
-  EXPECT_TRUE(declines(session,
-                       {"a chessboard of 9 x 6 squares is",
-                        "Next: ",
-                        "type = \"chessboard\", columns = 9 and rows = 6"}));
+  EXPECT_TRUE(declines_board(session,
+                             {"a chessboard of 9 x 6 squares is",
+                              "Next: ",
+                              "type = \"chessboard\", columns = 9 and rows = 6"}));
 }
 
 TEST(BadBoard, IsDetectedWithOtherRowsAndColumns) {
   PaintedSession turned(replaced(
       replaced(charuco_table(), "rows = 6", "rows = 8"), "columns = 8", "columns = 6"));
   turned.film(painted_charuco());
-  EXPECT_TRUE(declines(turned, {"in other places than on it", "Next: correct rows"}));
+  EXPECT_TRUE(
+      declines_board(turned, {"in other places than on it", "Next: correct rows"}));
   PaintedSession corners(replaced(replaced(chessboard_table(), "rows = 6", "rows = 5"),
                                   "columns = 9",
                                   "columns = 8"));
   corners.film(painted_chessboard());
-  EXPECT_TRUE(declines(corners,
-                       {"no chessboard of 8 x 5 squares is seen",
-                        "a chessboard of 9 x 6 squares is",
-                        "squares are counted, not their corners"}));
+  EXPECT_TRUE(declines_board(corners,
+                             {"no chessboard of 8 x 5 squares is seen",
+                              "a chessboard of 9 x 6 squares is",
+                              "squares are counted, not their corners"}));
   PaintedSession grid(replaced(replaced(april_grid_table(), "rows = 3", "rows = 4"),
                                "columns = 4",
                                "columns = 3"));
   grid.film(painted_april_grid());
-  EXPECT_TRUE(declines(grid,
-                       {"are arranged as on a board of 4 x 3",
-                        "[board]",
-                        "Next: ",
-                        "columns = 4, rows = 3"}));
+  EXPECT_TRUE(declines_board(grid,
+                             {"are arranged as on a board of 4 x 3",
+                              "[board]",
+                              "Next: ",
+                              "columns = 4, rows = 3"}));
 }
 
 TEST(BadBoard, IsDetectedWithOtherTagIds) {
   PaintedSession session(april_grid_table());
   session.film(painted_april_grid(100));
-  EXPECT_TRUE(declines(session, {"seen0", "no tag of the ", "ids 0 to 11", "Next: "}));
+  EXPECT_TRUE(
+      declines_board(session, {"seen0", "no tag of the ", "ids 0 to 11", "Next: "}));
 }
 
 TEST(BadBoard, IsDetectedWhenMirrored) {
   PaintedSession charuco(charuco_table());
   charuco.film(painted_charuco());
   charuco.change_all(mirror);
-  EXPECT_TRUE(declines(charuco, {"mirrored", "Next: record without mirroring"}));
+  EXPECT_TRUE(declines_board(charuco, {"mirrored", "Next: record without mirroring"}));
   PaintedSession grid(april_grid_table());
   grid.film(painted_april_grid());
   grid.change_all(mirror);
-  EXPECT_TRUE(declines(grid, {"mirrored", "Next: switch off mirroring"}));
+  EXPECT_TRUE(declines_board(grid, {"mirrored", "Next: switch off mirroring"}));
 }
 
 // --- Too few views of the board
@@ -213,7 +216,7 @@ TEST(BadViews, ThatAreTooFewAreCounted) {
     session.change(1, [](cv::Mat& picture, int frame) {
       if (frame != 3 && frame != 9) leave_grey(picture);
     });
-    EXPECT_TRUE(declines(session, {"seen1", "2 frames", "Next: "}));
+    EXPECT_TRUE(declines_board(session, {"seen1", "2 frames", "Next: "}));
   }
 }
 
@@ -247,10 +250,11 @@ TEST(BadViews, ThatNoTwoGroupsShareNameTheGroups) {
         if ((camera == 0) != (frame % 2 == 0)) leave_grey(picture);
       });
     }
-    EXPECT_TRUE(declines(session,
-                         {"{cam0} sees the board at the same time as a camera of {cam1, "
-                          "cam2}",
-                          "Next: "}));
+    EXPECT_TRUE(
+        declines_board(session,
+                       {"{cam0} sees the board at the same time as a camera of {cam1, "
+                        "cam2}",
+                        "Next: "}));
   }
 }
 
@@ -259,7 +263,7 @@ TEST(BadViews, AreDeclinedWhenOneCameraMirrors) {
   PaintedSession session(chessboard_table());
   session.film(painted_chessboard());
   session.change(1, mirror);
-  EXPECT_TRUE(declines(
+  EXPECT_TRUE(declines_board(
       session, {"session.toml: ", "the error of the calibration is ", "Next: check"}));
 }
 
@@ -270,9 +274,9 @@ TEST(BadFloor, IsReportedWhenItsBoardLiesFaceDown) {
     PaintedSession session(table);
     session.film(board);
     session.add_floor([](cv::Mat& picture) { mirror(picture, 0); });
-    EXPECT_TRUE(declines(session, {"floor", "mirrored"}));
+    EXPECT_TRUE(declines_board(session, {"floor", "mirrored"}));
     session.add_floor(leave_grey);
-    EXPECT_TRUE(declines(session, {"floor", "Next: "}));
+    EXPECT_TRUE(declines_board(session, {"floor", "Next: "}));
   }
 }
 

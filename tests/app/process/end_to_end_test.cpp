@@ -32,9 +32,9 @@ using Json = nlohmann::json;
 
 const fs::path kSample = marey::testing::sample_session();
 const fs::path kRuns = marey::testing::sample_results();
-constexpr int kWalkFrames = 90;
+constexpr int kRecordedFrames = 90;
 
-std::string text_of(const fs::path& file) {
+std::string text_of_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   EXPECT_TRUE(in) << file;
   std::ostringstream text;
@@ -87,7 +87,7 @@ TEST(FirstLight, LimbJointsAreWithinAFewMillimetresOfTruth) {
                 quantile(errors_mm, 0.95));
     all_mm.insert(all_mm.end(), errors_mm.begin(), errors_mm.end());
   }
-  ASSERT_EQ(all_mm.size(), 12U * kWalkFrames);
+  ASSERT_EQ(all_mm.size(), 12U * kRecordedFrames);
   std::printf("all            median %5.1f mm, 95 %% below %5.1f mm\n",
               quantile(all_mm, 0.5),
               quantile(all_mm, 0.95));
@@ -175,7 +175,7 @@ TEST(FirstLight, EveryJointOfEveryFrameHasAnUncertainty) {
     joints[row.frame].insert(row.joint);
     ASSERT_GT(row.sigma_m, 0.0) << row.joint << " in frame " << row.frame;
   }
-  ASSERT_EQ(joints.size(), static_cast<std::size_t>(kWalkFrames));
+  ASSERT_EQ(joints.size(), static_cast<std::size_t>(kRecordedFrames));
   for (const auto& [frame, names] : joints) {
     ASSERT_EQ(names.size(), kHumanBoneCount) << "frame " << frame;
   }
@@ -185,7 +185,7 @@ TEST(FirstLight, EveryJointOfEveryFrameHasAnUncertainty) {
 TEST(FirstLight, EverySegmentOfEveryFrameHasASource) {
   const auto rows = recordings::read_segments_csv(kRuns / "once/walk/segments.csv");
   ASSERT_TRUE(rows) << rows.error().message();
-  EXPECT_EQ(rows->size(), kHumanBoneCount * kWalkFrames);
+  EXPECT_EQ(rows->size(), kHumanBoneCount * kRecordedFrames);
 }
 
 /// Compares the joint errors with the reported uncertainties, as multiples of sigma.
@@ -208,14 +208,14 @@ TEST(FirstLight, UncertaintiesMatchTheSizeOfTheErrors) {
 }
 
 TEST(FirstLight, StandardOutputContainsOnlyJson) {
-  const std::string out = text_of(kRuns / "once.process.out");
+  const std::string out = text_of_file(kRuns / "once.process.out");
   const Json figures = Json::parse(out, nullptr, false);
   ASSERT_FALSE(figures.is_discarded()) << out.substr(0, 200);
-  EXPECT_EQ(figures, Json::parse(text_of(kRuns / "once/report.json")));
+  EXPECT_EQ(figures, Json::parse(text_of_file(kRuns / "once/report.json")));
 }
 
 TEST(FirstLight, ProgressLinesAreJson) {
-  std::istringstream lines(text_of(kRuns / "once.process.err"));
+  std::istringstream lines(text_of_file(kRuns / "once.process.err"));
   int stages = 0;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("warning: ")) continue;
@@ -257,7 +257,7 @@ void forget_timings(Json& figures) {
 
 /// The data of the page, without timings, and the page without its data.
 std::pair<Json, std::string> page_without_timings(const fs::path& html) {
-  std::string page = text_of(html);
+  std::string page = text_of_file(html);
   const std::size_t opening = page.find("type=\"application/json\"");
   if (opening == std::string::npos) return {Json(), page};
   const std::size_t start = page.find('>', opening) + 1;
@@ -273,14 +273,15 @@ TEST(SecondRun, WritesTheSameBytes) {
   EXPECT_EQ(files, files_in(kRuns / "again"));
   for (const std::string& name : files) {
     if (name.starts_with("report.")) continue;
-    EXPECT_TRUE(text_of(kRuns / "once" / name) == text_of(kRuns / "again" / name))
+    EXPECT_TRUE(text_of_file(kRuns / "once" / name) ==
+                text_of_file(kRuns / "again" / name))
         << name << " differs";
   }
 }
 
 TEST(SecondRun, WritesTheSameReportButForTimings) {
-  Json once = Json::parse(text_of(kRuns / "once/report.json"));
-  Json again = Json::parse(text_of(kRuns / "again/report.json"));
+  Json once = Json::parse(text_of_file(kRuns / "once/report.json"));
+  Json again = Json::parse(text_of_file(kRuns / "again/report.json"));
   forget_timings(once);
   forget_timings(again);
   EXPECT_EQ(once, again);
@@ -299,7 +300,8 @@ TEST(Stages, OneByOneMakeWhatProcessMakes) {
                            "walk/motion.bvh",
                            "walk/motion.npz",
                            "walk/child.bvh"}) {
-    EXPECT_TRUE(text_of(kRuns / "once" / name) == text_of(kRuns / "stages" / name))
+    EXPECT_TRUE(text_of_file(kRuns / "once" / name) ==
+                text_of_file(kRuns / "stages" / name))
         << name << " differs";
   }
 }

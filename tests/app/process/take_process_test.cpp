@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-int error_lines(const std::string& err) {
+int lines_of_errors(const std::string& err) {
   int count = 0;
   for (std::size_t at = err.find("error: "); at != std::string::npos;
        at = err.find("error: ", at + 1)) {
@@ -78,8 +78,9 @@ TEST(RecordedTake, WithoutItsTimesIsDeclined) {
   fs::remove(walk.take());
   const ProgramRun run = walk.session().run("track");
   EXPECT_EQ(run.exit_code, 3);
-  EXPECT_EQ(error_lines(run.err), 1) << run.err;
-  EXPECT_NE(run.err.find("take.sqlite: the file is missing"), std::string::npos) << run.err;
+  EXPECT_EQ(lines_of_errors(run.err), 1) << run.err;
+  EXPECT_NE(run.err.find("take.sqlite: the file is missing"), std::string::npos)
+      << run.err;
 }
 
 TEST(RecordedTake, IsDeclinedWhenItsVersionIsNewer) {
@@ -88,7 +89,7 @@ TEST(RecordedTake, IsDeclinedWhenItsVersionIsNewer) {
   walk.spoil_take("PRAGMA user_version=9");
   const ProgramRun run = walk.session().run("track");
   EXPECT_EQ(run.exit_code, 3);
-  EXPECT_EQ(error_lines(run.err), 1) << run.err;
+  EXPECT_EQ(lines_of_errors(run.err), 1) << run.err;
   EXPECT_NE(run.err.find("recorded by a newer marey (format 9"), std::string::npos);
 }
 
@@ -98,14 +99,14 @@ TEST(RecordedTake, GoesOnWithoutAVideoThatIsLostOrEmptyAndEndsWith3) {
   fs::remove(walk.folder() / "cam1.mkv");
   const ProgramRun lost = walk.session().run();
   EXPECT_EQ(lost.exit_code, 3);
-  EXPECT_EQ(error_lines(lost.err), 1) << lost.err;
+  EXPECT_EQ(lines_of_errors(lost.err), 1) << lost.err;
   EXPECT_NE(lost.err.find("trial walk has no recording of camera \"cam1\""),
             std::string::npos);
   EXPECT_TRUE(walk.session().has_result("walk/joints.csv"));
   ASSERT_TRUE(recordings::write_file(walk.folder() / "cam1.mkv", ""));
   const ProgramRun empty = walk.session().run();
   EXPECT_EQ(empty.exit_code, 3);
-  EXPECT_EQ(error_lines(empty.err), 1) << empty.err;
+  EXPECT_EQ(lines_of_errors(empty.err), 1) << empty.err;
   EXPECT_NE(warnings_of(empty).find("cam1.mkv: the file is empty"), std::string::npos);
 }
 
@@ -149,7 +150,7 @@ TEST(RecordedTake, IsDeclinedWithFewerFramesThanTheTrialNames) {
       "walk", "kind = \"motion\"", "kind = \"motion\"\nframes = [5000, 5100]");
   const ProgramRun run = walk.session().run("track");
   EXPECT_EQ(run.exit_code, 3);
-  EXPECT_EQ(error_lines(run.err), 1) << run.err;
+  EXPECT_EQ(lines_of_errors(run.err), 1) << run.err;
   EXPECT_NE(run.err.find("frames 5000 to 5100 were asked for, but it has only 90"),
             std::string::npos)
       << run.err;
@@ -167,7 +168,7 @@ TEST(RecordedTake, WithTimesThatCannotBeIsDeclined) {
     walk.spoil_take(change);
     const ProgramRun run = walk.session().run("track");
     EXPECT_EQ(run.exit_code, 3) << change;
-    EXPECT_EQ(error_lines(run.err), 1) << run.err;
+    EXPECT_EQ(lines_of_errors(run.err), 1) << run.err;
     EXPECT_NE(run.err.find("take.sqlite: "), std::string::npos) << run.err;
   }
 }

@@ -15,7 +15,7 @@ namespace {
 
 using marey::testing::Film;
 
-Result<SubjectFit> fit(const Body& truth, Film standing, Film moving) {
+Result<SubjectFit> fit_placed(const Body& truth, Film standing, Film moving) {
   const auto cameras = marey::testing::ring_of_cameras();
   standing.trial = "static";
   moving.trial = "rom";
@@ -59,9 +59,9 @@ TEST(FitSubject, PlacesTagsThatAreNeverSeenTogether) {
   const auto in_turn = [&](const TagOnSegment& tag, int frame) {
     return (tag.id == pair[0] && frame % 2 == 0) || (tag.id == pair[1] && frame % 2 == 1);
   };
-  const auto found = fit(truth,
-                         {6, 10.0, {}, {0.1, {}, 0.0}, {}, in_turn},
-                         {40, 10.0, {}, {0.1, {}, 0.0}, {}, in_turn});
+  const auto found = fit_placed(truth,
+                                {6, 10.0, {}, {0.1, {}, 0.0}, {}, in_turn},
+                                {40, 10.0, {}, {0.1, {}, 0.0}, {}, in_turn});
   ASSERT_TRUE(found) << found.error().message();
   EXPECT_TRUE(found->unplaced.empty());
   EXPECT_LT(off_m(found->body, truth, pair[0]), 5e-3);
@@ -79,9 +79,9 @@ TEST(FitSubject, PlacesATagOnASegmentThatTheBodyCouldDoWithout) {
                              {0.08, 0.0, 0.06}};
   truth.tags.push_back(nape);
   truth.tags.push_back(collar);
-  const auto found = fit(truth,
-                         {6, 10.0, {}, {0.1, {}, 0.0}, {}, {}},
-                         {40, 10.0, {}, {0.1, {}, 0.0}, {}, {}});
+  const auto found = fit_placed(truth,
+                                {6, 10.0, {}, {0.1, {}, 0.0}, {}, {}},
+                                {40, 10.0, {}, {0.1, {}, 0.0}, {}, {}});
   ASSERT_TRUE(found) << found.error().message();
   EXPECT_TRUE(found->unplaced.empty());
   // None of their joint centres is measured: priors determine their place along the bone.
@@ -92,17 +92,17 @@ TEST(FitSubject, PlacesATagOnASegmentThatTheBodyCouldDoWithout) {
 TEST(FitSubject, IsNotLedAstrayByATagThatOneFrameShows) {
   const Body truth = marey::testing::tagged_person();
   const TagId rare = on_segment(truth, HumanBone::kLeftLowerLeg).front();
-  const auto found =
-      fit(truth,
-          {6,
-           10.0,
-           {},
-           {0.1, {}, 0.0},
-           {},
-           [&](const TagOnSegment& tag, int) { return tag.id == rare; }},
-          {41, 10.0, {}, {0.1, {}, 0.0}, {}, [&](const TagOnSegment& tag, int frame) {
-             return tag.id == rare && frame != 17;
-           }});
+  const auto found = fit_placed(
+      truth,
+      {6,
+       10.0,
+       {},
+       {0.1, {}, 0.0},
+       {},
+       [&](const TagOnSegment& tag, int) { return tag.id == rare; }},
+      {41, 10.0, {}, {0.1, {}, 0.0}, {}, [&](const TagOnSegment& tag, int frame) {
+         return tag.id == rare && frame != 17;
+       }});
   ASSERT_TRUE(found) << found.error().message();
   const PlacedTag* tag = find_tag(found->body, rare);
   if (!tag) {

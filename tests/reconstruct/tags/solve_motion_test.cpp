@@ -45,7 +45,9 @@ struct Scene {
 };
 
 /// Returns the distance of a joint from its truth, per frame. [m]
-std::vector<double> off_m(const Scene& scene, const SolvedTrial& trial, HumanBone bone) {
+std::vector<double> error_m(const Scene& scene,
+                            const SolvedTrial& trial,
+                            HumanBone bone) {
   const Skeleton truth = make_humanoid(scene.truth.proportions);
   const Motion& motion = trial.estimate.motion;
   std::vector<double> off;
@@ -62,7 +64,7 @@ std::vector<double> off_m(const Scene& scene, const SolvedTrial& trial, HumanBon
 std::vector<double> limbs_off_m(const Scene& scene, const SolvedTrial& trial) {
   std::vector<double> all;
   for (const HumanBone bone : marey::testing::limb_joints()) {
-    const auto of_bone = off_m(scene, trial, bone);
+    const auto of_bone = error_m(scene, trial, bone);
     all.insert(all.end(), of_bone.begin(), of_bone.end());
   }
   return all;
@@ -110,7 +112,7 @@ TEST(SolveMotion, HasCorrectUncertainties) {
   ASSERT_TRUE(trial) << trial.error().message();
   std::vector<double> in_sigmas;
   for (const HumanBone bone : marey::testing::limb_joints()) {
-    const auto off = off_m(scene, *trial, bone);
+    const auto off = error_m(scene, *trial, bone);
     for (std::size_t f = 0; f < off.size(); ++f) {
       const double sigma_m = trial->estimate.uncertainty[f][index(bone)].sigma_m;
       in_sigmas.push_back(off[f] / (std::sqrt(3.0) * sigma_m));
@@ -245,7 +247,7 @@ TEST(SolveMotion, BridgesAForearmHiddenForHalfASecond) {
   scene.hide({HumanBone::kLeftLowerArm, HumanBone::kLeftHand}, 12, 26);
   const auto trial = scene.solve();
   ASSERT_TRUE(trial) << trial.error().message();
-  const auto off = off_m(scene, *trial, HumanBone::kLeftHand);
+  const auto off = error_m(scene, *trial, HumanBone::kLeftHand);
   for (std::size_t f = 12; f < 27; ++f) {
     // An arm that swings at 1 m/s continues its movement from before to after the gap:
     // off by a fraction of the 0.3 m of its travel.
@@ -297,8 +299,8 @@ TEST(SolveMotion, HardlyDependsOnItsWindows) {
   ASSERT_TRUE(whole && pieces);
   double max_m = 0.0;
   for (const HumanBone bone : marey::testing::limb_joints()) {
-    const auto a = off_m(scene, *whole, bone);
-    const auto b = off_m(scene, *pieces, bone);
+    const auto a = error_m(scene, *whole, bone);
+    const auto b = error_m(scene, *pieces, bone);
     for (std::size_t f = 0; f < a.size(); ++f)
       max_m = std::max(max_m, std::abs(a[f] - b[f]));
   }

@@ -20,7 +20,7 @@ Skeleton body() {
   return skeleton;
 }
 
-std::string refusal(const std::string& text, const Skeleton& skeleton = body()) {
+std::string map_refusal(const std::string& text, const Skeleton& skeleton = body()) {
   const auto map = parse_bone_map(text, "man.bones.toml", skeleton);
   EXPECT_FALSE(map);
   return map ? "" : map.error().message();
@@ -58,30 +58,30 @@ TEST(BoneMapFile, ReadsAnyDirection) {
 }
 
 TEST(BoneMapFile, NamesWhatIsWrongAndTheNearestWord) {
-  EXPECT_EQ(refusal("[bones]\nhips = \"the hips\"\nleftFeet = \"the leftFoot\"\n"),
+  EXPECT_EQ(map_refusal("[bones]\nhips = \"the hips\"\nleftFeet = \"the leftFoot\"\n"),
             "man.bones.toml:3: there is no bone \"leftFeet\". Next: perhaps you mean "
             "\"leftFoot\".");
-  EXPECT_EQ(refusal("[bones]\nhips = \"the hipps\"\n"),
+  EXPECT_EQ(map_refusal("[bones]\nhips = \"the hipps\"\n"),
             "man.bones.toml:2: the body has no joint \"the hipps\". Next: perhaps you "
             "mean \"the hips\".");
-  EXPECT_EQ(refusal("[bones]\nhips = \"the hips\"\nspine = \"the hips\"\n"),
+  EXPECT_EQ(map_refusal("[bones]\nhips = \"the hips\"\nspine = \"the hips\"\n"),
             "man.bones.toml:3: \"the hips\" is hips already. Next: name another joint, "
             "or \"\" for a bone that the body does not have.");
-  EXPECT_EQ(refusal("unit_m = 0\n").substr(0, 17), "man.bones.toml:1:");
-  EXPECT_EQ(refusal("up = \"+W\"\n"),
+  EXPECT_EQ(map_refusal("unit_m = 0\n").substr(0, 17), "man.bones.toml:1:");
+  EXPECT_EQ(map_refusal("up = \"+W\"\n"),
             "man.bones.toml:1: \"up\" is no direction. Next: give one of +X, +Y, +Z, -X, "
             "-Y, -Z, or three numbers.");
-  EXPECT_EQ(refusal("up = \"+Z\"\nfront = \"-Z\"\n"),
+  EXPECT_EQ(map_refusal("up = \"+Z\"\nfront = \"-Z\"\n"),
             "man.bones.toml:2: \"front\" is not across \"up\". Next: give two directions "
             "that are at right angles.");
-  EXPECT_NE(refusal("bone = 1\n").find("man.bones.toml:1: "), std::string::npos);
-  EXPECT_NE(refusal("[bones\n").find("man.bones.toml:1"), std::string::npos);
+  EXPECT_NE(map_refusal("bone = 1\n").find("man.bones.toml:1: "), std::string::npos);
+  EXPECT_NE(map_refusal("[bones\n").find("man.bones.toml:1"), std::string::npos);
 }
 
 TEST(BoneMapFile, DeclinesAndOmitsJointsThatShareAName) {
   Skeleton twins = body();
   twins.joints[5].name = twins.joints[4].name;
-  EXPECT_EQ(refusal("[bones]\nneck = \"the neck\"\n", twins),
+  EXPECT_EQ(map_refusal("[bones]\nneck = \"the neck\"\n", twins),
             "man.bones.toml:2: the body has 2 joints \"the neck\". Next: give them names "
             "of their own.");
   BoneMap map;

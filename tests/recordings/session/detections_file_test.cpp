@@ -51,7 +51,7 @@ void expect_same(const TagDetection& a, const TagDetection& b) {
   EXPECT_EQ(a.hamming, b.hamming);
 }
 
-std::string mistake(std::string_view from, std::string_view to) {
+std::string detections_mistake(std::string_view from, std::string_view to) {
   std::string text = detections_text(four_frames(), "k");
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
@@ -121,7 +121,7 @@ TEST(DetectionsFile, RefusesATagWithoutAnArea) {
 }
 
 TEST(DetectionsFile, RefusesATagWithoutSigma) {
-  EXPECT_TRUE(mistake(",0.06666666666666667,", ",0,")
+  EXPECT_TRUE(detections_mistake(",0.06666666666666667,", ",0,")
                   .starts_with("d.csv:6: a tag's sigma is not"));
 }
 
@@ -174,30 +174,33 @@ TEST(DetectionsFile, RefusesAnEmptyFile) {
 }
 
 TEST(DetectionsFile, NamesTheLineOfARowThatDoesNotFit) {
-  EXPECT_TRUE(
-      mistake("6,40,", "6,40,x").starts_with("d.csv:7: the row is not 13 numbers"));
+  EXPECT_TRUE(detections_mistake("6,40,", "6,40,x")
+                  .starts_with("d.csv:7: the row is not 13 numbers"));
 }
 
 TEST(DetectionsFile, RefusesFramesOutOfOrder) {
-  EXPECT_TRUE(
-      mistake("\n7,", "\n9,").starts_with("d.csv:8: the frames are not in order"));
+  EXPECT_TRUE(detections_mistake("\n7,", "\n9,")
+                  .starts_with("d.csv:8: the frames are not in order"));
 }
 
 TEST(DetectionsFile, RefusesTagsOutOfOrder) {
-  EXPECT_TRUE(mistake("6,3,", "6,41,").starts_with("d.csv:7: the tags are not in order"));
+  EXPECT_TRUE(detections_mistake("6,3,", "6,41,")
+                  .starts_with("d.csv:7: the tags are not in order"));
 }
 
 TEST(DetectionsFile, RefusesATagOfAnEmptyFrame) {
-  EXPECT_TRUE(mistake("\n8,", "\n7,").starts_with("d.csv:9: a frame is listed twice"));
+  EXPECT_TRUE(
+      detections_mistake("\n8,", "\n7,").starts_with("d.csv:9: a frame is listed twice"));
 }
 
 TEST(DetectionsFile, RefusesATableCutShort) {
-  EXPECT_TRUE(mistake("# end, frames: 4\n", "").starts_with("d.csv:9: the end of the"));
+  EXPECT_TRUE(detections_mistake("# end, frames: 4\n", "")
+                  .starts_with("d.csv:9: the end of the"));
 }
 
 TEST(DetectionsFile, RefusesATableWithAFrameTooFew) {
-  EXPECT_TRUE(
-      mistake("8,,,,,,,,,,,,\n", "").starts_with("d.csv:9: the table's end does"));
+  EXPECT_TRUE(detections_mistake("8,,,,,,,,,,,,\n", "")
+                  .starts_with("d.csv:9: the table's end does"));
 }
 
 /// Frame 5 has tags and points, frame 6 points alone.

@@ -15,7 +15,7 @@ ConstraintSet torn_apart() {
           {}};
 }
 
-AdaptOptions options(Control control, double change_s) {
+AdaptOptions control_options(Control control, double change_s) {
   AdaptOptions out;
   out.control = control;
   out.control_change_s = change_s;
@@ -25,8 +25,10 @@ AdaptOptions options(Control control, double change_s) {
 TEST(AdapterControl, PassesOverFromPriorityToBlendWithoutAJump) {
   const Character body = human(false);
   const Pose reference = waiting(body);
-  Adapter changing = make_adapter(body, torn_apart(), options(Control::kPriority, 0.4));
-  Adapter blending = make_adapter(body, torn_apart(), options(Control::kBlend, 0.4));
+  Adapter changing =
+      make_adapter(body, torn_apart(), control_options(Control::kPriority, 0.4));
+  Adapter blending =
+      make_adapter(body, torn_apart(), control_options(Control::kBlend, 0.4));
   Pose before;
   Pose now;
   Pose goal;
@@ -35,7 +37,7 @@ TEST(AdapterControl, PassesOverFromPriorityToBlendWithoutAJump) {
   // The test requires that the two results are far apart.
   const double whole_way_rad = most_turned_rad(goal, before);
   ASSERT_GT(whole_way_rad, 0.2);
-  changing.set_options(options(Control::kBlend, 0.4));
+  changing.set_options(control_options(Control::kBlend, 0.4));
   constexpr int kSteps = 400;
   for (int i = 0; i <= kSteps; ++i) {
     static_cast<void>(changing.adapt(reference, 0.001 * i, now));
@@ -54,13 +56,15 @@ TEST(AdapterControl, PassesOverFromPriorityToBlendWithoutAJump) {
 TEST(AdapterControl, ChangesAtOnceWhenNoDurationIsGiven) {
   const Character body = human(false);
   const Pose reference = waiting(body);
-  Adapter changing = make_adapter(body, torn_apart(), options(Control::kPriority, 0.0));
-  Adapter blending = make_adapter(body, torn_apart(), options(Control::kBlend, 0.0));
+  Adapter changing =
+      make_adapter(body, torn_apart(), control_options(Control::kPriority, 0.0));
+  Adapter blending =
+      make_adapter(body, torn_apart(), control_options(Control::kBlend, 0.0));
   Pose now;
   Pose goal;
   static_cast<void>(changing.adapt(reference, 0.0, now));
   static_cast<void>(blending.adapt(reference, 0.0, goal));
-  changing.set_options(options(Control::kBlend, 0.0));
+  changing.set_options(control_options(Control::kBlend, 0.0));
   static_cast<void>(changing.adapt(reference, 0.1, now));
   for (std::size_t j = 0; j < now.parent_from_joint.size(); ++j) {
     ASSERT_EQ(now.parent_from_joint[j], goal.parent_from_joint[j]) << j;
@@ -71,12 +75,13 @@ TEST(AdapterControl, ChangesAtOnceWhenNoDurationIsGiven) {
 TEST(AdapterControl, AChangeThatIsTakenBackAtOnceChangesNothing) {
   const Character body = human(false);
   const Pose reference = waiting(body);
-  Adapter changing = make_adapter(body, torn_apart(), options(Control::kPriority, 0.4));
+  Adapter changing =
+      make_adapter(body, torn_apart(), control_options(Control::kPriority, 0.4));
   Pose goal;
   Pose now;
   static_cast<void>(changing.adapt(reference, 0.0, goal));
-  changing.set_options(options(Control::kBlend, 0.4));
-  changing.set_options(options(Control::kPriority, 0.4));
+  changing.set_options(control_options(Control::kBlend, 0.4));
+  changing.set_options(control_options(Control::kPriority, 0.4));
   for (const double time_s : {0.001, 0.2, 1.0}) {
     static_cast<void>(changing.adapt(reference, time_s, now));
     EXPECT_TRUE(same_bits(now, goal)) << time_s;
@@ -91,8 +96,9 @@ TEST(AdapterControl, AChangeThatIsTakenBackOnItsWayTurnsAroundWithoutAJump) {
   constexpr double kSlower_s = 0.8;
   constexpr int kSteps = 400;  // 1 ms each: one whole fade.
   Adapter changing =
-      make_adapter(body, torn_apart(), options(Control::kPriority, kChange_s));
-  Adapter blending = make_adapter(body, torn_apart(), options(Control::kBlend, 0.0));
+      make_adapter(body, torn_apart(), control_options(Control::kPriority, kChange_s));
+  Adapter blending =
+      make_adapter(body, torn_apart(), control_options(Control::kBlend, 0.0));
   Pose before;
   Pose now;
   Pose first;
@@ -103,7 +109,7 @@ TEST(AdapterControl, AChangeThatIsTakenBackOnItsWayTurnsAroundWithoutAJump) {
   before = first;
   int step = 0;
   const auto go_on = [&](Control control, double change_s, int steps) {
-    changing.set_options(options(control, change_s));
+    changing.set_options(control_options(control, change_s));
     for (int i = 0; i < steps; ++i) {
       static_cast<void>(changing.adapt(reference, 0.001 * ++step, now));
       // As above.

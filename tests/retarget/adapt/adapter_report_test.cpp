@@ -18,7 +18,7 @@ INSTANTIATE_TEST_SUITE_P(Adapter, AdapterReport, both_methods(), name_of);
 // Single precision, 2 m from the root.
 constexpr double kFloat_m = 2e-6;
 
-Constraint turned(const std::string& segment, const glm::dquat& wanted) {
+Constraint orientation_of(const std::string& segment, const glm::dquat& wanted) {
   Constraint out;
   out.id = segment;
   out.point.segment = segment;
@@ -47,9 +47,10 @@ double error_m(const Character& body, const Pose& pose, const Constraint& wish) 
 TEST_P(AdapterReport, OrientationsAreOffByAngles) {
   const Character body = human(true);
   const Pose reference = waiting(body);
-  Constraint head = turned("head", glm::angleAxis(2.8, glm::dvec3(0, 1, 0)));
+  Constraint head = orientation_of("head", glm::angleAxis(2.8, glm::dvec3(0, 1, 0)));
   head.range = 1;
-  const Constraint hand = turned("leftHand", glm::angleAxis(0.2, glm::dvec3(1, 0, 0)));
+  const Constraint hand =
+      orientation_of("leftHand", glm::angleAxis(0.2, glm::dvec3(1, 0, 0)));
   Adapter adapter = make_adapter(body, {{head, hand}, {}}, options());
   Pose out;
   const AdaptReport report = adapter.adapt(reference, 0.0, out);
@@ -85,7 +86,7 @@ TEST_P(AdapterReport, TheMeanIsOfConstraintsByImportance) {
                                    {{left,
                                      right,
                                      standing("stands", "leftFoot"),
-                                     turned("head", glm::dquat(1, 0, 0, 0))},
+                                     orientation_of("head", glm::dquat(1, 0, 0, 0))},
                                     {}},
                                    wanted);
     Pose out;

@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMoments = 3;
 
-Adapter adapter_of(const CrowdMember& member, const AdaptOptions& options) {
+Adapter adapter_for(const CrowdMember& member, const AdaptOptions& options) {
   Adapter adapter = make_adapter(member.character, member.wishes, options);
   if (member.carries) adapter.carry(member.character.loads[0].name, true);
   return adapter;
@@ -35,7 +35,7 @@ using Answers = std::vector<std::vector<CrowdAnswer>>;
 Answers one_by_one(const std::vector<CrowdMember>& members, const AdaptOptions& options) {
   Answers out(kMoments);
   for (const CrowdMember& member : members) {
-    Adapter adapter = adapter_of(member, options);
+    Adapter adapter = adapter_for(member, options);
     Pose pose;
     for (std::size_t n = 0; n < kMoments; ++n) {
       const CrowdQuestion& question = member.questions[n];
@@ -54,7 +54,7 @@ Answers all_at_once(const std::vector<CrowdMember>& members,
                     const AdaptOptions& options,
                     const CrowdOptions& how) {
   std::vector<Adapter> adapters;
-  for (const std::size_t i : places) adapters.push_back(adapter_of(members[i], options));
+  for (const std::size_t i : places) adapters.push_back(adapter_for(members[i], options));
   auto crowd = Crowd::make(std::move(adapters), how);
   EXPECT_TRUE(crowd) << (crowd ? "" : crowd.error().message());
   Answers out(kMoments, std::vector<CrowdAnswer>(members.size()));
@@ -214,7 +214,7 @@ TEST_P(CrowdOfMany, AllocatesNothingAfterTheFirstPostures) {
     std::vector<Adapter> adapters;
     std::vector<Pose> references;
     for (const CrowdMember& member : crowd_members) {
-      adapters.push_back(adapter_of(member, options()));
+      adapters.push_back(adapter_for(member, options()));
       references.push_back(member.questions[0].reference);
     }
     auto crowd = Crowd::make(std::move(adapters), {width, 1});

@@ -79,7 +79,7 @@ const PointMass& of(const std::vector<PointMass>& masses, JointIndex joint) {
   return masses.front();
 }
 
-Skeleton adult() {
+Skeleton average_adult() {
   return make_humanoid(average_proportions(1.75));
 }
 
@@ -208,8 +208,8 @@ TEST(PlaceMasses, PutsTheTrunkWhereTheTableHasItWithAnyVertebrae) {
 // place. The coarse spine bends in fewer places; 0.3 rad over half a metre makes some
 // millimetres.
 TEST(PlaceMasses, BendsTheTrunksMassAlikeWithAnyVertebrae) {
-  const Skeleton few = testing::with_vertebrae(adult(), 7);
-  const Skeleton many = testing::with_vertebrae(adult(), 14);
+  const Skeleton few = testing::with_vertebrae(average_adult(), 7);
+  const Skeleton many = testing::with_vertebrae(average_adult(), 14);
   const auto bent = [](const Skeleton& body, std::size_t count) {
     Pose pose = rest_pose(body);
     for (std::size_t k = 1; k <= count; ++k) {
@@ -253,7 +253,7 @@ TEST(PlaceMasses, PutsLimbsOnTheLineBetweenTheirJoints) {
 
 // The ends of the body, with the end points of each table, on an average adult at rest.
 TEST(PlaceMasses, PutsHeadHandsAndFeetWhereTheTablesHaveThem) {
-  const Skeleton body = adult();
+  const Skeleton body = average_adult();
   const BodyMap map = mapped(body);
   const auto frames = at_rest(body);
   const auto place = [&](B bone) { return frames[index(*body.find(bone))].translation; };
@@ -296,7 +296,7 @@ TEST(PlaceMasses, PutsHeadHandsAndFeetWhereTheTablesHaveThem) {
 // Measured with arms at the sides: 0.54 to 0.58 of the stature (Winter, chapter 4). The
 // arms of a T-pose are 10 % of the mass and 0.15 to 0.2 of the stature higher.
 TEST(PlaceMasses, PutsTheWholeBodysCentreWhereItIsMeasured) {
-  const Skeleton body = adult();
+  const Skeleton body = average_adult();
   for (const MassTable table : {MassTable::kDeLevaFemale, MassTable::kDeLevaMale}) {
     const glm::dvec3 com = com_of(masses_of(body, weighing(table, 70.0)), at_rest(body));
     EXPECT_NEAR(com.x, 0.0, 1e-12);
@@ -310,7 +310,7 @@ TEST(PlaceMasses, PutsTheWholeBodysCentreWhereItIsMeasured) {
 // 0.57 of the stature (women's and men's means). With the 0.66 that table 5.1 of the
 // thesis has for the trunk it would be 0.59.
 TEST(PlaceMasses, PutsTheCentreOfWhoStandsWhereItIsMeasured) {
-  const Skeleton body = adult();
+  const Skeleton body = average_adult();
   Pose standing = rest_pose(body);
   for (const auto& [bone, sign] :
        {std::pair{B::kLeftUpperArm, -1.0}, std::pair{B::kRightUpperArm, 1.0}}) {
@@ -334,7 +334,7 @@ TEST(PlaceMasses, PutsTheCentreOfWhoStandsWhereItIsMeasured) {
 // stature for half the mass, 0.021; legs that are lighter than de Leva's make up the
 // rest.
 TEST(PlaceMasses, FollowsTheThesisInAHighTrunk) {
-  const Skeleton body = adult();
+  const Skeleton body = average_adult();
   const auto height = [&](MassTable table) {
     return com_of(masses_of(body, weighing(table, 70.0)), at_rest(body)).y / 1.75;
   };
@@ -356,7 +356,7 @@ TEST(PlaceMasses, GivesAMirroredBodyMirroredMasses) {
 
 // An arm without a hand is extended straight: the hand's mass is beyond the elbow's bone.
 TEST(PlaceMasses, CarriesAMissingHandBeyondTheForearm) {
-  const Skeleton whole = adult();
+  const Skeleton whole = average_adult();
   const Skeleton cut = testing::without(whole, B::kLeftHand);
   const MassSpec spec = weighing(MassTable::kDeLevaMale, 70.0);
   // The average arm is the estimate.

@@ -14,7 +14,7 @@ namespace {
 // A few roundings of numbers of about 1 m.
 constexpr double kRounding_m = 1e-15;
 
-Places at(const glm::dvec3& p_in_world) {
+Places time_at(const glm::dvec3& p_in_world) {
   Places places;
   places.p_in_world = p_in_world;
   return places;
@@ -30,27 +30,27 @@ glm::dvec3 target(const Goal& goal, const Places& places) {
 
 TEST(ConstraintTargets, KeepADistanceOnTheSideWhereThePointIs) {
   const DistanceToPoint goal{0.5, {1, 2, 3}};
-  EXPECT_LT(glm::distance(target(goal, at({1, 2, 5})), {1, 2, 3.5}), kRounding_m);
-  EXPECT_LT(glm::distance(target(goal, at({0, 2, 3})), {0.5, 2, 3}), kRounding_m);
+  EXPECT_LT(glm::distance(target(goal, time_at({1, 2, 5})), {1, 2, 3.5}), kRounding_m);
+  EXPECT_LT(glm::distance(target(goal, time_at({0, 2, 3})), {0.5, 2, 3}), kRounding_m);
   // Too near is as wrong as too far.
-  EXPECT_LT(glm::distance(target(goal, at({1, 2.1, 3})), {1, 2.5, 3}), kRounding_m);
+  EXPECT_LT(glm::distance(target(goal, time_at({1, 2.1, 3})), {1, 2.5, 3}), kRounding_m);
 }
 
 TEST(ConstraintTargets, TakeNoDistanceForContactToTheBit) {
   const glm::dvec3 place(0.1, 0.2, -0.3);
-  EXPECT_EQ(target(DistanceToPoint{0.0, place}, at({5, -7, 0.3})), place);
-  EXPECT_EQ(target(DistanceToPoint{0.0, place}, at(place)), place);
+  EXPECT_EQ(target(DistanceToPoint{0.0, place}, time_at({5, -7, 0.3})), place);
+  EXPECT_EQ(target(DistanceToPoint{0.0, place}, time_at(place)), place);
 }
 
 TEST(ConstraintTargets, GoUpFromAPlaceThatHasNoSide) {
   const glm::dvec3 place(0.1, 0.2, -0.3);
-  EXPECT_LT(
-      glm::distance(target(DistanceToPoint{0.5, place}, at(place)), {0.1, 0.7, -0.3}),
-      kRounding_m);
+  EXPECT_LT(glm::distance(target(DistanceToPoint{0.5, place}, time_at(place)),
+                          {0.1, 0.7, -0.3}),
+            kRounding_m);
 }
 
 TEST(ConstraintTargets, KeepADistanceFromTheOtherPointWhereItIsNow) {
-  Places places = at({1, 0, 0});
+  Places places = time_at({1, 0, 0});
   places.other_in_world = {3, 0, 0};
   const glm::dvec3 wanted(2.75, 0, 0);
   EXPECT_EQ(target(DistanceToBody{0.25, {"head", {}}}, places), wanted);
@@ -59,36 +59,36 @@ TEST(ConstraintTargets, KeepADistanceFromTheOtherPointWhereItIsNow) {
 
 TEST(ConstraintTargets, ProjectOntoAnAllowedSpace) {
   const AllowedSpace box{{-1, 0, -1}, {1, 2, 1}};
-  EXPECT_EQ(target(box, at({0.5, 1, 0})), glm::dvec3(0.5, 1, 0));
-  EXPECT_EQ(target(box, at({3, 1, -0.5})), glm::dvec3(1, 1, -0.5));
-  EXPECT_EQ(target(box, at({3, -4, -5})), glm::dvec3(1, 0, -1));
+  EXPECT_EQ(target(box, time_at({0.5, 1, 0})), glm::dvec3(0.5, 1, 0));
+  EXPECT_EQ(target(box, time_at({3, 1, -0.5})), glm::dvec3(1, 1, -0.5));
+  EXPECT_EQ(target(box, time_at({3, -4, -5})), glm::dvec3(1, 0, -1));
 }
 
 TEST(ConstraintTargets, LeaveAForbiddenSpaceByItsNearestFace) {
   const ForbiddenSpace box{{-1, 0, -1}, {1, 3, 1}};
-  EXPECT_EQ(target(box, at({0.9, 1, 0})), glm::dvec3(1, 1, 0));
-  EXPECT_EQ(target(box, at({-0.9, 1, 0})), glm::dvec3(-1, 1, 0));
-  EXPECT_EQ(target(box, at({0.1, 2.8, 0.2})), glm::dvec3(0.1, 3, 0.2));
-  EXPECT_EQ(target(box, at({0.1, 0.2, 0.2})), glm::dvec3(0.1, 0, 0.2));
-  EXPECT_EQ(target(box, at({0.1, 1.5, 0.7})), glm::dvec3(0.1, 1.5, 1));
-  EXPECT_EQ(target(box, at({0.1, 1.5, -0.7})), glm::dvec3(0.1, 1.5, -1));
+  EXPECT_EQ(target(box, time_at({0.9, 1, 0})), glm::dvec3(1, 1, 0));
+  EXPECT_EQ(target(box, time_at({-0.9, 1, 0})), glm::dvec3(-1, 1, 0));
+  EXPECT_EQ(target(box, time_at({0.1, 2.8, 0.2})), glm::dvec3(0.1, 3, 0.2));
+  EXPECT_EQ(target(box, time_at({0.1, 0.2, 0.2})), glm::dvec3(0.1, 0, 0.2));
+  EXPECT_EQ(target(box, time_at({0.1, 1.5, 0.7})), glm::dvec3(0.1, 1.5, 1));
+  EXPECT_EQ(target(box, time_at({0.1, 1.5, -0.7})), glm::dvec3(0.1, 1.5, -1));
 }
 
 TEST(ConstraintTargets, LeaveAloneWhatIsOutsideAForbiddenSpaceOrOnItsFace) {
   const ForbiddenSpace box{{-1, 0, -1}, {1, 3, 1}};
   for (const glm::dvec3& p : {glm::dvec3(1, 1, 0), {0, 3, 0}, {2, 1, 0}, {5, 5, 5}}) {
-    EXPECT_EQ(target(box, at(p)), p);
+    EXPECT_EQ(target(box, time_at(p)), p);
   }
   // A box without a volume has no inside.
   const ForbiddenSpace flat{{-1, 1, -1}, {1, 1, 1}};
-  EXPECT_EQ(target(flat, at({0, 1, 0})), glm::dvec3(0, 1, 0));
+  EXPECT_EQ(target(flat, time_at({0, 1, 0})), glm::dvec3(0, 1, 0));
 }
 
 TEST(ConstraintTargets, LeaveTheMiddleOfAForbiddenSpaceAlwaysTheSameWay) {
   const ForbiddenSpace cube{{-1, -1, -1}, {1, 1, 1}};
-  EXPECT_EQ(target(cube, at({0, 0, 0})), glm::dvec3(1, 0, 0));
+  EXPECT_EQ(target(cube, time_at({0, 0, 0})), glm::dvec3(1, 0, 0));
   const ForbiddenSpace long_in_x{{-5, -1, -1}, {5, 1, 1}};
-  EXPECT_EQ(target(long_in_x, at({0, 0, 0})), glm::dvec3(0, 1, 0));
+  EXPECT_EQ(target(long_in_x, time_at({0, 0, 0})), glm::dvec3(0, 1, 0));
 }
 
 // Never further from the point than any other valid position.
@@ -106,8 +106,8 @@ TEST(ConstraintTargets, AreTheNearestPositionsForSpaces) {
   for (int i = 0; i < 2000; ++i) {
     const glm::dvec3 p = some();
     const glm::dvec3 other = some();
-    const glm::dvec3 in = target(AllowedSpace{low, high}, at(p));
-    const glm::dvec3 out = target(ForbiddenSpace{low, high}, at(p));
+    const glm::dvec3 in = target(AllowedSpace{low, high}, time_at(p));
+    const glm::dvec3 out = target(ForbiddenSpace{low, high}, time_at(p));
     EXPECT_FALSE(holds(out));
     EXPECT_EQ(glm::clamp(in, low, high), in);
     EXPECT_LE(glm::distance(p, holds(other) ? in : out), glm::distance(p, other));
@@ -121,7 +121,7 @@ RigidTransform some_segment() {
 // Two levers at their targets define one rotation.
 TEST(ConstraintTargets, DetermineAWholeOrientation) {
   const glm::dquat wanted = glm::normalize(glm::dquat(0.9, 0.1, -0.4, 0.3));
-  Places places = at({9, 9, 9});
+  Places places = time_at({9, 9, 9});
   places.world_from_segment = some_segment();
   const PointTargets found = targets_of(SegmentOrientation{wanted}, places);
   const auto targets = found.all();
@@ -150,7 +150,7 @@ TEST(ConstraintTargets, MatchTheLeversOfAnOrientationThatIsMet) {
 }
 
 TEST(ConstraintTargets, MatchTheFootprintOfASupport) {
-  Places places = at({0, 0.3, 0});
+  Places places = time_at({0, 0.3, 0});
   places.footprint_in_world = {0.2, 0.08, 0.1};
   places.footprint_world_from_t_pose = some_segment().rotation;
   const PointTargets as_it_was = targets_of(Support{}, places);
