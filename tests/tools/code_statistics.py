@@ -18,7 +18,7 @@ from pathlib import Path
 LANGUAGES = {".cpp": "C++", ".h": "C++", ".ts": "TypeScript", ".js": "JavaScript",
              ".mjs": "JavaScript", ".css": "CSS", ".html": "HTML", ".py": "Python",
              ".sh": "shell", ".cmake": "CMake"}
-SKIPPED_FOLDERS = {"build", "dist", "node_modules", ".git", "third_party"}
+SKIPPED_FOLDERS = {"build", "dist", "dist-test", "node_modules", ".git", "third_party"}
 COMMENT_STARTS = {"C++": ("//", "/*", "*"), "TypeScript": ("//", "/*", "*"),
                   "JavaScript": ("//", "/*", "*"), "CSS": ("/*", "*"), "HTML": ("<!--",),
                   "Python": ("#",), "shell": ("#",), "CMake": ("#",)}
