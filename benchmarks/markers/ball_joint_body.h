@@ -17,7 +17,7 @@
 namespace marey {
 
 /// A tree of ball joints on a free root: forward kinematics and its derivatives, in
-/// scalars of type T. Only gauss_newton_baseline.cpp includes this file: it is
+/// scalars of type T. Only gauss_newton_solver.h includes this file: it is
 /// compiled for another processor than the rest.
 template <class T>
 class BallJointBody {
