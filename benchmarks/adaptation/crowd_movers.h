@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "benchmarks/adaptation/adapt_cases.h"
-#include "benchmarks/adaptation/gauss_newton_baseline.h"
 #include "benchmarks/adaptation/posture_solver.h"
+#include "benchmarks/baseline/gauss_newton_baseline.h"
 #include <glm/vec3.hpp>
 
 #include "core/character.h"

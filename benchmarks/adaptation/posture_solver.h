@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/adaptation/gauss_newton_baseline.h"
+#include "benchmarks/baseline/gauss_newton_baseline.h"
 #include <glm/vec3.hpp>
 
 #include "core/character.h"

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// This file and gauss_newton_float.cpp and gauss_newton_double.cpp are compiled for the
-// processor at hand (benchmarks/CMakeLists.txt), so that the compiler options of marey do
-// not slow down the baselines.
-#include "benchmarks/adaptation/gauss_newton_solver.h"
+// This file and gauss_newton_baseline_float.cpp and gauss_newton_baseline_double.cpp are
+// compiled for the processor at hand (benchmarks/CMakeLists.txt), so that the compiler
+// options of marey do not slow down the baselines.
+#include "benchmarks/baseline/gauss_newton_solver.h"
 
 namespace marey {
 namespace {

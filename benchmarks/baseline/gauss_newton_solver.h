@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "benchmarks/adaptation/gauss_newton_baseline.h"
+#include "benchmarks/baseline/gauss_newton_baseline.h"
 #include "benchmarks/markers/ball_joint_body.h"
 #include <Eigen/Cholesky>
 #include <Eigen/Dense>
