@@ -26,7 +26,7 @@ struct Finding {
   std::string cause;  ///< The measured value, in a sentence.
   std::string next;   ///< The next step of the user; empty if there is none.
   std::optional<double> value{};  ///< The measured value, in `unit`.
-  std::optional<double> limit{};  ///< The limit that `value` exceeds, in `unit`.
+  std::optional<double> limit{};  ///< In `unit`: maximum of errors, minimum of counts.
   std::string unit{};             ///< "px", "mm", "share"...
   /// Kind of an error that was tolerated, such as an unreadable video. Determines the
   /// program's exit code if the severity is kPoor.
