@@ -260,29 +260,29 @@ StepPrior step_prior(FrameRate rate) {
   StepPrior prior;
   const auto set = [&prior](int column, int count, const StepProcess& process) {
     prior.sigma.segment(column, count).setConstant(process.sigma);
-    prior.keeps.segment(column, count).setConstant(process.correlation);
+    prior.correlation.segment(column, count).setConstant(process.correlation);
   };
-  const auto turns = [&](int column, int count, double acceleration_rad) {
-    set(column, count, step_process(acceleration_rad, rate));
+  const auto turns = [&](int column, int count, double acceleration_rad_s2) {
+    set(column, count, step_process(acceleration_rad_s2, rate));
   };
   set(0, 3, hips_step_process(rate));
   for (const int column : {kHips, kAbdomenEnd, kThorax, kShoulders, kShoulders + 3}) {
-    turns(column, 3, kTrunkAcceleration_rad);
+    turns(column, 3, kTrunkAcceleration_rad_s2);
   }
-  turns(kNeck, 3, kNeckAcceleration_rad);
-  turns(kHead, 3, kHeadAcceleration_rad);
+  turns(kNeck, 3, kNeckAcceleration_rad_s2);
+  turns(kHead, 3, kHeadAcceleration_rad_s2);
   for (std::size_t limb = 0; limb < 4; ++limb) {
     const bool arm = limb < 2;
     const int at = limb_column(limb);
-    turns(at, 3, arm ? kArmAcceleration_rad : kLegAcceleration_rad);
-    turns(at + kFlexion, 1, kFlexionAcceleration_rad);
+    turns(at, 3, arm ? kArmAcceleration_rad_s2 : kLegAcceleration_rad_s2);
+    turns(at + kFlexion, 1, kFlexionAcceleration_rad_s2);
     turns(at + kUpperTwist,
           1,
-          arm ? kUpperArmTwistAcceleration_rad : kLegTwistAcceleration_rad);
+          arm ? kUpperArmTwistAcceleration_rad_s2 : kLegTwistAcceleration_rad_s2);
     turns(at + kLowerTwist,
           1,
-          arm ? kForearmTwistAcceleration_rad : kLegTwistAcceleration_rad);
-    turns(at + kEnd, 3, arm ? kHandAcceleration_rad : kFootAcceleration_rad);
+          arm ? kForearmTwistAcceleration_rad_s2 : kLegTwistAcceleration_rad_s2);
+    turns(at + kEnd, 3, arm ? kHandAcceleration_rad_s2 : kFootAcceleration_rad_s2);
   }
   return prior;
 }

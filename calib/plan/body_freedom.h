@@ -40,12 +40,13 @@ struct BodyMotion {
   std::array<Eigen::Matrix<double, 3, kBaseColumns>, kHumanBoneCount> origin_by_base;
 };
 
-/// Computes the derivatives. Precondition: `place` is a posture of `body` whose upper
-/// limbs are not twisted out of the plane in which the limb bends.
+/// Computes the derivatives of all bone frames, in the world. Precondition: in `place`, a
+/// posture of `body`, no limb's upper bone is twisted out of the plane in which the limb
+/// bends.
 [[nodiscard]] BodyMotion motion_of(const PlannedBody& body, const BodyPlace& place);
 
-/// Rows of the posture prior, in sigmas; for example, elbow flexion of 0.3 with a sigma
-/// of 1.
+/// Derivatives of the residuals of a posture prior by the posture's columns, each divided
+/// by its sigma. Expected values are not included.
 using PosturePriorRows = Eigen::Matrix<double, Eigen::Dynamic, kPostureColumns>;
 
 /// Returns the posture prior. `arm_twist_rad`: rotation of an arm's skin about its bone.
@@ -57,13 +58,14 @@ using PosturePriorRows = Eigen::Matrix<double, Eigen::Dynamic, kPostureColumns>;
 [[nodiscard]] PosturePriorRows standing_prior_rows(const BodyPlace& place,
                                                    const BodyMotion& motion);
 
-/// Prior of the step of each column from frame to frame: `keeps` times the previous step,
-/// with standard deviation `sigma`.
+/// Prior of the step of each column from frame to frame: `correlation` times the previous
+/// step, with standard deviation `sigma`.
 struct StepPrior {
   PostureVector sigma;
-  PostureVector keeps;
+  PostureVector correlation;
 };
 
+/// Returns the prior of the steps at `rate`.
 [[nodiscard]] StepPrior step_prior(FrameRate rate);
 
 /// Returns the information on lengths from anthropometry and from left-right symmetry.

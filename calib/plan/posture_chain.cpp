@@ -24,7 +24,7 @@ Bands bands_of(std::size_t frames, const StepPrior& steps) {
     band->assign(frames, PostureVector::Zero());
   }
   const PostureVector weight = steps.sigma.array().square().inverse();
-  const PostureVector keeps = steps.keeps;
+  const PostureVector keeps = steps.correlation;
   // The first step has the stationary distribution of steps.
   const PostureVector first = weight.array() * (1.0 - keeps.array().square());
   out.own[0] += first;

@@ -62,22 +62,23 @@ inline constexpr double kStandingTwistSigma_rad = 0.02;
 /// White-noise acceleration, [m/s^2] or [rad/s^2] at 30 frames per second: that of quick
 /// everyday movement. A jump's landing exceeds it by a small factor for a frame or two,
 /// which the measurements then determine.
-inline constexpr double kHipsAcceleration_m = 10.0;
+inline constexpr double kHipsAcceleration_m_s2 = 10.0;
 /// Hips, end of the abdomen, thorax and collar bones.
-inline constexpr double kTrunkAcceleration_rad = 30.0;
-inline constexpr double kNeckAcceleration_rad = 40.0;
-inline constexpr double kHeadAcceleration_rad = 50.0;
-inline constexpr double kArmAcceleration_rad = 70.0;
-inline constexpr double kLegAcceleration_rad = 60.0;
-inline constexpr double kHandAcceleration_rad = 110.0;
-inline constexpr double kFootAcceleration_rad = 90.0;
-inline constexpr double kFlexionAcceleration_rad = 80.0;
-inline constexpr double kUpperArmTwistAcceleration_rad = 40.0;
-inline constexpr double kForearmTwistAcceleration_rad = 60.0;
-inline constexpr double kLegTwistAcceleration_rad = 30.0;
+inline constexpr double kTrunkAcceleration_rad_s2 = 30.0;
+inline constexpr double kNeckAcceleration_rad_s2 = 40.0;
+inline constexpr double kHeadAcceleration_rad_s2 = 50.0;
+inline constexpr double kArmAcceleration_rad_s2 = 70.0;
+inline constexpr double kLegAcceleration_rad_s2 = 60.0;
+inline constexpr double kHandAcceleration_rad_s2 = 110.0;
+inline constexpr double kFootAcceleration_rad_s2 = 90.0;
+inline constexpr double kFlexionAcceleration_rad_s2 = 80.0;
+inline constexpr double kUpperArmTwistAcceleration_rad_s2 = 40.0;
+inline constexpr double kForearmTwistAcceleration_rad_s2 = 60.0;
+inline constexpr double kLegTwistAcceleration_rad_s2 = 30.0;
 
 /// The change of an unknown from frame to frame is an Ornstein-Uhlenbeck process: the
-/// next change is `correlation` times the last, plus noise of standard deviation `sigma`.
+/// next change is `correlation` times the last, plus noise of standard deviation `sigma`,
+/// [m] or [rad] per frame.
 struct StepProcess {
   double sigma = 0.0;
   double correlation = 0.0;
@@ -85,19 +86,21 @@ struct StepProcess {
 
 /// Returns the process of a rotation or an angle with the given white-noise acceleration;
 /// its correlation time is a quarter of a second.
+/// Preconditions: rate.hz > 0, correlation_time_s > 0.
 /// Cost: a square root and an exponential.
 [[nodiscard]] inline StepProcess step_process(double acceleration,
                                               FrameRate rate,
-                                              double memory_s = 0.25) {
+                                              double correlation_time_s = 0.25) {
   const double dt = 1.0 / rate.hz;
   // The variance of a second difference of integrated white noise grows with the cube of
   // dt.
-  return {acceleration * std::sqrt(dt * dt * dt / 30.0), std::exp(-dt / memory_s)};
+  return {acceleration * std::sqrt(dt * dt * dt / 30.0),
+          std::exp(-dt / correlation_time_s)};
 }
 
 /// Returns the process of the position of the hips; its correlation time is one second.
 [[nodiscard]] inline StepProcess hips_step_process(FrameRate rate) {
-  return step_process(kHipsAcceleration_m, rate, 1.0);
+  return step_process(kHipsAcceleration_m_s2, rate, 1.0);
 }
 
 /// Returns the standard deviation in people of a length whose average is `average_m`.

@@ -83,39 +83,39 @@ struct TwistPriors {
     case P::kThorax:
     case P::kLeftShoulder:
     case P::kRightShoulder:
-      return step_process(kTrunkAcceleration_rad, rate);
+      return step_process(kTrunkAcceleration_rad_s2, rate);
     case P::kNeck:
-      return step_process(kNeckAcceleration_rad, rate);
+      return step_process(kNeckAcceleration_rad_s2, rate);
     case P::kHead:
-      return step_process(kHeadAcceleration_rad, rate);
+      return step_process(kHeadAcceleration_rad_s2, rate);
     case P::kLeftArm:
     case P::kRightArm:
-      return step_process(kArmAcceleration_rad, rate);
+      return step_process(kArmAcceleration_rad_s2, rate);
     case P::kLeftLeg:
     case P::kRightLeg:
-      return step_process(kLegAcceleration_rad, rate);
+      return step_process(kLegAcceleration_rad_s2, rate);
     case P::kLeftHand:
     case P::kRightHand:
-      return step_process(kHandAcceleration_rad, rate);
+      return step_process(kHandAcceleration_rad_s2, rate);
     case P::kLeftFoot:
     case P::kRightFoot:
-      return step_process(kFootAcceleration_rad, rate);
+      return step_process(kFootAcceleration_rad_s2, rate);
     case P::kLeftElbow:
     case P::kRightElbow:
     case P::kLeftKnee:
     case P::kRightKnee:
-      return step_process(kFlexionAcceleration_rad, rate);
+      return step_process(kFlexionAcceleration_rad_s2, rate);
     case P::kLeftUpperArmTwist:
     case P::kRightUpperArmTwist:
-      return step_process(kUpperArmTwistAcceleration_rad, rate);
+      return step_process(kUpperArmTwistAcceleration_rad_s2, rate);
     case P::kLeftForearmTwist:
     case P::kRightForearmTwist:
-      return step_process(kForearmTwistAcceleration_rad, rate);
+      return step_process(kForearmTwistAcceleration_rad_s2, rate);
     case P::kLeftShankTwist:
     case P::kRightShankTwist:
     case P::kLeftThighTwist:
     case P::kRightThighTwist:
-      return step_process(kLegTwistAcceleration_rad, rate);
+      return step_process(kLegTwistAcceleration_rad_s2, rate);
   }
   return {};
 }

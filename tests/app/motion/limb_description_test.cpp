@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -14,9 +15,9 @@
 #include "tests/support/bodies/random_bodies.h"
 
 // A limb has two descriptions. The solver of reconstruct/ stores a rotation from the
-// T-pose, the flexion and two twists (LimbParameters); retarget/ stores the thesis' frame
-// (Z from root to end, X towards elbow or knee), the extension and two twists
-// (NormalizedLimb). A motion goes from one to the other through its joints.
+// T-pose, the flexion and two twists (LimbParameters); retarget/ stores Kulpa's frame
+// (2005, 1.1.2) (Z from root to end, X towards elbow or knee), the extension and two
+// twists (NormalizedLimb). A motion goes from one to the other through its joints.
 namespace marey {
 namespace {
 
@@ -99,9 +100,8 @@ TEST(LimbDescriptions, AgreeOnExtensionAndFlexion) {
       const double distance_m =
           std::sqrt(limb.upper_m * limb.upper_m + limb.lower_m * limb.lower_m +
                     2.0 * limb.upper_m * limb.lower_m * std::cos(limb.flexion_rad));
-      EXPECT_NEAR(limb.normalized.extension,
-                  distance_m / (limb.upper_m + limb.lower_m),
-                  1e-12)
+      EXPECT_NEAR(
+          limb.normalized.extension, distance_m / (limb.upper_m + limb.lower_m), 1e-12)
           << "seed " << seed;
     }
   }

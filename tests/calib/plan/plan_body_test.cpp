@@ -93,7 +93,7 @@ TEST(SolveChain, IsTheInverseOfTheWholeNormalMatrix) {
       for (const double value : row) full[kN * f++ + i] = value / sigma;
       whole += full.transpose() * full;
     };
-    const double k = steps.keeps[i];
+    const double k = steps.correlation[i];
     add({-1.0, 1.0}, 0, steps.sigma[i] / std::sqrt(1.0 - k * k));
     for (int f = 2; f < kFrames; ++f) add({k, -1.0 - k, 1.0}, f - 2, steps.sigma[i]);
   }
