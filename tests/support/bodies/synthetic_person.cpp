@@ -18,7 +18,6 @@ namespace {
 
 using B = HumanBone;
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kStature_m = 1.75;
 
 Proportions unusual_proportions() {
@@ -158,7 +157,7 @@ Pose pose_of(const Attitude& a) {
 
 /// A wave of the given period, each `place` in another phase.
 double wave(double time_s, double period_s, int place) {
-  return std::sin(2.0 * kPi * time_s / period_s + 1.9 * place);
+  return std::sin(2.0 * std::numbers::pi * time_s / period_s + 1.9 * place);
 }
 
 Attitude exercise(const Proportions& p, double t) {
@@ -201,12 +200,13 @@ Attitude exercise(const Proportions& p, double t) {
 Attitude step(const Proportions& p, double t) {
   constexpr double kCycle_s = 1.1;
   const auto swing = [&](double phase) {
-    return std::sin(2.0 * kPi * (t / kCycle_s + phase));
+    return std::sin(2.0 * std::numbers::pi * (t / kCycle_s + phase));
   };
   Attitude a;
-  a.hips_in_world = {0.02 * swing(0.0),
-                     p[B::kHips].y - 0.03 + 0.015 * std::sin(4.0 * kPi * t / kCycle_s),
-                     0.8 * (t - 1.0)};
+  a.hips_in_world = {
+      0.02 * swing(0.0),
+      p[B::kHips].y - 0.03 + 0.015 * std::sin(4.0 * std::numbers::pi * t / kCycle_s),
+      0.8 * (t - 1.0)};
   a.hips = about(0.0, 0.1 * swing(0.1), 0.05 * swing(0.3));
   a.thorax_in_hips = about(0.05, -0.2 * swing(0.1), -0.05 * swing(0.3));
   a.head_in_thorax = about(0.0, 0.1 * swing(0.1), 0.0);

@@ -14,15 +14,13 @@
 namespace marey::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 using ThingAt = std::function<RigidTransform(double)>;
 
 RigidTransform board_from_tag(const AprilGrid& board, int tag) {
   const TagId id{tag};
   const glm::dvec3 centre =
       0.5 * (*board.corner_in_board(id, 0) + *board.corner_in_board(id, 2));
-  return {rotation_from_vector({kPi, 0.0, 0.0}), centre};
+  return {rotation_from_vector({std::numbers::pi, 0.0, 0.0}), centre};
 }
 
 double side_of(const TagDetection& tag) {
@@ -57,8 +55,8 @@ std::optional<TagDetection> see(const SimulationDraw& draw,
 
 /// The smooth part of an error that a lens model does not have.
 glm::dvec2 field_px(const Camera& camera, const glm::dvec2& pixel_px) {
-  const double u = 2.0 * kPi * pixel_px.x / camera.intrinsics.width_px;
-  const double v = 2.0 * kPi * pixel_px.y / camera.intrinsics.height_px;
+  const double u = 2.0 * std::numbers::pi * pixel_px.x / camera.intrinsics.width_px;
+  const double v = 2.0 * std::numbers::pi * pixel_px.y / camera.intrinsics.height_px;
   const double phase = 40.0 * camera.intrinsics.distortion[0];
   return 0.02 * glm::dvec2(std::sin(u + 2.0 * v + phase), std::cos(2.0 * u - v + phase));
 }
@@ -81,7 +79,7 @@ std::optional<TagDetection> found(SimulationDraw& draw,
   for (glm::dvec2& corner : out.corners_px) corner += field_px(camera, corner);
   const bool strays = draw.out.fault == RigFault::kStrayTags && draw.out.camera == c;
   if (dice.between(0.0, 1.0) < (strays ? 1.0 / 12.0 : 1.0 / 200.0)) {
-    const double angle_rad = dice.between(0.0, 2.0 * kPi);
+    const double angle_rad = dice.between(0.0, 2.0 * std::numbers::pi);
     const glm::dvec2 wrong =
         dice.between(5.0, 30.0) * glm::dvec2(std::cos(angle_rad), std::sin(angle_rad));
     for (glm::dvec2& corner : out.corners_px) corner += wrong;
@@ -112,7 +110,7 @@ RigidTransform facing(const glm::dvec3& place, double heading_rad, double rise_r
   // A tag's z goes into its face (see_tag): its own faces look along -z.
   return {rotation_from_vector({0.0, heading_rad, 0.0}) *
               rotation_from_vector({-rise_rad, 0.0, 0.0}) *
-              rotation_from_vector({kPi, 0.0, 0.0}),
+              rotation_from_vector({std::numbers::pi, 0.0, 0.0}),
           place};
 }
 
@@ -170,8 +168,9 @@ std::vector<FilmedTag> wand_tags(double size_m) {
   std::vector<FilmedTag> out;
   const double half_m = 0.6 * size_m;
   for (int i = 0; i < 6; ++i) {
-    const double heading_rad = i < 4 ? 0.5 * kPi * i : 0.0;
-    const double rise_rad = i < 4 ? 0.0 : (i == 4 ? 0.5 * kPi : -0.5 * kPi);
+    const double heading_rad = i < 4 ? 0.5 * std::numbers::pi * i : 0.0;
+    const double rise_rad =
+        i < 4 ? 0.0 : (i == 4 ? 0.5 * std::numbers::pi : -0.5 * std::numbers::pi);
     const glm::dvec3 way(std::cos(rise_rad) * std::sin(heading_rad),
                          std::sin(rise_rad),
                          std::cos(rise_rad) * std::cos(heading_rad));
@@ -185,7 +184,8 @@ std::vector<FilmedTag> worn_tags(Dice& dice, double factor) {
   std::vector<FilmedTag> out;
   for (int row = 0; row < 3; ++row) {
     for (int i = 0; i < kAround; ++i) {
-      const double heading_rad = 2.0 * kPi * i / kAround + dice.between(-0.3, 0.3);
+      const double heading_rad =
+          2.0 * std::numbers::pi * i / kAround + dice.between(-0.3, 0.3);
       const double away_m = dice.between(0.1, 0.25);
       const glm::dvec3 place(away_m * std::sin(heading_rad),
                              0.35 + 0.5 * row + dice.between(-0.15, 0.15),

@@ -15,8 +15,6 @@ namespace {
 
 using B = HumanBone;
 
-constexpr double kPi = std::numbers::pi;
-
 /// Spread of a length beyond stature's share, standard deviation over mean. The values
 /// are close to the spread of the ratios of segment lengths to stature in surveys (ANSUR:
 /// 3 to 6 %). Parts that are small or cannot be measured from outside spread more.
@@ -118,15 +116,18 @@ std::array<glm::dquat, kHumanBoneCount> joint_rotations(const SimulatedBody& bod
     const auto of = [&](LimbAngle angle) { return a[limb_angle(limb, angle)]; };
     const bool is_arm = limb < 2;
     const double spin = of(LimbAngle::kSpin);
-    glm::dquat upper =
-        about({-of(LimbAngle::kSwing), 0, 0}) *
-        about({0, 0, side * (of(LimbAngle::kRaise) - (is_arm ? 0.5 * kPi : 0.0))}) *
-        (is_arm ? about({spin, 0, 0}) : about({0, side * spin, 0}));
+    glm::dquat upper = about({-of(LimbAngle::kSwing), 0, 0}) *
+                       about({0,
+                              0,
+                              side * (of(LimbAngle::kRaise) -
+                                      (is_arm ? 0.5 * std::numbers::pi : 0.0))}) *
+                       (is_arm ? about({spin, 0, 0}) : about({0, side * spin, 0}));
     if (is_arm) {
       const glm::dvec3 arm = upper * glm::dvec3(side, 0, 0);
       const double elevation = std::acos(std::clamp(-arm.y, -1.0, 1.0));
       const glm::dquat clavicle =
-          about({0, 0, side * body.clavicle_raise * (elevation - 0.5 * kPi)}) *
+          about(
+              {0, 0, side * body.clavicle_raise * (elevation - 0.5 * std::numbers::pi)}) *
           about({0, -side * body.clavicle_forward * arm.z, 0});
       turn[index(*parent(bones.upper))] = clavicle;
       upper = glm::conjugate(clavicle) * upper;

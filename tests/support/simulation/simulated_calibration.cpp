@@ -16,8 +16,6 @@
 namespace marey::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// A sum of three swings of a hand.
 struct Swing {
   std::array<double, 3> size{};
@@ -28,7 +26,7 @@ struct Swing {
     for (std::size_t i = 0; i < 3; ++i) {
       size[i] = amplitude * dice.between(0.2, 0.6);
       speed[i] = fastest * dice.between(0.25, 1.0);
-      phase[i] = dice.between(0.0, 2.0 * kPi);
+      phase[i] = dice.between(0.0, 2.0 * std::numbers::pi);
     }
   }
   [[nodiscard]] double at(double time_s) const {
@@ -93,11 +91,11 @@ void draw_rig(SimulationDraw& draw) {
   const std::array<double, 3> widths{640.0, 1280.0, 1920.0};
   const double width_px = widths[static_cast<std::size_t>(dice.between(0.0, 2.99))];
   // A ring, or an arc: two cameras are never opposite each other.
-  const double arc_rad =
-      count > 3 && dice.between(0.0, 1.0) < 0.5
-          ? 2.0 * kPi * static_cast<double>(count - 1) / static_cast<double>(count)
-          : dice.between(0.35, 0.6) * static_cast<double>(count - 1);
-  const double first_rad = dice.between(0.0, 2.0 * kPi);
+  const double arc_rad = count > 3 && dice.between(0.0, 1.0) < 0.5
+                             ? 2.0 * std::numbers::pi * static_cast<double>(count - 1) /
+                                   static_cast<double>(count)
+                             : dice.between(0.35, 0.6) * static_cast<double>(count - 1);
+  const double first_rad = dice.between(0.0, 2.0 * std::numbers::pi);
   for (std::size_t c = 0; c < count; ++c) {
     const double heading_rad =
         first_rad + arc_rad * static_cast<double>(c) / static_cast<double>(count - 1) +
@@ -139,7 +137,7 @@ Wave draw_wave(SimulationDraw& draw, double seconds) {
       double heading = std::atan2(place.x, place.z);
       if (!wave.headings_rad.empty()) {
         const double last = wave.headings_rad.back();
-        heading = last + std::remainder(heading - last, 2.0 * kPi);
+        heading = last + std::remainder(heading - last, 2.0 * std::numbers::pi);
       }
       wave.headings_rad.push_back(heading);
     }
@@ -160,7 +158,7 @@ void draw_fault(SimulationDraw& draw, int frames) {
     out.amount_px = draw.options.amount_px.value_or(dice.between(1.0, 10.0));
     const Intrinsics& k = out.truth[any].intrinsics;
     // Turned across its view, pixels move alike; a knock also shifts it.
-    const double way_rad = dice.between(0.0, 2.0 * kPi);
+    const double way_rad = dice.between(0.0, 2.0 * std::numbers::pi);
     const double turn_rad = out.amount_px / k.focal_px.x;
     const glm::dvec3 axis(
         std::cos(way_rad), std::sin(way_rad), 0.5 * dice.between(-1.0, 1.0));
@@ -202,7 +200,7 @@ void film_motions(SimulationDraw& draw) {
   std::vector<FilmedTag> tags = worn_tags(dice, size);
   for (const FilmedTag& tag : tags) draw.out.worn.push_back({tag.id, tag.size_m});
   const Swing sway(dice, 0.01, 2.0);
-  const double heading_rad = dice.between(0.0, 2.0 * kPi);
+  const double heading_rad = dice.between(0.0, 2.0 * std::numbers::pi);
   const auto frames = [&](double seconds) {
     return static_cast<int>(seconds * draw.out.rate_hz);
   };
@@ -234,7 +232,8 @@ void film_motions(SimulationDraw& draw) {
 
 /// Returns the camera whose pictures are those of `camera`, turned by 180 degrees.
 Camera flipped(Camera camera) {
-  const RigidTransform turn{rotation_from_vector({0.0, 0.0, kPi}), glm::dvec3(0.0)};
+  const RigidTransform turn{rotation_from_vector({0.0, 0.0, std::numbers::pi}),
+                            glm::dvec3(0.0)};
   camera.camera_from_world = turn * camera.camera_from_world;
   Intrinsics& k = camera.intrinsics;
   k.centre_px = {k.width_px - 1 - k.centre_px.x, k.height_px - 1 - k.centre_px.y};
@@ -341,8 +340,9 @@ SimulatedCalibration simulate_calibration(std::uint64_t seed,
       draw.out.waved);
   if (has_floor) {
     draw.out.floor = unseeing(draw.out.truth, kFloorFrames, draw.out.rate_hz, "floor");
-    const RigidTransform on_floor{rotation_from_vector({-0.5 * kPi, 0.0, 0.0}),
-                                  {0.0, draw.real_board.thickness_m, 0.0}};
+    const RigidTransform on_floor{
+        rotation_from_vector({-0.5 * std::numbers::pi, 0.0, 0.0}),
+        {0.0, draw.real_board.thickness_m, 0.0}};
     film(
         draw, tags, [&](double) { return on_floor; }, Reel::kFloor, draw.out.floor);
   }

@@ -12,7 +12,6 @@
 namespace marey::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kFade_s = 0.5;
 
 double eased(double s) {
@@ -22,8 +21,9 @@ double eased(double s) {
 
 double value(const AngleWave& w, double t) {
   const double faded = eased((t - w.from_s) / kFade_s) * eased((w.to_s - t) / kFade_s);
-  return faded * (w.middle + w.amplitude * std::sin(2.0 * kPi * w.hz * (t - w.from_s) +
-                                                    w.phase_rad));
+  return faded * (w.middle +
+                  w.amplitude * std::sin(2.0 * std::numbers::pi * w.hz * (t - w.from_s) +
+                                         w.phase_rad));
 }
 
 /// Adds waves to an exercise, in degrees.
@@ -37,7 +37,7 @@ class Choreography {
     from_s_ = from_s;
     to_s_ = to_s;
     hz_ = dice_.between(0.35, 0.7);
-    phase_rad_ = dice_.between(0.0, 2.0 * kPi);
+    phase_rad_ = dice_.between(0.0, 2.0 * std::numbers::pi);
   }
   void add(std::size_t angle, double middle_deg, double amplitude_deg, double lag = 0.0) {
     const double own = size_ * dice_.between(0.8, 1.2);
@@ -45,7 +45,7 @@ class Choreography {
                                own * glm::radians(middle_deg),
                                own * glm::radians(amplitude_deg),
                                hz_,
-                               phase_rad_ - lag * 2.0 * kPi,
+                               phase_rad_ - lag * 2.0 * std::numbers::pi,
                                from_s_,
                                to_s_});
   }
@@ -182,7 +182,7 @@ void add_sway(Exercise& exercise, Dice& dice) {
                               0.0,
                               dice.between(0.2, 1.0) * most,
                               dice.between(0.2, 0.6),
-                              dice.between(0.0, 2.0 * kPi),
+                              dice.between(0.0, 2.0 * std::numbers::pi),
                               -10.0,
                               exercise.duration_s + 10.0});
   };
@@ -199,7 +199,7 @@ void turn_around(Exercise& exercise, Dice& dice, double most_rad) {
                             0.0,
                             dice.between(0.2, 1.0) * most_rad,
                             dice.between(1.0, 2.0) / exercise.duration_s,
-                            dice.between(0.0, 2.0 * kPi),
+                            dice.between(0.0, 2.0 * std::numbers::pi),
                             -10.0,
                             exercise.duration_s + 10.0});
 }
@@ -219,7 +219,7 @@ void walk(Exercise& exercise, Dice& dice) {
                               glm::radians(middle),
                               glm::radians(amplitude),
                               1.0 / cycle_s,
-                              -2.0 * kPi * lag,
+                              -2.0 * std::numbers::pi * lag,
                               -10.0,
                               exercise.duration_s + 10.0});
   };

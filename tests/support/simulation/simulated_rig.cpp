@@ -15,8 +15,6 @@
 namespace marey::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Least height that a picture covers at the place of a person of 2 m. [m]
 constexpr double kVisible_m = 2.15;
 
@@ -49,11 +47,12 @@ Camera camera_at(const std::string& name,
 
 /// Directions of the cameras from the middle.
 std::vector<double> draw_azimuths(Dice& dice, int count, bool is_arc) {
-  const double start = dice.between(-kPi, kPi);
+  const double start = dice.between(-std::numbers::pi, std::numbers::pi);
   std::vector<double> azimuths;
   if (!is_arc) {
     for (int i = 0; i < count; ++i) {
-      azimuths.push_back(start + 2.0 * kPi * i / count + dice.between(-0.3, 0.3));
+      azimuths.push_back(start + 2.0 * std::numbers::pi * i / count +
+                         dice.between(-0.3, 0.3));
     }
     return azimuths;
   }
@@ -163,7 +162,7 @@ SimulatedRig draw_rig(Dice& dice) {
   }
   rig.heading_rad =
       is_arc ? 0.5 * (azimuths.front() + azimuths.back()) + dice.between(-0.4, 0.4)
-             : dice.between(-kPi, kPi);
+             : dice.between(-std::numbers::pi, std::numbers::pi);
   return rig;
 }
 

@@ -18,8 +18,6 @@ namespace {
 
 using B = HumanBone;
 
-constexpr double kPi = std::numbers::pi;
-
 /// Where people glue tags on a segment of the left side or the middle.
 struct Habit {
   B segment;
@@ -169,8 +167,8 @@ RigidTransform glue(const SkinPoint& skin, double plate_m, Dice& dice) {
   const glm::dvec3 down = glm::cross(into, right);
   const glm::dquat straight = glm::quat_cast(glm::dmat3(right, down, into));
   const double quarters = std::floor(dice.between(0.0, 4.0));
-  const glm::dquat in_plane =
-      rotation_from_vector({0.0, 0.0, 0.5 * kPi * quarters + dice.noise(0.15)});
+  const glm::dquat in_plane = rotation_from_vector(
+      {0.0, 0.0, 0.5 * std::numbers::pi * quarters + dice.noise(0.15)});
   return {glm::normalize(straight * dice.turn(glm::radians(15.0)) * in_plane),
           skin.p_in_bone + plate_m * skin.out};
 }

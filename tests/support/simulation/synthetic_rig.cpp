@@ -13,8 +13,6 @@
 namespace marey::testing {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Returns true when a tag's normal is within `widest_rad` of the line to the camera.
 bool is_legible(const Camera& camera,
                 const RigidTransform& world_from_tag,
@@ -29,7 +27,7 @@ bool is_legible(const Camera& camera,
 RigidTransform board_from_tag(const AprilGrid& board, TagId id) {
   const glm::dvec3 centre =
       0.5 * (*board.corner_in_board(id, 0) + *board.corner_in_board(id, 2));
-  return {rotation_from_vector({kPi, 0.0, 0.0}), centre};
+  return {rotation_from_vector({std::numbers::pi, 0.0, 0.0}), centre};
 }
 
 void see_board(const std::vector<Camera>& cameras,
@@ -53,7 +51,7 @@ void see_board(const std::vector<Camera>& cameras,
 /// The board's place at `share` (0 to 1) of the wave: two rounds of the volume, its face
 /// towards where the cameras are, tilting quicker than it travels.
 RigidTransform waved(const AprilGrid& board, double share) {
-  const double round = 4.0 * kPi * share;
+  const double round = 4.0 * std::numbers::pi * share;
   const double heading = round;
   const glm::dvec3 middle(0.35 * std::sin(0.6 + 1.5 * round),
                           1.1 + 0.35 * std::sin(2.7 * round),
@@ -143,7 +141,7 @@ TagDetection disturbed(TagDetection tag, const Disturbance& disturbance, Dice& d
   });
   glm::dvec2 wrong_px(0.0);
   if (disturbance.wrong_share > 0.0 && dice.between(0.0, 1.0) < disturbance.wrong_share) {
-    const double angle_rad = dice.between(0.0, 2.0 * kPi);
+    const double angle_rad = dice.between(0.0, 2.0 * std::numbers::pi);
     wrong_px = 20.0 * glm::dvec2(std::cos(angle_rad), std::sin(angle_rad));
   }
   for (std::size_t i = 0; i < 4; ++i) {
@@ -191,7 +189,7 @@ BoardRecording wave_board(const std::vector<Camera>& cameras,
               out.waved);
   }
   // Face up, its x along the world's X, its y along -Z.
-  const RigidTransform on_floor{rotation_from_vector({-0.5 * kPi, 0.0, 0.0}),
+  const RigidTransform on_floor{rotation_from_vector({-0.5 * std::numbers::pi, 0.0, 0.0}),
                                 {0.0, board.thickness_m, 0.0}};
   for (std::size_t f = 0; f < kFloorFrames; ++f) {
     see_board(cameras, board, on_floor, f, disturbance, dice, out.floor);
