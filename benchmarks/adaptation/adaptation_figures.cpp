@@ -17,12 +17,7 @@ using retarget::AdaptOptions;
 using retarget::BalanceMode;
 using retarget::Control;
 
-constexpr double kTarget_m = 0.045;  // Radius of the balls.
-constexpr glm::dvec3 kX{1, 0, 0};
-/// Where the label of a figure that stands at Z = 0 is, from a figure's place.
-constexpr glm::dvec3 kLabel{0, -0.10, 0.1};
-/// View from the right side: a person facing +Z looks to the right of the picture.
-constexpr PictureView kSide{-78.0, 7.0};
+constexpr glm::dvec3 kRightwards{1, 0, 0};
 
 AdaptOptions balanced(BalanceMode balance) {
   AdaptOptions options;
@@ -68,15 +63,15 @@ PictureScene draw_root_share() {
   PictureScene scene("root-share", kSide);
   const Character actor = make_actor();
   Pose reference = standing(actor, 24);
-  turn(reference, actor, B::kRightLowerLeg, 30, kX);
-  turn(reference, actor, B::kRightUpperLeg, -75, kX);
-  turn(reference, actor, B::kRightFoot, 25, kX);
-  turn(reference, actor, B::kSpine, -10, kX);
+  turn(reference, actor, B::kRightLowerLeg, 30, kRightwards);
+  turn(reference, actor, B::kRightUpperLeg, -75, kRightwards);
+  turn(reference, actor, B::kRightFoot, 25, kRightwards);
+  turn(reference, actor, B::kSpine, -10, kRightwards);
   for (const auto& [elbow, shoulder, side] :
        {std::tuple{B::kLeftLowerArm, B::kLeftUpperArm, -1.0},
         std::tuple{B::kRightLowerArm, B::kRightUpperArm, 1.0}}) {
     turn(reference, actor, elbow, side * 70, {0, 1, 0});
-    turn(reference, actor, shoulder, -20, kX);
+    turn(reference, actor, shoulder, -20, kRightwards);
   }
   const glm::dvec3 target_in_world =
       place_of(actor, reference, B::kRightFoot) + glm::dvec3(0.05, 0.50, 0.40);

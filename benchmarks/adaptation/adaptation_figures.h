@@ -3,10 +3,17 @@
 #pragma once
 
 #include "benchmarks/adaptation/picture_scene.h"
+#include <glm/vec3.hpp>
 
 /// The figures of docs/adaptation.md, after figures of Kulpa 2005. Each function prints
 /// the errors of its postures.
 namespace marey {
+
+inline constexpr double kTarget_m = 0.045;  ///< Radius of the balls.
+/// Where the label of a figure that stands at Z = 0 is, from a figure's place.
+inline constexpr glm::dvec3 kLabel{0, -0.10, 0.1};
+/// View from the right side: a person facing +Z looks to the right of the picture.
+inline constexpr PictureView kSide{-78.0, 7.0};
 
 [[nodiscard]] PictureScene draw_control();      ///< Figure 3.7: priority and blend.
 [[nodiscard]] PictureScene draw_root_share();   ///< 4.11: how far the root goes along.

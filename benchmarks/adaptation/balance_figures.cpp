@@ -14,10 +14,6 @@ using retarget::AdaptOptions;
 using retarget::BalanceMode;
 using retarget::Method;
 
-constexpr double kTarget_m = 0.045;  // Radius of the balls.
-constexpr glm::dvec3 kLabel{0, -0.10, 0.1};
-constexpr PictureView kSide{-78.0, 7.0};
-
 /// Groups of the body that move for balance.
 enum class Who { kNobody, kGroups, kRoot, kAll };
 

@@ -39,7 +39,7 @@ namespace marey {
 namespace {
 
 /// A foot stands when its ankle is at most this much above the lowest of the clip.
-constexpr double kLow_m = 0.05;
+constexpr double kLowAnkle_m = 0.05;
 /// Targets lie between these shares of the arm's length from the shoulder.
 constexpr double kNearest = 0.45;
 constexpr double kFurthest = 0.94;
@@ -96,7 +96,7 @@ Stances find_stances(const CapturedClip& clip, std::size_t most) {
     const std::size_t frame = (2 * n + 1) * clip.poses.size() / (2 * most);
     std::vector<JointIndex> standing;
     for (std::size_t side = 0; side < 2; ++side) {
-      if (heights_m[frame][side] < lowest_m[side] + kLow_m) {
+      if (heights_m[frame][side] < lowest_m[side] + kLowAnkle_m) {
         standing.push_back(ends[side]);
       }
     }
