@@ -30,6 +30,7 @@
 #include "app/shell/program_name.h"
 #include "app/shell/sample_session.h"
 #include "app/shell/stop_signal.h"
+#include "app/shell/usage_error.h"
 #include "app/shell/version.h"
 #include "app/view/view_commands.h"
 
@@ -99,8 +100,12 @@ int run(int argc, char** argv) {
   refuse_absurd_numbers(app);
   try {
     app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(Exit::kUsage);
+    Console(ProgressStyle::kAuto, name_of(app, argv[0]))
+        .fail(usage_error(app, error, {argv, static_cast<std::size_t>(argc)}));
+    return static_cast<int>(Exit::kUsage);
   }
   Console console(args.style_of_progress(), name_of(app, argv[0]));
   const Exit exit = chosen(console);

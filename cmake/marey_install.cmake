@@ -14,10 +14,13 @@ function(marey_install_module target)
     FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/marey)
 endfunction()
 
-# marey_install_program(): the program, and the sample session of `marey demo`, which the
-# program finds by its own path (app/shell/sample_session.h).
+# marey_install_program(): the program, the pages that its messages name, and the sample
+# session of `marey demo`, which the program finds by its own path
+# (app/shell/sample_session.h).
 function(marey_install_program)
   install(TARGETS marey RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
+    FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg")
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/recordings/samples/first-light
     DESTINATION ${MAREY_SAMPLE_DIR})
 endfunction()

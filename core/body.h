@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/ids.h"
+#include "core/finding.h"
 #include "core/humanoid.h"
 #include "core/skeleton.h"
 #include "core/transform.h"
@@ -53,12 +54,6 @@ struct HingeShape {
   double rollback_m = 0.0;
 };
 
-/// A reason why a measured body may be wrong, with text for its user.
-struct BodyWarning {
-  std::string cause;
-  std::string next;  ///< The next step for the user.
-};
-
 /// One person: lengths, joint centres and places of tags and markers, each with its
 /// uncertainty.
 struct Body {
@@ -72,7 +67,9 @@ struct Body {
   std::array<double, kHumanBoneCount> joint_centre_sigma_m{};
   std::vector<PlacedTag> tags;
   std::vector<PlacedMarker> markers;  ///< Labels all different.
-  std::vector<BodyWarning> warnings;  ///< Empty if no problem was found.
+  /// Reasons why a measured body may be wrong. Their severity is kFair; only cause and
+  /// next are kept in files.
+  std::vector<Finding> warnings;
 };
 
 }  // namespace marey

@@ -4,9 +4,12 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <glm/vec3.hpp>
+
+#include "core/base/in_quotes.h"
 
 namespace marey {
 
@@ -48,6 +51,11 @@ inline constexpr int kHumanBoneCount = 22;
 
 /// Returns VRM's name: "leftUpperArm".
 [[nodiscard]] std::string_view name(HumanBone bone);
+
+/// Returns the bone's name in quotation marks, for a message.
+[[nodiscard]] inline std::string in_quotes(HumanBone bone) {
+  return in_quotes(name(bone));
+}
 
 /// Returns the bone with VRM's name `vrm_name` (case-sensitive), if marey has it.
 [[nodiscard]] std::optional<HumanBone> human_bone(std::string_view vrm_name);

@@ -4,7 +4,8 @@
 # cmake -D ROOT=<source tree> -P docs.cmake
 #
 # Fails when README.md, a page of docs/ or a note beside samples and test data links to, or
-# names, a file of the tree that is not there. Also when there was nothing to check.
+# names, a file of the tree that is not there; when a source names a page that is not there;
+# when the index "Where is" has fewer than 30 rows. Also when there was nothing to check.
 cmake_minimum_required(VERSION 3.25)
 
 set(checked 0)
@@ -19,7 +20,7 @@ endmacro()
 
 # Longer endings first: the first that fits is taken.
 set(rooms "core|capture|calib|reconstruct|retarget|recordings|live|dynamics|edit|engine|library|app")
-set(endings "html|hpp|h|cpp|cmake|css|json|js|mjs|py|toml|txt|md")
+set(endings "html|hpp|h|cpp|cmake|css|json|js|mjs|py|sh|toml|ts|txt|md")
 
 file(GLOB pages ${ROOT}/*.md)
 file(GLOB_RECURSE docs ${ROOT}/docs/*.md)
@@ -47,6 +48,40 @@ foreach(page ${pages} ${notes})
     want(${ROOT}/${source} ${page})
   endforeach()
 endforeach()
+
+# Pages that comments and messages name.
+foreach(room core capture calib reconstruct retarget recordings live dynamics edit engine library app)
+  file(GLOB_RECURSE sources ${ROOT}/${room}/*.h ${ROOT}/${room}/*.cpp)
+  foreach(source ${sources})
+    file(STRINGS ${source} lines REGEX "\\.md\"|docs/")
+    string(REGEX MATCHALL "docs/[a-z_/]+\\.md" named "${lines}")
+    # The page of a TOML file is an argument of its parser.
+    string(REGEX MATCHALL "parse_toml[^\"]+\"[a-z_]+\\.md" parsed "${lines}")
+    list(TRANSFORM parsed REPLACE "[^\"]+\"" "docs/formats/")
+    foreach(page ${named} ${parsed})
+      want(${ROOT}/${page} ${source})
+    endforeach()
+  endforeach()
+endforeach()
+
+# The index of behaviours.
+if(EXISTS ${ROOT}/docs/architecture.md)
+  file(READ ${ROOT}/docs/architecture.md text)
+  string(REGEX REPLACE "[][;]" " " text "${text}")
+  string(FIND "${text}" "\n## Where is" begin)
+  if(NOT begin EQUAL -1)
+    string(SUBSTRING "${text}" ${begin} -1 text)
+    string(REGEX REPLACE "^.## Where is" "" text "${text}")
+    string(REGEX REPLACE "\n## .*" "" text "${text}")
+  else()
+    set(text "")
+  endif()
+  string(REGEX MATCHALL "\n[|] [^\n]*/[^\n]*[|]" rows "${text}")
+  list(LENGTH rows count)
+  if(count LESS 30)
+    string(APPEND errors "docs/architecture.md: \"Where is\" has ${count} rows, fewer than 30\n")
+  endif()
+endif()
 
 if(errors OR checked EQUAL 0)
   message(FATAL_ERROR "${errors}names checked: ${checked}")

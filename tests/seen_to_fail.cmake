@@ -303,6 +303,14 @@ fault(a_page_that_names_a_lost_number docs docs/page.md
   "see capture/mp4_gone.h" "capture/mp4_gone.h is not there")
 fault(a_page_that_names_a_lost_script docs README.md
   "see app/report/gone.js" "app/report/gone.js is not there")
+fault(a_page_that_names_a_lost_shell_script docs README.md
+  "see tests/gone.sh" "tests/gone.sh is not there")
+fault(a_page_that_names_a_lost_module docs README.md
+  "see live/viewer/gone.ts" "live/viewer/gone.ts is not there")
+fault(a_message_that_names_a_lost_page docs core/point.cpp
+  "// docs/gone.md describes it." "docs/gone.md is not there")
+fault(an_index_of_few_behaviours docs docs/architecture.md
+  "\n## Where is ...\n\n| points | core/point.h |\n" "has 1 rows, fewer than 30")
 fault(a_note_that_names_a_lost_file docs recordings/samples/README.md
   "see recordings/gone.cpp" "recordings/gone.cpp is not there")
 string(REPEAT "// One line of many.\n" 400 many_lines)

@@ -41,7 +41,7 @@ struct AdaptRun {
   double adapt_s = 0.0;  ///< Wall-clock time of the adaptation alone.
 };
 
-/// Returns the report (docs/formats/README.md, "What marey adapt writes").
+/// Returns the report (docs/formats/adapt.md).
 [[nodiscard]] nlohmann::ordered_json adapt_json(const AdaptArguments& args,
                                                 const AdaptRun& run);
 

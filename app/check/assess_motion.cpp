@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "core/base/in_quotes.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
 #include "core/transform.h"
@@ -39,13 +40,6 @@ struct Leap {
     what = words();
   }
 };
-
-std::string in_quotes(HumanBone bone) {
-  std::string text(1, '"');
-  text += name(bone);
-  text += '"';
-  return text;
-}
 
 }  // namespace
 

@@ -48,7 +48,7 @@ std::optional<Error> for_others(const std::filesystem::path& file) {
   for (const auto& [extension, program] : kPrograms) {
     if (kind != extension) continue;
     return bad_input(file.string(),
-                     "holds pages, pictures or video, which marey inspect does not read",
+                     "holds pages, pictures or video, which inspect does not read",
                      "open it with " + std::string(program) +
                          "; inspect the folder that it is in for its figures");
   }

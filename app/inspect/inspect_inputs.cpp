@@ -210,7 +210,7 @@ Result<Json> inspect_subject(const fs::path& file) {
   const auto body = recordings::read_subject(file);
   if (!body) return body.error();
   Json doubts = Json::array();
-  for (const BodyWarning& warning : body->warnings) doubts.push_back(warning.cause);
+  for (const Finding& warning : body->warnings) doubts.push_back(warning.cause);
   return Json{{"kind", "subject"},
               {"name", body->name},
               {"stature_m", body->stature_m},

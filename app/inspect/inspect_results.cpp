@@ -248,8 +248,7 @@ Result<Json> inspect_folder(const fs::path& folder) {
   if (has_results) return inspect_results(folder);
   return bad_input(folder.string(),
                    "holds no session.toml, no results and no take",
-                   "give a session, a folder that marey process, fit or plan wrote, or a "
-                   "take");
+                   "give a session, a take, or the --out folder of process, fit or plan");
 }
 
 }  // namespace marey::app

@@ -37,7 +37,7 @@ Result<LiveOutputs> open_outputs(const LiveArguments& arguments,
   return outputs;
 }
 
-void tell(const LiveFigures& figures, Console& console) {
+void tell(const LiveStatistics& figures, Console& console) {
   char text[200];
   std::snprintf(
       text,

@@ -126,7 +126,7 @@ Status LivePage::make_scene(const OpenedLive& live, const Skeleton& performer) {
 void LivePage::watch(const Body& body) {
   worn_ = WornSegments(body);
   body_warnings_.clear();
-  for (const BodyWarning& warning : body.warnings) {
+  for (const Finding& warning : body.warnings) {
     body_warnings_.push_back("the measured body may be wrong: " + warning.cause +
                              ". Next: " + warning.next);
   }
@@ -282,7 +282,7 @@ void LivePage::on_thumbnail(std::size_t camera,
 }
 
 /// Adds notes to the user about changes of the state, newest last.
-void LivePage::note(TrackState state, const LiveFigures& figures) {
+void LivePage::note(TrackState state, const LiveStatistics& figures) {
   constexpr std::size_t kMax = 8;
   if (state_ != state) {
     if (state == TrackState::kTracked) notes_.emplace_back("the body is found");
@@ -299,7 +299,7 @@ void LivePage::note(TrackState state, const LiveFigures& figures) {
   if (notes_.size() > kMax) notes_.erase(notes_.begin());
 }
 
-void LivePage::on_status(const LiveFigures& figures,
+void LivePage::on_status(const LiveStatistics& figures,
                          const LiveTimes& recent,
                          TrackState state) {
   note(state, figures);

@@ -49,7 +49,7 @@ class LivePage final : public LiveWatcher {
                     int width_px,
                     int height_px,
                     std::span<const TagDetection> tags) override;
-  void on_status(const LiveFigures& figures,
+  void on_status(const LiveStatistics& figures,
                  const LiveTimes& recent,
                  reconstruct::TrackState state) override;
 
@@ -71,7 +71,7 @@ class LivePage final : public LiveWatcher {
   void pose_bodies(const LiveResult& result);
   void publish_handles(std::span<const HandleState> handles);
   void show_wizard();
-  void note(reconstruct::TrackState state, const LiveFigures& figures);
+  void note(reconstruct::TrackState state, const LiveStatistics& figures);
 
   PageServer page_;
   LiveGuide* guide_ = nullptr;

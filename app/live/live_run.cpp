@@ -137,12 +137,12 @@ class Counting {
     }
   }
 
-  [[nodiscard]] LiveFigures& figures() { return figures_; }
+  [[nodiscard]] LiveStatistics& figures() { return figures_; }
   [[nodiscard]] const LiveTimes& recent() const { return recent_; }
   void reset_recent() { recent_ = LiveTimes(recent_.detect.size()); }
 
  private:
-  LiveFigures figures_;
+  LiveStatistics figures_;
   LiveTimes recent_;
   LatencyHistogram minute_;
   Timestamp minute_begin_;
@@ -206,7 +206,7 @@ class Loop {
     tell(groups, cameras, true);
   }
 
-  [[nodiscard]] LiveFigures& figures() { return counting_.figures(); }
+  [[nodiscard]] LiveStatistics& figures() { return counting_.figures(); }
 
  private:
   void take(const capture::LiveGroup<capture::DetectedPicture>& group) {
@@ -299,7 +299,7 @@ class Loop {
   }
 
   void tell(const Groups& groups, const Cameras& cameras, bool is_end) {
-    LiveFigures& figures = counting_.figures();
+    LiveStatistics& figures = counting_.figures();
     counting_.look_at(cameras, groups);
     warn_of_videos();
     figures.outputs = outputs_.counts();
@@ -350,15 +350,15 @@ capture::GroupFramesOptions grouping(const OpenedLive& live,
 
 }  // namespace
 
-Result<LiveFigures> run_live(OpenedLive& live,
-                             std::optional<LiveChain>& chain,
-                             LiveOutputs& outputs,
-                             LiveGuide* guide,
-                             LiveTakes* takes,
-                             LiveWatcher* watcher,
-                             const LiveRunOptions& options,
-                             const std::function<bool()>& stop,
-                             Console& console) {
+Result<LiveStatistics> run_live(OpenedLive& live,
+                                std::optional<LiveChain>& chain,
+                                LiveOutputs& outputs,
+                                LiveGuide* guide,
+                                LiveTakes* takes,
+                                LiveWatcher* watcher,
+                                const LiveRunOptions& options,
+                                const std::function<bool()>& stop,
+                                Console& console) {
   auto cameras = make_cameras(live, options);
   if (!cameras) return cameras.error();
   std::vector<capture::FrameFeed*> feeds;

@@ -10,8 +10,8 @@
 #include "app/live/live_session.h"
 #include "app/live/live_takes.h"
 #include "app/live_chain/live_chain.h"
-#include "app/live_chain/live_figures.h"
 #include "app/live_chain/live_outputs.h"
+#include "app/live_chain/live_statistics.h"
 #include "app/shell/console.h"
 #include "capture/sync/group_frames.h"
 
@@ -39,7 +39,7 @@ class LiveWatcher {
                             int height_px,
                             std::span<const TagDetection> tags) = 0;
   /// Receives the figures twice a second and at the end of the run.
-  virtual void on_status(const LiveFigures& figures,
+  virtual void on_status(const LiveStatistics& figures,
                          const LiveTimes& recent,
                          reconstruct::TrackState state) = 0;
 };
@@ -60,14 +60,14 @@ struct LiveRunOptions {
 /// until the guide provides a body. `guide`, `takes` and `watcher` may be null; `guide`
 /// and `takes` must belong to `live`.
 /// Errors: those of the detectors.
-[[nodiscard]] Result<LiveFigures> run_live(OpenedLive& live,
-                                           std::optional<LiveChain>& chain,
-                                           LiveOutputs& outputs,
-                                           LiveGuide* guide,
-                                           LiveTakes* takes,
-                                           LiveWatcher* watcher,
-                                           const LiveRunOptions& options,
-                                           const std::function<bool()>& stop,
-                                           Console& console);
+[[nodiscard]] Result<LiveStatistics> run_live(OpenedLive& live,
+                                              std::optional<LiveChain>& chain,
+                                              LiveOutputs& outputs,
+                                              LiveGuide* guide,
+                                              LiveTakes* takes,
+                                              LiveWatcher* watcher,
+                                              const LiveRunOptions& options,
+                                              const std::function<bool()>& stop,
+                                              Console& console);
 
 }  // namespace marey::app

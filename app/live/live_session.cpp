@@ -212,7 +212,7 @@ Status find_body(const Session& session,
   if (arguments.calibrate && session.tags.empty()) {
     return bad_input(session.file.string(),
                      "it names no subject to be measured, or no tags on the body",
-                     "add [subject] and [[tags.tag]], see docs/formats/README.md");
+                     "add [subject] and [[tags.tag]], see docs/formats/session.md");
   }
   const Status there = need_file(out.subject_file, "subject");
   if (!there && arguments.calibrate) return Done{};
@@ -223,7 +223,7 @@ Status find_body(const Session& session,
   }
   auto body = recordings::read_subject(out.subject_file);
   if (!body) return body.error();
-  for (const BodyWarning& warning : body->warnings) {
+  for (const Finding& warning : body->warnings) {
     console.warn(out.subject_file.string() + ": " + warning.cause +
                  ". Next: " + warning.next);
   }

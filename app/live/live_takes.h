@@ -12,7 +12,7 @@
 #include "app/live/live_recorder.h"
 #include "app/live/live_session.h"
 #include "app/live_chain/live_chain.h"
-#include "app/live_chain/live_figures.h"
+#include "app/live_chain/live_statistics.h"
 #include "app/shell/console.h"
 
 namespace marey::app {
@@ -72,7 +72,7 @@ class LiveTakes {
   struct Take {
     std::filesystem::path folder{};
     std::unique_ptr<LiveRecorder> recorder{};
-    std::optional<LiveChain> next{};  ///< Not yet the chain of the run.
+    std::optional<LiveChain> next{};   ///< Not yet the chain of the run.
     std::optional<Timestamp> begin{};  ///< Start of the part to replay.
     std::optional<Error> trouble{};
     bool is_reported = false;  ///< The trouble was reported.
@@ -97,7 +97,7 @@ class LiveTakes {
   bool is_opening_void_ = false;  ///< The take being opened is of an earlier body.
   std::future<Take> closing_;
   std::optional<Take> take_;
-  bool is_new_ = false;                   ///< Its chain has received no instant.
+  bool is_new_ = false;                     ///< Its chain has received no instant.
   std::optional<Timestamp> tracked_since_;  ///< In the chain of the take.
   Timestamp now_{0};
   KeptPeriods periods_;

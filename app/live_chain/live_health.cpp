@@ -65,7 +65,7 @@ std::vector<std::string> WornSegments::unseen(
 }
 
 void add_subject_status(reconstruct::TrackState state,
-                        const LiveFigures& figures,
+                        const LiveStatistics& figures,
                         const std::vector<std::string>& unseen,
                         live::PageStatus& status) {
   using State = reconstruct::TrackState;

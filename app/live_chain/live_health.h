@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/live_chain/live_figures.h"
+#include "app/live_chain/live_statistics.h"
 #include "core/body.h"
 #include "core/live_instant.h"
 #include "core/motion.h"
@@ -46,7 +46,7 @@ class WornSegments {
 /// camera is streaming and `unseen` is empty; otherwise PageStatus::warnings names the
 /// cameras and segments. Precondition: `status` has its cameras.
 void add_subject_status(reconstruct::TrackState state,
-                        const LiveFigures& figures,
+                        const LiveStatistics& figures,
                         const std::vector<std::string>& unseen,
                         live::PageStatus& status);
 

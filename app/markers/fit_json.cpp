@@ -58,7 +58,7 @@ Json label_json(const FitRun& run, std::size_t i) {
 
 Json finding_json(const FitRun& run) {
   Json findings = Json::array();
-  const auto add = [&](const reconstruct::LabelFinding& one) {
+  const auto add = [&](const reconstruct::FaultyLabel& one) {
     const auto trial = [&](const std::optional<std::size_t>& at) {
       return at ? Json(run.trials[*at].name) : Json();
     };

@@ -77,11 +77,10 @@ std::optional<double> places_off(const reconstruct::MarkersFit& fit,
 }
 
 Error exchanged_error() {
-  return bad_input(
-      "",
-      "left and right seem exchanged: no body fits these markers with their "
-      "labels, and one does with left and right exchanged",
-      "correct left and right, in the recording or with --markers MAP.toml");
+  return bad_input("",
+                   "left and right seem exchanged: no body fits these markers with their "
+                   "labels, and one does with left and right exchanged",
+                   "correct left and right, in the recording or with --markers MAP.toml");
 }
 
 /// Ignores prefixes that the labels of the map have in common with those of the files.
@@ -140,11 +139,10 @@ Result<FitLabels> name_labels(std::span<const MarkerTracks> trials,
   if (std::any_of(landmarks.begin(), landmarks.end(), [](const auto* l) { return l; })) {
     return out;
   }
-  return bad_input(
-      "",
-      "no label is known: " + some_of(out.labels),
-      "give their meaning with --markers MAP.toml (docs/formats/README.md, \"Marker "
-      "names\")");
+  return bad_input("",
+                   "no label is known: " + some_of(out.labels),
+                   "give their meaning with --markers MAP.toml (docs/formats/markers.md, "
+                   "\"Marker map\")");
 }
 
 Result<SubjectFit> fit_subject_to(const reconstruct::MarkerSubject& subject,

@@ -7,11 +7,13 @@
 #include <cstdio>
 #include <string>
 
+#include "core/base/in_quotes.h"
+
 namespace marey::app {
 namespace {
 
+using reconstruct::FaultyLabel;
 using reconstruct::LabelFault;
-using reconstruct::LabelFinding;
 
 // Markers are placed again between trials, and skin moves: below this limit the effect on
 // the joints is a few millimetres. [m]
@@ -28,14 +30,10 @@ std::string in_mm(double length_m) {
   return text.data();
 }
 
-std::string quoted(const std::string& label) {
-  return "\"" + label + "\"";
-}
-
 std::string listed_labels(std::span<const std::string> labels) {
   std::string text;
   for (std::size_t i = 0; i < std::min(kMaxShownLabels, labels.size()); ++i) {
-    text += (i > 0 ? ", " : "") + quoted(labels[i]);
+    text += (i > 0 ? ", " : "") + in_quotes(labels[i]);
   }
   if (labels.size() <= kMaxShownLabels) return text;
   return text + " and " + std::to_string(labels.size() - kMaxShownLabels) + " more";
@@ -45,16 +43,16 @@ std::string all_trials(std::span<const MarkerTrial> trials) {
   return trials.size() == 1 ? trials[0].path.string() : "";
 }
 
-Finding exchanged_in_trial(const LabelFinding& finding,
+Finding exchanged_in_trial(const FaultyLabel& finding,
                            std::span<const MarkerTrial> trials) {
   const MarkerTrial& trial = trials[*finding.trial];
-  std::string cause = "markers " + quoted(finding.label) + " and " +
-                      quoted(finding.other) + " look exchanged: they are " +
+  std::string cause = "markers " + in_quotes(finding.label) + " and " +
+                      in_quotes(finding.other) + " look exchanged: they are " +
                       in_mm(finding.off_m) + " from their places in the other trials, " +
                       in_mm(finding.exchanged_m) + " when exchanged";
   std::string next = "exchange the two labels in this file";
   if (finding.or_trial) {
-    cause = "markers " + quoted(finding.label) + " and " + quoted(finding.other) +
+    cause = "markers " + in_quotes(finding.label) + " and " + in_quotes(finding.other) +
             " look exchanged here or in " + trials[*finding.or_trial].path.string() +
             ": " + in_mm(finding.off_m) + " apart, " + in_mm(finding.exchanged_m) +
             " when exchanged";
@@ -78,25 +76,25 @@ Finding exchanged_in_all(const reconstruct::LabelExchange& exchange,
   return {Severity::kPoor,
           "exchanged",
           all_trials(trials),
-          "markers " + quoted(a) + " and " + quoted(b) +
+          "markers " + in_quotes(a) + " and " + in_quotes(b) +
               " look exchanged in all trials: the body explains the markers far "
               "better so",
           "exchange the two labels, in the recording or with --markers MAP.toml"};
 }
 
 /// Returns the labels of all findings of one kind, for one message.
-std::vector<std::string> labels_with(std::span<const LabelFinding> findings,
+std::vector<std::string> labels_with(std::span<const FaultyLabel> findings,
                                      LabelFault fault) {
   std::vector<std::string> labels;
-  for (const LabelFinding& finding : findings) {
+  for (const FaultyLabel& finding : findings) {
     if (finding.fault == fault) labels.push_back(finding.label);
   }
   return labels;
 }
 
-double farthest_m(std::span<const LabelFinding> findings, LabelFault fault) {
+double farthest_m(std::span<const FaultyLabel> findings, LabelFault fault) {
   double off_m = 0.0;
-  for (const LabelFinding& finding : findings) {
+  for (const FaultyLabel& finding : findings) {
     if (finding.fault == fault) off_m = std::max(off_m, finding.off_m);
   }
   return off_m;
@@ -161,13 +159,13 @@ LabelChecks find_label_faults(const Body& body,
   const std::size_t max_samples =
       *std::max_element(labels.samples.begin(), labels.samples.end());
   const std::size_t needed = std::max<std::size_t>(kMinSamples, max_samples / 20);
-  std::erase_if(checks.of_fit, [&](const LabelFinding& finding) {
+  std::erase_if(checks.of_fit, [&](const FaultyLabel& finding) {
     const auto at = std::find(labels.labels.begin(), labels.labels.end(), finding.label);
     return at != labels.labels.end() &&
            labels.samples[static_cast<std::size_t>(at - labels.labels.begin())] < needed;
   });
   const bool is_explained = std::any_of(
-      checks.of_trials.begin(), checks.of_trials.end(), [](const LabelFinding& finding) {
+      checks.of_trials.begin(), checks.of_trials.end(), [](const FaultyLabel& finding) {
         return finding.fault == LabelFault::kExchanged;
       });
   if (is_explained || subject->mirrored_places_off) return checks;
@@ -180,7 +178,7 @@ LabelChecks find_label_faults(const Body& body,
 std::vector<Finding> assess_labels(const LabelChecks& checks,
                                    std::span<const MarkerTrial> trials) {
   std::vector<Finding> poor;
-  for (const LabelFinding& finding : checks.of_trials) {
+  for (const FaultyLabel& finding : checks.of_trials) {
     if (finding.fault == LabelFault::kExchanged) {
       poor.push_back(exchanged_in_trial(finding, trials));
     }
@@ -192,7 +190,7 @@ std::vector<Finding> assess_labels(const LabelChecks& checks,
   for (std::size_t t = 0; t < trials.size(); ++t) {
     std::vector<std::string> labels;
     double off_m = 0.0;
-    for (const LabelFinding& finding : checks.of_trials) {
+    for (const FaultyLabel& finding : checks.of_trials) {
       if (finding.trial != t || finding.off_m < kFarElsewhere_m) continue;
       labels.push_back(finding.label);
       off_m = std::max(off_m, finding.off_m);

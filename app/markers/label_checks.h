@@ -16,8 +16,8 @@ namespace marey::app {
 
 /// Findings on the labels of a fit and of its trials.
 struct LabelChecks {
-  std::vector<reconstruct::LabelFinding> of_fit;
-  std::vector<reconstruct::LabelFinding> of_trials;
+  std::vector<reconstruct::FaultyLabel> of_fit;
+  std::vector<reconstruct::FaultyLabel> of_trials;
   std::optional<reconstruct::LabelExchange> exchange;
 };
 

@@ -14,7 +14,7 @@ namespace marey::app {
 /// Returns the positions of markers around the most important repairs, before and after:
 /// in turn the longest fill, the fill of the largest sigma, and the wrong samples that
 /// were furthest off, one of each marker, at most `max_count` in all.
-/// docs/formats/README.md, "The pages of labelled markers". Each curve has at most a few
+/// docs/formats/marker_pages.md. Each curve has at most a few
 /// hundred instants.
 [[nodiscard]] nlohmann::ordered_json repair_curves(const Repair& repair,
                                                    const MarkerHistory& history,

@@ -15,10 +15,10 @@ namespace marey::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using reconstruct::FaultySamples;
 using reconstruct::GapRepair;
 using reconstruct::RepairMethod;
 using reconstruct::TrackFault;
-using reconstruct::TrackFinding;
 
 // Maximum number of companion markers named for a gap.
 constexpr std::size_t kMaxCarriers = 4;
@@ -39,7 +39,7 @@ SampleFate fate_of(RepairMethod method) {
 
 void mark_findings(const Repair& repair, MarkerHistory& history) {
   const std::size_t markers = history.after.markers();
-  for (const TrackFinding& finding : repair.checked.findings) {
+  for (const FaultySamples& finding : repair.checked.findings) {
     const bool is_swap = finding.fault == TrackFault::kSwapped;
     for (std::size_t f = finding.first; f < finding.first + finding.frames; ++f) {
       const std::size_t at = f * markers + finding.marker;
@@ -125,7 +125,7 @@ Json marker_timeline(const Repair& repair,
     runs.push_back(run_json(repair, history, marker, run));
   }
   Json faults = Json::array();
-  for (const TrackFinding& finding : repair.checked.findings) {
+  for (const FaultySamples& finding : repair.checked.findings) {
     const bool is_other = finding.other == marker;
     if (finding.marker != marker && !is_other) continue;
     Json fault{finding.first,

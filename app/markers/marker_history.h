@@ -50,8 +50,7 @@ struct MarkerHistory {
 [[nodiscard]] MarkerHistory history_of(const Repair& repair, MarkerTracks after);
 
 /// Returns for each marker its label, the number of samples of each fate, and every run
-/// of samples that differ from the samples read; docs/formats/README.md, "The pages
-/// of labelled markers".
+/// of samples that differ from the samples read; docs/formats/marker_pages.md.
 [[nodiscard]] nlohmann::ordered_json timeline_json(const Repair& repair,
                                                    const MarkerHistory& history);
 

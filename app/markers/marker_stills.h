@@ -12,7 +12,7 @@ namespace marey::app {
 
 /// Returns the skeleton and the markers at five instants spread over the frames with
 /// markers, and in the frame where the markers are furthest from the body;
-/// docs/formats/README.md, "The pages of labelled markers". Precondition: `solved` is of
+/// docs/formats/marker_pages.md. Precondition: `solved` is of
 /// this body and these markers.
 [[nodiscard]] nlohmann::ordered_json marker_stills(
     const Body& body,

@@ -16,9 +16,9 @@ namespace marey::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using reconstruct::FaultySamples;
 using reconstruct::GapRepair;
 using reconstruct::RepairMethod;
-using reconstruct::TrackFinding;
 
 int frame_number(const MarkerTracks& tracks, std::size_t frame) {
   return tracks.first_frame + static_cast<int>(frame);
@@ -39,7 +39,7 @@ Json gap_json(const MarkerTracks& tracks, const GapRepair& gap) {
       {"worst_sigma_mm", filled ? Json(rounded(1e3 * gap.worst_sigma_m, 2)) : Json()}};
 }
 
-Json finding_json(const MarkerTracks& tracks, const TrackFinding& finding) {
+Json finding_json(const MarkerTracks& tracks, const FaultySamples& finding) {
   return {{"fault", name(finding.fault)},
           {"marker", tracks.labels[finding.marker]},
           {"with", finding.other ? Json(tracks.labels[*finding.other]) : Json()},
@@ -53,7 +53,7 @@ Json finding_json(const MarkerTracks& tracks, const TrackFinding& finding) {
 Json repair_json(const Repair& repair) {
   const MarkerTracks& tracks = repair.repaired.tracks;
   Json faults = Json::array();
-  for (const TrackFinding& finding : repair.checked.findings) {
+  for (const FaultySamples& finding : repair.checked.findings) {
     faults.push_back(finding_json(tracks, finding));
   }
   Json gaps = Json::array();
@@ -81,7 +81,7 @@ std::string repair_table(const Repair& repair) {
   const MarkerTracks& tracks = repair.repaired.tracks;
   const std::size_t markers = tracks.markers();
   std::vector<std::string_view> words(tracks.samples.size());
-  for (const TrackFinding& finding : repair.checked.findings) {
+  for (const FaultySamples& finding : repair.checked.findings) {
     for (std::size_t f = finding.first; f < finding.first + finding.frames; ++f) {
       words[f * markers + finding.marker] = name(finding.fault);
       if (finding.other) words[f * markers + *finding.other] = name(finding.fault);

@@ -86,8 +86,8 @@ Result<ViewedRecording> folder_view(const fs::path& folder, const std::string& w
     if (fs::exists(cameras, ignored) && wanted.empty()) return camera_view(cameras);
     return bad_input(folder.string(),
                      "holds no results: no trial in it has a segments.csv",
-                     "run: " + shell_command({"marey", "process", folder.string()}) +
-                         " --out DIR; marey view DIR");
+                     "give the --out folder of process, fit or plan; marey demo makes "
+                     "results to look at");
   }
   std::string others;
   for (const std::string& name : trials) others += " " + name;
@@ -107,7 +107,7 @@ Result<ViewedRecording> folder_view(const fs::path& folder, const std::string& w
 Result<ViewedRecording> any_view(const fs::path& what, const std::string& trial) {
   std::error_code ignored;
   if (!fs::exists(what, ignored)) {
-    return bad_input(what.string(), "is not there", "check the path");
+    return bad_input(what.string(), "does not exist", "check the path");
   }
   if (is_live_take(what)) return read_live_take_view(what);
   if (fs::is_directory(what, ignored)) return folder_view(what, trial);

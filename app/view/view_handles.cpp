@@ -130,7 +130,8 @@ std::vector<live::PageConstraint> ViewHandles::constraints() const {
     shown.draggable = place_of(constraint) != nullptr;
     const auto wanted = wanted_in_world(constraint.goal);
     shown.p_in_world = wanted.value_or(glm::dvec3(0.0));
-    if (!wanted) shown.joint = retarget::carried_point(character_, constraint.point).joint;
+    if (!wanted)
+      shown.joint = retarget::carried_point(character_, constraint.point).joint;
   }
   for (const BodyHandle& handle : handles_) {
     live::PageConstraint& shown = out.emplace_back();
@@ -154,7 +155,7 @@ Status ViewHandles::drag(live::ClientId client, const live::DragRequest& drag) {
   if (!is_draggable(drag.id)) return refused("there is no handle \"" + drag.id + "\"");
   const int frame = drag.frame.value_or(-1) - motion_.first_frame;
   if (!drag.frame || frame < 0 || frame >= static_cast<int>(motion_.poses.size())) {
-    return refused("the figure is not there in that frame");
+    return refused("this frame has no figure");
   }
   const auto known = std::ranges::find(pages_, client, &Page::client);
   if (known == pages_.end()) {
@@ -177,9 +178,8 @@ Status ViewHandles::drag(live::ClientId client, const live::DragRequest& drag) {
 
 bool ViewHandles::release(live::ClientId client, const std::string& id) {
   const auto page = std::ranges::find(pages_, client, &Page::client);
-  return page != pages_.end() && std::erase_if(page->held, [&id](const Held& held) {
-           return held.id == id;
-         }) > 0;
+  return page != pages_.end() &&
+         std::erase_if(page->held, [&id](const Held& held) { return held.id == id; }) > 0;
 }
 
 /// Returns the constraints of the page's frame. Dragged handles have full weight, without

@@ -42,10 +42,10 @@ JointPlaces places_of(const Skeleton& skeleton) {
 /// Returns the uncertainty at a row's frame and joint, or nullptr if the motion lacks
 /// them.
 JointUncertainty* find(int frame,
-                 const std::string& joint,
-                 const JointPlaces& places,
-                 int first_frame,
-                 std::vector<std::vector<JointUncertainty>>& uncertainty) {
+                       const std::string& joint,
+                       const JointPlaces& places,
+                       int first_frame,
+                       std::vector<std::vector<JointUncertainty>>& uncertainty) {
   const auto place = places.find(joint);
   const int i = frame - first_frame;
   if (place == places.end() || i < 0 || i >= static_cast<int>(uncertainty.size())) {
@@ -106,7 +106,7 @@ void add_residual(const Json& report, ViewedRecording& out) {
 
 /// Adds the graph of the joints' uncertainty over time.
 void add_uncertainty_graph(const ViewedFigure& figure, ViewedRecording& out) {
-  live::PageGraph graph{"joint doubt", "mm", {}};
+  live::PageGraph graph{"joint uncertainty", "mm", {}};
   for (const auto& frame : figure.uncertainty) {
     double sum_mm2 = 0.0;
     for (const JointUncertainty& joint : frame)

@@ -24,12 +24,12 @@ struct Scene {
   Skeleton body = testing::with_random_axes(testing::random_humanoid(dice), dice);
   VmcBody vmc = *VmcBody::make(body);
   std::vector<Pose> poses;
-  VmcPose told;
+  VmcPose pose;
   int frame = 0;
 
   Scene() {
     for (int k = 0; k < 64; ++k) poses.push_back(testing::random_pose(body, dice));
-    vmc.to_vmc(poses[0], told);
+    vmc.to_vmc(poses[0], pose);
   }
   const Pose& next_pose() {
     return poses[static_cast<std::size_t>(++frame) % poses.size()];
@@ -46,11 +46,11 @@ void count_since(long before, benchmark::State& state) {
 void tell_and_encode(benchmark::State& state) {
   Scene s;
   VmcEncoder encoder = *VmcEncoder::make();
-  (void)encoder.encode(s.time(), s.told);
+  (void)encoder.encode(s.time(), s.pose);
   const long before = testing::allocations();
   for (auto _ : state) {
-    s.vmc.to_vmc(s.next_pose(), s.told);
-    benchmark::DoNotOptimize(encoder.encode(s.time(), s.told).data());
+    s.vmc.to_vmc(s.next_pose(), s.pose);
+    benchmark::DoNotOptimize(encoder.encode(s.time(), s.pose).data());
   }
   count_since(before, state);
 }
@@ -64,12 +64,12 @@ void send_and_receive(benchmark::State& state) {
                                   .listen = UdpAddress{"127.0.0.1", 0}});
   VmcFrame heard;
   Pose shown = s.poses[0];
-  sender.send(s.time(), s.told);
+  sender.send(s.time(), s.pose);
   (void)receiver.receive(heard);
   const long before = testing::allocations();
   for (auto _ : state) {
-    s.vmc.to_vmc(s.next_pose(), s.told);
-    sender.send(s.time(), s.told);
+    s.vmc.to_vmc(s.next_pose(), s.pose);
+    sender.send(s.time(), s.pose);
     if (!receiver.receive(heard)) continue;
     s.vmc.from_vmc(heard.pose, shown);
     benchmark::DoNotOptimize(shown.parent_from_joint.data());

@@ -37,8 +37,8 @@ void print(const CampaignResult& r) {
   }
   const BodyFigures& j = *r.judged;
   std::printf(
-      "%-22s %-30s skin %7.1f mm (told %7.1f, source %5.1f) at %4d %-18s trunk %5.1f "
-      "segment %5.1f/%5.1f %-14s feet %5.1f (told %5.1f) at %4d heading %6.1f speed "
+      "%-22s %-30s skin %7.1f mm (reported %7.1f, source %5.1f) at %4d %-18s trunk %5.1f "
+      "segment %5.1f/%5.1f %-14s feet %5.1f (reported %5.1f) at %4d heading %6.1f speed "
       "%5.1f/%5.1f%s%s\n",
       r.body.c_str(),
       r.clip.c_str(),

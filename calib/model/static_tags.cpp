@@ -63,18 +63,18 @@ void add_static_tags(std::span<const CameraDetections> waved,
       found[id].push_back(sighting);
     }
   }
-  RigidTarget scenery;
-  scenery.stays = true;
+  RigidTarget background;
+  background.stays = true;
   for (auto& [id, views] : found) {
     if (views.size() < 2) continue;
     for (Sighting& sighting : views) {
       sighting.target = model.targets.size();
-      sighting.piece = scenery.pieces.size();
+      sighting.piece = background.pieces.size();
       model.sightings.push_back(sighting);
     }
-    scenery.pieces.push_back({id, {}, 1.0, false, false});
+    background.pieces.push_back({id, {}, 1.0, false, false});
   }
-  if (!scenery.pieces.empty()) model.targets.push_back(std::move(scenery));
+  if (!background.pieces.empty()) model.targets.push_back(std::move(background));
 }
 
 }  // namespace marey::calib

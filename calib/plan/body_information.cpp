@@ -22,7 +22,7 @@ struct ViewRows {
 std::optional<ViewRows> rows_of(const Camera& camera,
                                 const PlacedTag& tag,
                                 const BodyPlace& place,
-                                const BodyMotion& motion,
+                                const PostureJacobian& motion,
                                 double sigma_px) {
   const std::size_t bone = index(tag.tag.segment);
   const RigidTransform& world_from_bone = place[bone];
@@ -76,7 +76,7 @@ std::vector<BodyView> views_of(std::span<const Camera> cameras,
 FrameInformation information_of(std::span<const Camera> cameras,
                                 const PlannedBody& body,
                                 const BodyPlace& place,
-                                const BodyMotion& motion,
+                                const PostureJacobian& motion,
                                 std::span<const BodyView> views,
                                 const CornerSigma& corner_sigma,
                                 const SharedColumns& columns,

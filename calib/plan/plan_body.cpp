@@ -43,7 +43,7 @@ std::vector<HumanBone> limb_joints() {
 /// Observability and occlusion of a body at one position.
 struct SeenBody {
   FrameInformation information;
-  BodyMotion motion;
+  PostureJacobian motion;
   std::vector<bool> measured;  ///< Per bone.
   int seen = 0;                ///< Number of tags.
   int seen_twice = 0;
@@ -156,7 +156,7 @@ class BodyPlanner {
   SeenBody see(const BodyPlace& place) const {
     SeenBody out;
     const auto views = views_of(cameras_, body_, place, options_.tags);
-    out.motion = motion_of(body_, place);
+    out.motion = posture_jacobian(body_, place);
     out.measured.assign(kHumanBoneCount, false);
     std::vector<int> cameras_of_tag(body_.tags.size(), 0);
     for (const BodyView& view : views) {

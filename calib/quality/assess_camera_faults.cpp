@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "calib/quality/calibration_limits.h"
+#include "core/base/degrees.h"
 #include "core/base/quantile.h"
 
 namespace marey::calib {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 // Lens errors of 0.1 to 0.3 px look like moves of that size if the board was first in one
 // part of the image and later in another.
 constexpr double kFairMovePx = 0.6;
@@ -53,16 +52,22 @@ bool others_are_loose(const CalibrationReport& report, const ApparentMove& move)
   return !shares.empty() && median(std::move(shares)) > kLooseShare;
 }
 
+/// Returns " or NAME" for each other camera that may be the one that was moved.
+std::string alternative_names(const CalibrationReport& report, const ApparentMove& move) {
+  std::string names;
+  for (const CameraId other : move.alternatives) {
+    names += " or " + report.rig.cameras[index(other)].name;
+  }
+  return names;
+}
+
 void assess_move(FindingList& list) {
   const auto& move = list.report.rig.apparent_move;
   if (!move) return;
   const std::size_t c = index(move->camera);
   if (!seems_moved(list.report, c)) return;
   const double scale = moved_scale(list.report, c);
-  std::string others;
-  for (const CameraId other : move->alternatives) {
-    others += " or " + list.report.rig.cameras[index(other)].name;
-  }
+  const std::string others = alternative_names(list.report, *move);
   const std::string when =
       move->from_frame
           ? format_text("from frame %d on its views fit a camera", *move->from_frame)
@@ -87,7 +92,7 @@ void assess_move(FindingList& list) {
                format_text(
                    " that was moved by %.1f px (%.2f degrees, %.0f mm) %s",
                    move->moved_px,
-                   move->turn_rad * kDegrees,
+                   move->turn_rad * kDegreesPerRadian,
                    1e3 * move->shift_m,
                    move->from_frame
                        ? "than before"
@@ -109,10 +114,7 @@ void assess_unsteady(FindingList& list) {
   const std::size_t c = index(move->camera);
   const auto& limits = limits_of(list.report).error_m;
   if (seems_moved(list.report, c) || move->rig_shift_m < limits[0]) return;
-  std::string others;
-  for (const CameraId other : move->alternatives) {
-    others += " or " + list.report.rig.cameras[index(other)].name;
-  }
+  const std::string others = alternative_names(list.report, *move);
   list.add(
           severity_of(move->rig_shift_m, limits[1]),
           "unsteady",

@@ -6,8 +6,8 @@
 
 namespace marey::calib {
 
-/// Checks the expected error of 3D points and the hold-out validation of frames and
-/// cameras.
+/// Appends findings about the expected error of 3D points, and about the validation by
+/// frames and cameras that were held out. Limits are in calibration_limits.h.
 void assess_point_error(FindingList& list);
 
 }  // namespace marey::calib

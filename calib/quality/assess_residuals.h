@@ -6,11 +6,12 @@
 
 namespace marey::calib {
 
-/// Checks residuals, outliers, lags, the lens model and the floor.
+/// Appends findings about residuals, outliers, lags, the lens model and the floor. Limits
+/// are in calibration_limits.h, in pixels of an image up to 1920 px wide.
 void assess_residuals(FindingList& list);
 
 /// Returns true if the errors of camera `c` significantly follow the motion of the
-/// target.
-[[nodiscard]] bool is_late(const CalibrationReport& report, std::size_t c);
+/// target: its clock is ahead of or behind the others by more than six sigmas.
+[[nodiscard]] bool has_clock_offset(const CalibrationReport& report, std::size_t c);
 
 }  // namespace marey::calib

@@ -6,7 +6,9 @@
 
 namespace marey::calib {
 
-/// Checks the views of each camera: coverage, tilt, number, and views shared with others.
+/// Appends findings about the views of each camera: coverage of its image, tilt of the
+/// board, number of views, and instants that it shares with other cameras. Limits are in
+/// calibration_limits.h.
 void assess_target_views(FindingList& list);
 
 }  // namespace marey::calib

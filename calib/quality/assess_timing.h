@@ -6,8 +6,8 @@
 
 namespace marey::calib {
 
-/// Checks that clock offsets, drifts and line delays are plausible and constant over the
-/// recording.
+/// Appends findings about clock offsets, drifts and line delays that are implausible, or
+/// not constant over the recording.
 void assess_timing(FindingList& list);
 
 }  // namespace marey::calib

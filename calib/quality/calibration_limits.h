@@ -9,8 +9,8 @@
 
 namespace marey::calib {
 
-/// Limits of the measures. The first of a pair is the limit for good, the second the
-/// limit for usable.
+/// Limits of the measures. Of a pair, a result within the first limit is good, and one
+/// within the second can be used.
 struct CalibrationLimits {
   std::array<double, 2> error_m;
   std::array<double, 2> residual_px;
@@ -28,6 +28,8 @@ inline constexpr std::array<double, 2> kCoverageLimits{0.3, 0.0625};
 /// With this number of shared instants or fewer between two cameras, one wrong pose of
 /// the board changes their relative pose.
 inline constexpr int kFairShared = 8;
+/// Returns the limits that apply to this calibration: that of points is proportional to
+/// the distance of its volume from the cameras.
 [[nodiscard]] CalibrationLimits limits_of(const CalibrationReport& report);
 
 /// Returns the factor of pixel limits for this camera. Limits apply to images up to 1920

@@ -56,7 +56,7 @@ struct CameraMeasures {
   /// Root mean square of the mean errors over areas of the image, minus the part expected
   /// by chance: the systematic error that the lens model leaves. [px]
   double pattern_px = 0.0;
-  std::optional<CameraLag> lag;    ///< Set if all clocks are taken for one.
+  std::optional<CameraLag> lag;    ///< Set if all cameras are assumed to share a clock.
   std::optional<CameraSlip> slip;  ///< Set if the lag changes significantly.
   /// On the floor board, or on static tags.
   std::optional<double> floor_median_px;

@@ -135,8 +135,8 @@ class TrialChecker {
     }
   }
 
-  std::vector<LabelFinding> check() {
-    std::vector<LabelFinding> findings;
+  std::vector<FaultyLabel> check() {
+    std::vector<FaultyLabel> findings;
     std::vector<std::vector<bool>> done(frames_.size(),
                                         std::vector<bool>(labels_.size(), false));
     for (std::size_t t = 0; t < frames_.size(); ++t) {
@@ -154,7 +154,7 @@ class TrialChecker {
         if (done[t][i] || !is_elsewhere(i, t)) continue;
         // If two trials differ, both are off by the same distance.
         for (auto& trial : done) trial[i] = true;
-        LabelFinding finding;
+        FaultyLabel finding;
         finding.fault = LabelFault::kStrays;
         finding.label = labels_[i].marker->label;
         finding.trial = t;
@@ -236,9 +236,9 @@ class TrialChecker {
   }
 
   /// The finding names the trial that differs more from the fit.
-  [[nodiscard]] LabelFinding exchange(std::size_t a,
-                                      std::size_t b,
-                                      std::size_t trial) const {
+  [[nodiscard]] FaultyLabel exchange(std::size_t a,
+                                     std::size_t b,
+                                     std::size_t trial) const {
     std::size_t worst = trial;
     double worst_m = 0.0;
     for (std::size_t t = 0; t < frames_.size(); ++t) {
@@ -254,7 +254,7 @@ class TrialChecker {
       worst_m = off_m;
       worst = t;
     }
-    LabelFinding finding;
+    FaultyLabel finding;
     finding.fault = LabelFault::kExchanged;
     finding.label = labels_[a].marker->label;
     finding.other = labels_[b].marker->label;
@@ -317,9 +317,9 @@ std::optional<double> landmark_distance_sigmas(const PlacedMarker& marker,
          (std::sqrt(3.0) * stature_m * landmark.sigma_per_stature);
 }
 
-std::vector<LabelFinding> assess_fit_labels(const MarkersFit& fit,
-                                            std::span<const NamedMarker> labels) {
-  std::vector<LabelFinding> findings;
+std::vector<FaultyLabel> assess_fit_labels(const MarkersFit& fit,
+                                           std::span<const NamedMarker> labels) {
+  std::vector<FaultyLabel> findings;
   const Body& body = fit.body;
   for (const PlacedMarker& marker : body.markers) {
     const Landmark* landmark = landmark_of(labels, marker.label);
@@ -329,7 +329,7 @@ std::vector<LabelFinding> assess_fit_labels(const MarkersFit& fit,
         marker.segment, marker.p_in_segment, body.proportions, body.stature_m);
     const bool is_off = sigmas && *sigmas > kFarSigmas;
     if (!is_off && outside_m < kOutsideFlesh_m) continue;
-    LabelFinding finding;
+    FaultyLabel finding;
     finding.fault = LabelFault::kOffLandmark;
     finding.label = marker.label;
     finding.off_m =
@@ -343,7 +343,7 @@ std::vector<LabelFinding> assess_fit_labels(const MarkersFit& fit,
     const bool far =
         verdict.use == LabelUse::kMoved && !are_near(verdict.segment, *verdict.named);
     if (!far && verdict.use != LabelUse::kLeftOut) continue;
-    LabelFinding finding;
+    FaultyLabel finding;
     finding.fault = far ? LabelFault::kMoved : LabelFault::kLeftOut;
     finding.label = verdict.label;
     findings.push_back(std::move(finding));
@@ -351,9 +351,9 @@ std::vector<LabelFinding> assess_fit_labels(const MarkersFit& fit,
   return findings;
 }
 
-std::vector<LabelFinding> assess_trial_labels(const Body& body,
-                                              std::span<const NamedMarker> labels,
-                                              std::span<const CheckedTrial> trials) {
+std::vector<FaultyLabel> assess_trial_labels(const Body& body,
+                                             std::span<const NamedMarker> labels,
+                                             std::span<const CheckedTrial> trials) {
   return TrialChecker(body, labels, trials).check();
 }
 

@@ -28,7 +28,9 @@ enum class LabelFault {
 /// reports.
 [[nodiscard]] std::string_view name(LabelFault fault);
 
-struct LabelFinding {
+/// A label that does not match its marker, as data: what to exchange, in which trial.
+/// Callers make the Finding for the user.
+struct FaultyLabel {
   LabelFault fault{};
   std::string label;
   std::string other;  ///< The other label, for kExchanged.
@@ -55,7 +57,7 @@ struct CheckedTrial {
                                                              double stature_m);
 
 /// Finds labels in a fit whose markers do not match their names.
-[[nodiscard]] std::vector<LabelFinding> assess_fit_labels(
+[[nodiscard]] std::vector<FaultyLabel> assess_fit_labels(
     const MarkersFit& fit, std::span<const NamedMarker> labels);
 
 /// Finds labels that are wrong in single trials. Each marker's place on its segment is
@@ -64,7 +66,7 @@ struct CheckedTrial {
 /// one. An exchange is reported once, for the trial that differs most.
 /// Deterministic. Cost: linear in the markers and in at most 200 frames of each trial.
 /// Precondition: every solution is of `body` and of its tracks.
-[[nodiscard]] std::vector<LabelFinding> assess_trial_labels(
+[[nodiscard]] std::vector<FaultyLabel> assess_trial_labels(
     const Body& body,
     std::span<const NamedMarker> labels,
     std::span<const CheckedTrial> trials);

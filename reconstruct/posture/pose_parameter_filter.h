@@ -15,8 +15,8 @@
 #include <Eigen/Core>
 
 #include "core/base/time.h"
+#include "reconstruct/posture/pose_parameter_priors.h"
 #include "reconstruct/posture/posture_equations.h"
-#include "reconstruct/posture/posture_priors.h"
 
 namespace marey::reconstruct {
 

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/in_quotes.h"
 #include "core/base/quantile.h"
 #include "reconstruct/clusters/find_joint_centres.h"
 #include "reconstruct/segments/cluster_geometry.h"
@@ -149,10 +150,6 @@ bool is_suspect(Drifts& drifts) {
   return std::any_of(kJoints.begin(), kJoints.end(), [&](const Edge& joint) {
     return drifts.between(joint.first, joint.second).value_or(0.0) > kSuspectDrift_m;
   });
-}
-
-std::string in_quotes(B bone) {
-  return '"' + std::string(name(bone)) + '"';
 }
 
 /// Tags by declared segment and by the segment they are worn on.

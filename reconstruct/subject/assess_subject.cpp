@@ -11,6 +11,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "core/base/in_quotes.h"
 #include "reconstruct/bundle/subject_priors.h"
 #include "reconstruct/subject/turned_limbs.h"
 
@@ -73,13 +74,6 @@ std::string percent(double share) {
 
 Finding doubtful(std::string cause, std::string next) {
   return poor_finding("subject", "", std::move(cause), std::move(next));
-}
-
-std::string in_quotes(HumanBone bone) {
-  std::string text(1, '"');
-  text += name(bone);
-  text += '"';
-  return text;
 }
 
 void assess_tags(const SubjectBundle& bundle,

@@ -256,7 +256,7 @@ Result<SubjectFit> fit_located(const SubjectPrior& prior,
   }
   fit.findings = assess_subject(bundle, evidence);
   for (const Finding& finding : fit.findings) {
-    fit.body.warnings.push_back({finding.cause, finding.next});
+    fit.body.warnings.push_back(fair_finding("", "", finding.cause, finding.next));
   }
   return fit;
 }

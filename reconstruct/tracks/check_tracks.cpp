@@ -68,7 +68,7 @@ class TrackChecker {
     drop_outliers(find_runs());
     std::stable_sort(checked_.findings.begin(),
                      checked_.findings.end(),
-                     [](const TrackFinding& a, const TrackFinding& b) {
+                     [](const FaultySamples& a, const FaultySamples& b) {
                        return std::pair(a.first, a.marker) < std::pair(b.first, b.marker);
                      });
     return std::move(checked_);

@@ -23,8 +23,9 @@ enum class TrackFault {
 /// Returns "no-number", "frozen", "swapped", "ghost", "jump": the words of reports.
 [[nodiscard]] std::string_view name(TrackFault fault);
 
-/// A fault of one marker: `frames` frames from `first` on.
-struct TrackFinding {
+/// A fault of one marker, `frames` frames from `first` on, as data: repair acts on it,
+/// and reports count it.
+struct FaultySamples {
   TrackFault fault{};
   std::size_t marker = 0;
   std::optional<std::size_t> other;  ///< Marker with which it was swapped; reported once.
@@ -37,7 +38,7 @@ struct TrackFinding {
 struct CheckedTracks {
   /// The given tracks; swapped samples are exchanged, other wrong ones are removed.
   MarkerTracks tracks;
-  std::vector<TrackFinding> findings;  ///< By first frame.
+  std::vector<FaultySamples> findings;  ///< By first frame.
 };
 
 /// Finds wrong samples by the marker's distances to the companions with the steadiest

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/toml_reader.h"
@@ -154,7 +155,7 @@ Status write_bone_map(const std::filesystem::path& path,
 Result<BoneMap> parse_bone_map(std::string_view text,
                                const std::string& file,
                                const Skeleton& skeleton) {
-  auto document = parse_toml(text, file);
+  auto document = parse_toml(text, file, "bodies.md");
   if (!document) return document.error();
   TomlReader in(*document);
   in.allow({"unit_m", "up", "front", "bones"});

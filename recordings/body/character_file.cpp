@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/toml_reader.h"
@@ -234,7 +235,7 @@ Status write_character_spec(const std::filesystem::path& path,
 
 Result<CharacterSpec> parse_character_spec(std::string_view text,
                                            const std::string& file) {
-  Result<TomlDocument> document = parse_toml(text, file);
+  Result<TomlDocument> document = parse_toml(text, file, "character.md");
   if (!document) return document.error();
   TomlReader root(*document);
   root.allow({"format",

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/in_quotes.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/toml_reader.h"
 #include "recordings/text/toml_writer.h"
@@ -135,7 +136,7 @@ std::string floor_text(const Floor& floor) {
 }
 
 Result<Floor> parse_floor(std::string_view text, const std::string& file) {
-  Result<TomlDocument> document = parse_toml(text, file);
+  Result<TomlDocument> document = parse_toml(text, file, "floor.md");
   if (!document) return document.error();
   TomlReader root(*document);
   root.allow({"format", "base_m", "part"});

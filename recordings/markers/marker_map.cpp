@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/base/in_quotes.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/text_reader.h"
 #include "recordings/text/toml_reader.h"
@@ -11,7 +12,7 @@
 namespace marey::recordings {
 
 Result<MarkerMap> parse_marker_map(std::string_view text, const std::string& file) {
-  Result<TomlDocument> document = parse_toml(text, file);
+  Result<TomlDocument> document = parse_toml(text, file, "markers.md");
   if (!document) return document.error();
   TomlReader root(*document);
   root.allow({"markers"});

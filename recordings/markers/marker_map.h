@@ -11,8 +11,8 @@
 
 namespace marey::recordings {
 
-/// Parses a user's mapping of marker labels to names (docs/formats/README.md, "Marker
-/// names"): the table [markers] of a TOML file. "ignore" and "" become an empty name.
+/// Parses a user's mapping of marker labels to names (docs/formats/markers.md, "Marker
+/// map"): the table [markers] of a TOML file. "ignore" and "" become an empty name.
 /// Does not check that names are known. `file` is the name of the text in error messages.
 ///
 /// Errors (kBadInput), with the line: not TOML, which includes two equal labels; a key

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/base/assert.h"
+#include "core/base/degrees.h"
 #include "core/base/lower_case.h"
 #include "core/humanoid.h"
 #include "core/pose.h"
@@ -25,8 +25,6 @@
 
 namespace marey::recordings {
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 struct Channel {
   bool is_rotation = false;

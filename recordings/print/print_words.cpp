@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "core/base/in_quotes.h"
 #include "core/base/lower_case.h"
 #include "core/nearest_word.h"
 #include "recordings/text/word_text.h"
@@ -22,10 +23,6 @@ constexpr double kMaxLength_m = 10.0;
 constexpr int kMaxTags = 2000;
 constexpr const char* kIdsNext =
     "write ids as 40-75,90 or with segments: 41:hips,73:head";
-
-std::string quoted(std::string_view text) {
-  return std::string("\"").append(text).append("\"");
-}
 
 std::string_view trimmed(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
@@ -72,7 +69,8 @@ Result<std::vector<NamedTag>> parse_item(std::string_view item) {
     const std::string_view word = trimmed(item.substr(colon + 1));
     segment = human_bone(word);
     if (!segment) {
-      return bad_input("ids", "unknown segment " + quoted(word), bone_suggestion(word));
+      return bad_input(
+          "ids", "unknown segment " + in_quotes(word), bone_suggestion(word));
     }
   }
   const std::string_view ids = item.substr(0, colon);
@@ -80,17 +78,17 @@ Result<std::vector<NamedTag>> parse_item(std::string_view item) {
   const auto first = id_of(ids.substr(0, dash));
   const auto last = dash == std::string_view::npos ? first : id_of(ids.substr(dash + 1));
   if (!first || !last) {
-    return bad_input("ids", quoted(item) + " is no id and no range of ids", kIdsNext);
+    return bad_input("ids", in_quotes(item) + " is no id and no range of ids", kIdsNext);
   }
   if (*last < *first) {
     return bad_input("ids",
-                     quoted(item) + " goes down",
+                     in_quotes(item) + " goes down",
                      "write " + std::to_string(*last) + "-" + std::to_string(*first));
   }
   if (*last - *first >= kMaxTags) {
     return bad_input(
         "ids",
-        quoted(item) + " are more than " + std::to_string(kMaxTags) + " tags",
+        in_quotes(item) + " are more than " + std::to_string(kMaxTags) + " tags",
         "print fewer at once");
   }
   std::vector<NamedTag> tags;
@@ -104,25 +102,25 @@ Result<double> parse_length_m(std::string_view text) {
   const auto parsed = number_and_rest(trimmed(text));
   if (!parsed) {
     return bad_input("length",
-                     quoted(text) + " is no length",
+                     in_quotes(text) + " is no length",
                      "write for example 80mm, 8cm or 3.15in");
   }
   const auto [value, unit] = *parsed;
   const std::string digits(trimmed(text).substr(0, trimmed(text).size() - unit.size()));
   if (unit.empty()) {
     return bad_input("length",
-                     quoted(text) + " has no unit",
+                     in_quotes(text) + " has no unit",
                      "write " + digits + "mm, " + digits + "cm or " + digits + "in");
   }
   const auto length_m = metres(value, unit);
   if (!length_m) {
     return bad_input("length",
-                     "unknown unit " + quoted(unit) + " in " + quoted(text),
+                     "unknown unit " + in_quotes(unit) + " in " + in_quotes(text),
                      "use mm, cm or in");
   }
   if (!(*length_m > 0.0 && *length_m <= kMaxLength_m)) {
     return bad_input("length",
-                     quoted(text) + " is not between nothing and 10 m",
+                     in_quotes(text) + " is not between nothing and 10 m",
                      "check number and unit");
   }
   return *length_m;
@@ -147,7 +145,7 @@ Result<Paper> parse_paper(std::string_view text) {
     }
   }
   return bad_input("page",
-                   quoted(text) + " is no page size that marey knows",
+                   in_quotes(text) + " is no page size that marey knows",
                    "write A4, A3, Letter, or width and height as 210x297mm");
 }
 

@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "core/base/in_quotes.h"
 #include "recordings/session/calibration_import.h"
 #include "recordings/session/camera_numbers.h"
 #include "recordings/text/atomic_file.h"
@@ -273,7 +274,7 @@ Status write_calibration(const std::filesystem::path& path,
 }
 
 Result<Calibration> parse_calibration(std::string_view text, const std::string& file) {
-  Result<TomlDocument> document = parse_toml(text, file);
+  Result<TomlDocument> document = parse_toml(text, file, "calibration.md");
   if (!document) return document.error();
   TomlReader root(*document);
   Calibration calibration;
@@ -322,7 +323,7 @@ bool is_calibration(const std::filesystem::path& path) {
   const Result<std::string> text = read_file(path);
   if (!text) return false;
   if (is_yaml_or_xml(*text)) return true;
-  Result<TomlDocument> document = parse_toml(*text, path.string());
+  Result<TomlDocument> document = parse_toml(*text, path.string(), "calibration.md");
   if (!document) return false;
   TomlReader root(*document);
   const std::vector<std::string> keys = root.keys();

@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "core/base/in_quotes.h"
 #include "recordings/session/calibration_file.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/text_reader.h"
@@ -164,7 +165,7 @@ Result<CapturePlan> cameras_of_calibration(std::string_view text,
 }  // namespace
 
 Result<CapturePlan> parse_plan(std::string_view text, const std::string& file) {
-  Result<TomlDocument> document = parse_toml(text, file);
+  Result<TomlDocument> document = parse_toml(text, file, "plan.md");
   if (!document) return document.error();
   TomlReader root(*document);
   const bool is_plan = root.has("format") || root.has("tag_size_m") ||

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/base/in_quotes.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/text_reader.h"
 #include "recordings/text/toml_reader.h"
@@ -80,7 +81,8 @@ Status copy_session(const Session& session, const fs::path& folder, const Trial&
                                       session.trials.end(),
                                       [](const Trial& t) { return !t.is_recorded; });
   if (has_videos) {
-    Result<TomlDocument> document = parse_toml(*text, session.file.string());
+    Result<TomlDocument> document =
+        parse_toml(*text, session.file.string(), "session.md");
     if (!document) return document.error();
     TomlReader root(*document);
     *text = with_absolute_media(std::move(*text), root, session.file.parent_path());
@@ -93,14 +95,15 @@ Status copy_session(const Session& session, const fs::path& folder, const Trial&
     }
   }
   if (session.calibration.lenses) {
-    Result<TomlDocument> document = parse_toml(*text, session.file.string());
+    Result<TomlDocument> document =
+        parse_toml(*text, session.file.string(), "session.md");
     if (!document) return document.error();
     TomlReader root(*document);
     const std::string lenses = root.table("calibration").text("lenses");
     Session moved = session;
     moved.calibration.lenses_line = root.table("calibration").line("lenses");
     *text = with_absolute_lenses(std::move(*text), lenses, moved);
-    Result<TomlDocument> again = parse_toml(*text, copy.string());
+    Result<TomlDocument> again = parse_toml(*text, copy.string(), "session.md");
     std::string now;
     if (again) {
       TomlReader after(*again);

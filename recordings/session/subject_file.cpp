@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/in_quotes.h"
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
 #include "recordings/text/atomic_file.h"
@@ -104,7 +105,7 @@ void write_marker(TomlWriter& out, const PlacedMarker& placed) {
   out.integer("frames", placed.frames);
 }
 
-void write_warning(TomlWriter& out, const BodyWarning& warning) {
+void write_warning(TomlWriter& out, const Finding& warning) {
   out.array_table("doubt");
   out.text("cause", warning.cause);
   out.text("next", warning.next);
@@ -112,7 +113,8 @@ void write_warning(TomlWriter& out, const BodyWarning& warning) {
 
 void read_warning(TomlReader& in, Body& body) {
   in.allow({"cause", "next"});
-  body.warnings.push_back({in.text("cause"), in.text("next")});
+  std::string cause = in.text("cause");
+  body.warnings.push_back(fair_finding("", "", std::move(cause), in.text("next")));
 }
 
 void read_joint(TomlReader& in, HumanBone bone, Body& body) {
@@ -233,7 +235,7 @@ std::string subject_text(const Body& body) {
   write_hinges(out, body);
   for (const PlacedTag& placed : body.tags) write_tag(out, placed);
   for (const PlacedMarker& placed : body.markers) write_marker(out, placed);
-  for (const BodyWarning& warning : body.warnings) write_warning(out, warning);
+  for (const Finding& warning : body.warnings) write_warning(out, warning);
   return out.str();
 }
 
@@ -242,7 +244,7 @@ Status write_subject(const std::filesystem::path& path, const Body& body) {
 }
 
 Result<Body> parse_subject(std::string_view text, const std::string& file) {
-  Result<TomlDocument> document = parse_toml(text, file);
+  Result<TomlDocument> document = parse_toml(text, file, "subject.md");
   if (!document) return document.error();
   TomlReader root(*document);
   root.allow({"format",

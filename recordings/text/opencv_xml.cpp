@@ -94,7 +94,7 @@ Result<TomlDocument> parse_opencv_xml(std::string_view text, const std::string& 
   if (!std::holds_alternative<std::vector<TomlEntry>>(tree.content)) {
     tree.content = std::vector<TomlEntry>();
   }
-  return TomlDocument{file, std::move(tree), std::nullopt};
+  return TomlDocument{file, std::move(tree), std::nullopt, "calibration.md"};
 }
 
 }  // namespace marey::recordings

@@ -9,9 +9,11 @@
 
 #include <toml++/toml.h>
 
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/text/nesting.h"
 #include "recordings/text/number_text.h"
+#include "recordings/text/other_kind.h"
 
 namespace marey::recordings {
 namespace {
@@ -77,7 +79,13 @@ std::optional<double> as_number(const TomlValue& value) {
   return *real;
 }
 
-constexpr std::string_view kSeeFormats = "write it as docs/formats/README.md shows";
+std::string page_path(std::string_view page) {
+  return "docs/formats/" + std::string(page);
+}
+
+std::string as_the_page_shows(std::string_view page) {
+  return "write it as " + page_path(page) + " shows";
+}
 
 }  // namespace
 
@@ -88,16 +96,23 @@ std::string file_and_line(const std::string& file, int line) {
   return text;
 }
 
-Result<TomlDocument> parse_toml(std::string_view text, const std::string& file) {
+Result<TomlDocument> parse_toml(std::string_view text,
+                                const std::string& file,
+                                std::string_view page) {
+  if (const std::string_view other = other_kind(text); !other.empty()) {
+    return bad_input(file,
+                     "this is " + std::string(other) + ", not a TOML file",
+                     "give a .toml file as " + page_path(page) + " describes it");
+  }
   if (toml_nests_too_deep(text)) {
     return bad_input(
         file,
         "its tables and lists nest more than " + std::to_string(kMaxNesting) + " deep",
-        std::string(kSeeFormats));
+        as_the_page_shows(page));
   }
   try {
     const toml::table table = toml::parse(text, file);
-    return TomlDocument{file, TomlValue{taken_over(table, 1), 1}, std::nullopt};
+    return TomlDocument{file, TomlValue{taken_over(table, 1), 1}, std::nullopt, page};
   } catch (const toml::parse_error& problem) {
     return bad_input(file_and_line(file, line_of(problem.source(), 1)),
                      "not valid TOML: " + std::string(problem.description()),
@@ -177,7 +192,7 @@ const TomlValue* TomlReader::require(std::string_view key) {
   if (value == nullptr) {
     std::string cause = "the key " + in_quotes(key) + " is missing";
     if (!name_.empty()) cause.append(" in ").append(name_);
-    fail("", std::move(cause), "add it; docs/formats/README.md describes it");
+    fail("", std::move(cause), "add it; " + page_path(document_->page) + " describes it");
   }
   return value;
 }
@@ -188,7 +203,9 @@ const T* TomlReader::require_as(std::string_view key, std::string_view type) {
   if (value == nullptr) return nullptr;
   const T* content = std::get_if<T>(&value->content);
   if (content == nullptr) {
-    fail(key, (in_quotes(key) + " must be ").append(type), std::string(kSeeFormats));
+    fail(key,
+         (in_quotes(key) + " must be ").append(type),
+         as_the_page_shows(document_->page));
   }
   return content;
 }
@@ -208,7 +225,7 @@ double TomlReader::number(std::string_view key, const Limits& limits) {
   if (value == nullptr) return 0.0;
   const std::optional<double> number = as_number(*value);
   if (!number) {
-    fail(key, in_quotes(key) + " must be a number", std::string(kSeeFormats));
+    fail(key, in_quotes(key) + " must be a number", as_the_page_shows(document_->page));
     return 0.0;
   }
   if (*number >= limits.low && *number <= limits.high) return *number;
@@ -262,7 +279,7 @@ void TomlReader::append_numbers(std::string_view key,
   if (out.size() == start + count) return;
   std::string cause = in_quotes(key) + " must be an array of ";
   append_exact(cause, static_cast<int>(count));
-  fail(key, cause + " numbers", std::string(kSeeFormats));
+  fail(key, cause + " numbers", as_the_page_shows(document_->page));
   out.resize(start + count);
 }
 
@@ -281,7 +298,7 @@ std::vector<double> TomlReader::matrix(std::string_view key,
     if (array->size() != rows) {
       fail(key,
            in_quotes(key) + " has the wrong number of rows",
-           std::string(kSeeFormats));
+           as_the_page_shows(document_->page));
     }
     for (const TomlValue& row : *array) append_numbers(key, row, columns, values);
   }
@@ -303,7 +320,9 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
   if (array == nullptr) return readers;
   for (const TomlValue& item : *array) {
     if (!std::holds_alternative<Table>(item.content)) {
-      fail(key, in_quotes(key) + " must hold tables only", std::string(kSeeFormats));
+      fail(key,
+           in_quotes(key) + " must hold tables only",
+           as_the_page_shows(document_->page));
     }
     readers.push_back({*document_, &item, std::string("[[").append(key).append("]]")});
   }

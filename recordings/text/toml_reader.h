@@ -44,11 +44,16 @@ struct TomlDocument {
   std::string file;  ///< Its name in error messages.
   TomlValue root;    ///< A table.
   std::optional<Error> mistake;
+  /// The page of docs/formats that describes such files.
+  std::string_view page = "README.md";
 };
 
-/// Parses `text`. Errors: not TOML, with the line.
+/// Parses `text`. `page` is the page of docs/formats that describes such files; error
+/// messages name it. Errors (kBadInput): not TOML, with the line, or with the kind of
+/// file that it is instead.
 [[nodiscard]] Result<TomlDocument> parse_toml(std::string_view text,
-                                              const std::string& file);
+                                              const std::string& file,
+                                              std::string_view page = "README.md");
 
 /// Allowed range of a number. Both ends included.
 struct Limits {
@@ -122,7 +127,7 @@ class TomlReader {
   TomlDocument* document_;
   const TomlValue* value_;           ///< Null after a mistake.
   std::vector<std::size_t> by_key_;  ///< Entries in the order of their keys.
-  std::string name_;        ///< "[subject]"; empty for the root.
+  std::string name_;                 ///< "[subject]"; empty for the root.
 };
 
 /// Returns "session.toml:12".

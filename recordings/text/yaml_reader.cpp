@@ -108,7 +108,7 @@ Result<TomlDocument> parse_yaml(std::string_view text, const std::string& file) 
                        "its lists or references have no end",
                        "write the numbers out, without & and *");
     }
-    return TomlDocument{file, std::move(*tree), std::nullopt};
+    return TomlDocument{file, std::move(*tree), std::nullopt, "calibration.md"};
   } catch (const YAML::Exception& problem) {
     return bad_input(file_and_line(file, std::max(0, problem.mark.line) + 1),
                      "not valid YAML: " + problem.msg,

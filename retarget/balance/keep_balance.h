@@ -7,10 +7,10 @@
 
 #include <glm/vec2.hpp>
 
+#include "core/base/time.h"
 #include "core/character.h"
 #include "core/character_spec.h"
 #include "core/skeleton.h"
-#include "core/base/time.h"
 #include "retarget/balance/measure_balance.h"
 #include "retarget/body/body_map.h"
 #include "retarget/body/normalized_skeleton.h"
@@ -64,7 +64,7 @@ struct BalanceReference {
   std::vector<SupportShares> shares;
   std::vector<SupportFrame> support;
   std::vector<glm::dvec2> com_xz_m;
-  /// How close each frame is to standing still over the support: 0 to 1 (BalanceOptions).
+  /// Share of standing still over the support in each frame: 0 to 1 (BalanceOptions).
   std::vector<double> still;
   double leg_length_m = 0.0;
 };

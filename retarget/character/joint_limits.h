@@ -10,8 +10,9 @@
 
 namespace marey::retarget {
 
-/// Returns the limits of a body's joints: of its bones and of its vertebrae, marked or
-/// not. Limits in `traits` replace these, also if `traits` excludes all others.
+/// Returns the limits of a body's joints: of its bones and of all joints of its spine,
+/// also those that are no bone of VRM. A limit in `traits` replaces the default of its
+/// joint; with `traits` that exclude the defaults, only theirs remain.
 [[nodiscard]] std::vector<JointLimit> joint_limits(const BodyMap& map,
                                                    const CharacterTraits& traits);
 

@@ -115,7 +115,7 @@ Refusal check_all(const ConstraintSet& set, const Character& character) {
     if (auto wrong = check_one(c, set, character)) return wrong;
   }
   if (auto wrong = check_count(set)) return wrong;
-  if (auto wrong = check_circles(set)) return wrong;
+  if (auto wrong = check_cycles(set)) return wrong;
   return check_contradictions(set, character.skeleton);
 }
 

@@ -244,7 +244,7 @@ Refusal check_distances(const ConstraintSet& set, const Skeleton& skeleton) {
 
 }  // namespace
 
-Refusal check_circles(const ConstraintSet& set) {
+Refusal check_cycles(const ConstraintSet& set) {
   std::map<std::string_view, std::size_t> place;
   for (std::size_t i = 0; i < set.constraints.size(); ++i) {
     place.emplace(set.constraints[i].id, i);

@@ -34,7 +34,7 @@ struct CarriedMotion {
 /// the root. Then the root sinks, and the legs follow, as in settle_on_feet(). Trunk,
 /// head and arms move with the root and are not turned.
 ///
-/// Where nothing is displaced the motion is the same, to the bit. Linear in frames.
+/// A frame without displacement keeps its postures to the bit. Linear in frames.
 /// Precondition: `map` was made from the motion's skeleton; `contacts` are of the motion,
 /// which stands on the floor at world Y = `floor_height_m`; the heights of the floor are
 /// relative to it.

@@ -28,7 +28,7 @@ struct KeepTouchesOptions {
   StillPlace still = StillPlace::kScaled;
 };
 
-/// How much hands are held, 0 (free) to 1, per frame.
+/// Share of each hand that is held, 0 (free) to 1, per frame.
 struct HandHolds {
   std::array<std::vector<double>, 2> hand;  ///< Left, right: on the body, or still in the
                                             ///< world.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A body that walks on the spot, for a server that is none: 25 joints, some of them doubtful.
+// A body that walks on the spot, for a server that is none: 25 joints, some of them isUncertain.
 
 const BONES = [
   ['hips', '', 0, 0.96, 0], ['spine', 'hips', 0, 0.1, 0], ['chest', 'spine', 0, 0.13, 0],

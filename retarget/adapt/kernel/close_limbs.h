@@ -32,14 +32,16 @@ template <class F>
   return point.firm_under.empty() ? requested : requested & (p.firm < num<F>(0.5));
 }
 
-/// Returns the target of the limb's end for a point. For a point on an extremity with its
-/// own orientation, the wrist or ankle is offset accordingly.
+/// A point of a limb and where it is to be, both in the world. [m]
 template <class F>
 struct LimbTarget {
   Vec3<F> place;
   Vec3<F> target;
 };
 
+/// Returns the point that the limb moves for `point`, and its target: the point itself,
+/// or for a point on an extremity with its own orientation the wrist or ankle, whose
+/// target is offset accordingly.
 template <class F>
 [[nodiscard]] LimbTarget<F> limb_target_of(const LimbPlan& limb,
                                            const PointPlan& point,
@@ -111,10 +113,13 @@ template <class F>
                                           const Mask<F>& wanted,
                                           const Lanes<F>& s) {
   if (!settings.blend || settings.mixes || limb.points.size() <= 1) return wanted;
+  // A support is never part of a compromise: with one, the limb counts as one without
+  // mixing, whatever else it has. A limb has at most kMaxLimbTargets other targets.
+  constexpr int kMaxLimbTargets = 9;
   F target_count = num<F>(0);
   for (const int k : limb.points) {
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
-    const F counts = num<F>(point.goal == GoalKind::kSupport ? -9 : 1);
+    const F counts = num<F>(point.goal == GoalKind::kSupport ? -kMaxLimbTargets : 1);
     target_count = target_count +
                    select(is_served(point, s.points[static_cast<std::size_t>(k)], level),
                           counts,
@@ -235,11 +240,15 @@ void reach_supports(const Plan& plan,
                     const SolveSettings& settings,
                     const Mask<F>& mask,
                     Lanes<F>& s) {
+  // Projections onto the reach of two legs converge geometrically; sixteen rounds leave
+  // less than the precision of a float at a body's size, which kReached_m is.
+  constexpr int kMaxRounds = 16;
+  constexpr double kReached_m = 1e-7;
   const F zero = num<F>(0);
   Vec3<F> shift{zero, zero, zero};
   Mask<F> left = mask;
-  for (int round = 0; round < 16; ++round) {
-    F max_excess = num<F>(1e-7);
+  for (int round = 0; round < kMaxRounds; ++round) {
+    F max_excess = num<F>(kReached_m);
     Vec3<F> step{zero, zero, zero};
     Mask<F> moved = num<F>(0) > num<F>(1);
     for (std::size_t l = 0; l < plan.limbs.size(); ++l) {

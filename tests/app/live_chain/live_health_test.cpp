@@ -47,7 +47,7 @@ class LiveSubject : public ::testing::Test {
     add_subject_status(state, figures_, unseen, status);
     return status;
   }
-  LiveFigures figures_;
+  LiveStatistics figures_;
   live::PageStatus status_;
 };
 

@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "calib/plan/body_freedom.h"
+#include "calib/plan/posture_jacobian.h"
 #include "core/pose.h"
 
 namespace marey::calib {
@@ -85,7 +85,7 @@ void turn(BodyPlace& place,
 }
 
 /// Returns the body after a step of one column of a posture, as defined in
-/// calib/plan/body_freedom.h.
+/// calib/plan/posture_jacobian.h.
 BodyPlace stepped(const PlannedBody& body, BodyPlace place, int column, double step) {
   using B = HumanBone;
   const int axis = column % 3;

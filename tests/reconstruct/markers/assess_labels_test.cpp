@@ -41,8 +41,8 @@ NamedWearer wearer(int seed) {
 
 struct Checked {
   MarkersFit fit;
-  std::vector<LabelFinding> of_fit;
-  std::vector<LabelFinding> of_trials;
+  std::vector<FaultyLabel> of_fit;
+  std::vector<FaultyLabel> of_trials;
 };
 
 Checked check(const NamedWearer& one) {
@@ -86,7 +86,7 @@ TEST(AssessLabels, NamesTwoMarkersThatAreExchangedInATrial) {
     exchange(one.trials[1], a, b);
     const Checked checked = check(one);
     const auto found = std::find_if(
-        checked.of_trials.begin(), checked.of_trials.end(), [](const LabelFinding& f) {
+        checked.of_trials.begin(), checked.of_trials.end(), [](const FaultyLabel& f) {
           return f.fault == LabelFault::kExchanged;
         });
     ASSERT_NE(found, checked.of_trials.end()) << a;

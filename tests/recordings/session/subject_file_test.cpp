@@ -44,8 +44,10 @@ Body a_body() {
                           0.009 / 7.0,
                           4321});
   body.markers.push_back({"RTOE", HumanBone::kRightFoot});
-  body.warnings.push_back({"the tags on segment \"leftFoot\" fit in two ways",
-                           "turn that segment slowly before two cameras"});
+  body.warnings.push_back(fair_finding("",
+                                       "",
+                                       "the tags on segment \"leftFoot\" fit in two ways",
+                                       "turn that segment slowly before two cameras"));
   return body;
 }
 

@@ -13,7 +13,7 @@ import type {Choice, Theme} from '../base/theme';
 const LAYERS: [Exclude<keyof Shown, 'colouring'>, string, string][] = [
   ['skin', 'Skin', 'Avatars with their skin; otherwise their bones'],
   ['bones', 'Bones', 'Also of avatars with skin'],
-  ['doubt', 'Uncertainty', 'A ball of two sigma around every joint'],
+  ['uncertainty', 'Uncertainty', 'A ball of two sigma around every joint'],
   ['balance', 'Balance', 'Centre of mass, its plumb line, the polygon that carries it'],
   ['cameras', 'Cameras', 'Their positions and fields of view'],
   ['handles', 'Handles', 'Constraints that can be dragged'],

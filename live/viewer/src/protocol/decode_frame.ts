@@ -20,7 +20,7 @@ const MAX_CORNERS = 64;
 export class SkeletonFrame {
   readonly joints: number;
   hasPose = false;
-  hasDoubt = false;
+  hasUncertainty = false;
   hasBalance = false;
   hasTracking = false;
   readonly root_in_world = new Float32Array(3);
@@ -48,8 +48,8 @@ export class SkeletonFrame {
 
   /** Copies another figure's values. Precondition: the same number of joints. */
   copy(other: SkeletonFrame): void {
-    const {hasPose, hasDoubt, hasBalance, hasTracking, corners, residual_px, bears} = other;
-    Object.assign(this, {hasPose, hasDoubt, hasBalance, hasTracking, corners, residual_px, bears});
+    const {hasPose, hasUncertainty, hasBalance, hasTracking, corners, residual_px, bears} = other;
+    Object.assign(this, {hasPose, hasUncertainty, hasBalance, hasTracking, corners, residual_px, bears});
     this.root_in_world.set(other.root_in_world);
     this.parent_from_joint.set(other.parent_from_joint);
     this.sigma_m.set(other.sigma_m);
@@ -96,7 +96,7 @@ function decodeSkeleton(view: DataView, start: number, into: SkeletonFrame): num
   const flags = view.getUint8(start);
   if (view.getUint16(start + 2, true) !== joints) return -1;
   into.hasPose = (flags & HAS_POSE) !== 0;
-  into.hasDoubt = (flags & HAS_DOUBT) !== 0;
+  into.hasUncertainty = (flags & HAS_DOUBT) !== 0;
   into.hasBalance = (flags & HAS_BALANCE) !== 0;
   into.hasTracking = (flags & HAS_TRACKING) !== 0;
   let at = start + 4;
@@ -105,7 +105,7 @@ function decodeSkeleton(view: DataView, start: number, into: SkeletonFrame): num
     at = readFloats(view, at, into.root_in_world, 3);
     at = readFloats(view, at, into.parent_from_joint, 4 * joints);
   }
-  if (into.hasDoubt) {
+  if (into.hasUncertainty) {
     if (at + 4 * joints + paddedBytes(joints) > view.byteLength) return -1;
     at = readFloats(view, at, into.sigma_m, joints);
     for (let i = 0; i < joints; ++i) into.source[i] = Math.min(view.getUint8(at + i), 2);

@@ -24,7 +24,7 @@ const KEYS = [
   ['↑ ↓ + −', 'zoom'], ['home', 'first frame'], ['drag', 'turn'],
   ['shift drag', 'move'], ['two fingers', 'zoom, move'], ['double click', 'first view'],
 ];
-const COLOURINGS: [Colouring, string][] = [['source', 'source'], ['doubt', 'uncertainty'],
+const COLOURINGS: [Colouring, string][] = [['source', 'source'], ['uncertainty', 'uncertainty'],
   ['plain', 'none']];
 
 export class BodyViewer {
@@ -43,7 +43,7 @@ export class BodyViewer {
       trouble: () => {},
     }, {drawing: reportDrawing(), scrolled: true, solid: true,
       label: 'The motion in three dimensions. Space plays, arrow keys step.'});
-    Object.assign(this.stage.shown, {doubt: false, cameras: false});
+    Object.assign(this.stage.shown, {uncertainty: false, cameras: false});
     this.stage.renderer.canvas.setAttribute('role', 'img');
     this.stage.element.append(this.legend);
     this.follow = this.toggle('follow', 'Follow');

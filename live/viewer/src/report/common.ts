@@ -13,7 +13,7 @@ import type {Source} from '../protocol/protocol';
 export const byId = (id: string): HTMLElement => document.getElementById(id)!;
 
 /** Words of the address after #: `check` for tests, `lines` for drawing without WebGL. */
-export const wishes = location.hash.slice(1).split(',');
+export const requested = location.hash.slice(1).split(',');
 
 export function readData<T>(): T {
   return JSON.parse(byId('data').textContent!) as T;
@@ -21,7 +21,7 @@ export function readData<T>(): T {
 
 /** Records on <html>, for tests, that the page is ready. */
 export function reportStatus(state: Record<string, string> = {}): void {
-  if (wishes.includes('check')) Object.assign(document.documentElement.dataset, state,
+  if (requested.includes('check')) Object.assign(document.documentElement.dataset, state,
     {status: 'ready'});
 }
 
@@ -139,7 +139,7 @@ export function sortableTable<R>(caption: string, rows: readonly R[],
 /** A value as a bar, a higher one as a whisker, on a common scale. */
 export function bar(value: number, whisker: number | null, highest: number): HTMLElement {
   const width = (part: number): string => `width: ${Math.min(100, 100 * part / highest)}%`;
-  return el('div', {class: 'doubt', 'aria-hidden': 'true'},
+  return el('div', {class: 'uncertainty', 'aria-hidden': 'true'},
     whisker !== null && el('span', {class: 'whisker', style: width(whisker)}),
     el('span', {class: 'median', style: width(value)}));
 }

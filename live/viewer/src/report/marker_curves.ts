@@ -23,8 +23,8 @@ type Values = (number | null)[];
  *  may be metres away and are cut at the edge. */
 function stripRange({after_mm, read_mm, sigma_mm}: MarkerCurve, axis: number): [number, number] {
   const kept = after_mm[axis].flatMap((value, i) => {
-    const doubt = Math.min(2 * (sigma_mm[i] ?? 0), WIDEST_BAND_MM);
-    return value === null ? [] : [value - doubt, value + doubt];
+    const uncertainty = Math.min(2 * (sigma_mm[i] ?? 0), WIDEST_BAND_MM);
+    return value === null ? [] : [value - uncertainty, value + uncertainty];
   });
   const known = (values: Values): number[] => values.filter((value) => value !== null);
   const values = kept.length > 0 ? kept : known(read_mm[axis]);

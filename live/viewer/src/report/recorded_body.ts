@@ -40,7 +40,7 @@ export class RecordedBody implements Pose {
     this.turns = Float32Array.from(new Int16Array(bytesOf(data.turns).buffer));
     this.source = data.source ? bytesOf(data.source) : null;
     this.sigma = data.sigma ? new Uint16Array(bytesOf(data.sigma).buffer) : null;
-    this.frame.hasDoubt = this.source !== null && this.sigma !== null;
+    this.frame.hasUncertainty = this.source !== null && this.sigma !== null;
     this.words = {name, kind: isSubject ? 'performer' : 'avatar', skin: null,
       joints: points.map((point) => ({...point, bone: point.bone ?? '',
         rest: {p: [0, 0, 0], q: [0, 0, 0, 1]}})), offset_m: [0, 0, 0], estimate: isSubject};
@@ -75,7 +75,7 @@ export class RecordedBody implements Pose {
       this.turns.subarray(4 * turned * f, 4 * turned * (f + 1)));
     for (let j = 0; j < turned; ++j) blend(this.world_from_joint, a, b, 4 * j, share);
     const nearest = share < 0.5 ? first : second;
-    for (let i = 0; frame.hasDoubt && i < joints; ++i) {
+    for (let i = 0; frame.hasUncertainty && i < joints; ++i) {
       // A tip has the source of its joint.
       const at = nearest * turned + (i < turned ? i : this.parents[i]);
       frame.source[i] = Math.min(this.source![at], 2);

@@ -7,7 +7,7 @@ import {Matrix4, Quaternion, Vector3} from 'three';
 import type {CameraWords} from '../protocol/protocol';
 import {drawingOfBrowser} from '../scene/renderer';
 import type {Drawing, Renderer} from '../scene/renderer';
-import {wishes} from './common';
+import {requested} from './common';
 import type {ReportCamera} from './data';
 
 export function cameraWords(camera: ReportCamera): CameraWords {
@@ -21,7 +21,7 @@ export function cameraWords(camera: ReportCamera): CameraWords {
 }
 
 export function reportDrawing(): Drawing {
-  return wishes.includes('lines') ? 'lines' : drawingOfBrowser();
+  return requested.includes('lines') ? 'lines' : drawingOfBrowser();
 }
 
 /** Returns what a picture consists of, for tests. Valid right after it was drawn. */

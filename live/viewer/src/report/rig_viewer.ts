@@ -90,7 +90,7 @@ export class RigViewer {
       (corners.length > 1 ? loop(corners) : cross(corners[0], 0.012 * size)))),
     this.add('good', data.floor_places.flatMap((corners) => [...loop(corners),
       ...(corners.length < 4 ? [] : [...corners[0], ...corners[2], ...corners[1], ...corners[3]])]))];
-    const doubt = [this.add('inferred', cameras.flatMap((c) => sigmaCircles(c, this.scale)))];
+    const uncertainty = [this.add('inferred', cameras.flatMap((c) => sigmaCircles(c, this.scale)))];
     const toggle = (label: string, lines: LineSegments[]): HTMLElement =>
       checkbox(label, true, (on) => {
         for (const line of lines) line.visible = on;
@@ -98,7 +98,7 @@ export class RigViewer {
       }, {class: 'toggle'});
     this.root = el('div', {class: 'viewer rig'}, this.stage.element,
       el('div', {class: 'controls'}, toggle(target === 'wand' ? 'Wand' : 'Board', places),
-        toggle('Uncertainty', doubt), button({onclick: () => this.frame()}, 'Reset view'),
+        toggle('Uncertainty', uncertainty), button({onclick: () => this.frame()}, 'Reset view'),
         el('span', {class: 'clock'}, 'Drag turns, shift drag moves, the wheel zooms once the ' +
           'picture was clicked.')));
     this.paint();

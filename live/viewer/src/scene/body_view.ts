@@ -15,7 +15,7 @@ import type {Theme} from '../base/theme';
 
 /** The parts that are drawn; the user chooses them. */
 export interface Shown {
-  skin: boolean; bones: boolean; doubt: boolean; balance: boolean; cameras: boolean;
+  skin: boolean; bones: boolean; uncertainty: boolean; balance: boolean; cameras: boolean;
   handles: boolean; names: boolean; follow: boolean; colouring: Colouring;
 }
 
@@ -80,7 +80,7 @@ export class BodyView {
     this.present = true;
     this.pose.setFrame(frame);
     const skin = this.shown.skin && this.avatar !== null;
-    this.skeleton.show(this.shown.bones || !skin, this.shown.doubt && frame.hasDoubt,
+    this.skeleton.show(this.shown.bones || !skin, this.shown.uncertainty && frame.hasUncertainty,
       this.shown.colouring);
     this.skeleton.update(frame, this.floor_m);
     if (this.avatar) {

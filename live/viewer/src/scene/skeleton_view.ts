@@ -19,7 +19,7 @@ import {scaleColour} from '../base/theme';
 import type {Theme} from '../base/theme';
 
 /** Quantity that the colours of a skeleton show. */
-export type Colouring = 'source' | 'doubt' | 'plain';
+export type Colouring = 'source' | 'uncertainty' | 'plain';
 
 /** Sigma at the end of the colour scale. */
 export const SCALE_END_M = 0.03;
@@ -36,7 +36,7 @@ export class SkeletonView {
   private readonly jointRadii: Float32Array;
   private readonly bones: InstancedMesh<BufferGeometry, Material>;
   private readonly balls: InstancedMesh<BufferGeometry, Material>;
-  private readonly doubt: InstancedMesh<BufferGeometry, MeshBasicMaterial>;
+  private readonly uncertainty: InstancedMesh<BufferGeometry, MeshBasicMaterial>;
   private readonly shadow: InstancedMesh<BufferGeometry, MeshBasicMaterial>;
   private readonly sourceColours = [new Color(), new Color(), new Color()];
   private readonly plain = new Color();
@@ -67,14 +67,14 @@ export class SkeletonView {
     const skin = solid ? new MeshStandardMaterial({roughness: 0.5}) : new MeshLambertMaterial();
     this.bones = instances(shape, skin, this.ends.length);
     this.balls = instances(ballGeometry(solid ? 3 : 0), skin, pose.joints);
-    this.doubt = instances(ballGeometry(1), new MeshBasicMaterial({transparent: true, opacity: 0.28,
+    this.uncertainty = instances(ballGeometry(1), new MeshBasicMaterial({transparent: true, opacity: 0.28,
       depthWrite: false}), pose.joints);
     this.shadow = instances(shape, new MeshBasicMaterial({side: DoubleSide,
       depthWrite: false}), this.ends.length);
     this.bones.userData.long = true;
     this.shadow.userData.long = true;
     this.shadow.renderOrder = -5;
-    this.doubt.renderOrder = 5;
+    this.uncertainty.renderOrder = 5;
     this.shadowWidth = solid ? 1 : fleshed ? 3.2 : 1.5;
     if (fleshed) {
       // Visible through the skin.
@@ -82,7 +82,7 @@ export class SkeletonView {
       this.bones.renderOrder = 3;
       this.balls.renderOrder = 3;
     }
-    this.object.add(this.shadow, this.bones, this.balls, this.doubt);
+    this.object.add(this.shadow, this.bones, this.balls, this.uncertainty);
   }
 
   paint(theme: Theme): void {
@@ -91,11 +91,11 @@ export class SkeletonView {
     this.shadow.material.color.setStyle(theme.colour('stage-shadow'));
   }
 
-  show(bones: boolean, doubt: boolean, colouring: Colouring): void {
+  show(bones: boolean, uncertainty: boolean, colouring: Colouring): void {
     this.colouring = colouring;
     this.bones.visible = bones;
     this.balls.visible = bones;
-    this.doubt.visible = doubt;
+    this.uncertainty.visible = uncertainty;
   }
 
   /** Draws the current pose. */
@@ -103,7 +103,7 @@ export class SkeletonView {
     const {pose, ends} = this;
     const [dx, dy, dz] = this.offset;
     const p = pose.p_in_world;
-    const doubtful = frame.hasDoubt;
+    const isUncertain = frame.hasUncertainty;
     for (let k = 0; k < ends.length; ++k) {
       const joint = ends[k];
       const parent = pose.parents[joint];
@@ -120,25 +120,25 @@ export class SkeletonView {
         this.jointRadii[i], dx, dy, dz);
       const colour = this.colour(frame, i);
       this.balls.setColorAt(i, colour);
-      if (!this.doubt.visible) continue;
-      ballMatrix(this.doubt.instanceMatrix.array as Float32Array, i, p, 3 * i,
-        doubtful ? Math.min(SIGMAS * frame.sigma_m[i], LARGEST_BALL_M) : 0, dx, dy, dz);
-      this.doubt.setColorAt(i, colour);
+      if (!this.uncertainty.visible) continue;
+      ballMatrix(this.uncertainty.instanceMatrix.array as Float32Array, i, p, 3 * i,
+        isUncertain ? Math.min(SIGMAS * frame.sigma_m[i], LARGEST_BALL_M) : 0, dx, dy, dz);
+      this.uncertainty.setColorAt(i, colour);
     }
-    for (const mesh of [this.bones, this.balls, this.doubt, this.shadow]) {
+    for (const mesh of [this.bones, this.balls, this.uncertainty, this.shadow]) {
       mesh.instanceMatrix.needsUpdate = true;
       if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
     }
   }
 
   private colour(frame: SkeletonFrame, joint: number): Color {
-    if (!frame.hasDoubt || this.colouring === 'plain') return this.plain;
+    if (!frame.hasUncertainty || this.colouring === 'plain') return this.plain;
     return this.colouring === 'source' ? this.sourceColours[frame.source[joint]]
       : this.scaled.setStyle(scaleColour(frame.sigma_m[joint] / SCALE_END_M));
   }
 
   dispose(): void {
-    for (const mesh of [this.bones, this.balls, this.doubt, this.shadow]) {
+    for (const mesh of [this.bones, this.balls, this.uncertainty, this.shadow]) {
       mesh.geometry.dispose();
       mesh.material.dispose();
       mesh.dispose();

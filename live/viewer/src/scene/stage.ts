@@ -56,7 +56,7 @@ export class Stage {
   readonly element: HTMLElement;
   readonly renderer: Renderer;
   readonly orbit: Orbit;
-  readonly shown: Shown = {skin: true, bones: false, doubt: true, balance: true,
+  readonly shown: Shown = {skin: true, bones: false, uncertainty: true, balance: true,
     cameras: true, handles: true, names: true, follow: true, colouring: 'source'};
   private readonly labels = new Labels();
   private readonly floor: Floor;

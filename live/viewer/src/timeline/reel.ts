@@ -105,7 +105,7 @@ export class Reel {
     // Decoded now for the timeline, and again when shown, which may never happen.
     if (decodeFrame(view, 0, this.after) < 0) return false;
     const witness = this.after.skeletons[this.witness];
-    if (witness && !witness.hasDoubt) witness.source.fill(0);
+    if (witness && !witness.hasUncertainty) witness.source.fill(0);
     const tracked = witness?.hasTracking ? witness : null;
     this.ring.push(view, witness?.hasPose ? witness.source : null, tracked?.bears,
       tracked?.residual_px);

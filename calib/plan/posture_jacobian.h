@@ -33,7 +33,7 @@ using PostureMatrix = Eigen::Matrix<double, kPostureColumns, kPostureColumns>;
 using PostureVector = Eigen::Matrix<double, kPostureColumns, 1>;
 
 /// Derivatives of each bone's frame by the columns.
-struct BodyMotion {
+struct PostureJacobian {
   std::array<Eigen::Matrix<double, 3, kPostureColumns>, kHumanBoneCount> spin;
   std::array<Eigen::Matrix<double, 3, kPostureColumns>, kHumanBoneCount> origin;
   std::array<Eigen::Matrix<double, 3, kLengthColumns>, kHumanBoneCount> origin_by_length;
@@ -43,7 +43,8 @@ struct BodyMotion {
 /// Computes the derivatives of all bone frames, in the world. Precondition: in `place`, a
 /// posture of `body`, no limb's upper bone is twisted out of the plane in which the limb
 /// bends.
-[[nodiscard]] BodyMotion motion_of(const PlannedBody& body, const BodyPlace& place);
+[[nodiscard]] PostureJacobian posture_jacobian(const PlannedBody& body,
+                                               const BodyPlace& place);
 
 /// Derivatives of the residuals of a posture prior by the posture's columns, each divided
 /// by its sigma. Expected values are not included.
@@ -51,12 +52,12 @@ using PosturePriorRows = Eigen::Matrix<double, Eigen::Dynamic, kPostureColumns>;
 
 /// Returns the posture prior. `arm_twist_rad`: rotation of an arm's skin about its bone.
 [[nodiscard]] PosturePriorRows posture_prior_rows(const BodyPlace& place,
-                                                  const BodyMotion& motion,
+                                                  const PostureJacobian& motion,
                                                   double arm_twist_rad);
 
 /// Returns the additional prior of a subject who was asked to stand still and upright.
 [[nodiscard]] PosturePriorRows standing_prior_rows(const BodyPlace& place,
-                                                   const BodyMotion& motion);
+                                                   const PostureJacobian& motion);
 
 /// Prior of the step of each column from frame to frame: `correlation` times the previous
 /// step, with standard deviation `sigma`.
@@ -69,7 +70,7 @@ struct StepPrior {
 [[nodiscard]] StepPrior step_prior(FrameRate rate);
 
 /// Returns the information on lengths from anthropometry and from left-right symmetry.
-[[nodiscard]] Eigen::Matrix<double, kLengthColumns, kLengthColumns> typical_lengths(
+[[nodiscard]] Eigen::Matrix<double, kLengthColumns, kLengthColumns> length_information(
     const PlannedBody& body);
 
 }  // namespace marey::calib

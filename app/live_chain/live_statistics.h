@@ -60,7 +60,7 @@ struct LiveRecording {
 };
 
 /// Figures of a live run.
-struct LiveFigures {
+struct LiveStatistics {
   long frames = 0;     ///< Solved instants.
   long tracked = 0;    ///< Solved instants with the body tracked.
   long lost = 0;       ///< Solved instants with the body lost.
@@ -78,11 +78,11 @@ struct LiveFigures {
   std::vector<std::string> takes;          ///< Folders of completed takes.
   std::optional<Error> recording_trouble;
 
-  explicit LiveFigures(std::size_t camera_count) : times(camera_count) {}
+  explicit LiveStatistics(std::size_t camera_count) : times(camera_count) {}
 };
 
 /// Returns the figures as indented JSON (docs/formats/README.md) with a final newline.
-[[nodiscard]] std::string live_json_text(const LiveFigures& figures);
+[[nodiscard]] std::string live_json_text(const LiveStatistics& figures);
 
 /// Returns the resident memory of this process [MB], or 0 if the system does not report
 /// it.

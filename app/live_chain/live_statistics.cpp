@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "app/live_chain/live_figures.h"
+#include "app/live_chain/live_statistics.h"
 
 #include <cmath>
 #include <fstream>
@@ -27,7 +27,7 @@ ordered_json of(const LatencyHistogram& times) {
           {"most_ms", rounded(kMs * times.max_s())}};
 }
 
-ordered_json of(const LiveFigures& figures, std::size_t c) {
+ordered_json of(const LiveStatistics& figures, std::size_t c) {
   const LiveCameraFigures& camera = figures.cameras[c];
   return {{"name", camera.name},
           {"pictures", camera.pictures},
@@ -42,7 +42,7 @@ ordered_json of(const LiveFigures& figures, std::size_t c) {
 
 }  // namespace
 
-std::string live_json_text(const LiveFigures& figures) {
+std::string live_json_text(const LiveStatistics& figures) {
   const LiveTimes& times = figures.times;
   ordered_json out{{"frames", figures.frames},
                    {"tracked", figures.tracked},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/plan/body_freedom.h"
+#include "calib/plan/posture_jacobian.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +92,7 @@ Rows turning(int column) {
 void spin_limb(std::size_t limb,
                const PlannedBody& body,
                const BodyPlace& place,
-               BodyMotion& out) {
+               PostureJacobian& out) {
   const HumanLimb& bones = human_limbs()[limb];
   const int at = limb_column(limb);
   const double upper_m = glm::length(body.proportions[bones.lower]);
@@ -117,7 +117,7 @@ void spin_limb(std::size_t limb,
   out.spin[index(bones.end)] = turning(at + kEnd);
 }
 
-void set_spins(const PlannedBody& body, const BodyPlace& place, BodyMotion& out) {
+void set_spins(const PlannedBody& body, const BodyPlace& place, PostureJacobian& out) {
   out.spin[index(B::kHips)] = turning(kHips);
   out.spin[index(B::kChest)] = turning(kAbdomenEnd);
   out.spin[index(B::kSpine)] = 0.5 * (turning(kHips) + turning(kAbdomenEnd));
@@ -157,14 +157,14 @@ class Prior {
   std::vector<Row> rows_;
 };
 
-Rows relative(const BodyMotion& motion, B child, B of) {
+Rows relative(const PostureJacobian& motion, B child, B of) {
   return motion.spin[index(child)] - motion.spin[index(of)];
 }
 
 }  // namespace
 
-BodyMotion motion_of(const PlannedBody& body, const BodyPlace& place) {
-  BodyMotion out;
+PostureJacobian posture_jacobian(const PlannedBody& body, const BodyPlace& place) {
+  PostureJacobian out;
   for (auto& rows : out.spin) rows.setZero();
   set_spins(body, place, out);
   for (const B bone : human_bones()) {
@@ -194,7 +194,7 @@ BodyMotion motion_of(const PlannedBody& body, const BodyPlace& place) {
 }
 
 PosturePriorRows posture_prior_rows(const BodyPlace& place,
-                                    const BodyMotion& motion,
+                                    const PostureJacobian& motion,
                                     double arm_twist_rad) {
   Prior prior;
   prior.add(Rows(turning(kAbdomenEnd) - 0.5 * (turning(kHips) + turning(kThorax))),
@@ -228,7 +228,8 @@ PosturePriorRows posture_prior_rows(const BodyPlace& place,
   return prior.rows();
 }
 
-PosturePriorRows standing_prior_rows(const BodyPlace& place, const BodyMotion& motion) {
+PosturePriorRows standing_prior_rows(const BodyPlace& place,
+                                     const PostureJacobian& motion) {
   Prior prior;
   const auto ahead = [&](B bone) { return in_world(place, bone, {0, 0, 1}); };
   // Hips: their roll is measured, not part of the prior.
@@ -287,7 +288,7 @@ StepPrior step_prior(FrameRate rate) {
   return prior;
 }
 
-Eigen::Matrix<double, kLengthColumns, kLengthColumns> typical_lengths(
+Eigen::Matrix<double, kLengthColumns, kLengthColumns> length_information(
     const PlannedBody& body) {
   Eigen::Matrix<double, kLengthColumns, kLengthColumns> sum;
   sum.setZero();

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The marey authors
+// SPDX-License-Identifier: Apache-2.0
+#include "recordings/text/other_kind.h"
+
+#include <array>
+#include <cstddef>
+
+namespace marey::recordings {
+namespace {
+
+using std::string_view_literals::operator""sv;
+
+struct Signature {
+  std::size_t at;
+  std::string_view bytes;
+  std::string_view kind;
+};
+
+// The order matters: the last ones are those of whole families.
+constexpr std::array kSignatures{
+    Signature{0, "glTF"sv, "a glTF or VRM file"},
+    Signature{4, "ftyp"sv, "a video"},
+    Signature{0, "\x1A\x45\xDF\xA3"sv, "a video"},
+    Signature{8, "AVI "sv, "a video"},
+    Signature{0, "HIERARCHY"sv, "a BVH motion"},
+    Signature{0, ":ASF"sv, "an ASF skeleton"},
+    Signature{0, "PathFileType"sv, "a TRC file of markers"},
+    Signature{0, "SQLite format 3"sv, "a recorded take"},
+    Signature{0, "PK\x03\x04"sv, "a ZIP archive or an NPZ motion"},
+    Signature{0, "%PDF"sv, "a PDF document"},
+    Signature{0, "\x89PNG"sv, "a picture"},
+    Signature{0, "\xFF\xD8\xFF"sv, "a picture"},
+    Signature{0, "<"sv, "an XML or HTML file"},
+    Signature{0, "{"sv, "a JSON file"},
+    // Byte 2 of a C3D file is 0x50; byte 1 is the block of its parameters.
+    Signature{1, "\x50"sv, "a C3D file of markers"},
+};
+
+bool is_c3d(std::string_view content) {
+  return content.size() >= 512 && content[0] != '\0' && content[0] < '\t';
+}
+
+}  // namespace
+
+std::string_view other_kind(std::string_view content) {
+  if (content.starts_with("\xEF\xBB\xBF"sv)) content.remove_prefix(3);
+  for (const Signature& signature : kSignatures) {
+    if (content.size() < signature.at) continue;
+    if (!content.substr(signature.at).starts_with(signature.bytes)) continue;
+    if (signature.at == 1 && !is_c3d(content)) continue;
+    return signature.kind;
+  }
+  // TOML has no null characters.
+  const bool is_binary = content.substr(0, 512).find('\0') != std::string_view::npos;
+  return is_binary ? "a binary file"sv : ""sv;
+}
+
+}  // namespace marey::recordings
