@@ -42,10 +42,9 @@ TEST(OtherKind, IsTheCauseOfATomlReadersError) {
   const auto document = parse_toml(
       content_of_sample("first-light/walk/cam0.mp4"), "cam0.mp4", "session.md");
   ASSERT_FALSE(document);
-  EXPECT_EQ(
-      document.error().message(),
-      "cam0.mp4: this is a video, not a TOML file. Next: name the .toml file that is "
-      "asked for here; docs/formats/session.md describes it.");
+  EXPECT_EQ(document.error().message(),
+            "cam0.mp4: this is a video, not a TOML file. Next: give a .toml file as "
+            "docs/formats/session.md describes it.");
 }
 
 }  // namespace
