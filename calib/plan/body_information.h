@@ -9,8 +9,8 @@
 
 #include <Eigen/Dense>
 
-#include "calib/plan/body_freedom.h"
 #include "calib/plan/plan_rig.h"
+#include "calib/plan/posture_jacobian.h"
 
 namespace marey::calib {
 
@@ -57,7 +57,7 @@ struct FrameInformation {
 [[nodiscard]] FrameInformation information_of(std::span<const Camera> cameras,
                                               const PlannedBody& body,
                                               const BodyPlace& place,
-                                              const BodyMotion& motion,
+                                              const PostureJacobian& jacobian,
                                               std::span<const BodyView> views,
                                               const CornerSigma& corner_sigma,
                                               const SharedColumns& columns,

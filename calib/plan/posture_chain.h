@@ -9,8 +9,8 @@
 
 #include <Eigen/Dense>
 
-#include "calib/plan/body_freedom.h"
 #include "calib/plan/body_information.h"
+#include "calib/plan/posture_jacobian.h"
 
 namespace marey::calib {
 

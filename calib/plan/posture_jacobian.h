@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to calib: degrees of freedom of a planned body, to first order, and their
-// priors. The unknowns are those of marey's own solver (reconstruct/posture/posture.h);
-// their priors and speeds come from core/human/posture_priors.h, as the solver's do:
-// other priors would predict errors that the solver does not achieve.
+// Private to calib: derivatives of the bone frames of a planned body by its posture and
+// lengths, and the priors of both. The unknowns are those of marey's own solver
+// (reconstruct/posture/posture.h); their priors and speeds come from
+// core/human/posture_priors.h, as the solver's do: other priors would predict errors that
+// the solver does not achieve.
 
 #include <array>
 
@@ -32,8 +33,9 @@ inline constexpr double kBaseSigma_m = 0.012;
 using PostureMatrix = Eigen::Matrix<double, kPostureColumns, kPostureColumns>;
 using PostureVector = Eigen::Matrix<double, kPostureColumns, 1>;
 
-/// Derivatives of each bone's frame by the columns.
-struct BodyMotion {
+/// Derivatives of each bone's frame in the world by the columns: of its rotation vector
+/// (`spin`) by the posture, and of its origin [m] by posture, lengths and collar bones.
+struct PostureJacobian {
   std::array<Eigen::Matrix<double, 3, kPostureColumns>, kHumanBoneCount> spin;
   std::array<Eigen::Matrix<double, 3, kPostureColumns>, kHumanBoneCount> origin;
   std::array<Eigen::Matrix<double, 3, kLengthColumns>, kHumanBoneCount> origin_by_length;
@@ -43,7 +45,8 @@ struct BodyMotion {
 /// Computes the derivatives of all bone frames, in the world. Precondition: in `place`, a
 /// posture of `body`, no limb's upper bone is twisted out of the plane in which the limb
 /// bends.
-[[nodiscard]] BodyMotion motion_of(const PlannedBody& body, const BodyPlace& place);
+[[nodiscard]] PostureJacobian posture_jacobian(const PlannedBody& body,
+                                               const BodyPlace& place);
 
 /// Derivatives of the residuals of a posture prior by the posture's columns, each divided
 /// by its sigma. Expected values are not included.
@@ -51,12 +54,12 @@ using PosturePriorRows = Eigen::Matrix<double, Eigen::Dynamic, kPostureColumns>;
 
 /// Returns the posture prior. `arm_twist_rad`: rotation of an arm's skin about its bone.
 [[nodiscard]] PosturePriorRows posture_prior_rows(const BodyPlace& place,
-                                                  const BodyMotion& motion,
+                                                  const PostureJacobian& jacobian,
                                                   double arm_twist_rad);
 
 /// Returns the additional prior of a subject who was asked to stand still and upright.
 [[nodiscard]] PosturePriorRows standing_prior_rows(const BodyPlace& place,
-                                                   const BodyMotion& motion);
+                                                   const PostureJacobian& jacobian);
 
 /// Prior of the step of each column from frame to frame: `correlation` times the previous
 /// step, with standard deviation `sigma`.
@@ -68,8 +71,9 @@ struct StepPrior {
 /// Returns the prior of the steps at `rate`.
 [[nodiscard]] StepPrior step_prior(FrameRate rate);
 
-/// Returns the information on lengths from anthropometry and from left-right symmetry.
-[[nodiscard]] Eigen::Matrix<double, kLengthColumns, kLengthColumns> typical_lengths(
+/// Returns the information (inverse covariance) on the lengths from anthropometry and
+/// from left-right symmetry. [1/m^2]
+[[nodiscard]] Eigen::Matrix<double, kLengthColumns, kLengthColumns> length_information(
     const PlannedBody& body);
 
 }  // namespace marey::calib
