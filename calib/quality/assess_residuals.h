@@ -6,7 +6,14 @@
 
 namespace marey::calib {
 
-/// Checks residuals, outliers, lags, the lens model and the floor.
+/// Appends findings about residuals. For each camera: the level (good up to 0.5 px,
+/// usable up to 3 px, or 2.5 times that of the others); the share of outlier corners
+/// (fair above 5 %, poor above 25 %), or the frame from which it does not fit; a
+/// significant lag; a systematic pattern of 0.3 px, which the lens model leaves; views of
+/// the floor board or of static tags that do not fit (1.5 px and 3 times the residual).
+/// For the session: single frames with half of all outliers, a floor more than 0.3 m
+/// above a camera or the waved board (poor) or seen by one camera only (fair), and a bent
+/// board (note, from 1 mm). Pixels as in pixel_scale().
 void assess_residuals(FindingList& list);
 
 /// Returns true if the errors of camera `c` follow the motion of the target by a

@@ -10,8 +10,10 @@
 
 namespace marey::retarget {
 
-/// Returns the limits of a body's joints: of its bones and of its vertebrae, marked or
-/// not. Limits in `traits` replace these, also if `traits` excludes all others.
+/// Returns the limits of a body's joints, in joint order, with angles in radians relative
+/// to the T-pose. A joint has the limit that `traits` states for it; else, unless
+/// `traits.has_limits` is false, the typical human limit of its bone or vertebra. Joints
+/// without a limit are not listed. Precondition: `traits` is for the skeleton of `map`.
 [[nodiscard]] std::vector<JointLimit> joint_limits(const BodyMap& map,
                                                    const CharacterTraits& traits);
 
