@@ -22,7 +22,7 @@ struct ViewRows {
 std::optional<ViewRows> rows_of(const Camera& camera,
                                 const PlacedTag& tag,
                                 const BodyPlace& place,
-                                const PostureJacobian& motion,
+                                const PostureJacobian& jacobian,
                                 double sigma_px) {
   const std::size_t bone = index(tag.tag.segment);
   const RigidTransform& world_from_bone = place[bone];
@@ -38,10 +38,11 @@ std::optional<ViewRows> rows_of(const Camera& camera,
     const Eigen::Vector3d from_bone = to_eigen(corner - world_from_bone.translation);
     const Eigen::Vector3d from_centre = to_eigen(corner - world_from_tag.translation);
     rows.by_posture.middleRows<2>(2 * c) =
-        by_point * (motion.origin[bone] - cross_matrix(from_bone) * motion.spin[bone]);
-    rows.by_shared.middleRows<2>(2 * c) << by_point * motion.origin_by_length[bone],
+        by_point *
+        (jacobian.origin[bone] - cross_matrix(from_bone) * jacobian.spin[bone]);
+    rows.by_shared.middleRows<2>(2 * c) << by_point * jacobian.origin_by_length[bone],
         -by_point * cross_matrix(from_centre) * turn, by_point * turn,
-        sight->by_camera / sigma_px, by_point * motion.origin_by_base[bone];
+        sight->by_camera / sigma_px, by_point * jacobian.origin_by_base[bone];
   }
   return rows;
 }
@@ -76,7 +77,7 @@ std::vector<BodyView> views_of(std::span<const Camera> cameras,
 FrameInformation information_of(std::span<const Camera> cameras,
                                 const PlannedBody& body,
                                 const BodyPlace& place,
-                                const PostureJacobian& motion,
+                                const PostureJacobian& jacobian,
                                 std::span<const BodyView> views,
                                 const CornerSigma& corner_sigma,
                                 const SharedColumns& columns,
@@ -87,7 +88,7 @@ FrameInformation information_of(std::span<const Camera> cameras,
     const auto rows = rows_of(cameras[view.camera],
                               body.tags[view.tag],
                               place,
-                              motion,
+                              jacobian,
                               corner_sigma(view.side_px));
     if (!rows) continue;
     out.posture.noalias() += rows->by_posture.transpose() * rows->by_posture;

@@ -57,7 +57,7 @@ struct FrameInformation {
 [[nodiscard]] FrameInformation information_of(std::span<const Camera> cameras,
                                               const PlannedBody& body,
                                               const BodyPlace& place,
-                                              const PostureJacobian& motion,
+                                              const PostureJacobian& jacobian,
                                               std::span<const BodyView> views,
                                               const CornerSigma& corner_sigma,
                                               const SharedColumns& columns,

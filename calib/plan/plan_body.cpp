@@ -43,7 +43,7 @@ std::vector<HumanBone> limb_joints() {
 /// Observability and occlusion of a body at one position.
 struct SeenBody {
   FrameInformation information;
-  PostureJacobian motion;
+  PostureJacobian jacobian;
   std::vector<bool> measured;  ///< Per bone.
   int seen = 0;                ///< Number of tags.
   int seen_twice = 0;
@@ -156,7 +156,7 @@ class BodyPlanner {
   SeenBody see(const BodyPlace& place) const {
     SeenBody out;
     const auto views = views_of(cameras_, body_, place, options_.tags);
-    out.motion = posture_jacobian(body_, place);
+    out.jacobian = posture_jacobian(body_, place);
     out.measured.assign(kHumanBoneCount, false);
     std::vector<int> cameras_of_tag(body_.tags.size(), 0);
     for (const BodyView& view : views) {
@@ -168,8 +168,8 @@ class BodyPlanner {
       out.seen_twice += cameras >= 2 ? 1 : 0;
     }
     out.information =
-        information_of(cameras_, body_, place, out.motion, views, sigma_, columns_);
-    add_posture_prior(posture_prior_rows(place, out.motion, kArmTwistSigma_rad),
+        information_of(cameras_, body_, place, out.jacobian, views, sigma_, columns_);
+    add_posture_prior(posture_prior_rows(place, out.jacobian, kArmTwistSigma_rad),
                       out.information);
     return out;
   }
@@ -184,9 +184,9 @@ class BodyPlanner {
     Eigen::MatrixXd by_base(3 * count, kBaseColumns);
     for (Eigen::Index j = 0; j < count; ++j) {
       const std::size_t bone = index(joints_[static_cast<std::size_t>(j)]);
-      by_posture.middleRows<3>(3 * j) = seen.motion.origin[bone];
-      by_length.middleRows<3>(3 * j) = seen.motion.origin_by_length[bone];
-      by_base.middleRows<3>(3 * j) = seen.motion.origin_by_base[bone];
+      by_posture.middleRows<3>(3 * j) = seen.jacobian.origin[bone];
+      by_length.middleRows<3>(3 * j) = seen.jacobian.origin_by_length[bone];
+      by_base.middleRows<3>(3 * j) = seen.jacobian.origin_by_base[bone];
     }
     Eigen::MatrixXd follows = by_posture * uncertainty.by_shared;
     follows.leftCols(kLengthColumns) += by_length;

@@ -157,8 +157,8 @@ class Prior {
   std::vector<Row> rows_;
 };
 
-Rows relative(const PostureJacobian& motion, B child, B of) {
-  return motion.spin[index(child)] - motion.spin[index(of)];
+Rows relative(const PostureJacobian& jacobian, B child, B of) {
+  return jacobian.spin[index(child)] - jacobian.spin[index(of)];
 }
 
 }  // namespace
@@ -194,17 +194,17 @@ PostureJacobian posture_jacobian(const PlannedBody& body, const BodyPlace& place
 }
 
 PosturePriorRows posture_prior_rows(const BodyPlace& place,
-                                    const PostureJacobian& motion,
+                                    const PostureJacobian& jacobian,
                                     double arm_twist_rad) {
   Prior prior;
   prior.add(Rows(turning(kAbdomenEnd) - 0.5 * (turning(kHips) + turning(kThorax))),
             kAbdomenBendSigma_rad);
   prior.add(Rows(turning(kNeck) - 0.5 * (turning(kThorax) + turning(kHead))),
             kNeckBendSigma_rad);
-  prior.add(relative(motion, B::kUpperChest, B::kHips), kTrunkTurnSigma_rad);
-  prior.add(relative(motion, B::kHead, B::kUpperChest), kTrunkTurnSigma_rad);
+  prior.add(relative(jacobian, B::kUpperChest, B::kHips), kTrunkTurnSigma_rad);
+  prior.add(relative(jacobian, B::kHead, B::kUpperChest), kTrunkTurnSigma_rad);
   for (const B shoulder : {B::kLeftShoulder, B::kRightShoulder}) {
-    const Rows turn = relative(motion, shoulder, B::kUpperChest);
+    const Rows turn = relative(jacobian, shoulder, B::kUpperChest);
     const auto axis = [&](const glm::dvec3& v) {
       return Row(in_world(place, shoulder, v).transpose() * turn);
     };
@@ -216,10 +216,10 @@ PosturePriorRows posture_prior_rows(const BodyPlace& place,
     const bool arm = limb < 2;
     const int at = limb_column(limb);
     const B trunk = arm ? B::kUpperChest : B::kHips;
-    prior.add(Rows(turning(at) - motion.spin[index(trunk)]),
+    prior.add(Rows(turning(at) - jacobian.spin[index(trunk)]),
               arm ? kArmSigma_rad : kLegSigma_rad);
     const HumanLimb& bones = human_limbs()[limb];
-    prior.add(relative(motion, bones.end, bones.lower),
+    prior.add(relative(jacobian, bones.end, bones.lower),
               arm ? kHandSigma_rad : kFootSigma_rad);
     prior.add_column(at + kUpperTwist, arm ? arm_twist_rad : kLegTwistSigma_rad);
     prior.add_column(at + kLowerTwist, arm ? arm_twist_rad : kLegTwistSigma_rad);
@@ -229,27 +229,28 @@ PosturePriorRows posture_prior_rows(const BodyPlace& place,
 }
 
 PosturePriorRows standing_prior_rows(const BodyPlace& place,
-                                     const PostureJacobian& motion) {
+                                     const PostureJacobian& jacobian) {
   Prior prior;
   const auto ahead = [&](B bone) { return in_world(place, bone, {0, 0, 1}); };
   // Hips: their roll is measured, not part of the prior.
   prior.add(Row(Eigen::Vector3d::UnitY().cross(ahead(B::kHips)).transpose() *
-                motion.spin[index(B::kHips)]),
+                jacobian.spin[index(B::kHips)]),
             kStandingTrunkSigma_rad);
   for (const B bone : {B::kUpperChest, B::kHead, B::kLeftFoot, B::kRightFoot}) {
     const bool foot = bone == B::kLeftFoot || bone == B::kRightFoot;
-    prior.add_upright(motion.spin[index(bone)],
+    prior.add_upright(jacobian.spin[index(bone)],
                       ahead(bone),
                       foot ? kStandingFootSigma_rad : kStandingTrunkSigma_rad);
   }
   prior.add(Rows(turning(kAbdomenEnd) - 0.5 * (turning(kHips) + turning(kThorax))),
             kStandingBendSigma_rad);
-  prior.add(relative(motion, B::kHead, B::kUpperChest), kStandingTurnSigma_rad);
-  prior.add(relative(motion, B::kLeftShoulder, B::kUpperChest), kStandingTurnSigma_rad);
-  prior.add(relative(motion, B::kRightShoulder, B::kUpperChest), kStandingTurnSigma_rad);
+  prior.add(relative(jacobian, B::kHead, B::kUpperChest), kStandingTurnSigma_rad);
+  prior.add(relative(jacobian, B::kLeftShoulder, B::kUpperChest), kStandingTurnSigma_rad);
+  prior.add(relative(jacobian, B::kRightShoulder, B::kUpperChest),
+            kStandingTurnSigma_rad);
   for (std::size_t limb = 0; limb < 4; ++limb) {
     const HumanLimb& bones = human_limbs()[limb];
-    prior.add(relative(motion, bones.end, bones.lower),
+    prior.add(relative(jacobian, bones.end, bones.lower),
               limb < 2 ? kStandingHandSigma_rad : kStandingAnkleSigma_rad);
     prior.add_column(limb_column(limb) + kUpperTwist, kStandingTwistSigma_rad);
     prior.add_column(limb_column(limb) + kLowerTwist, kStandingTwistSigma_rad);

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to calib: degrees of freedom of a planned body, to first order, and their
-// priors. The unknowns are those of marey's own solver (reconstruct/posture/posture.h);
-// their priors and speeds come from core/human/posture_priors.h, as the solver's do:
-// other priors would predict errors that the solver does not achieve.
+// Private to calib: derivatives of the bone frames of a planned body by its posture and
+// lengths, and the priors of both. The unknowns are those of marey's own solver
+// (reconstruct/posture/posture.h); their priors and speeds come from
+// core/human/posture_priors.h, as the solver's do: other priors would predict errors that
+// the solver does not achieve.
 
 #include <array>
 
@@ -32,7 +33,8 @@ inline constexpr double kBaseSigma_m = 0.012;
 using PostureMatrix = Eigen::Matrix<double, kPostureColumns, kPostureColumns>;
 using PostureVector = Eigen::Matrix<double, kPostureColumns, 1>;
 
-/// Derivatives of each bone's frame by the columns.
+/// Derivatives of each bone's frame in the world by the columns: of its rotation vector
+/// (`spin`) by the posture, and of its origin [m] by posture, lengths and collar bones.
 struct PostureJacobian {
   std::array<Eigen::Matrix<double, 3, kPostureColumns>, kHumanBoneCount> spin;
   std::array<Eigen::Matrix<double, 3, kPostureColumns>, kHumanBoneCount> origin;
@@ -52,12 +54,12 @@ using PosturePriorRows = Eigen::Matrix<double, Eigen::Dynamic, kPostureColumns>;
 
 /// Returns the posture prior. `arm_twist_rad`: rotation of an arm's skin about its bone.
 [[nodiscard]] PosturePriorRows posture_prior_rows(const BodyPlace& place,
-                                                  const PostureJacobian& motion,
+                                                  const PostureJacobian& jacobian,
                                                   double arm_twist_rad);
 
 /// Returns the additional prior of a subject who was asked to stand still and upright.
 [[nodiscard]] PosturePriorRows standing_prior_rows(const BodyPlace& place,
-                                                   const PostureJacobian& motion);
+                                                   const PostureJacobian& jacobian);
 
 /// Prior of the step of each column from frame to frame: `correlation` times the previous
 /// step, with standard deviation `sigma`.
@@ -69,7 +71,8 @@ struct StepPrior {
 /// Returns the prior of the steps at `rate`.
 [[nodiscard]] StepPrior step_prior(FrameRate rate);
 
-/// Returns the information on lengths from anthropometry and from left-right symmetry.
+/// Returns the information (inverse covariance) on the lengths from anthropometry and
+/// from left-right symmetry. [1/m^2]
 [[nodiscard]] Eigen::Matrix<double, kLengthColumns, kLengthColumns> length_information(
     const PlannedBody& body);
 

@@ -65,12 +65,12 @@ Eigen::MatrixXd subject_uncertainty(std::span<const Camera> cameras,
   Eigen::MatrixXd shared = Eigen::MatrixXd::Zero(columns.count(), columns.count());
   const auto add = [&](const BodyPlace& place, bool stands) {
     const auto views = views_of(cameras, body, place, options);
-    const PostureJacobian motion = posture_jacobian(body, place);
+    const PostureJacobian jacobian = posture_jacobian(body, place);
     FrameInformation frame = information_of(
-        cameras, body, place, motion, views, corner_sigma, columns, &shared);
-    add_posture_prior(posture_prior_rows(place, motion, kFitTwistSigma_rad), frame);
+        cameras, body, place, jacobian, views, corner_sigma, columns, &shared);
+    add_posture_prior(posture_prior_rows(place, jacobian, kFitTwistSigma_rad), frame);
     if (stands) {
-      const PosturePriorRows upright = standing_prior_rows(place, motion);
+      const PosturePriorRows upright = standing_prior_rows(place, jacobian);
       frame.posture.noalias() += upright.transpose() * upright;
     }
     add_frame(frame, shared);

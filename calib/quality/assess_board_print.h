@@ -6,9 +6,11 @@
 
 namespace marey::calib {
 
-/// Appends a finding if the printed AprilGrid has not its declared sizes. A wrong size
-/// changes the ratio of black squares to gaps by the same share in all cameras. Lens blur
-/// and light change it in one camera by a number of pixels.
+/// Appends a finding if the printed AprilGrid does not have its declared sizes: the
+/// median over cameras of the squares' shrinkage relative to the gaps is above 0.8 %
+/// (fair) or 1.5 % (poor). A wrong size changes this ratio by the same share in all
+/// cameras. Lens blur and light change it in one camera by a number of pixels. No finding
+/// for other targets, whose shrinkage is 0. Reads TagShrinkage::slope of the cameras.
 void assess_board_print(FindingList& list);
 
 }  // namespace marey::calib

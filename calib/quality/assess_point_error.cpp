@@ -41,9 +41,9 @@ void assess_middle(FindingList& list) {
     return;
   }
   if (*map.middle_error_m <= fair_error_m(list.report)) return;
-  bool any_clock_offset = false;
+  bool any_lag = false;
   for (std::size_t c = 0; c < list.report.cameras.size(); ++c) {
-    any_clock_offset = any_clock_offset || has_clock_offset(list.report, c);
+    any_lag = any_lag || has_significant_lag(list.report, c);
   }
   list.add(severity_of(*map.middle_error_m, poor_error_m(list.report)),
            "error",
@@ -53,7 +53,7 @@ void assess_middle(FindingList& list) {
                        1e3 * *map.middle_error_m) +
                heights +
                format_text(" (good: under %.1f)", 1e3 * fair_error_m(list.report)),
-           (any_clock_offset ? "synchronize the cameras, then show the " : "show the ") +
+           (any_lag ? "synchronize the cameras, then show the " : "show the ") +
                std::string(list.target()) +
                " longer, nearer and more tilted, and to several cameras at once; see "
                "which camera has the largest sigma");

@@ -87,7 +87,7 @@ void assess_outliers(FindingList& list, std::size_t c) {
   if (seems_moved(list.report, c)) return;
   // A camera that is out of step also loses whole sections in which the board was fast.
   if ((camera.mismatch_from || camera.mismatch_until) &&
-      !has_clock_offset(list.report, c)) {
+      !has_significant_lag(list.report, c)) {
     list.add(Severity::kPoor,
              "moved",
              list.camera(c),
@@ -157,7 +157,7 @@ void assess_frames(FindingList& list) {
 
 void assess_lag(FindingList& list, std::size_t c) {
   const CameraMeasures& camera = list.report.cameras[c];
-  if (!has_clock_offset(list.report, c)) return;
+  if (!has_significant_lag(list.report, c)) return;
   const double ms =
       list.report.rate_hz > 0.0 ? 1e3 * camera.lag->frames / list.report.rate_hz : 0.0;
   const char* way = camera.lag->frames > 0.0 ? "later" : "earlier";
@@ -300,7 +300,7 @@ void assess_warp(FindingList& list) {
 
 }  // namespace
 
-bool has_clock_offset(const CalibrationReport& report, std::size_t c) {
+bool has_significant_lag(const CalibrationReport& report, std::size_t c) {
   const std::optional<CameraLag>& lag = report.cameras[c].lag;
   // Errors of neighbouring views are correlated: four sigmas of independent views are not
   // sufficient.

@@ -6,9 +6,12 @@
 
 namespace marey::calib {
 
-/// Appends findings about the views of each camera: coverage of its image, tilt of the
-/// board, number of views, and instants that it shares with other cameras. Limits are in
-/// calibration_limits.h.
+/// Appends findings about too few or too similar views. For each camera: instants with
+/// the moving target (fair below 10, poor below 4); the covered share of its image (fair
+/// below 30 %, poor below 6.25 %) or of one half of it (below 15 % with 40 % of the other
+/// half); the 90 % quantile of the board's tilt (fair below 15 degrees; boards only). For
+/// pairs of cameras on the strongest spanning tree of shared views: fewer than
+/// kFairShared instants (fair).
 void assess_target_views(FindingList& list);
 
 }  // namespace marey::calib

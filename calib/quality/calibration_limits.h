@@ -9,8 +9,9 @@
 
 namespace marey::calib {
 
-/// Limits of the measures. Of a pair, a result within the first limit is good, and one
-/// within the second can be used.
+/// Limits of the measures of a calibration. Each pair is {limit of good, limit of
+/// usable}: a value between the two is a fair finding, a value beyond the second a poor
+/// one.
 struct CalibrationLimits {
   std::array<double, 2> error_m;
   std::array<double, 2> residual_px;
@@ -25,15 +26,17 @@ inline constexpr std::array<double, 2> kResidualLimitsPx{0.5, 3.0};
 /// If it covers less than a sixteenth, the lens is unconstrained in the rest of the
 /// image.
 inline constexpr std::array<double, 2> kCoverageLimits{0.3, 0.0625};
-/// With this number of shared instants or fewer between two cameras, one wrong pose of
+/// Smallest good number of instants that two cameras share. With fewer, one wrong pose of
 /// the board changes their relative pose.
 inline constexpr int kFairShared = 8;
-/// Returns the limits that apply to this calibration: that of points is proportional to
-/// the distance of its volume from the cameras.
+
+/// Returns the limits of a report. Those of errors are 8 and 20 mm at a distance of 3 m
+/// from the cameras to the middle of the volume (CalibrationMap::distance_m), and scale
+/// with it.
 [[nodiscard]] CalibrationLimits limits_of(const CalibrationReport& report);
 
-/// Returns the factor of pixel limits for this camera. Limits apply to images up to 1920
-/// px wide; the same blur covers more pixels of a larger image.
+/// Returns the factor for limits in pixels of this camera: 1 up to an image width of 1920
+/// px, else width / 1920, because the same blur covers more pixels of a larger image.
 [[nodiscard]] inline double pixel_scale(const Camera& camera) {
   const double width_px = camera.intrinsics.width_px;
   return width_px > 1920.0 ? width_px / 1920.0 : 1.0;

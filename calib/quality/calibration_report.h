@@ -22,8 +22,8 @@ struct ViewTilt {
   double distance_m = 0.0;  ///< From the camera to its middle.
 };
 
-/// A camera whose errors are correlated with the board's motion in its image: it is late
-/// (positive) or early relative to the others.
+/// Delay of a camera relative to the others, estimated from the correlation of its errors
+/// with the board's motion in its image. Positive: it is later.
 struct CameraLag {
   double frames = 0.0;
   double sigma_frames = 0.0;
@@ -56,9 +56,10 @@ struct CameraMeasures {
   /// Root mean square of the mean errors over areas of the image, minus the part expected
   /// by chance: the systematic error that the lens model leaves. [px]
   double pattern_px = 0.0;
-  std::optional<CameraLag> lag;    ///< Set if all cameras are assumed to share a clock.
+  /// Estimated only if the calibration uses one clock for all cameras.
+  std::optional<CameraLag> lag;
   std::optional<CameraSlip> slip;  ///< Set if the lag changes significantly.
-  /// On the floor board, or on static tags.
+  /// Median error of the views of the floor board or of static tags; nullopt without any.
   std::optional<double> floor_median_px;
   /// First frame after which almost all sightings are outliers.
   std::optional<int> mismatch_from;

@@ -51,7 +51,7 @@ struct SubjectBundle {
   /// Share of the variance of corners' errors that is the same in all frames in which one
   /// camera sees one tag. The value of simulated sessions until refine_slides() estimates
   /// it.
-  double common_share = 0.08;
+  double correlated_error_share = 0.08;
   BoneSlips slips_m{};  ///< Slip of the tags on each segment.
   TwistPriors twists = kFirstTwists;
   /// Slides of all tags with a place; empty while skin is assumed to be firm.

@@ -12,7 +12,7 @@
 
 #include <Eigen/Dense>
 
-#include "reconstruct/bundle/common_error.h"
+#include "reconstruct/bundle/correlated_error_share.h"
 #include "reconstruct/bundle/subject_covariance.h"
 #include "reconstruct/bundle/subject_solve.h"
 
@@ -249,14 +249,14 @@ double variance_scale(const SubjectBundle& bundle) {
   // The design effect of cluster sampling (Kish 1965, 5.4).
   double squares = 0.0;
   for (const auto& [pair, times] : repeated) squares += times * times;
-  const double effect = 1.0 + (squares / count - 1.0) * bundle.common_share;
+  const double effect = 1.0 + (squares / count - 1.0) * bundle.correlated_error_share;
   return effect * stray2(bundle);
 }
 
 bool refine_slides(SubjectBundle& bundle, std::span<const Camera> cameras) {
   constexpr int kIterations = 4;
   begin_slides(bundle);
-  bundle.common_share = estimated_common_share(bundle, cameras);
+  bundle.correlated_error_share = estimate_correlated_error_share(bundle, cameras);
   bundle.prior_weight = variance_scale(bundle);
   bundle.slide_m_per_rad.fill(kUsualSlide_m_per_rad);
   for (int round = 0; round < 2; ++round) {

@@ -4,10 +4,11 @@
 
 // Private to reconstruct: a filter and a smoother of pose parameters over frames.
 //
-// The speed of every pose parameter is an Ornstein-Uhlenbeck process (posture_priors.h).
-// Each parameter has a Kalman filter of its own, and a Rauch-Tung-Striebel smoother. The
-// markers of a frame couple the parameters: MarkerFrameSolver solves them with the
-// filter's prediction as a prior. Batch and live steps share this code.
+// The speed of every pose parameter is an Ornstein-Uhlenbeck process
+// (core/human/posture_priors.h). Each parameter has a Kalman filter of its own, and a
+// Rauch-Tung-Striebel smoother. The markers of a frame couple the parameters:
+// MarkerFrameSolver solves them with the filter's prediction as a prior. Batch and live
+// steps share this code.
 
 #include <array>
 #include <span>

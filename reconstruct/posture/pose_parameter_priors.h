@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to reconstruct: the human priors by parameters of the posture.
+// Private to reconstruct: the human priors of core/human/posture_priors.h by
+// parameters of the posture.
 
 #include <array>
 

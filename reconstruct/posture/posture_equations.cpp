@@ -133,13 +133,13 @@ void PostureEquations::add_posture_priors(const Posture& posture,
                                           const UnfoldedPosture& unfolded,
                                           const TwistPriors& twists,
                                           double share,
-                                          double shoulder_sigma_factor) {
+                                          double collar_bone_factor) {
   for (const SpineBendPrior& row : kSpineBendPriors) add_halfway(posture, row, 1.0);
   for (const RelativePosePrior& row : kRelativePosePriors) {
     glm::dvec3 sigma_rad = row.sigma_rad;
     if (row.child == PoseParameter::kLeftShoulder ||
         row.child == PoseParameter::kRightShoulder) {
-      sigma_rad *= glm::dvec3(1.0, shoulder_sigma_factor, shoulder_sigma_factor);
+      sigma_rad *= glm::dvec3(1.0, collar_bone_factor, collar_bone_factor);
     }
     add_relative(posture, row, sigma_rad, row.anatomy ? 1.0 : share);
   }

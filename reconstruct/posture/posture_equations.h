@@ -34,15 +34,15 @@ struct PostureEquations {
   void add(const SparseDerivative& derivative,
            const Eigen::Vector3d& residual,
            double weight);
-  /// Adds the priors of human postures (posture_priors.h). Some 3 microseconds. Priors of
-  /// usual behaviour, unlike anatomical ones, have `share` of their weight: consecutive
-  /// frames repeat the same information. Collar bones may be `shoulder_sigma_factor`
-  /// times as far as usual from lying level and sideways.
+  /// Adds the priors of human postures (pose_parameter_priors.h). Some 3 microseconds.
+  /// Priors of usual behaviour, unlike anatomical ones, have `share` of their weight:
+  /// consecutive frames repeat the same information. `collar_bone_factor` multiplies the
+  /// sigmas of the collar bones' rotation about their vertical and forward axes.
   void add_posture_priors(const Posture& posture,
                           const UnfoldedPosture& unfolded,
                           const TwistPriors& twists,
                           double share = 1.0,
-                          double shoulder_sigma_factor = 1.0);
+                          double collar_bone_factor = 1.0);
   /// Adds the prior of a person standing still and upright, feet flat, hands in line with
   /// the forearms with `share` of its weight.
   void add_standing(const Posture& posture,

@@ -102,7 +102,7 @@ void add_posture_priors(Posture& posture,
                         const Lengths& lengths,
                         ceres::Problem& problem,
                         const TwistPriors& twists,
-                        double shoulder_sigma_factor,
+                        double collar_bone_factor,
                         double prior_share) {
   // A share of the weight is the inverse root of the share in the sigma.
   const double wider = 1.0 / std::sqrt(prior_share);
@@ -114,7 +114,7 @@ void add_posture_priors(Posture& posture,
     glm::dvec3 sigma_rad = row.sigma_rad;
     if (row.child == PoseParameter::kLeftShoulder ||
         row.child == PoseParameter::kRightShoulder) {
-      sigma_rad *= glm::dvec3(1.0, shoulder_sigma_factor, shoulder_sigma_factor);
+      sigma_rad *= glm::dvec3(1.0, collar_bone_factor, collar_bone_factor);
     }
     if (!row.anatomy) sigma_rad *= wider;
     add_relative(posture, row.parent, row.child, usual, sigma_rad, problem);
@@ -215,7 +215,7 @@ void set_manifolds(Posture& posture, ceres::Problem& problem) {
   }
 }
 
-void hold_constant(Posture& posture, ceres::Problem& problem) {
+void set_posture_constant(Posture& posture, ceres::Problem& problem) {
   for (const PoseParameter parameter : kAllPoseParameters) {
     if (problem.HasParameterBlock(posture.block(parameter))) {
       problem.SetParameterBlockConstant(posture.block(parameter));

@@ -19,15 +19,16 @@ namespace marey::reconstruct {
 
 /// Adds anatomical limits and pose priors: a spine bends evenly; collar bones, hands and
 /// feet do not turn far; elbows and knees do not bend backward. They are wide compared
-/// with measurements and matter only for unseen parameters. `shoulder_sigma_factor` is
-/// the factor by which collar bones may be further than usual from lying level and
-/// sideways. Priors of usual behaviour, unlike anatomical ones, have `prior_share` of
-/// their weight: the instants of one trial repeat the same information.
+/// with measurements and matter only for unseen parameters. `collar_bone_factor`
+/// multiplies the sigmas of the collar bones' rotation about their vertical and forward
+/// axes.
+/// Priors of usual behaviour, unlike anatomical ones, have `prior_share` of their weight:
+/// the instants of one trial repeat the same information.
 void add_posture_priors(Posture& posture,
                         const Lengths& lengths,
                         ceres::Problem& problem,
                         const TwistPriors& twists = {},
-                        double shoulder_sigma_factor = 1.0,
+                        double collar_bone_factor = 1.0,
                         double prior_share = 1.0);
 
 /// Adds the smoothness of movement: the speed of every block is an Ornstein-Uhlenbeck
@@ -58,8 +59,9 @@ void add_motion_prior(const Posture& expected,
 /// Declares the posture's rotations to Ceres. Call once its blocks are in use.
 void set_manifolds(Posture& posture, ceres::Problem& problem);
 
-/// Holds the posture constant.
-void hold_constant(Posture& posture, ceres::Problem& problem);
+/// Makes the blocks of the posture constant in the problem. Blocks that the problem does
+/// not use are skipped.
+void set_posture_constant(Posture& posture, ceres::Problem& problem);
 
 /// Returns options that give the same bytes on every run: one thread, no clock.
 [[nodiscard]] ceres::Solver::Options solver_options(int max_iterations);

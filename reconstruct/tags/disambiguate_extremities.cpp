@@ -55,7 +55,7 @@ double refine_leaf(const BodyModel& model,
     problem.SetParameterBlockConstant(held.block(leaf.parameter));
   }
   set_manifolds(posture, problem);
-  hold_constant(posture, problem);
+  set_posture_constant(posture, problem);
   problem.SetParameterBlockVariable(posture.block(leaf.parameter));
   ceres::Solver::Options options = solver_options(10);
   options.linear_solver_type = ceres::DENSE_QR;

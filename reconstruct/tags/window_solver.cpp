@@ -108,7 +108,7 @@ void WindowSolver::build(std::size_t first,
   }
   for (std::size_t f = first; f < first + count; ++f) {
     set_manifolds(postures[f], problem);
-    if (f < first + held) hold_constant(postures[f], problem);
+    if (f < first + held) set_posture_constant(postures[f], problem);
   }
 }
 
@@ -261,7 +261,8 @@ std::optional<double> WindowSolver::solve_again(std::size_t first,
   const std::size_t after = std::min<std::size_t>(2, postures.size() - end);
   ceres::Problem problem;
   build(first - before, before + candidate.size() + after, before, problem);
-  for (std::size_t f = end; f < end + after; ++f) hold_constant(postures[f], problem);
+  for (std::size_t f = end; f < end + after; ++f)
+    set_posture_constant(postures[f], problem);
   hold_offsets(true, problem);
   double cost_now = 0.0;
   if (!problem.Evaluate({}, &cost_now, nullptr, nullptr, nullptr)) return std::nullopt;

@@ -10,9 +10,10 @@
 
 namespace marey::retarget {
 
-/// Returns the limits of a body's joints: of its bones and of all joints of its spine,
-/// also those that are no bone of VRM. A limit in `traits` replaces the default of its
-/// joint; with `traits` that exclude the defaults, only theirs remain.
+/// Returns the limits of a body's joints, in joint order, with angles in radians relative
+/// to the T-pose. A joint has the limit that `traits` states for it; else, unless
+/// `traits.has_limits` is false, the typical human limit of its bone or vertebra. Joints
+/// without a limit are not listed. Precondition: `traits` is for the skeleton of `map`.
 [[nodiscard]] std::vector<JointLimit> joint_limits(const BodyMap& map,
                                                    const CharacterTraits& traits);
 

@@ -18,7 +18,7 @@ namespace {
 /// Constraints with a later start are started by a caller.
 constexpr double kStartedByHand_s = 1e8;
 
-Refusal check_ids(const ConstraintSet& set) {
+OptionalError check_ids(const ConstraintSet& set) {
   std::set<std::string_view> ids;
   int count = 0;
   for (const Constraint& c : set.constraints) {
@@ -29,13 +29,14 @@ Refusal check_ids(const ConstraintSet& set) {
                        "give it a unique id");
     }
     if (!ids.insert(c.id).second) {
-      return refused(c, "another constraint has the same id", "rename or remove one");
+      return constraint_error(
+          c, "another constraint has the same id", "rename or remove one");
     }
   }
   return std::nullopt;
 }
 
-Refusal check_activation(const Constraint& c) {
+OptionalError check_activation(const Constraint& c) {
   const Activation& a = c.activation;
   for (const auto& [what, time_s] :
        {std::pair("start", a.start_s), std::pair("stop", a.stop_s)}) {
@@ -48,15 +49,15 @@ Refusal check_activation(const Constraint& c) {
     if (auto wrong = check_number(c, what, duration_s, 0.0, kMaxTime_s)) return wrong;
   }
   if (!a.start_s || !a.stop_s || *a.start_s <= *a.stop_s) return std::nullopt;
-  return refused(c,
-                 "it stops at " + digits(*a.stop_s) + " s, before it starts at " +
-                     digits(*a.start_s) + " s",
-                 "exchange the two");
+  return constraint_error(c,
+                          "it stops at " + digits(*a.stop_s) +
+                              " s, before it starts at " + digits(*a.start_s) + " s",
+                          "exchange the two");
 }
 
-Refusal check_one(const Constraint& c,
-                  const ConstraintSet& set,
-                  const Character& character) {
+OptionalError check_one(const Constraint& c,
+                        const ConstraintSet& set,
+                        const Character& character) {
   if (auto wrong = check_point(c, c.point, character.skeleton)) return wrong;
   constexpr double kMin = 1e-6;
   constexpr double kMax = 1e6;
@@ -67,9 +68,10 @@ Refusal check_one(const Constraint& c,
     return wrong;
   }
   if (c.range && *c.range < 1) {
-    return refused(c,
-                   "its range is " + std::to_string(*c.range),
-                   "use 1 for its own segment, or more to include segments above it");
+    return constraint_error(
+        c,
+        "its range is " + std::to_string(*c.range),
+        "use 1 for its own segment, or more to include segments above it");
   }
   if (auto wrong = check_activation(c)) return wrong;
   return check_goal(c, set, character);
@@ -77,7 +79,7 @@ Refusal check_one(const Constraint& c,
 
 /// Checks the number of constraints. The cost of a solve is cubic in it: without a limit,
 /// a file with some hundred constraints would take hours.
-Refusal check_count(const ConstraintSet& set) {
+OptionalError check_count(const ConstraintSet& set) {
   const std::size_t count = set.constraints.size();
   if (count > kMaxConstraints) {
     return bad_input("the constraints",
@@ -109,7 +111,7 @@ Refusal check_count(const ConstraintSet& set) {
   return std::nullopt;
 }
 
-Refusal check_all(const ConstraintSet& set, const Character& character) {
+OptionalError check_all(const ConstraintSet& set, const Character& character) {
   if (auto wrong = check_ids(set)) return wrong;
   for (const Constraint& c : set.constraints) {
     if (auto wrong = check_one(c, set, character)) return wrong;

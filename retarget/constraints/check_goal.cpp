@@ -38,25 +38,26 @@ std::vector<JointIndex> extremities(const Character& character) {
   return found;
 }
 
-Refusal check_rotation(const Constraint& constraint, const glm::dquat& rotation) {
+OptionalError check_rotation(const Constraint& constraint, const glm::dquat& rotation) {
   constexpr double kUnit = 1e-6;  // Above the rounding errors of single precision.
   const double n = glm::length(rotation);
   if (std::abs(n - 1.0) <= kUnit) return std::nullopt;  // False for NaN.
-  return refused(constraint,
-                 "the orientation is a quaternion of length " + digits(n),
-                 "divide it by its length, which must be 1");
+  return constraint_error(constraint,
+                          "the orientation is a quaternion of length " + digits(n),
+                          "divide it by its length, which must be 1");
 }
 
-Refusal check_box(const Constraint& constraint,
-                  const glm::dvec3& low,
-                  const glm::dvec3& high) {
+OptionalError check_box(const Constraint& constraint,
+                        const glm::dvec3& low,
+                        const glm::dvec3& high) {
   if (auto wrong = check_place(constraint, "box", low)) return wrong;
   if (auto wrong = check_place(constraint, "box", high)) return wrong;
   for (int axis = 0; axis < 3; ++axis) {
     if (low[axis] <= high[axis]) continue;
-    return refused(constraint,
-                   std::string("the box has its min above its max in ") + "xyz"[axis],
-                   "exchange " + digits(low[axis]) + " and " + digits(high[axis]));
+    return constraint_error(
+        constraint,
+        std::string("the box has its min above its max in ") + "xyz"[axis],
+        "exchange " + digits(low[axis]) + " and " + digits(high[axis]));
   }
   return std::nullopt;
 }
@@ -67,38 +68,38 @@ struct GoalCheck {
   const ConstraintSet& set;
   const Character& character;
 
-  [[nodiscard]] Refusal check_distance(double distance_m) const {
+  [[nodiscard]] OptionalError check_distance(double distance_m) const {
     return check_number(constraint, "distance", distance_m, 0.0, kMaxLength_m);
   }
   /// The distance between two points of one segment is constant.
-  [[nodiscard]] Refusal check_apart(const BodyPoint& other) const {
+  [[nodiscard]] OptionalError check_apart(const BodyPoint& other) const {
     const Skeleton& skeleton = character.skeleton;
     if (resolve_segment(skeleton, constraint.point.segment) !=
         resolve_segment(skeleton, other.segment)) {
       return std::nullopt;
     }
-    return refused(constraint,
-                   "its point and the one to keep a distance from are both of " +
-                       in_quotes(other.segment) + ", and no posture changes it",
-                   "name a point of another segment");
+    return constraint_error(constraint,
+                            "its point and the one to keep a distance from are both of " +
+                                in_quotes(other.segment) + ", and no posture changes it",
+                            "name a point of another segment");
   }
 
-  Refusal operator()(const DistanceToPoint& goal) const {
+  OptionalError operator()(const DistanceToPoint& goal) const {
     if (auto wrong = check_distance(goal.distance_m)) return wrong;
     return check_place(constraint, "target", goal.p_in_world);
   }
-  Refusal operator()(const DistanceToBody& goal) const {
+  OptionalError operator()(const DistanceToBody& goal) const {
     if (auto wrong = check_distance(goal.distance_m)) return wrong;
     if (auto wrong = check_point(constraint, goal.other, character.skeleton))
       return wrong;
     return check_apart(goal.other);
   }
-  Refusal operator()(const DistanceToConstraint& goal) const {
+  OptionalError operator()(const DistanceToConstraint& goal) const {
     if (auto wrong = check_distance(goal.distance_m)) return wrong;
     if (goal.other_id == constraint.id) {
-      return refused(constraint,
-                     "it should keep a distance from itself",
-                     "name another constraint, or a point of the body");
+      return constraint_error(constraint,
+                              "it should keep a distance from itself",
+                              "name another constraint, or a point of the body");
     }
     const Constraint* other = set.find(goal.other_id);
     if (other != nullptr) return check_apart(other->point);
@@ -106,21 +107,21 @@ struct GoalCheck {
     for (const Constraint& c : set.constraints) {
       if (c.id != constraint.id) ids.push_back(c.id);
     }
-    return refused(
+    return constraint_error(
         constraint,
         "there is no constraint " + in_quotes(goal.other_id) + " to keep a distance from",
         ids.empty() ? "add it" : suggestion(goal.other_id, ids));
   }
-  Refusal operator()(const AllowedSpace& goal) const {
+  OptionalError operator()(const AllowedSpace& goal) const {
     return check_box(constraint, goal.min_in_world, goal.max_in_world);
   }
-  Refusal operator()(const ForbiddenSpace& goal) const {
+  OptionalError operator()(const ForbiddenSpace& goal) const {
     return check_box(constraint, goal.min_in_world, goal.max_in_world);
   }
-  Refusal operator()(const SegmentOrientation& goal) const {
+  OptionalError operator()(const SegmentOrientation& goal) const {
     return check_rotation(constraint, goal.world_from_t_pose);
   }
-  Refusal operator()(const Support& goal) const {
+  OptionalError operator()(const Support& goal) const {
     if (goal.footprint_in_world) {
       if (auto wrong = check_place(constraint, "footprint", *goal.footprint_in_world)) {
         return wrong;
@@ -139,23 +140,23 @@ struct GoalCheck {
       const Joint& end = character.skeleton[foot];
       names.push_back(end.bone ? name(*end.bone) : std::string_view(end.name));
     }
-    return refused(constraint,
-                   "a support stands on the end of a limb, and " +
-                       in_quotes(constraint.point.segment) +
-                       " is not one that can support",
-                   names.empty() ? "let a group of the character support"
-                                 : suggestion(constraint.point.segment, names));
+    return constraint_error(constraint,
+                            "a support stands on the end of a limb, and " +
+                                in_quotes(constraint.point.segment) +
+                                " is not one that can support",
+                            names.empty() ? "let a group of the character support"
+                                          : suggestion(constraint.point.segment, names));
   }
 };
 
 }  // namespace
 
-Refusal check_point(const Constraint& constraint,
-                    const BodyPoint& point,
-                    const Skeleton& skeleton) {
+OptionalError check_point(const Constraint& constraint,
+                          const BodyPoint& point,
+                          const Skeleton& skeleton) {
   if (!resolve_segment(skeleton, point.segment)) {
     const std::vector<std::string_view> names = segment_names(skeleton);
-    return refused(
+    return constraint_error(
         constraint,
         "the character has no segment " + in_quotes(point.segment),
         names.empty() ? "add joints to the skeleton" : suggestion(point.segment, names));
@@ -163,9 +164,9 @@ Refusal check_point(const Constraint& constraint,
   return check_place(constraint, "offset", point.offset_in_t_pose);
 }
 
-Refusal check_goal(const Constraint& constraint,
-                   const ConstraintSet& set,
-                   const Character& character) {
+OptionalError check_goal(const Constraint& constraint,
+                         const ConstraintSet& set,
+                         const Character& character) {
   return std::visit(GoalCheck{constraint, set, character}, constraint.goal);
 }
 

@@ -9,14 +9,14 @@
 namespace marey::retarget {
 
 /// Checks that the character has this point and that the offset is finite.
-[[nodiscard]] Refusal check_point(const Constraint& constraint,
-                                  const BodyPoint& point,
-                                  const Skeleton& skeleton);
+[[nodiscard]] OptionalError check_point(const Constraint& constraint,
+                                        const BodyPoint& point,
+                                        const Skeleton& skeleton);
 
 /// Checks the goal and the constraints that it names, but not cycles of them.
 /// Precondition: the constraint's own point was checked.
-[[nodiscard]] Refusal check_goal(const Constraint& constraint,
-                                 const ConstraintSet& set,
-                                 const Character& character);
+[[nodiscard]] OptionalError check_goal(const Constraint& constraint,
+                                       const ConstraintSet& set,
+                                       const Character& character);
 
 }  // namespace marey::retarget

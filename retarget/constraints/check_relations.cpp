@@ -123,7 +123,7 @@ constexpr const char* kChangeOne =
 
 /// The distance between two points of one foot is constant. At a direct transition both
 /// may hold for a moment, also on a moving floor.
-Refusal check_foot(const Constraint& a, const Constraint& b) {
+OptionalError check_foot(const Constraint& a, const Constraint& b) {
   constexpr double kTakingOver_s = 0.01;
   if (common_s(a.activation, b.activation) <= kTakingOver_s) return std::nullopt;
   const auto* one = std::get_if<Support>(&a.goal);
@@ -137,10 +137,11 @@ Refusal check_foot(const Constraint& a, const Constraint& b) {
   const double prints_m =
       glm::distance(*one->footprint_in_world, *other->footprint_in_world);
   if (std::abs(points_m - prints_m) <= slack_m(a, b)) return std::nullopt;
-  return refused(a,
-                 "it contradicts \"" + b.id + "\" on the same foot: their points are " +
-                     metres(points_m) + " apart and their footprints " + metres(prints_m),
-                 kChangeOne);
+  return constraint_error(
+      a,
+      "it contradicts \"" + b.id + "\" on the same foot: their points are " +
+          metres(points_m) + " apart and their footprints " + metres(prints_m),
+      kChangeOne);
 }
 
 bool may_contradict(const Goal& goal) {
@@ -149,18 +150,17 @@ bool may_contradict(const Goal& goal) {
          std::holds_alternative<Support>(goal);
 }
 
-std::string circle_text(const ConstraintSet& set,
-                        const std::vector<std::size_t>& circle) {
+std::string cycle_text(const ConstraintSet& set, const std::vector<std::size_t>& cycle) {
   constexpr std::size_t kMax = 8;  // Limit of names in one message.
   std::string text;
-  for (std::size_t i = 0; i < std::min(circle.size(), kMax); ++i) {
-    text += "\"" + set.constraints[circle[i]].id + "\" to ";
+  for (std::size_t i = 0; i < std::min(cycle.size(), kMax); ++i) {
+    text += "\"" + set.constraints[cycle[i]].id + "\" to ";
   }
-  if (circle.size() > kMax) text += "others, then to ";
-  return text + "\"" + set.constraints[circle.front()].id + "\"";
+  if (cycle.size() > kMax) text += "others, then to ";
+  return text + "\"" + set.constraints[cycle.front()].id + "\"";
 }
 
-Refusal check_places(const ConstraintSet& set, const Skeleton& skeleton) {
+OptionalError check_places(const ConstraintSet& set, const Skeleton& skeleton) {
   std::vector<std::pair<const Constraint*, JointIndex>> known;
   for (const Constraint& c : set.constraints) {
     if (!may_contradict(c.goal)) continue;
@@ -177,7 +177,7 @@ Refusal check_places(const ConstraintSet& set, const Skeleton& skeleton) {
       for (const auto& [a, b] : {std::pair(&c, earlier), std::pair(earlier, &c)}) {
         const std::string_view why = contradiction(*a, *b);
         if (why.empty()) continue;
-        return refused(
+        return constraint_error(
             *a,
             "it contradicts \"" + b->id + "\" on the same point: " + std::string(why),
             kChangeOne);
@@ -203,7 +203,7 @@ bool is_between_the_same(const KeptDistance& a, const KeptDistance& b) {
   return (same(0, 0) && same(1, 1)) || (same(0, 1) && same(1, 0));
 }
 
-Refusal check_distances(const ConstraintSet& set, const Skeleton& skeleton) {
+OptionalError check_distances(const ConstraintSet& set, const Skeleton& skeleton) {
   std::vector<KeptDistance> known;
   for (const Constraint& c : set.constraints) {
     const BodyPoint* other = nullptr;
@@ -231,11 +231,12 @@ Refusal check_distances(const ConstraintSet& set, const Skeleton& skeleton) {
           std::abs(distance_m - earlier.distance_m) <= slack_m(c, e)) {
         continue;
       }
-      return refused(c,
-                     "it contradicts \"" + e.id + "\" on the same two points: it keeps " +
-                         metres(distance_m) + " between them and the other " +
-                         metres(earlier.distance_m),
-                     kChangeOne);
+      return constraint_error(c,
+                              "it contradicts \"" + e.id +
+                                  "\" on the same two points: it keeps " +
+                                  metres(distance_m) + " between them and the other " +
+                                  metres(earlier.distance_m),
+                              kChangeOne);
     }
     known.push_back(kept);
   }
@@ -244,7 +245,7 @@ Refusal check_distances(const ConstraintSet& set, const Skeleton& skeleton) {
 
 }  // namespace
 
-Refusal check_cycles(const ConstraintSet& set) {
+OptionalError check_cycles(const ConstraintSet& set) {
   std::map<std::string_view, std::size_t> place;
   for (std::size_t i = 0; i < set.constraints.size(); ++i) {
     place.emplace(set.constraints[i].id, i);
@@ -264,15 +265,16 @@ Refusal check_cycles(const ConstraintSet& set) {
       at = found->second;
       if (walk_that_saw[at] != walk) continue;
       path.erase(path.begin(), std::find(path.begin(), path.end(), at));
-      return refused(set.constraints[at],
-                     "the distances form a cycle: " + circle_text(set, path),
-                     "let one of them keep its distance from a point of the body");
+      return constraint_error(
+          set.constraints[at],
+          "the distances form a cycle: " + cycle_text(set, path),
+          "let one of them keep its distance from a point of the body");
     }
   }
   return std::nullopt;
 }
 
-Refusal check_contradictions(const ConstraintSet& set, const Skeleton& skeleton) {
+OptionalError check_contradictions(const ConstraintSet& set, const Skeleton& skeleton) {
   if (auto wrong = check_places(set, skeleton)) return wrong;
   return check_distances(set, skeleton);
 }

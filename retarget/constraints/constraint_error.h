@@ -11,13 +11,13 @@
 
 #include <glm/vec3.hpp>
 
-#include "core/constraint.h"
 #include "core/base/result.h"
+#include "core/constraint.h"
 
 namespace marey::retarget {
 
 /// The first error found, if any.
-using Refusal = std::optional<Error>;
+using OptionalError = std::optional<Error>;
 
 // Larger values are errors, and single precision does not represent their squares
 // accurately.
@@ -28,9 +28,10 @@ inline constexpr double kMaxTime_s = 1e9;
 /// nothing.
 inline constexpr double kCallerStart_s = 1e8;
 
-[[nodiscard]] inline Error refused(const Constraint& constraint,
-                                   std::string cause,
-                                   std::string next) {
+/// Returns an error about a constraint, which it names.
+[[nodiscard]] inline Error constraint_error(const Constraint& constraint,
+                                            std::string cause,
+                                            std::string next) {
   return bad_input(
       "constraint \"" + constraint.id + "\"", std::move(cause), std::move(next));
 }
@@ -42,25 +43,27 @@ inline constexpr double kCallerStart_s = 1e8;
 }
 
 /// Returns the error "the WHAT is VALUE" if the value is outside [low, high] or NaN.
-[[nodiscard]] inline Refusal check_number(const Constraint& constraint,
-                                          std::string_view what,
-                                          double value,
-                                          double low,
-                                          double high) {
+[[nodiscard]] inline OptionalError check_number(const Constraint& constraint,
+                                                std::string_view what,
+                                                double value,
+                                                double low,
+                                                double high) {
   if (value >= low && value <= high) return std::nullopt;  // False for NaN.
-  return refused(constraint,
-                 std::string("the ").append(what) + " is " + digits(value),
-                 std::isfinite(value)
-                     ? "use a value from " + digits(low) + " to " + digits(high)
-                     : "correct what computes it: it must be a finite number");
+  return constraint_error(constraint,
+                          std::string("the ").append(what) + " is " + digits(value),
+                          std::isfinite(value)
+                              ? "use a value from " + digits(low) + " to " + digits(high)
+                              : "correct what computes it: it must be a finite number");
 }
 
-[[nodiscard]] inline Refusal check_place(const Constraint& constraint,
-                                         std::string_view what,
-                                         const glm::dvec3& p) {
+/// Returns the error "a coordinate of the WHAT is VALUE" if a coordinate is larger than
+/// kMaxLength_m or not finite.
+[[nodiscard]] inline OptionalError check_place(const Constraint& constraint,
+                                               std::string_view what,
+                                               const glm::dvec3& p) {
   for (const double coordinate : {p.x, p.y, p.z}) {
     if (std::abs(coordinate) <= kMaxLength_m) continue;  // False for NaN.
-    return refused(
+    return constraint_error(
         constraint,
         std::string("a coordinate of the ").append(what) + " is " + digits(coordinate),
         std::isfinite(coordinate)

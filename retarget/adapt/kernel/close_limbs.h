@@ -16,6 +16,23 @@ struct SolveSettings {
   int max_iterations = 50;
 };
 
+/// Weight of a support in the count of a limb's targets (without_mixed_limbs()). With it
+/// the count stays below two for up to ten other targets: a support is never part of a
+/// compromise, so the limb is closed.
+inline constexpr int kSupportInTargetCount = -9;
+/// Rounds of reach_supports(). One or two are usual; more are needed only if two legs are
+/// out of reach in almost opposite directions, where projections converge slowly.
+inline constexpr int kMaxReachRounds = 16;
+/// Excess of a leg's length below which its support counts as within reach. It is below
+/// the resolution of single precision at 1 m. [m]
+inline constexpr double kReachTolerance_m = 1e-7;
+/// Share of a leg's length up to which it is stretched: slightly less than straight, so
+/// that rounding does not put the foot out of reach.
+inline constexpr double kMaxStretch = 0.999999;
+/// Smallest divisor in the direction to a support. [m]
+inline constexpr double kMinDistance_m = 1e-6;
+
+/// Returns the lanes in which a target is active and at most of level `level`.
 template <class F>
 [[nodiscard]] inline Mask<F> is_requested(const PointPlan& point,
                                           const LanePoint<F>& p,
@@ -23,7 +40,8 @@ template <class F>
   return (p.active > num<F>(0)) & (num<F>(point.level) <= level);
 }
 
-/// Returns true where the body moves for a target; false for a point on a standing foot.
+/// Returns the lanes in which the body moves for a requested target: not those in which
+/// its point is on a standing foot.
 template <class F>
 [[nodiscard]] inline Mask<F> is_served(const PointPlan& point,
                                        const LanePoint<F>& p,
@@ -32,16 +50,16 @@ template <class F>
   return point.firm_under.empty() ? requested : requested & (p.firm < num<F>(0.5));
 }
 
-/// A point of a limb and where it is to be, both in the world. [m]
+/// A point that a limb moves, and its target. [m]
 template <class F>
 struct LimbTarget {
-  Vec3<F> place;
-  Vec3<F> target;
+  Vec3<F> place;   ///< Current position.
+  Vec3<F> target;  ///< Position after closing, if it is in reach.
 };
 
-/// Returns the point that the limb moves for `point`, and its target: the point itself,
-/// or for a point on an extremity with its own orientation the wrist or ankle, whose
-/// target is offset accordingly.
+/// Returns the point and target for closing `limb` on `point`: the point itself, or for a
+/// point of an extremity with its own orientation the wrist or ankle, whose target has
+/// the offset of the rotated extremity.
 template <class F>
 [[nodiscard]] LimbTarget<F> limb_target_of(const LimbPlan& limb,
                                            const PointPlan& point,
@@ -58,7 +76,9 @@ template <class F>
           extremity.is_set, p.target - rotate(extremity.rotation, p.in_joint), p.target)};
 }
 
-/// Interpolates between two postures of one limb, by the weights of the target of each.
+/// Interpolates between two postures of one limb in the lanes of `mask`: from the current
+/// one (`share` 0) to `other` (`share` 1), the rotations of upper bone, lower bone and
+/// extremity.
 template <class F>
 void mix_limb(const Plan& plan,
               const LimbPlan& limb,
@@ -119,7 +139,7 @@ template <class F>
   F target_count = num<F>(0);
   for (const int k : limb.points) {
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
-    const F counts = num<F>(point.goal == GoalKind::kSupport ? -kMaxLimbTargets : 1);
+    const F counts = num<F>(point.goal == GoalKind::kSupport ? kSupportInTargetCount : 1);
     target_count = target_count +
                    select(is_served(point, s.points[static_cast<std::size_t>(k)], level),
                           counts,
@@ -247,8 +267,8 @@ void reach_supports(const Plan& plan,
   const F zero = num<F>(0);
   Vec3<F> shift{zero, zero, zero};
   Mask<F> left = mask;
-  for (int round = 0; round < kMaxRounds; ++round) {
-    F max_excess = num<F>(kReached_m);
+  for (int round = 0; round < kMaxReachRounds; ++round) {
+    F max_excess = num<F>(kReachTolerance_m);
     Vec3<F> step{zero, zero, zero};
     Mask<F> moved = num<F>(0) > num<F>(1);
     for (std::size_t l = 0; l < plan.limbs.size(); ++l) {
@@ -261,16 +281,15 @@ void reach_supports(const Plan& plan,
         const LimbTarget<F> limb_target = limb_target_of(limb, point, p, extremity, s);
         const Vec3<F> root = s.place[static_cast<std::size_t>(limb.upper)];
         const Vec3<F> middle = s.place[static_cast<std::size_t>(limb.lower)];
-        // Slightly less than straight, so that rounding does not put the foot out of
-        // reach.
-        const F reach = num<F>(0.999999) *
+        const F reach = num<F>(kMaxStretch) *
                         (length(middle - root) + length(limb_target.place - middle));
         const Vec3<F> gap = limb_target.target - (root + shift);
         const F distance = length(gap);
         const F excess =
             select(left & (p.active > zero), max(distance - reach, zero), zero);
         const Mask<F> takes = excess > max_excess;
-        step = select(takes, (excess / max(distance, num<F>(1e-6))) * gap, step);
+        step =
+            select(takes, (excess / max(distance, num<F>(kMinDistance_m))) * gap, step);
         max_excess = max(max_excess, excess);
         moved = moved | takes;
       }
@@ -285,7 +304,8 @@ void reach_supports(const Plan& plan,
   place_live_joints(plan, s);
 }
 
-/// Closes supports first, then every other limb, in the lanes of `mask`.
+/// Moves the root until the supports are in reach, then closes every limb that has a
+/// target, in the lanes of `mask`.
 template <class F>
 void close_limbs(const Plan& plan,
                  const SolveSettings& settings,

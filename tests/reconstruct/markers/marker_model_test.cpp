@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/markers/marker_loss.h"
 #include "reconstruct/markers/marker_model.h"
 
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "reconstruct/markers/marker_loss.h"
 #include "reconstruct/posture/posture_terms.h"
 #include "tests/reconstruct/random_posture.h"
 

@@ -233,7 +233,7 @@ TEST(CheckConstraints, RefusesDistancesToConstraintsThatLeadNowhere) {
       "segment.");
 }
 
-TEST(CheckConstraints, NamesTheCircleOfDistances) {
+TEST(CheckConstraints, NamesTheCycleOfDistances) {
   const auto said = refusal_of([](ConstraintSet& set) {
     // "near" leads to the cycle and is not part of it.
     set.constraints[0].goal = DistanceToConstraint{0.0, "clap"};

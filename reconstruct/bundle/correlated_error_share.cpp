@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "reconstruct/bundle/common_error.h"
+#include "reconstruct/bundle/correlated_error_share.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,8 +54,8 @@ std::optional<Corners> residual(const SubjectBundle& bundle,
 
 }  // namespace
 
-double estimated_common_share(const SubjectBundle& bundle,
-                              std::span<const Camera> cameras) {
+double estimate_correlated_error_share(const SubjectBundle& bundle,
+                                       std::span<const Camera> cameras) {
   std::map<std::pair<std::size_t, CameraId>, Cell> cells;
   for (const BundleFrame& frame : bundle.frames) {
     for (const TagSighting& s : frame.sightings) {

@@ -1,7 +1,9 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Compares the first-order motion of a planned body with core's forward kinematics.
+// Compares the posture Jacobian of a planned body with core's forward kinematics.
+#include "calib/plan/posture_jacobian.h"
+
 #include <array>
 #include <cmath>
 #include <initializer_list>
@@ -11,18 +13,17 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "calib/plan/posture_jacobian.h"
 #include "core/pose.h"
 
 namespace marey::calib {
 namespace {
 
-TEST(BodyMotion, TurnsABodyAsForwardKinematicsDo) {
+TEST(PostureJacobian, TurnsABodyAsForwardKinematicsDo) {
   const PlannedBody body = make_planned_body(1.75, {});
   constexpr double kTurn_rad = 1e-5;
   const BodyPlace before = walking_body(body, {0.0, 0.0}, 0.4, 1.0);
   const BodyPlace after = walking_body(body, {0.0, 0.0}, 0.4 + kTurn_rad, 1.0);
-  const BodyMotion motion = motion_of(body, before);
+  const PostureJacobian jacobian = posture_jacobian(body, before);
   // Rotates all bones about the world's Y; elbows and knees keep their angles.
   PostureVector step = PostureVector::Zero();
   for (const int column : {3, 6, 9, 12, 15, 18, 21}) step[column + 1] = kTurn_rad;
@@ -31,7 +32,7 @@ TEST(BodyMotion, TurnsABodyAsForwardKinematicsDo) {
     step[24 + 9 * limb + 7] = kTurn_rad;
   }
   for (const HumanBone bone : human_bones()) {
-    const Eigen::Vector3d moved = motion.origin[index(bone)] * step;
+    const Eigen::Vector3d moved = jacobian.origin[index(bone)] * step;
     const glm::dvec3 truth =
         after[index(bone)].translation - before[index(bone)].translation;
     for (int axis = 0; axis < 3; ++axis) {
@@ -122,10 +123,10 @@ BodyPlace stepped(const PlannedBody& body, BodyPlace place, int column, double s
   return with_rotations(body, place);
 }
 
-TEST(BodyMotion, IsTheDerivativeOfForwardKinematicsByEveryColumn) {
+TEST(PostureJacobian, IsTheDerivativeOfForwardKinematicsByEveryColumn) {
   const PlannedBody body = make_planned_body(1.75, {});
   const BodyPlace place = walking_body(body, {0.3, -0.2}, 0.4, 1.0);
-  const BodyMotion motion = motion_of(body, place);
+  const PostureJacobian jacobian = posture_jacobian(body, place);
   constexpr double kStep = 1e-5;
   for (int column = 0; column < kPostureColumns; ++column) {
     const BodyPlace more = stepped(body, place, column, kStep);
@@ -138,20 +139,20 @@ TEST(BodyMotion, IsTheDerivativeOfForwardKinematicsByEveryColumn) {
           rotation_vector(turned * glm::conjugate(less[index(bone)].rotation)) /
           (2.0 * kStep);
       for (int axis = 0; axis < 3; ++axis) {
-        EXPECT_NEAR(motion.origin[index(bone)](axis, column), by_origin[axis], 1e-8)
+        EXPECT_NEAR(jacobian.origin[index(bone)](axis, column), by_origin[axis], 1e-8)
             << name(bone) << " by column " << column;
-        EXPECT_NEAR(motion.spin[index(bone)](axis, column), spin[axis], 1e-8)
+        EXPECT_NEAR(jacobian.spin[index(bone)](axis, column), spin[axis], 1e-8)
             << name(bone) << " by column " << column;
       }
     }
   }
 }
 
-TEST(BodyMotion, IsTheDerivativeByEveryLengthAndCollarBase) {
+TEST(PostureJacobian, IsTheDerivativeByEveryLengthAndCollarBase) {
   using B = HumanBone;
   const PlannedBody body = make_planned_body(1.75, {});
   const BodyPlace place = walking_body(body, {0.3, -0.2}, 0.4, 1.0);
-  const BodyMotion motion = motion_of(body, place);
+  const PostureJacobian jacobian = posture_jacobian(body, place);
   constexpr double kStep_m = 1e-5;
   const auto check = [&](const auto& by, int column, const auto& change) {
     PlannedBody longer = body;
@@ -167,7 +168,7 @@ TEST(BodyMotion, IsTheDerivativeByEveryLengthAndCollarBase) {
     }
   };
   const auto stretch = [&](int column, B bone, const glm::dvec3& way) {
-    check(motion.origin_by_length, column, [&](Proportions& p) {
+    check(jacobian.origin_by_length, column, [&](Proportions& p) {
       p[bone] += kStep_m * way;
       if (bone == B::kLeftUpperLeg) p[B::kRightUpperLeg] -= kStep_m * way;
     });
@@ -188,7 +189,7 @@ TEST(BodyMotion, IsTheDerivativeByEveryLengthAndCollarBase) {
   }
   EXPECT_EQ(column, kLengthColumns);
   for (column = 0; column < kBaseColumns; ++column) {
-    check(motion.origin_by_base, column, [&](Proportions& p) {
+    check(jacobian.origin_by_base, column, [&](Proportions& p) {
       p[column < 3 ? B::kLeftShoulder : B::kRightShoulder][column % 3] += kStep_m;
     });
   }
