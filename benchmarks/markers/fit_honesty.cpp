@@ -68,7 +68,7 @@ void FitHonesty::add_hidden_markers(int seed,
     for (std::size_t f = first; f < last; ++f) hidden.at(f, marker).reset();
     const auto solved = reconstruct::solve_markers(body, hidden);
     if (!solved) continue;
-    const MarkerTracks told = app::complete_markers(body, *solved, hidden).tracks;
+    const MarkerTracks completed = app::complete_markers(body, *solved, hidden).tracks;
     const MarkerTracks repaired = reconstruct::repair_gaps(hidden, {}).tracks;
     for (std::size_t f = first; f < last; f += 5) {
       const auto& truth = tracks.at(f, marker);
@@ -79,7 +79,7 @@ void FitHonesty::add_hidden_markers(int seed,
         squares_[kind].push_back(squared(sample->p_in_world - truth->p_in_world) /
                                  (sample->sigma_m * sample->sigma_m));
       };
-      add("hidden markers by the skeleton", told);
+      add("hidden markers by the skeleton", completed);
       add("hidden markers by repair of gaps", repaired);
     }
   }

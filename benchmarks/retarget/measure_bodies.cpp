@@ -37,8 +37,8 @@ void print(const CampaignResult& r) {
   }
   const BodyFigures& j = *r.judged;
   std::printf(
-      "%-22s %-30s skin %7.1f mm (told %7.1f, source %5.1f) at %4d %-18s trunk %5.1f "
-      "segment %5.1f/%5.1f %-14s feet %5.1f (told %5.1f) at %4d heading %6.1f speed "
+      "%-22s %-30s skin %7.1f mm (reported %7.1f, source %5.1f) at %4d %-18s trunk %5.1f "
+      "segment %5.1f/%5.1f %-14s feet %5.1f (reported %5.1f) at %4d heading %6.1f speed "
       "%5.1f/%5.1f%s%s\n",
       r.body.c_str(),
       r.clip.c_str(),
@@ -58,7 +58,9 @@ void print(const CampaignResult& r) {
       j.max_speed,
       j.source_max_speed,
       errors.c_str(),
-      r.told_problems.empty() ? "" : (" TOLD: " + r.told_problems.front()).c_str());
+      r.reported_problems.empty()
+          ? ""
+          : (" REPORTED: " + r.reported_problems.front()).c_str());
   for (const auto& [segment, median_deg] : j.medians_deg) {
     if (median_deg > kBar_deg) std::printf("    %s %.1f", segment.c_str(), median_deg);
   }
@@ -89,7 +91,7 @@ struct Tally {
     for (const std::string& error : errors) ++causes[error];
     if (errors.empty()) return;
     ++wrong;
-    if (r.told_problems.empty()) ++silent;
+    if (r.reported_problems.empty()) ++silent;
   }
   void print() const {
     std::printf("\n%d results: %d refused, %d wrong, %d of them silently\n",

@@ -132,7 +132,7 @@ Misdeclared misdeclared(const std::vector<TagOnSegment>& tags, int seed) {
 
 int measure_single_tags(int first, int last) {
   int made = 0;
-  int told = 0;
+  int reported = 0;
   int named = 0;
   for (int seed = first; seed <= last; ++seed) {
     const auto session =
@@ -164,7 +164,7 @@ int measure_single_tags(int first, int last) {
     const bool is_left_out =
         fit && std::count(fit->unplaced.begin(), fit->unplaced.end(), changed.id) > 0;
     if (is_left_out) words += "tag " + std::to_string(number(changed.id)) + " left out";
-    told += words.empty() ? 0 : 1;
+    reported += words.empty() ? 0 : 1;
     const bool is_named =
         words.find("tag " + std::to_string(number(tags[change.tag].id)) + " ") !=
             std::string::npos ||
@@ -180,7 +180,7 @@ int measure_single_tags(int first, int last) {
                 words.empty() ? "nothing is reported" : words.c_str());
     std::fflush(stdout);
   }
-  std::printf("%d made, %d reported, %d named\n", made, told, named);
+  std::printf("%d made, %d reported, %d named\n", made, reported, named);
   return 0;
 }
 
@@ -202,10 +202,10 @@ int main(int argc, char** argv) {
       std::vector<TagOnSegment> tags = session.declared_tags();
       for (TagOnSegment& tag : tags) tag.segment = exchange.declared(tag.segment);
       const marey::Status ok = check(session, tags);
-      auto& [made, told, named] = counts[exchange.name];
+      auto& [made, reported, named] = counts[exchange.name];
       ++made;
       if (ok) continue;
-      ++told;
+      ++reported;
       const std::string error = ok.error().message();
       const bool is_named = std::any_of(
           exchange.words.begin(), exchange.words.end(), [&](const std::string& word) {
