@@ -3,7 +3,7 @@
 #
 # cmake -D ROOT=<source tree> -P docs.cmake
 #
-# Fails when README.md, a page of docs/ or a note beside samples and test data links to, or
+# Fails when README.md, a page of docs/ or a note next to samples and test data links to, or
 # names, a file of the tree that is not there. Also when there was nothing to check.
 cmake_minimum_required(VERSION 3.25)
 

@@ -12,7 +12,7 @@
 namespace marey::testing {
 namespace {
 
-std::string told(const JudgedCalibration& judged) {
+std::string words_of(const JudgedCalibration& judged) {
   std::string text;
   for (const std::string& word : judged.words) text += word + "\n";
   return text;
@@ -28,7 +28,7 @@ SimulationOptions short_one(RigFault fault) {
 TEST(CameraCampaign, LetsGoodCalibrationsPass) {
   for (const std::uint64_t seed : {1U, 4U}) {
     const auto judged = judge(simulate_calibration(seed, short_one(RigFault::kNone)));
-    EXPECT_EQ(judged.exit_code, 0) << seed << "\n" << told(judged);
+    EXPECT_EQ(judged.exit_code, 0) << seed << "\n" << words_of(judged);
     EXPECT_FALSE(judged.is_silently_wrong()) << seed;
   }
 }
@@ -36,8 +36,8 @@ TEST(CameraCampaign, LetsGoodCalibrationsPass) {
 TEST(CameraCampaign, NamesCamerasThatAreNudged) {
   for (const std::uint64_t seed : {1U, 4U}) {
     const auto judged = judge(simulate_calibration(seed, short_one(RigFault::kNudged)));
-    EXPECT_EQ(judged.exit_code, 4) << seed << "\n" << told(judged);
-    EXPECT_TRUE(judged.names_fault) << seed << "\n" << told(judged);
+    EXPECT_EQ(judged.exit_code, 4) << seed << "\n" << words_of(judged);
+    EXPECT_TRUE(judged.names_fault) << seed << "\n" << words_of(judged);
   }
 }
 
@@ -45,15 +45,15 @@ TEST(CameraCampaign, NamesLineDelaysOfRollingShutters) {
   SimulationOptions options = short_one(RigFault::kRollingShutter);
   options.picture_s = 0.030;
   const auto judged = judge(simulate_calibration(1, options));
-  EXPECT_EQ(judged.exit_code, 4) << told(judged);
-  EXPECT_TRUE(judged.names_fault) << told(judged);
+  EXPECT_EQ(judged.exit_code, 4) << words_of(judged);
+  EXPECT_TRUE(judged.names_fault) << words_of(judged);
   EXPECT_FALSE(judged.is_silently_wrong());
 }
 
 TEST(CameraCampaign, NamesAVideoThatStatesItsRateWrongly) {
   const auto judged = judge(simulate_calibration(4, short_one(RigFault::kWrongRate)));
-  EXPECT_EQ(judged.exit_code, 3) << told(judged);
-  EXPECT_TRUE(judged.names_fault) << told(judged);
+  EXPECT_EQ(judged.exit_code, 3) << words_of(judged);
+  EXPECT_TRUE(judged.names_fault) << words_of(judged);
 }
 
 }  // namespace

@@ -140,10 +140,11 @@ TEST(ConvertMotion, ChangesTheRate) {
       glm::distance(read->motion.poses[20].root_in_world, motion.poses[60].root_in_world),
       1e-7);
   // Another input rate keeps the frames, and changes the duration.
-  const ProgramRun told = convert(folder / "a.bvh", folder / "c.bvh", {"--rate", "30"});
-  ASSERT_EQ(told.exit_code, 0) << told.err;
-  EXPECT_EQ(Json::parse(told.out).at("frames"), 61);
-  EXPECT_EQ(Json::parse(told.out).at("rate_hz"), 30.0);
+  const ProgramRun resampled =
+      convert(folder / "a.bvh", folder / "c.bvh", {"--rate", "30"});
+  ASSERT_EQ(resampled.exit_code, 0) << resampled.err;
+  EXPECT_EQ(Json::parse(resampled.out).at("frames"), 61);
+  EXPECT_EQ(Json::parse(resampled.out).at("rate_hz"), 30.0);
 }
 
 TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {

@@ -191,8 +191,8 @@ void expect_kept(const Motion& source,
     const bool is_foot = segment >= testing::Segment::kLeftFoot;
     if (is_foot && !result_joints[index(B::kLeftToes)]) continue;
     ASSERT_TRUE(errors.mean_rad[i]) << testing::name(segment);
-    const double most_deg = i < 2 ? 8.0 : is_foot ? body.feet_off : body.limbs_off;
-    EXPECT_LT(*errors.mean_rad[i] / kDegree, most_deg) << testing::name(segment);
+    const double max_deg = i < 2 ? 8.0 : is_foot ? body.feet_off : body.limbs_off;
+    EXPECT_LT(*errors.mean_rad[i] / kDegree, max_deg) << testing::name(segment);
   }
 }
 
@@ -255,11 +255,11 @@ glm::dvec3 facing(const Skeleton& skeleton, const BoneJoints& joints, const Pose
 /// Returns the direction that a receiver's avatar faces, in marey's axes. Its T-pose
 /// faces +Z.
 glm::dvec3 vmc_facing(const live::VmcBody& body, const Pose& pose) {
-  live::VmcPose told;
-  body.to_vmc(pose, told);
-  EXPECT_TRUE(told.contains(live::UnityBone::kHips));
+  live::VmcPose sent;
+  body.to_vmc(pose, sent);
+  EXPECT_TRUE(sent.contains(live::UnityBone::kHips));
   const glm::dquat hips =
-      told.root.rotation * told.local[live::index(live::UnityBone::kHips)].rotation;
+      sent.root.rotation * sent.local[live::index(live::UnityBone::kHips)].rotation;
   const glm::dvec3 front = live::mirrored_x(hips * glm::dvec3(0, 0, 1));
   return glm::normalize(glm::dvec3(front.x, 0.0, front.z));
 }

@@ -153,12 +153,12 @@ TEST(HangBones, HangsTogetherABodyInPieces) {
 TEST(HangBones, HangsWhatCarriesSkinOnTheNearestBone) {
   Skeleton body = hung_on_root(mixamo_skeleton(), {"LeftUpLeg", "RightUpLeg"});
   const auto world = world_from_joints(body, rest_pose(body));
-  const auto add = [&](const char* joint, const char* beside) {
+  const auto add = [&](const char* joint, const char* neighbour) {
     Joint extra;
     extra.name = joint;
     extra.parent = JointIndex{0};
     extra.parent_from_joint.translation =
-        world[index(*body.find(std::string_view(beside)))].translation + 0.01;
+        world[index(*body.find(std::string_view(neighbour)))].translation + 0.01;
     body.joints.push_back(extra);
   };
   add("jaw", "Head");
