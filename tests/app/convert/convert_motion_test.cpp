@@ -204,7 +204,7 @@ TEST(ConvertMotion, IdentifiesTheBonesForAVrmaOrADialect) {
   EXPECT_EQ(text.find("lfemur"), std::string::npos);
 }
 
-TEST(ConvertMotion, RefusesWhatDoesNotGoTogether) {
+TEST(ConvertMotion, RejectsIncompatibleOptions) {
   const ScratchFolder folder;
   ASSERT_TRUE(recordings::write_bvh(folder / "a.bvh", a_motion()));
   ASSERT_TRUE(recordings::write_vrma(folder / "a.vrma", a_motion()));
@@ -234,7 +234,7 @@ TEST(ConvertMotion, RefusesWhatDoesNotGoTogether) {
             2);
 }
 
-TEST(ConvertMotion, NeverWritesOverWhatItReads) {
+TEST(ConvertMotion, NeverOverwritesItsInput) {
   const ScratchFolder folder;
   ASSERT_TRUE(recordings::write_bvh(folder / "a.bvh", a_motion()));
   const auto before = recordings::read_file(folder / "a.bvh");

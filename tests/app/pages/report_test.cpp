@@ -145,7 +145,7 @@ TEST(ReportJson, IsCompleteForAnEmptyReport) {
   EXPECT_TRUE(figures.at("trials").empty());
 }
 
-TEST(ReportJsonDeathTest, RefusesANumberThatIsNone) {
+TEST(ReportJsonDeathTest, RejectsANonFiniteNumber) {
   Report broken = report();
   broken.calibration_rms_px = std::nan("");
   EXPECT_DEATH((void)report_json_text(broken), "isfinite");

@@ -99,7 +99,7 @@ calib::CalibrationReport wand_report(bool has_floor) {
                                    waved_among_scenery().rig);
 }
 
-TEST(WandReport, CountsSceneryAsNeitherWandNorFloor) {
+TEST(WandReport, CountsStaticTagsAsNeitherWandNorFloor) {
   const calib::CalibrationReport report = wand_report(false);
   const auto& views = report.rig.views;
   ASSERT_TRUE(std::any_of(

@@ -93,7 +93,7 @@ TEST(MotionResampler, IsOnTheClockThatTheFirstFrameDecides) {
   EXPECT_NEAR(telling.at_s(500.3, 2.3), 2.3, 1e-12);
 }
 
-TEST(MotionResampler, IsNoneOfOnePose) {
+TEST(MotionResampler, ReturnsNothingForOnePose) {
   MotionResampler received;
   EXPECT_FALSE(received.at_rate(one_joint(), {30.0}));
   received.add(0.0, at(0.0));

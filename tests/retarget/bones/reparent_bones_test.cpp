@@ -150,7 +150,7 @@ TEST(HangBones, HangsTogetherABodyInPieces) {
 }
 
 // Skin left on the root would not follow the body.
-TEST(HangBones, HangsWhatCarriesSkinOnTheNearestBone) {
+TEST(HangBones, AttachesJointsWithSkinToTheNearestBone) {
   Skeleton body = hung_on_root(mixamo_skeleton(), {"LeftUpLeg", "RightUpLeg"});
   const auto world = world_from_joints(body, rest_pose(body));
   const auto add = [&](const char* joint, const char* neighbour) {
@@ -176,7 +176,7 @@ TEST(HangBones, HangsWhatCarriesSkinOnTheNearestBone) {
 }
 
 // The map that the error requests.
-TEST(HangBones, HangsWhatAMapNames) {
+TEST(HangBones, AttachesTheBonesThatAMapNames) {
   Skeleton body = hung_on_root(mixamo_skeleton(), {"LeftLeg", "RightLeg"});
   EXPECT_FALSE(identify_bones(body));
   BoneMap overrides;
