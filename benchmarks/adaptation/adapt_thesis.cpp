@@ -177,29 +177,29 @@ double error_mm(const PrintedTable& table, const PostureMeasure& m) {
 }
 
 /// The least mean error of the constraints that any of the solvers ever comes to.
-double least_error_mm(const ThesisScene& scene, const PrintedTable& table) {
-  double least_mm = 1e9;
+double min_error_mm(const ThesisScene& scene, const PrintedTable& table) {
+  double min_mm = 1e9;
   for (const SolverKind& kind : baseline_solvers()) {
     const PostureMeasure m = scene.run(kind).measure;
-    if (m.planted_m < 1e-3) least_mm = std::min(least_mm, error_mm(table, m));
+    if (m.planted_m < 1e-3) min_mm = std::min(min_mm, error_mm(table, m));
   }
   for (const Method method : {Method::kStrict, Method::kThesis}) {
     AdaptOptions patient;
     patient.method = method;
     patient.max_iterations = 2000;
     patient.constraint_threshold_m = 1e-9;
-    least_mm = std::min(least_mm, error_mm(table, scene.run(patient, 1e-6).measure));
+    min_mm = std::min(min_mm, error_mm(table, scene.run(patient, 1e-6).measure));
   }
-  return least_mm;
+  return min_mm;
 }
 
 void add_outcome(const PrintedTable& table,
                  const Outcome& out,
-                 double least_mm,
+                 double min_mm,
                  std::vector<TableCell>& row) {
   row.emplace_back(out.iterations);
   row.emplace_back(out.us);
-  row.emplace_back(error_mm(table, out.measure) - least_mm);
+  row.emplace_back(error_mm(table, out.measure) - min_mm);
   row.emplace_back(kTick_us / out.us);
 }
 
@@ -217,10 +217,10 @@ ResultTable reprint(const PrintedTable& printed) {
     table.columns.push_back({who + " at 25 Hz", 0});
   }
   const ThesisScene scene(printed);
-  const double least_mm = printed.above_best ? least_error_mm(scene, printed) : 0.0;
+  const double min_mm = printed.above_best ? min_error_mm(scene, printed) : 0.0;
   if (printed.above_best) {
     table.notes.push_back("The least mean error that any solver came to: " +
-                          std::to_string(least_mm) + " mm");
+                          std::to_string(min_mm) + " mm");
   }
   for (const PrintedRow& p : printed.rows) {
     std::vector<TableCell> row{
@@ -228,7 +228,7 @@ ResultTable reprint(const PrintedTable& printed) {
     for (const Method method : {Method::kThesis, Method::kStrict}) {
       const double precision_m = printed.is_balance ? 1e-3 : 1e-3 * p.precision_mm;
       add_outcome(
-          printed, scene.run(options_of(printed, p, method), precision_m), least_mm, row);
+          printed, scene.run(options_of(printed, p, method), precision_m), min_mm, row);
     }
     table.rows.push_back(std::move(row));
   }
@@ -241,7 +241,7 @@ ResultTable reprint(const PrintedTable& printed) {
                   kind.name.c_str(),
                   out.iterations,
                   out.us,
-                  error_mm(printed, out.measure) - least_mm,
+                  error_mm(printed, out.measure) - min_mm,
                   1e3 * out.measure.planted_m);
     table.notes.emplace_back(note);
   }

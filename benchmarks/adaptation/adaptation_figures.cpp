@@ -96,9 +96,9 @@ PictureScene draw_root_share() {
 PictureScene draw_flexibility() {
   PictureScene scene("flexibility", kSide);
   int k = 0;
-  for (const double least_deg : {0.0, 100.0}) {
+  for (const double min_deg : {0.0, 100.0}) {
     CharacterTraits traits;
-    traits.flexibility.min_trunk_thigh_angle_rad = least_deg * std::numbers::pi / 180.0;
+    traits.flexibility.min_trunk_thigh_angle_rad = min_deg * std::numbers::pi / 180.0;
     const Character actor = make_actor({}, traits);
     const Pose reference = standing(actor, 4);
     const glm::dvec3 right_in_world(-0.15, 0.22, 0.42);
@@ -108,7 +108,7 @@ PictureScene draw_flexibility() {
                                stance(B::kLeftFoot),
                                stance(B::kRightFoot)},
                               {}};
-    const std::string label = least_deg > 0.0 ? "stiff" : "supple";
+    const std::string label = min_deg > 0.0 ? "stiff" : "supple";
     const glm::dvec3 place = scene.to_the_right(1.3 * k++);
     const Adapted out =
         adapted(label, actor, reference, asked, balanced(BalanceMode::kHorizontal));

@@ -32,13 +32,13 @@ void time_round(const std::vector<PostureTask>& tasks, Record& record) {
   std::vector<double> best_us;
   for (const PostureTask& task : tasks) {
     solver.load(task);
-    double least_us = 1e18;
+    double min_us = 1e18;
     for (int run = 0; run < kRunsPerTask; ++run) {
       const double start_us = now_us();
       solver.solve(task);
-      least_us = std::min(least_us, now_us() - start_us);
+      min_us = std::min(min_us, now_us() - start_us);
     }
-    best_us.push_back(least_us);
+    best_us.push_back(min_us);
   }
   const double start_us = processor_us();
   for (const PostureTask& task : tasks) solver.solve(task);

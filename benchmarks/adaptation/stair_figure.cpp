@@ -135,19 +135,19 @@ PictureScene draw_stair() {
   const Character actor = make_actor();
   swing_arms(walk.motion, actor);
   const double end_m = walk.motion.poses.back().root_in_world.z + 0.6;
-  const glm::dvec3 beside = scene.to_the_right(end_m + 0.9);
+  const glm::dvec3 second_origin = scene.to_the_right(end_m + 0.9);
   show_walk(scene, actor, walk.motion.poses, {});
   scene.add_box({-0.35, -0.03, -0.7}, {0.35, 0.0, end_m}, Paint::kGround);
-  show_walk(scene, actor, adapt_walk(walk, actor), beside);
-  scene.add_box(beside + glm::dvec3(-0.35, -0.03, -0.7),
-                beside + glm::dvec3(0.35, 0.0, end_m),
+  show_walk(scene, actor, adapt_walk(walk, actor), second_origin);
+  scene.add_box(second_origin + glm::dvec3(-0.35, -0.03, -0.7),
+                second_origin + glm::dvec3(0.35, 0.0, end_m),
                 Paint::kGround);
-  scene.add_box(beside + glm::dvec3(-0.35, 0.0, kEdge_m),
-                beside + glm::dvec3(0.35, kStep_m, end_m),
+  scene.add_box(second_origin + glm::dvec3(-0.35, 0.0, kEdge_m),
+                second_origin + glm::dvec3(0.35, kStep_m, end_m),
                 Paint::kGround);
   const glm::dvec3 label(0.35, -0.12, 0.5 * end_m);
   scene.add_label("reference", label);
-  scene.add_label("adapted", beside + label);
+  scene.add_label("adapted", second_origin + label);
   return scene;
 }
 

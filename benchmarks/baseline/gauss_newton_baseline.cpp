@@ -31,7 +31,7 @@ class StrictSolver final : public Solver<double> {
   int solve(std::span<const glm::dvec3> targets_in_world,
             const glm::dvec3& com_in_world) override {
     trial_ = reference_;
-    double least_m = 1e9;
+    double min_m = 1e9;
     int stalled = 0;
     int step = 0;
     for (; step < kMaxSteps; ++step) {
@@ -40,9 +40,9 @@ class StrictSolver final : public Solver<double> {
       // The residual of level 1 is added because stand_exactly() moves all points with
       // the root.
       const double worst_m = first_worst_m_ + second_worst_m;
-      stalled = worst_m > least_m * 0.998 ? stalled + 1 : 0;
-      if (worst_m < least_m || worst_m < kGoodEnough_m) {
-        least_m = worst_m;
+      stalled = worst_m > min_m * 0.998 ? stalled + 1 : 0;
+      if (worst_m < min_m || worst_m < kGoodEnough_m) {
+        min_m = worst_m;
         found_ = trial_;
       }
       if (worst_m < kGoodEnough_m || stalled >= 4) break;

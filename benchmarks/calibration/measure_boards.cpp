@@ -245,11 +245,11 @@ std::vector<CameraDetections> read_corners(const std::filesystem::path& path,
 
 /// Computes the errors of the lengths between neighbouring corners of the board,
 /// triangulated from the detections of the cameras. Leaves out corners with an RMS
-/// reprojection error above `most_px`, or without a triangulation.
+/// reprojection error above `max_px`, or without a triangulation.
 std::vector<double> edge_errors_m(const std::vector<Camera>& cameras,
                                   const std::vector<CameraDetections>& waved,
                                   const CharucoBoard& board,
-                                  double most_px,
+                                  double max_px,
                                   int& left_out) {
   std::map<std::pair<int, int>, std::vector<reconstruct::PointView>> sights;
   for (std::size_t c = 0; c < waved.size(); ++c) {
@@ -262,7 +262,7 @@ std::vector<double> edge_errors_m(const std::vector<Camera>& cameras,
   std::map<std::pair<int, int>, glm::dvec3> placed;
   for (const auto& [place, views] : sights) {
     const auto p = reconstruct::triangulate(views);
-    if (!p || p->rms_px > most_px) {
+    if (!p || p->rms_px > max_px) {
       ++left_out;
       continue;
     }
@@ -313,9 +313,9 @@ int measure_webcams(const std::filesystem::path& folder) {
                   1e3 * (*rig->warp_m)[1],
                   1e3 * (*rig->warp_m)[2]);
     }
-    for (const double most_px : {1e9, 2.0}) {
+    for (const double max_px : {1e9, 2.0}) {
       int left_out = 0;
-      const auto edges = edge_errors_m(rig->cameras, waved, board, most_px, left_out);
+      const auto edges = edge_errors_m(rig->cameras, waved, board, max_px, left_out);
       double sum = 0.0;
       std::vector<double> size;
       for (const double e : edges) {

@@ -164,7 +164,7 @@ int main(int count, char** arguments) {
     const auto cameras = true_cameras(truth / trial, session);
     const calib::ErrorMapGrid grid{measured.least, measured.greatest, 0.25, {}};
     const calib::PlanBodyOptions options;
-    const auto doubt = must(calib::plan_calibration(
+    const auto rig_covariance = must(calib::plan_calibration(
         cameras, grid, AprilGrid{}, capture::expected_corner_sigma_px, options.tags));
     if (i == 4) {
       for (std::size_t c = 0; c < cameras.size(); ++c) {
@@ -173,15 +173,15 @@ int main(int count, char** arguments) {
                     1e3 * glm::distance(centre_in_world(cameras[c]),
                                         centre_in_world(calibration.cameras[c])),
                     1e3 * calibration.quality[c].centre_sigma_m,
-                    1e3 * calib::centre_sigma_m(doubt, c));
+                    1e3 * calib::centre_sigma_m(rig_covariance, c));
       }
     }
     const auto plan = [&](const calib::RigCovariance& covariance) {
       return calib::plan_body(
           cameras, &covariance, body, grid, capture::expected_corner_sigma_px, options);
     };
-    compare(trial, plan(doubt), measured);
-    calib::RigCovariance calibrated = doubt;
+    compare(trial, plan(rig_covariance), measured);
+    calib::RigCovariance calibrated = rig_covariance;
     calib::fit_to_quality(calibration.quality, calibrated);
     const calib::BodyPlan later = plan(calibrated);
     std::printf(

@@ -62,7 +62,7 @@ void send_and_receive(benchmark::State& state) {
   auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
   auto sender = *VmcSender::open({.targets = {{"127.0.0.1", receiver.port()}},
                                   .listen = UdpAddress{"127.0.0.1", 0}});
-  VmcFrame heard;
+  VmcFrame received;
   Pose shown = s.poses[0];
   sender.send(s.time(), s.pose);
   (void)receiver.receive(heard);

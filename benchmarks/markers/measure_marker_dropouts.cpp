@@ -39,9 +39,9 @@ struct Stretch {
   std::size_t first, end;
 };
 
-Stretch stretch(Dice& dice, const MarkerTracks& tracks, double least_s, double most_s) {
-  const auto frames = static_cast<std::size_t>(
-      std::lround(dice.between(least_s, most_s) * tracks.rate.hz));
+Stretch stretch(Dice& dice, const MarkerTracks& tracks, double min_s, double max_s) {
+  const auto frames =
+      static_cast<std::size_t>(std::lround(dice.between(min_s, max_s) * tracks.rate.hz));
   const std::size_t first = below(tracks.frames(), dice);
   return {first, std::min(first + frames, tracks.frames())};
 }

@@ -63,9 +63,10 @@ Result<Motion> read_motion(const std::filesystem::path& file) {
     if (!bvh) return bvh.error();
     return std::move(bvh->motion);
   }
-  const auto beside = recordings::find_skeleton_file(file);
-  if (!beside) return bad_input(file.string(), "no .asf beside it", "put it there");
-  const auto skeleton = recordings::read_asf(*beside);
+  const auto skeleton_file = recordings::find_skeleton_file(file);
+  if (!skeleton_file)
+    return bad_input(file.string(), "no .asf next to it", "put it there");
+  const auto skeleton = recordings::read_asf(*skeleton_file);
   if (!skeleton) return skeleton.error();
   auto amc = recordings::read_amc(file, *skeleton);
   if (!amc) return amc.error();

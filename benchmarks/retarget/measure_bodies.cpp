@@ -58,7 +58,9 @@ void print(const CampaignResult& r) {
       j.max_speed,
       j.source_max_speed,
       errors.c_str(),
-      r.told_problems.empty() ? "" : (" TOLD: " + r.told_problems.front()).c_str());
+      r.reported_problems.empty()
+          ? ""
+          : (" REPORTED: " + r.reported_problems.front()).c_str());
   for (const auto& [segment, median_deg] : j.medians_deg) {
     if (median_deg > kBar_deg) std::printf("    %s %.1f", segment.c_str(), median_deg);
   }
@@ -89,7 +91,7 @@ struct Tally {
     for (const std::string& error : errors) ++causes[error];
     if (errors.empty()) return;
     ++wrong;
-    if (r.told_problems.empty()) ++silent;
+    if (r.reported_problems.empty()) ++silent;
   }
   void print() const {
     std::printf("\n%d results: %d refused, %d wrong, %d of them silently\n",

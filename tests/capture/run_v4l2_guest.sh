@@ -44,7 +44,7 @@ mount -t sysfs sys /sys
 mount -t devtmpfs dev /dev
 while read module; do
   case $module in
-    # Two cameras, and an output beside the second.
+    # Two cameras, and an output next to the second.
     vivid.ko) insmod /$module n_devs=2 node_types=0x1,0x101 ;;
     v4l2loopback.ko) insmod /$module video_nr=3 exclusive_caps=0 ;;
     *) insmod /$module ;;

@@ -173,7 +173,7 @@ void check_refusals() {
     set_vivid(kFirst, std::string("Inject VIDIOC_") + step + " Error");
     const std::string message = refusal(small(kFirst));
     check(has(message, step) && has(message, "Next: "),
-          std::string("a refused ") + step + " is told",
+          std::string("a refused ") + step + " is reported",
           message);
     const Take after = take_from(small(kFirst), 5);
     check(after.frames == 5, "and survived", after.text());
@@ -199,7 +199,7 @@ void check_refusals() {
   const Take fatal = take_from(
       small(kFirst), 60, [] { set_vivid(kFirst, "Inject Fatal Streaming Error"); });
   check(fatal.frames < 60 && has(fatal.error, "it stopped streaming"),
-        "a fatal streaming error is told",
+        "a fatal streaming error is reported",
         fatal.text());
 }
 

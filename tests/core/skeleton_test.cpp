@@ -24,7 +24,7 @@ glm::dvec3 reflected(const glm::dvec3& v) {
   return {-v.x, v.y, v.z};
 }
 
-TEST(AverageProportions, AreAsTallAsAsked) {
+TEST(AverageProportions, HaveTheGivenStature) {
   for (const double stature_m : {0.9, 1.75, 2.2}) {
     const Proportions p = average_proportions(stature_m);
     const auto world = t_pose(p);
@@ -109,7 +109,7 @@ TEST(SkeletonFind, FindsAJointByBoneAndByName) {
   EXPECT_EQ(skeleton.find("leftFoot"), skeleton.find(B::kLeftFoot));
 }
 
-TEST(SkeletonFind, DoesNotFindWhatIsNotThere) {
+TEST(SkeletonFind, ReturnsNothingForAnUnknownName) {
   Skeleton skeleton = make_humanoid(average_proportions(1.75));
   skeleton.joints.pop_back();
   EXPECT_FALSE(skeleton.find(B::kRightToes));

@@ -3,7 +3,7 @@
 #
 # blender -b --factory-startup --python-exit-code 1 --python make_blender_files.py
 #
-# Makes blender_arm.bvh and blender_arm.glb beside this script: an arm of three bones that
+# Makes blender_arm.bvh and blender_arm.glb next to this script: an arm of three bones that
 # Blender's own exporters write, and blender_arm.csv: where Blender itself puts the bones'
 # heads, in metres and with Y up, frame by frame.
 import csv

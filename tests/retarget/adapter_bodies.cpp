@@ -133,7 +133,7 @@ Pose waiting(const Character& character) {
   return pose;
 }
 
-Pose random_posture(const Character& character, Dice& dice, double most_rad) {
+Pose random_posture(const Character& character, Dice& dice, double max_rad) {
   Pose pose = rest_pose(character.skeleton);
   pose.root_in_world +=
       glm::dvec3(dice.between(-2, 2), dice.between(-0.1, 0.1), dice.between(-2, 2));
@@ -145,9 +145,8 @@ Pose random_posture(const Character& character, Dice& dice, double most_rad) {
         if (index(j) == 0) continue;
         const bool middle = part.kind == PartKind::kLimb && j == part.joints[1];
         pose.parent_from_joint[index(j)] =
-            middle
-                ? glm::angleAxis(dice.between(0.15, 1.7), part.hinge_in_upper)
-                : dice.turn(part.kind == PartKind::kSection ? 0.3 * most_rad : most_rad);
+            middle ? glm::angleAxis(dice.between(0.15, 1.7), part.hinge_in_upper)
+                   : dice.turn(part.kind == PartKind::kSection ? 0.3 * max_rad : max_rad);
       }
     }
   }
@@ -238,7 +237,7 @@ double angle_between_rad(const glm::dquat& a, const glm::dquat& b) {
   return glm::length(rotation_vector(glm::normalize(glm::conjugate(a) * b)));
 }
 
-double most_turned_rad(const Pose& a, const Pose& b) {
+double max_turned_rad(const Pose& a, const Pose& b) {
   double most = 0.0;
   for (std::size_t j = 0; j < a.parent_from_joint.size(); ++j) {
     most =

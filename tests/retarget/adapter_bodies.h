@@ -64,11 +64,9 @@ struct Limb {
 
 /// Slightly bent knees, elbows and hips, arms hanging, as in relaxed standing.
 [[nodiscard]] Pose waiting(const Character& character);
-/// From the rest pose: ball joints rotated by up to `most_rad`, limbs bent in their
+/// From the rest pose: ball joints rotated by up to `max_rad`, limbs bent in their
 /// natural direction by 0.15 to 1.7 rad, the root moved and rotated; within the limits.
-[[nodiscard]] Pose random_posture(const Character& character,
-                                  Dice& dice,
-                                  double most_rad);
+[[nodiscard]] Pose random_posture(const Character& character, Dice& dice, double max_rad);
 
 [[nodiscard]] Constraint contact(const std::string& id,
                                  const std::string& segment,
@@ -111,7 +109,7 @@ struct Adapted {
 /// Returns the maximum distance of a joint of `a` from its position in `b`. [m]
 [[nodiscard]] double furthest_m(const Character& character, const Pose& a, const Pose& b);
 /// Returns the maximum rotation of a joint in its parent between `a` and `b`. [rad]
-[[nodiscard]] double most_turned_rad(const Pose& a, const Pose& b);
+[[nodiscard]] double max_turned_rad(const Pose& a, const Pose& b);
 [[nodiscard]] double angle_between_rad(const glm::dquat& a, const glm::dquat& b);
 /// Returns the maximum angle of a joint beyond its limits, except those of `free`. [rad]
 [[nodiscard]] double beyond_limits_rad(const Character& character,

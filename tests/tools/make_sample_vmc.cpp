@@ -46,11 +46,11 @@ bool write_packets(const Path& path,
   if (!body) return false;
   auto encoder = *live::VmcEncoder::make();
   std::ofstream file(path, std::ios::binary);
-  live::VmcPose told;
+  live::VmcPose sent;
   for (std::size_t frame = 0; frame < motion.poses.size(); ++frame) {
-    body->to_vmc(motion.poses[frame], told);
+    body->to_vmc(motion.poses[frame], sent);
     const Timestamp time = frame_time(static_cast<int>(frame), motion.rate);
-    for (const auto packet : encoder.encode(time, told)) write_packet(file, packet);
+    for (const auto packet : encoder.encode(time, sent)) write_packet(file, packet);
   }
   return file.good();
 }

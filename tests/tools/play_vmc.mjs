@@ -4,7 +4,7 @@
 // node play_vmc.mjs FOLDER NAME AVATAR.(vrm|glb) raw|normalised: shows NAME.vmc on an
 // avatar with pixiv's three-vrm, decoded by npm's osc. A GLB without VRM's extension
 // becomes a VRM 1.0 by NAME.json. Exit 1 when a bone is more than 1 mm from its place in
-// NAME.csv, or is told another offset than the avatar's; 77 without three-vrm or osc.
+// NAME.csv, or receives another offset than the avatar's; 77 without three-vrm or osc.
 import { readFile } from 'node:fs/promises';
 
 const LIMIT_MM = 1;

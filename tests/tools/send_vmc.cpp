@@ -75,12 +75,12 @@ int send(int port, int count) {
       live::VmcSender::open({.targets = {{"127.0.0.1", port}}, .listen = std::nullopt});
   const auto body = live::VmcBody::make(motion.skeleton);
   if (!sender || !body) return 1;
-  live::VmcPose told;
+  live::VmcPose sent;
   for (int frame = 0; frame < count; ++frame) {
     if (frame % 10 == 0 && !wait_for(port, kMaxWaiting_bytes)) return 1;
     const auto k = static_cast<std::size_t>(frame) % motion.poses.size();
-    body->to_vmc(motion.poses[k], told);
-    sender->send(frame_time(frame, {60.0}), told);
+    body->to_vmc(motion.poses[k], sent);
+    sender->send(frame_time(frame, {60.0}), sent);
   }
   return wait_for(port, 0) && sender->counts()[0].sent == count ? 0 : 1;
 }

@@ -101,7 +101,7 @@ TEST(AdaptRefuses, CharactersWithoutMassOrLoadOrGroup) {
 }
 
 // The program protects an input under every name of its file.
-TEST(AdaptRefuses, ToWriteOverWhatItReads) {
+TEST(AdaptRefuses, ToOverwriteItsInput) {
   const AdaptScene scene;
   ASSERT_TRUE(recordings::write_bvh(scene / "body.bvh", scene.walk().motion));
   const std::string who = scene.file(
@@ -133,7 +133,7 @@ TEST(AdaptRefuses, AMotionWithoutLegs) {
   expect_refused(scene, {}, {"walk.bvh", "leftLowerLeg"});
 }
 
-TEST(AdaptRefuses, FloorsThatAreNone) {
+TEST(AdaptRefuses, InvalidFloors) {
   const AdaptScene scene;
   expect_refused(scene, {"--floor", (scene / "no.toml").string()}, {"no.toml"});
   const std::string bad =

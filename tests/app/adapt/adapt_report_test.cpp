@@ -86,7 +86,7 @@ TEST(Adapt, ReportsAnOrientationErrorInDegrees) {
 }
 
 // A load of a ton at one foot keeps the centre of mass there, in every posture.
-TEST(Adapt, AdvisesMoreIterationsOnlyWhereTheyWereShort) {
+TEST(Adapt, AdvisesMoreIterationsOnlyIfTheyWereUsedUp) {
   const AdaptScene scene;
   const std::string who = scene.character(
       "avatar = \"walk.bvh\"\nmass_kg = 70.0\n[[load]]\nname = \"ball\"\n"

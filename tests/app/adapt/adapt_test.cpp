@@ -87,15 +87,15 @@ TEST(Adapt, KeepsAWristOnAPointAndTheFeetOnTheFloor) {
   const Motion motion = scene.motion();
   ASSERT_EQ(motion.poses.size(), 90U);
   EXPECT_DOUBLE_EQ(motion.rate.hz, 30.0);
-  double most_asked_m = 0.0;
+  double max_asked_m = 0.0;
   double worst_m = 0.0;
   for (int t = 30; t <= 42; ++t) {
-    most_asked_m =
-        std::max(most_asked_m,
+    max_asked_m =
+        std::max(max_asked_m,
                  glm::distance(place_of(scene.walk().motion, t, B::kLeftHand), target));
     worst_m = std::max(worst_m, glm::distance(place_of(motion, t, B::kLeftHand), target));
   }
-  EXPECT_GT(most_asked_m, 0.3) << "nothing was asked";
+  EXPECT_GT(max_asked_m, 0.3) << "nothing was asked";
   EXPECT_LT(worst_m, kPrecision_m + kFile_m);
   for (std::size_t side = 0; side < 2; ++side) {
     const SyntheticWalk::Foot& foot = scene.walk().feet[side];

@@ -293,8 +293,8 @@ TEST(SoleHeight, IsThatOfWhoStandsOnTheFloor) {
   EXPECT_NEAR(*on_floor, 0.0, 0.02);
   for (Pose& pose : estimate.motion.poses) pose.root_in_world.y += 0.095;
   EXPECT_NEAR(*sole_height_m(estimate, walk.body.stature_m), *on_floor + 0.095, 1e-9);
-  for (auto& doubts : estimate.uncertainty) {
-    doubts.assign(kHumanBoneCount, JointUncertainty{0.05, Source::kInferred});
+  for (auto& joints : estimate.uncertainty) {
+    joints.assign(kHumanBoneCount, JointUncertainty{0.05, Source::kInferred});
   }
   EXPECT_FALSE(sole_height_m(estimate, walk.body.stature_m)) << "nobody saw the feet";
 }

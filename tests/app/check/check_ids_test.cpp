@@ -68,19 +68,19 @@ TEST(CheckIds, PassesTagsThatAreListed) {
 }
 
 TEST(CheckIds, ReportsTagsThatMoveWithTheBoard) {
-  const auto told = warnings({{0, 2.0}, {4, 2.0}, {5, 2.0}}, {{41, 2.0}});
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_TRUE(told[0].starts_with(
+  const auto found = warnings({{0, 2.0}, {4, 2.0}, {5, 2.0}}, {{41, 2.0}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(found[0].starts_with(
       "session.toml: [board]: tags 4, 5 move with the board in trial \"calibration\""))
-      << told[0];
+      << found[0];
 }
 
 TEST(CheckIds, ReportsTagsThatMoveWithTheBody) {
-  const auto told = warnings({{0, 2.0}}, {{41, 2.0}, {50, 2.0}});
-  ASSERT_EQ(told.size(), 1U);
-  EXPECT_TRUE(told[0].starts_with(
+  const auto found = warnings({{0, 2.0}}, {{41, 2.0}, {50, 2.0}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(found[0].starts_with(
       "session.toml: [[tags.tag]]: tag 50 is often seen but not listed"))
-      << told[0];
+      << found[0];
 }
 
 TEST(CheckIds, IgnoresTagsOnWalls) {

@@ -49,7 +49,8 @@ TEST(CheckVideos, DeclinesAnotherRotationMark) {
   copy_marked_upside_down(SpoiledSession::sample_video("walk", "cam1"),
                           session.new_video("walk", "cam1"));
   EXPECT_TRUE(declines_at_once(
-      session, {"walk-cam1.mp4: ", "turns its pictures by 180 degrees", "in one orientation"}));
+      session,
+      {"walk-cam1.mp4: ", "turns its pictures by 180 degrees", "in one orientation"}));
 }
 
 TEST(CheckVideos, DeclinesImagesWithAGapInTheirNumbers) {
@@ -63,7 +64,7 @@ TEST(CheckVideos, DeclinesImagesWithAGapInTheirNumbers) {
                                 "timestamps"}));
 }
 
-TEST(CheckVideos, DeclinesWhatIsNoVideo) {
+TEST(CheckVideos, DeclinesFilesThatAreNoVideos) {
   SpoiledSession session;
   copy_part(session.file(), session.new_video("static", "cam0"), 1.0);
   EXPECT_TRUE(declines_at_once(

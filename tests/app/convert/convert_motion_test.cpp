@@ -140,10 +140,11 @@ TEST(ConvertMotion, ChangesTheRate) {
       glm::distance(read->motion.poses[20].root_in_world, motion.poses[60].root_in_world),
       1e-7);
   // Another input rate keeps the frames, and changes the duration.
-  const ProgramRun told = convert(folder / "a.bvh", folder / "c.bvh", {"--rate", "30"});
-  ASSERT_EQ(told.exit_code, 0) << told.err;
-  EXPECT_EQ(Json::parse(told.out).at("frames"), 61);
-  EXPECT_EQ(Json::parse(told.out).at("rate_hz"), 30.0);
+  const ProgramRun resampled =
+      convert(folder / "a.bvh", folder / "c.bvh", {"--rate", "30"});
+  ASSERT_EQ(resampled.exit_code, 0) << resampled.err;
+  EXPECT_EQ(Json::parse(resampled.out).at("frames"), 61);
+  EXPECT_EQ(Json::parse(resampled.out).at("rate_hz"), 30.0);
 }
 
 TEST(ConvertMotion, FindsTheSkeletonOfAnAcclaimMotion) {
@@ -203,7 +204,7 @@ TEST(ConvertMotion, IdentifiesTheBonesForAVrmaOrADialect) {
   EXPECT_EQ(text.find("lfemur"), std::string::npos);
 }
 
-TEST(ConvertMotion, RefusesWhatDoesNotGoTogether) {
+TEST(ConvertMotion, RejectsIncompatibleOptions) {
   const ScratchFolder folder;
   ASSERT_TRUE(recordings::write_bvh(folder / "a.bvh", a_motion()));
   ASSERT_TRUE(recordings::write_vrma(folder / "a.vrma", a_motion()));
@@ -233,7 +234,7 @@ TEST(ConvertMotion, RefusesWhatDoesNotGoTogether) {
             2);
 }
 
-TEST(ConvertMotion, NeverWritesOverWhatItReads) {
+TEST(ConvertMotion, NeverOverwritesItsInput) {
   const ScratchFolder folder;
   ASSERT_TRUE(recordings::write_bvh(folder / "a.bvh", a_motion()));
   const auto before = recordings::read_file(folder / "a.bvh");

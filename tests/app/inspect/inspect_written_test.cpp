@@ -193,7 +193,7 @@ TEST(InspectWritten, ReadsTakes) {
   EXPECT_EQ(kind_of(folder / "live"), "live take");
 }
 
-TEST(InspectWritten, DeclinesAFolderOfNothing) {
+TEST(InspectWritten, DeclinesAnEmptyFolder) {
   const ScratchFolder folder;
   const ProgramRun run = marey({"inspect", folder.path().string()});
   expect_one_message(run, "folder");

@@ -175,7 +175,7 @@ TEST_F(LiveTakesOfThePage, BeginInTheMiddleAndAreReplayedToTheSameBytes) {
   EXPECT_NE(take->instants.front().requests.find("left hand"), std::string::npos);
 }
 
-TEST_F(LiveTakesOfThePage, SayWhyTheyCannotBeMadeAndTheRunGoesOn) {
+TEST_F(LiveTakesOfThePage, ReportWhyRecordingFailsAndTheRunContinues) {
   std::ofstream(session_ / "takes") << "a file where a folder should be";
   start(8.0);
   WebSocketClient page = open_page();

@@ -198,15 +198,15 @@ TEST_F(LiveRecording, IsReceivedAsAMotion) {
   ASSERT_TRUE(free);
   const std::string at = "127.0.0.1:" + std::to_string(free->port() + 1);
   const std::string body = (*folder_ / "body.glb").string();
-  const std::string motion = (*folder_ / "heard.bvh").string();
+  const std::string motion = (*folder_ / "received.bvh").string();
   const ProgramRun run = run_in_shell(
       "\"$0\" listen \"$2\" --at $1 --out \"$3\" --json --seconds 6 & sleep 1; "
       "\"$0\" replay \"$4\" --vmc $1; wait $!",
       {at, body, motion, take().string()});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto heard = nlohmann::json::parse(run.out);
-  EXPECT_GT(heard["kept"], 20) << run.err;
-  EXPECT_EQ(heard["malformed"], 0);
+  const auto received = nlohmann::json::parse(run.out);
+  EXPECT_GT(received["kept"], 20) << run.err;
+  EXPECT_EQ(received["malformed"], 0);
   EXPECT_TRUE(std::filesystem::exists(motion)) << run.err;
 }
 

@@ -147,7 +147,7 @@ TEST(VideoFeed, PlaysOneVideoAfterTheOther) {
   }
 }
 
-TEST(VideoFeed, RefusesWhatIsNoVideoAndRangesBeyondTheEnd) {
+TEST(VideoFeed, RejectsOtherFilesAndRangesBeyondTheEnd) {
   const testing::ScratchFolder folder;
   EXPECT_FALSE(
       capture::VideoFeed::open({.name = "left", .path = folder / "nothing.mkv"}));

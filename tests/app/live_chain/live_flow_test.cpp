@@ -141,7 +141,7 @@ TEST(LiveFlow, GivesTheFirstPoseTimeButNotForEver) {
 class WatchedLive : public ::testing::Test {
  protected:
   /// Returns the tracking state of the packets since the last call; nullopt: no packet.
-  std::optional<bool> heard() {
+  std::optional<bool> received_tracking() {
     std::optional<bool> tracking;
     listener_.wait(50ms);
     for (auto packet = listener_.receive(); packet; packet = listener_.receive()) {
@@ -167,16 +167,16 @@ TEST_F(WatchedLive, NotifiesReceiversAndTheConsoleWithoutInstants) {
     watchdog.on_instant(frame_time_of(time_s), true);
     EXPECT_FALSE(watchdog.look(frame_time_of(time_s), ++pictures));
   }
-  EXPECT_EQ(heard(), std::nullopt) << "instants have their own";
+  EXPECT_EQ(received_tracking(), std::nullopt) << "instants send their own packets";
   int changes = 0;
   for (const double end_s = time_s + 1.0; time_s < end_s; time_s += 0.1) {
     changes += watchdog.look(frame_time_of(time_s), ++pictures);
   }
   EXPECT_EQ(changes, 1);
   EXPECT_TRUE(watchdog.is_behind());
-  EXPECT_EQ(heard(), false);
+  EXPECT_EQ(received_tracking(), false);
   (void)watchdog.look(frame_time_of(time_s + 0.3), pictures);
-  EXPECT_EQ(heard(), false) << "it is told again and again";
+  EXPECT_EQ(received_tracking(), false) << "it is sent repeatedly";
   for (const double end_s = time_s + 6.0; time_s < end_s; time_s += 1.0 / kFlowRate_hz) {
     watchdog.on_instant(frame_time_of(time_s), true);
     (void)watchdog.look(frame_time_of(time_s), ++pictures);

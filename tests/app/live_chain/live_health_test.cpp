@@ -41,8 +41,8 @@ class LiveSubject : public ::testing::Test {
     status_.cameras = {{"left", PageCameraState::kStreaming, 9, 0, 3, ""},
                        {"right", PageCameraState::kStreaming, 9, 0, 3, ""}};
   }
-  [[nodiscard]] live::PageStatus told(TrackState state,
-                                      const std::vector<std::string>& unseen = {}) {
+  [[nodiscard]] live::PageStatus status_of(TrackState state,
+                                           const std::vector<std::string>& unseen = {}) {
     live::PageStatus status = status_;
     add_subject_status(state, figures_, unseen, status);
     return status;
@@ -52,16 +52,17 @@ class LiveSubject : public ::testing::Test {
 };
 
 TEST_F(LiveSubject, IsWellOnlyWhereTheWorstCameraAndSegmentAre) {
-  EXPECT_EQ(told(TrackState::kTracked).subject, PageSubject::kTracked);
-  EXPECT_TRUE(told(TrackState::kTracked).warnings.empty());
-  const auto unseen = told(TrackState::kTracked, {"leftFoot"});
+  EXPECT_EQ(status_of(TrackState::kTracked).subject, PageSubject::kTracked);
+  EXPECT_TRUE(status_of(TrackState::kTracked).warnings.empty());
+  const auto unseen = status_of(TrackState::kTracked, {"leftFoot"});
   EXPECT_EQ(unseen.subject, PageSubject::kPartly);
   ASSERT_EQ(unseen.warnings.size(), 1U);
   EXPECT_EQ(unseen.warnings[0], "leftFoot has not been seen for more than a second");
   for (const auto state : {PageCameraState::kSilent, PageCameraState::kLost}) {
     status_.cameras[1].state = state;
-    EXPECT_EQ(told(TrackState::kTracked).subject, PageSubject::kPartly);
-    EXPECT_NE(told(TrackState::kTracked).warnings.at(0).find("right"), std::string::npos);
+    EXPECT_EQ(status_of(TrackState::kTracked).subject, PageSubject::kPartly);
+    EXPECT_NE(status_of(TrackState::kTracked).warnings.at(0).find("right"),
+              std::string::npos);
   }
 }
 
@@ -70,14 +71,14 @@ TEST_F(LiveSubject, IsNotTrackedWherePosesDoNotKeepUp) {
   for (const auto state :
        {TrackState::kWaiting, TrackState::kTracked, TrackState::kLost}) {
     figures_.flow = Flow::kBehind;
-    EXPECT_EQ(told(state).subject, PageSubject::kBehind);
-    EXPECT_EQ(told(state).warnings.back(), "poses fall behind");
+    EXPECT_EQ(status_of(state).subject, PageSubject::kBehind);
+    EXPECT_EQ(status_of(state).warnings.back(), "poses fall behind");
     figures_.flow = Flow::kStopped;
-    EXPECT_EQ(told(state).subject, PageSubject::kStopped);
+    EXPECT_EQ(status_of(state).subject, PageSubject::kStopped);
   }
   figures_.flow = Flow::kSteady;
-  EXPECT_EQ(told(TrackState::kLost).subject, PageSubject::kLost);
-  EXPECT_EQ(told(TrackState::kWaiting).subject, PageSubject::kWaiting);
+  EXPECT_EQ(status_of(TrackState::kLost).subject, PageSubject::kLost);
+  EXPECT_EQ(status_of(TrackState::kWaiting).subject, PageSubject::kWaiting);
 }
 
 TEST(WornSegments, AreUnseenWhereTheirPlaceIsAGuess) {
@@ -111,9 +112,9 @@ class LiveNetwork : public ::testing::Test {
     result.packets = packets_;
     outputs.send(result);
     const OutputCounts now = outputs.counts().front();
-    const auto told = output_status(now, before_ ? &*before_ : nullptr);
+    const auto status = output_status(now, before_ ? &*before_ : nullptr);
     before_ = now;
-    return told;
+    return status;
   }
 
   static LiveOutputs open(const live::UdpAddress& address) {
@@ -136,9 +137,9 @@ TEST_F(LiveNetwork, ReportsALostTargetAndItsReturn) {
   EXPECT_EQ(send(outputs).detail, "no program receives the packets there");
   auto back = *live::UdpListener::open({"127.0.0.1", port});
   (void)send(outputs);
-  const auto told = send(outputs);
-  EXPECT_EQ(told.detail, "");
-  EXPECT_GT(told.failed, 0U);
+  const auto status = send(outputs);
+  EXPECT_EQ(status.detail, "");
+  EXPECT_GT(status.failed, 0U);
   back.wait(1000ms);
   EXPECT_TRUE(back.receive());
 }
@@ -152,8 +153,8 @@ TEST_F(LiveNetwork, IsNotHeldUpByAHostThatCannotBeReached) {
     GTEST_SKIP() << "there is no network here that leads there";
   }
   for (int i = 1; i <= 50; ++i) {
-    const auto told = send(*outputs);
-    EXPECT_EQ(told.sent + told.failed, static_cast<std::uint64_t>(i));
+    const auto status = send(*outputs);
+    EXPECT_EQ(status.sent + status.failed, static_cast<std::uint64_t>(i));
   }
 }
 

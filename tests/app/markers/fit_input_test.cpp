@@ -139,7 +139,7 @@ TEST(FitProgram, DeclinesABodyThatHangsHeadDown) {
       << run.err;
 }
 
-TEST(FitProgram, RefusesWhatItCannotUse) {
+TEST(FitProgram, RejectsUnusableInput) {
   const ScratchFolder folder;
   const fs::path in = write_static(folder, "pose.trc");
   const std::string out = (folder / "out").string();

@@ -31,7 +31,7 @@ void exchange(MarkerTracks& tracks, const std::string& a, const std::string& b) 
 }
 
 /// A standing trial, and a walk in which two labels are exchanged.
-TEST(FitLabels, ProposesToExchangeWhatIsExchangedInATrial) {
+TEST(FitLabels, ProposesTheExchangeThatATrialNeeds) {
   const ScratchFolder folder;
   const Body person = labelled_person();
   write_tracks(folder / "static.c3d",

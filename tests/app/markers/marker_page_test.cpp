@@ -121,7 +121,7 @@ TEST(MarkerPage, HasARunForEveryGapAndFault) {
   EXPECT_TRUE(marker_of(trial, "M0")["runs"].empty());
 }
 
-TEST(MarkerPage, ShowsWhatWasRepairedBeforeAndAfter) {
+TEST(MarkerPage, ShowsRepairedMarkersBeforeAndAfter) {
   const Json data = data_of(repaired_page(spoilt_markers()));
   const Json& curves = data["trials"][0]["curves"];
   const MarkerTracks truth = synthetic_markers(250);

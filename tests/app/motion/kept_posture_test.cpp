@@ -254,11 +254,11 @@ glm::dvec3 facing(const Skeleton& skeleton, const BoneJoints& joints, const Pose
 /// Returns the direction that a receiver's avatar faces, in marey's axes. Its T-pose
 /// faces +Z.
 glm::dvec3 vmc_facing(const live::VmcBody& body, const Pose& pose) {
-  live::VmcPose told;
-  body.to_vmc(pose, told);
-  EXPECT_TRUE(told.contains(live::UnityBone::kHips));
+  live::VmcPose sent;
+  body.to_vmc(pose, sent);
+  EXPECT_TRUE(sent.contains(live::UnityBone::kHips));
   const glm::dquat hips =
-      told.root.rotation * told.local[live::index(live::UnityBone::kHips)].rotation;
+      sent.root.rotation * sent.local[live::index(live::UnityBone::kHips)].rotation;
   const glm::dvec3 front = live::mirrored_x(hips * glm::dvec3(0, 0, 1));
   return glm::normalize(glm::dvec3(front.x, 0.0, front.z));
 }

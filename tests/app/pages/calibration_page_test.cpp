@@ -50,7 +50,7 @@ TEST_F(CalibrationInABrowser, DrawsThemWhereThereIsNoWebGl) {
   EXPECT_GT(std::atoi(shown.status("colours").c_str()), 20);
 }
 
-TEST_F(CalibrationInABrowser, OpensWithTheLeastThereIs) {
+TEST_F(CalibrationInABrowser, OpensWithAMinimalReport) {
   calib::CalibrationReport report = sample_calibration();
   report.extent.reset();
   report.has_floor = false;

@@ -50,8 +50,8 @@ TEST(ReportJson, SumsUpTheTrials) {
 }
 
 TEST(ReportJson, NamesTheWorstCameraTagFrameAndJoint) {
-  Report told = report();
-  ReportTrial& trial = told.trials.front();
+  Report extended = report();
+  ReportTrial& trial = extended.trials.front();
   ASSERT_FALSE(trial.tags.empty());
   trial.tags.back().median_px = 3.25;
   trial.tags.back().rms_px = 4.5;
@@ -64,9 +64,9 @@ TEST(ReportJson, NamesTheWorstCameraTagFrameAndJoint) {
   for (auto& frame : trial.bodies.front().uncertainty) {
     if (frame.size() > kJoint) frame[kJoint].sigma_m = 0.345;
   }
-  told.findings.push_back(
+  extended.findings.push_back(
       poor_finding("tag", "", "tag 7 does not move with its segment", ""));
-  const json summary = parsed(told).at("summary");
+  const json summary = parsed(extended).at("summary");
   const json& worst = summary.at("worst");
   EXPECT_EQ(worst.at("camera").at("trial"), trial.name);
   EXPECT_EQ(worst.at("camera").at("name"), trial.cameras.back().name);
@@ -74,7 +74,7 @@ TEST(ReportJson, NamesTheWorstCameraTagFrameAndJoint) {
   EXPECT_EQ(worst.at("tag").at("name"), trial.tags.back().id);
   EXPECT_EQ(worst.at("tag").at("segment"), trial.tags.back().segment);
   EXPECT_EQ(worst.at("tag").at("value"), 3.25);
-  EXPECT_EQ(parsed(told).at("trials")[0].at("tags").back().at("rms_px"), 4.5);
+  EXPECT_EQ(parsed(extended).at("trials")[0].at("tags").back().at("rms_px"), 4.5);
   EXPECT_EQ(worst.at("frame").at("name"), 13);
   EXPECT_EQ(worst.at("frame").at("value"), 40.25);
   EXPECT_EQ(worst.at("joint").at("name"),
@@ -145,7 +145,7 @@ TEST(ReportJson, IsCompleteForAnEmptyReport) {
   EXPECT_TRUE(figures.at("trials").empty());
 }
 
-TEST(ReportJsonDeathTest, RefusesANumberThatIsNone) {
+TEST(ReportJsonDeathTest, RejectsANonFiniteNumber) {
   Report broken = report();
   broken.calibration_rms_px = std::nan("");
   EXPECT_DEATH((void)report_json_text(broken), "isfinite");

@@ -28,7 +28,7 @@ constexpr double kSize_m = 0.16;
 const Wand kWand{
     {{TagId{0}, kSize_m}, {TagId{1}, kSize_m}, {TagId{2}, kSize_m}, {TagId{3}, kSize_m}}};
 constexpr int kScenery = 9;
-constexpr std::size_t kAskew = 2;  ///< The camera to which the scenery is elsewhere.
+constexpr std::size_t kAskew = 2;  ///< The camera that sees the static tags elsewhere.
 
 /// A tag on each side of a box, its printed face outwards.
 RigidTransform wand_from_tag(int side) {
@@ -99,7 +99,7 @@ calib::CalibrationReport wand_report(bool has_floor) {
                                    waved_among_scenery().rig);
 }
 
-TEST(WandReport, CountsSceneryAsNeitherWandNorFloor) {
+TEST(WandReport, CountsStaticTagsAsNeitherWandNorFloor) {
   const calib::CalibrationReport report = wand_report(false);
   const auto& views = report.rig.views;
   ASSERT_TRUE(std::any_of(

@@ -176,7 +176,7 @@ TEST_F(Plan, WritesTheSameBytesAgain) {
   EXPECT_EQ(plan({"--json"}).out, text_of(in_folder("a/plan.json")));
 }
 
-TEST_F(Plan, RefusesWhatItCannotUse) {
+TEST_F(Plan, RejectsUnusableInput) {
   write_plan("height_m = 2\n");
   const ProgramRun unknown = plan();
   EXPECT_EQ(unknown.exit_code, 3);

@@ -318,7 +318,7 @@ TEST(PoorCalibration, IsReportedByTheFewViewsAfterBriefWaving) {
                       {"camera cam0", "at 3 instants", "wave the board longer"}));
 }
 
-TEST(PoorCalibration, IsNotWhatTheSampleHas) {
+TEST(PoorCalibration, IsNotReportedForTheSample) {
   const SpoiledSession session;
   const ProgramRun run = session.run("calibrate");
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -99,9 +99,9 @@ TEST(SessionMarkers, CanBeInspectedAndRepaired) {
     const ProgramRun inspect = run_program(
         marey::testing::program(), {"inspect", (kWalk / file).string(), "--json"});
     ASSERT_EQ(inspect.exit_code, 0) << inspect.err;
-    const auto told = nlohmann::json::parse(inspect.out, nullptr, false);
-    EXPECT_EQ(told.at("frames"), 90) << file;
-    EXPECT_EQ(told.at("markers").size(), 116U) << file;
+    const auto inspected = nlohmann::json::parse(inspect.out, nullptr, false);
+    EXPECT_EQ(inspected.at("frames"), 90) << file;
+    EXPECT_EQ(inspected.at("markers").size(), 116U) << file;
     const fs::path out = folder / file;
     const ProgramRun repair =
         run_program(marey::testing::program(),

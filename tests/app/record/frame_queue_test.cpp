@@ -20,7 +20,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kNow{0};
 
-TEST(FrameQueue, RefusesWhatItHasNoPlaceForAndLosesNothingElse) {
+TEST(FrameQueue, RejectsFramesWhenFullAndLosesNoOthers) {
   FrameQueue queue(3, 1000);
   const std::array<std::byte, 4> bytes{std::byte{1}, std::byte{2}, std::byte{3}};
   recordings::TakeFrame stamp;
@@ -42,13 +42,13 @@ TEST(FrameQueue, RefusesWhatItHasNoPlaceForAndLosesNothingElse) {
   EXPECT_EQ(queue.pop(kNow), nullptr);
 }
 
-TEST(FrameQueue, GivesNothingWhenNothingComesInTime) {
+TEST(FrameQueue, ReturnsNothingAfterATimeout) {
   FrameQueue queue(3, 1000);
   EXPECT_EQ(queue.pop(milliseconds(1)), nullptr);
   EXPECT_FALSE(queue.is_over());
 }
 
-TEST(FrameQueue, RefusesABiggerFrameThanItsMemoryAndNothingElse) {
+TEST(FrameQueue, RejectsOnlyFramesLargerThanItsMemory) {
   FrameQueue queue(3, 1000);
   EXPECT_FALSE(queue.push(std::vector<std::byte>(1001), {}));
   EXPECT_TRUE(queue.push(std::vector<std::byte>(1000), {}));

@@ -172,7 +172,7 @@ struct Seen {
   double longest_pause_s = 0.0;  ///< Between two instants of the first camera.
   int with_second = 0;
   int alone = 0;  ///< Instants of the second camera alone.
-  std::string told;
+  std::string trouble;
   double back_after_s = -1.0;  ///< First camera's next frame after its return.
 };
 
@@ -208,7 +208,7 @@ Seen watch_live(const std::vector<std::unique_ptr<capture::DeviceFeed>>& feeds,
   while (Clock::now() - begin < std::chrono::seconds(8)) {
     const auto* group = groups.next(std::chrono::milliseconds(100));
     const capture::FeedHealth health = feeds[0]->health();
-    if (health.state == capture::CameraState::kLost) seen.told = health.trouble;
+    if (health.state == capture::CameraState::kLost) seen.trouble = health.trouble;
     if (!group) continue;
     const auto now = Clock::now();
     const auto since = [now](Clock::time_point then) { return seconds(now - then); };
@@ -238,9 +238,9 @@ void check_live() {
   });
   const Seen seen = watch_live(feeds, back_ns);
   other.join();
-  check(seen.told.find(kPaths[0]) != std::string::npos,
-        "live, a camera that is unplugged is told of",
-        seen.told);
+  check(seen.trouble.find(kPaths[0]) != std::string::npos,
+        "live, an unplugged camera is reported",
+        seen.trouble);
   check(
       seen.longest_pause_s >= 2.0 && seen.back_after_s >= 0.0 && seen.back_after_s <= 3.0,
       "it is back within 3 s of its return",

@@ -45,7 +45,7 @@ void expect_no_gross_errors(const std::vector<CampaignResult>& results,
       // Hair does not lift a body that lies on it; the report contains a problem instead.
       const bool is_hair = error == "skin in the floor" &&
                            results[i].judged->skin_node.starts_with("hair_");
-      if (is_hair && !results[i].told_problems.empty()) continue;
+      if (is_hair && !results[i].reported_problems.empty()) continue;
       ADD_FAILURE() << error << ": " << results[i].clip << " on " << results[i].body
                     << " (" << bodies[i].words << "), skin "
                     << results[i].judged->skin_depth_mm << " mm at frame "

@@ -119,7 +119,7 @@ TEST_F(Inspect, FailsWhereTheNeutralThatIsGivenDoesNotFit) {
   EXPECT_NE(piped.err.find("this is a pipe"), std::string::npos) << piped.err;
 }
 
-TEST_F(Mannequin, HasTheStatureThatWasAskedFor) {
+TEST_F(Mannequin, HasTheGivenStature) {
   const fs::path body = in_folder("body.glb");
   const ProgramRun run = marey({"mannequin", "--height", "1.4", "--out", body.string()});
   EXPECT_EQ(run.exit_code, 0) << run.err;

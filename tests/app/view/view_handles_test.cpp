@@ -122,7 +122,7 @@ TEST(ViewHandles, HaveNothingOfAPageThatSixteenOthersFollowed) {
   EXPECT_TRUE(handles->adapted(ClientId{17}));
 }
 
-TEST(ViewHandles, RefuseWhatIsNotThere) {
+TEST(ViewHandles, RejectUnknownHandles) {
   const ViewedRecording recording = standing();
   auto handles = ViewHandles::make(recording, {});
   ASSERT_TRUE(handles);

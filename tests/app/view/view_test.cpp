@@ -202,7 +202,7 @@ TEST_F(View, TurnsToOtherTrialsAndServesTheReport) {
   ASSERT_TRUE(jump) << jump.error().message();
   EXPECT_NE(jump->find(R"("trial":"jump")"), std::string_view::npos);
   EXPECT_NE(jump->find("/media/2"), std::string_view::npos)
-      << "its own, beside the first's";
+      << "its own, next to the first's";
   EXPECT_EQ(trials->seen_by(one).name, "jump");
   EXPECT_EQ(trials->seen_by(live::ClientId{2}).name, "walk") << "another page stays";
   for (const char* name : {"calib", "..", "walk/../jump", ""}) {

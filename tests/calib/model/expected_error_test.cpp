@@ -59,7 +59,7 @@ TEST(PointCovariance, MovesWithACommonShiftOfAllCameras) {
   EXPECT_NEAR((*uncertain)[2][2], (*sure)[2][2], 1e-12);
 }
 
-TEST(PointCovariance, DeclinesWhatASingleCameraSees) {
+TEST(PointCovariance, DeclinesAPointSeenByOneCamera) {
   const auto cameras = stereo_pair();
   EXPECT_FALSE(
       point_covariance(cameras, std::span(kBoth, 1), nullptr, {0.0, 1.0, 0.0}, 0.5));

@@ -53,7 +53,7 @@ TEST(DressBody, WearsTagsOffItsSkinFacingOut) {
   }
 }
 
-TEST(DressBody, LeavesOutWhatItHasNoPlaceFor) {
+TEST(DressBody, OmitsTagsWithoutRoomOnTheirSegment) {
   std::vector<TagOnSegment> tags(9, {TagId{1}, HumanBone::kHips, 0.08});
   tags.push_back({TagId{2}, HumanBone::kSpine, 0.08});
   EXPECT_EQ(make_planned_body(1.75, tags).tags.size(), 4U);

@@ -100,7 +100,7 @@ TEST(AssessCalibration, NamesLineDelaysOfARollingShutter) {
   EXPECT_EQ(only(report).id, "moved");
 }
 
-TEST(AssessCalibration, NamesACameraWhosePlaceReadsTwoWays) {
+TEST(AssessCalibration, NamesACameraWithAnAmbiguousPose) {
   CalibrationReport report = decent();
   report.rig.ambiguous = AmbiguousCamera{CameraId{2}, 2, 0.8, 0.21, 0.24};
   expect(only(report), Severity::kPoor, "ambiguous", "camera right", "0.80 m away");

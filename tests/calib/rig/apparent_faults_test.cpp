@@ -44,7 +44,7 @@ TEST(ApparentFaults, FindTheCameraThatWasMovedAndWhen) {
   EXPECT_TRUE(rig->apparent_move->alternatives.empty());
 }
 
-TEST(ApparentFaults, FindNoMoveWorthSayingOfAGoodRecording) {
+TEST(ApparentFaults, ReportNoMoveInAGoodRecording) {
   const auto scene = simulate_calibration(1);
   const auto rig = calibrate(scene);
   ASSERT_TRUE(rig) << rig.error().message();
@@ -125,7 +125,7 @@ TEST(FindMovedCamera, NamesTheOneThatWasMovedAfterTheCalibration) {
   EXPECT_TRUE(found->alternatives.empty());
 }
 
-TEST(FindMovedCamera, FindsNothingWorthSayingOfCamerasThatStand) {
+TEST(FindMovedCamera, ReportsNoMoveOfStaticCameras) {
   const auto cameras = ring_of_cameras();
   const auto found = find_moved_camera(cameras, flying_tags(cameras, 90, 0.1), sizes());
   ASSERT_TRUE(found);

@@ -135,7 +135,7 @@ TEST(CalibrateCameras, KeepsItsAccuracyWithWrongTags) {
   EXPECT_LT(compare(*rig, cameras).centre_m, kNoisy_m);
 }
 
-TEST(CalibrateCameras, OwnsUpToWrongTagsInItsRms) {
+TEST(CalibrateCameras, IncludesWrongTagsInItsRms) {
   const auto cameras = ring_of_cameras();
   const auto rig = calibrate_from_board(cameras, {0.2, {}, 0.05});
   ASSERT_TRUE(rig) << rig.error().message();
@@ -157,7 +157,7 @@ TEST(CalibrateCameras, GivesTheSameBytesTwice) {
   }
 }
 
-TEST(CalibrateCameras, CountsWhatEachCameraSaw) {
+TEST(CalibrateCameras, CountsTheViewsOfEachCamera) {
   const auto cameras = ring_of_cameras();
   const BoardRecording recording = wave_board(cameras, kBoard, kFrames);
   const auto rig =
@@ -191,7 +191,7 @@ int seen_together(const BoardRecording& recording, std::size_t a, std::size_t b)
   return count;
 }
 
-TEST(CalibrateCameras, KeepsWhatItSawForReports) {
+TEST(CalibrateCameras, KeepsItsViewsForReports) {
   const auto cameras = ring_of_cameras();
   Disturbance disturbance;
   disturbance.noise_px = 0.2;

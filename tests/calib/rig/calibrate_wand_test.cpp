@@ -186,7 +186,7 @@ TEST(CalibrateWand, PutsTheFirstCameraUprightAtTheOrigin) {
   EXPECT_LT(glm::distance(down, {0.0, -1.0, 0.0}), 1e-9);
 }
 
-TEST(CalibrateWand, NamesCamerasThatNothingJoins) {
+TEST(CalibrateWand, NamesCamerasWithoutSharedViews) {
   const auto cameras = ring_of_cameras();
   auto waved = wave_wand(cameras, 60, 0.0);
   for (std::size_t c = 0; c < 4; ++c) {

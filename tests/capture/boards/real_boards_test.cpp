@@ -36,14 +36,14 @@ struct Views {
 };
 
 template <class Board>
-Views views_in(const fs::path& path, const Board& board, std::size_t least_points) {
+Views views_in(const fs::path& path, const Board& board, std::size_t min_points) {
   Views views;
   auto finder = BoardFinder::create(board);
   auto source = open_frames(path);
   EXPECT_TRUE(finder && source) << path;
   for (auto next = (*source)->next(); next && *next; next = (*source)->next()) {
     const auto points = finder->find(**next);
-    if (points.size() < least_points) continue;
+    if (points.size() < min_points) continue;
     views.on_board.emplace_back();
     views.pixels.emplace_back();
     for (const PointDetection& point : points) {
@@ -92,9 +92,9 @@ TEST(RealBoards, CornersOfWebcamsFitACameraToATenthOfAPixel) {
   board.dictionary = "DICT_4X4_1000";
   board.is_inverted = true;
   board.is_two_sided = true;  // Camera 1 sees its back.
-  const std::map<std::string, std::size_t> least_views{
+  const std::map<std::string, std::size_t> min_views{
       {"cam_0.mp4", 44}, {"cam_1.mp4", 42}, {"cam_2.mp4", 38}, {"cam_3.mp4", 20}};
-  for (const auto& [name, least] : least_views) {
+  for (const auto& [name, least] : min_views) {
     SCOPED_TRACE(name);
     const Views views = views_in(session / "calibration/extrinsic" / name, board, 8);
     ASSERT_GE(views.pixels.size(), least);

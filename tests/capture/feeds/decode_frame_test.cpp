@@ -160,7 +160,7 @@ TEST(DecodePlain, TakesTheBrightnessOfEachFormat) {
   EXPECT_EQ(gray(PixelFormat::kGrey, "\1\2\3\4"sv, 0), expected) << "stride unknown";
 }
 
-TEST(DecodePlain, DeclinesWhatIsTooShortOrDamaged) {
+TEST(DecodePlain, DeclinesShortOrDamagedImages) {
   FrameDecoder decoder("cam1");
   const DeviceSettings gray = settings(PixelFormat::kGrey, 2, 2, 2);
   const auto shorter = decoder.decode(frame_of("\1\2\3"), gray);

@@ -58,7 +58,7 @@ const cv::Mat& round_of_two(int frame) {
   return image;
 }
 
-TEST(TrackTags, FindsWhatIsFoundEverywhere) {
+TEST(TrackTags, FindsTheTagsOfAFullSearch) {
   auto tracker = TagTracker::create();
   auto detector = TagDetector::create();
   ASSERT_TRUE(tracker && detector);
@@ -76,7 +76,7 @@ TEST(TrackTags, FindsWhatIsFoundEverywhere) {
   EXPECT_GE(regions, kPeriod / 3);
 }
 
-TEST(TrackTags, FindsATagAgainWhereItWasGoing) {
+TEST(TrackTags, FindsALostTagAtItsPredictedPlace) {
   // Hidden for four frames, at 5 px a frame.
   TrackTagsOptions rarely;
   rarely.full_every_frames = 1000;
@@ -223,7 +223,7 @@ TEST(TrackTags, SearchesFasterAfterItLosesMostTags) {
   }
 }
 
-TEST(TrackTags, SearchesWholeWhatTagsFill) {
+TEST(TrackTags, SearchesAnImageFilledWithTagsAsAWhole) {
   // Nine tags all over the image: their boxes would cover all of it.
   std::vector<DrawnTag> tags;
   for (int i = 0; i < 9; ++i) {
@@ -240,7 +240,7 @@ TEST(TrackTags, SearchesWholeWhatTagsFill) {
   }
 }
 
-TEST(TrackTags, LooksEverywhereWhileThereIsNothingToFollow) {
+TEST(TrackTags, SearchesTheWholeImageWithoutTracks) {
   auto tracker = TagTracker::create();
   const cv::Mat empty = draw({});
   for (int f = 0; f < 3; ++f) {

@@ -158,7 +158,7 @@ TEST_F(Reopening, ReportsSilenceOnceAndReopensASilentCamera) {
   EXPECT_EQ(told_, (std::vector<std::string>{"silent", "streaming"}));
 }
 
-TEST_F(Reopening, SumsWhatWasDroppedAndDamagedButNotOutages) {
+TEST_F(Reopening, SumsDroppedAndDamagedFramesButNotOutages) {
   ReopeningDevice device = open(20);
   camera().frames[5].flags = V4L2_BUF_FLAG_ERROR;
   camera().frames.erase(camera().frames.begin() + 10, camera().frames.begin() + 13);

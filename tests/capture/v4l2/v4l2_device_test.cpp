@@ -146,7 +146,7 @@ TEST(V4l2Choice, IsTheFormatThatHasTheSizeAtTheRate) {
   EXPECT_EQ(choose_format(DeviceInfo{}, vga()), std::nullopt);
 }
 
-TEST(V4l2Settings, SayWhatTheDriverSilentlyChanged) {
+TEST(V4l2Settings, ReportSettingsThatTheDriverChanged) {
   FakeKernel kernel;
   kernel.cameras[0].formats = {format(V4L2_PIX_FMT_YUYV, 320, 240, 30)};
   kernel.cameras[0].always_every = v4l2_fract{2, 25};
@@ -188,7 +188,7 @@ TEST(V4l2Settings, AreReadBackFromTheControls) {
   EXPECT_EQ(kernel.cameras[0].controls[V4L2_CID_FOCUS_AUTO].value, 0);
 }
 
-TEST(V4l2Settings, SayWhatACameraCannotSet) {
+TEST(V4l2Settings, ReportUnsupportedSettings) {
   FakeKernel kernel;
   kernel.cameras[0].controls = {
       {V4L2_CID_EXPOSURE_AUTO, {0, 3, V4L2_EXPOSURE_APERTURE_PRIORITY, true}},

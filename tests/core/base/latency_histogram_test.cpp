@@ -30,7 +30,7 @@ TEST(LatencyHistogram, KnowsQuantilesToTwoPercent) {
   EXPECT_EQ(histogram.count(), 20000);
 }
 
-TEST(LatencyHistogram, IsNothingWithoutDurationsAndKeepsWhatIsOutOfRange) {
+TEST(LatencyHistogram, IsEmptyWithoutDurationsAndCountsValuesOutOfRange) {
   LatencyHistogram histogram;
   EXPECT_EQ(histogram.quantile_s(0.5), 0.0);
   histogram.add(-1.0);

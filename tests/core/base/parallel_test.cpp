@@ -23,7 +23,7 @@ TEST(InParallel, DoesNothingWhenThereIsNothing) {
   in_parallel(0, 3, [](std::size_t) { FAIL(); });
 }
 
-TEST(InParallel, ThrowsWhatTheFirstFailedJobThrewOnceAllHaveEnded) {
+TEST(InParallel, RethrowsTheFirstExceptionAfterAllJobsEnded) {
   for (int repeat = 0; repeat < 20; ++repeat) {
     std::vector<int> done(16, 0);
     try {

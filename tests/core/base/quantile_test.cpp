@@ -28,7 +28,7 @@ TEST(Quantile, GivesTheValueThatFarUpTheOrder) {
   EXPECT_EQ(quantile(hundred_and_one, 0.255), 26.0);
 }
 
-TEST(Quantile, RunsFromTheLeastToTheGreatest) {
+TEST(Quantile, RunsFromTheMinimumToTheMaximum) {
   const std::vector<double> values{2.0, 9.0, 4.0};
   EXPECT_EQ(quantile(values, 0.0), 2.0);
   EXPECT_EQ(quantile(values, 1.0), 9.0);

@@ -21,7 +21,7 @@ TEST(ErrorMessage, ContainsThePlaceTheCauseAndTheNextStep) {
             "Next: copy the file from the camera again.");
 }
 
-TEST(ErrorMessage, LeavesOutWhatIsNotKnown) {
+TEST(ErrorMessage, OmitsUnknownParts) {
   EXPECT_EQ((Error{Errc::kInternal, "", "no memory", ""}).message(), "no memory.");
   EXPECT_EQ((Error{Errc::kDevice, "cam0", "unplugged", ""}).message(),
             "cam0: unplugged.");
@@ -40,12 +40,12 @@ TEST(ResultOf, HoldsAnError) {
   EXPECT_EQ(result.error().where, "a.toml");
 }
 
-TEST(ResultDeathTest, StopsWhoReadsAValueThatIsNotThere) {
+TEST(ResultDeathTest, AbortsWhenAMissingValueIsRead) {
   const Result<int> result(bad_input("a.toml", "empty", "write it"));
   EXPECT_DEATH((void)*result, "contract broken: has_value");
 }
 
-TEST(ResultDeathTest, StopsWhoReadsAnErrorThatIsNotThere) {
+TEST(ResultDeathTest, AbortsWhenAMissingErrorIsRead) {
   const Status status = Done{};
   EXPECT_DEATH((void)status.error(), "contract broken: !has_value");
 }

@@ -174,11 +174,11 @@ TEST(PageStatus, HasTheMembersOfTheProtocol) {
                                       std::pair{PageSubject::kBehind, "behind"},
                                       std::pair{PageSubject::kStopped, "stopped"},
                                       std::pair{PageSubject::kLost, "lost"}}) {
-    PageStatus told;
-    told.subject = subject;
-    told.warnings = {"leftFoot has not been seen"};
-    EXPECT_EQ(Json::parse(status_json(told))["subject"], word);
-    EXPECT_EQ(Json::parse(status_json(told))["doubts"][0], told.warnings[0]);
+    PageStatus changed;
+    changed.subject = subject;
+    changed.warnings = {"leftFoot has not been seen"};
+    EXPECT_EQ(Json::parse(status_json(changed))["subject"], word);
+    EXPECT_EQ(Json::parse(status_json(changed))["doubts"][0], changed.warnings[0]);
   }
   EXPECT_EQ(empty["stages"][0],
             Json::parse(R"({"name":"detect cam0","p50_ms":1.0,"p95_ms":2.0})"));

@@ -47,7 +47,7 @@ TEST(PageRequest, ReadsDrags) {
   EXPECT_EQ(file.frame, 12);
 }
 
-TEST(PageRequest, RefusesWhatItDoesNotUnderstand) {
+TEST(PageRequest, RejectsUnknownRequests) {
   struct Case {
     std::string text;
     const char* cause;

@@ -84,7 +84,7 @@ TEST(UdpSender, KeepsSendingWhenATargetClosesAndReopens) {
   EXPECT_TRUE(back.receive());
 }
 
-TEST(UdpSender, CountsWhatIsTooLargeAndGoesOn) {
+TEST(UdpSender, CountsOversizedPacketsAndContinues) {
   auto listener = *UdpListener::open(here(0));
   const std::vector<UdpAddress> targets{here(listener.port())};
   auto sender = *UdpSender::open(targets);

@@ -76,7 +76,7 @@ TEST(OscParse, SkipsArgumentsOfEveryType) {
   EXPECT_TRUE(is_osc(bytes_of(message)));
 }
 
-TEST(OscParse, DeclinesWhatIsNotFinite) {
+TEST(OscParse, DeclinesNonFiniteNumbers) {
   for (const std::string& word : {"\x7f\x80\0\0"s, "\xff\x80\0\0"s, "\x7f\xc0\0\0"s}) {
     ASSERT_TRUE(parse_osc(bytes_of("/a\0\0,f\0\0"s + word), [](const OscMessage& m) {
       EXPECT_EQ(m.arguments().read_number(), std::nullopt);
@@ -118,7 +118,7 @@ const std::vector<Broken>& broken() {
   return list;
 }
 
-TEST(OscParse, TakesNothingOfAnyBrokenPacket) {
+TEST(OscParse, RejectsTheWholeOfAnyBrokenPacket) {
   for (const auto& [what, packet] : broken()) {
     int taken = 0;
     EXPECT_FALSE(parse_osc(bytes_of(packet), [&](const OscMessage&) { ++taken; }))
@@ -127,7 +127,7 @@ TEST(OscParse, TakesNothingOfAnyBrokenPacket) {
   }
 }
 
-TEST(OscParse, TakesNothingOfAPacketThatWasCutShort) {
+TEST(OscParse, RejectsTheWholeOfATruncatedPacket) {
   std::string packet = kHead + sized("/ab\0,sf\0abc\0\0\0\0\1"s);
   EXPECT_TRUE(is_osc(bytes_of(packet)));
   while (packet.size() > kHead.size() + 1) {

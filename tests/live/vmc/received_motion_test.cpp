@@ -26,13 +26,13 @@ Pose at(double time_s) {
 }
 
 TEST(MotionResampler, IsTheMovementAtAnyRateHoweverUnevenlyItCame) {
-  MotionResampler heard;
+  MotionResampler received;
   for (int i = 0; i <= 40; ++i) {
     // The first and the last in time; the others late by up to 8 ms.
     const double time_s = 0.05 * i + (i == 40 ? 0 : i % 3) * 0.004;
-    heard.add(5.0 + time_s, at(time_s));
+    received.add(5.0 + time_s, at(time_s));
   }
-  const auto motion = heard.at_rate(one_joint(), {30.0});
+  const auto motion = received.at_rate(one_joint(), {30.0});
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->poses.size(), 61U);
   for (std::size_t f = 0; f < motion->poses.size(); ++f) {
@@ -45,14 +45,14 @@ TEST(MotionResampler, IsTheMovementAtAnyRateHoweverUnevenlyItCame) {
 }
 
 TEST(MotionResampler, PassesOverWhatDoesNotGoOn) {
-  MotionResampler heard;
-  heard.add(100.0, at(0.0));
-  heard.add(100.1, at(0.1));
-  heard.add(100.1, at(0.1));
-  heard.add(100.05, at(0.05));
-  EXPECT_EQ(heard.size(), 2U);
-  heard.add(100.2, at(0.2));
-  const auto motion = heard.at_rate(one_joint(), {10.0});
+  MotionResampler received;
+  received.add(100.0, at(0.0));
+  received.add(100.1, at(0.1));
+  received.add(100.1, at(0.1));
+  received.add(100.05, at(0.05));
+  EXPECT_EQ(received.size(), 2U);
+  received.add(100.2, at(0.2));
+  const auto motion = received.at_rate(one_joint(), {10.0});
   ASSERT_TRUE(motion);
   EXPECT_EQ(motion->poses.size(), 3U);
 }
@@ -64,17 +64,17 @@ TEST(MotionResampler, KeepsTheReceivedDurationWhenSenderTimesJump) {
   for (const double jump_s : {-5.0, 5.0, 0.9, 3e6, -3e6, 1e30, -1e30, 1.7e308}) {
     for (const bool stays : {false, true}) {
       SenderClock clock;
-      MotionResampler heard;
+      MotionResampler received;
       for (int i = 0; i <= 60; ++i) {
         const double time_s = i / 30.0;
         const bool elsewhere = i == 30 || (stays && i > 30);
         const double said_s = 1000.0 + time_s + (elsewhere ? jump_s : 0.0);
         const double at_s = clock.at_s(said_s, 7.0 + time_s);
         EXPECT_NEAR(at_s, 7.0 + time_s, SenderClock::kMaxOffset_s) << jump_s;
-        heard.add(at_s, at(time_s));
+        received.add(at_s, at(time_s));
       }
-      EXPECT_GE(heard.size(), std::abs(jump_s) > 1.0 ? 61U : 30U) << jump_s;
-      const auto motion = heard.at_rate(one_joint(), {30.0});
+      EXPECT_GE(received.size(), std::abs(jump_s) > 1.0 ? 61U : 30U) << jump_s;
+      const auto motion = received.at_rate(one_joint(), {30.0});
       ASSERT_TRUE(motion);
       EXPECT_NEAR(static_cast<double>(motion->poses.size()), 61.0, 30.0) << jump_s;
     }
@@ -93,11 +93,11 @@ TEST(MotionResampler, IsOnTheClockThatTheFirstFrameDecides) {
   EXPECT_NEAR(telling.at_s(500.3, 2.3), 2.3, 1e-12);
 }
 
-TEST(MotionResampler, IsNoneOfOnePose) {
-  MotionResampler heard;
-  EXPECT_FALSE(heard.at_rate(one_joint(), {30.0}));
-  heard.add(0.0, at(0.0));
-  EXPECT_FALSE(heard.at_rate(one_joint(), {30.0}));
+TEST(MotionResampler, ReturnsNothingForOnePose) {
+  MotionResampler received;
+  EXPECT_FALSE(received.at_rate(one_joint(), {30.0}));
+  received.add(0.0, at(0.0));
+  EXPECT_FALSE(received.at_rate(one_joint(), {30.0}));
 }
 
 }  // namespace

@@ -49,9 +49,9 @@ int count(const std::vector<ReadMessage>& messages, const std::string& address) 
 VmcPose some_pose(std::uint64_t seed) {
   testing::Dice dice(seed);
   const Skeleton body = testing::random_humanoid(dice);
-  VmcPose told;
-  VmcBody::make(body)->to_vmc(testing::random_pose(body, dice), told);
-  return told;
+  VmcPose pose;
+  VmcBody::make(body)->to_vmc(testing::random_pose(body, dice), pose);
+  return pose;
 }
 
 // The bytes of a frame, put together by hand.
@@ -101,13 +101,13 @@ TEST(VmcEncoder, KeepsQuaternionsUnitAndPositionsToTheFloat) {
     EXPECT_NEAR(
         std::sqrt(n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6]), 1.0, 1e-6);
     EXPECT_GE(n[6], 0.0);
-    const UnityTransform& told = pose.local[index(*unity_bone(message.texts[0]))];
-    const double same = n[3] * told.rotation.x + n[4] * told.rotation.y +
-                        n[5] * told.rotation.z + n[6] * told.rotation.w;
+    const UnityTransform& expected = pose.local[index(*unity_bone(message.texts[0]))];
+    const double same = n[3] * expected.rotation.x + n[4] * expected.rotation.y +
+                        n[5] * expected.rotation.z + n[6] * expected.rotation.w;
     EXPECT_NEAR(std::abs(same), 1.0, 1e-6);
     // A float has 24 bits: below 2 m, 0.1 um.
     for (int i = 0; i < 3; ++i) {
-      EXPECT_NEAR(n[static_cast<std::size_t>(i)], told.position[i], 1.2e-7);
+      EXPECT_NEAR(n[static_cast<std::size_t>(i)], expected.position[i], 1.2e-7);
     }
   }
 }
@@ -194,18 +194,18 @@ TEST(VmcEncoder, SendsItsInfoAtFirstEverySecondAndOnRequest) {
       .listen_port = 39540, .options = "marey", .vrm_path = "me.vrm", .vrm_title = "Me"};
   VmcEncoder encoder = *VmcEncoder::make(options);
   const VmcPose nobody;
-  const auto told = [&](Timestamp time) {
+  const auto is_info_sent = [&](Timestamp time) {
     const auto messages = messages_of(frame_of(encoder, time, nobody));
     EXPECT_EQ(count(messages, "/VMC/Ext/Rcv"), count(messages, "/VMC/Ext/VRM"));
     EXPECT_EQ(count(messages, "/VMC/Ext/Opt"), count(messages, "/VMC/Ext/VRM"));
     return count(messages, "/VMC/Ext/VRM") == 1;
   };
-  EXPECT_TRUE(told(0s));
-  EXPECT_FALSE(told(500ms));
+  EXPECT_TRUE(is_info_sent(0s));
+  EXPECT_FALSE(is_info_sent(500ms));
   encoder.request_info();
-  EXPECT_TRUE(told(600ms));
-  EXPECT_FALSE(told(1500ms));
-  EXPECT_TRUE(told(1600ms));
+  EXPECT_TRUE(is_info_sent(600ms));
+  EXPECT_FALSE(is_info_sent(1500ms));
+  EXPECT_TRUE(is_info_sent(1600ms));
   const auto messages = messages_of(frame_of(encoder, 3s, nobody));
   EXPECT_EQ(messages.back().texts, (std::vector<std::string>{"me.vrm", "Me"}));
 }

@@ -41,7 +41,7 @@ TEST(VmcReceiver, ReceivesTheFramesOfASender) {
   EXPECT_EQ(receiver.received().frames, 3);
 }
 
-TEST(VmcReceiver, HandsOutEveryFrameToWhomeverWantsAll) {
+TEST(VmcReceiver, CanReturnEveryFrame) {
   auto receiver = *VmcReceiver::open({"127.0.0.1", 0});
   auto sender = sender_to(receiver);
   const VmcPose sent = body_at_rest();

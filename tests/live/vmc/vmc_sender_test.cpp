@@ -101,7 +101,7 @@ TEST(VmcSender, HandsOverCalibrationsOnce) {
   EXPECT_EQ(again.applied, 2);
 }
 
-TEST(VmcSender, IgnoresWhatItCannotObeyAndCountsIt) {
+TEST(VmcSender, IgnoresAndCountsUnsupportedRequests) {
   Stage stage;
   OscWriter command;
   command.begin("/VMC/Ext/Set/Period", "iif").add(9).add(9).add(9.0F);

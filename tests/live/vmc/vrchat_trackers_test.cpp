@@ -117,7 +117,7 @@ TEST(VrchatTrackers, TurnWithTheBoneAboveTheJoint) {
   EXPECT_GT(glm::length(all.at("/tracking/trackers/3/rotation")), 50.0);
 }
 
-TEST(VrchatTrackers, LeaveOutWhatIsNotWantedOrNotThere) {
+TEST(VrchatTrackers, OmitUnwantedAndMissingTrackers) {
   Skeleton body = make_humanoid(average_proportions(1.7));
   VrchatTrackers few(body,
                      {.knees = false, .elbows = false, .chest = false, .head = false});

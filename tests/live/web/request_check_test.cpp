@@ -20,7 +20,7 @@ Verdict verdict(const RequestHead& head, const AccessPolicy& policy) {
 const AccessPolicy kHere{
     .address = "127.0.0.1", .loopback = true, .port = 8790, .token = ""};
 
-TEST(RequestCheck, FindsThePathOfWhoIsWelcome) {
+TEST(RequestCheck, ReturnsThePathOfAnAllowedRequest) {
   const CheckedRequest got = check_request(
       {.method = "GET", .target = "/page.js?v=2?3", .host = "127.0.0.1:8790"}, kHere);
   EXPECT_EQ(got.verdict, Verdict::kAccepted);

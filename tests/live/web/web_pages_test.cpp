@@ -68,7 +68,7 @@ TEST(WebPages, AnswerTheHandshakeOfTheStandardsExample) {
             "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=");
 }
 
-TEST(WebPages, AreSentWhatIsPublishedWhileTheyAreOpen) {
+TEST(WebPages, ReceivePublishedMessagesWhileTheyAreOpen) {
   WebServer server = serve_pages();
   WebSocketClient page(server.port());
   ASSERT_EQ(status(page.upgrade()), 101);

@@ -36,7 +36,7 @@ WebServer serve(WebServerOptions options = {}) {
   return *std::move(server);
 }
 
-TEST(WebServer, ServesWhatItWasGivenAndNothingElse) {
+TEST(WebServer, ServesOnlyItsOwnFiles) {
   WebServer server = serve();
   const std::string answer = fetch(server.port(), "/page.js");
   EXPECT_EQ(status(answer), 200);
@@ -82,7 +82,7 @@ TEST(WebServer, SendsTheContentsOwnSecurityPolicy) {
             "default-src 'none'");
 }
 
-TEST(WebServer, SendsNothingAgainToWhoHasIt) {
+TEST(WebServer, SendsNoUnchangedFileAgain) {
   WebServer server = serve();
   const std::string answer =
       fetch(server.port(), "/page.js", "If-None-Match: \"abc\", W/\"5f2c\"\r\n");
@@ -166,7 +166,7 @@ TEST(WebServer, RefusesOtherSites) {
   EXPECT_EQ(server.counts().refused_origin, 6U);
 }
 
-TEST(WebServer, LetsInWhoKnowsTheToken) {
+TEST(WebServer, AcceptsClientsWithTheToken) {
   WebServerOptions options;
   options.token = *make_access_token();
   WebServer server = serve(options);
@@ -185,7 +185,7 @@ TEST(WebServer, LetsInWhoKnowsTheToken) {
   EXPECT_EQ(status(WebSocketClient(server.port()).upgrade(cookie)), 101);
 }
 
-TEST(WebServer, OnlyLetsRead) {
+TEST(WebServer, AllowsOnlyReading) {
   WebServer server = serve();
   for (const char* method : {"POST", "PUT", "DELETE", "OPTIONS"}) {
     const std::string answer =

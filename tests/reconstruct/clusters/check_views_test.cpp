@@ -125,7 +125,7 @@ TEST(CheckViews, NoticesSizesThatAreThreePercentWrong) {
             "every tag on the body measures 1.03 times its size_m against the board");
 }
 
-TEST(CheckViews, PassesWhatARulerMayBeWrongBy) {
+TEST(CheckViews, PassesErrorsAsLargeAsThoseOfARuler) {
   ViewScene scene;
   for (TagOnSegment& tag : scene.tags) tag.size_m *= 1.01;
   EXPECT_TRUE(check_views(scene.cameras, scene.detections, scene.tags));

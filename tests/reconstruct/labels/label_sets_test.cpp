@@ -115,7 +115,7 @@ TEST(NameMarkers, KnowsTheHumanBodyModel) {
 }
 
 // c3d_org_samples/sample_03/gait-pig.c3d and sample_07/16bitanalog.c3d.
-TEST(NameMarkers, LeavesOutWhatPlugInGaitComputes) {
+TEST(NameMarkers, OmitsPointsThatPlugInGaitComputes) {
   const auto labels = words(
       "RKNE LKNE RTIB LTHI RTHI LTIB LTOE RANK LANK RASI LASI RTOE SACR PELO PELP PELA "
       "PELL LFEO LFEP LTIO LTIA LFOO LFOP LTOO LTOL RFOO RFOA RTOA LKAX LKD1 LKD2 "

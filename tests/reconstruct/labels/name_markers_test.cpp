@@ -141,7 +141,7 @@ TEST(NameMarkers, NamesTheFirstOfEqualLabelsAlone) {
       words("R_ASIS_2 SACRUM_2 R_SHANK_1_2 R_HEEL_3"));
 }
 
-TEST(NameMarkers, NamesNothingWhereLabelsMeanNothing) {
+TEST(NameMarkers, NamesNoMarkerForMeaninglessLabels) {
   for (const char* const text : {"M00 M01 M02 M03",
                                  "2000 2001 2002",
                                  "*1 *2 *3",

@@ -104,7 +104,7 @@ TEST(JudgeSession, DistinguishesSpikesFromPersistentErrors) {
   EXPECT_EQ(verdict.spike_frames, 6);
 }
 
-TEST(JudgeSession, ForgivesWhatIsCalledInferred) {
+TEST(JudgeSession, IgnoresErrorsOfInferredJoints) {
   SessionAnswer answer = true_answer();
   turn_thigh(answer, answer.motion.motion.poses.size(), 0.25);
   for (auto& frame : answer.motion.uncertainty) {

@@ -319,7 +319,7 @@ TEST(SolveMotion, DoesWithoutACameraThatHasNoVideo) {
   EXPECT_LT(quantile(limbs_off_m(scene, *trial), 0.5), 1e-3);
 }
 
-TEST(SolveMotion, CountsWhatWasSeen) {
+TEST(SolveMotion, CountsTheSightings) {
   Scene scene;
   scene.film.frames = 10;
   const auto detections = scene.detections();

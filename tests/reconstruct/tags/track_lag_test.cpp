@@ -192,7 +192,7 @@ TEST_F(TrackLag, TakesTheMeanOfCamerasThatDifferForTheTruth) {
 TEST_F(TrackLag, DoesNotTrailItsStampsInACapturedWalk) {
   for (const std::string recording : {"dev", "second"}) {
     const Movement walk = captured_walk(body_, recording);
-    if (!walk) GTEST_SKIP() << "the rendered recordings are not beside the repository";
+    if (!walk) GTEST_SKIP() << "the rendered recordings are not next to the repository";
     for (const auto& passed_over :
          {none(), half_at_random(5), every_second_instant(), by_turns()}) {
       EXPECT_NEAR(delay_ms(walk, passed_over), 0.0, 2.0) << recording;

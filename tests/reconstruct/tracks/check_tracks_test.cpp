@@ -72,7 +72,7 @@ TEST(CheckTracks, TakesAGhostOut) {
   EXPECT_FALSE(checked.tracks.at(145, 8));
 }
 
-TEST(CheckTracks, TakesOutWhatFroze) {
+TEST(CheckTracks, RemovesFrozenSamples) {
   MarkerTracks tracks = testing::synthetic_markers(400, 0.0005);
   for (std::size_t f = 121; f < 160; ++f) tracks.at(f, 6) = tracks.at(120, 6);
   const CheckedTracks checked = check_tracks(tracks);
@@ -93,7 +93,7 @@ TEST(CheckTracks, ReportsNoFrozenMarkersForAStillBody) {
   EXPECT_TRUE(check_tracks(tracks).findings.empty());
 }
 
-TEST(CheckTracks, NumbersThatAreNoneAreTakenOut) {
+TEST(CheckTracks, NonFiniteNumbersAreRemoved) {
   MarkerTracks tracks = testing::synthetic_markers(50);
   tracks.at(7, 3)->p_in_world.x = std::numeric_limits<double>::quiet_NaN();
   tracks.at(8, 3)->p_in_world.y = 1e30;

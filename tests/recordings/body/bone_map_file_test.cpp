@@ -57,7 +57,7 @@ TEST(BoneMapFile, ReadsAnyDirection) {
   EXPECT_EQ(map->front, glm::dvec3(-1, 0, 0));
 }
 
-TEST(BoneMapFile, NamesWhatIsWrongAndTheNearestWord) {
+TEST(BoneMapFile, NamesTheUnknownWordAndTheNearestOne) {
   EXPECT_EQ(map_refusal("[bones]\nhips = \"the hips\"\nleftFeet = \"the leftFoot\"\n"),
             "man.bones.toml:3: there is no bone \"leftFeet\". Next: perhaps you mean "
             "\"leftFoot\".");

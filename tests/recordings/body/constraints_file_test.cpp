@@ -136,7 +136,7 @@ TEST(ConstraintsFile, WritesTheSameBytesAfterReadingThem) {
   EXPECT_EQ(text_of(read(first).set), first);
 }
 
-TEST(ConstraintsFile, LeavesWhatAFileLeavesOutAsTheNounHasIt) {
+TEST(ConstraintsFile, UsesDefaultsForOmittedAttributes) {
   const ConstraintFile file = read(
       "<ConstraintsSet><Support><name>s</name><bodyPoint><segment>leftFoot</segment>"
       "</bodyPoint></Support></ConstraintsSet>");
@@ -248,7 +248,7 @@ TEST(ConstraintsFile, RefusesANonUnitQuaternionAndNormalizesARoundedOne) {
   EXPECT_EQ(text_of(read(written).set), written);
 }
 
-TEST(ConstraintsFile, RefusesToWriteWhatCouldNotBeRead) {
+TEST(ConstraintsFile, RefusesToWriteUnreadableConstraints) {
   const auto refused = [](auto&& change) {
     ConstraintSet set = one_of_each();
     change(set);

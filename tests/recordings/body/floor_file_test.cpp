@@ -41,7 +41,7 @@ TEST(FloorFile, ReadsTheExampleOfTheDocumentation) {
   EXPECT_EQ(floor.parts[2].path[2].moved_m, glm::dvec3(0.3, 0.2, 0.0));
 }
 
-TEST(FloorFile, GivesBackWhatWasWritten) {
+TEST(FloorFile, RoundTripsAFloor) {
   Floor floor{-1.0 / 3.0, {}};
   floor.parts.push_back({"a \"step\"", {-0.1, 0.2}, {1.0 / 7.0, 9.0}, 0.17, {0, 0}, {}});
   floor.parts.push_back({"é", {-4, -1}, {4, 7}, 0.1, {-0.25, 0}, {{-1.5, {1e-9, 2, 3}}}});

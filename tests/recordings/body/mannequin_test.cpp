@@ -28,7 +28,7 @@ std::vector<Proportions> bodies() {
           uneven(mannequin_proportions({}))};
 }
 
-TEST(MannequinProportions, HaveTheStatureAskedForWhateverTheRatios) {
+TEST(MannequinProportions, HaveTheGivenStatureWithAnyRatios) {
   for (const double ratio : {0.7, 1.0, 1.3}) {
     const MannequinOptions options{
         .stature_m = 1.1, .arm = 1.2, .leg = ratio, .trunk = 2.0 - ratio, .head = ratio};

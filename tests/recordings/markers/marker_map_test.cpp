@@ -57,7 +57,7 @@ TEST(MarkerMap, IsReadFromAFile) {
   EXPECT_FALSE(read_marker_map(scratch.path() / "none.toml"));
 }
 
-TEST(MarkerMap, RefusesWhatIsNotText) {
+TEST(MarkerMap, RejectsLandmarksThatAreNotText) {
   EXPECT_EQ(mistake_of("[markers]\nLASI = 3\n"),
             "map.toml:2: \"LASI\" must be text in quotes. Next: write it as "
             "docs/formats/README.md "

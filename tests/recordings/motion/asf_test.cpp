@@ -162,7 +162,7 @@ TEST(Asf, KeepsTheOrderOfABonesOwnAxes) {
   expect_close(motion.poses[0].parent_from_joint[2] * glm::dvec3(1, 0, 0), {0, 1, 0});
 }
 
-TEST(Asf, TakesRadiansWhereTheFilesSaySo) {
+TEST(Asf, ReadsRadiansIfTheFileDeclaresThem) {
   const std::string asf = with(
       with(kAsfSkeleton, "angle deg", "angle rad"), "0 0 90 XYZ", "0 0 1.5707963267949 ");
   const std::string frame = "1\nroot 0 0 0 0 0 0\nthigh 0 1.5707963267949\nshank 0\n";
@@ -296,7 +296,7 @@ TEST(Asf, AgreesWithTheBvhOfTheSameTrial) {
   }
 }
 
-TEST(Asf, RefusesASkeletonThatIsNone) {
+TEST(Asf, RejectsAnInvalidSkeleton) {
   EXPECT_EQ(asf_refusal("BVH"),
             "tiny.asf:1: expected a section (\":root\"): no .asf file. Next: export the "
             "file again, or correct that line in a text editor.");

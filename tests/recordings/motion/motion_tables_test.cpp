@@ -132,7 +132,7 @@ TEST(JointsCsv, RefusesARowTooLong) {
                                 "joints.csv"));
 }
 
-TEST(JointsCsv, RefusesWhatIsNotANumber) {
+TEST(JointsCsv, RejectsTextInPlaceOfNumbers) {
   EXPECT_FALSE(parse_joints_csv("frame,time,joint,x,y,z,sigma\n3,0.1,hips,1,2,nan,0.5\n",
                                 "joints.csv"));
 }

@@ -209,7 +209,7 @@ assert all(f.compress_type == zipfile.ZIP_STORED and not f.extra for f in files)
 )");
 }
 
-TEST(ZipArchive, ReadsWhatItWrote) {
+TEST(ZipArchive, RoundTripsItsFiles) {
   ZipWriter writer;
   writer.add("a", "123456789");
   writer.add("empty.npy", "");

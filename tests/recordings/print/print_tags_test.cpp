@@ -175,7 +175,7 @@ TEST(PrintTags, FacesOfAPlateAreAtARightAngle) {
   EXPECT_NEAR(std::min(widths[0], widths[1]), std::sqrt(2.0) * left_face, kRoundingM);
 }
 
-TEST(PrintTags, SayTheirSegments) {
+TEST(PrintTags, ShowTheirSegments) {
   const auto document =
       lay_out_tags({{tag(41, 0.09, black_family(), HumanBone::kHips)}, {}, false});
   ASSERT_TRUE(document);

@@ -25,7 +25,7 @@ TEST(PrintWords, LengthsWithoutUnitAreRefused) {
   EXPECT_EQ(length.error().next, "write 80mm, 80cm or 80in");
 }
 
-TEST(PrintWords, LengthsThatAreNoneAreRefused) {
+TEST(PrintWords, InvalidLengthsAreRejected) {
   for (const char* text :
        {"", "mm", "80ft", "80 mm x", "-80mm", "0mm", "nan mm", "1e9mm"}) {
     EXPECT_FALSE(parse_length_m(text)) << text;
@@ -54,7 +54,7 @@ TEST(PrintWords, IdsAreListsAndRanges) {
   EXPECT_FALSE((*tags)[0].segment);
 }
 
-TEST(PrintWords, IdsThatAreNoneAreRefused) {
+TEST(PrintWords, InvalidIdsAreRejected) {
   for (const char* text :
        {"", "a", "1,", "1,,2", "5-3", "-3", "1-2-3", "1,1", "3:", "0-99999", "1.5"}) {
     EXPECT_FALSE(parse_tags(text)) << text;

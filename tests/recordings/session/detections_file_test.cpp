@@ -74,7 +74,7 @@ TEST(DetectionsFile, GivesBackEveryDoubleAndEveryEmptyFrame) {
   }
 }
 
-TEST(DetectionsFile, GivesBackWhatIsKnownOfTheCamera) {
+TEST(DetectionsFile, KeepsThePropertiesOfTheCamera) {
   const CameraDetections written = four_frames();
   const auto read = parse_detections(detections_text(written, "k"), "k", "d.csv");
   ASSERT_TRUE(read);
@@ -159,7 +159,7 @@ TEST(DetectionsFile, ReturnsNothingForAnotherVersion) {
   EXPECT_FALSE(*read);
 }
 
-TEST(DetectionsFile, RefusesWhatIsNoTable) {
+TEST(DetectionsFile, RejectsAFileThatIsNoTable) {
   const auto read = parse_detections("frame,tag\n", "k", "d.csv");
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().message(),

@@ -90,7 +90,7 @@ TEST(PlanFile, MayBeTheCamerasOfACalibration) {
   EXPECT_FALSE(found->volume || found->tag_size_m || found->stature_m);
 }
 
-TEST(PlanFile, MaySayWhichTagsAreWorn) {
+TEST(PlanFile, MayListTheWornTags) {
   const auto plan = parse_plan(
       "format = 1\ntag_size_m = 0.07\n[[tag]]\nsegment = \"hips\"\n"
       "[[tag]]\nsegment = \"leftHand\"\nsize_m = 0.05\n" +

@@ -187,7 +187,7 @@ TEST(SubjectFile, RefusesAMarkerTwiceOrWithoutALabel) {
       std::string::npos);
 }
 
-TEST(SubjectFile, RefusesARotationThatIsNone) {
+TEST(SubjectFile, RejectsAnInvalidRotation) {
   EXPECT_NE(subject_mistake("rotation_wxyz = [1.0", "rotation_wxyz = [2.0")
                 .find("\"rotation_wxyz\" is not a unit quaternion"),
             std::string::npos);

@@ -94,7 +94,7 @@ TEST(LiveTake, KeepsEveryNumberExactly) {
 }
 
 // As after `kill -9`, without finish().
-TEST(LiveTake, HasWhatWasCommittedWhenItWasCutOff) {
+TEST(LiveTake, KeepsCommittedFramesAfterATruncation) {
   const testing::ScratchFolder folder;
   const auto file = folder.path() / kLiveTakeFile;
   auto writer = LiveTakeWriter::create(file, head());

@@ -55,7 +55,7 @@ void make_take(const fs::path& file) {
   ASSERT_TRUE(writer->finish());
 }
 
-TEST(TakeFile, GivesBackWhatWasWritten) {
+TEST(TakeFile, RoundTripsATake) {
   const ScratchFolder folder;
   auto writer = TakeWriter::create(folder / kTakeFile, two_cameras());
   ASSERT_TRUE(writer) << writer.error().message();

@@ -118,7 +118,7 @@ pid_t start_writer(const fs::path& path, int ready, bool is_killed) {
   for (;;) pause();
 }
 
-TEST(AtomicFile, RemovesWhatAKilledProcessLeftOfTheSameFile) {
+TEST(AtomicFile, RemovesTheFilesThatAKilledProcessLeft) {
   const ScratchFolder folder;
   int pipe_ends[2] = {-1, -1};
   ASSERT_EQ(pipe(pipe_ends), 0);
@@ -135,7 +135,7 @@ TEST(AtomicFile, RemovesWhatAKilledProcessLeftOfTheSameFile) {
   close(pipe_ends[1]);
 }
 
-TEST(AtomicFile, LeavesWhatALivingProcessWrites) {
+TEST(AtomicFile, KeepsTheFilesOfALivingProcess) {
   const ScratchFolder folder;
   int pipe_ends[2] = {-1, -1};
   ASSERT_EQ(pipe(pipe_ends), 0);

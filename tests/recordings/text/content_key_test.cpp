@@ -87,7 +87,7 @@ TEST(ContentKey, ChangesWithTheBytesOfAFileInAFolder) {
   EXPECT_EQ(*content_key(folder.path()), before);
 }
 
-TEST(ContentKey, DeclinesWhatIsNotThere) {
+TEST(ContentKey, DeclinesAMissingFile) {
   const ScratchFolder folder;
   const Result<std::string> key = content_key(folder / "absent.mp4");
   ASSERT_FALSE(key);

@@ -25,7 +25,7 @@ TEST(AppendFixed, RoundsToItsDecimals) {
   EXPECT_EQ(fixed(2.0, 0), "2");
 }
 
-TEST(AppendFixed, GivesNothingNoSign) {
+TEST(AppendFixed, WritesZeroWithoutASign) {
   EXPECT_EQ(fixed(-1e-9), "0.000000");
   EXPECT_EQ(fixed(-0.0, 0), "0");
   EXPECT_EQ(fixed(-1e-6), "-0.000001");

@@ -84,13 +84,13 @@ TEST(AdaptMotion, WithoutWishesIsTheMotion) {
 TEST(AdaptMotion, CountsWhatItKept) {
   const Scene scene;
   const ConstraintSet set = hand_near(scene);
-  std::vector<int> told;
+  std::vector<int> reported;
   const auto adapted = adapt_motion(
       scene.walk.motion, scene.character, set, scene.supports, {}, [&](int done, int) {
-        told.push_back(done);
+        reported.push_back(done);
       });
   ASSERT_TRUE(adapted) << adapted.error().message();
-  EXPECT_EQ(told.size(), static_cast<std::size_t>(kFrames));
+  EXPECT_EQ(reported.size(), static_cast<std::size_t>(kFrames));
   EXPECT_DOUBLE_EQ(adapted->motion.rate.hz, kRate_hz);
   ASSERT_EQ(adapted->constraints.size(), 1U);
   const KeptConstraint& hand = adapted->constraints.front();

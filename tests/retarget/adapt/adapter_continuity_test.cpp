@@ -67,7 +67,7 @@ struct Follower {
     ++steps;
     if (steps < 2) return;
     pace.joints_rad_per_m =
-        std::max(pace.joints_rad_per_m, most_turned_rad(now, before) / kStep_m);
+        std::max(pace.joints_rad_per_m, max_turned_rad(now, before) / kStep_m);
     pace.root_m_per_m =
         std::max(pace.root_m_per_m,
                  glm::distance(now.root_in_world, before.root_in_world) / kStep_m);

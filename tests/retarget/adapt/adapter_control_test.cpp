@@ -35,7 +35,7 @@ TEST(AdapterControl, PassesOverFromPriorityToBlendWithoutAJump) {
   static_cast<void>(changing.adapt(reference, 0.0, before));
   static_cast<void>(blending.adapt(reference, 0.0, goal));
   // The test requires that the two results are far apart.
-  const double whole_way_rad = most_turned_rad(goal, before);
+  const double whole_way_rad = max_turned_rad(goal, before);
   ASSERT_GT(whole_way_rad, 0.2);
   changing.set_options(control_options(Control::kBlend, 0.4));
   constexpr int kSteps = 400;
@@ -43,7 +43,7 @@ TEST(AdapterControl, PassesOverFromPriorityToBlendWithoutAJump) {
     static_cast<void>(changing.adapt(reference, 0.001 * i, now));
     // The ramp is steepest in its middle, 1.875 times its mean; chords instead of arcs
     // and limbs that close on the mean take at most four times that.
-    ASSERT_LT(most_turned_rad(now, before), 4.0 * 1.875 * whole_way_rad / kSteps) << i;
+    ASSERT_LT(max_turned_rad(now, before), 4.0 * 1.875 * whole_way_rad / kSteps) << i;
     before = now;
   }
   // Afterwards the result is that of the new control, to the bit.
@@ -105,7 +105,7 @@ TEST(AdapterControl, AChangeThatIsTakenBackOnItsWayTurnsAroundWithoutAJump) {
   Pose goal;
   static_cast<void>(changing.adapt(reference, 0.0, first));
   static_cast<void>(blending.adapt(reference, 0.0, goal));
-  const double whole_way_rad = most_turned_rad(goal, first);
+  const double whole_way_rad = max_turned_rad(goal, first);
   before = first;
   int step = 0;
   const auto go_on = [&](Control control, double change_s, int steps) {
@@ -113,13 +113,13 @@ TEST(AdapterControl, AChangeThatIsTakenBackOnItsWayTurnsAroundWithoutAJump) {
     for (int i = 0; i < steps; ++i) {
       static_cast<void>(changing.adapt(reference, 0.001 * ++step, now));
       // As above.
-      ASSERT_LT(most_turned_rad(now, before), 4.0 * 1.875 * whole_way_rad / kSteps)
+      ASSERT_LT(max_turned_rad(now, before), 4.0 * 1.875 * whole_way_rad / kSteps)
           << step;
       before = now;
     }
   };
   go_on(Control::kBlend, kChange_s, 200);
-  EXPECT_GT(most_turned_rad(now, first), 0.1) << "half of the way";
+  EXPECT_GT(max_turned_rad(now, first), 0.1) << "half of the way";
   go_on(Control::kPriority, kChange_s, 50);
   go_on(Control::kBlend, kChange_s, 150);
   go_on(Control::kBlend, kSlower_s, 20);

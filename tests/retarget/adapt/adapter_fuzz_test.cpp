@@ -215,9 +215,9 @@ TEST(AdapterFar, StandsOnAFarFootprintAsOnANearOne) {
       Pose out;
       const AdaptReport report = adapter.adapt(reference, 1.0, out);
       // Resolution of single precision at that distance.
-      const double least_m = 1e-3 + 1e-6 * far_m;
-      EXPECT_LT(report.worst_error_m, least_m) << far_m;
-      EXPECT_LT(report.balance_error_m, least_m) << far_m;
+      const double min_m = 1e-3 + 1e-6 * far_m;
+      EXPECT_LT(report.worst_error_m, min_m) << far_m;
+      EXPECT_LT(report.balance_error_m, min_m) << far_m;
     }
   }
 }

@@ -30,7 +30,7 @@ TEST_P(AdapterIdentity, KeepsAPostureWithoutConstraints) {
         const Pose reference = random_posture(body, dice, 0.5);
         static_cast<void>(adapter.adapt(reference, 0.0, out));
         ASSERT_LT(furthest_m(body, out, reference), kRounding_m);
-        ASSERT_LT(most_turned_rad(out, reference), kRounding_rad);
+        ASSERT_LT(max_turned_rad(out, reference), kRounding_rad);
       }
     }
   }

@@ -81,7 +81,7 @@ TEST_P(AdapterOptions, ExtremitiesKeepTheirOrientationIfSoWished) {
   }
 }
 
-TEST_P(AdapterOptions, ARootThatIsNotWillingStaysWhateverBalanceLacks) {
+TEST_P(AdapterOptions, AFixedRootStaysEvenOffBalance) {
   const Character body = human(false);
   AdaptOptions wanted = options();
   wanted.root_for_balance = 0.0;

@@ -34,7 +34,7 @@ double fastest_rad(Adapter& adapter, const Pose& reference, double until_s) {
   static_cast<void>(adapter.adapt(reference, 0.0, before));
   for (int frame = 1; frame * kFrame_s < until_s; ++frame) {
     static_cast<void>(adapter.adapt(reference, frame * kFrame_s, now));
-    fastest = std::max(fastest, most_turned_rad(now, before));
+    fastest = std::max(fastest, max_turned_rad(now, before));
     std::swap(now, before);
   }
   return fastest;
@@ -75,7 +75,7 @@ TEST_P(AdapterRamps, MayBeStartedAndStoppedWhileTheyRun) {
     if (frame == 100 || frame == 900) adapter.constraint("hand")->start(t);
     if (frame == 500 || frame == 1900) adapter.constraint("hand")->stop(t);
     static_cast<void>(adapter.adapt(reference, t, now));
-    ASSERT_LT(most_turned_rad(now, before), kFastest_rad) << frame;
+    ASSERT_LT(max_turned_rad(now, before), kFastest_rad) << frame;
     std::swap(now, before);
   }
 }
@@ -166,7 +166,7 @@ double fastest_rad_per_activation(Adapter& adapter,
     static_cast<void>(adapter.adapt(reference, static_cast<double>(step) / kSteps, now));
     const double next = adapter.constraint(id)->outcome().activation;
     const double change = std::max(next - active, kMinChange);
-    fastest = std::max(fastest, (most_turned_rad(now, before) - 1e-3) / change);
+    fastest = std::max(fastest, (max_turned_rad(now, before) - 1e-3) / change);
     active = next;
     std::swap(now, before);
   }
@@ -186,9 +186,9 @@ TEST_P(AdapterRamps, TurnAnExtremityAsTheyRise) {
       turned.goal = SegmentOrientation{glm::angleAxis(kTurn_rad, glm::dvec3(0, 0, 1)) *
                                        rotation_of(body, reference, segment)};
       turned.activation = {0.0, {}, 1.0, 0.0};
-      AdaptOptions told = options();
-      told.extremities_keep_orientation = keeps;
-      Adapter adapter = make_adapter(body, {{turned}, {}}, told);
+      AdaptOptions changed = options();
+      changed.extremities_keep_orientation = keeps;
+      Adapter adapter = make_adapter(body, {{turned}, {}}, changed);
       // Along the chord, not the arc.
       EXPECT_LT(fastest_rad_per_activation(adapter, reference, "turned"), 1.1 * kTurn_rad)
           << segment << (keeps ? ", kept" : "");
@@ -207,9 +207,10 @@ TEST_P(AdapterRamps, TurnNoHandThatIsKept) {
                                        place_of(body, reference, {"head"}));
   arm.goal = DistanceToBody{apart_m - 0.1, {"head", {}}};
   arm.activation = {0.0, {}, 1.0, 0.0};
-  AdaptOptions told = options();
-  told.extremities_keep_orientation = true;
-  Adapter adapter = make_adapter(body, {{arm, standing("foot", "rightFoot")}, {}}, told);
+  AdaptOptions changed = options();
+  changed.extremities_keep_orientation = true;
+  Adapter adapter =
+      make_adapter(body, {{arm, standing("foot", "rightFoot")}, {}}, changed);
   EXPECT_LT(fastest_rad(adapter, reference, 1.1), kFastest_rad);
 }
 
@@ -237,9 +238,9 @@ TEST_P(AdapterRamps, KeepBalanceAndEndWhereTheyLead) {
     for (const bool limits : {false, true}) {
       const Character body = human(limits);
       const Pose reference = waiting(body);
-      AdaptOptions told = options();
-      told.balance = mode;
-      Adapter adapter = make_adapter(body, hand_that_comes(body, reference), told);
+      AdaptOptions changed = options();
+      changed.balance = mode;
+      Adapter adapter = make_adapter(body, hand_that_comes(body, reference), changed);
       const glm::dvec3 wanted = centre_of_mass(body, reference);
       Pose now;
       Pose before;
@@ -248,14 +249,14 @@ TEST_P(AdapterRamps, KeepBalanceAndEndWhereTheyLead) {
         static_cast<void>(adapter.adapt(reference, kFrame_s * frame, now));
         glm::dvec3 off = centre_of_mass(body, now) - wanted;
         if (mode == BalanceMode::kHorizontal) off.y = 0.0;
-        ASSERT_LT(glm::length(off), told.balance_precision_m) << frame;
+        ASSERT_LT(glm::length(off), changed.balance_precision_m) << frame;
         for (const char* foot : {"leftFoot", "rightFoot"}) {
           ASSERT_LT(glm::distance(place_of(body, now, {foot}),
                                   place_of(body, reference, {foot})),
                     1e-5)
               << frame;
         }
-        ASSERT_LT(most_turned_rad(now, before), kFastest_rad) << frame;
+        ASSERT_LT(max_turned_rad(now, before), kFastest_rad) << frame;
         std::swap(now, before);
       }
     }
@@ -274,18 +275,18 @@ TEST_P(AdapterRamps, PassFromOneControlToTheOtherInBalance) {
        standing("left", "leftFoot"),
        standing("right", "rightFoot")},
       {}};
-  AdaptOptions told = options();
-  told.balance = BalanceMode::kHorizontal;
-  told.control_change_s = 0.7;
-  Adapter adapter = make_adapter(body, far, told);
+  AdaptOptions changed = options();
+  changed.balance = BalanceMode::kHorizontal;
+  changed.control_change_s = 0.7;
+  Adapter adapter = make_adapter(body, far, changed);
   Pose before;
   Pose now;
   static_cast<void>(adapter.adapt(reference, 0.0, before));
-  told.control = Control::kBlend;
-  adapter.set_options(told);
+  changed.control = Control::kBlend;
+  adapter.set_options(changed);
   for (int frame = 1; frame <= 720; ++frame) {
     static_cast<void>(adapter.adapt(reference, kFrame_s * frame, now));
-    ASSERT_LT(most_turned_rad(now, before), kFastest_rad) << frame;
+    ASSERT_LT(max_turned_rad(now, before), kFastest_rad) << frame;
     std::swap(now, before);
   }
 }

@@ -17,8 +17,8 @@ namespace {
 struct Pair {
   const char* one;
   const char* other;
-  double least_m;
-  double most_m;
+  double min_m;
+  double max_m;
 };
 // Distances that arms, trunk and legs reach easily, also within their limits.
 constexpr std::array<Pair, 5> kPairs{{{"leftHand", "rightHand", 0.05, 0.8},
@@ -39,7 +39,7 @@ TEST_P(AdapterRelationsStrict, KeepADistanceToAnotherConstraint) {
     Dice dice(42);
     for (int i = 0; i < 60; ++i) {
       const Pose reference = i % 2 == 0 ? waiting(body) : random_posture(body, dice, 0.3);
-      const double distance_m = dice.between(pair.least_m, pair.most_m);
+      const double distance_m = dice.between(pair.min_m, pair.max_m);
       const glm::dvec3 target =
           place_of(body, reference, {pair.other}) + 0.1 * dice.direction();
       Constraint wish = contact("wish", pair.one, {});

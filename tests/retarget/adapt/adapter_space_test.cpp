@@ -22,9 +22,9 @@ BodyPoint any_point(Dice& dice) {
   return {segment, dice.between(0, 1) < 0.5 ? glm::dvec3(0.0) : 0.1 * dice.direction()};
 }
 
-glm::dvec3 any_size(Dice& dice, double most_m) {
+glm::dvec3 any_size(Dice& dice, double max_m) {
   return {
-      dice.between(0.02, most_m), dice.between(0.02, most_m), dice.between(0.02, most_m)};
+      dice.between(0.02, max_m), dice.between(0.02, max_m), dice.between(0.02, max_m)};
 }
 
 Constraint wish_of(const BodyPoint& point, const Goal& goal) {

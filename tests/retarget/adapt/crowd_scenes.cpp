@@ -97,9 +97,9 @@ class Asker {
   }
 
   std::vector<Constraint> supports() {
-    Constraint told = standing("told", at_.foot);
-    told.goal = Support{place(at_.foot) + 0.2 * dice_.direction(), std::nullopt, false};
-    return {told,
+    Constraint placed = standing("placed", at_.foot);
+    placed.goal = Support{place(at_.foot) + 0.2 * dice_.direction(), std::nullopt, false};
+    return {placed,
             standing("begun", at_.other_foot),
             contact("hand", at_.hand, near(at_.hand), {}, 2.0),
             contact("other hand", at_.other_hand, near(at_.other_hand), {}, 1.0)};

@@ -134,7 +134,7 @@ std::string refusal(const MassSpec& spec) {
   return kg ? "" : kg.error().message();
 }
 
-TEST(WeighSegments, RefusesWhatIsNoMass) {
+TEST(WeighSegments, RejectsInvalidMasses) {
   EXPECT_EQ(refusal(weighing(MassTable::kDempster, 0.0)),
             "character: masses: the total is not above zero. Next: give it in kg.");
   EXPECT_NE(refusal(weighing(MassTable::kDempster, -3.0)), "");
@@ -309,7 +309,7 @@ TEST(PlaceMasses, PutsTheWholeBodysCentreWhereItIsMeasured) {
 // Measured by balance boards on people who stand with their arms at their sides: 0.55 to
 // 0.57 of the stature (women's and men's means). With the 0.66 that table 5.1 of the
 // thesis has for the trunk it would be 0.59.
-TEST(PlaceMasses, PutsTheCentreOfWhoStandsWhereItIsMeasured) {
+TEST(PlaceMasses, PutsTheCentreOfAStandingBodyAtItsMeasuredPlace) {
   const Skeleton body = average_adult();
   Pose standing = rest_pose(body);
   for (const auto& [bone, sign] :

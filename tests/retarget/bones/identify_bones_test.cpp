@@ -208,7 +208,7 @@ TEST(IdentifyBones, DeclinesLegsThatAreNoPair) {
             "the leg that ends at 'LeftFoot' has only 40 % of the other's length");
 }
 
-TEST(IdentifyBones, DeclinesWhatIsNoBody) {
+TEST(IdentifyBones, DeclinesASkeletonThatIsNoBody) {
   Skeleton boxes;
   for (int i = 0; i < 5; ++i) {
     Joint joint;

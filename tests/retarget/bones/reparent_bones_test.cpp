@@ -150,15 +150,15 @@ TEST(HangBones, HangsTogetherABodyInPieces) {
 }
 
 // Skin left on the root would not follow the body.
-TEST(HangBones, HangsWhatCarriesSkinOnTheNearestBone) {
+TEST(HangBones, AttachesJointsWithSkinToTheNearestBone) {
   Skeleton body = hung_on_root(mixamo_skeleton(), {"LeftUpLeg", "RightUpLeg"});
   const auto world = world_from_joints(body, rest_pose(body));
-  const auto add = [&](const char* joint, const char* beside) {
+  const auto add = [&](const char* joint, const char* neighbour) {
     Joint extra;
     extra.name = joint;
     extra.parent = JointIndex{0};
     extra.parent_from_joint.translation =
-        world[index(*body.find(std::string_view(beside)))].translation + 0.01;
+        world[index(*body.find(std::string_view(neighbour)))].translation + 0.01;
     body.joints.push_back(extra);
   };
   add("jaw", "Head");
@@ -176,7 +176,7 @@ TEST(HangBones, HangsWhatCarriesSkinOnTheNearestBone) {
 }
 
 // The map that the error requests.
-TEST(HangBones, HangsWhatAMapNames) {
+TEST(HangBones, AttachesTheBonesThatAMapNames) {
   Skeleton body = hung_on_root(mixamo_skeleton(), {"LeftLeg", "RightLeg"});
   EXPECT_FALSE(identify_bones(body));
   BoneMap overrides;

@@ -68,7 +68,7 @@ TEST(CheckCharacter, TakesAQuadruped) {
   EXPECT_TRUE(check_supports(dog));
 }
 
-TEST(CheckCharacter, RefusesNumbersThatAreNone) {
+TEST(CheckCharacter, RejectsNonFiniteNumbers) {
   EXPECT_EQ(
       refusal([](Character& c) {
         joint(c, B::kLeftHand).parent_from_joint.translation.y = kNan;
@@ -145,7 +145,7 @@ TEST(CheckCharacter, TakesAllOtherBonesWithoutLength) {
   }
 }
 
-TEST(CheckCharacter, TakesASegmentThatWeighsNothing) {
+TEST(CheckCharacter, AcceptsASegmentWithoutMass) {
   EXPECT_EQ(refusal([](Character& c) { c.masses.back().mass_kg = 0.0; }), "");
 }
 
@@ -218,7 +218,7 @@ TEST(CheckCharacter, RefusesAJointInTwoGroups) {
   }
 }
 
-TEST(CheckCharacter, RefusesGroupsThatHangOnNothing) {
+TEST(CheckCharacter, RejectsInconsistentGroups) {
   EXPECT_NE(refusal([](Character& c) {
               group(c, "trunk").parent = 2;  // A child of the trunk.
             }).find("form a cycle"),

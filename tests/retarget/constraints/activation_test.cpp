@@ -137,7 +137,7 @@ TEST(LiveActivation, IgnoresASecondStartAndASecondStop) {
   EXPECT_EQ(live.at(2.5), fallen);
 }
 
-TEST(LiveActivation, ForgetsWhatWasPlannedForLater) {
+TEST(LiveActivation, AStartReplacesTheSchedule) {
   LiveActivation live(between(1.0, 2.0, 0.5, 0.5));
   live.start(0.0);
   EXPECT_EQ(live.at(0.5), 1.0);

@@ -161,9 +161,9 @@ TEST(ConstraintTargets, MatchTheFootprintOfASupport) {
                           some_segment().rotation * glm::dvec3(kLever_m, 0, 0)),
             kRounding_m);
   const glm::dquat upright(1, 0, 0, 0);
-  const PointTargets told = targets_of(Support{glm::dvec3(1, 0, 1), upright}, places);
-  EXPECT_EQ(told.all()[0].target_in_world, glm::dvec3(1, 0, 1));
-  EXPECT_EQ(told.all()[2].target_in_world, glm::dvec3(0, kLever_m, 0));
+  const PointTargets placed = targets_of(Support{glm::dvec3(1, 0, 1), upright}, places);
+  EXPECT_EQ(placed.all()[0].target_in_world, glm::dvec3(1, 0, 1));
+  EXPECT_EQ(placed.all()[2].target_in_world, glm::dvec3(0, kLever_m, 0));
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ struct Scene {
   }
 };
 
-double greatest_pelvis_acceleration(const Scene& scene, const Motion& motion) {
+double max_pelvis_acceleration(const Scene& scene, const Motion& motion) {
   double greatest = 0.0;
   for (int t = 1; t + 1 < kFrames; ++t) {
     const glm::dvec3 bend = scene.place(motion, t - 1, B::kHips) -
@@ -173,8 +173,8 @@ TEST(CarryToFloor, ThePelvisAnticipatesAStep) {
   EXPECT_NEAR(rise_m(kFrames - 10), 0.15, 1e-3) << "both feet are";
   // Half of 15 cm with each swing of 0.44 s: 5.8 * 0.075 / 0.44^2 = 2.2 m/s2, and sinking
   // for the trailing leg, in addition to the walk's own.
-  const double was = greatest_pelvis_acceleration(scene, scene.planted);
-  EXPECT_LT(greatest_pelvis_acceleration(scene, on.adapted.motion), 2.0 * was) << was;
+  const double was = max_pelvis_acceleration(scene, scene.planted);
+  EXPECT_LT(max_pelvis_acceleration(scene, on.adapted.motion), 2.0 * was) << was;
 }
 
 // No ankle or ball is within the step while it swings over its edge.
@@ -275,8 +275,8 @@ TEST(CarryToFloor, AMovingFloorCarriesFeetAndBody) {
                          scene.place(scene.planted, last, B::kHips).x;
   EXPECT_GT(aside_m, 0.2);
   // Up, aside, and down 10 cm again at the same time: 4 m/s2.
-  const double was = greatest_pelvis_acceleration(scene, scene.planted);
-  EXPECT_LT(greatest_pelvis_acceleration(scene, on.adapted.motion), 3.0 * was) << was;
+  const double was = max_pelvis_acceleration(scene, scene.planted);
+  EXPECT_LT(max_pelvis_acceleration(scene, on.adapted.motion), 3.0 * was) << was;
 }
 
 // A body in the air all the time still has a floor below it.

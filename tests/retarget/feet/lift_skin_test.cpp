@@ -64,7 +64,7 @@ Contacts no_contacts(const Motion& motion) {
   return contacts;
 }
 
-TEST(LiftSkin, RaisesWhatIsInTheFloorAndNothingElse) {
+TEST(LiftSkin, RaisesOnlySkinInTheFloor) {
   const Skeleton body = testing::child();
   const BodyMap map = *map_body(body);
   const Skin skin = skin_of(body, map, 0.05);
@@ -81,7 +81,7 @@ TEST(LiftSkin, RaisesWhatIsInTheFloorAndNothingElse) {
 }
 
 // The depth of the source's own joints below its floor is permitted.
-TEST(LiftSkin, LeavesWhatIsAllowed) {
+TEST(LiftSkin, LeavesAllowedDepths) {
   const Skeleton body = testing::child();
   const BodyMap map = *map_body(body);
   const Skin skin = skin_of(body, map, 0.05);

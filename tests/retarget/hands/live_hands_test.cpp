@@ -158,7 +158,7 @@ TEST(LiveHands, LeaveTheSourcesOwnBodyAsItIs) {
 // The displacement of a hand is nearly as smooth as that of refine_hands(), which uses
 // future frames and has a bound of five sevenths of this. Elbows that are bent far move
 // faster than their hands, on the source's own path too.
-TEST(LiveHands, NothingLeaps) {
+TEST(LiveHands, MoveContinuously) {
   for (const Scene& scene : kScenes) {
     const Motion source = hands_go_to(scene.places());
     for (const Skeleton& avatar : {testing::child(), testing::giant(), broad(1.4)}) {

@@ -105,7 +105,7 @@ TEST(LiveRetarget, NeverPutsAFootThroughTheFloor) {
 }
 
 // Future frames are unknown: a foot may stop at once, but no joint jumps.
-TEST(LiveRetarget, NothingLeaps) {
+TEST(LiveRetarget, MovesContinuously) {
   const Motion walk = testing::synthetic_walk(200, kRate_hz, 0.002, 0.001).motion;
   const Skeleton avatar = testing::long_legs();
   const double scale =

@@ -44,7 +44,7 @@ std::vector<glm::dvec3> retargeted_path_of(const Motion& motion, B bone) {
   return path;
 }
 
-double greatest_acceleration(const Motion& motion, B bone) {
+double max_acceleration(const Motion& motion, B bone) {
   const auto p = retargeted_path_of(motion, bone);
   double greatest = 0.0;
   for (std::size_t t = 1; t + 1 < p.size(); ++t) {
@@ -123,11 +123,11 @@ TEST_P(EveryAvatar, MovesItsFeetHardlyMoreSuddenlyThanTheSource) {
       map_body(avatar)->leg_length_m / map_body(source.skeleton)->leg_length_m;
   const auto out = retargeted(source, avatar);
   for (const B foot : {B::kLeftFoot, B::kRightFoot}) {
-    EXPECT_LT(greatest_acceleration(out.motion, foot),
-              1.5 * scale * greatest_acceleration(source, foot));
+    EXPECT_LT(max_acceleration(out.motion, foot),
+              1.5 * scale * max_acceleration(source, foot));
   }
-  EXPECT_LT(greatest_acceleration(out.motion, B::kHips),
-            1.25 * scale * greatest_acceleration(source, B::kHips));
+  EXPECT_LT(max_acceleration(out.motion, B::kHips),
+            1.25 * scale * max_acceleration(source, B::kHips));
 }
 
 TEST_P(EveryAvatar, WalksACapturedWalkWithoutSlidingOrSinking) {
@@ -148,11 +148,11 @@ TEST_P(EveryAvatar, WalksACapturedWalkWithoutJumps) {
       map_body(avatar)->leg_length_m / map_body(source->skeleton)->leg_length_m;
   const auto out = retargeted(*source, avatar);
   for (const B foot : {B::kLeftFoot, B::kRightFoot}) {
-    EXPECT_LT(greatest_acceleration(out.motion, foot),
-              1.5 * scale * greatest_acceleration(*source, foot));
+    EXPECT_LT(max_acceleration(out.motion, foot),
+              1.5 * scale * max_acceleration(*source, foot));
   }
-  EXPECT_LT(greatest_acceleration(out.motion, B::kHips),
-            1.25 * scale * greatest_acceleration(*source, B::kHips));
+  EXPECT_LT(max_acceleration(out.motion, B::kHips),
+            1.25 * scale * max_acceleration(*source, B::kHips));
 }
 
 TEST_P(EveryAvatar, LandsACapturedJumpWithoutSlidingOrSinking) {

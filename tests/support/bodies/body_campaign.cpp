@@ -30,7 +30,8 @@ std::vector<std::string> gross_errors(const CampaignResult& result) {
   }
   if (result.told_depth_mm) {
     const double off_mm = std::abs(*result.told_depth_mm - judged.skin_depth_mm);
-    if (off_mm > 0.1 * judged.skin_depth_mm + 0.5) out.emplace_back("figure told");
+    if (off_mm > 0.1 * judged.skin_depth_mm + 0.5)
+      out.emplace_back("reported skin depth");
   }
   return out;
 }
@@ -73,7 +74,7 @@ std::vector<CampaignResult> run_campaign(const std::filesystem::path& program,
     }
     if (figures.contains("problems")) {
       for (const auto& problem : figures["problems"]) {
-        result.told_problems.push_back(problem.get<std::string>());
+        result.reported_problems.push_back(problem.get<std::string>());
       }
     }
     const auto made = folder / out_name / (result.body + ".glb");

@@ -78,8 +78,8 @@ glm::dvec3 Dice::direction() {
   return {r * std::cos(a), r * std::sin(a), z};
 }
 
-glm::dquat Dice::turn(double most_rad) {
-  return glm::angleAxis(between(0, most_rad), direction());
+glm::dquat Dice::turn(double max_rad) {
+  return glm::angleAxis(between(0, max_rad), direction());
 }
 
 double Dice::noise(double sigma) {
@@ -245,13 +245,13 @@ Pose random_pose(const Skeleton& skeleton, Dice& dice) {
     const Joint& joint = skeleton.joints[i];
     const bool vertebra = joint.name.starts_with("vertebra");
     if (!joint.bone && !vertebra) continue;
-    double most_rad = vertebra ? 0.25 : 0.7;
-    if (joint.bone == B::kHips) most_rad = 3.0;
+    double max_rad = vertebra ? 0.25 : 0.7;
+    if (joint.bone == B::kHips) max_rad = 3.0;
     for (const HumanLimb& limb : human_limbs()) {
-      if (joint.bone == limb.upper) most_rad = 1.6;
-      if (joint.bone == limb.lower) most_rad = 2.6;
+      if (joint.bone == limb.upper) max_rad = 1.6;
+      if (joint.bone == limb.lower) max_rad = 2.6;
     }
-    pose.parent_from_joint[i] = pose.parent_from_joint[i] * dice.turn(most_rad);
+    pose.parent_from_joint[i] = pose.parent_from_joint[i] * dice.turn(max_rad);
   }
   return pose;
 }

@@ -17,8 +17,8 @@ class Dice {
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
   [[nodiscard]] double between(double low, double high);
   [[nodiscard]] glm::dvec3 direction();
-  /// About a random axis, by up to `most_rad`.
-  [[nodiscard]] glm::dquat turn(double most_rad);
+  /// About a random axis, by up to `max_rad`.
+  [[nodiscard]] glm::dquat turn(double max_rad);
   /// Approximately normal, zero mean.
   [[nodiscard]] double noise(double sigma);
 

@@ -208,7 +208,7 @@ std::vector<Bomb> npz_bombs() {
   bombs.push_back(
       {"product.npz", motion(npy("<U1", "(2147483647, 2147483647, 2147483647)"), {})});
   bombs.push_back({"letters.npz", motion(npy("<U2000000000", "(1,)"), {})});
-  bombs.push_back({"told.npz", zip({{"format.npy", "", 4'000'000'000, 0}})});
+  bombs.push_back({"declared.npz", zip({{"format.npy", "", 4'000'000'000, 0}})});
   bombs.push_back({"compressed.npz",
                    zip({{"format.npy", "xx", 2, 8},
                         {"joint_names.npy", "xx", 2, 8},

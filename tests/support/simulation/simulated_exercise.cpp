@@ -194,10 +194,10 @@ void add_sway(Exercise& exercise, Dice& dice) {
   sway(Angle::kHeadX, 0.03);
 }
 
-void turn_around(Exercise& exercise, Dice& dice, double most_rad) {
+void turn_around(Exercise& exercise, Dice& dice, double max_rad) {
   exercise.waves.push_back({index(Angle::kHeading),
                             0.0,
-                            dice.between(0.2, 1.0) * most_rad,
+                            dice.between(0.2, 1.0) * max_rad,
                             dice.between(1.0, 2.0) / exercise.duration_s,
                             dice.between(0.0, 2.0 * std::numbers::pi),
                             -10.0,

@@ -24,7 +24,7 @@ std::vector<Attitude> postures_of(const Exercise& exercise) {
 TagStyle draw_style(Dice& dice, int picture_height_px) {
   TagStyle style;
   const double many = dice.between(0.0, 1.0);
-  style.most_per_segment = many < 0.2 ? 1 : many < 0.6 ? 2 : 3;
+  style.max_per_segment = many < 0.2 ? 1 : many < 0.6 ? 2 : 3;
   style.size_m =
       picture_height_px > 720 ? dice.between(0.065, 0.1) : dice.between(0.08, 0.1);
   style.slide_m = dice.between(0.0, 1.0) < 0.3 ? 0.0 : dice.between(0.001, 0.008);
@@ -41,7 +41,7 @@ struct Recorder {
   SimulatedTrial record(const std::string& name,
                         const Exercise& exercise,
                         double hz,
-                        double most_offset_s) const {
+                        double max_offset_s) const {
     SimulatedFilm how;
     how.name = name;
     how.hz = hz;
@@ -49,7 +49,7 @@ struct Recorder {
     how.exposure_s = exposure_s;
     how.sigma_factor = sigma_factor;
     for (std::size_t c = 0; c < cameras.size(); ++c) {
-      how.offsets_s.push_back(c == 0 ? 0.0 : dice.between(-most_offset_s, most_offset_s));
+      how.offsets_s.push_back(c == 0 ? 0.0 : dice.between(-max_offset_s, max_offset_s));
     }
     return {exercise, hz, how.offsets_s, film(scene, exercise, cameras, how, dice)};
   }
@@ -77,7 +77,7 @@ std::string SimulatedSession::summary() const {
                 rig.layout.c_str(),
                 rig.cameras.front().intrinsics.height_px,
                 tags.size(),
-                style.most_per_segment,
+                style.max_per_segment,
                 1e3 * style.size_m,
                 1e3 * style.slide_m,
                 body.stature_m,

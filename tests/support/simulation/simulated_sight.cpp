@@ -205,11 +205,11 @@ class Detector {
     const auto from = corners_of(camera_, now.world_from_tag[i], size_m);
     const auto to = corners_of(camera_, now.a_little_later[i], size_m);
     if (!from || !to) return 0.0;
-    double most_px = 0.0;
+    double max_px = 0.0;
     for (std::size_t c = 0; c < 4; ++c) {
-      most_px = std::max(most_px, glm::distance((*from)[c], (*to)[c]));
+      max_px = std::max(max_px, glm::distance((*from)[c], (*to)[c]));
     }
-    return most_px * film_.exposure_s / kSlope_s;
+    return max_px * film_.exposure_s / kSlope_s;
   }
 
   bool hidden(const Instant& now, std::size_t i) const {

@@ -29,8 +29,8 @@ struct Habit {
   std::vector<glm::dvec3> sides;
 };
 
-const std::vector<Habit>& habits() {
-  static const std::vector<Habit> list{
+const std::vector<TagPlacement>& usual_placements() {
+  static const std::vector<TagPlacement> list{
       {B::kHips,
        true,
        -0.2,
@@ -224,38 +224,38 @@ std::vector<GluedTag> glue_tags(const SimulatedBody& body,
                                 Dice& dice) {
   const std::vector<int> ids = shuffled_ids(dice);
   std::vector<GluedTag> tags;
-  const auto add = [&](const Habit& habit, bool right) {
-    const B segment = right ? mirrored(habit.segment) : habit.segment;
+  const auto add = [&](const TagPlacement& placement, bool right) {
+    const B segment = right ? mirrored(placement.segment) : placement.segment;
     // The session's style limits the tags per segment. Single tags are omitted at random.
-    int count = habit.is_needed ? style.most_per_segment : 1;
+    int count = placement.is_needed ? style.max_per_segment : 1;
     if (count > 1 && dice.between(0, 1) < 0.25) --count;
-    if (!habit.is_needed && dice.between(0, 1) < 0.3) count = 0;
+    if (!placement.is_needed && dice.between(0, 1) < 0.3) count = 0;
     std::vector<glm::dvec3> used;
     constexpr int kAttempts = 6;
     for (int attempt = 0; attempt < kAttempts && count > 0; ++attempt) {
-      glm::dvec3 side = next_side(habit.sides, used, dice);
+      glm::dvec3 side = next_side(placement.sides, used, dice);
       used.push_back(side);
       side = dice.turn(0.25) * side;
       if (right) side.x = -side.x;
-      const double share = dice.between(habit.from_share, habit.to_share);
+      const double share = dice.between(placement.from_share, placement.to_share);
       const glm::dvec3 end = end_of(segment, body.proportions);
       const SkinPoint skin = skin_point(flesh, segment, share * end, side);
       GluedTag tag;
       tag.tag = {TagId{ids[tags.size()]},
                  segment,
-                 std::max(0.05, std::round(1e3 * habit.size * style.size_m) * 1e-3)};
+                 std::max(0.05, std::round(1e3 * placement.size * style.size_m) * 1e-3)};
       tag.segment_from_tag = glue(skin, dice.between(0.003, 0.015), dice);
       // Where another one is glued already there is no room.
       if (!has_room(tag, tags)) continue;
-      const double slide_m = habit.slide * style.slide_m * dice.between(0.5, 1.0);
+      const double slide_m = placement.slide * style.slide_m * dice.between(0.5, 1.0);
       add_skin(tag, std::max(0.0, share), slide_m, range, reference, dice);
       tags.push_back(std::move(tag));
       --count;
     }
   };
-  for (const Habit& habit : habits()) {
-    add(habit, false);
-    if (mirrored(habit.segment) != habit.segment) add(habit, true);
+  for (const TagPlacement& placement : usual_placements()) {
+    add(placement, false);
+    if (mirrored(placement.segment) != placement.segment) add(placement, true);
   }
   std::sort(tags.begin(), tags.end(), [](const GluedTag& a, const GluedTag& b) {
     return a.tag.id < b.tag.id;

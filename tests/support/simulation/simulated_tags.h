@@ -32,9 +32,9 @@ struct GluedTag {
 
 /// How many tags a session has, how large, and how firm the skin under them is.
 struct TagStyle {
-  int most_per_segment = 2;  ///< 1 to 3; at least one is on each needed segment.
-  double size_m = 0.08;      ///< On trunk and thighs; less on smaller segments.
-  double slide_m = 0.0;      ///< At most, on thighs: RMS over the range of motion.
+  int max_per_segment = 2;  ///< 1 to 3; at least one is on each needed segment.
+  double size_m = 0.08;     ///< On trunk and thighs; less on smaller segments.
+  double slide_m = 0.0;     ///< At most, on thighs: RMS over the range of motion.
 };
 
 /// Glues tags as a person would: on the sides of segments that can be seen, facing

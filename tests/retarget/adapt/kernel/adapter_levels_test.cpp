@@ -44,11 +44,11 @@ Question any_question(const Character& body, bool waits, Dice& dice) {
   const auto wish = [&](const char* id, double far_m, double importance) {
     BodyPoint point{any_segment(dice), glm::dvec3(0.0)};
     if (dice.between(0, 1) < 0.3) point.offset_in_t_pose = 0.1 * dice.direction();
-    const double most_m = dice.between(0, 1) < 0.5 ? 0.3 : far_m;
+    const double max_m = dice.between(0, 1) < 0.5 ? 0.3 : far_m;
     return contact(
         id,
         point.segment,
-        place_of(body, out.reference, point) + dice.between(0, most_m) * dice.direction(),
+        place_of(body, out.reference, point) + dice.between(0, max_m) * dice.direction(),
         point.offset_in_t_pose,
         importance);
   };
@@ -86,7 +86,7 @@ TEST_P(AdapterLevels, TheLowerCostsTheHigherAMillimetreAtMostOrThreePercentInBal
         const Pose two = adapted(body, set, asked.reference, wanted).pose;
         set.constraints.push_back(asked.lowest);
         const Pose three = adapted(body, set, asked.reference, wanted).pose;
-        const auto most_m = [&](const Pose& pose, const Constraint& wish) {
+        const auto max_error_m = [&](const Pose& pose, const Constraint& wish) {
           const double alone_m = off_m(body, pose, wish);
           if (alone_m <= wish.precision_m) return wish.precision_m + 1e-3;
           // With balance an additional target changes the order in which masses are
@@ -94,9 +94,9 @@ TEST_P(AdapterLevels, TheLowerCostsTheHigherAMillimetreAtMostOrThreePercentInBal
           const bool rounds = balance != BalanceMode::kOff;
           return alone_m + std::max(1e-3, rounds ? 0.03 * alone_m : 0.0);
         };
-        ASSERT_LT(off_m(body, two, first), most_m(one, first)) << i;
-        ASSERT_LT(off_m(body, three, first), most_m(one, first)) << i;
-        ASSERT_LT(off_m(body, three, asked.lower), most_m(two, asked.lower)) << i;
+        ASSERT_LT(off_m(body, two, first), max_error_m(one, first)) << i;
+        ASSERT_LT(off_m(body, three, first), max_error_m(one, first)) << i;
+        ASSERT_LT(off_m(body, three, asked.lower), max_error_m(two, asked.lower)) << i;
       }
     }
   }

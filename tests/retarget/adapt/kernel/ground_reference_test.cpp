@@ -177,7 +177,7 @@ Reaching reach_down(Method method, double flexibility_rad, double height_m) {
 // Figure 4.13: the stiffer the subject, the more the knees bend to reach the floor. The
 // model is that of the header: a knee bent by f lets the trunk come f nearer to the
 // thigh.
-TEST(Hamstrings, BendTheKneesOfWhoIsStiff) {
+TEST(Hamstrings, BendTheKneesOfAStiffSubject) {
   for (const Method method : kMethods) {
     const Reaching supple = reach_down(method, 0.0, 0.25);
     EXPECT_LT(supple.knee_rad(), 0.1);
@@ -195,7 +195,7 @@ TEST(Hamstrings, BendTheKneesOfWhoIsStiff) {
   }
 }
 
-TEST(Hamstrings, DoNotPullOnWhoHardlyBends) {
+TEST(Hamstrings, DoNotActOnASmallBend) {
   for (const Method method : kMethods) {
     const Reaching free = reach_down(method, 0.0, 0.9);
     const Reaching limited = reach_down(method, 1.2, 0.9);
