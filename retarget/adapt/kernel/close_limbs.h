@@ -133,9 +133,6 @@ template <class F>
                                           const Mask<F>& wanted,
                                           const Lanes<F>& s) {
   if (!settings.blend || settings.mixes || limb.points.size() <= 1) return wanted;
-  // A support is never part of a compromise: with one, the limb counts as one without
-  // mixing, whatever else it has. A limb has at most kMaxLimbTargets other targets.
-  constexpr int kMaxLimbTargets = 9;
   F target_count = num<F>(0);
   for (const int k : limb.points) {
     const PointPlan& point = plan.points[static_cast<std::size_t>(k)];
@@ -260,10 +257,6 @@ void reach_supports(const Plan& plan,
                     const SolveSettings& settings,
                     const Mask<F>& mask,
                     Lanes<F>& s) {
-  // Projections onto the reach of two legs converge geometrically; sixteen rounds leave
-  // less than the precision of a float at a body's size, which kReached_m is.
-  constexpr int kMaxRounds = 16;
-  constexpr double kReached_m = 1e-7;
   const F zero = num<F>(0);
   Vec3<F> shift{zero, zero, zero};
   Mask<F> left = mask;
