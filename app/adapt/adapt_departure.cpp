@@ -3,11 +3,11 @@
 #include "app/adapt/adapt_departure.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include "app/adapt/frame_time.h"
+#include "core/base/angle.h"
 #include "core/base/format_text.h"
 #include "core/humanoid.h"
 #include "retarget/constraints/resolve_segment.h"
@@ -17,10 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
 double degrees_at(const AdaptDeparture& departure, int frame) {
-  return kDegrees * departure.trunk[static_cast<std::size_t>(frame)].rad;
+  return kDegreesPerRadian * departure.trunk[static_cast<std::size_t>(frame)].rad;
 }
 
 std::string name_at(const AdaptDeparture& departure, const Motion& motion, int frame) {
@@ -75,7 +73,7 @@ AdaptDeparture measure_adapt_departure(const Motion& source,
     if (out.trunk[t].rad > out.trunk[static_cast<std::size_t>(out.worst_frame)].rad) {
       out.worst_frame = static_cast<int>(t);
     }
-    if (kDegrees * out.trunk[t].rad > kFarTrunk_deg) ++out.far_frames;
+    if (kDegreesPerRadian * out.trunk[t].rad > kFarTrunk_deg) ++out.far_frames;
   }
   return out;
 }
@@ -95,7 +93,7 @@ void compare_without_balance(const Motion& source,
   for (std::size_t t = 0; t < other.size(); ++t) {
     const int frame = static_cast<int>(t);
     if (degrees_at(departure, frame) <= kFarTrunk_deg) continue;
-    if (kDegrees * other[t].rad > kNearTrunk_deg) continue;
+    if (kDegreesPerRadian * other[t].rad > kNearTrunk_deg) continue;
     ++departure.needless_frames;
     const int worst = departure.worst_needless_frame;
     if (worst < 0 || degrees_at(departure, frame) > degrees_at(departure, worst)) {
@@ -108,10 +106,10 @@ Json departure_json(const AdaptDeparture& departure, const Motion& motion) {
   Json segments = Json::array();
   double sum_deg = 0.0;
   for (const retarget::SegmentDeparture& segment : departure.segments) {
-    sum_deg += kDegrees * segment.mean_rad;
+    sum_deg += kDegreesPerRadian * segment.mean_rad;
     segments.push_back({{"segment", motion.skeleton[segment.joint].name},
-                        {"mean_deg", kDegrees * segment.mean_rad},
-                        {"worst_deg", kDegrees * segment.worst_rad},
+                        {"mean_deg", kDegreesPerRadian * segment.mean_rad},
+                        {"worst_deg", kDegreesPerRadian * segment.worst_rad},
                         {"worst_frame", segment.worst_frame},
                         {"worst_time_s", frame_time_s(motion, segment.worst_frame)}});
   }

@@ -3,11 +3,11 @@
 #include "app/adapt/adapt_json.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include "app/adapt/frame_time.h"
+#include "core/base/angle.h"
 #include "core/base/format_text.h"
 
 namespace marey::app {
@@ -17,7 +17,6 @@ using Json = nlohmann::ordered_json;
 using retarget::KeptConstraint;
 
 constexpr double kFirmFoot_m = 1e-3;
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 double time_of(const AdaptRun& run, int frame) {
   return frame_time_s(run.adapted.motion, frame);

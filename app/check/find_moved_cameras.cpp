@@ -3,17 +3,16 @@
 #include "app/check/find_moved_cameras.h"
 
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "calib/quality/calibration_limits.h"
 #include "calib/rig/find_moved_camera.h"
+#include "core/base/angle.h"
 #include "core/base/format_text.h"
 
 namespace marey::app {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 // Errors of calibrations and lenses are some tenths of a pixel at the body. A move of 1
 // px doubles the error of joints (docs/accuracy/README.md, "Simulated camera faults").
 constexpr double kFairPx = 0.5;
@@ -42,7 +41,7 @@ std::optional<Finding> find_moved_cameras(const std::string& trial,
       format_text(
           "its tags fit a camera that was moved by %.1f px (%.2f degrees, %.0f mm) ",
           move->moved_px,
-          move->turn_rad * kDegrees,
+          move->turn_rad * kDegreesPerRadian,
           1e3 * move->shift_m) +
       (move->from_frame ? format_text("from frame %d on", *move->from_frame)
                         : std::string("after the calibration"));

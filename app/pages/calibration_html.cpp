@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include "app/pages/report_json.h"
 #include "app/pages/report_page.h"
 #include "calib/quality/calibration_report.h"
+#include "core/base/angle.h"
 
 namespace marey::app {
 namespace {
@@ -62,11 +62,10 @@ Json page_camera(const calib::CalibrationReport& report, std::size_t c) {
   }
   Json strays = Json::array();
   for (const SeenCorner& corner : outliers) strays.push_back(arrow(corner));
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   Json tilts = Json::array();
   for (const calib::ViewTilt& tilt : thinned(report.cameras[c].tilts, kMaxArrows)) {
-    tilts.push_back({rounded(kDegrees * tilt.tilt_rad, 1),
-                     rounded(kDegrees * tilt.azimuth_rad, 0),
+    tilts.push_back({rounded(kDegreesPerRadian * tilt.tilt_rad, 1),
+                     rounded(kDegreesPerRadian * tilt.azimuth_rad, 0),
                      rounded(tilt.distance_m, 2)});
   }
   return {{"arrows", arrows}, {"strays", strays}, {"tilts", tilts}};

@@ -3,7 +3,6 @@
 #include "app/pages/calibration_json.h"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include "calib/quality/assess_calibration.h"
 #include "calib/quality/calibration_limits.h"
 #include "calib/quality/calibration_report.h"
+#include "core/base/angle.h"
 #include "core/base/quantile.h"
 
 namespace marey::app {
@@ -21,7 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegreesOfRadians = 180.0 / std::numbers::pi;
 constexpr std::size_t kLens = Intrinsics::kParameterCount;
 
 Json px_json(double value_px) {
@@ -84,8 +83,8 @@ Json parameters(const calib::CalibrationReport& report, std::size_t c) {
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     add(kTurns[k],
-        kDegreesOfRadians * turn[i],
-        kDegreesOfRadians * sigma(kLens + k),
+        kDegreesPerRadian * turn[i],
+        kDegreesPerRadian * sigma(kLens + k),
         "deg");
   }
   for (int i = 0; i < 3; ++i) {
@@ -168,7 +167,7 @@ Json camera_json(const calib::CalibrationReport& report, std::size_t c) {
       {"tilt_p90_deg",
        measures.tilts.empty()
            ? Json(nullptr)
-           : Json(rounded(kDegreesOfRadians * measures.p90_tilt_rad, 1))},
+           : Json(rounded(kDegreesPerRadian * measures.p90_tilt_rad, 1))},
       {"centre_in_world_m", metres_json(world_from_camera.translation)},
       {"centre_sigma_mm", mm_json(quality.centre_sigma_m)},
       {"centre_covariance_mm2", centre_covariance_mm2(report, c)},
@@ -221,7 +220,7 @@ Json cross_validation_json(const calib::CalibrationReport& report) {
          {"time_expected_mm",
           has_time ? mm_json(check->time_expected_m[c]) : Json(nullptr)},
          {"centre_apart_mm", mm_json(check->centre_apart_m[c])},
-         {"turn_apart_deg", rounded(kDegreesOfRadians * check->turn_apart_rad[c], 4)},
+         {"turn_apart_deg", rounded(kDegreesPerRadian * check->turn_apart_rad[c], 4)},
          {"focal_apart_px", px_json(check->focal_apart_px[c])},
          {"held_out_median_px",
           check->held_out_camera_px[c] ? px_json(*check->held_out_camera_px[c])
@@ -238,7 +237,7 @@ Json move_json(const calib::CalibrationReport& report) {
   return {{"camera", report.rig.cameras[index(move->camera)].name},
           {"from_frame", move->from_frame ? Json(*move->from_frame) : Json(nullptr)},
           {"moved_px", px_json(move->moved_px)},
-          {"turn_deg", rounded(kDegreesOfRadians * move->turn_rad, 4)},
+          {"turn_deg", rounded(kDegreesPerRadian * move->turn_rad, 4)},
           {"shift_mm", mm_json(move->shift_m)},
           {"rig_shift_mm", mm_json(move->rig_shift_m)},
           {"gain", rounded(move->gain, 0)}};

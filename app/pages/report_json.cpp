@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include "app/shell/findings.h"
+#include "core/base/angle.h"
 #include "core/base/assert.h"
 #include "core/base/quantile.h"
 
@@ -19,7 +19,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kMillimetresPerMetre = 1000.0;
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 double px(double value_px) {
   return rounded(value_px, 3);

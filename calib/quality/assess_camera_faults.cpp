@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "calib/quality/calibration_limits.h"
+#include "core/base/angle.h"
 #include "core/base/quantile.h"
 
 namespace marey::calib {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 // Lens errors of 0.1 to 0.3 px look like moves of that size if the board was first in one
 // part of the image and later in another.
 constexpr double kFairMovePx = 0.6;
@@ -53,16 +52,23 @@ bool others_are_loose(const CalibrationReport& report, const ApparentMove& move)
   return !shares.empty() && median(std::move(shares)) > kLooseShare;
 }
 
+/// Returns the camera that seems to have been moved, and those that explain the errors as
+/// well: "camera cam1 or cam2". Precondition: the report has an apparent move.
+std::string moved_cameras(const FindingList& list) {
+  const ApparentMove& move = *list.report.rig.apparent_move;
+  std::string text = list.camera(index(move.camera));
+  for (const CameraId other : move.alternatives) {
+    text += " or " + list.report.rig.cameras[index(other)].name;
+  }
+  return text;
+}
+
 void assess_move(FindingList& list) {
   const auto& move = list.report.rig.apparent_move;
   if (!move) return;
   const std::size_t c = index(move->camera);
   if (!seems_moved(list.report, c)) return;
   const double scale = moved_scale(list.report, c);
-  std::string others;
-  for (const CameraId other : move->alternatives) {
-    others += " or " + list.report.rig.cameras[index(other)].name;
-  }
   const std::string when =
       move->from_frame
           ? format_text("from frame %d on its views fit a camera", *move->from_frame)
@@ -82,12 +88,12 @@ void assess_move(FindingList& list) {
   }
   list.add(is_uncertain || !is_harmful ? Severity::kFair : Severity::kPoor,
            "moved",
-           list.camera(c) + others,
+           moved_cameras(list),
            when +
                format_text(
                    " that was moved by %.1f px (%.2f degrees, %.0f mm) %s",
                    move->moved_px,
-                   move->turn_rad * kDegrees,
+                   move->turn_rad * kDegreesPerRadian,
                    1e3 * move->shift_m,
                    move->from_frame
                        ? "than before"
@@ -109,14 +115,10 @@ void assess_unsteady(FindingList& list) {
   const std::size_t c = index(move->camera);
   const auto& limits = limits_of(list.report).error_m;
   if (seems_moved(list.report, c) || move->rig_shift_m < limits[0]) return;
-  std::string others;
-  for (const CameraId other : move->alternatives) {
-    others += " or " + list.report.rig.cameras[index(other)].name;
-  }
   list.add(
           severity_of(move->rig_shift_m, limits[1]),
           "unsteady",
-          list.camera(c) + others,
+          moved_cameras(list),
           (move->from_frame ? format_text("its views from frame %d on", *move->from_frame)
                             : std::string("its views of the floor")) +
               format_text(

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 #include "calib/quality/calibration_limits.h"
+#include "core/base/angle.h"
 
 namespace marey::calib {
 namespace {
-
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 
 // Zhang (2000, 4): errors decrease with the number of views up to about ten. With fewer
 // than four views, the lens and its sigmas depend on the priors.

@@ -10,6 +10,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/in_quotes.h"
 #include "core/base/quantile.h"
 #include "reconstruct/clusters/find_joint_centres.h"
 #include "reconstruct/segments/cluster_geometry.h"
@@ -151,10 +152,6 @@ bool is_suspect(Drifts& drifts) {
   });
 }
 
-std::string in_quotes(B bone) {
-  return '"' + std::string(name(bone)) + '"';
-}
-
 /// Tags by declared segment and by the segment they are worn on.
 using Moves = std::map<Edge, std::vector<std::size_t>>;
 
@@ -253,14 +250,15 @@ std::optional<Error> exchange_error(std::span<const TagOnSegment> tags,
         is_whole(moves, tags, back)) {
       if (move.second < move.first) continue;  // Reported in the other direction.
       cause += (cause.empty() ? "the tags of segments " : ", those of ") +
-               in_quotes(move.first) + " and " + in_quotes(move.second) +
+               in_quotes(name(move.first)) + " and " + in_quotes(name(move.second)) +
                " look exchanged";
       continue;
     }
     for (const std::size_t tag : ids) {
       cause += (cause.empty() ? "tag " : ", tag ") +
                std::to_string(number(tags[tag].id)) + " of segment " +
-               in_quotes(move.first) + " moves like segment " + in_quotes(move.second);
+               in_quotes(name(move.first)) + " moves like segment " +
+               in_quotes(name(move.second));
     }
   }
   return bad_input(

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <optional>
 
+#include "core/base/in_quotes.h"
 #include "recordings/body/constraint_words.h"
 #include "recordings/body/constraints_file.h"
 #include "recordings/text/atomic_file.h"

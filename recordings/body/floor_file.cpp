@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/in_quotes.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/toml_reader.h"
 #include "recordings/text/toml_writer.h"

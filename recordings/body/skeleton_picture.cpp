@@ -13,6 +13,7 @@
 #include <glm/vec2.hpp>
 
 #include "core/base/extension.h"
+#include "core/base/in_quotes.h"
 #include "core/pose.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/text_reader.h"
@@ -170,8 +171,8 @@ void draw(cairo_t* pen, const Skeleton& skeleton, std::string_view title) {
   const Drawing drawing = drawing_of(skeleton);
   const glm::dvec3 size = drawing.high - drawing.low;
   const double widest = std::max({size.x, size.z, 1e-6});
-  const double per_metre = std::min(0.25 * kWidth / widest,
-                                    (kPictureHeight - 3.0 * kMargin) / std::max(size.y, 1e-6));
+  const double per_metre = std::min(
+      0.25 * kWidth / widest, (kPictureHeight - 3.0 * kMargin) / std::max(size.y, 1e-6));
   const glm::dvec3 middle = 0.5 * (drawing.high + drawing.low);
   for (const bool front : {true, false}) {
     View view;
@@ -213,12 +214,13 @@ Status write_skeleton_picture(const std::filesystem::path& path,
   std::string bytes;
   {
     const bool is_svg = kind == ".svg";
-    const Surface surface(is_svg ? cairo_svg_surface_create_for_stream(
-                                       append_bytes, &bytes, kWidth, kPictureHeight)
-                                 : cairo_image_surface_create(CAIRO_FORMAT_RGB24,
-                                                              static_cast<int>(kWidth),
-                                                              static_cast<int>(kPictureHeight)),
-                          cairo_surface_destroy);
+    const Surface surface(
+        is_svg ? cairo_svg_surface_create_for_stream(
+                     append_bytes, &bytes, kWidth, kPictureHeight)
+               : cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+                                            static_cast<int>(kWidth),
+                                            static_cast<int>(kPictureHeight)),
+        cairo_surface_destroy);
     const Pen pen(cairo_create(surface.get()), cairo_destroy);
     draw(pen.get(), skeleton, title);
     cairo_status_t status = cairo_status(pen.get());

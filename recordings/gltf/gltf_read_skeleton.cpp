@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <tiny_gltf.h>
 
+#include "core/base/in_quotes.h"
 #include "recordings/gltf/gltf_model.h"
 #include "recordings/text/motion_limits.h"
 #include "recordings/text/text_reader.h"
@@ -131,9 +132,8 @@ std::vector<std::size_t> in_order(const NodeTree& tree,
         node == roots.front() || (tree.parent[node] && is_first[*tree.parent[node]]);
   }
   std::vector<std::size_t> order = tree.parents_first;
-  std::stable_partition(order.begin(), order.end(), [&](std::size_t node) {
-    return is_first[node];
-  });
+  std::stable_partition(
+      order.begin(), order.end(), [&](std::size_t node) { return is_first[node]; });
   return order;
 }
 

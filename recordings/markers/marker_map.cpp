@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "core/base/in_quotes.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/text_reader.h"
 #include "recordings/text/toml_reader.h"

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "core/base/in_quotes.h"
 #include "recordings/markers/marker_labels.h"
 #include "recordings/markers/trc.h"
 #include "recordings/markers/trc_header.h"

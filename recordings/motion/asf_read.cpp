@@ -4,11 +4,11 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "core/base/angle.h"
 #include "core/base/assert.h"
 #include "core/base/lower_case.h"
 #include "core/humanoid.h"
@@ -23,7 +23,6 @@ namespace marey::recordings {
 namespace {
 
 constexpr double kInch_m = 0.0254;
-constexpr double kAsfRadiansPerDegree = std::numbers::pi / 180.0;
 
 /// "rx" rotates about x, "TX" translates along it, "l" stretches the bone.
 std::optional<AsfChannel> channel_of(const std::string& word) {
@@ -322,7 +321,7 @@ AsfSkeleton skeleton_of(const AsfFile& file, double unit_m) {
     out.skeleton.joints.push_back(std::move(joint));
     out.channels.push_back(bone.channels);
     out.world_from_axes.push_back(
-        bone.turns.rotation(file.in_degrees ? kAsfRadiansPerDegree : 1.0));
+        bone.turns.rotation(file.in_degrees ? kRadiansPerDegree : 1.0));
     for (auto child = bone.children.rbegin(); child != bone.children.rend(); ++child) {
       open.push_back({*child, self});
     }

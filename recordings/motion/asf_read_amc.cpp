@@ -4,12 +4,12 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <system_error>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "core/base/angle.h"
 #include "core/base/assert.h"
 #include "core/base/extension.h"
 #include "core/base/lower_case.h"
@@ -23,7 +23,6 @@
 namespace marey::recordings {
 namespace {
 
-constexpr double kAmcRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kUsualRateHz = 120.0;
 
 class AmcParser {
@@ -131,8 +130,8 @@ class AmcParser {
       glm::dvec3 axis(0.0);
       axis[place] = 1.0;
       if (kind == AsfChannel::Kind::kTurn) {
-        const double angle_rad = *value * (in_degrees_ ? kAmcRadiansPerDegree : 1.0);
-        if (!(std::abs(angle_rad) <= kMaxTurned_deg * kAmcRadiansPerDegree)) {
+        const double angle_rad = *value * (in_degrees_ ? kRadiansPerDegree : 1.0);
+        if (!(std::abs(angle_rad) <= kMaxTurned_deg * kRadiansPerDegree)) {
           return fail("a rotation of " + quoted_start(word) + " is more than 1000 turns");
         }
         turned = glm::angleAxis(angle_rad, axis) * turned;

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/base/angle.h"
 #include "core/base/assert.h"
 #include "core/base/lower_case.h"
 #include "core/humanoid.h"
@@ -25,8 +25,6 @@
 
 namespace marey::recordings {
 namespace {
-
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 struct Channel {
   bool is_rotation = false;

@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "core/base/angle.h"
 #include "core/base/assert.h"
 #include "core/pose.h"
 #include "recordings/motion/bvh.h"
@@ -19,7 +20,6 @@
 namespace marey::recordings {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr std::array<char, 3> kAxisNames{'X', 'Y', 'Z'};
 
 /// Axis numbers in the order of the channels.

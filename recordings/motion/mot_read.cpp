@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "core/base/angle.h"
+#include "core/base/in_quotes.h"
 #include "core/base/lower_case.h"
 #include "recordings/motion/mot.h"
 #include "recordings/text/atomic_file.h"
@@ -154,7 +155,6 @@ class MotReader {
                       " columns",
                   "correct the line, or export the file again");
     }
-    constexpr double kPerDegree = std::numbers::pi / 180.0;
     for (std::size_t i = 0; i < wanted; ++i) {
       const auto value = number(cells_[i]);
       if (!value) {
@@ -167,7 +167,7 @@ class MotReader {
       }
       const MotColumn& column = table_.columns[i - (i > time_column_ ? 1 : 0)];
       const bool turn = column.is_angle && header_.degrees();
-      table_.values.push_back(turn ? *value * kPerDegree : *value);
+      table_.values.push_back(turn ? *value * kRadiansPerDegree : *value);
     }
     return Done{};
   }

@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "core/base/in_quotes.h"
 #include "recordings/session/calibration_import.h"
 #include "recordings/session/camera_numbers.h"
 #include "recordings/text/atomic_file.h"

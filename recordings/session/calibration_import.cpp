@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/base/in_quotes.h"
 #include "recordings/session/camera_numbers.h"
 #include "recordings/text/opencv_xml.h"
 #include "recordings/text/yaml_reader.h"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/in_quotes.h"
 #include "recordings/session/calibration_import.h"
 #include "recordings/session/camera_numbers.h"
 #include "recordings/text/atomic_file.h"
@@ -92,7 +93,8 @@ RigidTransform read_link(TomlReader& in) {
 
 glm::dvec3 read_xyz(TomlReader in) {
   constexpr Limits kAnyNumber{-1e12, 1e12};
-  return {in.number("x", kAnyNumber), in.number("y", kAnyNumber), in.number("z", kAnyNumber)};
+  return {
+      in.number("x", kAnyNumber), in.number("y", kAnyNumber), in.number("z", kAnyNumber)};
 }
 
 /// Sets the poses from TagSLAM's file next to cameras.yaml, in which they are rig from

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/in_quotes.h"
 #include "recordings/session/calibration_import.h"
 #include "recordings/session/camera_numbers.h"
 #include "recordings/text/atomic_file.h"

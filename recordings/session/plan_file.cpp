@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "core/base/in_quotes.h"
 #include "recordings/session/calibration_file.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/text_reader.h"

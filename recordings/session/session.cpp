@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/base/assert.h"
+#include "core/base/in_quotes.h"
 #include "core/base/name_pattern.h"
 #include "recordings/takes/take_file.h"
 #include "recordings/text/text_reader.h"

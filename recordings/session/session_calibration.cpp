@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 
 namespace marey::recordings {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/base/in_quotes.h"
 #include "recordings/text/text_reader.h"
 
 namespace marey::recordings {

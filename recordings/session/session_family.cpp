@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 
 namespace marey::recordings {

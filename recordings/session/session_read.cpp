@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/base/in_quotes.h"
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
 #include "recordings/session/session.h"
@@ -265,9 +266,14 @@ Trial SessionReader::read_trial(TomlReader& reader) {
   // Files that the program writes next to the trials' folders.
   constexpr std::array<std::string_view, 4> kReserved{
       "calibration.toml", "subject.toml", "report.json", "report.html"};
-  constexpr std::array<std::string_view, 8> kKeys{
-      "name",   "kind",   "fps",        "slow_motion",
-      "frames", "videos", "timestamps", "time_offset_s"};
+  constexpr std::array<std::string_view, 8> kKeys{"name",
+                                                  "kind",
+                                                  "fps",
+                                                  "slow_motion",
+                                                  "frames",
+                                                  "videos",
+                                                  "timestamps",
+                                                  "time_offset_s"};
   reader.allow(kKeys);
   std::vector<std::string> taken;
   for (const Trial& earlier : session_.trials) taken.push_back(earlier.name);

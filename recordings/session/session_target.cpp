@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/in_quotes.h"
 #include "core/humanoid.h"
 #include "core/nearest_word.h"
 #include "recordings/text/number_text.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/base/in_quotes.h"
 #include "recordings/text/text_reader.h"
 
 namespace marey::recordings {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/assert.h"
+#include "core/base/in_quotes.h"
 #include "recordings/text/atomic_file.h"
 #include "recordings/text/csv_line.h"
 #include "recordings/text/text_reader.h"
@@ -124,7 +125,8 @@ class StampsParser {
   }
 
   [[nodiscard]] Error fail(const std::string& cause) const {
-    return bad_input(file_ + ":" + std::to_string(std::max(1, lines_.number())), cause, kNext);
+    return bad_input(
+        file_ + ":" + std::to_string(std::max(1, lines_.number())), cause, kNext);
   }
 
   CsvLines lines_;

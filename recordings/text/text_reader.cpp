@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/in_quotes.h"
+
 namespace marey::recordings {
 namespace {
 
@@ -87,15 +89,6 @@ std::optional<double> to_number(std::string_view word) {
 
 std::optional<int> to_integer(std::string_view word) {
   return whole_number<int>(word);
-}
-
-std::string in_quotes(std::string_view word) {
-  // A broken file may contain words of megabytes; a path is shorter than this.
-  constexpr std::size_t kMaxBytes = 200;
-  if (word.size() <= kMaxBytes) return std::string("\"").append(word).append("\"");
-  std::size_t end = kMaxBytes;
-  while (end > 0 && (static_cast<unsigned char>(word[end]) & 0xc0U) == 0x80) --end;
-  return std::string("\"").append(word.substr(0, end)).append("...\"");
 }
 
 }  // namespace marey::recordings

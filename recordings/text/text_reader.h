@@ -47,7 +47,4 @@ class TextReader {
 /// Parses the whole of `word` as an integer. nullopt otherwise.
 [[nodiscard]] std::optional<int> to_integer(std::string_view word);
 
-/// Returns the word for messages: "word", quotes included, cut after 200 bytes.
-[[nodiscard]] std::string in_quotes(std::string_view word);
-
 }  // namespace marey::recordings

@@ -9,6 +9,7 @@
 
 #include <toml++/toml.h>
 
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/text/nesting.h"
 #include "recordings/text/number_text.h"

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/in_quotes.h"
 #include "recordings/text/number_text.h"
 #include "recordings/text/text_reader.h"
 

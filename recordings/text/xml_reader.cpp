@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/text/number_text.h"
 #include "recordings/text/text_reader.h"

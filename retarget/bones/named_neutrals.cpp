@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
+
+#include "core/base/angle.h"
 
 namespace marey::retarget {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
 
 constexpr std::array<std::string_view, 6> kBandaiJoints{
     "joint_Root", "UpperArm_L", "LowerArm_L", "UpperLeg_L", "LowerLeg_L", "Toes_L"};
@@ -24,13 +23,13 @@ const std::array kNamed{
     // apart.
     NamedNeutral{"bandai",
                  "Bandai Namco Research Motiondataset",
-                 39.6 * kRadians,
+                 39.6 * kRadiansPerDegree,
                  0.053,
                  {},
                  kBandaiJoints},
     NamedNeutral{"iclone",
                  "Reallusion iClone, Character Creator",
-                 14.0 * kRadians,
+                 14.0 * kRadiansPerDegree,
                  0.024,
                  {},
                  kCharacterCreatorJoints},

@@ -15,6 +15,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/base/angle.h"
 #include "core/pose.h"
 #include "core/transform.h"
 #include "retarget/bones/body_places.h"
@@ -25,7 +26,6 @@ namespace {
 
 using B = HumanBone;
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 // Minimum cosine between a bone and an axis of its own joint for the bone to lie along
 // it.
 constexpr double kNearAxis = 0.82;       // Cosine of 35 degrees.

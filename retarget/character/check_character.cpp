@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/in_quotes.h"
 #include "core/pose.h"
 #include "retarget/character/check_groups.h"
 #include "retarget/constraints/constraint_error.h"

@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/in_quotes.h"
+
 namespace marey::retarget {
 namespace {
 
@@ -202,11 +204,6 @@ Status claim_joints(CharacterCheck& check, int g) {
 }
 
 }  // namespace
-
-std::string in_quotes(const std::string& name) {
-  std::string text(1, '"');
-  return text.append(name).append("\"");
-}
 
 Error CharacterCheck::refuse(const std::string& element,
                              std::string cause,

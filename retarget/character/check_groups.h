@@ -9,9 +9,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
 
-#include "core/character.h"
 #include "core/base/ids.h"
 #include "core/base/result.h"
+#include "core/character.h"
 #include "core/transform.h"
 
 namespace marey::retarget {
@@ -31,8 +31,6 @@ struct CharacterCheck {
     return world_from_joint[index(joint)].translation;
   }
 };
-
-[[nodiscard]] std::string in_quotes(const std::string& name);
 
 /// Checks the groups, their order and their parts; fills `group_of`. Precondition: the
 /// skeleton is valid and in its rest pose in `world_from_joint`; `group_of` is all -1.

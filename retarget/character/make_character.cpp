@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "retarget/body/place_masses.h"
 #include "retarget/character/check_character.h"

@@ -9,15 +9,12 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "retarget/constraints/resolve_segment.h"
 
 namespace marey::retarget {
 namespace {
-
-std::string in_quotes(std::string_view word) {
-  return std::string("\"").append(word).append("\"");
-}
 
 /// Returns the valid segment names of this skeleton.
 std::vector<std::string_view> segment_names(const Skeleton& skeleton) {
