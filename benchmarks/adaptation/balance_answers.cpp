@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 #include <utility>
 
 #include "benchmarks/adaptation/posture_measures.h"
 #include <glm/geometric.hpp>
 
+#include "core/base/angle.h"
 #include "core/humanoid.h"
 #include "core/transform.h"
 
@@ -20,8 +20,6 @@ namespace {
 
 using retarget::Adapter;
 using retarget::AdaptOptions;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 void append(std::vector<double>& to, const std::vector<double>& from) {
   to.insert(to.end(), from.begin(), from.end());
@@ -63,8 +61,8 @@ void measure_answer(const Character& body,
   double other_deg = 0.0;
   for (std::size_t j = 0; j < before.size(); ++j) {
     const double deg =
-        kDegrees * glm::length(rotation_vector(after[j].rotation *
-                                               glm::conjugate(before[j].rotation)));
+        kDegreesPerRadian * glm::length(rotation_vector(
+                                after[j].rotation * glm::conjugate(before[j].rotation)));
     sum_deg += deg;
     bool reaches = false;
     for (const JointIndex moved : asked.moved) {

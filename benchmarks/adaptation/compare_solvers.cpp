@@ -3,11 +3,11 @@
 #include "benchmarks/adaptation/compare_solvers.h"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "benchmarks/adaptation/posture_measures.h"
 
+#include "core/base/angle.h"
 #include "core/base/quantile.h"
 
 namespace marey {
@@ -16,7 +16,6 @@ namespace {
 constexpr int kRounds = 5;
 constexpr int kRunsPerTask = 5;
 constexpr double kReached_m = 1e-3;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 /// Times and results of one contender.
 struct Record {
@@ -77,7 +76,8 @@ std::vector<TableCell> row_of(const Record& c) {
   const auto point_mm = each(c.found, &PostureMeasure::worst_point_m, 1e3);
   const auto planted_mm = each(c.found, &PostureMeasure::planted_m, 1e3);
   const auto com_mm = each(c.found, &PostureMeasure::com_m, 1e3);
-  const auto deviation_deg = each(c.found, &PostureMeasure::deviation_rad, kDegrees);
+  const auto deviation_deg =
+      each(c.found, &PostureMeasure::deviation_rad, kDegreesPerRadian);
   const auto moved_mm = each(c.found, &PostureMeasure::displacement_m, 1e3);
   const auto reached = std::count_if(
       point_mm.begin(), point_mm.end(), [](double mm) { return mm <= 1e3 * kReached_m; });

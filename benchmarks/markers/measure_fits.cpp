@@ -110,12 +110,6 @@ void exchange_sides(MarkerTracks& tracks, const std::array<const char*, kCount>&
   }
 }
 
-void rescale(MarkerTracks& tracks, double by) {
-  for (auto& sample : tracks.samples) {
-    if (sample) sample->p_in_world *= by;
-  }
-}
-
 void make(Mistake mistake, int seed, NamedWearer& one) {
   const auto turn = static_cast<std::size_t>(seed) / (2 * (kMistakes.size() - 1));
   const auto& [a, b] = kPairs[turn % kPairs.size()];

@@ -4,12 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include "benchmarks/markers/marker_subject.h"
 #include "benchmarks/parts/compare_angles.h"
+
+#include "core/base/angle.h"
 
 namespace marey {
 namespace {
@@ -102,9 +103,8 @@ void compare(const recordings::MotTable& mine,
     const auto column = theirs->find(name);
     if (!column) stop(file.string() + ": no column is called " + name);
     const Difference d = compare_columns(mine, *mine.find(name), *theirs, *column);
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
-    std::printf(" %5.2f(%+.1f)", kDegrees * d.rms, kDegrees * d.offset);
-    squares += kDegrees * kDegrees * d.rms * d.rms;
+    std::printf(" %5.2f(%+.1f)", kDegreesPerRadian * d.rms, kDegreesPerRadian * d.offset);
+    squares += kDegreesPerRadian * kDegreesPerRadian * d.rms * d.rms;
   }
   std::printf("  %5.2f", std::sqrt(squares / static_cast<double>(kCompared.size())));
 }

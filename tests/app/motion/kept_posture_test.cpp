@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "app/motion/neutral.h"
 #include "app/motion/read_body.h"
 #include "app/motion/retarget_files.h"
+#include "core/base/angle.h"
 #include "core/pose.h"
 #include "live/vmc/vmc_body.h"
 #include "live/vmc/vmc_pose.h"
@@ -36,8 +36,6 @@ namespace {
 using B = HumanBone;
 using testing::BoneJoints;
 using testing::ScratchFolder;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::filesystem::path shared(const std::string& name) {
   return marey::testing::shared_data() / name;
@@ -192,7 +190,7 @@ void expect_kept(const Motion& source,
     if (is_foot && !result_joints[index(B::kLeftToes)]) continue;
     ASSERT_TRUE(errors.mean_rad[i]) << testing::name(segment);
     const double max_deg = i < 2 ? 8.0 : is_foot ? body.feet_off : body.limbs_off;
-    EXPECT_LT(*errors.mean_rad[i] / kDegree, max_deg) << testing::name(segment);
+    EXPECT_LT(*errors.mean_rad[i] / kRadiansPerDegree, max_deg) << testing::name(segment);
   }
 }
 
@@ -307,7 +305,7 @@ TEST_P(EveryBody, FacesTheSameWayInEveryFile) {
     const glm::dvec3 truth =
         facing(source->motion.skeleton, source_joints, source->motion.poses[frame]);
     const auto expect_same = [&](const glm::dvec3& front, const char* what) {
-      EXPECT_GT(glm::dot(front, truth), std::cos(3.0 * kDegree)) << what;
+      EXPECT_GT(glm::dot(front, truth), std::cos(3.0 * kRadiansPerDegree)) << what;
     };
     expect_same(as_in_file * facing(glb->skeleton, glb_joints, glb->motion->poses[frame]),
                 "glb");

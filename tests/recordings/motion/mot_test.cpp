@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/angle.h"
 #include "recordings/text/atomic_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"
@@ -18,8 +19,6 @@ namespace marey::recordings {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 const std::string kHead =
     "Coordinates\nversion=1\nnRows=2\nnColumns=4\ninDegrees=yes\n\n"
@@ -47,8 +46,8 @@ TEST(Mot, AnglesBecomeRadiansAndEverythingElseStays) {
   ASSERT_EQ(table.columns.size(), 3U);
   EXPECT_EQ(table.time_s[1], 0.01);
   EXPECT_TRUE(table.columns[0].is_angle);
-  EXPECT_DOUBLE_EQ(table.at(0, 0), 90.0 * kDegree);
-  EXPECT_DOUBLE_EQ(table.at(1, 0), -45.0 * kDegree);
+  EXPECT_DOUBLE_EQ(table.at(0, 0), 90.0 * kRadiansPerDegree);
+  EXPECT_DOUBLE_EQ(table.at(1, 0), -45.0 * kRadiansPerDegree);
   // OpenSim writes the rotation of the knee cap in radians.
   EXPECT_EQ(table.at(0, 1), 1.5);
   EXPECT_EQ(table.at(1, 2), 0.1);
@@ -208,14 +207,16 @@ TEST_F(RealMot, HeadersOfOpenSimAndOfSimmSayTheSame) {
   const MotTable now = read_real("addbiomechanics/Expert2/run0350cms.mot");
   EXPECT_EQ(now.rows(), 836U);
   EXPECT_EQ(now.columns.size(), 35U);
-  EXPECT_NEAR(now.at(0, *now.find("knee_angle_r")), 62.62349413 * kDegree, 1e-9);
+  EXPECT_NEAR(
+      now.at(0, *now.find("knee_angle_r")), 62.62349413 * kRadiansPerDegree, 1e-9);
   EXPECT_EQ(now.at(0, *now.find("knee_angle_r_beta")), 1.09298616);
   EXPECT_EQ(now.at(0, *now.find("pelvis_ty")), 1.08730141);
   EXPECT_TRUE(now.notes.empty());
   const MotTable old = read_real(
       "opensim-core/Applications/IK/tests/resources/std_subject01_walk1_ik.mot");
   EXPECT_EQ(old.rows(), 73U);
-  EXPECT_NEAR(old.at(0, *old.find("knee_angle_r")), -55.15907196 * kDegree, 1e-9);
+  EXPECT_NEAR(
+      old.at(0, *old.find("knee_angle_r")), -55.15907196 * kRadiansPerDegree, 1e-9);
   EXPECT_TRUE(old.notes.empty());
 }
 

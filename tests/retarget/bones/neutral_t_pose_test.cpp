@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/angle.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "core/transform.h"
@@ -30,7 +30,6 @@ namespace {
 
 using B = HumanBone;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 const glm::dvec3 kX(1, 0, 0);
 const glm::dvec3 kY(0, 1, 0);
 const glm::dvec3 kZ(0, 0, 1);
@@ -156,7 +155,8 @@ TEST(RestAsTPose, FindsTheTPoseOfBonesThatLieAlongTheirOwnAxes) {
         const glm::dquat off = glm::conjugate(along_x(bone)) * now[index(bone)].rotation;
         const bool is_foot = bone == B::kLeftFoot || bone == B::kRightFoot;
         // The slope of a foot's bone is an average one's, which this body has.
-        EXPECT_LT(glm::length(rotation_vector(off)), (is_foot ? 1.0 : 1e-4) * kDegree)
+        EXPECT_LT(glm::length(rotation_vector(off)),
+                  (is_foot ? 1.0 : 1e-4) * kRadiansPerDegree)
             << name(bone) << " lean " << lean << " turn " << turn;
       }
     }
@@ -187,7 +187,7 @@ TEST(RestAsTPose, IsTheSameForAllMotionsOfASkeleton) {
 /// The walk, in which the first `lying` frames lie on their backs on the floor.
 Motion walk_after_sleep(const Rig& rig, std::size_t lying) {
   Motion motion = walk(rig, 0.0, 0.4, 0.0);
-  const glm::dquat down = glm::angleAxis(-90.0 * kDegree, glm::dvec3(1, 0, 0));
+  const glm::dquat down = glm::angleAxis(-90.0 * kRadiansPerDegree, glm::dvec3(1, 0, 0));
   for (std::size_t f = 0; f < std::min(lying, motion.poses.size()); ++f) {
     Pose& pose = motion.poses[f];
     pose.parent_from_joint[0] = down * pose.parent_from_joint[0];
@@ -220,7 +220,7 @@ TEST(UpOfMotion, IsTheUsualOneWhereABodyLiesMostOfTheTime) {
 // An old man's walk leans forward, on another body too.
 TEST(RestAsTPose, KeepsTheLeanOfAWalk) {
   const Rig rig = make_rig();
-  Motion motion = walk(rig, 20.0 * kDegree, 0.5, 0.0);
+  Motion motion = walk(rig, 20.0 * kRadiansPerDegree, 0.5, 0.0);
   rest_as_t_pose(motion, rig.found, up_of_motion(motion, rig.found).axis);
   mark(rig.found, motion.skeleton);
   for (const Skeleton& avatar : {testing::child(), testing::giant()}) {
@@ -233,8 +233,8 @@ TEST(RestAsTPose, KeepsTheLeanOfAWalk) {
                                     made->motion,
                                     testing::marked_joints(avatar));
     const auto [worst, segment] = errors.worst_mean();
-    EXPECT_LT(worst, 8.0 * kDegree) << testing::name(segment);
-    EXPECT_LT(*errors.mean_rad[0], 3.0 * kDegree);
+    EXPECT_LT(worst, 8.0 * kRadiansPerDegree) << testing::name(segment);
+    EXPECT_LT(*errors.mean_rad[0], 3.0 * kRadiansPerDegree);
   }
 }
 

@@ -10,13 +10,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/angle.h"
 #include "retarget/base/smooth_step.h"
 #include "retarget/feet/foot_plan.h"
 
 namespace marey::retarget {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr FrameRate kRate{60.0};
 const FootMap kFoot{0.08, 0.02, {0, -0.06, 0.13}, true};
 
@@ -59,14 +59,14 @@ struct TurningFoot {
 // A turn on the spot: the foot rotates, the ball stays.
 TEST(Footprint, TurnsWithAFootThatPivotsOnItsBall) {
   for (const double turn_deg : {40.0, 120.0, -170.0, 400.0}) {
-    const TurningFoot foot(turn_deg * kDegree, 1.0);
+    const TurningFoot foot(turn_deg * kRadiansPerDegree, 1.0);
     const auto plan = foot.plan();
     for (std::size_t t = 0; t < plan.size(); ++t) {
       EXPECT_LT(apart(yaw_of(plan[t].foot), yaw_of(foot.reference[t].foot)),
-                5.0 * kDegree)
+                5.0 * kRadiansPerDegree)
           << turn_deg << ", frame " << t;
       EXPECT_LT(apart(yaw_of(plan[t].toes), yaw_of(foot.reference[t].foot)),
-                5.0 * kDegree);
+                5.0 * kRadiansPerDegree);
       EXPECT_LT(glm::distance(ball_of(plan[t]), ball_of(plan[0])), 1e-3);
       EXPECT_LT(glm::distance(ball_of(plan[t]), ball_of(foot.reference[t])), 0.01);
       EXPECT_LT(std::abs((plan[t].foot * glm::dvec3(0, 1, 0)).y - 1.0), 1e-12);
@@ -75,10 +75,11 @@ TEST(Footprint, TurnsWithAFootThatPivotsOnItsBall) {
 }
 
 TEST(Footprint, TurnsAboutTheHeelWhereThatStays) {
-  const TurningFoot foot(90.0 * kDegree, 0.0);
+  const TurningFoot foot(90.0 * kRadiansPerDegree, 0.0);
   const auto plan = foot.plan();
   for (std::size_t t = 0; t < plan.size(); ++t) {
-    EXPECT_LT(apart(yaw_of(plan[t].foot), yaw_of(foot.reference[t].foot)), 5.0 * kDegree);
+    EXPECT_LT(apart(yaw_of(plan[t].foot), yaw_of(foot.reference[t].foot)),
+              5.0 * kRadiansPerDegree);
     EXPECT_LT(glm::distance(plan[t].ankle_in_world, plan[0].ankle_in_world), 0.01);
   }
 }
@@ -86,7 +87,7 @@ TEST(Footprint, TurnsAboutTheHeelWhereThatStays) {
 // On the ball alone the foot, heel up, rotates about it; its flat positions before and
 // after follow from the ball.
 TEST(Footprint, TurnsAboutTheBallThatBearsAlone) {
-  TurningFoot foot(150.0 * kDegree, 1.0);
+  TurningFoot foot(150.0 * kRadiansPerDegree, 1.0);
   for (std::size_t t = 25; t < 95; ++t) {
     FootPlace& place = foot.reference[t];
     const glm::dvec3 ball = ball_of(place);
@@ -99,7 +100,8 @@ TEST(Footprint, TurnsAboutTheBallThatBearsAlone) {
   const auto plan = foot.plan();
   for (std::size_t t = 0; t < plan.size(); ++t) {
     // The foot leaves its footprint, up to 5 degrees behind, with no jump of speed.
-    EXPECT_LT(apart(yaw_of(plan[t].foot), yaw_of(foot.reference[t].foot)), 7.0 * kDegree)
+    EXPECT_LT(apart(yaw_of(plan[t].foot), yaw_of(foot.reference[t].foot)),
+              7.0 * kRadiansPerDegree)
         << t;
     EXPECT_LT(glm::distance(ball_of(plan[t]), ball_of(plan[0])), 1e-3) << t;
   }
@@ -120,7 +122,7 @@ TEST(Footprint, StaysConstantForAWaveringFoot) {
 
 // No visible kink.
 TEST(Footprint, TurnsSmoothly) {
-  const TurningFoot foot(120.0 * kDegree, 1.0);
+  const TurningFoot foot(120.0 * kRadiansPerDegree, 1.0);
   const auto plan = foot.plan();
   const auto fastest = [](const std::vector<FootPlace>& places) {
     double most = 0.0;

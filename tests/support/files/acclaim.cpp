@@ -4,17 +4,17 @@
 
 #include <array>
 #include <cctype>
-#include <numbers>
 #include <sstream>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "core/base/angle.h"
+
 namespace marey::testing {
 namespace {
 
 constexpr double kInchM = 0.0254;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// Lines that hold something, as words. Comments are left out.
 struct Lines {
@@ -95,8 +95,8 @@ std::optional<Error> read_bone_line(const Lines& lines,
   if (key == "length") bone.span_in_root *= unit_m * lines.value(1);
   if (key == "axis") {
     if (lines.words.back() != "XYZ") return lines.error("axes are not turned XYZ");
-    bone.root_from_axes =
-        turned_xyz(kDegree * glm::dvec3(lines.value(1), lines.value(2), lines.value(3)));
+    bone.root_from_axes = turned_xyz(
+        kRadiansPerDegree * glm::dvec3(lines.value(1), lines.value(2), lines.value(3)));
   }
   if (key == "dof" && !add_channels(lines, bone)) {
     return lines.error("a degree of freedom is not known");
@@ -191,7 +191,8 @@ Result<std::vector<std::vector<double>>> parse_amc(const AcclaimSkeleton& skelet
                          std::to_string(kinds.size()));
     }
     for (std::size_t i = 0; i < kinds.size(); ++i) {
-      const double unit = std::isupper(kinds[i]) != 0 ? skeleton.unit_m : kDegree;
+      const double unit =
+          std::isupper(kinds[i]) != 0 ? skeleton.unit_m : kRadiansPerDegree;
       frames.back()[first[*bone] + i] = unit * lines.value(i + 1);
     }
   }
