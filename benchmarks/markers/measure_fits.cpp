@@ -138,7 +138,7 @@ void make(Mistake mistake, int seed, NamedWearer& one) {
       exchange_sides(trial, kArms);
       break;
     case Mistake::kUnitOfTrial:
-      rescale(trial, std::array{0.001, 1000.0, 0.1, 1.0 / 2.54, 25.4}[turn % 5]);
+      testing::rescale(trial, std::array{0.001, 1000.0, 0.1, 1.0 / 2.54, 25.4}[turn % 5]);
       break;
     case Mistake::kMovedMarker: {
       MarkerTracks& tracks = one.trials[1];

@@ -17,7 +17,6 @@
 #include "recordings/session/session_target.h"
 #include "recordings/session/trial_rules.h"
 #include "recordings/text/atomic_file.h"
-#include "recordings/text/number_text.h"
 #include "recordings/text/toml_reader.h"
 #include "recordings/text/word_text.h"
 
