@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/angle.h"
-#include "retarget/adapt/adapt_departure.h"
+#include "retarget/adapt/measure_departure.h"
 #include "tests/retarget/adapter_bodies.h"
 
 /// Limits of the departure from the reference caused by balance.
