@@ -10,8 +10,8 @@
 #include "core/base/result.h"
 #include "core/constraint.h"
 #include "core/motion.h"
-#include "retarget/adapt/adapt_departure.h"
 #include "retarget/adapt/adapt_motion.h"
+#include "retarget/adapt/measure_departure.h"
 
 namespace marey::app {
 

@@ -63,12 +63,12 @@ std::vector<Finding> assess_motion(const ReportTrial& trial) {
       const double turn_rad = glm::length(
           rotation_vector(glm::conjugate(before[b].rotation) * now[b].rotation));
       leap.add_step(turn_rad * hz / kMaxTurn_rad_s, f, [&] {
-        return "segment " + in_quotes(bone) + " turns by " +
+        return "segment " + in_quotes(name(bone)) + " turns by " +
                std::to_string(std::lround(glm::degrees(turn_rad))) + " degrees";
       });
       const double moved_m = glm::distance(before[b].translation, now[b].translation);
       leap.add_step(moved_m * hz / kMaxSpeed_m_s, f, [&] {
-        return "joint " + in_quotes(bone) + " travels by " +
+        return "joint " + in_quotes(name(bone)) + " travels by " +
                std::to_string(std::lround(1e3 * moved_m)) + " mm";
       });
     }

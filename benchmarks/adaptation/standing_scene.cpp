@@ -9,6 +9,7 @@
 #include "benchmarks/adaptation/posture_measures.h"
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/base/angle.h"
 #include "core/human/average_proportions.h"
 #include "core/humanoid.h"
 #include "core/skeleton.h"
@@ -19,15 +20,13 @@
 namespace marey {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-
 /// Arms hanging, elbows and knees not quite straight, the ankles where the T-pose has
 /// their height.
 Pose standing(const Skeleton& skeleton) {
   Pose pose = rest_pose(skeleton);
   const auto turn = [&](HumanBone bone, const glm::dvec3& axis, double angle_deg) {
     auto& rotation = pose.parent_from_joint[index(*skeleton.find(bone))];
-    rotation = glm::angleAxis(angle_deg * kDegree, axis) * rotation;
+    rotation = glm::angleAxis(angle_deg * kRadiansPerDegree, axis) * rotation;
   };
   for (const HumanLimb& limb : human_limbs()) {
     if (limb.end == HumanBone::kLeftHand || limb.end == HumanBone::kRightHand) {

@@ -20,6 +20,7 @@
 #include "calib/rig/calibrate_cameras.h"
 #include "calib/rig/estimate_clocks.h"
 #include "capture/search/detect_videos.h"
+#include "core/base/angle.h"
 #include "core/base/quantile.h"
 #include "reconstruct/clusters/triangulate.h"
 #include "tests/support/truth/rendered_truth.h"
@@ -93,7 +94,7 @@ void compare(const CalibratedRig& rig,
         "%s: centre %.2f mm, turn %.3f deg, focal %.3f %%, principal point %.2f px",
         found.name.c_str(),
         1e3 * glm::length(centre),
-        180.0 / std::numbers::pi * glm::length(turn),
+        kDegreesPerRadian * glm::length(turn),
         100.0 * std::max(std::abs(focal.x), std::abs(focal.y)) /
             expected.intrinsics.focal_px.x,
         glm::length(middle));

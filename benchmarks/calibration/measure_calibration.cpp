@@ -9,11 +9,12 @@
 //   measure_calibration stereo ../shared/data/camera/opencv_samples
 //   measure_calibration webcams ../shared/data/camera/caliscope/sessions/4_cam_recording
 #include <cstdio>
-#include <numbers>
 #include <string>
 
 #include "benchmarks/calibration/calibration_cases.h"
 #include <glm/geometric.hpp>
+
+#include "core/base/angle.h"
 
 namespace marey::calib {
 
@@ -65,7 +66,7 @@ void print_cross_validation(const CalibratedRig& rig) {
     std::printf("  %s: odd less even: centre %.2f mm, turn %.4f deg, focal %+.2f px",
                 rig.cameras[c].name.c_str(),
                 1e3 * v.centre_apart_m[c],
-                180.0 / std::numbers::pi * v.turn_apart_rad[c],
+                kDegreesPerRadian * v.turn_apart_rad[c],
                 v.focal_apart_px[c]);
     if (v.held_out_camera_px[c]) {
       std::printf("; held-out camera: median %.3f px", *v.held_out_camera_px[c]);

@@ -28,23 +28,18 @@
 #include "capture/tags/track_tags.h"
 #include "capture/video/frame_source.h"
 #include "capture/video/open_frames.h"
+#include "tests/support/program/thread_time.h"
 #include "tests/support/truth/rendered_truth.h"
 
 namespace marey::capture {
 namespace {
 
-double processor_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// Processor time of a call.
 template <class Call>
 double timed(const Call& call) {
-  const double start_s = processor_s();
+  const double start_s = testing::thread_time_s();
   call();
-  return processor_s() - start_s;
+  return testing::thread_time_s() - start_s;
 }
 
 struct Tally {

@@ -21,13 +21,13 @@
 // amount.
 #include <cstdio>
 #include <cstdlib>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "benchmarks/parts/compare_angles.h"
 
+#include "core/base/angle.h"
 #include "recordings/motion/mot.h"
 
 namespace marey {
@@ -111,7 +111,7 @@ int measure(const Arguments& arguments) {
     const Difference d = compare_columns(mine, i, theirs, *column, arguments.shift_s);
     const bool is_angle = mine.columns[i].is_angle;
     const bool is_length = name.starts_with("pelvis_t") && !is_angle;
-    const double unit = is_angle ? 180.0 / std::numbers::pi : is_length ? 1e3 : 1.0;
+    const double unit = is_angle ? kDegreesPerRadian : is_length ? 1e3 : 1.0;
     print(name, d, unit, is_length ? " mm" : "");
     if (!is_angle || d.rows == 0) continue;
     sum_deg += unit * d.rms;
@@ -122,7 +122,7 @@ int measure(const Arguments& arguments) {
   for (const AngleTriple& triple : angle_triples()) {
     const Difference d = compare_rotations(mine, theirs, triple, arguments.shift_s);
     const std::string& first = triple.columns[0];
-    if (d.rows > 0) print(first + " and next two", d, 180.0 / std::numbers::pi, "");
+    if (d.rows > 0) print(first + " and next two", d, kDegreesPerRadian, "");
   }
   return 0;
 }

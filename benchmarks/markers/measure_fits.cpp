@@ -110,12 +110,6 @@ void exchange_sides(MarkerTracks& tracks, const std::array<const char*, kCount>&
   }
 }
 
-void rescale(MarkerTracks& tracks, double by) {
-  for (auto& sample : tracks.samples) {
-    if (sample) sample->p_in_world *= by;
-  }
-}
-
 void make(Mistake mistake, int seed, NamedWearer& one) {
   const auto turn = static_cast<std::size_t>(seed) / (2 * (kMistakes.size() - 1));
   const auto& [a, b] = kPairs[turn % kPairs.size()];
@@ -144,7 +138,7 @@ void make(Mistake mistake, int seed, NamedWearer& one) {
       exchange_sides(trial, kArms);
       break;
     case Mistake::kUnitOfTrial:
-      rescale(trial, std::array{0.001, 1000.0, 0.1, 1.0 / 2.54, 25.4}[turn % 5]);
+      testing::rescale(trial, std::array{0.001, 1000.0, 0.1, 1.0 / 2.54, 25.4}[turn % 5]);
       break;
     case Mistake::kMovedMarker: {
       MarkerTracks& tracks = one.trials[1];

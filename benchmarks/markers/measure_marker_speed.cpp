@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -17,16 +16,10 @@
 #include "core/base/assert.h"
 #include "core/base/quantile.h"
 #include "tests/support/program/count_allocations.h"
+#include "tests/support/program/thread_time.h"
 
 namespace marey {
 namespace {
-
-/// Returns processor time instead of wall-clock time: other programs may be running.
-double now_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 MarkerTracks repeated(const MarkerTracks& once, int times) {
   MarkerTracks out = once;
@@ -42,9 +35,10 @@ void measure_batch(const char* name, const Body& body, const MarkerTracks& track
   constexpr int kRuns = 9;
   std::vector<double> ms;
   for (int run = 0; run < kRuns; ++run) {
-    const double start_s = now_s();
+    const double start_s = testing::thread_time_s();
     const auto solved = solve(body, tracks);
-    ms.push_back(1e3 * (now_s() - start_s) / static_cast<double>(tracks.frames()));
+    ms.push_back(1e3 * (testing::thread_time_s() - start_s) /
+                 static_cast<double>(tracks.frames()));
   }
   std::printf(
       "batch, %s: %zu markers of the body, %zu labels, %zu frames: median %.3f, "
@@ -78,9 +72,9 @@ Live run_live(const Body& body, const MarkerTracks& tracks) {
     const auto frame =
         std::span(tracks.samples).subspan(f * tracks.markers(), tracks.markers());
     const long before = testing::allocations();
-    const double start_s = now_s();
+    const double start_s = testing::thread_time_s();
     const bool solved = tracker.step(frame, pose, uncertainty);
-    out.ms.push_back(1e3 * (now_s() - start_s));
+    out.ms.push_back(1e3 * (testing::thread_time_s() - start_s));
     if (!solved) continue;
     if (!first) out.allocations += testing::allocations() - before;
     first = false;

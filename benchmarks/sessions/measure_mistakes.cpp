@@ -30,6 +30,7 @@
 
 #include "core/base/quantile.h"
 #include "recordings/motion/motion_tables.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/run_program.h"
 #include "tests/support/truth/truth.h"
 
@@ -52,13 +53,6 @@ struct KeptDetections {
   std::string rest;  ///< All but the first line.
 };
 using Kept = std::map<std::pair<std::string, std::string>, KeptDetections>;
-
-std::string read_text(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 void write_text(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());
@@ -92,8 +86,8 @@ Kept keep(const PlainSession& right, const fs::path& results) {
   Kept kept;
   for (const PlainSession::Trial& trial : right.trials) {
     for (const auto& [camera, video] : trial.videos) {
-      std::string text =
-          read_text(results / trial.name / "detections" / (camera + ".csv"));
+      std::string text = marey::testing::read_text(results / trial.name / "detections" /
+                                                   (camera + ".csv"));
       const auto end = text.find('\n');
       if (end == std::string::npos) continue;
       std::string key = text.substr(0, end);
@@ -236,7 +230,7 @@ bool run_one(const Place& place,
   const std::string said =
       mistake.name == "right"
           ? messages_in(run.err)
-          : beyond(messages_in(run.err), messages_in(read_text(usual)));
+          : beyond(messages_in(run.err), messages_in(marey::testing::read_text(usual)));
   write_text(folder / "said.txt", run.err);
   const bool searched = mistake.is_in_file && fs::exists(folder / "out");
   const bool is_named = names(said, mistake.named);

@@ -26,19 +26,13 @@
 
 #include "core/base/parallel.h"
 #include "tests/reconstruct/answer_session.h"
+#include "tests/support/program/thread_time.h"
 
 namespace marey::benchmarks {
 namespace {
 
 using testing::SessionAnswer;
 using testing::SimulatedSession;
-
-/// Processor time of this thread: other programs may be running.
-double processor_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 struct Options {
   std::vector<std::uint64_t> seeds;
@@ -85,9 +79,9 @@ void print_body(const SimulatedSession& session, const Body& found) {
 }
 
 SessionRow measure(std::uint64_t seed, const Options& options) {
-  const double start = processor_s();
+  const double start = testing::thread_time_s();
   const SimulatedSession session = testing::simulate_session(seed);
-  const double simulated_s = processor_s() - start;
+  const double simulated_s = testing::thread_time_s() - start;
   const testing::Sufficiency enough = testing::judge_sufficiency(session);
   SessionRow row;
   row.seed = seed;

@@ -7,22 +7,13 @@
 #include <Eigen/Dense>
 
 #include "calib/bundle/bundle_priors.h"
+#include "calib/bundle/rig_rows.h"
 #include "calib/bundle/sighting_loss.h"
 
 namespace marey::calib {
 namespace {
 
 constexpr int kLens = Intrinsics::kParameterCount;
-
-PoseBlock to_block(const RigidTransform& t) {
-  return {t.rotation.x,
-          t.rotation.y,
-          t.rotation.z,
-          t.rotation.w,
-          t.translation.x,
-          t.translation.y,
-          t.translation.z};
-}
 
 template <class Block>
 RigidTransform to_transform(const Block& b) {
@@ -55,7 +46,7 @@ BundleProblem::BundleProblem(const RigModel& model,
   for (const RigCamera& camera : model.cameras) {
     CameraBlock block;
     block.lens = camera.intrinsics.parameters();
-    block.pose = to_block(camera.world_from_camera);
+    block.pose = pose_block(camera.world_from_camera);
     block.clock = {camera.offset_s, camera.drift, camera.line_delay_s};
     block.shrinkage = {camera.shrinkage.offset_px, camera.shrinkage.slope};
     cameras_.push_back(block);
@@ -63,10 +54,10 @@ BundleProblem::BundleProblem(const RigModel& model,
   for (const RigidTarget& target : model.targets) {
     TargetBlock block;
     for (const auto& [instant, pose] : target.world_from_target) {
-      block.poses[instant] = to_block(pose);
+      block.poses[instant] = pose_block(pose);
     }
     for (const Piece& piece : target.pieces) {
-      const PoseBlock pose = to_block(piece.target_from_piece);
+      const PoseBlock pose = pose_block(piece.target_from_piece);
       PieceBlock numbers{};
       std::copy(pose.begin(), pose.end(), numbers.begin());
       numbers[7] = std::log(piece.size_m);

@@ -12,15 +12,10 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "calib/model/rig_covariance.h"
+#include "core/base/cross_matrix.h"
 #include "core/camera.h"
 
 namespace marey::calib {
-
-[[nodiscard]] inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
 
 [[nodiscard]] inline Eigen::Quaterniond to_eigen(const glm::dquat& q) {
   return {q.w, q.x, q.y, q.z};
@@ -83,8 +78,8 @@ struct Sight {
   Sight out;
   out.pixel_px = pixel->pixel_px;
   out.by_point = pixel->by_point * camera_from_world;
-  out.by_camera << pixel->by_lens, out.by_point * cross_matrix(from_centre),
-      -out.by_point;
+  out.by_camera << pixel->by_lens,
+      out.by_point * cross_matrix<Eigen::Matrix3d>(from_centre), -out.by_point;
   return out;
 }
 

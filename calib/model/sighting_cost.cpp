@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calib/model/see_point.h"
+#include "core/base/cross_matrix.h"
 
 namespace marey::calib {
 namespace {
@@ -263,7 +264,7 @@ void SightingCost::put_target(const View& view, double** jacobians) const {
         6,
         [&](std::size_t, const CornerSight& s) -> Rows {
           Rows d(2, 6);
-          d << -s.world * cross_matrix(s.from_target), s.world;
+          d << -s.world * cross_matrix<Eigen::Matrix3d>(s.from_target), s.world;
           return d;
         });
     return;
@@ -276,7 +277,8 @@ void SightingCost::put_target(const View& view, double** jacobians) const {
         6,
         [&](std::size_t, const CornerSight& s) -> Rows {
           Rows d(2, 6);
-          d << -s.world * cross_matrix(s.from_target) * spline.rotation_by_knot[k],
+          d << -s.world * cross_matrix<Eigen::Matrix3d>(s.from_target) *
+                   spline.rotation_by_knot[k],
               s.world * spline.translation_by_knot[k];
           return d;
         });
@@ -306,8 +308,8 @@ void SightingCost::put_rest(const View& view, double** jacobians) const {
         7,
         [&](std::size_t, const CornerSight& s) -> Rows {
           Rows d(2, 7);
-          d << -s.world * rotation * cross_matrix(s.from_piece), s.world * rotation,
-              s.world * rotation * s.from_piece;
+          d << -s.world * rotation * cross_matrix<Eigen::Matrix3d>(s.from_piece),
+              s.world * rotation, s.world * rotation * s.from_piece;
           return d;
         });
   }
@@ -341,7 +343,7 @@ bool SightingCost::Evaluate(const double* const* blocks,
   });
   put(view, jacobians[1], 1, 6, [](std::size_t, const CornerSight& s) -> Rows {
     Rows d(2, 6);
-    d << s.world * cross_matrix(s.from_centre), -s.world;
+    d << s.world * cross_matrix<Eigen::Matrix3d>(s.from_centre), -s.world;
     return d;
   });
   put_target(view, jacobians);

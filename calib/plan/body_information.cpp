@@ -6,6 +6,7 @@
 
 #include "calib/model/see_point.h"
 #include "calib/plan/see_tag.h"
+#include "core/base/cross_matrix.h"
 
 namespace marey::calib {
 namespace {
@@ -38,10 +39,10 @@ std::optional<ViewRows> rows_of(const Camera& camera,
     const Eigen::Vector3d from_bone = to_eigen(corner - world_from_bone.translation);
     const Eigen::Vector3d from_centre = to_eigen(corner - world_from_tag.translation);
     rows.by_posture.middleRows<2>(2 * c) =
-        by_point *
-        (jacobian.origin[bone] - cross_matrix(from_bone) * jacobian.spin[bone]);
+        by_point * (jacobian.origin[bone] -
+                    cross_matrix<Eigen::Matrix3d>(from_bone) * jacobian.spin[bone]);
     rows.by_shared.middleRows<2>(2 * c) << by_point * jacobian.origin_by_length[bone],
-        -by_point * cross_matrix(from_centre) * turn, by_point * turn,
+        -by_point * cross_matrix<Eigen::Matrix3d>(from_centre) * turn, by_point * turn,
         sight->by_camera / sigma_px, by_point * jacobian.origin_by_base[bone];
   }
   return rows;

@@ -16,6 +16,7 @@
 #include "calib/model/see_point.h"
 #include "calib/plan/see_tag.h"
 #include "core/base/assert.h"
+#include "core/base/cross_matrix.h"
 #include "core/base/quantile.h"
 
 namespace marey::calib {
@@ -50,7 +51,8 @@ std::optional<Eigen::Matrix<double, 6, 6>> pose_covariance(
       const auto sight = see_point(cameras[index(view.camera)], corner);
       if (!sight) return std::nullopt;
       Eigen::Matrix<double, 2, 6> by_pose;
-      by_pose << -sight->by_point * cross_matrix(to_eigen(corner - centre)),
+      by_pose << -sight->by_point *
+                     cross_matrix<Eigen::Matrix3d>(to_eigen(corner - centre)),
           sight->by_point;
       information += weight * by_pose.transpose() * by_pose;
       pull.middleCols<kPoseOfCamera>(kPoseOfCamera * i) +=

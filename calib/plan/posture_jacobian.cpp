@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "calib/model/see_point.h"
+#include "core/base/cross_matrix.h"
 #include "core/human/posture_priors.h"
 
 namespace marey::calib {
@@ -179,7 +180,8 @@ PostureJacobian posture_jacobian(const PlannedBody& body, const BodyPlace& place
       continue;
     }
     const Eigen::Vector3d offset = in_world(place, *above, body.proportions[bone]);
-    origin = out.origin[index(*above)] - cross_matrix(offset) * out.spin[index(*above)];
+    origin = out.origin[index(*above)] -
+             cross_matrix<Eigen::Matrix3d>(offset) * out.spin[index(*above)];
     by_length = out.origin_by_length[index(*above)];
     by_base = out.origin_by_base[index(*above)];
     if (bone == B::kLeftShoulder || bone == B::kRightShoulder) {

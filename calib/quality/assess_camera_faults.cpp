@@ -87,7 +87,7 @@ void assess_move(FindingList& list) {
   }
   list.add(is_uncertain || !is_harmful ? Severity::kFair : Severity::kPoor,
            "moved",
-           list.camera(c) + others,
+           moved_cameras(list),
            when +
                format_text(
                    " that was moved by %.1f px (%.2f degrees, %.0f mm) %s",
@@ -118,7 +118,7 @@ void assess_unsteady(FindingList& list) {
   list.add(
           severity_of(move->rig_shift_m, limits[1]),
           "unsteady",
-          list.camera(c) + others,
+          moved_cameras(list),
           (move->from_frame ? format_text("its views from frame %d on", *move->from_frame)
                             : std::string("its views of the floor")) +
               format_text(

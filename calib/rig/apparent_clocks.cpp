@@ -12,6 +12,7 @@
 #include "calib/model/see_point.h"
 #include "calib/model/target_velocity.h"
 #include "core/base/assert.h"
+#include "core/base/cross_matrix.h"
 #include "core/base/quantile.h"
 
 namespace marey::calib {
@@ -70,7 +71,7 @@ std::optional<Row> row_of(const RigModel& model,
   if (sighting.count == 4) seen = unshrunk(seen, camera.shrinkage);
   const glm::dvec2 error = seen[static_cast<std::size_t>(corner)] - *pixel;
   row.error_px << error.x, error.y;
-  row.by_place.leftCols<3>() = -by_world * cross_matrix(arm);
+  row.by_place.leftCols<3>() = -by_world * cross_matrix<Eigen::Matrix3d>(arm);
   row.by_place.rightCols<3>() = by_world;
   row.by_time = by_world * (velocity.turn_rad_s.cross(arm) + velocity.move_m_s);
   return row;

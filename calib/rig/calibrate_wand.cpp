@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "calib/bundle/refine_rig.h"
+#include "calib/model/calibration_steps.h"
 #include "calib/model/place_cameras.h"
 #include "calib/model/planar_pose.h"
 #include "calib/model/rig_model.h"
-#include "calib/model/steps.h"
 #include "calib/model/wand_model.h"
 #include "calib/rig/check_rig.h"
 #include "calib/rig/choose_model.h"

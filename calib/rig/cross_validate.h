@@ -8,8 +8,8 @@
 
 #include "calib/bundle/refine_rig.h"
 #include "calib/model/calibrated_rig.h"
+#include "calib/model/calibration_steps.h"
 #include "calib/model/rig_model.h"
-#include "calib/model/steps.h"
 
 namespace marey::calib {
 

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "calib/model/calibrated_rig.h"
+#include "calib/model/calibration_steps.h"
 #include "calib/model/rig_options.h"
-#include "calib/model/steps.h"
 #include "calib/rig/choose_model.h"
 
 namespace marey::calib {

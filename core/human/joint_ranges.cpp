@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 
+#include "core/base/angle.h"
 #include "core/base/assert.h"
 
 namespace marey {
@@ -14,7 +15,6 @@ namespace {
 
 using B = HumanBone;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kMoreThanMeanDeg = 15.0;
 constexpr double kFree = 180.0;
 
@@ -59,7 +59,7 @@ const std::array<Range, 10>& ranges() {
 }
 
 glm::dvec3 more(const glm::dvec3& deg, double by_deg) {
-  return glm::clamp(deg + by_deg, -kFree, kFree) * kDegree;
+  return glm::clamp(deg + by_deg, -kFree, kFree) * kRadiansPerDegree;
 }
 
 // Reflection in X = 0 keeps rotations about X and reverses the others.

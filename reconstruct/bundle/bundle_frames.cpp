@@ -34,14 +34,6 @@ bool is_near(const RigidTransform& a, const RigidTransform& b) {
              kSameTurn_rad;
 }
 
-void copy_limb(std::size_t limb, const Posture& from, Posture& to) {
-  const LimbParameters& s = kLimbParameters[limb];
-  for (const PoseParameter parameter :
-       {s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity}) {
-    std::copy_n(from.block(parameter), block_size(parameter), to.block(parameter));
-  }
-}
-
 bool is_of(const HumanLimb& limb, HumanBone bone) {
   return bone == limb.upper || bone == limb.lower || bone == limb.end;
 }

@@ -9,6 +9,7 @@
 #include <ceres/jet.h>
 
 #include "core/base/assert.h"
+#include "core/base/cross_matrix.h"
 #include "core/human/posture_priors.h"
 #include "reconstruct/posture/length_terms.h"
 
@@ -119,7 +120,7 @@ struct TagTerms {
 /// Returns the tag's normal, which points into the flesh.
 JetVector normal_of(const RigidTransform& pose) {
   const Eigen::Vector3d n = eigen(pose.rotation * glm::dvec3(0, 0, 1));
-  const Eigen::Matrix3d by_turn = -cross_matrix(n);
+  const Eigen::Matrix3d by_turn = -cross_matrix<Eigen::Matrix3d>(n);
   JetVector normal;
   for (int i = 0; i < 3; ++i) {
     normal[i] = Jet(n[i]);

@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/base/assert.h"
+#include "core/base/cross_matrix.h"
 
 namespace marey::reconstruct {
 namespace {
@@ -167,7 +168,7 @@ bool SubjectSight::look(const BodyModel& model,
     out.by_shape.middleRows<2>(row).leftCols(shape.columns).noalias() =
         by_world.lazyProduct(shape.value.leftCols(shape.columns));
     const Eigen::Matrix<double, 2, 3> by_bone = by_world * world_from_bone;
-    out.by_tag.block<2, 3>(row, 0) = -by_bone * cross_matrix(p_in_bone - place);
+    out.by_tag.block<2, 3>(row, 0) = -by_bone * cross_matrix<Matrix3d>(p_in_bone - place);
     out.by_tag.block<2, 3>(row, 3) = by_bone;
   }
   out.posture_columns = derivatives ? point.columns : 0;

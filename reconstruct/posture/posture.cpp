@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reconstruct/posture/posture.h"
 
+#include <algorithm>
+
 #include <glm/geometric.hpp>
 
 namespace marey::reconstruct {
@@ -182,6 +184,14 @@ RigidTransform world_from_bone(HumanBone bone,
                                     frame.rotation.y(),
                                     frame.rotation.z())),
           {frame.origin.x(), frame.origin.y(), frame.origin.z()}};
+}
+
+void copy_limb(std::size_t limb, const Posture& from, Posture& to) {
+  const LimbParameters& s = kLimbParameters[limb];
+  for (const PoseParameter parameter :
+       {s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity}) {
+    std::copy_n(from.block(parameter), block_size(parameter), to.block(parameter));
+  }
 }
 
 Pose to_pose(const Posture& posture,

@@ -229,6 +229,9 @@ BoneFrame<T> bone_frame(HumanBone bone,
                                              const Lengths& lengths,
                                              const BodyFrame& body);
 
+/// Copies the parameters of a limb, in the order of human_limbs().
+void copy_limb(std::size_t limb, const Posture& from, Posture& to);
+
 /// Converts the posture to a Pose of make_humanoid(proportions).
 [[nodiscard]] Pose to_pose(const Posture& posture,
                            const Skeleton& skeleton,

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/assert.h"
+#include "core/base/cross_matrix.h"
 
 namespace marey::reconstruct {
 
@@ -31,7 +32,7 @@ void SparseDerivative::add(int at_column, const Vector3d& block) {
 
 Matrix3d inverse_left_jacobian(const Vector3d& r) {
   const double angle2 = r.squaredNorm();
-  const Matrix3d k = cross_matrix(r);
+  const Matrix3d k = cross_matrix<Matrix3d>(r);
   // 1/a^2 - (1 + cos a) / (2 a sin a), whose series starts with 1/12 + a^2/720.
   double c = 1.0 / 12.0 + angle2 / 720.0;
   if (angle2 > 1e-4) {
@@ -117,10 +118,11 @@ void UnfoldedPosture::unfold_trunk(const Posture& posture, const Lengths& length
   const HalfwayDerivative half = halfway_derivative(q_hips, q_abdomen);
   spine_by_hips_ = half.by_lower;
   spine_by_abdomen_ = half.by_upper;
-  chest_by_hips_ = -cross_matrix(to_spine) - cross_matrix(to_chest) * half.by_lower;
-  chest_by_abdomen_ = -cross_matrix(to_chest) * half.by_upper;
+  chest_by_hips_ = -cross_matrix<Matrix3d>(to_spine) -
+                   cross_matrix<Matrix3d>(to_chest) * half.by_lower;
+  chest_by_abdomen_ = -cross_matrix<Matrix3d>(to_chest) * half.by_upper;
   thorax_by_hips_ = chest_by_hips_;
-  thorax_by_abdomen_ = chest_by_abdomen_ - cross_matrix(to_thorax);
+  thorax_by_abdomen_ = chest_by_abdomen_ - cross_matrix<Matrix3d>(to_thorax);
 }
 
 void UnfoldedPosture::unfold_limb(std::size_t limb,
@@ -195,7 +197,7 @@ void UnfoldedPosture::limb_derivative(std::size_t limb,
   // The part that turns with the limb's frame, and the part of it that its lower bone
   // carries.
   const Vector3d carried = place == 2 ? end : p;
-  out.add(column_of(s.frame), Matrix3d(-cross_matrix(carried - root)));
+  out.add(column_of(s.frame), Matrix3d(-cross_matrix<Matrix3d>(carried - root)));
   const Vector3d by_upper = place == 0 ? Vector3d(p - root) : Vector3d(mid - root);
   const Vector3d by_lower = place == 0 ? Vector3d::Zero() : Vector3d(carried - mid);
   Vector3d by_flexion = own.hinge_in_world.cross(by_lower) -
@@ -207,7 +209,7 @@ void UnfoldedPosture::limb_derivative(std::size_t limb,
   } else if (place == 1) {
     out.add(column_of(s.lower_twist), Vector3d(own.lower_axis_in_world.cross(p - mid)));
   } else {
-    out.add(column_of(s.extremity), Matrix3d(-cross_matrix(p - end)));
+    out.add(column_of(s.extremity), Matrix3d(-cross_matrix<Matrix3d>(p - end)));
   }
 }
 
@@ -283,20 +285,23 @@ void UnfoldedPosture::derivative(HumanBone bone,
   if (where.limb == 2 || where.limb == 3) {
     const Vector3d& root = origin(human_limbs()[where.limb].upper);
     out.add(column_of(PoseParameter::kHipsPosition), identity);
-    out.add(column_of(PoseParameter::kHips), Matrix3d(-cross_matrix(root - p_hips)));
+    out.add(column_of(PoseParameter::kHips),
+            Matrix3d(-cross_matrix<Matrix3d>(root - p_hips)));
     limb_derivative(where.limb, where.place, p, out);
     return;
   }
   if (bone == B::kHips) {
     out.add(column_of(PoseParameter::kHipsPosition), identity);
-    out.add(column_of(PoseParameter::kHips), Matrix3d(-cross_matrix(p - p_hips)));
+    out.add(column_of(PoseParameter::kHips),
+            Matrix3d(-cross_matrix<Matrix3d>(p - p_hips)));
     return;
   }
   if (bone == B::kSpine) {
-    const Matrix3d turned = cross_matrix(p - origin(bone));
+    const Matrix3d turned = cross_matrix<Matrix3d>(p - origin(bone));
     out.add(column_of(PoseParameter::kHipsPosition), identity);
     out.add(column_of(PoseParameter::kHips),
-            Matrix3d(-cross_matrix(origin(bone) - p_hips) - turned * spine_by_hips_));
+            Matrix3d(-cross_matrix<Matrix3d>(origin(bone) - p_hips) -
+                     turned * spine_by_hips_));
     out.add(column_of(PoseParameter::kAbdomenEnd), Matrix3d(-turned * spine_by_abdomen_));
     return;
   }
@@ -304,23 +309,25 @@ void UnfoldedPosture::derivative(HumanBone bone,
     out.add(column_of(PoseParameter::kHipsPosition), identity);
     out.add(column_of(PoseParameter::kHips), chest_by_hips_);
     out.add(column_of(PoseParameter::kAbdomenEnd),
-            Matrix3d(chest_by_abdomen_ - cross_matrix(p - origin(bone))));
+            Matrix3d(chest_by_abdomen_ - cross_matrix<Matrix3d>(p - origin(bone))));
     return;
   }
   thorax_base(out);
   const Vector3d& p_thorax = origin(B::kUpperChest);
   const auto carried_by_thorax = [&](const Vector3d& what) {
-    out.add(column_of(PoseParameter::kThorax), Matrix3d(-cross_matrix(what - p_thorax)));
+    out.add(column_of(PoseParameter::kThorax),
+            Matrix3d(-cross_matrix<Matrix3d>(what - p_thorax)));
   };
   if (bone == B::kUpperChest) return carried_by_thorax(p);
   if (bone == B::kNeck || bone == B::kHead) {
     const Vector3d& p_neck = origin(B::kNeck);
     carried_by_thorax(p_neck);
     const Vector3d& by_neck = bone == B::kNeck ? p : origin(B::kHead);
-    out.add(column_of(PoseParameter::kNeck), Matrix3d(-cross_matrix(by_neck - p_neck)));
+    out.add(column_of(PoseParameter::kNeck),
+            Matrix3d(-cross_matrix<Matrix3d>(by_neck - p_neck)));
     if (bone == B::kHead) {
       out.add(column_of(PoseParameter::kHead),
-              Matrix3d(-cross_matrix(p - origin(B::kHead))));
+              Matrix3d(-cross_matrix<Matrix3d>(p - origin(B::kHead))));
     }
     return;
   }
@@ -330,7 +337,7 @@ void UnfoldedPosture::derivative(HumanBone bone,
   const Vector3d& by_shoulder =
       where.limb == 4 ? p : origin(human_limbs()[where.limb].upper);
   out.add(column_of(left ? PoseParameter::kLeftShoulder : PoseParameter::kRightShoulder),
-          Matrix3d(-cross_matrix(by_shoulder - p_shoulder)));
+          Matrix3d(-cross_matrix<Matrix3d>(by_shoulder - p_shoulder)));
   if (where.limb < 2) limb_derivative(where.limb, where.place, p, out);
 }
 

@@ -124,10 +124,4 @@ struct HalfwayDerivative {
 /// SO(3) (Sola, Deray & Atchuthan 2018, eq. 146).
 [[nodiscard]] Eigen::Matrix3d inverse_left_jacobian(const Eigen::Vector3d& r);
 
-[[nodiscard]] inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
-
 }  // namespace marey::reconstruct

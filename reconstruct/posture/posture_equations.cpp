@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/cross_matrix.h"
+
 namespace marey::reconstruct {
 namespace {
 
@@ -171,7 +173,7 @@ void PostureEquations::add_upright(const Posture& posture,
                                    bool roll) {
   const Matrix3d to_own = quaternion(posture, parameter).toRotationMatrix().transpose();
   const Vector3d up = to_own.col(1);
-  const Matrix3d by_turn = to_own * cross_matrix(Vector3d::UnitY());
+  const Matrix3d by_turn = to_own * cross_matrix<Matrix3d>(Vector3d::UnitY());
   const double weight = 1.0 / (sigma_rad * sigma_rad);
   const int column = column_of(parameter);
   const auto level = [&](int axis) {

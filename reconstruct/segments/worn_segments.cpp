@@ -250,14 +250,15 @@ std::optional<Error> exchange_error(std::span<const TagOnSegment> tags,
         is_whole(moves, tags, back)) {
       if (move.second < move.first) continue;  // Reported in the other direction.
       cause += (cause.empty() ? "the tags of segments " : ", those of ") +
-               in_quotes(move.first) + " and " + in_quotes(move.second) +
+               in_quotes(name(move.first)) + " and " + in_quotes(name(move.second)) +
                " look exchanged";
       continue;
     }
     for (const std::size_t tag : ids) {
       cause += (cause.empty() ? "tag " : ", tag ") +
                std::to_string(number(tags[tag].id)) + " of segment " +
-               in_quotes(move.first) + " moves like segment " + in_quotes(move.second);
+               in_quotes(name(move.first)) + " moves like segment " +
+               in_quotes(name(move.second));
     }
   }
   return bad_input(

@@ -88,7 +88,7 @@ void assess_tags(const SubjectBundle& bundle,
     const TagOnSegment& declared = bundle.model.tags[tag];
     out.push_back(
         doubtful("tag " + std::to_string(number(declared.id)) +
-                     " does not move with segment " + in_quotes(declared.segment),
+                     " does not move with segment " + in_quotes(name(declared.segment)),
                  "check its `segment` and `size_m` under [[tags.tag]], and that "
                  "it is glued firmly"));
   }
@@ -110,7 +110,7 @@ void assess_sightings(const SubjectBundle& bundle,
             : " fits its place worse than its corners' noise explains, in most of its "
               "sightings";
     out.push_back(doubtful("tag " + std::to_string(number(tag.id)) + " on segment " +
-                               in_quotes(tag.segment) + how,
+                               in_quotes(name(tag.segment)) + how,
                            "check that it is glued firmly and did not shift during the "
                            "trials; then record the range of motion again"));
   }
@@ -121,7 +121,7 @@ std::optional<Finding> place_finding(std::size_t limb,
                                      const SubjectBundle& bundle,
                                      const SubjectEvidence& evidence) {
   const ExtremityFit& fit = evidence.extremities[limb];
-  const std::string segment = in_quotes(human_limbs()[limb].end);
+  const std::string segment = in_quotes(name(human_limbs()[limb].end));
   if (!fit.placed && fit.sightings < kMinSightings) return std::nullopt;
   if (!fit.placed) {
     return doubtful(
@@ -150,8 +150,8 @@ std::optional<Finding> view_finding(std::size_t limb, const SubjectEvidence& evi
   if (is_seen || lower >= kBoneSeenTwice) return std::nullopt;
   return doubtful(
       "in the range of motion, two cameras at once see segments " +
-          in_quotes(bones.lower) + " and " + in_quotes(bones.end) + " in only " +
-          percent(lower) + " and " + percent(end) + " of frames",
+          in_quotes(name(bones.lower)) + " and " + in_quotes(name(bones.end)) +
+          " in only " + percent(lower) + " and " + percent(end) + " of frames",
       "record the range of motion again, turning that limb slowly in view of two "
       "cameras, or glue tags to other sides of it");
 }
@@ -173,7 +173,7 @@ void assess_locations(const SubjectBundle& bundle,
       const int frames = evidence.located_frames[index(bone)];
       if (!has_tags || frames >= kMinLocated) continue;
       out.push_back(doubtful(
-          "segment " + in_quotes(bone) + " is seen well enough in only " +
+          "segment " + in_quotes(name(bone)) + " is seen well enough in only " +
               std::to_string(frames) +
               " frames of the range of motion; in the others one camera sees one of "
               "its tags, nearly from the front",
@@ -191,7 +191,7 @@ void assess_places(const SubjectBundle& bundle, std::vector<Finding>& out) {
     out.push_back(
         doubtful("tag " + std::to_string(number(declared.id)) +
                      " is fitted to a place where segment " +
-                     in_quotes(declared.segment) + " has no skin",
+                     in_quotes(name(declared.segment)) + " has no skin",
                  "check its `segment` and `size_m` under [[tags.tag]]; then "
                  "record the range of motion again, turning that segment slowly "
                  "in view of two cameras"));
@@ -203,7 +203,7 @@ void assess_turns(const SubjectBundle& bundle, std::vector<Finding>& out) {
     const auto turn_rad = standing_turn_rad(limb, bundle);
     if (!turn_rad || std::abs(*turn_rad) < kMaxStandingTurn_rad) continue;
     out.push_back(
-        doubtful("segment " + in_quotes(human_limbs()[limb].upper) +
+        doubtful("segment " + in_quotes(name(human_limbs()[limb].upper)) +
                      " is fitted turned about its own axis by " + degrees(*turn_rad) +
                      " in the static trial",
                  "check that its tags and the next segment's are declared on the "
@@ -221,14 +221,14 @@ void assess_lengths(const SubjectBundle& bundle, std::vector<Finding>& out) {
     const double sure_m = 3.0 * std::hypot(sigma(left), sigma(right));
     const double ratio = 0.5 * (length(left) + length(right)) / bundle.usual[index(left)];
     if (apart_m > std::max(kSidesDiffer_m, sure_m)) {
-      out.push_back(doubtful("segment " + in_quotes(bone) + " is " +
+      out.push_back(doubtful("segment " + in_quotes(name(bone)) + " is " +
                                  millimetres(length(left)) + " long on the left and " +
                                  millimetres(length(right)) + " on the right",
                              "record the range of motion again, bending both sides far, "
                              "in view of at least two cameras"));
     }
     if (ratio < kShortest || ratio > kLongest) {
-      out.push_back(doubtful("segment " + in_quotes(bone) + " is " +
+      out.push_back(doubtful("segment " + in_quotes(name(bone)) + " is " +
                                  millimetres(length(left)) + " long, where " +
                                  millimetres(bundle.usual[index(left)]) +
                                  " is usual at this stature",
@@ -251,7 +251,7 @@ void assess_joints(const SubjectBundle& bundle, std::vector<Finding>& out) {
       if (sigma_m && *sigma_m < (is_shoulder ? kKnownShoulder_m : kKnownJoint_m))
         continue;
       out.push_back(
-          doubtful("the joint at the near end of segment " + in_quotes(bone) +
+          doubtful("the joint at the near end of segment " + in_quotes(name(bone)) +
                        (sigma_m ? " has an uncertainty of " + millimetres(*sigma_m)
                                 : " could not be determined"),
                    "record the range of motion again, bending that joint far "
@@ -270,7 +270,7 @@ bool leave_out_extremities(SubjectBundle& bundle, SubjectEvidence& evidence) {
     if (!reason) reason = view_finding(limb, evidence);
     if (!reason) continue;
     const HumanBone end = human_limbs()[limb].end;
-    reason->cause += "; they are left out, and the joint " + in_quotes(end) +
+    reason->cause += "; they are left out, and the joint " + in_quotes(name(end)) +
                      " is inferred from the other segments";
     has_changed |= std::erase_if(bundle.model.segment_from_tag, [&](const auto& placed) {
                      return bundle.model.bone(placed.first) == end;

@@ -64,14 +64,6 @@ Posture carried_to(const RigidTransform& world_from_hips, const Posture& posture
   return out;
 }
 
-void take_limb(std::size_t limb, const Posture& from, Posture& to) {
-  const LimbParameters& s = kLimbParameters[limb];
-  for (const PoseParameter parameter :
-       {s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity}) {
-    std::copy_n(from.block(parameter), block_size(parameter), to.block(parameter));
-  }
-}
-
 double squares_of(std::span<const RigidPointView> views, const RigidTransform& pose) {
   double sum = 0.0;
   for (const RigidPointView& view : views) {
@@ -205,7 +197,7 @@ bool TagPoseRelocalizer::retry_limb(std::size_t limb,
       found_ = found;
       found_[index(tag.bone)] = world_from_tag * inverse(tag.bone_from_tag);
       Posture candidate = start;
-      take_limb(limb,
+      copy_limb(limb,
                 posture_from_segments(found_, model_->lengths, model_->body, start),
                 candidate);
       const double cost = solver_.solve(own_, own, candidate, quick);
@@ -228,7 +220,7 @@ void TagPoseRelocalizer::set_motion_prior(std::size_t limb,
   for (Eigen::Matrix3d& information : motion_prior_.information) {
     information = Eigen::Matrix3d::Identity() / (kHeld * kHeld);
   }
-  take_limb(limb, prior.expected, motion_prior_.expected);
+  copy_limb(limb, prior.expected, motion_prior_.expected);
   const LimbParameters& s = kLimbParameters[limb];
   for (const PoseParameter parameter :
        {s.frame, s.flexion, s.upper_twist, s.lower_twist, s.extremity}) {

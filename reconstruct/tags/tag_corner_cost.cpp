@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/base/assert.h"
+#include "core/base/cross_matrix.h"
 #include "reconstruct/posture/posture_terms.h"
 #include "reconstruct/tags/tag_loss.h"
 
@@ -20,7 +21,8 @@ constexpr double kBehind = 1e3;
 Eigen::Matrix<double, 4, 3> quaternion_by_half_turn(const double* q) {
   const Eigen::Vector3d v(q[0], q[1], q[2]);
   Eigen::Matrix<double, 4, 3> by_turn;
-  by_turn.topRows<3>() = q[3] * Eigen::Matrix3d::Identity() - cross_matrix(v);
+  by_turn.topRows<3>() =
+      q[3] * Eigen::Matrix3d::Identity() - cross_matrix<Eigen::Matrix3d>(v);
   by_turn.bottomRows<1>() = -v.transpose();
   return by_turn;
 }

@@ -17,7 +17,6 @@
 namespace marey::recordings {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr Limits kStature{0.1, 10.0, "m"};
 constexpr Limits kTotalMass{0.01, 1000.0, "kg"};
 constexpr Limits kMass{0.0, 1000.0, "kg"};
@@ -35,11 +34,11 @@ constexpr std::array<TableWord, 4> kTables{{{MassTable::kDeLeva, "deleva"},
 
 // Returns degrees that convert back to the same angle, short numbers first.
 double degrees(double rad) {
-  const double near = rad / kDegree;
+  const double near = rad / kRadiansPerDegree;
   const double rounded = std::round(near * 1e9) / 1e9;
   for (const double deg :
        {rounded, near, std::nextafter(near, -1e9), std::nextafter(near, 1e9)}) {
-    if (deg * kDegree == rad) return deg;
+    if (deg * kRadiansPerDegree == rad) return deg;
   }
   return near;
 }
@@ -134,7 +133,7 @@ glm::dvec3 read_degrees(TomlReader& in, std::string_view key) {
     if (std::abs(angle) <= 180.0) continue;
     in.fail(key, in_quotes(key) + " is beyond half a turn", "give degrees, -180 to 180");
   }
-  return glm::dvec3(deg[0], deg[1], deg[2]) * kDegree;
+  return glm::dvec3(deg[0], deg[1], deg[2]) * kRadiansPerDegree;
 }
 
 void read_limits(TomlReader in, CharacterTraits& traits) {
@@ -261,10 +260,11 @@ Result<CharacterSpec> parse_character_spec(std::string_view text,
     Flexibility& flexibility = spec.traits.flexibility;
     if (in.has("least_trunk_thigh_deg")) {
       flexibility.min_trunk_thigh_angle_rad =
-          in.number("least_trunk_thigh_deg", kAngle) * kDegree;
+          in.number("least_trunk_thigh_deg", kAngle) * kRadiansPerDegree;
     }
     if (in.has("straight_knee_deg")) {
-      flexibility.straight_knee_rad = in.number("straight_knee_deg", kAngle) * kDegree;
+      flexibility.straight_knee_rad =
+          in.number("straight_knee_deg", kAngle) * kRadiansPerDegree;
     }
   }
   for (TomlReader& load : root.tables("load")) read_load(load, spec.traits.loads);

@@ -5,9 +5,9 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string_view>
 
+#include "core/base/angle.h"
 #include "core/base/assert.h"
 #include "core/base/lower_case.h"
 #include "recordings/motion/mot.h"
@@ -52,7 +52,7 @@ std::string first_line(const MotTable& table) {
 }
 
 void append_value(std::string& text, double value, bool is_angle) {
-  const double in_file = is_angle ? value * (180.0 / std::numbers::pi) : value;
+  const double in_file = is_angle ? value * kDegreesPerRadian : value;
   if (!std::isfinite(in_file)) {
     text += "NaN";
     return;

@@ -17,7 +17,6 @@
 #include "recordings/session/session_target.h"
 #include "recordings/session/trial_rules.h"
 #include "recordings/text/atomic_file.h"
-#include "recordings/text/number_text.h"
 #include "recordings/text/toml_reader.h"
 #include "recordings/text/word_text.h"
 
@@ -266,9 +265,14 @@ Trial SessionReader::read_trial(TomlReader& reader) {
   // Files that the program writes next to the trials' folders.
   constexpr std::array<std::string_view, 4> kReserved{
       "calibration.toml", "subject.toml", "report.json", "report.html"};
-  constexpr std::array<std::string_view, 8> kKeys{
-      "name",   "kind",   "fps",        "slow_motion",
-      "frames", "videos", "timestamps", "time_offset_s"};
+  constexpr std::array<std::string_view, 8> kKeys{"name",
+                                                  "kind",
+                                                  "fps",
+                                                  "slow_motion",
+                                                  "frames",
+                                                  "videos",
+                                                  "timestamps",
+                                                  "time_offset_s"};
   reader.allow(kKeys);
   std::vector<std::string> taken;
   for (const Trial& earlier : session_.trials) taken.push_back(earlier.name);

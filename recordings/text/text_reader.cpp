@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/in_quotes.h"
+
 namespace marey::recordings {
 namespace {
 

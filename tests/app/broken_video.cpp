@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -14,17 +13,12 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "tests/support/files/text_file.h"
+
 namespace marey::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << in.rdbuf();
-  return bytes.str();
-}
 
 void write_part(const std::string& bytes, const fs::path& to, double share) {
   const auto size =
@@ -63,11 +57,11 @@ cv::VideoWriter writer_like(const cv::VideoCapture& in, const fs::path& to) {
 }  // namespace
 
 void copy_part(const fs::path& from, const fs::path& to, double share) {
-  write_part(bytes_of(from), to, share);
+  write_part(read_text(from), to, share);
 }
 
 void copy_part_without_index(const fs::path& from, const fs::path& to, double share) {
-  const std::string bytes = bytes_of(from);
+  const std::string bytes = read_text(from);
   std::string others;
   std::string index;
   for (std::size_t place = 0; place < bytes.size();) {
@@ -133,9 +127,10 @@ void copy_turned(const fs::path& from, const fs::path& to, int degrees, int fram
 
 void copy_marked_upside_down(const fs::path& from, const fs::path& to) {
   // ISO/IEC 14496-12, 8.3.2: the matrix is 40 bytes behind the type of a track's header.
-  std::string bytes = bytes_of(from);
+  std::string bytes = read_text(from);
   const std::size_t header = bytes.find("tkhd");
-  if (header == std::string::npos) throw std::runtime_error("no track in " + from.string());
+  if (header == std::string::npos)
+    throw std::runtime_error("no track in " + from.string());
   for (const std::size_t element : {0U, 4U}) {
     const std::size_t place = header + 4 + 40 + 4 * element;
     bytes.replace(place, 4, std::string("\xFF\xFF\x00\x00", 4));  // -1 in 16.16.

@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::testing {
@@ -48,12 +48,7 @@ inline ShownPage show_page(const std::string& html, const std::string& wishes) {
     std::filesystem::remove_all(folder / "profile");
     EXPECT_EQ(std::system(command.c_str()), 0);
   }
-  const auto text_of = [](const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-  };
-  return {text_of(folder / "page"), text_of(folder / "console")};
+  return {read_text(folder / "page"), read_text(folder / "console")};
 }
 
 /// Skips where there is no browser.

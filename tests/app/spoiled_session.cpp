@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 
 namespace marey::testing {
@@ -19,13 +19,6 @@ namespace fs = std::filesystem;
 
 const fs::path kSample = marey::testing::sample_session();
 const fs::path kGoodRun = marey::testing::sample_results() / "once";
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   std::size_t found = text.find(from);
@@ -40,7 +33,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 }  // namespace
 
-SpoiledSession::SpoiledSession() : text_(text_of(kSample / "session.toml")) {
+SpoiledSession::SpoiledSession() : text_(read_text(kSample / "session.toml")) {
   const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
   folder_ =
       fs::temp_directory_path() / ("marey-" + std::string(test->test_suite_name()) + "." +

@@ -10,17 +10,10 @@
 #include "reconstruct/clusters/check_views.h"
 #include "reconstruct/subject/fit_subject.h"
 #include "reconstruct/tags/solve_motion.h"
+#include "tests/support/program/thread_time.h"
 
 namespace marey::testing {
 namespace {
-
-/// Returns the processor time of this thread, since the machine may be busy with other
-/// work.
-double processor_s() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// Returns SolveMotionOptions::camera_sigma_m as app/check/common_sigma.h computes it.
 /// [m]
@@ -46,10 +39,10 @@ SessionAnswer answer_session(const SimulatedSession& session) {
     const Status ok = reconstruct::check_views(cameras, trial->detections, prior.tags);
     if (!ok) return refuse("check_views", ok.error());
   }
-  double start = processor_s();
+  double start = thread_time_s();
   auto fit = reconstruct::fit_subject(
       prior, cameras, session.standing.detections, session.moving.detections);
-  out.fit_s = processor_s() - start;
+  out.fit_s = thread_time_s() - start;
   if (!fit) return refuse("fit_subject", fit.error());
   for (const reconstruct::LeftOutSegment& left : fit->left_out) {
     out.left_out.push_back(left.segment);
@@ -61,12 +54,12 @@ SessionAnswer answer_session(const SimulatedSession& session) {
     return refuse("fit_subject", fit->findings.front().error());
   }
   out.body = std::move(fit->body);
-  start = processor_s();
+  start = thread_time_s();
   reconstruct::SolveMotionOptions options;
   options.camera_sigma_m = common_sigma_m(session);
   auto solved =
       reconstruct::solve_motion(out.body, cameras, session.motion.detections, options);
-  out.solve_s = processor_s() - start;
+  out.solve_s = thread_time_s() - start;
   if (!solved) return refuse("solve_motion", solved.error());
   out.motion = std::move(solved->estimate);
   return out;

@@ -200,6 +200,13 @@ glm::dvec3 place_of(const Character& character,
   return frames[joint_at(character, point.segment)] * point.offset_in_t_pose;
 }
 
+double target_distance_m(const Character& character,
+                         const Pose& pose,
+                         const Constraint& constraint) {
+  return glm::distance(place_of(character, pose, constraint.point),
+                       std::get<DistanceToPoint>(constraint.goal).p_in_world);
+}
+
 glm::dquat rotation_of(const Character& character,
                        const Pose& pose,
                        std::string_view segment) {

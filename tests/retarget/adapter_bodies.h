@@ -97,6 +97,11 @@ struct Adapted {
 [[nodiscard]] glm::dvec3 place_of(const Character& character,
                                   const Pose& pose,
                                   const BodyPoint& point);
+/// Returns the distance of the constraint's point from its goal. [m] Precondition: the
+/// goal is a DistanceToPoint.
+[[nodiscard]] double target_distance_m(const Character& character,
+                                       const Pose& pose,
+                                       const Constraint& constraint);
 /// Rotation of a segment in the world, from the T-pose.
 [[nodiscard]] glm::dquat rotation_of(const Character& character,
                                      const Pose& pose,

@@ -13,6 +13,7 @@
 #include "app/check/uneven_videos.h"
 #include "recordings/takes/take_file.h"
 #include "recordings/text/atomic_file.h"
+#include "tests/support/files/run_sql.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"
 
@@ -87,13 +88,6 @@ class SmallTake {
   std::vector<Finding> findings;
 };
 
-void run_sql(const fs::path& file, const std::string& text) {
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(database, text.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
-  sqlite3_close(database);
-}
-
 TEST(MatchTimes, PutsAllThatWasFoundInAFrameAtItsInstant) {
   const ScratchFolder folder;
   SmallTake take(folder.path());
@@ -136,9 +130,10 @@ TEST(MatchTimes, DeclinesARangeThatATakeDoesNotReach) {
 TEST(MatchTimes, DeclinesTimesThatReachTooFar) {
   const ScratchFolder folder;
   SmallTake take(folder.path());
-  run_sql(folder / kTakeFile,
-          "UPDATE frame SET time_ns = time_ns + 3000000000000000 WHERE camera = 0 AND "
-          "number >= 40");
+  testing::run_sql(
+      folder / kTakeFile,
+      "UPDATE frame SET time_ns = time_ns + 3000000000000000 WHERE camera = 0 AND "
+      "number >= 40");
   const Status matched = take.match();
   ASSERT_FALSE(matched);
   EXPECT_EQ(matched.error().code, Errc::kBadInput);
@@ -150,7 +145,7 @@ TEST(MatchTimes, DeclinesTimesThatReachTooFar) {
 TEST(MatchTimes, AddsUpMoreDroppedFramesThanAnyTakeHas) {
   const ScratchFolder folder;
   SmallTake take(folder.path());
-  run_sql(folder / kTakeFile, "UPDATE frame SET dropped_before = 2147483647");
+  testing::run_sql(folder / kTakeFile, "UPDATE frame SET dropped_before = 2147483647");
   ASSERT_TRUE(take.match());
   ASSERT_EQ(take.findings.size(), 2U);
   EXPECT_NE(take.findings[0].message().find(": 193273528230 frames were dropped"),
@@ -162,8 +157,8 @@ TEST(MatchTimes, DoesNotTruncateMessagesOfLongPaths) {
   const fs::path deep = folder.path() / std::string(200, 'a') / std::string(200, 'b');
   SmallTake take(deep);
   // One frame in nine is late by a third of a period.
-  run_sql(deep / kTakeFile,
-          "UPDATE frame SET time_ns = time_ns + 11000000 WHERE number % 9 = 4");
+  testing::run_sql(deep / kTakeFile,
+                   "UPDATE frame SET time_ns = time_ns + 11000000 WHERE number % 9 = 4");
   ASSERT_TRUE(take.match());
   ASSERT_FALSE(take.findings.empty());
   const std::string& warning = take.findings.front().cause;

@@ -18,6 +18,7 @@
 #include "live/vmc/osc_parse.h"
 #include "live/web/web_server.h"
 #include "recordings/takes/live_take.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/run_program.h"
 #include "tests/support/program/scratch_folder.h"
@@ -59,11 +60,6 @@ ProgramRun run_in_shell(const std::string& script, const Words& words) {
   return run_program("/bin/bash", with({"-c", script, kProgram.string()}, words));
 }
 
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Runs the program, and sends it `signal` as soon as `is_enough` holds. `is_enough`
 /// receives the number of packets sent, because the time for them depends on the machine,
 /// and standard error. `limits` precede the program in the shell.
@@ -87,7 +83,7 @@ ProgramRun run_until(
   int sent = 0;
   while (run.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready) {
     while (listener->receive()) ++sent;
-    if (is_enough(sent, content_of(said))) std::ofstream(stop) << "now";
+    if (is_enough(sent, read_text(said))) std::ofstream(stop) << "now";
   }
   return run.get();
 }

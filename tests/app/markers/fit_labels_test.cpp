@@ -15,6 +15,7 @@
 
 #include "recordings/text/atomic_file.h"
 #include "tests/app/labelled_session.h"
+#include "tests/support/bodies/labelled_wearer.h"
 #include "tests/support/bodies/worn_markers.h"
 #include "tests/support/program/paths.h"
 
@@ -24,11 +25,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kMocap = marey::testing::shared_data() / "mocap";
-
-void exchange(MarkerTracks& tracks, const std::string& a, const std::string& b) {
-  std::swap(*std::find(tracks.labels.begin(), tracks.labels.end(), a),
-            *std::find(tracks.labels.begin(), tracks.labels.end(), b));
-}
 
 /// A standing trial, and a walk in which two labels are exchanged.
 TEST(FitLabels, ProposesTheExchangeThatATrialNeeds) {

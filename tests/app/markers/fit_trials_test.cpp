@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/app/labelled_session.h"
+#include "tests/support/bodies/labelled_wearer.h"
 #include "tests/support/bodies/worn_markers.h"
 
 namespace marey::testing {
@@ -133,12 +134,6 @@ TEST_P(ExchangedTrial, IsNamedWhenTheArmsAreExchanged) {
 
 INSTANTIATE_TEST_SUITE_P(Each, ExchangedTrial, ::testing::Values(0U, 1U, 2U));
 
-void scale(MarkerTracks& tracks, double by) {
-  for (auto& sample : tracks.samples) {
-    if (sample) sample->p_in_world *= by;
-  }
-}
-
 struct OtherUnit {
   double scale;      ///< Factor from mm to the unit of the file's numbers.
   const char* unit;  ///< The unit of the file's numbers.
@@ -149,7 +144,7 @@ class TrialInAnotherUnit : public ::testing::TestWithParam<OtherUnit> {};
 TEST_P(TrialInAnotherUnit, IsNamedWithItsUnit) {
   for (const std::size_t trial : {0U, 2U}) {
     Trials trials;
-    scale(trials.tracks[trial], GetParam().scale);
+    rescale(trials.tracks[trial], GetParam().scale);
     const ProgramRun run = trials.run();
     EXPECT_EQ(run.exit_code, 3) << run.err;
     expect_named(
@@ -167,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(Units,
 
 TEST(FitTrials, AllInInchesForCentimetresAreAPersonTooSmall) {
   Trials trials;
-  for (MarkerTracks& tracks : trials.tracks) scale(tracks, 1.0 / 25.4);
+  for (MarkerTracks& tracks : trials.tracks) rescale(tracks, 1.0 / 25.4);
   ProgramRun run = trials.run({"--unit", "cm"});
   EXPECT_EQ(run.exit_code, 4) << run.err;
   expect_named(run, "", {"0.7", "m tall", "--unit in"});

@@ -20,11 +20,13 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
+#include "core/base/angle.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "reconstruct/motion/joint_angles.h"
 #include "recordings/motion/mot.h"
 #include "tests/support/program/paths.h"
+#include "tests/support/truth/rotation_of_axes.h"
 
 namespace marey {
 namespace {
@@ -35,7 +37,6 @@ using recordings::MotTable;
 using B = HumanBone;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 
 std::vector<double> numbers(const pugi::xml_node& node) {
   std::istringstream words(node.text().as_string());
@@ -46,16 +47,6 @@ std::vector<double> numbers(const pugi::xml_node& node) {
 
 glm::dquat about(const glm::dvec3& axis, double angle_rad) {
   return glm::angleAxis(angle_rad, glm::normalize(axis));
-}
-
-/// The rotation that takes two perpendicular directions to two others.
-glm::dquat taking(const glm::dvec3& a,
-                  const glm::dvec3& b,
-                  const glm::dvec3& to_a,
-                  const glm::dvec3& to_b) {
-  const glm::dmat3 from(a, b, glm::cross(a, b));
-  const glm::dmat3 to(to_a, to_b, glm::cross(to_a, to_b));
-  return glm::quat_cast(to * glm::transpose(from));
 }
 
 /// A function of a coordinate. Splines as straight lines between their knots, which are
@@ -160,7 +151,7 @@ std::vector<glm::dquat> bones(std::map<std::string, glm::dquat>& bodies) {
   const glm::dvec3 x(1, 0, 0);
   const glm::dvec3 y(0, 1, 0);
   const glm::dvec3 z(0, 0, 1);
-  const glm::dquat axes = taking(z, y, x, y);
+  const glm::dquat axes = marey::testing::rotation_of_axes(z, y, x, y);
   std::vector<glm::dquat> out(kHumanBoneCount, bodies["torso"] * axes);
   const auto put = [&](B bone, const glm::dquat& q) { out[index(bone)] = q; };
   put(B::kHips, bodies["pelvis"] * axes);
@@ -175,10 +166,12 @@ std::vector<glm::dquat> bones(std::map<std::string, glm::dquat>& bodies) {
     // The T-pose's arms point to the sides, palms down; the model's zero has them
     // hanging, elbow axes as in its file, palms forward.
     const glm::dvec3 hinge = glm::normalize(glm::dvec3(0.22604696 * side, 0, 0.97386183));
-    const glm::dquat arm = taking(-side * x, side * y, -y, hinge);
+    const glm::dquat arm =
+        marey::testing::rotation_of_axes(-side * x, side * y, -y, hinge);
     put(bone(B::kRightUpperArm), bodies["humerus" + s] * arm);
     put(bone(B::kRightLowerArm), bodies["ulna" + s] * arm);
-    put(bone(B::kRightHand), bodies["hand" + s] * taking(-side * x, -y, -y, x));
+    put(bone(B::kRightHand),
+        bodies["hand" + s] * marey::testing::rotation_of_axes(-side * x, -y, -y, x));
   }
   return out;
 }
@@ -204,10 +197,11 @@ double allowed(const std::string& column) {
   // Eight decimals in the file.
   constexpr double kDigits = 1e-6;
   // The knee's axis leans by 4 degrees and turns with flexion.
-  if (column.starts_with("knee")) return 1.0 * kDegree;
+  if (column.starts_with("knee")) return 1.0 * kRadiansPerDegree;
   // The elbow's axis leans along the arm by 1.3 degrees, that of pronation by 3.
-  if (column.starts_with("elbow")) return 0.3 * kDegree;
-  if (column.starts_with("pro_sup") || column.starts_with("wrist")) return 2.0 * kDegree;
+  if (column.starts_with("elbow")) return 0.3 * kRadiansPerDegree;
+  if (column.starts_with("pro_sup") || column.starts_with("wrist"))
+    return 2.0 * kRadiansPerDegree;
   return kDigits;
 }
 

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <numeric>
 #include <set>
-#include <sstream>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -18,6 +17,8 @@
 #include "app/pages/calibration_json.h"
 #include "calib/quality/assess_calibration.h"
 #include "calib/quality/measure_calibration.h"
+#include "core/base/angle.h"
+#include "tests/app/pages/collect_keys.h"
 #include "tests/app/pages/sample_calibration.h"
 #include "tests/app/pages/sample_report.h"
 #include "tests/support/program/paths.h"
@@ -26,8 +27,6 @@ namespace marey::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kRadians = 3.14159265358979323846 / 180.0;
 
 /// A camera at the origin that looks along +z, 1000 px of focal length, no distortion.
 calib::CalibrationReport of_one_camera() {
@@ -49,7 +48,7 @@ calib::TargetView view_at(int frame, double x_m, glm::dvec2 error_px) {
   view.frame = frame;
   view.target = 1;
   // Facing: its z towards the camera.
-  view.world_from_target = {rotation_from_vector({kRadians * 180.0, 0.0, 0.0}),
+  view.world_from_target = {rotation_from_vector({kRadiansPerDegree * 180.0, 0.0, 0.0}),
                             {x_m, 0.0, 2.0}};
   calib::SeenCorner corner;
   corner.seen_px = {639.5 + 500.0 * x_m, 359.5};
@@ -63,12 +62,14 @@ TEST(MeasureCalibration, FindsTiltAndDistanceOfTheBoard) {
   calib::TargetView view = view_at(0, 0.0, {});
   // Its right edge comes nearer: its face turns to the left.
   view.world_from_target.rotation =
-      rotation_from_vector({0.0, 40.0 * kRadians, 0.0}) * view.world_from_target.rotation;
+      rotation_from_vector({0.0, 40.0 * kRadiansPerDegree, 0.0}) *
+      view.world_from_target.rotation;
   report.rig.views = {view};
   const auto measured = calib::measure_cameras(report);
   ASSERT_EQ(measured[0].tilts.size(), 1U);
-  EXPECT_NEAR(measured[0].tilts[0].tilt_rad, 40.0 * kRadians, 1e-9);
-  EXPECT_NEAR(std::abs(measured[0].tilts[0].azimuth_rad), 180.0 * kRadians, 1e-6);
+  EXPECT_NEAR(measured[0].tilts[0].tilt_rad, 40.0 * kRadiansPerDegree, 1e-9);
+  EXPECT_NEAR(
+      std::abs(measured[0].tilts[0].azimuth_rad), 180.0 * kRadiansPerDegree, 1e-6);
   EXPECT_NEAR(measured[0].tilts[0].distance_m, 2.0, 1e-9);
 }
 
@@ -175,17 +176,6 @@ TEST(CalibrationReport, ExpectsErrorsOfTheSizeThatPointsHave) {
   }
   EXPECT_LT(*report.map.middle_error_m, 0.008);
   EXPECT_GT(*report.map.middle_error_m, 1e-4);
-}
-
-void collect_keys(const Json& value, std::set<std::string>& keys) {
-  if (value.is_object()) {
-    for (const auto& [key, below] : value.items()) {
-      keys.insert(key);
-      collect_keys(below, keys);
-    }
-  } else if (value.is_array()) {
-    for (const Json& below : value) collect_keys(below, keys);
-  }
 }
 
 TEST(CalibrationReport, HasAllItsKeysOnTheFormatsPage) {

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "app/pages/report_json.h"
+#include "tests/app/pages/collect_keys.h"
 #include "tests/app/pages/sample_report.h"
 #include "tests/support/program/paths.h"
 
@@ -18,21 +18,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void collect_report_keys(const Json& value, std::set<std::string>& keys) {
-  if (value.is_object()) {
-    for (const auto& [key, below] : value.items()) {
-      keys.insert(key);
-      collect_report_keys(below, keys);
-    }
-  } else if (value.is_array()) {
-    for (const Json& below : value) collect_report_keys(below, keys);
-  }
-}
-
 TEST(ReportKeys, AreAllOnTheFormatsPage) {
   const std::string section = marey::testing::formats_page("report");
   std::set<std::string> keys;
-  collect_report_keys(report_json(report()), keys);
+  collect_keys(report_json(report()), keys);
   // As many as the sample report holds of everything: far more than the top level's.
   EXPECT_GT(keys.size(), 50U);
   for (const std::string& key : keys) {

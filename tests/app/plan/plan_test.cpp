@@ -4,7 +4,6 @@
 // marey plan, from the outside.
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 
 #include "recordings/session/calibration_file.h"
 #include "recordings/session/plan_file.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/run_program.h"
 #include "tests/support/program/scratch_folder.h"
@@ -22,12 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file).rdbuf();
-  return text.str();
-}
 
 class Plan : public ::testing::Test {
  protected:
@@ -55,7 +49,7 @@ class Plan : public ::testing::Test {
 
   /// Returns the figures of the last run.
   [[nodiscard]] Json figures() const {
-    return Json::parse(text_of(in_folder("out/plan.json")), nullptr, false);
+    return Json::parse(read_text(in_folder("out/plan.json")), nullptr, false);
   }
 
   [[nodiscard]] fs::path in_folder(const std::string& name) const {
@@ -73,7 +67,7 @@ TEST_F(Plan, ReportsEveryHeightInATableAndInFiles) {
   for (const char* name : {"ankle", "hip", "shoulder"}) {
     EXPECT_NE(run.out.find(name), std::string::npos) << run.out;
   }
-  const Json json = Json::parse(text_of(in_folder("out/plan.json")), nullptr, false);
+  const Json json = Json::parse(read_text(in_folder("out/plan.json")), nullptr, false);
   EXPECT_EQ(json.at("tag_size_mm"), 90.0);
   EXPECT_EQ(json.at("places").size(), 75U);
   ASSERT_EQ(json.at("heights").size(), 3U);
@@ -158,7 +152,7 @@ TEST_F(Plan, UsesTheUncertaintyOfCalibratedCameras) {
 TEST_F(Plan, DrawsAPageThatNeedsNothingElse) {
   write_plan();
   EXPECT_EQ(plan().exit_code, 0);
-  const std::string page = text_of(in_folder("out/plan.html"));
+  const std::string page = read_text(in_folder("out/plan.html"));
   EXPECT_NE(page.find("<svg"), std::string::npos);
   EXPECT_NE(page.find("&lt;b&gt;-1.2"), std::string::npos);
   for (const char* not_there :
@@ -171,9 +165,9 @@ TEST_F(Plan, WritesTheSameBytesAgain) {
   write_plan();
   EXPECT_EQ(plan({"--json"}, "a").out, plan({"--json"}, "b").out);
   for (const char* name : {"plan.json", "plan.html"}) {
-    EXPECT_EQ(text_of(in_folder("a") / name), text_of(in_folder("b") / name)) << name;
+    EXPECT_EQ(read_text(in_folder("a") / name), read_text(in_folder("b") / name)) << name;
   }
-  EXPECT_EQ(plan({"--json"}).out, text_of(in_folder("a/plan.json")));
+  EXPECT_EQ(plan({"--json"}).out, read_text(in_folder("a/plan.json")));
 }
 
 TEST_F(Plan, RejectsUnusableInput) {

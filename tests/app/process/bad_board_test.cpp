@@ -11,6 +11,7 @@
 #include <opencv2/core.hpp>
 
 #include "tests/app/process/painted_session.h"
+#include "tests/support/files/text_file.h"
 
 namespace marey::testing {
 namespace {
@@ -50,12 +51,6 @@ void leave_grey(cv::Mat& picture) {
 
 void mirror(cv::Mat& picture, int /*frame*/) {
   cv::flip(picture, picture, /*flipCode=*/1);
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos);
-  return text.replace(at, from.size(), to);
 }
 
 // --- The declared board is the filmed one: the program calibrates
@@ -110,7 +105,7 @@ TEST(BadBoard, IsReportedByVideoWhenNeverSeen) {
 }
 
 TEST(BadBoard, IsReportedWithItsActualDictionary) {
-  PaintedSession session(replaced(charuco_table(), "DICT_5X5_100", "DICT_4X4_50"));
+  PaintedSession session(replace_first(charuco_table(), "DICT_5X5_100", "DICT_4X4_50"));
   session.film(painted_charuco());
   EXPECT_TRUE(declines_board(session,
                              {"seen0",
@@ -161,22 +156,26 @@ TEST(BadBoard, IsDetectedWhenAChessboardReplacesACharuco) {
 }
 
 TEST(BadBoard, IsDetectedWithOtherRowsAndColumns) {
-  PaintedSession turned(replaced(
-      replaced(charuco_table(), "rows = 6", "rows = 8"), "columns = 8", "columns = 6"));
+  PaintedSession turned(
+      replace_first(replace_first(charuco_table(), "rows = 6", "rows = 8"),
+                    "columns = 8",
+                    "columns = 6"));
   turned.film(painted_charuco());
   EXPECT_TRUE(
       declines_board(turned, {"in other places than on it", "Next: correct rows"}));
-  PaintedSession corners(replaced(replaced(chessboard_table(), "rows = 6", "rows = 5"),
-                                  "columns = 9",
-                                  "columns = 8"));
+  PaintedSession corners(
+      replace_first(replace_first(chessboard_table(), "rows = 6", "rows = 5"),
+                    "columns = 9",
+                    "columns = 8"));
   corners.film(painted_chessboard());
   EXPECT_TRUE(declines_board(corners,
                              {"no chessboard of 8 x 5 squares is seen",
                               "a chessboard of 9 x 6 squares is",
                               "squares are counted, not their corners"}));
-  PaintedSession grid(replaced(replaced(april_grid_table(), "rows = 3", "rows = 4"),
-                               "columns = 4",
-                               "columns = 3"));
+  PaintedSession grid(
+      replace_first(replace_first(april_grid_table(), "rows = 3", "rows = 4"),
+                    "columns = 4",
+                    "columns = 3"));
   grid.film(painted_april_grid());
   EXPECT_TRUE(declines_board(grid,
                              {"are arranged as on a board of 4 x 3",

@@ -21,6 +21,7 @@
 #include "core/humanoid.h"
 #include "recordings/motion/motion_tables.h"
 #include "recordings/session/calibration_file.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/truth/truth.h"
 
@@ -33,14 +34,6 @@ using Json = nlohmann::json;
 const fs::path kSample = marey::testing::sample_session();
 const fs::path kRuns = marey::testing::sample_results();
 constexpr int kRecordedFrames = 90;
-
-std::string text_of_file(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  EXPECT_TRUE(in) << file;
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// Files below `folder`, relative to it.
 std::set<std::string> files_in(const fs::path& folder) {
@@ -208,14 +201,14 @@ TEST(FirstLight, UncertaintiesMatchTheSizeOfTheErrors) {
 }
 
 TEST(FirstLight, StandardOutputContainsOnlyJson) {
-  const std::string out = text_of_file(kRuns / "once.process.out");
+  const std::string out = read_text(kRuns / "once.process.out");
   const Json figures = Json::parse(out, nullptr, false);
   ASSERT_FALSE(figures.is_discarded()) << out.substr(0, 200);
-  EXPECT_EQ(figures, Json::parse(text_of_file(kRuns / "once/report.json")));
+  EXPECT_EQ(figures, Json::parse(read_text(kRuns / "once/report.json")));
 }
 
 TEST(FirstLight, ProgressLinesAreJson) {
-  std::istringstream lines(text_of_file(kRuns / "once.process.err"));
+  std::istringstream lines(read_text(kRuns / "once.process.err"));
   int stages = 0;
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("warning: ")) continue;
@@ -257,7 +250,7 @@ void forget_timings(Json& figures) {
 
 /// The data of the page, without timings, and the page without its data.
 std::pair<Json, std::string> page_without_timings(const fs::path& html) {
-  std::string page = text_of_file(html);
+  std::string page = read_text(html);
   const std::size_t opening = page.find("type=\"application/json\"");
   if (opening == std::string::npos) return {Json(), page};
   const std::size_t start = page.find('>', opening) + 1;
@@ -273,15 +266,14 @@ TEST(SecondRun, WritesTheSameBytes) {
   EXPECT_EQ(files, files_in(kRuns / "again"));
   for (const std::string& name : files) {
     if (name.starts_with("report.")) continue;
-    EXPECT_TRUE(text_of_file(kRuns / "once" / name) ==
-                text_of_file(kRuns / "again" / name))
+    EXPECT_TRUE(read_text(kRuns / "once" / name) == read_text(kRuns / "again" / name))
         << name << " differs";
   }
 }
 
 TEST(SecondRun, WritesTheSameReportButForTimings) {
-  Json once = Json::parse(text_of_file(kRuns / "once/report.json"));
-  Json again = Json::parse(text_of_file(kRuns / "again/report.json"));
+  Json once = Json::parse(read_text(kRuns / "once/report.json"));
+  Json again = Json::parse(read_text(kRuns / "again/report.json"));
   forget_timings(once);
   forget_timings(again);
   EXPECT_EQ(once, again);
@@ -300,8 +292,7 @@ TEST(Stages, OneByOneMakeWhatProcessMakes) {
                            "walk/motion.bvh",
                            "walk/motion.npz",
                            "walk/child.bvh"}) {
-    EXPECT_TRUE(text_of_file(kRuns / "once" / name) ==
-                text_of_file(kRuns / "stages" / name))
+    EXPECT_TRUE(read_text(kRuns / "once" / name) == read_text(kRuns / "stages" / name))
         << name << " differs";
   }
 }

@@ -21,6 +21,7 @@
 
 #include "core/base/quantile.h"
 #include "recordings/motion/motion_tables.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/run_program.h"
 #include "tests/support/program/scratch_folder.h"
@@ -34,13 +35,6 @@ namespace fs = std::filesystem;
 const fs::path kShared = marey::testing::shared_data();
 const fs::path kDevSession =
     marey::testing::source_dir() / "recordings/samples/blender-dev/session.toml";
-
-std::string content_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// The tables of a session.toml: its head, then each [[camera]] and [[trial]].
 std::vector<std::string> tables_of(const std::string& text) {
@@ -79,7 +73,7 @@ std::string with_cameras(std::string trial, const std::set<std::string>& cameras
 /// no other motion.
 std::string session_text(const fs::path& session, const std::set<std::string>& cameras) {
   std::string text;
-  for (std::string table : tables_of(content_of(session))) {
+  for (std::string table : tables_of(read_text(session))) {
     if (table.starts_with("[[camera]]")) {
       const auto name = table.find("cam", table.find("name"));
       if (!cameras.contains(table.substr(name, 4))) continue;

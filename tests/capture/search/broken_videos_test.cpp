@@ -18,6 +18,7 @@
 #include "capture/video/frame_source.h"
 #include "capture/video/open_frames.h"
 #include "tests/capture/scratch_video.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::capture {
@@ -26,11 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 using testing::ScratchFolder;
 
-std::string bytes_of(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 void put(const fs::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
@@ -38,7 +34,7 @@ void put(const fs::path& path, const std::string& bytes) {
 /// Zeros some JPEG images from the given offset to their ends: if only the tables were
 /// damaged, those of the previous image would be used.
 void spoil(const fs::path& path, const std::vector<int>& pictures, std::size_t from) {
-  std::string bytes = bytes_of(path);
+  std::string bytes = testing::read_text(path);
   std::vector<std::size_t> starts;
   for (std::size_t at = bytes.find("\xFF\xD8\xFF"); at != std::string::npos;
        at = bytes.find("\xFF\xD8\xFF", at + 1)) {
@@ -125,7 +121,7 @@ TEST(BrokenVideo, ThatIsEmptyIsRefused) {
 /// images contain their own size.
 void write_growing_video(const fs::path& folder, const fs::path& to) {
   tests::write_video(folder / "small.avi", 20);
-  const std::string small = bytes_of(folder / "small.avi");
+  const std::string small = testing::read_text(folder / "small.avi");
   cv::VideoWriter large((folder / "large.avi").string(),
                         cv::CAP_FFMPEG,
                         cv::VideoWriter::fourcc('M', 'J', 'P', 'G'),

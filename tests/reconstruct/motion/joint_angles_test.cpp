@@ -13,6 +13,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
+#include "core/base/angle.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "tests/reconstruct/motion/opensim_model.h"
@@ -30,7 +31,6 @@ using B = HumanBone;
 using C = Coordinate;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 const glm::dvec3 kX{1, 0, 0};
 const glm::dvec3 kY{0, 1, 0};
 const glm::dvec3 kZ{0, 0, 1};
@@ -141,13 +141,13 @@ TEST(JointAngles, TheTPoseHasArmsOutAndPalmsDown) {
     if (one == C::kPronationRight || one == C::kPronationLeft) wanted = 90.0 + 13.0677;
     if (one == C::kArmRotationRight || one == C::kArmRotationLeft) wanted = -13.0677;
     if (!is_angle(one)) continue;
-    EXPECT_NEAR(angles.at(0, one) / kDegree, wanted, 1e-4) << name(one);
+    EXPECT_NEAR(angles.at(0, one) / kRadiansPerDegree, wanted, 1e-4) << name(one);
   }
 }
 
 // Sign of each angle, in rotations of the skeleton's bones: X is its left.
 TEST(JointAngles, SignsAreThoseOfTheField) {
-  const double a = 20.0 * kDegree;
+  const double a = 20.0 * kRadiansPerDegree;
   const JointAngles legs = turned({{B::kRightUpperLeg, about(-kX, a)},
                                    {B::kRightLowerLeg, about(kX, 2 * a)},
                                    {B::kRightFoot, about(-kX, a)},
@@ -172,15 +172,15 @@ TEST(JointAngles, SignsAreThoseOfTheField) {
   const JointAngles heading = turned({{B::kHips, about(kY, a)}});
   EXPECT_NEAR(heading.at(0, C::kPelvisRotation), a, 1e-12);  // To the left.
   // Arms hang, elbows bent forward, palms to the thighs.
-  const JointAngles arms = turned({{B::kLeftUpperArm, about(kZ, -90 * kDegree)},
+  const JointAngles arms = turned({{B::kLeftUpperArm, about(kZ, -90 * kRadiansPerDegree)},
                                    {B::kLeftLowerArm, about(-kY, 3 * a)},
                                    {B::kLeftHand, about(kZ, -a)},
-                                   {B::kRightUpperArm, about(kZ, 90 * kDegree)},
+                                   {B::kRightUpperArm, about(kZ, 90 * kRadiansPerDegree)},
                                    {B::kRightHand, about(kY, a)}});
   EXPECT_NEAR(arms.at(0, C::kArmFlexionLeft), 0.0, 1e-12);
   EXPECT_NEAR(arms.at(0, C::kElbowLeft), 3 * a, 1e-12);
   EXPECT_NEAR(arms.at(0, C::kWristFlexionLeft), a, 1e-12);  // Towards the palm.
-  EXPECT_NEAR(arms.at(0, C::kPronationLeft), (90.0 + 13.0677) * kDegree, 1e-5);
+  EXPECT_NEAR(arms.at(0, C::kPronationLeft), (90.0 + 13.0677) * kRadiansPerDegree, 1e-5);
   EXPECT_NEAR(arms.at(0, C::kWristDeviationRight), -a, 1e-12);  // To the thumb.
 }
 
@@ -251,7 +251,7 @@ TEST(JointAngles, GoOnBeyondHalfATurn) {
 
 // Sideways past the T-pose, where gimbal lock is: frame 54 of 109 is exactly at it.
 TEST(JointAngles, AnArmThatIsRaisedSidewaysGoesOnOverhead) {
-  auto frames = sweep("arm_add_r", 0.0, -180.0 * kDegree, 109);
+  auto frames = sweep("arm_add_r", 0.0, -180.0 * kRadiansPerDegree, 109);
   for (Angles& angles : frames) angles[index(C::kArmFlexionRight)] = 0.2;
   const JointAngles angles = joint_angles(motion_of(frames));
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -265,7 +265,7 @@ TEST(JointAngles, AnArmThatIsRaisedSidewaysGoesOnOverhead) {
 }
 
 TEST(JointAngles, TakeLaterValuesInATPoseAtTheStart) {
-  auto frames = sweep("arm_add_l", -90.0 * kDegree, 0.0, 50);
+  auto frames = sweep("arm_add_l", -90.0 * kRadiansPerDegree, 0.0, 50);
   frames.insert(frames.begin(), 20, frames.front());
   for (Angles& angles : frames) angles[index(C::kArmRotationLeft)] = 0.3;
   const JointAngles angles = joint_angles(motion_of(frames));
@@ -279,7 +279,7 @@ TEST(JointAngles, TakeLaterValuesInATPoseAtTheStart) {
 // not quite through the T-pose. Within 25 degrees of the lock noise grows by a factor of
 // 10 and more; further away the angles equal the input, without a remaining jump.
 TEST(JointAngles, NoiseNearGimbalLockLeavesNothingBehind) {
-  auto frames = sweep("arm_add_r", 0.0, -160.0 * kDegree, 200);
+  auto frames = sweep("arm_add_r", 0.0, -160.0 * kRadiansPerDegree, 200);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i][index(C::kArmFlexionRight)] = 0.1;
   }
@@ -287,30 +287,31 @@ TEST(JointAngles, NoiseNearGimbalLockLeavesNothingBehind) {
   Motion motion = motion_of(frames);
   Dice dice(11);
   for (Pose& pose : motion.poses) {
-    for (glm::dquat& q : pose.parent_from_joint) q = q * dice.turn(0.2 * kDegree);
+    for (glm::dquat& q : pose.parent_from_joint)
+      q = q * dice.turn(0.2 * kRadiansPerDegree);
   }
   const JointAngles angles = joint_angles(motion);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const double add = frames[i][index(C::kArmAdductionRight)];
-    if (std::abs(add + kPi / 2) < 25.0 * kDegree) continue;
+    if (std::abs(add + kPi / 2) < 25.0 * kRadiansPerDegree) continue;
     // The noise of a few bones together, through a cosine of 0.42.
-    EXPECT_NEAR(angles.at(i, C::kArmFlexionRight), 0.1, 2.5 * kDegree) << i;
-    EXPECT_NEAR(angles.at(i, C::kArmAdductionRight), add, 1.0 * kDegree) << i;
-    EXPECT_NEAR(angles.at(i, C::kArmRotationRight), 0.0, 2.5 * kDegree) << i;
+    EXPECT_NEAR(angles.at(i, C::kArmFlexionRight), 0.1, 2.5 * kRadiansPerDegree) << i;
+    EXPECT_NEAR(angles.at(i, C::kArmAdductionRight), add, 1.0 * kRadiansPerDegree) << i;
+    EXPECT_NEAR(angles.at(i, C::kArmRotationRight), 0.0, 2.5 * kRadiansPerDegree) << i;
   }
 }
 
 TEST(JointAngles, TheGroundIsTurnedUntilThePersonFacesAlongX) {
   for (int quarter = -1; quarter < 3; ++quarter) {
     const auto frames = sweep("pelvis_rotation",
-                              (quarter * 90 - 20) * kDegree,
-                              (quarter * 90 + 30) * kDegree,
+                              (quarter * 90 - 20) * kRadiansPerDegree,
+                              (quarter * 90 + 30) * kRadiansPerDegree,
                               9);
     const Motion motion = motion_of(frames);
     const double yaw_rad = yaw_to_face_x_rad(motion);
     EXPECT_NEAR(std::remainder(yaw_rad + quarter * kPi / 2, 2 * kPi), 0.0, 1e-12);
     const JointAngles angles = joint_angles(motion, {.ground_yaw_rad = yaw_rad});
-    EXPECT_NEAR(angles.at(0, C::kPelvisRotation), -20 * kDegree, 1e-9);
+    EXPECT_NEAR(angles.at(0, C::kPelvisRotation), -20 * kRadiansPerDegree, 1e-9);
   }
 }
 

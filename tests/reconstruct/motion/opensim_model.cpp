@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "core/base/assert.h"
+#include "tests/support/truth/rotation_of_axes.h"
 
 namespace marey::testing {
 namespace {
@@ -21,18 +22,8 @@ glm::dquat about(const glm::dvec3& axis, double angle_rad) {
   return glm::angleAxis(angle_rad, glm::normalize(axis));
 }
 
-/// Returns the rotation that maps two perpendicular directions to two others.
-glm::dquat taking(const glm::dvec3& a,
-                  const glm::dvec3& b,
-                  const glm::dvec3& to_a,
-                  const glm::dvec3& to_b) {
-  const glm::dmat3 from(a, b, glm::cross(a, b));
-  const glm::dmat3 to(to_a, to_b, glm::cross(to_a, to_b));
-  return glm::quat_cast(to * glm::transpose(from));
-}
-
 /// OpenSim's X, Y, Z are this skeleton's Z, Y, -X.
-const glm::dquat kAxes = taking(kZ, kY, kX, kY);
+const glm::dquat kAxes = rotation_of_axes(kZ, kY, kX, kY);
 
 }  // namespace
 
@@ -104,8 +95,9 @@ void Model::arm(const glm::dquat& torso, bool left) {
   // In the T-pose an arm points to its side, palm down, and the elbow bends about the
   // vertical; at zero it hangs, palm to the front.
   const glm::dvec3 out = -side * kX;
-  const glm::dquat upper_at_zero = taking(out, side * kY, -kY, glm::normalize(elbow));
-  const glm::dquat hand_at_zero = taking(out, -kY, -kY, kX);
+  const glm::dquat upper_at_zero =
+      rotation_of_axes(out, side * kY, -kY, glm::normalize(elbow));
+  const glm::dquat hand_at_zero = rotation_of_axes(out, -kY, -kY, kX);
   put(left ? B::kLeftUpperArm : B::kRightUpperArm, upper * upper_at_zero);
   put(left ? B::kLeftLowerArm : B::kRightLowerArm, radius(0.4) * hand_at_zero);
   put(left ? B::kLeftHand : B::kRightHand, hand * hand_at_zero);

@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/reconstruct/tags/nearest_quantile.h"
 #include "tests/support/bodies/synthetic_person.h"
 
 namespace marey::reconstruct {
@@ -70,12 +71,6 @@ std::vector<double> limbs_off_m(const Scene& scene, const SolvedTrial& trial) {
   return all;
 }
 
-double quantile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(std::lround(share * last))];
-}
-
 std::vector<Source> sources(const SolvedTrial& trial, HumanBone bone) {
   std::vector<Source> out;
   for (const auto& frame : trial.estimate.uncertainty)
@@ -89,8 +84,8 @@ TEST(SolveMotion, RecoversAWalkFromExactCorners) {
   ASSERT_TRUE(trial) << trial.error().message();
   const auto off = limbs_off_m(scene, *trial);
   // Pose priors and smoothness have a ten thousandth of a sighting's weight.
-  EXPECT_LT(quantile(off, 0.5), 2e-5);
-  EXPECT_LT(quantile(off, 1.0), 1e-3);
+  EXPECT_LT(nearest_quantile(off, 0.5), 2e-5);
+  EXPECT_LT(nearest_quantile(off, 1.0), 1e-3);
   EXPECT_LT(trial->rms_px, 0.02);
   EXPECT_EQ(trial->frames_solved, scene.film.frames);
 }
@@ -101,8 +96,8 @@ TEST(SolveMotion, StaysWithinMillimetresUnderNoise) {
   ASSERT_TRUE(trial) << trial.error().message();
   const auto off = limbs_off_m(scene, *trial);
   // A corner is 0.8 mm off in space; a few tags and three frames determine each joint.
-  EXPECT_LT(quantile(off, 0.5), 1e-3);
-  EXPECT_LT(quantile(off, 0.95), 3e-3);
+  EXPECT_LT(nearest_quantile(off, 0.5), 1e-3);
+  EXPECT_LT(nearest_quantile(off, 0.95), 3e-3);
   EXPECT_NEAR(trial->rms_px, 0.26, 0.03);
 }
 
@@ -119,8 +114,8 @@ TEST(SolveMotion, HasCorrectUncertainties) {
     }
   }
   // The value would be 0.89 if the noise were the declared 0.3 px: 0.6.
-  EXPECT_GT(quantile(in_sigmas, 0.5), 0.4);
-  EXPECT_LT(quantile(in_sigmas, 0.5), 2.0);
+  EXPECT_GT(nearest_quantile(in_sigmas, 0.5), 0.4);
+  EXPECT_LT(nearest_quantile(in_sigmas, 0.5), 2.0);
 }
 
 TEST(SolveMotion, AddsTheBodysOwnUncertainty) {
@@ -188,7 +183,7 @@ TEST(SolveMotion, FindsByHowMuchCamerasAreLate) {
               c == 0 ? ClockSource::kReference : ClockSource::kEstimated);
   }
   // With them the walk is as accurate as without any.
-  EXPECT_LT(quantile(limbs_off_m(scene, *trial), 0.95), 3e-3);
+  EXPECT_LT(nearest_quantile(limbs_off_m(scene, *trial), 0.95), 3e-3);
 }
 
 TEST(SolveMotion, KeepsAnOffsetThatIsGiven) {
@@ -316,7 +311,7 @@ TEST(SolveMotion, DoesWithoutACameraThatHasNoVideo) {
   const auto trial = solve_motion(scene.truth, scene.cameras, detections, scene.options);
   ASSERT_TRUE(trial) << trial.error().message();
   EXPECT_EQ(trial->cameras[1].corners, 0);
-  EXPECT_LT(quantile(limbs_off_m(scene, *trial), 0.5), 1e-3);
+  EXPECT_LT(nearest_quantile(limbs_off_m(scene, *trial), 0.5), 1e-3);
 }
 
 TEST(SolveMotion, CountsTheSightings) {

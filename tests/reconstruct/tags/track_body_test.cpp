@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "tests/reconstruct/tags/nearest_quantile.h"
 #include "tests/support/bodies/synthetic_person.h"
 #include "tests/support/program/count_allocations.h"
 
@@ -94,12 +95,6 @@ class BodyScene {
   }
 };
 
-double quantile_of(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  const auto last = static_cast<double>(values.size() - 1);
-  return values[static_cast<std::size_t>(std::lround(share * last))];
-}
-
 bool is_finite(const BodyScene::Frame& frame) {
   const auto& root = frame.pose.root_in_world;
   bool all = std::isfinite(root.x + root.y + root.z);
@@ -124,8 +119,8 @@ TEST(TrackBody, RecoversAWalkFromExactCorners) {
   }
   // The motion model and the pose priors have a thousandth of the tags' weight; more if
   // no tag of a foot or hand is seen.
-  EXPECT_LT(quantile_of(off, 0.5), 3e-4);
-  EXPECT_LT(quantile_of(off, 0.95), 3e-3);
+  EXPECT_LT(nearest_quantile(off, 0.5), 3e-4);
+  EXPECT_LT(nearest_quantile(off, 0.95), 3e-3);
 }
 
 TEST(TrackBody, StaysWithinMillimetresUnderNoise) {
@@ -141,8 +136,8 @@ TEST(TrackBody, StaysWithinMillimetresUnderNoise) {
     ++frames;
   }
   // A corner is 0.8 mm off in space; a few tags determine each joint.
-  EXPECT_LT(quantile_of(off, 0.5), 2e-3);
-  EXPECT_LT(quantile_of(off, 0.95), 6e-3);
+  EXPECT_LT(nearest_quantile(off, 0.5), 2e-3);
+  EXPECT_LT(nearest_quantile(off, 0.95), 6e-3);
   // Noise of two coordinates, of which the pose absorbs some.
   EXPECT_NEAR(std::sqrt(squares_px2 / frames), 0.24, 0.05);
 }
@@ -303,8 +298,8 @@ TEST(TrackBody, KeepsItsAccuracyWhenFramesAreDropped) {
     const auto here = scene.off_m(frame);
     off.insert(off.end(), here.begin(), here.end());
   }
-  EXPECT_LT(quantile_of(off, 0.5), 5e-4);
-  EXPECT_LT(quantile_of(off, 0.95), 5e-3);
+  EXPECT_LT(nearest_quantile(off, 0.5), 5e-4);
+  EXPECT_LT(nearest_quantile(off, 0.95), 5e-3);
 }
 
 TEST(TrackBody, GivesTheSameBytesTwice) {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/angle.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"
 
@@ -16,8 +18,6 @@ namespace {
 
 using testing::ScratchFolder;
 using B = HumanBone;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 // The example of docs/formats/README.md: the first toml block after its heading.
 std::string documented() {
@@ -31,10 +31,8 @@ CharacterSpec parsed(const std::string& text) {
 }
 
 std::string mistake(const std::string& from, const std::string& to) {
-  std::string text = documented();
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  const auto spec = parse_character_spec(text.replace(at, from.size(), to), "c.toml");
+  const auto spec =
+      parse_character_spec(testing::replace_first(documented(), from, to), "c.toml");
   return spec ? "" : spec.error().message();
 }
 
@@ -56,10 +54,11 @@ TEST(CharacterFile, ReadsTheExampleOfTheDocumentation) {
   EXPECT_TRUE(traits.has_limits);
   ASSERT_EQ(traits.limits.size(), 1U);
   EXPECT_EQ(traits.limits[0].bone, B::kLeftLowerLeg);
-  EXPECT_DOUBLE_EQ(traits.limits[0].max_rad.x, 95.0 * kDegree);
-  EXPECT_DOUBLE_EQ(traits.limits[0].min_rad.z, -10.0 * kDegree);
-  EXPECT_DOUBLE_EQ(traits.flexibility.min_trunk_thigh_angle_rad, 80.0 * kDegree);
-  EXPECT_DOUBLE_EQ(traits.flexibility.straight_knee_rad, 10.0 * kDegree);
+  EXPECT_DOUBLE_EQ(traits.limits[0].max_rad.x, 95.0 * kRadiansPerDegree);
+  EXPECT_DOUBLE_EQ(traits.limits[0].min_rad.z, -10.0 * kRadiansPerDegree);
+  EXPECT_DOUBLE_EQ(traits.flexibility.min_trunk_thigh_angle_rad,
+                   80.0 * kRadiansPerDegree);
+  EXPECT_DOUBLE_EQ(traits.flexibility.straight_knee_rad, 10.0 * kRadiansPerDegree);
   ASSERT_EQ(traits.loads.size(), 1U);
   EXPECT_EQ(traits.loads[0].name, "bag");
   EXPECT_EQ(traits.loads[0].point.segment, "leftHand");
@@ -78,9 +77,9 @@ CharacterSpec a_character() {
   traits.mass.segment_kg[index(B::kRightHand)] = 0.0;
   traits.has_limits = false;
   traits.limits.push_back({B::kSpine,
-                           glm::dvec3(-10.1, -170.0 / 3.0, -180.0) * kDegree,
-                           glm::dvec3(0.3, 0.1, 180.0) * kDegree});
-  traits.flexibility = {77.7 * kDegree, 9.1 * kDegree};
+                           glm::dvec3(-10.1, -170.0 / 3.0, -180.0) * kRadiansPerDegree,
+                           glm::dvec3(0.3, 0.1, 180.0) * kRadiansPerDegree});
+  traits.flexibility = {77.7 * kRadiansPerDegree, 9.1 * kRadiansPerDegree};
   traits.loads.push_back({"bag", {"leftHand", {0.1 / 3.0, -1e-9 / 7.0, 0.0}}, 5.0 / 3.0});
   traits.loads.push_back({"hat", {"some joint", {0.0, 0.0, 0.0}}, 0.0});
   return spec;

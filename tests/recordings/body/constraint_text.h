@@ -8,6 +8,7 @@
 
 #include "recordings/body/constraints_file.h"
 #include "recordings/text/atomic_file.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 
 namespace marey::testing {
@@ -27,10 +28,7 @@ inline std::string annex() {
 }
 
 inline std::string annex_with(const std::string& from, const std::string& to) {
-  std::string text = annex();
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
+  return replace_first(annex(), from, to);
 }
 
 }  // namespace marey::testing

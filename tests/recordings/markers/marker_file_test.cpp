@@ -13,19 +13,13 @@
 #include "recordings/markers/c3d_markers.h"
 #include "recordings/text/atomic_file.h"
 #include "tests/recordings/markers/c3d_example.h"
+#include "tests/recordings/markers/has_note.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {
 namespace {
 
 using testing::ScratchFolder;
-
-bool has_note(const MarkerFile& file, const std::string& words) {
-  for (const std::string& note : file.notes) {
-    if (note.find(words) != std::string::npos) return true;
-  }
-  return false;
-}
 
 /// A subject who walks along X, heels to head, with gaps. Fixed seed 5.
 MarkerFile walker(std::size_t frames = 40) {

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/recordings/markers/has_note.h"
+
 namespace marey::recordings {
 namespace {
 
@@ -35,13 +37,6 @@ MarkerFile read(const std::string& text) {
 std::string trc_refusal(const std::string& text) {
   const auto file = parse_trc(text, "a.trc");
   return file ? "no refusal" : file.error().message();
-}
-
-bool has_trc_note(const MarkerFile& file, const std::string& words) {
-  for (const std::string& note : file.notes) {
-    if (note.find(words) != std::string::npos) return true;
-  }
-  return false;
 }
 
 TEST(Trc, HoldsLabelledMarkersInMillimetres) {
@@ -95,7 +90,7 @@ TEST(Trc, ReportsRowsThatEndEarlyAndSkipsBlankLines) {
   EXPECT_EQ(file.tracks.frames(), 2U);
   EXPECT_TRUE(file.tracks.at(0, 0));
   EXPECT_FALSE(file.tracks.at(0, 1));
-  EXPECT_TRUE(has_trc_note(file, "2 rows end before the last marker"));
+  EXPECT_TRUE(has_note(file, "2 rows end before the last marker"));
 }
 
 TEST(Trc, ExtraTabsAndBlankColumnsDoNotMatter) {
@@ -134,13 +129,13 @@ TEST(Trc, CellsMayLieBetweenOtherMarksThanTabs) {
 TEST(Trc, ReportsCommasForDecimalPoints) {
   const MarkerFile file = read(head() + "1\t0,00\t1,5\t2\t3\t4\t5\t6\n");
   EXPECT_EQ(file.tracks.at(0, 0)->p_in_world.x, 0.0015);
-  EXPECT_TRUE(has_trc_note(file, "2 numbers have a comma"));
+  EXPECT_TRUE(has_note(file, "2 numbers have a comma"));
 }
 
 TEST(Trc, ReportsWrongCountsOfTheHeader) {
   const MarkerFile file = read(head("100\t100\t99\t3\tmm\t100\t1\t2") + kRows);
-  EXPECT_TRUE(has_trc_note(file, "the header states 3 markers, and there are 2"));
-  EXPECT_TRUE(has_trc_note(file, "the header states 99 frames, and there are 2"));
+  EXPECT_TRUE(has_note(file, "the header states 3 markers, and there are 2"));
+  EXPECT_TRUE(has_note(file, "the header states 99 frames, and there are 2"));
 }
 
 TEST(Trc, MarkersWithoutALabelGetOne) {
@@ -157,7 +152,7 @@ TEST(Trc, PrefersTheTimesOfTheRowsToTheRateOfTheHeader) {
       head("250\t250\t3\t2\tmm\t250\t1\t3") +
       "1\t0\t1\t2\t3\t4\t5\t6\n2\t0.04\t1\t2\t3\t4\t5\t6\n3\t0.08\t1\t2\t3\t4\t5\t6\n");
   EXPECT_EQ(file.tracks.rate.hz, 25.0);
-  EXPECT_TRUE(has_trc_note(file, "DataRate is 250 Hz, the times 25 Hz"));
+  EXPECT_TRUE(has_note(file, "DataRate is 250 Hz, the times 25 Hz"));
 }
 
 TEST(Trc, FramesThatAreLeftOutAreThereWithoutMarkers) {
@@ -169,7 +164,7 @@ TEST(Trc, FramesThatAreLeftOutAreThereWithoutMarkers) {
   EXPECT_EQ(file.tracks.start_s, 0.5);
   EXPECT_FALSE(file.tracks.at(2, 0));
   EXPECT_TRUE(file.tracks.at(3, 0));
-  EXPECT_TRUE(has_trc_note(file, "2 frames are missing"));
+  EXPECT_TRUE(has_note(file, "2 frames are missing"));
 }
 
 TEST(Trc, AUnitThatIsMissingIsFound) {
@@ -178,14 +173,14 @@ TEST(Trc, AUnitThatIsMissingIsFound) {
                                "2\t0.01\t0.1\t1.7\t0.1\t0\t0.1\t0.1\n");
   // Two markers are too few to estimate the size of a body.
   EXPECT_EQ(file.axes.unit_from, Evidence::kConvention);
-  EXPECT_TRUE(has_trc_note(file, "Units names no unit of length"));
+  EXPECT_TRUE(has_note(file, "Units names no unit of length"));
 }
 
 TEST(Trc, OneFrameNeedsNoRate) {
   const MarkerFile file =
       read(head("0\t0\t1\t2\tmm\t0\t1\t1") + "1\t0\t1\t2\t3\t4\t5\t6\n");
   EXPECT_EQ(file.tracks.frames(), 1U);
-  EXPECT_TRUE(has_trc_note(file, "one frame needs none"));
+  EXPECT_TRUE(has_note(file, "one frame needs none"));
 }
 
 TEST(Trc, FaultsAreRefusedWithTheirLine) {

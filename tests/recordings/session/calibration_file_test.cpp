@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "recordings/text/atomic_file.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {
@@ -63,14 +64,6 @@ std::string calibration_mistake(const std::string& text) {
   return calibration ? "" : calibration.error().message();
 }
 
-std::string calibration_with(std::string text,
-                             std::string_view from,
-                             std::string_view to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 TEST(CalibrationFile, GivesBackEveryDouble) {
   const Calibration written = two_cameras();
   const Result<Calibration> read = parse_calibration(calibration_text(written), "c.toml");
@@ -121,7 +114,7 @@ TEST(CalibrationFile, ReadsPose2SimsOwn) {
 }
 
 TEST(CalibrationFile, PassesOverKeysOfOthers) {
-  const std::string text = calibration_with(
+  const std::string text = testing::replace_first(
       std::string(kPose2Sim), "fisheye", "rotation_count = 0\nport = 1\nfisheye");
   EXPECT_EQ(calibration_mistake(text), "");
 }
@@ -152,7 +145,7 @@ TEST(CalibrationFile, WorldFromCameraHoldsTheCentreOfTheCamera) {
 }
 
 TEST(CalibrationFile, RefusesAPoseWhoseFormsDisagree) {
-  const std::string text = calibration_with(
+  const std::string text = testing::replace_first(
       calibration_text(two_cameras()), "rotation = [0.3", "rotation = [0.4");
   EXPECT_EQ(
       calibration_mistake(text),
@@ -161,7 +154,7 @@ TEST(CalibrationFile, RefusesAPoseWhoseFormsDisagree) {
 }
 
 TEST(CalibrationFile, RefusesAMatrixThatIsNotThePose) {
-  const std::string text = calibration_with(
+  const std::string text = testing::replace_first(
       calibration_text(two_cameras()), "translation = [0.3", "translation = [0.4");
   EXPECT_TRUE(calibration_mistake(text).starts_with(
       "c.toml:13: \"world_from_camera\" is not the"));
@@ -180,15 +173,15 @@ TEST(CalibrationFile, RefusesCamerasThatStandNowhereNear) {
 }
 
 TEST(CalibrationFile, NamesTheLineOfAMissingKey) {
-  const std::string text =
-      calibration_with(std::string(kPose2Sim), "rotation = [ 1.2, 0.9, -0.8]\n", "");
+  const std::string text = testing::replace_first(
+      std::string(kPose2Sim), "rotation = [ 1.2, 0.9, -0.8]\n", "");
   EXPECT_TRUE(calibration_mistake(text).starts_with(
       "c.toml:1: the key \"rotation\" is missing in [int_cam1_img]"));
 }
 
 TEST(CalibrationFile, HasFourTermsForAFisheye) {
   const auto read = parse_calibration(
-      calibration_with(std::string(kPose2Sim), "false", "true"), "c.toml");
+      testing::replace_first(std::string(kPose2Sim), "false", "true"), "c.toml");
   ASSERT_TRUE(read);
   EXPECT_EQ(read->cameras[0].intrinsics.lens, LensModel::kFisheye);
   EXPECT_EQ(read->cameras[0].intrinsics.distortion[3], -0.00049);
@@ -214,14 +207,14 @@ TEST(CalibrationFile, KeepsEveryLens) {
 
 TEST(CalibrationFile, RefusesSkew) {
   EXPECT_TRUE(
-      calibration_mistake(
-          calibration_with(std::string(kPose2Sim), "1681.244, 0.0", "1681.244, 0.5"))
+      calibration_mistake(testing::replace_first(
+                              std::string(kPose2Sim), "1681.244, 0.0", "1681.244, 0.5"))
           .starts_with("c.toml:4: \"matrix\" must be [[fx, 0, cx]"));
 }
 
 TEST(CalibrationFile, RefusesARowTooFew) {
-  EXPECT_TRUE(calibration_mistake(
-                  calibration_with(std::string(kPose2Sim), ", [ 0.0, 0.0, 1.0]]", "]"))
+  EXPECT_TRUE(calibration_mistake(testing::replace_first(
+                                      std::string(kPose2Sim), ", [ 0.0, 0.0, 1.0]]", "]"))
                   .starts_with("c.toml:4: \"matrix\" has the wrong number of rows"));
 }
 

@@ -9,6 +9,7 @@
 
 #include "recordings/session/calibration_file.h"
 #include "recordings/text/atomic_file.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"
 
@@ -130,15 +131,6 @@ verified_resolutions = [[640, 480], [1280, 720]]
 cam_id = 7
 ignore = true
 )";
-
-std::string with_replaced(std::string_view text,
-                          std::string_view from,
-                          std::string_view to) {
-  std::string changed(text);
-  const std::size_t at = changed.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return changed.replace(at, from.size(), to);
-}
 
 class CalibrationImport : public ::testing::Test {
  protected:
@@ -274,61 +266,63 @@ TEST_F(CalibrationImport, DistinguishesCalibrationsFromSessionsByContent) {
 }
 
 TEST_F(CalibrationImport, RefusesBrokenOpenCvFilesWithTheirLine) {
-  EXPECT_EQ(mistake("a.yml", with_replaced(kPair, "image_width: 640\n", "")),
+  EXPECT_EQ(mistake("a.yml", testing::replace_first(kPair, "image_width: 640\n", "")),
             "a.yml:2: the file does not say how large the pictures are. Next: add the "
             "keys image_width and image_height, in pixels.");
   for (const char* size : {"[ 1e+30, 480 ]", "[ 640, 0 ]", "[ -1e+300, 480 ]"}) {
     EXPECT_EQ(mistake("a.yml",
-                      with_replaced(
+                      testing::replace_first(
                           kPair, "image_width: 640", std::string("image_size: ") + size)),
               "a.yml:2: \"image_size\" is no size of a picture. Next: correct it.");
   }
-  EXPECT_EQ(mistake("a.yml", with_replaced(kPair, "5.6e+02", "five")),
+  EXPECT_EQ(mistake("a.yml", testing::replace_first(kPair, "5.6e+02", "five")),
             "a.yml:8: \"data\" must be an array of 9 numbers. Next: write it as "
             "docs/formats/README.md shows.");
   EXPECT_EQ(
-      mistake("a.yml", with_replaced(kPair, "cols: 5", "cols: 4")),
+      mistake("a.yml", testing::replace_first(kPair, "cols: 5", "cols: 4")),
       "a.yml:13: \"D1\" has not as many numbers as its rows and cols say. Next: copy "
       "the file again.");
-  EXPECT_EQ(mistake("a.yml", with_replaced(kPair, "5.5e+02, 0.", "5.5e+02, 3.")),
+  EXPECT_EQ(mistake("a.yml", testing::replace_first(kPair, "5.5e+02, 0.", "5.5e+02, 3.")),
             "a.yml:4: \"M1\" must be [fx, 0, cx, 0, fy, cy, 0, 0, 1]. Next: calibrate "
             "without skew.");
   const std::string pose(kPairPose.substr(kPairPose.find("R:")));
   EXPECT_EQ(
-      mistake("a.yml", std::string(kPair) + with_replaced(pose, "-2.5e-01", "-60.")),
+      mistake("a.yml",
+              std::string(kPair) + testing::replace_first(pose, "-2.5e-01", "-60.")),
       "a.yml:30: T puts the second camera more than 20 m from the first. Next: give "
       "T in metres: divide it by 1000 if it is in millimetres.");
   EXPECT_EQ(
-      mistake("a.yml", std::string(kPair) + with_replaced(pose, "-1.", "-1.1")),
+      mistake("a.yml", std::string(kPair) + testing::replace_first(pose, "-1.", "-1.1")),
       "a.yml:25: \"R\" is not a rotation. Next: copy it from the calibration again.");
   EXPECT_EQ(mistake("a.yml", "%YAML:1.0\nM1: [ 1, 2\n").substr(0, 21),
             "a.yml:3: not valid YA");
-  EXPECT_EQ(mistake("a.xml", with_replaced(kXml, "</camera_matrix>", "")).substr(0, 22),
+  EXPECT_EQ(mistake("a.xml", testing::replace_first(kXml, "</camera_matrix>", ""))
+                .substr(0, 22),
             "a.xml:19: not valid XM");
 }
 
 TEST_F(CalibrationImport, RefusesBrokenChainsWithTheirLine) {
   EXPECT_EQ(
-      mistake("a.yaml", with_replaced(kChain, "model: pinhole", "model: omni")),
+      mistake("a.yaml", testing::replace_first(kChain, "model: pinhole", "model: omni")),
       "a.yaml:3: \"omni\" is a camera that marey does not have. Next: calibrate with "
       "pinhole-radtan or, for a fisheye, pinhole-equi.");
-  EXPECT_EQ(mistake("a.yaml", with_replaced(kChain, "radtan", "fov")),
+  EXPECT_EQ(mistake("a.yaml", testing::replace_first(kChain, "radtan", "fov")),
             "a.yaml:5: \"fov\" is a distortion that marey does not have. Next: calibrate "
             "with radtan or equidistant.");
-  EXPECT_EQ(mistake("a.yaml", with_replaced(kChain, "[0.0, -1.0", "[0.0, -1.5")),
+  EXPECT_EQ(mistake("a.yaml", testing::replace_first(kChain, "[0.0, -1.0", "[0.0, -1.5")),
             "a.yaml:10: \"T_cn_cnm1\" is not a rotation and a translation. Next: copy it "
             "from the calibration again.");
   EXPECT_EQ(
-      mistake("a.yaml", with_replaced(kChain, "cam2:", "cam3:")),
+      mistake("a.yaml", testing::replace_first(kChain, "cam2:", "cam3:")),
       "a.yaml:21: \"cam3\" does not follow: cameras are cam0, cam1... with none left "
       "out. Next: number them so.");
-  EXPECT_EQ(mistake("a.yaml", with_replaced(kChain, "[752, 480]", "[752]")),
+  EXPECT_EQ(mistake("a.yaml", testing::replace_first(kChain, "[752, 480]", "[752]")),
             "a.yaml:7: \"resolution\" must be an array of 2 numbers. Next: write it as "
             "docs/formats/README.md shows.");
 }
 
 TEST_F(CalibrationImport, RefusesMillimetresAndEndlessReferences) {
-  EXPECT_EQ(mistake("a.toml", with_replaced(kCaliscope, "1.5]", "1500.0]")),
+  EXPECT_EQ(mistake("a.toml", testing::replace_first(kCaliscope, "1.5]", "1500.0]")),
             "a.toml:9: the camera stands more than 100 m from the world's origin. Next: "
             "give positions in metres: divide them by 1000 if they are millimetres.");
   EXPECT_EQ(mistake("a.yaml", "a: &a [1]\nb: &b [*a, *b]\n"),

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "recordings/text/atomic_file.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {
@@ -51,11 +52,11 @@ void expect_same(const TagDetection& a, const TagDetection& b) {
   EXPECT_EQ(a.hamming, b.hamming);
 }
 
-std::string detections_mistake(std::string_view from, std::string_view to) {
-  std::string text = detections_text(four_frames(), "k");
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  const auto found = parse_detections(text.replace(at, from.size(), to), "k", "d.csv");
+std::string detections_mistake(const CameraDetections& detections,
+                               std::string_view from,
+                               std::string_view to) {
+  const auto found = parse_detections(
+      testing::replace_first(detections_text(detections, "k"), from, to), "k", "d.csv");
   return found ? "" : found.error().message();
 }
 
@@ -121,7 +122,7 @@ TEST(DetectionsFile, RefusesATagWithoutAnArea) {
 }
 
 TEST(DetectionsFile, RefusesATagWithoutSigma) {
-  EXPECT_TRUE(detections_mistake(",0.06666666666666667,", ",0,")
+  EXPECT_TRUE(detections_mistake(four_frames(), ",0.06666666666666667,", ",0,")
                   .starts_with("d.csv:6: a tag's sigma is not"));
 }
 
@@ -174,32 +175,32 @@ TEST(DetectionsFile, RefusesAnEmptyFile) {
 }
 
 TEST(DetectionsFile, NamesTheLineOfARowThatDoesNotFit) {
-  EXPECT_TRUE(detections_mistake("6,40,", "6,40,x")
+  EXPECT_TRUE(detections_mistake(four_frames(), "6,40,", "6,40,x")
                   .starts_with("d.csv:7: the row is not 13 numbers"));
 }
 
 TEST(DetectionsFile, RefusesFramesOutOfOrder) {
-  EXPECT_TRUE(detections_mistake("\n7,", "\n9,")
+  EXPECT_TRUE(detections_mistake(four_frames(), "\n7,", "\n9,")
                   .starts_with("d.csv:8: the frames are not in order"));
 }
 
 TEST(DetectionsFile, RefusesTagsOutOfOrder) {
-  EXPECT_TRUE(detections_mistake("6,3,", "6,41,")
+  EXPECT_TRUE(detections_mistake(four_frames(), "6,3,", "6,41,")
                   .starts_with("d.csv:7: the tags are not in order"));
 }
 
 TEST(DetectionsFile, RefusesATagOfAnEmptyFrame) {
-  EXPECT_TRUE(
-      detections_mistake("\n8,", "\n7,").starts_with("d.csv:9: a frame is listed twice"));
+  EXPECT_TRUE(detections_mistake(four_frames(), "\n8,", "\n7,")
+                  .starts_with("d.csv:9: a frame is listed twice"));
 }
 
 TEST(DetectionsFile, RefusesATableCutShort) {
-  EXPECT_TRUE(detections_mistake("# end, frames: 4\n", "")
+  EXPECT_TRUE(detections_mistake(four_frames(), "# end, frames: 4\n", "")
                   .starts_with("d.csv:9: the end of the"));
 }
 
 TEST(DetectionsFile, RefusesATableWithAFrameTooFew) {
-  EXPECT_TRUE(detections_mistake("8,,,,,,,,,,,,\n", "")
+  EXPECT_TRUE(detections_mistake(four_frames(), "8,,,,,,,,,,,,\n", "")
                   .starts_with("d.csv:9: the table's end does"));
 }
 
@@ -210,14 +211,6 @@ CameraDetections with_points() {
   const PointDetection later{11, {-0.4, 719.25}, 0.05};
   found.frames = {{5, {a_tag(3)}, {first, later}}, {6, {}, {later}}, {7, {}}};
   return found;
-}
-
-std::string mistake_of_points(std::string_view from, std::string_view to) {
-  std::string text = detections_text(with_points(), "k");
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  const auto found = parse_detections(text.replace(at, from.size(), to), "k", "d.csv");
-  return found ? "" : found.error().message();
 }
 
 TEST(DetectionsFile, GivesBackThePointsOfABoard) {
@@ -240,16 +233,16 @@ TEST(DetectionsFile, GivesBackThePointsOfABoard) {
 }
 
 TEST(DetectionsFile, RefusesPointsThatDoNotFit) {
-  EXPECT_TRUE(mistake_of_points("\n5,11,", "\n5,x,")
+  EXPECT_TRUE(detections_mistake(with_points(), "\n5,11,", "\n5,x,")
                   .starts_with("d.csv:7: the row is not 5 numbers"));
-  EXPECT_TRUE(mistake_of_points("\n5,11,", "\n5,0,")
+  EXPECT_TRUE(detections_mistake(with_points(), "\n5,11,", "\n5,0,")
                   .starts_with("d.csv:7: the points are not in order"));
-  EXPECT_TRUE(mistake_of_points("\n6,11,", "\n6,-1,")
+  EXPECT_TRUE(detections_mistake(with_points(), "\n6,11,", "\n6,-1,")
                   .starts_with("d.csv:8: a point's number is below zero"));
-  EXPECT_TRUE(mistake_of_points("719.25,0.05\n6,", "719.25,0\n6,")
+  EXPECT_TRUE(detections_mistake(with_points(), "719.25,0.05\n6,", "719.25,0\n6,")
                   .starts_with("d.csv:7: a point's sigma is not above zero"));
-  EXPECT_TRUE(
-      mistake_of_points("\n7,", "\n6,").starts_with("d.csv:9: a frame is listed twice"));
+  EXPECT_TRUE(detections_mistake(with_points(), "\n7,", "\n6,")
+                  .starts_with("d.csv:9: a frame is listed twice"));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "recordings/session/calibration_file.h"
+#include "tests/support/files/text_file.h"
 
 namespace marey::recordings {
 namespace {
@@ -39,14 +40,6 @@ width_px = 1920
 height_px = 1080
 focal_px = 1400
 )";
-}
-
-std::string with_plan_text(std::string text,
-                           const std::string& old,
-                           const std::string& now) {
-  const std::size_t at = text.find(old);
-  EXPECT_NE(at, std::string::npos);
-  return text.replace(at, old.size(), now);
 }
 
 std::string mistake_of(const std::string& text) {
@@ -110,8 +103,10 @@ TEST(PlanFile, MayListTheWornTags) {
 
 TEST(PlanFile, BoundsTheVolumeBeforeAnybodyCountsIt) {
   const auto refusal = [](const char* least, const char* greatest) {
-    return mistake_of(with_plan_text(
-        with_plan_text(plan_text(), "[-2.0, -1.5]", least), "[2.0, 1.5]", greatest));
+    return mistake_of(
+        testing::replace_first(testing::replace_first(plan_text(), "[-2.0, -1.5]", least),
+                               "[2.0, 1.5]",
+                               greatest));
   };
   const std::string far = "is more than a kilometre from the origin. Next: give metres: ";
   EXPECT_EQ(refusal("[0.0, 0.0]", "[1e5, 0.001]"),
@@ -121,10 +116,11 @@ TEST(PlanFile, BoundsTheVolumeBeforeAnybodyCountsIt) {
   EXPECT_NE(refusal("[0.0, 0.0]", "[1e10, 1e-7]").find(far), std::string::npos);
   // A strip of 4001 by 1 places is few, of 40001 many: its width holds one row.
   const auto strip = [&](const char* step) {
-    return with_plan_text(
-        with_plan_text(with_plan_text(plan_text(), "[-2.0, -1.5]", "[0.0, 0.0]"),
-                       "[2.0, 1.5]",
-                       "[1000, 1e-3]"),
+    return testing::replace_first(
+        testing::replace_first(
+            testing::replace_first(plan_text(), "[-2.0, -1.5]", "[0.0, 0.0]"),
+            "[2.0, 1.5]",
+            "[1000, 1e-3]"),
         "step_m = 0.25",
         step);
   };
@@ -132,37 +128,40 @@ TEST(PlanFile, BoundsTheVolumeBeforeAnybodyCountsIt) {
   EXPECT_NE(mistake_of(strip("step_m = 0.025")).find("more than 40000 places"),
             std::string::npos);
   // Both ends of a side are places: 200 by 200 steps are 201 by 201 places.
-  const std::string square =
-      with_plan_text(with_plan_text(plan_text(), "[-2.0, -1.5]", "[0.0, 0.0]"),
-                     "[2.0, 1.5]",
-                     "[50.0, 50.0]");
+  const std::string square = testing::replace_first(
+      testing::replace_first(plan_text(), "[-2.0, -1.5]", "[0.0, 0.0]"),
+      "[2.0, 1.5]",
+      "[50.0, 50.0]");
   EXPECT_NE(mistake_of(square).find("more than 40000 places"), std::string::npos);
-  EXPECT_EQ(mistake_of(with_plan_text(square, "[50.0, 50.0]", "[49.75, 49.75]")), "none");
+  EXPECT_EQ(mistake_of(testing::replace_first(square, "[50.0, 50.0]", "[49.75, 49.75]")),
+            "none");
 }
 
 TEST(PlanFile, NamesTheMistakeAndItsLine) {
   EXPECT_EQ(
-      mistake_of(with_plan_text(plan_text(), "looks_at_m", "look_at_m")),
+      mistake_of(testing::replace_first(plan_text(), "looks_at_m", "look_at_m")),
       "plan.toml:13: unknown key \"look_at_m\" in [[camera]]. Next: perhaps you mean "
       "\"looks_at_m\".");
   EXPECT_EQ(
-      mistake_of(with_plan_text(plan_text(), "[0.0, 1.0, 0.0]", "[-2.5, 1.0, 2.5]")),
+      mistake_of(
+          testing::replace_first(plan_text(), "[0.0, 1.0, 0.0]", "[-2.5, 1.0, 2.5]")),
       "plan.toml:13: the camera looks at itself, or straight up or down. Next: move "
       "looks_at_m a little to the side where the picture's top is to be.");
-  EXPECT_EQ(mistake_of(with_plan_text(plan_text(),
-                                      "focal_px = 1400",
-                                      "focal_px = 1400\n"
-                                      "field_of_view_deg = 60")),
+  EXPECT_EQ(mistake_of(testing::replace_first(plan_text(),
+                                              "focal_px = 1400",
+                                              "focal_px = 1400\n"
+                                              "field_of_view_deg = 60")),
             "plan.toml:24: both \"focal_px\" and \"field_of_view_deg\" are given. Next: "
             "remove one: they have the same meaning.");
-  EXPECT_EQ(mistake_of(with_plan_text(plan_text(), "\"right\"", "\"left\"")),
+  EXPECT_EQ(mistake_of(testing::replace_first(plan_text(), "\"right\"", "\"left\"")),
             "plan.toml:19: another camera has this name. Next: give each a name of its "
             "own.");
-  EXPECT_EQ(mistake_of(with_plan_text(plan_text(), "step_m = 0.25", "step_m = 0.01")),
-            "plan.toml:8: the volume has more than 40000 places. Next: make step_m "
-            "larger.");
   EXPECT_EQ(
-      mistake_of(with_plan_text(
+      mistake_of(testing::replace_first(plan_text(), "step_m = 0.25", "step_m = 0.01")),
+      "plan.toml:8: the volume has more than 40000 places. Next: make step_m "
+      "larger.");
+  EXPECT_EQ(
+      mistake_of(testing::replace_first(
           plan_text(), "greatest_m = [2.0, 1.5]", "greatest_m = [2.0, -1.5]")),
       "plan.toml:7: \"greatest_m\" must be more than \"least_m\", along x and along "
       "z. Next: give two opposite corners of the floor as [x, z].");

@@ -6,6 +6,7 @@
 
 #include "recordings/session/session.h"
 #include "tests/recordings/session_text.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {
@@ -26,12 +27,6 @@ std::string devices() {
   text.erase(text.find("time_offset_s"));
   text.erase(text.find("frames = [0, 7]\n"), std::string("frames = [0, 7]\n").size());
   return text;
-}
-
-std::string swapped(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
 }
 
 TEST(SessionDevices, AreReadWithTheirSettings) {
@@ -81,7 +76,7 @@ TEST(SessionDevices, LeaveTrialsWithVideosAlone) {
 }
 
 TEST(SessionDevices, ThatAreSharedAreRefused) {
-  EXPECT_EQ(mistake(swapped(devices(), "/dev/video2", "/dev/video0")),
+  EXPECT_EQ(mistake(testing::replace_first(devices(), "/dev/video2", "/dev/video0")),
             "session.toml:37: two cameras have the device \"/dev/video0\". Next: name "
             "each camera's own: marey doctor lists them.");
 }
@@ -93,15 +88,17 @@ TEST(SessionDevices, SettingsWithoutADeviceAreRefused) {
 }
 
 TEST(SessionDevices, NeedWidthAndHeightTogether) {
-  EXPECT_TRUE(mistake(swapped(devices(), "height = 480\n", ""))
+  EXPECT_TRUE(mistake(testing::replace_first(devices(), "height = 480\n", ""))
                   .starts_with("session.toml:26: the key \"height\" is missing"));
 }
 
 TEST(SessionDevices, OutOfAllReasonAreRefused) {
-  EXPECT_NE(mistake(swapped(devices(), "exposure_s = 0.004", "exposure_s = 4")), "");
-  EXPECT_NE(mistake(swapped(devices(), "fps = 60", "fps = 0")), "");
-  EXPECT_NE(mistake(swapped(devices(), "width = 640", "width = 0")), "");
-  EXPECT_NE(mistake(swapped(devices(), "/dev/video2", "")), "");
+  EXPECT_NE(
+      mistake(testing::replace_first(devices(), "exposure_s = 0.004", "exposure_s = 4")),
+      "");
+  EXPECT_NE(mistake(testing::replace_first(devices(), "fps = 60", "fps = 0")), "");
+  EXPECT_NE(mistake(testing::replace_first(devices(), "width = 640", "width = 0")), "");
+  EXPECT_NE(mistake(testing::replace_first(devices(), "/dev/video2", "")), "");
 }
 
 TEST(SessionDevices, WithoutAnyDeviceVideosAreNeeded) {

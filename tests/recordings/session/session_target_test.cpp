@@ -7,6 +7,7 @@
 
 #include "recordings/session/session.h"
 #include "tests/recordings/session_text.h"
+#include "tests/support/files/text_file.h"
 
 namespace marey::recordings {
 namespace {
@@ -49,10 +50,7 @@ family = "tag36h11"
 std::string target_with(std::string_view target,
                         std::string_view from,
                         std::string_view to) {
-  std::string text = with_target(target);
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
+  return testing::replace_first(with_target(target), from, to);
 }
 
 TEST(SessionTarget, IsAnAprilGridWithoutAType) {

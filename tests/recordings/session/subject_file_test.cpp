@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/human/average_proportions.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {
@@ -52,10 +53,8 @@ Body a_body() {
 }
 
 std::string subject_mistake(std::string_view from, std::string_view to) {
-  std::string text = subject_text(a_body());
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  const Result<Body> body = parse_subject(text.replace(at, from.size(), to), "s.toml");
+  const Result<Body> body =
+      parse_subject(testing::replace_first(subject_text(a_body()), from, to), "s.toml");
   return body ? "" : body.error().message();
 }
 

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "recordings/text/atomic_file.h"
+#include "tests/support/files/run_sql.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::recordings {
@@ -39,13 +40,6 @@ TakeFrame frame_of(int k) {
   frame.time_is_arrival = k % 5 == 0;
   frame.damaged = k % 11 == 0;
   return frame;
-}
-
-void run_sql(const fs::path& file, const std::string& text) {
-  sqlite3* database = nullptr;
-  ASSERT_EQ(sqlite3_open(file.c_str(), &database), SQLITE_OK);
-  ASSERT_EQ(sqlite3_exec(database, text.c_str(), nullptr, nullptr, nullptr), SQLITE_OK);
-  sqlite3_close(database);
 }
 
 void make_take(const fs::path& file) {
@@ -181,7 +175,7 @@ TEST(TakeFile, ReportsAMissingFile) {
 TEST(TakeFile, ReportsANewerVersion) {
   const ScratchFolder folder;
   make_take(folder / kTakeFile);
-  run_sql(folder / kTakeFile, "PRAGMA user_version=2");
+  testing::run_sql(folder / kTakeFile, "PRAGMA user_version=2");
   const Result<Take> take = read_take(folder / kTakeFile);
   ASSERT_FALSE(take);
   EXPECT_EQ(take.error().cause,
@@ -203,9 +197,9 @@ TEST(TakeFile, ReportsAFileOfAnotherFormat) {
 TEST(TakeFile, ReportsAMissingTableOrFrame) {
   const ScratchFolder folder;
   make_take(folder / kTakeFile);
-  run_sql(folder / kTakeFile, "UPDATE frame SET number=3");
+  testing::run_sql(folder / kTakeFile, "UPDATE frame SET number=3");
   EXPECT_FALSE(read_take(folder / kTakeFile));
-  run_sql(folder / kTakeFile, "DROP TABLE frame");
+  testing::run_sql(folder / kTakeFile, "DROP TABLE frame");
   EXPECT_FALSE(read_take(folder / kTakeFile));
 }
 
@@ -229,7 +223,7 @@ TEST(TakeFile, ReportsValuesThatNoRecorderWrites) {
     for (int k = 0; k < 3; ++k) writer->add(0, frame_of(k));
     ASSERT_TRUE(writer->finish());
     ASSERT_TRUE(read_take(folder / kTakeFile));
-    run_sql(folder / kTakeFile, change);
+    testing::run_sql(folder / kTakeFile, change);
     const Result<Take> take = read_take(folder / kTakeFile);
     ASSERT_FALSE(take) << change;
     EXPECT_EQ(take.error().cause, "it is not the database of a take, or it is damaged");

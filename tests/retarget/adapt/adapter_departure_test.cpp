@@ -7,14 +7,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "retarget/adapt/adapt_departure.h"
+#include "core/base/angle.h"
+#include "retarget/adapt/measure_departure.h"
 #include "tests/retarget/adapter_bodies.h"
 
 /// Limits of the departure from the reference caused by balance.
 namespace marey::retarget {
 namespace {
-
-constexpr double kDegree_rad = 0.01745329251994330;
 
 AdaptOptions balanced_options() {
   AdaptOptions options;
@@ -72,7 +71,7 @@ TEST_P(AdapterDeparture, BalanceLeavesTheTrunkAloneWhereTheArmReaches) {
     if (trunk_turn_rad(body, alone, reference) > 1e-6) continue;
     ++tried;
     const Pose out = adapted(body, asked, reference, balanced_options()).pose;
-    EXPECT_LT(trunk_turn_rad(body, out, reference), 5.0 * kDegree_rad) << i;
+    EXPECT_LT(trunk_turn_rad(body, out, reference), 5.0 * kRadiansPerDegree) << i;
     const auto& goal = std::get<DistanceToPoint>(asked.constraints[2].goal);
     EXPECT_LT(glm::distance(place_of(body, out, {"leftHand"}), goal.p_in_world), 1e-3)
         << i;
@@ -97,7 +96,7 @@ TEST(AdapterDepartureFromBeyond, LeavesWhatIsBeyondItsLimitsAsItWas) {
     const std::size_t joint = joint_at(body, "rightLowerArm");
     EXPECT_LT(angle_between_rad(out.parent_from_joint[joint],
                                 reference.parent_from_joint[joint]),
-              10.0 * kDegree_rad)
+              10.0 * kRadiansPerDegree)
         << i;
   }
 }

@@ -38,11 +38,6 @@ Constraint off_by(const Character& body,
                  importance);
 }
 
-double error_m(const Character& body, const Pose& pose, const Constraint& wish) {
-  return glm::distance(place_of(body, pose, wish.point),
-                       std::get<DistanceToPoint>(wish.goal).p_in_world);
-}
-
 // A head alone may rotate by 95 degrees, not by 160.
 TEST_P(AdapterReport, OrientationsAreOffByAngles) {
   const Character body = human(true);
@@ -91,8 +86,8 @@ TEST_P(AdapterReport, TheMeanIsOfConstraintsByImportance) {
                                    wanted);
     Pose out;
     const AdaptReport report = adapter.adapt(reference, 0.0, out);
-    const double left_m = error_m(body, out, left);
-    const double right_m = error_m(body, out, right);
+    const double left_m = target_distance_m(body, out, left);
+    const double right_m = target_distance_m(body, out, right);
     ASSERT_GT(left_m + right_m, 0.1) << "nothing is asked";
     EXPECT_NEAR(report.constraint_error_m, (3.0 * left_m + right_m) / 4.0, kFloat_m);
     EXPECT_NEAR(report.worst_error_m, std::max(left_m, right_m), kFloat_m);
@@ -165,7 +160,7 @@ TEST_P(AdapterReport, ConstraintsHaveErrorsAboveTheFirmActivationAlone) {
       EXPECT_FALSE(outcome.met) << outcome.activation;
     } else {
       ++firmly;
-      EXPECT_NEAR(outcome.error_m, error_m(body, out, hand), kFloat_m);
+      EXPECT_NEAR(outcome.error_m, target_distance_m(body, out, hand), kFloat_m);
       EXPECT_EQ(outcome.met, outcome.error_m < hand.precision_m + 2e-5);
     }
   }

@@ -56,7 +56,7 @@ TEST(ThesisAdapter, MeetsNearTargetsInOneIteration) {
     for (std::size_t c = 0; c < 2; ++c) {
       std::get<DistanceToPoint>(scene.set.constraints[c].goal).p_in_world.y += 0.12;
     }
-    Adapter adapter = adapter_of(scene.character, scene.set, by_the_thesis());
+    Adapter adapter = make_adapter(scene.character, scene.set, by_the_thesis());
     Pose out;
     const AdaptReport report = adapter.adapt(scene.reference, 0.0, out);
     EXPECT_EQ(report.iterations, 1);
@@ -70,7 +70,7 @@ TEST(ThesisAdapter, MeetsNearTargetsInOneIteration) {
 TEST(ThesisAdapter, ReachesFarTargetsWithTrunkAndRoot) {
   Standing scene;
   scene.want({0.1, 0.2, 0.75}, {0.0, 0.1, 0.7});
-  Adapter adapter = adapter_of(scene.character, scene.set, by_the_thesis());
+  Adapter adapter = make_adapter(scene.character, scene.set, by_the_thesis());
   Pose out;
   const AdaptReport report = adapter.adapt(scene.reference, 0.0, out);
   EXPECT_GT(report.iterations, 1);
@@ -90,7 +90,7 @@ TEST(ThesisAdapter, LeavesLegsThatStandAlone) {
   for (const bool stands : {true, false}) {
     scene.set.constraints[2].activation.stop_s.reset();
     if (!stands) scene.set.constraints[2].activation.stop_s = -1.0;
-    Adapter adapter = adapter_of(scene.character, scene.set, options);
+    Adapter adapter = make_adapter(scene.character, scene.set, options);
     Pose out;
     static_cast<void>(adapter.adapt(scene.reference, 0.0, out));
     const double moved_m = glm::distance(scene.at(out, "leftLowerLeg"), knee);
@@ -115,7 +115,7 @@ TEST(ThesisAdapter, NeverMakesAnErrorLargerByIteratingOn) {
         AdaptOptions options = by_the_thesis();
         options.control = control;
         options.max_iterations = most;
-        Adapter adapter = adapter_of(scene.character, scene.set, options);
+        Adapter adapter = make_adapter(scene.character, scene.set, options);
         Pose out;
         const AdaptReport report = adapter.adapt(scene.reference, 0.0, out);
         EXPECT_LE(report.iterations, most);
@@ -134,7 +134,7 @@ TEST(ThesisAdapter, SettlesOnTargetsThatAreOutOfReach) {
                dice.between(1.5, 2.5) * dice.direction());
     AdaptOptions options = by_the_thesis();
     options.constraint_threshold_m = 1e-3;
-    Adapter adapter = adapter_of(scene.character, scene.set, options);
+    Adapter adapter = make_adapter(scene.character, scene.set, options);
     Pose out;
     const AdaptReport report = adapter.adapt(scene.reference, 0.0, out);
     // Table 4.1: 24 iterations at this threshold.
@@ -143,7 +143,7 @@ TEST(ThesisAdapter, SettlesOnTargetsThatAreOutOfReach) {
         << "supports are exact (4.2.4)";
     options.max_iterations = 500;
     options.constraint_threshold_m = 1e-6;
-    Adapter patient = adapter_of(scene.character, scene.set, options);
+    Adapter patient = make_adapter(scene.character, scene.set, options);
     Pose best;
     const AdaptReport least = patient.adapt(scene.reference, 0.0, best);
     // Descent by groups has a long tail: improvements below the threshold, for hundreds
@@ -161,7 +161,7 @@ TEST(ThesisAdapter, MovesTheRootByItsShare) {
     AdaptOptions options = by_the_thesis();
     options.root_for_constraints = share;
     options.max_iterations = 3;
-    Adapter adapter = adapter_of(scene.character, scene.set, options);
+    Adapter adapter = make_adapter(scene.character, scene.set, options);
     Pose out;
     static_cast<void>(adapter.adapt(scene.reference, 0.0, out));
     const double moved_m = out.root_in_world.z - scene.reference.root_in_world.z;
@@ -184,7 +184,7 @@ TEST(ThesisBalance, KeepsTheCentreOfMassWhileHandsReach) {
     if (k % 2) scene.set.constraints[1].activation.start_s = 100.0;
     AdaptOptions options = by_the_thesis(BalanceMode::kHorizontal);
     options.root_for_balance = dice.between(0.0, 1.0);
-    Adapter adapter = adapter_of(scene.character, scene.set, options);
+    Adapter adapter = make_adapter(scene.character, scene.set, options);
     Pose out;
     static_cast<void>(adapter.adapt(scene.reference, 0.0, out));
     const glm::dvec3 left = centre_of_mass_of(scene.character, out) - com;
@@ -198,7 +198,7 @@ TEST(ThesisBalance, MeetsNearTargetsInAHandfulOfIterations) {
   Standing scene;
   scene.want({0.0, 0.2, 0.25}, {0.0, 0.2, 0.25});
   Adapter adapter =
-      adapter_of(scene.character, scene.set, by_the_thesis(BalanceMode::kHorizontal));
+      make_adapter(scene.character, scene.set, by_the_thesis(BalanceMode::kHorizontal));
   Pose out;
   const AdaptReport report = adapter.adapt(scene.reference, 0.0, out);
   // Table 5.2 has 5 for near targets.
@@ -214,7 +214,7 @@ TEST(ThesisBalance, PutsTheCentreOfMassWhereItIsWantedInFlight) {
                                       place_in_world(character, reference, "leftHand") +
                                           glm::dvec3(0.2, 0.4, 0.2))},
                           {}};
-  Adapter adapter = adapter_of(character, set, by_the_thesis(BalanceMode::k3d));
+  Adapter adapter = make_adapter(character, set, by_the_thesis(BalanceMode::k3d));
   const glm::dvec3 wanted =
       centre_of_mass_of(character, reference) + glm::dvec3(0.1, 0.3, -0.2);
   adapter.set_balance_target(wanted);
@@ -234,7 +234,7 @@ TEST(ThesisBalance, UsesFreeGroupsBeforeTheRoot) {
   for (const double share : {0.0, 1.0}) {
     AdaptOptions options = by_the_thesis(BalanceMode::kHorizontal);
     options.root_for_balance = share;
-    Adapter adapter = adapter_of(character, set, options);
+    Adapter adapter = make_adapter(character, set, options);
     adapter.set_balance_target(wanted);
     Pose out;
     static_cast<void>(adapter.adapt(reference, 0.0, out));
@@ -259,7 +259,8 @@ TEST(ThesisBalance, LeansBackUnderALoad) {
   for (const double load_kg : {0.0, 5.0, 10.0}) {
     Character character = unloaded;
     character.loads[0].mass.mass_kg = load_kg;
-    Adapter adapter = adapter_of(character, set, by_the_thesis(BalanceMode::kHorizontal));
+    Adapter adapter =
+        make_adapter(character, set, by_the_thesis(BalanceMode::kHorizontal));
     EXPECT_TRUE(adapter.carry("bag", true));
     adapter.set_balance_target(centre_of_mass_of(unloaded, reference));
     Pose out;
@@ -277,7 +278,7 @@ TEST(ThesisAdapter, FadesConstraintsIn) {
   for (std::size_t c = 0; c < 2; ++c) {
     scene.set.constraints[c].activation = {0.0, std::nullopt, 1.0, 0.0};
   }
-  Adapter adapter = adapter_of(scene.character, scene.set, by_the_thesis());
+  Adapter adapter = make_adapter(scene.character, scene.set, by_the_thesis());
   Pose before;
   static_cast<void>(adapter.adapt(scene.reference, 0.0, before));
   for (int k = 1; k <= 100; ++k) {

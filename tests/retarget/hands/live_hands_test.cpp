@@ -16,6 +16,7 @@
 #include "retarget/motion/live_retarget.h"
 #include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/hand_scenes.h"
+#include "tests/retarget/joint_path.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/bodies/random_bodies.h"
 
@@ -57,15 +58,6 @@ double live_gap_in(const Motion& motion, std::size_t t, const Scene& scene) {
                world_from_joints(motion.skeleton, motion.poses[t]),
                on_side(P::kLeftHand, scene.side),
                scene.part);
-}
-
-std::vector<glm::dvec3> path_of(const Motion& motion, B bone) {
-  const JointIndex joint = *motion.skeleton.find(bone);
-  std::vector<glm::dvec3> path;
-  for (const Pose& pose : motion.poses) {
-    path.push_back(world_from_joints(motion.skeleton, pose)[index(joint)].translation);
-  }
-  return path;
 }
 
 // A sixth of a second after the source's hand has come to rest, because of the lag.
@@ -146,8 +138,8 @@ TEST(LiveHands, LeaveTheSourcesOwnBodyAsItIs) {
     const Motion with = dressed(source, source.skeleton, LiveHandsOptions{});
     const Motion without = dressed(source, source.skeleton, std::nullopt);
     for (const B bone : {B::kLeftHand, B::kRightHand, B::kLeftLowerArm}) {
-      const auto a = path_of(with, bone);
-      const auto b = path_of(without, bone);
+      const auto a = joint_path(with, bone);
+      const auto b = joint_path(without, bone);
       for (std::size_t t = 0; t < a.size(); ++t) {
         EXPECT_LT(glm::distance(a[t], b[t]), 1e-9) << scene.name << " " << t;
       }
@@ -165,8 +157,8 @@ TEST(LiveHands, MoveContinuously) {
       const Motion with = dressed(source, avatar, LiveHandsOptions{});
       const Motion without = dressed(source, avatar, std::nullopt);
       for (const B bone : {B::kLeftHand, B::kRightHand, B::kLeftLowerArm}) {
-        const auto a = path_of(without, bone);
-        const auto b = path_of(with, bone);
+        const auto a = joint_path(without, bone);
+        const auto b = joint_path(with, bone);
         const double hz2 = source.rate.hz * source.rate.hz;
         double added = 0.0;
         double own = 0.0;

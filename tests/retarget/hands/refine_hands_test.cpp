@@ -15,6 +15,7 @@
 #include "core/pose.h"
 #include "retarget/motion/retarget_motion.h"
 #include "tests/retarget/hand_scenes.h"
+#include "tests/retarget/joint_path.h"
 #include "tests/retarget/mapped.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/simulation/synthetic_walk.h"
@@ -95,23 +96,14 @@ double refined_gap_in(const Motion& motion, std::size_t t, int side, P part) {
                part);
 }
 
-std::vector<glm::dvec3> refined_path_of(const Motion& motion, B bone) {
-  const JointIndex joint = *motion.skeleton.find(bone);
-  std::vector<glm::dvec3> path;
-  for (const Pose& pose : motion.poses) {
-    path.push_back(world_from_joints(motion.skeleton, pose)[index(joint)].translation);
-  }
-  return path;
-}
-
 // Relative to the path from one motion's joint to the other's. [m/s^2], [m]
 struct Added {
   double acceleration = 0.0;
   double distance_m = 0.0;
 };
 Added added(const Motion& before, const Motion& after, B bone) {
-  const auto a = refined_path_of(before, bone);
-  const auto b = refined_path_of(after, bone);
+  const auto a = joint_path(before, bone);
+  const auto b = joint_path(after, bone);
   Added out;
   for (std::size_t t = 0; t < a.size(); ++t) {
     out.distance_m = std::max(out.distance_m, glm::distance(a[t], b[t]));

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "core/pose.h"
+#include "tests/retarget/joint_path.h"
 #include "tests/support/bodies/random_bodies.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/simulation/synthetic_walk.h"
@@ -35,17 +36,8 @@ RetargetedMotion retargeted(const Motion& source,
   return *std::move(out);
 }
 
-std::vector<glm::dvec3> retargeted_path_of(const Motion& motion, B bone) {
-  const JointIndex joint = *motion.skeleton.find(bone);
-  std::vector<glm::dvec3> path;
-  for (const Pose& pose : motion.poses) {
-    path.push_back(world_from_joints(motion.skeleton, pose)[index(joint)].translation);
-  }
-  return path;
-}
-
 double max_acceleration(const Motion& motion, B bone) {
-  const auto p = retargeted_path_of(motion, bone);
+  const auto p = joint_path(motion, bone);
   double greatest = 0.0;
   for (std::size_t t = 1; t + 1 < p.size(); ++t) {
     greatest = std::max(greatest, glm::length(p[t - 1] - 2.0 * p[t] + p[t + 1]));
@@ -106,7 +98,7 @@ TEST_P(EveryAvatar, StandsOnItsOwnSoles) {
   const Skeleton avatar = GetParam().make();
   const auto out = retargeted(walk.motion, avatar);
   const BodyMap map = *map_body(avatar);
-  const auto ankle = retargeted_path_of(out.motion, B::kLeftFoot);
+  const auto ankle = joint_path(out.motion, B::kLeftFoot);
   for (const FrameInterval& run : out.report.contacts.feet[0].heel) {
     for (int t = run.first; t <= run.last; ++t) {
       EXPECT_NEAR(ankle[static_cast<std::size_t>(t)].y, map.feet[0].ankle_height_m, 1e-9);
@@ -170,8 +162,8 @@ TEST_P(EveryAvatar, FliesAsHighAsTheSourceInLegLengths) {
   const Skeleton avatar = GetParam().make();
   const double scale =
       map_body(avatar)->leg_length_m / map_body(source->skeleton)->leg_length_m;
-  const auto before = retargeted_path_of(*source, B::kHips);
-  const auto after = retargeted_path_of(retargeted(*source, avatar).motion, B::kHips);
+  const auto before = joint_path(*source, B::kHips);
+  const auto after = joint_path(retargeted(*source, avatar).motion, B::kHips);
   // The middle of the flight: 62 is the take-off, 77 the landing.
   for (std::size_t t = 69; t <= 71; ++t) {
     EXPECT_NEAR(after[t].y - after[68].y, scale * (before[t].y - before[68].y), 1e-9);
@@ -203,8 +195,8 @@ TEST(RetargetMotion, LeavesACleanWalkOnItsOwnBodyNearlyAsItIs) {
   const Motion source = testing::synthetic_walk(200, 60.0).motion;
   const auto out = retargeted(source, source.skeleton);
   for (const B bone : {B::kHips, B::kLeftHand, B::kRightFoot, B::kHead}) {
-    const auto before = retargeted_path_of(source, bone);
-    const auto after = retargeted_path_of(out.motion, bone);
+    const auto before = joint_path(source, bone);
+    const auto after = joint_path(out.motion, bone);
     for (std::size_t t = 0; t < before.size(); ++t) {
       ASSERT_LT(glm::distance(before[t], after[t]), 0.02) << name(bone) << " " << t;
     }

@@ -160,4 +160,10 @@ void exchange(MarkerTracks& tracks, const std::string& a, const std::string& b) 
   std::swap(*at_a, *at_b);
 }
 
+void rescale(MarkerTracks& tracks, double factor) {
+  for (auto& sample : tracks.samples) {
+    if (sample) sample->p_in_world *= factor;
+  }
+}
+
 }  // namespace marey::testing

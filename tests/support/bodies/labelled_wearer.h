@@ -44,4 +44,7 @@ struct LabelledWearer {
 /// Exchanges two labels of a trial. Precondition: it has both.
 void exchange(MarkerTracks& tracks, const std::string& a, const std::string& b);
 
+/// Multiplies all coordinates of a trial by a factor.
+void rescale(MarkerTracks& tracks, double factor);
+
 }  // namespace marey::testing

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <csignal>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -13,19 +12,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "tests/support/files/text_file.h"
 #include "tests/support/program/scratch_folder.h"
 
 namespace marey::testing {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// Two temporary files for the program's standard output and standard error.
 struct Ears {
@@ -74,7 +67,7 @@ int wait_for(pid_t child, const Ears& ears, const std::string& interrupt_at) {
       return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
     }
     if (ended < 0) throw std::runtime_error("lost sight of the program");
-    if (text_of(ears.err()).find(interrupt_at) != std::string::npos) {
+    if (read_text(ears.err()).find(interrupt_at) != std::string::npos) {
       kill(child, SIGINT);
       interrupted = true;
     } else {
@@ -92,8 +85,8 @@ ProgramRun run_program(const fs::path& program,
   ProgramRun run;
   const pid_t child = start(program, arguments, options.folder, ears);
   run.exit_code = wait_for(child, ears, options.interrupt_at);
-  run.out = text_of(ears.out());
-  run.err = text_of(ears.err());
+  run.out = read_text(ears.out());
+  run.err = read_text(ears.err());
   if (run.exit_code == 127) {
     throw std::runtime_error("cannot start " + program.string());
   }

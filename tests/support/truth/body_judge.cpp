@@ -18,6 +18,7 @@
 #include "core/base/lower_case.h"
 #include "tests/support/files/acclaim.h"
 #include "tests/support/files/plain_bvh.h"
+#include "tests/support/files/text_file.h"
 #include "tests/support/truth/foot_judge.h"
 
 namespace marey::testing {
@@ -151,17 +152,12 @@ std::vector<Landmarks> of_bvh(const std::filesystem::path& path) {
   return out;
 }
 
-std::string text_of(const std::filesystem::path& path) {
-  std::ifstream in(path);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::vector<Landmarks> of_amc(const std::filesystem::path& path) {
   const std::string stem = path.stem().string();
   const auto asf = path.parent_path() / (stem.substr(0, stem.find('_')) + ".asf");
-  const auto skeleton = parse_asf(text_of(asf), asf.string());
+  const auto skeleton = parse_asf(read_text(asf), asf.string());
   if (!skeleton) throw std::runtime_error(skeleton.error().message());
-  const auto frames = parse_amc(*skeleton, text_of(path), path.string());
+  const auto frames = parse_amc(*skeleton, read_text(path), path.string());
   if (!frames) throw std::runtime_error(frames.error().message());
   std::vector<std::string> names;
   for (const AcclaimBone& bone : skeleton->bones) names.push_back(bone.name);

@@ -12,6 +12,8 @@
 #include <Eigen/Dense>
 #include <glm/geometric.hpp>
 
+#include "core/base/cross_matrix.h"
+
 namespace marey::testing {
 namespace {
 
@@ -54,12 +56,6 @@ Eigen::Vector3d eigen(const glm::dvec3& v) {
 
 Eigen::Matrix3d eigen(const glm::dquat& q) {
   return Eigen::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix();
-}
-
-Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
 }
 
 /// Derivative of a point's pixel over the point.
@@ -161,7 +157,7 @@ class Locator {
       const auto place = static_cast<std::size_t>(corner);
       if (!pixel || glm::distance(*pixel, detection.corners_px[place]) > 20.0) return;
       Eigen::Matrix<double, 3, 6> motion;
-      motion << -cross_matrix(eigen(p - segment.translation)),
+      motion << -cross_matrix<Eigen::Matrix3d>(eigen(p - segment.translation)),
           Eigen::Matrix3d::Identity();
       const Eigen::Matrix<double, 2, 6> j =
           pixel_derivative(camera, p) * motion / detection.sigma_px;
@@ -229,7 +225,7 @@ double joint_sigma_m(const SimulatedSession& session,
     if (a == frame.end() || b == frame.end()) continue;
     const auto covariance = [](const Located& segment, const Eigen::Vector3d& arm) {
       Eigen::Matrix<double, 3, 6> motion;
-      motion << -cross_matrix(arm), Eigen::Matrix3d::Identity();
+      motion << -cross_matrix<Eigen::Matrix3d>(arm), Eigen::Matrix3d::Identity();
       const Matrix6 pose = (segment.information + 1e-6 * Matrix6::Identity())
                                .ldlt()
                                .solve(Matrix6::Identity());

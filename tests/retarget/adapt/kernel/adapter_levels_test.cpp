@@ -58,11 +58,6 @@ Question any_question(const Character& body, bool waits, Dice& dice) {
   return out;
 }
 
-double off_m(const Character& body, const Pose& pose, const Constraint& wish) {
-  return glm::distance(place_of(body, pose, wish.point),
-                       std::get<DistanceToPoint>(wish.goal).p_in_world);
-}
-
 class AdapterLevels : public EveryMethod {};
 INSTANTIATE_TEST_SUITE_P(Adapter, AdapterLevels, both_methods(), name_of);
 /// Property that the thesis' method does not have.
@@ -87,16 +82,18 @@ TEST_P(AdapterLevels, TheLowerCostsTheHigherAMillimetreAtMostOrThreePercentInBal
         set.constraints.push_back(asked.lowest);
         const Pose three = adapted(body, set, asked.reference, wanted).pose;
         const auto max_error_m = [&](const Pose& pose, const Constraint& wish) {
-          const double alone_m = off_m(body, pose, wish);
+          const double alone_m = target_distance_m(body, pose, wish);
           if (alone_m <= wish.precision_m) return wish.precision_m + 1e-3;
           // With balance an additional target changes the order in which masses are
           // summed, and rounding then determines the last step with an improvement.
           const bool rounds = balance != BalanceMode::kOff;
           return alone_m + std::max(1e-3, rounds ? 0.03 * alone_m : 0.0);
         };
-        ASSERT_LT(off_m(body, two, first), max_error_m(one, first)) << i;
-        ASSERT_LT(off_m(body, three, first), max_error_m(one, first)) << i;
-        ASSERT_LT(off_m(body, three, asked.lower), max_error_m(two, asked.lower)) << i;
+        ASSERT_LT(target_distance_m(body, two, first), max_error_m(one, first)) << i;
+        ASSERT_LT(target_distance_m(body, three, first), max_error_m(one, first)) << i;
+        ASSERT_LT(target_distance_m(body, three, asked.lower),
+                  max_error_m(two, asked.lower))
+            << i;
       }
     }
   }

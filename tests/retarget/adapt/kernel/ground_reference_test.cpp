@@ -64,7 +64,7 @@ TEST(GroundReference, TakesTheRootHalfWayUpAStep) {
                                    glm::dvec3(0.05, 0.06, 0.08),
                                    glm::dvec3(0, -0.06, 0)}) {
       const ConstraintSet set = both_feet(character, reference, by_m, {});
-      Adapter adapter = adapter_of(character, set, by(method));
+      Adapter adapter = make_adapter(character, set, by(method));
       Pose out;
       static_cast<void>(adapter.adapt(reference, 0.0, out));
       const glm::dvec3 moved_m = out.root_in_world - reference.root_in_world;
@@ -86,7 +86,7 @@ TEST(GroundReference, LowersTheRootAsFarAsTheLowerFootNeeds) {
   const Pose reference = standing_pose(character, 0.2);
   for (const Method method : kMethods) {
     const ConstraintSet set = both_feet(character, reference, {0, -0.3, 0}, {});
-    Adapter adapter = adapter_of(character, set, by(method));
+    Adapter adapter = make_adapter(character, set, by(method));
     Pose out;
     static_cast<void>(adapter.adapt(reference, 0.0, out));
     const auto at = [&](const char* s) { return place_in_world(character, out, s); };
@@ -111,7 +111,7 @@ TEST(GroundReference, TakesTheWantedCentreOfMassAlong) {
     AdaptOptions options = by(method);
     options.balance = BalanceMode::kHorizontal;
     const ConstraintSet set = both_feet(character, reference, by_m, by_m);
-    Adapter adapter = adapter_of(character, set, options);
+    Adapter adapter = make_adapter(character, set, options);
     Pose out;
     static_cast<void>(adapter.adapt(reference, 0.0, out));
     const glm::dvec3 moved_m =
@@ -128,7 +128,7 @@ TEST(GroundReference, AnticipatesAStepAsItsSupportBegins) {
   for (const Method method : kMethods) {
     ConstraintSet set = both_feet(character, reference, {0, 0.06, 0}, {});
     set.constraints[0].activation = {0.0, std::nullopt, 1.0, 0.0};
-    Adapter adapter = adapter_of(character, set, by(method));
+    Adapter adapter = make_adapter(character, set, by(method));
     double before_m = reference.root_in_world.y - 1e-6;
     for (int k = 0; k <= 20; ++k) {
       Pose out;
@@ -169,7 +169,7 @@ Reaching reach_down(Method method, double flexibility_rad, double height_m) {
   set.constraints.push_back(contact_of("rightHand", {-0.15, height_m, 0.35}));
   AdaptOptions options = by(method);
   options.root_for_constraints = 0.0;
-  Adapter adapter = adapter_of(out.character, set, options);
+  Adapter adapter = make_adapter(out.character, set, options);
   static_cast<void>(adapter.adapt(out.reference, 0.0, out.out));
   return out;
 }

@@ -16,6 +16,7 @@
 #include "retarget/adapt/plan/adapt_numbers.h"
 #include "retarget/character/make_character.h"
 #include "retarget/constraints/resolve_segment.h"
+#include "tests/retarget/adapter_bodies.h"
 #include "tests/retarget/mapped.h"
 
 namespace marey::retarget {
@@ -89,14 +90,6 @@ inline Constraint support_of(const std::string& segment) {
   out.point.segment = segment;
   out.goal = Support{};
   return out;
-}
-
-inline Adapter adapter_of(const Character& character,
-                          const ConstraintSet& constraints,
-                          const AdaptOptions& options) {
-  auto adapter = Adapter::make(character, constraints, options);
-  EXPECT_TRUE(adapter) << (adapter ? "" : adapter.error().message());
-  return *std::move(adapter);
 }
 
 inline AdaptOptions by_the_thesis(BalanceMode balance = BalanceMode::kOff) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "calib/rig/flipped_camera.h"
+#include "calib/rig/ambiguous_camera.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The marey authors
 // SPDX-License-Identifier: Apache-2.0
-#include "retarget/adapt/adapt_departure.h"
+#include "retarget/adapt/measure_departure.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
