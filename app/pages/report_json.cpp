@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "app/shell/findings.h"
-#include "core/base/angle.h"
 #include "core/base/assert.h"
 #include "core/base/degrees.h"
 #include "core/base/quantile.h"

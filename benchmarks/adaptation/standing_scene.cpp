@@ -9,7 +9,7 @@
 #include "benchmarks/adaptation/posture_measures.h"
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/base/angle.h"
+#include "core/base/degrees.h"
 #include "core/human/average_proportions.h"
 #include "core/humanoid.h"
 #include "core/skeleton.h"

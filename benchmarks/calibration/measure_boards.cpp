@@ -20,7 +20,7 @@
 #include "calib/rig/calibrate_cameras.h"
 #include "calib/rig/estimate_clocks.h"
 #include "capture/search/detect_videos.h"
-#include "core/base/angle.h"
+#include "core/base/degrees.h"
 #include "core/base/quantile.h"
 #include "reconstruct/clusters/triangulate.h"
 #include "tests/support/truth/rendered_truth.h"

@@ -14,7 +14,7 @@
 #include "benchmarks/calibration/calibration_cases.h"
 #include <glm/geometric.hpp>
 
-#include "core/base/angle.h"
+#include "core/base/degrees.h"
 
 namespace marey::calib {
 

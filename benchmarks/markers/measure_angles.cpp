@@ -27,7 +27,7 @@
 
 #include "benchmarks/parts/compare_angles.h"
 
-#include "core/base/angle.h"
+#include "core/base/degrees.h"
 #include "recordings/motion/mot.h"
 
 namespace marey {

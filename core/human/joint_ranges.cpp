@@ -7,8 +7,8 @@
 
 #include <glm/common.hpp>
 
-#include "core/base/angle.h"
 #include "core/base/assert.h"
+#include "core/base/degrees.h"
 
 namespace marey {
 namespace {

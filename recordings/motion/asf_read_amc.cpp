@@ -9,7 +9,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/base/angle.h"
 #include "core/base/assert.h"
 #include "core/base/degrees.h"
 #include "core/base/extension.h"

@@ -9,7 +9,6 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "core/base/angle.h"
 #include "core/base/assert.h"
 #include "core/base/degrees.h"
 #include "core/pose.h"

@@ -7,8 +7,8 @@
 #include <limits>
 #include <string_view>
 
-#include "core/base/angle.h"
 #include "core/base/assert.h"
+#include "core/base/degrees.h"
 #include "core/base/lower_case.h"
 #include "recordings/motion/mot.h"
 #include "recordings/text/atomic_file.h"

@@ -20,7 +20,7 @@
 #include <gtest/gtest.h>
 #include <pugixml.hpp>
 
-#include "core/base/angle.h"
+#include "core/base/degrees.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "reconstruct/motion/joint_angles.h"

@@ -17,7 +17,7 @@
 #include "app/pages/calibration_json.h"
 #include "calib/quality/assess_calibration.h"
 #include "calib/quality/measure_calibration.h"
-#include "core/base/angle.h"
+#include "core/base/degrees.h"
 #include "tests/app/pages/collect_keys.h"
 #include "tests/app/pages/sample_calibration.h"
 #include "tests/app/pages/sample_report.h"

@@ -13,7 +13,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
-#include "core/base/angle.h"
+#include "core/base/degrees.h"
 #include "core/human/average_proportions.h"
 #include "core/pose.h"
 #include "tests/reconstruct/motion/opensim_model.h"

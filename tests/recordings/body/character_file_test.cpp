@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/base/angle.h"
+#include "core/base/degrees.h"
 #include "tests/support/files/text_file.h"
 #include "tests/support/program/paths.h"
 #include "tests/support/program/scratch_folder.h"

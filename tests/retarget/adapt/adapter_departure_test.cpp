@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "core/base/angle.h"
+#include "core/base/degrees.h"
 #include "retarget/adapt/measure_departure.h"
 #include "tests/retarget/adapter_bodies.h"
 
