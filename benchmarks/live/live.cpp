@@ -24,12 +24,12 @@ struct Scene {
   Skeleton body = testing::with_random_axes(testing::random_humanoid(dice), dice);
   VmcBody vmc = *VmcBody::make(body);
   std::vector<Pose> poses;
-  VmcPose pose;
+  VmcPose sent;
   int frame = 0;
 
   Scene() {
     for (int k = 0; k < 64; ++k) poses.push_back(testing::random_pose(body, dice));
-    vmc.to_vmc(poses[0], pose);
+    vmc.to_vmc(poses[0], sent);
   }
   const Pose& next_pose() {
     return poses[static_cast<std::size_t>(++frame) % poses.size()];
@@ -46,11 +46,11 @@ void count_since(long before, benchmark::State& state) {
 void tell_and_encode(benchmark::State& state) {
   Scene s;
   VmcEncoder encoder = *VmcEncoder::make();
-  (void)encoder.encode(s.time(), s.pose);
+  (void)encoder.encode(s.time(), s.sent);
   const long before = testing::allocations();
   for (auto _ : state) {
-    s.vmc.to_vmc(s.next_pose(), s.pose);
-    benchmark::DoNotOptimize(encoder.encode(s.time(), s.pose).data());
+    s.vmc.to_vmc(s.next_pose(), s.sent);
+    benchmark::DoNotOptimize(encoder.encode(s.time(), s.sent).data());
   }
   count_since(before, state);
 }
@@ -64,14 +64,14 @@ void send_and_receive(benchmark::State& state) {
                                   .listen = UdpAddress{"127.0.0.1", 0}});
   VmcFrame received;
   Pose shown = s.poses[0];
-  sender.send(s.time(), s.pose);
-  (void)receiver.receive(heard);
+  sender.send(s.time(), s.sent);
+  (void)receiver.receive(received);
   const long before = testing::allocations();
   for (auto _ : state) {
-    s.vmc.to_vmc(s.next_pose(), s.pose);
-    sender.send(s.time(), s.pose);
-    if (!receiver.receive(heard)) continue;
-    s.vmc.from_vmc(heard.pose, shown);
+    s.vmc.to_vmc(s.next_pose(), s.sent);
+    sender.send(s.time(), s.sent);
+    if (!receiver.receive(received)) continue;
+    s.vmc.from_vmc(received.pose, shown);
     benchmark::DoNotOptimize(shown.parent_from_joint.data());
   }
   count_since(before, state);

@@ -52,13 +52,15 @@ bool others_are_loose(const CalibrationReport& report, const ApparentMove& move)
   return !shares.empty() && median(std::move(shares)) > kLooseShare;
 }
 
-/// Returns " or NAME" for each other camera that may be the one that was moved.
-std::string alternative_names(const CalibrationReport& report, const ApparentMove& move) {
-  std::string names;
+/// Returns the camera that seems to have been moved, and those that explain the errors as
+/// well: "camera cam1 or cam2". Precondition: the report has an apparent move.
+std::string moved_cameras(const FindingList& list) {
+  const ApparentMove& move = *list.report.rig.apparent_move;
+  std::string text = list.camera(index(move.camera));
   for (const CameraId other : move.alternatives) {
-    names += " or " + report.rig.cameras[index(other)].name;
+    text += " or " + list.report.rig.cameras[index(other)].name;
   }
-  return names;
+  return text;
 }
 
 void assess_move(FindingList& list) {
@@ -67,7 +69,6 @@ void assess_move(FindingList& list) {
   const std::size_t c = index(move->camera);
   if (!seems_moved(list.report, c)) return;
   const double scale = moved_scale(list.report, c);
-  const std::string others = alternative_names(list.report, *move);
   const std::string when =
       move->from_frame
           ? format_text("from frame %d on its views fit a camera", *move->from_frame)
@@ -114,7 +115,6 @@ void assess_unsteady(FindingList& list) {
   const std::size_t c = index(move->camera);
   const auto& limits = limits_of(list.report).error_m;
   if (seems_moved(list.report, c) || move->rig_shift_m < limits[0]) return;
-  const std::string others = alternative_names(list.report, *move);
   list.add(
           severity_of(move->rig_shift_m, limits[1]),
           "unsteady",

@@ -18,8 +18,8 @@ namespace {
 
 using B = HumanBone;
 
-/// Where people glue tags on a segment of the left side or the middle.
-struct Habit {
+/// Usual places of tags on a segment of the left side or the middle.
+struct TagPlacement {
   B segment;
   bool is_needed;
   double from_share;  ///< Share of the way to the segment's end.
