@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/degrees.h"
 #include "core/base/in_quotes.h"
 #include "core/nearest_word.h"
 #include "recordings/text/atomic_file.h"
