@@ -68,6 +68,7 @@ ProgramName name_of(const CLI::App& app, const char* called) {
   for (const CLI::App* command : app.get_subcommands({})) {
     commands.push_back(command->get_name());
   }
+  commands.emplace_back("--help");
   return {called == nullptr ? "" : called, std::move(commands)};
 }
 

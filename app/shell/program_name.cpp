@@ -51,9 +51,10 @@ bool ProgramName::is_command(const std::string& text, std::size_t begin) const {
   const std::size_t word = begin + kName.size() + 1;
   if (word >= text.size() || text[word - 1] != ' ') return false;
   std::size_t end = word;
-  while (end < text.size() && std::islower(static_cast<unsigned char>(text[end])) != 0) {
-    ++end;
-  }
+  const auto is_in_word = [](char c) {
+    return c == '-' || std::islower(static_cast<unsigned char>(c)) != 0;
+  };
+  while (end < text.size() && is_in_word(text[end])) ++end;
   return std::ranges::find(commands_, text.substr(word, end - word)) != commands_.end();
 }
 

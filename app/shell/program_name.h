@@ -19,7 +19,7 @@ class ProgramName {
   /// Messages keep the name `marey`.
   ProgramName() = default;
   /// `called` is the program as the user called it, argv[0]; empty: `marey`. `commands`
-  /// are the names of the program's commands.
+  /// are the words that may follow it: the names of commands, and "--help".
   ProgramName(const std::string& called, std::vector<std::string> commands);
 
   /// Returns `text` in which each `marey COMMAND` at the beginning, or after a space, a

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/nearest_word.h"
@@ -81,16 +82,20 @@ Error without_command(const CLI::App& app, const std::vector<std::string>& left)
       "run marey demo to see a whole session, or marey --help for the commands");
 }
 
-std::optional<Error> superfluous(const CLI::App& command,
+std::optional<Error> superfluous(const CLI::App& app,
+                                 const CLI::App& command,
                                  const std::string& called,
                                  const std::vector<std::string>& left) {
   const auto option = std::ranges::find_if(left, is_option);
   if (option != left.end()) {
     const std::string name = option->substr(0, option->find('='));
-    return refused(called,
-                   "there is no option " + name,
-                   nearest_of(name, names_of_options(command)) + "; " + called +
-                       " --help describes the options");
+    // Options of the program may follow a command.
+    std::vector<std::string> known = names_of_options(command);
+    for (std::string& other : names_of_options(app)) known.push_back(std::move(other));
+    return refused(
+        called,
+        "there is no option " + name,
+        nearest_of(name, known) + "; " + called + " --help describes the options");
   }
   if (left.empty()) return std::nullopt;
   std::string words;
@@ -118,7 +123,7 @@ Error usage_error(const CLI::App& app,
     return refused(called, text, called + " --help describes the values of options");
   }
   if (commands.empty()) return without_command(app, left);
-  if (const auto error = superfluous(*commands.front(), called, left)) return *error;
+  if (const auto error = superfluous(app, *commands.front(), called, left)) return *error;
   return refused(called, text, "add it; " + called + " --help describes the arguments");
 }
 

@@ -16,6 +16,9 @@ TEST(ProgramName, WritesThePathOfTheCallIntoCommands) {
             "run: build/app/marey process S; build/app/marey view DIR");
   EXPECT_EQ(name.written_into("see (marey view, `marey process`)"),
             "see (build/app/marey view, `build/app/marey process`)");
+  const ProgramName with_help("./marey", {"view", "--help"});
+  EXPECT_EQ(with_help.written_into("marey --help lists them"),
+            "./marey --help lists them");
 }
 
 TEST(ProgramName, LeavesOtherWordsAsTheyAre) {

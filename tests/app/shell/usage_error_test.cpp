@@ -45,6 +45,7 @@ TEST(UsageError, NamesTheNearestOptionOfAMistypedOne) {
                      {"there is no option --outt", "\"--out\""});
   expect_usage_error({"process", "session.toml", "--out", "x", "--lenss=fisheye"},
                      {"there is no option --lenss", "\"--lens\""});
+  expect_usage_error({"--progres", "none", "demo"}, {"--progres", "\"--progress\""});
 }
 
 TEST(UsageError, NamesAMissingArgument) {
