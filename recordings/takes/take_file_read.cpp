@@ -120,7 +120,7 @@ Result<Take> read_take(const std::filesystem::path& path) {
   if (version > kTakeVersion) {
     return bad_input(file,
                      "it was recorded by a newer version of marey (format " +
-                         std::to_string(version) + ", this one knows " +
+                         std::to_string(version) + ", this version reads " +
                          std::to_string(kTakeVersion) + ")",
                      "install that version");
   }

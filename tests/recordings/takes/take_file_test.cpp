@@ -178,8 +178,9 @@ TEST(TakeFile, ReportsANewerVersion) {
   testing::run_sql(folder / kTakeFile, "PRAGMA user_version=2");
   const Result<Take> take = read_take(folder / kTakeFile);
   ASSERT_FALSE(take);
-  EXPECT_EQ(take.error().cause,
-            "it was recorded by a newer version of marey (format 2, this one knows 1)");
+  EXPECT_EQ(
+      take.error().cause,
+      "it was recorded by a newer version of marey (format 2, this version reads 1)");
   EXPECT_EQ(take.error().next, "install that version");
 }
 
